@@ -321,11 +321,21 @@ fn check_words(scene: Option<&Path>, surplus: &[PathBuf]) -> Result<(), String> 
     }
     match surplus.first() {
         Some(second) => Err(format!(
-            "unexpected second scene {}: only one can be opened; the commands are render, check, \
-             compare, doctor, completions and man",
-            second.display()
+            "unexpected second scene {}: only one can be opened; the commands are {}",
+            second.display(),
+            commands()
         )),
         None => Ok(()),
+    }
+}
+
+/// The names of all commands, as a list in a sentence.
+fn commands() -> String {
+    let cli = Cli::command();
+    let names: Vec<_> = cli.get_subcommands().map(clap::Command::get_name).collect();
+    match names.split_last() {
+        Some((last, others)) => format!("{} and {last}", others.join(", ")),
+        None => String::new(),
     }
 }
 

@@ -161,7 +161,11 @@ fn asset_folders_reach_every_command() {
 #[test]
 fn wrong_arguments_are_rejected_with_a_reason() {
     let cases = [
-        ("halflight a b", "unexpected second scene b"),
+        (
+            "halflight a b",
+            "unexpected second scene b: only one can be opened; the commands are render, compare, \
+             check, completions, man and doctor",
+        ),
         (
             "halflight --color blue a",
             "[possible values: auto, 24, 256, 16, mono]",

@@ -102,6 +102,16 @@ impl History {
         Some(call.inverse)
     }
 
+    /// The step that would be undone.
+    pub(super) fn peek_undo(&self) -> Option<&Step> {
+        self.undo.last()
+    }
+
+    /// The step that would be redone.
+    pub(super) fn peek_redo(&self) -> Option<&Step> {
+        self.redo.last()
+    }
+
     /// Takes the step to undo; its inverse is to be passed to [`History::undone`].
     pub(super) fn next_undo(&mut self) -> Option<Step> {
         self.commit();

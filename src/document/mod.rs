@@ -181,6 +181,16 @@ impl Document {
         changed
     }
 
+    /// The span of the current text that the next undo would replace by or with the most text.
+    pub fn undoable(&self) -> Option<Span> {
+        self.history.peek_undo().map(|step| longest(step))
+    }
+
+    /// The span of the current text that the next redo would replace by or with the most text.
+    pub fn redoable(&self) -> Option<Span> {
+        self.history.peek_redo().map(|step| longest(step))
+    }
+
     /// Of the changes of the last undo or redo, the span of the longest: what the step was about,
     /// rather than a count that followed.
     pub fn longest_change(&self) -> Span {
@@ -274,8 +284,8 @@ impl Document {
 }
 
 /// The span of the edit that replaces or is replaced by the most text.
-fn longest(inverse: &[Edit]) -> Span {
+fn longest(edits: &[Edit]) -> Span {
     let length = |edit: &&Edit| edit.span.len().max(edit.text.len());
-    let longest = inverse.iter().max_by_key(length);
+    let longest = edits.iter().max_by_key(length);
     longest.map(|edit| edit.span).unwrap_or_default()
 }

@@ -54,6 +54,7 @@ use crate::render::{DEFAULT_SPP, Filter};
 use app::{App, Opening, OpeningText, Preferences, Quality};
 use arrange::PanelSizes;
 pub use ending::{Ending, Error};
+use keymap::Keymap;
 pub use options::{Options, Rehearsal};
 use reading::Opened;
 use script::Script;
@@ -75,7 +76,10 @@ pub fn run(options: &Options) -> Result<Ending, Error> {
     let (path, language, text) = find_scene(options.scene.as_deref())?;
     check_folders(&options.assets)?;
     let (screen, script) = match &options.rehearsal {
-        Some(rehearsal) => (rehearsal.screen, Some(read_script(rehearsal)?)),
+        Some(rehearsal) => (
+            rehearsal.screen,
+            Some(read_script(rehearsal, &options.keymap)?),
+        ),
         None => (terminal_size()?, None),
     };
     let recent = match (&options.scene, &path) {
@@ -120,12 +124,16 @@ fn terminal_size() -> Result<(u16, u16), Error> {
     Ok((size.width, size.height))
 }
 
-fn read_script(rehearsal: &Rehearsal) -> Result<Script, Error> {
+fn read_script(rehearsal: &Rehearsal, keymap: &Keymap) -> Result<Script, Error> {
     let Some(path) = &rehearsal.keys else {
         return Ok(Script::default());
     };
     let (name, text) = (path.display().to_string(), file::read_text(path)?);
-    Script::parse(name.clone(), text.clone()).map_err(|errors| Error::Faulty { name, text, errors })
+    Script::parse(name.clone(), text.clone(), keymap).map_err(|errors| Error::Faulty {
+        name,
+        text,
+        errors,
+    })
 }
 
 /// Finds the scene to open: its path (`None` for the embedded scene), its language and its text.

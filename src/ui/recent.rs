@@ -5,7 +5,7 @@
 use std::convert::Infallible;
 use std::fs::{self, DirBuilder, File};
 use std::io;
-use std::path::{Path, PathBuf};
+use std::path::{Component, Path, PathBuf};
 use std::sync::mpsc::{self, Receiver};
 use std::time::Instant;
 
@@ -120,13 +120,31 @@ fn keep_in(state: &Path, sizes: PanelSizes) -> io::Result<()> {
 }
 
 fn list_in(state: &Path) -> Vec<PathBuf> {
-    let mut scenes = read(state);
-    scenes.retain(|scene| scene.is_file());
+    let mut scenes: Vec<PathBuf> = Vec::new();
+    for scene in read(state).iter().map(|scene| normal(scene)) {
+        if scene.is_file() && !scenes.contains(&scene) {
+            scenes.push(scene);
+        }
+    }
     scenes
 }
 
+/// An absolute path without `.` and `..`. Links of folders before a `..` are followed, as it is
+/// relative to what they point to; others stay as the user knows them.
+fn normal(scene: &Path) -> PathBuf {
+    let plain: PathBuf = scene.components().collect();
+    if !plain.components().any(|part| part == Component::ParentDir) {
+        return plain;
+    }
+    let folder = fs::canonicalize(file::directory_of(&plain));
+    match (folder, plain.file_name()) {
+        (Ok(folder), Some(name)) => folder.join(name),
+        _ => plain,
+    }
+}
+
 fn note_in(state: &Path, scene: &Path) -> io::Result<()> {
-    let scene: PathBuf = std::path::absolute(scene)?.components().collect();
+    let scene = normal(&std::path::absolute(scene)?);
     // Such a path cannot be a line of text.
     if scene
         .to_str()
@@ -138,7 +156,7 @@ fn note_in(state: &Path, scene: &Path) -> io::Result<()> {
     if scenes.first() == Some(&scene) {
         return Ok(());
     }
-    scenes.retain(|other| *other != scene);
+    scenes.retain(|other| normal(other) != scene);
     scenes.insert(0, scene);
     scenes.truncate(MOST);
     let lines: Vec<_> = scenes.iter().filter_map(|scene| scene.to_str()).collect();
@@ -198,7 +216,7 @@ mod tests {
             "b.ray",
             "gone.ray",
             "c.dat",
-            "./a.ray",
+            "state/.././a.ray",
             "new\nline.ray",
         ] {
             note_in(&state, &at(name)).expect("it can be written");

@@ -111,7 +111,7 @@ impl App {
         let node = self.cursor.selected();
         let tools = [
             (Tool::Move, "moves"),
-            (Tool::Turn, "rotates"),
+            (Tool::Rotate, "rotates"),
             (Tool::Scale, "scales"),
         ];
         let suited = tools

@@ -2,6 +2,7 @@
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 use crate::assets;
 use crate::assets::{Loaded, PictureErrors, Wanted};
@@ -129,8 +130,10 @@ impl Assets {
         let images = self.images != loaded.images;
         let unreadable = self.meshes.unreadable() + loaded.meshes.unreadable();
         let faults = self.picture_errors != loaded.picture_errors || meshes && 0 < unreadable;
+        // Files that are used no longer, or again, have not changed.
+        let is_other = !is_first && self.differ(wanted, &loaded);
+        let reloaded = is_other.then_some(Notice::Reloaded);
         let elsewhere = self.found_elsewhere(loaded.elsewhere);
-        let reloaded = (!is_first && (meshes || images)).then_some(Notice::Reloaded);
         let notice = match elsewhere {
             _ if faults => Some(Notice::Faults),
             Some(words) => Some(Notice::Elsewhere(words)),
@@ -145,6 +148,19 @@ impl Assets {
             meaning: meshes || faults,
             notice,
         })
+    }
+
+    /// Whether a file that was read before has other contents now.
+    fn differ(&self, wanted: &Wanted, loaded: &Loaded) -> bool {
+        let is_other_picture = |name: &String| {
+            let read = self.images.get(name).zip(loaded.images.get(name));
+            read.is_some_and(|(old, new)| old != new)
+        };
+        let is_other_mesh = |name: &String| {
+            let read = self.meshes.get(name).zip(loaded.meshes.get(name));
+            read.is_some_and(|read| !matches!(read, (Ok(old), Ok(new)) if Arc::ptr_eq(old, new)))
+        };
+        wanted.pictures.iter().any(is_other_picture) || wanted.meshes.iter().any(is_other_mesh)
     }
 
     fn found_elsewhere(&mut self, found: BTreeMap<String, PathBuf>) -> Option<String> {

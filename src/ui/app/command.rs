@@ -186,6 +186,14 @@ pub(super) fn is_command(line: &str) -> bool {
     parse(line).is_ok()
 }
 
+/// Whether the first word of a line is that of a command, whatever follows.
+pub(super) fn begins_command(line: &str) -> bool {
+    let first = |words: &str| words.split_whitespace().next().map(str::to_owned);
+    let wanted = first(line);
+    let mut names = TABLE.iter().flat_map(|form| form.names);
+    names.any(|name| first(name) == wanted)
+}
+
 impl CommandRow {
     fn described(&self) -> Described {
         let name = self.names[0];

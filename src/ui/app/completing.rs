@@ -63,6 +63,11 @@ impl App {
     pub(super) fn run_line(&mut self, line: &str) -> Vec<Effect> {
         let found = self.completions();
         let chosen = self.palette.chosen;
+        let is_typed = chosen.is_none() && !line.trim().is_empty();
+        if is_typed && 1 < found.len() && !command::begins_command(line) {
+            self.overlays.warn("several match: Tab chooses");
+            return Vec::new();
+        }
         self.palette.reset();
         self.overlays.prompt = None;
         self.palette.remember(line);

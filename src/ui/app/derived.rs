@@ -20,7 +20,7 @@ use crate::scene::{Camera, Integrator, Rgb, Scene, Size};
 use crate::text::Diagnostic;
 use crate::ui::arrange::{Areas, Shape, Zoom, arrange};
 use crate::ui::errors::{self, Panel, Wrong};
-use crate::ui::keymap::{Action, Context, Line, Mode};
+use crate::ui::keymap::{Action, Context, Entry, Line, Mode};
 use crate::ui::layout::raster;
 use crate::ui::listing::Listing;
 
@@ -30,13 +30,17 @@ const NO_SCENE: Size = Size {
     height: 3,
 };
 
+/// The loss of the working view.
+const LOST_VIEW: &str = "the moved view is not in the text";
+
 impl App {
     /// The context whose keys are active; keys typed into a line take precedence.
     pub fn context(&self) -> Context {
         match &self.overlays.dialog {
-            Some(Dialog::Leave(Next::Quit)) if self.is_saved() && !self.is_view_unwritten() => {
-                Context::Wait
+            Some(Dialog::Leave(_)) if self.is_saved() && self.is_view_unwritten() => {
+                Context::MovedView
             }
+            Some(Dialog::Leave(Next::Quit)) if self.is_saved() => Context::Wait,
             Some(Dialog::Leave(Next::Quit)) => Context::Quit,
             Some(Dialog::Leave(_)) => Context::Leave,
             Some(Dialog::Delete(_)) => Context::Delete,
@@ -53,6 +57,20 @@ impl App {
             None if self.disk.is_opening() => Context::Opening,
             None if self.overlays.picker.is_some() => Context::Colour,
             None => Context::In(self.mode),
+        }
+    }
+
+    /// The hints for the keys that do something now, the most useful first.
+    pub fn hints(&self) -> Vec<Entry> {
+        self.keymap
+            .hints(self.context(), |action| self.acts(action))
+    }
+
+    /// Whether an action would do something, as far as hints tell.
+    fn acts(&self, action: Action) -> bool {
+        match (action, self.context()) {
+            (Action::SaveView, Context::Quit | Context::Leave) => self.is_view_unwritten(),
+            _ => true,
         }
     }
 
@@ -187,7 +205,7 @@ impl App {
     /// Describes what would be lost by leaving the scene now; `None` if nothing. Work under way ends
     /// only with the program.
     pub fn losses_before(&self, next: &Next) -> Option<String> {
-        let view = self.is_view_unwritten().then(|| self.lost_view());
+        let view = self.is_view_unwritten().then(|| LOST_VIEW.to_owned());
         let mut lost: Vec<_> = self.lost_text().into_iter().chain(view).collect();
         if *next == Next::Quit {
             lost.extend(self.lost_export());
@@ -212,16 +230,12 @@ impl App {
         !saved.iter().any(|saved| saved.camera(&own) == view)
     }
 
-    /// The loss of the working view, and how to prevent it.
-    fn lost_view(&self) -> String {
-        let write = self.key_for(Action::SaveView);
-        format!("the moved view is not in the text ({write} writes it)")
-    }
-
     /// Why the text would be lost, if it would.
     fn lost_text(&self) -> Option<String> {
         let name = self.disk.name();
         match &self.disk.state {
+            // An untouched template can be started again.
+            OnDisk::New if !self.document.is_dirty() => None,
             OnDisk::New if self.disk.path.is_none() => {
                 Some("the new scene is not saved".to_owned())
             }

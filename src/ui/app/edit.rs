@@ -3,11 +3,8 @@
 use super::App;
 use super::assets::Notice;
 use super::cursor::Names;
-use super::typed::Values;
 use crate::assets::{Loaded, Wanted};
-use crate::language::table::Field;
-use crate::language::{Before, Lowered, Node, Placed};
-use crate::scene::Camera;
+use crate::language::{Before, Lowered, Node, Nodes};
 use crate::text::{Diagnostic, Edit, Span, cover, parse_number};
 use crate::ui::keymap::{Action, Mode};
 
@@ -164,128 +161,48 @@ impl App {
         fields.iter().filter(|part| part.is_explicit()).count()
     }
 
-    /// Sets components of the current field.
-    pub(super) fn assign(&mut self, values: &[(usize, String)]) -> Result<(), Diagnostic> {
-        let Some(placed) = self.cursor.current() else {
-            return Ok(());
-        };
-        let is_camera = self.scene.as_ref().is_some_and(|scene| {
-            self.cursor.field < self.source().view_literals(&scene.camera).len()
-        });
-        let works = self.pictures.view.is_some() && is_camera && !placed.field.kind.is_size();
-        if self.cursor.selected() == Node::View && (works || placed.spans.is_empty()) {
-            return self.assign_view(placed.field, values);
-        }
-        self.try_edits(&self.edits_of(&[(placed, values)]))
-    }
-
-    /// Sets components of the current field and those below it, in one edit.
-    pub(super) fn assign_fields(&mut self, values: &[Values]) -> Result<(), Diagnostic> {
-        if self.cursor.selected() == Node::View {
-            let message = "the fields of the view are set one at a time";
-            return Err(Diagnostic::error(Span::at(0), message, ""));
-        }
-        let below = self.cursor.fields().iter().skip(self.cursor.field);
-        let wanted: Vec<_> = below.zip(values.iter().map(Vec::as_slice)).collect();
-        self.try_edits(&self.edits_of(&wanted))
-    }
-
-    /// Whether a field is set in all marked nodes, as the selected one is one of them.
-    pub(super) fn sets_marked(&self) -> bool {
-        self.cursor.marks.contains(&self.cursor.selected())
-    }
-
-    /// The edits that set components of fields of the selected node or, if it is marked, of all
-    /// marked nodes that have them.
-    pub(super) fn edits_of(&self, wanted: &[(&Placed, &[(usize, String)])]) -> Vec<Edit> {
-        let source = self.source();
-        if !self.sets_marked() {
-            let owned = |&(placed, values): &(_, &[_])| (placed, values.to_vec());
-            return source.edits(&wanted.iter().map(owned).collect::<Vec<_>>());
-        }
-        let fields = self.cursor.marks.iter().map(|&node| source.fields(node));
-        let found = fields.flatten().filter_map(|placed| {
-            let is_meant = |(wanted, _): &&(&Placed, _)| {
-                wanted.field.key == placed.field.key && wanted.field.kind == placed.field.kind
-            };
-            let (_, values) = wanted.iter().find(is_meant)?;
-            Some((placed, values.to_vec()))
-        });
-        let found: Vec<_> = found.collect();
-        let wanted = found
-            .iter()
-            .map(|(placed, values)| (placed, values.clone()));
-        source.edits(&wanted.collect::<Vec<_>>())
-    }
-
-    /// Sets components of the working view, or of a part of the view that the text omits.
-    fn assign_view(&mut self, field: &Field, values: &[(usize, String)]) -> Result<(), Diagnostic> {
-        let refuse = |reason: &str| {
-            let message = format!("view {}: {reason}", field.key);
-            Diagnostic::error(Span::at(0), message, field.allowed.words())
-        };
-        let scene = self.scene.clone().filter(|_| self.error_count() == 0);
-        let (Some(scene), Some(camera)) = (scene, self.camera()) else {
-            return Err(refuse("cannot be set while the scene has errors"));
-        };
-        // The picture's size exists only in the text: setting it must not write the working view.
-        let is_size = field.kind.is_size();
-        let camera = if is_size { scene.camera } else { camera };
-        let mut camera = camera;
-        for (component, literal) in values {
-            let place = (self.cursor.field, *component);
-            camera = self
-                .source()
-                .view_with(&camera, place, literal)
-                .map_err(|limits| refuse(&format!("must be {limits}")))?;
-        }
-        if camera.eye == camera.target {
-            return Err(refuse("eye and target must differ"));
-        }
-        if self.pictures.view.is_some() && !is_size {
-            self.pictures.set_view(camera, Some(scene.camera));
-            return Ok(());
-        }
-        self.write_camera(&camera, &scene.camera)
-    }
-
-    /// Writes a camera into the text where it differs from the text's own.
-    pub(super) fn write_camera(
-        &mut self,
-        camera: &Camera,
-        before: &Camera,
-    ) -> Result<(), Diagnostic> {
-        let edits = self.source().view_edits(before, camera);
-        self.try_edits(&edits)
-    }
-
     pub(super) fn undo(&mut self) {
-        let length = self.document.text().len();
+        let before = self.before_change(self.document.undoable());
         let changed = self.document.undo();
-        self.show_change(length, changed, "undone", "nothing to undo");
+        self.show_change(&before, changed, "undone", "nothing to undo");
     }
 
     pub(super) fn redo(&mut self) {
-        let length = self.document.text().len();
+        let before = self.before_change(self.document.redoable());
         let changed = self.document.redo();
-        self.show_change(length, changed, "redone", "nothing to redo");
+        self.show_change(&before, changed, "redone", "nothing to redo");
     }
 
-    /// Lowers the text after an undo or redo, selects the changed node and reports it. `length` is
-    /// the text's length before.
-    fn show_change(&mut self, length: usize, changed: Option<Span>, done: &str, otherwise: &str) {
+    /// What to remember of the text before an undo or redo that changes mainly this span.
+    fn before_change(&self, span: Option<Span>) -> BeforeChange {
+        let node = span.and_then(|span| self.first_node_in(span));
+        BeforeChange {
+            length: self.document.text().len(),
+            nodes: self.nodes(),
+            name: node.map(|node| self.source().name(node)),
+        }
+    }
+
+    /// Lowers the text after an undo or redo, selects the changed node and reports it.
+    fn show_change(
+        &mut self,
+        before: &BeforeChange,
+        changed: Option<Span>,
+        done: &str,
+        otherwise: &str,
+    ) {
         let Some(span) = changed else {
             self.overlays.say(otherwise);
             return;
         };
         // The text after the change is as long as before.
         let behind = self.document.text().len() - span.end();
-        let old = Span::new(span.start(), length - behind);
+        let old = Span::new(span.start(), before.length - behind);
         let lowered = self.lowered_again(old, span);
         self.install(lowered);
         let node_at = |at: usize| self.source().node_at(Span::at(at));
-        if node_at(span.start()) != node_at(span.end()) {
-            self.show_restructured(done);
+        if before.nodes != self.nodes() || node_at(span.start()) != node_at(span.end()) {
+            self.show_restructured(before, done);
             return;
         }
         if let Some(node) = self.source().node_at(span)
@@ -303,20 +220,28 @@ impl App {
     }
 
     /// Selects what an undone or redone change of several places was about, and reports it.
-    fn show_restructured(&mut self, done: &str) {
+    fn show_restructured(&mut self, before: &BeforeChange, done: &str) {
         let span = self.document.longest_change();
         let written = self.first_node_in(span);
         if let Some(node) = written.or_else(|| self.source().node_at(span)) {
             self.select(node);
         }
-        match written {
-            Some(node) => {
-                let name = self.source().name(node);
-                self.overlays.say(format!("{done}: {name}"));
-            }
+        let written = written.map(|node| self.source().name(node));
+        match written.as_ref().or(before.name.as_ref()) {
+            Some(name) => self.overlays.say(format!("{done}: {name}")),
             None => self.overlays.say(done),
         }
     }
+}
+
+/// The text before an undo or redo.
+struct BeforeChange {
+    /// Its length.
+    length: usize,
+    /// Its nodes.
+    nodes: Nodes,
+    /// The name of the first thing that is replaced as a whole.
+    name: Option<String>,
 }
 
 /// The spans of edits in the text after they are made.

@@ -9,18 +9,21 @@ impl App {
     /// `w`, which in the question whether to leave saves and then leaves.
     pub(super) fn save_key(&mut self) -> Vec<Effect> {
         match self.take_question() {
-            Some(next) if self.is_saved() && self.is_view_unwritten() => {
-                self.overlays.dialog = Some(Dialog::Leave(next));
-                let write = self.key_for(Action::SaveView);
-                let leave = self.key_for(Action::Accept);
-                self.overlays.warn(format!(
-                    "saving does not keep the moved view: {write} writes it, {leave} leaves without it"
-                ));
-                Vec::new()
-            }
             Some(next) => self.save_and(next),
             None => self.save(),
         }
+    }
+
+    /// `S`, which writes the moved view into the text, and in the question whether to leave then saves
+    /// and leaves.
+    pub(super) fn save_view_key(&mut self) -> Vec<Effect> {
+        let is_moved = self.is_view_unwritten();
+        self.save_view();
+        if !is_moved || self.is_view_unwritten() {
+            return Vec::new();
+        }
+        let next = self.take_question();
+        next.map_or_else(Vec::new, |next| self.save_and(next))
     }
 
     pub(super) fn save_and_quit(&mut self) -> Vec<Effect> {

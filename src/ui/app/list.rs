@@ -61,6 +61,7 @@ impl App {
             | Context::Opening
             | Context::Quit
             | Context::Leave
+            | Context::MovedView
             | Context::Delete
             | Context::Wait
             | Context::Overwrite

@@ -1,6 +1,6 @@
 //! Numbers and words as they are typed, pasted and nudged.
 
-use crate::language::table::Kind;
+use crate::language::table::{Kind, Range};
 use crate::text::{decimals, parse_number, spell_like, without_suffix};
 
 /// Adds `change`, a multiple of `step`, to a literal and spells the sum like the literal. It has
@@ -18,6 +18,33 @@ pub(super) fn nudged(literal: &str, change: f64, step: f64) -> Option<String> {
             spell_like(literal, sum + 0.0)
         }
     })
+}
+
+/// A nudged number, stopped at the end of the slider that the number before was on: 0 or 1 where
+/// these are the ends of the usual range.
+pub(super) fn kept_in(usual: Range, before: &str, nudged: String) -> String {
+    let ends = slider_ends(usual);
+    let numbers = parse_number(plain(before))
+        .ok()
+        .zip(parse_number(plain(&nudged)).ok());
+    match (ends, numbers) {
+        (Some([least, greatest]), Some((old, new))) if usual.contains(old) => {
+            let kept = new.clamp(least, greatest);
+            if kept == old {
+                before.to_owned()
+            } else if kept == new {
+                nudged
+            } else {
+                spell_like(before, kept)
+            }
+        }
+        _ => nudged,
+    }
+}
+
+/// The ends of a slider over a usual range; `None` for ranges without one.
+pub(super) fn slider_ends(usual: Range) -> Option<[f64; 2]> {
+    (usual == Range::Unit).then_some([0.0, 1.0])
 }
 
 /// Returns the word some steps after `literal`, wrapping around, or the first if `literal` is none

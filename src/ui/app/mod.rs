@@ -9,6 +9,7 @@ mod adding;
 mod another;
 mod arithmetic;
 mod assets;
+mod assigning;
 mod camera;
 mod choosing;
 mod colouring;

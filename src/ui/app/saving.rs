@@ -64,7 +64,12 @@ impl App {
         let mut written = None;
         let mut effects = match outcome {
             SaveOutcome::Saved { path, text } => {
-                let view = self.unwritten_view();
+                // Leaving asks about the view itself.
+                let view = if next.is_some() {
+                    String::new()
+                } else {
+                    self.unwritten_view()
+                };
                 self.overlays.say(format!("wrote {}{view}", path.display()));
                 written = Some(Arc::clone(&text));
                 if ended.is_late {

@@ -7,6 +7,9 @@ use crate::text::{Edit, Span, counted};
 use crate::ui::keymap::{Action, Mode};
 use crate::ui::msg::Effect;
 
+/// The number of items named in a message at most.
+const MOST_NAMED: usize = 3;
+
 impl App {
     /// The marked nodes, otherwise the selected one.
     pub(super) fn targets(&self) -> Vec<Node> {
@@ -16,11 +19,20 @@ impl App {
         self.cursor.marks.iter().copied().collect()
     }
 
-    /// The name of the targets: `object 2 (box)`, or `3 things`.
+    /// The name of the targets: `object 2 (box)`, or `3 marked items: ` and the names of the first.
     pub(super) fn targets_name(&self, nodes: &[Node]) -> String {
+        let is_marked = |node: &Node| self.cursor.marks.contains(node);
+        let shown = nodes.iter().take(MOST_NAMED);
+        let names: Vec<_> = shown.map(|node| self.source().name(*node)).collect();
+        let names = names.join(", ");
+        let more = if MOST_NAMED < nodes.len() {
+            ", …"
+        } else {
+            ""
+        };
         match nodes {
-            [node] => self.source().name(*node),
-            _ => counted(nodes.len(), "item"),
+            [_] if !nodes.iter().all(is_marked) => names,
+            _ => format!("{}: {names}{more}", counted(nodes.len(), "marked item")),
         }
     }
 

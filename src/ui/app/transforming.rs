@@ -77,14 +77,14 @@ impl App {
     pub(super) fn pose_for(&self, tool: Tool, node: Node, nodes: &[Node]) -> Result<Pose, String> {
         let lacks = match tool {
             Tool::Move => "has no position",
-            Tool::Turn => "has no direction",
+            Tool::Rotate => "has no direction",
             Tool::Scale => "cannot be scaled",
         };
         let refused = |lacks| Err(format!("{} {lacks}", self.source().name(node)));
         let pose = match (self.pose(node), node) {
             (Some(pose), _) => pose,
             // A direction is the same everywhere.
-            (None, Node::Light(_)) if tool == Tool::Turn => Pose {
+            (None, Node::Light(_)) if tool == Tool::Rotate => Pose {
                 centre: DVec3::ZERO,
                 axes: DVec3::AXES,
             },
@@ -288,7 +288,7 @@ impl App {
 fn tried(tool: Tool, about: DVec3) -> Option<Motion> {
     match tool {
         Tool::Move => None,
-        Tool::Turn => Some(Motion::Turn {
+        Tool::Rotate => Some(Motion::Rotate {
             // An axis about which nothing is likely to be symmetric.
             axis: DVec3::new(0.36, 0.48, 0.8),
             angle: 40.0,

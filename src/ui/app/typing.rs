@@ -7,7 +7,7 @@ use super::cursor::Typing;
 use super::typed::Values;
 use super::{App, PageFocus, PromptKind, line, literals, typed};
 use crate::language::table::{Field, Kind};
-use crate::text::{Diagnostic, Span};
+use crate::text::{Diagnostic, Span, parse_number};
 use crate::ui::keymap::{Context, Mode, Stride};
 use crate::ui::msg::Effect;
 
@@ -36,7 +36,8 @@ impl App {
                 let known: Vec<_> = known.into_iter().map(|(literal, _)| literal).collect();
                 literals::next(&known, &literal, steps)
             }
-            _ => literals::nudged(&literal, f64::from(steps) * step, step),
+            _ => literals::nudged(&literal, f64::from(steps) * step, step)
+                .map(|nudged| literals::kept_in(field.usual, &literal, nudged)),
         };
         let Some(nudged) = nudged else {
             let expected = field.expected();
@@ -45,12 +46,16 @@ impl App {
             return;
         };
         if nudged == literal {
-            self.overlays.warn(if field.kind.is_numeric() {
-                "the step is too small to change this number"
-            } else {
+            let is_end = |end: &f64| parse_number(literals::plain(&literal)) == Ok(*end);
+            self.overlays.warn(if !field.kind.is_numeric() {
                 "there are no other choices"
+            } else if literals::slider_ends(field.usual).is_some_and(|ends| ends.iter().any(is_end))
+            {
+                "the usual range ends here: type a number to leave it"
+            } else {
+                "the step is too small to change this number"
             });
-        } else if let Err(refused) = self.assign(&[(self.cursor.component, nudged)]) {
+        } else if let Err(refused) = self.assign(&[vec![(self.cursor.component, nudged)]]) {
             self.overlays.fail(refused.message);
         }
     }
@@ -130,10 +135,7 @@ impl App {
     /// Sets fields as an undo step of its own.
     pub(super) fn assign_whole(&mut self, values: &[Values]) -> Result<(), Diagnostic> {
         self.document.end_step();
-        let outcome = match values {
-            [values] => self.assign(values),
-            several => self.assign_fields(several),
-        };
+        let outcome = self.assign(values);
         self.document.end_step();
         outcome
     }

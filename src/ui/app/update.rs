@@ -105,12 +105,7 @@ impl App {
             }
             Meaning::None if self.overlays.dialog.is_some() => {
                 // A user who types on without noticing the question learns why nothing happens.
-                let keys: Vec<_> = self
-                    .keymap
-                    .hints(context)
-                    .into_iter()
-                    .map(|(key, _)| key)
-                    .collect();
+                let keys: Vec<_> = self.hints().into_iter().map(|(key, _)| key).collect();
                 self.overlays
                     .warn(format!("answer the question first: {}", keys.join(", ")));
                 Vec::new()
@@ -292,7 +287,7 @@ impl App {
             Action::Widen(steps) => self.move_camera(|now| widened(now, steps)),
             Action::ResetView => self.pictures.reset_view(),
             Action::FrameSelected => self.frame_selected(),
-            Action::SaveView => self.save_view(),
+            Action::SaveView => return self.save_view_key(),
             Action::LightView => self.look_from_light(),
             Action::SavedViews => self.list_views(),
             Action::DeleteView => self.delete_view(),
@@ -364,6 +359,7 @@ impl App {
             Context::Conflict
             | Context::Quit
             | Context::Leave
+            | Context::MovedView
             | Context::Wait
             | Context::Overwrite
             | Context::Recover => {
@@ -390,7 +386,9 @@ impl App {
             Context::Errors => self.go_to_error(),
             Context::Views | Context::Recent => return self.choose(),
             Context::Conflict => return self.adopt(),
-            Context::Quit | Context::Wait | Context::Leave => return self.leave_anyway(),
+            Context::Quit | Context::Wait | Context::Leave | Context::MovedView => {
+                return self.leave_anyway();
+            }
             Context::Delete => self.delete_anyway(),
             Context::Overwrite => return self.answer_taken(Existing::Overwritten),
             Context::Recover => return self.restore(),

@@ -82,6 +82,8 @@ pub enum Context {
     Delete,
     /// The question whether to leave the scene for another one.
     Leave,
+    /// The question whether to leave although the saved text lacks the moved view.
+    MovedView,
     /// The question whether to quit although a file is being written.
     Wait,
     /// The question whether an export may overwrite a file.

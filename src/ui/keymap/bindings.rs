@@ -101,6 +101,15 @@ impl Keymap {
         rows.find_map(|row| Some(row.keys_in(context).first()?.name()))
     }
 
+    /// The two keys of a sequence that has an action anywhere, by its name in the help: `gg`.
+    pub fn sequence_named(&self, name: &str) -> Option<[KeyEvent; 2]> {
+        let own = |row: &'_ Row| row.own.iter().flat_map(|(_, keys)| keys.clone()).collect();
+        let rows = self.rows.iter();
+        let mut all = rows.flat_map(|row| [row.keys.clone(), own(row)]).flatten();
+        let keys = all.find(|keys| keys.second.is_some() && keys.name() == name)?;
+        Some([keys.first, keys.second?].map(Chord::event))
+    }
+
     /// Gives keys an action in a section instead of what they do there; `None` leaves them without
     /// one. They become the first keys of the action. An action that the section does not have is
     /// ignored.

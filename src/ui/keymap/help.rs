@@ -93,11 +93,12 @@ impl Keymap {
     /// Returns the hints that are never omitted in a context: how to get help, to give a command,
     /// and to quit.
     pub fn lasting_hints(&self, context: Context) -> Vec<Entry> {
-        self.described(context, LASTING_HINTS.iter())
+        self.described(context, LASTING_HINTS.iter(), |_| true)
     }
 
-    /// Returns the hints for a context, the most useful first. A dialog shows only its own keys.
-    pub fn hints(&self, context: Context) -> Vec<Entry> {
+    /// Returns the hints for a context, the most useful first, of actions that would do something. A
+    /// dialog shows only its own keys.
+    pub fn hints(&self, context: Context, acts: impl Fn(Action) -> bool) -> Vec<Entry> {
         let own: &[Hint] = match context {
             Context::In(Select) => SELECT_HINTS,
             Context::In(Edit) => EDIT_HINTS,
@@ -116,6 +117,7 @@ impl Keymap {
             | Context::Conflict
             | Context::Quit
             | Context::Leave
+            | Context::MovedView
             | Context::Delete
             | Context::Wait
             | Context::Overwrite
@@ -124,6 +126,7 @@ impl Keymap {
                 return rows
                     .filter(|row| row.scope.holds(context) && !row.is_common())
                     .filter(|row| is_alone(row) || matches!(row.action, A::Move(_)))
+                    .filter(|row| acts(row.action))
                     .filter_map(|row| Some((row.keys_in(context).first()?.name(), row.words)))
                     .collect();
             }
@@ -133,7 +136,7 @@ impl Keymap {
         let hints = own
             .iter()
             .chain(COMMON_HINTS.iter().filter(|hint| !is_here(hint)));
-        self.described(context, hints)
+        self.described(context, hints, acts)
     }
 
     /// The keys of hints in a context, without those that have none there.
@@ -141,11 +144,13 @@ impl Keymap {
         &self,
         context: Context,
         hints: impl Iterator<Item = &'static Hint>,
+        acts: impl Fn(Action) -> bool,
     ) -> Vec<Entry> {
         hints
             .map(|(actions, words)| {
                 let keys: Vec<_> = actions
                     .iter()
+                    .filter(|action| acts(**action))
                     .filter_map(|action| self.key(context, *action))
                     .collect();
                 (keys.join("/"), *words)
@@ -351,7 +356,7 @@ mod tests {
     fn the_keys_of_the_mode_come_first_and_no_key_is_missing() {
         let lines = lines("", View);
         assert_eq!(headings(&lines)[..3], ["VIEW", "anywhere", "SELECT"]);
-        assert_eq!(headings(&lines).len(), 29);
+        assert_eq!(headings(&lines).len(), 30);
         assert!(lines.contains(&entry("gg", "first")));
         for row in Keymap::default().rows {
             let entry = entry(&names(&row.keys), row.words);
@@ -392,19 +397,19 @@ mod tests {
     fn every_hint_has_a_key() {
         let modes = Mode::ALL.map(Context::In).into_iter();
         for context in modes.chain(DIALOGS.map(|(_, context)| context)) {
-            for (keys, words) in Keymap::default().hints(context) {
+            for (keys, words) in Keymap::default().hints(context, |_| true) {
                 let whole = keys.split('/').all(|key| !key.is_empty());
                 assert!(keys == "/" || whole, "{context:?} {words}");
             }
         }
-        let hints = Keymap::default().hints(Context::In(View));
+        let hints = Keymap::default().hints(Context::In(View), |_| true);
         assert_eq!(hints[0], ("h/j/k/l".to_owned(), "orbit"));
     }
 
     #[test]
     fn a_question_shows_only_its_answers() {
         let keys: Vec<_> = Keymap::default()
-            .hints(Context::Quit)
+            .hints(Context::Quit, |action| action != A::SaveView)
             .into_iter()
             .map(|hint| hint.0)
             .collect();

@@ -192,6 +192,7 @@ pub(super) const fn of_context(context: Context) -> Option<&'static str> {
         Context::Quit => "quit",
         Context::Delete => "delete",
         Context::Leave => "leave",
+        Context::MovedView => "moved-view",
         Context::Wait => "wait",
         Context::Overwrite => "overwrite",
         Context::Recover => "recover",

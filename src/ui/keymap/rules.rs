@@ -16,7 +16,7 @@ const SAME_BYTES: [(char, &str); 4] = [
 ];
 
 /// Characters that begin to type a value in EDIT.
-const BEGINS_VALUE: &str = "0123456789+-*/.(";
+const BEGINS_VALUE: &str = "0123456789+-*/.(#";
 /// Characters that begin to type an amount in MOVE.
 const BEGINS_AMOUNT: &str = "0123456789+-.(";
 /// Those that go on typing one.

@@ -14,7 +14,7 @@ pub enum Section {
 }
 
 /// Contexts other than modes, by their headings in the help.
-pub(super) const DIALOGS: [(&str, Context); 13] = [
+pub(super) const DIALOGS: [(&str, Context); 14] = [
     ("the colour picker", Context::Colour),
     ("the list of errors", Context::Errors),
     ("the list of saved views", Context::Views),
@@ -25,6 +25,7 @@ pub(super) const DIALOGS: [(&str, Context); 13] = [
     ("when asked to confirm quitting", Context::Quit),
     ("when asked to confirm deleting", Context::Delete),
     ("when asked to confirm leaving the scene", Context::Leave),
+    ("when asked to leave a moved view", Context::MovedView),
     ("when asked to quit during an export", Context::Wait),
     ("when asked to overwrite a picture", Context::Overwrite),
     ("when unsaved edits were found", Context::Recover),

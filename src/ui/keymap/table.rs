@@ -125,8 +125,7 @@ const CONFLICT: Scope = Scope::These(&[Context::Conflict]);
 const QUIT: Scope = Scope::These(&[Context::Quit]);
 const DELETE: Scope = Scope::These(&[Context::Delete]);
 const LEAVE: Scope = Scope::These(&[Context::Leave]);
-/// Where a loss of the working view is announced.
-const LEAVING: Scope = Scope::These(&[Context::Quit, Context::Leave]);
+const MOVED_VIEW: Scope = Scope::These(&[Context::MovedView]);
 const WAIT: Scope = Scope::These(&[Context::Wait]);
 const OVERWRITE: Scope = Scope::These(&[Context::Overwrite]);
 const RECOVER: Scope = Scope::These(&[Context::Recover]);
@@ -212,7 +211,7 @@ pub(super) const TABLE: &[Binding] = &[
     bind(VALUES, &[c('l'), key(Right)], A::Nudge(1, Plain), "nudge up"),
     bind(VALUES, &[c('h'), key(Left)], A::Nudge(-1, Plain), "nudge down"),
     bind(EDIT, &[key(Enter)], A::Choose, "choose from a list, or type a number"),
-    bind(EDIT, &[c('i')], A::Type, "type a value (or press a digit)"),
+    bind(EDIT, &[c('i')], A::Type, "type a value (or press a digit or #)"),
     bind(EDIT, &[c('c')], A::Colour, "pick a colour"),
     bind(EDIT, &[key(Tab)], A::Component(1), "next number"),
     bind(VALUES, &[c('L'), Chord(Right, SHIFT)], A::Nudge(1, Coarse), "nudge up ten steps"),
@@ -271,13 +270,17 @@ pub(super) const TABLE: &[Binding] = &[
     bind(CONFLICT, &[key(Esc)], A::Back, "decide later"),
     bind(QUIT, &[c('y')], A::Accept, "quit anyway"),
     bind(QUIT, &[c('w')], A::Save, "save and quit"),
+    bind(QUIT, &[c('S')], A::SaveView, "write the moved view, save and quit"),
     bind(QUIT, &[c('n'), key(Esc)], A::Back, "stay"),
     bind(DELETE, &[c('y'), c('d')], A::Accept, "delete"),
     bind(DELETE, &[c('n'), key(Esc)], A::Back, "keep"),
     bind(LEAVE, &[c('y')], A::Accept, "discard what is unsaved"),
     bind(LEAVE, &[c('w')], A::Save, "save first"),
+    bind(LEAVE, &[c('S')], A::SaveView, "write the moved view and save first"),
     bind(LEAVE, &[c('n'), key(Esc)], A::Back, "stay"),
-    bind(LEAVING, &[c('S')], A::SaveView, "write the moved view into the scene"),
+    bind(MOVED_VIEW, &[c('S')], A::SaveView, "write the moved view and save first"),
+    bind(MOVED_VIEW, &[c('y')], A::Accept, "leave without it"),
+    bind(MOVED_VIEW, &[c('n'), key(Esc)], A::Back, "stay"),
     bind(WAIT, &[c('w')], A::Save, "wait, then quit"),
     bind(WAIT, &[c('y')], A::Accept, "quit now and cancel it"),
     bind(WAIT, &[c('n'), key(Esc)], A::Back, "stay"),
@@ -348,8 +351,8 @@ impl Binding {
 mod tests {
     use super::*;
     use Context::{
-        Conflict, Errors, Help, Leave, Messages, Opening, Overwrite, Quit, Recent, Recover, Views,
-        Wait,
+        Conflict, Errors, Help, Leave, Messages, MovedView, Opening, Overwrite, Quit, Recent,
+        Recover, Views, Wait,
     };
 
     #[test]
@@ -366,6 +369,7 @@ mod tests {
             Conflict,
             Quit,
             Leave,
+            MovedView,
             Context::Delete,
             Wait,
             Overwrite,

@@ -15,7 +15,7 @@ use std::path::PathBuf;
 
 use crossterm::event::{KeyCode, KeyEvent, KeyModifiers};
 
-use super::keymap;
+use super::keymap::{self, Keymap};
 use super::snapshot::Format;
 use crate::text::{Diagnostic, Span, nearest_word};
 use token::{Token, Tokens};
@@ -60,8 +60,13 @@ pub fn parse_screen(text: &str) -> Option<(u16, u16)> {
 }
 
 impl Script {
-    /// Reads a script; fails with an error for each word that means nothing.
-    pub(super) fn parse(name: String, text: String) -> Result<Self, Vec<Diagnostic>> {
+    /// Reads a script, which may name sequences of keys that `keymap` has; fails with an error for
+    /// each word that means nothing.
+    pub(super) fn parse(
+        name: String,
+        text: String,
+        keymap: &Keymap,
+    ) -> Result<Self, Vec<Diagnostic>> {
         let mut steps = VecDeque::new();
         let mut errors = Vec::new();
         let mut tokens = Tokens::of(&text);
@@ -69,7 +74,7 @@ impl Script {
             let span = token.span();
             // Where a text has no end, what follows may be text or keys.
             let is_open = matches!(token, Token::Open(_));
-            match token.and_then_step(&mut tokens) {
+            match token.and_then_step(&mut tokens, keymap) {
                 Ok(found) => steps.extend(found.into_iter().map(|step| (step, span))),
                 Err(error) => errors.push(error),
             }
@@ -107,7 +112,11 @@ impl Script {
 
 impl Token {
     /// The steps of a word or text, with its argument, if any, from `tokens`.
-    fn and_then_step(self, tokens: &mut Tokens<'_>) -> Result<Vec<Step>, Diagnostic> {
+    fn and_then_step(
+        self,
+        tokens: &mut Tokens<'_>,
+        keymap: &Keymap,
+    ) -> Result<Vec<Step>, Diagnostic> {
         let (word, span) = match self {
             Self::Text(text, _) => return Ok(text.chars().map(typed).collect()),
             Self::Open(span) => {
@@ -135,7 +144,14 @@ impl Token {
             "resize" => tokens.argument(span, "resize", "a size such as 100x30", |size| {
                 parse_screen(size).map(|(columns, rows)| Step::Resize(columns, rows))
             })?,
-            name => Step::Key(keymap::key_named(name).ok_or_else(|| unknown(name, span))?),
+            name => match keymap::key_named(name) {
+                Some(key) => Step::Key(key),
+                None => {
+                    let keys = keymap.sequence_named(name);
+                    let keys = keys.ok_or_else(|| unknown(name, span))?;
+                    return Ok(keys.map(Step::Key).to_vec());
+                }
+            },
         };
         Ok(vec![step])
     }
@@ -168,9 +184,10 @@ fn unknown(word: &str, span: Span) -> Diagnostic {
 mod tests {
     use super::*;
     use crate::text::Position;
+    use crate::ui::keymap::{Keys, Section};
 
     fn steps(text: &str) -> Vec<Step> {
-        let script = Script::parse(String::new(), text.to_owned());
+        let script = Script::parse(String::new(), text.to_owned(), &Keymap::default());
         let steps = script.expect("a script").steps;
         steps.into_iter().map(|(step, _)| step).collect()
     }
@@ -194,6 +211,21 @@ mod tests {
             "Shift-Left",
         ];
         assert_eq!(steps(text), names.map(key));
+    }
+
+    #[test]
+    fn sequences_are_named_as_in_the_help_and_in_the_configuration() {
+        for text in ["gg", "g g"] {
+            assert_eq!(steps(text), ["g", "g"].map(key));
+        }
+        let mut keymap = Keymap::default();
+        let keys = Keys::parse("Ctrl-X d").expect("keys");
+        keymap.bind(Section::Anywhere, keys, Some(keymap::Action::Undo));
+        assert_eq!(keymap.sequence_named("dg"), None);
+        let ctrl = keymap
+            .sequence_named("Ctrl-X d")
+            .map(|keys| keys.map(Step::Key));
+        assert_eq!(ctrl, Some(["Ctrl-X", "d"].map(key)));
     }
 
     #[test]
@@ -233,7 +265,8 @@ mod tests {
             ("j \"abc\nk", (1, 3), "this text has no end", ""),
         ];
         for (text, (line, column), message, hint) in cases {
-            let errors = Script::parse(String::new(), text.to_owned()).expect_err(text);
+            let errors =
+                Script::parse(String::new(), text.to_owned(), &Keymap::default()).expect_err(text);
             let error = &errors[0];
             assert_eq!(error.message, message);
             assert_eq!(error.hint.as_deref().unwrap_or_default(), hint);

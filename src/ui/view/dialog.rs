@@ -182,8 +182,7 @@ type Answers = Vec<(String, &'static str)>;
 fn answers(app: &App, width: u16) -> Vec<Answers> {
     let mut lines: Vec<Answers> = Vec::new();
     let mut left = 0;
-    let context = app.context();
-    for (key, words) in app.keymap.hints(context) {
+    for (key, words) in app.hints() {
         let room = key.width() + words.width() + 3;
         if lines.is_empty() || left < room {
             left = usize::from(width);

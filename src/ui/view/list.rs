@@ -28,6 +28,10 @@ pub(crate) fn render(app: &App, area: Rect, buffer: &mut Buffer) {
     let count = rows.count(app.source());
     let focused = matches!(app.mode, Mode::Select | Mode::Pick | Mode::Move);
     let place = format!("{}/{count}", (rows.place_of(selected) + 1).min(count));
+    let place = match app.cursor.marks.len() {
+        0 => place,
+        marks => format!("{marks} marked  {place}"),
+    };
     title(
         TITLE,
         &place,
@@ -158,7 +162,7 @@ pub(super) fn swatch(app: &App, node: Node) -> Option<Rgb> {
 
 #[cfg(test)]
 mod tests {
-    use crate::language::Language;
+    use crate::language::{Language, Node};
     use crate::ui::view::tests::{app, app_of, drawn, retype};
 
     #[test]
@@ -190,6 +194,15 @@ mod tests {
         assert_eq!(lines[4], "  ● light 1");
         assert_eq!(lines[5], "2 objects");
         assert_eq!(lines[7], "  ● object 2 (box)");
+    }
+
+    #[test]
+    fn the_heading_counts_marked_nodes() {
+        let mut app = app();
+        app.cursor.marks = [Node::Light(0), Node::Object(1)].into();
+        let lines = drawn(&app, super::render, 26, 8);
+        assert_eq!(lines[0], "scene ────── 2 marked  1/5");
+        assert_eq!(lines[4], " ✓● light 1");
     }
 
     #[test]

@@ -56,7 +56,7 @@ pub(crate) fn render(app: &App, area: Rect, buffer: &mut Buffer) {
         );
         row.put(&words, theme::DIM).skip(2);
     }
-    for (key, words) in app.keymap.hints(app.context()) {
+    for (key, words) in app.hints() {
         row.put(&key, theme::ACCENT).put(" ", Style::new());
         row.put(words, theme::DIM).skip(2);
     }

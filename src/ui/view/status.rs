@@ -31,10 +31,7 @@ pub(crate) fn render_hint(app: &App, area: Rect, buffer: &mut Buffer) {
                 Vec::new(),
             )
         }
-        None => (
-            app.keymap.hints(app.context()),
-            app.keymap.lasting_hints(app.context()),
-        ),
+        None => (app.hints(), app.keymap.lasting_hints(app.context())),
     };
     let mut row = Row::new(buffer, area, 0);
     row.skip(1);

@@ -91,6 +91,28 @@ fn a_picture_is_traced_once_its_textures_are_read() {
 }
 
 #[test]
+fn files_that_are_used_no_longer_or_again_are_not_reloaded() {
+    let second = "texture ID 8 image 1 1 fur.ppm\nuse colour ID 8 mat ID 0\n";
+    let (mut app, _) = open_textured(&format!("{TEXTURED}{second}"));
+    let (skin, fur) = (loaded("skin.ppm", [9; 3]), loaded("fur.ppm", [8; 3]));
+    let images = ["skin.ppm", "fur.ppm"].map(|name| {
+        let read = skin.images.get(name).or(fur.images.get(name));
+        (name.to_owned(), Arc::clone(read.expect("it was read")))
+    });
+    let both = || Loaded {
+        images: images.clone().into_iter().collect(),
+        ..Loaded::default()
+    };
+    app.update(Msg::AssetsRead(wanted(&["skin.ppm", "fur.ppm"]), both()));
+    let said = words(&app).to_owned();
+    replaced(&mut app, TEXTURED);
+    let after = words(&app).to_owned();
+    app.update(Msg::AssetsRead(wanted(&["skin.ppm"]), skin));
+    assert_ne!(said, after);
+    assert_eq!(words(&app), after);
+}
+
+#[test]
 fn a_scene_without_textures_does_not_wait() {
     let text = TEXTURED.replace("image 1 1 skin.ppm", "checker 1 1  0 0 0  1 1 1");
     let (app, effects) = open_textured(&text);

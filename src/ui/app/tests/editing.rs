@@ -123,3 +123,35 @@ fn undo_selects_the_changed_node() {
     press(&mut app, "<Ctrl-r>");
     assert_eq!(words(&app), "redone: object 1 (sphere) radius");
 }
+
+/// The reflection of the first object is `0.50`, usually from 0 to 1.
+#[test]
+fn nudges_stop_at_the_ends_of_the_usual_range() {
+    let there = "jjjejjjjjj";
+    for (said, line) in [
+        ("LLLLLLLLLLLLLLL", "5 1.00 0 1"),
+        ("HHHHHHHHHHHHHHHHl", "5 0.05 0 1"),
+        ("1<Enter>l", "5 1 0 1"),
+        ("1.2<Enter>l", "5 1.25 0 1"),
+        ("1.02<Enter>h", "5 0.97 0 1"),
+        ("-.2<Enter>L", "5 .3 0 1"),
+    ] {
+        assert_eq!(typed(&format!("{there}{said}")), line, "{said}");
+    }
+    let mut app = open(SCENE);
+    press(&mut app, &format!("{there}1<Enter>l"));
+    assert_eq!(
+        words(&app),
+        "the usual range ends here: type a number to leave it"
+    );
+    assert_eq!(typed("jjjejjHHHH"), ".0 .1 .1 .45 .45 .45 .5 .5 .5");
+    assert_eq!(typed("jjjejLL"), "3.5 // the radius");
+}
+
+#[test]
+fn a_hash_begins_to_type_a_colour() {
+    assert_eq!(
+        typed("jjjejj#ff8000<Enter>"),
+        "1 0.502 0 .45 .45 .45 .5 .5 .5"
+    );
+}

@@ -41,6 +41,25 @@ fn commands_and_actions_are_offered_by_name_and_description() {
 }
 
 #[test]
+fn a_line_with_several_matches_stays_until_one_is_chosen() {
+    let mut app = open(SCENE);
+    press(&mut app, ":nudge<Enter>");
+    assert_eq!(words(&app), "several match: Tab chooses");
+    assert_eq!(line(&app), "nudge");
+    press(&mut app, "<Tab><Enter>");
+    assert!(app.overlays.prompt.is_none());
+    for (said, reason) in [
+        (":view<Enter>", "view save, or view light, or view reset?"),
+        (":size 3<Enter>", "size takes a size such as 800x600"),
+        (":zzz<Enter>", "unknown command `zzz`"),
+    ] {
+        let mut app = open(SCENE);
+        press(&mut app, said);
+        assert!(words(&app).starts_with(reason), "{said}: {}", words(&app));
+    }
+}
+
+#[test]
 fn tab_and_arrows_choose_and_the_typed_line_is_among_the_choices() {
     let mut app = open(SCENE);
     press(&mut app, ":view ");

@@ -120,7 +120,7 @@ fn help_hints_and_palette_show_the_bound_keys() {
         words: "undo",
     };
     assert!(app.help_lines().contains(&undo));
-    let hints = app.keymap.hints(app.context());
+    let hints = app.hints();
     assert!(hints.contains(&("Ctrl-X u".to_owned(), "undo")));
     press(&mut app, ":undo");
     let found = app.completions().into_iter();

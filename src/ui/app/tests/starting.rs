@@ -81,7 +81,9 @@ fn a_file_that_does_not_exist_is_a_new_scene_of_its_language() {
         );
         assert_eq!(app.disk.state, OnDisk::New);
 
-        assert!(!quits(&press(&mut app, "q")));
+        // Nothing was changed yet.
+        assert!(quits(&press(&mut app, "q")) && app.losses().is_none());
+        assert!(!quits(&press(&mut app, "jjjDq")));
         let question = format!("{name} is new and not saved");
         assert_eq!(app.losses(), Some(question));
         assert!(quits(&press(&mut app, "y")));
@@ -132,14 +134,15 @@ fn a_new_scene_without_a_file_asks_for_a_name() {
         assert_eq!(words(&app), "a new scene: :w FILE writes it");
         assert_eq!(app.document.text(), language.template());
         assert_eq!((app.document.language(), &app.disk.path), (language, &None));
-        assert!(!quits(&press(&mut app, "q")));
+        assert!(quits(&press(&mut app, "q")));
+        assert!(!quits(&press(&mut app, "jjjDq")));
         assert_eq!(app.losses().as_deref(), Some("the new scene is not saved"));
         assert!(!quits(&press(&mut app, "w")));
         assert!(app.overlays.prompt.is_some());
         let name = format!("x.{}", language.extension());
         let effects = press(&mut app, &format!("{name}<Enter>"));
-        assert_eq!(save_of(&effects), (language.template(), &Guard::Absent));
         let text = app.document.shared_text();
+        assert_eq!(save_of(&effects), (text.as_str(), &Guard::Absent));
         // The saves of the former scene are counted too.
         assert!(quits(&saved(&mut app, 2, &name, &text)), "{said}");
     }

@@ -367,6 +367,32 @@ fn copied_text_goes_to_the_clipboard_and_pasted_text_becomes_things() {
 }
 
 #[test]
+fn messages_about_marked_things_count_and_name_them() {
+    for (said, done) in [
+        (" d", "deleted: 1 marked item: object 1 (sphere)"),
+        (
+            "  d",
+            "deleted: 2 marked items: object 1 (sphere), object 2 (sphere)",
+        ),
+        (" jD", "duplicated: 1 marked item: object 1 (sphere)"),
+        ("d", "deleted: object 1 (sphere)"),
+    ] {
+        let app = after("scene.ray", RAY, Object(0), said);
+        assert_eq!(words(&app), done, "{said:?}");
+    }
+    let mut app = after("scene.xml", XML, Material(0), "");
+    press(&mut app, " d");
+    let Some(Dialog::Delete(nodes)) = &app.overlays.dialog else {
+        panic!("it is used");
+    };
+    let question = app.consequence(nodes);
+    assert!(
+        question.starts_with("Delete 1 marked item: m"),
+        "{question}"
+    );
+}
+
+#[test]
 fn marks_end_when_their_indices_belong_to_others() {
     let mut app = after("scene.ray", RAY, Object(1), " ");
     assert_eq!(app.cursor.marks.len(), 1);
@@ -381,7 +407,8 @@ fn marks_end_when_their_indices_belong_to_others() {
 fn undo_and_redo_select_the_thing_that_they_change() {
     for (said, selected, done) in [
         ("du", Object(1), "undone: object 2 (sphere)"),
-        ("du<Ctrl-r>", Object(1), "redone"),
+        ("du<Ctrl-r>", Object(1), "redone: object 2 (sphere)"),
+        ("Du", Object(1), "undone: object 3 (sphere)"),
         ("Du<Ctrl-r>", Object(2), "redone: object 3 (sphere)"),
     ] {
         let app = after("scene.ray", RAY, Object(1), said);

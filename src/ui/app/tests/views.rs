@@ -21,7 +21,7 @@ fn a_moved_view_is_not_lost_in_silence() {
             matches!(app.overlays.dialog, Some(Dialog::Leave(_))),
             "{said}"
         );
-        let losses = "the moved view is not in the text (S writes it)";
+        let losses = "the moved view is not in the text";
         assert_eq!(app.losses().as_deref(), Some(losses), "{said}");
         assert_eq!(app.document.text(), SCENE);
     }
@@ -45,36 +45,63 @@ fn a_view_saved_under_a_name_is_not_lost() {
     assert!(!quits(&press(&mut open(&text), "vV<Enter>lq")));
 }
 
-#[test]
-fn the_view_can_be_written_when_asked_and_saved_then() {
-    let mut app = open(SCENE);
-    press(&mut app, "vhqS");
-    assert!(matches!(
-        app.overlays.dialog,
-        Some(Dialog::Leave(Next::Quit))
-    ));
-    assert!(app.document.text().starts_with("// view: eye "));
-    assert_eq!(app.losses().as_deref(), Some("scene.ray has unsaved edits"));
-    let effects = press(&mut app, "w");
-    assert!(wants(&effects, |effect| matches!(
-        effect,
-        Effect::Save { .. }
-    )));
-    let text = app.document.shared_text();
-    assert!(quits(&saving::saved(&mut app, 1, "scene.ray", &text)));
+/// The keys that answer the open question.
+fn answers(app: &App) -> Vec<String> {
+    app.hints().into_iter().map(|(key, _)| key).collect()
 }
 
 #[test]
-fn saving_before_leaving_does_not_lose_the_view() {
+fn the_view_is_written_and_saved_before_leaving_if_asked() {
+    for (said, first) in [
+        ("vhq", "Syn"),
+        ("vh<Esc>jjjel<Esc>q", "ywSn"),
+        ("vh:new<Enter>", "Syn"),
+    ] {
+        let mut app = open(SCENE);
+        press(&mut app, said);
+        assert_eq!(answers(&app).concat(), first, "{said}");
+        let effects = press(&mut app, "S");
+        assert!(app.overlays.dialog.is_none(), "{said}");
+        assert!(wants(&effects, |effect| matches!(
+            effect,
+            Effect::Save { .. }
+        )));
+        let text = app.document.shared_text();
+        assert!(text.starts_with("// view: eye "), "{said}");
+        let effects = saving::saved(&mut app, 1, "scene.ray", &text);
+        assert_eq!(quits(&effects), !said.contains("new"), "{said}");
+        assert!(app.pictures.view.is_none(), "{said}");
+    }
+}
+
+#[test]
+fn saving_before_leaving_asks_only_about_the_view_then() {
     let mut app = open(SCENE);
     press(&mut app, "vh<Esc>jjjel<Esc>qw");
     let text = app.document.shared_text();
     assert!(!quits(&saving::saved(&mut app, 1, "scene.ray", &text)));
-    let losses = "the moved view is not in the text (S writes it)";
+    let losses = "the moved view is not in the text";
     assert_eq!(app.losses().as_deref(), Some(losses));
+    assert_eq!(words(&app), "wrote scene.ray");
+    assert_eq!(answers(&app), ["S", "y", "n"]);
     assert!(press(&mut app, "w").is_empty());
-    assert!(words(&app).starts_with("saving does not keep the moved view"));
+    assert_eq!(words(&app), "answer the question first: S, y, n");
     assert!(quits(&press(&mut app, "y")));
+}
+
+#[test]
+fn a_view_that_cannot_be_written_is_asked_about_again() {
+    let mut app = open(SCENE);
+    press(&mut app, "vh");
+    let broken = opened("1 1").0;
+    app.diagnostics = broken.diagnostics;
+    assert!(0 < app.error_count());
+    let effects = press(&mut app, "qS");
+    assert!(!quits(&effects) && words(&app).starts_with("cannot save the view"));
+    assert!(matches!(
+        app.overlays.dialog,
+        Some(Dialog::Leave(Next::Quit))
+    ));
 }
 
 #[test]
@@ -338,4 +365,44 @@ fn dragging_with_another_button_or_ctrl_pans_so_that_the_scene_follows() {
         let turned = (after.eye - after.target) - (before.eye - before.target);
         assert!(turned.length() < 1e-3, "{button:?} {turned}");
     }
+}
+
+#[test]
+fn a_list_sets_several_fields_of_the_view_in_one_step() {
+    let kept = "// view: eye 0 0 4.0 target 0 0 0\n";
+    for (comment, list, written) in [
+        ("", "1 2 9 0 0 1", "// view: eye 1 2 9 target 0 0 1\n"),
+        (kept, "1 2 9.0 0 0 1", "// view: eye 1 2 9.0 target 0 0 1\n"),
+        (
+            kept,
+            "1 2 9 0 0 1 0 1 0.5",
+            "// view: eye 1 2 9.0 target 0 0 1 up 0 1 0.5\n",
+        ),
+    ] {
+        let before = format!("{comment}{SCENE}");
+        let mut app = open(&before);
+        press(&mut app, &format!("e{list}<Enter>"));
+        assert_eq!(app.document.text(), format!("{written}{SCENE}"), "{list}");
+        press(&mut app, "<Esc>u");
+        assert_eq!(app.document.text(), before, "{list}");
+    }
+}
+
+#[test]
+fn a_list_sets_several_fields_of_the_moved_view() {
+    let mut app = ahead();
+    let before = app.document.text().to_owned();
+    press(&mut app, "vh<Esc>ek<Esc>e1 2 9 0 0 1<Enter>");
+    assert_eq!(app.document.text(), before);
+    let camera = app.camera().expect("a scene");
+    assert_eq!(camera.eye, DVec3::new(1.0, 2.0, 9.0));
+    assert_eq!(camera.target, DVec3::new(0.0, 0.0, 1.0));
+    press(&mut app, "1 2 9 1 2 9<Enter>");
+    let refused = app
+        .cursor
+        .typing
+        .as_ref()
+        .and_then(|typing| typing.refused.as_ref());
+    assert!(refused.is_some_and(|refused| refused.message.contains("must differ")));
+    assert_eq!(app.camera(), Some(camera));
 }

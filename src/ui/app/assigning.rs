@@ -1,0 +1,142 @@
+//! Setting fields: of the selected and the marked nodes in the text, and of the working view.
+
+use super::App;
+use super::typed::Values;
+use crate::language::{Node, Placed};
+use crate::scene::Camera;
+use crate::text::{Diagnostic, Edit, Span};
+
+/// A field, its index among those of the selected node, and the components to set.
+type Wanted<'a> = (usize, &'a Placed, &'a [(usize, String)]);
+
+impl App {
+    /// Sets components of the current field and, with the further values, of those below it, in one
+    /// edit.
+    pub(super) fn assign(&mut self, values: &[Values]) -> Result<(), Diagnostic> {
+        let fields = self.cursor.fields().to_vec();
+        let below = fields.iter().enumerate().skip(self.cursor.field);
+        let wanted: Vec<Wanted> = below
+            .zip(values)
+            .map(|((at, placed), values)| (at, placed, values.as_slice()))
+            .collect();
+        if self.cursor.selected() == Node::View {
+            return self.assign_view(&wanted);
+        }
+        self.try_edits(&self.edits_of(&unnumbered(&wanted)))
+    }
+
+    /// Whether a field is set in all marked nodes, as the selected one is one of them.
+    pub(super) fn sets_marked(&self) -> bool {
+        self.cursor.marks.contains(&self.cursor.selected())
+    }
+
+    /// The edits that set components of fields of the selected node or, if it is marked, of all
+    /// marked nodes that have them.
+    pub(super) fn edits_of(&self, wanted: &[(&Placed, &[(usize, String)])]) -> Vec<Edit> {
+        let source = self.source();
+        if !self.sets_marked() {
+            let owned = |&(placed, values): &(_, &[_])| (placed, values.to_vec());
+            return source.edits(&wanted.iter().map(owned).collect::<Vec<_>>());
+        }
+        let fields = self.cursor.marks.iter().map(|&node| source.fields(node));
+        let found = fields.flatten().filter_map(|placed| {
+            let is_meant = |(wanted, _): &&(&Placed, _)| {
+                wanted.field.key == placed.field.key && wanted.field.kind == placed.field.kind
+            };
+            let (_, values) = wanted.iter().find(is_meant)?;
+            Some((placed, values.to_vec()))
+        });
+        let found: Vec<_> = found.collect();
+        let wanted = found
+            .iter()
+            .map(|(placed, values)| (placed, values.clone()));
+        source.edits(&wanted.collect::<Vec<_>>())
+    }
+
+    /// Sets components of fields of the view: of the working view, of parts that the text omits, and
+    /// in the text.
+    fn assign_view(&mut self, wanted: &[Wanted]) -> Result<(), Diagnostic> {
+        let own = self.own_camera();
+        let parts = own.map_or(0, |own| self.source().view_literals(&own).len());
+        let is_working = |&(at, placed, _): &Wanted| {
+            // The picture's size exists only in the text.
+            self.pictures.view.is_some() && at < parts && !placed.field.kind.is_size()
+        };
+        let (working, written): (Vec<_>, Vec<_>) = wanted.iter().copied().partition(is_working);
+        let moved = match self.pictures.view {
+            Some(view) if !working.is_empty() => Some(self.camera_with(Some(view), &working)?),
+            _ => None,
+        };
+        let edits = self.edits_of_view(parts, &written)?;
+        if !edits.is_empty() {
+            self.try_edits(&edits)?;
+        }
+        if let Some(moved) = moved {
+            let size = self.own_camera().map_or(moved.size, |own| own.size);
+            let own = self.own_camera();
+            self.pictures.set_view(Camera { size, ..moved }, own);
+        }
+        Ok(())
+    }
+
+    /// The edits that set fields of the view, of which the first `parts` are those of the camera.
+    fn edits_of_view(&self, parts: usize, wanted: &[Wanted]) -> Result<Vec<Edit>, Diagnostic> {
+        let is_omitted = |(_, placed, _): &Wanted| placed.spans.is_empty();
+        if !wanted.iter().any(is_omitted) {
+            return Ok(self.edits_of(&unnumbered(wanted)));
+        }
+        let is_camera = |wanted: &Wanted| wanted.0 < parts || is_omitted(wanted);
+        let (camera, others): (Vec<_>, Vec<_>) = wanted.iter().copied().partition(is_camera);
+        let own = self.own_camera();
+        let after = self.camera_with(own, &camera)?;
+        let mut edits = self.edits_of(&unnumbered(&others));
+        edits.extend(own.map_or_else(Vec::new, |own| self.source().view_edits(&own, &after)));
+        edits.sort_by_key(|edit| edit.span.start());
+        Ok(edits)
+    }
+
+    /// A camera with components of fields changed.
+    fn camera_with(&self, camera: Option<Camera>, wanted: &[Wanted]) -> Result<Camera, Diagnostic> {
+        let refuse = |placed: &Placed, reason: &str| {
+            let message = format!("view {}: {reason}", placed.field.key);
+            Diagnostic::error(Span::at(0), message, placed.field.allowed.words())
+        };
+        let mut camera = camera.filter(|_| self.error_count() == 0);
+        for &(at, placed, values) in wanted {
+            let Some(camera) = &mut camera else {
+                return Err(refuse(placed, "cannot be set while the scene has errors"));
+            };
+            for (component, literal) in values {
+                *camera = self
+                    .source()
+                    .view_with(camera, (at, *component), literal)
+                    .map_err(|limits| refuse(placed, &format!("must be {limits}")))?;
+            }
+        }
+        match (camera, wanted.last()) {
+            (Some(camera), Some((_, placed, _))) if camera.eye == camera.target => {
+                Err(refuse(placed, "eye and target must differ"))
+            }
+            (Some(camera), _) => Ok(camera),
+            (None, _) => Err(Diagnostic::error(Span::at(0), self.no_picture(), "")),
+        }
+    }
+
+    /// Writes a camera into the text where it differs from the text's own.
+    pub(super) fn write_camera(
+        &mut self,
+        camera: &Camera,
+        before: &Camera,
+    ) -> Result<(), Diagnostic> {
+        let edits = self.source().view_edits(before, camera);
+        self.try_edits(&edits)
+    }
+}
+
+/// The fields without their indices.
+fn unnumbered<'a>(wanted: &[Wanted<'a>]) -> Vec<(&'a Placed, &'a [(usize, String)])> {
+    let fields = wanted.iter();
+    fields
+        .map(|&(_, placed, values)| (placed, values))
+        .collect()
+}
