@@ -23,6 +23,7 @@ mod edit;
 mod exports;
 mod filter;
 mod filtering;
+mod hints;
 mod hsv;
 mod jobs;
 mod journal;

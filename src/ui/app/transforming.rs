@@ -127,7 +127,7 @@ impl App {
     }
 
     /// Why the text's camera cannot be transformed, if it cannot.
-    fn refuses_camera(&self, tool: Tool) -> Option<String> {
+    pub(super) fn refuses_camera(&self, tool: Tool) -> Option<String> {
         match (tool, self.document.language()) {
             // Only a comment states a view there, which is written on request.
             (_, Language::Ray) => {

@@ -215,6 +215,7 @@ const EDIT_HINTS: &[Hint] = &[
     (&[A::Stride(-1), A::Stride(1)], "step"),
     (&[A::Choose], "type"),
     (&[A::Colour], "colour"),
+    (&[A::Orthonormalise], "orthonormalise"),
     (&[A::Component(1)], "next number"),
     (&[A::Back], "back"),
 ];

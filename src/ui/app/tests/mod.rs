@@ -9,6 +9,7 @@ mod disk;
 mod editing;
 mod exports;
 mod fields;
+mod hints;
 mod listing;
 mod making;
 mod messages;
