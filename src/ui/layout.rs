@@ -111,6 +111,29 @@ pub fn field_columns(line: Rect, components: usize) -> (Rect, Vec<Rect>) {
     (name, columns)
 }
 
+/// The columns that a literal of this width covers beside its own; `None` if its own has room for it
+/// and a gap. Columns after its own are covered before those in front of it.
+pub fn widened(columns: &[Rect], component: usize, width: usize, line: Rect) -> Option<Rect> {
+    let own = columns.get(component)?;
+    let needed = u16::try_from(width + 1).unwrap_or(u16::MAX);
+    if needed <= own.width {
+        return None;
+    }
+    // What a division into columns has left over is part of the last one.
+    let ends = columns[component..].iter().skip(1).map(|column| column.x);
+    let ends = ends.chain([line.right()]);
+    let fits = |end: &u16| needed <= end - own.x;
+    let end = ends.clone().find(fits).or(ends.last())?;
+    let starts = columns[..=component].iter().rev().map(|column| column.x);
+    let fits = |start: &u16| needed <= end - start;
+    let start = starts.clone().find(fits).or(starts.last())?;
+    Some(Rect {
+        x: start,
+        width: end - start,
+        ..*own
+    })
+}
+
 /// The cells of a slider behind a literal in a line of the fields panel; `None` if there is no room.
 pub fn slider_cells(line: Rect, literal: &str) -> Option<Rect> {
     const NARROWEST: u16 = 6;

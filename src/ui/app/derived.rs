@@ -19,7 +19,7 @@ use crate::scene::{Camera, Integrator, Rgb, Scene, Size};
 use crate::text::Diagnostic;
 use crate::ui::arrange::{Areas, Shape, Zoom, arrange};
 use crate::ui::errors::{self, Panel, Wrong};
-use crate::ui::keymap::{Action, Context, Entry, Line, Mode};
+use crate::ui::keymap::{Context, Line, Mode};
 use crate::ui::layout::raster;
 use crate::ui::listing::Listing;
 
@@ -56,20 +56,6 @@ impl App {
             None if self.disk.is_opening() => Context::Opening,
             None if self.overlays.picker.is_some() => Context::Colour,
             None => Context::In(self.mode),
-        }
-    }
-
-    /// The hints for the keys that do something now, the most useful first.
-    pub fn hints(&self) -> Vec<Entry> {
-        self.keymap
-            .hints(self.context(), |action| self.acts(action))
-    }
-
-    /// Whether an action would do something, as far as hints tell.
-    fn acts(&self, action: Action) -> bool {
-        match (action, self.context()) {
-            (Action::SaveView, Context::Quit | Context::Leave) => self.is_view_unwritten(),
-            _ => true,
         }
     }
 

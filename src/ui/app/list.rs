@@ -188,7 +188,7 @@ impl App {
 
     pub(super) fn pick_cross(&mut self) {
         if let Some((column, row)) = self.pictures.cross
-            && !self.pick_mark((column, row))
+            && !self.pick_icon((column, row))
         {
             self.pick(u32::from(column), 2 * u32::from(row));
         }
@@ -207,10 +207,10 @@ impl App {
         Ok(object.map(|object| Node::Object(self.source().object(object))))
     }
 
-    /// Selects the node whose mark is at a cell of the picture, and ends picking; returns whether
+    /// Selects the node whose icon is at a cell of the picture, and ends picking; returns whether
     /// there is one.
-    pub(super) fn pick_mark(&mut self, cell: (u16, u16)) -> bool {
-        let node = self.mark_at(cell);
+    pub(super) fn pick_icon(&mut self, cell: (u16, u16)) -> bool {
+        let node = self.icon_at(cell);
         if let Some(node) = node {
             self.pick_node(node);
         }

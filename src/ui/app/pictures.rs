@@ -28,8 +28,8 @@ pub struct Pictures {
     pub wires: Option<Wires>,
     /// Whether the selected object is outlined in SELECT mode.
     pub(super) outline: Outline,
-    /// Which marks are shown of what has no surface.
-    pub(super) marks: Marking,
+    /// Which icons are shown of what has no surface.
+    pub(super) icons: ShownIcons,
     /// The cell of the crosshair in [`Mode::Pick`], relative to the picture's upper left corner;
     /// `None` before the first pick.
     pub cross: Option<(u16, u16)>,
@@ -72,9 +72,9 @@ pub(super) enum Outline {
     Hidden,
 }
 
-/// Which marks are shown of what has no surface.
+/// Which icons are shown of what has no surface.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub(super) enum Marking {
+pub(super) enum ShownIcons {
     /// Those of the selected kind.
     #[default]
     Selected,
@@ -93,7 +93,7 @@ impl Pictures {
             aov: None,
             wires: None,
             outline: Outline::default(),
-            marks: Marking::default(),
+            icons: ShownIcons::default(),
             cross: None,
             net: None,
             due: false,
@@ -110,7 +110,7 @@ impl Pictures {
             aov: self.aov,
             wires: self.wires.take().map(|_| Wires::default()),
             outline: self.outline,
-            marks: self.marks,
+            icons: self.icons,
             net: self.net,
             ..Self::new(self.quality)
         };

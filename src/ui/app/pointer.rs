@@ -179,7 +179,7 @@ impl App {
             self.pictures.drag = Some(at);
         } else if let Some(raster) = self.raster() {
             let cells = raster.0;
-            if cells.contains(at.into()) && self.pick_mark((at.0 - cells.x, at.1 - cells.y)) {
+            if cells.contains(at.into()) && self.pick_icon((at.0 - cells.x, at.1 - cells.y)) {
                 return Vec::new();
             }
             let size = self.picture().shown.size;

@@ -90,7 +90,7 @@ impl App {
     }
 
     /// Why the text's camera cannot be transformed, if it cannot.
-    fn refuses_camera(&self, tool: Tool) -> Option<&'static str> {
+    pub(super) fn refuses_camera(&self, tool: Tool) -> Option<&'static str> {
         match (tool, self.document.language()) {
             // Only a comment states a view there, which S writes.
             (_, Language::Ray) => Some("v moves the camera"),

@@ -247,7 +247,7 @@ impl App {
             Action::SearchAgain(step) => self.search(step),
             Action::Command => self.open_palette(),
             Action::Outline => self.pictures.toggle_outline(),
-            Action::Marks => self.toggle_marks(),
+            Action::Icons => self.toggle_icons(),
             Action::Visibility => self.toggle_visibility(),
             Action::Mark => self.toggle_mark(),
             Action::Delete => self.delete(),

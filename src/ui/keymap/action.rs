@@ -121,8 +121,8 @@ pub enum Action {
     Command,
     /// Shows or hides the outline of the selected object.
     Outline,
-    /// Marks all lights, cameras and groups in the picture, or only the selected kind.
-    Marks,
+    /// Shows icons of all lights, cameras and groups in the picture, or only of the selected kind.
+    Icons,
     /// Shows or hides the selected object itself.
     Visibility,
     /// Marks the selected node for the commands that follow.

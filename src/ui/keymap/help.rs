@@ -37,7 +37,7 @@ const MOUSE: [(&str, &str); 11] = [
     ("click it again", "choose or type a value"),
     ("drag a slider", "set a number from 0 to 1"),
     ("click a menu", "move there; again: choose"),
-    ("click the picture", "select the object or mark there"),
+    ("click the picture", "select the object or icon there"),
     ("drag it in VIEW", "orbit"),
     ("drag it with Ctrl or right", "in VIEW, pan"),
     ("drag it in MOVE", "move, rotate or scale"),
@@ -215,6 +215,7 @@ const EDIT_HINTS: &[Hint] = &[
     (&[A::Stride(-1), A::Stride(1)], "step"),
     (&[A::Choose], "type"),
     (&[A::Colour], "colour"),
+    (&[A::Orthonormalise], "orthonormalise"),
     (&[A::Component(1)], "next number"),
     (&[A::Back], "back"),
 ];

@@ -32,7 +32,7 @@ pub(super) const fn of_action(action: Action) -> &'static str {
         A::SearchAgain(_) => "previous-match",
         A::Command => "command",
         A::Outline => "outline",
-        A::Marks => "marks",
+        A::Icons => "icons",
         A::Visibility => "visibility",
         A::Mark => "mark",
         A::Delete => "delete",

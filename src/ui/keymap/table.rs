@@ -203,7 +203,7 @@ pub(super) const TABLE: &[Binding] = &[
     bind(LONG_LISTS, &[key(PageDown)], A::Page(1), "page down"),
     bind(LONG_LISTS, &[key(PageUp)], A::Page(-1), "page up"),
     bind(SELECT, &[c('o')], A::Outline, "toggle the outline of the selection"),
-    bind(SELECT, &[c('O')], A::Marks, "mark all lights, cameras and groups, or only the selected kind"),
+    bind(SELECT, &[c('O')], A::Icons, "show icons of all lights, cameras and groups, or only of the selected kind"),
     bind(SELECT, &[c('n')], A::SearchAgain(1), "next match"),
     bind(SELECT, &[c('N')], A::SearchAgain(-1), "previous match"),
     bind(SELECT, &[key(BackTab)], A::Cycle(-1), "previous light or object"),

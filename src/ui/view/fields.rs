@@ -137,6 +137,25 @@ fn field_line(app: &App, field: &FieldRow, cursor: Option<usize>, line: Rect, bu
             row.put("  (default)", style);
         }
     }
+    let current = cursor.and_then(|component| Some((component, field.literals.get(component)?)));
+    if let Some((component, literal)) = current.filter(|_| app.cursor.typing.is_none()) {
+        let span = layout::widened(&columns, component, literal.width(), line);
+        if let Some(area) = span {
+            Clear.render(area.intersection(buffer.area), buffer);
+            let end = area
+                .right()
+                .saturating_sub(literal.width() as u16 + 1)
+                .max(area.x);
+            let start = columns
+                .get(component)
+                .map_or(end, |column| column.x.min(end));
+            Row::new(buffer, area, 0).skip_to(start).put_in(
+                literal,
+                literal.width(),
+                theme::CURSOR,
+            );
+        }
+    }
     if let (Some(component), Some(typing)) = (cursor, &app.cursor.typing)
         && let Some(column) = columns.get(component)
     {
@@ -177,7 +196,7 @@ fn slider(field: &FieldRow, style: Style, bar: Rect, buffer: &mut Buffer) {
 }
 
 /// Draws the value being typed in place of the current one.
-fn typed(typing: &Typing, area: Rect, buffer: &mut Buffer) {
+pub(super) fn typed(typing: &Typing, area: Rect, buffer: &mut Buffer) {
     Clear.render(area.intersection(buffer.area), buffer);
     let style = theme::ACCENT.add_modifier(Modifier::UNDERLINED);
     let style = if typing.is_selected {
@@ -353,6 +372,20 @@ mod tests {
                 ..Typing::default()
             });
             assert_eq!(drawn(&app, render, 34, 20)[1], shown);
+        }
+    }
+
+    #[test]
+    fn the_current_value_covers_others_where_it_has_no_room() {
+        let mut app = editing(Node::Object(0));
+        retype(&mut app, "0 .5 -1e0", "0.2 -0.12345 -3.25e-2");
+        for (component, shown) in [
+            (0, "▸centre  0.2  -0.… -3.…"),
+            (1, "▸centre  0.2  -0.12345"),
+            (2, "▸centre  0.2   -3.25e-2"),
+        ] {
+            app.cursor.component = component;
+            assert_eq!(drawn(&app, render, 24, 8)[1], shown, "{component}");
         }
     }
 

@@ -6,15 +6,16 @@
 
 mod characters;
 mod completions;
+mod current;
 mod dialog;
 mod dither;
 mod errors;
 mod fields;
 mod help;
 mod history;
+mod icons;
 mod inks;
 mod list;
-mod marks;
 mod menu;
 mod message;
 mod oklab;
@@ -61,7 +62,8 @@ fn render(app: &App, inks: &mut Inks, area: Rect, buffer: &mut Buffer) {
         fields::render(app, areas.fields, buffer);
     }
     errors::render(app, areas.errors, buffer);
-    status::render(app, inks.glyphs, areas.status, buffer);
+    let status = current::render(app, &areas, buffer);
+    status::render(app, inks.glyphs, status, buffer);
     match &app.overlays.prompt {
         Some(prompt) if areas.hint.is_empty() => {
             status::render_prompt(prompt, areas.status, buffer);
@@ -73,7 +75,9 @@ fn render(app: &App, inks: &mut Inks, area: Rect, buffer: &mut Buffer) {
     page::render(app, body, buffer);
     help::render(app, body, buffer);
     history::render(app, body, buffer);
-    if let Some(message) = status::long_message(app, inks.glyphs, areas.status.width) {
+    if let Some(refused) = current::refusal(app, &areas) {
+        message::render(&refused, body, buffer);
+    } else if let Some(message) = status::long_message(app, inks.glyphs, status.width) {
         message::render(message, body, buffer);
     }
     menu::render(app, areas.list, body, buffer);

@@ -12,7 +12,7 @@ use unicode_width::UnicodeWidthStr;
 use super::characters::Characters;
 use super::inks::{Glyphs, Inks};
 use super::row::Row;
-use super::{marks, wireframe};
+use super::{icons, wireframe};
 use crate::render::{pixel_of, pixel_width};
 use crate::scene::Size;
 use crate::ui::app::{App, FirstReading, Shown};
@@ -20,7 +20,7 @@ use crate::ui::keymap::Mode;
 use crate::ui::layout::{self, raster};
 use crate::ui::theme;
 
-/// Draws the current picture, letterboxed, with its marks.
+/// Draws the current picture, letterboxed, with its icons.
 pub(crate) fn render(app: &App, inks: &mut Inks, area: Rect, buffer: &mut Buffer) {
     let Some((cells, size)) = raster(area, app.output()) else {
         return;
@@ -59,7 +59,7 @@ fn overlays(
     if app.mode == Mode::Move {
         axis(app, cells, size, buffer);
     }
-    marks::render(app, glyphs, cells, buffer);
+    icons::render(app, glyphs, cells, buffer);
     if app.mode == Mode::Pick {
         cross(app, cells, buffer);
     }
@@ -137,9 +137,9 @@ fn cross(app: &App, cells: Rect, buffer: &mut Buffer) {
         cell.set_symbol("┼").set_style(Style::reset());
         cell.set_style(theme::chip(Style::new()));
     }
-    let marked = app.mark_at((column, row));
+    let node = app.icon_at((column, row));
     let under = || app.node_under(u32::from(column), 2 * u32::from(row));
-    let name = match marked.map_or_else(under, |node| Ok(Some(node))) {
+    let name = match node.map_or_else(under, |node| Ok(Some(node))) {
         Ok(Some(node)) => app.source().name(node),
         Ok(None) => "nothing".to_owned(),
         Err(reason) => reason.to_owned(),

@@ -333,6 +333,64 @@ fn every_screen_can_be_drawn_at_every_size() {
     }
 }
 
+/// The last line while a field of the first object is edited on a screen without panels.
+fn last_line(size: (u16, u16), field: usize, change: fn(&mut App)) -> String {
+    let mut app = app();
+    app.mode = Mode::Edit;
+    app.cursor.select(Node::Object(0), app.document.source());
+    (app.cursor.field, app.cursor.component) = (field, usize::from(field != 1));
+    change(&mut app);
+    let lines = screen(&mut app, size.0, size.1);
+    let words = lines.last().map(|line| line.split_whitespace());
+    words.map_or_else(String::new, |words| words.collect::<Vec<_>>().join(" "))
+}
+
+#[test]
+fn the_current_field_is_shown_where_there_are_no_panels() {
+    let shown = |size, field| last_line(size, field, |_| {});
+    assert_eq!(shown((30, 10), 0), "EDIT centre 0 .5 -1e0");
+    assert_eq!(shown((50, 14), 1), "EDIT test.ray whitted radius 0.25");
+    assert_eq!(shown((20, 6), 0), "EDIT centre y .5");
+    let zoomed = last_line((100, 30), 2, |app| app.zoom = Zoom::Picture);
+    assert!(zoomed.ends_with("ka 0.1 0.1 0.1"), "{zoomed}");
+    let panels = shown((80, 24), 0);
+    assert!(!panels.contains("centre"), "{panels}");
+}
+
+#[test]
+fn what_is_typed_is_shown_where_there_are_no_panels() {
+    let typing: fn(&mut App) = |app| {
+        app.cursor.typing = Some(Typing {
+            input: Input::new("2.75".to_owned()),
+            ..Typing::default()
+        });
+    };
+    let line = last_line((40, 12), 0, typing);
+    assert_eq!(line, "EDIT centre y 2.75");
+    let long: fn(&mut App) = |app| {
+        app.cursor.typing = Some(Typing {
+            input: Input::new("123456789012345678".to_owned()),
+            ..Typing::default()
+        });
+    };
+    assert!(last_line((20, 6), 0, long).ends_with("8"));
+
+    let mut app = app();
+    app.mode = Mode::Edit;
+    app.cursor.select(Node::Object(0), app.document.source());
+    for key in ["j", "-", "3"] {
+        let key = key.chars().next().map(KeyCode::Char);
+        app.update(Msg::Key(key.expect("a key").into()));
+    }
+    app.update(Msg::Key(KeyCode::Enter.into()));
+    let lines = screen(&mut app, 40, 12);
+    assert!(
+        lines.concat().contains("must be greater than 0"),
+        "{lines:?}"
+    );
+    assert!(lines[11].ends_with("radius -3"), "{}", lines[11]);
+}
+
 #[test]
 fn a_screen_that_is_too_small_shows_a_notice() {
     let mut app = app();

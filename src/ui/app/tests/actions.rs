@@ -94,7 +94,7 @@ fn edits(action: A) -> bool {
         | A::SearchAgain(_)
         | A::Command
         | A::Outline
-        | A::Marks
+        | A::Icons
         | A::Mark
         | A::Add
         | A::Copy

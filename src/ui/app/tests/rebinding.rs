@@ -53,6 +53,7 @@ fn help_hints_and_palette_show_the_bound_keys() {
         words: "undo",
     };
     assert!(app.help_lines().contains(&undo));
+    press(&mut app, "jjjD");
     let hints = app.hints();
     assert!(hints.contains(&("Ctrl-X u".to_owned(), "undo")));
     press(&mut app, ":undo");

@@ -428,10 +428,10 @@ fn only_the_mark_moves_where_the_picture_is_seen_from_elsewhere() {
     let (mut app, _) = opened_as("a.dat", DAT);
     app.select(Node::View);
     press(&mut app, "v-<Esc>");
-    let (seen, mark) = (app.camera(), app.marks()[0]);
+    let (seen, icon) = (app.camera(), app.icons()[0]);
     press(&mut app, "mx0.1<Enter>");
     assert_eq!(app.camera(), seen);
-    assert!(mark.cell.0 < app.marks()[0].cell.0, "{mark:?}");
+    assert!(icon.cell.0 < app.icons()[0].cell.0, "{icon:?}");
     assert_eq!(
         app.document.text(),
         DAT.replace("0 0 10  0 0 0", "0.1 0 10  0.1 0 0")

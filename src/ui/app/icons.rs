@@ -1,32 +1,32 @@
-//! Marks of what has no surface in the picture: lights, the camera and groups.
+//! Icons of what has no surface in the picture: lights, the camera and groups.
 
 use super::App;
-use super::pictures::{Marking, Outline};
+use super::pictures::{Outline, ShownIcons};
 use crate::language::Node;
 use crate::render::pixel_of;
 use crate::scene::Emitter;
 use crate::ui::keymap::Mode;
 
-/// The most marks of groups, and the most of lights: more would hide the picture.
+/// The most icons of groups, and the most of lights: more would hide the picture.
 const MOST: usize = 256;
 
-/// How near to a cell a mark is picked, in cells.
+/// How near to a cell an icon is picked, in cells.
 const NEAR: u16 = 1;
 
-/// The mark of a node.
+/// The icon of a node.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Mark {
-    /// What it marks.
+pub struct Icon {
+    /// The node.
     pub node: Node,
     /// The kind of that.
-    pub kind: MarkKind,
+    pub kind: IconKind,
     /// Its column and row, relative to the picture's upper left cell.
     pub cell: (u16, u16),
 }
 
-/// What is marked.
+/// What an icon stands for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum MarkKind {
+pub enum IconKind {
     /// A light with a position.
     Light,
     /// The scene's own camera, where the picture is not seen through it.
@@ -36,12 +36,12 @@ pub enum MarkKind {
 }
 
 impl App {
-    /// The marks over the picture: of the kind of the selected node once the user has selected
+    /// The icons over the picture: of the kind of the selected node once the user has selected
     /// something; all of them while picking or on request.
-    pub fn marks(&self) -> Vec<Mark> {
-        let asked = match (self.mode, self.pictures.marks) {
-            (Mode::Pick, _) | (Mode::Select | Mode::Move, Marking::All) => None,
-            (Mode::Select | Mode::Move, Marking::Selected) => match self.selected_kind() {
+    pub fn icons(&self) -> Vec<Icon> {
+        let asked = match (self.mode, self.pictures.icons) {
+            (Mode::Pick, _) | (Mode::Select | Mode::Move, ShownIcons::All) => None,
+            (Mode::Select | Mode::Move, ShownIcons::Selected) => match self.selected_kind() {
                 Some(kind) if self.pictures.outline == Outline::Marked => Some(kind),
                 _ => return Vec::new(),
             },
@@ -50,43 +50,49 @@ impl App {
         if 0 < self.error_count() {
             return Vec::new();
         }
-        [MarkKind::Light, MarkKind::Camera, MarkKind::Group]
+        [IconKind::Light, IconKind::Camera, IconKind::Group]
             .into_iter()
             .filter(|kind| asked.is_none_or(|asked| asked == *kind))
-            .flat_map(|kind| self.marks_of(kind))
+            .flat_map(|kind| self.icons_of(kind))
             .collect()
     }
 
-    /// The node whose mark is in a cell of the picture or beside it.
-    pub fn mark_at(&self, cell: (u16, u16)) -> Option<Node> {
-        let distance = |mark: &Mark| {
-            let (column, row) = mark.cell;
+    /// The node whose icon is in a cell of the picture or beside it.
+    pub fn icon_at(&self, cell: (u16, u16)) -> Option<Node> {
+        let distance = |icon: &Icon| {
+            let (column, row) = icon.cell;
             column.abs_diff(cell.0).max(row.abs_diff(cell.1))
         };
-        let marks = self.marks().into_iter();
-        let nearest = marks.min_by_key(distance)?;
+        let icons = self.icons().into_iter();
+        let nearest = icons.min_by_key(distance)?;
         (distance(&nearest) <= NEAR).then_some(nearest.node)
     }
 
-    pub(super) fn toggle_marks(&mut self) {
-        let (shown, words) = match self.pictures.marks {
-            Marking::Selected => (Marking::All, "lights, cameras and groups are marked"),
-            Marking::All => (Marking::Selected, "only what is selected is marked"),
+    pub(super) fn toggle_icons(&mut self) {
+        let (shown, words) = match self.pictures.icons {
+            ShownIcons::Selected => (
+                ShownIcons::All,
+                "showing icons of all lights, cameras and groups",
+            ),
+            ShownIcons::All => (
+                ShownIcons::Selected,
+                "showing icons of the selected kind only",
+            ),
         };
-        self.pictures.marks = shown;
+        self.pictures.icons = shown;
         self.overlays.say(words);
     }
 
-    fn selected_kind(&self) -> Option<MarkKind> {
+    fn selected_kind(&self) -> Option<IconKind> {
         match self.cursor.selected() {
-            Node::Light(_) => Some(MarkKind::Light),
-            Node::View => Some(MarkKind::Camera),
-            Node::Object(object) if self.source().is_group(object) => Some(MarkKind::Group),
+            Node::Light(_) => Some(IconKind::Light),
+            Node::View => Some(IconKind::Camera),
+            Node::Object(object) if self.source().is_group(object) => Some(IconKind::Group),
             _ => None,
         }
     }
 
-    fn marks_of(&self, kind: MarkKind) -> Vec<Mark> {
+    fn icons_of(&self, kind: IconKind) -> Vec<Icon> {
         let (Some(scene), Some(camera)) = (&self.scene, self.camera()) else {
             return Vec::new();
         };
@@ -94,7 +100,7 @@ impl App {
             return Vec::new();
         };
         let places: Vec<_> = match kind {
-            MarkKind::Light => {
+            IconKind::Light => {
                 let lights = scene.lights.iter().enumerate();
                 let placed = lights.filter_map(|(index, light)| match light.emitter {
                     Emitter::Point { position, .. } => Some((Node::Light(index), position)),
@@ -102,8 +108,8 @@ impl App {
                 });
                 placed.take(MOST).collect()
             }
-            MarkKind::Camera => vec![(Node::View, scene.camera.eye)],
-            MarkKind::Group => {
+            IconKind::Camera => vec![(Node::View, scene.camera.eye)],
+            IconKind::Group => {
                 let nodes = self.nodes();
                 let objects = 0..nodes.len() - nodes.before(Node::Object(0));
                 let groups = objects.filter(|&object| self.source().is_group(object));
@@ -114,13 +120,13 @@ impl App {
                 placed.take(MOST).collect()
             }
         };
-        let mark = |(node, place)| {
+        let icon = |(node, place)| {
             let [x, y] = pixel_of(place, &camera, size)?;
             let is_inside =
                 0.0 <= x && 0.0 <= y && x < f64::from(size.width) && y < f64::from(size.height);
             let cell = (x as u16, y as u16 / 2);
-            (is_inside && cell.0 < cells.width).then_some(Mark { node, kind, cell })
+            (is_inside && cell.0 < cells.width).then_some(Icon { node, kind, cell })
         };
-        places.into_iter().filter_map(mark).collect()
+        places.into_iter().filter_map(icon).collect()
     }
 }

@@ -1,22 +1,22 @@
-//! Marks of lights, the camera and groups over the picture.
+//! Icons of lights, the camera and groups over the picture.
 
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 use ratatui::style::{Color, Style};
 
 use super::inks::Glyphs;
-use crate::ui::app::{App, MarkKind};
+use crate::ui::app::{App, IconKind};
 use crate::ui::theme;
 
-/// Draws the marks over the cells of the picture; that of the selected node stands out.
+/// Draws the icons over the cells of the picture; that of the selected node stands out.
 pub(super) fn render(app: &App, glyphs: Glyphs, cells: Rect, buffer: &mut Buffer) {
-    for mark in app.marks() {
-        let (symbol, plain, style) = match mark.kind {
-            MarkKind::Light => ("✶", "*", theme::WARNING),
-            MarkKind::Camera => ("◎", "@", theme::ACCENT),
-            MarkKind::Group => ("◇", "#", theme::GOOD),
+    for icon in app.icons() {
+        let (symbol, plain, style) = match icon.kind {
+            IconKind::Light => ("✶", "*", theme::WARNING),
+            IconKind::Camera => ("◎", "@", theme::ACCENT),
+            IconKind::Group => ("◇", "#", theme::GOOD),
         };
-        let place = (cells.x + mark.cell.0, cells.y + mark.cell.1);
+        let place = (cells.x + icon.cell.0, cells.y + icon.cell.1);
         // The picture may have another size than at the last step.
         if !cells.contains(place.into()) {
             continue;
@@ -24,7 +24,7 @@ pub(super) fn render(app: &App, glyphs: Glyphs, cells: Rect, buffer: &mut Buffer
         let Some(cell) = buffer.cell_mut(place) else {
             continue;
         };
-        let style = if app.cursor.selected() == mark.node {
+        let style = if app.cursor.selected() == icon.node {
             theme::chip(style)
         } else {
             style.bg(Color::Black)
@@ -58,7 +58,7 @@ sphere 0 0 0 1  0 0 0 .5 .5 .5 0 0 0 1 0 0 1
 ";
 
     #[test]
-    fn the_mark_of_the_selected_light_stands_out() {
+    fn the_icon_of_the_selected_light_stands_out() {
         for (glyphs, symbol) in [(Glyphs::HalfBlocks, "✶"), (Glyphs::Characters, "*")] {
             let mut app = app_of(Language::Ray, TWO_LIGHTS);
             // From the view to the first light.
@@ -69,8 +69,8 @@ sphere 0 0 0 1  0 0 0 .5 .5 .5 0 0 0 1 0 0 1
             let (cells, _) = app.raster().expect("there is room");
             let mut buffer = Buffer::empty(cells);
             render(&app, glyphs, cells, &mut buffer);
-            let marks = buffer.content.iter().filter(|cell| cell.symbol() == symbol);
-            let reversed: Vec<_> = marks
+            let icons = buffer.content.iter().filter(|cell| cell.symbol() == symbol);
+            let reversed: Vec<_> = icons
                 .map(|cell| cell.modifier.contains(Modifier::REVERSED))
                 .collect();
             assert_eq!(reversed, [true, false]);

@@ -1,4 +1,4 @@
-//! Marks of lights, cameras and groups: when they are shown, where, and picking them.
+//! Icons of lights, cameras and groups: when they are shown, where, and picking them.
 
 use std::sync::Arc;
 
@@ -46,17 +46,17 @@ const XML: &str = "\
 </xml>
 ";
 
-/// The marks that these keys show, after a node is selected.
-fn marked(name: &str, text: &str, node: Node, said: &str) -> Vec<Node> {
+/// The icons that these keys show, after a node is selected.
+fn icons_after(name: &str, text: &str, node: Node, said: &str) -> Vec<Node> {
     let (mut app, _) = opened_as(name, text);
     assert_eq!(app.error_count(), 0, "{name} {:?}", app.diagnostics);
     app.select(node);
     press(&mut app, said);
-    app.marks().iter().map(|mark| mark.node).collect()
+    app.icons().iter().map(|icon| icon.node).collect()
 }
 
 #[test]
-fn the_kind_of_the_selected_node_is_marked_and_all_kinds_while_picking() {
+fn the_kind_of_the_selected_node_has_an_icon_and_all_kinds_while_picking() {
     for (name, text, node, said, expected) in [
         ("a.ray", RAY, Light(0), "", vec![Light(0), Light(1)]),
         ("a.ray", RAY, Object(0), "", vec![]),
@@ -67,7 +67,7 @@ fn the_kind_of_the_selected_node_is_marked_and_all_kinds_while_picking() {
         ("a.ray", RAY, Light(0), "v", vec![]),
         ("a.ray", RAY, Light(0), "e", vec![]),
         ("a.ray", RAY, Light(0), "m", vec![Light(0), Light(1)]),
-        // The camera is marked where the picture is seen from elsewhere.
+        // The camera has its icon where the picture is seen from elsewhere.
         ("a.ray", RAY, Node::View, "", vec![]),
         ("a.ray", RAY, Node::View, "v-<Esc>", vec![Node::View]),
         ("a.dat", DAT, Light(0), "", vec![Light(0)]),
@@ -84,7 +84,7 @@ fn the_kind_of_the_selected_node_is_marked_and_all_kinds_while_picking() {
         ),
     ] {
         assert_eq!(
-            marked(name, text, node, said),
+            icons_after(name, text, node, said),
             expected,
             "{name} {node:?} {said}"
         );
@@ -92,14 +92,14 @@ fn the_kind_of_the_selected_node_is_marked_and_all_kinds_while_picking() {
 }
 
 #[test]
-fn nothing_is_marked_before_something_is_selected() {
+fn nothing_has_an_icon_before_something_is_selected() {
     for (name, text) in [("a.ray", RAY), ("a.dat", DAT), ("a.xml", XML)] {
-        assert!(opened_as(name, text).0.marks().is_empty(), "{name}");
+        assert!(opened_as(name, text).0.icons().is_empty(), "{name}");
     }
 }
 
 #[test]
-fn marks_are_where_things_are_and_are_picked_before_objects() {
+fn icons_are_where_things_are_and_are_picked_before_objects() {
     for (name, text, node) in [
         ("a.ray", RAY, Light(0)),
         ("a.dat", DAT, Light(0)),
@@ -112,19 +112,19 @@ fn marks_are_where_things_are_and_are_picked_before_objects() {
         app.picture_mut().advance(size, &[], usize::MAX);
         app.select(Object(1));
         press(&mut app, "i");
-        let marks = app.marks();
-        let mark = marks
+        let icons = app.icons();
+        let icon = icons
             .iter()
-            .find(|mark| mark.node == node)
-            .expect("it is marked");
+            .find(|icon| icon.node == node)
+            .expect("it has an icon");
         let across = if name == "a.xml" { 2.0 } else { 0.0 };
         // At the origin the picture is 2 · 10 · tan 30° high.
         let unit = f64::from(size.height) / (20.0 * (30.0_f64).to_radians().tan());
         let column = (f64::from(size.width) / 2.0 + across * unit) as u16;
-        assert_eq!(mark.cell, (column, size.height as u16 / 4), "{name}");
-        // Beside the mark, and then too far from it.
+        assert_eq!(icon.cell, (column, size.height as u16 / 4), "{name}");
+        // Beside the icon, and then too far from it.
         for (away, picked) in [(1, node), (2, Object(app.source().object(0)))] {
-            let place = (mark.cell.0 + away, mark.cell.1);
+            let place = (icon.cell.0 + away, icon.cell.1);
             press(&mut app, "i");
             app.pictures.cross = Some(place);
             press(&mut app, "<Enter>");
@@ -145,7 +145,7 @@ fn marks_are_where_things_are_and_are_picked_before_objects() {
 }
 
 #[test]
-fn without_a_mark_or_an_object_nothing_is_picked() {
+fn without_an_icon_or_an_object_nothing_is_picked() {
     let (mut app, _) = opened_as("a.ray", RAY);
     let (_, size) = app.raster().expect("there is room");
     let nothing = pictures::frame(size, vec![NO_OBJECT; size.pixels()]);
@@ -158,10 +158,10 @@ fn without_a_mark_or_an_object_nothing_is_picked() {
 }
 
 #[test]
-fn a_mark_moves_with_its_light() {
+fn an_icon_moves_with_its_light() {
     let (mut app, _) = opened_as("a.ray", RAY);
     app.select(Light(0));
-    let cell = |app: &App| app.marks()[0].cell;
+    let cell = |app: &App| app.icons()[0].cell;
     let before = cell(&app);
     press(&mut app, "mx1");
     let moved = cell(&app);

@@ -1,0 +1,115 @@
+//! The current field at the end of the status line, where there are no panels to show it.
+
+use ratatui::buffer::Buffer;
+use ratatui::layout::Rect;
+use ratatui::style::Style;
+use unicode_width::UnicodeWidthStr;
+
+use super::fields::typed;
+use super::row::Row;
+use crate::text::Severity;
+use crate::ui::app::{App, FieldRow, Message};
+use crate::ui::arrange::Areas;
+use crate::ui::keymap::Mode;
+use crate::ui::layout::split_right;
+use crate::ui::theme;
+
+/// The cells that are left for the mode.
+const MODE: u16 = 7;
+
+/// The cells for a value being typed, if there are as many.
+const TYPED: usize = 16;
+
+/// Draws the current field: its name and its numbers, and what is typed. Returns the cells that are
+/// left of the status line.
+pub(crate) fn render(app: &App, areas: &Areas, buffer: &mut Buffer) -> Rect {
+    let Some(field) = field(app, areas) else {
+        return areas.status;
+    };
+    let component = app.cursor.component;
+    let most = areas.status.width.saturating_sub(MODE);
+    let value = field.literals.get(component).map_or("", String::as_str);
+    let name = named(
+        field.field.key,
+        field.field.kind.component_names(),
+        component,
+    );
+    let whole = field.field.key.width() + 1 + width_of(&field.literals);
+    let is_whole = app.cursor.typing.is_none() && whole < usize::from(most);
+    let alone = match &app.cursor.typing {
+        Some(typing) => (typing.input.value().width() + 1).max(TYPED),
+        None => value.width(),
+    };
+    let wanted = if is_whole {
+        whole
+    } else {
+        name.width() + 1 + alone
+    };
+    let width = u16::try_from(wanted + 1).unwrap_or(u16::MAX).min(most);
+    let (left, mut area) = split_right(areas.status, width);
+    // The last cell keeps a gap to the border.
+    area.width = area.width.saturating_sub(1);
+    let mut row = Row::new(buffer, area, 0);
+    if is_whole {
+        row.put(field.field.key, theme::BOLD);
+        for (at, literal) in field.literals.iter().enumerate() {
+            let is_current = at == component;
+            let style = if is_current {
+                theme::CURSOR
+            } else {
+                Style::new()
+            };
+            row.skip(1).put(literal, style);
+        }
+        return left;
+    }
+    // The value is the last to be cut.
+    let room = row.room().saturating_sub(alone + 1);
+    row.put_in(&name, room, theme::BOLD);
+    match &app.cursor.typing {
+        Some(typing) => {
+            row.skip(1);
+            let area = Rect {
+                x: area.right().saturating_sub(row.room() as u16),
+                width: row.room() as u16,
+                ..area
+            };
+            typed(typing, area, buffer);
+        }
+        None => {
+            row.skip(1).put(value, theme::CURSOR);
+        }
+    }
+    left
+}
+
+/// Why the value being typed was refused, where no panel says so.
+pub(crate) fn refusal(app: &App, areas: &Areas) -> Option<Message> {
+    field(app, areas)?;
+    let refused = app.cursor.typing.as_ref()?.refused.as_ref()?;
+    Some(Message {
+        severity: Some(Severity::Error),
+        text: refused.message.clone(),
+    })
+}
+
+/// The current field, if it is edited where there are no panels.
+fn field(app: &App, areas: &Areas) -> Option<FieldRow> {
+    let is_blind = app.mode == Mode::Edit && areas.fields.is_empty();
+    let mut fields = app.fields().into_iter();
+    fields.nth(app.cursor.field).filter(|_| is_blind)
+}
+
+/// The name of a field with that of its component: `centre x`.
+fn named(key: &str, components: &[&str], component: usize) -> String {
+    match components.get(component) {
+        Some(&"") | None => key.to_owned(),
+        Some(component) => format!("{key} {component}"),
+    }
+}
+
+/// The cells of literals with a gap between them.
+fn width_of(literals: &[String]) -> usize {
+    let widths = literals.iter().map(|literal| literal.width() + 1);
+    widths.sum::<usize>().saturating_sub(1)
+}
