@@ -63,10 +63,11 @@ pub trait Restructure {
         Vec::new()
     }
 
-    /// The name or ID by which the text calls a node; `None` if it has none.
+    /// The name or ID by which the text calls a node, or its comment where nodes have neither; `None`
+    /// if it can have none.
     fn called(&self, node: Node) -> Option<&str>;
 
-    /// Returns the edits that give a node another name or ID; references to it follow.
+    /// Returns the edits that give a node another name, ID or comment; references to it follow.
     ///
     /// # Errors
     ///
@@ -286,7 +287,10 @@ pub(super) fn lines(text: &str, own: Span, above: impl Fn(usize) -> Option<usize
 /// Whether a text begins on the line after another.
 pub(super) fn follows(text: &str, own: Span, next: Span) -> bool {
     let line = next_line(text, own.end());
-    line <= next.start() && text[line..next.start()].trim_matches([' ', '\t']).is_empty()
+    line <= next.start()
+        && text[line..next.start()]
+            .trim_matches([' ', '\t'])
+            .is_empty()
 }
 
 /// The line before the one that starts at `start`.

@@ -412,7 +412,11 @@ impl Source {
         let next = record + 1;
         of(record).is_some()
             && of(record) == of(next)
-            && follows(&self.text, self.tree.span_of(record), self.tree.span_of(next))
+            && follows(
+                &self.text,
+                self.tree.span_of(record),
+                self.tree.span_of(next),
+            )
     }
 
     /// The lines that move with a record.

@@ -8,9 +8,7 @@ use super::table::ObjectKind;
 use super::tree::{escaped, quote};
 use super::{Source, add, apart};
 use crate::language::frame::frameless;
-use crate::language::structure::{
-    Block, deletions, follows, line_before, lines, uncreatable,
-};
+use crate::language::structure::{Block, deletions, follows, line_before, lines, uncreatable};
 use crate::language::table::Category;
 use crate::language::view::line_ending;
 use crate::language::{
