@@ -63,10 +63,11 @@ pub trait Restructure {
         Vec::new()
     }
 
-    /// The name or ID by which the text calls a node; `None` if it has none.
+    /// The name or ID by which the text calls a node, or its comment where nodes have neither; `None`
+    /// if it can have none.
     fn called(&self, node: Node) -> Option<&str>;
 
-    /// Returns the edits that give a node another name or ID; references to it follow.
+    /// Returns the edits that give a node another name, ID or comment; references to it follow.
     ///
     /// # Errors
     ///

@@ -73,7 +73,7 @@ pub use frame::{
     Aov, DEFAULT_DEPTH, DEFAULT_SPP, Frame, Frames, Job, MAX_SPP, NO_OBJECT, Progress, Settings,
     default_depth,
 };
-pub use place::{SurfacePoint, axes, pixel_of, pixel_width, surface_under};
+pub use place::{SurfacePoint, axes, clearance, pixel_of, pixel_width, surface_under};
 pub use refusal::Refusal;
 pub use renderer::{Renderer, Threads};
 pub use wireframe::{WireLine, Wireframe, wireframe};

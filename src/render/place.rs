@@ -3,6 +3,7 @@
 use glam::DVec3;
 
 use super::camera::Projection;
+use crate::geometry::Ray;
 use crate::scene::{Camera, Object, Size};
 
 /// A point of a surface.
@@ -35,6 +36,18 @@ pub fn surface_under(
         point: surface.point,
         normal: towards,
     })
+}
+
+/// The distance from a point along a unit vector to the nearest of these objects' surfaces, if that is
+/// less than `limit`.
+pub fn clearance<'o>(
+    objects: impl Iterator<Item = &'o Object>,
+    [origin, direction]: [DVec3; 2],
+    limit: f64,
+) -> Option<f64> {
+    let ray = Ray { origin, direction };
+    let hits = objects.filter_map(|object| Some(object.shape.hit(&ray, limit)?.t));
+    hits.min_by(f64::total_cmp)
 }
 
 /// Where a point is in a picture of this size, in pixels from its top left corner; `None` behind the
@@ -92,6 +105,12 @@ mod tests {
             })),
             material: 0,
         };
+        for (height, limit, expected) in
+            [(6.0, 5.0, Some(2.0)), (6.0, 2.0, None), (-6.0, 9.0, None)]
+        {
+            let from = [DVec3::new(0.0, height, 0.0), DVec3::NEG_Y];
+            assert_eq!(clearance([&object].into_iter(), from, limit), expected);
+        }
         for lens in [Lens::Perspective(60.0), Lens::Orthographic(10.0)] {
             let camera = camera(lens);
             for pixel in [[10, 5], [8, 3], [12, 6]] {

@@ -93,26 +93,7 @@ impl Answers for Source {
     }
 
     fn comment(&self, node: Node) -> Option<&str> {
-        let (text, tree) = (&*self.text, &self.tree);
-        let own = self.span(node);
-        if node == Node::View || own.is_empty() {
-            return None;
-        }
-        let behind = |from: usize| {
-            let comment = comment_of_line(text, from)?;
-            let before = tree
-                .tokens
-                .partition_point(|token| token.end() <= comment.start());
-            let token = tree.tokens.get(before.checked_sub(1)?)?;
-            let follows = own.start() <= token.start() && token.end() <= own.end();
-            let is_view = self
-                .origins
-                .view
-                .is_some_and(|view| view.comment == comment);
-            let content = comment.of(text)[2..].trim();
-            (follows && !content.is_empty() && !is_view).then_some(content)
-        };
-        behind(own.start()).or_else(|| behind(own.end()))
+        Some(self.label(node)?.of(&self.text))
     }
 
     fn node_at(&self, span: Span) -> Option<Node> {
@@ -181,4 +162,37 @@ impl Answers for Source {
     fn visibility_edits(&self, _: &[usize], _: Visibility) -> Result<Vec<Edit>, &'static str> {
         Err("a .ray scene draws all of its objects")
     }
+}
+
+impl Source {
+    /// The words of the comment behind a node, on its first or last line.
+    pub(super) fn label(&self, node: Node) -> Option<Span> {
+        let (text, tree) = (&*self.text, &self.tree);
+        let own = self.span(node);
+        if node == Node::View || own.is_empty() {
+            return None;
+        }
+        let behind = |from: usize| {
+            let comment = comment_of_line(text, from)?;
+            let before = tree
+                .tokens
+                .partition_point(|token| token.end() <= comment.start());
+            let token = tree.tokens.get(before.checked_sub(1)?)?;
+            let follows = own.start() <= token.start() && token.end() <= own.end();
+            let is_view = self
+                .origins
+                .view
+                .is_some_and(|view| view.comment == comment);
+            let content = content_of(text, comment);
+            (follows && !content.is_empty() && !is_view).then_some(content)
+        };
+        behind(own.start()).or_else(|| behind(own.end()))
+    }
+}
+
+/// The words of a comment.
+fn content_of(text: &str, comment: Span) -> Span {
+    let marked = &text[comment.start() + 2..comment.end()];
+    let start = comment.end() - marked.trim_start().len();
+    Span::new(start, start + marked.trim().len())
 }

@@ -126,13 +126,39 @@ impl Restructure for Source {
         edits.collect()
     }
 
-    fn called(&self, _: Node) -> Option<&str> {
-        None
+    fn called(&self, node: Node) -> Option<&str> {
+        Counted::of(self, node).ok()?;
+        Some(self.comment(node).unwrap_or_default())
     }
 
-    fn renaming(&self, _: Node, _: &str) -> Result<Vec<Edit>, StructureError> {
-        let reason = "objects have no names in .ray; use a comment instead";
-        Err(StructureError::Name(reason.to_owned()))
+    /// A name is a comment behind the node, which an empty name removes.
+    fn renaming(&self, node: Node, name: &str) -> Result<Vec<Edit>, StructureError> {
+        let refused = |reason: String| Err(StructureError::Name(reason));
+        let text = &*self.text;
+        if Counted::of(self, node).is_err() {
+            return refused(format!("{} has no name", self.name(node)));
+        }
+        if name.starts_with("view:") {
+            return refused("a comment that begins with view: states the view".to_owned());
+        }
+        let edit = |span, text| Ok(vec![Edit { span, text }]);
+        let own = self.span(node);
+        match self.label(node) {
+            Some(label) if name.is_empty() => {
+                let marked = text[..label.start()].trim_end();
+                let before = marked[..marked.len() - 2].trim_end();
+                edit(Span::new(before.len(), label.end()), String::new())
+            }
+            Some(label) => edit(label, name.to_owned()),
+            None if name.is_empty() => Ok(Vec::new()),
+            None => {
+                let behind = &text[own.end()..line_end(text, own.end())];
+                if !behind.trim().is_empty() {
+                    return refused("its line has no room for a comment".to_owned());
+                }
+                edit(Span::at(own.end()), format!(" // {name}"))
+            }
+        }
     }
 
     fn additions(&self) -> &'static [Addition] {

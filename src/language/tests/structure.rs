@@ -108,8 +108,10 @@ fn counts_of_ray_follow_what_is_deleted_copied_and_moved() {
         (Up(Object(0)), Err("object 1 (sphere) is already the first")),
         (Down(Light(0)), Err("light 1 is already the last")),
         (
-            Rename(Object(0), "moon"),
-            Err("objects have no names in .ray; use a comment instead"),
+            Rename(Object(0), "Io"),
+            Ok(
+                "1 1 1\n1\n0 5 5  1 1 1 // lamp\n\n2\n\n// the moon\nsphere 0 0 0 1 % // Io\n\nsphere 1 0 0 1 % // b\n",
+            ),
         ),
         (
             Insert("1 2 3\n", Object(0)),
@@ -281,13 +283,46 @@ fn references_of_dat_follow_what_is_deleted_copied_and_renamed() {
     check(Language::Dat, &one, Delete(&[Object(2)]), Err(reason));
 }
 
+/// A texture that two materials use, one of them twice.
+const TEXTURED: &str = "\
+mat ID 1  1 1 1  .3 .5 .2 9  0 0 1
+mat ID 2  1 0 0  .3 .5 .2 9  0 0 1
+texture ID 1 checker 4 4 1 1 1 0 0 0
+use colour ID 1 mat ID 1
+use colour ID 1 mat ID 2
+obj sphere ID 1 mat ID 1  0 0 0  1
+";
+
+/// Deleting and copying the first of several below a heading.
+#[test]
+fn a_heading_of_several_stays_and_is_not_copied() {
+    let before = "# balls\nobj sphere ID 1 mat ID 1  0 0 0  1\nobj sphere ID 2 mat ID 1  3 0 0  2\n\n# one\nobj sphere ID 3 mat ID 1  0 0 0  1\n\n# two\nobj sphere ID 4 mat ID 1  0 0 0  1\n# three\nobj sphere ID 5 mat ID 1  0 0 0  1\n";
+    let first = "obj sphere ID 1 mat ID 1  0 0 0  1\n";
+    let one = "# one\nobj sphere ID 3 mat ID 1  0 0 0  1\n\n";
+    let two = "# two\nobj sphere ID 4 mat ID 1  0 0 0  1\n";
+    let scene = |objects: &str| format!("mat ID 1  1 1 1  .3 .5 .2 9  0 0 1\n\n{objects}");
+    for (change, old, new) in [
+        (Delete(&[Object(0)]), first, ""),
+        (
+            Duplicate(&[Object(0)]),
+            first,
+            "obj sphere ID 1 mat ID 1  0 0 0  1\nobj sphere ID 6 mat ID 1  0 0 0  1\n",
+        ),
+        (Delete(&[Object(2)]), one, ""),
+        (Delete(&[Object(3)]), two, ""),
+    ] {
+        let after = before.replacen(old, new, 1);
+        check(Language::Dat, &scene(before), change, Ok(&scene(&after)));
+    }
+}
+
 #[test]
 fn what_goes_with_a_deleted_node_is_said() {
     for (language, text, nodes, words) in [
         (
             Language::Dat,
             dat(""),
-            &[Material(1)],
+            &[Material(1)][..],
             Some("2 objects use it and will be deleted too"),
         ),
         (
@@ -304,6 +339,20 @@ fn what_goes_with_a_deleted_node_is_said() {
             Some("1 object uses it and will be plain white"),
         ),
         (Language::Xml, xml().to_owned(), &[Object(0)], None),
+        (
+            Language::Dat,
+            TEXTURED.to_owned(),
+            &[Texture(0)],
+            Some("2 materials use it and will lose it"),
+        ),
+        (
+            Language::Dat,
+            TEXTURED.to_owned(),
+            &[Texture(0), Material(0)],
+            Some(
+                "object 1 (sphere) uses it and will be deleted too; material 2 uses it and will lose it",
+            ),
+        ),
     ] {
         let (source, _) = read_as(language, &text, &Meshes::default());
         assert_eq!(source.consequence(nodes).as_deref(), words, "{nodes:?}");
@@ -351,11 +400,13 @@ fn elements_go_with_what_is_in_them_and_copies_get_names_of_their_own() {
             "<!-- matte -->\n    <material name=\"m 2\"/> <!-- matte -->\n",
         )],
     );
+    // A comment above several is their heading, and stays.
     let (a, b) = (
-        "      <!-- a -->\n      <object type=\"sphere\" name=\"a\" material=\"m\"/>\n",
+        "      <object type=\"sphere\" name=\"a\" material=\"m\"/>\n",
         "      <object type='sphere' name='b'/>\n",
     );
     change(Down(Object(1)), &[(&format!("{a}{b}"), &format!("{b}{a}"))]);
+    change(Delete(&[Object(1)]), &[(a, "")]);
     change(
         Rename(Material(0), "a & b"),
         &[

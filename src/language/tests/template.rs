@@ -17,3 +17,13 @@ fn templates_are_small_valid_scenes() {
         assert!(text.lines().all(|line| line.len() <= 100), "{language:?}");
     }
 }
+
+#[test]
+fn headings_of_columns_are_no_comments_on_what_follows() {
+    let text = Language::Dat.template();
+    let (source, _) = read_as(Language::Dat, text, &Meshes::default());
+    for node in source.nodes().iter() {
+        let comment = source.comment(node).unwrap_or_default();
+        assert!(!comment.contains("  "), "{node}: {comment}");
+    }
+}

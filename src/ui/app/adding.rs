@@ -8,7 +8,7 @@ use super::App;
 use super::menu::{Entry, Menu, Purpose};
 use super::transform::{decimals_of, round_up};
 use crate::language::{Node, Wish};
-use crate::render::{pixel_width, surface_under};
+use crate::render::{clearance, pixel_width, surface_under};
 use crate::ui::keymap::{Action, Mode, Tool};
 
 /// The fraction of the picture's height that a new thing takes up.
@@ -141,12 +141,25 @@ impl App {
         let (centre, half) = match self.surface_looked_at() {
             Some((point, normal)) => {
                 let half = size_at(point);
-                (point + half * normal, half)
+                (self.lifted(point + half * normal, half), half)
             }
             None => (camera.target, size_at(camera.target)),
         };
         let decimals = decimals_of(0.2 * half);
         (centre, half, decimals)
+    }
+
+    /// A centre raised so that a thing of this half size does not sink into what is below it, in the
+    /// direction that the camera takes for down.
+    fn lifted(&self, centre: DVec3, half: f64) -> DVec3 {
+        let Some((scene, camera)) = self.scene.as_ref().zip(self.camera()) else {
+            return centre;
+        };
+        let up = camera.up.normalize_or_zero();
+        match clearance(scene.objects.iter(), [centre, -up], half) {
+            Some(below) => centre + (half - below) * up,
+            None => centre,
+        }
     }
 
     /// The point and the normal of the surface under the cross, or without a cross under the middle

@@ -189,8 +189,13 @@ impl App {
         if self.refuses_structure() {
             return;
         }
-        let edits = self.source().renaming(self.cursor.selected(), name.trim());
-        self.restructure(edits, None, &format!("renamed: {}", name.trim()));
+        let name = name.trim();
+        let edits = self.source().renaming(self.cursor.selected(), name);
+        let done = match name {
+            "" => "name removed".to_owned(),
+            name => format!("renamed: {name}"),
+        };
+        self.restructure(edits, None, &done);
     }
 
     /// Makes the frame of the selected node orthonormal.

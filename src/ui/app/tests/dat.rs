@@ -127,7 +127,15 @@ fn nudging_a_reference_cycles_through_existing_ids() {
 #[test]
 fn objects_are_hidden_and_shown_by_the_render_record() {
     assert_eq!(changed(Node::Object(3), "h"), ["render 1 ID 3"]);
-    assert_eq!(changed(Node::Object(0), "h"), ["render 3 ID 1 ID 3 ID 4"]);
+    let mut app = at(Node::Object(0));
+    press(&mut app, "h");
+    assert_eq!(
+        (app.document.text(), words(&app)),
+        (
+            SCENE,
+            "object 1 (sphere) is part of object 3 (CSG): h there shows or hides it"
+        )
+    );
     let mut app = at(Node::Object(3));
     assert_eq!(app.source().drawn(3), Some(1));
     press(&mut app, "h");

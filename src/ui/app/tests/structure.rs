@@ -294,13 +294,6 @@ fn what_cannot_be_done_is_said_and_changes_nothing() {
             "a.ray",
             RAY,
             Object(0),
-            "R",
-            "objects have no names in .ray; use a comment instead",
-        ),
-        (
-            "a.ray",
-            RAY,
-            Object(0),
             "p",
             "nothing to paste: y copies the selected item",
         ),

@@ -23,6 +23,15 @@ mat ID 1  1 1 1  .3 .5 .2 9  0 0 1
 obj sphere ID 1 mat ID 1  0 0 0  1
 ";
 
+const LIGHTS: &str = "\
+light ID 1 pnt  5 5 5  0 0 0  1 1 1  1 0 0  0 shadow_on
+light ID 2 inf  0 0 0  1 0 0  1 1 1  1 0 0  0 shadow_on
+light ID 3 inf  1 0 0  0 0 0  1 1 1  1 0 0  0 shadow_on
+light ID 4 amb  0 0 0  1 0 0  1 1 1  1 0 0  0 shadow_off
+mat ID 1  1 1 1  .3 .5 .2 9  0 0 1
+obj sphere ID 1 mat ID 1  0 0 0  1
+";
+
 const XML: &str = "\
 <xml>
   <scene>
@@ -268,10 +277,71 @@ fn every_step_of_a_motion_shows_the_scene_of_its_text() {
 }
 
 #[test]
+fn lights_without_a_place_turn_their_direction() {
+    let direct = XML.replace("point", "direct");
+    let direct = direct.replace(
+        "<position y=\"5\"/>",
+        "<direction x=\"1\" y=\"0\" z=\"0\"/>",
+    );
+    let turned = [("x=\"1\" y=\"0\" z=\"0\"", "x=\"0\" y=\"1\" z=\"0\"")];
+    check("a.xml", &direct, Light(0), "tz90<Enter>", &turned);
+    let turned = [("0 0 0  1 0 0  1 1 1", "0 0 0  0 1 0  1 1 1")];
+    check("a.dat", LIGHTS, Light(1), "tz90<Enter>", &turned);
+    let turned = [("1 0 0  0 0 0  1 1 1", "0 1 0  0 0 0  1 1 1")];
+    check("a.dat", LIGHTS, Light(2), "tz90<Enter>", &turned);
+}
+
+#[test]
+fn adding_says_the_keys_that_suit_what_is_added() {
+    for (name, text, said, words_after) in [
+        ("a.ray", RAY, "alight<Enter>", "added: light; m moves it"),
+        (
+            "a.dat",
+            DAT,
+            "asphere<Enter>",
+            "added: sphere; m moves it, s scales it",
+        ),
+        (
+            "a.dat",
+            DAT,
+            "abox<Enter>",
+            "added: box; m moves it, t rotates it, s scales it",
+        ),
+        (
+            "a.dat",
+            DAT,
+            "adistant<Enter>",
+            "added: distant light; t rotates it",
+        ),
+        ("a.dat", DAT, "amaterial<Enter>", "added: material"),
+    ] {
+        let (mut app, _) = opened_as(name, text);
+        press(&mut app, said);
+        assert_eq!(words(&app), words_after);
+    }
+}
+
+#[test]
 fn what_cannot_be_moved_is_said() {
     for (name, text, node, said, reason) in [
         ("a.ray", RAY, Node::View, "m", "v moves the camera"),
         ("a.ray", RAY, Node::Ambient, "m", "ambient has no position"),
+        ("a.ray", RAY, Light(0), "s", "light 1 cannot be scaled"),
+        ("a.ray", RAY, Light(0), "t", "light 1 has no direction"),
+        ("a.xml", XML, Light(0), "s", "l (point) cannot be scaled"),
+        ("a.xml", XML, Light(0), "t", "l (point) has no direction"),
+        (
+            "a.dat",
+            DAT,
+            Object(0),
+            "t",
+            "object 1 (sphere) has no direction",
+        ),
+        ("a.dat", LIGHTS, Light(0), "s", "light 1 cannot be scaled"),
+        ("a.dat", LIGHTS, Light(0), "t", "light 1 has no direction"),
+        ("a.dat", LIGHTS, Light(1), "s", "light 2 cannot be scaled"),
+        ("a.dat", LIGHTS, Light(1), "m", "light 2 has no position"),
+        ("a.dat", LIGHTS, Light(3), "t", "light 4 has no direction"),
         (
             "a.dat",
             DAT,
@@ -376,6 +446,30 @@ fn nothing_is_outlined_until_something_is_selected() {
     assert_eq!(app.outlined_objects(), [0, 1], "the users of a material");
     press(&mut app, "o");
     assert!(app.outlined_objects().is_empty());
+}
+
+#[test]
+fn added_things_do_not_sink_into_what_is_below() {
+    let table = DAT.replace(
+        "0 0 0  1\n",
+        "0 0 0  1\nobj box ID 2 mat ID 1  0 -2 0  1 0 0  0 1 0  0 0 1  90 2 90\n",
+    );
+    let (mut app, _) = opened_as("a.dat", &table);
+    let (_, size) = app.raster().expect("there is room");
+    let sphere = pictures::frame(size, vec![0; size.pixels()]);
+    app.update(Msg::Frame(Target::Preview, Arc::new(sphere)));
+    app.picture_mut().advance(size, &[], usize::MAX);
+    press(&mut app, "asphere<Enter>");
+    let last = app.document.text().lines().last();
+    let numbers = last.and_then(|line| line.split_once("mat ID 1  "));
+    let numbers = numbers.expect("a sphere").1.split_whitespace();
+    let numbers: Vec<f64> = numbers.filter_map(|word| word.parse().ok()).collect();
+    let [_, y, z, radius] = numbers[..] else {
+        panic!("{last:?}");
+    };
+    // The top of the table is at -1.
+    assert!(1.0 < radius && 1.0 < z, "{last:?}");
+    assert!((y - radius + 1.0).abs() < 0.11, "{last:?}");
 }
 
 #[test]

@@ -93,7 +93,7 @@ pub(super) const ROWS: &[Row] = &[
     ])),
     row(Add("union"), Object(0), "aunion<Enter>", Says("a union combines two objects: mark them first")),
     row(Key(A::Delete), Object(0), "d", Becomes(&[
-        ("# ball\nobj sphere ID 1 mat ID 1  0 0 0  1\n",
+        ("obj sphere ID 1 mat ID 1  0 0 0  1\n",
             ""),
         ("2 ID ",
             ""),
@@ -107,18 +107,18 @@ pub(super) const ROWS: &[Row] = &[
     row(Key(A::Delete), Material(0), "dy", Becomes(&[
         ("mat ID 1  1 1 1  .3 .5 .2 9  0 0 1\n",
             ""),
-        ("# ball\nobj sphere ID 1 mat ID 1  0 0 0  1\n",
+        ("obj sphere ID 1 mat ID 1  0 0 0  1\n",
             ""),
         ("2 ID ",
             ""),
     ])),
-    row(Key(A::Delete), Texture(0), "d", Becomes(&[
+    row(Key(A::Delete), Texture(0), "dy", Becomes(&[
         ("texture ID 1 checker 4 4 1 1 1 0 0 0\nuse colour ID 1 mat ID 2\n",
             ""),
     ])),
     row(Key(A::Duplicate), Object(0), "D", Becomes(&[
         ("obj sphere ID 1 mat ID 1  0 0 0  1\n",
-            "obj sphere ID 1 mat ID 1  0 0 0  1\n# ball\nobj sphere ID 3 mat ID 1  0 0 0  1\n"),
+            "obj sphere ID 1 mat ID 1  0 0 0  1\nobj sphere ID 3 mat ID 1  0 0 0  1\n"),
         ("2 ID 1 ID 2\n",
             "3 ID 1 ID 2 ID 3\n"),
     ])),
@@ -128,7 +128,7 @@ pub(super) const ROWS: &[Row] = &[
     ])),
     row(Key(A::Duplicate), Object(0), "  D", Becomes(&[
         ("render 2 ID 1 ID 2\n",
-            "# ball\nobj sphere ID 3 mat ID 1  0 0 0  1\nobj sphere ID 4 mat ID 2  3 0 0  2\nrender 4 ID 1 ID 2 ID 3 ID 4\n"),
+            "obj sphere ID 3 mat ID 1  0 0 0  1\nobj sphere ID 4 mat ID 2  3 0 0  2\nrender 4 ID 1 ID 2 ID 3 ID 4\n"),
     ])),
     row(Key(A::Duplicate), Material(0), "D", Becomes(&[
         ("mat ID 1  1 1 1  .3 .5 .2 9  0 0 1\n",
@@ -139,14 +139,14 @@ pub(super) const ROWS: &[Row] = &[
             "texture ID 1 checker 4 4 1 1 1 0 0 0\ntexture ID 2 checker 4 4 1 1 1 0 0 0\n"),
     ])),
     row(Key(A::Reorder(Previous)), Object(1), "K", Becomes(&[
-        ("use colour ID 1 mat ID 2\n",
-            "use colour ID 1 mat ID 2\nobj sphere ID 2 mat ID 2  3 0 0  2\n"),
+        ("# ball\n",
+            "# ball\nobj sphere ID 2 mat ID 2  3 0 0  2\n"),
         ("obj sphere ID 1 mat ID 1  0 0 0  1\nobj sphere ID 2 mat ID 2  3 0 0  2\n",
             "obj sphere ID 1 mat ID 1  0 0 0  1\n"),
     ])),
     row(Key(A::Reorder(Next)), Object(0), "J", Becomes(&[
-        ("use colour ID 1 mat ID 2\n",
-            "use colour ID 1 mat ID 2\nobj sphere ID 2 mat ID 2  3 0 0  2\n"),
+        ("# ball\n",
+            "# ball\nobj sphere ID 2 mat ID 2  3 0 0  2\n"),
         ("obj sphere ID 1 mat ID 1  0 0 0  1\nobj sphere ID 2 mat ID 2  3 0 0  2\n",
             "obj sphere ID 1 mat ID 1  0 0 0  1\n"),
     ])),
@@ -165,11 +165,11 @@ pub(super) const ROWS: &[Row] = &[
     ])),
     row(Key(A::Insert), Object(0), "yjp", Becomes(&[
         ("render 2 ID 1 ID 2\n",
-            "# ball\nobj sphere ID 3 mat ID 1  0 0 0  1\nrender 3 ID 1 ID 2 ID 3\n"),
+            "obj sphere ID 3 mat ID 1  0 0 0  1\nrender 3 ID 1 ID 2 ID 3\n"),
     ])),
     row(Key(A::Insert), Object(0), "  yp", Becomes(&[
         ("render 2 ID 1 ID 2\n",
-            "# ball\nobj sphere ID 3 mat ID 1  0 0 0  1\nobj sphere ID 4 mat ID 2  3 0 0  2\nrender 4 ID 1 ID 2 ID 3 ID 4\n"),
+            "obj sphere ID 3 mat ID 1  0 0 0  1\nobj sphere ID 4 mat ID 2  3 0 0  2\nrender 4 ID 1 ID 2 ID 3 ID 4\n"),
     ])),
     row(Key(A::Insert), Object(0), "p", Says("nothing to paste: y copies the selected item")),
     row(Key(A::Rename), Object(0), "R<Ctrl-u>9<Enter>", Becomes(&[
@@ -223,7 +223,7 @@ pub(super) const ROWS: &[Row] = &[
     row(Key(A::Transform(Move)), View, "mx1<Enter>", Becomes(&[
         ("0 0 10  0 0 0", "1 0 10  1 0 0"),
     ])),
-    row(Key(A::Transform(Rotate)), Object(1), "tz90<Enter>", Says("nothing has changed")),
+    row(Key(A::Transform(Rotate)), Object(1), "t", Says("object 2 (sphere) has no direction")),
     row(Key(A::Transform(Rotate)), Object(0), "  tz90<Enter>", Becomes(&[
         ("1  0 0 ",
             "1  3 -3 "),
@@ -302,7 +302,7 @@ pub(super) const ROWS: &[Row] = &[
     ])),
     row(Command("view save"), Object(0), ":view save side<Enter>", Becomes(&[
         ("render 2 ID 1 ID 2\n",
-            "render 2 ID 1 ID 2\n# view side: eye 0 0 10 target 0 0 0 up 0 1 0 fov 112.61986494804043\n"),
+            "render 2 ID 1 ID 2\n# view side: eye 0 0 10 target 0 0 0 up 0 1 0 fov 112.6199\n"),
     ])),
     row(Command("view save"), Object(0), "vl:view save<Enter>", Becomes(&[
         ("0 0 10 ",

@@ -55,7 +55,7 @@ pub(super) const ROWS: &[Row] = &[
     ])),
     row(Key(A::Delete), Object(0), "d", Becomes(&[
         ("2\n// ball\nsphere 0 0 0 1  0 0 0 .5 .5 .5 0 0 0 1 0 0 1\n",
-            "1\n"),
+            "1\n// ball\n"),
     ])),
     row(Key(A::Delete), Light(1), "d", Becomes(&[
         ("2\n",
@@ -67,7 +67,8 @@ pub(super) const ROWS: &[Row] = &[
     row(Key(A::Delete), View, "d", Says("view cannot be copied, moved or deleted")),
     row(Key(A::Duplicate), Object(0), "D", Becomes(&[
         ("-5 5 5  1 0 0\n2\n",
-            "-5 5 5  1 0 0\n3\n// ball\nsphere 0 0 0 1  0 0 0 .5 .5 .5 0 0 0 1 0 0 1\n"),
+            "-5 5 5  1 0 0\n3\n"),
+        ("// ball\n", "// ball\nsphere 0 0 0 1  0 0 0 .5 .5 .5 0 0 0 1 0 0 1\n"),
     ])),
     row(Key(A::Duplicate), Light(0), "D", Becomes(&[
         ("2\n",
@@ -77,17 +78,17 @@ pub(super) const ROWS: &[Row] = &[
         ("-5 5 5  1 0 0\n2\n",
             "-5 5 5  1 0 0\n4\n"),
         ("box 2 0 0  1 0 0  0 1 0  0 0 1  1 2 3  0 0 0 .5 .4 .3 0 0 0 1 0 0 1\n",
-            "box 2 0 0  1 0 0  0 1 0  0 0 1  1 2 3  0 0 0 .5 .4 .3 0 0 0 1 0 0 1\n// ball\nsphere 0 0 0 1  0 0 0 .5 .5 .5 0 0 0 1 0 0 1\nbox 2 0 0  1 0 0  0 1 0  0 0 1  1 2 3  0 0 0 .5 .4 .3 0 0 0 1 0 0 1\n"),
+            "box 2 0 0  1 0 0  0 1 0  0 0 1  1 2 3  0 0 0 .5 .4 .3 0 0 0 1 0 0 1\nsphere 0 0 0 1  0 0 0 .5 .5 .5 0 0 0 1 0 0 1\nbox 2 0 0  1 0 0  0 1 0  0 0 1  1 2 3  0 0 0 .5 .4 .3 0 0 0 1 0 0 1\n"),
     ])),
     row(Key(A::Reorder(Previous)), Object(1), "K", Becomes(&[
-        ("-5 5 5  1 0 0\n2\n",
-            "-5 5 5  1 0 0\n2\nbox 2 0 0  1 0 0  0 1 0  0 0 1  1 2 3  0 0 0 .5 .4 .3 0 0 0 1 0 0 1\n"),
+        ("// ball\n",
+            "// ball\nbox 2 0 0  1 0 0  0 1 0  0 0 1  1 2 3  0 0 0 .5 .4 .3 0 0 0 1 0 0 1\n"),
         ("sphere 0 0 0 1  0 0 0 .5 .5 .5 0 0 0 1 0 0 1\nbox 2 0 0  1 0 0  0 1 0  0 0 1  1 2 3  0 0 0 .5 .4 .3 0 0 0 1 0 0 1\n",
             "sphere 0 0 0 1  0 0 0 .5 .5 .5 0 0 0 1 0 0 1\n"),
     ])),
     row(Key(A::Reorder(Next)), Object(0), "J", Becomes(&[
-        ("-5 5 5  1 0 0\n2\n",
-            "-5 5 5  1 0 0\n2\nbox 2 0 0  1 0 0  0 1 0  0 0 1  1 2 3  0 0 0 .5 .4 .3 0 0 0 1 0 0 1\n"),
+        ("// ball\n",
+            "// ball\nbox 2 0 0  1 0 0  0 1 0  0 0 1  1 2 3  0 0 0 .5 .4 .3 0 0 0 1 0 0 1\n"),
         ("sphere 0 0 0 1  0 0 0 .5 .5 .5 0 0 0 1 0 0 1\nbox 2 0 0  1 0 0  0 1 0  0 0 1  1 2 3  0 0 0 .5 .4 .3 0 0 0 1 0 0 1\n",
             "sphere 0 0 0 1  0 0 0 .5 .5 .5 0 0 0 1 0 0 1\n"),
     ])),
@@ -102,16 +103,27 @@ pub(super) const ROWS: &[Row] = &[
         ("-5 5 5  1 0 0\n2\n",
             "-5 5 5  1 0 0\n3\n"),
         ("box 2 0 0  1 0 0  0 1 0  0 0 1  1 2 3  0 0 0 .5 .4 .3 0 0 0 1 0 0 1\n",
-            "box 2 0 0  1 0 0  0 1 0  0 0 1  1 2 3  0 0 0 .5 .4 .3 0 0 0 1 0 0 1\n// ball\nsphere 0 0 0 1  0 0 0 .5 .5 .5 0 0 0 1 0 0 1\n"),
+            "box 2 0 0  1 0 0  0 1 0  0 0 1  1 2 3  0 0 0 .5 .4 .3 0 0 0 1 0 0 1\nsphere 0 0 0 1  0 0 0 .5 .5 .5 0 0 0 1 0 0 1\n"),
     ])),
     row(Key(A::Insert), Object(0), "  yp", Becomes(&[
         ("-5 5 5  1 0 0\n2\n",
             "-5 5 5  1 0 0\n4\n"),
         ("box 2 0 0  1 0 0  0 1 0  0 0 1  1 2 3  0 0 0 .5 .4 .3 0 0 0 1 0 0 1\n",
-            "box 2 0 0  1 0 0  0 1 0  0 0 1  1 2 3  0 0 0 .5 .4 .3 0 0 0 1 0 0 1\n// ball\nsphere 0 0 0 1  0 0 0 .5 .5 .5 0 0 0 1 0 0 1\nbox 2 0 0  1 0 0  0 1 0  0 0 1  1 2 3  0 0 0 .5 .4 .3 0 0 0 1 0 0 1\n"),
+            "box 2 0 0  1 0 0  0 1 0  0 0 1  1 2 3  0 0 0 .5 .4 .3 0 0 0 1 0 0 1\nsphere 0 0 0 1  0 0 0 .5 .5 .5 0 0 0 1 0 0 1\nbox 2 0 0  1 0 0  0 1 0  0 0 1  1 2 3  0 0 0 .5 .4 .3 0 0 0 1 0 0 1\n"),
     ])),
     row(Key(A::Insert), Object(0), "p", Says("nothing to paste: y copies the selected item")),
-    row(Key(A::Rename), Object(0), "R", Says("objects have no names in .ray; use a comment instead")),
+    row(Key(A::Rename), Object(0), "Rmoon<Enter>", Becomes(&[
+        ("sphere 0 0 0 1  0 0 0 .5 .5 .5 0 0 0 1 0 0 1\n",
+            "sphere 0 0 0 1  0 0 0 .5 .5 .5 0 0 0 1 0 0 1 // moon\n"),
+    ])),
+    row(Key(A::Rename), Light(0), "R<Ctrl-u>old sun<Enter>", Becomes(&[
+        ("// lamp", "// old sun"),
+    ])),
+    row(Key(A::Rename), Light(0), "R<Ctrl-u><Enter>", Becomes(&[
+        (" // lamp", ""),
+    ])),
+    row(Key(A::Rename), Light(0), "R<Ctrl-u>view: here<Enter>", Says("a comment that begins with view: states the view")),
+    row(Key(A::Rename), View, "R", Says("view has no name")),
     row(Key(A::Visibility), Object(0), "h", Says("a .ray scene draws all of its objects")),
     row(Key(A::Visibility), Object(0), "  h", Says("a .ray scene draws all of its objects")),
     row(Key(A::Retype), Object(0), "cellipsoid<Enter>", Becomes(&[

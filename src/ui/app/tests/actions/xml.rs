@@ -78,7 +78,7 @@ pub(super) const ROWS: &[Row] = &[
             "    <material type=\"phong\" name=\"n\"/>\n    <material type=\"microfacet\" name=\"microfacet\">\n      <color r=\"0.8\" g=\"0.8\" b=\"0.8\"/>\n      <roughness value=\"0.4\"/>\n    </material>\n"),
     ])),
     row(Key(A::Delete), Object(0), "d", Becomes(&[
-        ("    <!-- ball -->\n    <object type=\"sphere\" name=\"a\" material=\"m\">\n      <translate x=\"1\"/>\n    </object>\n",
+        ("    <object type=\"sphere\" name=\"a\" material=\"m\">\n      <translate x=\"1\"/>\n    </object>\n",
             ""),
     ])),
     row(Key(A::Delete), Light(1), "d", Becomes(&[
@@ -86,7 +86,7 @@ pub(super) const ROWS: &[Row] = &[
             ""),
     ])),
     row(Key(A::Delete), Object(0), "  d", Becomes(&[
-        ("    <!-- ball -->\n    <object type=\"sphere\" name=\"a\" material=\"m\">\n      <translate x=\"1\"/>\n    </object>\n    <object type=\"plane\" name=\"b\"/>\n",
+        ("    <object type=\"sphere\" name=\"a\" material=\"m\">\n      <translate x=\"1\"/>\n    </object>\n    <object type=\"plane\" name=\"b\"/>\n",
             ""),
     ])),
     row(Key(A::Delete), View, "d", Says("view cannot be copied, moved or deleted")),
@@ -98,7 +98,7 @@ pub(super) const ROWS: &[Row] = &[
     ])),
     row(Key(A::Duplicate), Object(0), "D", Becomes(&[
         ("    <object type=\"sphere\" name=\"a\" material=\"m\">\n",
-            "    <object type=\"sphere\" name=\"a\" material=\"m\">\n      <translate x=\"1\"/>\n    </object>\n    <!-- ball -->\n    <object type=\"sphere\" name=\"a 2\" material=\"m\">\n"),
+            "    <object type=\"sphere\" name=\"a\" material=\"m\">\n      <translate x=\"1\"/>\n    </object>\n    <object type=\"sphere\" name=\"a 2\" material=\"m\">\n"),
     ])),
     row(Key(A::Duplicate), Light(0), "D", Becomes(&[
         ("    </light>\n",
@@ -106,21 +106,21 @@ pub(super) const ROWS: &[Row] = &[
     ])),
     row(Key(A::Duplicate), Object(0), "  D", Becomes(&[
         ("    <object type=\"plane\" name=\"b\"/>\n",
-            "    <object type=\"plane\" name=\"b\"/>\n    <!-- ball -->\n    <object type=\"sphere\" name=\"a 2\" material=\"m\">\n      <translate x=\"1\"/>\n    </object>\n    <object type=\"plane\" name=\"b 2\"/>\n"),
+            "    <object type=\"plane\" name=\"b\"/>\n    <object type=\"sphere\" name=\"a 2\" material=\"m\">\n      <translate x=\"1\"/>\n    </object>\n    <object type=\"plane\" name=\"b 2\"/>\n"),
     ])),
     row(Key(A::Duplicate), Material(0), "D", Becomes(&[
         ("    <material type=\"blinn\" name=\"m\">\n",
             "    <material type=\"blinn\" name=\"m\">\n      <diffuse r=\"1\" g=\"0\" b=\"0\"/>\n    </material>\n    <material type=\"blinn\" name=\"m 2\">\n"),
     ])),
     row(Key(A::Reorder(Previous)), Object(1), "K", Becomes(&[
-        ("  <scene>\n",
-            "  <scene>\n    <object type=\"plane\" name=\"b\"/>\n"),
+        ("    <!-- ball -->\n",
+            "    <!-- ball -->\n    <object type=\"plane\" name=\"b\"/>\n"),
         ("    </object>\n    <object type=\"plane\" name=\"b\"/>\n",
             "    </object>\n"),
     ])),
     row(Key(A::Reorder(Next)), Object(0), "J", Becomes(&[
-        ("  <scene>\n",
-            "  <scene>\n    <object type=\"plane\" name=\"b\"/>\n"),
+        ("    <!-- ball -->\n",
+            "    <!-- ball -->\n    <object type=\"plane\" name=\"b\"/>\n"),
         ("    </object>\n    <object type=\"plane\" name=\"b\"/>\n",
             "    </object>\n"),
     ])),
@@ -139,11 +139,11 @@ pub(super) const ROWS: &[Row] = &[
     ])),
     row(Key(A::Insert), Object(0), "yjp", Becomes(&[
         ("    <object type=\"plane\" name=\"b\"/>\n",
-            "    <object type=\"plane\" name=\"b\"/>\n    <!-- ball -->\n    <object type=\"sphere\" name=\"a 2\" material=\"m\">\n      <translate x=\"1\"/>\n    </object>\n"),
+            "    <object type=\"plane\" name=\"b\"/>\n    <object type=\"sphere\" name=\"a 2\" material=\"m\">\n      <translate x=\"1\"/>\n    </object>\n"),
     ])),
     row(Key(A::Insert), Object(0), "  yp", Becomes(&[
         ("    <object type=\"plane\" name=\"b\"/>\n",
-            "    <object type=\"plane\" name=\"b\"/>\n    <!-- ball -->\n    <object type=\"sphere\" name=\"a 2\" material=\"m\">\n      <translate x=\"1\"/>\n    </object>\n    <object type=\"plane\" name=\"b 2\"/>\n"),
+            "    <object type=\"plane\" name=\"b\"/>\n    <object type=\"sphere\" name=\"a 2\" material=\"m\">\n      <translate x=\"1\"/>\n    </object>\n    <object type=\"plane\" name=\"b 2\"/>\n"),
     ])),
     row(Key(A::Insert), Object(0), "p", Says("nothing to paste: y copies the selected item")),
     row(Key(A::Rename), Object(0), "R<Ctrl-u>9<Enter>", Becomes(&[
