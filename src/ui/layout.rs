@@ -123,10 +123,13 @@ pub fn widened(columns: &[Rect], component: usize, width: usize, line: Rect) -> 
     let ends = columns[component..].iter().skip(1).map(|column| column.x);
     let ends = ends.chain([line.right()]);
     let fits = |end: &u16| needed <= end - own.x;
-    let end = ends.clone().find(fits).or(ends.last())?;
+    let end = ends.clone().find(fits).or_else(|| ends.last())?;
     let starts = columns[..=component].iter().rev().map(|column| column.x);
     let fits = |start: &u16| needed <= end - start;
-    let start = starts.clone().find(fits).or(starts.last())?;
+    let start = starts
+        .clone()
+        .find(fits)
+        .or_else(|| columns.first().map(|column| column.x))?;
     Some(Rect {
         x: start,
         width: end - start,

@@ -141,13 +141,12 @@ impl App {
 
     /// Inserts the text copied last after the selected node.
     pub(super) fn insert_copied(&mut self) {
-        match self.cursor.copied.clone() {
-            Some(copied) => self.insert(&copied),
-            None => {
-                let copy = self.key_for(Action::Copy);
-                let words = format!("nothing to paste: {copy} copies the selected item");
-                self.overlays.fail(words);
-            }
+        if let Some(copied) = self.cursor.copied.clone() {
+            self.insert(&copied);
+        } else {
+            let copy = self.key_for(Action::Copy);
+            let words = format!("nothing to paste: {copy} copies the selected item");
+            self.overlays.fail(words);
         }
     }
 

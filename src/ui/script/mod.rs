@@ -144,14 +144,12 @@ impl Token {
             "resize" => tokens.argument(span, "resize", "a size such as 100x30", |size| {
                 parse_screen(size).map(|(columns, rows)| Step::Resize(columns, rows))
             })?,
-            name => match keymap::key_named(name) {
-                Some(key) => Step::Key(key),
-                None => {
-                    let keys = keymap.sequence_named(name);
-                    let keys = keys.ok_or_else(|| unknown(name, span))?;
+            name => {
+                if let Some(keys) = keymap.sequence_named(name) {
                     return Ok(keys.map(Step::Key).to_vec());
                 }
-            },
+                Step::Key(keymap::key_named(name).ok_or_else(|| unknown(name, span))?)
+            }
         };
         Ok(vec![step])
     }
