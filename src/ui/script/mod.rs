@@ -144,14 +144,14 @@ impl Token {
             "resize" => tokens.argument(span, "resize", "a size such as 100x30", |size| {
                 parse_screen(size).map(|(columns, rows)| Step::Resize(columns, rows))
             })?,
-            name => match keymap::key_named(name) {
-                Some(key) => Step::Key(key),
-                None => {
-                    let keys = keymap.sequence_named(name);
-                    let keys = keys.ok_or_else(|| unknown(name, span))?;
-                    return Ok(keys.map(Step::Key).to_vec());
-                }
-            },
+            name => {
+                let keys = match keymap::key_named(name) {
+                    Some(key) => Some(vec![key]),
+                    None => keymap.sequence_named(name).map(Vec::from),
+                };
+                let keys = keys.ok_or_else(|| unknown(name, span))?;
+                return Ok(keys.into_iter().map(Step::Key).collect());
+            }
         };
         Ok(vec![step])
     }

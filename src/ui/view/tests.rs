@@ -373,7 +373,7 @@ fn what_is_typed_is_shown_where_there_are_no_panels() {
             ..Typing::default()
         });
     };
-    assert!(last_line((20, 6), 0, long).ends_with("8"));
+    assert!(last_line((20, 6), 0, long).ends_with('8'));
 
     let mut app = app();
     app.mode = Mode::Edit;
