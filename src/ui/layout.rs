@@ -119,17 +119,13 @@ pub fn widened(columns: &[Rect], component: usize, width: usize, line: Rect) -> 
     if needed <= own.width {
         return None;
     }
+    let mut ends = columns.iter().skip(component + 1).map(|column| column.x);
+    let end = ends.find(|end| needed <= end - own.x);
     // What a division into columns has left over is part of the last one.
-    let ends = columns[component..].iter().skip(1).map(|column| column.x);
-    let ends = ends.chain([line.right()]);
-    let fits = |end: &u16| needed <= end - own.x;
-    let end = ends.clone().find(fits).or_else(|| ends.last())?;
-    let starts = columns[..=component].iter().rev().map(|column| column.x);
-    let fits = |start: &u16| needed <= end - start;
-    let start = starts
-        .clone()
-        .find(fits)
-        .or_else(|| columns.first().map(|column| column.x))?;
+    let end = end.unwrap_or_else(|| line.right());
+    let mut starts = columns[..=component].iter().rev().map(|column| column.x);
+    let start = starts.find(|start| needed <= end - start);
+    let start = start.or_else(|| columns.first().map(|first| first.x))?;
     Some(Rect {
         x: start,
         width: end - start,

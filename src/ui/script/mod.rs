@@ -145,10 +145,12 @@ impl Token {
                 parse_screen(size).map(|(columns, rows)| Step::Resize(columns, rows))
             })?,
             name => {
-                if let Some(keys) = keymap.sequence_named(name) {
-                    return Ok(keys.map(Step::Key).to_vec());
-                }
-                Step::Key(keymap::key_named(name).ok_or_else(|| unknown(name, span))?)
+                let keys = match keymap::key_named(name) {
+                    Some(key) => Some(vec![key]),
+                    None => keymap.sequence_named(name).map(Vec::from),
+                };
+                let keys = keys.ok_or_else(|| unknown(name, span))?;
+                return Ok(keys.into_iter().map(Step::Key).collect());
             }
         };
         Ok(vec![step])

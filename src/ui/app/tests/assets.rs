@@ -96,9 +96,7 @@ fn files_that_are_used_no_longer_or_again_are_not_reloaded() {
     let (mut app, _) = open_textured(&format!("{TEXTURED}{second}"));
     let (skin, fur) = (loaded("skin.ppm", [9; 3]), loaded("fur.ppm", [8; 3]));
     let images = ["skin.ppm", "fur.ppm"].map(|name| {
-        let read = [&skin, &fur]
-            .into_iter()
-            .find_map(|read| read.images.get(name));
+        let read = skin.images.get(name).or_else(|| fur.images.get(name));
         (name.to_owned(), Arc::clone(read.expect("it was read")))
     });
     let both = || Loaded {
