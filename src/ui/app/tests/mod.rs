@@ -26,6 +26,7 @@ mod soloing;
 mod starting;
 mod structure;
 mod transforming;
+mod trying;
 mod views;
 mod wires;
 mod xml;
