@@ -112,6 +112,11 @@ impl History {
         self.redo.last()
     }
 
+    /// The edits that revert the last call.
+    pub(super) fn last_inverse(&self) -> Option<&[Edit]> {
+        self.last.as_ref().map(|call| &*call.inverse)
+    }
+
     /// Takes the step to undo; its inverse is to be passed to [`History::undone`].
     pub(super) fn next_undo(&mut self) -> Option<Step> {
         self.commit();

@@ -1,5 +1,7 @@
 //! The differences between two texts, in chunks: leaves and the white space between them.
 //!
+//! Leaves are the same only if they play the same role: an object's first number is not a count.
+//!
 //! A diff finds a shortest edit script, which is not always what happened: in a run of equal leaves
 //! it cannot tell which one is new. Ambiguities are resolved in favour of larger hunks, since a
 //! needless question is better than a silently wrong merge.
@@ -12,7 +14,7 @@ use std::time::{Duration, Instant};
 use similar::DiffOp;
 use similar::algorithms::{Capture, Compact, Replace, myers};
 
-use crate::language::{Language, Source};
+use crate::language::{Language, Role, Roles, Source};
 use crate::text::Span;
 
 /// Time limit of the search for a short diff; what remains then counts as one hunk. In tests, a
@@ -21,6 +23,9 @@ const PATIENCE: Duration = Duration::from_millis(if cfg!(test) { 3_600_000 } els
 
 /// More unchanged leaves in a row than this are never taken for a coincidence.
 const COINCIDENCE: usize = 4;
+
+/// The length of a leaf's role.
+const ROLE: usize = size_of::<Role>();
 
 /// The number of leaves of each text.
 pub(super) type Leaves<'t> = BTreeMap<&'t str, usize>;
@@ -31,18 +36,38 @@ pub(super) struct Chunks<'t> {
     text: &'t str,
     /// The start of each chunk, then the length of the text, which is below 4 GiB, as for spans.
     bounds: Vec<u32>,
+    /// The text with the role of each leaf behind it, by which chunks are compared.
+    keys: String,
+    /// The chunks at the beginning whose roles are not known.
+    unknown: usize,
 }
 
 impl<'t> Chunks<'t> {
-    /// Splits a text at the bounds of its tokens and comments.
-    pub(super) fn of(language: Language, text: &'t str) -> Self {
-        let leaves = Source::new(language, Arc::new(text.to_owned())).leaves();
+    /// Splits a text at the bounds of its tokens and comments. `at_ends` tells whether it begins, and
+    /// ends, where the whole text does.
+    pub(super) fn of(language: Language, text: &'t str, at_ends: [bool; 2]) -> Self {
+        let source = Source::new(language, Arc::new(text.to_owned()));
+        let leaves = source.leaves();
+        let Roles { roles, unknown } = source.roles(&leaves, at_ends);
+        let mut keys = String::with_capacity(text.len() + ROLE * leaves.len());
+        let mut at = 0;
+        for (leaf, role) in leaves.iter().zip(roles) {
+            keys.push_str(&text[at..leaf.end()]);
+            keys.extend(role.map(char::from));
+            at = leaf.end();
+        }
+        keys.push_str(&text[at..]);
         let mut bounds = Vec::with_capacity(2 * leaves.len() + 2);
         bounds.push(0);
         let ends = leaves.iter().flat_map(|leaf| [leaf.start(), leaf.end()]);
         bounds.extend(ends.map(|end| end as u32));
         bounds.push(text.len() as u32);
-        Self { text, bounds }
+        Self {
+            text,
+            bounds,
+            keys,
+            unknown: 2 * unknown,
+        }
     }
 
     fn bound(&self, chunk: usize) -> usize {
@@ -59,7 +84,7 @@ impl<'t> Chunks<'t> {
         self.text
     }
 
-    /// The chunks, in order.
+    /// The chunks with their roles, in order.
     pub(super) fn iter(&self) -> impl Iterator<Item = &str> {
         (0..self.len()).map(|chunk| &self[chunk])
     }
@@ -88,8 +113,10 @@ impl<'t> Chunks<'t> {
 impl Index<usize> for Chunks<'_> {
     type Output = str;
 
+    /// A chunk, and if it is a leaf its role.
     fn index(&self, chunk: usize) -> &str {
-        &self.text[self.bound(chunk)..self.bound(chunk + 1)]
+        let start = self.bound(chunk) + ROLE * (chunk / 2);
+        &self.keys[start..self.bound(chunk + 1) + ROLE * chunk.div_ceil(2)]
     }
 }
 
@@ -122,6 +149,8 @@ pub(super) struct Hunks {
     /// The base chunks on which the hunks depend, at least from the first hunk to the last; empty
     /// if there are none.
     pub(super) reach: Range<usize>,
+    /// Whether the roles of all leaves in them are known.
+    pub(super) is_certain: bool,
 }
 
 /// The differences between `base` and `other`. Leaves replaced one by one are separate hunks. An
@@ -155,7 +184,10 @@ pub(super) fn hunks(base: &Chunks, other: &Chunks) -> Hunks {
     let ends = || ends.iter().copied().flatten();
     let start = ends().map(|base| base.start).min().unwrap_or(0);
     let end = ends().map(|base| base.end).max().unwrap_or(0);
+    let is_known =
+        |hunk: &Hunk| base.unknown <= hunk.base.start && other.unknown <= hunk.other.start;
     Hunks {
+        is_certain: raw.iter().chain(&hunks).all(is_known),
         hunks,
         reach: start..end,
     }

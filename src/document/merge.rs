@@ -208,9 +208,9 @@ fn resolve(
     let (mut pieces, mut conflicts) = (Vec::new(), Vec::new());
     for window in windows(base, changes[0], changes[1], margin) {
         let sides = Sides {
-            base: Chunks::of(language, window.base.of(base)),
-            mine: Chunks::of(language, window.mine.of(mine)),
-            theirs: Chunks::of(language, window.theirs.of(theirs)),
+            base: Chunks::of(language, window.base.of(base), window.at_ends),
+            mine: Chunks::of(language, window.mine.of(mine), window.at_ends),
+            theirs: Chunks::of(language, window.theirs.of(theirs), window.at_ends),
         };
         let (merged, open) = sides.merge(language, window)?;
         let later = |piece| match piece {
@@ -276,7 +276,7 @@ impl Sides<'_> {
         let holds = [Side::Mine, Side::Theirs].into_iter().all(|side| {
             let mut text = self.mine.text().to_owned();
             text::apply(&mut text, &edits(&pieces, &conflicts, |_| side));
-            Chunks::of(language, &text)
+            Chunks::of(language, &text, window.at_ends)
                 .iter()
                 .eq(self.outcome(&regions, side))
         });

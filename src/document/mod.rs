@@ -20,6 +20,7 @@ use std::sync::Arc;
 use crate::language::{Before, Language, Lowered, Source};
 use crate::memory::OutOfMemory;
 use crate::scene::Meshes;
+use crate::text;
 use crate::text::{Edit, Span, cover};
 use history::History;
 
@@ -158,6 +159,21 @@ impl Document {
             self.source.revert(&inverse);
             self.count_change();
         }
+    }
+
+    /// The edits that take back the last `set` or `edit` call, see [`Document::reject`], in a text
+    /// merged from this one. `None` if the text from outside changed the same places, or if there is
+    /// no such call.
+    pub fn taken_back(&self, merged: &Merged) -> Option<Vec<Edit>> {
+        let mut before = String::clone(self.source.text());
+        text::apply(&mut before, self.history.last_inverse()?);
+        let (language, present) = (self.language(), self.source.text());
+        let merged = merged.document.source.text();
+        let merge = Merge::new(language, present, merged, &Arc::new(before));
+        merge
+            .conflicts
+            .is_empty()
+            .then(|| merge.counted_edits(language))
     }
 
     /// Undoes one step. Returns the changed span of the resulting text, or `None` if there is

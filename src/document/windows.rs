@@ -28,11 +28,16 @@ pub(super) struct Window {
 impl Window {
     /// Whether a wider window might give other hunks: they depend on an edge beyond which the text
     /// continues.
-    pub(super) fn is_narrow(&self, base: &Chunks, Hunks { hunks, reach }: &Hunks) -> bool {
+    pub(super) fn is_narrow(&self, base: &Chunks, found: &Hunks) -> bool {
+        let Hunks {
+            hunks,
+            reach,
+            is_certain,
+        } = found;
         let [is_start, is_end] = self.at_ends;
         // The first and last chunks are white space that may continue outside.
         let narrow = (!is_start && reach.start <= 1) || (!is_end && base.len() <= reach.end + 1);
-        narrow && !hunks.is_empty()
+        (narrow || !is_certain) && !hunks.is_empty()
     }
 }
 
@@ -137,8 +142,11 @@ pub fn differences(language: Language, text: &str, other: &str) -> usize {
     widening(language, |margin| {
         let mut count = 0;
         for window in windows(text, None, change, margin) {
-            let base = Chunks::of(language, window.base.of(text));
-            let hunks = hunks(&base, &Chunks::of(language, window.theirs.of(other)));
+            let base = Chunks::of(language, window.base.of(text), window.at_ends);
+            let hunks = hunks(
+                &base,
+                &Chunks::of(language, window.theirs.of(other), window.at_ends),
+            );
             if window.is_narrow(&base, &hunks) {
                 return None;
             }
@@ -191,7 +199,10 @@ mod tests {
 
     /// Rows of few different words, so that the position of an insertion is often ambiguous.
     fn rows() -> impl Strategy<Value = Vec<&'static str>> {
-        prop::collection::vec(prop::sample::select(vec!["0 0", "0", "1 0", "ab"]), 0..40)
+        prop::collection::vec(
+            prop::sample::select(vec!["0 0", "0", "1 0", "sphere"]),
+            0..40,
+        )
     }
 
     proptest! {
@@ -207,8 +218,8 @@ mod tests {
                 let change = Change::between(&base, &other);
                 let windows = windows(&base, None, change, margin);
                 let [window] = windows[..] else { return Some(Vec::new()) };
-                let chunks = Chunks::of(Language::Ray, window.base.of(&base));
-                let others = Chunks::of(Language::Ray, window.theirs.of(&other));
+                let chunks = Chunks::of(Language::Ray, window.base.of(&base), window.at_ends);
+                let others = Chunks::of(Language::Ray, window.theirs.of(&other), window.at_ends);
                 let hunks = hunks(&chunks, &others);
                 let bytes = |hunk: &Hunk| [
                     chunks.span(&hunk.base).shifted(window.base.start()),

@@ -5,6 +5,7 @@ use glam::DVec3;
 
 use super::Node;
 use super::form::{Form, Motion};
+use super::roles::Roles;
 use super::table::Category;
 use super::view::line_ending;
 use crate::text::{
@@ -53,6 +54,14 @@ pub trait Restructure {
     /// what is counted. Needs no places.
     fn recount(&self) -> Vec<Edit> {
         Vec::new()
+    }
+
+    /// The roles that these leaves play, all of the text: in a merge, leaves of different roles are
+    /// never taken for each other. `at_ends` tells whether the text begins, and ends, where the whole
+    /// one does of which it may be some lines. Needs no places.
+    fn roles(&self, leaves: &[Span], at_ends: [bool; 2]) -> Roles {
+        let _ = at_ends;
+        Roles::anywhere(leaves.len())
     }
 
     /// Returns the edits that give what is new in this text since `base` other names or IDs where

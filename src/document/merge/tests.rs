@@ -241,7 +241,7 @@ fn scene() -> impl Strategy<Value = String> {
 /// Rows of few different words, so that the position of an insertion is often ambiguous.
 fn rows(most: usize) -> impl Strategy<Value = Vec<&'static str>> {
     prop::collection::vec(
-        prop::sample::select(vec!["0 0", "0", "1 0", "ab", ""]),
+        prop::sample::select(vec!["0 0", "0", "1 0", "sphere", ""]),
         0..most,
     )
 }
@@ -262,8 +262,8 @@ fn check_windows(language: Language, texts: [&str; 3], margin: usize) {
 
 #[test]
 fn a_window_of_few_lines_is_wide_enough_or_not_used() {
-    let base = "0 0\r\n0 0\r\n0 0\r\nab\r\nab\r\nab";
-    let theirs = "0 0\r\n0 0\r\n0\r\nab\r\nab\r\nab\r\nab";
+    let base = "0 0\r\n0 0\r\n0 0\r\nsphere\r\nsphere\r\nsphere";
+    let theirs = "0 0\r\n0 0\r\n0\r\nsphere\r\nsphere\r\nsphere\r\nsphere";
     check_windows(Language::Ray, [base, base, theirs], 2);
 }
 

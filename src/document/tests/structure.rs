@@ -1,12 +1,30 @@
 //! Merges of random changes of structure on both sides: nothing of either is lost, or it is asked.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use glam::DVec3;
 
 use super::*;
+use crate::language::table::Kind;
 use crate::language::{Neighbour, Node, Visibility, Wish};
 use crate::text::smallest_edit;
+
+/// A scene in which most numbers are the same as its counts.
+const ONE: &str = "\
+0.1 0.1 0.1
+1
+5 5 5
+1 1 1
+1
+sphere // one
+0 0 0
+1
+0.1 0.1 0.1
+0.5 0.5 0.5
+0.2 0.2 0.2
+10
+0 0 1
+";
 
 /// The number of merges of a language.
 const MERGES: usize = 1000;
@@ -34,6 +52,7 @@ fn scenes(language: Language) -> Vec<&'static str> {
             include_str!("../../../scenes/default.ray"),
             include_str!("../../../scenes/example.ray"),
             include_str!("../../../scenes/glass.ray"),
+            ONE,
         ],
         Language::Dat => vec![
             include_str!("../../../scenes/still-life.dat"),
@@ -170,6 +189,57 @@ fn wrong_leaves(language: Language, base: &str, sides: [&str; 2], merged: &str) 
     wrong
 }
 
+/// How often each value is in each field of the nodes of a text, by component, without IDs and names
+/// of nodes: those may follow from a merge.
+fn values(language: Language, text: &str) -> BTreeMap<String, isize> {
+    let mut document = Document::new(language, text.to_owned());
+    document.lower(&Meshes::default()).expect("there is memory");
+    let mut values = BTreeMap::new();
+    for node in document.source().nodes().iter() {
+        for placed in document.source().fields(node) {
+            let is_name = matches!(placed.field.kind, Kind::Reference(_) | Kind::Name(_));
+            if is_name || placed.field.key == "name" {
+                continue;
+            }
+            for (component, span) in placed.spans.iter().enumerate() {
+                let value = span.of(text);
+                let of = format!("{:?}", std::mem::discriminant(&node));
+                let key = format!("{of} {} {component}: {value}", placed.field.key);
+                *values.entry(key).or_insert(0) += 1;
+            }
+        }
+    }
+    values
+}
+
+/// Whether both sides have deleted or changed the same node: that may then have happened once.
+fn share_a_node(language: Language, base: &str, sides: [&str; 2]) -> bool {
+    let [base, mine, theirs] = [base, sides[0], sides[1]].map(|text| {
+        let mut document = Document::new(language, text.to_owned());
+        document.lower(&Meshes::default()).expect("there is memory");
+        let source = document.source();
+        let spans = source.nodes().iter().map(|node| source.span(node));
+        spans
+            .map(|span| span.of(text).to_owned())
+            .collect::<BTreeSet<_>>()
+    });
+    let changed = |side| base.difference(side).collect::<BTreeSet<_>>();
+    !changed(&mine).is_disjoint(&changed(&theirs))
+}
+
+/// The values that a merge has changed, of fields that only one side or none changed.
+fn wrong_values(language: Language, base: &str, sides: [&str; 2], merged: &str) -> Vec<String> {
+    let all = [base, sides[0], sides[1], merged].map(|text| values(language, text));
+    let keys: BTreeSet<_> = all.iter().flat_map(BTreeMap::keys).collect();
+    let wrong = keys.into_iter().filter_map(|key| {
+        let [base, mine, theirs, merged] = all.each_ref().map(|v| v.get(key).copied().unwrap_or(0));
+        let by = [mine - base, theirs - base];
+        let is_wrong = by.contains(&0) && merged - base != by[0] + by[1];
+        is_wrong.then(|| format!("{key}: {by:?} became {}", merged - base))
+    });
+    wrong.collect()
+}
+
 /// The number of errors and warnings of a text.
 fn findings(language: Language, text: &str) -> [usize; 2] {
     let mut document = Document::new(language, text.to_owned());
@@ -217,7 +287,11 @@ fn check_merges(language: Language) {
 #[track_caller]
 fn check_merged(document: &mut Document, [base, mine, theirs]: [&str; 3]) {
     let (language, text) = (document.language(), document.text().to_owned());
-    let wrong = wrong_leaves(language, base, [mine, theirs], &text);
+    let mut wrong = Vec::new();
+    if !share_a_node(language, base, [mine, theirs]) {
+        wrong.extend(wrong_leaves(language, base, [mine, theirs], &text));
+        wrong.extend(wrong_values(language, base, [mine, theirs], &text));
+    }
     let [found, of_mine, of_theirs] = [&text, mine, theirs].map(|text| findings(language, text));
     assert!(
         wrong.is_empty() && found[0] == 0 && found[1] <= of_mine[1] + of_theirs[1],
@@ -286,6 +360,29 @@ fn what_both_sides_add_under_one_id_is_renumbered_with_its_references() {
         .replace("\n# last material\n", &renumbered)
         .replace("# last object\n", theirs);
     assert_eq!(merged(Language::Dat, DAT, added), Ok(expected));
+}
+
+#[test]
+fn a_count_is_not_taken_for_another_number() {
+    let (_, sphere) = ONE.split_once("1\nsphere").expect("there is one");
+    let copied = format!("2\nsphere{sphere}sphere{sphere}");
+    let mine = (&ONE[ONE.find("1\nsphere").unwrap_or(0)..], &*copied);
+    let other = "sphere 2 2 2 1 0 0 0 1 1 1 0 0 0 1 0 0 1\n";
+    let appended = format!("2\nsphere{sphere}{other}");
+    let expected = format!("3\nsphere{sphere}sphere{sphere}{other}");
+    for sides in [[mine, (mine.0, &appended)], [(mine.0, &appended), mine]] {
+        match merged(Language::Ray, ONE, sides) {
+            Ok(merged) => {
+                let swapped = expected.replace(
+                    &format!("sphere{sphere}{other}"),
+                    &format!("{other}sphere{sphere}"),
+                );
+                let all = [expected.clone(), swapped].map(|objects| ONE.replace(mine.0, &objects));
+                assert!(all.contains(&merged), "{merged}");
+            }
+            Err(conflicts) => assert!(conflicts.iter().all(|c| !c.base.contains("0 0 1"))),
+        }
+    }
 }
 
 #[test]

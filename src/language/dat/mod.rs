@@ -7,6 +7,7 @@ mod copies;
 mod form;
 mod lower;
 mod origins;
+mod roles;
 mod room;
 mod structure;
 mod table;

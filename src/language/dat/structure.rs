@@ -8,15 +8,15 @@ use super::origins::Place;
 use super::table::{ObjectKind, SOURCES};
 use super::tree::is_comment;
 use super::visibility::Listing;
-use super::{Source, add, apart};
+use super::{Source, add, apart, roles};
 use crate::language::structure::{
     Block, adapted, deletions, follows, line_before, lines, lines_after, pair, uncreatable,
 };
 use crate::language::table::Category;
 use crate::language::view::line_ending;
 use crate::language::{
-    Addition, Answers, Motion, Neighbour, Node, Placement, Pose, Restructure, StructureError, Wish,
-    structure,
+    Addition, Answers, Motion, Neighbour, Node, Placement, Pose, Restructure, Roles,
+    StructureError, Wish, structure,
 };
 use crate::text::{Edit, Span, counted, parse_number};
 
@@ -137,6 +137,10 @@ impl Restructure for Source {
 
     fn set_apart(&self, base: &str, theirs: &str) -> Vec<Edit> {
         apart::set_apart(&self.text, &self.tree, base, theirs)
+    }
+
+    fn roles(&self, leaves: &[Span], _: [bool; 2]) -> Roles {
+        roles::roles(&self.text, leaves)
     }
 
     fn called(&self, node: Node) -> Option<&str> {

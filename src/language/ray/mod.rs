@@ -10,6 +10,7 @@ mod lower;
 mod objects;
 mod origins;
 mod reader;
+mod roles;
 mod room;
 mod structure;
 mod table;

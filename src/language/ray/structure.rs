@@ -4,15 +4,15 @@ use super::table::{AMBIENT, LIGHT, ShapeKind};
 use super::tree::{self, comment_of_line};
 use rayon::iter::ParallelIterator;
 
-use super::{Source, add};
+use super::{Source, add, roles};
 use crate::language::structure::{
     Block, adapted, deletions, follows, line_before, lines, lines_after, pair,
 };
 use crate::language::table;
 use crate::language::view::line_ending;
 use crate::language::{
-    Addition, Answers, Motion, Neighbour, Node, Placement, Pose, Restructure, StructureError, Wish,
-    structure,
+    Addition, Answers, Motion, Neighbour, Node, Placement, Pose, Restructure, Roles,
+    StructureError, Wish, structure,
 };
 use crate::text::{Edit, Span, counted, line_end, line_start};
 
@@ -124,6 +124,10 @@ impl Restructure for Source {
             })
         });
         edits.collect()
+    }
+
+    fn roles(&self, leaves: &[Span], at_ends: [bool; 2]) -> Roles {
+        roles::roles(&self.text, leaves, at_ends)
     }
 
     fn called(&self, node: Node) -> Option<&str> {

@@ -213,7 +213,7 @@ impl App {
                 } else {
                     SAME_NOW
                 };
-                (self.document.take(merged), meaning, words)
+                (self.take_merged(merged), meaning, words)
             }
             News::Conflict(merge) => {
                 self.disk.state = OnDisk::Changed;

@@ -3,6 +3,7 @@
 use std::collections::BTreeSet;
 
 use crate::language::Node;
+use crate::text::Edit;
 
 /// A change of the text that is being tried out: each attempt replaces the one before, so that the
 /// whole is one undo step.
@@ -14,4 +15,14 @@ pub(super) struct Trial {
     pub(super) is_applied: bool,
     /// The marked nodes, whose marks go if an attempt adds a node.
     pub(super) marks: BTreeSet<Node>,
+    /// What takes the last attempt back after a merge.
+    pub(super) back: Option<TakenBack>,
+}
+
+/// Edits that take an attempt back in a text that was merged meanwhile.
+#[derive(Clone, Debug)]
+pub(super) struct TakenBack {
+    /// The revision of the merged text.
+    pub(super) revision: u64,
+    pub(super) edits: Vec<Edit>,
 }

@@ -2,7 +2,8 @@
 
 use super::App;
 use super::cursor::Names;
-use super::trial::Trial;
+use super::trial::{TakenBack, Trial};
+use crate::document::{Document, Merged};
 use crate::text::Edit;
 
 impl App {
@@ -13,6 +14,7 @@ impl App {
             revision: self.document.revision(),
             is_applied: false,
             marks: self.cursor.marks.clone(),
+            back: None,
         }
     }
 
@@ -63,15 +65,51 @@ impl App {
         self.document.end_step();
     }
 
-    /// Puts the text back as it was before the trial, unless something else has changed it.
+    /// Puts the text back as it was before the trial. After a merge, that takes back the trial alone,
+    /// unless both changed the same places.
     pub(super) fn end_trial(&mut self, mut trial: Trial) {
         if !self.is_overtaken(&trial) {
             let _ = self.try_instead(&mut trial, |_| Ok(Vec::new()));
+        } else if trial.is_applied {
+            let revision = self.document.revision();
+            let back = trial.back.filter(|back| back.revision == revision);
+            match back.map(|back| self.try_edits(&back.edits)) {
+                Some(Ok(())) => self
+                    .overlays
+                    .say("cancelled; what was merged from the file stays"),
+                Some(Err(_)) | None => self.overlays.warn(
+                    "the scene has changed on disk; the change so far is kept: u undoes the merge, then the change",
+                ),
+            }
         }
         self.document.end_step();
     }
 
     fn is_overtaken(&self, trial: &Trial) -> bool {
         trial.revision != self.document.revision()
+    }
+
+    /// Takes a merge with the file, after which trials can still be taken back; returns the old
+    /// document.
+    #[must_use = "freeing it may take long"]
+    pub(super) fn take_merged(&mut self, merged: Merged) -> Document {
+        let before = self.document.revision();
+        let menu = self.overlays.menu.as_mut();
+        let trials = [
+            self.pictures.transform.as_mut().map(|own| &mut own.trial),
+            self.overlays.picker.as_mut().map(|own| &mut own.trial),
+            menu.and_then(|menu| menu.trial.as_mut()),
+        ];
+        let applied = trials.into_iter().flatten();
+        let applied = applied.filter(|trial| trial.is_applied && trial.revision == before);
+        for trial in applied {
+            let edits = self.document.taken_back(&merged);
+            trial.back = edits.map(|edits| TakenBack {
+                // Taking the merge is one change.
+                revision: before + 1,
+                edits,
+            });
+        }
+        self.document.take(merged)
     }
 }

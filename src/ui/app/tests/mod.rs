@@ -27,6 +27,7 @@ mod starting;
 mod structure;
 mod symbols;
 mod transforming;
+mod trying;
 mod views;
 mod wires;
 mod xml;

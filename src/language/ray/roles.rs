@@ -1,0 +1,62 @@
+//! The roles that the leaves of a `.ray` text play.
+
+use super::table::{AMBIENT, LIGHT, ShapeKind};
+use crate::language::roles::{ANYWHERE, Role, Roles, role};
+use crate::language::table::numbers;
+use crate::text::Span;
+
+/// The roles of leaves: a number's is its place in its object, light or colour. `at_ends` tells
+/// whether the text begins and ends where the whole one does.
+pub(super) fn roles(text: &str, leaves: &[Span], [at_start, at_end]: [bool; 2]) -> Roles {
+    let mut roles = vec![ANYWHERE; leaves.len()];
+    let is_token = |leaf: &Span| !["//", r"\\"].iter().any(|m| leaf.of(text).starts_with(m));
+    let tokens = || (0..).zip(leaves).filter(|(_, leaf)| is_token(leaf));
+    let mut head = Vec::new();
+    // The next number's index in its object, and the number of its shape's numbers.
+    let mut place: Option<(usize, usize)> = None;
+    for (at, leaf) in tokens() {
+        let word = leaf.of(text);
+        if let Some(kind) = ShapeKind::of_word(word) {
+            place = Some((0, numbers(kind.geometry())));
+            continue;
+        }
+        match &mut place {
+            None => head.push(at),
+            Some((index, shape)) => {
+                roles[at] = index
+                    .checked_sub(*shape)
+                    .map_or_else(|| role(b's', *index), |index| role(b'm', index));
+                *index += 1;
+            }
+        }
+    }
+    let is_cut = !at_start || (place.is_none() && !at_end);
+    if !is_cut && place.is_some() {
+        for (number, &at) in head.iter().enumerate() {
+            roles[at] = role_of_head(number, head.len());
+        }
+    }
+    let unknown = if is_cut {
+        head.last().map_or(0, |at| at + 1)
+    } else {
+        0
+    };
+    Roles { roles, unknown }
+}
+
+/// The role of a number before the first object, of so many.
+fn role_of_head(number: usize, count: usize) -> Role {
+    let (ambient, each) = (numbers(AMBIENT), numbers(LIGHT));
+    let is_complete = count
+        .checked_sub(ambient + 2)
+        .is_some_and(|lights| lights % each == 0);
+    if !is_complete {
+        return ANYWHERE;
+    }
+    match number.checked_sub(ambient) {
+        None => role(b'a', number),
+        Some(0) => role(b'n', 0),
+        _ if number + 1 == count => role(b'n', 1),
+        Some(light) => role(b'l', (light - 1) % each),
+    }
+}
