@@ -145,7 +145,7 @@ impl Hunk {
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct Hunks {
     /// The differences, in order and disjoint.
-    pub(super) hunks: Vec<Hunk>,
+    pub(super) all: Vec<Hunk>,
     /// The base chunks on which the hunks depend, at least from the first hunk to the last; empty
     /// if there are none.
     pub(super) reach: Range<usize>,
@@ -188,7 +188,7 @@ pub(super) fn hunks(base: &Chunks, other: &Chunks) -> Hunks {
         |hunk: &Hunk| base.unknown <= hunk.base.start && other.unknown <= hunk.other.start;
     Hunks {
         is_certain: raw.iter().chain(&hunks).all(is_known),
-        hunks,
+        all: hunks,
         reach: start..end,
     }
 }

@@ -269,7 +269,7 @@ impl Sides<'_> {
         {
             return None;
         }
-        let regions = regions(&mine.hunks, &theirs.hunks);
+        let regions = regions(&mine.all, &theirs.all);
         let (pieces, conflicts) = self.resolve(&regions);
         // Adjacent changes can run together, for example if one text opens a comment where the
         // other removes the next line break. Then the merged text no longer has their leaves.

@@ -30,14 +30,14 @@ impl Window {
     /// continues.
     pub(super) fn is_narrow(&self, base: &Chunks, found: &Hunks) -> bool {
         let Hunks {
-            hunks,
+            all,
             reach,
             is_certain,
         } = found;
         let [is_start, is_end] = self.at_ends;
         // The first and last chunks are white space that may continue outside.
         let narrow = (!is_start && reach.start <= 1) || (!is_end && base.len() <= reach.end + 1);
-        (narrow || !is_certain) && !hunks.is_empty()
+        (narrow || !is_certain) && !all.is_empty()
     }
 }
 
@@ -150,7 +150,7 @@ pub fn differences(language: Language, text: &str, other: &str) -> usize {
             if window.is_narrow(&base, &hunks) {
                 return None;
             }
-            count += hunks.hunks.len();
+            count += hunks.all.len();
         }
         Some(count)
     })
@@ -225,7 +225,7 @@ mod tests {
                     chunks.span(&hunk.base).shifted(window.base.start()),
                     others.span(&hunk.other).shifted(window.theirs.start()),
                 ];
-                (!window.is_narrow(&chunks, &hunks)).then(|| hunks.hunks.iter().map(bytes).collect())
+                (!window.is_narrow(&chunks, &hunks)).then(|| hunks.all.iter().map(bytes).collect())
             };
             let whole = found(usize::MAX);
             prop_assert!(whole.is_some());

@@ -6,7 +6,7 @@ use glam::DVec3;
 
 use super::node::IndexedNode;
 use super::structure::{Wish, adapted};
-use super::view::line_ending;
+use super::view::{beginning, line_ending};
 use super::{Node, Source, StructureError};
 use crate::scene::Meshes;
 use crate::text::{Edit, Span};
@@ -16,7 +16,8 @@ impl Source {
     pub fn is_blank(&self) -> bool {
         // Also what one of the languages skips; where it is none, a scene behind it has errors.
         let marks = [self.comment_marks(), ["//", ""], ["<?", "?>"]];
-        let mut rest = self.text().trim_start();
+        let text = self.text();
+        let mut rest = text[beginning(text)..].trim_start();
         while !rest.is_empty() {
             let begun = marks.iter().find(|[open, _]| rest.starts_with(open));
             let Some([_, close]) = begun else {
@@ -78,7 +79,7 @@ impl Source {
         }
         let kept = text.trim_end();
         let ending = line_ending(text);
-        let gap = match kept {
+        let gap = match &kept[beginning(text)..] {
             "" => String::new(),
             _ => format!("{ending}{ending}"),
         };
@@ -117,6 +118,9 @@ mod tests {
             (Language::Ray, "// a\n1", false),
             (Language::Dat, "# a\r\n// b\r\n", true),
             (Language::Dat, "# a\nmat", false),
+            (Language::Ray, "\u{FEFF}", true),
+            (Language::Dat, "\u{FEFF}# a", true),
+            (Language::Xml, "\u{FEFF}\n<xml/>", false),
             (
                 Language::Xml,
                 "<?xml version='1.0'?>\n<!-- a\nb -->\n",
@@ -136,7 +140,8 @@ mod tests {
             (Language::Dat, "# mine"),
             (Language::Xml, "<!-- mine -->"),
         ] {
-            for text in ["", comment, "\n\n"] {
+            let marked = format!("\u{FEFF}{comment}");
+            for text in ["", comment, "\n\n", "\u{FEFF}\n", &marked] {
                 let source = lowered(language, text);
                 for addition in source.additions() {
                     let Ok((edit, node)) = source.first(addition.name) else {

@@ -7,10 +7,10 @@ use std::fmt::Write;
 use glam::DVec3;
 
 use super::Answers;
-use super::view::{line_ending, spelled};
+use super::view::{line_ending, line_from, spelled};
 use super::words::Words;
 use crate::scene::{Camera, Lens};
-use crate::text::{Edit, Span, is_line_end, line_end, line_start, next_line, parse_number};
+use crate::text::{Edit, Span, is_line_end, line_end, next_line, parse_number};
 
 /// What begins a saved view. Without the blank it is `view:`, the view itself.
 const KEYWORD: &str = "view ";
@@ -121,7 +121,7 @@ pub(super) fn edits<Source: Answers + ?Sized>(
 
 /// The line of a comment that stands alone on it, otherwise only the comment.
 fn with_line(text: &str, comment: Span) -> Span {
-    let line = line_start(text, comment.start());
+    let line = line_from(text, comment.start());
     let around = [
         &text[line..comment.start()],
         &text[comment.end()..line_end(text, comment.end())],

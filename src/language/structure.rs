@@ -7,10 +7,8 @@ use super::Node;
 use super::form::{Form, Motion};
 use super::roles::Roles;
 use super::table::Category;
-use super::view::line_ending;
-use crate::text::{
-    Edit, Span, line_end, line_start, next_line, parse_number, spell_like, without_suffix,
-};
+use super::view::{beginning, line_ending, line_from};
+use crate::text::{Edit, Span, line_end, next_line, parse_number, spell_like, without_suffix};
 
 /// How a language changes the structure of a text, which must be free of errors. Counts, lists, IDs
 /// and names in the text follow.
@@ -308,7 +306,7 @@ impl Block {
 /// The whole lines of a text and of the comment lines directly before it. `above` maps the start of
 /// a line to the start of the comment that ends on the line before, if only a comment does.
 pub(super) fn lines(text: &str, own: Span, above: impl Fn(usize) -> Option<usize>) -> Span {
-    let mut start = line_start(text, own.start());
+    let mut start = line_from(text, own.start());
     while let Some(comment) = above(start) {
         start = comment;
     }
@@ -326,8 +324,11 @@ pub(super) fn follows(text: &str, own: Span, next: Span) -> bool {
 
 /// The line before the one that starts at `start`.
 pub(super) fn line_before(text: &str, start: usize) -> Option<Span> {
-    let start = line_start(text, start.checked_sub(1)?);
-    Some(Span::new(start, line_end(text, start)))
+    let last = start.checked_sub(1)?;
+    (beginning(text) <= last).then(|| {
+        let start = line_from(text, last);
+        Span::new(start, line_end(text, start))
+    })
 }
 
 /// Returns the edits that delete blocks: with whole lines go the blank lines before them, unless

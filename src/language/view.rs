@@ -1,7 +1,7 @@
 //! Cameras in a language: the literals of the view's fields.
 
 use super::table::{Field, Kind};
-use crate::text::{line_end, next_line, parse_number};
+use crate::text::{line_end, line_start, next_line, parse_number};
 
 /// The numbers of the view's fields, one per component; for a choice, the index of the word.
 pub(super) type Numbers = Vec<f64>;
@@ -88,4 +88,10 @@ pub(super) fn beginning(text: &str) -> usize {
     } else {
         0
     }
+}
+
+/// The start of the line that contains offset `at`, after a byte order mark, which belongs to no
+/// line: it stays in front.
+pub(super) fn line_from(text: &str, at: usize) -> usize {
+    line_start(text, at).max(beginning(text).min(at))
 }

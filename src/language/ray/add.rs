@@ -9,9 +9,9 @@ use super::tree::comment_of_line;
 use crate::language::form::Form;
 use crate::language::structure::Wish;
 use crate::language::table::{self, Field, Kind};
-use crate::language::view::line_ending;
+use crate::language::view::{line_ending, line_from};
 use crate::language::{Addition, Answers, Node, Placement, Restructure, StructureError};
-use crate::text::{Edit, Span, line_start, next_line};
+use crate::text::{Edit, Span, next_line};
 
 /// The kinds of things that can be added: solids, by their keywords, and a light.
 pub(super) const ADDITIONS: &[Addition] = &[
@@ -149,7 +149,7 @@ impl Source {
         let text = &*self.text;
         let own = like.map(|node| self.span(node)).unwrap_or_default();
         let is_long = own.of(text).contains(['\n', '\r']) || like.is_none();
-        let start = line_start(text, own.start());
+        let start = line_from(text, own.start());
         let indent = &text[start..own.start()];
         let indent = if indent.trim().is_empty() { indent } else { "" };
         let joints = if is_long {

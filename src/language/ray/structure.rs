@@ -9,12 +9,12 @@ use crate::language::structure::{
     Block, adapted, deletions, follows, line_before, lines, lines_after, pair,
 };
 use crate::language::table;
-use crate::language::view::line_ending;
+use crate::language::view::{line_ending, line_from};
 use crate::language::{
     Addition, Answers, Motion, Neighbour, Node, Placement, Pose, Restructure, Roles,
     StructureError, Wish, structure,
 };
-use crate::text::{Edit, Span, counted, line_end, line_start};
+use crate::text::{Edit, Span, counted, line_end};
 
 /// The kinds of nodes of which a text states the number.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -354,7 +354,7 @@ fn block(source: &Source, node: Node) -> Block {
         let is_alone = text[line.start()..comment.start()].trim().is_empty();
         (is_alone && Some(comment) != view).then_some(line.start())
     };
-    let before = Span::new(line_start(text, own.start()), own.start());
+    let before = Span::new(line_from(text, own.start()), own.start());
     let behind = Span::new(own.end(), line_end(text, own.end()));
     let comment = comment_of_line(text, own.end()).map_or_else(|| behind.end(), Span::start);
     let is_blank = |span: Span| span.of(text).trim().is_empty();

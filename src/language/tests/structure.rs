@@ -36,8 +36,19 @@ fn edits(source: &Source, change: Change) -> Result<Vec<Edit>, StructureError> {
     }
 }
 
-/// Makes a change and expects the text after it, without errors, or the words of the refusal.
+/// Makes a change and expects the text after it, without errors, or the words of the refusal; and
+/// the same behind a byte order mark, which stays in front.
+#[track_caller]
 fn check(language: Language, before: &str, change: Change, expected: Result<&str, &str>) {
+    check_exactly(language, before, change, expected);
+    let marked = |text: &str| format!("\u{FEFF}{text}");
+    let expected = expected.map(marked);
+    let expected = expected.as_deref().map_err(|reason| *reason);
+    check_exactly(language, &marked(before), change, expected);
+}
+
+#[track_caller]
+fn check_exactly(language: Language, before: &str, change: Change, expected: Result<&str, &str>) {
     let (source, lowered) = read_as(language, before, &Meshes::default());
     assert!(
         lowered.scene.is_some(),

@@ -10,12 +10,12 @@ use super::{Source, add, apart};
 use crate::language::frame::frameless;
 use crate::language::structure::{Block, deletions, follows, line_before, lines, uncreatable};
 use crate::language::table::Category;
-use crate::language::view::line_ending;
+use crate::language::view::{line_ending, line_from};
 use crate::language::{
     Addition, Answers, Motion, Neighbour, Node, Placement, Pose, Restructure, StructureError, Wish,
     structure,
 };
-use crate::text::{Edit, Span, counted, line_end, line_start};
+use crate::text::{Edit, Span, counted, line_end};
 
 impl Restructure for Source {
     fn consequence(&self, nodes: &[Node]) -> Option<String> {
@@ -244,7 +244,7 @@ impl Source {
     fn after(&self, element: usize, copies: &Copies) -> Edit {
         let (text, ending) = (&*self.text, line_ending(&self.text));
         let own = self.tree.elements[element].whole;
-        let line = line_start(text, own.start());
+        let line = line_from(text, own.start());
         let indent = &text[line..own.start()];
         let indent = if indent.trim().is_empty() { indent } else { "" };
         let before = line_before(text, line);
@@ -403,7 +403,7 @@ impl Source {
         let own = tree.elements.get(element).ok_or_else(fixed)?.whole;
         let is_blank = |from: usize, to: usize| text[from..to].trim().is_empty();
         let end = self.with_comment_behind(own);
-        let is_alone = is_blank(line_start(text, own.start()), own.start())
+        let is_alone = is_blank(line_from(text, own.start()), own.start())
             && is_blank(end, line_end(text, end));
         if !is_alone {
             return Ok(Block::Part(own));
@@ -415,7 +415,7 @@ impl Source {
                 .comments
                 .partition_point(|comment| comment.end() <= line.end());
             let comment = tree.comments[..next].last()?;
-            let first = line_start(text, comment.start());
+            let first = line_from(text, comment.start());
             let ends_there = line.start() <= comment.end() && is_blank(comment.end(), line.end());
             (ends_there && is_blank(first, comment.start())).then_some(first)
         };
