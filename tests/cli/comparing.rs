@@ -70,7 +70,7 @@ fn the_exit_code_is_1_for_a_difference_and_nothing_else() {
             "cannot overwrite mine.ppm",
         ),
         ("mine.ppm theirs.ppm -o d.exr", 2, "8 bits per channel"),
-        ("mine.ppm theirs.ppm --tolerance -1", 2, "--tolerance"),
+        ("mine.ppm theirs.ppm --tolerance 256", 2, "--tolerance"),
     ] {
         let errors = place.stderr(&format!("compare {words}"), code);
         assert!(errors.contains(reason), "{words}: {errors}");
