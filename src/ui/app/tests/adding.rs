@@ -85,6 +85,24 @@ fn new_things_take_the_material_of_the_selection() {
 }
 
 #[test]
+fn no_number_is_written_as_minus_0() {
+    for axis in ["0 0 1", "0 1 0", "1 0 0", "0 0 -1"] {
+        let cylinder = format!("cylinder ID 1 mat ID 2  0 0 0  {axis}  1 2");
+        let text = DAT.replace("sphere ID 1 mat ID 2  0 0 0  1", &cylinder);
+        for kind in ["box", "quadric", "ellipsoid"] {
+            let said = format!("c{kind}<Enter>");
+            let app = added("a.dat", &text, Object(0), &said);
+            let changed = app.document.text();
+            assert!(changed.contains(&format!("obj {kind} ID 1")), "{changed}");
+            assert!(
+                changed.split_whitespace().all(|word| word != "-0"),
+                "{changed}"
+            );
+        }
+    }
+}
+
+#[test]
 fn lights_change_their_type_and_keep_what_both_share() {
     for (name, text, node, said, old, new) in [
         (
