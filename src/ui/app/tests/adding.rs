@@ -213,3 +213,33 @@ fn fields_of_new_solids_share_lines_as_in_their_neighbours() {
         assert_eq!(object, expected);
     }
 }
+
+#[test]
+fn adding_says_the_keys_that_suit_what_is_added() {
+    for (name, text, said, words_after) in [
+        ("a.ray", RAY, "alight<Enter>", "added: light; m moves it"),
+        (
+            "a.dat",
+            DAT,
+            "asphere<Enter>",
+            "added: sphere; m moves it, s scales it",
+        ),
+        (
+            "a.dat",
+            DAT,
+            "abox<Enter>",
+            "added: box; m moves it, t rotates it, s scales it",
+        ),
+        (
+            "a.dat",
+            DAT,
+            "adistant<Enter>",
+            "added: distant light; t rotates it",
+        ),
+        ("a.dat", DAT, "amaterial<Enter>", "added: material"),
+    ] {
+        let (mut app, _) = opened_as(name, text);
+        press(&mut app, said);
+        assert_eq!(words(&app), words_after);
+    }
+}
