@@ -9,7 +9,7 @@ use super::tree::comment_of_line;
 use crate::language::form::Form;
 use crate::language::structure::Wish;
 use crate::language::table::{self, Field, Kind};
-use crate::language::view::{line_ending, line_from};
+use crate::language::view::{line_ending, line_from, spelled};
 use crate::language::{Addition, Answers, Node, Placement, Restructure, StructureError};
 use crate::text::{Edit, Span, next_line};
 
@@ -76,7 +76,7 @@ pub(super) fn retyping(
     let geometry = |kind: ShapeKind| table::numbers(kind.geometry());
     let literals: Vec<_> = numbers[..geometry(new)]
         .iter()
-        .map(f64::to_string)
+        .map(|&number| spelled(number))
         .collect();
     // The material stays as it is written.
     let own = source.span(node);

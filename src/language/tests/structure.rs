@@ -554,7 +554,7 @@ fn random_change(source: &Source, random: &mut Random) -> Option<Vec<Edit>> {
 fn a_byte_order_mark_stays_in_front_of_the_first_line() {
     let [first, second] = [
         "# a\nmat ID 1 1 0 0 .1 .5 .4 9 0 0 1\n",
-        "mat ID 2 1 0 0 .1 .5 .4 9 0 0 1\n",
+        "# b\nmat ID 2 1 0 0 .1 .5 .4 9 0 0 1\n",
     ];
     let text = format!("{first}{second}");
     let moved = format!("{second}{first}");

@@ -85,6 +85,24 @@ fn new_things_take_the_material_of_the_selection() {
 }
 
 #[test]
+fn no_number_is_written_as_minus_0() {
+    for axis in ["0 0 1", "0 1 0", "1 0 0", "0 0 -1"] {
+        let cylinder = format!("cylinder ID 1 mat ID 2  0 0 0  {axis}  1 2");
+        let text = DAT.replace("sphere ID 1 mat ID 2  0 0 0  1", &cylinder);
+        for kind in ["box", "quadric", "ellipsoid"] {
+            let said = format!("c{kind}<Enter>");
+            let app = added("a.dat", &text, Object(0), &said);
+            let changed = app.document.text();
+            assert!(changed.contains(&format!("obj {kind} ID 1")), "{changed}");
+            assert!(
+                changed.split_whitespace().all(|word| word != "-0"),
+                "{changed}"
+            );
+        }
+    }
+}
+
+#[test]
 fn lights_change_their_type_and_keep_what_both_share() {
     for (name, text, node, said, old, new) in [
         (
@@ -215,4 +233,34 @@ fn a_mesh_is_added_once_its_file_is_named() {
     assert_eq!(app.document.text(), XML);
     let prompt = app.overlays.prompt.as_ref().expect("it is asked for");
     assert_eq!(prompt.input.value(), "mesh ");
+}
+
+#[test]
+fn adding_says_the_keys_that_suit_what_is_added() {
+    for (name, text, said, words_after) in [
+        ("a.ray", RAY, "alight<Enter>", "added: light; m moves it"),
+        (
+            "a.dat",
+            DAT,
+            "asphere<Enter>",
+            "added: sphere; m moves it, s scales it",
+        ),
+        (
+            "a.dat",
+            DAT,
+            "abox<Enter>",
+            "added: box; m moves it, t rotates it, s scales it",
+        ),
+        (
+            "a.dat",
+            DAT,
+            "adistant<Enter>",
+            "added: distant light; t rotates it",
+        ),
+        ("a.dat", DAT, "amaterial<Enter>", "added: material"),
+    ] {
+        let (mut app, _) = opened_as(name, text);
+        press(&mut app, said);
+        assert_eq!(words(&app), words_after);
+    }
 }

@@ -292,36 +292,6 @@ fn lights_without_a_place_turn_their_direction() {
 }
 
 #[test]
-fn adding_says_the_keys_that_suit_what_is_added() {
-    for (name, text, said, words_after) in [
-        ("a.ray", RAY, "alight<Enter>", "added: light; m moves it"),
-        (
-            "a.dat",
-            DAT,
-            "asphere<Enter>",
-            "added: sphere; m moves it, s scales it",
-        ),
-        (
-            "a.dat",
-            DAT,
-            "abox<Enter>",
-            "added: box; m moves it, t rotates it, s scales it",
-        ),
-        (
-            "a.dat",
-            DAT,
-            "adistant<Enter>",
-            "added: distant light; t rotates it",
-        ),
-        ("a.dat", DAT, "amaterial<Enter>", "added: material"),
-    ] {
-        let (mut app, _) = opened_as(name, text);
-        press(&mut app, said);
-        assert_eq!(words(&app), words_after);
-    }
-}
-
-#[test]
 fn what_cannot_be_moved_is_said() {
     for (name, text, node, said, reason) in [
         ("a.ray", RAY, Node::View, "m", "v moves the camera"),
