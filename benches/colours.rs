@@ -18,9 +18,9 @@ use std::num::NonZeroU16;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::sync::Arc;
-use std::time::{Duration, Instant};
+use std::time::Instant;
 
-use halflight::render::{Frame, NO_OBJECT, Progress};
+use halflight::render::{Frame, NO_OBJECT};
 use halflight::scene::Size;
 use halflight::ui::app::Shown;
 use halflight::ui::msg::{Msg, Target};
@@ -84,23 +84,8 @@ fn ours(scene: &str, depth: ColourDepth) -> (Shown, Vec<[u8; 3]>, [f64; 2]) {
     let (cells, size) = app.raster().expect("the picture has cells");
     let picture = read(scene).resampled(size);
     let frame = Frame {
-        generation: 1,
-        size,
-        pixels: picture.pixels.clone(),
         objects: picture.objects.clone(),
-        values: Vec::new(),
-        progress: Progress {
-            pass: 1,
-            passes: 1,
-            spp: 1,
-            done: 1.0,
-            elapsed: Duration::ZERO,
-            rays: 0,
-            shadow_rays: 0,
-            over_budget: 0,
-            noise: None,
-            complete: true,
-        },
+        ..Frame::drawn(size, picture.pixels.clone())
     };
     app.update(Msg::Frame(Target::Preview, Arc::new(frame)));
     app.picture_mut().advance(size, &[], usize::MAX);

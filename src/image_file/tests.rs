@@ -1,30 +1,14 @@
 use std::io::{self, Cursor, Write};
-use std::time::Duration;
 
 use super::*;
-use crate::render::{Frame, NO_OBJECT, Progress};
+use crate::render::Frame;
 use crate::scene::Image;
 
 /// A finished frame with the given pixels.
 fn frame(width: u32, height: u32, pixels: &[[u8; 3]]) -> Frame {
     Frame {
-        generation: 1,
-        size: Size { width, height },
-        pixels: pixels.to_vec(),
-        objects: vec![NO_OBJECT; pixels.len()],
         values: pixels.iter().map(|pixel| pixel.map(share)).collect(),
-        progress: Progress {
-            pass: 1,
-            passes: 1,
-            spp: 1,
-            done: 1.0,
-            elapsed: Duration::ZERO,
-            rays: 0,
-            shadow_rays: 0,
-            over_budget: 0,
-            noise: None,
-            complete: true,
-        },
+        ..Frame::drawn(Size { width, height }, pixels.to_vec())
     }
 }
 

@@ -250,18 +250,12 @@ pub(super) fn rounded(old: f64, new: f64, decimals: usize) -> f64 {
     if (new - old).abs() <= error {
         return old;
     }
-    let step = to_decimals(new - old, decimals);
+    let step = text::rounded(new - old, decimals);
     if (old + step - new).abs() <= error {
         let own = text::decimals(&old.to_string());
-        return to_decimals(old + step, decimals.max(own));
+        return text::rounded(old + step, decimals.max(own));
     }
-    to_decimals(new, decimals)
-}
-
-fn to_decimals(number: f64, decimals: usize) -> f64 {
-    let rounded = format!("{number:.decimals$}").parse();
-    // Adding 0 turns −0 into 0.
-    rounded.map_or(number, |rounded: f64| rounded + 0.0)
+    text::rounded(new, decimals)
 }
 
 #[cfg(test)]

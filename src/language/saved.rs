@@ -10,7 +10,7 @@ use super::Answers;
 use super::view::{line_ending, line_from, spelled};
 use super::words::Words;
 use crate::scene::{Camera, Lens};
-use crate::text::{Edit, Span, is_line_end, line_end, next_line, parse_number};
+use crate::text::{Edit, Span, is_line_end, line_end, next_line, parse_number, rounded};
 
 /// What begins a saved view. Without the blank it is `view:`, the view itself.
 const KEYWORD: &str = "view ";
@@ -157,8 +157,7 @@ fn shortened(number: f64) -> f64 {
     const DIGITS: i32 = 4;
     let power = libm::floor(libm::log10(number)) as i32;
     let decimals = DIGITS.max(DIGITS - 1 - power) as usize;
-    let rounded = format!("{number:.decimals$}").parse();
-    rounded.unwrap_or(number)
+    rounded(number, decimals)
 }
 
 /// Reads a comment; `None` unless it is a well-formed view with a name.

@@ -8,7 +8,9 @@ use super::form::{Form, Motion};
 use super::roles::Roles;
 use super::table::Category;
 use super::view::{beginning, line_ending, line_from};
-use crate::text::{Edit, Span, line_end, next_line, parse_number, spell_like, without_suffix};
+use crate::text::{
+    Edit, Span, line_end, next_line, parse_number, rounded, spell_like, without_suffix,
+};
 
 /// How a language changes the structure of a text, which must be free of errors. Counts, lists, IDs
 /// and names in the text follow.
@@ -456,9 +458,7 @@ impl Pose {
 impl Wish<'_> {
     /// A number as the wish's text shows it: rounded to its decimals.
     pub(super) fn literal(&self, number: f64) -> String {
-        let decimals = self.decimals;
-        let rounded = format!("{number:.decimals$}").parse();
-        (rounded.map_or(number, |rounded: f64| rounded + 0.0)).to_string()
+        rounded(number, self.decimals).to_string()
     }
 }
 

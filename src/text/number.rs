@@ -92,6 +92,13 @@ pub fn decimals(literal: &str) -> usize {
         .map_or(0, |(_, fraction)| fraction.len())
 }
 
+/// Rounds a number to so many decimals, exactly as it is written with them; never to −0.
+pub fn rounded(number: f64, decimals: usize) -> f64 {
+    let rounded = format!("{number:.decimals$}").parse();
+    // Adding 0 turns −0 into 0 and changes nothing else.
+    rounded.unwrap_or(number) + 0.0
+}
+
 /// Formats `value` in the style of the literal it replaces: keeps a leading `+`, a bare `.5`, the
 /// exponent letter and the number of decimals where possible, but not a trailing `f`. The result
 /// always parses to exactly `value`.

@@ -45,7 +45,7 @@ pub enum Error {
     },
     /// The argument is neither a file nor the name of a scene.
     #[error(
-        "no such file or command `{path}`; the commands are render, check, doctor, completions and man; scenes end in {}",
+        "no such file or command `{path}`; --help lists the commands, and scenes end in {}",
         extensions(),
         path = path.display()
     )]

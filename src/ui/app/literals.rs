@@ -1,7 +1,7 @@
 //! Numbers and words as they are typed, pasted and nudged.
 
 use crate::language::table::{Kind, Range};
-use crate::text::{decimals, parse_number, spell_like, without_suffix};
+use crate::text::{decimals, parse_number, rounded, spell_like, without_suffix};
 
 /// Adds `change`, a multiple of `step`, to a literal and spells the sum like the literal. It has
 /// the decimals of the old number or of the step, whichever has more, so that no trace of binary
@@ -9,13 +9,12 @@ use crate::text::{decimals, parse_number, spell_like, without_suffix};
 pub(super) fn nudged(literal: &str, change: f64, step: f64) -> Option<String> {
     let old = parse_number(plain(literal)).ok()?;
     let places = decimals(&old.to_string()).max(decimals(&step.to_string()));
-    let sum: f64 = format!("{:.places$}", old + change).parse().ok()?;
-    // Adding 0 turns −0 into 0 and changes nothing else.
+    let sum = rounded(old + change, places);
     sum.is_finite().then(|| {
         if sum.to_bits() == old.to_bits() {
             literal.to_owned()
         } else {
-            spell_like(literal, sum + 0.0)
+            spell_like(literal, sum)
         }
     })
 }

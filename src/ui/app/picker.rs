@@ -3,6 +3,7 @@
 use super::hsv::Hsv;
 use super::trial::Trial;
 use crate::scene::Rgb;
+use crate::text::rounded;
 
 /// Degrees of one step of the hue.
 const HUE: f64 = 2.0;
@@ -102,11 +103,4 @@ impl ColourPicker {
             }
         }
     }
-}
-
-/// Rounds a number to so many decimals.
-pub(super) fn rounded(number: f64, decimals: usize) -> f64 {
-    let rounded = format!("{number:.decimals$}").parse();
-    // Adding 0 turns −0 into 0.
-    rounded.unwrap_or(number) + 0.0
 }

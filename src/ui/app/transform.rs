@@ -6,7 +6,7 @@ use super::trial::Trial;
 use super::typed;
 use crate::language::{Along, Motion, Node, Pose};
 use crate::scene::Camera;
-use crate::text::decimals;
+use crate::text::{decimals, rounded};
 use crate::ui::keymap::Tool;
 
 /// The angle of one step, and of the grid of angles, in degrees.
@@ -171,8 +171,7 @@ impl Transform {
             }
             (None, _) => self.amount() * right,
         };
-        let places = 10_f64.powi(self.decimals() as i32);
-        (way * places).round() / places
+        way.map(|component| rounded(component, self.decimals()))
     }
 
     /// The distances to the right and up of a move that is locked to no axis.

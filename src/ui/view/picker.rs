@@ -10,6 +10,7 @@ use super::Inks;
 use super::inks::Glyphs;
 use super::row::{Row, title};
 use crate::scene::Rgb;
+use crate::text::rounded;
 use crate::ui::app::{App, ColourPicker, Hsv, PickerRow};
 use crate::ui::layout::{PickerLines, marker_at, picker_lines, swatch_cells};
 use crate::ui::theme;
@@ -173,8 +174,7 @@ fn hexadecimal(colour: Rgb) -> String {
 
 /// A number with at most so many decimals.
 fn short(number: f64, decimals: usize) -> String {
-    let rounded = format!("{number:.decimals$}").parse::<f64>();
-    rounded.unwrap_or(number).to_string()
+    rounded(number, decimals).to_string()
 }
 
 #[cfg(test)]
