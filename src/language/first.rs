@@ -134,7 +134,7 @@ mod tests {
     }
 
     #[test]
-    fn everything_that_needs_nothing_else_can_be_the_first() {
+    fn anything_that_refers_to_nothing_else_can_be_added_first() {
         for (language, comment) in [
             (Language::Ray, "// mine"),
             (Language::Dat, "# mine"),

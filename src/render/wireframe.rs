@@ -152,7 +152,7 @@ mod tests {
     }
 
     #[test]
-    fn the_edges_of_a_unit_cube_are_where_paper_says() {
+    fn the_edges_of_a_unit_cube_match_those_computed_by_hand() {
         let parallel = of([cube(DVec3::ZERO)], Lens::Orthographic(6.0));
         let diverging = of([cube(DVec3::ZERO)], Lens::Perspective(90.0));
         // In the picture the origin is at 40, 30; at z = 1 a unit is 15 pixels.

@@ -416,7 +416,7 @@ const XML: &str = "\
 ";
 
 #[test]
-fn materials_that_both_sides_add_under_one_name_get_two() {
+fn materials_that_both_sides_add_under_one_name_are_given_two() {
     let mine = "    <material name=\"m 2\"/>\n    <material name=\"m\"/>\n";
     let used = mine.replace(
         "    <material",
@@ -434,7 +434,7 @@ fn materials_that_both_sides_add_under_one_name_get_two() {
 }
 
 #[test]
-fn what_is_sound_on_each_side_alone_is_asked() {
+fn sides_that_are_sound_only_alone_are_asked_about() {
     let mat = "mat ID 2 1 0 0 .1 .5 .4 9 0 0 1\n";
     let base = DAT.replace("\n# last material", &format!("{mat}\n# last material"));
     let deleted = (mat, "");
@@ -463,7 +463,7 @@ fn what_is_sound_on_each_side_alone_is_asked() {
 }
 
 #[test]
-fn a_thing_that_one_side_moves_and_the_other_deletes_is_asked() {
+fn a_thing_that_one_side_moves_and_the_other_deletes_is_asked_about() {
     let sphere = "obj sphere ID 1 mat ID 1 0 0 0 1\n";
     let base = DAT.replace("render 3 ID 1 ID 2 ID 3\n", "");
     let (rest, _) = base.split_once("# last object").expect("it is there");

@@ -143,7 +143,7 @@ impl Restructure for Source {
             return refused(format!("{} has no name", self.name(node)));
         }
         if name.starts_with("view:") {
-            return refused("a comment that begins with view: states the view".to_owned());
+            return refused("a comment that begins with view: would set the view".to_owned());
         }
         let edit = |span, text| Ok(vec![Edit { span, text }]);
         let own = self.span(node);

@@ -404,7 +404,7 @@ fn dat(object: &str) -> String {
 }
 
 #[test]
-fn an_ellipsoid_of_dat_turns_exactly_as_a_quadric() {
+fn a_dat_ellipsoid_rotates_exactly_as_a_quadric() {
     let text = dat("ellipsoid ID 1 mat ID 1 1 0 0 1 2 3");
     let (source, _) = read_as(Language::Dat, &text, &Meshes::default());
     let node = Node::Object(0);

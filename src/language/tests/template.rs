@@ -19,7 +19,7 @@ fn templates_are_small_valid_scenes() {
 }
 
 #[test]
-fn headings_of_columns_are_no_comments_on_what_follows() {
+fn column_headings_do_not_describe_what_follows() {
     let text = Language::Dat.template();
     let (source, _) = read_as(Language::Dat, text, &Meshes::default());
     for node in source.nodes().iter() {

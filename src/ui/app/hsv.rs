@@ -58,7 +58,7 @@ mod tests {
     use proptest::prelude::*;
 
     #[test]
-    fn hues_go_from_red_over_green_to_blue() {
+    fn hues_go_from_red_through_green_to_blue() {
         for (rgb, [hue, saturation, value]) in [
             ([1.0, 0.0, 0.0], [0.0, 1.0, 1.0]),
             ([1.0, 1.0, 0.0], [60.0, 1.0, 1.0]),

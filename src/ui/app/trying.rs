@@ -76,7 +76,7 @@ impl App {
             match back.map(|back| self.try_edits(&back.edits)) {
                 Some(Ok(())) => self
                     .overlays
-                    .say("cancelled; what was merged from the file stays"),
+                    .say("cancelled; changes merged from the file are kept"),
                 Some(Err(_)) | None => self.overlays.warn(
                     "the scene has changed on disk; the change so far is kept: u undoes the merge, then the change",
                 ),

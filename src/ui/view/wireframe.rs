@@ -109,7 +109,7 @@ mod tests {
     }
 
     #[test]
-    fn lines_are_dots_of_braille() {
+    fn lines_are_drawn_in_braille_dots() {
         let across = [[0.0, 0.0], [2.0, 0.0]];
         let down = [[3.0, 0.0], [3.0, 3.5]];
         let diagonal = [[4.0, 0.0], [6.0, 2.0]];

@@ -159,7 +159,7 @@ fn marked_things_get_the_channels_that_the_selected_one_has_already() {
 }
 
 #[test]
-fn what_is_no_colour_says_so_and_the_palette_opens_the_picker() {
+fn fields_without_a_colour_say_so_and_the_palette_opens_the_picker() {
     let mut app = picked("a.ray", SCENE, (Node::Object(0), "radius"), "c");
     assert_eq!(words(&app), "radius is not a colour");
     app.cursor.field = 3;

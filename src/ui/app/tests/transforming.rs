@@ -69,7 +69,7 @@ fn check(name: &str, text: &str, node: Node, said: &str, changes: &[(&str, &str)
 }
 
 #[test]
-fn things_are_moved_turned_and_scaled_by_typed_amounts_along_axes() {
+fn things_are_moved_rotated_and_scaled_by_typed_amounts_along_axes() {
     let ray = |node, said, old, new| check("a.ray", RAY, node, said, &[(old, new)]);
     ray(Object(0), "mx2<Enter>", "box 0 0 0", "box 2 0 0");
     ray(
@@ -277,7 +277,7 @@ fn every_step_of_a_motion_shows_the_scene_of_its_text() {
 }
 
 #[test]
-fn lights_without_a_place_turn_their_direction() {
+fn lights_without_a_position_rotate_their_direction() {
     let direct = XML.replace("point", "direct");
     let direct = direct.replace(
         "<position y=\"5\"/>",
@@ -473,7 +473,7 @@ fn a_click_beside_the_picture_confirms_a_motion() {
 }
 
 #[test]
-fn the_camera_is_moved_and_turned_in_its_own_record() {
+fn the_camera_is_moved_and_rotated_in_its_own_record() {
     let dat = |said, old, new| check("a.dat", DAT, Node::View, said, &[(old, new)]);
     dat("mx2<Enter>", "0 0 10  0 0 0", "2 0 10  2 0 0");
     dat("mzz-1<Enter>", "0 0 10  0 0 0", "0 0 9  0 0 -1");

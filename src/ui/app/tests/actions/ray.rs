@@ -122,7 +122,7 @@ pub(super) const ROWS: &[Row] = &[
     row(Key(A::Rename), Light(0), "R<Ctrl-u><Enter>", Becomes(&[
         (" // lamp", ""),
     ])),
-    row(Key(A::Rename), Light(0), "R<Ctrl-u>view: here<Enter>", Says("a comment that begins with view: states the view")),
+    row(Key(A::Rename), Light(0), "R<Ctrl-u>view: here<Enter>", Says("a comment that begins with view: would set the view")),
     row(Key(A::Rename), View, "R", Says("view has no name")),
     row(Key(A::Visibility), Object(0), "h", Says("a .ray scene draws all of its objects")),
     row(Key(A::Visibility), Object(0), "  h", Says("a .ray scene draws all of its objects")),
