@@ -149,7 +149,10 @@ pub trait Restructure {
 
 /// The error for a category without plain nodes.
 pub(super) fn uncreatable(category: Category) -> StructureError {
-    StructureError::Inexpressible(format!("{} cannot be created by name alone", category.word()))
+    StructureError::Inexpressible(format!(
+        "{} cannot be created by name alone",
+        category.word()
+    ))
 }
 
 /// A kind of thing that can be added to a text.

@@ -163,6 +163,7 @@ impl Runtime {
         if matches!(self.screen, Screen::Page(_)) && reaches_others(&effect) {
             return Ok(match effect {
                 Effect::WriteRecovery { revision, .. } => Some(Msg::Kept(revision, Ok(()))),
+                Effect::ListRecent => Some(Msg::RecentListed(Vec::new())),
                 _ => None,
             });
         }

@@ -88,6 +88,14 @@ fn the_tutorial_builds_the_default_scene() {
 }
 
 #[test]
+fn a_script_sees_no_scenes_of_other_runs() {
+    let place = Place::new();
+    place.write("recent.keys", "\":recent\" Enter");
+    let (screen, _) = played(&place.at("recent.keys"), "100x30");
+    assert!(screen.contains("no recently used scenes"), "{screen}");
+}
+
+#[test]
 fn a_screen_never_replaces_a_file_that_the_scene_uses() {
     let place = Place::new();
     let text = TEXTURED.replace("skin.ppm", "skin.png");
