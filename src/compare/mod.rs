@@ -92,6 +92,28 @@ impl Comparison {
     pub fn psnr(&self) -> f64 {
         20.0 * 255_f64.log10() - 10.0 * self.mse.log10()
     }
+
+    /// The number of differing pixels in words, with their share.
+    pub fn differing_words(&self) -> String {
+        let count = self.size.pixels();
+        let percent = 100.0 * self.differing as f64 / count as f64;
+        format!("{} of {count} ({percent:.2} %)", self.differing)
+    }
+
+    /// The other figures in words, by their names.
+    pub fn figures(&self) -> [(&'static str, String); 5] {
+        let ssim = self.ssim.map_or_else(
+            || "none: below 11 pixels wide or high".to_owned(),
+            |ssim| format!("{ssim:.5}"),
+        );
+        [
+            ("largest", format!("{} of 255", self.largest)),
+            ("MSE", format!("{:.4}", self.mse)),
+            ("PSNR", format!("{:.2} dB", self.psnr())),
+            ("SSIM", ssim),
+            ("FLIP", format!("{:.5}", self.flip)),
+        ]
+    }
 }
 
 /// The difference of each channel, in levels.

@@ -11,6 +11,7 @@ use std::thread;
 use std::time::{Duration, Instant};
 
 use super::assets::AssetReader;
+use super::comparer::{Figures, References};
 use super::editor;
 use super::event::{Event, Work, sending};
 use super::heap;
@@ -19,6 +20,7 @@ use super::options::Options;
 use super::reader::Reader;
 use super::recent::Recent;
 use super::recovery::{self, Edits, End, Keeper, Outcome, Request};
+use super::reference::ReferenceSource;
 use super::screen::Screen;
 use super::service::{Ended, Service};
 use super::writing::Writers;
@@ -41,12 +43,16 @@ pub(crate) struct Runtime {
     keeper: Keeper,
     recent: Recent,
     assets: AssetReader,
+    references: References,
+    figures: Figures,
     threads: Option<usize>,
     /// The command line of the editor that is configured.
     editor: Option<String>,
     preview: Option<Numbered>,
     trace: Option<Numbered>,
     export: Option<Numbered>,
+    compared: Option<Numbered>,
+    reference: Option<Numbered>,
     /// Number of renderers started so far.
     renderers: u64,
     timers: Vec<(Instant, Timer)>,
@@ -72,11 +78,15 @@ impl Runtime {
             keeper: Keeper::start(keeping(&sender))?,
             recent: remembering(&sender)?,
             assets: AssetReader::start(&options.assets, options.watching(), sending(&sender))?,
+            references: References::start(&options.assets, sending(&sender))?,
+            figures: Figures::start(sending(&sender))?,
             threads: options.threads,
             editor: options.editor.clone(),
             preview: None,
             trace: None,
             export: None,
+            compared: None,
+            reference: None,
             renderers: 0,
             timers: Vec::new(),
             trim_at: None,
@@ -164,6 +174,10 @@ impl Runtime {
             return Ok(match effect {
                 Effect::WriteRecovery { revision, .. } => Some(Msg::Kept(revision, Ok(()))),
                 Effect::ListRecent => Some(Msg::RecentListed(Vec::new())),
+                Effect::ReadReference(id, _) => {
+                    let reason = "a script of keys does not run git".to_owned();
+                    Some(Msg::ReferenceRead(id, Err(reason)))
+                }
                 _ => None,
             });
         }
@@ -205,6 +219,14 @@ impl Runtime {
             Effect::ReadAssets(wanted) => {
                 let work = Work::begin(&self.sender);
                 self.assets.request(wanted, work)?;
+            }
+            Effect::ReadReference(id, source) => {
+                let work = Work::begin(&self.sender);
+                self.references.request(id, source, work)?;
+            }
+            Effect::Compare(pair) => {
+                let work = Work::begin(&self.sender);
+                self.figures.request(pair, work)?;
             }
             Effect::Later(time, timer) => {
                 self.timers.retain(|&(_, set)| set != timer);
@@ -251,6 +273,8 @@ impl Runtime {
             Target::Preview => self.preview.as_ref(),
             Target::Trace => self.trace.as_ref(),
             Target::Export => self.export.as_ref(),
+            Target::Compared => self.compared.as_ref(),
+            Target::Reference => self.reference.as_ref(),
         }
     }
 
@@ -259,9 +283,7 @@ impl Runtime {
         let threads = match (target, self.threads) {
             (Target::Preview, None) => Threads::Preview,
             (Target::Preview, Some(count)) => Threads::Exactly(count),
-            (Target::Trace | Target::Export, count) => {
-                Threads::Background(count.unwrap_or_else(cores))
-            }
+            (_, count) => Threads::Background(count.unwrap_or_else(cores)),
         };
         let (sender, renderers) = (&self.sender, &mut self.renderers);
         let mut start = || {
@@ -280,6 +302,8 @@ impl Runtime {
             Target::Preview => &mut self.preview,
             Target::Trace => &mut self.trace,
             Target::Export => &mut self.export,
+            Target::Compared => &mut self.compared,
+            Target::Reference => &mut self.reference,
         };
         let running = slot.get_or_insert_with(&mut start);
         let started = match running.renderer.restart(job.clone()) {
@@ -303,6 +327,8 @@ impl Runtime {
             Target::Preview => {}
             Target::Trace => self.trace = None,
             Target::Export => self.export = None,
+            Target::Compared => self.compared = None,
+            Target::Reference => self.reference = None,
         }
     }
 
@@ -327,6 +353,7 @@ fn reaches_others(effect: &Effect) -> bool {
             | Effect::NoteRecent(_)
             | Effect::ListRecent
             | Effect::KeepPanels(_)
+            | Effect::ReadReference(_, ReferenceSource::Revision(..))
     )
 }
 

@@ -14,6 +14,7 @@ pub mod app;
 pub mod arrange;
 mod assets;
 mod beginning;
+mod comparer;
 mod console;
 pub mod doctor;
 mod editor;
@@ -32,6 +33,9 @@ mod reader;
 pub mod reading;
 mod recent;
 pub mod recovery;
+pub mod reference;
+
+mod revision;
 mod screen;
 mod script;
 mod service;

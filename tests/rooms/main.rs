@@ -54,6 +54,7 @@ const ARROWS: &[(&str, &[&str])] = &[
         "ui",
         &[
             "assets",
+            "compare",
             "document",
             "file",
             "image_file",

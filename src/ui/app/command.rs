@@ -35,6 +35,8 @@ enum Command {
     ExportCancel,
     /// Trace at full size.
     Render,
+    /// Compare with the reference, or with another one.
+    Compare(Option<PathBuf>),
     /// Write the working view into the text, under a name if one is given.
     ViewSave(Option<String>),
     /// Look from the selected light.
@@ -122,6 +124,7 @@ const TABLE: &[CommandRow] = &[
     row(&["export!"], A::Picture(|picture| C::Export(picture, Force::Yes)), "export, overwriting an existing file"),
     row(&["export cancel"], A::Nothing(C::ExportCancel), "cancel the export"),
     row(&["render"], A::Nothing(C::Render), "trace at full size"),
+    row(&["compare"], A::File(C::Compare), "compare with a picture or scene FILE, saved, or git [REVISION]"),
     row(&["view save"], A::Name(C::ViewSave), "write the view into the scene, or save it as NAME"),
     row(&["view light"], A::Nothing(C::ViewLight), "look from the selected light"),
     row(&["view reset"], A::Nothing(C::ViewReset), "reset to the scene's view"),
@@ -141,6 +144,7 @@ const KEYS: &[(&str, Action)] = &[
     ("export", Action::Export),
     ("export cancel", Action::Stop),
     ("render", Action::Go(Mode::Trace)),
+    ("compare", Action::Go(Mode::Compare)),
     ("view save", Action::SaveView),
     ("view reset", Action::ResetView),
     ("help", Action::Help),
@@ -395,6 +399,7 @@ impl App {
             }
             Command::ExportCancel => return self.cancel_export(),
             Command::Render => return self.start_trace(),
+            Command::Compare(with) => return self.compare_with(with),
             Command::ViewSave(None) => self.save_view(),
             Command::ViewSave(Some(name)) => self.save_view_as(&name),
             Command::ViewLight => self.look_from_light(),

@@ -118,12 +118,18 @@ impl App {
 
     /// The picture on screen.
     pub fn picture(&self) -> &Picture {
-        self.pictures.seen(self.mode)
+        match self.mode {
+            Mode::Compare => &self.compared.seen,
+            mode => self.pictures.seen(mode),
+        }
     }
 
     /// The picture on screen, mutable in order to advance it.
     pub fn picture_mut(&mut self) -> &mut Picture {
-        self.pictures.seen_mut(self.mode)
+        match self.mode {
+            Mode::Compare => &mut self.compared.seen,
+            mode => self.pictures.seen_mut(mode),
+        }
     }
 
     /// The camera of the pictures: the working view, otherwise the scene's own.

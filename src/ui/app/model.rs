@@ -5,6 +5,7 @@ use std::sync::Arc;
 use crossterm::event::KeyEvent;
 
 use super::assets::Assets;
+use super::compared::Compared;
 use super::cursor::Cursor;
 use super::disk::Disk;
 use super::jobs::Jobs;
@@ -46,6 +47,8 @@ pub struct App {
     pub cursor: Cursor,
     /// The preview, the full-size trace and the working view.
     pub pictures: Pictures,
+    /// What pictures are compared with, and the comparison.
+    pub compared: Compared,
     /// Dialogs, help, errors, the line being typed, and messages.
     pub overlays: Overlays,
     /// Completions and history of the command line.

@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 
 use super::assets::Assets;
+use super::compared::Compared;
 use super::cursor::Names;
 use super::palette::Palette;
 use super::{App, Cursor, Disk, FirstReading, Jobs, OnDisk, Overlays, Page, Pictures, Quality};
@@ -84,6 +85,7 @@ impl App {
             disk: Disk::new(opening.path, state, first),
             cursor: Cursor::default(),
             pictures: Pictures::new(opening.quality),
+            compared: Compared::default(),
             overlays: Overlays::default(),
             jobs: Jobs::default(),
             mode: Mode::Select,

@@ -65,6 +65,9 @@ impl App {
             self.move_cursor(Context::Help, WHEEL * down);
             return;
         }
+        if self.mode == Mode::Compare {
+            return;
+        }
         let (areas, mode) = (self.areas(), self.mode);
         let over = |area: ratatui::layout::Rect| area.contains(at.into());
         if self
@@ -147,6 +150,10 @@ impl App {
             self.resizing = Some(Border::List);
             return Vec::new();
         }
+        if self.mode == Mode::Compare {
+            self.press_comparison(at);
+            return Vec::new();
+        }
         if let Some(line) = list_row_at(areas.list, self.cursor.list_top, at.0, at.1) {
             let line = self.listing().get(line);
             if let Some(ListLine::Node(_, node)) = line {
@@ -227,6 +234,9 @@ impl App {
             Some(Border::Panels) => return self.resize_panels(self.areas().dragged(at)),
             Some(Border::List) => return self.resize_list(self.areas().divided_at(at)),
             None => {}
+        }
+        if self.mode == Mode::Compare {
+            return self.press_comparison(at);
         }
         if self.slide_to(at.0) {
             return;

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use super::{App, Picture, Wires};
+use super::{App, Grid, Picture, Wires};
 use crate::image_file::ImageFormat;
 use crate::render::{Filter, Frame, Frames, Job, Settings, default_depth};
 use crate::scene::{Integrator, Scene, Size};
@@ -32,20 +32,19 @@ impl App {
             self.pictures.preview.asked = None;
             effects.extend(self.follow_trace());
         }
+        effects.extend(self.follow_comparison(changed));
         let size = self.preview_size();
-        if self.mode != Mode::Trace && self.pictures.preview.asked != size {
+        let has_preview = !matches!(self.mode, Mode::Trace | Mode::Compare);
+        if has_preview && self.pictures.preview.asked != size {
             self.pictures.preview.asked = size;
             let spp = preview_samples(self.integrator());
-            let job = size.zip(self.preview_scene());
-            let job = job.and_then(|(size, (scene, numbers))| {
-                let grid = self.pictures.grid;
-                let mut job = self.job_of(scene, grid.size(size), spp, Filter::Box)?;
-                job.camera = grid.camera(job.camera, size);
+            let job = size.and_then(|size| {
+                let mut job = self.preview_job(size, self.pictures.grid, spp)?;
                 job.settings.aov = self.pictures.preview_aov();
                 if let Some(aov) = job.settings.aov {
                     job.settings.spp = aov.samples(spp);
                 }
-                Some(Job { numbers, ..job })
+                Some(job)
             });
             effects.extend(job.map(|job| Effect::Trace(Target::Preview, job)));
         }
@@ -55,12 +54,12 @@ impl App {
     /// The wireframe if it is on screen instead of a traced picture.
     pub fn wires(&self) -> Option<&Wires> {
         let wires = self.pictures.wires.as_ref();
-        wires.filter(|_| self.mode != Mode::Trace)
+        wires.filter(|_| !matches!(self.mode, Mode::Trace | Mode::Compare))
     }
 
     /// Brings the wireframe up to date, if it is on screen.
     pub fn follow_wires(&mut self) {
-        if self.mode == Mode::Trace {
+        if matches!(self.mode, Mode::Trace | Mode::Compare) {
             return;
         }
         let (camera, raster) = (self.camera(), self.raster());
@@ -110,6 +109,18 @@ impl App {
             },
             frames: Frames::Live,
             numbers: None,
+        })
+    }
+
+    /// The job of a picture in the quality of the preview, of this size in half blocks.
+    pub(super) fn preview_job(&self, halves: Size, grid: Grid, spp: u32) -> Option<Job> {
+        let (scene, numbers) = self.preview_scene()?;
+        let job = self.job_of(scene, grid.size(halves), spp, Filter::Box)?;
+        let camera = grid.camera(job.camera, halves);
+        Some(Job {
+            camera,
+            numbers,
+            ..job
         })
     }
 
@@ -165,10 +176,13 @@ impl App {
             self.overlays.fail(reason);
             return Vec::new();
         }
-        if self.mode != Mode::Trace {
-            self.pictures.leave_mode(self.mode);
-            self.mode = Mode::Trace;
+        match (self.mode, self.compared.before) {
+            // The mode to return to is that before the comparison.
+            (Mode::Trace, _) | (Mode::Compare, Some(Mode::Trace)) => {}
+            (Mode::Compare, before) => self.pictures.leave_mode(before.unwrap_or(Mode::Select)),
+            (mode, _) => self.pictures.leave_mode(mode),
         }
+        self.mode = Mode::Trace;
         if 0 < self.error_count() {
             let words = "the text has errors: this is the last valid scene";
             self.overlays.blame_errors(Severity::Warning, words);
@@ -184,6 +198,7 @@ impl App {
         if target == Target::Export {
             return self.export_frame(frame);
         }
+        self.compared.take(target, Arc::clone(&frame));
         // Without a scene, it is of one that was left.
         if self.scene.is_some() {
             self.pictures.take(target, frame);
@@ -197,6 +212,7 @@ impl App {
             return self.export_ended(reason.into());
         }
         self.pictures.want(target, None);
+        self.compared.want(target, None);
         self.overlays.fail(reason);
         Vec::new()
     }

@@ -4,7 +4,7 @@ use crossterm::event::{KeyCode, KeyEvent, KeyModifiers};
 use tui_input::Input;
 
 use super::camera::{advanced, dollied, faced, panned, rolled, stepped, widened};
-use super::{App, Help, PageFocus, PromptKind, line};
+use super::{App, Contrast, Help, PageFocus, PromptKind, line};
 use crate::text::Severity;
 use crate::ui::arrange::{Zoom, divided, resized};
 use crate::ui::keymap::{self, Action, Context, Meaning, Mode, Tool};
@@ -39,7 +39,10 @@ impl App {
             Msg::Paste(text) => return self.paste(&text),
             Msg::Mouse(event) => return self.pointer(event),
             Msg::Resize(columns, rows) => self.terminal = (columns, rows),
-            Msg::Started(target, generation) => self.pictures.want(target, Some(generation)),
+            Msg::Started(target, generation) => {
+                self.pictures.want(target, Some(generation));
+                self.compared.want(target, Some(generation));
+            }
             Msg::Frame(target, frame) => return self.frame(target, frame),
             Msg::Refused(target, reason) => return self.ended(target, reason),
             Msg::Ended(target) => return self.ended(target, "the renderer stopped early"),
@@ -62,6 +65,8 @@ impl App {
             Msg::Exported(id, outcome) => return self.exported(id, outcome),
             Msg::Listed(folder, names) => self.folder_listed(folder, names),
             Msg::Taken(id, reason) => return self.is_taken(id, reason),
+            Msg::ReferenceRead(id, read) => return self.reference_read(id, read),
+            Msg::Compared(pair, found) => self.compared.measured(pair, found),
             Msg::EditorClosed(outcome) => return self.editor_closed(outcome),
             Msg::RecentListed(scenes) => self.show_recent(scenes),
             Msg::Recovered(found) => self.found_kept(found),
@@ -309,6 +314,12 @@ impl App {
                 let words = self.pictures.toggle_integrator(self.scene.as_deref());
                 self.overlays.say(words);
             }
+            Action::Pin => return self.pin(),
+            Action::Flip => self.look_at(self.compared.view.flipped()),
+            Action::Wipe => self.look_at(Contrast::Wipe),
+            Action::SlideWipe(cells) => self.slide_wipe(cells),
+            Action::Difference => self.look_at(self.compared.view.next_difference()),
+            Action::Worst(step) => self.go_to_worst(step),
             Action::Stop => return self.stop(),
             Action::Export => return self.export_default(),
             Action::Save => return self.save_key(),
@@ -326,6 +337,7 @@ impl App {
         self.document.end_step();
         match mode {
             Mode::Trace => return self.start_trace(),
+            Mode::Compare => return self.start_comparison(),
             Mode::View | Mode::Fly | Mode::Pick if self.scene.is_none() => {
                 self.refuse_picture(Severity::Error, &self.no_picture());
             }
@@ -370,6 +382,7 @@ impl App {
             Context::In(Mode::Trace) => {
                 self.mode = self.pictures.mode_before();
             }
+            Context::In(Mode::Compare) => self.end_comparison(),
             Context::In(Mode::Select) if self.end_filter() => {}
             Context::In(Mode::Select) => self.cursor.marks.clear(),
             Context::In(Mode::Move) => self.cancel_transform(),

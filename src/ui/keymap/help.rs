@@ -8,7 +8,7 @@ use super::table::Scope;
 use crate::render::Aov;
 
 use Action as A;
-use Mode::{Edit, Fly, Move, Pick, Select, Trace, View};
+use Mode::{Compare, Edit, Fly, Move, Pick, Select, Trace, View};
 use Stride::Plain;
 
 /// One line of help.
@@ -31,7 +31,7 @@ const START: [(&str, &str); 2] = [
     ("halflight doctor", "what was detected, and why"),
 ];
 
-const MOUSE: [(&str, &str); 11] = [
+const MOUSE: [(&str, &str); 12] = [
     ("click the list", "select"),
     ("click a field", "move the cursor there"),
     ("click it again", "choose or type a value"),
@@ -41,6 +41,7 @@ const MOUSE: [(&str, &str); 11] = [
     ("drag it in VIEW", "orbit"),
     ("drag it with Ctrl or right", "in VIEW, pan"),
     ("drag it in MOVE", "move, rotate or scale"),
+    ("drag it in COMPARE", "move the wipe line"),
     ("drag a border", "resize the panels"),
     ("wheel", "scroll; in VIEW, dolly"),
 ];
@@ -107,6 +108,7 @@ impl Keymap {
             Context::In(Pick) => PICK_HINTS,
             Context::In(Move) => MOVE_HINTS,
             Context::In(Trace) => TRACE_HINTS,
+            Context::In(Compare) => COMPARE_HINTS,
             Context::Errors => ERROR_HINTS,
             Context::Colour => COLOUR_HINTS,
             Context::Opening => &[],
@@ -301,6 +303,14 @@ const TRACE_HINTS: &[Hint] = &[
         "channel",
     ),
 ];
+const COMPARE_HINTS: &[Hint] = &[
+    (&[A::Flip], "flip"),
+    (&[A::Wipe], "wipe (:w saves)"),
+    (&[A::Difference], "difference"),
+    (&[A::Worst(1), A::Worst(-1)], "worst"),
+    (&[A::Back], "back"),
+    (&[A::Pin], "pin"),
+];
 const ERROR_HINTS: &[Hint] = &[
     (&[A::Move(1), A::Move(-1)], "move"),
     (&[A::Accept], "go there"),
@@ -357,7 +367,7 @@ mod tests {
     fn the_keys_of_the_mode_come_first_and_no_key_is_missing() {
         let lines = lines("", View);
         assert_eq!(headings(&lines)[..3], ["VIEW", "anywhere", "SELECT"]);
-        assert_eq!(headings(&lines).len(), 30);
+        assert_eq!(headings(&lines).len(), 31);
         assert!(lines.contains(&entry("gg", "first")));
         for row in Keymap::default().rows {
             let entry = entry(&names(&row.keys), row.words);

@@ -5,6 +5,7 @@
 //! through [`row`], which shows control characters instead of sending them.
 
 mod characters;
+mod comparison;
 mod completions;
 mod current;
 mod dialog;
@@ -37,6 +38,7 @@ use ratatui::style::Style;
 
 use super::app::App;
 use super::arrange::MIN_SIZE;
+use super::keymap::Mode;
 use super::layout;
 use super::theme;
 pub use inks::Inks;
@@ -58,8 +60,12 @@ fn render(app: &App, inks: &mut Inks, area: Rect, buffer: &mut Buffer) {
     picture::render(app, inks, areas.picture, buffer);
     rule(app, areas.rule, buffer);
     if !areas.list.is_empty() && !app.disk.is_opening() {
-        list::render(app, areas.list, buffer);
-        fields::render(app, areas.fields, buffer);
+        if app.mode == Mode::Compare {
+            comparison::render(app, inks, areas.list.union(areas.fields), buffer);
+        } else {
+            list::render(app, areas.list, buffer);
+            fields::render(app, areas.fields, buffer);
+        }
     }
     errors::render(app, areas.errors, buffer);
     let status = current::render(app, &areas, buffer);

@@ -12,7 +12,7 @@ use unicode_width::UnicodeWidthStr;
 use super::characters::Characters;
 use super::inks::{Glyphs, Inks};
 use super::row::Row;
-use super::{symbols, wireframe};
+use super::{comparison, symbols, wireframe};
 use crate::render::{pixel_of, pixel_width};
 use crate::scene::Size;
 use crate::ui::app::{App, FirstReading, Shown};
@@ -63,6 +63,9 @@ fn overlays(
     symbols::render(app, glyphs, cells, buffer);
     if app.mode == Mode::Pick {
         cross(app, cells, buffer);
+    }
+    if app.mode == Mode::Compare {
+        comparison::mark(app, cells, size, buffer);
     }
     if app.is_empty() {
         invitation(area, buffer);

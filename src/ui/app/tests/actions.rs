@@ -116,6 +116,12 @@ fn edits(action: A) -> bool {
         | A::LightView
         | A::SavedViews
         | A::Cross(..)
+        | A::Pin
+        | A::Flip
+        | A::Wipe
+        | A::SlideWipe(_)
+        | A::Difference
+        | A::Worst(_)
         | A::Stop
         | A::Export
         | A::Save
@@ -159,6 +165,7 @@ const OTHERS: &[&str] = &[
     "export!",
     "export cancel",
     "render",
+    "compare",
     "view light",
     "view reset",
     "mouse",
