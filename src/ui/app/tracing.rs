@@ -105,6 +105,7 @@ impl App {
                 integrator,
                 filter,
                 transfer,
+                exposure: 0.0,
             },
             frames: Frames::Live,
             numbers: None,
