@@ -8,6 +8,7 @@ mod first_hits;
 mod glass;
 mod highlights;
 mod invariance;
+mod looks;
 mod meshes;
 mod noise;
 mod optics;
@@ -289,6 +290,7 @@ fn settings(width: u32, height: u32, spp: u32) -> Settings {
         integrator: Integrator::Whitted,
         filter: Filter::Box,
         transfer: Transfer::default(),
+        exposure: 0.0,
     }
 }
 
