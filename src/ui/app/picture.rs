@@ -358,6 +358,7 @@ mod tests {
                 noise: None,
                 complete,
             },
+            query: None,
         })
     }
 
