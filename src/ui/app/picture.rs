@@ -231,6 +231,7 @@ mod tests {
                 noise: None,
                 complete,
             },
+            query: None,
         })
     }
 
