@@ -262,6 +262,7 @@ impl Stage {
             },
             settings: Settings {
                 size,
+                region: None,
                 spp,
                 depth: self.depth.unwrap_or_else(|| default_depth(integrator)),
                 seed: 0,
@@ -270,6 +271,7 @@ impl Stage {
                 filter: Filter::Box,
                 transfer: scene.setting.transfer,
             },
+            limit: None,
             frames: Frames::Last,
             numbers: None,
         };

@@ -94,6 +94,7 @@ impl App {
             camera: self.camera()?,
             settings: Settings {
                 size,
+                region: None,
                 spp: self.pictures.samples(spp),
                 depth: self
                     .pictures
@@ -106,6 +107,7 @@ impl App {
                 filter,
                 transfer,
             },
+            limit: None,
             frames: Frames::Live,
             numbers: None,
         })
