@@ -96,6 +96,7 @@ impl App {
             camera: self.camera()?,
             settings: Settings {
                 size,
+                region: None,
                 spp: self.pictures.samples(spp),
                 depth: self
                     .pictures
@@ -109,6 +110,7 @@ impl App {
                 transfer,
                 exposure: 0.0,
             },
+            limit: None,
             frames: Frames::Live,
             numbers: None,
         })
