@@ -199,14 +199,14 @@ impl Document {
         changed
     }
 
-    /// The span of the current text that the next undo would replace by or with the most text.
-    pub fn undoable(&self) -> Option<Span> {
-        self.history.peek_undo().map(|step| longest(&step.edits))
+    /// The step that the next undo would undo.
+    pub fn undoable(&self) -> Option<&StepName> {
+        self.history.peek_undo().map(|step| &step.name)
     }
 
-    /// The span of the current text that the next redo would replace by or with the most text.
-    pub fn redoable(&self) -> Option<Span> {
-        self.history.peek_redo().map(|step| longest(&step.edits))
+    /// The step that the next redo would redo.
+    pub fn redoable(&self) -> Option<&StepName> {
+        self.history.peek_redo().map(|step| &step.name)
     }
 
     /// Of the changes of the last undo or redo, the span of the longest: what the step was about,

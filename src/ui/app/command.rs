@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 
 use super::jobs::Asking;
 use super::{App, Help, Next, PromptKind};
+use crate::document::StepName;
 use crate::image_file::ImageFormat;
 use crate::language::{Language, extensions};
 use crate::render::MAX_SPP;
@@ -446,8 +447,13 @@ impl App {
             ..scene.camera
         };
         self.document.end_step();
-        if let Err(refused) = self.write_camera(&camera, &scene.camera) {
-            self.overlays.fail(refused.message);
+        match self.write_camera(&camera, &scene.camera) {
+            Ok(()) => {
+                let Size { width, height } = size;
+                let step = StepName::done(format!("set the size to {width}x{height}"));
+                self.document.name_step(step);
+            }
+            Err(refused) => self.overlays.fail(refused.message),
         }
         self.document.end_step();
     }

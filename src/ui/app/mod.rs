@@ -34,6 +34,7 @@ mod literals;
 mod menu;
 mod messages;
 mod model;
+mod naming;
 mod next;
 mod opening;
 mod overlays;
