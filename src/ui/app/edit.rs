@@ -15,6 +15,9 @@ impl App {
             return;
         };
         self.pictures.due |= news.images;
+        if news.images || news.meaning {
+            self.thumbnails.forget();
+        }
         if news.meaning {
             // Meshes may name pictures, which are requested then.
             self.relower();
@@ -164,19 +167,33 @@ impl App {
     }
 
     pub(super) fn undo(&mut self) {
+        let done = self.step_back();
+        self.overlays
+            .say(done.as_deref().unwrap_or("nothing to undo"));
+    }
+
+    pub(super) fn redo(&mut self) {
+        let done = self.step_forward();
+        self.overlays
+            .say(done.as_deref().unwrap_or("nothing to redo"));
+    }
+
+    /// Undoes a step and selects what it changed; returns what to say, or `None` without a step.
+    pub(super) fn step_back(&mut self) -> Option<String> {
         let (before, step) = (self.before_change(), self.document.undoable());
         let done = step.map(|step| format!("undone: {step}"));
         let changed = self.document.undo();
         self.show_change(&before, changed);
-        self.overlays.say(done.as_deref().unwrap_or("nothing to undo"));
+        done
     }
 
-    pub(super) fn redo(&mut self) {
+    /// Redoes a step and selects what it changed; returns what to say, or `None` without a step.
+    pub(super) fn step_forward(&mut self) -> Option<String> {
         let (before, step) = (self.before_change(), self.document.redoable());
         let done = step.map(|step| format!("redone: {step}"));
         let changed = self.document.redo();
         self.show_change(&before, changed);
-        self.overlays.say(done.as_deref().unwrap_or("nothing to redo"));
+        done
     }
 
     /// What to remember of the text before an undo or redo.
