@@ -34,6 +34,7 @@ mod literals;
 mod menu;
 mod messages;
 mod model;
+mod naming;
 mod next;
 mod opening;
 mod overlays;
@@ -57,6 +58,8 @@ mod structure;
 mod symbols;
 #[cfg(test)]
 pub(super) mod tests;
+mod thumbnails;
+mod timeline;
 mod tracing;
 mod transform;
 mod transforming;
@@ -92,6 +95,8 @@ pub use shown::Shown;
 pub use sight::{Grid, Part, Sight};
 pub use soloed::Solo;
 pub use symbols::{Symbol, SymbolKind};
+pub use thumbnails::{Rank, Thumbnail, Thumbnails};
+pub use timeline::Steps;
 pub use transform::Transform;
 pub use wires::Wires;
 
