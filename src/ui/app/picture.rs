@@ -214,9 +214,12 @@ mod tests {
         Arc::new(Frame {
             generation,
             size,
+            corner: [0; 2],
             pixels: vec![pixel; size.pixels()],
             objects: vec![7; size.pixels()],
             values: Vec::new(),
+            errors: Vec::new(),
+            range: None,
             progress: Progress {
                 pass: 1,
                 passes: 2,
@@ -229,6 +232,7 @@ mod tests {
                 noise: None,
                 complete,
             },
+            query: None,
         })
     }
 

@@ -97,6 +97,7 @@ impl App {
             camera: self.camera()?,
             settings: Settings {
                 size,
+                region: None,
                 spp: self.pictures.samples(spp),
                 depth: self
                     .pictures
@@ -108,7 +109,9 @@ impl App {
                 integrator,
                 filter,
                 transfer,
+                exposure: 0.0,
             },
+            limit: None,
             frames: Frames::Live,
             numbers: None,
         })

@@ -128,8 +128,11 @@ fn frame(width: u32, height: u32) -> Arc<Frame> {
     Arc::new(Frame {
         generation: 1,
         size,
+        corner: [0; 2],
         pixels: vec![[100; 3]; size.pixels()],
         values: Vec::new(),
+        errors: Vec::new(),
+        range: None,
         objects: (0..width * height)
             .map(|at| if under(at) == 1 { 1 } else { NO_OBJECT })
             .collect(),
@@ -145,6 +148,7 @@ fn frame(width: u32, height: u32) -> Arc<Frame> {
             noise: None,
             complete: false,
         },
+        query: None,
     })
 }
 

@@ -12,9 +12,12 @@ pub(in crate::ui) fn frame(size: Size, objects: Vec<u32>) -> Frame {
     Frame {
         generation: 1,
         size,
+        corner: [0; 2],
         pixels: vec![[9; 3]; size.pixels()],
         objects,
         values: Vec::new(),
+        errors: Vec::new(),
+        range: None,
         progress: Progress {
             pass: 1,
             passes: 1,
@@ -27,6 +30,7 @@ pub(in crate::ui) fn frame(size: Size, objects: Vec<u32>) -> Frame {
             noise: None,
             complete: true,
         },
+        query: None,
     }
 }
 
