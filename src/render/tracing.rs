@@ -3,7 +3,7 @@
 use std::time::{Duration, Instant};
 
 use super::film::{Film, Raster};
-use super::frame::{Frame, Frames, Job, Limit, NO_OBJECT, Progress};
+use super::frame::{Frame, Frames, Job, Limit, NO_OBJECT, Progress, Query};
 use super::probe::Counts;
 use super::shared::Shared;
 use super::shot::Shot;
@@ -107,6 +107,7 @@ pub(crate) struct Effort {
 pub(crate) struct Tracing<'s, W> {
     ticket: Ticket<'s>,
     job: &'s Job,
+    query: Query,
     wake: &'s W,
     film: Film,
     /// What was spent on the film before.
@@ -130,12 +131,14 @@ impl<'s, W: Fn() + Sync> Tracing<'s, W> {
     pub(crate) fn new(
         ticket: Ticket<'s>,
         job: &'s Job,
+        query: Query,
         (film, before): (Film, Effort),
         wake: &'s W,
     ) -> Self {
         Self {
             ticket,
             job,
+            query,
             wake,
             film,
             before,
@@ -275,6 +278,8 @@ impl<'s, W: Fn() + Sync> Tracing<'s, W> {
             pixels,
             mut objects,
             values,
+            errors,
+            range,
         }) = raster
         else {
             return;
@@ -294,7 +299,10 @@ impl<'s, W: Fn() + Sync> Tracing<'s, W> {
             pixels,
             objects,
             values,
+            errors,
+            range,
             progress: self.progress(),
+            query: Some(self.query.clone()),
         });
         if untaken.is_none() {
             (self.wake)();
