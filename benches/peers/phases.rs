@@ -270,6 +270,7 @@ impl Stage {
                 integrator,
                 filter: Filter::Box,
                 transfer: scene.setting.transfer,
+                exposure: 0.0,
             },
             limit: None,
             frames: Frames::Last,

@@ -4,7 +4,7 @@
 
 use std::ops::{BitOr, BitOrAssign};
 
-use super::frame::{Job, Settings};
+use super::frame::Job;
 use super::world::World;
 use crate::geometry::Shape;
 use crate::scene::{Integrator, Light, Object, Scene};
@@ -43,11 +43,7 @@ impl Touched {
     pub(crate) fn between(before: (&Job, &World), after: (&Job, &World)) -> Option<Self> {
         let ((job, world), (new_job, new_world)) = (before, after);
         let (scene, new_scene) = (&*world.scene, &*new_world.scene);
-        let settings = Settings {
-            spp: job.settings.spp,
-            ..new_job.settings
-        };
-        let is_alike = job.settings == settings
+        let is_alike = job.settings.trace_alike(&new_job.settings)
             && job.frames == new_job.frames
             && job.camera == new_job.camera
             && job.images == new_job.images

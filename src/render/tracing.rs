@@ -107,9 +107,9 @@ pub(crate) struct Effort {
 pub(crate) struct Tracing<'s, W> {
     ticket: Ticket<'s>,
     job: &'s Job,
-    query: Query,
     wake: &'s W,
     film: Film,
+    query: Query,
     /// What was spent on the film before.
     before: Effort,
     counts: Counts,
@@ -131,16 +131,16 @@ impl<'s, W: Fn() + Sync> Tracing<'s, W> {
     pub(crate) fn new(
         ticket: Ticket<'s>,
         job: &'s Job,
-        query: Query,
         (film, before): (Film, Effort),
         wake: &'s W,
+        query: Query,
     ) -> Self {
         Self {
             ticket,
             job,
-            query,
             wake,
             film,
+            query,
             before,
             counts: before.counts,
             taken: 0.0,
@@ -301,8 +301,8 @@ impl<'s, W: Fn() + Sync> Tracing<'s, W> {
             values,
             errors,
             range,
-            progress: self.progress(),
             query: Some(self.query.clone()),
+            progress: self.progress(),
         });
         if untaken.is_none() {
             (self.wake)();

@@ -8,7 +8,7 @@ use rayon::ThreadPool;
 use super::camera::Projection;
 use super::film::Film;
 use super::filter::Spread;
-use super::frame::{Frames, Job};
+use super::frame::{Frames, Job, Query};
 use super::shared::Shared;
 use super::shot::Shot;
 use super::steps::steps;
@@ -28,7 +28,7 @@ const MOST_KEPT: usize = 1 << 25;
 
 /// State kept for the next job.
 struct Left {
-    world: World,
+    world: Arc<World>,
     /// The last job and its film, if they can be continued.
     traced: Option<Traced>,
 }
@@ -80,10 +80,11 @@ fn trace<W: Fn() + Sync>(
     // A newer job does not cancel the build: it may need the same structures, and while a held key
     // moves objects of a large scene, none would ever be finished.
     let quit = || shared.is_quitting();
-    let known = previous.as_ref().map(|left| &left.world);
+    let known = previous.as_ref().map(|left| &*left.world);
     let Some(world) = World::build(Arc::clone(&job.scene), &job.images, known, quit) else {
         return previous;
     };
+    let world = Arc::new(world);
     let mut before = Effort::default();
     if let Some(Left {
         world: world_before,
@@ -92,13 +93,13 @@ fn trace<W: Fn() + Sync>(
         && let Some(old) = traced.take()
     {
         match Touched::between((&old.job, world_before), (&job, &world)) {
-            Some(changed) => {
+            Some(changed) if film.stores_like(&old.film) => {
                 film.take_over(old.film, changed);
-                if changed == Touched::NOTHING {
+                if changed == Touched::NOTHING && 0 < film.reached() {
                     before = old.effort;
                 }
             }
-            None => old.film.free_later(),
+            _ => old.film.free_later(),
         }
     }
     let shot = Shot {
@@ -108,7 +109,8 @@ fn trace<W: Fn() + Sync>(
         settings: job.settings,
         spread: Spread::of(job.settings.filter),
     };
-    let mut picture = Tracing::new(ticket.with_world(), &job, (film, before), wake);
+    let query = Query::new(&world, &job);
+    let mut picture = Tracing::new(ticket.with_world(), &job, (film, before), wake, query);
     for step in steps(job.settings.spp, job.frames) {
         if !picture.take(&step, &shot) {
             break;

@@ -3,12 +3,14 @@
 mod cameras;
 mod continuing;
 mod edits;
+mod explain;
 mod falloff;
 mod filters;
 mod first_hits;
 mod glass;
 mod highlights;
 mod invariance;
+mod looks;
 mod meshes;
 mod noise;
 mod optics;
@@ -292,6 +294,7 @@ fn settings(width: u32, height: u32, spp: u32) -> Settings {
         integrator: Integrator::Whitted,
         filter: Filter::Box,
         transfer: Transfer::default(),
+        exposure: 0.0,
     }
 }
 
