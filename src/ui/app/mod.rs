@@ -55,6 +55,7 @@ mod sight;
 mod sliding;
 mod solo;
 mod soloed;
+mod steps;
 mod structure;
 mod symbols;
 #[cfg(test)]
@@ -98,9 +99,9 @@ pub use rows::Rows;
 pub use shown::Shown;
 pub use sight::{Grid, Marked, Reason, Sight, Window};
 pub use soloed::Solo;
+pub use steps::Steps;
 pub use symbols::{Symbol, SymbolKind};
 pub use thumbnails::{Rank, Thumbnail, Thumbnails};
-pub use timeline::Steps;
 pub use transform::Transform;
 pub use viewport::Viewport;
 pub use wires::Wires;
