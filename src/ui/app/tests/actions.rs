@@ -129,7 +129,6 @@ fn edits(action: A) -> bool {
         | A::Save
         | A::Undo
         | A::Redo
-        | A::Steps
         | A::Editor
         | A::Errors
         | A::Messages
