@@ -148,9 +148,10 @@ impl Pictures {
         }
     }
 
-    /// Whether a sample of the preview or the trace is still to be taken.
+    /// Whether a sample of the preview or the trace is still to be taken, without being told to.
     pub fn are_awaited(&self) -> bool {
-        self.preview.is_awaited() || self.trace.as_ref().is_some_and(Picture::is_awaited)
+        let goes_on = |trace: &Picture| trace.is_awaited() && !trace.paused;
+        self.preview.is_awaited() || self.trace.as_ref().is_some_and(goes_on)
     }
 
     /// The picture that receives a target's frames.
