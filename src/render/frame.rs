@@ -227,6 +227,20 @@ pub struct Query {
 }
 
 impl Frame {
+    /// The size of the whole picture, of which the frame may be a region.
+    pub fn whole(&self) -> Size {
+        let query = self.query.as_ref();
+        query.map_or(self.size, |query| query.settings.size)
+    }
+
+    /// The index of a pixel of the whole picture in the frame's lists, if it is in its region.
+    pub fn index_of(&self, [x, y]: [u32; 2]) -> Option<usize> {
+        let [left, top] = self.corner;
+        let (x, y) = (x.checked_sub(left)?, y.checked_sub(top)?);
+        let inside = x < self.size.width && y < self.size.height;
+        inside.then_some(y as usize * self.size.width as usize + x as usize)
+    }
+
     /// A picture that was not traced, without values: red, green, blue of each pixel, in rows from
     /// the top left.
     pub fn drawn(size: Size, pixels: Vec<[u8; 3]>) -> Self {

@@ -71,7 +71,11 @@ impl Query {
         Self {
             world: Arc::downgrade(world),
             camera: job.camera,
-            settings: job.settings,
+            // Its pixels are those of the whole picture.
+            settings: Settings {
+                region: None,
+                ..job.settings
+            },
             numbers: job.numbers.clone(),
         }
     }

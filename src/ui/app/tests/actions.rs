@@ -117,11 +117,17 @@ fn edits(action: A) -> bool {
         | A::SavedViews
         | A::Cross(..)
         | A::Stop
+        | A::Pause
+        | A::Magnify(_)
+        | A::Scroll(..)
+        | A::OneToOne
+        | A::Region
+        | A::Corner(..)
+        | A::OtherCorner
         | A::Export
         | A::Save
         | A::Undo
         | A::Redo
-        | A::Steps
         | A::Editor
         | A::Errors
         | A::Messages
