@@ -73,8 +73,8 @@ mod worker;
 mod world;
 
 pub use explain::{
-    Boundary, Crossing, Dark, Explanation, FirstHit, LightTerm, PreparedScene, RayEnd, RayKind,
-    Shading, Stop, SurfaceHit, TracedRay, Unlisted,
+    Boundary, Chosen, Crossing, Dark, Densities, Explanation, FirstHit, LightHit, LightTerm,
+    PreparedScene, RayEnd, RayKind, Shading, Stop, SurfaceHit, TracedRay, Unlisted,
 };
 pub use filter::Filter;
 pub use frame::{

@@ -5,6 +5,7 @@
 //! one asks.
 
 mod lights;
+mod path;
 mod record;
 mod surface;
 mod whitted;
@@ -22,9 +23,12 @@ use super::world::World;
 use crate::scene::Integrator;
 
 pub use record::{
-    Boundary, Crossing, Dark, Explanation, LightTerm, RayEnd, RayKind, Shading, Stop, SurfaceHit,
-    TracedRay, Unlisted,
+    Boundary, Chosen, Crossing, Dark, Densities, Explanation, LightHit, LightTerm, RayEnd, RayKind,
+    Shading, Stop, SurfaceHit, TracedRay, Unlisted,
 };
+
+/// Lights listed per sample: a scene may have 100,000 lights, a sample 4096 rays.
+const MOST_TERMS: usize = 1 << 14;
 
 /// A scene prepared for questions without a renderer.
 #[derive(Debug)]
@@ -93,7 +97,7 @@ impl Query {
         let traced = self.sample(&world, pixel, sample)?;
         let (radiance, rays) = match settings.integrator {
             Integrator::Whitted => whitted::record(&world, settings.depth, traced, cancelled)?,
-            Integrator::Path => return None,
+            Integrator::Path => path::record(&world, settings.depth, traced, cancelled)?,
         };
         let mut explanation = Explanation {
             pixel,
