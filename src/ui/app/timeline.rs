@@ -275,10 +275,13 @@ impl App {
                 integrator,
                 filter: Filter::Box,
                 transfer: past.scene.setting.transfer,
+                exposure: 0.0,
+                region: None,
             },
             scene: past.scene,
             images: past.images,
             camera,
+            limit: None,
             frames: Frames::Live,
             numbers: None,
         })
