@@ -4,10 +4,12 @@
 //! read between their steps. So the record cannot drift from the picture, and costs nothing where no
 //! one asks.
 
+mod judge;
 mod lights;
 mod path;
 mod record;
 mod surface;
+mod verdict;
 mod whitted;
 
 use std::sync::Arc;
@@ -19,13 +21,16 @@ use super::filter::Spread;
 use super::frame::{Job, MAX_SPP, Query, Settings};
 use super::probe::Sample;
 use super::shot::Shot;
+use super::tone::{Light, Tone};
 use super::world::World;
 use crate::scene::Integrator;
+use judge::Case;
 
 pub use record::{
     Boundary, Chosen, Crossing, Dark, Densities, Explanation, LightHit, LightTerm, RayEnd, RayKind,
     Shading, Stop, SurfaceHit, TracedRay, Unlisted,
 };
+pub use verdict::{DepthLimit, Finding, Term, TermSource, Verdict};
 
 /// Lights listed per sample: a scene may have 100,000 lights, a sample 4096 rays.
 const MOST_TERMS: usize = 1 << 14;
@@ -99,12 +104,22 @@ impl Query {
             Integrator::Whitted => whitted::record(&world, settings.depth, traced, cancelled)?,
             Integrator::Path => path::record(&world, settings.depth, traced, cancelled)?,
         };
+        let case = Case {
+            world: &world,
+            projection: &Projection::new(&self.camera, settings.size),
+            rays: &rays,
+            light: Light::of(&settings),
+            integrator: settings.integrator,
+            depth: settings.depth,
+        };
         let mut explanation = Explanation {
             pixel,
             sample,
             integrator: settings.integrator,
             depth: settings.depth,
             radiance,
+            displayed: Tone::Colour(case.light).bytes(radiance),
+            verdicts: judge::judge(&case),
             rays,
         };
         if let Some(numbers) = &self.numbers {

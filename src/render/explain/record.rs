@@ -4,6 +4,7 @@
 use glam::{DVec2, DVec3};
 
 use super::super::shading::Side;
+use super::verdict::Finding;
 use crate::scene::{Integrator, Material, Rgb};
 
 /// The whole tree of rays behind one sample of a pixel.
@@ -22,6 +23,10 @@ pub struct Explanation {
     pub depth: u32,
     /// Linear radiance of the sample.
     pub radiance: Rgb,
+    /// The 8-bit colour of a pixel with this sample alone.
+    pub displayed: [u8; 3],
+    /// Why it is so, what explains it best first; never empty.
+    pub verdicts: Vec<Finding>,
     /// The rays in the order in which they were traced, each after its parent; the camera ray is the
     /// first. Those that were never traced are last.
     pub rays: Vec<TracedRay>,
@@ -313,6 +318,9 @@ impl Explanation {
             for crossing in crossed {
                 crossing.object = name(crossing.object);
             }
+        }
+        for finding in &mut self.verdicts {
+            finding.verdict.rename(&name);
         }
     }
 }
