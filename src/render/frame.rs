@@ -216,8 +216,8 @@ pub struct Frame {
 
 /// A handle by which pixels of a frame are traced again and explained.
 ///
-/// It keeps nothing alive: it answers as long as the renderer has the scene prepared, which is until
-/// the next job is begun or the renderer is dropped.
+/// It keeps nothing alive: it answers as long as the renderer holds the scene prepared, which may end
+/// once a later job is given.
 #[derive(Clone, Debug)]
 pub struct Query {
     pub(crate) world: Weak<World>,
