@@ -38,7 +38,9 @@ impl App {
             let spp = preview_samples(self.integrator());
             let job = size.zip(self.preview_scene());
             let job = job.and_then(|(size, (scene, numbers))| {
-                let mut job = self.job_of(scene, size, spp, Filter::Box)?;
+                let grid = self.pictures.grid;
+                let mut job = self.job_of(scene, grid.size(size), spp, Filter::Box)?;
+                job.camera = grid.camera(job.camera, size);
                 job.settings.aov = self.pictures.preview_aov();
                 if let Some(aov) = job.settings.aov {
                     job.settings.spp = aov.samples(spp);
