@@ -6,6 +6,7 @@ use std::ops::Range;
 use rayon::prelude::*;
 
 use super::frame::{Aov, Frames, Settings};
+use super::gather::Gather;
 use super::noise::Doubling;
 use super::probe::Counts;
 use super::shot::Shot;
@@ -217,6 +218,7 @@ impl Film {
                         integrator, depth, ..
                     } = shot.settings;
                     let tracer = Tracer::new(shot.world, integrator, depth, &cancelled);
+                    let tracer = tracer.gathering(Gather::of(shot.settings.aov));
                     Work::new(match remembers {
                         Remembers::Pixels => tracer,
                         Remembers::Causes => tracer.noting(),
@@ -357,7 +359,9 @@ impl Film {
     fn tone(&self, range: Option<[f64; 2]>) -> Tone {
         let [least, most] = range.unwrap_or([0.0; 2]);
         match self.aov {
-            None | Some(Aov::Albedo) => Tone::Colour(self.light),
+            None | Some(Aov::Albedo | Aov::Direct(_) | Aov::Emission | Aov::Indirect) => {
+                Tone::Colour(self.light)
+            }
             Some(Aov::Normal) => Tone::Normal,
             Some(Aov::Object) => Tone::Number,
             Some(Aov::Depth) => Tone::Depth {
@@ -377,7 +381,7 @@ impl Film {
         let starts_at_zero = match aov {
             Aov::Depth | Aov::Cost | Aov::Samples => false,
             Aov::Noise => true,
-            Aov::Normal | Aov::Object | Aov::Albedo | Aov::Uv | Aov::Side => return None,
+            _ => return None,
         };
         let values = |tile| Tile::values(tile, self.spp, Some(aov));
         let values = self.tiles.par_iter().flat_map_iter(values);

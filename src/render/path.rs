@@ -9,6 +9,7 @@ use glam::DVec3;
 use super::bsdf::{Bsdf, BsdfSample};
 use super::direct::shadow;
 use super::frame::NO_OBJECT;
+use super::gather::Gather;
 use super::lights::SphereLight;
 use super::optics::transmitted;
 use super::probe::{Point, Probe, RAY_BUDGET, Sample, Seen};
@@ -81,12 +82,17 @@ impl<C: Fn() -> bool> Probe<'_, C> {
         let distance = nearest.map_or(reach, |nearest| nearest.hit.t);
         if let Some((light, distance)) = world.sphere_lights.nearest(&path.ray, distance) {
             path.throughput *= transmitted(path.absorption, distance);
-            let radiance = light.scale * light.radiance();
-            seen.radiance += path.throughput * radiance * path.weight_of_chance(&light);
+            if self.gathers(&light, path) {
+                let radiance = light.scale * light.radiance();
+                seen.radiance += path.throughput * radiance * path.weight_of_chance(&light);
+            }
             return None;
         }
         let Some(nearest) = nearest else {
-            seen.radiance += path.throughput * world.around(&path.ray, path.bounce, sample.screen);
+            if self.gather.glow(path.bounce) {
+                let around = world.around(&path.ray, path.bounce, sample.screen);
+                seen.radiance += path.throughput * around;
+            }
             return None;
         };
         if path.bounce == 0 {
@@ -99,9 +105,28 @@ impl<C: Fn() -> bool> Probe<'_, C> {
         let bsdf = Bsdf::at(&point, material);
         if material.is_lit(point.side) {
             let light = self.light_of_all(&point, &bsdf, path.bounce, sample.sampler);
-            seen.radiance += path.throughput * (material.emission + light);
+            let emission = if self.gather.glow(path.bounce) {
+                material.emission
+            } else {
+                Rgb::ZERO
+            };
+            seen.radiance += path.throughput * (emission + light);
         }
         bsdf.sample(&path.ray, &point, sample.sampler, path.bounce)
+    }
+
+    /// Whether a light with a size that a path hits is part of the light gathered. Where it could
+    /// have been sampled from the first surface, it is that surface's direct light.
+    fn gathers(&self, light: &SphereLight, path: &Path) -> bool {
+        let from_first = path.bounce == 1 && path.chosen.is_some();
+        match self.gather {
+            Gather::Direct(number) => {
+                let wanted = self.world.scene.lights.get(number as usize);
+                from_first && wanted.and_then(Light::sphere).as_ref() == Some(light)
+            }
+            Gather::Indirect if from_first => false,
+            gather => gather.glow(path.bounce),
+        }
     }
 
     /// Whether to stop before the light with this index; polled for some only, since a scene may
@@ -123,6 +148,9 @@ impl<C: Fn() -> bool> Probe<'_, C> {
         for (number, light) in world.scene.lights.iter().enumerate() {
             if self.is_cancelled_at(number) {
                 break;
+            }
+            if !self.gather.light(number, bounce) {
+                continue;
             }
             let sent_back = match light.sphere() {
                 None => self.direct(point, light, |facing| {

@@ -108,6 +108,7 @@ impl App {
             size: grid.size(halves),
             grid,
             part: None,
+            display: self.pictures.display,
         })
     }
 

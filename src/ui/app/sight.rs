@@ -2,7 +2,7 @@
 
 use std::borrow::Cow;
 
-use crate::render::Frame;
+use crate::render::{Display, Frame};
 use crate::scene::{Camera, Size};
 
 /// How a frame is mapped to the screen.
@@ -14,6 +14,8 @@ pub struct Sight {
     pub grid: Grid,
     /// The part of the frame that fills them; `None` for all of it.
     pub part: Option<Part>,
+    /// How light is displayed.
+    pub display: Display,
 }
 
 /// Pixels in each cell, which is taken to be twice as high as wide.
@@ -43,12 +45,14 @@ impl Sight {
             size,
             grid: Grid::HALF_BLOCKS,
             part: None,
+            display: Display::default(),
         }
     }
 
     /// The colours of the frame's pixels as they are to be seen.
     pub(super) fn colours<'f>(&self, frame: &'f Frame) -> Cow<'f, [[u8; 3]]> {
-        Cow::Borrowed(&frame.pixels)
+        let displayed = self.display.apply(frame);
+        displayed.map_or(Cow::Borrowed(&frame.pixels), Cow::Owned)
     }
 
     /// The part of a frame of this size that is seen.

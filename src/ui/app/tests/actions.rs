@@ -129,6 +129,8 @@ fn edits(action: A) -> bool {
         | A::Resize(_)
         | A::Divide(_)
         | A::Show(_)
+        | A::Share(_)
+        | A::Expose(_)
         | A::Wireframe
         | A::Integrator
         | A::Repaint
