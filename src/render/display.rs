@@ -118,6 +118,7 @@ mod tests {
             depth: 1,
             seed: 0,
             aov,
+            region: None,
             integrator: Integrator::Whitted,
             filter: Filter::Box,
             transfer: Transfer::Linear,

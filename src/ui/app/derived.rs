@@ -52,6 +52,7 @@ impl App {
             None if let Some(page) = &self.overlays.page => match page.list {
                 List::Views(..) => Context::Views,
                 List::Recent(_) => Context::Recent,
+                List::Steps(_) => Context::Steps,
             },
             None if self.overlays.history.is_some() => Context::Messages,
             None if self.overlays.errors.is_some() => Context::Errors,

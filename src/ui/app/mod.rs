@@ -35,6 +35,7 @@ mod looking;
 mod menu;
 mod messages;
 mod model;
+mod naming;
 mod next;
 mod opening;
 mod overlays;
@@ -58,6 +59,8 @@ mod structure;
 mod symbols;
 #[cfg(test)]
 pub(super) mod tests;
+mod thumbnails;
+mod timeline;
 mod tracing;
 mod transform;
 mod transforming;
@@ -94,6 +97,8 @@ pub use shown::Shown;
 pub use sight::{Grid, Part, Sight};
 pub use soloed::Solo;
 pub use symbols::{Symbol, SymbolKind};
+pub use thumbnails::{Rank, Thumbnail, Thumbnails};
+pub use timeline::Steps;
 pub use transform::Transform;
 pub use wires::Wires;
 
