@@ -172,6 +172,7 @@ impl Film {
     /// pixels that cannot be continued to this number of samples. Runs on the current thread pool.
     pub(crate) fn take_over(&mut self, other: Self, changed: Touched) {
         self.tiles = other.tiles;
+        self.remembers = other.remembers;
         let spp = [other.spp, self.spp];
         let reached = self.tiles.par_iter_mut().map(|tile| {
             tile.forget(changed, spp);
@@ -179,6 +180,11 @@ impl Film {
         });
         self.reached = reached.max().unwrap_or(0);
         self.over_budget = self.tiles.iter().map(|tile| tile.over_budget).sum();
+    }
+
+    /// Whether another film of the same size stores all that this one shows.
+    pub(crate) fn can_take_over(&self, other: &Self) -> bool {
+        self.remembers == Remembers::Pixels || other.remembers == Remembers::Causes
     }
 
     /// The number of pixels.

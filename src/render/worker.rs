@@ -92,7 +92,8 @@ fn trace<W: Fn() + Sync>(
     }) = &mut previous
         && let Some(old) = traced.take()
     {
-        match Touched::between((&old.job, world_before), (&job, &world)) {
+        let changed = Touched::between((&old.job, world_before), (&job, &world));
+        match changed.filter(|_| film.can_take_over(&old.film)) {
             Some(changed) => {
                 film.take_over(old.film, changed);
                 if changed == Touched::NOTHING {

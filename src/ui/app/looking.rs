@@ -19,6 +19,17 @@ pub struct Tally {
     pub histogram: Option<Histogram>,
 }
 
+#[cfg(test)]
+impl Tally {
+    /// A histogram of no particular frame.
+    pub(in crate::ui) fn of(histogram: Histogram) -> Self {
+        Self {
+            histogram: Some(histogram),
+            ..Self::default()
+        }
+    }
+}
+
 impl App {
     /// Shows light or an AOV.
     pub(super) fn show(&mut self, aov: Option<Aov>) {

@@ -89,3 +89,36 @@ fn chart(histogram: &Histogram, panel: Rect, buffer: &mut Buffer) {
     shares.skip_to(panel.right() - 1 - clipped.len() as u16);
     shares.put(&clipped, style);
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::ui::app::Tally;
+    use crate::ui::view::tests::{app, drawn};
+
+    /// A pixel of each of these luminances and three of ¼; 0.001 is below the scale.
+    #[test]
+    fn bars_stand_over_their_stops_and_clipping_is_marked() {
+        let values = [0.001, 0.25, 0.25, 0.25, 1.0, 1.0, 4.0, 4.0].map(|grey| [grey; 3]);
+        let mut app = app();
+        app.pictures.tally = Some(Tally::of(Histogram::of(&values, 0.0)));
+        let lines = drawn(&app, render, 40, 8);
+        assert_eq!(
+            lines,
+            [
+                "",
+                "luminance ───────────── EV",
+                "             █",
+                "             █   ▆   ▆",
+                "             █   █   █",
+                "             █   █   █",
+                " -8              0     +4",
+                " 12 % dark        25 % >1",
+            ]
+        );
+        // Where it does not fit, it is left out.
+        assert!(drawn(&app, render, 25, 8).iter().all(String::is_empty));
+        app.pictures.tally = Some(Tally::default());
+        assert_eq!(drawn(&app, render, 40, 8)[3], " only of light and albedo");
+    }
+}
