@@ -158,6 +158,7 @@ const OTHERS: &[&str] = &[
     "e",
     "new",
     "recent",
+    "history",
     "export",
     "export!",
     "export cancel",
@@ -202,6 +203,11 @@ fn every_action_edits_as_its_rows_say_and_is_undone_in_one_step() {
             if reason.is_some() {
                 continue;
             }
+            let step = app.document.undoable().map(ToString::to_string);
+            assert!(
+                step.is_some_and(|step| step != "edit"),
+                "{name} {keys}: unnamed"
+            );
             press(&mut app, "u");
             assert_eq!(app.document.text(), text, "{name} {keys}: undone");
             press(&mut app, "<Ctrl-r>");
