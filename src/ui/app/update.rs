@@ -25,6 +25,7 @@ impl App {
         self.scroll(&areas);
         self.follow_views();
         effects.extend(self.follow());
+        self.follow_histogram();
         effects.extend(self.follow_steps());
         effects.extend(self.disk.journal.follow(&self.document));
         effects.extend(self.follow_kept());
@@ -309,7 +310,9 @@ impl App {
             Action::Zoom => self.toggle_zoom(),
             Action::Resize(step) => self.resize_panels(step),
             Action::Divide(step) => self.resize_list(step),
-            Action::Show(aov) => self.overlays.say(self.pictures.show(aov)),
+            Action::Show(aov) => self.show(aov),
+            Action::Share(step) => self.step_share(step),
+            Action::Expose(half_stops) => self.expose(half_stops),
             Action::Wireframe => self.overlays.say(self.pictures.show_wires()),
             Action::Integrator => {
                 let words = self.pictures.toggle_integrator(self.scene.as_deref());
