@@ -427,6 +427,7 @@ fn tracing(scene: &Arc<Scene>) -> (Renderer, Receiver<()>) {
     });
     let settings = Settings {
         size: scene.camera.size,
+        region: None,
         spp: 4096,
         depth: DEFAULT_DEPTH,
         seed: 0,
@@ -434,12 +435,14 @@ fn tracing(scene: &Arc<Scene>) -> (Renderer, Receiver<()>) {
         integrator: Integrator::Whitted,
         filter: Filter::Box,
         transfer: Transfer::default(),
+        exposure: 0.0,
     };
     let job = Job {
         scene: Arc::clone(scene),
         images: Images::default(),
         camera: scene.camera,
         settings,
+        limit: None,
         frames: Frames::Live,
         numbers: None,
     };

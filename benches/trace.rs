@@ -249,6 +249,7 @@ fn traced(scene: &Arc<Scene>, threads: usize) -> (Duration, Arc<Frame>) {
     let mut trace = || {
         let settings = Settings {
             size: SIZE,
+            region: None,
             spp: 1,
             depth: DEFAULT_DEPTH,
             seed: 0,
@@ -256,12 +257,14 @@ fn traced(scene: &Arc<Scene>, threads: usize) -> (Duration, Arc<Frame>) {
             integrator: Integrator::Whitted,
             filter: Filter::Box,
             transfer: Transfer::default(),
+            exposure: 0.0,
         };
         let job = Job {
             scene: Arc::clone(scene),
             images: Images::default(),
             camera: scene.camera,
             settings,
+            limit: None,
             frames: Frames::Last,
             numbers: None,
         };

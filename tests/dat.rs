@@ -121,6 +121,7 @@ fn trace(scene: &Arc<Scene>, threads: usize) -> Arc<Frame> {
             camera: scene.camera,
             settings: Settings {
                 size: scene.camera.size,
+                region: None,
                 spp: 2,
                 depth: DEFAULT_DEPTH,
                 seed: 0,
@@ -128,7 +129,9 @@ fn trace(scene: &Arc<Scene>, threads: usize) -> Arc<Frame> {
                 integrator: Integrator::Whitted,
                 filter: Filter::Box,
                 transfer: Transfer::default(),
+                exposure: 0.0,
             },
+            limit: None,
             frames: Frames::Last,
             numbers: None,
         })

@@ -47,6 +47,14 @@ pub struct Difference {
     pub colours: [[u8; 3]; 2],
 }
 
+impl Difference {
+    /// The largest difference of a channel, in levels.
+    pub fn largest(&self) -> u8 {
+        let [a, b] = self.colours;
+        levels(a, b).into_iter().max().unwrap_or(0)
+    }
+}
+
 /// Pictures of different sizes cannot be compared pixel by pixel.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct SizesDiffer(pub [Size; 2]);

@@ -12,7 +12,8 @@
 //! [`structures`] of its meshes and fills the [`tile`]s of a [`film`] in [`steps`]. Each sample
 //! gets its numbers from [`sampler`], its place around the pixel from [`filter`], its ray from
 //! [`camera`] and its radiance from a [`tracer`], or an AOV from [`first_hit`]. [`tone`] converts
-//! the film to a frame, and [`noise`] estimates the remaining error.
+//! the film to a frame (heat maps by a [`ramp`]), and [`noise`] estimates the remaining error. Of a
+//! picture, a [`mod@region`] can be traced alone.
 //!
 //! Pixels of live pictures record their dependencies ([`touched`]): after an edit of a material or
 //! of a light's colour the film is reused, and only dependent pixels are traced again.
@@ -21,7 +22,13 @@
 //! on [`surfaces`] and [`branch`]; [`path`] traces samples one by one, continuing by a [`bsdf`] and
 //! its [`lobes`]. Both query the world through a [`probe`], which applies a material's maps
 //! ([`texture`]), shade according to [`shading`], and sample [`lights`] for [`direct`] light.
-//! [`optics`], [`microfacet`] and [`warp`] hold the formulas.
+//! [`optics`], [`microfacet`] and [`warp`] hold the formulas. [`gather`] tells the shares of the
+//! light apart.
+//!
+//! [`explain`] records every ray behind a sample, part by part, by driving the same integrators;
+//! a [`Query`] of a frame does so for the frame's pixels.
+//!
+//! [`display`] says how a finished frame is looked at, and a [`histogram`] how bright it is.
 //!
 //! [`mod@wireframe`] projects the outlines of objects without tracing.
 //!
@@ -32,10 +39,14 @@ mod branch;
 mod bsdf;
 mod camera;
 mod direct;
+mod display;
+mod explain;
 mod film;
 mod filter;
 mod first_hit;
 mod frame;
+mod gather;
+mod histogram;
 mod intersect;
 mod lights;
 mod lobes;
@@ -46,7 +57,9 @@ mod packets;
 mod path;
 mod place;
 mod probe;
+mod ramp;
 mod refusal;
+mod region;
 mod renderer;
 mod sampler;
 mod shading;
@@ -61,6 +74,7 @@ mod tile;
 mod tone;
 mod touched;
 mod tracer;
+mod tracing;
 mod warp;
 mod wave;
 mod whitted;
@@ -68,14 +82,23 @@ mod wireframe;
 mod worker;
 mod world;
 
+pub use display::{Colours, Display, MOST_HALF_STOPS, exposes};
+pub use explain::{
+    Boundary, Chosen, Crossing, Dark, Densities, DepthLimit, Explanation, Finding, FirstHit,
+    LightHit, LightTerm, PreparedScene, RayEnd, RayKind, Shading, Stop, SurfaceHit, Term,
+    TermSource, TracedRay, Unlisted, Verdict,
+};
 pub use filter::Filter;
 pub use frame::{
-    Aov, DEFAULT_DEPTH, DEFAULT_SPP, Frame, Frames, Job, MAX_SPP, NO_OBJECT, Progress, Settings,
-    default_depth,
+    Aov, DEFAULT_DEPTH, DEFAULT_SPP, Frame, Frames, Job, Limit, MAX_SPP, NO_OBJECT, Progress,
+    Query, Settings, default_depth,
 };
+pub use histogram::{HISTOGRAM_STOPS, Histogram};
 pub use place::{SurfacePoint, axes, clearance, pixel_of, pixel_width, surface_under};
 pub use refusal::Refusal;
+pub use region::{NoRegion, Region};
 pub use renderer::{Renderer, Threads};
+pub use shading::Side;
 pub use wireframe::{WireLine, Wireframe, wireframe};
 
 #[cfg(test)]

@@ -1,5 +1,6 @@
 //! Radiance along camera rays, computed by either integrator.
 
+use super::gather::Gather;
 use super::probe::{Counts, Probe, Sample, Seen};
 use super::touched::Touched;
 use super::wave::Wave;
@@ -32,6 +33,13 @@ impl<'w, C: Fn() -> bool> Tracer<'w, C> {
         self
     }
 
+    /// Restricts the light to a share.
+    pub(crate) fn gathering(mut self, gather: Gather) -> Self {
+        self.probe.gather = gather;
+        self.probe.depth = gather.depth(self.integrator, self.probe.depth);
+        self
+    }
+
     /// Computes the results of camera samples, in their order.
     pub(crate) fn trace(&mut self, samples: &[Sample], seen: &mut Vec<Seen>) {
         seen.clear();
@@ -44,9 +52,11 @@ impl<'w, C: Fn() -> bool> Tracer<'w, C> {
                         break;
                     }
                     probe.touched = Touched::default();
+                    let before = probe.counts.rays;
                     let brought = probe.by_path(sample);
                     seen.push(Seen {
                         touched: probe.touched,
+                        rays: u32::try_from(probe.counts.rays - before).unwrap_or(u32::MAX),
                         ..brought
                     });
                 }

@@ -12,11 +12,13 @@ use std::time::{Duration, Instant};
 
 use super::assets::AssetReader;
 use super::comparer::{Figures, References};
+use super::deriving::Deriver;
 use super::editor;
 use super::event::{Event, Work, sending};
 use super::heap;
 use super::msg::{Effect, Msg, SaveOutcome, Target, Timer};
 use super::options::Options;
+use super::past::NoPicture;
 use super::reader::Reader;
 use super::recent::Recent;
 use super::recovery::{self, Edits, End, Keeper, Outcome, Request};
@@ -45,6 +47,7 @@ pub(crate) struct Runtime {
     assets: AssetReader,
     references: References,
     figures: Figures,
+    deriver: Deriver,
     threads: Option<usize>,
     /// The command line of the editor that is configured.
     editor: Option<String>,
@@ -53,6 +56,7 @@ pub(crate) struct Runtime {
     export: Option<Numbered>,
     compared: Option<Numbered>,
     reference: Option<Numbered>,
+    thumbnail: Option<Numbered>,
     /// Number of renderers started so far.
     renderers: u64,
     timers: Vec<(Instant, Timer)>,
@@ -80,6 +84,7 @@ impl Runtime {
             assets: AssetReader::start(&options.assets, options.watching(), sending(&sender))?,
             references: References::start(&options.assets, sending(&sender))?,
             figures: Figures::start(sending(&sender))?,
+            deriver: Deriver::start(&options.assets, sending(&sender))?,
             threads: options.threads,
             editor: options.editor.clone(),
             preview: None,
@@ -87,6 +92,7 @@ impl Runtime {
             export: None,
             compared: None,
             reference: None,
+            thumbnail: None,
             renderers: 0,
             timers: Vec::new(),
             trim_at: None,
@@ -184,6 +190,17 @@ impl Runtime {
         match effect {
             Effect::Trace(target, job) => return Ok(Some(self.trace(target, job))),
             Effect::Stop(target) => self.stop(target),
+            Effect::Halt(target) => self.with_renderer(target, Renderer::stop),
+            Effect::Pause(target) => self.with_renderer(target, Renderer::pause),
+            Effect::Resume(target) => self.with_renderer(target, Renderer::resume),
+            Effect::Derive(past) => {
+                let (ticket, work) = (past.ticket, Work::begin(&self.sender));
+                let begun = self.deriver.request(*past, work);
+                let refused = begun
+                    .err()
+                    .map(|ended| NoPicture::Failed(ended.to_string()));
+                return Ok(refused.map(|reason| Msg::Derived(ticket, Err(reason))));
+            }
             Effect::WriteImage(id, frame, to) => {
                 let started = self.writers.export(id, frame, to);
                 let refused = started.err().map(|error| Err(error.to_string()));
@@ -275,6 +292,7 @@ impl Runtime {
             Target::Export => self.export.as_ref(),
             Target::Compared => self.compared.as_ref(),
             Target::Reference => self.reference.as_ref(),
+            Target::Thumbnail => self.thumbnail.as_ref(),
         }
     }
 
@@ -283,6 +301,7 @@ impl Runtime {
         let threads = match (target, self.threads) {
             (Target::Preview, None) => Threads::Preview,
             (Target::Preview, Some(count)) => Threads::Exactly(count),
+            (Target::Thumbnail, _) => Threads::Background(1),
             (_, count) => Threads::Background(count.unwrap_or_else(cores)),
         };
         let (sender, renderers) = (&self.sender, &mut self.renderers);
@@ -304,6 +323,7 @@ impl Runtime {
             Target::Export => &mut self.export,
             Target::Compared => &mut self.compared,
             Target::Reference => &mut self.reference,
+            Target::Thumbnail => &mut self.thumbnail,
         };
         let running = slot.get_or_insert_with(&mut start);
         let started = match running.renderer.restart(job.clone()) {
@@ -329,6 +349,21 @@ impl Runtime {
             Target::Export => self.export = None,
             Target::Compared => self.compared = None,
             Target::Reference => self.reference = None,
+            Target::Thumbnail => self.thumbnail = None,
+        }
+    }
+
+    fn with_renderer(&mut self, target: Target, act: impl FnOnce(&mut Renderer)) {
+        let slot = match target {
+            Target::Preview => &mut self.preview,
+            Target::Trace => &mut self.trace,
+            Target::Export => &mut self.export,
+            Target::Compared => &mut self.compared,
+            Target::Reference => &mut self.reference,
+            Target::Thumbnail => &mut self.thumbnail,
+        };
+        if let Some(running) = slot {
+            act(&mut running.renderer);
         }
     }
 
@@ -419,26 +454,4 @@ fn remembering(sender: &Sender<Event>) -> io::Result<Recent> {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_worker_that_panics_announces_its_end() {
-        let (sender, inbox) = std::sync::mpsc::channel();
-        let waker = Waker {
-            sender,
-            target: Target::Export,
-            number: 7,
-        };
-        let worker = thread::spawn(move || {
-            waker.wake();
-            panic!("on purpose");
-        });
-        assert!(worker.join().is_err());
-        let events: Vec<_> = inbox.iter().collect();
-        assert!(matches!(
-            events[..],
-            [Event::Ready(_), Event::Ended(Target::Export, 7)]
-        ));
-    }
-}
+mod tests;

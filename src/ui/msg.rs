@@ -9,6 +9,7 @@ use std::time::Duration;
 use crossterm::event::{KeyEvent, MouseEvent};
 
 use super::arrange::PanelSizes;
+use super::past::{NoPicture, PastScene, PastText};
 use super::reading::{Baseline, Opened, Reading};
 use super::recovery::{Claim, Found, Sought};
 use super::reference::{Pair, ReferenceId, ReferenceRead, ReferenceSource};
@@ -33,6 +34,8 @@ pub enum Target {
     Compared,
     /// The scene that pictures are compared with.
     Reference,
+    /// A picture on the page of the undo history, traced in the background.
+    Thumbnail,
 }
 
 /// Identifies an export of the session. If an export is cancelled while its file is being written,
@@ -69,6 +72,8 @@ pub enum Msg {
     Read(PathBuf, Result<Reading, ReadError>),
     /// The result of [`Effect::Open`] for this path.
     Opened(PathBuf, Result<Opened, ReadError>),
+    /// The result of [`Effect::Derive`], by its ticket.
+    Derived(u64, Result<PastScene, NoPicture>),
     /// The result of [`Effect::ReadAssets`].
     AssetsRead(Wanted, Loaded),
     /// A file that the scene names may have changed.
@@ -156,8 +161,16 @@ pub enum Effect {
     /// Starts tracing this picture, reported by [`Msg::Started`] and [`Msg::Frame`], or by
     /// [`Msg::Refused`].
     Trace(Target, Job),
-    /// Stops tracing this picture.
+    /// Stops tracing this picture and forgets it.
     Stop(Target),
+    /// Stops tracing this picture; [`Effect::Trace`] of the same continues it.
+    Halt(Target),
+    /// Pauses the tracing of this picture until [`Effect::Resume`] or [`Effect::Trace`].
+    Pause(Target),
+    /// Continues a paused picture.
+    Resume(Target),
+    /// Derives the scene of a text of the history, reported by [`Msg::Derived`].
+    Derive(Box<PastText>),
     /// Writes a frame to a picture file, reported by [`Msg::Exported`] or
     /// [`Msg::Taken`].
     WriteImage(ExportId, Arc<Frame>, Destination),

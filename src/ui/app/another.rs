@@ -105,6 +105,7 @@ impl App {
         };
         match page.list {
             List::Views(views, _) => self.go_to_view(&views[at]),
+            List::Steps(_) => self.go_to_state(at),
             List::Recent(paths) => return self.open_scene(paths[at].clone()),
         }
         Vec::new()
@@ -135,6 +136,7 @@ impl App {
         self.disk.replace(path, state);
         self.assets = Assets::default();
         self.pictures.renew();
+        self.thumbnails.forget();
         self.cursor = Cursor::default();
         self.overlays = Overlays::default();
         self.jobs.abandon_saves();

@@ -11,7 +11,6 @@ use crate::render::{Aov, Frame, Frames, Job, Settings, default_depth};
 use crate::scene::{Camera, Images, Scene, Size};
 use crate::text::Severity;
 use crate::ui::keymap::{Action, Context, Mode};
-use crate::ui::layout::pixel_at;
 use crate::ui::msg::{Effect, Target};
 use crate::ui::reference::{ReferenceId, ReferenceRead, ReferenceSource};
 
@@ -54,6 +53,9 @@ impl App {
         };
         let untraced = || "cannot pin the picture: it is still being traced".to_owned();
         let frame = frame.filter(is_whole).ok_or_else(untraced)?;
+        if frame.whole() != frame.size {
+            return Err("only a whole picture can be pinned, not a part of it".to_owned());
+        }
         let spp = frame.progress.spp;
         let grid = self.pictures.grid;
         let (kind, origin) = match (self.mode, &self.compared.reference) {
@@ -65,10 +67,10 @@ impl App {
             },
             (Mode::Trace | Mode::Compare, _) => ("trace", Origin::Traced(spp)),
             _ => {
-                let halves = self.pictures.preview.asked;
-                let halves = halves.filter(|halves| grid.size(*halves) == frame.size);
-                let origin = Origin::Preview(halves.ok_or_else(untraced)?, grid, spp);
-                ("preview", origin)
+                let screen = self.preview_screen();
+                let screen = screen.filter(|screen| grid.size(screen.halves) == frame.size);
+                let halves = screen.ok_or_else(untraced)?.halves;
+                ("preview", Origin::Preview(halves, grid, spp))
             }
         };
         let shows = shown(self.pictures.aov);
@@ -234,7 +236,7 @@ impl App {
         }
         let spp = match reference.origin {
             Origin::Preview(halves, grid, spp) => {
-                let job = self.preview_job(halves, grid, spp);
+                let job = self.whole_preview_job(halves, grid, spp);
                 return Ok((job.ok_or_else(|| self.no_picture())?, None));
             }
             Origin::Traced(spp) => spp,
@@ -273,6 +275,7 @@ impl App {
                 transfer: scene.setting.transfer,
                 ..live.settings
             },
+            limit: None,
             frames: Frames::Live,
             numbers: None,
         }
@@ -331,8 +334,8 @@ impl App {
         if self.compared.view == Contrast::Wipe {
             let wipe = Wipe(f64::from(cell.0) / f64::from(raster.0.width));
             self.compared.look(Contrast::Wipe, wipe);
-        } else if let Some(pair) = self.compared.pair() {
-            self.compared.cross = pixel_at(raster, pair.live.size, cell);
+        } else if let Some([x, y]) = self.pixel_at(cell) {
+            self.compared.cross = Some((x, y));
         }
     }
 }

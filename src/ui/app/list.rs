@@ -51,7 +51,7 @@ impl App {
                     *at = moved(*at, rows, merge.conflicts.len());
                 }
             }
-            Context::Views | Context::Recent => {
+            Context::Views | Context::Recent | Context::Steps => {
                 if let Some(page) = &mut self.overlays.page {
                     page.go(rows);
                 }
@@ -59,6 +59,7 @@ impl App {
             Context::Colour => self.move_picker(rows),
             Context::In(_)
             | Context::Opening
+            | Context::Region
             | Context::Quit
             | Context::Leave
             | Context::MovedView
@@ -82,6 +83,7 @@ impl App {
         let panel = match context {
             Context::Help => return (self.help_rows() as isize - 1).max(1),
             Context::Errors => areas.errors,
+            Context::Steps => return self.step_rows(),
             Context::Messages | Context::Views | Context::Recent => areas.picture,
             _ => areas.list,
         };

@@ -48,7 +48,8 @@ impl App {
                 return;
             }
         };
-        let pixel = pixel_at(pose.centre, &camera, size);
+        let magnification = self.sight().map_or(1.0, |sight| sight.magnification(size));
+        let pixel = pixel_at(pose.centre, &camera, size) / magnification;
         let step = round_up(pixel);
         let trial = self.begin_trial();
         self.pictures.transform = Some(Transform {
@@ -258,7 +259,13 @@ impl App {
             edits.map_err(|refused| refused.to_string())
         });
         match outcome {
-            Ok(()) => self.overlays.say(transform.words()),
+            Ok(()) => {
+                if transform.trial.is_applied {
+                    let targets = self.targets_name(&transform.nodes);
+                    self.document.name_step(transform.step_name(&targets));
+                }
+                self.overlays.say(transform.words());
+            }
             Err(reason) => self.overlays.fail(reason),
         }
         self.pictures.transform = Some(transform);

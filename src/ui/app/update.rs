@@ -8,7 +8,7 @@ use super::{App, Contrast, Help, PageFocus, PromptKind, line};
 use crate::text::Severity;
 use crate::ui::arrange::{Zoom, divided, resized};
 use crate::ui::keymap::{self, Action, Context, Meaning, Mode, Tool};
-use crate::ui::msg::{Effect, Existing, Msg, Timer};
+use crate::ui::msg::{Effect, Existing, Msg, Target, Timer};
 use crate::ui::terminal::Mouse;
 
 impl App {
@@ -25,6 +25,8 @@ impl App {
         self.scroll(&areas);
         self.follow_views();
         effects.extend(self.follow());
+        self.follow_histogram();
+        effects.extend(self.follow_steps());
         effects.extend(self.disk.journal.follow(&self.document));
         effects.extend(self.follow_kept());
         let time = self.overlays.time_to_read();
@@ -39,10 +41,12 @@ impl App {
             Msg::Paste(text) => return self.paste(&text),
             Msg::Mouse(event) => return self.pointer(event),
             Msg::Resize(columns, rows) => self.terminal = (columns, rows),
+            Msg::Started(Target::Thumbnail, generation) => self.thumbnails.started(generation),
             Msg::Started(target, generation) => {
                 self.pictures.want(target, Some(generation));
                 self.compared.want(target, Some(generation));
             }
+            Msg::Derived(ticket, derived) => return self.derived(ticket, derived),
             Msg::Frame(target, frame) => return self.frame(target, frame),
             Msg::Refused(target, reason) => return self.ended(target, reason),
             Msg::Ended(target) => return self.ended(target, "the renderer stopped early"),
@@ -119,7 +123,9 @@ impl App {
                 self.warn_of_opening();
                 Vec::new()
             }
-            Meaning::None if matches!(context, Context::Views | Context::Recent) => {
+            Meaning::None
+                if matches!(context, Context::Views | Context::Recent | Context::Steps) =>
+            {
                 self.filter_with(key);
                 Vec::new()
             }
@@ -303,12 +309,15 @@ impl App {
             Action::Undo => self.undo(),
             Action::Redo => self.redo(),
             Action::Errors => self.toggle_errors(),
+            Action::Steps => self.list_steps(),
             Action::Messages => self.overlays.history = Some(0),
             Action::Help => self.overlays.help = Some(Help::default()),
             Action::Zoom => self.toggle_zoom(),
             Action::Resize(step) => self.resize_panels(step),
             Action::Divide(step) => self.resize_list(step),
-            Action::Show(aov) => self.overlays.say(self.pictures.show(aov)),
+            Action::Show(aov) => self.show(aov),
+            Action::Share(step) => self.step_share(step),
+            Action::Expose(half_stops) => self.expose(half_stops),
             Action::Wireframe => self.overlays.say(self.pictures.show_wires()),
             Action::Integrator => {
                 let words = self.pictures.toggle_integrator(self.scene.as_deref());
@@ -321,6 +330,13 @@ impl App {
             Action::Difference => self.look_at(self.compared.view.next_difference()),
             Action::Worst(step) => self.go_to_worst(step),
             Action::Stop => return self.stop(),
+            Action::Pause => return self.toggle_pause(),
+            Action::Magnify(steps) => self.magnify(steps),
+            Action::Scroll(right, down) => self.scroll_picture(right, down),
+            Action::OneToOne => self.toggle_scale(),
+            Action::Region => self.start_region(),
+            Action::Corner(right, down) => self.move_corner(right, down),
+            Action::OtherCorner => self.swap_corners(),
             Action::Export => return self.export_default(),
             Action::Save => return self.save_key(),
             Action::Editor => return self.open_editor(),
@@ -364,7 +380,7 @@ impl App {
     fn back(&mut self, context: Context) -> Vec<Effect> {
         match context {
             Context::Help => self.overlays.help = None,
-            Context::Views | Context::Recent => self.overlays.page = None,
+            Context::Views | Context::Recent | Context::Steps => self.overlays.page = None,
             Context::Messages => self.overlays.history = None,
             Context::Errors => self.overlays.errors = None,
             Context::Delete => self.overlays.dialog = None,
@@ -379,6 +395,7 @@ impl App {
             }
             Context::Opening => {}
             Context::Colour => self.cancel_colour(),
+            Context::Region => self.pictures.drawing = None,
             Context::In(Mode::Trace) => {
                 self.mode = self.pictures.mode_before();
             }
@@ -397,7 +414,7 @@ impl App {
     fn accept(&mut self, context: Context) -> Vec<Effect> {
         match context {
             Context::Errors => self.go_to_error(),
-            Context::Views | Context::Recent => return self.choose(),
+            Context::Views | Context::Recent | Context::Steps => return self.choose(),
             Context::Conflict => return self.adopt(),
             Context::Quit | Context::Wait | Context::Leave | Context::MovedView => {
                 return self.leave_anyway();
@@ -408,6 +425,7 @@ impl App {
             Context::In(Mode::Pick) => self.pick_cross(),
             Context::In(Mode::Move) => self.confirm_transform(),
             Context::Colour => self.confirm_colour(),
+            Context::Region => return self.confirm_region(),
             Context::In(_) | Context::Help | Context::Messages | Context::Opening => {}
         }
         Vec::new()

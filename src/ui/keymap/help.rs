@@ -31,7 +31,7 @@ const START: [(&str, &str); 2] = [
     ("halflight doctor", "what was detected, and why"),
 ];
 
-const MOUSE: [(&str, &str); 12] = [
+const MOUSE: [(&str, &str); 15] = [
     ("click the list", "select"),
     ("click a field", "move the cursor there"),
     ("click it again", "choose or type a value"),
@@ -42,8 +42,11 @@ const MOUSE: [(&str, &str); 12] = [
     ("drag it with Ctrl or right", "in VIEW, pan"),
     ("drag it in MOVE", "move, rotate or scale"),
     ("drag it in COMPARE", "move the wipe line"),
+    ("drag it in TRACE", "pan; after R, draw the region"),
     ("drag a border", "resize the panels"),
-    ("wheel", "scroll; in VIEW, dolly"),
+    ("wheel", "scroll; in VIEW, dolly; in TRACE, zoom"),
+    ("Ctrl and wheel", "zoom the preview"),
+    ("drag with another button", "pan the zoomed preview"),
 ];
 
 /// An input and its description.
@@ -111,11 +114,13 @@ impl Keymap {
             Context::In(Compare) => COMPARE_HINTS,
             Context::Errors => ERROR_HINTS,
             Context::Colour => COLOUR_HINTS,
+            Context::Region => REGION_HINTS,
             Context::Opening => &[],
             Context::Help
             | Context::Messages
             | Context::Views
             | Context::Recent
+            | Context::Steps
             | Context::Conflict
             | Context::Quit
             | Context::Leave
@@ -288,7 +293,34 @@ const PICK_HINTS: &[Hint] = &[
     (&[A::Accept], "select"),
     (&[A::Back], "back"),
 ];
+const REGION_HINTS: &[Hint] = &[
+    (
+        &[
+            A::Corner(-1, 0),
+            A::Corner(0, 1),
+            A::Corner(0, -1),
+            A::Corner(1, 0),
+        ],
+        "move the corner",
+    ),
+    (&[A::OtherCorner], "other corner"),
+    (&[A::Accept], "trace it"),
+    (&[A::Back], "cancel"),
+];
 const TRACE_HINTS: &[Hint] = &[
+    (&[A::Magnify(1), A::Magnify(-1)], "zoom"),
+    (
+        &[
+            A::Scroll(-1, 0),
+            A::Scroll(0, 1),
+            A::Scroll(0, -1),
+            A::Scroll(1, 0),
+        ],
+        "pan",
+    ),
+    (&[A::OneToOne], "1:1"),
+    (&[A::Pause], "pause"),
+    (&[A::Region], "region"),
     (&[A::Stop], "stop"),
     (&[A::Back], "back"),
     (&[A::Integrator], "path tracing"),
@@ -396,8 +428,9 @@ mod tests {
 
     #[test]
     fn search_matches_any_part_of_a_line() {
-        let undo = lines("UNDO", Select);
-        assert_eq!(undo, [HelpLine::Heading("anywhere"), entry("u", "undo")]);
+        let redraw = lines("REDRAW", Select);
+        let expected = entry("Ctrl-L", "redraw the screen");
+        assert_eq!(redraw, [HelpLine::Heading("anywhere"), expected]);
         assert!(lines("ctrl-r", Select).contains(&entry("Ctrl-R", "redo")));
         assert_eq!(headings(&lines("mouse", Edit)), ["mouse"]);
         assert_eq!(headings(&lines("[wxh]", Edit)), ["commands"]);

@@ -96,8 +96,9 @@ fn worst(app: &App, found: &Comparison, lines: &mut Lines, inks: &mut Inks) {
         row.skip_to(column);
         for colour in worst.colours {
             row.put("██", Style::new().fg(inks.colour(colour, 0, 0)));
-            row.put(&format!(" {} ", levels(colour)), style);
+            row.skip(1);
         }
+        row.put(&format!("by {}", worst.largest()), style);
     }
 }
 

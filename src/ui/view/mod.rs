@@ -13,6 +13,7 @@ mod dither;
 mod errors;
 mod fields;
 mod help;
+mod histogram;
 mod history;
 mod inks;
 mod list;
@@ -25,7 +26,9 @@ mod picker;
 mod picture;
 mod row;
 mod status;
+mod steps;
 mod symbols;
+mod values;
 mod wireframe;
 
 #[cfg(test)]
@@ -67,6 +70,7 @@ fn render(app: &App, inks: &mut Inks, area: Rect, buffer: &mut Buffer) {
             fields::render(app, areas.fields, buffer);
         }
     }
+    histogram::render(app, areas.picture, buffer);
     errors::render(app, areas.errors, buffer);
     let status = current::render(app, &areas, buffer);
     status::render(app, inks.glyphs, status, buffer);
@@ -79,6 +83,7 @@ fn render(app: &App, inks: &mut Inks, area: Rect, buffer: &mut Buffer) {
     let bars = areas.hint.height + areas.status.height;
     let (body, _) = layout::split_bottom(area, bars);
     page::render(app, body, buffer);
+    steps::render(app, inks, body, buffer);
     help::render(app, body, buffer);
     history::render(app, body, buffer);
     if let Some(refused) = current::refusal(app, &areas) {

@@ -128,8 +128,11 @@ fn frame(width: u32, height: u32) -> Arc<Frame> {
     Arc::new(Frame {
         generation: 1,
         size,
+        corner: [0; 2],
         pixels: vec![[100; 3]; size.pixels()],
         values: Vec::new(),
+        errors: Vec::new(),
+        range: None,
         objects: (0..width * height)
             .map(|at| if under(at) == 1 { 1 } else { NO_OBJECT })
             .collect(),
@@ -145,6 +148,7 @@ fn frame(width: u32, height: u32) -> Arc<Frame> {
             noise: None,
             complete: false,
         },
+        query: None,
     })
 }
 
@@ -209,6 +213,15 @@ const STATES: &[(&str, Change)] = &[
     ("history", |app| {
         app.overlays.history = Some(usize::MAX);
         app.update(Msg::Failed("界\u{1b}]52;c;界\u{7}".repeat(20)));
+    }),
+    ("undo history", |app| {
+        app.mode = Mode::Select;
+        app.thumbnails.has_colours = true;
+        app.cursor.select(Node::Object(0), app.document.source());
+        for key in ['D', 'D', 'd', 'u', 'U', 'k'] {
+            app.update(Msg::Key(KeyCode::Char(key).into()));
+        }
+        assert!(app.open_steps().is_some());
     }),
     ("overwrite", |app| {
         app.update(Msg::Key(KeyCode::Char('b').into()));

@@ -100,6 +100,7 @@ fn edits(action: A) -> bool {
         | A::Copy
         | A::Solo
         | A::Step(..)
+        | A::Steps
         | A::Lock(_)
         | A::Snap
         | A::Stride(_)
@@ -123,6 +124,13 @@ fn edits(action: A) -> bool {
         | A::Difference
         | A::Worst(_)
         | A::Stop
+        | A::Pause
+        | A::Magnify(_)
+        | A::Scroll(..)
+        | A::OneToOne
+        | A::Region
+        | A::Corner(..)
+        | A::OtherCorner
         | A::Export
         | A::Save
         | A::Undo
@@ -135,6 +143,8 @@ fn edits(action: A) -> bool {
         | A::Resize(_)
         | A::Divide(_)
         | A::Show(_)
+        | A::Share(_)
+        | A::Expose(_)
         | A::Wireframe
         | A::Integrator
         | A::Repaint
@@ -161,6 +171,7 @@ const OTHERS: &[&str] = &[
     "e",
     "new",
     "recent",
+    "history",
     "export",
     "export!",
     "export cancel",
@@ -168,6 +179,14 @@ const OTHERS: &[&str] = &[
     "compare",
     "view light",
     "view reset",
+    "show uv",
+    "show side",
+    "exposure",
+    "transfer linear",
+    "transfer srgb",
+    "transfer scene",
+    "falsecolour",
+    "histogram",
     "mouse",
     "theme dark",
     "theme light",
@@ -198,6 +217,11 @@ fn every_action_edits_as_its_rows_say_and_is_undone_in_one_step() {
             if reason.is_some() {
                 continue;
             }
+            let step = app.document.undoable().map(ToString::to_string);
+            assert!(
+                step.is_some_and(|step| step != "edit"),
+                "{name} {keys}: unnamed"
+            );
             press(&mut app, "u");
             assert_eq!(app.document.text(), text, "{name} {keys}: undone");
             press(&mut app, "<Ctrl-r>");

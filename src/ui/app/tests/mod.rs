@@ -11,9 +11,11 @@ mod exports;
 mod fields;
 mod hints;
 mod listing;
+mod looking;
 mod making;
 mod messages;
 mod moving;
+mod naming;
 mod opening;
 mod palette;
 mod panels;
@@ -26,11 +28,13 @@ mod soloing;
 mod starting;
 mod structure;
 mod symbols;
+mod timeline;
 mod transforming;
 mod trying;
 mod views;
 mod wires;
 mod xml;
+mod zooming;
 
 use std::path::{Path, PathBuf};
 
@@ -136,6 +140,7 @@ fn named(name: &str) -> KeyEvent {
         "Tab" => KeyCode::Tab,
         "Back" => KeyCode::Backspace,
         "F5" => KeyCode::F(5),
+        "Lt" => KeyCode::Char('<'),
         one => KeyCode::Char(one.chars().next().expect("a key has a name")),
     })
 }

@@ -12,9 +12,12 @@ pub(in crate::ui) fn frame(size: Size, objects: Vec<u32>) -> Frame {
     Frame {
         generation: 1,
         size,
+        corner: [0; 2],
         pixels: vec![[9; 3]; size.pixels()],
         objects,
         values: Vec::new(),
+        errors: Vec::new(),
+        range: None,
         progress: Progress {
             pass: 1,
             passes: 1,
@@ -27,6 +30,7 @@ pub(in crate::ui) fn frame(size: Size, objects: Vec<u32>) -> Frame {
             noise: None,
             complete: true,
         },
+        query: None,
     }
 }
 
@@ -281,7 +285,7 @@ fn quitting_asks_about_an_export_and_can_wait_for_it() {
 }
 
 #[test]
-fn a_stopped_trace_restarts() {
+fn a_stopped_trace_continues() {
     let traces = |effects: &[Effect]| {
         wants(effects, |effect| {
             matches!(effect, Effect::Trace(Target::Trace, _))
@@ -294,13 +298,13 @@ fn a_stopped_trace_restarts() {
     let effects = press(&mut app, "x");
     assert!(wants(&effects, |effect| matches!(
         effect,
-        Effect::Stop(Target::Trace)
+        Effect::Halt(Target::Trace)
     )));
     assert!(traces(&press(&mut app, "<Esc><F5>")));
 }
 
 #[test]
-fn f5_restarts_a_stopped_trace_but_not_a_running_one() {
+fn f5_continues_a_stopped_trace_but_not_a_running_one() {
     let begun = |effects: &[Effect]| {
         wants(effects, |effect| {
             matches!(effect, Effect::Trace(Target::Trace, _))
@@ -311,7 +315,7 @@ fn f5_restarts_a_stopped_trace_but_not_a_running_one() {
     app.update(Msg::Started(Target::Trace, 1));
     assert!(!begun(&press(&mut app, "<F5>")));
     press(&mut app, "x");
-    assert_eq!(words(&app), "stopped; press F5 to restart");
+    assert_eq!(words(&app), "stopped; press F5 to continue");
     assert!(begun(&press(&mut app, "<F5>")));
     press(&mut app, "<Esc>");
     assert_eq!(app.mode, Mode::Select);

@@ -1,0 +1,129 @@
+//! The light of one light at a point, factor by factor.
+
+use glam::DVec3;
+
+use super::super::direct::{Facing, Points};
+use super::super::intersect::{Crossed, Nearest};
+use super::super::lights::{Incoming, incoming};
+use super::super::probe::Point;
+use super::super::world::World;
+use super::record::{Crossing, Dark, LightTerm};
+use crate::geometry::Ray;
+use crate::scene::{Emitter, Light, Material, Rgb};
+
+/// Objects listed on a shadow ray.
+const MOST_CROSSED: usize = 16;
+
+/// A point that lights may light.
+#[derive(Clone, Copy)]
+pub(super) struct Lit<'r> {
+    pub(super) world: &'r World,
+    pub(super) point: &'r Point,
+    pub(super) material: &'r Material,
+}
+
+impl Lit<'_> {
+    /// Describes the light with this index, sampled where `chosen` says if that is not its centre;
+    /// `reflected` gives the reflectance for its geometry, and `added` is what the integrator added
+    /// for it. `None` for ambient light.
+    pub(super) fn term(
+        &self,
+        number: usize,
+        chosen: Option<Incoming<f64>>,
+        reflected: impl FnOnce(&Facing<f64>) -> Rgb,
+        added: Rgb,
+    ) -> Option<LightTerm> {
+        let light = &self.world.scene.lights[number];
+        let from = self.point.surface.point;
+        let centre = incoming(light, from.into())?;
+        let incoming = chosen.unwrap_or(centre);
+        let facing = Facing::new(&Points::from(self.point), light, incoming);
+        let toward = DVec3::from(facing.toward);
+        let [radial, spot] = shares(light, from, toward);
+        let source = incoming.source.map(DVec3::from);
+        let reflected = if facing.is_lit {
+            reflected(&facing)
+        } else {
+            Rgb::ZERO
+        };
+        let arriving = radial * spot * light.colour;
+        let mut term = LightTerm {
+            light: number as u32,
+            toward,
+            distance: source.map_or(f64::INFINITY, |source| source.distance(from)),
+            cosine: facing.cosine,
+            radial,
+            spot,
+            arriving,
+            reflected,
+            densities: None,
+            transmittance: None,
+            crossed: Vec::new(),
+            radiance: added,
+            dark: None,
+        };
+        // Otherwise the integrators ask for no shadow.
+        let is_asked = reflected != Rgb::ZERO && radial * spot != 0.0;
+        if let Some(shadow) = facing.shadow.filter(|_| is_asked) {
+            let ray = Ray {
+                origin: shadow.rays.origin.into(),
+                direction: shadow.rays.direction.into(),
+            };
+            self.cross(&mut term, &ray, shadow.ends);
+        }
+        term.dark = (added == Rgb::ZERO).then(|| self.dark(&term, light));
+        Some(term)
+    }
+
+    /// Records what a shadow ray crosses.
+    fn cross(&self, term: &mut LightTerm, ray: &Ray, end: f64) {
+        let world = self.world;
+        let transmittance = world.transmittance(ray, end, &mut Crossed::default());
+        term.transmittance = Some(transmittance);
+        let crossing = |nearest: Nearest| {
+            let object = &world.scene.objects[nearest.object as usize];
+            let material = object.material_at(nearest.hit);
+            Crossing {
+                object: nearest.object,
+                material,
+                t: nearest.hit.t,
+                transmittance: world.transmission(material),
+            }
+        };
+        if transmittance != 1.0 {
+            let crossed = world.crossings(ray, end).into_iter().map(crossing);
+            term.crossed.extend(crossed.take(MOST_CROSSED));
+        }
+    }
+
+    /// Why a light adds nothing.
+    fn dark(&self, term: &LightTerm, light: &Light) -> Dark {
+        if light.colour == Rgb::ZERO {
+            Dark::SwitchedOff
+        } else if !self.material.is_lit(self.point.side) {
+            Dark::UnlitSide
+        } else if term.cosine.is_nan() {
+            Dark::AtThePoint
+        } else if term.cosine <= 0.0 {
+            Dark::FacesAway
+        } else if term.spot == 0.0 {
+            Dark::OutsideCone
+        } else if term.radial == 0.0 {
+            Dark::Attenuated
+        } else if term.transmittance == Some(0.0) {
+            Dark::Blocked
+        } else {
+            Dark::NotReflected
+        }
+    }
+}
+
+/// The factors of attenuation by distance and by angle.
+fn shares(light: &Light, point: DVec3, toward: DVec3) -> [f64; 2] {
+    match &light.emitter {
+        Emitter::Point {
+            position, falloff, ..
+        } => falloff.shares(position.distance(point), toward),
+        Emitter::Distant(_) | Emitter::Ambient => [1.0; 2],
+    }
+}
