@@ -309,10 +309,11 @@ impl App {
 
     /// Moves the line of the wipe by some cells to the right.
     pub(super) fn slide_wipe(&mut self, cells: i16) {
-        let Some((area, _)) = self.raster() else {
+        let Some(((area, halves), sight)) = self.raster().zip(self.sight()) else {
             return;
         };
-        let width = f64::from(area.width);
+        // The cells across the whole picture.
+        let width = f64::from(area.width) * sight.magnification(halves);
         let column = (self.compared.wipe.0 * width).round() + f64::from(cells);
         let wipe = Wipe(column.clamp(0.0, width) / width);
         self.compared.look(Contrast::Wipe, wipe);
@@ -322,20 +323,52 @@ impl App {
     pub(super) fn go_to_worst(&mut self, step: isize) {
         if let Err(reason) = self.compared.go_to_worst(step) {
             self.overlays.say(reason);
+        } else if let Some(place) = self.cross_on_screen() {
+            self.centre_on(place);
         }
+    }
+
+    /// Where the pixel that is pointed at is on screen, in half blocks from the picture's upper left
+    /// corner.
+    pub fn cross_on_screen(&self) -> Option<[f64; 2]> {
+        let here = self.compared.at_cross()?;
+        let size = self.compared.pair()?.size()?;
+        let (_, halves) = self.raster()?;
+        let scaled = |at: u32, pixels: u32, shown: u32| {
+            (f64::from(at) + 0.5) / f64::from(pixels) * f64::from(shown)
+        };
+        let place = [
+            scaled(here.x, size.width, halves.width),
+            scaled(here.y, size.height, halves.height),
+        ];
+        Some(self.sight()?.on_screen(place, halves))
+    }
+
+    /// Where the line of the wipe is on screen, in half blocks from the picture's left edge, if it is
+    /// seen.
+    pub fn wipe_on_screen(&self) -> Option<f64> {
+        let (_, halves) = self.raster()?;
+        let at = self.compared.wipe.0 * f64::from(halves.width);
+        let [column, _] = self.sight()?.on_screen([at, 0.0], halves);
+        (self.compared.view == Contrast::Wipe).then_some(column)
     }
 
     /// Moves the line of the wipe to a cell of the screen; in other views, points at the pixel there.
     pub(super) fn press_comparison(&mut self, at: (u16, u16)) {
-        let Some(raster) = self.raster().filter(|(cells, _)| cells.contains(at.into())) else {
+        let Some((cells, _)) = self.raster().filter(|(cells, _)| cells.contains(at.into())) else {
             return;
         };
-        let cell = (at.0 - raster.0.x, at.1 - raster.0.y);
-        if self.compared.view == Contrast::Wipe {
-            let wipe = Wipe(f64::from(cell.0) / f64::from(raster.0.width));
-            self.compared.look(Contrast::Wipe, wipe);
-        } else if let Some([x, y]) = self.pixel_at(cell) {
-            self.compared.cross = Some((x, y));
+        let cell = (at.0 - cells.x, at.1 - cells.y);
+        let Some([x, y]) = self.pixel_at(cell) else {
+            return;
+        };
+        let seen = self.compared.seen.latest.as_ref();
+        match (self.compared.view, seen) {
+            (Contrast::Wipe, Some(seen)) => {
+                let wipe = Wipe(f64::from(x) / f64::from(seen.size.width));
+                self.compared.look(Contrast::Wipe, wipe);
+            }
+            _ => self.compared.cross = Some((x, y)),
         }
     }
 }

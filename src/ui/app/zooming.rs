@@ -111,6 +111,18 @@ impl App {
         self.adjust(|now, screen| now.panned([right.into(), down.into()], screen));
     }
 
+    /// Moves what is at a place on screen, in half blocks from the picture's upper left corner, to the
+    /// middle, unless all of the picture is on screen.
+    pub(super) fn centre_on(&mut self, [x, y]: [f64; 2]) {
+        if !self.viewport().is_fit() {
+            self.adjust(|now, screen| {
+                let Size { width, height } = screen.halves;
+                let from = [x / f64::from(width), y / f64::from(height)];
+                now.dragged(from, MIDDLE, screen)
+            });
+        }
+    }
+
     /// Moves what is in one cell of the screen to another.
     pub(super) fn drag_picture(&mut self, from: (u16, u16), to: (u16, u16)) {
         if let (Some(from), Some(to)) = (self.share_at(from), self.share_at(to)) {

@@ -107,6 +107,7 @@ const PANELS: Scope = Scope::These(&[
     Context::In(View),
     Context::In(Fly),
     Context::In(Pick),
+    Context::In(Compare),
     Context::Errors,
 ]);
 const REGION: Scope = Scope::These(&[Context::Region]);
@@ -287,6 +288,8 @@ pub(super) const TABLE: &[Binding] = &[
     bind(COMPARE, &[c('H'), Chord(Left, SHIFT)], A::SlideWipe(-8), "wipe 8 cells further left"),
     bind(COMPARE, &[c('L'), Chord(Right, SHIFT)], A::SlideWipe(8), "wipe 8 cells further right"),
     bind(COMPARE, &[c('d')], A::Difference, "difference, times 4, times 16, heat map"),
+    bind(COMPARE, &[c('+')], A::Magnify(1), "zoom in"),
+    bind(COMPARE, &[c('-')], A::Magnify(-1), "zoom out"),
     bind(COMPARE, &[c('n')], A::Worst(1), "next of the worst pixels"),
     bind(COMPARE, &[c('N')], A::Worst(-1), "previous of the worst pixels"),
 

@@ -8,8 +8,7 @@ use ratatui::widgets::{Clear, Widget};
 use super::Inks;
 use super::row::{Row, title};
 use crate::compare::{Comparison, Difference};
-use crate::scene::Size;
-use crate::ui::app::{App, Contrast};
+use crate::ui::app::App;
 use crate::ui::theme;
 
 /// Width of the names of the panel, with a gap.
@@ -102,71 +101,40 @@ fn worst(app: &App, found: &Comparison, lines: &mut Lines, inks: &mut Inks) {
     }
 }
 
-/// Draws the line of a wipe, and the cross with the colours there, over the cells of the picture,
-/// whose size is in half blocks.
-pub(super) fn mark(app: &App, cells: Rect, size: Size, buffer: &mut Buffer) {
-    let compared = &app.compared;
-    if compared.view == Contrast::Wipe && !cells.is_empty() {
-        let column = (compared.wipe.0 * f64::from(cells.width)).round() as u16;
-        let x = cells.x + column.min(cells.width - 1);
+/// Draws the line of a wipe, and the cross with the colours there, over the cells of the picture.
+pub(super) fn mark(app: &App, cells: Rect, buffer: &mut Buffer) {
+    let cell = |[column, row]: [f64; 2]| {
+        let inside = |at: f64, cells: u16| (0.0..f64::from(cells)).contains(&at);
+        let is_inside = inside(column, cells.width) && inside(row / 2.0, cells.height);
+        is_inside.then_some((cells.x + column as u16, cells.y + (row / 2.0) as u16))
+    };
+    if let Some(column) = app.wipe_on_screen() {
+        // At the right edge it is beyond the last cell.
+        let column = column.round().min(f64::from(cells.width) - 1.0);
+        let place = cell([column, 0.0]);
         for y in cells.top()..cells.bottom() {
-            if let Some(cell) = buffer.cell_mut((x, y)) {
+            if let Some((x, _)) = place
+                && let Some(cell) = buffer.cell_mut((x, y))
+            {
                 let [red, green, blue] = theme::OUTLINE;
                 cell.set_symbol("│").set_fg(Color::Rgb(red, green, blue));
             }
         }
     }
-    let Some(here) = compared.at_cross() else {
+    let Some(Difference { x, y, colours }) = app.compared.at_cross() else {
         return;
     };
-    let Some(pair) = compared.pair() else { return };
-    if let Some(place) = cell_of((here.x, here.y), pair.live.size, cells, size)
+    if let Some(place) = app.cross_on_screen().and_then(cell)
         && let Some(cell) = buffer.cell_mut(place)
     {
         cell.set_symbol("┼").set_style(Style::reset());
         cell.set_style(theme::chip(Style::new()));
     }
-    let Difference { x, y, colours } = here;
     let [live, reference] = colours.map(levels);
     let text = format!(" {x},{y}: {live} here, {reference} in the reference ");
     Row::new(buffer, cells, 0).put(&text, theme::chip(theme::ACCENT));
 }
 
-/// The cell over a pixel of a picture.
-fn cell_of((x, y): (u32, u32), picture: Size, cells: Rect, size: Size) -> Option<(u16, u16)> {
-    let scaled = |at: u32, pixels: u32, shown: u32| {
-        (u64::from(at) * u64::from(shown) / u64::from(pixels.max(1))) as u16
-    };
-    let column = cells.x + scaled(x, picture.width, size.width);
-    let row = cells.y + scaled(y, picture.height, size.height) / 2;
-    cells
-        .contains((column, row).into())
-        .then_some((column, row))
-}
-
 fn levels([red, green, blue]: [u8; 3]) -> String {
     format!("{red} {green} {blue}")
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_pixel_is_marked_in_its_cell() {
-        let size = |width, height| Size { width, height };
-        let cells = Rect::new(10, 5, 4, 3);
-        for (pixel, picture, cell) in [
-            ((0, 0), size(400, 600), Some((10, 5))),
-            ((399, 599), size(400, 600), Some((13, 7))),
-            ((2, 3), size(4, 6), Some((12, 6))),
-            ((400, 0), size(400, 600), None),
-        ] {
-            assert_eq!(
-                cell_of(pixel, picture, cells, size(4, 6)),
-                cell,
-                "{pixel:?}"
-            );
-        }
-    }
 }

@@ -68,7 +68,7 @@ fn overlays(
         cross(app, cells, buffer);
     }
     if app.mode == Mode::Compare {
-        comparison::mark(app, cells, size, buffer);
+        comparison::mark(app, cells, buffer);
     }
     if app.is_empty() {
         invitation(area, buffer);
