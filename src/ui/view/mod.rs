@@ -17,6 +17,7 @@ mod inks;
 mod list;
 mod menu;
 mod message;
+mod mosaic;
 mod oklab;
 mod page;
 mod palette;
