@@ -12,6 +12,7 @@ mod colour;
 #[cfg(unix)]
 mod decode;
 mod event;
+mod graphics;
 mod guard;
 mod input;
 pub(crate) mod interview;
