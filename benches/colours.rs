@@ -88,7 +88,8 @@ fn ours(scene: &str, depth: ColourDepth) -> (Shown, Vec<[u8; 3]>, [f64; 2]) {
         ..Frame::drawn(size, picture.pixels.clone())
     };
     app.update(Msg::Frame(Target::Preview, Arc::new(frame)));
-    app.picture_mut().advance(size, &[], usize::MAX);
+    let sight = app.sight().expect("the picture has cells");
+    app.picture_mut().advance(&sight, &[], usize::MAX);
     let backend = AnsiBackend::new(depth, ratatui::layout::Size::from(TERMINAL));
     let Ok(mut terminal) = ratatui::Terminal::new(backend);
     let mut inks = Inks::for_depth(depth);

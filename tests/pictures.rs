@@ -210,6 +210,7 @@ fn trace(scene: &Arc<Scene>, images: Images, size: Size, spp: u32) -> Arc<Frame>
     });
     let settings = Settings {
         size,
+        region: None,
         spp,
         depth: default_depth(scene.setting.integrator),
         seed: 0,
@@ -217,12 +218,14 @@ fn trace(scene: &Arc<Scene>, images: Images, size: Size, spp: u32) -> Arc<Frame>
         integrator: scene.setting.integrator,
         filter: Filter::Box,
         transfer: scene.setting.transfer,
+        exposure: 0.0,
     };
     let job = Job {
         scene: Arc::clone(scene),
         images,
         camera: scene.camera,
         settings,
+        limit: None,
         frames: Frames::Last,
         numbers: None,
     };

@@ -58,6 +58,7 @@ fn the_example_is_white_on_black() {
         camera: scene.camera,
         settings: Settings {
             size: scene.camera.size,
+            region: None,
             spp: 1,
             depth: DEFAULT_DEPTH,
             seed: 0,
@@ -67,6 +68,7 @@ fn the_example_is_white_on_black() {
             transfer: Transfer::default(),
         },
         scene,
+        limit: None,
         frames: Frames::Last,
         numbers: None,
     };

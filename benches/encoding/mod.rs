@@ -104,8 +104,8 @@ fn show(app: &mut App, frames: &[Arc<Frame>], turns: usize) -> Encoded {
         sent.clear();
         let begun = Instant::now();
         app.update(Msg::Frame(Target::Preview, frame));
-        let (_, size) = app.raster().expect("the picture has cells");
-        app.picture_mut().advance(size, &[], usize::MAX);
+        let sight = app.sight().expect("the picture has cells");
+        app.picture_mut().advance(&sight, &[], usize::MAX);
         let Ok(_) = terminal.draw(|frame| view::draw(app, &mut inks, frame));
         let taken = terminal.backend_mut().finish(|bytes| {
             sent.extend_from_slice(bytes);

@@ -262,6 +262,7 @@ impl Stage {
             },
             settings: Settings {
                 size,
+                region: None,
                 spp,
                 depth: self.depth.unwrap_or_else(|| default_depth(integrator)),
                 seed: 0,
@@ -269,7 +270,9 @@ impl Stage {
                 integrator,
                 filter: Filter::Box,
                 transfer: scene.setting.transfer,
+                exposure: 0.0,
             },
+            limit: None,
             frames: Frames::Last,
             numbers: None,
         };

@@ -2,14 +2,19 @@
 
 use std::num::NonZero;
 use std::thread;
+use std::time::Duration;
 
 use clap::Args;
 
 use super::choices::{AovChoice, FilterChoice, IntegratorChoice, TransferChoice};
 use super::shared::{depth_range, spp_range, threads_range};
 use crate::batch::Tracing;
-use crate::render::DEFAULT_SPP;
+use crate::render::Region;
 use crate::scene::Size;
+use crate::text::parse_duration;
+
+/// The largest exposure in stops either way, beyond which single precision overflows soon.
+const MOST_STOPS: f64 = 100.0;
 
 #[derive(Args, Debug)]
 pub(super) struct TracingArguments {
@@ -17,9 +22,17 @@ pub(super) struct TracingArguments {
     /// [default: the scene's]
     #[arg(long, value_name = "WxH", value_parser = parse_size)]
     size: Option<Size>,
-    /// Samples per pixel, 1 to 65536
-    #[arg(long, value_name = "N", default_value_t = DEFAULT_SPP, value_parser = spp_range())]
-    spp: u32,
+    /// Trace only this part of the picture, in pixels from its top left corner; its pixels are those
+    /// of the whole picture
+    #[arg(long, value_name = "X,Y,W,H", value_parser = parse_region)]
+    region: Option<Region>,
+    /// Samples per pixel, 1 to 65536 [default: 16, or 65536 with --time]
+    #[arg(long, value_name = "N", value_parser = spp_range())]
+    spp: Option<u32>,
+    /// Stop after about this time, such as 90s or 5min, with the samples of a whole pass: 1, 2, 4 …
+    /// The picture is the one with that --spp
+    #[arg(long, value_name = "TIME", value_parser = parse_time)]
+    time: Option<Duration>,
     /// Maximum number of bounces, 0 to 4096 [default: 8, or 64 with path tracing]
     #[arg(long, value_name = "N", value_parser = depth_range())]
     depth: Option<u32>,
@@ -32,12 +45,17 @@ pub(super) struct TracingArguments {
     /// Random seed, 0 to 4294967295
     #[arg(long, value_name = "N", default_value_t = 0)]
     seed: u32,
-    /// Render a property of the first surface under each pixel instead of light
+    /// Render a property of the first surface under each pixel, or of the samples of its light,
+    /// instead of light
     #[arg(long, value_name = "AOV", value_enum)]
     aov: Option<AovChoice>,
     /// Transfer curve from colours to 8-bit values [default: linear, unless the scene sets srgb]
     #[arg(long, value_name = "CURVE", value_enum)]
     transfer: Option<TransferChoice>,
+    /// Exposure in stops, -100 to 100: light and albedo times 2 to this power before the transfer,
+    /// in EXR and HDR too
+    #[arg(long, value_name = "STOPS", default_value_t = 0.0, allow_negative_numbers = true, value_parser = parse_stops)]
+    exposure: f64,
     /// Number of tracing threads, 1 to 1024 [default: one per core]
     #[arg(long, value_name = "N", value_parser = threads_range())]
     threads: Option<u16>,
@@ -48,19 +66,39 @@ impl TracingArguments {
         let all_cores = || thread::available_parallelism().map_or(1, NonZero::get);
         Tracing {
             size: self.size,
+            region: self.region,
             spp: self.spp,
+            time: self.time,
             depth: self.depth,
             integrator: self.integrator.map(IntegratorChoice::value),
             filter: self.filter.value(),
             seed: self.seed,
             aov: self.aov.map(AovChoice::value),
             transfer: self.transfer.map(TransferChoice::value),
+            exposure: self.exposure,
             threads: self.threads.map_or_else(all_cores, usize::from),
         }
     }
 }
 
+fn parse_stops(text: &str) -> Result<f64, String> {
+    let stops = text.parse().ok();
+    stops
+        .filter(|stops: &f64| stops.abs() <= MOST_STOPS)
+        .ok_or_else(|| format!("expected a number from -{MOST_STOPS} to {MOST_STOPS}"))
+}
+
 fn parse_size(text: &str) -> Result<Size, String> {
     Size::parse(text)
         .ok_or_else(|| "expected two integers of at least 1, such as 800x600".to_owned())
+}
+
+fn parse_region(text: &str) -> Result<Region, String> {
+    Region::parse(text).ok_or_else(|| {
+        "expected left column, top row, width and height in pixels, such as 100,50,64,48".to_owned()
+    })
+}
+
+fn parse_time(text: &str) -> Result<Duration, String> {
+    parse_duration(text).ok_or_else(|| "expected a time, such as 90s, 5min or 2h".to_owned())
 }

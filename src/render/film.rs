@@ -11,10 +11,10 @@ use super::probe::Counts;
 use super::shot::Shot;
 use super::steps::Step;
 use super::tile::{AREA, Remembers, Tile, TileShape, Work};
-use super::tone::Tone;
+use super::tone::{Light, Tone};
 use super::touched::Touched;
 use super::tracer::Tracer;
-use crate::scene::{Size, Transfer};
+use crate::scene::{Rgb, Size};
 
 /// Most pixels of a picture whose dependencies are recorded; for larger pictures that would cost
 /// more memory than the time saved is worth.
@@ -33,12 +33,14 @@ pub(crate) struct Film {
     size: Size,
     spp: u32,
     aov: Option<Aov>,
-    transfer: Transfer,
+    light: Light,
     shape: TileShape,
     remembers: Remembers,
     /// The tiles begun so far; capacity is reserved for all. First touching a large picture's
     /// memory takes long, so the tracing threads do it tile by tile.
     tiles: Vec<Tile>,
+    /// The highest level of a pixel of the film taken over; 0 without one.
+    reached: u8,
     /// The sum of the pixels' squared errors, up to the current tile of the pass.
     squared_errors: f64,
     /// The noise after the last pass that estimated it.
@@ -50,8 +52,9 @@ pub(crate) struct Film {
 }
 
 /// What the tiles of a picture store.
-fn remembers(size: Size, frames: Frames) -> Remembers {
-    if frames == Frames::Live && size.pixels() <= MOST_REMEMBERED {
+fn remembers(settings: &Settings, frames: Frames) -> Remembers {
+    let shown = matches!(settings.aov, Some(Aov::Cost | Aov::Noise));
+    if shown || frames == Frames::Live && settings.size.pixels() <= MOST_REMEMBERED {
         Remembers::Causes
     } else {
         Remembers::Pixels
@@ -72,15 +75,29 @@ pub(crate) struct Raster {
     pub(crate) objects: Vec<u32>,
     /// Unclamped values of the pixels, if requested.
     pub(crate) values: Vec<[f32; 3]>,
+    /// Estimated errors of the pixels, if recorded and requested.
+    pub(crate) errors: Vec<f32>,
+    /// The ends of the scale of [`Raster::pixels`], if it has one.
+    pub(crate) range: Option<[f64; 2]>,
 }
 
 impl Raster {
     /// Reserves memory for the pixels that frames of this kind show.
-    fn with_room(count: usize, frames: Frames) -> Result<Self, TryReserveError> {
+    fn with_room(
+        count: usize,
+        frames: Frames,
+        remembers: Remembers,
+    ) -> Result<Self, TryReserveError> {
         let mut room = Self::default();
         room.pixels.try_reserve_exact(count)?;
         match frames {
-            Frames::Live => room.objects.try_reserve_exact(count)?,
+            Frames::Live => {
+                room.objects.try_reserve_exact(count)?;
+                room.values.try_reserve_exact(count)?;
+                if remembers == Remembers::Causes {
+                    room.errors.try_reserve_exact(count)?;
+                }
+            }
             Frames::Last => {}
             Frames::LastWithValues => room.values.try_reserve_exact(count)?,
         }
@@ -91,29 +108,25 @@ impl Raster {
 impl Film {
     /// Bytes needed by a film and its finished picture.
     pub(crate) fn bytes(settings: &Settings, frames: Frames) -> u64 {
-        let size = settings.size;
+        let size = settings.traced().size();
         let bytes = |count: usize, each: usize| (count as u64).saturating_mul(each as u64);
+        let remembers = remembers(settings, frames);
         let values = match frames {
-            Frames::Live => size_of::<u32>(),
+            Frames::Live => size_of::<u32>() + size_of::<[f32; 3]>() + size_of::<f32>(),
             Frames::Last => 0,
             Frames::LastWithValues => size_of::<[f32; 3]>(),
         };
-        let tile = Tile::bytes(remembers(size, frames));
+        let tile = Tile::bytes(remembers);
         let tiles = bytes(TileShape::of(size).count(size), tile);
         tiles.saturating_add(bytes(size.pixels(), size_of::<[u8; 3]>() + values))
     }
 
     /// Creates an empty film; reserves memory for its tiles and the finished picture.
     pub(crate) fn new(settings: &Settings, frames: Frames) -> Result<Self, NoMemory> {
-        let Settings {
-            size,
-            spp,
-            aov,
-            transfer,
-            ..
-        } = *settings;
+        let Settings { spp, aov, .. } = *settings;
+        let size = settings.traced().size();
         let shape = TileShape::of(size);
-        let remembers = remembers(size, frames);
+        let remembers = remembers(settings, frames);
         let count = shape.count(size);
         let film = || {
             let mut tiles = Vec::new();
@@ -122,14 +135,15 @@ impl Film {
                 size,
                 spp,
                 aov,
-                transfer,
+                light: Light::of(settings),
                 shape,
                 remembers,
                 tiles,
+                reached: 0,
                 squared_errors: 0.0,
                 noise: None,
                 over_budget: 0,
-                room: Raster::with_room(size.pixels(), frames)?,
+                room: Raster::with_room(size.pixels(), frames, remembers)?,
             })
         };
         film().map_err(|_: TryReserveError| NoMemory {
@@ -153,19 +167,27 @@ impl Film {
         self.tiles.len()
     }
 
-    /// Takes over the contents of a film of the same size, except what depends on `changed`. Runs
-    /// on the current thread pool.
+    /// Takes over the contents of a film of the same size, except what depends on `changed`, and
+    /// pixels that cannot be continued to this number of samples. Runs on the current thread pool.
     pub(crate) fn take_over(&mut self, other: Self, changed: Touched) {
         self.tiles = other.tiles;
-        self.tiles
-            .par_iter_mut()
-            .for_each(|tile| tile.forget(changed));
+        let spp = [other.spp, self.spp];
+        let reached = self.tiles.par_iter_mut().map(|tile| {
+            tile.forget(changed, spp);
+            tile.reached()
+        });
+        self.reached = reached.max().unwrap_or(0);
         self.over_budget = self.tiles.iter().map(|tile| tile.over_budget).sum();
     }
 
-    /// Whether the dependencies of its pixels are recorded.
-    pub(crate) fn remembers(&self) -> bool {
-        self.remembers == Remembers::Causes
+    /// The number of pixels.
+    pub(crate) fn pixels(&self) -> usize {
+        self.size.pixels()
+    }
+
+    /// The highest level of a pixel of the film taken over.
+    pub(crate) fn reached(&self) -> u8 {
+        self.reached
     }
 
     /// Returns the end of the range from tile `from` that holds `count` tiles lacking a step.
@@ -255,7 +277,7 @@ impl Film {
     /// traced, each pixel shows the nearest grid point up and to the left. All tiles must be begun.
     /// `None` once `cancelled` returns true, or if memory is short.
     pub(crate) fn develop(&self, cancelled: impl Fn() -> bool) -> Option<Raster> {
-        let room = Raster::with_room(self.size.pixels(), Frames::Live);
+        let room = Raster::with_room(self.size.pixels(), Frames::Live, self.remembers);
         self.develop_in(room.ok()?, cancelled)
     }
 
@@ -266,10 +288,16 @@ impl Film {
     }
 
     fn develop_in(&self, mut raster: Raster, cancelled: impl Fn() -> bool) -> Option<Raster> {
-        let tone = self.tone();
-        let value = |tile: &Tile, at| tile.value(at, self.spp);
+        raster.range = self.range();
+        let tone = self.tone(raster.range);
+        let value = |tile: &Tile, at| tile.value(at, self.spp, self.aov);
+        let linear = |value: Rgb| match tone {
+            Tone::Colour(light) => light.exposed(value),
+            _ => value,
+        };
         let tells_objects = 0 < raster.objects.capacity();
         let tells_values = 0 < raster.values.capacity();
+        let tells_errors = 0 < raster.errors.capacity() && self.noise.is_some();
         let down = self.rows();
         let quiet = QUIET.div_ceil(self.shape.across(self.size) * AREA as usize);
         let quiet = quiet.max(2 * rayon::current_num_threads());
@@ -285,9 +313,12 @@ impl Film {
                 self.develop_rows(rows.clone(), &mut raster.objects, Tile::object);
             }
             if tells_values {
-                self.develop_rows(rows, &mut raster.values, |tile, at| {
-                    value(tile, at).as_vec3().to_array()
+                self.develop_rows(rows.clone(), &mut raster.values, |tile, at| {
+                    linear(value(tile, at)).as_vec3().to_array()
                 });
+            }
+            if tells_errors {
+                self.develop_rows(rows, &mut raster.errors, Tile::error);
             }
         }
         Some(raster)
@@ -334,22 +365,40 @@ impl Film {
         });
     }
 
-    /// How pixel values are converted to 8 bits.
-    fn tone(&self) -> Tone {
+    /// How pixel values are converted to 8 bits, on a scale with these ends.
+    fn tone(&self, range: Option<[f64; 2]>) -> Tone {
+        let [least, most] = range.unwrap_or([0.0; 2]);
         match self.aov {
-            None | Some(Aov::Albedo) => Tone::Colour(self.transfer),
+            None | Some(Aov::Albedo) => Tone::Colour(self.light),
             Some(Aov::Normal) => Tone::Normal,
             Some(Aov::Object) => Tone::Number,
-            Some(Aov::Depth) => {
-                let distances = self.tiles.par_iter().flat_map_iter(Tile::sums);
-                let distances = distances
-                    .map(|sum| sum.x)
-                    .filter(|&x| 0.0 < x && x.is_finite());
-                let (nearest, farthest) = distances
-                    .map(|x| (x, x))
-                    .reduce(|| (f64::INFINITY, 0.0), |a, b| (a.0.min(b.0), a.1.max(b.1)));
-                Tone::Depth { nearest, farthest }
-            }
+            Some(Aov::Depth) => Tone::Depth {
+                nearest: least,
+                farthest: most,
+            },
+            Some(Aov::Uv) => Tone::Uv,
+            Some(Aov::Side) => Tone::Side,
+            Some(Aov::Cost | Aov::Samples) => Tone::Logarithm { least, most },
+            Some(Aov::Noise) => Tone::Part { most },
         }
+    }
+
+    /// The ends of the scale of AOVs that have one; without a value on it, infinity and 0.
+    fn range(&self) -> Option<[f64; 2]> {
+        let aov = self.aov?;
+        let starts_at_zero = match aov {
+            Aov::Depth | Aov::Cost | Aov::Samples => false,
+            Aov::Noise => true,
+            Aov::Normal | Aov::Object | Aov::Albedo | Aov::Uv | Aov::Side => return None,
+        };
+        let values = |tile| Tile::values(tile, self.spp, Some(aov));
+        let values = self.tiles.par_iter().flat_map_iter(values);
+        let values = values
+            .map(|value| value.x)
+            .filter(|&x| 0.0 < x && x.is_finite());
+        let (least, most) = values
+            .map(|x| (x, x))
+            .reduce(|| (f64::INFINITY, 0.0), |a, b| (a.0.min(b.0), a.1.max(b.1)));
+        Some([if starts_at_zero { 0.0 } else { least }, most])
     }
 }

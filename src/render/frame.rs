@@ -1,9 +1,11 @@
 //! Input and output of a renderer: jobs and frames.
 
-use std::sync::Arc;
+use std::sync::{Arc, Weak};
 use std::time::Duration;
 
 use super::filter::Filter;
+use super::region::Region;
+use super::world::World;
 use crate::scene::{Camera, Images, Integrator, Scene, Size, Transfer};
 
 /// Default samples per pixel of full-size pictures.
@@ -30,10 +32,13 @@ pub const MAX_SPP: u32 = 65_536;
 pub const NO_OBJECT: u32 = u32::MAX;
 
 /// Render settings; with scene, images and camera they determine every pixel.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Settings {
-    /// Traced resolution; does not affect the framing.
+    /// Resolution of the whole picture; does not affect the framing.
     pub size: Size,
+    /// The only part of the picture to trace, if not all of it. Its pixels are the same as in the
+    /// whole picture, except that the 8-bit values of depth span the distances in the region.
+    pub region: Option<Region>,
     /// Samples per pixel, 1 to [`MAX_SPP`].
     pub spp: u32,
     /// Maximum number of bounces; primary rays are bounce 0.
@@ -48,9 +53,45 @@ pub struct Settings {
     pub filter: Filter,
     /// The transfer function from linear colours to 8 bits.
     pub transfer: Transfer,
+    /// What light and albedo are multiplied by before the transfer, in stops: 2 to this power.
+    pub exposure: f64,
 }
 
-/// An arbitrary output variable: a property of the first surface under a pixel, apart from light.
+impl Settings {
+    /// What is traced: the region, or the whole picture.
+    pub fn traced(&self) -> Region {
+        self.region.unwrap_or(Region::whole(self.size))
+    }
+
+    /// The AOV of the surfaces to trace instead of light.
+    pub(crate) fn surface(&self) -> Option<Aov> {
+        self.aov.filter(|aov| !aov.is_of_light())
+    }
+
+    /// Whether a film traced with these settings holds what others show, or the first samples of
+    /// it.
+    pub(crate) fn trace_alike(&self, other: &Self) -> bool {
+        let traced = |settings: &Self| Self {
+            aov: settings.surface(),
+            spp: 1,
+            ..*settings
+        };
+        traced(self) == traced(other)
+    }
+}
+
+/// When a job is complete with fewer samples than its settings ask for: always after a whole pass,
+/// so that the picture is the one with that many samples.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Limit {
+    /// The time for the job: a pass that would exceed it, judging by those before, is not begun.
+    Time(Duration),
+    /// The [`Progress::noise`] below which the picture is good enough.
+    Noise(f64),
+}
+
+/// An arbitrary output variable: a property of the first surface under a pixel, or of the samples
+/// of its light.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Aov {
     /// Distance from the eye in world units, infinite without a surface. In 8 bits the nearest is
@@ -64,6 +105,20 @@ pub enum Aov {
     Object,
     /// Diffuse albedo including textures; the emission of surfaces without diffuse or highlight.
     Albedo,
+    /// Texture coordinates u and v of the surface; 0 without one. In 8 bits red and green, repeated
+    /// beyond 0 to 1.
+    Uv,
+    /// Side of the surface seen, by its geometric normal: 1 its front, −1 its back, 0 without a
+    /// surface. In 8 bits blue and orange.
+    Side,
+    /// Rays traced for a sample of light, including shadow rays, as the mean of the samples. In 8
+    /// bits dark to bright on a logarithmic scale, as [`Frame::range`] says.
+    Cost,
+    /// Samples taken of the light. In 8 bits dark to bright on a logarithmic scale.
+    Samples,
+    /// Estimated error of the displayed light, 0 to 1, in its worst channel; 0 before samples were
+    /// first doubled. In 8 bits dark to bright.
+    Noise,
 }
 
 impl Aov {
@@ -74,15 +129,25 @@ impl Aov {
             Self::Normal => "normal",
             Self::Object => "object",
             Self::Albedo => "albedo",
+            Self::Uv => "uv",
+            Self::Side => "side",
+            Self::Cost => "cost",
+            Self::Samples => "samples",
+            Self::Noise => "noise",
         }
     }
 
-    /// The number of samples per pixel to take if `asked` are requested. Distances and object
-    /// numbers cannot be averaged: they take one, at the centre.
+    /// Whether it is known from tracing light, which makes switching between it and light free.
+    pub fn is_of_light(self) -> bool {
+        matches!(self, Self::Cost | Self::Samples | Self::Noise)
+    }
+
+    /// The number of samples per pixel to take if `asked` are requested. Distances, numbers of
+    /// objects, texture coordinates and sides cannot be averaged: they take one, at the centre.
     pub fn samples(self, asked: u32) -> u32 {
         match self {
-            Self::Depth | Self::Object => 1,
-            Self::Normal | Self::Albedo => asked,
+            Self::Depth | Self::Object | Self::Uv | Self::Side => 1,
+            Self::Normal | Self::Albedo | Self::Cost | Self::Samples | Self::Noise => asked,
         }
     }
 }
@@ -90,7 +155,7 @@ impl Aov {
 /// Which frames of a job contain pixels. All contain the progress.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Frames {
-    /// Every frame, for a picture watched while it is traced.
+    /// Every frame, with [`Frame::values`], for a picture watched while it is traced.
     Live,
     /// Only the last, complete frame.
     Last,
@@ -109,6 +174,8 @@ pub struct Job {
     pub camera: Camera,
     /// Render settings.
     pub settings: Settings,
+    /// When to stop earlier, if ever.
+    pub limit: Option<Limit>,
     /// Which frames contain pixels.
     pub frames: Frames,
     /// What frames call the objects of the scene, by index; `None` calls them by their indices. A
@@ -121,18 +188,42 @@ pub struct Job {
 pub struct Frame {
     /// The [`Renderer::restart`](super::Renderer::restart) call it belongs to.
     pub generation: u64,
-    /// Size in pixels.
+    /// Size in pixels: that of the traced region.
     pub size: Size,
+    /// The place of the top left pixel in the whole picture.
+    pub corner: [u32; 2],
     /// Red, green, blue of each pixel, in rows from the top left, as exported; empty in frames
     /// without pixels, see [`Frames`].
     pub pixels: Vec<[u8; 3]>,
     /// Number of the object under each pixel's centre, see [`Job::numbers`], or [`NO_OBJECT`]; only
     /// with [`Frames::Live`].
     pub objects: Vec<u32>,
-    /// Linear radiance or AOV of each pixel; only with [`Frames::LastWithValues`].
+    /// Linear radiance after exposure, or AOV, of each pixel, unclamped; only with
+    /// [`Frames::Live`] and [`Frames::LastWithValues`].
     pub values: Vec<[f32; 3]>,
+    /// Estimated error of each pixel's displayed light in its worst channel, 0 to 1 (the root of
+    /// what [`Progress::noise`] averages). Only with [`Frames::Live`] for up to 4194304 pixels, and
+    /// once it is estimated.
+    pub errors: Vec<f32>,
+    /// The values that the ends of a scale stand for, with an AOV that has one: depth, cost,
+    /// samples and noise.
+    pub range: Option<[f64; 2]>,
     /// Progress of the job.
     pub progress: Progress,
+    /// Answers what its pixels show; `None` if it was not traced.
+    pub query: Option<Query>,
+}
+
+/// A handle by which pixels of a frame are traced again and explained.
+///
+/// It keeps nothing alive: it answers as long as the renderer has the scene prepared, which is until
+/// the next job is begun or the renderer is dropped.
+#[derive(Clone, Debug)]
+pub struct Query {
+    pub(crate) world: Weak<World>,
+    pub(crate) camera: Camera,
+    pub(crate) settings: Settings,
+    pub(crate) numbers: Option<Arc<[u32]>>,
 }
 
 impl Frame {
@@ -142,10 +233,14 @@ impl Frame {
         Self {
             generation: 0,
             size,
+            corner: [0; 2],
             pixels,
             objects: Vec::new(),
             values: Vec::new(),
+            errors: Vec::new(),
+            range: None,
             progress: Progress::COMPLETE,
+            query: None,
         }
     }
 }
@@ -171,13 +266,13 @@ impl Progress {
 pub struct Progress {
     /// Current pass, from 1; each pass doubles the samples: 1, 1, 2, 4 …
     pub pass: u32,
-    /// Total number of passes.
+    /// Total number of passes, if no [`Limit`] is met earlier.
     pub passes: u32,
     /// Samples of every pixel; 0 while the picture is coarse.
     pub spp: u32,
-    /// Fraction of all samples taken, 0 to 1.
+    /// Fraction of the work done, 0 to 1: of all samples, or as estimated of a [`Limit`].
     pub done: f64,
-    /// Time since the start of the job.
+    /// Time since the start of the job, without pauses.
     pub elapsed: Duration,
     /// Rays traced, including shadow rays.
     pub rays: u64,
@@ -188,6 +283,6 @@ pub struct Progress {
     /// Estimated root mean square error of the pixels against the converged picture, in displayed
     /// values from 0 to 1. `None` before samples were first doubled, and for AOVs.
     pub noise: Option<f64>,
-    /// Whether all samples are taken.
+    /// Whether all samples are taken, or the [`Limit`] is met.
     pub complete: bool,
 }

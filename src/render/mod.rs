@@ -12,7 +12,8 @@
 //! [`structures`] of its meshes and fills the [`tile`]s of a [`film`] in [`steps`]. Each sample
 //! gets its numbers from [`sampler`], its place around the pixel from [`filter`], its ray from
 //! [`camera`] and its radiance from a [`tracer`], or an AOV from [`first_hit`]. [`tone`] converts
-//! the film to a frame, and [`noise`] estimates the remaining error.
+//! the film to a frame (heat maps by a [`ramp`]), and [`noise`] estimates the remaining error. Of a
+//! picture, a [`mod@region`] can be traced alone.
 //!
 //! Pixels of live pictures record their dependencies ([`touched`]): after an edit of a material or
 //! of a light's colour the film is reused, and only dependent pixels are traced again.
@@ -23,6 +24,9 @@
 //! ([`texture`]), shade according to [`shading`], and sample [`lights`] for [`direct`] light.
 //! [`optics`], [`microfacet`] and [`warp`] hold the formulas.
 //!
+//! [`explain`] records every ray behind a sample, part by part, by driving the same integrators;
+//! a [`Query`] of a frame does so for the frame's pixels.
+//!
 //! [`mod@wireframe`] projects the outlines of objects without tracing.
 //!
 //! Rays are intersected in packets of eight with one object after the other ([`packets`]), or
@@ -32,6 +36,7 @@ mod branch;
 mod bsdf;
 mod camera;
 mod direct;
+mod explain;
 mod film;
 mod filter;
 mod first_hit;
@@ -46,7 +51,9 @@ mod packets;
 mod path;
 mod place;
 mod probe;
+mod ramp;
 mod refusal;
+mod region;
 mod renderer;
 mod sampler;
 mod shading;
@@ -61,6 +68,7 @@ mod tile;
 mod tone;
 mod touched;
 mod tracer;
+mod tracing;
 mod warp;
 mod wave;
 mod whitted;
@@ -68,14 +76,20 @@ mod wireframe;
 mod worker;
 mod world;
 
+pub use explain::{
+    Boundary, Crossing, Dark, Explanation, FirstHit, LightTerm, PreparedScene, RayEnd, RayKind,
+    Shading, Stop, SurfaceHit, TracedRay, Unlisted,
+};
 pub use filter::Filter;
 pub use frame::{
-    Aov, DEFAULT_DEPTH, DEFAULT_SPP, Frame, Frames, Job, MAX_SPP, NO_OBJECT, Progress, Settings,
-    default_depth,
+    Aov, DEFAULT_DEPTH, DEFAULT_SPP, Frame, Frames, Job, Limit, MAX_SPP, NO_OBJECT, Progress,
+    Query, Settings, default_depth,
 };
 pub use place::{SurfacePoint, axes, clearance, pixel_of, pixel_width, surface_under};
 pub use refusal::Refusal;
+pub use region::{NoRegion, Region};
 pub use renderer::{Renderer, Threads};
+pub use shading::Side;
 pub use wireframe::{WireLine, Wireframe, wireframe};
 
 #[cfg(test)]

@@ -1,7 +1,7 @@
 //! A part of a film: the accumulated samples of its pixels.
 
 use super::first_hit::first_hit;
-use super::frame::NO_OBJECT;
+use super::frame::{Aov, NO_OBJECT};
 use super::noise::Doubling;
 use super::probe::{Sample, Seen};
 use super::shot::Shot;
@@ -118,6 +118,8 @@ struct Memory {
     touched: [Touched; AREA as usize],
     /// Squared error after the last pass that estimated it.
     squared_errors: [f32; AREA as usize],
+    /// Rays traced for all its samples.
+    rays: [u32; AREA as usize],
 }
 
 /// What a tile stores.
@@ -146,6 +148,7 @@ impl Tile {
             Box::new(Memory {
                 touched: [Touched::default(); AREA as usize],
                 squared_errors: [0.0; AREA as usize],
+                rays: [0; AREA as usize],
             })
         };
         let mut tile = Self {
@@ -230,7 +233,7 @@ impl Tile {
             seen,
         } = work;
         shot.samples(pixels, index, samples);
-        match shot.settings.aov {
+        match shot.settings.surface() {
             None => tracer.trace(samples, seen),
             Some(aov) => {
                 tracer.count(samples.len());
@@ -249,6 +252,7 @@ impl Tile {
             }
             if let Some(memory) = &mut self.memory {
                 memory.touched[at] |= seen.touched;
+                memory.rays[at] = memory.rays[at].saturating_add(seen.rays);
             }
         }
     }
@@ -267,12 +271,16 @@ impl Tile {
         self.squared_errors = errors.iter().copied().map(f64::from).sum();
     }
 
-    /// Resets the pixels that depend on a change, and those whose tracing was cancelled.
-    pub(crate) fn forget(&mut self, changed: Touched) {
+    /// Resets the pixels that depend on a change, those whose tracing was cancelled, and those with
+    /// a number of samples that is no step on the way to the new one, given the maximum before and
+    /// now.
+    pub(crate) fn forget(&mut self, changed: Touched, [before, now]: [u32; 2]) {
         let memory = self.memory.as_deref();
         let stale: [bool; AREA as usize] = std::array::from_fn(|at| {
+            let level = self.levels[at];
             let depends = |memory: &Memory| memory.touched[at].meets(changed);
-            self.levels[at] == 0 || memory.is_none_or(depends)
+            let is_step = level == BEYOND || samples_at(level, before) == samples_at(level, now);
+            level == 0 || !is_step || (changed != Touched::NOTHING && memory.is_none_or(depends))
         });
         if !stale.contains(&true) {
             return;
@@ -289,6 +297,12 @@ impl Tile {
         self.level = 0;
     }
 
+    /// The highest level of its pixels.
+    pub(crate) fn reached(&self) -> u8 {
+        let traced = self.levels.into_iter().filter(|&level| level != BEYOND);
+        traced.max().unwrap_or(0)
+    }
+
     fn forget_pixel(&mut self, at: usize) {
         self.sums[at] = Rgb::ZERO;
         // Pixels beyond the picture's edge are never traced.
@@ -297,21 +311,43 @@ impl Tile {
         }
         if let Some(memory) = &mut self.memory {
             memory.touched[at] = Touched::default();
+            memory.rays[at] = 0;
         }
     }
 
-    /// The mean of a pixel's samples.
-    pub(crate) fn value(&self, at: usize, spp: u32) -> Rgb {
-        self.sums[at] / f64::from(samples_at(self.levels[at], spp).max(1))
+    /// The mean of a pixel's samples, or what an AOV of light shows of them.
+    pub(crate) fn value(&self, at: usize, spp: u32, aov: Option<Aov>) -> Rgb {
+        let samples = f64::from(samples_at(self.levels[at], spp));
+        match aov {
+            Some(Aov::Cost) => Rgb::splat(self.rays(at) / samples.max(1.0)),
+            Some(Aov::Samples) => Rgb::splat(samples),
+            Some(Aov::Noise) => Rgb::splat(self.error(at).into()),
+            _ => self.sums[at] / samples.max(1.0),
+        }
+    }
+
+    /// The estimated error of a pixel, 0 to 1; 0 where it is not recorded.
+    pub(crate) fn error(&self, at: usize) -> f32 {
+        let memory = self.memory.as_ref();
+        memory.map_or(0.0, |memory| memory.squared_errors[at].sqrt())
+    }
+
+    /// The rays traced for all samples of a pixel; 0 where they are not recorded.
+    fn rays(&self, at: usize) -> f64 {
+        let memory = self.memory.as_ref();
+        memory.map_or(0.0, |memory| memory.rays[at].into())
+    }
+
+    /// The values of the pixels traced so far.
+    pub(crate) fn values(&self, spp: u32, aov: Option<Aov>) -> impl Iterator<Item = Rgb> {
+        let traced = |&at: &usize| self.levels[at] != 0 && self.levels[at] != BEYOND;
+        (0..AREA as usize)
+            .filter(traced)
+            .map(move |at| self.value(at, spp, aov))
     }
 
     pub(crate) fn object(&self, at: usize) -> u32 {
         self.objects[at]
-    }
-
-    /// The sums of radiance of all pixels.
-    pub(crate) fn sums(&self) -> [Rgb; AREA as usize] {
-        self.sums
     }
 
     /// Visits the pixels of a grid that lie within the picture, in blocks of 4×2, so that adjacent

@@ -29,11 +29,13 @@ pub fn raster(area: Rect, output: Size) -> Option<(Rect, Size)> {
     Some((centred(area, cells), size))
 }
 
-/// Returns the pixel, in a frame of `size`, under the upper half of a cell, which a click there
-/// picks. The frame is shown over the cells and pixels returned by [`raster`].
-pub fn pixel_at(raster: (Rect, Size), size: Size, column: u16, row: u16) -> Option<(u32, u32)> {
+/// Returns the pixel, in a picture of `size`, under the upper half of a cell, which a click there
+/// picks. The picture is shown over the cells returned by [`raster`]; the cell is counted from their
+/// corner.
+pub fn pixel_at(raster: (Rect, Size), size: Size, cell: (u16, u16)) -> Option<(u32, u32)> {
     let (cells, shown) = raster;
-    if !cells.contains(Position::new(column, row)) || size.pixels() == 0 {
+    let is_inside = cell.0 < cells.width && cell.1 < cells.height;
+    if !is_inside || size.pixels() == 0 {
         return None;
     }
     let scaled = |at: u32, shown: u32, pixels: u32| {
@@ -41,7 +43,7 @@ pub fn pixel_at(raster: (Rect, Size), size: Size, column: u16, row: u16) -> Opti
         let pixel = (2 * u64::from(at) + 1) * u64::from(pixels) / (2 * u64::from(shown.max(1)));
         pixel.min(u64::from(pixels) - 1) as u32
     };
-    let (x, y) = (column - cells.x, 2 * (row - cells.y));
+    let (x, y) = (cell.0, 2 * cell.1);
     Some((
         scaled(x.into(), shown.width, size.width),
         scaled(y.into(), shown.height, size.height),
@@ -369,15 +371,15 @@ mod tests {
     #[test]
     fn a_cell_picks_the_pixel_under_its_upper_half() {
         let cells = Rect::new(10, 5, 4, 3);
-        let pick = |shown, pixels, column, row| pixel_at((cells, shown), pixels, column, row);
+        let pick = |shown, pixels, column, row| pixel_at((cells, shown), pixels, (column, row));
         let even = size(4, 6);
-        assert_eq!(pick(even, even, 10, 5), Some((0, 0)));
-        assert_eq!(pick(even, even, 13, 7), Some((3, 4)));
+        assert_eq!(pick(even, even, 0, 0), Some((0, 0)));
+        assert_eq!(pick(even, even, 3, 2), Some((3, 4)));
         let odd = size(4, 5);
-        assert_eq!(pick(odd, odd, 13, 7), Some((3, 4)));
-        assert_eq!(pick(even, size(400, 600), 11, 6), Some((150, 250)));
-        assert_eq!(pick(even, even, 14, 7), None);
-        assert_eq!(pick(even, even, 9, 5), None);
+        assert_eq!(pick(odd, odd, 3, 2), Some((3, 4)));
+        assert_eq!(pick(even, size(400, 600), 1, 1), Some((150, 250)));
+        assert_eq!(pick(even, even, 4, 2), None);
+        assert_eq!(pick(even, even, 3, 3), None);
     }
 
     #[test]

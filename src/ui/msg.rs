@@ -9,6 +9,7 @@ use std::time::Duration;
 use crossterm::event::{KeyEvent, MouseEvent};
 
 use super::arrange::PanelSizes;
+use super::past::{NoPicture, PastScene, PastText};
 use super::reading::{Baseline, Opened, Reading};
 use super::recovery::{Claim, Found, Sought};
 use super::terminal::{ColourDepth, Mouse};
@@ -27,6 +28,8 @@ pub enum Target {
     Trace,
     /// An export, traced in the background.
     Export,
+    /// A picture on the page of the undo history, traced in the background.
+    Thumbnail,
 }
 
 /// Identifies an export of the session. If an export is cancelled while its file is being written,
@@ -63,6 +66,8 @@ pub enum Msg {
     Read(PathBuf, Result<Reading, ReadError>),
     /// The result of [`Effect::Open`] for this path.
     Opened(PathBuf, Result<Opened, ReadError>),
+    /// The result of [`Effect::Derive`], by its ticket.
+    Derived(u64, Result<PastScene, NoPicture>),
     /// The result of [`Effect::ReadAssets`].
     AssetsRead(Wanted, Loaded),
     /// A file that the scene names may have changed.
@@ -148,6 +153,8 @@ pub enum Effect {
     Trace(Target, Job),
     /// Stops tracing this picture.
     Stop(Target),
+    /// Derives the scene of a text of the history, reported by [`Msg::Derived`].
+    Derive(Box<PastText>),
     /// Writes a frame to a picture file, reported by [`Msg::Exported`] or
     /// [`Msg::Taken`].
     WriteImage(ExportId, Arc<Frame>, Destination),

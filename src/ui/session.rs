@@ -319,7 +319,8 @@ impl Session {
         let now = Instant::now();
         let is_limited = self.link.is_limited();
         self.app.follow_wires();
-        if let Some((_, size)) = self.app.raster() {
+        self.app.thumbnails.has_colours = self.inks.have_colours();
+        if let Some(sight) = self.app.sight() {
             let allowance = match urgency {
                 // Nothing of the picture is sent.
                 _ if self.app.wires().is_some() => usize::MAX,
@@ -329,7 +330,7 @@ impl Session {
             };
             let marked = self.app.outlined_objects();
             let picture = self.app.picture_mut();
-            picture.advance(size, &marked, allowance);
+            picture.advance(&sight, &marked, allowance);
             let rests = !picture.is_pending() && picture.is_complete();
             self.app.pictures.net = (is_limited && !rests).then(|| self.link.rate(now));
         }

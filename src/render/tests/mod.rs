@@ -1,18 +1,22 @@
 //! Tests of pixels whose values are known analytically.
 
 mod cameras;
+mod continuing;
 mod edits;
+mod explain;
 mod falloff;
 mod filters;
 mod first_hits;
 mod glass;
 mod highlights;
 mod invariance;
+mod looks;
 mod meshes;
 mod noise;
 mod optics;
 mod paths;
 mod progress;
+mod regions;
 mod shading;
 mod solids;
 mod spread;
@@ -282,6 +286,7 @@ fn assert_near(value: f64, expected: f64, tolerance: f64) {
 fn settings(width: u32, height: u32, spp: u32) -> Settings {
     Settings {
         size: Size { width, height },
+        region: None,
         spp,
         depth: 8,
         seed: 0,
@@ -289,6 +294,7 @@ fn settings(width: u32, height: u32, spp: u32) -> Settings {
         integrator: Integrator::Whitted,
         filter: Filter::Box,
         transfer: Transfer::default(),
+        exposure: 0.0,
     }
 }
 
@@ -298,6 +304,7 @@ fn job(scene: &Arc<Scene>, settings: Settings) -> Job {
         images: Images::default(),
         camera: scene.camera,
         settings,
+        limit: None,
         frames: Frames::Live,
         numbers: None,
     }

@@ -167,14 +167,14 @@ impl App {
     fn surface_looked_at(&self) -> Option<(DVec3, DVec3)> {
         let (cells, size) = self.raster()?;
         let middle = (cells.width / 2, cells.height / 2);
-        let (column, row) = self.pictures.cross.unwrap_or(middle);
-        let (x, y) = (u32::from(column), 2 * u32::from(row));
-        let Ok(Some(Node::Object(index))) = self.node_under(x, y) else {
+        let cell = self.pictures.cross.unwrap_or(middle);
+        let Ok(Some(Node::Object(index))) = self.node_under(cell) else {
             return None;
         };
         let scene = self.scene.as_ref()?;
         let object = scene.objects.get(self.source().drawn(index)? as usize)?;
-        let found = surface_under(object, &self.camera()?, size, [x, y])?;
+        let pixel = [u32::from(cell.0), 2 * u32::from(cell.1)];
+        let found = surface_under(object, &self.camera()?, size, pixel)?;
         Some((found.point, found.normal))
     }
 }

@@ -14,6 +14,7 @@ use super::overlays::{Dialog, PromptKind};
 use super::page::{List, PageFocus};
 use super::picture::Picture;
 use super::pictures::Outline;
+use super::sight::Sight;
 use crate::language::table::Field;
 use crate::language::{Node, Nodes, Source};
 use crate::scene::{Camera, Integrator, Rgb, Scene, Size};
@@ -51,6 +52,7 @@ impl App {
             None if let Some(page) = &self.overlays.page => match page.list {
                 List::Views(..) => Context::Views,
                 List::Recent(_) => Context::Recent,
+                List::Steps(_) => Context::Steps,
             },
             None if self.overlays.history.is_some() => Context::Messages,
             None if self.overlays.errors.is_some() => Context::Errors,
@@ -94,12 +96,23 @@ impl App {
         self.areas_at(self.zoom_now())
     }
 
-    /// The cells of the picture on screen and its size in pixels; `None` if there is no room.
+    /// The cells of the picture on screen and its size in half blocks; `None` if there is no room.
     pub fn raster(&self) -> Option<(Rect, Size)> {
         raster(self.areas().picture, self.output())
     }
 
-    /// Like [`App::raster`], but for the preview even while the full-size trace is on screen.
+    /// How the picture on screen is seen; `None` if there is no room.
+    pub fn sight(&self) -> Option<Sight> {
+        let (_, halves) = self.raster()?;
+        let grid = self.pictures.grid;
+        Some(Sight {
+            size: grid.size(halves),
+            grid,
+            part: None,
+        })
+    }
+
+    /// The size in half blocks of the preview, even while the full-size trace is on screen.
     pub(super) fn preview_size(&self) -> Option<Size> {
         raster(self.areas_at(self.zoom).picture, self.output()).map(|(_, size)| size)
     }

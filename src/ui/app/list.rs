@@ -51,7 +51,7 @@ impl App {
                     *at = moved(*at, rows, merge.conflicts.len());
                 }
             }
-            Context::Views | Context::Recent => {
+            Context::Views | Context::Recent | Context::Steps => {
                 if let Some(page) = &mut self.overlays.page {
                     page.go(rows);
                 }
@@ -82,6 +82,7 @@ impl App {
         let panel = match context {
             Context::Help => return (self.help_rows() as isize - 1).max(1),
             Context::Errors => areas.errors,
+            Context::Steps => return self.step_rows(),
             Context::Messages | Context::Views | Context::Recent => areas.picture,
             _ => areas.list,
         };
@@ -190,20 +191,23 @@ impl App {
         if let Some((column, row)) = self.pictures.cross
             && !self.pick_symbol((column, row))
         {
-            self.pick(u32::from(column), 2 * u32::from(row));
+            self.pick((column, row));
         }
     }
 
-    /// The node under a pixel of the picture on screen. Fails if it cannot be determined: objects
-    /// are known by their numbers in the scene shown, which may differ from the text's.
-    pub fn node_under(&self, x: u32, y: u32) -> Result<Option<Node>, &'static str> {
+    /// The node under the upper half of a cell of the picture. Fails if it cannot be determined:
+    /// objects are known by their numbers in the scene shown, which may differ from the text's.
+    pub fn node_under(&self, cell: (u16, u16)) -> Result<Option<Node>, &'static str> {
         if 0 < self.error_count() {
             return Err("the text has errors: the picture shows the last valid scene");
         }
         if self.picture().is_outdated() {
             return Err("the preview does not show the changed scene yet");
         }
-        let object = self.picture().shown.object_at(x, y);
+        let shown = &self.picture().shown;
+        let raster = self.raster();
+        let pixel = raster.and_then(|raster| layout::pixel_at(raster, shown.size, cell));
+        let object = pixel.and_then(|(x, y)| shown.object_at(x, y));
         Ok(object.map(|object| Node::Object(self.source().object(object))))
     }
 
@@ -224,9 +228,9 @@ impl App {
         }
     }
 
-    /// Selects the node under a pixel of the picture on screen, and ends picking.
-    pub(super) fn pick(&mut self, x: u32, y: u32) {
-        match self.node_under(x, y) {
+    /// Selects the node under the upper half of a cell of the picture, and ends picking.
+    pub(super) fn pick(&mut self, cell: (u16, u16)) {
+        match self.node_under(cell) {
             Ok(Some(node)) => self.pick_node(node),
             Ok(None) => self.overlays.say("nothing there"),
             Err(reason) => self.refuse_picture(Severity::Warning, reason),

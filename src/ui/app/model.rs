@@ -11,6 +11,7 @@ use super::jobs::Jobs;
 use super::overlays::Overlays;
 use super::palette::Palette;
 use super::pictures::Pictures;
+use super::thumbnails::Thumbnails;
 use crate::document::Document;
 use crate::scene::Scene;
 use crate::text::Findings;
@@ -46,6 +47,8 @@ pub struct App {
     pub cursor: Cursor,
     /// The preview, the full-size trace and the working view.
     pub pictures: Pictures,
+    /// Pictures of the texts in the undo history.
+    pub thumbnails: Thumbnails,
     /// Dialogs, help, errors, the line being typed, and messages.
     pub overlays: Overlays,
     /// Completions and history of the command line.

@@ -5,7 +5,9 @@ use std::path::PathBuf;
 use super::assets::Assets;
 use super::cursor::Names;
 use super::palette::Palette;
-use super::{App, Cursor, Disk, FirstReading, Jobs, OnDisk, Overlays, Page, Pictures, Quality};
+use super::{
+    App, Cursor, Disk, FirstReading, Jobs, OnDisk, Overlays, Page, Pictures, Quality, Thumbnails,
+};
 use crate::document::Document;
 use crate::file::ReadError;
 use crate::language::{Language, Lowered, Node};
@@ -84,6 +86,7 @@ impl App {
             disk: Disk::new(opening.path, state, first),
             cursor: Cursor::default(),
             pictures: Pictures::new(opening.quality),
+            thumbnails: Thumbnails::default(),
             overlays: Overlays::default(),
             jobs: Jobs::default(),
             mode: Mode::Select,

@@ -3,6 +3,7 @@
 use std::sync::Arc;
 
 use super::picture::Picture;
+use super::sight::Grid;
 use super::soloed::Solo;
 use super::transform::Transform;
 use super::wires::Wires;
@@ -22,6 +23,8 @@ pub struct Pictures {
     pub view: Option<Camera>,
     /// The user's quality settings.
     pub quality: Quality,
+    /// Pixels in each cell.
+    pub grid: Grid,
     /// What traced pictures show instead of light.
     pub aov: Option<Aov>,
     /// The wireframe, if it is shown instead of the preview.
@@ -90,6 +93,7 @@ impl Pictures {
             trace: None,
             view: None,
             quality,
+            grid: Grid::HALF_BLOCKS,
             aov: None,
             wires: None,
             outline: Outline::default(),
@@ -104,9 +108,10 @@ impl Pictures {
         }
     }
 
-    /// Forgets the scene's pictures and its view; what pictures show and their quality stay.
+    /// Forgets the scene's pictures and its view; what pictures show, their quality and their grid stay.
     pub(super) fn renew(&mut self) {
         *self = Self {
+            grid: self.grid,
             aov: self.aov,
             wires: self.wires.take().map(|_| Wires::default()),
             outline: self.outline,
@@ -142,7 +147,7 @@ impl Pictures {
         match target {
             Target::Preview => Some(&mut self.preview),
             Target::Trace => self.trace.as_mut(),
-            Target::Export => None,
+            Target::Export | Target::Thumbnail => None,
         }
     }
 
@@ -256,6 +261,11 @@ impl Pictures {
             Some(Aov::Normal) => "normals: -1 to 1 as 0 to 255",
             Some(Aov::Object) => "objects: one colour each",
             Some(Aov::Albedo) => "albedo: unlit colours",
+            Some(Aov::Uv) => "texture coordinates: u red, v green",
+            Some(Aov::Side) => "sides: front blue, back orange",
+            Some(Aov::Cost) => "cost: rays per sample",
+            Some(Aov::Samples) => "samples per pixel",
+            Some(Aov::Noise) => "noise: estimated error",
         }
     }
 

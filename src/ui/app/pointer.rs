@@ -8,7 +8,7 @@ use super::{App, PickerRow};
 use crate::render::{axes, pixel_width};
 use crate::ui::keymap::{Context, Mode};
 use crate::ui::layout::{
-    contents, field_at, first_shown, list_row_at, picker_lines, pixel_at, share_at, swatch_cells,
+    contents, field_at, first_shown, list_row_at, picker_lines, share_at, swatch_cells,
 };
 use crate::ui::listing::ListLine;
 use crate::ui::msg::{Effect, Timer};
@@ -177,14 +177,12 @@ impl App {
         let drags = self.mode.moves_camera() || self.mode == Mode::Move;
         if drags && areas.picture.contains(at.into()) {
             self.pictures.drag = Some(at);
-        } else if let Some(raster) = self.raster() {
-            let cells = raster.0;
-            if cells.contains(at.into()) && self.pick_symbol((at.0 - cells.x, at.1 - cells.y)) {
-                return Vec::new();
-            }
-            let size = self.picture().shown.size;
-            if let Some((x, y)) = pixel_at(raster, size, at.0, at.1) {
-                self.pick(x, y);
+        } else if let Some((cells, _)) = self.raster()
+            && cells.contains(at.into())
+        {
+            let cell = (at.0 - cells.x, at.1 - cells.y);
+            if !self.pick_symbol(cell) {
+                self.pick(cell);
             }
         }
         Vec::new()

@@ -8,7 +8,7 @@ use std::time::Duration;
 use super::cursor::SavedCursor;
 use super::disk::{Faulty, Requester, Settle};
 use super::{App, Dialog, OnDisk, Outside, PromptKind};
-use crate::document::Adopted;
+use crate::document::{Adopted, StepName};
 use crate::file;
 use crate::file::ReadError;
 use crate::language::Lowered;
@@ -275,6 +275,10 @@ impl App {
                 _ => false,
             };
             let Wording { came, same, ends } = words;
+            if let (Ends::Merge, Some(place)) = (ends, &place) {
+                let step = StepName::done(format!("merged the file: {place}"));
+                self.document.name_step(step);
+            }
             let end = match ends {
                 Ends::Plain => String::new(),
                 Ends::Merge => {

@@ -9,6 +9,7 @@ use crate::scene::{Integrator, Scene, Size};
 use crate::text::Severity;
 use crate::ui::keymap::{Action, Mode};
 use crate::ui::msg::{Effect, Target};
+use crate::ui::past::NoPicture;
 
 /// Samples per pixel at which the preview stops: by then edges are smooth and the noise of paths is
 /// invisible.
@@ -38,7 +39,9 @@ impl App {
             let spp = preview_samples(self.integrator());
             let job = size.zip(self.preview_scene());
             let job = job.and_then(|(size, (scene, numbers))| {
-                let mut job = self.job_of(scene, size, spp, Filter::Box)?;
+                let grid = self.pictures.grid;
+                let mut job = self.job_of(scene, grid.size(size), spp, Filter::Box)?;
+                job.camera = grid.camera(job.camera, size);
                 job.settings.aov = self.pictures.preview_aov();
                 if let Some(aov) = job.settings.aov {
                     job.settings.spp = aov.samples(spp);
@@ -94,6 +97,7 @@ impl App {
             camera: self.camera()?,
             settings: Settings {
                 size,
+                region: None,
                 spp: self.pictures.samples(spp),
                 depth: self
                     .pictures
@@ -105,7 +109,9 @@ impl App {
                 integrator,
                 filter,
                 transfer,
+                exposure: 0.0,
             },
+            limit: None,
             frames: Frames::Live,
             numbers: None,
         })
@@ -179,8 +185,13 @@ impl App {
     }
 
     pub(super) fn frame(&mut self, target: Target, frame: Arc<Frame>) -> Vec<Effect> {
-        if target == Target::Export {
-            return self.export_frame(frame);
+        match target {
+            Target::Export => return self.export_frame(frame),
+            Target::Thumbnail => {
+                self.thumbnails.take(&frame);
+                return Vec::new();
+            }
+            Target::Preview | Target::Trace => {}
         }
         // Without a scene, it is of one that was left.
         if self.scene.is_some() {
@@ -191,8 +202,13 @@ impl App {
 
     /// Records that a picture will not be finished, and shows the reason.
     pub(super) fn ended(&mut self, target: Target, reason: impl Into<String>) -> Vec<Effect> {
-        if target == Target::Export {
-            return self.export_ended(reason.into());
+        match target {
+            Target::Export => return self.export_ended(reason.into()),
+            Target::Thumbnail => {
+                self.thumbnails.fail(NoPicture::Failed(reason.into()));
+                return Vec::new();
+            }
+            Target::Preview | Target::Trace => {}
         }
         self.pictures.want(target, None);
         self.overlays.fail(reason);

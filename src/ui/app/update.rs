@@ -8,7 +8,7 @@ use super::{App, Help, PageFocus, PromptKind, line};
 use crate::text::Severity;
 use crate::ui::arrange::{Zoom, divided, resized};
 use crate::ui::keymap::{self, Action, Context, Meaning, Mode, Tool};
-use crate::ui::msg::{Effect, Existing, Msg, Timer};
+use crate::ui::msg::{Effect, Existing, Msg, Target, Timer};
 use crate::ui::terminal::Mouse;
 
 impl App {
@@ -25,6 +25,7 @@ impl App {
         self.scroll(&areas);
         self.follow_views();
         effects.extend(self.follow());
+        effects.extend(self.follow_steps());
         effects.extend(self.disk.journal.follow(&self.document));
         effects.extend(self.follow_kept());
         let time = self.overlays.time_to_read();
@@ -39,7 +40,9 @@ impl App {
             Msg::Paste(text) => return self.paste(&text),
             Msg::Mouse(event) => return self.pointer(event),
             Msg::Resize(columns, rows) => self.terminal = (columns, rows),
+            Msg::Started(Target::Thumbnail, generation) => self.thumbnails.started(generation),
             Msg::Started(target, generation) => self.pictures.want(target, Some(generation)),
+            Msg::Derived(ticket, derived) => return self.derived(ticket, derived),
             Msg::Frame(target, frame) => return self.frame(target, frame),
             Msg::Refused(target, reason) => return self.ended(target, reason),
             Msg::Ended(target) => return self.ended(target, "the renderer stopped early"),
@@ -114,7 +117,7 @@ impl App {
                 self.warn_of_opening();
                 Vec::new()
             }
-            Meaning::None if matches!(context, Context::Views | Context::Recent) => {
+            Meaning::None if matches!(context, Context::Views | Context::Recent | Context::Steps) => {
                 self.filter_with(key);
                 Vec::new()
             }
@@ -298,6 +301,7 @@ impl App {
             Action::Undo => self.undo(),
             Action::Redo => self.redo(),
             Action::Errors => self.toggle_errors(),
+            Action::Steps => self.list_steps(),
             Action::Messages => self.overlays.history = Some(0),
             Action::Help => self.overlays.help = Some(Help::default()),
             Action::Zoom => self.toggle_zoom(),
@@ -352,7 +356,7 @@ impl App {
     fn back(&mut self, context: Context) -> Vec<Effect> {
         match context {
             Context::Help => self.overlays.help = None,
-            Context::Views | Context::Recent => self.overlays.page = None,
+            Context::Views | Context::Recent | Context::Steps => self.overlays.page = None,
             Context::Messages => self.overlays.history = None,
             Context::Errors => self.overlays.errors = None,
             Context::Delete => self.overlays.dialog = None,
@@ -384,7 +388,7 @@ impl App {
     fn accept(&mut self, context: Context) -> Vec<Effect> {
         match context {
             Context::Errors => self.go_to_error(),
-            Context::Views | Context::Recent => return self.choose(),
+            Context::Views | Context::Recent | Context::Steps => return self.choose(),
             Context::Conflict => return self.adopt(),
             Context::Quit | Context::Wait | Context::Leave | Context::MovedView => {
                 return self.leave_anyway();

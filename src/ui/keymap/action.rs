@@ -72,6 +72,8 @@ pub enum Context {
     Views,
     /// The page of recently used scenes.
     Recent,
+    /// The page of the undo history.
+    Steps,
     /// The colour picker.
     Colour,
     /// The question how to resolve a merge.
@@ -205,6 +207,8 @@ pub enum Action {
     Undo,
     /// Redoes the step undone last and selects what it changed.
     Redo,
+    /// Opens the page of the undo history.
+    Steps,
     /// Opens the user's editor.
     Editor,
     /// Opens or closes the list of errors.

@@ -39,10 +39,11 @@ pub(crate) fn render(app: &App, inks: &mut Inks, area: Rect, buffer: &mut Buffer
         }
         return;
     }
-    let shown = if shown.size == size {
+    let pixels = app.pictures.grid.size(size);
+    let shown = if shown.size == pixels {
         Cow::Borrowed(shown)
     } else {
-        Cow::Owned(shown.resampled(size))
+        Cow::Owned(shown.resampled(pixels))
     };
     paint(&shown, inks, cells, buffer);
     overlays(app, inks.glyphs, area, (cells, size), buffer);
@@ -138,7 +139,7 @@ fn cross(app: &App, cells: Rect, buffer: &mut Buffer) {
         cell.set_style(theme::chip(Style::new()));
     }
     let symbol = app.symbol_at((column, row));
-    let under = || app.node_under(u32::from(column), 2 * u32::from(row));
+    let under = || app.node_under((column, row));
     let name = match symbol.map_or_else(under, |node| Ok(Some(node))) {
         Ok(Some(node)) => app.source().name(node),
         Ok(None) => "nothing".to_owned(),
@@ -177,7 +178,7 @@ fn axis(app: &App, cells: Rect, size: Size, buffer: &mut Buffer) {
 }
 
 /// Draws the pixels of a picture over its cells.
-fn paint(shown: &Shown, inks: &mut Inks, area: Rect, buffer: &mut Buffer) {
+pub(super) fn paint(shown: &Shown, inks: &mut Inks, area: Rect, buffer: &mut Buffer) {
     let width = shown.size.width;
     let pixel = |x: u32, y: u32| -> Option<Pixel> {
         let at = y as usize * width as usize + x as usize;

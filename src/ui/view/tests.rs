@@ -19,7 +19,7 @@ use crate::scene::Size;
 use crate::text::{Edit, Severity, Span};
 use crate::ui::app::{
     App, Dialog, Export, Help, List, Message, Names, Next, OnDisk, Opening, OpeningText, Outside,
-    Page, PageFocus, Preferences, Prompt, PromptKind, Quality, Stage, Typing, Wires,
+    Page, PageFocus, Preferences, Prompt, PromptKind, Quality, Sight, Stage, Typing, Wires,
 };
 use crate::ui::arrange::Zoom;
 use crate::ui::keymap::Mode;
@@ -128,8 +128,11 @@ fn frame(width: u32, height: u32) -> Arc<Frame> {
     Arc::new(Frame {
         generation: 1,
         size,
+        corner: [0; 2],
         pixels: vec![[100; 3]; size.pixels()],
         values: Vec::new(),
+        errors: Vec::new(),
+        range: None,
         objects: (0..width * height)
             .map(|at| if under(at) == 1 { 1 } else { NO_OBJECT })
             .collect(),
@@ -145,6 +148,7 @@ fn frame(width: u32, height: u32) -> Arc<Frame> {
             noise: None,
             complete: false,
         },
+        query: None,
     })
 }
 
@@ -156,10 +160,10 @@ const STATES: &[(&str, Change)] = &[
     ("picture", |app| {
         app.pictures.preview.take(frame(8, 6));
         app.pictures.preview.advance(
-            Size {
+            &Sight::whole(Size {
                 width: 8,
                 height: 6,
-            },
+            }),
             &[],
             usize::MAX,
         );
@@ -464,7 +468,9 @@ fn errors_mark_the_picture_as_stale_and_are_explained() {
     let mut app = app();
     app.pictures.preview.take(frame(8, 6));
     let size = app.raster().expect("there is room").1;
-    app.pictures.preview.advance(size, &[], usize::MAX);
+    app.pictures
+        .preview
+        .advance(&Sight::whole(size), &[], usize::MAX);
     retype(&mut app, " 0.25 ", " -1 ");
     let text = screen(&mut app, 100, 30).join("\n");
     for part in ["STALE", "1 error", "test.ray:6:18", "^^", "SELECT", "[+]"] {
@@ -477,10 +483,10 @@ fn a_picture_of_another_size_is_scaled_to_its_place() {
     let mut app = app();
     app.pictures.preview.take(frame(4, 3));
     app.pictures.preview.advance(
-        Size {
+        &Sight::whole(Size {
             width: 4,
             height: 3,
-        },
+        }),
         &[],
         usize::MAX,
     );

@@ -101,7 +101,8 @@ fn show_half(app: &mut App) {
         })
         .collect();
     app.update(Msg::Frame(Target::Preview, Arc::new(frame(size, objects))));
-    app.picture_mut().advance(size, &[], usize::MAX);
+    app.picture_mut()
+        .advance(&Sight::whole(size), &[], usize::MAX);
 }
 
 #[test]

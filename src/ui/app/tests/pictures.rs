@@ -12,9 +12,12 @@ pub(in crate::ui) fn frame(size: Size, objects: Vec<u32>) -> Frame {
     Frame {
         generation: 1,
         size,
+        corner: [0; 2],
         pixels: vec![[9; 3]; size.pixels()],
         objects,
         values: Vec::new(),
+        errors: Vec::new(),
+        range: None,
         progress: Progress {
             pass: 1,
             passes: 1,
@@ -27,6 +30,7 @@ pub(in crate::ui) fn frame(size: Size, objects: Vec<u32>) -> Frame {
             noise: None,
             complete: true,
         },
+        query: None,
     }
 }
 
@@ -143,7 +147,9 @@ fn no_object_is_outlined_by_an_outdated_number() {
         height: 2,
     };
     app.pictures.preview.take(Arc::new(frame(size, vec![1; 8])));
-    app.pictures.preview.advance(size, &[], usize::MAX);
+    app.pictures
+        .preview
+        .advance(&Sight::whole(size), &[], usize::MAX);
     outside(&mut app, &SCENE.replace("1.5", "1.7"));
     assert_eq!(app.pictures.preview.shown.object_at(0, 0), Some(1));
     let (head, second) = SCENE.split_at(SCENE.rfind("sphere").expect("two of them"));

@@ -141,12 +141,14 @@ fn picking_in_a_picture_of_one_object_selects_it() {
     // The renderer calls the only object by its number.
     let frame = pictures::frame(size, vec![2; size.pixels()]);
     app.update(Msg::Frame(Target::Preview, Arc::new(frame)));
-    app.picture_mut().advance(size, &[], usize::MAX);
-    assert_eq!(app.node_under(0, 0), Ok(Some(Object(2))));
+    app.picture_mut()
+        .advance(&Sight::whole(size), &[], usize::MAX);
+    assert_eq!(app.node_under((0, 0)), Ok(Some(Object(2))));
     let nothing = pictures::frame(size, vec![NO_OBJECT; size.pixels()]);
     app.update(Msg::Frame(Target::Preview, Arc::new(nothing)));
-    app.picture_mut().advance(size, &[], usize::MAX);
-    assert_eq!(app.node_under(0, 0), Ok(None));
+    app.picture_mut()
+        .advance(&Sight::whole(size), &[], usize::MAX);
+    assert_eq!(app.node_under((0, 0)), Ok(None));
 }
 
 #[test]

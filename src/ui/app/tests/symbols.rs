@@ -109,7 +109,8 @@ fn symbols_are_where_things_are_and_are_picked_before_objects() {
         let (cells, size) = app.raster().expect("there is room");
         let everywhere = pictures::frame(size, vec![0; size.pixels()]);
         app.update(Msg::Frame(Target::Preview, Arc::new(everywhere)));
-        app.picture_mut().advance(size, &[], usize::MAX);
+        app.picture_mut()
+            .advance(&Sight::whole(size), &[], usize::MAX);
         app.select(Object(1));
         press(&mut app, "i");
         let symbols = app.symbols();
@@ -150,7 +151,8 @@ fn without_a_symbol_or_an_object_nothing_is_picked() {
     let (_, size) = app.raster().expect("there is room");
     let nothing = pictures::frame(size, vec![NO_OBJECT; size.pixels()]);
     app.update(Msg::Frame(Target::Preview, Arc::new(nothing)));
-    app.picture_mut().advance(size, &[], usize::MAX);
+    app.picture_mut()
+        .advance(&Sight::whole(size), &[], usize::MAX);
     press(&mut app, "i");
     app.pictures.cross = Some((0, 0));
     press(&mut app, "<Enter>");
