@@ -1,5 +1,6 @@
 //! The main loop: waits for events, performs steps, draws.
 
+mod pixels;
 mod play;
 
 use std::borrow::Cow;
@@ -17,12 +18,15 @@ use super::ending::{Ending, Error};
 use super::event::{Event, sending};
 use super::msg::{Effect, Msg, Target};
 use super::options::Options;
+use super::pixels::Pixels;
 use super::reader::Reader;
 use super::recovery::End;
 use super::script::Script;
-use super::terminal::{self, Budget, Choice, ColourDepth, Link, Reply, query};
+use super::terminal::query::{self, Question};
+use super::terminal::{self, Budget, Choice, ColourDepth, Link, Reply};
 use super::view::{self, Inks};
 use crate::text;
+use pixels::{Known, Limited, Manner};
 
 /// Minimum time between two drawings that only refine the picture.
 const FRAME_TIME: Duration = Duration::from_millis(33);
@@ -55,6 +59,10 @@ pub(crate) fn run(
         waiting: None,
         inks: Inks::for_depth(options.colours()),
         asked: None,
+        choice: options.colour(),
+        depth: options.colours(),
+        known: Known::default(),
+        manner: Manner::Half,
         inbox,
         script,
         failed: None,
@@ -62,7 +70,7 @@ pub(crate) fn run(
         refined: None,
         ending: Ending::Quit,
     };
-    session.ask_for_colours(options)?;
+    session.ask_at_start()?;
     session.perform(beginning.effects);
     session.run();
     let finished = session.finish(options.rehearsal.as_ref());
@@ -79,6 +87,13 @@ struct Session {
     inks: Inks,
     /// The colour depth in use, and the deadline for an answer of the terminal that it has more.
     asked: Option<(ColourDepth, Instant)>,
+    /// The user's choice of colours, and the depth in use.
+    choice: Choice,
+    depth: ColourDepth,
+    /// What the terminal has answered about pictures.
+    known: Known,
+    /// What pixels are drawn with.
+    manner: Manner,
     inbox: Receiver<Event>,
     /// Where the keys come from, if not from the terminal.
     script: Option<Script>,
@@ -104,17 +119,49 @@ enum Urgency {
 }
 
 impl Session {
-    /// Queries the colours unless the user or the environment has decided.
-    fn ask_for_colours(&mut self, options: &Options) -> io::Result<()> {
-        let variable = |name: &str| std::env::var(name).ok();
-        let depth = options.colours();
-        let is_open = options.colour() == Choice::Auto
-            && depth < ColourDepth::TrueColour
-            && variable("NO_COLOR").is_none_or(|value| value.is_empty());
-        if is_open && query::may_ask(variable) {
-            self.runtime.screen().ask_for_colours()?;
-            self.asked = Some((depth, Instant::now() + query::PATIENCE));
+    /// Queries what neither the user nor the environment has decided.
+    fn ask_at_start(&mut self) -> io::Result<()> {
+        let is_open = self.choice == Choice::Auto
+            && self.depth < ColourDepth::TrueColour
+            && is_coloured(|name| std::env::var(name).ok());
+        let colours = is_open.then_some(Question::Colours);
+        let pictures = self.wants_answers().then_some(Question::Pictures);
+        let questions: Vec<_> = colours.into_iter().chain(pictures).collect();
+        self.put(&questions)
+    }
+
+    /// Whether the terminal is still to be asked how it shows pictures.
+    fn wants_answers(&self) -> bool {
+        let is_open = match self.app.pixels {
+            Pixels::Auto => self.shows_pictures(),
+            Pixels::Kitty | Pixels::Sixel | Pixels::Iterm => true,
+            Pixels::Half | Pixels::Quadrant | Pixels::Sextant | Pixels::Octant => false,
+        };
+        is_open && !self.known.was_asked
+    }
+
+    /// Whether pictures may be shown without being chosen: a user who wants few colours does not
+    /// want more in pictures.
+    fn shows_pictures(&self) -> bool {
+        match self.choice {
+            Choice::Auto => is_coloured(|name| std::env::var(name).ok()),
+            Choice::Fixed(depth) => depth == ColourDepth::TrueColour,
         }
+    }
+
+    /// Asks the terminal, if there is one that may be asked.
+    fn put(&mut self, questions: &[Question]) -> io::Result<()> {
+        self.known.was_asked |= questions.contains(&Question::Pictures);
+        let may_ask = query::may_ask(|name| std::env::var(name).ok());
+        if questions.is_empty() || !may_ask || !self.runtime.screen().has_terminal() {
+            return Ok(());
+        }
+        self.runtime.screen().ask(questions)?;
+        let until = Instant::now() + query::PATIENCE;
+        self.asked = questions
+            .contains(&Question::Colours)
+            .then_some((self.depth, until));
+        self.known.until = Some(until);
         Ok(())
     }
 
@@ -123,11 +170,20 @@ impl Session {
         if reply == Reply::Status {
             self.link.replied(at);
         }
+        self.known.take(reply);
+        let before = self.manner;
+        let changed = if self.wanted_manner() == before {
+            Urgency::Never
+        } else {
+            Urgency::Now
+        };
         let is_in_time = |&(_, until): &(ColourDepth, Instant)| at < until;
         if reply != Reply::TrueColour || self.asked.take_if(|asked| is_in_time(asked)).is_none() {
-            return Urgency::Never;
+            return changed;
         }
-        self.inks = Inks::for_depth(ColourDepth::TrueColour);
+        self.depth = ColourDepth::TrueColour;
+        self.inks = Inks::for_depth(self.depth);
+        self.inks.draw_with(self.manner.drawing());
         self.runtime.screen().recolour(ColourDepth::TrueColour);
         Urgency::Now
     }
@@ -135,9 +191,11 @@ impl Session {
     /// Shows how to force 24-bit colour once no answer can arrive any more.
     fn give_up_on_colours(&mut self) -> Urgency {
         let now = Instant::now();
+        if self.known.until.take_if(|until| *until <= now).is_some() {
+            self.runtime.screen().give_up_answers();
+        }
         match self.asked.take_if(|&mut (_, until)| until <= now) {
             Some((depth, _)) => {
-                self.runtime.screen().give_up_colours();
                 self.step(Msg::FewColours(depth));
                 Urgency::Now
             }
@@ -220,6 +278,7 @@ impl Session {
             self.link.gives_up_at(),
             self.link.asks_at().filter(|_| is_clear && has_terminal),
             self.asked.map(|(_, until)| until),
+            self.known.until,
         ];
         let deadline = others.into_iter().chain([deadline]).flatten().min();
         let first = match deadline {
@@ -315,8 +374,49 @@ impl Session {
         Ok(())
     }
 
+    /// What pixels are to be drawn with.
+    fn wanted_manner(&mut self) -> Manner {
+        let is_page = !self.runtime.screen().is_terminal();
+        let cell = terminal::cell_size().filter(|_| !is_page);
+        let choice = match self.app.pixels {
+            // A page has cells only.
+            Pixels::Kitty | Pixels::Sixel | Pixels::Iterm | Pixels::Auto if is_page => Pixels::Half,
+            Pixels::Auto if !self.shows_pictures() => Pixels::Half,
+            choice => choice,
+        };
+        Manner::of(choice, self.depth, &self.known, cell)
+    }
+
+    /// Draws pixels with what the user wants and the terminal can show.
+    fn fit_pixels(&mut self) -> io::Result<()> {
+        if self.wants_answers() {
+            self.put(&[Question::Pictures])?;
+        }
+        let manner = self.wanted_manner();
+        if manner != self.manner {
+            let (before, after) = (self.manner.means(), manner.means());
+            self.manner = manner;
+            self.inks.draw_with(manner.drawing());
+            if before != after {
+                self.runtime.screen().set_means(after);
+            }
+        }
+        let limited = if self.link.is_limited() {
+            Limited::Yes
+        } else {
+            Limited::No
+        };
+        let (across, down) = manner.grid(self.app.terminal, limited);
+        let grid = self.app.pictures.grid;
+        if (grid.across, grid.down) != (across, down) {
+            self.step(Msg::Grid { across, down });
+        }
+        Ok(())
+    }
+
     fn draw(&mut self, urgency: Urgency) -> io::Result<()> {
         let now = Instant::now();
+        self.fit_pixels()?;
         let is_limited = self.link.is_limited();
         self.app.follow_wires();
         self.app.thumbnails.has_colours = self.inks.have_colours();
@@ -328,6 +428,11 @@ impl Session {
                 Urgency::Now if is_limited => 0,
                 _ => self.link.allowance(now),
             };
+            let allowance = match (self.manner, allowance) {
+                // A picture is sent as a whole, and later ones wait until its bytes are paid.
+                (Manner::Picture(_), 1..) => usize::MAX,
+                (_, allowance) => allowance,
+            };
             let marked = self.app.outlined_objects();
             let picture = self.app.picture_mut();
             picture.advance(&sight, &marked, allowance);
@@ -336,9 +441,10 @@ impl Session {
         }
         let (app, inks) = (&self.app, &mut self.inks);
         let mut area = app.terminal;
-        let bytes = self.runtime.screen().draw(|frame| {
+        let pixmap = self.manner.means().map(|_| view::pixmap(app));
+        let bytes = self.runtime.screen().draw(pixmap.as_ref(), |frame| {
             area = (frame.area().width, frame.area().height);
-            view::draw(app, inks, frame);
+            view::draw(app, inks, frame)
         })?;
         self.link.spent(bytes, now);
         if !self.runtime.screen().is_clear() {
@@ -350,6 +456,11 @@ impl Session {
         }
         Ok(())
     }
+}
+
+/// Whether the environment does not forbid colours.
+fn is_coloured(variable: impl Fn(&str) -> Option<String>) -> bool {
+    variable("NO_COLOR").is_none_or(|value| value.is_empty())
 }
 
 /// A path quoted for a shell command line.

@@ -13,6 +13,7 @@ use crate::scene::{Camera, Size};
 use crate::text::{Severity, nearest_word};
 use crate::ui::keymap::{self, Action, HelpLine, Mode};
 use crate::ui::msg::{Effect, Guard};
+use crate::ui::pixels::Pixels;
 use crate::ui::theme::Theme;
 
 /// A parsed command line.
@@ -52,6 +53,8 @@ enum Command {
     Mouse,
     /// Use other colours.
     Theme(Theme),
+    /// Draw pixels with something else.
+    Pixels(Pixels),
     /// Open the help page.
     Help,
 }
@@ -88,6 +91,7 @@ enum Arguments {
     Language(fn(Option<Language>) -> Command),
     Picture(fn(ExportArguments) -> Command),
     Size(fn(Size) -> Command),
+    Pixels(fn(Pixels) -> Command),
 }
 
 const fn row(
@@ -135,6 +139,7 @@ const TABLE: &[CommandRow] = &[
     row(&["theme dark"], A::Nothing(C::Theme(Theme::Dark)), "use colours for dark screens"),
     row(&["theme light"], A::Nothing(C::Theme(Theme::Light)), "use colours for light screens"),
     row(&["theme mono"], A::Nothing(C::Theme(Theme::Mono)), "use no colours except in pictures"),
+    row(&["pixels"], A::Pixels(C::Pixels), "set what pixels are drawn with, such as half, octant or auto"),
     row(&["help"], A::Nothing(C::Help), "show this page"),
 ];
 
@@ -223,6 +228,7 @@ impl CommandRow {
             A::Language(_) => " [LANGUAGE]",
             A::Picture(_) => " [FILE] [WxH] [SPP]",
             A::Size(_) => " WxH",
+            A::Pixels(_) => " MEANS",
         };
         format!(":{name}{arguments}")
     }
@@ -242,6 +248,10 @@ impl CommandRow {
                     (_, known) => Ok(command(known)),
                 }
             }
+            A::Pixels(command) => match Pixels::named(rest) {
+                Some(pixels) => Ok(command(pixels)),
+                None => Err(format!("{name} takes {}", Pixels::names())),
+            },
             A::Picture(command) => picture(rest).map(command),
             A::Size(command) => {
                 let size = Size::parse(rest);
@@ -366,7 +376,11 @@ impl App {
 
     fn run(&mut self, command: Command) -> Vec<Effect> {
         match command {
-            Command::Quit(Force::Yes) | Command::Mouse | Command::Theme(_) | Command::Help => {}
+            Command::Quit(Force::Yes)
+            | Command::Mouse
+            | Command::Theme(_)
+            | Command::Pixels(_)
+            | Command::Help => {}
             _ if self.mode == Mode::Move => {
                 self.warn_of_transform();
                 return Vec::new();
@@ -409,6 +423,7 @@ impl App {
             Command::Mesh(file) => self.add_mesh(file.as_deref()),
             Command::Mouse => return self.toggle_mouse(),
             Command::Theme(theme) => self.theme = theme,
+            Command::Pixels(pixels) => self.pixels = pixels,
             Command::Help => self.overlays.help = Some(Help::default()),
         }
         Vec::new()
@@ -484,10 +499,10 @@ mod tests {
     fn commands_are_found_by_every_name() {
         for (index, form) in TABLE.iter().enumerate() {
             for name in form.names {
-                let argument = if let A::Size(_) = form.arguments {
-                    " 8x6"
-                } else {
-                    ""
+                let argument = match form.arguments {
+                    A::Size(_) => " 8x6",
+                    A::Pixels(_) => " half",
+                    _ => "",
                 };
                 assert!(parse(&format!(" {name}{argument} ")).is_ok(), "{name}");
                 let mut others = TABLE[..index].iter().flat_map(|form| form.names);

@@ -9,7 +9,7 @@
 
 /// A division of cells into pixels, two across.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Mosaic {
+pub enum Mosaic {
     /// Two down: quadrants, in nearly every font.
     Quadrant,
     /// Three down: sextants, of Unicode 13.
@@ -27,13 +27,13 @@ pub(super) struct Tile {
 }
 
 /// The most pixels in a cell.
-const MOST: usize = 8;
+pub(super) const MOST: usize = 8;
 /// The number of ways to divide them into two groups.
 const DIVISIONS: usize = 1 << (MOST - 1);
 
 impl Mosaic {
     /// The number of pixels of a cell across and down.
-    pub(super) const fn grid(self) -> (u16, u16) {
+    pub const fn grid(self) -> (u16, u16) {
         match self {
             Self::Quadrant => (2, 2),
             Self::Sextant => (2, 3),

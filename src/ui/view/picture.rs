@@ -1,5 +1,6 @@
 //! The picture: two pixels per cell, drawn as `▀` with the upper pixel as foreground and the lower
-//! one as background; a character per cell on terminals without colours.
+//! one as background; more as mosaics; a character per cell on terminals without colours. Cells that
+//! the terminal fills with its own picture are left to it.
 
 use std::borrow::Cow;
 
@@ -10,25 +11,60 @@ use ratatui::widgets::{Clear, Widget};
 use unicode_width::UnicodeWidthStr;
 
 use super::characters::Characters;
-use super::inks::{Glyphs, Inks};
+use super::inks::{Drawing, Glyphs, Inks};
+use super::mosaic::{MOST, Mosaic};
 use super::row::Row;
 use super::{symbols, wireframe};
 use crate::render::{pixel_of, pixel_width};
 use crate::scene::Size;
-use crate::ui::app::{App, FirstReading, Shown};
+use crate::ui::app::{App, FirstReading, Grid, Shown};
 use crate::ui::keymap::Mode;
 use crate::ui::layout::{self, raster};
+use crate::ui::terminal::Pixmap;
 use crate::ui::theme;
 
-/// Draws the current picture, letterboxed, with its symbols.
-pub(crate) fn render(app: &App, inks: &mut Inks, area: Rect, buffer: &mut Buffer) {
-    let Some((cells, size)) = raster(area, app.output()) else {
-        return;
-    };
+/// The symbol of cells that are left to the terminal's own picture, a private character.
+const LEFT: &str = "\u{f8ff}";
+
+/// The number of cells that are left to the terminal's own picture.
+pub(super) fn left_in(cells: Rect, buffer: &Buffer) -> usize {
+    let cells = cells.intersection(buffer.area).positions();
+    cells.filter(|&at| buffer[at].symbol() == LEFT).count()
+}
+
+/// Blanks the cells that are left to the terminal's own picture.
+pub(super) fn blank(cells: Rect, buffer: &mut Buffer) {
+    for at in cells.intersection(buffer.area).positions() {
+        if buffer[at].symbol() == LEFT {
+            buffer[at].set_symbol(" ");
+        }
+    }
+}
+
+/// The current picture with its outline, for a terminal that shows pictures.
+pub fn pixmap(app: &App) -> Pixmap {
+    let shown = &app.picture().shown;
+    let pixels = shown.pixels.iter().enumerate().map(|(at, &pixel)| {
+        if shown.is_outlined(at) {
+            theme::OUTLINE
+        } else {
+            pixel
+        }
+    });
+    Pixmap {
+        size: shown.size,
+        pixels: pixels.collect(),
+    }
+}
+
+/// Draws the current picture, letterboxed, with its symbols. Returns its cells if they are left to
+/// the terminal's own picture.
+pub(crate) fn render(app: &App, inks: &mut Inks, area: Rect, buffer: &mut Buffer) -> Option<Rect> {
+    let (cells, size) = raster(area, app.output())?;
     if let Some(wires) = app.wires().and_then(|wires| wires.lines(size)) {
         wireframe::paint(wires, &app.outlined_objects(), cells, buffer);
         overlays(app, inks.glyphs, area, (cells, size), buffer);
-        return;
+        return None;
     }
     let shown = &app.picture().shown;
     if shown.size.pixels() == 0 || shown.pixels.len() != shown.size.pixels() {
@@ -37,16 +73,64 @@ pub(crate) fn render(app: &App, inks: &mut Inks, area: Rect, buffer: &mut Buffer
         } else {
             notice(app, area, buffer);
         }
-        return;
+        return None;
     }
-    let pixels = app.pictures.grid.size(size);
-    let shown = if shown.size == pixels {
-        Cow::Borrowed(shown)
-    } else {
-        Cow::Owned(shown.resampled(pixels))
+    let resampled = |pixels: Size| {
+        if shown.size == pixels {
+            Cow::Borrowed(shown)
+        } else {
+            Cow::Owned(shown.resampled(pixels))
+        }
     };
-    paint(&shown, inks, cells, buffer);
+    match inks.drawing {
+        Drawing::HalfBlocks => paint(&resampled(size), inks, cells, buffer),
+        Drawing::Mosaic(mosaic) => {
+            let (across, down) = mosaic.grid();
+            let grid = Grid { across, down };
+            paint_mosaic(&resampled(grid.size(size)), mosaic, inks, cells, buffer);
+        }
+        Drawing::Picture => leave(cells, buffer),
+    }
     overlays(app, inks.glyphs, area, (cells, size), buffer);
+    (inks.drawing == Drawing::Picture).then_some(cells)
+}
+
+/// Leaves cells to the terminal's own picture.
+fn leave(cells: Rect, buffer: &mut Buffer) {
+    for at in cells.intersection(buffer.area).positions() {
+        buffer[at].reset();
+        buffer[at].set_symbol(LEFT);
+    }
+}
+
+/// Draws the pixels of a picture over its cells as a mosaic. Cells that lack pixels at the right or
+/// lower edge repeat the last ones.
+fn paint_mosaic(shown: &Shown, mosaic: Mosaic, inks: &mut Inks, area: Rect, buffer: &mut Buffer) {
+    let (across, down) = mosaic.grid();
+    let Size { width, height } = shown.size;
+    let pixel = |x: u32, y: u32| {
+        let at = y.min(height - 1) as usize * width as usize + x.min(width - 1) as usize;
+        if shown.is_outlined(at) {
+            theme::OUTLINE
+        } else {
+            shown.pixels[at]
+        }
+    };
+    for position in area.intersection(buffer.area).positions() {
+        let (column, row) = (position.x - area.x, position.y - area.y);
+        let mut pixels = [[0; 3]; MOST];
+        for (at, shown) in (0..u32::from(across * down)).zip(&mut pixels) {
+            let x = u32::from(column * across) + at % u32::from(across);
+            let y = u32::from(row * down) + at / u32::from(across);
+            *shown = pixel(x, y);
+        }
+        let tile = mosaic.tile(&pixels);
+        let (x, y) = (u32::from(column), 2 * u32::from(row));
+        let style = Style::reset()
+            .fg(inks.colour(tile.ink, x, y))
+            .bg(inks.colour(tile.paper, x, y + 1));
+        buffer[position].set_char(tile.symbol).set_style(style);
+    }
 }
 
 /// Draws what lies over the picture.
@@ -58,7 +142,7 @@ fn overlays(
     buffer: &mut Buffer,
 ) {
     if app.mode == Mode::Move {
-        axis(app, cells, size, buffer);
+        axis(app, glyphs, (cells, size), buffer);
     }
     symbols::render(app, glyphs, cells, buffer);
     if app.mode == Mode::Pick {
@@ -149,7 +233,7 @@ fn cross(app: &App, cells: Rect, buffer: &mut Buffer) {
 }
 
 /// Draws the axis that a transformation is locked to, through what is being transformed.
-fn axis(app: &App, cells: Rect, size: Size, buffer: &mut Buffer) {
+fn axis(app: &App, glyphs: Glyphs, (cells, size): (Rect, Size), buffer: &mut Buffer) {
     let (Some(transform), Some(camera)) = (&app.pictures.transform, app.camera()) else {
         return;
     };
@@ -172,6 +256,8 @@ fn axis(app: &App, cells: Rect, size: Size, buffer: &mut Buffer) {
         match (cell.symbol(), y % 2) {
             ("▀", 0) => cell.set_fg(colour),
             ("▀", _) => cell.set_bg(colour),
+            // A dot in the colour of the axis, over the picture of the terminal or a mosaic.
+            _ if glyphs != Glyphs::Characters => cell.set_symbol("·").set_fg(colour),
             _ => cell.set_symbol("·"),
         };
     }

@@ -116,7 +116,9 @@ fn screen(app: &mut App, width: u16, height: u16) -> Vec<String> {
     app.follow_wires();
     let mut terminal = Terminal::new(TestBackend::new(width, height)).expect("cannot fail");
     terminal
-        .draw(|frame| draw(app, &mut Inks::new(Glyphs::HalfBlocks), frame))
+        .draw(|frame| {
+            draw(app, &mut Inks::new(Glyphs::HalfBlocks), frame);
+        })
         .expect("cannot fail");
     lines(terminal.backend().buffer())
 }

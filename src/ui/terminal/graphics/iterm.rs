@@ -4,14 +4,16 @@
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
 
+use ratatui::layout::Rect;
+
 use super::Wrapping;
 
-/// Appends a PNG, to be shown over `cells` (columns, rows) from the cursor on. The cursor moves.
-pub(super) fn encode(png: &[u8], cells: (u16, u16), wrapping: Wrapping, out: &mut Vec<u8>) {
-    let (columns, rows) = cells;
+/// Appends a PNG, to be shown over these cells, at the cursor, which moves.
+pub(super) fn encode(png: &[u8], place: Rect, wrapping: Wrapping, out: &mut Vec<u8>) {
+    let (columns, rows) = (place.width, place.height);
     let length = png.len();
     let data = STANDARD.encode(png);
-    wrapping.append(out, |out| {
+    wrapping.append(place, out, |out| {
         out.extend_from_slice(
             format!(
                 "\x1b]1337;File=inline=1;size={length};width={columns};height={rows};\

@@ -7,7 +7,7 @@
 
 use std::ops::Range;
 
-use super::Image;
+use super::Pixmap;
 
 /// The most colours of a picture: what terminals have registers for.
 const MOST: usize = 256;
@@ -20,15 +20,15 @@ const BAND: usize = 6;
 
 /// Appends a picture as a sixel sequence that fills `width`×`height` pixels, by repeating pixels if
 /// there are fewer. Equal pictures give equal bytes.
-pub(super) fn encode(image: &Image<'_>, (width, height): (usize, usize), out: &mut Vec<u8>) {
-    let (indices, palette) = quantized(image.pixels);
+pub(super) fn encode(pixmap: &Pixmap, (width, height): (usize, usize), out: &mut Vec<u8>) {
+    let (indices, palette) = quantized(&pixmap.pixels);
     // Pixels without a colour stay as they are: those below the picture in the last band.
     out.extend_from_slice(format!("\x1bP0;1;0q\"1;1;{width};{height}").as_bytes());
     for (index, colour) in palette.iter().enumerate() {
         let [red, green, blue] = colour.map(percent);
         out.extend_from_slice(format!("#{index};2;{red};{green};{blue}").as_bytes());
     }
-    let (columns, rows) = (image.size.width as usize, image.size.height as usize);
+    let (columns, rows) = (pixmap.size.width as usize, pixmap.size.height as usize);
     let source: Vec<usize> = (0..width).map(|x| x * columns / width).collect();
     let mut band = Band::new(width);
     for top in (0..height).step_by(BAND) {

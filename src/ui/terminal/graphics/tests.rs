@@ -5,28 +5,26 @@ use base64::engine::general_purpose::STANDARD;
 
 use super::*;
 
-/// A picture decoded from the bytes for a terminal.
-#[derive(Debug, PartialEq)]
-struct Decoded {
-    size: Size,
-    pixels: Vec<[u8; 3]>,
-}
+/// Where pictures are put: nine columns and four rows.
+const PLACE: Rect = Rect::new(3, 2, 9, 4);
 
-impl Decoded {
-    fn of_png(png: &[u8]) -> Self {
-        let picture = image_file::decode(Cursor::new(png), 1 << 20).expect("a PNG");
-        Self {
-            size: picture.size(),
-            pixels: picture.pixels().to_vec(),
-        }
+fn decoded(png: &[u8]) -> Pixmap {
+    let picture = image_file::decode(Cursor::new(png), 1 << 20).expect("a PNG");
+    Pixmap {
+        size: picture.size(),
+        pixels: picture.pixels().to_vec(),
     }
 }
 
-/// Removes what tmux removes: the wrapping, and one of two escapes.
+/// Two columns from the left and one row from the top.
+const TMUX: Wrapping = Wrapping::Tmux { left: 2, top: 1 };
+
+/// Removes what tmux removes: the wrapping, and one of two escapes. Each sequence begins by moving
+/// the cursor to the cell.
 fn unwrapped(bytes: &[u8]) -> Vec<u8> {
     let mut rest = bytes;
     let mut inner = Vec::new();
-    while let Some(body) = rest.strip_prefix(b"\x1bPtmux;") {
+    while let Some(body) = rest.strip_prefix(b"\x1bPtmux;\x1b\x1b[4;6H") {
         let mut at = 0;
         while body[at..at + 2] != *b"\x1b\\" {
             at += usize::from(body[at] == 0x1b);
@@ -40,7 +38,7 @@ fn unwrapped(bytes: &[u8]) -> Vec<u8> {
 }
 
 /// Follows the commands for kitty; returns the control data of the first one and the picture.
-fn kitty(bytes: &[u8]) -> (String, Decoded) {
+fn commands(bytes: &[u8]) -> (String, Pixmap) {
     let text = str::from_utf8(bytes).expect("ASCII");
     let commands = text.split("\x1b\\").filter(|command| !command.is_empty());
     let (mut first, mut data, mut is_last) = (None, String::new(), false);
@@ -57,22 +55,22 @@ fn kitty(bytes: &[u8]) -> (String, Decoded) {
     }
     assert!(is_last);
     let png = STANDARD.decode(data).expect("base64");
-    (first.expect("a command"), Decoded::of_png(&png))
+    (first.expect("a command"), decoded(&png))
 }
 
 /// Follows iTerm2's command; returns its arguments and the picture.
-fn iterm(bytes: &[u8]) -> (String, Decoded) {
+fn file(bytes: &[u8]) -> (String, Pixmap) {
     let text = str::from_utf8(bytes).expect("ASCII");
     let body = text.strip_prefix("\x1b]1337;File=").expect("a file");
     let (arguments, data) = body.split_once(':').expect("data");
     let data = data.strip_suffix('\x07').expect("the end");
     let png = STANDARD.decode(data).expect("base64");
     assert!(arguments.contains(&format!("size={};", png.len())));
-    (arguments.to_owned(), Decoded::of_png(&png))
+    (arguments.to_owned(), decoded(&png))
 }
 
 /// Draws a sixel sequence, as described in DEC STD 070. Panics where pixels are left out.
-fn sixels(bytes: &[u8]) -> Decoded {
+fn sixels(bytes: &[u8]) -> Pixmap {
     let text = str::from_utf8(bytes).expect("ASCII");
     let body = text.strip_prefix("\x1bP0;1;0q\"").expect("sixels");
     let mut rest = body.strip_suffix("\x1b\\").expect("the end");
@@ -141,7 +139,7 @@ fn sixels(bytes: &[u8]) -> Decoded {
     let pixels = pixels
         .into_iter()
         .map(|pixel| pixel.expect("a pixel is left out"));
-    Decoded {
+    Pixmap {
         size: Size {
             width: width as u32,
             height: height as u32,
@@ -151,7 +149,7 @@ fn sixels(bytes: &[u8]) -> Decoded {
 }
 
 /// A picture with smooth and sharp parts and more than 256 colours, too large for a single chunk.
-fn picture() -> Decoded {
+fn picture() -> Pixmap {
     let size = Size {
         width: 90,
         height: 64,
@@ -166,26 +164,26 @@ fn picture() -> Decoded {
         }
     };
     let pixels = (0..size.height).flat_map(|y| (0..size.width).map(move |x| pixel(x, y)));
-    Decoded {
+    Pixmap {
         pixels: pixels.collect(),
         size,
     }
 }
 
-fn sent(picture: &Decoded, protocol: Protocol, cell: (u16, u16), wrapping: Wrapping) -> Vec<u8> {
-    let image = Image {
-        size: picture.size,
-        pixels: &picture.pixels,
-        cells: (9, 4),
+fn sent(picture: &Pixmap, protocol: Protocol, cell: (u16, u16), wrapping: Wrapping) -> Vec<u8> {
+    let means = Means {
+        protocol,
+        wrapping,
+        cell,
     };
     let mut out = Vec::new();
-    let encoded = protocol.encode(&image, cell, wrapping, &mut out);
+    let encoded = means.encode(picture, PLACE, &mut out);
     encoded.expect("there are pixels");
     out
 }
 
 /// The error of a picture, as the mean of the squares over all channels, and the greatest one.
-fn errors(shown: &Decoded, wanted: &Decoded) -> (f64, u8) {
+fn errors(shown: &Pixmap, wanted: &Pixmap) -> (f64, u8) {
     let channels = shown.pixels.as_flattened().iter();
     let pairs = channels.zip(wanted.pixels.as_flattened());
     let offs: Vec<u8> = pairs
@@ -201,30 +199,32 @@ fn errors(shown: &Decoded, wanted: &Decoded) -> (f64, u8) {
 #[test]
 fn kitty_gets_the_picture_exactly() {
     let picture = picture();
-    for wrapping in [Wrapping::Plain, Wrapping::Tmux] {
+    for wrapping in [Wrapping::Plain, TMUX] {
         let mut bytes = sent(&picture, Protocol::Kitty, (10, 16), wrapping);
-        if wrapping == Wrapping::Tmux {
+        if wrapping == TMUX {
             bytes = unwrapped(&bytes);
         }
-        let (control, shown) = kitty(&bytes);
+        let (control, shown) = commands(&bytes);
         assert!(shown == picture, "another picture");
         for part in ["a=T,", "f=100,", "c=9,", "r=4,", "C=1,", "p=1,"] {
             assert!(control.contains(part), "{part} in {control}");
         }
         let id = control.split(',').find(|part| part.starts_with("i="));
-        assert!(REMOVE.contains(id.expect("a number")), "it can be removed");
+        for removal in [kitty::REMOVE, kitty::REMOVE_THROUGH_TMUX] {
+            assert!(removal.contains(id.expect("a number")), "it can be removed");
+        }
     }
 }
 
 #[test]
 fn iterm_gets_the_picture_exactly() {
     let picture = picture();
-    for wrapping in [Wrapping::Plain, Wrapping::Tmux] {
+    for wrapping in [Wrapping::Plain, TMUX] {
         let mut bytes = sent(&picture, Protocol::Iterm, (10, 16), wrapping);
-        if wrapping == Wrapping::Tmux {
+        if wrapping == TMUX {
             bytes = unwrapped(&bytes);
         }
-        let (arguments, shown) = iterm(&bytes);
+        let (arguments, shown) = file(&bytes);
         assert!(shown == picture, "another picture");
         for part in [
             "inline=1;",
@@ -261,7 +261,7 @@ fn few_colours_are_shown_in_sixels_up_to_their_rounding_to_percents() {
 /// A cell has more pixels than are traced: each is repeated, also in an incomplete last band.
 #[test]
 fn sixels_fill_their_cells() {
-    let picture = Decoded {
+    let picture = Pixmap {
         size: Size {
             width: 18,
             height: 8,
@@ -286,5 +286,19 @@ fn equal_pictures_give_equal_bytes() {
     for protocol in [Protocol::Kitty, Protocol::Iterm, Protocol::Sixel] {
         let send = || sent(&picture, protocol, (10, 16), Wrapping::Plain);
         assert_eq!(send(), send(), "{protocol:?}");
+    }
+}
+
+#[test]
+fn only_success_answers_the_query() {
+    for (command, expected) in [
+        (&b"Gi=31;OK"[..], true),
+        (b"Gi=31,p=1;OK", true),
+        (b"Gi=3;OK", false),
+        (b"Gi=31;ENOTSUPPORTED:x", false),
+        (b"i=31;OK", false),
+        (b"", false),
+    ] {
+        assert_eq!(answers(command), expected);
     }
 }
