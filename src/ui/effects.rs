@@ -410,26 +410,4 @@ fn remembering(sender: &Sender<Event>) -> io::Result<Recent> {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_worker_that_panics_announces_its_end() {
-        let (sender, inbox) = std::sync::mpsc::channel();
-        let waker = Waker {
-            sender,
-            target: Target::Export,
-            number: 7,
-        };
-        let worker = thread::spawn(move || {
-            waker.wake();
-            panic!("on purpose");
-        });
-        assert!(worker.join().is_err());
-        let events: Vec<_> = inbox.iter().collect();
-        assert!(matches!(
-            events[..],
-            [Event::Ready(_), Event::Ended(Target::Export, 7)]
-        ));
-    }
-}
+mod tests;

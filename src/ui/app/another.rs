@@ -136,6 +136,7 @@ impl App {
         self.disk.replace(path, state);
         self.assets = Assets::default();
         self.pictures.renew();
+        self.thumbnails.forget();
         self.cursor = Cursor::default();
         self.overlays = Overlays::default();
         self.jobs.abandon_saves();

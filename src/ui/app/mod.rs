@@ -54,6 +54,7 @@ mod sight;
 mod sliding;
 mod solo;
 mod soloed;
+mod steps;
 mod structure;
 mod symbols;
 #[cfg(test)]
@@ -94,9 +95,9 @@ pub use rows::Rows;
 pub use shown::Shown;
 pub use sight::{Grid, Part, Sight};
 pub use soloed::Solo;
+pub use steps::Steps;
 pub use symbols::{Symbol, SymbolKind};
 pub use thumbnails::{Rank, Thumbnail, Thumbnails};
-pub use timeline::Steps;
 pub use transform::Transform;
 pub use wires::Wires;
 

@@ -100,6 +100,7 @@ fn edits(action: A) -> bool {
         | A::Copy
         | A::Solo
         | A::Step(..)
+        | A::Steps
         | A::Lock(_)
         | A::Snap
         | A::Stride(_)
@@ -121,6 +122,7 @@ fn edits(action: A) -> bool {
         | A::Save
         | A::Undo
         | A::Redo
+        | A::Steps
         | A::Editor
         | A::Errors
         | A::Messages
@@ -155,6 +157,7 @@ const OTHERS: &[&str] = &[
     "e",
     "new",
     "recent",
+    "history",
     "export",
     "export!",
     "export cancel",
@@ -191,6 +194,11 @@ fn every_action_edits_as_its_rows_say_and_is_undone_in_one_step() {
             if reason.is_some() {
                 continue;
             }
+            let step = app.document.undoable().map(ToString::to_string);
+            assert!(
+                step.is_some_and(|step| step != "edit"),
+                "{name} {keys}: unnamed"
+            );
             press(&mut app, "u");
             assert_eq!(app.document.text(), text, "{name} {keys}: undone");
             press(&mut app, "<Ctrl-r>");

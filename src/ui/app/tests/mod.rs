@@ -27,6 +27,7 @@ mod soloing;
 mod starting;
 mod structure;
 mod symbols;
+mod timeline;
 mod transforming;
 mod trying;
 mod views;
