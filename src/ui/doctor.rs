@@ -40,9 +40,16 @@ pub fn examine(scene: Option<&Path>) -> String {
         ("terminal", terminal(has_terminal, variable)),
         (
             "colours",
-            colours(answers.as_ref(), client.map(|client| client.has_true_colour), variable),
+            colours(
+                answers.as_ref(),
+                client.map(|client| client.has_true_colour),
+                variable,
+            ),
         ),
-        ("pictures", pictures(answers.as_ref(), client, terminal::cell_size())),
+        (
+            "pictures",
+            pictures(answers.as_ref(), client, terminal::cell_size()),
+        ),
         ("synchronized", synchronized(answers.as_ref())),
         (
             "mouse",
@@ -152,7 +159,9 @@ fn pictures(
         ("sixel", Protocol::Sixel),
     ];
     let shown = |answers: &Answers| {
-        let shown = protocols.iter().filter(|(_, protocol)| answers.shows(*protocol));
+        let shown = protocols
+            .iter()
+            .filter(|(_, protocol)| answers.shows(*protocol));
         shown.map(|(name, _)| *name).collect::<Vec<_>>()
     };
     let shown = answers.map(shown).unwrap_or_default();
@@ -174,10 +183,18 @@ fn pictures(
         None => lines.push("the size of cells is unknown, which sixels need".to_owned()),
     }
     if let Some(client) = client {
-        let passes = if client.passes_through { "passes" } else { "does not pass" };
-        lines.push(format!("tmux {passes} wrapped sequences on (allow-passthrough)"));
+        let passes = if client.passes_through {
+            "passes"
+        } else {
+            "does not pass"
+        };
+        lines.push(format!(
+            "tmux {passes} wrapped sequences on (allow-passthrough)"
+        ));
     }
-    lines.push("--pixels chooses half, quadrant, sextant or octant blocks, or a protocol".to_owned());
+    lines.push(
+        "--pixels chooses half, quadrant, sextant or octant blocks, or a protocol".to_owned(),
+    );
     lines
 }
 
@@ -376,7 +393,11 @@ mod tests {
         for (answers, client, words) in [
             (None, None, "was not queried"),
             (Some(&[][..]), None, "reports no picture protocol"),
-            (Some(&[kitty, sixel]), None, "by kitty; the terminal reports kitty, sixel"),
+            (
+                Some(&[kitty, sixel]),
+                None,
+                "by kitty; the terminal reports kitty, sixel",
+            ),
             (Some(&[sixel]), None, "by sixel;"),
             (Some(&[sixel]), tmux(true), "by sixel;"),
             (Some(&[sixel]), tmux(false), "half blocks: tmux"),
