@@ -1,5 +1,6 @@
 //! The main loop: waits for events, performs steps, draws.
 
+mod asking;
 mod pixels;
 mod play;
 
@@ -26,7 +27,7 @@ use super::terminal::query::{self, Question};
 use super::terminal::{self, Budget, Choice, ColourDepth, Link, Reply};
 use super::view::{self, Inks};
 use crate::text;
-use pixels::{Known, Limited, Manner};
+use pixels::{Known, Manner};
 
 /// Minimum time between two drawings that only refine the picture.
 const FRAME_TIME: Duration = Duration::from_millis(33);
@@ -119,52 +120,6 @@ enum Urgency {
 }
 
 impl Session {
-    /// Queries what neither the user nor the environment has decided.
-    fn ask_at_start(&mut self) -> io::Result<()> {
-        let is_open = self.choice == Choice::Auto
-            && self.depth < ColourDepth::TrueColour
-            && is_coloured(|name| std::env::var(name).ok());
-        let colours = is_open.then_some(Question::Colours);
-        let pictures = self.wants_answers().then_some(Question::Pictures);
-        let questions: Vec<_> = colours.into_iter().chain(pictures).collect();
-        self.put(&questions)
-    }
-
-    /// Whether the terminal is still to be asked how it shows pictures.
-    fn wants_answers(&self) -> bool {
-        let is_open = match self.app.pixels {
-            Pixels::Auto => self.shows_pictures(),
-            Pixels::Kitty | Pixels::Sixel | Pixels::Iterm => true,
-            Pixels::Half | Pixels::Quadrant | Pixels::Sextant | Pixels::Octant => false,
-        };
-        is_open && !self.known.was_asked
-    }
-
-    /// Whether pictures may be shown without being chosen: a user who wants few colours does not
-    /// want more in pictures.
-    fn shows_pictures(&self) -> bool {
-        match self.choice {
-            Choice::Auto => is_coloured(|name| std::env::var(name).ok()),
-            Choice::Fixed(depth) => depth == ColourDepth::TrueColour,
-        }
-    }
-
-    /// Asks the terminal, if there is one that may be asked.
-    fn put(&mut self, questions: &[Question]) -> io::Result<()> {
-        self.known.was_asked |= questions.contains(&Question::Pictures);
-        let may_ask = query::may_ask(|name| std::env::var(name).ok());
-        if questions.is_empty() || !may_ask || !self.runtime.screen().has_terminal() {
-            return Ok(());
-        }
-        self.runtime.screen().ask(questions)?;
-        let until = Instant::now() + query::PATIENCE;
-        self.asked = questions
-            .contains(&Question::Colours)
-            .then_some((self.depth, until));
-        self.known.until = Some(until);
-        Ok(())
-    }
-
     /// Handles a reply of the terminal. A report of 24-bit colour counts only within the deadline.
     fn replied(&mut self, reply: Reply, at: Instant) -> Urgency {
         if reply == Reply::Status {
@@ -374,46 +329,6 @@ impl Session {
         Ok(())
     }
 
-    /// What pixels are to be drawn with.
-    fn wanted_manner(&mut self) -> Manner {
-        let is_page = !self.runtime.screen().is_terminal();
-        let cell = terminal::cell_size().filter(|_| !is_page);
-        let choice = match self.app.pixels {
-            // A page has cells only.
-            Pixels::Kitty | Pixels::Sixel | Pixels::Iterm | Pixels::Auto if is_page => Pixels::Half,
-            Pixels::Auto if !self.shows_pictures() => Pixels::Half,
-            choice => choice,
-        };
-        Manner::of(choice, self.depth, &self.known, cell)
-    }
-
-    /// Draws pixels with what the user wants and the terminal can show.
-    fn fit_pixels(&mut self) -> io::Result<()> {
-        if self.wants_answers() {
-            self.put(&[Question::Pictures])?;
-        }
-        let manner = self.wanted_manner();
-        if manner != self.manner {
-            let (before, after) = (self.manner.means(), manner.means());
-            self.manner = manner;
-            self.inks.draw_with(manner.drawing());
-            if before != after {
-                self.runtime.screen().set_means(after);
-            }
-        }
-        let limited = if self.link.is_limited() {
-            Limited::Yes
-        } else {
-            Limited::No
-        };
-        let (across, down) = manner.grid(self.app.terminal, limited);
-        let grid = self.app.pictures.grid;
-        if (grid.across, grid.down) != (across, down) {
-            self.step(Msg::Grid { across, down });
-        }
-        Ok(())
-    }
-
     fn draw(&mut self, urgency: Urgency) -> io::Result<()> {
         let now = Instant::now();
         self.fit_pixels()?;
@@ -456,11 +371,6 @@ impl Session {
         }
         Ok(())
     }
-}
-
-/// Whether the environment does not forbid colours.
-fn is_coloured(variable: impl Fn(&str) -> Option<String>) -> bool {
-    variable("NO_COLOR").is_none_or(|value| value.is_empty())
 }
 
 /// A path quoted for a shell command line.

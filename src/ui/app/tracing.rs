@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use super::{App, Picture, Wires};
+use super::{App, Grid, Picture, Wires};
 use crate::image_file::ImageFormat;
 use crate::render::{Filter, Frame, Frames, Job, Settings, default_depth};
 use crate::scene::{Integrator, Scene, Size};
@@ -12,12 +12,14 @@ use crate::ui::msg::{Effect, Target};
 use crate::ui::past::NoPicture;
 
 /// Samples per pixel at which the preview stops: by then edges are smooth and the noise of paths is
-/// invisible.
-fn preview_samples(integrator: Integrator) -> u32 {
-    match integrator {
+/// invisible. Where cells hold more pixels, each needs fewer samples.
+fn preview_samples(integrator: Integrator, grid: Grid) -> u32 {
+    let density = u32::from(grid.across) * u32::from(grid.down) / 2;
+    let samples = match integrator {
         Integrator::Whitted => 64,
         Integrator::Path => 1024,
-    }
+    };
+    samples / density.clamp(1, 4)
 }
 
 impl App {
@@ -36,7 +38,7 @@ impl App {
         let size = self.preview_size();
         if self.mode != Mode::Trace && self.pictures.preview.asked != size {
             self.pictures.preview.asked = size;
-            let spp = preview_samples(self.integrator());
+            let spp = preview_samples(self.integrator(), self.pictures.grid);
             let job = size.zip(self.preview_scene());
             let job = job.and_then(|(size, (scene, numbers))| {
                 let grid = self.pictures.grid;

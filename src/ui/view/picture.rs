@@ -396,6 +396,26 @@ mod tests {
     }
 
     #[test]
+    fn a_mosaic_shows_more_pixels_and_repeats_the_last_ones() {
+        let [a, b] = [[250, 0, 0], [0, 0, 250]];
+        // Three columns and five rows: the second column and row of cells lack pixels.
+        let picture = shown(3, 5, &[a, b, a, a, b, a, a, b, a, a, b, a, b, a, b]);
+        let area = Rect::new(1, 1, 2, 2);
+        let mut buffer = Buffer::empty(Rect::new(0, 0, 4, 4));
+        let mut inks = Inks::new(Glyphs::HalfBlocks);
+        paint_mosaic(&picture, Mosaic::Octant, &mut inks, area, &mut buffer);
+        let cell = |x, y| {
+            let cell = &buffer[(x, y)];
+            (cell.symbol(), cell.fg, cell.bg)
+        };
+        assert_eq!(cell(1, 1), ("▌", rgb(a), rgb(b)));
+        assert_eq!(cell(1, 2), ("▌", rgb(b), rgb(a)));
+        assert_eq!((cell(2, 1).0, cell(2, 1).2), (" ", rgb(a)));
+        assert_eq!((cell(2, 2).0, cell(2, 2).2), (" ", rgb(b)));
+        assert_eq!(cell(3, 1).0, " ");
+    }
+
+    #[test]
     fn the_half_below_an_odd_last_row_is_empty() {
         let buffer = painted(&shown(1, 1, &[[9; 3]]), Glyphs::HalfBlocks);
         assert_eq!(buffer[(0, 0)].bg, Color::Reset);

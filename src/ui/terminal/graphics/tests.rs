@@ -210,7 +210,7 @@ fn kitty_gets_the_picture_exactly() {
             assert!(control.contains(part), "{part} in {control}");
         }
         let id = control.split(',').find(|part| part.starts_with("i="));
-        for removal in [kitty::REMOVE, kitty::REMOVE_THROUGH_TMUX] {
+        for removal in [REMOVE, REMOVE_THROUGH_TMUX] {
             assert!(removal.contains(id.expect("a number")), "it can be removed");
         }
     }
