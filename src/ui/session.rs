@@ -19,12 +19,10 @@ use super::ending::{Ending, Error};
 use super::event::{Event, sending};
 use super::msg::{Effect, Msg, Target};
 use super::options::Options;
-use super::pixels::Pixels;
 use super::reader::Reader;
 use super::recovery::End;
 use super::script::Script;
-use super::terminal::query::{self, Question};
-use super::terminal::{self, Budget, Choice, ColourDepth, Link, Reply};
+use super::terminal::{self, Budget, Choice, ColourDepth, Link, Reply, query, tmux};
 use super::view::{self, Inks};
 use crate::text;
 use pixels::{Known, Manner};
@@ -62,7 +60,10 @@ pub(crate) fn run(
         asked: None,
         choice: options.colour(),
         depth: options.colours(),
-        known: Known::default(),
+        known: Known {
+            is_in_tmux: tmux::is_around(),
+            ..Known::default()
+        },
         manner: Manner::Half,
         inbox,
         script,

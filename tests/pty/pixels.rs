@@ -83,7 +83,11 @@ fn value(control: &str, key: &str) -> u32 {
 #[test]
 fn kitty_gets_pictures_until_the_end() {
     let place = Place::new();
-    let mut session = start_with(&place, &["balls.ray"], &["\x1b_Gi=31;OK\x1b\\", CELLS].concat());
+    let mut session = start_with(
+        &place,
+        &["balls.ray"],
+        &["\x1b_Gi=31;OK\x1b\\", CELLS].concat(),
+    );
     wait_for_bytes(&mut session, b"\x1b_Ga=T", 0);
     wait_for_picture(&mut session);
     assert!(picture(session.screen()).is_empty(), "cells are left to it");

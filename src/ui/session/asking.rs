@@ -50,9 +50,9 @@ impl Session {
         }
         self.runtime.screen().ask(questions)?;
         let until = Instant::now() + query::PATIENCE;
-        self.asked = questions
-            .contains(&Question::Colours)
-            .then_some((self.depth, until));
+        if questions.contains(&Question::Colours) {
+            self.asked = Some((self.depth, until));
+        }
         self.known.until = Some(until);
         Ok(())
     }
@@ -83,6 +83,14 @@ impl Session {
             if before != after {
                 self.runtime.screen().set_means(after);
             }
+        }
+        let choice = self.app.pixels;
+        if self.known.refused != Some(choice)
+            && let Some(reason) = self.known.refusal(choice, manner)
+            && self.runtime.screen().is_terminal()
+        {
+            self.known.refused = Some(choice);
+            self.step(Msg::Failed(reason.to_owned()));
         }
         let limited = if self.link.is_limited() {
             Limited::Yes

@@ -22,6 +22,10 @@ pub(super) struct Known {
     pub(super) until: Option<Instant>,
     /// Whether it was asked.
     pub(super) was_asked: bool,
+    /// Whether the process runs in tmux, which must be asked what it passes on.
+    pub(super) is_in_tmux: bool,
+    /// The choice of the user that cannot be followed, once its reason was shown.
+    pub(super) refused: Option<Pixels>,
     /// Whether all answers have arrived.
     is_complete: bool,
     shows_kitty: bool,
@@ -49,13 +53,44 @@ impl Known {
         }
     }
 
+    /// Why a protocol that the user has chosen is not used, once that is known.
+    pub(super) fn refusal(&self, choice: Pixels, manner: Manner) -> Option<&'static str> {
+        if self.until.is_some() || manner.means().is_some() {
+            return None;
+        }
+        match choice {
+            Pixels::Kitty | Pixels::Iterm => {
+                Some("tmux passes no pictures on; set -g allow-passthrough on")
+            }
+            Pixels::Sixel => {
+                Some("sixels need the size of a cell, which the terminal does not tell")
+            }
+            _ => None,
+        }
+    }
+
+    /// What is on the way to the terminal for a protocol; `None` if it does not pass.
+    fn wrapping(&self, protocol: Protocol) -> Option<Wrapping> {
+        match self.tmux {
+            // tmux understands sixels.
+            _ if protocol == Protocol::Sixel || !self.is_in_tmux => Some(Wrapping::Plain),
+            Some(Client {
+                passes_through: true,
+                corner: (left, top),
+                ..
+            }) => Some(Wrapping::Tmux { left, top }),
+            _ => None,
+        }
+    }
+
     /// The best protocol that the terminal says it shows. tmux draws sixels itself; what it passes
     /// on stays where it is when windows or panes change, so that is only for those who ask.
     fn best(&self) -> Option<Protocol> {
         if !self.is_complete {
             return None;
         }
-        if let Some(client) = self.tmux {
+        if self.is_in_tmux {
+            let client = self.tmux?;
             return (self.shows_sixel && client.has_sixel).then_some(Protocol::Sixel);
         }
         [
@@ -103,17 +138,12 @@ impl Manner {
             Pixels::Auto => known.best().filter(|_| depth != ColourDepth::Mono),
         };
         let cell = cell.or(known.cell);
-        match (protocol, cell) {
-            (None, _) | (Some(Protocol::Sixel), None) => Self::Half,
-            (Some(protocol), cell) => Self::Picture(Means {
+        let wrapped = protocol.and_then(|protocol| Some((protocol, known.wrapping(protocol)?)));
+        match (wrapped, cell) {
+            (None, _) | (Some((Protocol::Sixel, _)), None) => Self::Half,
+            (Some((protocol, wrapping)), cell) => Self::Picture(Means {
                 protocol,
-                wrapping: match known.tmux {
-                    Some(Client {
-                        corner: (left, top),
-                        ..
-                    }) => Wrapping::Tmux { left, top },
-                    None => Wrapping::Plain,
-                },
+                wrapping,
                 cell: cell.unwrap_or(USUAL_CELL),
             }),
         }
@@ -171,7 +201,10 @@ mod tests {
     const CELL: Option<(u16, u16)> = Some((10, 20));
 
     fn known(replies: &[Reply]) -> Known {
-        let mut known = Known::default();
+        let mut known = Known {
+            is_in_tmux: replies.iter().any(|reply| matches!(reply, Reply::Tmux(_))),
+            ..Known::default()
+        };
         for &reply in replies {
             known.take(reply);
         }
@@ -214,6 +247,32 @@ mod tests {
         }
     }
 
+    fn through(passes_through: bool) -> Reply {
+        Reply::Tmux(Client {
+            passes_through,
+            ..Client::default()
+        })
+    }
+
+    #[test]
+    fn a_choice_that_cannot_be_followed_is_explained() {
+        for (choice, replies, is_refused) in [
+            (Pixels::Sixel, &[][..], true),
+            (Pixels::Kitty, &[through(false)], true),
+            (Pixels::Kitty, &[through(true)], false),
+            (Pixels::Auto, &[Reply::Attributes], false),
+            (Pixels::Octant, &[], false),
+        ] {
+            let known = known(replies);
+            let manner = Manner::of(choice, ColourDepth::TrueColour, &known, None);
+            assert_eq!(
+                known.refusal(choice, manner).is_some(),
+                is_refused,
+                "{choice:?}"
+            );
+        }
+    }
+
     #[test]
     fn a_choice_needs_no_answer_but_sixels_need_the_size_of_cells() {
         let size = Reply::CellSize {
@@ -227,6 +286,14 @@ mod tests {
             (Pixels::Sixel, &[], CELL, Some(Protocol::Sixel)),
             (Pixels::Sixel, &[size], None, Some(Protocol::Sixel)),
             (Pixels::Octant, &[Reply::AttributesWithSixel], CELL, None),
+            (Pixels::Kitty, &[through(true)], CELL, Some(Protocol::Kitty)),
+            (Pixels::Iterm, &[through(false)], CELL, None),
+            (
+                Pixels::Sixel,
+                &[through(false)],
+                CELL,
+                Some(Protocol::Sixel),
+            ),
         ] {
             assert_eq!(protocol(choice, replies, cell), expected, "{choice:?}");
         }

@@ -11,7 +11,7 @@ use ratatui::layout::Rect;
 use tui_input::Input;
 
 use super::inks::Glyphs;
-use super::{Inks, draw};
+use super::{Drawing, Inks, draw};
 use crate::document::{Document, Merge, Side};
 use crate::language::{Language, Node};
 use crate::render::{Filter, Frame, NO_OBJECT, Progress};
@@ -501,7 +501,10 @@ fn left(app: &mut App) -> (Option<Rect>, bool) {
         .draw(|frame| left = draw(app, &mut inks, frame))
         .expect("cannot fail");
     let text = lines(terminal.backend().buffer()).join("");
-    assert!(!text.contains('\u{f8ff}'), "the mark of what is left is not shown");
+    assert!(
+        !text.contains('\u{f8ff}'),
+        "the mark of what is left is not shown"
+    );
     (left, text.contains('▀'))
 }
 
