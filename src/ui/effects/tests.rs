@@ -30,9 +30,12 @@ fn endless() -> Job {
             integrator: Integrator::Whitted,
             filter: Filter::Box,
             transfer: scene.setting.transfer,
+            exposure: 0.0,
+            region: None,
         },
         scene: Arc::new(scene),
         images: Images::default(),
+        limit: None,
         frames: Frames::Live,
         numbers: None,
     }

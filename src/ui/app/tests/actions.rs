@@ -100,7 +100,6 @@ fn edits(action: A) -> bool {
         | A::Copy
         | A::Solo
         | A::Step(..)
-        | A::Steps
         | A::Lock(_)
         | A::Snap
         | A::Stride(_)
