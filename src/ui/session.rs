@@ -22,7 +22,7 @@ use super::options::Options;
 use super::reader::Reader;
 use super::recovery::End;
 use super::script::Script;
-use super::terminal::{self, Budget, Choice, ColourDepth, Link, Reply, query, tmux};
+use super::terminal::{self, Budget, Choice, ColourDepth, Link, Reply};
 use super::view::{self, Inks};
 use crate::text;
 use pixels::{Known, Manner};
@@ -60,10 +60,7 @@ pub(crate) fn run(
         asked: None,
         choice: options.colour(),
         depth: options.colours(),
-        known: Known {
-            is_in_tmux: tmux::is_around(),
-            ..Known::default()
-        },
+        known: Known::asked_nothing(),
         manner: Manner::Half,
         inbox,
         script,

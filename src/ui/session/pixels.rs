@@ -3,7 +3,7 @@
 use std::time::Instant;
 
 use crate::ui::pixels::Pixels;
-use crate::ui::terminal::tmux::Client;
+use crate::ui::terminal::tmux::{self, Client};
 use crate::ui::terminal::{ColourDepth, Means, Protocol, Reply, Wrapping};
 use crate::ui::view::{Drawing, Mosaic};
 
@@ -23,7 +23,7 @@ pub(super) struct Known {
     /// Whether it was asked.
     pub(super) was_asked: bool,
     /// Whether the process runs in tmux, which must be asked what it passes on.
-    pub(super) is_in_tmux: bool,
+    is_in_tmux: bool,
     /// The choice of the user that cannot be followed, once its reason was shown.
     pub(super) refused: Option<Pixels>,
     /// Whether all answers have arrived.
@@ -36,6 +36,14 @@ pub(super) struct Known {
 }
 
 impl Known {
+    /// Nothing but the environment is known.
+    pub(super) fn asked_nothing() -> Self {
+        Self {
+            is_in_tmux: tmux::is_around(),
+            ..Self::default()
+        }
+    }
+
     /// Takes a reply of the terminal; those that say nothing about pictures change nothing.
     pub(super) fn take(&mut self, reply: Reply) {
         match reply {
