@@ -14,6 +14,7 @@ mod fields;
 mod help;
 mod history;
 mod inks;
+mod left;
 mod list;
 mod menu;
 mod message;
@@ -27,6 +28,7 @@ mod row;
 mod status;
 mod steps;
 mod symbols;
+mod tiles;
 mod wireframe;
 
 #[cfg(test)]
@@ -42,8 +44,8 @@ use super::arrange::MIN_SIZE;
 use super::layout;
 use super::theme;
 pub use inks::{Drawing, Inks};
+pub use left::pixmap;
 pub use mosaic::Mosaic;
-pub use picture::pixmap;
 
 /// Draws the whole screen. Returns the cells that are left to the terminal's own picture: none if
 /// anything but marks and words of the picture is over it, which is then drawn in half blocks.
@@ -59,7 +61,7 @@ pub fn draw(app: &App, inks: &mut Inks, frame: &mut Frame) -> Option<Rect> {
     }
     if let Some(cells) = left {
         left = Some(cells.intersection(buffer.area));
-        picture::blank(cells, buffer);
+        left::blank(cells, buffer);
     }
     inks.theme(app.theme).apply(buffer);
     left
@@ -74,7 +76,7 @@ fn render(app: &App, inks: &mut Inks, area: Rect, buffer: &mut Buffer) -> Option
         return None;
     }
     let left = picture::render(app, inks, areas.picture, buffer);
-    let left = left.map(|cells| (cells, picture::left_in(cells, buffer)));
+    let left = left.map(|cells| (cells, left::left_in(cells, buffer)));
     rule(app, areas.rule, buffer);
     if !areas.list.is_empty() && !app.disk.is_opening() {
         list::render(app, areas.list, buffer);
@@ -105,7 +107,7 @@ fn render(app: &App, inks: &mut Inks, area: Rect, buffer: &mut Buffer) -> Option
     completions::render(app, body, buffer);
     dialog::render(app, body, buffer);
     let (cells, count) = left?;
-    (picture::left_in(cells, buffer) == count).then_some(cells)
+    (left::left_in(cells, buffer) == count).then_some(cells)
 }
 
 /// Draws the line between columns, which makes a stale picture obvious.

@@ -28,6 +28,9 @@ pub(super) struct Tile {
 
 /// The most pixels in a cell.
 pub(super) const MOST: usize = 8;
+/// What a division must gain in squared error to be better, more than sums lose by rounding: equal
+/// pixels are not divided.
+const ROUNDING: f32 = 1.0;
 /// The number of ways to divide them into two groups.
 const DIVISIONS: usize = 1 << (MOST - 1);
 
@@ -48,6 +51,18 @@ impl Mosaic {
             Self::Sextant => SEXTANTS[pattern],
             Self::Octant => OCTANTS[pattern],
         }
+    }
+
+    /// The division with this character, and its pattern.
+    pub fn of(character: char) -> Option<(Self, usize)> {
+        [Self::Quadrant, Self::Sextant, Self::Octant]
+            .into_iter()
+            .find_map(|mosaic| {
+                let (across, down) = mosaic.grid();
+                let mut patterns = 0..1 << (across * down);
+                let pattern = patterns.find(|&pattern| mosaic.symbol(pattern) == character);
+                pattern.map(|pattern| (mosaic, pattern))
+            })
     }
 
     /// The tile that comes closest to the pixels of a cell, given row by row.
@@ -96,7 +111,7 @@ fn divide<const N: usize>(pixels: &[[u8; 3]; MOST]) -> (usize, [[u8; 3]; 2]) {
     }
     let mut best = 0;
     for division in 1..divisions {
-        if explained[best] < explained[division] {
+        if explained[best] + ROUNDING < explained[division] {
             best = division;
         }
     }

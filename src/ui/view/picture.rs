@@ -12,50 +12,15 @@ use unicode_width::UnicodeWidthStr;
 
 use super::characters::Characters;
 use super::inks::{Drawing, Glyphs, Inks};
-use super::mosaic::{MOST, Mosaic};
+use super::left::leave;
 use super::row::Row;
-use super::{symbols, wireframe};
+use super::{symbols, tiles, wireframe};
 use crate::render::{pixel_of, pixel_width};
 use crate::scene::Size;
 use crate::ui::app::{App, FirstReading, Grid, Shown};
 use crate::ui::keymap::Mode;
 use crate::ui::layout::{self, raster};
-use crate::ui::terminal::Pixmap;
 use crate::ui::theme;
-
-/// The symbol of cells that are left to the terminal's own picture, a private character.
-const LEFT: &str = "\u{f8ff}";
-
-/// The number of cells that are left to the terminal's own picture.
-pub(super) fn left_in(cells: Rect, buffer: &Buffer) -> usize {
-    let cells = cells.intersection(buffer.area).positions();
-    cells.filter(|&at| buffer[at].symbol() == LEFT).count()
-}
-
-/// Blanks the cells that are left to the terminal's own picture.
-pub(super) fn blank(cells: Rect, buffer: &mut Buffer) {
-    for at in cells.intersection(buffer.area).positions() {
-        if buffer[at].symbol() == LEFT {
-            buffer[at].set_symbol(" ");
-        }
-    }
-}
-
-/// The current picture with its outline, for a terminal that shows pictures.
-pub fn pixmap(app: &App) -> Pixmap {
-    let shown = &app.picture().shown;
-    let pixels = shown.pixels.iter().enumerate().map(|(at, &pixel)| {
-        if shown.is_outlined(at) {
-            theme::OUTLINE
-        } else {
-            pixel
-        }
-    });
-    Pixmap {
-        size: shown.size,
-        pixels: pixels.collect(),
-    }
-}
 
 /// Draws the current picture, letterboxed, with its symbols. Returns its cells if they are left to
 /// the terminal's own picture.
@@ -87,50 +52,12 @@ pub(crate) fn render(app: &App, inks: &mut Inks, area: Rect, buffer: &mut Buffer
         Drawing::Mosaic(mosaic) => {
             let (across, down) = mosaic.grid();
             let grid = Grid { across, down };
-            paint_mosaic(&resampled(grid.size(size)), mosaic, inks, cells, buffer);
+            tiles::paint(&resampled(grid.size(size)), mosaic, inks, cells, buffer);
         }
         Drawing::Picture => leave(cells, buffer),
     }
     overlays(app, inks.glyphs, area, (cells, size), buffer);
     (inks.drawing == Drawing::Picture).then_some(cells)
-}
-
-/// Leaves cells to the terminal's own picture.
-fn leave(cells: Rect, buffer: &mut Buffer) {
-    for at in cells.intersection(buffer.area).positions() {
-        buffer[at].reset();
-        buffer[at].set_symbol(LEFT);
-    }
-}
-
-/// Draws the pixels of a picture over its cells as a mosaic. Cells that lack pixels at the right or
-/// lower edge repeat the last ones.
-fn paint_mosaic(shown: &Shown, mosaic: Mosaic, inks: &mut Inks, area: Rect, buffer: &mut Buffer) {
-    let (across, down) = mosaic.grid();
-    let Size { width, height } = shown.size;
-    let pixel = |x: u32, y: u32| {
-        let at = y.min(height - 1) as usize * width as usize + x.min(width - 1) as usize;
-        if shown.is_outlined(at) {
-            theme::OUTLINE
-        } else {
-            shown.pixels[at]
-        }
-    };
-    for position in area.intersection(buffer.area).positions() {
-        let (column, row) = (position.x - area.x, position.y - area.y);
-        let mut pixels = [[0; 3]; MOST];
-        for (at, shown) in (0..u32::from(across * down)).zip(&mut pixels) {
-            let x = u32::from(column * across) + at % u32::from(across);
-            let y = u32::from(row * down) + at / u32::from(across);
-            *shown = pixel(x, y);
-        }
-        let tile = mosaic.tile(&pixels);
-        let (x, y) = (u32::from(column), 2 * u32::from(row));
-        let style = Style::reset()
-            .fg(inks.colour(tile.ink, x, y))
-            .bg(inks.colour(tile.paper, x, y + 1));
-        buffer[position].set_char(tile.symbol).set_style(style);
-    }
 }
 
 /// Draws what lies over the picture.
@@ -393,26 +320,6 @@ mod tests {
         let rgb = |[r, g, b]: [u8; 3]| Color::Rgb(r, g, b);
         assert_eq!(cell(0), ("▀", rgb(a), rgb(c)));
         assert_eq!(cell(1), ("▀", rgb(b), rgb(d)));
-    }
-
-    #[test]
-    fn a_mosaic_shows_more_pixels_and_repeats_the_last_ones() {
-        let [a, b] = [[250, 0, 0], [0, 0, 250]];
-        // Three columns and five rows: the second column and row of cells lack pixels.
-        let picture = shown(3, 5, &[a, b, a, a, b, a, a, b, a, a, b, a, b, a, b]);
-        let area = Rect::new(1, 1, 2, 2);
-        let mut buffer = Buffer::empty(Rect::new(0, 0, 4, 4));
-        let mut inks = Inks::new(Glyphs::HalfBlocks);
-        paint_mosaic(&picture, Mosaic::Octant, &mut inks, area, &mut buffer);
-        let cell = |x, y| {
-            let cell = &buffer[(x, y)];
-            (cell.symbol(), cell.fg, cell.bg)
-        };
-        assert_eq!(cell(1, 1), ("▌", rgb(a), rgb(b)));
-        assert_eq!(cell(1, 2), ("▌", rgb(b), rgb(a)));
-        assert_eq!((cell(2, 1).0, cell(2, 1).2), (" ", rgb(a)));
-        assert_eq!((cell(2, 2).0, cell(2, 2).2), (" ", rgb(b)));
-        assert_eq!(cell(3, 1).0, " ");
     }
 
     #[test]

@@ -167,6 +167,7 @@ const OTHERS: &[&str] = &[
     "theme dark",
     "theme light",
     "theme mono",
+    "pixels",
     "help",
 ];
 

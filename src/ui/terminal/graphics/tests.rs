@@ -250,8 +250,8 @@ fn sixels_are_close_to_the_picture() {
 fn few_colours_are_shown_in_sixels_up_to_their_rounding_to_percents() {
     let mut picture = picture();
     for (at, pixel) in picture.pixels.iter_mut().enumerate() {
-        let colour = (at % 90 / 7 + at / 90 / 5 * 13) as u8;
-        *pixel = [colour, 255 - colour, 8 * (colour / 8)];
+        let colour = 8 * (at % 90 / 20 + at / 90 / 12 * 5) as u8;
+        *pixel = [colour, 255 - colour, colour / 2];
     }
     let shown = sixels(&sent(&picture, Protocol::Sixel, (10, 16), Wrapping::Plain));
     let (_, greatest) = errors(&shown, &picture);

@@ -195,7 +195,7 @@ fn no_division_of_a_cell_comes_closer() {
             };
             let found: f64 = (0..count).map(error).sum();
             // Means are rounded to whole levels: up to half a level in three channels of each pixel.
-            let rounding = 0.75 * count as f64;
+            let rounding = f64::from(ROUNDING) + 0.75 * count as f64;
             let best = least_error(&pixels, count);
             assert!(
                 found <= best + rounding,
