@@ -44,7 +44,7 @@ fn omitted_options_have_the_defaults_of_the_interface() {
 
 #[test]
 fn options_reach_the_interface() {
-    let line = "halflight --poll=20 --bandwidth 128 --color 256 --theme light --no-mouse --spp 4 --depth 0 --integrator path --filter gaussian --threads 3 --assets b --assets c a";
+    let line = "halflight --poll=20 --bandwidth 128 --color 256 --theme light --pixels octant --no-mouse --spp 4 --depth 0 --integrator path --filter gaussian --threads 3 --assets b --assets c a";
     assert_eq!(
         interface(line),
         ui::Options {
@@ -53,6 +53,7 @@ fn options_reach_the_interface() {
             bandwidth: Some(128_000),
             colour: Some(Choice::Fixed(ColourDepth::Palette256)),
             theme: Some(Theme::Light),
+            pixels: Some(ui::Pixels::Octant),
             mouse: Some(Mouse::Off),
             editor: None,
             spp: Some(4),

@@ -184,6 +184,7 @@ const OTHERS: &[&str] = &[
     "theme dark",
     "theme light",
     "theme mono",
+    "pixels",
     "help",
 ];
 
