@@ -17,10 +17,34 @@ struct Specular<S: Simd> {
     passes: u32,
 }
 
+/// What a secondary ray is; its number among the point's rays selects its random numbers.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Secondary {
+    /// Refracted by a boundary.
+    Refracted = 0,
+    /// Reflected by a boundary.
+    Boundary = 1,
+    /// Reflected by a mirror, or by mirror and boundary in the same direction.
+    Mirrored = 2,
+}
+
+impl Secondary {
+    /// What the ray of a node is whose parent has this node.
+    pub(super) fn of(node: u32, parent: u32) -> Self {
+        let is = |kind: &Self| kind.child(parent) == node;
+        let kinds = [Self::Refracted, Self::Boundary, Self::Mirrored];
+        kinds.into_iter().find(is).unwrap_or(Self::Mirrored)
+    }
+
+    /// The node of such a ray at the end of a ray with this node.
+    fn child(self, node: u32) -> u32 {
+        Sampler::child(node, self as u32)
+    }
+}
+
 /// A secondary ray.
 struct Branch {
-    /// Its number among the point's secondary rays.
-    number: u32,
+    kind: Secondary,
     ray: Ray,
     /// Weight of its radiance in that of the point.
     weight: Rgb,
@@ -146,7 +170,7 @@ impl<S: Simd> Specular<S> {
             if let Some(ray) = ray {
                 let numbers = || numbers(Use::Refraction);
                 push(Branch {
-                    number: 0,
+                    kind: Secondary::Refracted,
                     ray: spread_ray(ray, dielectric.spread, -1.0, point, numbers),
                     weight: (1.0 - reflectance) * dielectric.tint,
                     absorption: losses.refracted,
@@ -159,16 +183,16 @@ impl<S: Simd> Specular<S> {
             by_boundary = Rgb::ZERO;
         }
         // The last one pushed is traced first.
-        for (number, tangent, weight) in [
-            (1, dielectric.spread, by_boundary),
-            (2, material.mirror.spread, by_mirror),
+        for (kind, tangent, weight) in [
+            (Secondary::Boundary, dielectric.spread, by_boundary),
+            (Secondary::Mirrored, material.mirror.spread, by_mirror),
         ] {
             if weight == Rgb::ZERO {
                 continue;
             }
             let numbers = || numbers(Use::Reflection);
             push(Branch {
-                number,
+                kind,
                 ray: spread_ray(self.mirrored.ray(lane), tangent, 1.0, point, numbers),
                 weight,
                 absorption: losses.mirrored,
@@ -204,7 +228,7 @@ impl Branch {
             weight: weight * self.weight,
             absorption: self.absorption,
             bounce: from.bounce + 1,
-            node: Sampler::child(from.node, self.number),
+            node: self.kind.child(from.node),
         }
     }
 }

@@ -1,9 +1,10 @@
 //! Input and output of a renderer: jobs and frames.
 
-use std::sync::Arc;
+use std::sync::{Arc, Weak};
 use std::time::Duration;
 
 use super::filter::Filter;
+use super::world::World;
 use crate::scene::{Camera, Images, Integrator, Scene, Size, Transfer};
 
 /// Default samples per pixel of full-size pictures.
@@ -133,6 +134,20 @@ pub struct Frame {
     pub values: Vec<[f32; 3]>,
     /// Progress of the job.
     pub progress: Progress,
+    /// Answers what its pixels show; `None` if it was not traced.
+    pub query: Option<Query>,
+}
+
+/// A handle by which pixels of a frame are traced again and explained.
+///
+/// It keeps nothing alive: it answers as long as the renderer has the scene prepared, which is until
+/// the next job is begun or the renderer is dropped.
+#[derive(Clone, Debug)]
+pub struct Query {
+    pub(crate) world: Weak<World>,
+    pub(crate) camera: Camera,
+    pub(crate) settings: Settings,
+    pub(crate) numbers: Option<Arc<[u32]>>,
 }
 
 impl Frame {
@@ -146,6 +161,7 @@ impl Frame {
             objects: Vec::new(),
             values: Vec::new(),
             progress: Progress::COMPLETE,
+            query: None,
         }
     }
 }

@@ -1,5 +1,6 @@
 //! Intersection of rays with a world: nearest hits and transmittance.
 
+use std::cmp::Ordering;
 use std::ops::Range;
 
 use super::structures::Search;
@@ -111,6 +112,23 @@ impl World {
     /// surface is crossed, each once, in file order. `crossed` is scratch space.
     pub(crate) fn transmittance(&self, ray: &Ray, distance: f64, crossed: &mut Crossed) -> f64 {
         dispatch!(self.level, simd => self.transmittance_alone(simd, ray, distance, crossed))
+    }
+
+    /// Returns each object that a ray hits before a limit, by its nearest hit, nearest first.
+    pub(crate) fn crossings(&self, ray: &Ray, limit: f64) -> Vec<Nearest> {
+        let mut crossed = Vec::new();
+        dispatch!(self.level, simd => {
+            let rays = Rays::all(simd, ray);
+            self.visit(simd, ray, limit, |places| {
+                self.meet(&rays, ray, limit, places, Search::Nearest, |object, hit| {
+                    crossed.push(Nearest { object, hit });
+                });
+                limit
+            });
+        });
+        let order = |crossing: &Nearest| (crossing.hit.t, crossing.object);
+        crossed.sort_by(|a, b| order(a).partial_cmp(&order(b)).unwrap_or(Ordering::Equal));
+        crossed
     }
 
     #[inline(always)]

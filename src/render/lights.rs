@@ -86,6 +86,12 @@ impl Falloff {
     /// The fraction of the light at a distance, in the direction opposite to `toward`, a unit
     /// vector.
     fn share(&self, distance: f64, toward: DVec3) -> f64 {
+        let [radial, angular] = self.shares(distance, toward);
+        radial * angular
+    }
+
+    /// The factors of [`Falloff::share`] that stem from the distance and from the direction.
+    pub(crate) fn shares(&self, distance: f64, toward: DVec3) -> [f64; 2] {
         let [a0, a1, a2] = self.radial;
         let spread = a0 + a1 * distance + a2 * distance * distance;
         let radial = if 0.0 < spread { 1.0 / spread } else { 1.0 };
@@ -98,7 +104,7 @@ impl Falloff {
                 power(cosine, exponent)
             }
         });
-        radial * angular
+        [radial, angular]
     }
 }
 

@@ -23,6 +23,9 @@
 //! ([`texture`]), shade according to [`shading`], and sample [`lights`] for [`direct`] light.
 //! [`optics`], [`microfacet`] and [`warp`] hold the formulas.
 //!
+//! [`explain`] records every ray behind a sample, part by part, by driving the same integrators;
+//! a [`Query`] of a frame does so for the frame's pixels.
+//!
 //! [`mod@wireframe`] projects the outlines of objects without tracing.
 //!
 //! Rays are intersected in packets of eight with one object after the other ([`packets`]), or
@@ -32,6 +35,7 @@ mod branch;
 mod bsdf;
 mod camera;
 mod direct;
+mod explain;
 mod film;
 mod filter;
 mod first_hit;
@@ -68,14 +72,19 @@ mod wireframe;
 mod worker;
 mod world;
 
+pub use explain::{
+    Boundary, Crossing, Dark, Explanation, FirstHit, LightTerm, PreparedScene, RayEnd, RayKind,
+    Shading, Stop, SurfaceHit, TracedRay, Unlisted,
+};
 pub use filter::Filter;
 pub use frame::{
-    Aov, DEFAULT_DEPTH, DEFAULT_SPP, Frame, Frames, Job, MAX_SPP, NO_OBJECT, Progress, Settings,
-    default_depth,
+    Aov, DEFAULT_DEPTH, DEFAULT_SPP, Frame, Frames, Job, MAX_SPP, NO_OBJECT, Progress, Query,
+    Settings, default_depth,
 };
 pub use place::{SurfacePoint, axes, clearance, pixel_of, pixel_width, surface_under};
 pub use refusal::Refusal;
 pub use renderer::{Renderer, Threads};
+pub use shading::Side;
 pub use wireframe::{WireLine, Wireframe, wireframe};
 
 #[cfg(test)]

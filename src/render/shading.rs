@@ -7,8 +7,10 @@ use crate::scene::{Faces, Highlight, Material, Rgb};
 
 /// The side of a surface that a ray hits, by the geometric normal.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Side {
+pub enum Side {
+    /// The side that the outward normal points to.
     Front,
+    /// The inside of a solid.
     Back,
 }
 
@@ -41,7 +43,13 @@ impl Material {
     /// Radiance under ambient light alone.
     #[inline]
     pub(crate) fn glow(&self, ambient: Rgb) -> Rgb {
-        self.emission + ambient * self.ambient.unwrap_or_else(|| self.diffuse())
+        self.emission + self.ambience(ambient)
+    }
+
+    /// Reflected ambient light.
+    #[inline]
+    pub(crate) fn ambience(&self, ambient: Rgb) -> Rgb {
+        ambient * self.ambient.unwrap_or_else(|| self.diffuse())
     }
 
     /// Reflectance of microfacets at normal incidence, for a metallic fraction.

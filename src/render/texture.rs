@@ -124,6 +124,27 @@ impl Textures {
         colour
     }
 
+    /// Returns the texture without an image that a texture's colour at uv comes from; `None` if it
+    /// comes from none such.
+    pub(crate) fn missing(&self, texture: u32, mut place: DVec2) -> Option<u32> {
+        let mut texture = Some(texture);
+        while let Some(index) = texture {
+            let Some((inverse, texels)) = self.0.get(index as usize) else {
+                return Some(index);
+            };
+            place = inverse.transform_point2(place);
+            texture = match texels {
+                Texels::Image(_) => None,
+                Texels::Missing => return Some(index),
+                Texels::Checker([first, second], side) => {
+                    let square = if side.is_first(place) { first } else { second };
+                    square.texture
+                }
+            };
+        }
+        None
+    }
+
     /// Perturbs an outward unit normal by a bump map.
     pub(crate) fn bumped(&self, bump: Bump, chart: &Chart, normal: DVec3) -> DVec3 {
         let slope = bump.height * self.slope(bump.texture, chart);

@@ -6,10 +6,10 @@ use glam::DVec3;
 
 use super::direct::{Facing, Points, Shadow, sent_back};
 use super::intersect::Nearest;
-use super::lights;
+use super::lights::{self, Incoming, SphereLight};
 use super::optics::transmitted;
 use super::probe::{Probe, Sample, Seen};
-use super::sampler::Use;
+use super::sampler::{Sampler, Use};
 use super::touched::Touched;
 use super::wave::{Arrived, Found, RayState, Wave};
 use super::world::World;
@@ -28,64 +28,81 @@ impl<'w, C: Fn() -> bool> Probe<'w, C> {
         samples: &[Sample],
         seen: &mut Vec<Seen>,
     ) {
-        let world = self.world;
         wave.start(samples);
         seen.resize(seen.len() + samples.len(), Seen::NOTHING);
         while wave.advance(samples, &mut self.counts) && !(self.cancelled)() {
-            world.nearest_each(&wave.rays, &mut wave.nearest);
-            world.land_each(&wave.rays, &wave.nearest, &mut wave.landings);
-            wave.arrive(world, samples, seen);
-            self.light(wave, samples, seen);
-            dispatch!(world.level, simd => {
-                for packet in 0..wave.rays.len() {
-                    wave.go_on(simd, packet, self.depth, samples, seen);
+            self.land(wave, samples, seen);
+            for number in 0..self.world.scene.lights.len() {
+                // Each light may take as many rays as there are samples.
+                if 0 < number && (self.cancelled)() {
+                    break;
                 }
-            });
+                self.light(wave, number, samples, seen);
+            }
+            self.branch(wave, samples, seen);
         }
     }
 
-    /// Adds the light of all lights reflected by the hits, in file order.
-    fn light(&mut self, wave: &mut Wave<'_>, samples: &[Sample], seen: &mut [Seen]) {
+    /// Finds the hits of the front's rays and shades them without lights.
+    pub(super) fn land(&mut self, wave: &mut Wave<'w>, samples: &[Sample], seen: &mut [Seen]) {
         let world = self.world;
-        let lights = &world.scene.lights;
-        wave.blockers.resize(lights.len(), None);
-        for (number, light) in lights.iter().enumerate() {
-            // Each light may take as many rays as there are samples.
-            if 0 < number && (self.cancelled)() {
-                break;
+        world.nearest_each(&wave.rays, &mut wave.nearest);
+        world.land_each(&wave.rays, &wave.nearest, &mut wave.landings);
+        wave.arrive(world, samples, seen);
+        wave.blockers.resize(world.scene.lights.len(), None);
+    }
+
+    /// Adds the light of the light with this index that the hits reflect; lights must be added in
+    /// file order.
+    pub(super) fn light(
+        &mut self,
+        wave: &mut Wave<'_>,
+        number: usize,
+        samples: &[Sample],
+        seen: &mut [Seen],
+    ) {
+        let world = self.world;
+        let light = &world.scene.lights[number];
+        wave.asking.clear();
+        wave.shadows.clear();
+        dispatch!(world.level, simd => {
+            for packet in 0..wave.rays.len() {
+                wave.ask(simd, packet, (number, light), samples, seen);
             }
-            wave.asking.clear();
-            wave.shadows.clear();
-            dispatch!(world.level, simd => {
-                for packet in 0..wave.rays.len() {
-                    wave.ask(simd, packet, (number, light), samples, seen);
-                }
-            });
-            let asking = wave.asking.len() as u64;
-            self.counts.rays += asking;
-            self.counts.shadow_rays += asking;
-            world.transmittance_each(
-                &wave.shadows,
-                &mut wave.blockers[number],
-                &mut self.crossed,
-                &mut wave.transmittances,
-            );
-            let asking = wave.asking.iter().zip(&wave.transmittances);
-            for (&(ray, unblocked), &transmittance) in asking.clone() {
-                // Occluded light adds nothing, even if infinite.
-                if transmittance != 0.0 {
-                    wave.arrived[ray].radiance += transmittance * unblocked;
-                }
-            }
-            // Empty unless dependencies are recorded.
-            for ((&(ray, _), &transmittance), &touched) in asking.zip(&self.crossed.touched) {
-                let seen = &mut seen[wave.states[ray].tree];
-                seen.touched |= touched;
-                if transmittance != 0.0 {
-                    seen.touched |= Touched::light(number);
-                }
+        });
+        let asking = wave.asking.len() as u64;
+        self.counts.rays += asking;
+        self.counts.shadow_rays += asking;
+        world.transmittance_each(
+            &wave.shadows,
+            &mut wave.blockers[number],
+            &mut self.crossed,
+            &mut wave.transmittances,
+        );
+        let asking = wave.asking.iter().zip(&wave.transmittances);
+        for (&(ray, unblocked), &transmittance) in asking.clone() {
+            // Occluded light adds nothing, even if infinite.
+            if transmittance != 0.0 {
+                wave.arrived[ray].radiance += transmittance * unblocked;
             }
         }
+        // Empty unless dependencies are recorded.
+        for ((&(ray, _), &transmittance), &touched) in asking.zip(&self.crossed.touched) {
+            let seen = &mut seen[wave.states[ray].tree];
+            seen.touched |= touched;
+            if transmittance != 0.0 {
+                seen.touched |= Touched::light(number);
+            }
+        }
+    }
+
+    /// Adds the radiance of the hits to `seen` and makes their secondary rays pending.
+    pub(super) fn branch(&mut self, wave: &mut Wave<'_>, samples: &[Sample], seen: &mut [Seen]) {
+        dispatch!(self.world.level, simd => {
+            for packet in 0..wave.rays.len() {
+                wave.go_on(simd, packet, self.depth, samples, seen);
+            }
+        });
     }
 }
 
@@ -163,10 +180,8 @@ impl<'w> Wave<'w> {
                     continue;
                 }
                 let sampler = samples[state.tree].sampler;
-                let place = sampler.pair(state.node, Use::Light(number as u32));
                 let point = landing.surface.point.get(lane);
-                // Without random numbers the centre is sampled.
-                if let Some(chosen) = place.and_then(|place| sphere.choose(point, place)) {
+                if let Some(chosen) = state.choose((number, &sphere), point, sampler) {
                     incoming.put(lane, chosen);
                 }
             }
@@ -207,6 +222,18 @@ impl<'w> Wave<'w> {
 }
 
 impl RayState {
+    /// Samples a light with a size, given its index, from a point; without random numbers `None`,
+    /// which stands for its centre.
+    pub(super) fn choose(
+        &self,
+        (number, sphere): (usize, &SphereLight),
+        point: DVec3,
+        sampler: Sampler,
+    ) -> Option<Incoming<f64>> {
+        let place = sampler.pair(self.node, Use::Light(number as u32))?;
+        sphere.choose(point, place)
+    }
+
     /// Weight of the radiance at a hit in the pixel.
     fn through(&self, nearest: Nearest) -> Rgb {
         self.weight * transmitted(self.absorption, nearest.hit.t)

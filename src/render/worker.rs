@@ -9,7 +9,7 @@ use rayon::ThreadPool;
 use super::camera::Projection;
 use super::film::{Film, Raster};
 use super::filter::Spread;
-use super::frame::{Frame, Frames, Job, NO_OBJECT, Progress};
+use super::frame::{Frame, Frames, Job, NO_OBJECT, Progress, Query};
 use super::probe::Counts;
 use super::shared::Shared;
 use super::shot::Shot;
@@ -60,7 +60,7 @@ pub(crate) struct Submission {
 
 /// State kept for the next job.
 struct Left {
-    world: World,
+    world: Arc<World>,
     /// The last job and its film, if they can be continued.
     traced: Option<(Job, Film)>,
 }
@@ -105,10 +105,11 @@ fn trace<W: Fn() + Sync>(
     // A newer job does not cancel the build: it may need the same structures, and while a held key
     // moves objects of a large scene, none would ever be finished.
     let quit = || shared.is_quitting();
-    let known = previous.as_ref().map(|left| &left.world);
+    let known = previous.as_ref().map(|left| &*left.world);
     let Some(world) = World::build(Arc::clone(&job.scene), &job.images, known, quit) else {
         return previous;
     };
+    let world = Arc::new(world);
     if let Some(Left {
         world: before,
         traced,
@@ -132,7 +133,8 @@ fn trace<W: Fn() + Sync>(
         built: Instant::now(),
         shared,
     };
-    let mut picture = Tracing::new(ticket, begun, &job, film, wake);
+    let query = Query::new(&world, &job);
+    let mut picture = Tracing::new(ticket, begun, &job, film, wake, query);
     for step in steps(job.settings.spp, job.frames) {
         if !picture.take(&step, &shot) {
             break;
@@ -181,6 +183,7 @@ struct Tracing<'s, W> {
     spp: u32,
     frames: Frames,
     numbers: Option<&'s [u32]>,
+    query: Query,
     counts: Counts,
     /// Samples taken, divided by the number of pixels.
     taken: f64,
@@ -195,7 +198,14 @@ struct Tracing<'s, W> {
 }
 
 impl<'s, W: Fn() + Sync> Tracing<'s, W> {
-    fn new(ticket: Ticket<'s>, begun: Instant, job: &'s Job, film: Film, wake: &'s W) -> Self {
+    fn new(
+        ticket: Ticket<'s>,
+        begun: Instant,
+        job: &'s Job,
+        film: Film,
+        wake: &'s W,
+        query: Query,
+    ) -> Self {
         Self {
             ticket,
             wake,
@@ -205,6 +215,7 @@ impl<'s, W: Fn() + Sync> Tracing<'s, W> {
             spp: job.settings.spp,
             frames: job.frames,
             numbers: job.numbers.as_deref(),
+            query,
             counts: Counts::default(),
             taken: 0.0,
             pass: 1,
@@ -323,6 +334,7 @@ impl<'s, W: Fn() + Sync> Tracing<'s, W> {
                 noise: self.film.noise(),
                 complete,
             },
+            query: Some(self.query.clone()),
         });
         if untaken.is_none() {
             (self.wake)();

@@ -2,6 +2,7 @@
 
 mod cameras;
 mod edits;
+mod explain;
 mod falloff;
 mod filters;
 mod first_hits;

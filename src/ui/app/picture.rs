@@ -229,6 +229,7 @@ mod tests {
                 noise: None,
                 complete,
             },
+            query: None,
         })
     }
 

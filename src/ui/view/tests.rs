@@ -145,6 +145,7 @@ fn frame(width: u32, height: u32) -> Arc<Frame> {
             noise: None,
             complete: false,
         },
+        query: None,
     })
 }
 

@@ -27,6 +27,7 @@ pub(in crate::ui) fn frame(size: Size, objects: Vec<u32>) -> Frame {
             noise: None,
             complete: true,
         },
+        query: None,
     }
 }
 

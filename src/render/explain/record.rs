@@ -1,0 +1,261 @@
+//! What is recorded of a sample: plain data without references to the scene, which names objects,
+//! materials, lights and textures by their numbers.
+
+use glam::{DVec2, DVec3};
+
+use super::super::shading::Side;
+use crate::scene::{Integrator, Material, Rgb};
+
+/// The whole tree of rays behind one sample of a pixel.
+///
+/// [`Explanation::radiance`] is the sample's own value, bit for bit, and so is the sum of the
+/// contributions of all rays, added in order.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Explanation {
+    /// The pixel, from the left and from the top.
+    pub pixel: [u32; 2],
+    /// The index of the sample; 0 is the pixel's centre.
+    pub sample: u32,
+    /// The integrator.
+    pub integrator: Integrator,
+    /// The maximum number of bounces.
+    pub depth: u32,
+    /// Linear radiance of the sample.
+    pub radiance: Rgb,
+    /// The rays in the order in which they were traced, each after its parent; the camera ray is the
+    /// first. Those that were never traced are last.
+    pub rays: Vec<TracedRay>,
+}
+
+/// A ray of a sample, apart from shadow rays.
+#[derive(Clone, Debug, PartialEq)]
+pub struct TracedRay {
+    /// The index of the ray at whose end it starts; `None` for the camera ray.
+    pub parent: Option<usize>,
+    /// What it is.
+    pub kind: RayKind,
+    /// The number of bounces before it.
+    pub bounce: u32,
+    /// The weight of its radiance in the sample.
+    pub weight: Rgb,
+    /// Where it starts: for the camera ray at the near limit.
+    pub origin: DVec3,
+    /// Its direction, of unit length.
+    pub direction: DVec3,
+    /// The length up to which it is followed; infinite except for the camera ray.
+    pub reach: f64,
+    /// Absorption per unit of length.
+    pub absorption: Rgb,
+    /// What it led to.
+    pub end: RayEnd,
+    /// What its end adds to the sample, without the rays that start there.
+    pub contribution: Rgb,
+}
+
+/// Why a ray was traced.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum RayKind {
+    /// From the camera.
+    Camera,
+    /// Reflected by a mirror.
+    Mirror,
+    /// The part that the boundary of a transparent solid reflects.
+    Boundary,
+    /// Into or out of a transparent solid.
+    Refraction,
+    /// Reflected at the boundary of a transparent solid, because none of the light can leave.
+    TotalReflection,
+}
+
+/// What a ray led to.
+#[derive(Clone, Debug, PartialEq)]
+pub enum RayEnd {
+    /// It hit nothing.
+    Missed {
+        /// The background or environment.
+        radiance: Rgb,
+        /// The texture without an image that this comes from, if any.
+        missing: Option<u32>,
+    },
+    /// A surface.
+    Surface(Box<Shading>),
+    /// It was not traced because the sample's budget of rays was spent.
+    OverBudget,
+}
+
+/// Where a ray hit a surface.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SurfaceHit {
+    /// The object, as frames call it, see [`Job::numbers`](crate::render::Job::numbers).
+    pub object: u32,
+    /// Index of the material in the scene.
+    pub material: u32,
+    /// Whether the object has an inside, unlike a square or a mesh.
+    pub solid: bool,
+    /// The distance along the ray.
+    pub t: f64,
+    /// The point.
+    pub point: DVec3,
+    /// Unit geometric normal, outward.
+    pub geometric: DVec3,
+    /// Unit shading normal including bumps, turned toward the side that was hit.
+    pub normal: DVec3,
+    /// Texture coordinates.
+    pub uv: DVec2,
+    /// The side that was hit.
+    pub side: Side,
+}
+
+/// The light that leaves a surface toward the start of a ray, part by part.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Shading {
+    /// Where.
+    pub hit: SurfaceHit,
+    /// The material there, with its textures applied.
+    pub material: Material,
+    /// The texture without an image that the material uses there, if any.
+    pub missing: Option<u32>,
+    /// Whether this side shows emission and the light of lights.
+    pub lit: bool,
+    /// The fraction that absorption leaves along the ray.
+    pub transmitted: Rgb,
+    /// Emitted radiance.
+    pub emission: Rgb,
+    /// Reflected ambient light.
+    pub ambient: Rgb,
+    /// Each light in file order, apart from ambient light and those that are too many to list.
+    pub lights: Vec<LightTerm>,
+    /// The lights too many to list.
+    pub unlisted: Unlisted,
+    /// Emission, ambient light and all lights together.
+    pub radiance: Rgb,
+    /// Weight of the ray reflected by a mirror.
+    pub mirror: Rgb,
+    /// The boundary of a transparent solid.
+    pub boundary: Option<Boundary>,
+    /// Why the rays that a mirror or boundary asks for do not go on.
+    pub stop: Option<Stop>,
+}
+
+/// Lights that are summed but not listed.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Unlisted {
+    /// How many.
+    pub lights: usize,
+    /// Their reflected light.
+    pub radiance: Rgb,
+}
+
+/// The boundary of a transparent solid where a ray hits it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Boundary {
+    /// Weight of both the refracted and the reflected light.
+    pub tint: Rgb,
+    /// Indices of refraction on the side of the ray and on the other.
+    pub indices: [f64; 2],
+    /// The fraction that is reflected; 1 on total internal reflection.
+    pub reflectance: f64,
+    /// Whether it is total internal reflection.
+    pub total: bool,
+}
+
+/// Why no rays go on from a surface.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Stop {
+    /// They would exceed the maximum number of bounces.
+    Depth,
+}
+
+/// The light of one light at a point of a surface.
+#[derive(Clone, Debug, PartialEq)]
+pub struct LightTerm {
+    /// Index of the light in the scene.
+    pub light: u32,
+    /// Unit vector toward the light, or the sampled point on it; NaN at the light itself.
+    pub toward: DVec3,
+    /// The distance to the light or the sampled point on it; infinite for directional light.
+    pub distance: f64,
+    /// N·L, the cosine between the shading normal and the light.
+    pub cosine: f64,
+    /// The factor of attenuation with the distance.
+    pub radial: f64,
+    /// The factor of a spot light's cone.
+    pub spot: f64,
+    /// The fraction that the surface reflects from there toward the ray, N·L included; 0 behind.
+    pub reflected: Rgb,
+    /// The fraction that reaches the point past all objects; `None` if no shadow ray was traced.
+    pub transmittance: Option<f64>,
+    /// What the shadow ray crosses, nearest to the point first.
+    pub crossed: Vec<Crossing>,
+    /// Reflected radiance.
+    pub radiance: Rgb,
+    /// Why it is zero, where it is.
+    pub dark: Option<Dark>,
+}
+
+/// An object that a shadow ray crosses.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Crossing {
+    /// The object, as frames call it.
+    pub object: u32,
+    /// Index of the material of the surface crossed first.
+    pub material: u32,
+    /// The distance from the point.
+    pub t: f64,
+    /// The fraction of light that it lets pass; 0 blocks.
+    pub transmittance: f64,
+}
+
+/// Why a light adds nothing at a point.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Dark {
+    /// Its colour is zero.
+    SwitchedOff,
+    /// The surface does not show lights on this side, as the inside of glass.
+    UnlitSide,
+    /// The surface faces away from it.
+    FacesAway,
+    /// It is at the point itself.
+    AtThePoint,
+    /// The point is outside its cone.
+    OutsideCone,
+    /// Attenuation leaves nothing.
+    Attenuated,
+    /// The surface reflects none of its colour.
+    NotReflected,
+    /// Objects block it.
+    Blocked,
+}
+
+impl Explanation {
+    /// The rays that start at the end of a ray, in the order in which they were traced.
+    pub fn children(&self, ray: usize) -> impl Iterator<Item = usize> {
+        let rays = self.rays.iter().enumerate();
+        rays.filter(move |(_, child)| child.parent == Some(ray))
+            .map(|(number, _)| number)
+    }
+
+    /// Calls the objects by other names.
+    pub(super) fn rename(&mut self, name: impl Fn(u32) -> u32) {
+        for ray in &mut self.rays {
+            let RayEnd::Surface(shading) = &mut ray.end else {
+                continue;
+            };
+            shading.hit.object = name(shading.hit.object);
+            let crossed = shading.lights.iter_mut().flat_map(|term| &mut term.crossed);
+            for crossing in crossed {
+                crossing.object = name(crossing.object);
+            }
+        }
+    }
+}
+
+impl TracedRay {
+    /// The surface it hit, if it hit one.
+    pub fn shading(&self) -> Option<&Shading> {
+        match &self.end {
+            RayEnd::Surface(shading) => Some(shading),
+            RayEnd::Missed { .. } | RayEnd::OverBudget => None,
+        }
+    }
+}

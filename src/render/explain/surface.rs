@@ -1,0 +1,82 @@
+//! Descriptions of hits.
+
+use glam::{DVec2, DVec3};
+
+use super::super::intersect::Nearest;
+use super::super::probe::Point;
+use super::super::texture::environment_place;
+use super::super::world::World;
+use super::record::SurfaceHit;
+use crate::geometry::{Ray, Shape};
+use crate::scene::{Maps, Tinted};
+
+/// Describes where a ray hit a surface.
+pub(super) fn surface_hit(world: &World, ray: &Ray, nearest: Nearest, point: &Point) -> SurfaceHit {
+    let object = &world.scene.objects[nearest.object as usize];
+    SurfaceHit {
+        object: nearest.object,
+        material: object.material_at(nearest.hit),
+        solid: matches!(object.shape, Shape::Solid(_) | Shape::Csg(_)),
+        t: nearest.hit.t,
+        point: point.surface.point,
+        geometric: point.surface.normal,
+        normal: point.normal,
+        uv: object.shape.chart(ray, nearest.hit).uv,
+        side: point.side,
+    }
+}
+
+/// The first texture without an image that the material at a hit uses there.
+pub(super) fn missing_at(world: &World, ray: &Ray, nearest: Nearest) -> Option<u32> {
+    let object = &world.scene.objects[nearest.object as usize];
+    let material = &world.scene.materials[object.material_at(nearest.hit) as usize];
+    let maps = material.maps.as_deref()?;
+    let place = object.shape.chart(ray, nearest.hit).uv;
+    let mut used = textures(maps);
+    used.find_map(|texture| world.textures.missing(texture, place))
+}
+
+/// The texture without an image that the background or environment comes from.
+pub(super) fn missing_around(world: &World, ray: &Ray, bounce: u32, screen: DVec2) -> Option<u32> {
+    let setting = &world.scene.setting;
+    let missing = |around: Tinted, place| world.textures.missing(around.texture?, place);
+    if bounce == 0 {
+        missing(setting.background, screen)
+    } else {
+        missing(setting.environment, environment_place(ray.direction))
+    }
+}
+
+/// The texture of each slot.
+fn textures(maps: &Maps) -> impl Iterator<Item = u32> {
+    let Maps {
+        ambient,
+        diffuse,
+        specular,
+        exponent,
+        roughness,
+        metallic,
+        mirror,
+        dielectric,
+        emission,
+        bump,
+    } = *maps;
+    let slots = [
+        diffuse,
+        ambient,
+        specular,
+        exponent,
+        roughness,
+        metallic,
+        mirror,
+        dielectric,
+        emission,
+        bump.map(|bump| bump.texture),
+    ];
+    slots.into_iter().flatten()
+}
+
+/// The distance from the eye of a point on a camera ray, at distance `t` from the ray's start.
+pub(super) fn depth(eye: DVec3, ray: &Ray, t: f64) -> f64 {
+    (ray.origin - eye).dot(ray.direction) + t
+}

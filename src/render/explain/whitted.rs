@@ -1,0 +1,269 @@
+//! The rays of Whitted ray tracing: the integrator's own stages run for one sample, and what they
+//! leave in the wave is read between them.
+
+use super::super::branch::Secondary;
+use super::super::optics::{Refraction, transmitted};
+use super::super::probe::{Point, Probe, Sample, Seen};
+use super::super::wave::{RayState, Wave};
+use super::super::world::World;
+use super::lights::{Asked, Lit};
+use super::record::{Boundary, RayEnd, RayKind, Shading, Stop, TracedRay, Unlisted};
+use super::surface::{missing_around, missing_at, surface_hit};
+use crate::geometry::Ray;
+use crate::scene::{Material, Rgb};
+
+/// A ray that is yet to be traced.
+struct Waiting {
+    parent: Option<usize>,
+    kind: RayKind,
+}
+
+/// Traces a sample; returns its radiance and all rays, or `None` once `cancelled` returns true.
+pub(super) fn record(
+    world: &World,
+    depth: u32,
+    sample: Sample,
+    cancelled: impl Fn() -> bool,
+) -> Option<(Rgb, Vec<TracedRay>)> {
+    let mut recorder = Recorder {
+        probe: Probe::new(world, depth, cancelled),
+        wave: Wave::default(),
+        samples: [sample],
+        seen: [Seen::NOTHING],
+        waiting: vec![Waiting {
+            parent: None,
+            kind: RayKind::Camera,
+        }],
+        rays: Vec::new(),
+        room: MOST_TERMS,
+    };
+    recorder.wave.start(&recorder.samples);
+    while recorder.step()? {}
+    Some((recorder.seen[0].radiance, recorder.rays))
+}
+
+/// Lights listed per sample: a scene may have 100,000 lights, a sample 4096 rays.
+const MOST_TERMS: usize = 1 << 14;
+
+struct Recorder<'w, C> {
+    probe: Probe<'w, C>,
+    wave: Wave<'w>,
+    samples: [Sample; 1],
+    seen: [Seen; 1],
+    /// What the wave's pending rays are.
+    waiting: Vec<Waiting>,
+    rays: Vec<TracedRay>,
+    /// Lights that may still be listed.
+    room: usize,
+}
+
+impl<C: Fn() -> bool> Recorder<'_, C> {
+    /// Traces the next ray; returns whether there was one, and `None` if cancelled.
+    fn step(&mut self) -> Option<bool> {
+        let Self {
+            probe,
+            wave,
+            samples,
+            seen,
+            ..
+        } = self;
+        let next = wave.trees[0].pending.last().copied();
+        if !wave.advance(samples, &mut probe.counts) {
+            self.give_up(next);
+            return Some(false);
+        }
+        let before = seen[0].radiance;
+        probe.land(wave, samples, seen);
+        let waiting = self.waiting.pop();
+        let (ray, state) = next.zip(waiting).map(|(next, waiting)| {
+            let ray = traced(next, waiting, wave.rays[0].ends.0[0]);
+            (ray, next.1)
+        })?;
+        self.rays.push(ray);
+        match self.wave.nearest[0] {
+            None => self.miss(&state),
+            Some(_) => self.shade(&state)?,
+        }
+        debug_assert!(
+            {
+                let added = before + self.rays[self.rays.len() - 1].contribution;
+                let now = self.seen[0].radiance;
+                added == now || !now.is_finite()
+            },
+            "each ray adds to the sample once"
+        );
+        Some(true)
+    }
+
+    /// Records the rays that exceed the budget: the one refused and all that wait.
+    fn give_up(&mut self, refused: Option<(Ray, RayState)>) {
+        let rest = self.wave.trees[0].pending.iter().rev().copied();
+        let unseen = refused.into_iter().chain(rest);
+        for (next, waiting) in unseen.zip(self.waiting.drain(..).rev()) {
+            self.rays.push(traced(next, waiting, f64::INFINITY));
+        }
+    }
+
+    fn miss(&mut self, state: &RayState) {
+        let world = self.probe.world;
+        let ray = self.wave.rays[0].ray(0);
+        let screen = self.samples[0].screen;
+        let radiance = world.around(&ray, state.bounce, screen);
+        self.end(
+            RayEnd::Missed {
+                radiance,
+                missing: missing_around(world, &ray, state.bounce, screen),
+            },
+            state.weight * radiance,
+        );
+        self.probe
+            .branch(&mut self.wave, &self.samples, &mut self.seen);
+    }
+
+    fn shade(&mut self, state: &RayState) -> Option<()> {
+        let Self { probe, wave, .. } = self;
+        let world = probe.world;
+        let nearest = wave.nearest[0]?;
+        let material = wave.arrived[0].found.material(&wave.mapped)?.clone();
+        let ray = wave.rays[0].ray(0);
+        let point = wave.landings[0].point(&wave.rays[0], 0);
+        let lit = material.is_lit(point.side);
+        let shown = if lit { Rgb::ONE } else { Rgb::ZERO };
+        let mut shading = Box::new(Shading {
+            hit: surface_hit(world, &ray, nearest, &point),
+            missing: missing_at(world, &ray, nearest),
+            lit,
+            transmitted: transmitted(state.absorption, nearest.hit.t),
+            emission: shown * material.emission,
+            ambient: shown * material.ambience(world.ambient),
+            lights: Vec::new(),
+            unlisted: Unlisted::default(),
+            radiance: Rgb::ZERO,
+            mirror: material.mirrored(point.side),
+            boundary: boundary(&ray, &point, &material),
+            stop: None,
+            material,
+        });
+        for number in 0..world.scene.lights.len() {
+            if 0 < number && (self.probe.cancelled)() {
+                return None;
+            }
+            self.light(number, state, &mut shading);
+        }
+        let Self {
+            probe,
+            wave,
+            samples,
+            seen,
+            ..
+        } = self;
+        shading.radiance = wave.arrived[0].radiance;
+        let contribution = wave.arrived[0].weight * shading.radiance;
+        let before = wave.trees[0].pending.len();
+        probe.branch(wave, samples, seen);
+        let asks = shading.mirror != Rgb::ZERO || shading.boundary.is_some();
+        if asks && state.bounce == probe.depth {
+            shading.stop = Some(Stop::Depth);
+        }
+        let parent = Some(self.rays.len() - 1);
+        let pushed = &wave.trees[0].pending[before..];
+        self.waiting.extend(pushed.iter().map(|(_, child)| Waiting {
+            parent,
+            kind: kind(child.node, state.node, &shading),
+        }));
+        self.end(RayEnd::Surface(shading), contribution);
+        Some(())
+    }
+
+    /// Adds a light to the hit of the current ray.
+    fn light(&mut self, number: usize, state: &RayState, shading: &mut Shading) {
+        let Self {
+            probe,
+            wave,
+            samples,
+            seen,
+            ..
+        } = self;
+        let before = wave.arrived[0].radiance;
+        probe.light(wave, number, samples, seen);
+        let after = wave.arrived[0].radiance;
+        if self.room == 0 {
+            shading.unlisted.lights += 1;
+            shading.unlisted.radiance += after - before;
+            return;
+        }
+        let asked = wave.asking.first().zip(wave.transmittances.first());
+        let asked = asked.map(|(&(_, unblocked), &transmittance)| Asked {
+            unblocked,
+            transmittance,
+        });
+        let point = wave.landings[0].point(&wave.rays[0], 0);
+        let lit = Lit {
+            world: probe.world,
+            point: &point,
+            material: &shading.material,
+            added: after - before,
+        };
+        let chosen = |sphere: &_| {
+            let from = point.surface.point;
+            state.choose((number, sphere), from, samples[0].sampler)
+        };
+        if let Some(term) = lit.term(number, chosen, asked) {
+            shading.lights.push(term);
+            self.room -= 1;
+        }
+    }
+
+    /// Ends the current ray.
+    fn end(&mut self, end: RayEnd, contribution: Rgb) {
+        if let Some(ray) = self.rays.last_mut() {
+            ray.end = end;
+            ray.contribution = contribution;
+        }
+    }
+}
+
+/// A ray that has not ended.
+fn traced((ray, state): (Ray, RayState), waiting: Waiting, reach: f64) -> TracedRay {
+    TracedRay {
+        parent: waiting.parent,
+        kind: waiting.kind,
+        bounce: state.bounce,
+        weight: state.weight,
+        origin: ray.origin,
+        direction: ray.direction,
+        reach,
+        absorption: state.absorption,
+        end: RayEnd::OverBudget,
+        contribution: Rgb::ZERO,
+    }
+}
+
+/// What a material does with light at the boundary of a transparent solid; `None` if opaque.
+fn boundary(ray: &Ray, point: &Point, material: &Material) -> Option<Boundary> {
+    let tint = material.dielectric.tint;
+    let indices = material.indices(point.side);
+    let model = material.dielectric.reflectance;
+    (tint != Rgb::ZERO).then(|| {
+        let refraction = Refraction::new(ray.direction, point.normal, indices, model);
+        Boundary {
+            tint,
+            indices,
+            reflectance: refraction.reflectance,
+            total: refraction.refracted.is_none(),
+        }
+    })
+}
+
+/// What the ray of a node is, given the node of its parent and where that ended.
+fn kind(node: u32, parent: u32, shading: &Shading) -> RayKind {
+    let total = shading.boundary.is_some_and(|boundary| boundary.total);
+    // A mirror and a boundary that reflect into one direction share a ray.
+    let mirrors = shading.mirror != Rgb::ZERO;
+    match Secondary::of(node, parent) {
+        Secondary::Refracted => RayKind::Refraction,
+        Secondary::Mirrored if mirrors => RayKind::Mirror,
+        Secondary::Boundary | Secondary::Mirrored if total => RayKind::TotalReflection,
+        Secondary::Boundary | Secondary::Mirrored => RayKind::Boundary,
+    }
+}
