@@ -217,6 +217,7 @@ fn trace(scene: &Arc<Scene>, images: Images, size: Size, spp: u32) -> Arc<Frame>
         integrator: scene.setting.integrator,
         filter: Filter::Box,
         transfer: scene.setting.transfer,
+        exposure: 0.0,
     };
     let job = Job {
         scene: Arc::clone(scene),

@@ -269,6 +269,7 @@ impl Stage {
                 integrator,
                 filter: Filter::Box,
                 transfer: scene.setting.transfer,
+                exposure: 0.0,
             },
             frames: Frames::Last,
             numbers: None,

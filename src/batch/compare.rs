@@ -18,7 +18,7 @@ use crate::scene::{Image, Size};
 use crate::text::visible;
 
 /// Two pictures to compare.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Compare {
     /// The files of the pictures or scenes.
     pub sides: [PathBuf; 2],

@@ -12,7 +12,7 @@ use crate::render::Frame;
 use crate::text::{Diagnostic, counted};
 
 /// A picture to render.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Render {
     /// The scene file.
     pub scene: PathBuf,

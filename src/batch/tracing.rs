@@ -9,7 +9,7 @@ use crate::render::{Aov, Filter, Frame, Frames, Job, Renderer, Settings, Threads
 use crate::scene::{Camera, Images, Integrator, Scene, Size, Transfer};
 
 /// How a scene is traced.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Tracing {
     /// The size of the picture; the scene's if `None`.
     pub size: Option<Size>,
@@ -27,6 +27,8 @@ pub struct Tracing {
     pub aov: Option<Aov>,
     /// The transfer curve to 8-bit values; the scene's if `None`.
     pub transfer: Option<Transfer>,
+    /// Exposure in stops.
+    pub exposure: f64,
     /// The number of tracing threads.
     pub threads: usize,
 }
@@ -88,6 +90,7 @@ impl Tracing {
                 integrator,
                 filter: self.filter,
                 transfer,
+                exposure: self.exposure,
             },
             frames,
             numbers: None,

@@ -69,6 +69,16 @@ pub(super) enum AovChoice {
     Object,
     /// Surface colour, unlit.
     Albedo,
+    /// Texture coordinates as red and green.
+    Uv,
+    /// Side of the surface seen: blue its front, orange its back; in EXR and HDR 1 and −1.
+    Side,
+    /// Rays traced for a sample of light, including shadow rays: dark few, bright many.
+    Cost,
+    /// Samples taken of the light: dark few, bright many.
+    Samples,
+    /// Estimated error of the light, 0 to 1: dark small, bright large.
+    Noise,
 }
 
 impl AovChoice {
@@ -78,6 +88,11 @@ impl AovChoice {
             Self::Normal => Aov::Normal,
             Self::Object => Aov::Object,
             Self::Albedo => Aov::Albedo,
+            Self::Uv => Aov::Uv,
+            Self::Side => Aov::Side,
+            Self::Cost => Aov::Cost,
+            Self::Samples => Aov::Samples,
+            Self::Noise => Aov::Noise,
         }
     }
 }

@@ -11,6 +11,9 @@ use crate::batch::Tracing;
 use crate::render::DEFAULT_SPP;
 use crate::scene::Size;
 
+/// The largest exposure in stops either way, beyond which single precision overflows soon.
+const MOST_STOPS: f64 = 100.0;
+
 #[derive(Args, Debug)]
 pub(super) struct TracingArguments {
     /// Width and height in pixels, such as 800x600; at most 268435456 pixels in all (16384x16384)
@@ -32,12 +35,17 @@ pub(super) struct TracingArguments {
     /// Random seed, 0 to 4294967295
     #[arg(long, value_name = "N", default_value_t = 0)]
     seed: u32,
-    /// Render a property of the first surface under each pixel instead of light
+    /// Render a property of the first surface under each pixel, or of the samples of its light,
+    /// instead of light
     #[arg(long, value_name = "AOV", value_enum)]
     aov: Option<AovChoice>,
     /// Transfer curve from colours to 8-bit values [default: linear, unless the scene sets srgb]
     #[arg(long, value_name = "CURVE", value_enum)]
     transfer: Option<TransferChoice>,
+    /// Exposure in stops, -100 to 100: light and albedo times 2 to this power before the transfer,
+    /// in EXR and HDR too
+    #[arg(long, value_name = "STOPS", default_value_t = 0.0, allow_negative_numbers = true, value_parser = parse_stops)]
+    exposure: f64,
     /// Number of tracing threads, 1 to 1024 [default: one per core]
     #[arg(long, value_name = "N", value_parser = threads_range())]
     threads: Option<u16>,
@@ -55,9 +63,17 @@ impl TracingArguments {
             seed: self.seed,
             aov: self.aov.map(AovChoice::value),
             transfer: self.transfer.map(TransferChoice::value),
+            exposure: self.exposure,
             threads: self.threads.map_or_else(all_cores, usize::from),
         }
     }
+}
+
+fn parse_stops(text: &str) -> Result<f64, String> {
+    let stops = text.parse().ok();
+    stops
+        .filter(|stops: &f64| stops.abs() <= MOST_STOPS)
+        .ok_or_else(|| format!("expected a number from -{MOST_STOPS} to {MOST_STOPS}"))
 }
 
 fn parse_size(text: &str) -> Result<Size, String> {

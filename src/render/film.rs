@@ -11,10 +11,10 @@ use super::probe::Counts;
 use super::shot::Shot;
 use super::steps::Step;
 use super::tile::{AREA, Remembers, Tile, TileShape, Work};
-use super::tone::Tone;
+use super::tone::{Light, Tone};
 use super::touched::Touched;
 use super::tracer::Tracer;
-use crate::scene::{Size, Transfer};
+use crate::scene::{Rgb, Size};
 
 /// Most pixels of a picture whose dependencies are recorded; for larger pictures that would cost
 /// more memory than the time saved is worth.
@@ -33,7 +33,7 @@ pub(crate) struct Film {
     size: Size,
     spp: u32,
     aov: Option<Aov>,
-    transfer: Transfer,
+    light: Light,
     shape: TileShape,
     remembers: Remembers,
     /// The tiles begun so far; capacity is reserved for all. First touching a large picture's
@@ -50,8 +50,9 @@ pub(crate) struct Film {
 }
 
 /// What the tiles of a picture store.
-fn remembers(size: Size, frames: Frames) -> Remembers {
-    if frames == Frames::Live && size.pixels() <= MOST_REMEMBERED {
+fn remembers(settings: &Settings, frames: Frames) -> Remembers {
+    let shown = matches!(settings.aov, Some(Aov::Cost | Aov::Noise));
+    if shown || frames == Frames::Live && settings.size.pixels() <= MOST_REMEMBERED {
         Remembers::Causes
     } else {
         Remembers::Pixels
@@ -72,15 +73,29 @@ pub(crate) struct Raster {
     pub(crate) objects: Vec<u32>,
     /// Unclamped values of the pixels, if requested.
     pub(crate) values: Vec<[f32; 3]>,
+    /// Estimated errors of the pixels, if recorded and requested.
+    pub(crate) errors: Vec<f32>,
+    /// The ends of the scale of [`Raster::pixels`], if it has one.
+    pub(crate) range: Option<[f64; 2]>,
 }
 
 impl Raster {
     /// Reserves memory for the pixels that frames of this kind show.
-    fn with_room(count: usize, frames: Frames) -> Result<Self, TryReserveError> {
+    fn with_room(
+        count: usize,
+        frames: Frames,
+        remembers: Remembers,
+    ) -> Result<Self, TryReserveError> {
         let mut room = Self::default();
         room.pixels.try_reserve_exact(count)?;
         match frames {
-            Frames::Live => room.objects.try_reserve_exact(count)?,
+            Frames::Live => {
+                room.objects.try_reserve_exact(count)?;
+                room.values.try_reserve_exact(count)?;
+                if remembers == Remembers::Causes {
+                    room.errors.try_reserve_exact(count)?;
+                }
+            }
             Frames::Last => {}
             Frames::LastWithValues => room.values.try_reserve_exact(count)?,
         }
@@ -93,27 +108,22 @@ impl Film {
     pub(crate) fn bytes(settings: &Settings, frames: Frames) -> u64 {
         let size = settings.size;
         let bytes = |count: usize, each: usize| (count as u64).saturating_mul(each as u64);
+        let remembers = remembers(settings, frames);
         let values = match frames {
-            Frames::Live => size_of::<u32>(),
+            Frames::Live => size_of::<u32>() + size_of::<[f32; 3]>() + size_of::<f32>(),
             Frames::Last => 0,
             Frames::LastWithValues => size_of::<[f32; 3]>(),
         };
-        let tile = Tile::bytes(remembers(size, frames));
+        let tile = Tile::bytes(remembers);
         let tiles = bytes(TileShape::of(size).count(size), tile);
         tiles.saturating_add(bytes(size.pixels(), size_of::<[u8; 3]>() + values))
     }
 
     /// Creates an empty film; reserves memory for its tiles and the finished picture.
     pub(crate) fn new(settings: &Settings, frames: Frames) -> Result<Self, NoMemory> {
-        let Settings {
-            size,
-            spp,
-            aov,
-            transfer,
-            ..
-        } = *settings;
+        let Settings { size, spp, aov, .. } = *settings;
         let shape = TileShape::of(size);
-        let remembers = remembers(size, frames);
+        let remembers = remembers(settings, frames);
         let count = shape.count(size);
         let film = || {
             let mut tiles = Vec::new();
@@ -122,14 +132,14 @@ impl Film {
                 size,
                 spp,
                 aov,
-                transfer,
+                light: Light::of(settings),
                 shape,
                 remembers,
                 tiles,
                 squared_errors: 0.0,
                 noise: None,
                 over_budget: 0,
-                room: Raster::with_room(size.pixels(), frames)?,
+                room: Raster::with_room(size.pixels(), frames, remembers)?,
             })
         };
         film().map_err(|_: TryReserveError| NoMemory {
@@ -255,7 +265,7 @@ impl Film {
     /// traced, each pixel shows the nearest grid point up and to the left. All tiles must be begun.
     /// `None` once `cancelled` returns true, or if memory is short.
     pub(crate) fn develop(&self, cancelled: impl Fn() -> bool) -> Option<Raster> {
-        let room = Raster::with_room(self.size.pixels(), Frames::Live);
+        let room = Raster::with_room(self.size.pixels(), Frames::Live, self.remembers);
         self.develop_in(room.ok()?, cancelled)
     }
 
@@ -266,10 +276,16 @@ impl Film {
     }
 
     fn develop_in(&self, mut raster: Raster, cancelled: impl Fn() -> bool) -> Option<Raster> {
-        let tone = self.tone();
-        let value = |tile: &Tile, at| tile.value(at, self.spp);
+        raster.range = self.range();
+        let tone = self.tone(raster.range);
+        let value = |tile: &Tile, at| tile.value(at, self.spp, self.aov);
+        let linear = |value: Rgb| match tone {
+            Tone::Colour(light) => light.exposed(value),
+            _ => value,
+        };
         let tells_objects = 0 < raster.objects.capacity();
         let tells_values = 0 < raster.values.capacity();
+        let tells_errors = 0 < raster.errors.capacity() && self.noise.is_some();
         let down = self.rows();
         let quiet = QUIET.div_ceil(self.shape.across(self.size) * AREA as usize);
         let quiet = quiet.max(2 * rayon::current_num_threads());
@@ -285,9 +301,12 @@ impl Film {
                 self.develop_rows(rows.clone(), &mut raster.objects, Tile::object);
             }
             if tells_values {
-                self.develop_rows(rows, &mut raster.values, |tile, at| {
-                    value(tile, at).as_vec3().to_array()
+                self.develop_rows(rows.clone(), &mut raster.values, |tile, at| {
+                    linear(value(tile, at)).as_vec3().to_array()
                 });
+            }
+            if tells_errors {
+                self.develop_rows(rows, &mut raster.errors, Tile::error);
             }
         }
         Some(raster)
@@ -334,22 +353,40 @@ impl Film {
         });
     }
 
-    /// How pixel values are converted to 8 bits.
-    fn tone(&self) -> Tone {
+    /// How pixel values are converted to 8 bits, on a scale with these ends.
+    fn tone(&self, range: Option<[f64; 2]>) -> Tone {
+        let [least, most] = range.unwrap_or([0.0; 2]);
         match self.aov {
-            None | Some(Aov::Albedo) => Tone::Colour(self.transfer),
+            None | Some(Aov::Albedo) => Tone::Colour(self.light),
             Some(Aov::Normal) => Tone::Normal,
             Some(Aov::Object) => Tone::Number,
-            Some(Aov::Depth) => {
-                let distances = self.tiles.par_iter().flat_map_iter(Tile::sums);
-                let distances = distances
-                    .map(|sum| sum.x)
-                    .filter(|&x| 0.0 < x && x.is_finite());
-                let (nearest, farthest) = distances
-                    .map(|x| (x, x))
-                    .reduce(|| (f64::INFINITY, 0.0), |a, b| (a.0.min(b.0), a.1.max(b.1)));
-                Tone::Depth { nearest, farthest }
-            }
+            Some(Aov::Depth) => Tone::Depth {
+                nearest: least,
+                farthest: most,
+            },
+            Some(Aov::Uv) => Tone::Uv,
+            Some(Aov::Side) => Tone::Side,
+            Some(Aov::Cost | Aov::Samples) => Tone::Logarithm { least, most },
+            Some(Aov::Noise) => Tone::Part { most },
         }
+    }
+
+    /// The ends of the scale of AOVs that have one; without a value on it, infinity and 0.
+    fn range(&self) -> Option<[f64; 2]> {
+        let aov = self.aov?;
+        let starts_at_zero = match aov {
+            Aov::Depth | Aov::Cost | Aov::Samples => false,
+            Aov::Noise => true,
+            Aov::Normal | Aov::Object | Aov::Albedo | Aov::Uv | Aov::Side => return None,
+        };
+        let values = |tile| Tile::values(tile, self.spp, Some(aov));
+        let values = self.tiles.par_iter().flat_map_iter(values);
+        let values = values
+            .map(|value| value.x)
+            .filter(|&x| 0.0 < x && x.is_finite());
+        let (least, most) = values
+            .map(|x| (x, x))
+            .reduce(|| (f64::INFINITY, 0.0), |a, b| (a.0.min(b.0), a.1.max(b.1)));
+        Some([if starts_at_zero { 0.0 } else { least }, most])
     }
 }

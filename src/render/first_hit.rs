@@ -4,6 +4,7 @@ use glam::DVec3;
 
 use super::frame::{Aov, NO_OBJECT};
 use super::probe::Seen;
+use super::shading::Side;
 use super::touched::Touched;
 use super::world::World;
 use crate::geometry::Ray;
@@ -21,6 +22,7 @@ pub(crate) fn first_hit(world: &World, ray: &Ray, reach: f64, skipped: f64, aov:
             radiance,
             object: NO_OBJECT,
             touched: Touched::default(),
+            rays: 1,
         };
     };
     let mut mapped = None;
@@ -30,10 +32,21 @@ pub(crate) fn first_hit(world: &World, ray: &Ray, reach: f64, skipped: f64, aov:
         Aov::Normal => point.normal,
         Aov::Object => DVec3::splat(f64::from(nearest.object) + 1.0),
         Aov::Albedo => material.albedo(),
+        Aov::Uv => {
+            let shape = &world.scene.objects[nearest.object as usize].shape;
+            shape.chart(ray, nearest.hit).uv.extend(0.0)
+        }
+        Aov::Side => DVec3::splat(match point.side {
+            Side::Front => 1.0,
+            Side::Back => -1.0,
+        }),
+        // These belong to light, see [`Settings::surface`](super::Settings).
+        Aov::Cost | Aov::Samples | Aov::Noise => DVec3::ZERO,
     };
     Seen {
         radiance: value,
         object: nearest.object,
         touched: Touched::object(nearest.object),
+        rays: 1,
     }
 }

@@ -31,7 +31,7 @@ pub const MAX_SPP: u32 = 65_536;
 pub const NO_OBJECT: u32 = u32::MAX;
 
 /// Render settings; with scene, images and camera they determine every pixel.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Settings {
     /// Traced resolution; does not affect the framing.
     pub size: Size,
@@ -49,9 +49,28 @@ pub struct Settings {
     pub filter: Filter,
     /// The transfer function from linear colours to 8 bits.
     pub transfer: Transfer,
+    /// What light and albedo are multiplied by before the transfer, in stops: 2 to this power.
+    pub exposure: f64,
 }
 
-/// An arbitrary output variable: a property of the first surface under a pixel, apart from light.
+impl Settings {
+    /// The AOV of the surfaces to trace instead of light.
+    pub(crate) fn surface(&self) -> Option<Aov> {
+        self.aov.filter(|aov| !aov.is_of_light())
+    }
+
+    /// Whether a film traced with these settings holds what others show.
+    pub(crate) fn trace_alike(&self, other: &Self) -> bool {
+        let traced = |settings: &Self| Self {
+            aov: settings.surface(),
+            ..*settings
+        };
+        traced(self) == traced(other)
+    }
+}
+
+/// An arbitrary output variable: a property of the first surface under a pixel, or of the samples
+/// of its light.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Aov {
     /// Distance from the eye in world units, infinite without a surface. In 8 bits the nearest is
@@ -65,6 +84,20 @@ pub enum Aov {
     Object,
     /// Diffuse albedo including textures; the emission of surfaces without diffuse or highlight.
     Albedo,
+    /// Texture coordinates u and v of the surface; 0 without one. In 8 bits red and green, repeated
+    /// beyond 0 to 1.
+    Uv,
+    /// Side of the surface seen, by its geometric normal: 1 its front, −1 its back, 0 without a
+    /// surface. In 8 bits blue and orange.
+    Side,
+    /// Rays traced for a sample of light, including shadow rays, as the mean of the samples. In 8
+    /// bits dark to bright on a logarithmic scale, as [`Frame::range`] says.
+    Cost,
+    /// Samples taken of the light. In 8 bits dark to bright on a logarithmic scale.
+    Samples,
+    /// Estimated error of the displayed light, 0 to 1, in its worst channel; 0 before samples were
+    /// first doubled. In 8 bits dark to bright.
+    Noise,
 }
 
 impl Aov {
@@ -75,15 +108,25 @@ impl Aov {
             Self::Normal => "normal",
             Self::Object => "object",
             Self::Albedo => "albedo",
+            Self::Uv => "uv",
+            Self::Side => "side",
+            Self::Cost => "cost",
+            Self::Samples => "samples",
+            Self::Noise => "noise",
         }
     }
 
-    /// The number of samples per pixel to take if `asked` are requested. Distances and object
-    /// numbers cannot be averaged: they take one, at the centre.
+    /// Whether it is known from tracing light, which makes switching between it and light free.
+    pub fn is_of_light(self) -> bool {
+        matches!(self, Self::Cost | Self::Samples | Self::Noise)
+    }
+
+    /// The number of samples per pixel to take if `asked` are requested. Distances, numbers of
+    /// objects, texture coordinates and sides cannot be averaged: they take one, at the centre.
     pub fn samples(self, asked: u32) -> u32 {
         match self {
-            Self::Depth | Self::Object => 1,
-            Self::Normal | Self::Albedo => asked,
+            Self::Depth | Self::Object | Self::Uv | Self::Side => 1,
+            Self::Normal | Self::Albedo | Self::Cost | Self::Samples | Self::Noise => asked,
         }
     }
 }
@@ -91,7 +134,7 @@ impl Aov {
 /// Which frames of a job contain pixels. All contain the progress.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Frames {
-    /// Every frame, for a picture watched while it is traced.
+    /// Every frame, with [`Frame::values`], for a picture watched while it is traced.
     Live,
     /// Only the last, complete frame.
     Last,
@@ -130,8 +173,16 @@ pub struct Frame {
     /// Number of the object under each pixel's centre, see [`Job::numbers`], or [`NO_OBJECT`]; only
     /// with [`Frames::Live`].
     pub objects: Vec<u32>,
-    /// Linear radiance or AOV of each pixel; only with [`Frames::LastWithValues`].
+    /// Linear radiance after exposure, or AOV, of each pixel, unclamped; only with
+    /// [`Frames::Live`] and [`Frames::LastWithValues`].
     pub values: Vec<[f32; 3]>,
+    /// Estimated error of each pixel's displayed light in its worst channel, 0 to 1 (the root of
+    /// what [`Progress::noise`] averages). Only with [`Frames::Live`] for up to 4194304 pixels, and
+    /// once it is estimated.
+    pub errors: Vec<f32>,
+    /// The values that the ends of a scale stand for, with an AOV that has one: depth, cost,
+    /// samples and noise.
+    pub range: Option<[f64; 2]>,
     /// Progress of the job.
     pub progress: Progress,
     /// Answers what its pixels show; `None` if it was not traced.
@@ -160,6 +211,8 @@ impl Frame {
             pixels,
             objects: Vec::new(),
             values: Vec::new(),
+            errors: Vec::new(),
+            range: None,
             progress: Progress::COMPLETE,
             query: None,
         }

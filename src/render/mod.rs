@@ -12,7 +12,7 @@
 //! [`structures`] of its meshes and fills the [`tile`]s of a [`film`] in [`steps`]. Each sample
 //! gets its numbers from [`sampler`], its place around the pixel from [`filter`], its ray from
 //! [`camera`] and its radiance from a [`tracer`], or an AOV from [`first_hit`]. [`tone`] converts
-//! the film to a frame, and [`noise`] estimates the remaining error.
+//! the film to a frame (heat maps by a [`ramp`]), and [`noise`] estimates the remaining error.
 //!
 //! Pixels of live pictures record their dependencies ([`touched`]): after an edit of a material or
 //! of a light's colour the film is reused, and only dependent pixels are traced again.
@@ -50,6 +50,7 @@ mod packets;
 mod path;
 mod place;
 mod probe;
+mod ramp;
 mod refusal;
 mod renderer;
 mod sampler;

@@ -7,15 +7,15 @@
 
 use super::frame::Settings;
 use super::steps::Step;
-use super::tone::displayed;
-use crate::scene::{Rgb, Transfer};
+use super::tone::Light;
+use crate::scene::Rgb;
 
 /// Estimates errors of displayed pixels during a pass that doubles their samples.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Doubling {
     /// Samples in each half.
     half: f64,
-    transfer: Transfer,
+    light: Light,
 }
 
 impl Doubling {
@@ -24,17 +24,17 @@ impl Doubling {
         let Step::Samples(indices) = step else {
             return None;
         };
-        let doubles = indices.end == 2 * indices.start && settings.aov.is_none();
+        let doubles = indices.end == 2 * indices.start && settings.surface().is_none();
         doubles.then(|| Self {
             half: f64::from(indices.start),
-            transfer: settings.transfer,
+            light: Light::of(settings),
         })
     }
 
     /// Returns the squared error of a pixel in its worst channel, from its sums of radiance before
     /// and after the pass.
     pub(crate) fn squared_error(self, before: Rgb, after: Rgb) -> f64 {
-        let mean = |sum: Rgb| displayed(sum / self.half, self.transfer);
+        let mean = |sum: Rgb| self.light.displayed(sum / self.half);
         let error = 0.5 * (mean(before) - mean(after - before)).abs().max_element();
         error * error
     }

@@ -41,6 +41,7 @@ impl<C: Fn() -> bool> Probe<'_, C> {
             radiance: Rgb::ZERO,
             object: NO_OBJECT,
             touched: Touched::default(),
+            rays: 0,
         };
         let mut path = Path {
             ray: sample.ray,

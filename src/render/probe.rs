@@ -87,6 +87,8 @@ pub(crate) struct Seen {
     pub(crate) object: u32,
     /// Dependencies of the radiance.
     pub(crate) touched: Touched,
+    /// Rays traced for the radiance, including shadow rays.
+    pub(crate) rays: u32,
 }
 
 impl Seen {
@@ -95,6 +97,7 @@ impl Seen {
         radiance: Rgb::ZERO,
         object: NO_OBJECT,
         touched: Touched::NOTHING,
+        rays: 0,
     };
 }
 

@@ -82,7 +82,7 @@ impl Shot<'_> {
 
     /// The point of a sample on the lens; `None` for its centre.
     fn lens(&self, sampler: Sampler) -> Option<[f64; 2]> {
-        match (self.settings.integrator, self.settings.aov) {
+        match (self.settings.integrator, self.settings.surface()) {
             // An unbiased sample must not use the centre.
             (Integrator::Path, None) => {
                 let [u, v, ..] = sampler.four(Sampler::ROOT, Use::Lens);

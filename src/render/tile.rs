@@ -1,7 +1,7 @@
 //! A part of a film: the accumulated samples of its pixels.
 
 use super::first_hit::first_hit;
-use super::frame::NO_OBJECT;
+use super::frame::{Aov, NO_OBJECT};
 use super::noise::Doubling;
 use super::probe::{Sample, Seen};
 use super::shot::Shot;
@@ -118,6 +118,8 @@ struct Memory {
     touched: [Touched; AREA as usize],
     /// Squared error after the last pass that estimated it.
     squared_errors: [f32; AREA as usize],
+    /// Rays traced for all its samples.
+    rays: [u32; AREA as usize],
 }
 
 /// What a tile stores.
@@ -146,6 +148,7 @@ impl Tile {
             Box::new(Memory {
                 touched: [Touched::default(); AREA as usize],
                 squared_errors: [0.0; AREA as usize],
+                rays: [0; AREA as usize],
             })
         };
         let mut tile = Self {
@@ -230,7 +233,7 @@ impl Tile {
             seen,
         } = work;
         shot.samples(pixels, index, samples);
-        match shot.settings.aov {
+        match shot.settings.surface() {
             None => tracer.trace(samples, seen),
             Some(aov) => {
                 tracer.count(samples.len());
@@ -249,6 +252,7 @@ impl Tile {
             }
             if let Some(memory) = &mut self.memory {
                 memory.touched[at] |= seen.touched;
+                memory.rays[at] = memory.rays[at].saturating_add(seen.rays);
             }
         }
     }
@@ -297,21 +301,43 @@ impl Tile {
         }
         if let Some(memory) = &mut self.memory {
             memory.touched[at] = Touched::default();
+            memory.rays[at] = 0;
         }
     }
 
-    /// The mean of a pixel's samples.
-    pub(crate) fn value(&self, at: usize, spp: u32) -> Rgb {
-        self.sums[at] / f64::from(samples_at(self.levels[at], spp).max(1))
+    /// The mean of a pixel's samples, or what an AOV of light shows of them.
+    pub(crate) fn value(&self, at: usize, spp: u32, aov: Option<Aov>) -> Rgb {
+        let samples = f64::from(samples_at(self.levels[at], spp));
+        match aov {
+            Some(Aov::Cost) => Rgb::splat(self.rays(at) / samples.max(1.0)),
+            Some(Aov::Samples) => Rgb::splat(samples),
+            Some(Aov::Noise) => Rgb::splat(self.error(at).into()),
+            _ => self.sums[at] / samples.max(1.0),
+        }
+    }
+
+    /// The estimated error of a pixel, 0 to 1; 0 where it is not recorded.
+    pub(crate) fn error(&self, at: usize) -> f32 {
+        let memory = self.memory.as_ref();
+        memory.map_or(0.0, |memory| memory.squared_errors[at].sqrt())
+    }
+
+    /// The rays traced for all samples of a pixel; 0 where they are not recorded.
+    fn rays(&self, at: usize) -> f64 {
+        let memory = self.memory.as_ref();
+        memory.map_or(0.0, |memory| memory.rays[at].into())
+    }
+
+    /// The values of the pixels traced so far.
+    pub(crate) fn values(&self, spp: u32, aov: Option<Aov>) -> impl Iterator<Item = Rgb> {
+        let traced = |&at: &usize| self.levels[at] != 0 && self.levels[at] != BEYOND;
+        (0..AREA as usize)
+            .filter(traced)
+            .map(move |at| self.value(at, spp, aov))
     }
 
     pub(crate) fn object(&self, at: usize) -> u32 {
         self.objects[at]
-    }
-
-    /// The sums of radiance of all pixels.
-    pub(crate) fn sums(&self) -> [Rgb; AREA as usize] {
-        self.sums
     }
 
     /// Visits the pixels of a grid that lie within the picture, in blocks of 4×2, so that adjacent

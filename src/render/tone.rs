@@ -1,18 +1,80 @@
 //! Conversion of pixel values to 8 bits per channel.
 
+use super::frame::Settings;
+use super::ramp::heat;
 use crate::scene::{Rgb, Transfer};
+
+/// Front and back of surfaces: blue and vermilion, which are distinct without red or green vision
+/// (Okabe and Ito, "Color Universal Design", 2008).
+const SIDES: [[u8; 3]; 2] = [[0, 114, 178], [213, 94, 0]];
+
+/// How linear light is displayed.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Light {
+    /// What colours are multiplied by; `None` leaves every bit.
+    scale: Option<f64>,
+    transfer: Transfer,
+}
+
+impl Light {
+    pub(crate) fn of(settings: &Settings) -> Self {
+        Self::new(settings.exposure, settings.transfer)
+    }
+
+    /// Light with an exposure in stops.
+    pub(crate) fn new(stops: f64, transfer: Transfer) -> Self {
+        Self {
+            scale: (stops != 0.0).then(|| libm::exp2(stops)),
+            transfer,
+        }
+    }
+
+    /// The linear colour after exposure.
+    #[inline]
+    pub(crate) fn exposed(self, colour: Rgb) -> Rgb {
+        match self.scale {
+            Some(scale) => scale * colour,
+            None => colour,
+        }
+    }
+
+    /// The colour as displayed, each channel from 0 to 1.
+    pub(crate) fn displayed(self, colour: Rgb) -> Rgb {
+        // NaN survives clamping and becomes 0, as in bytes.
+        self.curved(colour)
+            .map(|channel| channel.clamp(0.0, 1.0).max(0.0))
+    }
+
+    /// Applies exposure and the transfer function.
+    #[inline]
+    fn curved(self, colour: Rgb) -> Rgb {
+        let colour = self.exposed(colour);
+        match self.transfer {
+            Transfer::Linear => colour,
+            Transfer::Srgb => colour.map(srgb),
+        }
+    }
+}
 
 /// The mapping from pixel values to colours.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Tone {
     /// A linear colour.
-    Colour(Transfer),
+    Colour(Light),
     /// A distance: the nearest is white, the farthest black, infinity black too.
     Depth { nearest: f64, farthest: f64 },
     /// A unit vector with components from −1 to 1; zero is black.
     Normal,
     /// A number, each in its own colour; 0 is black.
     Number,
+    /// Texture coordinates, as red and green.
+    Uv,
+    /// A side: 1 the front, −1 the back; 0 is black.
+    Side,
+    /// A number on a logarithmic scale.
+    Logarithm { least: f64, most: f64 },
+    /// A number from 0.
+    Part { most: f64 },
 }
 
 impl Tone {
@@ -20,30 +82,37 @@ impl Tone {
     #[inline]
     pub(crate) fn bytes(self, value: Rgb) -> [u8; 3] {
         match self {
-            Self::Colour(transfer) => to_bytes(curved(value, transfer)),
+            Self::Colour(light) => to_bytes(light.curved(value)),
             Self::Depth { .. } if value.x == f64::INFINITY => [0; 3],
             Self::Depth { nearest, farthest } if nearest < farthest => {
                 to_bytes((farthest - value) / (farthest - nearest))
             }
             Self::Depth { .. } => [255; 3],
-            Self::Normal | Self::Number if value == Rgb::ZERO => [0; 3],
+            Self::Normal | Self::Number | Self::Side if value == Rgb::ZERO => [0; 3],
             Self::Normal => to_bytes(0.5 * value + 0.5),
             Self::Number => colour_of(value.x as u32),
+            Self::Uv => to_bytes(value.map(repeated)),
+            Self::Side => SIDES[usize::from(value.x < 0.0)],
+            Self::Logarithm { least, most } => {
+                let height = |value: f64| libm::log(value / least);
+                to_bytes(heat(share(height(value.x), height(most))))
+            }
+            Self::Part { most } => to_bytes(heat(share(value.x, most))),
         }
     }
 }
 
-/// Returns a colour as displayed, each channel from 0 to 1.
-pub(crate) fn displayed(colour: Rgb, transfer: Transfer) -> Rgb {
-    // NaN survives clamping and becomes 0, as in bytes.
-    curved(colour, transfer).map(|channel| channel.clamp(0.0, 1.0).max(0.0))
+/// The share of a scale from 0 at which a value stands; 1 on an empty scale.
+fn share(value: f64, most: f64) -> f64 {
+    if 0.0 < most { value / most } else { 1.0 }
 }
 
-/// Applies the transfer function.
-fn curved(colour: Rgb, transfer: Transfer) -> Rgb {
-    match transfer {
-        Transfer::Linear => colour,
-        Transfer::Srgb => colour.map(srgb),
+/// A texture coordinate in the unit square, whose both ends are in it.
+fn repeated(coordinate: f64) -> f64 {
+    if (0.0..=1.0).contains(&coordinate) {
+        coordinate
+    } else {
+        coordinate - coordinate.floor()
     }
 }
 
@@ -78,7 +147,7 @@ mod tests {
     /// From the standard's table: 128 / 255 is linear 0.21586; 0.003 lies in the linear segment.
     #[test]
     fn the_srgb_curve_matches_the_standard() {
-        let tone = Tone::Colour(Transfer::Srgb);
+        let tone = Tone::Colour(Light::new(0.0, Transfer::Srgb));
         for (linear, byte) in [
             (0.0, 0),
             (1.0, 255),
@@ -89,6 +158,57 @@ mod tests {
             (-1.0, 0),
         ] {
             assert_eq!(tone.bytes(Rgb::splat(linear)), [byte; 3], "{linear}");
+        }
+    }
+
+    /// A stop doubles: 0.25 at one stop is 0.5, and 0 stops leave even what doubling would not.
+    #[test]
+    fn an_exposure_of_one_stop_doubles() {
+        for (stops, linear, bytes) in [
+            (1.0, 0.25, 128),
+            (-1.0, 1.0, 128),
+            (0.5, 0.25, 90),
+            (0.0, f64::MIN_POSITIVE, 0),
+            (60.0, 1e-18, 255),
+        ] {
+            let light = Light::new(stops, Transfer::Linear);
+            let tone = Tone::Colour(light);
+            assert_eq!(tone.bytes(Rgb::splat(linear)), [bytes; 3], "{stops}");
+        }
+        assert_eq!(
+            Light::new(2.0, Transfer::Srgb).exposed(Rgb::ONE),
+            Rgb::splat(4.0)
+        );
+        assert_eq!(Light::new(0.0, Transfer::Linear).scale, None);
+    }
+
+    #[test]
+    fn heat_coordinates_and_sides_have_their_colours() {
+        let costs = Tone::Logarithm {
+            least: 1.0,
+            most: 256.0,
+        };
+        let errors = Tone::Part { most: 0.5 };
+        let even = Tone::Logarithm {
+            least: 16.0,
+            most: 16.0,
+        };
+        for (tone, value, bytes) in [
+            (costs, [1.0; 3], [0, 0, 4]),
+            (costs, [16.0; 3], [188, 55, 84]),
+            (costs, [256.0; 3], [252, 255, 164]),
+            (costs, [0.0; 3], [0, 0, 4]),
+            (even, [16.0; 3], [252, 255, 164]),
+            (errors, [0.0; 3], [0, 0, 4]),
+            (errors, [0.25; 3], [188, 55, 84]),
+            (Tone::Part { most: 0.0 }, [0.0; 3], [252, 255, 164]),
+            (Tone::Uv, [0.0, 1.0, 0.0], [0, 255, 0]),
+            (Tone::Uv, [1.25, -0.25, 0.0], [64, 191, 0]),
+            (Tone::Side, [1.0; 3], [0, 114, 178]),
+            (Tone::Side, [-1.0; 3], [213, 94, 0]),
+            (Tone::Side, [0.0; 3], [0; 3]),
+        ] {
+            assert_eq!(tone.bytes(value.into()), bytes, "{tone:?} {value:?}");
         }
     }
 

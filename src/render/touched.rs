@@ -43,7 +43,7 @@ impl Touched {
     pub(crate) fn between(before: (&Job, &World), after: (&Job, &World)) -> Option<Self> {
         let ((job, world), (new_job, new_world)) = (before, after);
         let (scene, new_scene) = (&*world.scene, &*new_world.scene);
-        let is_alike = job.settings == new_job.settings
+        let is_alike = job.settings.trace_alike(&new_job.settings)
             && job.frames == new_job.frames
             && job.camera == new_job.camera
             && job.images == new_job.images

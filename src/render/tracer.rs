@@ -44,9 +44,11 @@ impl<'w, C: Fn() -> bool> Tracer<'w, C> {
                         break;
                     }
                     probe.touched = Touched::default();
+                    let before = probe.counts.rays;
                     let brought = probe.by_path(sample);
                     seen.push(Seen {
                         touched: probe.touched,
+                        rays: u32::try_from(probe.counts.rays - before).unwrap_or(u32::MAX),
                         ..brought
                     });
                 }

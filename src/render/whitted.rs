@@ -113,6 +113,7 @@ impl<'w> Wave<'w> {
         self.mapped.clear();
         for (number, (nearest, state)) in self.nearest.iter().zip(&self.states).enumerate() {
             let seen = &mut seen[state.tree];
+            seen.rays += 1;
             let (packet, lane) = (&self.rays[number / WIDTH], number % WIDTH);
             let landing = &mut self.landings[number / WIDTH];
             let mut arrived = Arrived {
@@ -213,6 +214,7 @@ impl<'w> Wave<'w> {
                     arrived.radiance += unblocked;
                 }
                 Some(Shadow { rays, ends }) => {
+                    seen[self.states[first + lane].tree].rays += 1;
                     self.asking.push((first + lane, unblocked));
                     self.shadows.push(&rays.ray(lane), ends[lane]);
                 }

@@ -301,6 +301,8 @@ impl<'s, W: Fn() + Sync> Tracing<'s, W> {
             pixels,
             mut objects,
             values,
+            errors,
+            range,
         }) = raster
         else {
             return;
@@ -318,6 +320,8 @@ impl<'s, W: Fn() + Sync> Tracing<'s, W> {
             pixels,
             objects,
             values,
+            errors,
+            range,
             progress: Progress {
                 pass: self.pass,
                 passes: 1 + self.spp.next_power_of_two().ilog2(),

@@ -78,8 +78,9 @@ impl Easel {
         let mut pixels = Vec::new();
         self.film
             .develop_rows(0..self.film.rows(), &mut pixels, |tile, at| {
-                let bits = tile.value(at, spp).to_array().map(f64::to_bits);
-                (bits, tile.object(at))
+                let bits = tile.value(at, spp, None).to_array().map(f64::to_bits);
+                let cost = tile.value(at, spp, Some(Aov::Cost)).x;
+                (bits, tile.object(at), cost.to_bits())
             });
         let noise = self.film.noise().map(f64::to_bits);
         (pixels, noise, self.film.over_budget())

@@ -9,6 +9,7 @@ mod first_hits;
 mod glass;
 mod highlights;
 mod invariance;
+mod looks;
 mod meshes;
 mod noise;
 mod optics;
@@ -290,6 +291,7 @@ fn settings(width: u32, height: u32, spp: u32) -> Settings {
         integrator: Integrator::Whitted,
         filter: Filter::Box,
         transfer: Transfer::default(),
+        exposure: 0.0,
     }
 }
 

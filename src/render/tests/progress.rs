@@ -8,10 +8,12 @@ use super::super::film::Film;
 use super::super::filter::Spread;
 use super::super::shot::Shot;
 use super::super::steps::{Step, steps};
-use super::super::tone::Tone;
+use super::super::tone::{self, Tone};
 use super::*;
 
-const TONE: Tone = Tone::Colour(Transfer::Linear);
+fn tone() -> Tone {
+    Tone::Colour(tone::Light::new(0.0, Transfer::Linear))
+}
 
 /// Glass, a mirror and a matte ball on a floor.
 fn still() -> Arc<Scene> {
@@ -122,7 +124,7 @@ fn one_sample_is_the_pixel_centre() {
     let mut tracer = tracer(&world, 8);
     for (y, x) in (0..15).flat_map(|y| (0..20).map(move |x| (y, x))) {
         let (centre, reach) = projection.ray(f64::from(x) + 0.5, f64::from(y) + 0.5, || None);
-        let expected = TONE.bytes(tracer.radiance(&centred(centre, reach)).radiance);
+        let expected = tone().bytes(tracer.radiance(&centred(centre, reach)).radiance);
         assert_eq!(frame.pixels[y as usize * 20 + x as usize], expected);
     }
 }
@@ -200,7 +202,7 @@ fn pictures_smaller_than_a_tile_are_complete() {
             });
             assert_eq!(
                 *pixel,
-                TONE.bytes((samples[0] + samples[1]) / 2.0),
+                tone().bytes((samples[0] + samples[1]) / 2.0),
                 "({x}, {y})"
             );
         }

@@ -15,6 +15,7 @@ fn a_ray_that_hits_nothing_is_black() {
             radiance: Rgb::ZERO,
             object: NO_OBJECT,
             touched: Touched::default(),
+            rays: 1,
         }
     );
 }

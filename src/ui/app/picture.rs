@@ -217,6 +217,8 @@ mod tests {
             pixels: vec![pixel; size.pixels()],
             objects: vec![7; size.pixels()],
             values: Vec::new(),
+            errors: Vec::new(),
+            range: None,
             progress: Progress {
                 pass: 1,
                 passes: 2,

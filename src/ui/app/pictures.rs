@@ -261,6 +261,11 @@ impl Pictures {
             Some(Aov::Normal) => "normals: -1 to 1 as 0 to 255",
             Some(Aov::Object) => "objects: one colour each",
             Some(Aov::Albedo) => "albedo: unlit colours",
+            Some(Aov::Uv) => "texture coordinates: u red, v green",
+            Some(Aov::Side) => "sides: front blue, back orange",
+            Some(Aov::Cost) => "cost: rays per sample",
+            Some(Aov::Samples) => "samples per pixel",
+            Some(Aov::Noise) => "noise: estimated error",
         }
     }
 

@@ -107,6 +107,7 @@ impl App {
                 integrator,
                 filter,
                 transfer,
+                exposure: 0.0,
             },
             frames: Frames::Live,
             numbers: None,

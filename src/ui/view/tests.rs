@@ -130,6 +130,8 @@ fn frame(width: u32, height: u32) -> Arc<Frame> {
         size,
         pixels: vec![[100; 3]; size.pixels()],
         values: Vec::new(),
+        errors: Vec::new(),
+        range: None,
         objects: (0..width * height)
             .map(|at| if under(at) == 1 { 1 } else { NO_OBJECT })
             .collect(),

@@ -15,6 +15,8 @@ pub(in crate::ui) fn frame(size: Size, objects: Vec<u32>) -> Frame {
         pixels: vec![[9; 3]; size.pixels()],
         objects,
         values: Vec::new(),
+        errors: Vec::new(),
+        range: None,
         progress: Progress {
             pass: 1,
             passes: 1,
