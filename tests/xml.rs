@@ -65,6 +65,7 @@ fn the_example_is_white_on_black() {
             integrator: Integrator::Whitted,
             filter: Filter::Box,
             transfer: Transfer::default(),
+            exposure: 0.0,
         },
         scene,
         frames: Frames::Last,

@@ -202,6 +202,12 @@ pub struct Query {
 }
 
 impl Frame {
+    /// The index of a pixel, by its column and row, in the lists of pixels.
+    pub fn index(&self, [x, y]: [u32; 2]) -> Option<usize> {
+        let is_inside = x < self.size.width && y < self.size.height;
+        is_inside.then(|| y as usize * self.size.width as usize + x as usize)
+    }
+
     /// A picture that was not traced, without values: red, green, blue of each pixel, in rows from
     /// the top left.
     pub fn drawn(size: Size, pixels: Vec<[u8; 3]>) -> Self {

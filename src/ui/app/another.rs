@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 use std::sync::Arc;
 
+use super::inspection::Inspection;
 use super::assets::Assets;
 use super::next::name_of;
 use super::{App, Cursor, List, Next, OnDisk, Overlays, Page};
@@ -135,6 +136,7 @@ impl App {
         self.disk.replace(path, state);
         self.assets = Assets::default();
         self.pictures.renew();
+        self.inspection = Inspection::default();
         self.cursor = Cursor::default();
         self.overlays = Overlays::default();
         self.jobs.abandon_saves();

@@ -24,6 +24,7 @@ use crate::ui::errors::{self, Panel, Wrong};
 use crate::ui::keymap::{Context, Line, Mode};
 use crate::ui::layout::raster;
 use crate::ui::listing::Listing;
+use crate::ui::msg::Target;
 
 /// The picture size without a scene.
 const NO_SCENE: Size = Size {
@@ -84,8 +85,8 @@ impl App {
 
     /// How much of the screen the picture currently takes.
     pub fn zoom_now(&self) -> Zoom {
-        match self.mode {
-            Mode::Trace => Zoom::Picture,
+        match self.seen() {
+            Target::Trace => Zoom::Picture,
             _ => self.zoom,
         }
     }
@@ -116,14 +117,23 @@ impl App {
         raster(self.areas_at(self.zoom).picture, self.output()).map(|(_, size)| size)
     }
 
+    /// Which picture is on screen.
+    pub fn seen(&self) -> Target {
+        match self.mode {
+            Mode::Inspect if self.inspection.before() == Mode::Trace => Target::Trace,
+            Mode::Trace => Target::Trace,
+            _ => Target::Preview,
+        }
+    }
+
     /// The picture on screen.
     pub fn picture(&self) -> &Picture {
-        self.pictures.seen(self.mode)
+        self.pictures.seen(self.seen())
     }
 
     /// The picture on screen, mutable in order to advance it.
     pub fn picture_mut(&mut self) -> &mut Picture {
-        self.pictures.seen_mut(self.mode)
+        self.pictures.seen_mut(self.seen())
     }
 
     /// The camera of the pictures: the working view, otherwise the scene's own.

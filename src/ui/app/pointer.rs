@@ -177,15 +177,23 @@ impl App {
         let drags = self.mode.moves_camera() || self.mode == Mode::Move;
         if drags && areas.picture.contains(at.into()) {
             self.pictures.drag = Some(at);
-        } else if let Some((cells, _)) = self.raster()
-            && cells.contains(at.into())
-        {
-            let cell = (at.0 - cells.x, at.1 - cells.y);
-            if !self.pick_symbol(cell) {
-                self.pick(cell);
+        } else if let Some(cell) = self.picture_cell(at) {
+            if self.mode == Mode::Inspect {
+                self.place_cross(cell);
+            } else if !self.pick_symbol(cell)
+                && let Some(pixel) = self.pixel_under(cell)
+            {
+                self.pick(self.node_at(pixel));
             }
         }
         Vec::new()
+    }
+
+    /// The cell of the picture under the pointer, from the picture's corner.
+    fn picture_cell(&self, at: (u16, u16)) -> Option<(u16, u16)> {
+        let (cells, _) = self.raster()?;
+        let is_inside = cells.contains(at.into());
+        is_inside.then(|| (at.0 - cells.x, at.1 - cells.y))
     }
 
     /// The first click moves the cursor there, the second starts typing.
@@ -229,6 +237,12 @@ impl App {
             None => {}
         }
         if self.slide_to(at.0) {
+            return;
+        }
+        if self.mode == Mode::Inspect
+            && let Some(cell) = self.picture_cell(at)
+        {
+            self.place_cross(cell);
             return;
         }
         let Some(from) = self.pictures.drag else {

@@ -62,6 +62,19 @@ impl Sight {
             .map_or(whole, |part| part.clipped(frame).unwrap_or(whole))
     }
 
+    /// Where a point of a frame of this size is on screen, in cells from the picture's corner.
+    pub fn place_of(&self, frame: Size, [x, y]: [f64; 2]) -> [f64; 2] {
+        let part = self.part_of(frame);
+        let place = |at: f64, start: u32, length: u32, pixels: u32, each: u16| {
+            (at - f64::from(start)) * f64::from(pixels) / (f64::from(length) * f64::from(each))
+        };
+        let (seen, shown) = (part.size, self.size);
+        [
+            place(x, part.left, seen.width, shown.width, self.grid.across),
+            place(y, part.top, seen.height, shown.height, self.grid.down),
+        ]
+    }
+
     /// The number of cells of the picture.
     pub(super) fn cells(&self) -> usize {
         self.grid.cells(self.size)

@@ -33,7 +33,7 @@ impl App {
             effects.extend(self.follow_trace());
         }
         let size = self.preview_size();
-        if self.mode != Mode::Trace && self.pictures.preview.asked != size {
+        if self.seen() == Target::Preview && self.pictures.preview.asked != size {
             self.pictures.preview.asked = size;
             let spp = preview_samples(self.integrator());
             let job = size.zip(self.preview_scene());
@@ -55,12 +55,12 @@ impl App {
     /// The wireframe if it is on screen instead of a traced picture.
     pub fn wires(&self) -> Option<&Wires> {
         let wires = self.pictures.wires.as_ref();
-        wires.filter(|_| self.mode != Mode::Trace)
+        wires.filter(|_| self.seen() == Target::Preview)
     }
 
     /// Brings the wireframe up to date, if it is on screen.
     pub fn follow_wires(&mut self) {
-        if self.mode == Mode::Trace {
+        if self.seen() == Target::Trace {
             return;
         }
         let (camera, raster) = (self.camera(), self.raster());
@@ -73,7 +73,7 @@ impl App {
 
     fn follow_trace(&mut self) -> Option<Effect> {
         self.pictures.trace.as_ref()?;
-        if self.mode == Mode::Trace {
+        if self.seen() == Target::Trace {
             return self
                 .trace_job()
                 .map(|job| Effect::Trace(Target::Trace, job));
@@ -166,10 +166,10 @@ impl App {
             self.overlays.fail(reason);
             return Vec::new();
         }
-        if self.mode != Mode::Trace {
+        if self.seen() != Target::Trace {
             self.pictures.leave_mode(self.mode);
-            self.mode = Mode::Trace;
         }
+        self.mode = Mode::Trace;
         if 0 < self.error_count() {
             let words = "the text has errors: this is the last valid scene";
             self.overlays.blame_errors(Severity::Warning, words);

@@ -326,13 +326,13 @@ impl App {
         self.document.end_step();
         match mode {
             Mode::Trace => return self.start_trace(),
-            Mode::View | Mode::Fly | Mode::Pick if self.scene.is_none() => {
+            Mode::View | Mode::Fly | Mode::Inspect if self.scene.is_none() => {
                 self.refuse_picture(Severity::Error, &self.no_picture());
             }
             Mode::Edit if self.cursor.fields().is_empty() => {
                 self.overlays.fail("nothing to edit here");
             }
-            Mode::Pick => self.start_pick(),
+            Mode::Inspect => self.start_inspecting(),
             Mode::Move => self.start_transform(Tool::Move),
             Mode::Select | Mode::View | Mode::Fly | Mode::Edit => self.mode = mode,
         }
@@ -370,6 +370,7 @@ impl App {
             Context::In(Mode::Trace) => {
                 self.mode = self.pictures.mode_before();
             }
+            Context::In(Mode::Inspect) => self.stop_inspecting(),
             Context::In(Mode::Select) if self.end_filter() => {}
             Context::In(Mode::Select) => self.cursor.marks.clear(),
             Context::In(Mode::Move) => self.cancel_transform(),
@@ -392,7 +393,7 @@ impl App {
             Context::Delete => self.delete_anyway(),
             Context::Overwrite => return self.answer_taken(Existing::Overwritten),
             Context::Recover => return self.restore(),
-            Context::In(Mode::Pick) => self.pick_cross(),
+            Context::In(Mode::Inspect) => self.select_crossed(),
             Context::In(Mode::Move) => self.confirm_transform(),
             Context::Colour => self.confirm_colour(),
             Context::In(_) | Context::Help | Context::Messages | Context::Opening => {}

@@ -14,8 +14,9 @@ pub enum Section {
 }
 
 /// Contexts other than modes, by their headings in the help.
-pub(super) const DIALOGS: [(&str, Context); 14] = [
+pub(super) const DIALOGS: [(&str, Context); 15] = [
     ("the colour picker", Context::Colour),
+    ("the rays behind a pixel", Context::Rays),
     ("the list of errors", Context::Errors),
     ("the list of saved views", Context::Views),
     ("the list of recent scenes", Context::Recent),

@@ -22,6 +22,7 @@ mod page;
 mod palette;
 mod picker;
 mod picture;
+mod pixel;
 mod row;
 mod status;
 mod symbols;
@@ -37,6 +38,7 @@ use ratatui::style::Style;
 
 use super::app::App;
 use super::arrange::MIN_SIZE;
+use super::keymap::Mode;
 use super::layout;
 use super::theme;
 pub use inks::Inks;
@@ -59,7 +61,12 @@ fn render(app: &App, inks: &mut Inks, area: Rect, buffer: &mut Buffer) {
     rule(app, areas.rule, buffer);
     if !areas.list.is_empty() && !app.disk.is_opening() {
         list::render(app, areas.list, buffer);
-        fields::render(app, areas.fields, buffer);
+        match app.mode {
+            Mode::Inspect => pixel::render(app, areas.fields, buffer),
+            _ => fields::render(app, areas.fields, buffer),
+        }
+    } else if app.mode == Mode::Inspect {
+        pixel::render_over(app, areas.picture, buffer);
     }
     errors::render(app, areas.errors, buffer);
     let status = current::render(app, &areas, buffer);

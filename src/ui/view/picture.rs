@@ -12,7 +12,7 @@ use unicode_width::UnicodeWidthStr;
 use super::characters::Characters;
 use super::inks::{Glyphs, Inks};
 use super::row::Row;
-use super::{symbols, wireframe};
+use super::{pixel, symbols, wireframe};
 use crate::render::{pixel_of, pixel_width};
 use crate::scene::Size;
 use crate::ui::app::{App, FirstReading, Shown};
@@ -61,7 +61,7 @@ fn overlays(
         axis(app, cells, size, buffer);
     }
     symbols::render(app, glyphs, cells, buffer);
-    if app.mode == Mode::Pick {
+    if app.mode == Mode::Inspect {
         cross(app, cells, buffer);
     }
     if app.is_empty() {
@@ -126,9 +126,9 @@ fn opening(name: &str, bytes: u64) -> String {
     }
 }
 
-/// Marks the cell to pick from and names the object there.
+/// Marks the cell of the inspected pixel and says what is there.
 fn cross(app: &App, cells: Rect, buffer: &mut Buffer) {
-    let Some((column, row)) = app.pictures.cross else {
+    let Some((column, row)) = app.cross_cell() else {
         return;
     };
     let (x, y) = (cells.x.saturating_add(column), cells.y.saturating_add(row));
@@ -138,14 +138,11 @@ fn cross(app: &App, cells: Rect, buffer: &mut Buffer) {
         cell.set_symbol("┼").set_style(Style::reset());
         cell.set_style(theme::chip(Style::new()));
     }
-    let symbol = app.symbol_at((column, row));
-    let under = || app.node_under((column, row));
-    let name = match symbol.map_or_else(under, |node| Ok(Some(node))) {
-        Ok(Some(node)) => app.source().name(node),
-        Ok(None) => "nothing".to_owned(),
-        Err(reason) => reason.to_owned(),
+    let words = match app.symbol_at((column, row)) {
+        Some(node) => app.source().name(node),
+        None => pixel::in_short(app),
     };
-    Row::new(buffer, cells, 0).put(&format!(" {name} "), theme::chip(theme::ACCENT));
+    Row::new(buffer, cells, 0).put(&format!(" {words} "), theme::chip(theme::ACCENT));
 }
 
 /// Draws the axis that a transformation is locked to, through what is being transformed.

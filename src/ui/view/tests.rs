@@ -303,7 +303,7 @@ const MODES: [Mode; 5] = [
     Mode::View,
     Mode::Edit,
     Mode::Trace,
-    Mode::Pick,
+    Mode::Inspect,
 ];
 
 #[test]

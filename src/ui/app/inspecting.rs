@@ -1,0 +1,134 @@
+//! Inspecting: a cross over the picture, and what is under it.
+
+use super::App;
+use super::inspection::Cross;
+use crate::language::Node;
+use crate::scene::Size;
+use crate::text::{Position, Severity};
+use crate::ui::keymap::Mode;
+use crate::ui::layout::pixel_at;
+
+impl App {
+    /// Starts inspecting where the cross was last, first in the middle of the picture.
+    pub(super) fn start_inspecting(&mut self) {
+        if self.sight().is_none() {
+            self.overlays.fail("no room for a picture");
+            return;
+        }
+        if self.mode != Mode::Inspect {
+            self.inspection.begin(self.mode);
+            self.mode = Mode::Inspect;
+        }
+        self.move_cross(0, 0);
+    }
+
+    /// Returns to the mode before.
+    pub(super) fn stop_inspecting(&mut self) {
+        self.mode = self.inspection.before();
+    }
+
+    /// The cross as a pixel of the picture on screen; in its middle before the first inspection.
+    /// `None` without a picture.
+    pub fn cross(&self) -> Option<Cross> {
+        let size = self.frame_size()?;
+        let cross = self.inspection.cross;
+        Some(cross.map_or(Cross::middle(size), |cross| cross.in_size(size)))
+    }
+
+    /// Moves the cross by some pixels.
+    pub(super) fn move_cross(&mut self, right: i32, down: i32) {
+        if let Some(mut cross) = self.cross() {
+            cross.step(right, down);
+            self.inspection.cross = Some(cross);
+        }
+    }
+
+    /// Moves the cross to a cell of the picture.
+    pub(super) fn place_cross(&mut self, cell: (u16, u16)) {
+        let (pixel, size) = (self.pixel_under(cell), self.frame_size());
+        let place = pixel.zip(size);
+        self.inspection.cross = place.map(|(pixel, size)| Cross { pixel, size });
+    }
+
+    /// Selects what is under the cross, and ends inspecting.
+    pub(super) fn select_crossed(&mut self) {
+        let (cell, cross) = (self.cross_cell(), self.cross());
+        if cell.is_none_or(|cell| !self.pick_symbol(cell))
+            && let Some(cross) = cross
+        {
+            self.pick(self.node_at(cross.pixel));
+        }
+    }
+
+    /// The cell that the cross is in, from the upper left corner of the picture; `None` if it is not
+    /// on screen.
+    pub fn cross_cell(&self) -> Option<(u16, u16)> {
+        let (cells, _) = self.raster()?;
+        let cross = self.cross()?;
+        let centre = cross.pixel.map(|at| f64::from(at) + 0.5);
+        let [column, row] = self.sight()?.place_of(cross.size, centre);
+        let is_inside = 0.0 <= column
+            && 0.0 <= row
+            && column < f64::from(cells.width)
+            && row < f64::from(cells.height);
+        is_inside.then_some((column as u16, row as u16))
+    }
+
+    /// The size of the picture on screen, whose pixels are inspected.
+    fn frame_size(&self) -> Option<Size> {
+        let latest = self.picture().latest.as_ref().map(|frame| frame.size);
+        latest.or_else(|| self.sight().map(|sight| sight.size))
+    }
+
+    /// The pixel of the picture on screen that is under the upper half of a cell, counted from the
+    /// picture's corner.
+    pub(super) fn pixel_under(&self, cell: (u16, u16)) -> Option<[u32; 2]> {
+        let part = self.sight()?.part_of(self.frame_size()?);
+        let (x, y) = pixel_at(self.raster()?, part.size, cell)?;
+        Some([part.left + x, part.top + y])
+    }
+
+    /// The node under a pixel of the picture on screen. Fails if it cannot be determined: objects
+    /// are known by their numbers in the scene shown, which may differ from the text's.
+    pub fn node_at(&self, pixel: [u32; 2]) -> Result<Option<Node>, &'static str> {
+        if 0 < self.error_count() {
+            return Err("the text has errors: the picture shows the last valid scene");
+        }
+        if self.picture().is_outdated() {
+            return Err("the preview does not show the changed scene yet");
+        }
+        let object = self.picture().object_at(pixel);
+        Ok(object.map(|object| Node::Object(self.source().object(object))))
+    }
+
+    /// The line of the text on which a node begins, from 1.
+    pub fn line_of(&self, node: Node) -> usize {
+        Position::of(self.document.text(), self.source().span(node).start()).line
+    }
+
+    /// Selects the node whose symbol is at a cell of the picture, and ends inspecting; returns whether
+    /// there is one.
+    pub(super) fn pick_symbol(&mut self, cell: (u16, u16)) -> bool {
+        let node = self.symbol_at(cell);
+        if let Some(node) = node {
+            self.pick_node(node);
+        }
+        node.is_some()
+    }
+
+    /// Selects a node found in the picture, and ends inspecting.
+    pub(super) fn pick(&mut self, found: Result<Option<Node>, &'static str>) {
+        match found {
+            Ok(Some(node)) => self.pick_node(node),
+            Ok(None) => self.overlays.say("nothing there"),
+            Err(reason) => self.refuse_picture(Severity::Warning, reason),
+        }
+    }
+
+    fn pick_node(&mut self, node: Node) {
+        self.select(node);
+        if self.mode == Mode::Inspect {
+            self.mode = Mode::Select;
+        }
+    }
+}
