@@ -427,6 +427,7 @@ fn tracing(scene: &Arc<Scene>) -> (Renderer, Receiver<()>) {
     });
     let settings = Settings {
         size: scene.camera.size,
+        region: None,
         spp: 4096,
         depth: DEFAULT_DEPTH,
         seed: 0,
@@ -440,6 +441,7 @@ fn tracing(scene: &Arc<Scene>) -> (Renderer, Receiver<()>) {
         images: Images::default(),
         camera: scene.camera,
         settings,
+        limit: None,
         frames: Frames::Live,
         numbers: None,
     };

@@ -249,6 +249,7 @@ fn traced(scene: &Arc<Scene>, threads: usize) -> (Duration, Arc<Frame>) {
     let mut trace = || {
         let settings = Settings {
             size: SIZE,
+            region: None,
             spp: 1,
             depth: DEFAULT_DEPTH,
             seed: 0,
@@ -262,6 +263,7 @@ fn traced(scene: &Arc<Scene>, threads: usize) -> (Duration, Arc<Frame>) {
             images: Images::default(),
             camera: scene.camera,
             settings,
+            limit: None,
             frames: Frames::Last,
             numbers: None,
         };

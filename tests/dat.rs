@@ -121,6 +121,7 @@ fn trace(scene: &Arc<Scene>, threads: usize) -> Arc<Frame> {
             camera: scene.camera,
             settings: Settings {
                 size: scene.camera.size,
+                region: None,
                 spp: 2,
                 depth: DEFAULT_DEPTH,
                 seed: 0,
@@ -129,6 +130,7 @@ fn trace(scene: &Arc<Scene>, threads: usize) -> Arc<Frame> {
                 filter: Filter::Box,
                 transfer: Transfer::default(),
             },
+            limit: None,
             frames: Frames::Last,
             numbers: None,
         })

@@ -210,6 +210,7 @@ fn trace(scene: &Arc<Scene>, images: Images, size: Size, spp: u32) -> Arc<Frame>
     });
     let settings = Settings {
         size,
+        region: None,
         spp,
         depth: default_depth(scene.setting.integrator),
         seed: 0,
@@ -224,6 +225,7 @@ fn trace(scene: &Arc<Scene>, images: Images, size: Size, spp: u32) -> Arc<Frame>
         images,
         camera: scene.camera,
         settings,
+        limit: None,
         frames: Frames::Last,
         numbers: None,
     };

@@ -58,6 +58,7 @@ fn the_example_is_white_on_black() {
         camera: scene.camera,
         settings: Settings {
             size: scene.camera.size,
+            region: None,
             spp: 1,
             depth: DEFAULT_DEPTH,
             seed: 0,
@@ -68,6 +69,7 @@ fn the_example_is_white_on_black() {
             exposure: 0.0,
         },
         scene,
+        limit: None,
         frames: Frames::Last,
         numbers: None,
     };

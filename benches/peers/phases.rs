@@ -262,6 +262,7 @@ impl Stage {
             },
             settings: Settings {
                 size,
+                region: None,
                 spp,
                 depth: self.depth.unwrap_or_else(|| default_depth(integrator)),
                 seed: 0,
@@ -271,6 +272,7 @@ impl Stage {
                 transfer: scene.setting.transfer,
                 exposure: 0.0,
             },
+            limit: None,
             frames: Frames::Last,
             numbers: None,
         };

@@ -108,7 +108,8 @@ fn check(work: &Compare) -> Result<(), Error> {
     })
 }
 
-/// The pictures of both sides. A scene is traced at the size of the picture on the other side.
+/// The pictures of both sides. A scene is traced at the size of the picture on the other side,
+/// unless that is compared with a region of it.
 fn images(work: &Compare) -> Result<[Image; 2], Error> {
     let [a, b] = &work.sides;
     let pictures = [a, b].map(|path| is_picture(path).then(|| read(path)).transpose());
@@ -145,10 +146,12 @@ fn trace(work: &Compare, path: &Path, size: Option<Size>) -> Result<Image, Error
             path.display()
         )));
     }
+    let size = size.filter(|_| work.tracing.region.is_none());
     let tracing = Tracing {
         size: work.tracing.size.or(size),
         ..work.tracing.clone()
     };
+    tracing.traced_size(&scene)?;
     let traced = tracing.trace(scene, loaded.images, Frames::Last, || {})?;
     let frame = &traced.frame;
     Image::new(frame.size, frame.pixels.clone()).ok_or(Error::Stopped)

@@ -8,7 +8,7 @@ use crate::assets;
 use crate::file;
 use crate::image_file::ImageFormat;
 use crate::memory;
-use crate::render::Frame;
+use crate::render::{Frame, Progress};
 use crate::text::{Diagnostic, counted};
 
 /// A picture to render.
@@ -55,10 +55,13 @@ fn try_render(work: &Render) -> Result<(), Error> {
         errors: loaded.errors,
     })?;
     check_references(work, &loaded.files)?;
-    let size = work.tracing.size_of(&scene);
+    let size = work.tracing.traced_size(&scene)?;
     if let Some(reason) = work.format.refuses(size) {
-        let Some(span) = loaded.size.filter(|_| work.tracing.size.is_none()) else {
-            return Err(Error::Refused(format!("--size {reason}")));
+        let (size, region) = (work.tracing.size, work.tracing.region);
+        let of_scene = loaded.size.filter(|_| size.is_none() && region.is_none());
+        let Some(span) = of_scene else {
+            let option = region.map_or("--size", |_| "--region");
+            return Err(Error::Refused(format!("{option} {reason}")));
         };
         let message = format!("view size {reason}");
         let diagnostic = Diagnostic::error(span, message, "a smaller size")
@@ -77,6 +80,12 @@ fn try_render(work: &Render) -> Result<(), Error> {
             "note",
             &format!("{samples} ran out of rays and may be too dark; try a lower --depth"),
         );
+    }
+    if work.tracing.time.is_some() {
+        let Progress { spp, elapsed, .. } = frame.progress;
+        let samples = counted(spp as usize, "sample");
+        let seconds = elapsed.as_secs_f64();
+        print_message("note", &format!("{samples} per pixel in {seconds:.1} s"));
     }
     write(work, frame)
 }

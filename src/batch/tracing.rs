@@ -2,10 +2,14 @@
 
 use std::sync::Arc;
 use std::sync::mpsc::{self, Receiver};
+use std::time::Duration;
 
 use super::Error;
 use super::progress::ProgressLine;
-use crate::render::{Aov, Filter, Frame, Frames, Job, Renderer, Settings, Threads, default_depth};
+use crate::render::{
+    Aov, DEFAULT_SPP, Filter, Frame, Frames, Job, Limit, MAX_SPP, Region, Renderer, Settings,
+    Threads, default_depth,
+};
 use crate::scene::{Camera, Images, Integrator, Scene, Size, Transfer};
 
 /// How a scene is traced.
@@ -13,8 +17,12 @@ use crate::scene::{Camera, Images, Integrator, Scene, Size, Transfer};
 pub struct Tracing {
     /// The size of the picture; the scene's if `None`.
     pub size: Option<Size>,
-    /// Samples per pixel.
-    pub spp: u32,
+    /// The only part of the picture to render, if not all of it.
+    pub region: Option<Region>,
+    /// Samples per pixel: by default [`DEFAULT_SPP`], or as many as the time permits.
+    pub spp: Option<u32>,
+    /// The time after which no pass begins.
+    pub time: Option<Duration>,
     /// Maximum number of bounces; the integrator's [`default_depth`] if `None`.
     pub depth: Option<u32>,
     /// The integrator; the scene's if `None`.
@@ -64,8 +72,18 @@ impl Tracing {
         })
     }
 
-    /// The size of the picture of a scene.
-    pub(super) fn size_of(&self, scene: &Scene) -> Size {
+    /// The size of the picture that is traced of a scene: of its region, if it has one.
+    pub(super) fn traced_size(&self, scene: &Scene) -> Result<Size, Error> {
+        let size = self.size_of(scene);
+        let Some(region) = self.region else {
+            return Ok(size);
+        };
+        let region = region.within(size);
+        let refused = |reason| Error::Refused(format!("--region: {reason}"));
+        Ok(region.map_err(refused)?.size())
+    }
+
+    fn size_of(&self, scene: &Scene) -> Size {
         self.size.unwrap_or(scene.camera.size)
     }
 
@@ -73,6 +91,8 @@ impl Tracing {
         let transfer = self.transfer.unwrap_or(scene.setting.transfer);
         let integrator = self.integrator.unwrap_or(scene.setting.integrator);
         let size = self.size_of(&scene);
+        let most = self.time.map_or(DEFAULT_SPP, |_| MAX_SPP);
+        let spp = self.spp.unwrap_or(most);
         Job {
             images,
             // The requested size sets the aspect ratio.
@@ -83,7 +103,8 @@ impl Tracing {
             scene: Arc::new(scene),
             settings: Settings {
                 size,
-                spp: self.aov.map_or(self.spp, |aov| aov.samples(self.spp)),
+                region: self.region,
+                spp: self.aov.map_or(spp, |aov| aov.samples(spp)),
                 depth: self.depth.unwrap_or_else(|| default_depth(integrator)),
                 seed: self.seed,
                 aov: self.aov,
@@ -92,6 +113,7 @@ impl Tracing {
                 transfer,
                 exposure: self.exposure,
             },
+            limit: self.time.map(Limit::Time),
             frames,
             numbers: None,
         }

@@ -14,7 +14,8 @@ Examples:
   halflight compare scene.ray reference.bmp --spp 1 --tolerance 2 --max-differing 20
   halflight compare before.xml after.xml --json -o difference.png
 
-A scene is traced at the size of the picture it is compared with, unless --size is given. Pictures
+A scene is traced at the size of the picture it is compared with, unless --size or --region is \
+given. Pictures
 are compared as they are displayed: with 8 bits per channel.
 
 Exit codes: 0 alike, 1 different, 2 wrong arguments, 65 invalid scene or picture, 66 not found or \

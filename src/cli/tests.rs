@@ -3,7 +3,7 @@ use std::time::Duration;
 use super::*;
 use crate::batch::Report;
 use crate::image_file::MAX_PIXELS;
-use crate::render::{Filter, MAX_SPP};
+use crate::render::{Filter, MAX_SPP, Region};
 use crate::scene::{Integrator, Size};
 use crate::ui::Theme;
 use crate::ui::keymap::Keymap;
@@ -101,13 +101,14 @@ fn the_extension_sets_the_format_unless_one_is_given() {
 #[test]
 fn render_options_have_defaults() {
     let default = render("halflight render a.ray -o a.bmp");
-    assert_eq!((default.tracing.spp, default.tracing.seed), (16, 0));
+    assert_eq!((default.tracing.spp, default.tracing.seed), (None, 0));
     assert_eq!(
         (default.tracing.depth, default.tracing.integrator),
         (None, None)
     );
     assert_eq!(default.tracing.filter, Filter::Box);
     assert_eq!(default.tracing.size, None);
+    assert_eq!((default.tracing.region, default.tracing.time), (None, None));
     assert_eq!(default.output, Output::File("a.bmp".into()));
     let given = render(
         "halflight render a -o - --force --size 3X2 --spp 65536 --seed 7 --integrator whitted --depth 9 --filter blackman-harris",
@@ -118,12 +119,15 @@ fn render_options_have_defaults() {
     };
     assert_eq!(
         (given.tracing.size, given.tracing.spp, given.tracing.seed),
-        (Some(size), 65_536, 7)
+        (Some(size), Some(65_536), 7)
     );
     assert_eq!(given.tracing.integrator, Some(Integrator::Whitted));
     assert_eq!(given.tracing.depth, Some(9));
     assert_eq!(given.tracing.filter, Filter::BlackmanHarris);
     assert_eq!(given.output, Output::StdoutTerminal);
+    let part = render("halflight render a -o - --region 1,2,3,4 --time 2min");
+    assert_eq!(part.tracing.region, Region::parse("1,2,3,4"));
+    assert_eq!(part.tracing.time, Some(Duration::from_secs(120)));
 }
 
 #[test]
@@ -141,7 +145,7 @@ fn what_may_differ_reaches_the_comparison() {
     assert_eq!((given.tolerance, given.max_differing), (255, 9));
     assert_eq!(given.report, Report::Json);
     assert_eq!(given.output, Some(("c.png".into(), ImageFormat::Png)));
-    assert_eq!(given.tracing.spp, 1);
+    assert_eq!(given.tracing.spp, Some(1));
 }
 
 #[test]

@@ -2,14 +2,16 @@
 
 use std::num::NonZero;
 use std::thread;
+use std::time::Duration;
 
 use clap::Args;
 
 use super::choices::{AovChoice, FilterChoice, IntegratorChoice, TransferChoice};
 use super::shared::{depth_range, spp_range, threads_range};
 use crate::batch::Tracing;
-use crate::render::DEFAULT_SPP;
+use crate::render::Region;
 use crate::scene::Size;
+use crate::text::parse_duration;
 
 /// The largest exposure in stops either way, beyond which single precision overflows soon.
 const MOST_STOPS: f64 = 100.0;
@@ -20,9 +22,17 @@ pub(super) struct TracingArguments {
     /// [default: the scene's]
     #[arg(long, value_name = "WxH", value_parser = parse_size)]
     size: Option<Size>,
-    /// Samples per pixel, 1 to 65536
-    #[arg(long, value_name = "N", default_value_t = DEFAULT_SPP, value_parser = spp_range())]
-    spp: u32,
+    /// Trace only this part of the picture, in pixels from its top left corner; its pixels are those
+    /// of the whole picture
+    #[arg(long, value_name = "X,Y,W,H", value_parser = parse_region)]
+    region: Option<Region>,
+    /// Samples per pixel, 1 to 65536 [default: 16, or 65536 with --time]
+    #[arg(long, value_name = "N", value_parser = spp_range())]
+    spp: Option<u32>,
+    /// Stop after about this time, such as 90s or 5min, with the samples of a whole pass: 1, 2, 4 …
+    /// The picture is the one with that --spp
+    #[arg(long, value_name = "TIME", value_parser = parse_time)]
+    time: Option<Duration>,
     /// Maximum number of bounces, 0 to 4096 [default: 8, or 64 with path tracing]
     #[arg(long, value_name = "N", value_parser = depth_range())]
     depth: Option<u32>,
@@ -56,7 +66,9 @@ impl TracingArguments {
         let all_cores = || thread::available_parallelism().map_or(1, NonZero::get);
         Tracing {
             size: self.size,
+            region: self.region,
             spp: self.spp,
+            time: self.time,
             depth: self.depth,
             integrator: self.integrator.map(IntegratorChoice::value),
             filter: self.filter.value(),
@@ -79,4 +91,14 @@ fn parse_stops(text: &str) -> Result<f64, String> {
 fn parse_size(text: &str) -> Result<Size, String> {
     Size::parse(text)
         .ok_or_else(|| "expected two integers of at least 1, such as 800x600".to_owned())
+}
+
+fn parse_region(text: &str) -> Result<Region, String> {
+    Region::parse(text).ok_or_else(|| {
+        "expected left column, top row, width and height in pixels, such as 100,50,64,48".to_owned()
+    })
+}
+
+fn parse_time(text: &str) -> Result<Duration, String> {
+    parse_duration(text).ok_or_else(|| "expected a time, such as 90s, 5min or 2h".to_owned())
 }

@@ -7,12 +7,14 @@ mod hunks;
 mod merge;
 mod regions;
 mod snapshot;
+mod steps;
 #[cfg(test)]
 mod tests;
 mod windows;
 
 pub use merge::{Conflict, Merge, Side};
 pub use snapshot::{Merged, Snapshot};
+pub use steps::{State, StateId, StepName, Timeline};
 pub use windows::differences;
 
 use std::sync::Arc;
@@ -180,31 +182,31 @@ impl Document {
     /// nothing to undo.
     pub fn undo(&mut self) -> Option<Span> {
         let step = self.history.next_undo()?;
-        let inverse = self.change(&step);
+        let inverse = self.change(&step.edits);
         self.longest = longest(&inverse);
         let changed = cover(&inverse);
-        self.history.undone(inverse);
+        self.history.undone(&step, inverse);
         changed
     }
 
     /// Redoes one step; returns like [`Document::undo`].
     pub fn redo(&mut self) -> Option<Span> {
         let step = self.history.next_redo()?;
-        let inverse = self.change(&step);
+        let inverse = self.change(&step.edits);
         self.longest = longest(&inverse);
         let changed = cover(&inverse);
-        self.history.redone(inverse);
+        self.history.redone(&step, inverse);
         changed
     }
 
-    /// The span of the current text that the next undo would replace by or with the most text.
-    pub fn undoable(&self) -> Option<Span> {
-        self.history.peek_undo().map(|step| longest(step))
+    /// The step that the next undo would undo.
+    pub fn undoable(&self) -> Option<&StepName> {
+        self.history.peek_undo().map(|step| &step.name)
     }
 
-    /// The span of the current text that the next redo would replace by or with the most text.
-    pub fn redoable(&self) -> Option<Span> {
-        self.history.peek_redo().map(|step| longest(step))
+    /// The step that the next redo would redo.
+    pub fn redoable(&self) -> Option<&StepName> {
+        self.history.peek_redo().map(|step| &step.name)
     }
 
     /// Of the changes of the last undo or redo, the span of the longest: what the step was about,
@@ -233,8 +235,8 @@ impl Document {
     /// old one. Clears the history: undo must not return to what another program has replaced.
     #[must_use = "freeing it may take long"]
     pub fn load(&mut self, mut document: Self) -> Self {
-        document.revision = self.revision + 1;
-        std::mem::replace(self, document)
+        document.history = History::after(&self.history);
+        self.replace(document)
     }
 
     /// Replaces the document by the merge of its current state with a text from outside, as one
@@ -243,11 +245,13 @@ impl Document {
     pub fn take(&mut self, merged: Merged) -> Self {
         let Merged { mut document, back } = merged;
         document.history = std::mem::take(&mut self.history);
-        if !back.is_empty() {
+        if back.is_empty() {
+            document.history.record_nothing();
+        } else {
             document.history.record(back);
         }
         document.history.commit();
-        self.load(document)
+        self.replace(document)
     }
 
     /// Applies a merge whose conflicts were decided, as one undoable step.
@@ -278,6 +282,11 @@ impl Document {
         self.edit(&merge.counted_edits(self.language()));
         self.history.commit();
         Adopted::Taken
+    }
+
+    fn replace(&mut self, mut document: Self) -> Self {
+        document.revision = self.revision + 1;
+        std::mem::replace(self, document)
     }
 
     fn set_saved(&mut self, text: Arc<String>) {

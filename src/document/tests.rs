@@ -4,6 +4,7 @@ use proptest::sample::{Index, select};
 use super::*;
 use crate::language::Node;
 
+mod steps;
 mod structure;
 
 fn document(text: &str) -> Document {

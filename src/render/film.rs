@@ -39,6 +39,8 @@ pub(crate) struct Film {
     /// The tiles begun so far; capacity is reserved for all. First touching a large picture's
     /// memory takes long, so the tracing threads do it tile by tile.
     tiles: Vec<Tile>,
+    /// The highest level of a pixel of the film taken over; 0 without one.
+    reached: u8,
     /// The sum of the pixels' squared errors, up to the current tile of the pass.
     squared_errors: f64,
     /// The noise after the last pass that estimated it.
@@ -106,7 +108,7 @@ impl Raster {
 impl Film {
     /// Bytes needed by a film and its finished picture.
     pub(crate) fn bytes(settings: &Settings, frames: Frames) -> u64 {
-        let size = settings.size;
+        let size = settings.traced().size();
         let bytes = |count: usize, each: usize| (count as u64).saturating_mul(each as u64);
         let remembers = remembers(settings, frames);
         let values = match frames {
@@ -121,7 +123,8 @@ impl Film {
 
     /// Creates an empty film; reserves memory for its tiles and the finished picture.
     pub(crate) fn new(settings: &Settings, frames: Frames) -> Result<Self, NoMemory> {
-        let Settings { size, spp, aov, .. } = *settings;
+        let Settings { spp, aov, .. } = *settings;
+        let size = settings.traced().size();
         let shape = TileShape::of(size);
         let remembers = remembers(settings, frames);
         let count = shape.count(size);
@@ -136,6 +139,7 @@ impl Film {
                 shape,
                 remembers,
                 tiles,
+                reached: 0,
                 squared_errors: 0.0,
                 noise: None,
                 over_budget: 0,
@@ -163,19 +167,27 @@ impl Film {
         self.tiles.len()
     }
 
-    /// Takes over the contents of a film of the same size, except what depends on `changed`. Runs
-    /// on the current thread pool.
+    /// Takes over the contents of a film of the same size, except what depends on `changed`, and
+    /// pixels that cannot be continued to this number of samples. Runs on the current thread pool.
     pub(crate) fn take_over(&mut self, other: Self, changed: Touched) {
         self.tiles = other.tiles;
-        self.tiles
-            .par_iter_mut()
-            .for_each(|tile| tile.forget(changed));
+        let spp = [other.spp, self.spp];
+        let reached = self.tiles.par_iter_mut().map(|tile| {
+            tile.forget(changed, spp);
+            tile.reached()
+        });
+        self.reached = reached.max().unwrap_or(0);
         self.over_budget = self.tiles.iter().map(|tile| tile.over_budget).sum();
     }
 
-    /// Whether the dependencies of its pixels are recorded.
-    pub(crate) fn remembers(&self) -> bool {
-        self.remembers == Remembers::Causes
+    /// The number of pixels.
+    pub(crate) fn pixels(&self) -> usize {
+        self.size.pixels()
+    }
+
+    /// The highest level of a pixel of the film taken over.
+    pub(crate) fn reached(&self) -> u8 {
+        self.reached
     }
 
     /// Returns the end of the range from tile `from` that holds `count` tiles lacking a step.

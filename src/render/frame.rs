@@ -4,6 +4,7 @@ use std::sync::{Arc, Weak};
 use std::time::Duration;
 
 use super::filter::Filter;
+use super::region::Region;
 use super::world::World;
 use crate::scene::{Camera, Images, Integrator, Scene, Size, Transfer};
 
@@ -33,8 +34,11 @@ pub const NO_OBJECT: u32 = u32::MAX;
 /// Render settings; with scene, images and camera they determine every pixel.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Settings {
-    /// Traced resolution; does not affect the framing.
+    /// Resolution of the whole picture; does not affect the framing.
     pub size: Size,
+    /// The only part of the picture to trace, if not all of it. Its pixels are the same as in the
+    /// whole picture, except that the 8-bit values of depth span the distances in the region.
+    pub region: Option<Region>,
     /// Samples per pixel, 1 to [`MAX_SPP`].
     pub spp: u32,
     /// Maximum number of bounces; primary rays are bounce 0.
@@ -54,19 +58,36 @@ pub struct Settings {
 }
 
 impl Settings {
+    /// What is traced: the region, or the whole picture.
+    pub fn traced(&self) -> Region {
+        self.region.unwrap_or(Region::whole(self.size))
+    }
+
     /// The AOV of the surfaces to trace instead of light.
     pub(crate) fn surface(&self) -> Option<Aov> {
         self.aov.filter(|aov| !aov.is_of_light())
     }
 
-    /// Whether a film traced with these settings holds what others show.
+    /// Whether a film traced with these settings holds what others show, or the first samples of
+    /// it.
     pub(crate) fn trace_alike(&self, other: &Self) -> bool {
         let traced = |settings: &Self| Self {
             aov: settings.surface(),
+            spp: 1,
             ..*settings
         };
         traced(self) == traced(other)
     }
+}
+
+/// When a job is complete with fewer samples than its settings ask for: always after a whole pass,
+/// so that the picture is the one with that many samples.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Limit {
+    /// The time for the job: a pass that would exceed it, judging by those before, is not begun.
+    Time(Duration),
+    /// The [`Progress::noise`] below which the picture is good enough.
+    Noise(f64),
 }
 
 /// An arbitrary output variable: a property of the first surface under a pixel, or of the samples
@@ -153,6 +174,8 @@ pub struct Job {
     pub camera: Camera,
     /// Render settings.
     pub settings: Settings,
+    /// When to stop earlier, if ever.
+    pub limit: Option<Limit>,
     /// Which frames contain pixels.
     pub frames: Frames,
     /// What frames call the objects of the scene, by index; `None` calls them by their indices. A
@@ -165,8 +188,10 @@ pub struct Job {
 pub struct Frame {
     /// The [`Renderer::restart`](super::Renderer::restart) call it belongs to.
     pub generation: u64,
-    /// Size in pixels.
+    /// Size in pixels: that of the traced region.
     pub size: Size,
+    /// The place of the top left pixel in the whole picture.
+    pub corner: [u32; 2],
     /// Red, green, blue of each pixel, in rows from the top left, as exported; empty in frames
     /// without pixels, see [`Frames`].
     pub pixels: Vec<[u8; 3]>,
@@ -214,6 +239,7 @@ impl Frame {
         Self {
             generation: 0,
             size,
+            corner: [0; 2],
             pixels,
             objects: Vec::new(),
             values: Vec::new(),
@@ -246,13 +272,13 @@ impl Progress {
 pub struct Progress {
     /// Current pass, from 1; each pass doubles the samples: 1, 1, 2, 4 …
     pub pass: u32,
-    /// Total number of passes.
+    /// Total number of passes, if no [`Limit`] is met earlier.
     pub passes: u32,
     /// Samples of every pixel; 0 while the picture is coarse.
     pub spp: u32,
-    /// Fraction of all samples taken, 0 to 1.
+    /// Fraction of the work done, 0 to 1: of all samples, or as estimated of a [`Limit`].
     pub done: f64,
-    /// Time since the start of the job.
+    /// Time since the start of the job, without pauses.
     pub elapsed: Duration,
     /// Rays traced, including shadow rays.
     pub rays: u64,
@@ -263,6 +289,6 @@ pub struct Progress {
     /// Estimated root mean square error of the pixels against the converged picture, in displayed
     /// values from 0 to 1. `None` before samples were first doubled, and for AOVs.
     pub noise: Option<f64>,
-    /// Whether all samples are taken.
+    /// Whether all samples are taken, or the [`Limit`] is met.
     pub complete: bool,
 }

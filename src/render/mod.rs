@@ -12,7 +12,8 @@
 //! [`structures`] of its meshes and fills the [`tile`]s of a [`film`] in [`steps`]. Each sample
 //! gets its numbers from [`sampler`], its place around the pixel from [`filter`], its ray from
 //! [`camera`] and its radiance from a [`tracer`], or an AOV from [`first_hit`]. [`tone`] converts
-//! the film to a frame (heat maps by a [`ramp`]), and [`noise`] estimates the remaining error.
+//! the film to a frame (heat maps by a [`ramp`]), and [`noise`] estimates the remaining error. Of a
+//! picture, a [`mod@region`] can be traced alone.
 //!
 //! Pixels of live pictures record their dependencies ([`touched`]): after an edit of a material or
 //! of a light's colour the film is reused, and only dependent pixels are traced again.
@@ -52,6 +53,7 @@ mod place;
 mod probe;
 mod ramp;
 mod refusal;
+mod region;
 mod renderer;
 mod sampler;
 mod shading;
@@ -66,6 +68,7 @@ mod tile;
 mod tone;
 mod touched;
 mod tracer;
+mod tracing;
 mod warp;
 mod wave;
 mod whitted;
@@ -79,11 +82,12 @@ pub use explain::{
 };
 pub use filter::Filter;
 pub use frame::{
-    Aov, DEFAULT_DEPTH, DEFAULT_SPP, Frame, Frames, Job, MAX_SPP, NO_OBJECT, Progress, Query,
-    Settings, default_depth,
+    Aov, DEFAULT_DEPTH, DEFAULT_SPP, Frame, Frames, Job, Limit, MAX_SPP, NO_OBJECT, Progress,
+    Query, Settings, default_depth,
 };
 pub use place::{SurfacePoint, axes, clearance, pixel_of, pixel_width, surface_under};
 pub use refusal::Refusal;
+pub use region::{NoRegion, Region};
 pub use renderer::{Renderer, Threads};
 pub use shading::Side;
 pub use wireframe::{WireLine, Wireframe, wireframe};

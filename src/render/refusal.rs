@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use super::film::Film;
 use super::frame::Job;
+use super::region::NoRegion;
 use super::structures::instances;
 use super::world::FEW;
 use crate::memory::{self, Need, OutOfMemory};
@@ -33,6 +34,9 @@ pub enum Refusal {
         /// The system's error message.
         reason: String,
     },
+    /// The region is no part of the picture.
+    #[error(transparent)]
+    Region(#[from] NoRegion),
     /// The objects or the picture do not fit into memory.
     #[error(transparent)]
     OutOfMemory(#[from] OutOfMemory),
@@ -52,7 +56,7 @@ pub enum Refusal {
 /// Refuses a job whose world and film do not fit into memory. For an edit of the scene `before`,
 /// the world exists already or is about to exist.
 pub(super) fn fits(job: &Job, before: Option<&Arc<Scene>>) -> Result<(), Refusal> {
-    let size = job.settings.size;
+    let size = job.settings.traced().size();
     let pixels = (size.pixels() as u64).saturating_mul(ENCODED as u64);
     let film = Film::bytes(&job.settings, job.frames).saturating_add(pixels);
     let objects = job.scene.objects.len();

@@ -58,14 +58,18 @@ impl Renderer {
 
     /// Makes `job` the one to trace and returns its generation, greater than all before. Cancels
     /// the current job, except a first coarse picture younger than 50 ms; a refused job cancels
-    /// nothing.
+    /// nothing. It continues the picture of the one before, if they differ only in the materials,
+    /// the colours of lights, the number of samples or the limit.
     pub fn restart(&mut self, job: Job) -> Result<u64, Refusal> {
         let worker = self.worker.as_ref().map_err(Refusal::clone)?;
-        let size = job.settings.size;
+        let region = job.settings.traced().within(job.settings.size)?;
         refusal::fits(&job, self.accepted.upgrade().as_ref())?;
         let scene = Arc::downgrade(&job.scene);
         let film = Film::new(&job.settings, job.frames);
-        let film = film.map_err(|NoMemory { bytes }| Refusal::Memory { size, bytes })?;
+        let film = film.map_err(|NoMemory { bytes }| Refusal::Memory {
+            size: region.size(),
+            bytes,
+        })?;
         let generation = self.shared.begin();
         let submission = Submission {
             generation,
@@ -78,6 +82,24 @@ impl Renderer {
             .map_err(|_| Refusal::Ended)?;
         self.accepted = scene;
         Ok(generation)
+    }
+
+    /// Makes the job old without a newer one. It can be continued: the next job starts from its
+    /// pixels if it differs from it in the materials, the colours of lights, the number of samples
+    /// or the limit.
+    pub fn stop(&mut self) {
+        self.shared.begin();
+    }
+
+    /// Pauses the newest job within a few milliseconds: its threads wait. Ends with
+    /// [`Renderer::resume`] or the next job.
+    pub fn pause(&mut self) {
+        self.shared.pause();
+    }
+
+    /// Continues a paused job.
+    pub fn resume(&mut self) {
+        self.shared.resume();
     }
 
     /// Returns the newest frame since the last call, if any.

@@ -27,7 +27,8 @@ pub(crate) struct Shot<'w> {
 }
 
 impl Shot<'_> {
-    /// Replaces the contents of `samples` by one sample of each pixel.
+    /// Replaces the contents of `samples` by one sample of each of these pixels of the traced
+    /// region.
     pub(crate) fn samples(&self, pixels: &[[u32; 2]], index: u32, samples: &mut Vec<Sample>) {
         samples.clear();
         dispatch!(self.world.level, simd => {
@@ -47,8 +48,10 @@ impl Shot<'_> {
         samples: &mut Vec<Sample>,
     ) {
         let Settings { size, seed, .. } = self.settings;
+        let [left, top] = self.settings.traced().corner();
+        let placed = |&[x, y]: &[u32; 2]| [left + x, top + y];
         let (mut corners, mut places) = ([Row::all(0.0); 2], [Row::all(0.0); 2]);
-        for (lane, &[x, y]) in pixels.iter().enumerate() {
+        for (lane, [x, y]) in pixels.iter().map(placed).enumerate() {
             let sampler = Sampler::new(x, y, index, seed);
             let place = self.spread.place(sampler.place_in_pixel());
             for (axis, pixel) in [x, y].into_iter().enumerate() {
@@ -63,8 +66,8 @@ impl Shot<'_> {
             (corners[0].load(simd) + half) / half.all(size.width.into()),
             (corners[1].load(simd) + half) / half.all(size.height.into()),
         ];
-        for (lane, &pixel) in pixels.iter().enumerate() {
-            let sampler = Sampler::new(pixel[0], pixel[1], index, seed);
+        for (lane, [column, row]) in pixels.iter().map(placed).enumerate() {
+            let sampler = Sampler::new(column, row, index, seed);
             let (ray, reach) = if self.projection.has_lens() {
                 let lens = || self.lens(sampler);
                 self.projection.ray(x[lane], y[lane], lens)

@@ -271,12 +271,16 @@ impl Tile {
         self.squared_errors = errors.iter().copied().map(f64::from).sum();
     }
 
-    /// Resets the pixels that depend on a change, and those whose tracing was cancelled.
-    pub(crate) fn forget(&mut self, changed: Touched) {
+    /// Resets the pixels that depend on a change, those whose tracing was cancelled, and those with
+    /// a number of samples that is no step on the way to the new one, given the maximum before and
+    /// now.
+    pub(crate) fn forget(&mut self, changed: Touched, [before, now]: [u32; 2]) {
         let memory = self.memory.as_deref();
         let stale: [bool; AREA as usize] = std::array::from_fn(|at| {
+            let level = self.levels[at];
             let depends = |memory: &Memory| memory.touched[at].meets(changed);
-            self.levels[at] == 0 || memory.is_none_or(depends)
+            let is_step = level == BEYOND || samples_at(level, before) == samples_at(level, now);
+            level == 0 || !is_step || (changed != Touched::NOTHING && memory.is_none_or(depends))
         });
         if !stale.contains(&true) {
             return;
@@ -291,6 +295,12 @@ impl Tile {
         }
         self.grid = NO_GRID;
         self.level = 0;
+    }
+
+    /// The highest level of its pixels.
+    pub(crate) fn reached(&self) -> u8 {
+        let traced = self.levels.into_iter().filter(|&level| level != BEYOND);
+        traced.max().unwrap_or(0)
     }
 
     fn forget_pixel(&mut self, at: usize) {

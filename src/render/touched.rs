@@ -38,8 +38,8 @@ impl Touched {
         self.0 & other.0 != 0
     }
 
-    /// Returns the difference between two jobs with their worlds; `None` if more than materials and
-    /// colours of lights differ.
+    /// Returns the difference between two jobs with their worlds; `None` if more than materials,
+    /// colours of lights and the number of samples differ.
     pub(crate) fn between(before: (&Job, &World), after: (&Job, &World)) -> Option<Self> {
         let ((job, world), (new_job, new_world)) = (before, after);
         let (scene, new_scene) = (&*world.scene, &*new_world.scene);

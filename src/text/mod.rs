@@ -3,6 +3,7 @@
 mod codes;
 mod counted;
 mod diagnostic;
+mod duration;
 mod edit;
 mod findings;
 mod lines;
@@ -16,6 +17,7 @@ mod visible;
 pub use codes::without_codes;
 pub use counted::{alternatives, counted};
 pub use diagnostic::{Diagnostic, Severity};
+pub use duration::parse_duration;
 pub use edit::{Edit, apply, cover, difference, smallest_edit};
 pub use findings::Findings;
 pub use lines::{is_line_end, is_one_line_end, line_end, line_start, next_line};

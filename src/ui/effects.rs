@@ -11,11 +11,14 @@ use std::thread;
 use std::time::{Duration, Instant};
 
 use super::assets::AssetReader;
+use super::deriving::Deriver;
 use super::editor;
 use super::event::{Event, Work, sending};
+use super::explaining::Explainer;
 use super::heap;
 use super::msg::{Effect, Msg, SaveOutcome, Target, Timer};
 use super::options::Options;
+use super::past::NoPicture;
 use super::reader::Reader;
 use super::recent::Recent;
 use super::recovery::{self, Edits, End, Keeper, Outcome, Request};
@@ -41,12 +44,15 @@ pub(crate) struct Runtime {
     keeper: Keeper,
     recent: Recent,
     assets: AssetReader,
+    explainer: Explainer,
+    deriver: Deriver,
     threads: Option<usize>,
     /// The command line of the editor that is configured.
     editor: Option<String>,
     preview: Option<Numbered>,
     trace: Option<Numbered>,
     export: Option<Numbered>,
+    thumbnail: Option<Numbered>,
     /// Number of renderers started so far.
     renderers: u64,
     timers: Vec<(Instant, Timer)>,
@@ -72,11 +78,14 @@ impl Runtime {
             keeper: Keeper::start(keeping(&sender))?,
             recent: remembering(&sender)?,
             assets: AssetReader::start(&options.assets, options.watching(), sending(&sender))?,
+            deriver: Deriver::start(&options.assets, sending(&sender))?,
+            explainer: Explainer::start(sending(&sender))?,
             threads: options.threads,
             editor: options.editor.clone(),
             preview: None,
             trace: None,
             export: None,
+            thumbnail: None,
             renderers: 0,
             timers: Vec::new(),
             trim_at: None,
@@ -170,6 +179,16 @@ impl Runtime {
         match effect {
             Effect::Trace(target, job) => return Ok(Some(self.trace(target, job))),
             Effect::Stop(target) => self.stop(target),
+            Effect::Explain(question, frame) => {
+                let work = Work::begin(&self.sender);
+                self.explainer.ask(question, frame, work)?;
+            }
+            Effect::Derive(past) => {
+                let (ticket, work) = (past.ticket, Work::begin(&self.sender));
+                let begun = self.deriver.request(*past, work);
+                let refused = begun.err().map(|ended| NoPicture::Failed(ended.to_string()));
+                return Ok(refused.map(|reason| Msg::Derived(ticket, Err(reason))));
+            }
             Effect::WriteImage(id, frame, to) => {
                 let started = self.writers.export(id, frame, to);
                 let refused = started.err().map(|error| Err(error.to_string()));
@@ -251,6 +270,7 @@ impl Runtime {
             Target::Preview => self.preview.as_ref(),
             Target::Trace => self.trace.as_ref(),
             Target::Export => self.export.as_ref(),
+            Target::Thumbnail => self.thumbnail.as_ref(),
         }
     }
 
@@ -259,6 +279,7 @@ impl Runtime {
         let threads = match (target, self.threads) {
             (Target::Preview, None) => Threads::Preview,
             (Target::Preview, Some(count)) => Threads::Exactly(count),
+            (Target::Thumbnail, _) => Threads::Background(1),
             (Target::Trace | Target::Export, count) => {
                 Threads::Background(count.unwrap_or_else(cores))
             }
@@ -280,6 +301,7 @@ impl Runtime {
             Target::Preview => &mut self.preview,
             Target::Trace => &mut self.trace,
             Target::Export => &mut self.export,
+            Target::Thumbnail => &mut self.thumbnail,
         };
         let running = slot.get_or_insert_with(&mut start);
         let started = match running.renderer.restart(job.clone()) {
@@ -303,6 +325,7 @@ impl Runtime {
             Target::Preview => {}
             Target::Trace => self.trace = None,
             Target::Export => self.export = None,
+            Target::Thumbnail => self.thumbnail = None,
         }
     }
 

@@ -9,6 +9,7 @@ use std::time::Duration;
 use crossterm::event::{KeyEvent, MouseEvent};
 
 use super::arrange::PanelSizes;
+use super::past::{NoPicture, PastScene, PastText};
 use super::reading::{Baseline, Opened, Reading};
 use super::recovery::{Claim, Found, Sought};
 use super::terminal::{ColourDepth, Mouse};
@@ -16,7 +17,7 @@ use crate::assets::{Loaded, Wanted};
 use crate::document::Snapshot;
 use crate::file::{ReadError, Version};
 use crate::language::Language;
-use crate::render::{Frame, Job};
+use crate::render::{Explanation, Frame, Job};
 
 /// The picture that a frame belongs to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -27,6 +28,21 @@ pub enum Target {
     Trace,
     /// An export, traced in the background.
     Export,
+    /// A picture on the page of the undo history, traced in the background.
+    Thumbnail,
+}
+
+/// What is to be explained.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Question {
+    /// The picture.
+    pub target: Target,
+    /// The generation of its frames.
+    pub generation: u64,
+    /// Column and row of the pixel.
+    pub pixel: [u32; 2],
+    /// The index of the sample.
+    pub sample: u32,
 }
 
 /// Identifies an export of the session. If an export is cancelled while its file is being written,
@@ -57,12 +73,16 @@ pub enum Msg {
     Frame(Target, Arc<Frame>),
     /// The renderer of this picture has ended unexpectedly: it panicked or could not start threads.
     Ended(Target),
+    /// The result of [`Effect::Explain`]; `None` if the picture has been replaced.
+    Explained(Question, Option<Box<Explanation>>),
     /// The scene file may have changed.
     FileChanged,
     /// The result of [`Effect::Read`] for this path.
     Read(PathBuf, Result<Reading, ReadError>),
     /// The result of [`Effect::Open`] for this path.
     Opened(PathBuf, Result<Opened, ReadError>),
+    /// The result of [`Effect::Derive`], by its ticket.
+    Derived(u64, Result<PastScene, NoPicture>),
     /// The result of [`Effect::ReadAssets`].
     AssetsRead(Wanted, Loaded),
     /// A file that the scene names may have changed.
@@ -148,6 +168,11 @@ pub enum Effect {
     Trace(Target, Job),
     /// Stops tracing this picture.
     Stop(Target),
+    /// Explains a sample of a pixel of this frame, reported by [`Msg::Explained`] unless another
+    /// question follows at once.
+    Explain(Question, Arc<Frame>),
+    /// Derives the scene of a text of the history, reported by [`Msg::Derived`].
+    Derive(Box<PastText>),
     /// Writes a frame to a picture file, reported by [`Msg::Exported`] or
     /// [`Msg::Taken`].
     WriteImage(ExportId, Arc<Frame>, Destination),

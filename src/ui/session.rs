@@ -319,6 +319,7 @@ impl Session {
         let now = Instant::now();
         let is_limited = self.link.is_limited();
         self.app.follow_wires();
+        self.app.thumbnails.has_colours = self.inks.have_colours();
         if let Some(sight) = self.app.sight() {
             let allowance = match urgency {
                 // Nothing of the picture is sent.

@@ -33,6 +33,7 @@ fn values(aov: Aov, spp: u32) -> Arc<Frame> {
             aov: Some(aov),
             ..settings(SIZE.width, SIZE.height, spp)
         },
+        limit: None,
         frames: Frames::LastWithValues,
         numbers: None,
     };
@@ -105,6 +106,7 @@ fn radiance_is_returned_unclamped_on_request() {
             images: Images::default(),
             settings: settings(41, 31, 1),
             frames,
+            limit: None,
             numbers: None,
         };
         let generation = restart(&mut renderer, job);

@@ -1,6 +1,7 @@
 //! Tests of pixels whose values are known analytically.
 
 mod cameras;
+mod continuing;
 mod edits;
 mod explain;
 mod falloff;
@@ -15,6 +16,7 @@ mod noise;
 mod optics;
 mod paths;
 mod progress;
+mod regions;
 mod shading;
 mod solids;
 mod spread;
@@ -284,6 +286,7 @@ fn assert_near(value: f64, expected: f64, tolerance: f64) {
 fn settings(width: u32, height: u32, spp: u32) -> Settings {
     Settings {
         size: Size { width, height },
+        region: None,
         spp,
         depth: 8,
         seed: 0,
@@ -301,6 +304,7 @@ fn job(scene: &Arc<Scene>, settings: Settings) -> Job {
         images: Images::default(),
         camera: scene.camera,
         settings,
+        limit: None,
         frames: Frames::Live,
         numbers: None,
     }

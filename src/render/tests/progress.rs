@@ -16,7 +16,7 @@ fn tone() -> Tone {
 }
 
 /// Glass, a mirror and a matte ball on a floor.
-fn still() -> Arc<Scene> {
+pub(super) fn still() -> Arc<Scene> {
     let matte = Coefficients {
         diffuse: Rgb::new(0.7, 0.3, 0.2),
         specular: Rgb::splat(0.4),
@@ -56,7 +56,7 @@ fn still() -> Arc<Scene> {
     Arc::new(still)
 }
 
-fn trace(scene: &Arc<Scene>, settings: Settings, threads: usize) -> Arc<Frame> {
+pub(super) fn trace(scene: &Arc<Scene>, settings: Settings, threads: usize) -> Arc<Frame> {
     let (mut renderer, woken) = renderer(threads);
     let generation = restart(&mut renderer, job(scene, settings));
     finish(&renderer, &woken, generation)

@@ -106,6 +106,7 @@ impl App {
         };
         match page.list {
             List::Views(views, _) => self.go_to_view(&views[at]),
+            List::Steps(_) => self.go_to_state(at),
             List::Recent(paths) => return self.open_scene(paths[at].clone()),
         }
         Vec::new()

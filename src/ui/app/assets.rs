@@ -10,6 +10,7 @@ use crate::language::Source;
 use crate::scene::{Images, Meshes};
 use crate::text::{Findings, Severity, counted};
 use crate::ui::msg::Effect;
+use crate::ui::past::KnownFiles;
 
 /// The state of the files that the scene names.
 #[derive(Debug, Default)]
@@ -55,6 +56,15 @@ impl Assets {
     /// Whether files that the scene names have yet to arrive.
     pub fn are_awaited(&self) -> bool {
         self.awaited
+    }
+
+    /// The files that were read, to be used for other texts of the scene.
+    pub(super) fn known(&self) -> KnownFiles {
+        KnownFiles {
+            names: self.asked.clone(),
+            images: self.images.clone(),
+            meshes: self.meshes.clone(),
+        }
     }
 
     /// The paths of the scene's files that were read.

@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 
 use super::jobs::Asking;
 use super::{App, Help, Next, PromptKind};
+use crate::document::StepName;
 use crate::image_file::ImageFormat;
 use crate::language::{Language, extensions};
 use crate::render::MAX_SPP;
@@ -29,6 +30,8 @@ enum Command {
     New(Option<Language>),
     /// List recently used scenes.
     Recent,
+    /// List the steps of the undo history.
+    History,
     /// Export what is shown to a picture file.
     Export(ExportArguments, Force),
     /// Cancel the running export.
@@ -118,6 +121,7 @@ const TABLE: &[CommandRow] = &[
     row(&["e", "edit", "reread"], A::File(C::Edit), "open FILE, or reload the scene's own"),
     row(&["new"], A::Language(C::New), "start a new scene: ray, dat or xml"),
     row(&["recent"], A::Nothing(C::Recent), "list recently used scenes"),
+    row(&["history", "undolist"], A::Nothing(C::History), "show the undo history as pictures"),
     row(&["export"], A::Picture(|picture| C::Export(picture, Force::No)), "export a picture of what is shown"),
     row(&["export!"], A::Picture(|picture| C::Export(picture, Force::Yes)), "export, overwriting an existing file"),
     row(&["export cancel"], A::Nothing(C::ExportCancel), "cancel the export"),
@@ -138,6 +142,7 @@ const TABLE: &[CommandRow] = &[
 const KEYS: &[(&str, Action)] = &[
     ("w", Action::Save),
     ("q", Action::Quit),
+    ("history", Action::Steps),
     ("export", Action::Export),
     ("export cancel", Action::Stop),
     ("render", Action::Go(Mode::Trace)),
@@ -385,6 +390,7 @@ impl App {
                 return self.leave_for(Next::New(language));
             }
             Command::Recent => return vec![Effect::ListRecent],
+            Command::History => self.list_steps(),
             Command::Export(ExportArguments { path, size, spp }, force) => {
                 let path = path.unwrap_or_else(|| self.export_path());
                 let asking = match force {
@@ -446,8 +452,13 @@ impl App {
             ..scene.camera
         };
         self.document.end_step();
-        if let Err(refused) = self.write_camera(&camera, &scene.camera) {
-            self.overlays.fail(refused.message);
+        match self.write_camera(&camera, &scene.camera) {
+            Ok(()) => {
+                let Size { width, height } = size;
+                let step = StepName::done(format!("set the size to {width}x{height}"));
+                self.document.name_step(step);
+            }
+            Err(refused) => self.overlays.fail(refused.message),
         }
         self.document.end_step();
     }

@@ -53,11 +53,15 @@ impl App {
             None if let Some(page) = &self.overlays.page => match page.list {
                 List::Views(..) => Context::Views,
                 List::Recent(_) => Context::Recent,
+                List::Steps(_) => Context::Steps,
             },
             None if self.overlays.history.is_some() => Context::Messages,
             None if self.overlays.errors.is_some() => Context::Errors,
             None if self.disk.is_opening() => Context::Opening,
             None if self.overlays.picker.is_some() => Context::Colour,
+            None if self.mode == Mode::Inspect && self.inspection.explained.is_some() => {
+                Context::Rays
+            }
             None => Context::In(self.mode),
         }
     }
@@ -120,7 +124,7 @@ impl App {
     /// Which picture is on screen.
     pub fn seen(&self) -> Target {
         match self.mode {
-            Mode::Inspect if self.inspection.before() == Mode::Trace => Target::Trace,
+            Mode::Inspect => self.inspection.seen(),
             Mode::Trace => Target::Trace,
             _ => Target::Preview,
         }

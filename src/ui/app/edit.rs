@@ -15,6 +15,9 @@ impl App {
             return;
         };
         self.pictures.due |= news.images;
+        if news.images || news.meaning {
+            self.thumbnails.forget();
+        }
         if news.meaning {
             // Meshes may name pictures, which are requested then.
             self.relower();
@@ -119,6 +122,7 @@ impl App {
         let written = self.written_view_parts();
         let errors = self.error_count();
         let names = self.names_after(edits);
+        let step = self.step_name(edits);
         match edits {
             [edit] if !edit.span.is_empty() => self.document.set(edit.span, &edit.text),
             _ => self.document.edit(edits),
@@ -139,6 +143,7 @@ impl App {
             self.document.reject();
             return Err(refused);
         }
+        self.document.name_step(step);
         self.install_with(lowered, names);
         Ok(())
     }
@@ -162,37 +167,46 @@ impl App {
     }
 
     pub(super) fn undo(&mut self) {
-        let before = self.before_change(self.document.undoable());
-        let changed = self.document.undo();
-        self.show_change(&before, changed, "undone", "nothing to undo");
+        let done = self.step_back();
+        self.overlays
+            .say(done.as_deref().unwrap_or("nothing to undo"));
     }
 
     pub(super) fn redo(&mut self) {
-        let before = self.before_change(self.document.redoable());
-        let changed = self.document.redo();
-        self.show_change(&before, changed, "redone", "nothing to redo");
+        let done = self.step_forward();
+        self.overlays
+            .say(done.as_deref().unwrap_or("nothing to redo"));
     }
 
-    /// What to remember of the text before an undo or redo that changes mainly this span.
-    fn before_change(&self, span: Option<Span>) -> BeforeChange {
-        let node = span.and_then(|span| self.first_node_in(span));
+    /// Undoes a step and selects what it changed; returns what to say, or `None` without a step.
+    pub(super) fn step_back(&mut self) -> Option<String> {
+        let (before, step) = (self.before_change(), self.document.undoable());
+        let done = step.map(|step| format!("undone: {step}"));
+        let changed = self.document.undo();
+        self.show_change(&before, changed);
+        done
+    }
+
+    /// Redoes a step and selects what it changed; returns what to say, or `None` without a step.
+    pub(super) fn step_forward(&mut self) -> Option<String> {
+        let (before, step) = (self.before_change(), self.document.redoable());
+        let done = step.map(|step| format!("redone: {step}"));
+        let changed = self.document.redo();
+        self.show_change(&before, changed);
+        done
+    }
+
+    /// What to remember of the text before an undo or redo.
+    fn before_change(&self) -> BeforeChange {
         BeforeChange {
             length: self.document.text().len(),
             nodes: self.nodes(),
-            name: node.map(|node| self.source().name(node)),
         }
     }
 
-    /// Lowers the text after an undo or redo, selects the changed node and reports it.
-    fn show_change(
-        &mut self,
-        before: &BeforeChange,
-        changed: Option<Span>,
-        done: &str,
-        otherwise: &str,
-    ) {
+    /// Lowers the text after an undo or redo, and selects the changed node.
+    fn show_change(&mut self, before: &BeforeChange, changed: Option<Span>) {
         let Some(span) = changed else {
-            self.overlays.say(otherwise);
             return;
         };
         // The text after the change is as long as before.
@@ -202,7 +216,7 @@ impl App {
         self.install(lowered);
         let node_at = |at: usize| self.source().node_at(Span::at(at));
         if before.nodes != self.nodes() || node_at(span.start()) != node_at(span.end()) {
-            self.show_restructured(before, done);
+            self.select_restructured();
             return;
         }
         if let Some(node) = self.source().node_at(span)
@@ -213,23 +227,14 @@ impl App {
         if let Some(field) = self.cursor.field_at(span) {
             self.cursor.focus(field, self.cursor.component);
         }
-        match self.place_name(span) {
-            Some(place) => self.overlays.say(format!("{done}: {place}")),
-            None => self.overlays.say(done),
-        }
     }
 
-    /// Selects what an undone or redone change of several places was about, and reports it.
-    fn show_restructured(&mut self, before: &BeforeChange, done: &str) {
+    /// Selects what an undone or redone change of several places was about.
+    fn select_restructured(&mut self) {
         let span = self.document.longest_change();
         let written = self.first_node_in(span);
         if let Some(node) = written.or_else(|| self.source().node_at(span)) {
             self.select(node);
-        }
-        let written = written.map(|node| self.source().name(node));
-        match written.as_ref().or(before.name.as_ref()) {
-            Some(name) => self.overlays.say(format!("{done}: {name}")),
-            None => self.overlays.say(done),
         }
     }
 }
@@ -240,8 +245,6 @@ struct BeforeChange {
     length: usize,
     /// Its nodes.
     nodes: Nodes,
-    /// The name of the first thing that is replaced as a whole.
-    name: Option<String>,
 }
 
 /// The spans of edits in the text after they are made.

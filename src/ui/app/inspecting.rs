@@ -5,7 +5,7 @@ use super::inspection::Cross;
 use crate::language::Node;
 use crate::scene::Size;
 use crate::text::{Position, Severity};
-use crate::ui::keymap::Mode;
+use crate::ui::keymap::{Context, Mode};
 use crate::ui::layout::pixel_at;
 
 impl App {
@@ -16,7 +16,8 @@ impl App {
             return;
         }
         if self.mode != Mode::Inspect {
-            self.inspection.begin(self.mode);
+            self.inspection.begin(self.mode, self.seen());
+            self.inspection.explained = None;
             self.mode = Mode::Inspect;
         }
         self.move_cross(0, 0);
@@ -52,12 +53,7 @@ impl App {
 
     /// Selects what is under the cross, and ends inspecting.
     pub(super) fn select_crossed(&mut self) {
-        let (cell, cross) = (self.cross_cell(), self.cross());
-        if cell.is_none_or(|cell| !self.pick_symbol(cell))
-            && let Some(cross) = cross
-        {
-            self.pick(self.node_at(cross.pixel));
-        }
+        self.pick(self.node_under_cross());
     }
 
     /// The cell that the cross is in, from the upper left corner of the picture; `None` if it is not
@@ -101,6 +97,25 @@ impl App {
         Ok(object.map(|object| Node::Object(self.source().object(object))))
     }
 
+    /// The node that the editor is to show: what is inspected, otherwise the selected one.
+    pub(super) fn node_in_focus(&self) -> Node {
+        let inspected = match self.context() {
+            Context::Rays => self.explained_node(),
+            Context::In(Mode::Inspect) => self.node_under_cross().ok().flatten(),
+            _ => None,
+        };
+        inspected.unwrap_or_else(|| self.cursor.selected())
+    }
+
+    /// The node whose symbol or surface is under the cross.
+    fn node_under_cross(&self) -> Result<Option<Node>, &'static str> {
+        let symbol = self.cross_cell().and_then(|cell| self.symbol_at(cell));
+        match (symbol, self.cross()) {
+            (None, Some(cross)) => self.node_at(cross.pixel),
+            (symbol, _) => Ok(symbol),
+        }
+    }
+
     /// The line of the text on which a node begins, from 1.
     pub fn line_of(&self, node: Node) -> usize {
         Position::of(self.document.text(), self.source().span(node).start()).line
@@ -125,7 +140,7 @@ impl App {
         }
     }
 
-    fn pick_node(&mut self, node: Node) {
+    pub(super) fn pick_node(&mut self, node: Node) {
         self.select(node);
         if self.mode == Mode::Inspect {
             self.mode = Mode::Select;

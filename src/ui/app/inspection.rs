@@ -1,15 +1,38 @@
 //! What INSPECT mode looks at.
 
+use std::collections::BTreeSet;
+
+use crate::render::Explanation;
 use crate::scene::Size;
 use crate::ui::keymap::Mode;
+use crate::ui::msg::{Question, Target};
 
 /// The state of INSPECT mode.
 #[derive(Debug, Default)]
 pub struct Inspection {
     /// The cross; `None` before the first inspection.
     pub cross: Option<Cross>,
-    /// The mode to return to.
-    before: Option<Mode>,
+    /// The mode to return to, and the picture that is inspected.
+    before: Option<(Mode, Target)>,
+    /// The explanation of the pixel under the cross, if it is wanted.
+    pub explained: Option<Explained>,
+}
+
+/// The explanation of a pixel.
+#[derive(Debug, Default)]
+pub struct Explained {
+    /// The index of the sample that is explained.
+    pub sample: u32,
+    /// The question asked last.
+    pub(super) asked: Option<Question>,
+    /// The answer received last.
+    pub answer: Option<Box<Explanation>>,
+    /// The line under the cursor.
+    pub at: usize,
+    /// The first line shown.
+    pub top: usize,
+    /// The folded rays.
+    pub folded: BTreeSet<usize>,
 }
 
 /// A pixel of a picture. Pictures of other sizes have it at the same place.
@@ -22,14 +45,19 @@ pub struct Cross {
 }
 
 impl Inspection {
-    /// Remembers the mode that INSPECT replaces.
-    pub(super) fn begin(&mut self, before: Mode) {
-        self.before = Some(before);
+    /// Remembers the mode that INSPECT replaces, and the picture on screen.
+    pub(super) fn begin(&mut self, before: Mode, seen: Target) {
+        self.before = Some((before, seen));
     }
 
     /// The mode to return to.
     pub(super) fn before(&self) -> Mode {
-        self.before.unwrap_or(Mode::Select)
+        self.before.map_or(Mode::Select, |(mode, _)| mode)
+    }
+
+    /// The picture that is inspected.
+    pub(super) fn seen(&self) -> Target {
+        self.before.map_or(Target::Preview, |(_, seen)| seen)
     }
 }
 

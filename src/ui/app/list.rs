@@ -50,12 +50,13 @@ impl App {
                     *at = moved(*at, rows, merge.conflicts.len());
                 }
             }
-            Context::Views | Context::Recent => {
+            Context::Views | Context::Recent | Context::Steps => {
                 if let Some(page) = &mut self.overlays.page {
                     page.go(rows);
                 }
             }
             Context::Colour => self.move_picker(rows),
+            Context::Rays => self.move_in_rays(rows),
             Context::In(_)
             | Context::Opening
             | Context::Quit
@@ -81,6 +82,7 @@ impl App {
         let panel = match context {
             Context::Help => return (self.help_rows() as isize - 1).max(1),
             Context::Errors => areas.errors,
+            Context::Steps => return self.step_rows(),
             Context::Messages | Context::Views | Context::Recent => areas.picture,
             _ => areas.list,
         };

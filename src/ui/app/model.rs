@@ -12,6 +12,7 @@ use super::jobs::Jobs;
 use super::overlays::Overlays;
 use super::palette::Palette;
 use super::pictures::Pictures;
+use super::thumbnails::Thumbnails;
 use crate::document::Document;
 use crate::scene::Scene;
 use crate::text::Findings;
@@ -49,6 +50,8 @@ pub struct App {
     pub pictures: Pictures,
     /// The pixel that is inspected.
     pub inspection: Inspection,
+    /// Pictures of the texts in the undo history.
+    pub thumbnails: Thumbnails,
     /// Dialogs, help, errors, the line being typed, and messages.
     pub overlays: Overlays,
     /// Completions and history of the command line.

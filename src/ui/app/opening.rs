@@ -6,7 +6,9 @@ use super::assets::Assets;
 use super::cursor::Names;
 use super::inspection::Inspection;
 use super::palette::Palette;
-use super::{App, Cursor, Disk, FirstReading, Jobs, OnDisk, Overlays, Page, Pictures, Quality};
+use super::{
+    App, Cursor, Disk, FirstReading, Jobs, OnDisk, Overlays, Page, Pictures, Quality, Thumbnails,
+};
 use crate::document::Document;
 use crate::file::ReadError;
 use crate::language::{Language, Lowered, Node};
@@ -86,6 +88,7 @@ impl App {
             cursor: Cursor::default(),
             pictures: Pictures::new(opening.quality),
             inspection: Inspection::default(),
+            thumbnails: Thumbnails::default(),
             overlays: Overlays::default(),
             jobs: Jobs::default(),
             mode: Mode::Select,

@@ -1,8 +1,9 @@
-//! Pages with a list to choose from: saved views, recently used scenes.
+//! Pages with a list to choose from: saved views, recently used scenes, the undo history.
 
 use std::path::PathBuf;
 
 use super::filter::Filter;
+use super::timeline::Steps;
 use crate::language::SavedView;
 
 /// A page with a list to choose from.
@@ -33,6 +34,8 @@ pub enum List {
     Views(Vec<SavedView>, u64),
     /// Recently used scenes, the newest first.
     Recent(Vec<PathBuf>),
+    /// The steps of the undo history.
+    Steps(Steps),
 }
 
 impl Page {
@@ -58,6 +61,7 @@ impl Page {
                 .iter()
                 .map(|path| path.display().to_string())
                 .collect(),
+            List::Steps(steps) => steps.rows.iter().map(|(_, name)| name.clone()).collect(),
         };
         let shown = self.filter.shown(all.iter().map(|row| (row.as_str(), "")));
         let row = |index: usize| Some((index, all.get(index)?.clone()));

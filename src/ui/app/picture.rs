@@ -225,6 +225,7 @@ mod tests {
         Arc::new(Frame {
             generation,
             size,
+            corner: [0; 2],
             pixels: vec![pixel; size.pixels()],
             objects: vec![7; size.pixels()],
             values: Vec::new(),

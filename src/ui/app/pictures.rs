@@ -143,7 +143,7 @@ impl Pictures {
         match target {
             Target::Preview => Some(&mut self.preview),
             Target::Trace => self.trace.as_mut(),
-            Target::Export => None,
+            Target::Export | Target::Thumbnail => None,
         }
     }
 

@@ -60,7 +60,7 @@ impl App {
             line: object.map(|object| self.line_of(Node::Object(object))),
             aov: match self.seen() {
                 Target::Preview => self.pictures.preview_aov(),
-                Target::Trace | Target::Export => self.pictures.aov,
+                _ => self.pictures.aov,
             },
             value: frame.and_then(|frame| of(&frame.values)),
             colour: frame.and_then(|frame| frame.pixels.get(index?).copied()),

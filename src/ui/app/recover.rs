@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use super::journal::Outcome;
 use super::{App, Dialog, Outside};
-use crate::document::{Adopted, Merge};
+use crate::document::{Adopted, Merge, StepName};
 use crate::ui::keymap::Action;
 use crate::ui::msg::Effect;
 use crate::ui::recovery::{Claim, Found, Offer, Since, Way};
@@ -124,6 +124,8 @@ impl App {
     }
 
     fn restored(&mut self, claim: Arc<Claim>, since: Since) -> Vec<Effect> {
+        self.document
+            .name_step(StepName::done("restored unsaved edits"));
         self.relower();
         let done = match since {
             Since::Same => "restored",

@@ -8,7 +8,7 @@ use std::time::Duration;
 use super::cursor::SavedCursor;
 use super::disk::{Faulty, Requester, Settle};
 use super::{App, Dialog, OnDisk, Outside, PromptKind};
-use crate::document::Adopted;
+use crate::document::{Adopted, StepName};
 use crate::file;
 use crate::file::ReadError;
 use crate::language::Lowered;
@@ -275,6 +275,10 @@ impl App {
                 _ => false,
             };
             let Wording { came, same, ends } = words;
+            if let (Ends::Merge, Some(place)) = (ends, &place) {
+                let step = StepName::done(format!("merged the file: {place}"));
+                self.document.name_step(step);
+            }
             let end = match ends {
                 Ends::Plain => String::new(),
                 Ends::Merge => {
@@ -395,7 +399,7 @@ impl App {
         Vec::new()
     }
 
-    /// Opens the user's editor at the cursor.
+    /// Opens the user's editor at the cursor, or at what is inspected.
     pub(super) fn open_editor(&mut self) -> Vec<Effect> {
         let Some(path) = self.disk.path.clone() else {
             self.overlays
@@ -425,7 +429,7 @@ impl App {
             None if self.is_disk_wrong() => wrong.findings.iter().find(|d| d.is_error()),
             None => None,
         };
-        let span = error.map_or_else(|| self.source().span(self.cursor.selected()), |d| d.span);
+        let span = error.map_or_else(|| self.source().span(self.node_in_focus()), |d| d.span);
         let line = Position::of(wrong.text, span.start()).line;
         vec![Effect::OpenEditor { path, line }]
     }

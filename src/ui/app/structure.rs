@@ -1,7 +1,8 @@
 //! Changing the structure of the scene: deleting, duplicating, reordering, copying, pasting, naming
 //! and marking things. Each change is one edit of the text and one undo step.
 
-use super::{App, Dialog, PromptKind};
+use super::{App, Dialog, PromptKind, naming};
+use crate::document::StepName;
 use crate::language::{Neighbour, Node, StructureError, Visibility};
 use crate::text::{Edit, Span, counted};
 use crate::ui::keymap::{Action, Mode};
@@ -189,12 +190,16 @@ impl App {
             return;
         }
         let name = name.trim();
+        let before = self.source().name(self.cursor.selected());
         let edits = self.source().renaming(self.cursor.selected(), name);
         let done = match name {
             "" => "name removed".to_owned(),
             name => format!("renamed: {name}"),
         };
-        self.restructure(edits, None, &done);
+        if self.restructure(edits, None, &done) && !name.is_empty() {
+            let step = StepName::done(format!("renamed {before} to {name}"));
+            self.document.name_step(step);
+        }
     }
 
     /// Makes the frame of the selected node orthonormal.
@@ -243,6 +248,7 @@ impl App {
         match outcome {
             Ok(()) => {
                 let name = self.targets_name(&nodes);
+                self.document.name_step(StepName::done(format!("{done} {name}")));
                 self.overlays.say(format!("{done}: {name}"));
             }
             Err(reason) => self.overlays.fail(reason),
@@ -291,6 +297,8 @@ impl App {
                 if let Some(node) = placed.and_then(|span| self.first_node_in(span)) {
                     self.select(node);
                 }
+                let selected = self.source().name(self.cursor.selected());
+                self.document.name_step(naming::done(done, &selected));
                 self.overlays.say(done);
                 true
             }

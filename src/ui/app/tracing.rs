@@ -9,6 +9,7 @@ use crate::scene::{Integrator, Scene, Size};
 use crate::text::Severity;
 use crate::ui::keymap::{Action, Mode};
 use crate::ui::msg::{Effect, Target};
+use crate::ui::past::NoPicture;
 
 /// Samples per pixel at which the preview stops: by then edges are smooth and the noise of paths is
 /// invisible.
@@ -96,6 +97,7 @@ impl App {
             camera: self.camera()?,
             settings: Settings {
                 size,
+                region: None,
                 spp: self.pictures.samples(spp),
                 depth: self
                     .pictures
@@ -109,6 +111,7 @@ impl App {
                 transfer,
                 exposure: 0.0,
             },
+            limit: None,
             frames: Frames::Live,
             numbers: None,
         })
@@ -182,8 +185,13 @@ impl App {
     }
 
     pub(super) fn frame(&mut self, target: Target, frame: Arc<Frame>) -> Vec<Effect> {
-        if target == Target::Export {
-            return self.export_frame(frame);
+        match target {
+            Target::Export => return self.export_frame(frame),
+            Target::Thumbnail => {
+                self.thumbnails.take(&frame);
+                return Vec::new();
+            }
+            Target::Preview | Target::Trace => {}
         }
         // Without a scene, it is of one that was left.
         if self.scene.is_some() {
@@ -194,8 +202,13 @@ impl App {
 
     /// Records that a picture will not be finished, and shows the reason.
     pub(super) fn ended(&mut self, target: Target, reason: impl Into<String>) -> Vec<Effect> {
-        if target == Target::Export {
-            return self.export_ended(reason.into());
+        match target {
+            Target::Export => return self.export_ended(reason.into()),
+            Target::Thumbnail => {
+                self.thumbnails.fail(NoPicture::Failed(reason.into()));
+                return Vec::new();
+            }
+            Target::Preview | Target::Trace => {}
         }
         self.pictures.want(target, None);
         self.overlays.fail(reason);

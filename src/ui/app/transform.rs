@@ -4,6 +4,7 @@ use glam::DVec3;
 
 use super::trial::Trial;
 use super::typed;
+use crate::document::StepName;
 use crate::language::{Along, Motion, Node, Pose};
 use crate::scene::Camera;
 use crate::text::{decimals, rounded};
@@ -210,6 +211,18 @@ impl Transform {
             Snap::Off => what,
             Snap::Grid => format!("{what} on the grid"),
         }
+    }
+
+    /// The name of the undo step that transforms these things.
+    pub(super) fn step_name(&self, targets: &str) -> StepName {
+        let (verb, done) = match self.tool {
+            Tool::Move => ("move", "moved"),
+            Tool::Rotate => ("rotate", "rotated"),
+            Tool::Scale => ("scale", "scaled"),
+        };
+        let words = self.words();
+        let how = words.strip_prefix(verb).unwrap_or_default();
+        StepName::done(format!("{done} {targets}{how}"))
     }
 }
 

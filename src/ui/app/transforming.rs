@@ -258,7 +258,13 @@ impl App {
             edits.map_err(|refused| refused.to_string())
         });
         match outcome {
-            Ok(()) => self.overlays.say(transform.words()),
+            Ok(()) => {
+                if transform.trial.is_applied {
+                    let targets = self.targets_name(&transform.nodes);
+                    self.document.name_step(transform.step_name(&targets));
+                }
+                self.overlays.say(transform.words());
+            }
             Err(reason) => self.overlays.fail(reason),
         }
         self.pictures.transform = Some(transform);

@@ -8,7 +8,7 @@ use super::{App, Help, PageFocus, PromptKind, line};
 use crate::text::Severity;
 use crate::ui::arrange::{Zoom, divided, resized};
 use crate::ui::keymap::{self, Action, Context, Meaning, Mode, Tool};
-use crate::ui::msg::{Effect, Existing, Msg, Timer};
+use crate::ui::msg::{Effect, Existing, Msg, Target, Timer};
 use crate::ui::terminal::Mouse;
 
 impl App {
@@ -25,6 +25,8 @@ impl App {
         self.scroll(&areas);
         self.follow_views();
         effects.extend(self.follow());
+        effects.extend(self.follow_explained());
+        effects.extend(self.follow_steps());
         effects.extend(self.disk.journal.follow(&self.document));
         effects.extend(self.follow_kept());
         let time = self.overlays.time_to_read();
@@ -39,9 +41,12 @@ impl App {
             Msg::Paste(text) => return self.paste(&text),
             Msg::Mouse(event) => return self.pointer(event),
             Msg::Resize(columns, rows) => self.terminal = (columns, rows),
+            Msg::Started(Target::Thumbnail, generation) => self.thumbnails.started(generation),
             Msg::Started(target, generation) => self.pictures.want(target, Some(generation)),
+            Msg::Derived(ticket, derived) => return self.derived(ticket, derived),
             Msg::Frame(target, frame) => return self.frame(target, frame),
             Msg::Refused(target, reason) => return self.ended(target, reason),
+            Msg::Explained(question, answer) => self.explained(question, answer),
             Msg::Ended(target) => return self.ended(target, "the renderer stopped early"),
             Msg::FileChanged => return self.read_again(),
             // The scene may have been given another name since the request.
@@ -114,7 +119,7 @@ impl App {
                 self.warn_of_opening();
                 Vec::new()
             }
-            Meaning::None if matches!(context, Context::Views | Context::Recent) => {
+            Meaning::None if matches!(context, Context::Views | Context::Recent | Context::Steps) => {
                 self.filter_with(key);
                 Vec::new()
             }
@@ -243,6 +248,7 @@ impl App {
             Action::No => return self.decline(),
             Action::Search if self.overlays.open_search() => {}
             Action::Search => self.start_filter(),
+            Action::Fold(fold) if context == Context::Rays => self.fold_ray(fold),
             Action::Fold(fold) => self.fold(fold),
             Action::SearchAgain(step) => self.search(step),
             Action::Command => self.open_palette(),
@@ -257,6 +263,7 @@ impl App {
             Action::Insert => self.insert_copied(),
             Action::Rename => self.start_renaming(),
             Action::Add => self.open_additions(),
+            Action::Solo if context == Context::Rays => self.solo_explained(),
             Action::Solo => self.toggle_solo(),
             Action::Retype => self.open_kinds(),
             Action::Transform(tool) => self.start_transform(tool),
@@ -292,12 +299,15 @@ impl App {
             Action::SavedViews => self.list_views(),
             Action::DeleteView => self.delete_view(),
             Action::Cross(right, down) => self.move_cross(right, down),
+            Action::Explain => self.start_explaining(),
+            Action::Sample(step) => self.change_sample(step),
             Action::Mine | Action::Theirs | Action::AllMine | Action::AllTheirs => {
                 self.decide(action);
             }
             Action::Undo => self.undo(),
             Action::Redo => self.redo(),
             Action::Errors => self.toggle_errors(),
+            Action::Steps => self.list_steps(),
             Action::Messages => self.overlays.history = Some(0),
             Action::Help => self.overlays.help = Some(Help::default()),
             Action::Zoom => self.toggle_zoom(),
@@ -352,7 +362,7 @@ impl App {
     fn back(&mut self, context: Context) -> Vec<Effect> {
         match context {
             Context::Help => self.overlays.help = None,
-            Context::Views | Context::Recent => self.overlays.page = None,
+            Context::Views | Context::Recent | Context::Steps => self.overlays.page = None,
             Context::Messages => self.overlays.history = None,
             Context::Errors => self.overlays.errors = None,
             Context::Delete => self.overlays.dialog = None,
@@ -367,6 +377,7 @@ impl App {
             }
             Context::Opening => {}
             Context::Colour => self.cancel_colour(),
+            Context::Rays => self.inspection.explained = None,
             Context::In(Mode::Trace) => {
                 self.mode = self.pictures.mode_before();
             }
@@ -385,7 +396,7 @@ impl App {
     fn accept(&mut self, context: Context) -> Vec<Effect> {
         match context {
             Context::Errors => self.go_to_error(),
-            Context::Views | Context::Recent => return self.choose(),
+            Context::Views | Context::Recent | Context::Steps => return self.choose(),
             Context::Conflict => return self.adopt(),
             Context::Quit | Context::Wait | Context::Leave | Context::MovedView => {
                 return self.leave_anyway();
@@ -394,6 +405,7 @@ impl App {
             Context::Overwrite => return self.answer_taken(Existing::Overwritten),
             Context::Recover => return self.restore(),
             Context::In(Mode::Inspect) => self.select_crossed(),
+            Context::Rays => self.select_explained(),
             Context::In(Mode::Move) => self.confirm_transform(),
             Context::Colour => self.confirm_colour(),
             Context::In(_) | Context::Help | Context::Messages | Context::Opening => {}

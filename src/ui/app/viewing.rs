@@ -2,6 +2,7 @@
 
 use super::camera::{framed, settled};
 use super::{App, List, Page};
+use crate::document::StepName;
 use crate::language::{Node, SavedView, view_name};
 use crate::scene::{Camera, Emitter};
 use crate::text::Severity;
@@ -144,7 +145,8 @@ impl App {
         let name = views[at].name.clone();
         let undo = self.key_for(Action::Undo);
         let done = format!("view {name} is deleted; {undo} undoes it");
-        self.edit_saved_view(&name, None, done);
+        let step = StepName::done(format!("deleted the view {name}"));
+        self.edit_saved_view(&name, None, (step, done));
     }
 
     /// Saves the view under a name, as an ordinary edit.
@@ -159,7 +161,8 @@ impl App {
         match self.camera().filter(|_| self.error_count() == 0) {
             Some(camera) => {
                 let done = format!("view {name} is now in the scene's text");
-                self.edit_saved_view(&name, Some(&camera), done);
+                let step = StepName::done(format!("saved the view {name}"));
+                self.edit_saved_view(&name, Some(&camera), (step, done));
             }
             None => self
                 .overlays
@@ -167,11 +170,19 @@ impl App {
         }
     }
 
-    fn edit_saved_view(&mut self, name: &str, camera: Option<&Camera>, done: String) {
+    fn edit_saved_view(
+        &mut self,
+        name: &str,
+        camera: Option<&Camera>,
+        (step, done): (StepName, String),
+    ) {
         let edits = self.source().saved_view_edits(name, camera);
         self.document.end_step();
         match self.try_edits(&edits) {
-            Ok(()) => self.overlays.say(done),
+            Ok(()) => {
+                self.document.name_step(step);
+                self.overlays.say(done);
+            }
             Err(refused) => self.overlays.fail(refused.message),
         }
         self.document.end_step();
@@ -192,6 +203,7 @@ impl App {
         match self.write_camera(&view, &scene.camera) {
             Ok(()) => {
                 self.pictures.view = None;
+                self.document.name_step(StepName::done("wrote the view"));
                 self.overlays.say("the view is now in the scene's text");
             }
             Err(refused) => self.overlays.fail(refused.message),

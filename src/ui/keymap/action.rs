@@ -72,6 +72,8 @@ pub enum Context {
     Views,
     /// The page of recently used scenes.
     Recent,
+    /// The page of the undo history.
+    Steps,
     /// The colour picker.
     Colour,
     /// The rays behind the pixel under the cross.
@@ -211,6 +213,8 @@ pub enum Action {
     Undo,
     /// Redoes the step undone last and selects what it changed.
     Redo,
+    /// Opens the page of the undo history.
+    Steps,
     /// Opens the user's editor.
     Editor,
     /// Opens or closes the list of errors.

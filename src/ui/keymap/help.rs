@@ -115,6 +115,7 @@ impl Keymap {
             | Context::Messages
             | Context::Views
             | Context::Recent
+            | Context::Steps
             | Context::Conflict
             | Context::Quit
             | Context::Leave

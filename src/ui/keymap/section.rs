@@ -14,12 +14,13 @@ pub enum Section {
 }
 
 /// Contexts other than modes, by their headings in the help.
-pub(super) const DIALOGS: [(&str, Context); 15] = [
+pub(super) const DIALOGS: [(&str, Context); 16] = [
     ("the colour picker", Context::Colour),
     ("the rays behind a pixel", Context::Rays),
     ("the list of errors", Context::Errors),
     ("the list of saved views", Context::Views),
     ("the list of recent scenes", Context::Recent),
+    ("the undo history", Context::Steps),
     ("the messages so far", Context::Messages),
     ("this page", Context::Help),
     ("merge conflicts", Context::Conflict),

@@ -132,6 +132,7 @@ const MESSAGES: Scope = Scope::These(&[Context::Messages]);
 const ERRORS: Scope = Scope::These(&[Context::Errors]);
 const VIEWS_PAGE: Scope = Scope::These(&[Context::Views]);
 const RECENT: Scope = Scope::These(&[Context::Recent]);
+const STEPS: Scope = Scope::These(&[Context::Steps]);
 const CONFLICT: Scope = Scope::These(&[Context::Conflict]);
 const QUIT: Scope = Scope::These(&[Context::Quit]);
 const DELETE: Scope = Scope::These(&[Context::Delete]);
@@ -148,6 +149,7 @@ const LISTS: Scope = Scope::These(&[
     Context::Errors,
     Context::Views,
     Context::Recent,
+    Context::Steps,
     Context::Colour,
     Context::Conflict,
     Context::Rays,
@@ -160,6 +162,7 @@ const LONG_LISTS: Scope = Scope::These(&[
     Context::Views,
     Context::Recent,
     Context::Rays,
+    Context::Steps,
 ]);
 
 /// All key bindings, the most useful first. Ctrl-H, Ctrl-I, Ctrl-M and Ctrl-[ send the same bytes
@@ -317,6 +320,11 @@ pub(super) const TABLE: &[Binding] = &[
     bind(RECENT, &[key(Enter)], A::Accept, "open it"),
     bind(RECENT, &[c('/')], A::Search, "filter"),
     bind(RECENT, &[key(Esc), c('q')], A::Back, "close"),
+    bind(STEPS, &[key(Enter)], A::Accept, "go there"),
+    bind(STEPS, &[c('u')], A::Undo, "undo"),
+    bind(STEPS, &[ctrl('r')], A::Redo, "redo"),
+    bind(STEPS, &[c('/')], A::Search, "filter"),
+    bind(STEPS, &[key(Esc), c('q'), c('U')], A::Back, "close"),
     bind(HELP, &[c('/')], A::Search, "search"),
     bind(MESSAGES, &[key(Esc), c('q'), c('M')], A::Back, "close"),
     bind(HELP, &[key(Esc), c('q'), c('?')], A::Back, "close"),
@@ -339,6 +347,7 @@ pub(super) const TABLE: &[Binding] = &[
     bind(Scope::Everywhere, &[key(F(5)), c('r')], A::Go(Trace), "trace at full size"),
     bind(Scope::Everywhere, &[c('u')], A::Undo, "undo"),
     bind(Scope::Everywhere, &[ctrl('r')], A::Redo, "redo"),
+    bind(Scope::Everywhere, &[c('U')], A::Steps, "undo history as pictures"),
     bind(Scope::Everywhere, &[c('!')], A::Errors, "errors and warnings"),
     bind(Scope::Sceneless, &[c('M')], A::Messages, "messages so far"),
     bind(Scope::Everywhere, &[c('E')], A::Editor, "open the editor at the selected item"),
@@ -385,6 +394,7 @@ mod tests {
             Errors,
             Views,
             Recent,
+            Context::Steps,
             Context::Colour,
             Context::Rays,
             Conflict,

@@ -26,7 +26,9 @@ impl Session {
         let is_last = matches!(next, None | Some(Step::Wait | Step::Dump(..)));
         let pictures = &self.app.pictures;
         let is_busy = if is_last {
-            pictures.are_awaited() || self.app.jobs.export.is_some()
+            pictures.are_awaited()
+                || self.app.thumbnails.are_awaited()
+                || self.app.jobs.export.is_some()
         } else {
             pictures.preview.is_coarse()
         };

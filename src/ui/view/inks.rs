@@ -54,6 +54,11 @@ impl Inks {
         Self::new(Glyphs::for_depth(depth))
     }
 
+    /// Whether pixels have colours.
+    pub fn have_colours(&self) -> bool {
+        self.glyphs != Glyphs::Characters
+    }
+
     pub(super) fn new(glyphs: Glyphs) -> Self {
         let palette = match glyphs {
             Glyphs::HalfBlocksOf256 => Some(Palette::of_256()),

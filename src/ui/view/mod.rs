@@ -25,6 +25,7 @@ mod picture;
 mod pixel;
 mod row;
 mod status;
+mod steps;
 mod symbols;
 mod wireframe;
 
@@ -80,6 +81,7 @@ fn render(app: &App, inks: &mut Inks, area: Rect, buffer: &mut Buffer) {
     let bars = areas.hint.height + areas.status.height;
     let (body, _) = layout::split_bottom(area, bars);
     page::render(app, body, buffer);
+    steps::render(app, inks, body, buffer);
     help::render(app, body, buffer);
     history::render(app, body, buffer);
     if let Some(refused) = current::refusal(app, &areas) {

@@ -7,7 +7,7 @@ use ratatui::widgets::{Block, BorderType, Clear, Widget};
 
 use super::row::Row;
 use crate::text::counted;
-use crate::ui::app::{App, List, PageFocus};
+use crate::ui::app::{App, List, Page, PageFocus};
 use crate::ui::layout;
 use crate::ui::theme;
 
@@ -20,6 +20,7 @@ pub(crate) fn render(app: &App, area: Rect, buffer: &mut Buffer) {
     let (title, count) = match &page.list {
         List::Views(views, _) => (" Saved views ", views.len()),
         List::Recent(paths) => (" Recent scenes ", paths.len()),
+        List::Steps(_) => return,
     };
     let height = u16::try_from(count).unwrap_or(u16::MAX).saturating_add(4);
     let place = layout::centred(area, Rect::new(0, 0, 76, height)).intersection(buffer.area);
@@ -40,7 +41,12 @@ pub(crate) fn render(app: &App, area: Rect, buffer: &mut Buffer) {
         row.put(if is_here { "▸ " } else { "  " }, style);
         row.put(words, style);
     }
-    let mut row = Row::new(buffer, foot, 1);
+    self::foot(app, page, rows.len(), foot, buffer);
+}
+
+/// Draws the filter of a page while it is typed, otherwise its keys.
+pub(super) fn foot(app: &App, page: &Page, count: usize, area: Rect, buffer: &mut Buffer) {
+    let mut row = Row::new(buffer, area, 1);
     row.skip(1);
     if page.focus == PageFocus::Search {
         row.put("/", theme::ACCENT);
@@ -51,7 +57,7 @@ pub(crate) fn render(app: &App, area: Rect, buffer: &mut Buffer) {
     if !page.filter.input.value().is_empty() {
         let words = format!(
             "{} with “{}”",
-            counted(rows.len(), "line"),
+            counted(count, "line"),
             page.filter.input.value()
         );
         row.put(&words, theme::DIM).skip(2);

@@ -175,7 +175,7 @@ fn axis(app: &App, cells: Rect, size: Size, buffer: &mut Buffer) {
 }
 
 /// Draws the pixels of a picture over its cells.
-fn paint(shown: &Shown, inks: &mut Inks, area: Rect, buffer: &mut Buffer) {
+pub(super) fn paint(shown: &Shown, inks: &mut Inks, area: Rect, buffer: &mut Buffer) {
     let width = shown.size.width;
     let pixel = |x: u32, y: u32| -> Option<Pixel> {
         let at = y as usize * width as usize + x as usize;

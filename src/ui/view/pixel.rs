@@ -50,9 +50,8 @@ pub(super) fn render_over(app: &App, area: Rect, buffer: &mut Buffer) {
     if area.width < 2 * width || area.height < height + 3 {
         return;
     }
-    let (cells, _) = app.raster().unwrap_or_default();
-    let cross = app.cross_cell().unwrap_or_default();
-    let is_left = cross.0 < cells.width / 2;
+    let width_of = app.raster().map_or(0, |(cells, _)| cells.width);
+    let is_left = app.cross_cell().is_some_and(|cross| cross.0 < width_of / 2);
     let panel = Rect {
         x: if is_left { area.right() - width } else { area.x },
         y: area.bottom() - height,

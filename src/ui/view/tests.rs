@@ -128,6 +128,7 @@ fn frame(width: u32, height: u32) -> Arc<Frame> {
     Arc::new(Frame {
         generation: 1,
         size,
+        corner: [0; 2],
         pixels: vec![[100; 3]; size.pixels()],
         values: Vec::new(),
         errors: Vec::new(),

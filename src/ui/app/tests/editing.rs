@@ -119,9 +119,9 @@ fn undo_selects_the_changed_node() {
         (app.cursor.selected(), app.cursor.field),
         (Node::Object(0), 1)
     );
-    assert_eq!(words(&app), "undone: object 1 (sphere) radius");
+    assert_eq!(words(&app), "undone: object 1 (sphere) radius: 1.5 → 1.6");
     press(&mut app, "<Ctrl-r>");
-    assert_eq!(words(&app), "redone: object 1 (sphere) radius");
+    assert_eq!(words(&app), "redone: object 1 (sphere) radius: 1.5 → 1.6");
 }
 
 /// The reflection of the first object is `0.50`, usually from 0 to 1.

@@ -14,6 +14,7 @@ mod listing;
 mod making;
 mod messages;
 mod moving;
+mod naming;
 mod opening;
 mod palette;
 mod panels;

@@ -12,6 +12,7 @@ pub(in crate::ui) fn frame(size: Size, objects: Vec<u32>) -> Frame {
     Frame {
         generation: 1,
         size,
+        corner: [0; 2],
         pixels: vec![[9; 3]; size.pixels()],
         objects,
         values: Vec::new(),

@@ -1,0 +1,162 @@
+//! The names of steps, and the texts between them.
+
+use std::collections::BTreeMap;
+
+use proptest::prelude::*;
+use proptest::sample::{Index, select};
+
+use super::{check_tree, document, replace, set};
+use crate::document::{Document, StateId, StepName};
+use crate::text::{Edit, Span};
+
+/// Sets the leaf at an index and names that after it.
+fn name(document: &mut Document, leaf: usize, literal: &str) {
+    let before = document.source().leaf_text(document.source().leaves()[leaf]);
+    let name = StepName::set(format!("leaf {leaf}"), before, literal);
+    set(document, leaf, literal);
+    document.name_step(name);
+}
+
+fn names(document: &Document) -> Vec<String> {
+    let names = document.states().filter_map(|state| state.name);
+    names.map(StepName::to_string).collect()
+}
+
+#[test]
+fn names_follow_their_steps_through_merging_undo_and_redo() {
+    let mut doc = document("1 2 3");
+    for literal in ["2", "3", "4"] {
+        name(&mut doc, 0, literal);
+    }
+    name(&mut doc, 1, "7");
+    let both = ["leaf 0: 1 → 4, 3 nudges", "leaf 1: 2 → 7"];
+    assert_eq!(names(&doc), both);
+    doc.undo();
+    assert_eq!((names(&doc), doc.present()), (both.map(str::to_owned).into(), 1));
+    doc.redo();
+    doc.undo();
+    // What is typed next is a step of its own, which ends what could be redone.
+    name(&mut doc, 0, "5");
+    assert_eq!(names(&doc), [both[0], "leaf 0: 4 → 5"]);
+    // A value that is refused leaves the run's name as it was.
+    name(&mut doc, 0, "6");
+    doc.reject();
+    assert_eq!(names(&doc), [both[0], "leaf 0: 4 → 5"]);
+    // A run back to where it began is no step, and nothing else takes its name.
+    name(&mut doc, 0, "4");
+    assert_eq!(names(&doc), [both[0]]);
+    doc.edit(&[]);
+    doc.name_step(StepName::done("nothing"));
+    assert_eq!(names(&doc), [both[0]]);
+    doc.edit(&[Edit {
+        span: Span::at(0),
+        text: "0 ".to_owned(),
+    }]);
+    assert_eq!(names(&doc), [both[0], "edit"]);
+    doc.name_step(StepName::done("added leaf 0"));
+    doc.name_step(StepName::done("added 0"));
+    assert_eq!(names(&doc), [both[0], "added 0"]);
+}
+
+#[test]
+fn texts_from_outside_are_numbered_after_those_before() {
+    let mut doc = document("1 2");
+    let ids = |doc: &Document| doc.states().map(|state| state.id).collect::<Vec<_>>();
+    name(&mut doc, 0, "3");
+    let before = ids(&doc);
+    assert!(replace(&mut doc, "1 5").is_ok());
+    assert_eq!(ids(&doc)[..2], before, "a merge is a step like any other");
+    assert_eq!(names(&doc), ["leaf 0: 1 → 3", "edit"]);
+    while doc.undo().is_some() {}
+    doc.mark_saved(doc.shared_text());
+    let before = ids(&doc);
+    assert!(replace(&mut doc, "8 9").is_ok());
+    let [after] = ids(&doc)[..] else {
+        panic!("a text from outside has no history")
+    };
+    assert!(before.iter().all(|id| *id < after));
+}
+
+#[derive(Clone, Debug)]
+enum Doing {
+    Set(Index, &'static str),
+    Edit(Index),
+    EndStep,
+    Reject,
+    Undo,
+    Redo,
+    Jump(Index),
+}
+
+fn doings() -> impl Strategy<Value = Vec<Doing>> {
+    let doing = prop_oneof![
+        4 => (any::<Index>(), select(&["0", "11", "-2.5"][..]))
+            .prop_map(|(leaf, literal)| Doing::Set(leaf, literal)),
+        2 => any::<Index>().prop_map(Doing::Edit),
+        1 => Just(Doing::EndStep),
+        1 => Just(Doing::Reject),
+        1 => Just(Doing::Undo),
+        1 => Just(Doing::Redo),
+        2 => any::<Index>().prop_map(Doing::Jump),
+    ];
+    prop::collection::vec(doing, 1..40)
+}
+
+fn go_to(document: &mut Document, state: usize) {
+    while state < document.present() {
+        document.undo().expect("a step before");
+    }
+    while document.present() < state {
+        document.redo().expect("a step after");
+    }
+}
+
+fn act(document: &mut Document, doing: &Doing) {
+    match doing {
+        Doing::Set(leaf, literal) => {
+            let leaf = leaf.index(document.source().leaves().len());
+            set(document, leaf, literal);
+        }
+        Doing::Edit(leaf) => {
+            let leaves = document.source().leaves();
+            let leaf = leaves[leaf.index(leaves.len())];
+            let text = format!("{0} {0}", leaf.of(document.text()));
+            document.edit(&[Edit { span: leaf, text }]);
+        }
+        Doing::EndStep => document.end_step(),
+        Doing::Reject => document.reject(),
+        Doing::Undo => drop(document.undo()),
+        Doing::Redo => drop(document.redo()),
+        Doing::Jump(state) => go_to(document, state.index(document.states().count())),
+    }
+}
+
+proptest! {
+    #![proptest_config(crate::repeatable())]
+
+    #[test]
+    fn every_state_keeps_its_text(doings in doings()) {
+        let mut doc = document("1 2 3");
+        let mut known: BTreeMap<StateId, String> = BTreeMap::new();
+        for doing in doings {
+            act(&mut doc, &doing);
+            check_tree(&doc);
+            let timeline = doc.timeline();
+            let ids: Vec<_> = doc.states().map(|state| state.id).collect();
+            let (present, now) = (doc.present(), doc.text().to_owned());
+            for (at, id) in ids.iter().enumerate() {
+                let text = timeline.text(at);
+                let known = known.entry(*id).or_insert_with(|| text.to_string());
+                prop_assert_eq!(&*text, known, "{:?}: state {}", doing, at);
+                let mut there = doc.clone();
+                go_to(&mut there, at);
+                prop_assert_eq!(there.text(), &**text);
+                go_to(&mut there, present);
+                prop_assert_eq!(there.text(), &now);
+                let back: Vec<_> = there.states().map(|state| state.id).collect();
+                prop_assert_eq!(&back, &ids);
+            }
+            prop_assert_eq!(&known[&ids[present]], &now);
+        }
+    }
+}

@@ -1,0 +1,334 @@
+//! A picture being traced: its passes, its publication and when it is complete.
+
+use std::time::{Duration, Instant};
+
+use super::film::{Film, Raster};
+use super::frame::{Frame, Frames, Job, Limit, NO_OBJECT, Progress, Query};
+use super::probe::Counts;
+use super::shared::Shared;
+use super::shot::Shot;
+use super::steps::Step;
+
+/// Time for refining a first picture before it is shown: half of what counts as immediate, so that
+/// even the picture of an edit that waited for its predecessor is in time.
+const FIRST_PICTURE: Duration = Duration::from_millis(20);
+
+/// Time during which newer jobs cannot cancel one that has shown nothing. Without it, holding a key
+/// shows no picture at all; with it, one per edit.
+const GRACE: Duration = Duration::from_millis(50);
+
+/// How the tiles of a step are divided into batches for the pool. Progress is published between
+/// batches, where some threads must wait for others.
+struct Batches {
+    /// Tiles per thread in the first batch.
+    first: usize,
+    /// Target duration of later batches.
+    time: Duration,
+}
+
+impl Batches {
+    fn of(frames: Frames) -> Self {
+        match frames {
+            Frames::Live => Self {
+                first: 2,
+                time: Duration::from_millis(8),
+            },
+            // Frames contain only the progress.
+            Frames::Last | Frames::LastWithValues => Self {
+                first: 32,
+                time: Duration::from_millis(50),
+            },
+        }
+    }
+}
+
+/// Decides whether a job may continue, and tells how long it has been at work.
+#[derive(Clone, Copy)]
+pub(crate) struct Ticket<'s> {
+    generation: u64,
+    shared: &'s Shared,
+    begun: Instant,
+    /// Pauses of the renderer before.
+    pauses: Duration,
+    /// When the world was ready.
+    built: Instant,
+}
+
+impl<'s> Ticket<'s> {
+    /// The ticket of a job that begins now.
+    pub(crate) fn new(generation: u64, shared: &'s Shared) -> Self {
+        let begun = Instant::now();
+        Self {
+            generation,
+            shared,
+            begun,
+            pauses: shared.pauses(),
+            built: begun,
+        }
+    }
+
+    /// Notes that the world is ready.
+    pub(crate) fn with_world(self) -> Self {
+        Self {
+            built: Instant::now(),
+            ..self
+        }
+    }
+
+    /// Whether to stop: at once when the renderer is dropped; for a newer job once a frame of this
+    /// one was published, or its grace period is over. Returns after a pause.
+    fn cancelled(&self, published: Option<Instant>) -> bool {
+        self.shared.wait(self.generation);
+        self.shared.is_old(self.generation)
+            && (published.is_some() || GRACE <= self.built.elapsed() || self.shared.is_quitting())
+    }
+
+    /// Whether a finished frame is no longer wanted; a first frame is shown despite newer jobs.
+    fn unwanted(&self, published: Option<Instant>) -> bool {
+        self.shared.is_quitting() || (published.is_some() && self.shared.is_old(self.generation))
+    }
+
+    /// The time since the job began, without pauses.
+    fn elapsed(&self) -> Duration {
+        let pauses = self.shared.pauses().saturating_sub(self.pauses);
+        self.begun.elapsed().saturating_sub(pauses)
+    }
+}
+
+/// The work that a picture took: of this job, and of those that it continues.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Effort {
+    /// Without pauses.
+    time: Duration,
+    counts: Counts,
+}
+
+/// The picture of a job in progress.
+pub(crate) struct Tracing<'s, W> {
+    ticket: Ticket<'s>,
+    job: &'s Job,
+    wake: &'s W,
+    film: Film,
+    query: Query,
+    /// What was spent on the film before.
+    before: Effort,
+    counts: Counts,
+    /// Samples taken, divided by the number of pixels.
+    taken: f64,
+    pass: u32,
+    whole_samples: u32,
+    complete: bool,
+    /// Tiles in the next batch.
+    batch: usize,
+    /// Time of the last publication.
+    published: Option<Instant>,
+    /// Time spent on developing the last frame.
+    developing: Duration,
+}
+
+impl<'s, W: Fn() + Sync> Tracing<'s, W> {
+    /// Prepares to trace a job, or to continue on a film that took some effort.
+    pub(crate) fn new(
+        ticket: Ticket<'s>,
+        job: &'s Job,
+        (film, before): (Film, Effort),
+        wake: &'s W,
+        query: Query,
+    ) -> Self {
+        Self {
+            ticket,
+            job,
+            wake,
+            film,
+            query,
+            before,
+            counts: before.counts,
+            taken: 0.0,
+            pass: 1,
+            whole_samples: 0,
+            complete: false,
+            batch: Batches::of(job.frames).first * rayon::current_num_threads(),
+            published: None,
+            developing: Duration::ZERO,
+        }
+    }
+
+    /// Takes a step; returns whether more are wanted: false if cancelled or complete.
+    pub(crate) fn take(&mut self, step: &Step, shot: &Shot<'_>) -> bool {
+        if let Step::Samples(indices) = step
+            && 0 < indices.start
+        {
+            self.pass += 1;
+        }
+        let before = self.taken;
+        let tiles = self.film.tiles();
+        let mut next = 0;
+        while next < tiles {
+            let until = self.film.stretch(next, self.batch, step);
+            let begun = self.ticket.elapsed();
+            let (ticket, published) = (self.ticket, self.published);
+            let cancelled = || ticket.cancelled(published);
+            self.counts = self
+                .counts
+                .and(self.film.advance(next..until, step, shot, cancelled));
+            if cancelled() {
+                return false;
+            }
+            let took = self.ticket.elapsed().saturating_sub(begun);
+            self.batch = next_batch(self.batch, took, Batches::of(self.job.frames).time);
+            next = until;
+            self.taken = before + step.share() * (next as f64 / tiles as f64);
+            if next < tiles && self.is_due() {
+                self.publish();
+            }
+        }
+        self.whole_samples = step.whole_after();
+        self.complete = self.whole_samples == self.job.settings.spp || self.is_enough(step);
+        if self.complete || self.is_due() || self.is_first_due(step) {
+            self.publish();
+        }
+        !self.complete
+    }
+
+    /// The film, and what it took.
+    pub(crate) fn into_film(self) -> (Film, Effort) {
+        let effort = Effort {
+            time: self.elapsed(),
+            counts: self.counts,
+        };
+        (self.film, effort)
+    }
+
+    fn elapsed(&self) -> Duration {
+        self.before.time + self.ticket.elapsed()
+    }
+
+    /// Whether the limit of the job is met after a step. No pixel may have more samples than the
+    /// others then.
+    fn is_enough(&self, step: &Step) -> bool {
+        if self.whole_samples == 0 || step.level() < self.film.reached() {
+            return false;
+        }
+        match self.job.limit {
+            None => false,
+            Some(Limit::Time(limit)) => {
+                let next = self
+                    .whole_samples
+                    .min(self.job.settings.spp - self.whole_samples);
+                let growth = 1.0 + f64::from(next) / f64::from(self.whole_samples);
+                limit.as_secs_f64() < growth * self.elapsed().as_secs_f64()
+            }
+            Some(Limit::Noise(limit)) => self.film.noise().is_some_and(|noise| noise < limit),
+        }
+    }
+
+    /// The fraction of the work done. Noise falls with the square root of the number of samples.
+    fn done(&self) -> f64 {
+        let all = f64::from(self.job.settings.spp);
+        let share = self.taken / all;
+        match (self.job.limit, self.film.noise()) {
+            _ if self.complete => 1.0,
+            (Some(Limit::Time(limit)), _) => {
+                share.max(self.elapsed().as_secs_f64() / limit.as_secs_f64())
+            }
+            (Some(Limit::Noise(limit)), Some(noise)) => {
+                let ratio = noise / limit;
+                let needed = f64::from(self.whole_samples.max(1)) * ratio * ratio;
+                self.taken / needed.max(1.0).min(all)
+            }
+            _ => share,
+        }
+        .min(1.0)
+    }
+
+    /// Whether to show the first picture after a grid: if the next grid, with three times as many
+    /// points as all so far, would end too late.
+    fn is_first_due(&self, step: &Step) -> bool {
+        let elapsed = self.ticket.built.elapsed();
+        self.published.is_none() && (*step == Step::Grid(1) || FIRST_PICTURE <= 4 * elapsed)
+    }
+
+    /// Whether to publish a frame: often at first, less often later, and never so often that a
+    /// large picture is mostly developed instead of traced.
+    fn is_due(&self) -> bool {
+        let interval = match self.ticket.begun.elapsed().as_millis() {
+            0..1000 => 33,
+            1000..4000 => 100,
+            4000..16_000 => 250,
+            _ => 500,
+        };
+        let interval = Duration::from_millis(interval).max(4 * self.developing);
+        match self.published {
+            Some(last) => interval <= last.elapsed(),
+            // Frames without pixels do not need every tile to be begun.
+            None => self.job.frames != Frames::Live,
+        }
+    }
+
+    fn publish(&mut self) {
+        let begun = Instant::now();
+        let (ticket, published) = (self.ticket, self.published);
+        let unwanted = || ticket.unwanted(published);
+        let raster = match self.job.frames {
+            _ if self.complete => self.film.finish(unwanted),
+            Frames::Live => self.film.develop(unwanted),
+            Frames::Last | Frames::LastWithValues => Some(Raster::default()),
+        };
+        let Some(Raster {
+            pixels,
+            mut objects,
+            values,
+            errors,
+            range,
+        }) = raster
+        else {
+            return;
+        };
+        if let Some(numbers) = self.job.numbers.as_deref() {
+            let number = |index: u32| numbers.get(index as usize).copied().unwrap_or(NO_OBJECT);
+            for object in &mut objects {
+                *object = number(*object);
+            }
+        }
+        self.developing = begun.elapsed();
+        let traced = self.job.settings.traced();
+        let untaken = self.ticket.shared.publish(Frame {
+            generation: self.ticket.generation,
+            size: traced.size(),
+            corner: traced.corner(),
+            pixels,
+            objects,
+            values,
+            errors,
+            range,
+            query: Some(self.query.clone()),
+            progress: self.progress(),
+        });
+        if untaken.is_none() {
+            (self.wake)();
+        }
+        self.published = Some(Instant::now());
+    }
+
+    fn progress(&self) -> Progress {
+        Progress {
+            pass: self.pass,
+            passes: 1 + self.job.settings.spp.next_power_of_two().ilog2(),
+            spp: self.whole_samples,
+            done: self.done(),
+            elapsed: self.elapsed(),
+            rays: self.counts.rays,
+            shadow_rays: self.counts.shadow_rays,
+            over_budget: self.film.over_budget(),
+            noise: self.film.noise(),
+            complete: self.complete,
+        }
+    }
+}
+
+/// The size of the next batch, given the duration of the last one and the target.
+fn next_batch(batch: usize, took: Duration, wanted: Duration) -> usize {
+    let ratio = wanted.as_secs_f64() / took.as_secs_f64().max(1e-6);
+    let least = 2 * rayon::current_num_threads();
+    ((batch as f64 * ratio.min(4.0)) as usize).max(least)
+}

@@ -1,0 +1,120 @@
+//! Naming undo steps after the edits that make them.
+
+use std::collections::BTreeSet;
+
+use super::App;
+use super::places::name_of;
+use crate::document::StepName;
+use crate::language::{Node, Placed};
+use crate::text::{Edit, counted};
+
+/// The number of edits that are looked at; more are only counted, as that takes long.
+const MOST_READ: usize = 64;
+
+/// The number of characters shown of a value.
+const MOST_SHOWN: usize = 24;
+
+impl App {
+    /// The name of a step that makes these edits of the present text, as far as they tell.
+    pub(super) fn step_name(&self, edits: &[Edit]) -> StepName {
+        let text = self.document.text();
+        let set = |place: &str, before: &str, after: &str| {
+            let [before, after] = [before, after].map(shortened);
+            StepName::set(place, &before, &after)
+        };
+        match edits {
+            [] => StepName::default(),
+            [edit] if is_value(edit.span.of(text)) && is_value(&edit.text) => {
+                let place = name_of(self.source(), edit.span);
+                place.map_or_else(StepName::default, |place| {
+                    set(&place, edit.span.of(text), &edit.text)
+                })
+            }
+            edits if MOST_READ < edits.len() => {
+                StepName::done(format!("changed {}", counted(edits.len(), "place")))
+            }
+            edits => match self.field_of(edits) {
+                Some((node, placed)) => {
+                    let place = format!("{} {}", self.source().name(node), placed.field.key);
+                    let [before, after] = self.values(&placed, edits);
+                    set(&place, &before, &after)
+                }
+                None => StepName::done(self.changed(edits)),
+            },
+        }
+    }
+
+    /// The only field that these edits set, with its node.
+    fn field_of(&self, edits: &[Edit]) -> Option<(Node, Placed)> {
+        let source = self.source();
+        let node = source.node_at(edits.first()?.span)?;
+        let sets = |placed: &Placed| {
+            let is_own = |edit: &Edit| !edit.span.is_empty() && placed.spans.contains(&edit.span);
+            edits.iter().all(is_own)
+        };
+        let placed = source.fields(node).into_iter().find(sets)?;
+        Some((node, placed))
+    }
+
+    /// The literals of a field before and after edits.
+    fn values(&self, placed: &Placed, edits: &[Edit]) -> [String; 2] {
+        let source = self.source();
+        let old = placed.spans.iter().map(|span| source.leaf_text(*span));
+        let new = placed.spans.iter().map(|span| {
+            let edit = edits.iter().find(|edit| edit.span == *span);
+            edit.map_or_else(|| source.leaf_text(*span), |edit| &edit.text)
+        });
+        [old.collect::<Vec<_>>(), new.collect()].map(|literals| literals.join(" "))
+    }
+
+    /// Names what edits change, other than one field.
+    fn changed(&self, edits: &[Edit]) -> String {
+        let source = self.source();
+        let nodes = edits.iter().filter_map(|edit| source.node_at(edit.span));
+        let nodes: BTreeSet<_> = nodes.collect();
+        let keys = nodes.iter().map(|node| {
+            let own = edits.iter().map(|edit| edit.span);
+            let own: Vec<_> = own
+                .filter(|span| source.node_at(*span) == Some(*node))
+                .collect();
+            let mut fields = source.fields(*node).into_iter();
+            let field = fields.find(|placed| own.iter().all(|span| placed.spans.contains(span)));
+            field.map(|placed| placed.field.key)
+        });
+        let keys: BTreeSet<_> = keys.collect();
+        let mut names = nodes.iter().map(|node| source.name(*node));
+        let what = match (nodes.len(), names.next(), names.next_back()) {
+            (1, Some(only), _) => only,
+            (2, Some(first), Some(last)) => format!("{first}, {last}"),
+            (count, Some(first), Some(last)) => format!("{count} items, {first} to {last}"),
+            (..) => return StepName::default().to_string(),
+        };
+        match (keys.len(), keys.first()) {
+            (1, Some(Some(key))) => format!("changed {key} of {what}"),
+            _ => format!("changed {what}"),
+        }
+    }
+}
+
+/// The name of a step by the message that it is done: `deleted: object 2` is `deleted object 2`.
+/// Messages that name nothing are followed by what is selected.
+pub(super) fn done(message: &str, selected: &str) -> StepName {
+    StepName::done(match message.split_once(": ") {
+        Some((verb, what)) => format!("{verb} {what}"),
+        None => format!("{message}: {selected}"),
+    })
+}
+
+/// Whether a text is likely to be a value rather than a part of the structure.
+fn is_value(text: &str) -> bool {
+    !text.trim().is_empty() && !text.contains(['\n', '\r', '<', '>'])
+}
+
+/// A value in one short line.
+fn shortened(value: &str) -> String {
+    let value = value.split_whitespace().collect::<Vec<_>>().join(" ");
+    match value.char_indices().nth(MOST_SHOWN) {
+        Some((end, _)) => format!("{}…", &value[..end]),
+        None => value,
+    }
+}

@@ -1,0 +1,175 @@
+//! Small pictures of the texts in the history: which are known, and which one is under way.
+
+use std::collections::VecDeque;
+use std::sync::Arc;
+
+use super::shown::Shown;
+use crate::document::StateId;
+use crate::render::Frame;
+use crate::scene::{Camera, Integrator};
+use crate::ui::past::NoPicture;
+
+/// The number of pictures kept in rows and at the side: less than 4 MB on a screen of 250×80 cells.
+const KEPT: [usize; 2] = [256, 16];
+
+/// What a picture is for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Rank {
+    /// A row of the list.
+    Row,
+    /// The large picture of the selected step.
+    Large,
+}
+
+/// A picture that the page shows.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct Slot {
+    /// The text.
+    pub(super) id: StateId,
+    /// What it is for.
+    pub(super) rank: Rank,
+    /// Columns and lines that it must fit into.
+    pub(super) room: (u16, u16),
+}
+
+/// What is known of a picture.
+pub type Thumbnail = Result<Shown, NoPicture>;
+
+/// The pictures of the history's texts, the last that were needed.
+#[derive(Debug, Default)]
+pub struct Thumbnails {
+    /// Whether the terminal can show them.
+    pub has_colours: bool,
+    /// What they depend on besides the texts.
+    look: Look,
+    /// For each slot its picture; those of newer requests last.
+    kept: VecDeque<(Slot, Thumbnail)>,
+    /// The picture under way.
+    pending: Option<Pending>,
+    /// The number of requests so far.
+    tickets: u64,
+}
+
+/// What all pictures depend on besides their texts: the working view, from which all are seen as the
+/// preview would be, and the user's integrator.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(super) struct Look {
+    pub(super) view: Option<Camera>,
+    pub(super) integrator: Option<Integrator>,
+}
+
+#[derive(Clone, Copy, Debug)]
+struct Pending {
+    slot: Slot,
+    ticket: u64,
+    /// The renderer's number of the picture, once it is traced.
+    generation: Option<u64>,
+}
+
+impl Thumbnails {
+    /// What is known of a picture; `None` if nothing yet. One of another size will do until it is
+    /// traced in its own.
+    pub fn get(&self, id: StateId, rank: Rank) -> Option<&Thumbnail> {
+        let is_it = |(slot, _): &&(Slot, Thumbnail)| (slot.id, slot.rank) == (id, rank);
+        self.kept.iter().rev().find(is_it).map(|(_, known)| known)
+    }
+
+    /// Whether a picture is under way.
+    pub fn are_awaited(&self) -> bool {
+        self.pending.is_some()
+    }
+
+    /// Forgets all pictures: files of the scene have changed.
+    pub(super) fn forget(&mut self) {
+        self.kept.clear();
+    }
+
+    /// Forgets all pictures if they look otherwise now.
+    pub(super) fn look(&mut self, look: Look) {
+        if self.look != look {
+            self.look = look;
+            self.kept.clear();
+            // What is under way shows the former look.
+            self.pending = None;
+        }
+    }
+
+    /// The slot to request next, of those wanted, the most urgent first; `None` while one of them is
+    /// under way, or if all are known.
+    pub(super) fn next(&mut self, wanted: &[Slot]) -> Option<(Slot, u64)> {
+        let is_wanted = |pending: &Pending| wanted.contains(&pending.slot);
+        if self.pending.as_ref().is_some_and(is_wanted) {
+            return None;
+        }
+        self.pending = None;
+        let is_known = |slot: &Slot| self.kept.iter().any(|(known, _)| known == slot);
+        let slot = *wanted.iter().find(|slot| !is_known(slot))?;
+        self.tickets += 1;
+        self.pending = Some(Pending {
+            slot,
+            ticket: self.tickets,
+            generation: None,
+        });
+        Some((slot, self.tickets))
+    }
+
+    /// Gives up what is under way; returns whether anything was.
+    pub(super) fn cancel(&mut self) -> bool {
+        self.pending.take().is_some()
+    }
+
+    /// The slot that a scene was derived for, unless that is no longer wanted.
+    pub(super) fn asked(&self, ticket: u64) -> Option<Slot> {
+        let pending = self.pending.filter(|pending| pending.ticket == ticket);
+        pending.map(|pending| pending.slot)
+    }
+
+    /// Notes the generation of the picture that is being traced.
+    pub(super) fn started(&mut self, generation: u64) {
+        if let Some(pending) = &mut self.pending {
+            pending.generation = Some(generation);
+        }
+    }
+
+    /// Takes a frame of the picture under way.
+    pub(super) fn take(&mut self, frame: &Arc<Frame>) {
+        let is_it = |pending: &Pending| pending.generation == Some(frame.generation);
+        let Some(pending) = self.pending.filter(is_it) else {
+            return;
+        };
+        let shown = Shown {
+            size: frame.size,
+            pixels: frame.pixels.clone(),
+            objects: frame.objects.clone(),
+            outline: Vec::new(),
+        };
+        if frame.progress.complete {
+            self.pending = None;
+        }
+        self.keep(pending.slot, Ok(shown));
+    }
+
+    /// Records why the picture under way does not exist.
+    pub(super) fn fail(&mut self, reason: NoPicture) {
+        if let Some(pending) = self.pending.take() {
+            self.keep(pending.slot, Err(reason));
+        }
+    }
+
+    fn keep(&mut self, slot: Slot, picture: Thumbnail) {
+        self.kept
+            .retain(|(known, _)| (known.id, known.rank) != (slot.id, slot.rank));
+        self.kept.push_back((slot, picture));
+        let [rows, large] = KEPT;
+        let most = match slot.rank {
+            Rank::Row => rows,
+            Rank::Large => large,
+        };
+        let alike = |(known, _): &(Slot, Thumbnail)| known.rank == slot.rank;
+        if most < self.kept.iter().filter(|known| alike(known)).count()
+            && let Some(oldest) = self.kept.iter().position(alike)
+        {
+            self.kept.remove(oldest);
+        }
+    }
+}

@@ -1,0 +1,300 @@
+//! The undo history as a page: its steps with pictures of the texts after them, and jumping to any.
+
+use ratatui::layout::Rect;
+
+use super::App;
+use super::page::{List, Page};
+use super::thumbnails::{Look, Rank, Slot};
+use crate::document::StateId;
+use crate::render::{Filter, Frames, Job, Settings, default_depth};
+use crate::scene::{Camera, Integrator};
+use crate::ui::filmstrip::Filmstrip;
+use crate::ui::layout::{raster, split_bottom};
+use crate::ui::msg::{Effect, Target};
+use crate::ui::past::{NoPicture, PastScene, PastText};
+
+/// Objects and bytes of text beyond which only the selected step has a picture: each one takes a
+/// second or more to derive.
+const MOST_OBJECTS: usize = 200_000;
+const MOST_BYTES: usize = 16 << 20;
+
+/// Samples per pixel of the pictures in rows and of the large one.
+const WHITTED_SAMPLES: [u32; 2] = [4, 16];
+const PATH_SAMPLES: [u32; 2] = [64, 128];
+
+/// The steps of the history, as listed at one revision of the text.
+#[derive(Debug)]
+pub struct Steps {
+    /// The texts, the first one first, each named by the step that led to it.
+    pub rows: Vec<(StateId, String)>,
+    /// The index of the present one.
+    pub present: usize,
+    revision: u64,
+}
+
+impl Steps {
+    /// The place of a text relative to the present one: `2 steps back`.
+    pub fn when(&self, at: usize) -> String {
+        let steps = |count: usize| match count {
+            1 => "1 step".to_owned(),
+            count => format!("{count} steps"),
+        };
+        match self.present.checked_sub(at) {
+            Some(0) => "now".to_owned(),
+            Some(back) => format!("{} back", steps(back)),
+            None => format!("{} ahead", steps(at - self.present)),
+        }
+    }
+}
+
+impl App {
+    /// Opens the page of the undo history at the present text.
+    pub(super) fn list_steps(&mut self) {
+        self.document.end_step();
+        let steps = self.steps();
+        if steps.rows.len() < 2 {
+            self.overlays.say("nothing has been changed yet");
+            return;
+        }
+        let present = steps.present;
+        let mut page = Page::new(List::Steps(steps));
+        page.filter.at = present;
+        self.overlays.page = Some(page);
+    }
+
+    fn steps(&self) -> Steps {
+        let states = self.document.states();
+        let rows = states.map(|state| {
+            let name = state.name.map(ToString::to_string);
+            (state.id, name.unwrap_or_else(|| "as opened".to_owned()))
+        });
+        Steps {
+            rows: rows.collect(),
+            present: self.document.present(),
+            revision: self.document.revision(),
+        }
+    }
+
+    /// Goes to a text of the history by undo or redo; every step in between can be redone or undone
+    /// as ever.
+    pub(super) fn go_to_state(&mut self, at: usize) {
+        let present = self.document.present();
+        let steps = present.abs_diff(at);
+        if steps == 0 {
+            self.overlays.say("this is the present text");
+            return;
+        }
+        let is_back = at < present;
+        for _ in 1..steps {
+            if is_back {
+                self.document.undo();
+            } else {
+                self.document.redo();
+            }
+        }
+        if 1 < steps {
+            self.relower();
+        }
+        let done = if is_back {
+            self.step_back()
+        } else {
+            self.step_forward()
+        };
+        let done = match (steps, done) {
+            (1, done) => done,
+            (_, _) => {
+                let verb = if is_back { "undone" } else { "redone" };
+                let name = self.steps().rows.into_iter().nth(at);
+                name.map(|(_, name)| format!("{steps} steps {verb}, to: {name}"))
+            }
+        };
+        self.overlays.say(done.unwrap_or_default());
+    }
+
+    /// The places on the page of the history in an area above the status line.
+    pub fn filmstrip(&self, body: Rect) -> Filmstrip {
+        if self.thumbnails.has_colours {
+            Filmstrip::with_pictures(body)
+        } else {
+            Filmstrip::with_names(body)
+        }
+    }
+
+    /// Brings the page of the history up to date, and requests the next picture on it. Stops tracing
+    /// if the page is closed.
+    pub(super) fn follow_steps(&mut self) -> Vec<Effect> {
+        let revision = self.document.revision();
+        let is_old = match self.overlays.page.as_ref().map(|page| &page.list) {
+            Some(List::Steps(steps)) => steps.revision != revision,
+            _ => {
+                let is_under_way = self.thumbnails.cancel();
+                let stop = is_under_way.then_some(Effect::Stop(Target::Thumbnail));
+                return stop.into_iter().collect();
+            }
+        };
+        if is_old {
+            let steps = self.steps();
+            if let Some(page) = &mut self.overlays.page {
+                page.list = List::Steps(steps);
+                page.go(0);
+            }
+        }
+        if self.assets.are_awaited() {
+            return Vec::new();
+        }
+        self.thumbnails.look(Look {
+            view: self.pictures.view,
+            integrator: self.pictures.quality.integrator,
+        });
+        let wanted = self.wanted_slots();
+        match self.thumbnails.next(&wanted) {
+            Some((slot, ticket)) => self.derive(slot, ticket).into_iter().collect(),
+            None => Vec::new(),
+        }
+    }
+
+    /// The pictures on the page, the most urgent first: the large one, then rows from the selected one
+    /// outwards.
+    fn wanted_slots(&self) -> Vec<Slot> {
+        let Some((page, steps)) = self.open_steps() else {
+            return Vec::new();
+        };
+        let strip = self.filmstrip(self.body());
+        let shown = page.rows();
+        let id = |row: usize| {
+            let (index, _) = shown.get(row)?;
+            steps.rows.get(*index).map(|(id, _)| *id)
+        };
+        let at = page.filter.at;
+        let large = strip.large.and_then(|large| {
+            Some(Slot {
+                id: id(at)?,
+                rank: Rank::Large,
+                room: (large.width, large.height),
+            })
+        });
+        let thumbnail = strip.thumbnail.filter(|_| !self.is_large());
+        let mut rows: Vec<_> = strip.rows(at, shown.len()).map(|(row, _)| row).collect();
+        rows.sort_by_key(|row| row.abs_diff(at));
+        let rows = rows.into_iter().filter_map(|row| {
+            Some(Slot {
+                id: id(row)?,
+                rank: Rank::Row,
+                room: thumbnail?,
+            })
+        });
+        large.into_iter().chain(rows).collect()
+    }
+
+    /// The rows that Page Down moves on the page of the history.
+    pub(super) fn step_rows(&self) -> isize {
+        let strip = self.filmstrip(self.body());
+        (strip.list.height / strip.height) as isize
+    }
+
+    /// The area above the status line.
+    fn body(&self) -> Rect {
+        let (columns, lines) = self.terminal;
+        let areas = self.areas();
+        let bars = areas.hint.height + areas.status.height;
+        split_bottom(Rect::new(0, 0, columns, lines), bars).0
+    }
+
+    /// The page of the history, if it is open.
+    pub fn open_steps(&self) -> Option<(&Page, &Steps)> {
+        let page = self.overlays.page.as_ref()?;
+        match &page.list {
+            List::Steps(steps) => Some((page, steps)),
+            List::Views(..) | List::Recent(_) => None,
+        }
+    }
+
+    /// Whether the scene is too large for many pictures.
+    pub fn is_large(&self) -> bool {
+        let objects = self.scene.as_ref().map_or(0, |scene| scene.objects.len());
+        MOST_OBJECTS < objects || MOST_BYTES < self.document.text().len()
+    }
+
+    /// Requests the scene of a text, which takes too long to be derived here.
+    fn derive(&self, slot: Slot, ticket: u64) -> Option<Effect> {
+        let mut states = self.document.states();
+        let at = states.position(|state| state.id == slot.id)?;
+        Some(Effect::Derive(Box::new(PastText {
+            ticket,
+            timeline: self.document.timeline(),
+            at,
+            scene: self.disk.path.clone(),
+            files: self.assets.known(),
+        })))
+    }
+
+    /// Traces a scene that was derived for a picture of the history.
+    pub(super) fn derived(
+        &mut self,
+        ticket: u64,
+        derived: Result<PastScene, NoPicture>,
+    ) -> Vec<Effect> {
+        let slot = self.thumbnails.asked(ticket);
+        let job = match (slot, derived) {
+            (Some(slot), Ok(past)) => self.thumbnail_job(slot, past),
+            (Some(_), Err(reason)) => {
+                self.thumbnails.fail(reason);
+                return Vec::new();
+            }
+            (None, Ok(past)) => return vec![Effect::Free(past.scene)],
+            (None, Err(_)) => return Vec::new(),
+        };
+        job.map(|job| Effect::Trace(Target::Thumbnail, job))
+            .into_iter()
+            .collect()
+    }
+
+    /// The job of a picture: as the preview would show the text, but always light.
+    fn thumbnail_job(&mut self, slot: Slot, past: PastScene) -> Option<Job> {
+        let own = past.scene.camera;
+        let view = self.pictures.view.map(|view| Camera {
+            size: own.size,
+            ..view
+        });
+        let camera = view.unwrap_or(own);
+        let room = Rect::new(0, 0, slot.room.0, slot.room.1);
+        let Some((_, size)) = raster(room, camera.size) else {
+            self.thumbnails
+                .fail(NoPicture::Failed("there is no room".to_owned()));
+            return None;
+        };
+        let integrator = self.pictures.integrator(Some(&past.scene));
+        let depth = self.pictures.quality.depth;
+        Some(Job {
+            settings: Settings {
+                size,
+                spp: samples(integrator, slot.rank),
+                depth: depth.unwrap_or_else(|| default_depth(integrator)),
+                seed: 0,
+                aov: None,
+                integrator,
+                filter: Filter::Box,
+                transfer: past.scene.setting.transfer,
+                exposure: 0.0,
+                region: None,
+            },
+            scene: past.scene,
+            images: past.images,
+            camera,
+            frames: Frames::Live,
+            numbers: None,
+            limit: None,
+        })
+    }
+}
+
+fn samples(integrator: Integrator, rank: Rank) -> u32 {
+    let [row, large] = match integrator {
+        Integrator::Whitted => WHITTED_SAMPLES,
+        Integrator::Path => PATH_SAMPLES,
+    };
+    match rank {
+        Rank::Row => row,
+        Rank::Large => large,
+    }
+}

@@ -1,0 +1,134 @@
+//! The undo history as a page: its steps in order, each with a small picture of the text after it,
+//! and a large one of the selected text.
+
+use ratatui::buffer::Buffer;
+use ratatui::layout::Rect;
+use ratatui::style::Style;
+use ratatui::text::Line;
+use ratatui::widgets::{Block, BorderType, Clear, Widget};
+use unicode_width::UnicodeWidthStr;
+
+use super::inks::Inks;
+use super::row::Row;
+use super::{page, picture};
+use crate::ui::app::{App, Rank, Steps, Thumbnail};
+use crate::ui::fit::{visible, wrap};
+use crate::ui::layout::{centred, raster};
+use crate::ui::past::NoPicture;
+use crate::ui::theme;
+
+/// Draws the page if it is open.
+pub(crate) fn render(app: &App, inks: &mut Inks, area: Rect, buffer: &mut Buffer) {
+    let Some((page, steps)) = app.open_steps() else {
+        return;
+    };
+    let area = area.intersection(buffer.area);
+    Clear.render(area, buffer);
+    let present = format!(" {} of {} ", steps.present, steps.rows.len() - 1);
+    let title = if app.pictures.view.is_some() {
+        " Undo history, from the moved view "
+    } else {
+        " Undo history "
+    };
+    Block::bordered()
+        .border_type(BorderType::Rounded)
+        .border_style(theme::DIM)
+        .title(title)
+        .title_top(Line::from(present).right_aligned())
+        .render(area, buffer);
+    let strip = app.filmstrip(area);
+    let rows = page.rows();
+    for (row, place) in strip.rows(page.filter.at, rows.len()) {
+        let Some((index, name)) = rows.get(row) else {
+            continue;
+        };
+        let entry = Entry {
+            name,
+            at: *index,
+            is_here: row == page.filter.at,
+        };
+        let known = steps.rows.get(*index).and_then(|(id, _)| app.thumbnails.get(*id, Rank::Row));
+        let thumbnail = strip.thumbnail.map(|(width, _)| Rect {
+            x: place.x + 2,
+            width: width.min(place.width.saturating_sub(2)),
+            ..place
+        });
+        if let Some(thumbnail) = thumbnail {
+            show(app, known, thumbnail, inks, buffer);
+        }
+        let indent = thumbnail.map_or(2, |thumbnail| thumbnail.right() + 1 - place.x);
+        entry.render(steps, indent, place, buffer);
+    }
+    let chosen = rows.get(page.filter.at).map(|(index, _)| *index);
+    let chosen = chosen.and_then(|index| steps.rows.get(index));
+    if let (Some(large), Some((id, _))) = (strip.large, chosen) {
+        show(app, app.thumbnails.get(*id, Rank::Large), large, inks, buffer);
+    }
+    page::foot(app, page, rows.len(), strip.foot, buffer);
+}
+
+/// A step in the list.
+struct Entry<'a> {
+    name: &'a str,
+    at: usize,
+    is_here: bool,
+}
+
+impl Entry<'_> {
+    /// Draws the name, behind the picture.
+    fn render(&self, steps: &Steps, indent: u16, place: Rect, buffer: &mut Buffer) {
+        let style = match self.at {
+            _ if self.is_here => theme::BOLD,
+            at if steps.present < at => theme::DIM,
+            _ => Style::new(),
+        };
+        let when = steps.when(self.at);
+        let when_style = if self.at == steps.present {
+            theme::ACCENT
+        } else {
+            theme::DIM
+        };
+        let mark = if self.is_here { "▸ " } else { "  " };
+        let mut row = Row::new(buffer, place, 0);
+        row.put(mark, style);
+        if place.height == 1 {
+            row.put_in(self.name, row.room().saturating_sub(when.width() + 2), style);
+            let right = place.right().saturating_sub(when.width() as u16);
+            row.skip_to(right).put(&when, when_style);
+            return;
+        }
+        let width = usize::from(place.width.saturating_sub(indent));
+        let lines = wrap(&visible(self.name), width);
+        let count = usize::from(place.height - 1);
+        for (line, words) in (0..).zip(lines.iter().take(count)) {
+            Row::new(buffer, place, line).skip(indent).put(words, style);
+        }
+        let line = lines.len().min(count) as u16;
+        Row::new(buffer, place, line)
+            .skip(indent)
+            .put(&when, when_style);
+    }
+}
+
+/// Draws a picture, or why there is none.
+fn show(app: &App, known: Option<&Thumbnail>, place: Rect, inks: &mut Inks, buffer: &mut Buffer) {
+    let words = match known {
+        Some(Ok(shown)) => {
+            if let Some((cells, size)) = raster(place, shown.size) {
+                picture::paint(&shown.resampled(size), inks, cells, buffer);
+            }
+            return;
+        }
+        Some(Err(NoPicture::Errors)) => "errors",
+        Some(Err(NoPicture::Failed(reason))) => reason,
+        None if app.is_large() => "",
+        None => "…",
+    };
+    let width = words.width().min(usize::from(place.width)) as u16;
+    let line = centred(place, Rect::new(0, 0, width, 1));
+    let style = match known {
+        Some(Err(_)) => theme::WARNING,
+        _ => theme::DIM,
+    };
+    Row::new(buffer, line, 0).put(words, style);
+}
