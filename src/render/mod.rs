@@ -85,7 +85,7 @@ pub use frame::{
     Aov, DEFAULT_DEPTH, DEFAULT_SPP, Frame, Frames, Job, Limit, MAX_SPP, NO_OBJECT, Progress,
     Query, Settings, default_depth,
 };
-pub use place::{SurfacePoint, axes, clearance, pixel_of, pixel_width, surface_under};
+pub use place::{SurfacePoint, axes, clearance, line_of, pixel_of, pixel_width, surface_under};
 pub use refusal::Refusal;
 pub use region::{NoRegion, Region};
 pub use renderer::{Renderer, Threads};

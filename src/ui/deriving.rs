@@ -41,8 +41,7 @@ fn follow(inbox: &Receiver<(PastText, Work)>, folders: &[PathBuf], send: impl Fn
     while let Ok(first) = inbox.recv() {
         let (text, work) = inbox.try_iter().last().unwrap_or(first);
         let derived = derive(&text, &mut assets);
-        let derived =
-            derived.unwrap_or_else(|refused| Err(NoPicture::Failed(refused.to_string())));
+        let derived = derived.unwrap_or_else(|refused| Err(NoPicture::Failed(refused.to_string())));
         send(Msg::Derived(text.ticket, derived));
         drop(work);
     }
@@ -66,7 +65,11 @@ fn derive(
         let Some(wanted) = scene.map(|scene| Wanted::new(scene, &names)) else {
             break;
         };
-        if files.names.as_ref().is_some_and(|known| wanted.is_among(known)) {
+        if files
+            .names
+            .as_ref()
+            .is_some_and(|known| wanted.is_among(known))
+        {
             break;
         }
         let loaded = assets.read(&wanted);

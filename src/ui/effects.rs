@@ -186,7 +186,9 @@ impl Runtime {
             Effect::Derive(past) => {
                 let (ticket, work) = (past.ticket, Work::begin(&self.sender));
                 let begun = self.deriver.request(*past, work);
-                let refused = begun.err().map(|ended| NoPicture::Failed(ended.to_string()));
+                let refused = begun
+                    .err()
+                    .map(|ended| NoPicture::Failed(ended.to_string()));
                 return Ok(refused.map(|reason| Msg::Derived(ticket, Err(reason))));
             }
             Effect::WriteImage(id, frame, to) => {

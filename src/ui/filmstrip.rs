@@ -100,15 +100,26 @@ mod tests {
         ] {
             let page = Rect::new(3, 2, size.0, size.1);
             let strip = Filmstrip::with_pictures(page);
-            let found = (strip.height, strip.thumbnail.is_some(), strip.large.is_some());
+            let found = (
+                strip.height,
+                strip.thumbnail.is_some(),
+                strip.large.is_some(),
+            );
             assert_eq!(found, (height, has_thumbnails, has_large), "{size:?}");
             let places = [Some(strip.list), strip.large, Some(strip.foot)];
-            for place in places.into_iter().flatten().filter(|place| !place.is_empty()) {
+            for place in places
+                .into_iter()
+                .flatten()
+                .filter(|place| !place.is_empty())
+            {
                 assert_eq!(place.intersection(page), place, "{size:?}");
             }
             for at in [0, 3, 8] {
                 let rows: Vec<_> = strip.rows(at, 9).collect();
-                assert!(rows.iter().all(|(_, row)| row.intersection(strip.list) == *row));
+                assert!(
+                    rows.iter()
+                        .all(|(_, row)| row.intersection(strip.list) == *row)
+                );
                 let is_shown = rows.iter().any(|(row, _)| *row == at);
                 assert_eq!(is_shown, strip.height <= strip.list.height, "{size:?} {at}");
             }

@@ -276,6 +276,40 @@ pub fn split_bottom(area: Rect, lines: u16) -> (Rect, Rect) {
     )
 }
 
+/// Splits off the `lines` lines at the top, or fewer if the area has fewer.
+pub fn split_top(area: Rect, lines: u16) -> (Rect, Rect) {
+    split_bottom(area, area.height.saturating_sub(lines))
+}
+
+/// Divides the right of a picture's area, or its left, between a tree and the values of one of its
+/// lines; in a narrow area, the lower half.
+pub fn over_picture(area: Rect, side: Side) -> (Rect, Rect) {
+    const WIDEST: u16 = 60;
+    const VALUES: u16 = 11;
+    let panel = if area.width < WIDEST {
+        split_bottom(area, area.height.div_ceil(2)).1
+    } else {
+        let (left, right) = split_right(area, (area.width / 2).min(WIDEST));
+        match side {
+            Side::Right => right,
+            Side::Left => Rect {
+                width: right.width,
+                ..left
+            },
+        }
+    };
+    split_bottom(panel, VALUES.min(panel.height / 2))
+}
+
+/// A side of the picture.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Side {
+    /// The left.
+    Left,
+    /// The right.
+    Right,
+}
+
 /// Number of lines that explain a field if there is room.
 pub const NOTES: u16 = 4;
 /// Minimum height of fields and notes together for all the notes to be shown.

@@ -11,7 +11,9 @@ use crate::text::{Edit, Span};
 
 /// Sets the leaf at an index and names that after it.
 fn name(document: &mut Document, leaf: usize, literal: &str) {
-    let before = document.source().leaf_text(document.source().leaves()[leaf]);
+    let before = document
+        .source()
+        .leaf_text(document.source().leaves()[leaf]);
     let name = StepName::set(format!("leaf {leaf}"), before, literal);
     set(document, leaf, literal);
     document.name_step(name);
@@ -32,7 +34,10 @@ fn names_follow_their_steps_through_merging_undo_and_redo() {
     let both = ["leaf 0: 1 → 4, 3 nudges", "leaf 1: 2 → 7"];
     assert_eq!(names(&doc), both);
     doc.undo();
-    assert_eq!((names(&doc), doc.present()), (both.map(str::to_owned).into(), 1));
+    assert_eq!(
+        (names(&doc), doc.present()),
+        (both.map(str::to_owned).into(), 1)
+    );
     doc.redo();
     doc.undo();
     // What is typed next is a step of its own, which ends what could be redone.

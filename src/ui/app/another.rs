@@ -3,8 +3,8 @@
 use std::path::PathBuf;
 use std::sync::Arc;
 
-use super::inspection::Inspection;
 use super::assets::Assets;
+use super::inspection::Inspection;
 use super::next::name_of;
 use super::{App, Cursor, List, Next, OnDisk, Overlays, Page};
 use crate::document::Document;

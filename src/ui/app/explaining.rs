@@ -1,5 +1,7 @@
 //! Explaining the pixel under the cross: asking for its rays and walking through them.
 
+use ratatui::layout::Rect;
+
 use super::App;
 use super::cursor::moved;
 use super::inspection::{Cross, Explained};
@@ -9,6 +11,24 @@ use crate::render::{Explanation, NO_OBJECT, RayEnd};
 use crate::ui::keymap::{Action, Fold};
 use crate::ui::layout;
 use crate::ui::msg::{Effect, Question};
+
+/// Lines of the verdict.
+const VERDICT: u16 = 2;
+
+/// Where an explanation is drawn.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct RayPanels {
+    /// The tree with its title and the verdict.
+    pub tree: Rect,
+    /// The verdict.
+    pub verdict: Rect,
+    /// The lines of the tree.
+    pub lines: Rect,
+    /// The values of the line under the cursor, with their title.
+    pub values: Rect,
+    /// Whether they hide a part of the picture.
+    pub is_over_picture: bool,
+}
 
 impl App {
     /// Explains a pixel of the picture on screen.
@@ -37,7 +57,11 @@ impl App {
         }
         let frame = picture.latest.clone()?;
         let is_inspecting = self.context() == crate::ui::keymap::Context::Rays;
-        let explained = self.inspection.explained.as_mut().filter(|_| is_inspecting)?;
+        let explained = self
+            .inspection
+            .explained
+            .as_mut()
+            .filter(|_| is_inspecting)?;
         let question = Question {
             target,
             generation: frame.generation,
@@ -53,12 +77,12 @@ impl App {
     /// Shows an explanation if it is the one asked for last.
     pub(super) fn explained(&mut self, question: Question, answer: Option<Box<Explanation>>) {
         let explained = self.inspection.explained.as_mut();
-        let Some(explained) = explained.filter(|explained| explained.asked == Some(question)) else {
+        let Some(explained) = explained.filter(|explained| explained.asked == Some(question))
+        else {
             return;
         };
-        let is_other = |old: &Explanation| {
-            old.pixel != question.pixel || old.sample != question.sample
-        };
+        let is_other =
+            |old: &Explanation| old.pixel != question.pixel || old.sample != question.sample;
         if explained.answer.as_deref().is_none_or(is_other) {
             (explained.at, explained.top) = (0, 0);
             explained.folded.clear();
@@ -137,7 +161,8 @@ impl App {
             _ if self.pictures.solo.is_some() => self.toggle_solo_of(&[]),
             _ => {
                 let solo = self.key_for(Action::Solo);
-                self.overlays.say(format!("{solo} works on the line of a light"));
+                self.overlays
+                    .say(format!("{solo} works on the line of a light"));
             }
         }
     }
@@ -150,13 +175,27 @@ impl App {
         }
     }
 
+    /// Moves the cursor of the explanation to the line under the pointer.
+    pub(super) fn click_ray(&mut self, panels: &RayPanels, at: (u16, u16)) {
+        let count = self.ray_lines().len();
+        if let Some(explained) = &mut self.inspection.explained
+            && panels.lines.contains(at.into())
+        {
+            let line = explained.top + usize::from(at.1 - panels.lines.y);
+            explained.at = line.min(count.saturating_sub(1));
+        }
+    }
+
     /// Folds or unfolds the ray of the line under the cursor; if it is already, goes out of it or into
     /// it.
     pub(super) fn fold_ray(&mut self, fold: Fold) {
-        let (Some(line), Some(explained)) = (self.ray_line(), &mut self.inspection.explained) else {
+        let (Some(line), Some(explained)) = (self.ray_line(), &mut self.inspection.explained)
+        else {
             return;
         };
-        let Some(explanation) = explained.answer.as_deref() else { return };
+        let Some(explanation) = explained.answer.as_deref() else {
+            return;
+        };
         let is_ray = line.part == RayPart::Whole;
         let is_open = is_ray
             && !explained.folded.contains(&line.ray)
@@ -197,8 +236,32 @@ impl App {
         latest.map_or(1, |frame| frame.progress.spp.max(1))
     }
 
-    /// Scrolls so that the line under the cursor is visible in a panel of so many lines.
-    pub(super) fn scroll_rays(&mut self, rows: usize) {
+    /// Where the explanation is drawn: in place of the list and the fields, or over the picture on the
+    /// side away from the cross.
+    pub fn ray_panels(&self) -> Option<RayPanels> {
+        self.inspection.explained.as_ref()?;
+        let areas = self.areas();
+        let is_over_picture = areas.list.is_empty();
+        let (tree, values) = if is_over_picture {
+            layout::over_picture(areas.picture, self.free_side())
+        } else {
+            (areas.list, areas.fields)
+        };
+        let (verdict, lines) = layout::split_top(layout::contents(tree), VERDICT);
+        Some(RayPanels {
+            tree,
+            verdict,
+            lines,
+            values,
+            is_over_picture,
+        })
+    }
+
+    /// Scrolls so that the line under the cursor is visible.
+    pub(super) fn scroll_rays(&mut self) {
+        let rows = self
+            .ray_panels()
+            .map_or(0, |panels| usize::from(panels.lines.height));
         let count = self.ray_lines().len();
         if let Some(explained) = &mut self.inspection.explained {
             let at = explained.at.min(count.saturating_sub(1));

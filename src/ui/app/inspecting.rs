@@ -6,7 +6,7 @@ use crate::language::Node;
 use crate::scene::Size;
 use crate::text::{Position, Severity};
 use crate::ui::keymap::{Context, Mode};
-use crate::ui::layout::pixel_at;
+use crate::ui::layout::{Side, pixel_at};
 
 impl App {
     /// Starts inspecting where the cross was last, first in the middle of the picture.
@@ -68,6 +68,15 @@ impl App {
             && column < f64::from(cells.width)
             && row < f64::from(cells.height);
         is_inside.then_some((column as u16, row as u16))
+    }
+
+    /// The side of the picture that the cross is not on.
+    pub fn free_side(&self) -> Side {
+        let width = self.raster().map_or(0, |(cells, _)| cells.width);
+        match self.cross_cell() {
+            Some((column, _)) if width / 2 <= column => Side::Left,
+            _ => Side::Right,
+        }
     }
 
     /// The size of the picture on screen, whose pixels are inspected.

@@ -81,6 +81,7 @@ impl App {
         let areas = self.areas();
         let panel = match context {
             Context::Help => return (self.help_rows() as isize - 1).max(1),
+            Context::Rays => self.ray_panels().map_or(areas.list, |panels| panels.lines),
             Context::Errors => areas.errors,
             Context::Steps => return self.step_rows(),
             Context::Messages | Context::Views | Context::Recent => areas.picture,
@@ -101,6 +102,7 @@ impl App {
         let errors = self.overlays.errors.filter(|_| 0 < wrong);
         self.overlays.errors = errors.map(|at| at.min(wrong - 1));
         self.cursor.scroll(areas, self.document.source());
+        self.scroll_rays();
     }
 
     /// Selects the next or previous light or object in the list, wrapping around.

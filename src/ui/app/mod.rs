@@ -81,6 +81,7 @@ use std::time::Duration;
 pub use cursor::{Cursor, Names, Typing};
 pub use derived::{FieldRow, Provenance};
 pub use disk::{Disk, FirstReading, OnDisk};
+pub use explaining::RayPanels;
 pub use filter::Filter;
 pub use hsv::Hsv;
 pub use inspection::{Cross, Explained, Inspection};

@@ -74,6 +74,8 @@ impl App {
             if self.overlays.errors.is_some() {
                 self.move_cursor(Context::Errors, down);
             }
+        } else if self.context() == Context::Rays {
+            self.move_in_rays(down);
         } else if over(areas.list) {
             self.move_cursor(Context::In(Mode::Select), WHEEL * down);
         } else if over(areas.fields) && self.cursor.typing.is_none() {
@@ -147,6 +149,13 @@ impl App {
             self.resizing = Some(Border::List);
             return Vec::new();
         }
+        if self.context() == Context::Rays
+            && let Some(panels) = self.ray_panels()
+            && (panels.tree.contains(at.into()) || panels.values.contains(at.into()))
+        {
+            self.click_ray(&panels, at);
+            return Vec::new();
+        }
         if let Some(line) = list_row_at(areas.list, self.cursor.list_top, at.0, at.1) {
             let line = self.listing().get(line);
             if let Some(ListLine::Node(_, node)) = line {
@@ -166,12 +175,14 @@ impl App {
             }
             return Vec::new();
         }
-        if self.press_slider(at) {
+        if self.mode != Mode::Inspect && self.press_slider(at) {
             return Vec::new();
         }
         let fields = self.cursor.fields();
         let components = |field: usize| Some(fields.get(field)?.field.kind.components());
-        if let Some(clicked) = field_at(areas.fields, self.cursor.field_top, components, at) {
+        if self.mode != Mode::Inspect
+            && let Some(clicked) = field_at(areas.fields, self.cursor.field_top, components, at)
+        {
             return self.press_field(clicked);
         }
         let drags = self.mode.moves_camera() || self.mode == Mode::Move;

@@ -50,7 +50,10 @@ pub struct Segment {
 /// The lines of an explanation, without those inside of folded rays.
 pub(super) fn lines(explanation: &Explanation, folded: &BTreeSet<usize>) -> Vec<RayLine> {
     let mut lines = Vec::new();
-    let mut left: Vec<_> = (!explanation.rays.is_empty()).then_some((0, 0)).into_iter().collect();
+    let mut left: Vec<_> = (!explanation.rays.is_empty())
+        .then_some((0, 0))
+        .into_iter()
+        .collect();
     while let Some((ray, depth)) = left.pop() {
         let line = |part, depth| RayLine { ray, part, depth };
         lines.push(line(RayPart::Whole, depth));
@@ -110,7 +113,10 @@ impl RayLine {
             RayPart::Whole | RayPart::Stop => Rgb::ZERO,
             RayPart::Emission => shading.emission,
             RayPart::Ambient => shading.ambient,
-            RayPart::Light(at) => shading.lights.get(at).map_or(Rgb::ZERO, |light| light.radiance),
+            RayPart::Light(at) => shading
+                .lights
+                .get(at)
+                .map_or(Rgb::ZERO, |light| light.radiance),
             RayPart::Unlisted => shading.unlisted.radiance,
         };
         ray.weight * shading.transmitted * radiance
@@ -138,7 +144,10 @@ impl RayLine {
             && light.toward.is_finite()
         {
             let point = shading.hit.point;
-            let blocked = light.crossed.iter().find(|crossing| crossing.transmittance == 0.0);
+            let blocked = light
+                .crossed
+                .iter()
+                .find(|crossing| crossing.transmittance == 0.0);
             let length = blocked.map_or(light.distance, |crossing| crossing.t);
             path.push(Segment {
                 ends: [point, along(point, light.toward, length, eye)],

@@ -248,7 +248,8 @@ impl App {
         match outcome {
             Ok(()) => {
                 let name = self.targets_name(&nodes);
-                self.document.name_step(StepName::done(format!("{done} {name}")));
+                self.document
+                    .name_step(StepName::done(format!("{done} {name}")));
                 self.overlays.say(format!("{done}: {name}"));
             }
             Err(reason) => self.overlays.fail(reason),

@@ -119,7 +119,9 @@ impl App {
                 self.warn_of_opening();
                 Vec::new()
             }
-            Meaning::None if matches!(context, Context::Views | Context::Recent | Context::Steps) => {
+            Meaning::None
+                if matches!(context, Context::Views | Context::Recent | Context::Steps) =>
+            {
                 self.filter_with(key);
                 Vec::new()
             }

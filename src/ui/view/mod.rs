@@ -23,10 +23,12 @@ mod palette;
 mod picker;
 mod picture;
 mod pixel;
+mod rays;
 mod row;
 mod status;
 mod steps;
 mod symbols;
+mod values;
 mod wireframe;
 
 #[cfg(test)]
@@ -39,7 +41,7 @@ use ratatui::style::Style;
 
 use super::app::App;
 use super::arrange::MIN_SIZE;
-use super::keymap::Mode;
+use super::keymap::{Context, Mode};
 use super::layout;
 use super::theme;
 pub use inks::Inks;
@@ -60,7 +62,9 @@ fn render(app: &App, inks: &mut Inks, area: Rect, buffer: &mut Buffer) {
     }
     picture::render(app, inks, areas.picture, buffer);
     rule(app, areas.rule, buffer);
-    if !areas.list.is_empty() && !app.disk.is_opening() {
+    if app.context() == Context::Rays {
+        rays::render(app, buffer);
+    } else if !areas.list.is_empty() && !app.disk.is_opening() {
         list::render(app, areas.list, buffer);
         match app.mode {
             Mode::Inspect => pixel::render(app, areas.fields, buffer),

@@ -13,7 +13,7 @@ use super::characters::Characters;
 use super::inks::{Glyphs, Inks};
 use super::row::Row;
 use super::{pixel, symbols, wireframe};
-use crate::render::{pixel_of, pixel_width};
+use crate::render::{line_of, pixel_of, pixel_width};
 use crate::scene::Size;
 use crate::ui::app::{App, FirstReading, Shown};
 use crate::ui::keymap::Mode;
@@ -62,6 +62,7 @@ fn overlays(
     }
     symbols::render(app, glyphs, cells, buffer);
     if app.mode == Mode::Inspect {
+        path(app, cells, buffer);
         cross(app, cells, buffer);
     }
     if app.is_empty() {
@@ -159,19 +160,58 @@ fn axis(app: &App, cells: Rect, size: Size, buffer: &mut Buffer) {
         let Some([x, y]) = pixel_of(point, &camera, size) else {
             continue;
         };
-        if x < 0.0 || y < 0.0 || f64::from(cells.width) <= x || f64::from(size.height) <= y {
-            continue;
+        if y < f64::from(size.height) {
+            plot([x, 0.5 * y], colour, cells, buffer);
         }
-        let (x, y) = (x as u16, y as u16);
-        let Some(cell) = buffer.cell_mut((cells.x + x, cells.y + y / 2)) else {
+    }
+}
+
+/// Draws the path of light that is explained.
+fn path(app: &App, cells: Rect, buffer: &mut Buffer) {
+    let (Some(frame), Some(sight)) = (&app.picture().latest, app.sight()) else {
+        return;
+    };
+    let Some(camera) = frame.query.as_ref().map(|query| query.camera) else {
+        return;
+    };
+    for segment in app.ray_path() {
+        let colour = if segment.is_dark {
+            theme::BLOCKED
+        } else {
+            theme::PATH
+        };
+        let Some(ends) = line_of(segment.ends, &camera, frame.size) else {
             continue;
         };
-        match (cell.symbol(), y % 2) {
-            ("▀", 0) => cell.set_fg(colour),
-            ("▀", _) => cell.set_bg(colour),
-            _ => cell.set_symbol("·"),
-        };
+        let [from, to] = ends.map(|end| sight.place_of(frame.size, end));
+        let [across, down] = [0, 1].map(|axis| to[axis] - from[axis]);
+        let steps = across.abs().max(2.0 * down.abs()).ceil().max(1.0);
+        for step in 0..=steps as u32 {
+            let share = f64::from(step) / steps;
+            let place = [from[0] + share * across, from[1] + share * down];
+            plot(place, rgb(colour), cells, buffer);
+        }
     }
+}
+
+/// Colours the half of a cell at a place, which is in cells from the picture's corner.
+fn plot([column, row]: [f64; 2], colour: Color, cells: Rect, buffer: &mut Buffer) {
+    let is_inside = 0.0 <= column
+        && 0.0 <= row
+        && column < f64::from(cells.width)
+        && row < f64::from(cells.height);
+    if !is_inside {
+        return;
+    }
+    let half = (2.0 * row) as u16;
+    let Some(cell) = buffer.cell_mut((cells.x + column as u16, cells.y + half / 2)) else {
+        return;
+    };
+    match (cell.symbol(), half % 2) {
+        ("▀", 0) => cell.set_fg(colour),
+        ("▀", _) => cell.set_bg(colour),
+        _ => cell.set_symbol("·"),
+    };
 }
 
 /// Draws the pixels of a picture over its cells.

@@ -3,18 +3,15 @@
 
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
-use ratatui::style::Style;
 use ratatui::widgets::{Clear, Widget};
 
-use super::row::{self, Row};
-use crate::render::{Aov, FirstHit, Side};
+use super::row;
+use super::values::{self, Value, number, numbers};
+use crate::render::{self, Aov, FirstHit};
 use crate::ui::app::{App, Pixel};
-use crate::text::{concise, rounded};
-use crate::ui::layout::contents;
+use crate::ui::layout::{Side, contents};
 use crate::ui::theme;
 
-/// Columns of labels.
-const LABEL: u16 = 10;
 /// The size of the values over the picture.
 const BOX: (u16, u16) = (36, 11);
 /// Stands for what is not known yet.
@@ -30,17 +27,7 @@ pub(super) fn render(app: &App, area: Rect, buffer: &mut Buffer) {
     );
     let title = format!("pixel {x} {y}");
     row::title(&title, &output, Some(theme::ACCENT), area, buffer);
-    let panel = contents(area);
-    for (index, line) in (0..panel.height).zip(lines(app, &pixel)) {
-        let mut row = Row::new(buffer, panel, index);
-        row.skip(1).put(line.label, theme::DIM);
-        row.skip_to(panel.x + LABEL);
-        if let Some([red, green, blue]) = line.colour {
-            let colour = ratatui::style::Color::Rgb(red, green, blue);
-            row.put("██", Style::new().fg(colour)).skip(1);
-        }
-        row.put(&line.value, Style::new());
-    }
+    values::render(&values(app, &pixel), contents(area), buffer);
 }
 
 /// Draws the values over the picture, beside the cross, or the most important ones in a line if there
@@ -50,10 +37,11 @@ pub(super) fn render_over(app: &App, area: Rect, buffer: &mut Buffer) {
     if area.width < 2 * width || area.height < height + 3 {
         return;
     }
-    let width_of = app.raster().map_or(0, |(cells, _)| cells.width);
-    let is_left = app.cross_cell().is_some_and(|cross| cross.0 < width_of / 2);
     let panel = Rect {
-        x: if is_left { area.right() - width } else { area.x },
+        x: match app.free_side() {
+            Side::Right => area.right() - width,
+            Side::Left => area.x,
+        },
         y: area.bottom() - height,
         width,
         height,
@@ -75,68 +63,57 @@ pub(super) fn in_short(app: &App) -> String {
     format!("{}  {x} {y}{value}", name(app, &pixel))
 }
 
-/// A line of the values.
-struct Line {
-    label: &'static str,
-    value: String,
-    /// The colour that the value describes.
-    colour: Option<[u8; 3]>,
-}
-
-fn lines(app: &App, pixel: &Pixel) -> Vec<Line> {
-    let line = |label, value| Line {
-        label,
-        value,
-        colour: None,
-    };
+fn values(app: &App, pixel: &Pixel) -> Vec<Value> {
     let first = pixel.first.as_ref();
     let surface = first.and_then(|first| first.surface);
-    let side = match surface.map(|surface| (surface.side, surface.solid)) {
-        Some((Side::Front, _)) => ", front",
-        Some((Side::Back, true)) => ", inside",
-        Some((Side::Back, false)) => ", back",
-        None => "",
-    };
-    let mut lines = vec![line("object", format!("{}{side}", name(app, pixel)))];
+    let side = surface.map_or_else(String::new, |surface| {
+        format!(", {}", side(surface.side, surface.solid))
+    });
+    let mut values = vec![Value::new("object", format!("{}{side}", name(app, pixel)))];
     if let Some(material) = pixel.material {
-        lines.push(line("material", app.source().name(material)));
+        values.push(Value::new("material", app.source().name(material)));
     }
     if let Some(at) = pixel.line {
-        lines.push(line("source", format!("{}:{at}", app.disk.name())));
+        values.push(Value::new("source", format!("{}:{at}", app.disk.name())));
     }
     let label = pixel.aov.map_or("linear", Aov::name);
     let value = pixel.value.map(|value| value_of(pixel.aov, value));
-    lines.push(line(label, value.unwrap_or_else(|| UNKNOWN.to_owned())));
-    let [red, green, blue] = pixel.colour.unwrap_or_default();
-    lines.push(Line {
-        label: "8-bit",
-        value: format!("{red} {green} {blue}  #{red:02x}{green:02x}{blue:02x}"),
-        colour: pixel.colour,
-    });
+    values.push(Value::new(
+        label,
+        value.unwrap_or_else(|| UNKNOWN.to_owned()),
+    ));
+    values.extend(pixel.colour.map(|colour| Value::of_colour("8-bit", colour)));
     let noise = pixel.error.map_or_else(String::new, |error| {
         format!(", noise {} %", number(100.0 * f64::from(error), 2))
     });
-    lines.push(line("samples", format!("{}{noise}", pixel.samples)));
-    lines.extend(surface_lines(first).map(|(label, value)| line(label, value)));
-    lines
+    values.push(Value::new("samples", format!("{}{noise}", pixel.samples)));
+    values.extend(surface_values(first));
+    values
+}
+
+/// The word for a side of a surface, which may be that of a solid.
+pub(super) fn side(side: render::Side, is_solid: bool) -> &'static str {
+    match (side, is_solid) {
+        (render::Side::Front, _) => "front",
+        (render::Side::Back, true) => "inside",
+        (render::Side::Back, false) => "back",
+    }
 }
 
 /// What is known of the first surface.
-fn surface_lines(first: Option<&FirstHit>) -> impl Iterator<Item = (&'static str, String)> {
+fn surface_values(first: Option<&FirstHit>) -> Vec<Value> {
     let Some(first) = first else {
-        return vec![("depth", UNKNOWN.to_owned())].into_iter();
+        return vec![Value::new("depth", UNKNOWN)];
     };
     let Some(surface) = first.surface else {
-        return Vec::new().into_iter();
+        return Vec::new();
     };
-    let vector = |of: glam::DVec3| numbers(&of.to_array(), 3);
     vec![
-        ("depth", number(first.depth, 4)),
-        ("point", vector(surface.point)),
-        ("normal", vector(surface.normal)),
-        ("uv", numbers(&surface.uv.to_array(), 4)),
+        Value::new("depth", number(first.depth, 4)),
+        Value::new("point", numbers(&surface.point.to_array(), 3)),
+        Value::new("normal", numbers(&surface.normal.to_array(), 3)),
+        Value::new("uv", numbers(&surface.uv.to_array(), 4)),
     ]
-    .into_iter()
 }
 
 /// The name of what is under the cross, or why it is not known.
@@ -157,19 +134,4 @@ fn value_of(aov: Option<Aov>, value: [f32; 3]) -> String {
         Some(_) => 1,
     };
     numbers(&value.map(f64::from)[..channels], 4)
-}
-
-fn numbers(of: &[f64], decimals: usize) -> String {
-    let numbers: Vec<_> = of.iter().map(|&of| number(of, decimals)).collect();
-    numbers.join(" ")
-}
-
-/// A number with at most so many decimals; in scientific notation if they would all be zero.
-pub(super) fn number(of: f64, decimals: usize) -> String {
-    let rounded = rounded(of, decimals);
-    if rounded == 0.0 && of != 0.0 && of.is_finite() {
-        format!("{of:.1e}")
-    } else {
-        concise(rounded)
-    }
 }

@@ -47,7 +47,10 @@ pub(crate) fn render(app: &App, inks: &mut Inks, area: Rect, buffer: &mut Buffer
             at: *index,
             is_here: row == page.filter.at,
         };
-        let known = steps.rows.get(*index).and_then(|(id, _)| app.thumbnails.get(*id, Rank::Row));
+        let known = steps
+            .rows
+            .get(*index)
+            .and_then(|(id, _)| app.thumbnails.get(*id, Rank::Row));
         let thumbnail = strip.thumbnail.map(|(width, _)| Rect {
             x: place.x + 2,
             width: width.min(place.width.saturating_sub(2)),
@@ -62,7 +65,13 @@ pub(crate) fn render(app: &App, inks: &mut Inks, area: Rect, buffer: &mut Buffer
     let chosen = rows.get(page.filter.at).map(|(index, _)| *index);
     let chosen = chosen.and_then(|index| steps.rows.get(index));
     if let (Some(large), Some((id, _))) = (strip.large, chosen) {
-        show(app, app.thumbnails.get(*id, Rank::Large), large, inks, buffer);
+        show(
+            app,
+            app.thumbnails.get(*id, Rank::Large),
+            large,
+            inks,
+            buffer,
+        );
     }
     page::foot(app, page, rows.len(), strip.foot, buffer);
 }
@@ -92,7 +101,11 @@ impl Entry<'_> {
         let mut row = Row::new(buffer, place, 0);
         row.put(mark, style);
         if place.height == 1 {
-            row.put_in(self.name, row.room().saturating_sub(when.width() + 2), style);
+            row.put_in(
+                self.name,
+                row.room().saturating_sub(when.width() + 2),
+                style,
+            );
             let right = place.right().saturating_sub(when.width() as u16);
             row.skip_to(right).put(&when, when_style);
             return;

@@ -25,23 +25,43 @@ fn names(app: &App) -> Vec<String> {
 #[test]
 fn each_kind_of_action_names_its_step() {
     for (scene, said, expected) in [
-        (SCENE, "jjjelll", "object 1 (sphere) centre x: 0 → 0.3, 3 nudges"),
+        (
+            SCENE,
+            "jjjelll",
+            "object 1 (sphere) centre x: 0 → 0.3, 3 nudges",
+        ),
         (SCENE, "jjjejl", "object 1 (sphere) radius: 1.5 → 1.6"),
-        (SCENE, "jjje2 3 4<Enter>", "object 1 (sphere) centre: 0 0 0 → 2 3 4"),
+        (
+            SCENE,
+            "jjje2 3 4<Enter>",
+            "object 1 (sphere) centre: 0 0 0 → 2 3 4",
+        ),
         (SCENE, "jjjd", "deleted object 1 (sphere)"),
         (SCENE, "jjjD", "duplicated object 1 (sphere)"),
         (SCENE, "jjjJ", "moved down: object 2 (sphere)"),
         (SCENE, "jjjyp", "pasted: object 2 (sphere)"),
-        (SCENE, "jjjR<Ctrl-u>ball<Enter>", "renamed object 1 (sphere) to ball"),
+        (
+            SCENE,
+            "jjjR<Ctrl-u>ball<Enter>",
+            "renamed object 1 (sphere) to ball",
+        ),
         (SCENE, "jjjmx2<Enter>", "moved object 1 (sphere) along x: 2"),
-        (SCENE, "jjjml<Enter>", "moved object 1 (sphere): 0.2 right, 0.0 up"),
+        (
+            SCENE,
+            "jjjml<Enter>",
+            "moved object 1 (sphere): 0.2 right, 0.0 up",
+        ),
         (
             SCENE,
             "jjj  tz30<Enter>",
             "rotated 2 marked items: object 1 (sphere), object 2 (sphere) about z: 30°",
         ),
         (SCENE, "jjjs2<Enter>", "scaled object 1 (sphere): ×2"),
-        (SCENE, "jjj  ej2<Enter>", "changed radius of object 1 (sphere), object 2 (sphere)"),
+        (
+            SCENE,
+            "jjj  ej2<Enter>",
+            "changed radius of object 1 (sphere), object 2 (sphere)",
+        ),
         (SCENE, "jjjabox<Enter>", "added box"),
         (SCENE, "jjjccone<Enter>", "changed to cone: object 1 (cone)"),
         (SCENE, "vlS", "wrote the view"),
@@ -61,7 +81,10 @@ fn each_kind_of_action_names_its_step() {
         press(&mut app, "gg");
         press(&mut app, said);
         let named = names(&app);
-        if named != [expected] { println!("{said}: {named:?} {}", words(&app)); continue }
+        if named != [expected] {
+            println!("{said}: {named:?} {}", words(&app));
+            continue;
+        }
         assert_eq!(named, [expected], "{said}: {}", words(&app));
         press(&mut app, "u");
         assert_eq!(words(&app), format!("undone: {expected}"));

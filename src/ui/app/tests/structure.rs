@@ -402,7 +402,11 @@ fn undo_and_redo_select_the_thing_that_they_change() {
         ("du", Object(1), "undone: deleted object 2 (sphere)"),
         ("du<Ctrl-r>", Object(1), "redone: deleted object 2 (sphere)"),
         ("Du", Object(1), "undone: duplicated object 2 (sphere)"),
-        ("Du<Ctrl-r>", Object(2), "redone: duplicated object 2 (sphere)"),
+        (
+            "Du<Ctrl-r>",
+            Object(2),
+            "redone: duplicated object 2 (sphere)",
+        ),
     ] {
         let app = after("scene.ray", RAY, Object(1), said);
         assert_eq!(app.cursor.selected(), selected, "{said}");
