@@ -435,6 +435,7 @@ fn tracing(scene: &Arc<Scene>) -> (Renderer, Receiver<()>) {
         integrator: Integrator::Whitted,
         filter: Filter::Box,
         transfer: Transfer::default(),
+        exposure: 0.0,
     };
     let job = Job {
         scene: Arc::clone(scene),

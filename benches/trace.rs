@@ -257,6 +257,7 @@ fn traced(scene: &Arc<Scene>, threads: usize) -> (Duration, Arc<Frame>) {
             integrator: Integrator::Whitted,
             filter: Filter::Box,
             transfer: Transfer::default(),
+            exposure: 0.0,
         };
         let job = Job {
             scene: Arc::clone(scene),

@@ -129,6 +129,7 @@ fn trace(scene: &Arc<Scene>, threads: usize) -> Arc<Frame> {
                 integrator: Integrator::Whitted,
                 filter: Filter::Box,
                 transfer: Transfer::default(),
+                exposure: 0.0,
             },
             limit: None,
             frames: Frames::Last,

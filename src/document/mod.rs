@@ -10,11 +10,13 @@ mod snapshot;
 mod steps;
 #[cfg(test)]
 mod tests;
+mod timeline;
 mod windows;
 
 pub use merge::{Conflict, Merge, Side};
 pub use snapshot::{Merged, Snapshot};
-pub use steps::{State, StateId, StepName, Timeline};
+pub use steps::{State, StateId, StepName};
+pub use timeline::Timeline;
 pub use windows::differences;
 
 use std::sync::Arc;

@@ -93,13 +93,13 @@ fn trace<W: Fn() + Sync>(
         && let Some(old) = traced.take()
     {
         match Touched::between((&old.job, world_before), (&job, &world)) {
-            Some(changed) => {
+            Some(changed) if film.stores_like(&old.film) => {
                 film.take_over(old.film, changed);
-                if changed == Touched::NOTHING {
+                if changed == Touched::NOTHING && 0 < film.reached() {
                     before = old.effort;
                 }
             }
-            None => old.film.free_later(),
+            _ => old.film.free_later(),
         }
     }
     let shot = Shot {

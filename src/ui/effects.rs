@@ -183,6 +183,9 @@ impl Runtime {
                 let work = Work::begin(&self.sender);
                 self.explainer.ask(question, frame, work)?;
             }
+            Effect::Halt(target) => self.with_renderer(target, Renderer::stop),
+            Effect::Pause(target) => self.with_renderer(target, Renderer::pause),
+            Effect::Resume(target) => self.with_renderer(target, Renderer::resume),
             Effect::Derive(past) => {
                 let (ticket, work) = (past.ticket, Work::begin(&self.sender));
                 let begun = self.deriver.request(*past, work);
@@ -331,6 +334,18 @@ impl Runtime {
         }
     }
 
+    fn with_renderer(&mut self, target: Target, act: impl FnOnce(&mut Renderer)) {
+        let slot = match target {
+            Target::Preview => &mut self.preview,
+            Target::Trace => &mut self.trace,
+            Target::Export => &mut self.export,
+            Target::Thumbnail => &mut self.thumbnail,
+        };
+        if let Some(running) = slot {
+            act(&mut running.renderer);
+        }
+    }
+
     fn open_editor(&mut self, path: &Path, line: usize) -> Result<(), Failure> {
         let configured = self.editor.as_deref();
         let ran = self.screen.lend(|| editor::run(configured, path, line));
@@ -417,26 +432,4 @@ fn remembering(sender: &Sender<Event>) -> io::Result<Recent> {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_worker_that_panics_announces_its_end() {
-        let (sender, inbox) = std::sync::mpsc::channel();
-        let waker = Waker {
-            sender,
-            target: Target::Export,
-            number: 7,
-        };
-        let worker = thread::spawn(move || {
-            waker.wake();
-            panic!("on purpose");
-        });
-        assert!(worker.join().is_err());
-        let events: Vec<_> = inbox.iter().collect();
-        assert!(matches!(
-            events[..],
-            [Event::Ready(_), Event::Ended(Target::Export, 7)]
-        ));
-    }
-}
+mod tests;

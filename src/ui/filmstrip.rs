@@ -17,14 +17,14 @@ const LEAST_WITH_LARGE: u16 = 64;
 const LIST: u16 = 44;
 
 /// Lines of a list from which the pictures in it are larger.
-const TALL: u16 = 24;
+const TALL: u16 = 35;
 
 /// The places on the page.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Filmstrip {
     /// All rows that are shown.
     pub list: Rect,
-    /// Lines of a row.
+    /// Lines of a row, of which the last one separates pictures.
     pub height: u16,
     /// Columns and lines of the picture in a row; `None` without pictures.
     pub thumbnail: Option<(u16, u16)>,
@@ -43,11 +43,18 @@ impl Filmstrip {
             return plain;
         }
         let thumbnail = if body.height < TALL { (11, 4) } else { (16, 6) };
-        let (list, large) = split_right(body, body.width.saturating_sub(LIST));
+        let (list, large) = split_right(body, body.width.saturating_sub(LIST + 1));
         let has_large = LEAST_WITH_LARGE <= body.width;
         Self {
-            list: if has_large { list } else { body },
-            height: thumbnail.1,
+            list: if has_large {
+                Rect {
+                    width: LIST,
+                    ..list
+                }
+            } else {
+                body
+            },
+            height: thumbnail.1 + 1,
             thumbnail: Some(thumbnail),
             large: has_large.then_some(large),
             ..plain
@@ -90,9 +97,9 @@ mod tests {
     #[test]
     fn pictures_need_room_and_rows_stay_on_the_page() {
         for (size, height, has_thumbnails, has_large) in [
-            ((80, 22), 4, true, true),
-            ((120, 40), 6, true, true),
-            ((60, 22), 4, true, false),
+            ((80, 22), 5, true, true),
+            ((120, 40), 7, true, true),
+            ((60, 22), 5, true, false),
             ((80, 10), 1, false, false),
             ((40, 22), 1, false, false),
             ((1, 1), 1, false, false),

@@ -138,6 +138,7 @@ impl App {
         self.assets = Assets::default();
         self.pictures.renew();
         self.inspection = Inspection::default();
+        self.thumbnails.forget();
         self.cursor = Cursor::default();
         self.overlays = Overlays::default();
         self.jobs.abandon_saves();

@@ -4,6 +4,9 @@
 use std::path::{Path, PathBuf};
 
 use super::jobs::Asking;
+use super::regions::RegionOrder;
+use super::until::Until;
+use super::zooming::ScaleOrder;
 use super::{App, Help, Next, PromptKind};
 use crate::document::StepName;
 use crate::image_file::ImageFormat;
@@ -16,7 +19,7 @@ use crate::ui::msg::{Effect, Guard};
 use crate::ui::theme::Theme;
 
 /// A parsed command line.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq)]
 enum Command {
     /// Save, optionally to another file.
     Write(Option<PathBuf>, Force),
@@ -44,6 +47,12 @@ enum Command {
     ViewLight,
     /// Return to the text's view.
     ViewReset,
+    /// Set when the full-size trace is complete, or say when it is.
+    Until(Option<Until>),
+    /// Trace only a region at full size.
+    Region(RegionOrder),
+    /// Zoom the picture.
+    Scale(ScaleOrder),
     /// Set the size of the output picture.
     Size(Size),
     /// Add a mesh from a file.
@@ -88,6 +97,8 @@ enum Arguments {
     Language(fn(Option<Language>) -> Command),
     Picture(fn(ExportArguments) -> Command),
     Size(fn(Size) -> Command),
+    /// How they are spelled, and what reads them.
+    Said(&'static str, fn(&str) -> Result<Command, String>),
 }
 
 const fn row(
@@ -126,6 +137,9 @@ const TABLE: &[CommandRow] = &[
     row(&["export!"], A::Picture(|picture| C::Export(picture, Force::Yes)), "export, overwriting an existing file"),
     row(&["export cancel"], A::Nothing(C::ExportCancel), "cancel the export"),
     row(&["render"], A::Nothing(C::Render), "trace at full size"),
+    row(&["until"], A::Said(" [N spp|TIME|noise E]", until), "end the full-size trace at N spp, after 30 s or 5 min, or below noise 0.01"),
+    row(&["region"], A::Said(" [X,Y,W,H|off]", |said| RegionOrder::parse(said).map(C::Region)), "trace only these pixels at full size, or all"),
+    row(&["zoom"], A::Said(" [fit|1:1|N]", |said| ScaleOrder::parse(said).map(C::Scale)), "zoom the picture, also the preview"),
     row(&["view save"], A::Name(C::ViewSave), "write the view into the scene, or save it as NAME"),
     row(&["view light"], A::Nothing(C::ViewLight), "look from the selected light"),
     row(&["view reset"], A::Nothing(C::ViewReset), "reset to the scene's view"),
@@ -146,6 +160,7 @@ const KEYS: &[(&str, Action)] = &[
     ("export", Action::Export),
     ("export cancel", Action::Stop),
     ("render", Action::Go(Mode::Trace)),
+    ("region", Action::Region),
     ("view save", Action::SaveView),
     ("view reset", Action::ResetView),
     ("help", Action::Help),
@@ -223,6 +238,7 @@ impl CommandRow {
             A::Language(_) => " [LANGUAGE]",
             A::Picture(_) => " [FILE] [WxH] [SPP]",
             A::Size(_) => " WxH",
+            A::Said(usage, _) => usage,
         };
         format!(":{name}{arguments}")
     }
@@ -243,6 +259,7 @@ impl CommandRow {
                 }
             }
             A::Picture(command) => picture(rest).map(command),
+            A::Said(_, parse) => parse(rest),
             A::Size(command) => {
                 let size = Size::parse(rest);
                 let size = size.ok_or_else(|| format!("{name} takes a size such as 800x600"))?;
@@ -275,6 +292,12 @@ fn parse(line: &str) -> Result<Command, String> {
         [] => Err(unknown(name)),
         longer => Err(format!("{}?", longer.join(", or "))),
     }
+}
+
+/// Parses when a trace ends; nothing asks when it does.
+fn until(said: &str) -> Result<Command, String> {
+    let until = (!said.is_empty()).then(|| Until::parse(said));
+    until.transpose().map(Command::Until)
 }
 
 /// Parses `[FILE] [WxH] [SPP]`; the file name may contain blanks.
@@ -401,6 +424,9 @@ impl App {
             }
             Command::ExportCancel => return self.cancel_export(),
             Command::Render => return self.start_trace(),
+            Command::Until(until) => return self.trace_until(until),
+            Command::Region(order) => return self.order_region(order),
+            Command::Scale(order) => self.order_scale(order),
             Command::ViewSave(None) => self.save_view(),
             Command::ViewSave(Some(name)) => self.save_view_as(&name),
             Command::ViewLight => self.look_from_light(),

@@ -122,7 +122,7 @@ impl App {
         let written = self.written_view_parts();
         let errors = self.error_count();
         let names = self.names_after(edits);
-        let step = self.step_name(edits);
+        let step = self.name_of_value(edits);
         match edits {
             [edit] if !edit.span.is_empty() => self.document.set(edit.span, &edit.text),
             _ => self.document.edit(edits),
@@ -143,6 +143,7 @@ impl App {
             self.document.reject();
             return Err(refused);
         }
+        let step = step.unwrap_or_else(|| self.name_of_change(&touched));
         self.document.name_step(step);
         self.install_with(lowered, names);
         Ok(())

@@ -119,6 +119,7 @@ impl App {
         }
         match &line.ray(explanation).end {
             RayEnd::Surface(shading) => self.object_named(shading.hit.object),
+            RayEnd::Light(hit) => Some(Node::Light(hit.light as usize)),
             RayEnd::Missed { .. } | RayEnd::OverBudget => None,
         }
     }

@@ -6,7 +6,7 @@ use crate::language::Node;
 use crate::scene::Size;
 use crate::text::{Position, Severity};
 use crate::ui::keymap::{Context, Mode};
-use crate::ui::layout::{Side, pixel_at};
+use crate::ui::layout::Side;
 
 impl App {
     /// Starts inspecting where the cross was last, first in the middle of the picture.
@@ -46,7 +46,7 @@ impl App {
 
     /// Moves the cross to a cell of the picture.
     pub(super) fn place_cross(&mut self, cell: (u16, u16)) {
-        let (pixel, size) = (self.pixel_under(cell), self.frame_size());
+        let (pixel, size) = (self.pixel_at(cell), self.frame_size());
         let place = pixel.zip(size);
         self.inspection.cross = place.map(|(pixel, size)| Cross { pixel, size });
     }
@@ -62,7 +62,7 @@ impl App {
         let (cells, _) = self.raster()?;
         let cross = self.cross()?;
         let centre = cross.pixel.map(|at| f64::from(at) + 0.5);
-        let [column, row] = self.sight()?.place_of(cross.size, centre);
+        let [column, row] = self.place_on_screen(centre, cross.size)?;
         let is_inside = 0.0 <= column
             && 0.0 <= row
             && column < f64::from(cells.width)
@@ -81,16 +81,21 @@ impl App {
 
     /// The size of the picture on screen, whose pixels are inspected.
     fn frame_size(&self) -> Option<Size> {
-        let latest = self.picture().latest.as_ref().map(|frame| frame.size);
+        let latest = self.picture().latest.as_ref().map(|frame| frame.whole());
         latest.or_else(|| self.sight().map(|sight| sight.size))
     }
 
-    /// The pixel of the picture on screen that is under the upper half of a cell, counted from the
-    /// picture's corner.
-    pub(super) fn pixel_under(&self, cell: (u16, u16)) -> Option<[u32; 2]> {
-        let part = self.sight()?.part_of(self.frame_size()?);
-        let (x, y) = pixel_at(self.raster()?, part.size, cell)?;
-        Some([part.left + x, part.top + y])
+    /// Where a place of the picture is on screen, in cells from the picture's corner; the whole picture
+    /// has the size `whole`.
+    pub fn place_on_screen(&self, [x, y]: [f64; 2], whole: Size) -> Option<[f64; 2]> {
+        let (_, halves) = self.raster()?;
+        let scaled = |at: f64, to: u32, from: u32| at * f64::from(to) / f64::from(from.max(1));
+        let place = [
+            scaled(x, halves.width, whole.width),
+            scaled(y, halves.height, whole.height),
+        ];
+        let [column, half] = self.sight()?.on_screen(place, halves);
+        Some([column, 0.5 * half])
     }
 
     /// The node under a pixel of the picture on screen. Fails if it cannot be determined: objects

@@ -59,6 +59,7 @@ impl App {
             Context::Rays => self.move_in_rays(rows),
             Context::In(_)
             | Context::Opening
+            | Context::Region
             | Context::Quit
             | Context::Leave
             | Context::MovedView

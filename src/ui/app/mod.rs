@@ -51,6 +51,7 @@ mod places;
 mod pointer;
 mod rays;
 mod recover;
+mod regions;
 mod reload;
 mod rows;
 mod saving;
@@ -59,6 +60,7 @@ mod sight;
 mod sliding;
 mod solo;
 mod soloed;
+mod steps;
 mod structure;
 mod symbols;
 #[cfg(test)]
@@ -72,9 +74,12 @@ mod trial;
 mod trying;
 mod typed;
 mod typing;
+mod until;
 mod update;
 mod viewing;
+mod viewport;
 mod wires;
+mod zooming;
 
 use std::time::Duration;
 
@@ -101,12 +106,13 @@ pub use pixel::Pixel;
 pub use rays::{RayLine, RayPart};
 pub use rows::Rows;
 pub use shown::Shown;
-pub use sight::{Grid, Part, Sight};
+pub use sight::{Grid, Marked, Reason, Sight, Window};
 pub use soloed::Solo;
+pub use steps::Steps;
 pub use symbols::{Symbol, SymbolKind};
 pub use thumbnails::{Rank, Thumbnail, Thumbnails};
-pub use timeline::Steps;
 pub use transform::Transform;
+pub use viewport::Viewport;
 pub use wires::Wires;
 
 /// A second Ctrl-C within this time ends the program.

@@ -1,12 +1,12 @@
 //! Naming undo steps after the edits that make them.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
 use super::App;
 use super::places::name_of;
 use crate::document::StepName;
 use crate::language::{Node, Placed};
-use crate::text::{Edit, counted};
+use crate::text::{Edit, Span, counted};
 
 /// The number of edits that are looked at; more are only counted, as that takes long.
 const MOST_READ: usize = 64;
@@ -15,33 +15,39 @@ const MOST_READ: usize = 64;
 const MOST_SHOWN: usize = 24;
 
 impl App {
-    /// The name of a step that makes these edits of the present text, as far as they tell.
-    pub(super) fn step_name(&self, edits: &[Edit]) -> StepName {
+    /// The name of a step that makes these edits of the present text, if they set one field.
+    pub(super) fn name_of_value(&self, edits: &[Edit]) -> Option<StepName> {
         let text = self.document.text();
-        let set = |place: &str, before: &str, after: &str| {
-            let [before, after] = [before, after].map(shortened);
-            StepName::set(place, &before, &after)
-        };
-        match edits {
-            [] => StepName::default(),
+        let (place, values) = match edits {
             [edit] if is_value(edit.span.of(text)) && is_value(&edit.text) => {
-                let place = name_of(self.source(), edit.span);
-                place.map_or_else(StepName::default, |place| {
-                    set(&place, edit.span.of(text), &edit.text)
-                })
+                let place = name_of(self.source(), edit.span)?;
+                (place, [edit.span.of(text), &edit.text].map(shortened))
             }
-            edits if MOST_READ < edits.len() => {
-                StepName::done(format!("changed {}", counted(edits.len(), "place")))
+            [_] => return None,
+            edits if MOST_READ < edits.len() => return None,
+            edits => {
+                let (node, placed) = self.field_of(edits)?;
+                let place = format!("{} {}", self.source().name(node), placed.field.key);
+                let values = self.values(&placed, edits);
+                (place, values.map(|value| shortened(&value)))
             }
-            edits => match self.field_of(edits) {
-                Some((node, placed)) => {
-                    let place = format!("{} {}", self.source().name(node), placed.field.key);
-                    let [before, after] = self.values(&placed, edits);
-                    set(&place, &before, &after)
-                }
-                None => StepName::done(self.changed(edits)),
+        };
+        let [before, after] = values;
+        Some(StepName::set(place, &before, &after))
+    }
+
+    /// The name of a step that wrote these spans of the present text.
+    pub(super) fn name_of_change(&self, written: &[Span]) -> StepName {
+        StepName::done(match written {
+            spans if MOST_READ < spans.len() => {
+                format!("changed {}", counted(spans.len(), "place"))
+            }
+            [span] => match name_of(self.source(), *span) {
+                Some(place) => format!("changed {place}"),
+                None => return StepName::default(),
             },
-        }
+            spans => self.changed(spans),
+        })
     }
 
     /// The only field that these edits set, with its node.
@@ -67,22 +73,26 @@ impl App {
         [old.collect::<Vec<_>>(), new.collect()].map(|literals| literals.join(" "))
     }
 
-    /// Names what edits change, other than one field.
-    fn changed(&self, edits: &[Edit]) -> String {
+    /// Names what was written in several places.
+    fn changed(&self, spans: &[Span]) -> String {
         let source = self.source();
-        let nodes = edits.iter().filter_map(|edit| source.node_at(edit.span));
-        let nodes: BTreeSet<_> = nodes.collect();
-        let keys = nodes.iter().map(|node| {
-            let own = edits.iter().map(|edit| edit.span);
-            let own: Vec<_> = own
-                .filter(|span| source.node_at(*span) == Some(*node))
-                .collect();
-            let mut fields = source.fields(*node).into_iter();
-            let field = fields.find(|placed| own.iter().all(|span| placed.spans.contains(span)));
+        let mut nodes: BTreeMap<Node, Vec<Span>> = BTreeMap::new();
+        for span in spans {
+            let node = match source.nodes_in(*span)[..] {
+                [only] => Some(only),
+                _ => source.node_at(*span),
+            };
+            if let Some(node) = node {
+                nodes.entry(node).or_default().push(*span);
+            }
+        }
+        let key = |(node, spans): (&Node, &Vec<Span>)| {
+            let holds = |placed: &Placed| spans.iter().all(|span| placed.spans.contains(span));
+            let field = source.fields(*node).into_iter().find(holds);
             field.map(|placed| placed.field.key)
-        });
-        let keys: BTreeSet<_> = keys.collect();
-        let mut names = nodes.iter().map(|node| source.name(*node));
+        };
+        let keys: BTreeSet<_> = nodes.iter().map(key).collect();
+        let mut names = nodes.keys().map(|node| source.name(*node));
         let what = match (nodes.len(), names.next(), names.next_back()) {
             (1, Some(only), _) => only,
             (2, Some(first), Some(last)) => format!("{first}, {last}"),

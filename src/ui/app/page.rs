@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use super::filter::Filter;
-use super::timeline::Steps;
+use super::steps::Steps;
 use crate::language::SavedView;
 
 /// A page with a list to choose from.
@@ -71,6 +71,14 @@ impl Page {
     /// The index in the list of the row under the cursor; `None` without rows.
     pub(super) fn chosen(&self) -> Option<usize> {
         self.rows().get(self.filter.at).map(|&(index, _)| index)
+    }
+
+    /// Moves the cursor to a row by its index in the list, if that is shown.
+    pub(super) fn choose(&mut self, index: usize) {
+        let mut rows = self.rows().into_iter();
+        if let Some(at) = rows.position(|(row, _)| row == index) {
+            self.filter.at = at;
+        }
     }
 
     /// Moves the cursor.

@@ -46,7 +46,7 @@ impl App {
             _ => None,
         };
         let frame = self.picture().latest.as_deref();
-        let index = frame.and_then(|frame| frame.index(cross.pixel));
+        let index = frame.and_then(|frame| frame.index_of(cross.pixel));
         let query = frame.and_then(|frame| frame.query.as_ref());
         let of = |list: &[[f32; 3]]| list.get(index?).copied();
         Some(Pixel {

@@ -176,6 +176,7 @@ fn total(explanation: &Explanation, ray: usize) -> Rgb {
 fn end_of(ray: &TracedRay, eye: DVec3) -> DVec3 {
     let length = match &ray.end {
         RayEnd::Surface(shading) => return shading.hit.point,
+        RayEnd::Light(hit) => hit.t,
         RayEnd::Missed { .. } | RayEnd::OverBudget => f64::INFINITY,
     };
     along(ray.origin, ray.direction, length, eye)

@@ -4,8 +4,8 @@ use ratatui::layout::Rect;
 
 use super::App;
 use super::page::{List, Page};
+use super::steps::Steps;
 use super::thumbnails::{Look, Rank, Slot};
-use crate::document::StateId;
 use crate::render::{Filter, Frames, Job, Settings, default_depth};
 use crate::scene::{Camera, Integrator};
 use crate::ui::filmstrip::Filmstrip;
@@ -22,36 +22,11 @@ const MOST_BYTES: usize = 16 << 20;
 const WHITTED_SAMPLES: [u32; 2] = [4, 16];
 const PATH_SAMPLES: [u32; 2] = [64, 128];
 
-/// The steps of the history, as listed at one revision of the text.
-#[derive(Debug)]
-pub struct Steps {
-    /// The texts, the first one first, each named by the step that led to it.
-    pub rows: Vec<(StateId, String)>,
-    /// The index of the present one.
-    pub present: usize,
-    revision: u64,
-}
-
-impl Steps {
-    /// The place of a text relative to the present one: `2 steps back`.
-    pub fn when(&self, at: usize) -> String {
-        let steps = |count: usize| match count {
-            1 => "1 step".to_owned(),
-            count => format!("{count} steps"),
-        };
-        match self.present.checked_sub(at) {
-            Some(0) => "now".to_owned(),
-            Some(back) => format!("{} back", steps(back)),
-            None => format!("{} ahead", steps(at - self.present)),
-        }
-    }
-}
-
 impl App {
     /// Opens the page of the undo history at the present text.
     pub(super) fn list_steps(&mut self) {
         self.document.end_step();
-        let steps = self.steps();
+        let steps = Steps::of(&self.document);
         if steps.rows.len() < 2 {
             self.overlays.say("nothing has been changed yet");
             return;
@@ -60,19 +35,6 @@ impl App {
         let mut page = Page::new(List::Steps(steps));
         page.filter.at = present;
         self.overlays.page = Some(page);
-    }
-
-    fn steps(&self) -> Steps {
-        let states = self.document.states();
-        let rows = states.map(|state| {
-            let name = state.name.map(ToString::to_string);
-            (state.id, name.unwrap_or_else(|| "as opened".to_owned()))
-        });
-        Steps {
-            rows: rows.collect(),
-            present: self.document.present(),
-            revision: self.document.revision(),
-        }
     }
 
     /// Goes to a text of the history by undo or redo; every step in between can be redone or undone
@@ -100,13 +62,12 @@ impl App {
         } else {
             self.step_forward()
         };
-        let done = match (steps, done) {
-            (1, done) => done,
-            (_, _) => {
-                let verb = if is_back { "undone" } else { "redone" };
-                let name = self.steps().rows.into_iter().nth(at);
-                name.map(|(_, name)| format!("{steps} steps {verb}, to: {name}"))
-            }
+        let done = if steps == 1 {
+            done
+        } else {
+            let verb = if is_back { "undone" } else { "redone" };
+            let name = Steps::of(&self.document).rows.into_iter().nth(at);
+            name.map(|(_, name)| format!("{steps} steps {verb}, to: {name}"))
         };
         self.overlays.say(done.unwrap_or_default());
     }
@@ -123,19 +84,20 @@ impl App {
     /// Brings the page of the history up to date, and requests the next picture on it. Stops tracing
     /// if the page is closed.
     pub(super) fn follow_steps(&mut self) -> Vec<Effect> {
-        let revision = self.document.revision();
-        let is_old = match self.overlays.page.as_ref().map(|page| &page.list) {
-            Some(List::Steps(steps)) => steps.revision != revision,
-            _ => {
-                let is_under_way = self.thumbnails.cancel();
-                let stop = is_under_way.then_some(Effect::Stop(Target::Thumbnail));
-                return stop.into_iter().collect();
-            }
+        let Some((page, steps)) = self.open_steps() else {
+            let is_under_way = self.thumbnails.cancel();
+            let stop = is_under_way.then_some(Effect::Stop(Target::Thumbnail));
+            return stop.into_iter().collect();
         };
-        if is_old {
-            let steps = self.steps();
+        if steps.revision != self.document.revision() {
+            let was_here = page.chosen() == Some(steps.present);
+            let steps = Steps::of(&self.document);
+            let present = steps.present;
             if let Some(page) = &mut self.overlays.page {
                 page.list = List::Steps(steps);
+                if was_here {
+                    page.choose(present);
+                }
                 page.go(0);
             }
         }
@@ -153,8 +115,8 @@ impl App {
         }
     }
 
-    /// The pictures on the page, the most urgent first: the large one, then rows from the selected one
-    /// outwards.
+    /// The pictures on the page, the most urgent first: those in rows from the selected one outwards,
+    /// which take less time, then the large one.
     fn wanted_slots(&self) -> Vec<Slot> {
         let Some((page, steps)) = self.open_steps() else {
             return Vec::new();
@@ -183,7 +145,7 @@ impl App {
                 room: thumbnail?,
             })
         });
-        large.into_iter().chain(rows).collect()
+        rows.chain(large).collect()
     }
 
     /// The rows that Page Down moves on the page of the history.
@@ -249,7 +211,8 @@ impl App {
             .collect()
     }
 
-    /// The job of a picture: as the preview would show the text, but always light.
+    /// The job of a picture: as the preview would show the text, from the working view if there is
+    /// one, so that pictures differ only by their texts; but always light, as files hold it.
     fn thumbnail_job(&mut self, slot: Slot, past: PastScene) -> Option<Job> {
         let own = past.scene.camera;
         let view = self.pictures.view.map(|view| Camera {
@@ -281,9 +244,9 @@ impl App {
             scene: past.scene,
             images: past.images,
             camera,
+            limit: None,
             frames: Frames::Live,
             numbers: None,
-            limit: None,
         })
     }
 }

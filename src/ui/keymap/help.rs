@@ -31,7 +31,7 @@ const START: [(&str, &str); 2] = [
     ("halflight doctor", "what was detected, and why"),
 ];
 
-const MOUSE: [(&str, &str); 11] = [
+const MOUSE: [(&str, &str); 14] = [
     ("click the list", "select"),
     ("click a field", "move the cursor there"),
     ("click it again", "choose or type a value"),
@@ -41,8 +41,11 @@ const MOUSE: [(&str, &str); 11] = [
     ("drag it in VIEW", "orbit"),
     ("drag it with Ctrl or right", "in VIEW, pan"),
     ("drag it in MOVE", "move, rotate or scale"),
+    ("drag it in TRACE", "pan; after R, draw the region"),
     ("drag a border", "resize the panels"),
-    ("wheel", "scroll; in VIEW, dolly"),
+    ("wheel", "scroll; in VIEW, dolly; in TRACE, zoom"),
+    ("Ctrl and wheel", "zoom the preview"),
+    ("drag with another button", "pan the zoomed preview"),
 ];
 
 /// An input and its description.
@@ -110,6 +113,7 @@ impl Keymap {
             Context::Errors => ERROR_HINTS,
             Context::Colour => COLOUR_HINTS,
             Context::Rays => RAY_HINTS,
+            Context::Region => REGION_HINTS,
             Context::Opening => &[],
             Context::Help
             | Context::Messages
@@ -298,7 +302,34 @@ const RAY_HINTS: &[Hint] = &[
     (&[A::Sample(-1), A::Sample(1)], "sample"),
     (&[A::Back], "back"),
 ];
+const REGION_HINTS: &[Hint] = &[
+    (
+        &[
+            A::Corner(-1, 0),
+            A::Corner(0, 1),
+            A::Corner(0, -1),
+            A::Corner(1, 0),
+        ],
+        "move the corner",
+    ),
+    (&[A::OtherCorner], "other corner"),
+    (&[A::Accept], "trace it"),
+    (&[A::Back], "cancel"),
+];
 const TRACE_HINTS: &[Hint] = &[
+    (&[A::Magnify(1), A::Magnify(-1)], "zoom"),
+    (
+        &[
+            A::Scroll(-1, 0),
+            A::Scroll(0, 1),
+            A::Scroll(0, -1),
+            A::Scroll(1, 0),
+        ],
+        "pan",
+    ),
+    (&[A::OneToOne], "1:1"),
+    (&[A::Pause], "pause"),
+    (&[A::Region], "region"),
     (&[A::Stop], "stop"),
     (&[A::Go(Inspect)], "inspect"),
     (&[A::Back], "back"),
@@ -370,7 +401,7 @@ mod tests {
     fn the_keys_of_the_mode_come_first_and_no_key_is_missing() {
         let lines = lines("", View);
         assert_eq!(headings(&lines)[..3], ["VIEW", "anywhere", "SELECT"]);
-        assert_eq!(headings(&lines).len(), 30);
+        assert_eq!(headings(&lines).len(), 31);
         assert!(lines.contains(&entry("gg", "first")));
         for row in Keymap::default().rows {
             let entry = entry(&names(&row.keys), row.words);
@@ -399,8 +430,9 @@ mod tests {
 
     #[test]
     fn search_matches_any_part_of_a_line() {
-        let undo = lines("UNDO", Select);
-        assert_eq!(undo, [HelpLine::Heading("anywhere"), entry("u", "undo")]);
+        let redraw = lines("REDRAW", Select);
+        let expected = entry("Ctrl-L", "redraw the screen");
+        assert_eq!(redraw, [HelpLine::Heading("anywhere"), expected]);
         assert!(lines("ctrl-r", Select).contains(&entry("Ctrl-R", "redo")));
         assert_eq!(headings(&lines("mouse", Edit)), ["mouse"]);
         assert_eq!(headings(&lines("[wxh]", Edit)), ["commands"]);

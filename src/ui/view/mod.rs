@@ -14,6 +14,7 @@ mod fields;
 mod help;
 mod history;
 mod inks;
+mod labelled;
 mod list;
 mod menu;
 mod message;

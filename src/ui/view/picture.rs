@@ -12,7 +12,7 @@ use unicode_width::UnicodeWidthStr;
 use super::characters::Characters;
 use super::inks::{Glyphs, Inks};
 use super::row::Row;
-use super::{pixel, symbols, wireframe};
+use super::{pixel, symbols, values, wireframe};
 use crate::render::{line_of, pixel_of, pixel_width};
 use crate::scene::Size;
 use crate::ui::app::{App, FirstReading, Shown};
@@ -46,6 +46,9 @@ pub(crate) fn render(app: &App, inks: &mut Inks, area: Rect, buffer: &mut Buffer
         Cow::Owned(shown.resampled(pixels))
     };
     paint(&shown, inks, cells, buffer);
+    if let (Some(frame), Some(sight)) = (&app.picture().latest, app.sight()) {
+        values::render(frame, &sight, cells, buffer);
+    }
     overlays(app, inks.glyphs, area, (cells, size), buffer);
 }
 
@@ -152,14 +155,16 @@ fn axis(app: &App, cells: Rect, size: Size, buffer: &mut Buffer) {
         return;
     };
     let Some(axis) = transform.axis() else { return };
-    let unit = pixel_width(transform.pivot(), &camera, size);
+    let Some(sight) = app.sight() else { return };
+    let unit = pixel_width(transform.pivot(), &camera, size) / sight.magnification(size);
     let reach = i64::from(2 * size.width.max(size.height));
     let colour = theme::axis(axis);
     for at in -reach..=reach {
         let point = transform.pivot() + unit * at as f64 * axis;
-        let Some([x, y]) = pixel_of(point, &camera, size) else {
+        let Some(place) = pixel_of(point, &camera, size) else {
             continue;
         };
+        let [x, y] = sight.on_screen(place, size);
         if y < f64::from(size.height) {
             plot([x, 0.5 * y], colour, cells, buffer);
         }
@@ -168,22 +173,26 @@ fn axis(app: &App, cells: Rect, size: Size, buffer: &mut Buffer) {
 
 /// Draws the path of light that is explained.
 fn path(app: &App, cells: Rect, buffer: &mut Buffer) {
-    let (Some(frame), Some(sight)) = (&app.picture().latest, app.sight()) else {
+    let Some(frame) = &app.picture().latest else {
         return;
     };
     let Some(camera) = frame.query.as_ref().map(|query| query.camera) else {
         return;
     };
+    let whole = frame.whole();
     for segment in app.ray_path() {
         let colour = if segment.is_dark {
             theme::BLOCKED
         } else {
             theme::PATH
         };
-        let Some(ends) = line_of(segment.ends, &camera, frame.size) else {
+        let Some(ends) = line_of(segment.ends, &camera, whole) else {
             continue;
         };
-        let [from, to] = ends.map(|end| sight.place_of(frame.size, end));
+        let places = ends.map(|end| app.place_on_screen(end, whole));
+        let [Some(from), Some(to)] = places else {
+            continue;
+        };
         let [across, down] = [0, 1].map(|axis| to[axis] - from[axis]);
         let steps = across.abs().max(2.0 * down.abs()).ceil().max(1.0);
         for step in 0..=steps as u32 {

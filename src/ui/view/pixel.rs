@@ -5,8 +5,8 @@ use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 use ratatui::widgets::{Clear, Widget};
 
+use super::labelled::{self, Value, number, numbers};
 use super::row;
-use super::values::{self, Value, number, numbers};
 use crate::render::{self, Aov, FirstHit};
 use crate::ui::app::{App, Pixel};
 use crate::ui::layout::{Side, contents};
@@ -27,7 +27,7 @@ pub(super) fn render(app: &App, area: Rect, buffer: &mut Buffer) {
     );
     let title = format!("pixel {x} {y}");
     row::title(&title, &output, Some(theme::ACCENT), area, buffer);
-    values::render(&values(app, &pixel), contents(area), buffer);
+    labelled::render(&values(app, &pixel), contents(area), buffer);
 }
 
 /// Draws the values over the picture, beside the cross, or the most important ones in a line if there

@@ -5,8 +5,8 @@ use ratatui::layout::Rect;
 use ratatui::style::{Modifier, Style};
 use ratatui::widgets::{Clear, Widget};
 
+use super::labelled::{self, Value, number, numbers};
 use super::row::{Row, title};
-use super::values::{self, Value, number, numbers};
 use crate::language::Node;
 use crate::render::{Dark, Explanation, LightTerm, RayEnd, RayKind, Shading, Stop};
 use crate::scene::Rgb;
@@ -32,7 +32,7 @@ pub(super) fn render(app: &App, buffer: &mut Buffer) {
         let words = words(app, explanation, &line);
         title(&words, "", None, panels.values, buffer);
         let values = values_of(app, explanation, &line);
-        values::render(&values, contents(panels.values), buffer);
+        labelled::render(&values, contents(panels.values), buffer);
     } else {
         title("", "", None, panels.values, buffer);
     }
@@ -96,7 +96,7 @@ fn words(app: &App, explanation: &Explanation, line: &RayLine) -> String {
     match line.part {
         RayPart::Whole => {
             let end = match &ray.end {
-                RayEnd::Surface(_) => name(),
+                RayEnd::Surface(_) | RayEnd::Light(_) => name(),
                 RayEnd::Missed { .. } => "nothing".to_owned(),
                 RayEnd::OverBudget => "not traced: over budget".to_owned(),
             };
@@ -113,9 +113,22 @@ fn words(app: &App, explanation: &Explanation, line: &RayLine) -> String {
             format!("{count} more lights")
         }
         RayPart::Stop => match ray.shading().and_then(|shading| shading.stop) {
-            Some(Stop::Depth) => format!("no more rays: depth {}", explanation.depth),
+            Some(stop) => stop_words(stop, explanation.depth),
             None => String::new(),
         },
+    }
+}
+
+fn stop_words(stop: Stop, depth: u32) -> String {
+    match stop {
+        Stop::Depth => format!("cut: depth {depth} is reached"),
+        Stop::Budget => "cut: too many rays".to_owned(),
+        Stop::Nowhere => "ends: no way on".to_owned(),
+        Stop::Overflow => "ends: weight overflowed".to_owned(),
+        Stop::Roulette { survival } => {
+            let chance = number(100.0 * survival, 1);
+            format!("ends by roulette, survival {chance} %")
+        }
     }
 }
 
@@ -126,6 +139,8 @@ fn kind(kind: RayKind) -> &'static str {
         RayKind::Boundary => "reflection",
         RayKind::Refraction => "refraction",
         RayKind::TotalReflection => "total reflection",
+        RayKind::Diffuse => "diffuse",
+        RayKind::Glossy => "glossy",
     }
 }
 
@@ -138,6 +153,7 @@ fn dark_words(app: &App, explanation: &Explanation, line: &RayLine, dark: Dark) 
         Dark::OutsideCone => "outside its cone".to_owned(),
         Dark::Attenuated => "too far away".to_owned(),
         Dark::NotReflected => "not reflected".to_owned(),
+        Dark::Hidden => "behind another light".to_owned(),
         Dark::Blocked => {
             let blocker = line
                 .light(explanation)

@@ -214,6 +214,15 @@ const STATES: &[(&str, Change)] = &[
         app.overlays.history = Some(usize::MAX);
         app.update(Msg::Failed("界\u{1b}]52;c;界\u{7}".repeat(20)));
     }),
+    ("undo history", |app| {
+        app.mode = Mode::Select;
+        app.thumbnails.has_colours = true;
+        app.cursor.select(Node::Object(0), app.document.source());
+        for key in ['D', 'D', 'd', 'u', 'U', 'k'] {
+            app.update(Msg::Key(KeyCode::Char(key).into()));
+        }
+        assert!(app.open_steps().is_some());
+    }),
     ("overwrite", |app| {
         app.update(Msg::Key(KeyCode::Char('b').into()));
         app.update(Msg::Taken(ExportId(1), "it exists".to_owned()));

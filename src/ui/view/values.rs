@@ -1,90 +1,78 @@
-//! Labelled values, a line each.
+//! The values of pixels, written into them where they are large enough.
 
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 use ratatui::style::{Color, Style};
 
 use super::row::Row;
-use crate::text::{concise, rounded};
-use crate::ui::theme;
+use crate::render::Frame;
+use crate::ui::app::{Sight, Window};
 
-/// Columns of labels with the gaps around them.
-const LABEL: u16 = 10;
+/// The smallest pixel, in cells, into which its 8-bit colour is written.
+const SMALLEST: (u16, u16) = (12, 3);
 
-/// A value and what it is.
-pub(super) struct Value {
-    label: &'static str,
-    text: String,
-    /// The colour that the text describes.
-    colour: Option<[u8; 3]>,
-}
+/// The height in cells from which its linear values are written too.
+const ROOMY: u16 = 5;
 
-impl Value {
-    pub(super) fn new(label: &'static str, text: impl Into<String>) -> Self {
-        Self {
-            label,
-            text: text.into(),
-            colour: None,
+/// Writes the values of a frame's pixels into them, if their cells have room.
+pub(super) fn render(frame: &Frame, sight: &Sight, cells: Rect, buffer: &mut Buffer) {
+    let Some(Window { whole, part, fills }) = sight.window else {
+        return;
+    };
+    let width = (fills.width / part.width) as u16 / sight.grid.across;
+    let height = (fills.height / part.height) as u16 / sight.grid.down;
+    if width < SMALLEST.0 || height < SMALLEST.1 || frame.whole() != whole {
+        return;
+    }
+    for (row, y) in (part.y..part.y + part.height).enumerate() {
+        for (column, x) in (part.x..part.x + part.width).enumerate() {
+            let pixel = Rect {
+                x: cells.x + column as u16 * width,
+                y: cells.y + row as u16 * height,
+                width,
+                height,
+            };
+            // A pixel that is cut off is too small to be read.
+            let Some(at) = frame.index_of([x, y]) else {
+                continue;
+            };
+            if cells.intersection(pixel) == pixel
+                && let Some(colour) = frame.pixels.get(at)
+            {
+                write(lines(frame, at, height), *colour, pixel, buffer);
+            }
         }
     }
+}
 
-    /// A colour as exported.
-    pub(super) fn of_colour(label: &'static str, colour: [u8; 3]) -> Self {
-        let [red, green, blue] = colour;
-        Self {
-            label,
-            text: format!("{red} {green} {blue}  #{red:02x}{green:02x}{blue:02x}"),
-            colour: Some(colour),
-        }
+/// The 8-bit colour of a pixel, and its linear values if there is room.
+fn lines(frame: &Frame, at: usize, height: u16) -> Vec<String> {
+    let [red, green, blue] = frame.pixels[at];
+    let mut lines = vec![format!("{red} {green} {blue}")];
+    if let Some(values) = frame.values.get(at)
+        && ROOMY <= height
+    {
+        lines.extend(values.map(|value| format!("{value:.3}")));
     }
+    lines
 }
 
-/// Draws as many values as there are lines.
-pub(super) fn render(values: &[Value], area: Rect, buffer: &mut Buffer) {
-    for (index, value) in (0..area.height).zip(values) {
-        let mut row = Row::new(buffer, area, index);
-        row.skip(1).put(value.label, theme::DIM);
-        row.skip_to(area.x.saturating_add(LABEL));
-        if let Some([red, green, blue]) = value.colour {
-            row.put("██", Style::new().fg(Color::Rgb(red, green, blue)));
-            row.skip(1);
-        }
-        row.put(&value.text, Style::new());
-    }
-}
-
-/// Numbers with at most so many decimals.
-pub(super) fn numbers(of: &[f64], decimals: usize) -> String {
-    let numbers: Vec<_> = of.iter().map(|&of| number(of, decimals)).collect();
-    numbers.join(" ")
-}
-
-/// A number with at most so many decimals; in scientific notation if all would be zero.
-pub(super) fn number(of: f64, decimals: usize) -> String {
-    let rounded = rounded(of, decimals);
-    if rounded == 0.0 && of != 0.0 && of.is_finite() {
-        format!("{of:.1e}")
+/// Writes lines into the middle of a pixel, in black or white.
+fn write(lines: Vec<String>, colour: [u8; 3], pixel: Rect, buffer: &mut Buffer) {
+    let [red, green, blue] = colour.map(u32::from);
+    let is_bright = 255 * 1000 < 2 * (299 * red + 587 * green + 114 * blue);
+    let ink = if is_bright {
+        Color::Black
     } else {
-        concise(rounded)
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn numbers_are_rounded_but_never_to_nothing() {
-        for (of, decimals, expected) in [
-            (0.0, 3, "0"),
-            (-0.0, 3, "0"),
-            (1.23456, 3, "1.235"),
-            (-2.0, 3, "-2"),
-            (0.00012, 3, "1.2e-4"),
-            (f64::INFINITY, 3, "inf"),
-        ] {
-            assert_eq!(number(of, decimals), expected);
-        }
-        assert_eq!(numbers(&[1.0, 0.25], 1), "1 0.2");
+        Color::White
+    };
+    let style = Style::reset().fg(ink);
+    let top = (pixel.height - lines.len() as u16) / 2;
+    for (line, text) in (top..).zip(lines) {
+        let ground = Color::Rgb(colour[0], colour[1], colour[2]);
+        let left = pixel.width.saturating_sub(text.len() as u16) / 2;
+        Row::new(buffer, pixel, line)
+            .skip(left)
+            .put(&text, style.bg(ground));
     }
 }

@@ -117,6 +117,13 @@ fn edits(action: A) -> bool {
         | A::SavedViews
         | A::Cross(..)
         | A::Stop
+        | A::Pause
+        | A::Magnify(_)
+        | A::Scroll(..)
+        | A::OneToOne
+        | A::Region
+        | A::Corner(..)
+        | A::OtherCorner
         | A::Export
         | A::Save
         | A::Undo
@@ -155,6 +162,7 @@ const OTHERS: &[&str] = &[
     "e",
     "new",
     "recent",
+    "history",
     "export",
     "export!",
     "export cancel",
@@ -191,6 +199,11 @@ fn every_action_edits_as_its_rows_say_and_is_undone_in_one_step() {
             if reason.is_some() {
                 continue;
             }
+            let step = app.document.undoable().map(ToString::to_string);
+            assert!(
+                step.is_some_and(|step| step != "edit"),
+                "{name} {keys}: unnamed"
+            );
             press(&mut app, "u");
             assert_eq!(app.document.text(), text, "{name} {keys}: undone");
             press(&mut app, "<Ctrl-r>");

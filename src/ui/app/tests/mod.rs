@@ -27,11 +27,13 @@ mod soloing;
 mod starting;
 mod structure;
 mod symbols;
+mod timeline;
 mod transforming;
 mod trying;
 mod views;
 mod wires;
 mod xml;
+mod zooming;
 
 use std::path::{Path, PathBuf};
 

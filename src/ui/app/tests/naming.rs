@@ -8,11 +8,20 @@ const XML: &str = "\
 <xml><scene>
 <object type=\"sphere\" name=\"ball\" material=\"m\"><translate x=\"1\"/></object>
 <object type=\"sphere\" name=\"other\" material=\"m\"/>
-</scene>
 <material type=\"blinn\" name=\"m\"><diffuse r=\"1\" g=\"0.5\" b=\"0\"/></material>
 <light type=\"point\" name=\"lamp\"><intensity value=\"0.5\"/><position x=\"1\" y=\"2\" z=\"3\"/></light>
+</scene>
 <camera><position x=\"0\" y=\"-9\" z=\"2\"/><width value=\"8\"/><height value=\"6\"/></camera>
 </xml>
+";
+
+/// Two spheres, each with a material.
+const DAT: &str = "\
+mat ID 1  1 1 1  .3 .5 .2 9  0 0 1
+mat ID 2  1 0 0  .3 .5 .2 9  0 0 1
+obj sphere ID 1 mat ID 1  0 0 0  1
+obj sphere ID 4 mat ID 2  3 0 0  1
+render 2 ID 1 ID 4
 ";
 
 /// The names of the steps that can be undone.
@@ -67,24 +76,26 @@ fn each_kind_of_action_names_its_step() {
         (SCENE, "vlS", "wrote the view"),
         (SCENE, "vl:view save side<Enter>", "saved the view side"),
         (SCENE, ":size 8x6<Enter>", "set the size to 8x6"),
-        (SCENE, "jjjejjjclll<Enter>", "?"),
-        (XML, "jjjh", "?"),
-        (XML, "jjej", "?"),
-        (XML, "jjjej.7 0 0<Enter>", "?"),
+        (
+            SCENE,
+            "jjjejjjcjL<Enter>",
+            "object 1 (sphere) kd: .45 .45 .45 → .45 .36 .36",
+        ),
+        (DAT, "Gh", "hidden object 4 (sphere)"),
+        (XML, "Gd", "deleted other (sphere)"),
+        (XML, "GkkRn<Enter>", "renamed m (blinn) to n"),
+        (XML, "jjejl", "changed environment environment"),
+        (XML, "jjjejjl", "changed lamp (point) intensity red"),
     ] {
-        let name = if scene == SCENE {
-            "scene.ray"
-        } else {
-            "scene.xml"
+        let name = match scene {
+            DAT => "scene.dat",
+            XML => "scene.xml",
+            _ => "scene.ray",
         };
         let mut app = opened_as(name, scene).0;
         press(&mut app, "gg");
         press(&mut app, said);
         let named = names(&app);
-        if named != [expected] {
-            println!("{said}: {named:?} {}", words(&app));
-            continue;
-        }
         assert_eq!(named, [expected], "{said}: {}", words(&app));
         press(&mut app, "u");
         assert_eq!(words(&app), format!("undone: {expected}"));
@@ -92,4 +103,22 @@ fn each_kind_of_action_names_its_step() {
         assert_eq!(words(&app), format!("redone: {expected}"));
         assert_eq!(names(&app), named, "{said}: redone");
     }
+}
+
+#[test]
+fn merges_are_named_after_what_they_changed() {
+    let mut app = open(SCENE);
+    press(&mut app, "jjjel<Esc>");
+    outside(&mut app, &SCENE.replace("1.5 //", "2.5 //"));
+    let expected = [
+        "object 1 (sphere) centre x: 0 → 0.1",
+        "merged the file: object 1 (sphere) radius",
+    ];
+    assert_eq!(names(&app), expected);
+    press(&mut app, "u");
+    assert_eq!(words(&app), format!("undone: {}", expected[1]));
+    // A text taken as it is has no history.
+    let mut app = open(SCENE);
+    outside(&mut app, &SCENE.replace("1.5 //", "2.5 //"));
+    assert_eq!(names(&app), [""; 0]);
 }

@@ -1,0 +1,84 @@
+//! Effects that renderers perform.
+
+use std::sync::mpsc;
+
+use super::*;
+use crate::language::{Language, Source};
+use crate::render::{DEFAULT_DEPTH, Filter, Frames, MAX_SPP, Settings};
+use crate::scene::{Images, Integrator, Meshes, Size};
+use crate::ui::options::Rehearsal;
+
+/// A picture that would take minutes.
+fn endless() -> Job {
+    let text = Arc::new(Language::Ray.template().to_owned());
+    let lowered = Source::new(Language::Ray, text).lower(&Meshes::default());
+    let scene = lowered
+        .expect("there is memory")
+        .scene
+        .expect("it is valid");
+    Job {
+        camera: scene.camera,
+        settings: Settings {
+            size: Size {
+                width: 640,
+                height: 480,
+            },
+            region: None,
+            spp: MAX_SPP,
+            depth: DEFAULT_DEPTH,
+            seed: 0,
+            aov: None,
+            integrator: Integrator::Whitted,
+            filter: Filter::Box,
+            transfer: scene.setting.transfer,
+            exposure: 0.0,
+        },
+        scene: Arc::new(scene),
+        images: Images::default(),
+        limit: None,
+        frames: Frames::Live,
+        numbers: None,
+    }
+}
+
+#[test]
+fn a_stopped_picture_ends_at_once_and_is_not_missed() {
+    let (sender, inbox) = mpsc::channel();
+    let options = Options {
+        rehearsal: Some(Rehearsal {
+            keys: None,
+            screen: (80, 24),
+            frames: Vec::new(),
+        }),
+        ..Options::default()
+    };
+    let reader = Reader::start(options.watching(), sending(&sender)).expect("a thread");
+    let mut runtime = Runtime::new(&options, reader, sender).expect("a page");
+    let started = runtime.perform(Effect::Trace(Target::Thumbnail, endless()));
+    assert!(matches!(started, Some(Msg::Started(Target::Thumbnail, _))));
+    assert!(runtime.perform(Effect::Stop(Target::Thumbnail)).is_none());
+    let ended = inbox.iter().find(|event| matches!(event, Event::Ended(..)));
+    let ended = ended.expect("the renderer says that it has ended");
+    assert!(matches!(ended, Event::Ended(Target::Thumbnail, 1)));
+    assert!(runtime.message(ended).is_none());
+}
+
+#[test]
+fn a_worker_that_panics_announces_its_end() {
+    let (sender, inbox) = mpsc::channel();
+    let waker = Waker {
+        sender,
+        target: Target::Export,
+        number: 7,
+    };
+    let worker = thread::spawn(move || {
+        waker.wake();
+        panic!("on purpose");
+    });
+    assert!(worker.join().is_err());
+    let events: Vec<_> = inbox.iter().collect();
+    assert!(matches!(
+        events[..],
+        [Event::Ready(_), Event::Ended(Target::Export, 7)]
+    ));
+}
