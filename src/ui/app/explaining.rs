@@ -6,14 +6,20 @@ use super::App;
 use super::cursor::moved;
 use super::inspection::{Cross, Explained};
 use super::rays::{self, RayLine, RayPart, Segment};
+use crate::explain::{Subject, words};
 use crate::language::Node;
 use crate::render::{Explanation, NO_OBJECT, RayEnd};
-use crate::ui::keymap::{Action, Fold};
+use crate::ui::fit::{shorten, wrap};
+use crate::ui::keymap::{Action, Context, Fold};
 use crate::ui::layout;
 use crate::ui::msg::{Effect, Question};
 
-/// Lines of the verdict.
-const VERDICT: u16 = 2;
+/// Most lines of the verdict.
+const VERDICT: u16 = 3;
+/// Lines of the values of a line, with their title.
+const VALUES: u16 = 10;
+/// Fewest lines of the tree with its verdict, below which values are cut.
+const TREE: u16 = 8;
 
 /// Where an explanation is drawn.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -32,7 +38,7 @@ pub struct RayPanels {
 
 impl App {
     /// Explains a pixel of the picture on screen.
-    pub(super) fn explain_at(&mut self, pixel: Cross) {
+    pub fn explain_at(&mut self, pixel: Cross) {
         self.inspection.cross = Some(pixel);
         self.start_inspecting();
         self.start_explaining();
@@ -40,12 +46,7 @@ impl App {
 
     /// Explains the pixel under the cross.
     pub(super) fn start_explaining(&mut self) {
-        let has_query = |frame: &std::sync::Arc<crate::render::Frame>| frame.query.is_some();
-        if self.picture().latest.as_ref().is_some_and(has_query) {
-            self.inspection.explained = Some(Explained::default());
-        } else {
-            self.overlays.fail("the picture is not traced yet");
-        }
+        self.inspection.explained = Some(Explained::default());
     }
 
     /// Asks for the explanation of the pixel under the cross, unless that is what was asked last.
@@ -56,7 +57,7 @@ impl App {
             return None;
         }
         let frame = picture.latest.clone()?;
-        let is_inspecting = self.context() == crate::ui::keymap::Context::Rays;
+        let is_inspecting = self.context() == Context::Rays;
         let explained = self
             .inspection
             .explained
@@ -88,6 +89,29 @@ impl App {
             explained.folded.clear();
         }
         explained.answer = answer;
+        let verdict = self.verdict();
+        if let Some(explained) = &mut self.inspection.explained {
+            explained.verdict = verdict;
+        }
+    }
+
+    /// The verdict on the explanation on screen; `None` if its scene may not be the text's.
+    fn verdict(&self) -> Option<String> {
+        let picture = self.picture();
+        let is_known = self.error_count() == 0 && !picture.is_outdated() && !self.pictures.due;
+        let frame = picture.latest.as_ref().filter(|_| is_known)?;
+        let subject = Subject {
+            source: self.source(),
+            scene: self.scene.as_deref()?,
+            camera: &frame.query.as_ref()?.camera,
+            size: frame.whole(),
+        };
+        let words = words(self.explanation()?, &subject);
+        let first = words.verdicts.into_iter().next()?;
+        Some(match first.help {
+            Some(help) => format!("{}: {help}", first.text),
+            None => first.text,
+        })
     }
 
     /// The explanation on screen.
@@ -245,10 +269,18 @@ impl App {
         let is_over_picture = areas.list.is_empty();
         let (tree, values) = if is_over_picture {
             layout::over_picture(areas.picture, self.free_side())
+        } else if areas.list.x == areas.fields.x {
+            // The tree needs more lines than the list, and the values fewer than fields.
+            let column = areas.list.union(areas.fields);
+            let values = VALUES.min(column.height.saturating_sub(TREE));
+            layout::split_bottom(column, values)
         } else {
             (areas.list, areas.fields)
         };
-        let (verdict, lines) = layout::split_top(layout::contents(tree), VERDICT);
+        let room = layout::contents(tree);
+        let verdict = self.verdict_lines(room.width).len();
+        let verdict = u16::try_from(verdict).unwrap_or(VERDICT);
+        let (verdict, lines) = layout::split_top(room, verdict);
         Some(RayPanels {
             tree,
             verdict,
@@ -256,6 +288,21 @@ impl App {
             values,
             is_over_picture,
         })
+    }
+
+    /// The verdict in lines of this width, with a blank before each.
+    pub fn verdict_lines(&self, width: u16) -> Vec<String> {
+        let explained = self.inspection.explained.as_ref();
+        let verdict = explained.and_then(|explained| explained.verdict.as_deref());
+        let width = usize::from(width.saturating_sub(1));
+        let mut lines = verdict.map_or_else(Vec::new, |verdict| wrap(verdict, width));
+        if usize::from(VERDICT) < lines.len() {
+            lines.truncate(VERDICT.into());
+            if let Some(last) = lines.last_mut() {
+                *last = shorten(&format!("{last} …"), width).into_owned();
+            }
+        }
+        lines
     }
 
     /// Scrolls so that the line under the cursor is visible.

@@ -27,6 +27,8 @@ pub struct Explained {
     pub(super) asked: Option<Question>,
     /// The answer received last.
     pub answer: Option<Box<Explanation>>,
+    /// What is the case, and what would change it.
+    pub verdict: Option<String>,
     /// The line under the cursor.
     pub at: usize,
     /// The first line shown.

@@ -33,7 +33,7 @@ impl Value {
         let [red, green, blue] = colour;
         Self {
             label,
-            text: format!("{red} {green} {blue}  #{red:02x}{green:02x}{blue:02x}"),
+            text: format!("{red} {green} {blue} #{red:02x}{green:02x}{blue:02x}"),
             colour: Some(colour),
         }
     }

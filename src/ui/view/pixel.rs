@@ -12,14 +12,19 @@ use crate::ui::app::{App, Pixel};
 use crate::ui::layout::{Side, contents};
 use crate::ui::theme;
 
-/// The size of the values over the picture.
-const BOX: (u16, u16) = (36, 11);
+/// The width of the values over the picture.
+const WIDTH: u16 = 36;
 /// Stands for what is not known yet.
 const UNKNOWN: &str = "…";
 
 /// Draws the values in a panel.
 pub(super) fn render(app: &App, area: Rect, buffer: &mut Buffer) {
-    let Some(pixel) = app.pixel() else { return };
+    if let Some(pixel) = app.pixel() {
+        panel(&pixel, &values(app, &pixel), area, buffer);
+    }
+}
+
+fn panel(pixel: &Pixel, values: &[Value], area: Rect, buffer: &mut Buffer) {
     let [x, y] = pixel.at;
     let output = pixel.output.map_or_else(
         || format!("of {}×{}", pixel.size.width, pixel.size.height),
@@ -27,28 +32,29 @@ pub(super) fn render(app: &App, area: Rect, buffer: &mut Buffer) {
     );
     let title = format!("pixel {x} {y}");
     row::title(&title, &output, Some(theme::ACCENT), area, buffer);
-    labelled::render(&values(app, &pixel), contents(area), buffer);
+    labelled::render(values, contents(area), buffer);
 }
 
-/// Draws the values over the picture, beside the cross, or the most important ones in a line if there
-/// is little room.
+/// Draws the values over the picture on the side away from the cross, if there is room.
 pub(super) fn render_over(app: &App, area: Rect, buffer: &mut Buffer) {
-    let (width, height) = BOX;
-    if area.width < 2 * width || area.height < height + 3 {
+    let Some(pixel) = app.pixel() else { return };
+    let values = values(app, &pixel);
+    let height = 1 + values.len() as u16;
+    if area.width < 2 * WIDTH || area.height < height + 3 {
         return;
     }
-    let panel = Rect {
+    let over = Rect {
         x: match app.free_side() {
-            Side::Right => area.right() - width,
+            Side::Right => area.right() - WIDTH,
             Side::Left => area.x,
         },
         y: area.bottom() - height,
-        width,
+        width: WIDTH,
         height,
     };
-    let panel = panel.intersection(buffer.area);
-    Clear.render(panel, buffer);
-    render(app, panel, buffer);
+    let over = over.intersection(buffer.area);
+    Clear.render(over, buffer);
+    panel(&pixel, &values, over, buffer);
 }
 
 /// The most important values in a few words, for a line over the picture.

@@ -50,9 +50,14 @@ fn tree(app: &App, area: Rect, verdict: Rect, lines: Rect, buffer: &mut Buffer) 
     });
     title(&pixel, &place, Some(theme::ACCENT), area, buffer);
     let Some(explanation) = app.explanation() else {
-        Row::new(buffer, verdict, 0).skip(1).put("…", theme::DIM);
+        Row::new(buffer, lines, 0).skip(1).put("…", theme::DIM);
         return;
     };
+    for (index, words) in (0..).zip(app.verdict_lines(verdict.width)) {
+        Row::new(buffer, verdict, index)
+            .skip(1)
+            .put(&words, theme::WARNING);
+    }
     let shown = app.ray_lines().into_iter().enumerate().skip(explained.top);
     for (index, (at, line)) in (0..lines.height).zip(shown) {
         let style = if at == explained.at {
@@ -67,7 +72,7 @@ fn tree(app: &App, area: Rect, verdict: Rect, lines: Rect, buffer: &mut Buffer) 
         let sign = match line.part {
             RayPart::Whole if explained.folded.contains(&line.ray) => "▸ ",
             RayPart::Whole => "▾ ",
-            _ => "  ",
+            _ => "",
         };
         let indent = " ".repeat(2 * line.depth);
         let words = format!("{indent}{sign}{}", words(app, explanation, &line));
@@ -105,7 +110,7 @@ fn words(app: &App, explanation: &Explanation, line: &RayLine) -> String {
         RayPart::Emission => "emission".to_owned(),
         RayPart::Ambient => "ambient light".to_owned(),
         RayPart::Light(_) => match line.light(explanation).and_then(|light| light.dark) {
-            Some(dark) => format!("{}: {}", name(), dark_words(app, explanation, line, dark)),
+            Some(dark) => format!("{}: {}", name(), reason(dark)),
             None => name(),
         },
         RayPart::Unlisted => {
@@ -144,25 +149,18 @@ fn kind(kind: RayKind) -> &'static str {
     }
 }
 
-fn dark_words(app: &App, explanation: &Explanation, line: &RayLine, dark: Dark) -> String {
+/// Why a light adds nothing.
+fn reason(dark: Dark) -> &'static str {
     match dark {
-        Dark::SwitchedOff => "black".to_owned(),
-        Dark::UnlitSide => "this side is not lit".to_owned(),
-        Dark::FacesAway => "behind the surface".to_owned(),
-        Dark::AtThePoint => "at the point itself".to_owned(),
-        Dark::OutsideCone => "outside its cone".to_owned(),
-        Dark::Attenuated => "too far away".to_owned(),
-        Dark::NotReflected => "not reflected".to_owned(),
-        Dark::Hidden => "behind another light".to_owned(),
-        Dark::Blocked => {
-            let blocker = line
-                .light(explanation)
-                .and_then(|light| blocker(app, light));
-            blocker.map_or_else(
-                || "blocked".to_owned(),
-                |node| format!("shadow of {}", app.source().name(node)),
-            )
-        }
+        Dark::SwitchedOff => "switched off",
+        Dark::UnlitSide => "unlit side",
+        Dark::FacesAway => "faces away",
+        Dark::AtThePoint => "at the point",
+        Dark::OutsideCone => "outside cone",
+        Dark::Attenuated => "too far away",
+        Dark::NotReflected => "not reflected",
+        Dark::Hidden => "hidden",
+        Dark::Blocked => "in shadow",
     }
 }
 
