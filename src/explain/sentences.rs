@@ -149,15 +149,10 @@ impl Case<'_> {
         match verdict {
             Verdict::Depth { object, depth } => {
                 let object_name = names.object(*object);
-                let bounces = match depth {
-                    0 => "no bounces".to_owned(),
-                    1 => "1 bounce".to_owned(),
-                    depth => format!("{depth} bounces"),
-                };
                 let text = format!(
-                    "cut by depth: {object_name} reflects or transmits rays, but {bounces} are allowed",
+                    "cut by depth {depth}: {object_name} reflects or transmits light that is not \
+                     traced"
                 );
-                let text = text.replace("1 bounce are", "1 bounce is");
                 let mut sentence = self.sentence("depth", text);
                 sentence.help = Some(format!("raise the depth above {depth}"));
                 self.about(names.object_node(*object), &[], sentence)

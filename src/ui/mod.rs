@@ -22,6 +22,7 @@ mod effects;
 mod ending;
 mod errors;
 mod event;
+mod explaining;
 pub mod filmstrip;
 mod fit;
 mod heap;

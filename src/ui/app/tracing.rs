@@ -38,7 +38,7 @@ impl App {
         }
         let screen = self.preview_screen();
         let asked = screen.map(|screen| self.preview_asked(screen));
-        if self.mode != Mode::Trace && self.pictures.preview.asked != asked {
+        if self.seen() == Target::Preview && self.pictures.preview.asked != asked {
             self.pictures.preview.asked = asked;
             let job = screen.zip(asked);
             let job = job.and_then(|(screen, asked)| self.preview_job(screen, asked));
@@ -76,12 +76,12 @@ impl App {
     /// The wireframe if it is on screen instead of a traced picture.
     pub fn wires(&self) -> Option<&Wires> {
         let wires = self.pictures.wires.as_ref();
-        wires.filter(|_| self.mode != Mode::Trace)
+        wires.filter(|_| self.seen() == Target::Preview)
     }
 
     /// Brings the wireframe up to date, if it is on screen.
     pub fn follow_wires(&mut self) {
-        if self.mode == Mode::Trace {
+        if self.seen() == Target::Trace {
             return;
         }
         let (camera, raster) = (self.camera(), self.raster());
@@ -95,7 +95,7 @@ impl App {
     fn follow_trace(&mut self) -> Vec<Effect> {
         match self.pictures.trace {
             None => Vec::new(),
-            Some(_) if self.mode == Mode::Trace => self.restart_trace(),
+            Some(_) if self.seen() == Target::Trace => self.restart_trace(),
             Some(_) => {
                 self.pictures.trace = None;
                 vec![Effect::Stop(Target::Trace)]
@@ -225,10 +225,10 @@ impl App {
     }
 
     pub(super) fn enter_trace(&mut self) {
-        if self.mode != Mode::Trace {
+        if self.seen() != Target::Trace {
             self.pictures.leave_mode(self.mode);
-            self.mode = Mode::Trace;
         }
+        self.mode = Mode::Trace;
     }
 
     /// Pauses the full-size trace, or goes on.

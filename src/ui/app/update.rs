@@ -26,6 +26,7 @@ impl App {
         self.follow_views();
         effects.extend(self.follow());
         self.follow_histogram();
+        effects.extend(self.follow_explained());
         effects.extend(self.follow_steps());
         effects.extend(self.disk.journal.follow(&self.document));
         effects.extend(self.follow_kept());
@@ -50,6 +51,7 @@ impl App {
             Msg::Derived(ticket, derived) => return self.derived(ticket, derived),
             Msg::Frame(target, frame) => return self.frame(target, frame),
             Msg::Refused(target, reason) => return self.ended(target, reason),
+            Msg::Explained(question, answer) => self.explained(question, answer),
             Msg::Ended(target) => return self.ended(target, "the renderer stopped early"),
             Msg::FileChanged => return self.read_again(),
             // The scene may have been given another name since the request.
@@ -253,6 +255,7 @@ impl App {
             Action::No => return self.decline(),
             Action::Search if self.overlays.open_search() => {}
             Action::Search => self.start_filter(),
+            Action::Fold(fold) if context == Context::Rays => self.fold_ray(fold),
             Action::Fold(fold) => self.fold(fold),
             Action::SearchAgain(step) => self.search(step),
             Action::Command => self.open_palette(),
@@ -267,6 +270,7 @@ impl App {
             Action::Insert => self.insert_copied(),
             Action::Rename => self.start_renaming(),
             Action::Add => self.open_additions(),
+            Action::Solo if context == Context::Rays => self.solo_explained(),
             Action::Solo => self.toggle_solo(),
             Action::Retype => self.open_kinds(),
             Action::Transform(tool) => self.start_transform(tool),
@@ -302,6 +306,8 @@ impl App {
             Action::SavedViews => self.list_views(),
             Action::DeleteView => self.delete_view(),
             Action::Cross(right, down) => self.move_cross(right, down),
+            Action::Explain => self.start_explaining(),
+            Action::Sample(step) => self.change_sample(step),
             Action::Mine | Action::Theirs | Action::AllMine | Action::AllTheirs => {
                 self.decide(action);
             }
@@ -346,13 +352,13 @@ impl App {
         self.document.end_step();
         match mode {
             Mode::Trace => return self.start_trace(),
-            Mode::View | Mode::Fly | Mode::Pick if self.scene.is_none() => {
+            Mode::View | Mode::Fly | Mode::Inspect if self.scene.is_none() => {
                 self.refuse_picture(Severity::Error, &self.no_picture());
             }
             Mode::Edit if self.cursor.fields().is_empty() => {
                 self.overlays.fail("nothing to edit here");
             }
-            Mode::Pick => self.start_pick(),
+            Mode::Inspect => self.start_inspecting(),
             Mode::Move => self.start_transform(Tool::Move),
             Mode::Select | Mode::View | Mode::Fly | Mode::Edit => self.mode = mode,
         }
@@ -387,10 +393,12 @@ impl App {
             }
             Context::Opening => {}
             Context::Colour => self.cancel_colour(),
+            Context::Rays => self.inspection.explained = None,
             Context::Region => self.pictures.drawing = None,
             Context::In(Mode::Trace) => {
                 self.mode = self.pictures.mode_before();
             }
+            Context::In(Mode::Inspect) => self.stop_inspecting(),
             Context::In(Mode::Select) if self.end_filter() => {}
             Context::In(Mode::Select) => self.cursor.marks.clear(),
             Context::In(Mode::Move) => self.cancel_transform(),
@@ -413,7 +421,8 @@ impl App {
             Context::Delete => self.delete_anyway(),
             Context::Overwrite => return self.answer_taken(Existing::Overwritten),
             Context::Recover => return self.restore(),
-            Context::In(Mode::Pick) => self.pick_cross(),
+            Context::In(Mode::Inspect) => self.select_crossed(),
+            Context::Rays => self.select_explained(),
             Context::In(Mode::Move) => self.confirm_transform(),
             Context::Colour => self.confirm_colour(),
             Context::Region => return self.confirm_region(),

@@ -117,6 +117,8 @@ fn edits(action: A) -> bool {
         | A::LightView
         | A::SavedViews
         | A::Cross(..)
+        | A::Explain
+        | A::Sample(_)
         | A::Stop
         | A::Pause
         | A::Magnify(_)
