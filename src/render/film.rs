@@ -55,7 +55,7 @@ pub(crate) struct Film {
 /// What the tiles of a picture store.
 fn remembers(settings: &Settings, frames: Frames) -> Remembers {
     let shown = matches!(settings.aov, Some(Aov::Cost | Aov::Noise));
-    if shown || frames == Frames::Live && settings.size.pixels() <= MOST_REMEMBERED {
+    if shown || frames == Frames::Live && settings.traced().size().pixels() <= MOST_REMEMBERED {
         Remembers::Causes
     } else {
         Remembers::Pixels
@@ -182,9 +182,9 @@ impl Film {
         self.over_budget = self.tiles.iter().map(|tile| tile.over_budget).sum();
     }
 
-    /// Whether another film of the same size stores all that this one shows.
-    pub(crate) fn can_take_over(&self, other: &Self) -> bool {
-        self.remembers == Remembers::Pixels || other.remembers == Remembers::Causes
+    /// Whether another film stores the same of its pixels.
+    pub(crate) fn stores_like(&self, other: &Self) -> bool {
+        self.remembers == other.remembers
     }
 
     /// The number of pixels.

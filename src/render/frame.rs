@@ -232,8 +232,8 @@ pub struct Frame {
 
 /// A handle by which pixels of a frame are traced again and explained.
 ///
-/// It keeps nothing alive: it answers as long as the renderer has the scene prepared, which is until
-/// the next job is begun or the renderer is dropped.
+/// It keeps nothing alive: it answers as long as the renderer holds the scene prepared, which may end
+/// once a later job is given.
 #[derive(Clone, Debug)]
 pub struct Query {
     pub(crate) world: Weak<World>,
@@ -243,6 +243,20 @@ pub struct Query {
 }
 
 impl Frame {
+    /// The size of the whole picture, of which the frame may be a region.
+    pub fn whole(&self) -> Size {
+        let query = self.query.as_ref();
+        query.map_or(self.size, |query| query.settings.size)
+    }
+
+    /// The index of a pixel of the whole picture in the frame's lists, if it is in its region.
+    pub fn index_of(&self, [x, y]: [u32; 2]) -> Option<usize> {
+        let [left, top] = self.corner;
+        let (x, y) = (x.checked_sub(left)?, y.checked_sub(top)?);
+        let inside = x < self.size.width && y < self.size.height;
+        inside.then_some(y as usize * self.size.width as usize + x as usize)
+    }
+
     /// The settings it was traced with; `None` if it was not traced.
     pub fn settings(&self) -> Option<&Settings> {
         self.query.as_ref().map(|query| &query.settings)

@@ -84,8 +84,9 @@ mod world;
 
 pub use display::{Colours, Display, MOST_HALF_STOPS, exposes};
 pub use explain::{
-    Boundary, Crossing, Dark, Explanation, FirstHit, LightTerm, PreparedScene, RayEnd, RayKind,
-    Shading, Stop, SurfaceHit, TracedRay, Unlisted,
+    Boundary, Chosen, Crossing, Dark, Densities, DepthLimit, Explanation, Finding, FirstHit,
+    LightHit, LightTerm, PreparedScene, RayEnd, RayKind, Shading, Stop, SurfaceHit, Term,
+    TermSource, TracedRay, Unlisted, Verdict,
 };
 pub use filter::Filter;
 pub use frame::{

@@ -47,6 +47,7 @@ mod pictures;
 mod places;
 mod pointer;
 mod recover;
+mod regions;
 mod reload;
 mod rows;
 mod saving;
@@ -69,9 +70,12 @@ mod trial;
 mod trying;
 mod typed;
 mod typing;
+mod until;
 mod update;
 mod viewing;
+mod viewport;
 mod wires;
+mod zooming;
 
 use std::time::Duration;
 
@@ -95,12 +99,13 @@ pub use picture::Picture;
 pub use pictures::{Pictures, Quality};
 pub use rows::Rows;
 pub use shown::Shown;
-pub use sight::{Grid, Part, Sight};
+pub use sight::{Grid, Marked, Reason, Sight, Window};
 pub use soloed::Solo;
 pub use steps::Steps;
 pub use symbols::{Symbol, SymbolKind};
 pub use thumbnails::{Rank, Thumbnail, Thumbnails};
 pub use transform::Transform;
+pub use viewport::Viewport;
 pub use wires::Wires;
 
 /// A second Ctrl-C within this time ends the program.

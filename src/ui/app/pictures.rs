@@ -4,11 +4,13 @@ use std::sync::Arc;
 
 use super::looking::Tally;
 use super::picture::Picture;
+use super::regions::Drawing;
 use super::sight::Grid;
 use super::soloed::Solo;
 use super::transform::Transform;
+use super::until::Until;
 use super::wires::Wires;
-use crate::render::{Aov, Display, Filter, Frame};
+use crate::render::{Aov, Display, Filter, Frame, Region};
 use crate::scene::{Camera, Integrator, Scene};
 use crate::ui::keymap::Mode;
 use crate::ui::msg::Target;
@@ -49,6 +51,12 @@ pub struct Pictures {
     pub(super) due: bool,
     /// What the preview shows alone.
     pub solo: Option<Solo>,
+    /// The only part of the picture that the full-size trace traces, if not all of it.
+    pub(super) region: Option<Region>,
+    /// A region that is being drawn.
+    pub(super) drawing: Option<Drawing>,
+    /// When the full-size trace is complete, if not with the samples of exports.
+    pub(super) until: Option<Until>,
     /// What is being moved in [`Mode::Move`].
     pub transform: Option<Transform>,
     /// The pointer's cell when the camera or a thing was last dragged.
@@ -112,6 +120,9 @@ impl Pictures {
             net: None,
             due: false,
             solo: None,
+            region: None,
+            drawing: None,
+            until: None,
             transform: None,
             drag: None,
             before_trace: None,
@@ -149,9 +160,10 @@ impl Pictures {
         }
     }
 
-    /// Whether a sample of the preview or the trace is still to be taken.
+    /// Whether a sample of the preview or the trace is still to be taken, without being told to.
     pub fn are_awaited(&self) -> bool {
-        self.preview.is_awaited() || self.trace.as_ref().is_some_and(Picture::is_awaited)
+        let goes_on = |trace: &Picture| trace.is_awaited() && !trace.paused;
+        self.preview.is_awaited() || self.trace.as_ref().is_some_and(goes_on)
     }
 
     /// The picture that receives a target's frames.
@@ -177,6 +189,11 @@ impl Pictures {
         {
             picture.take(frame);
         }
+    }
+
+    /// When the full-size trace is complete.
+    pub(super) fn until(&self) -> Until {
+        self.until.unwrap_or(Until::Samples(self.quality.spp))
     }
 
     /// Whether the full-size trace was started and has not been stopped.

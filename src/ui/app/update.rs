@@ -319,6 +319,13 @@ impl App {
                 self.overlays.say(words);
             }
             Action::Stop => return self.stop(),
+            Action::Pause => return self.toggle_pause(),
+            Action::Magnify(steps) => self.magnify(steps),
+            Action::Scroll(right, down) => self.scroll_picture(right, down),
+            Action::OneToOne => self.toggle_scale(),
+            Action::Region => self.start_region(),
+            Action::Corner(right, down) => self.move_corner(right, down),
+            Action::OtherCorner => self.swap_corners(),
             Action::Export => return self.export_default(),
             Action::Save => return self.save_key(),
             Action::Editor => return self.open_editor(),
@@ -376,6 +383,7 @@ impl App {
             }
             Context::Opening => {}
             Context::Colour => self.cancel_colour(),
+            Context::Region => self.pictures.drawing = None,
             Context::In(Mode::Trace) => {
                 self.mode = self.pictures.mode_before();
             }
@@ -404,6 +412,7 @@ impl App {
             Context::In(Mode::Pick) => self.pick_cross(),
             Context::In(Mode::Move) => self.confirm_transform(),
             Context::Colour => self.confirm_colour(),
+            Context::Region => return self.confirm_region(),
             Context::In(_) | Context::Help | Context::Messages | Context::Opening => {}
         }
         Vec::new()

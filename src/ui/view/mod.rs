@@ -27,6 +27,7 @@ mod row;
 mod status;
 mod steps;
 mod symbols;
+mod values;
 mod wireframe;
 
 #[cfg(test)]

@@ -118,6 +118,13 @@ fn edits(action: A) -> bool {
         | A::SavedViews
         | A::Cross(..)
         | A::Stop
+        | A::Pause
+        | A::Magnify(_)
+        | A::Scroll(..)
+        | A::OneToOne
+        | A::Region
+        | A::Corner(..)
+        | A::OtherCorner
         | A::Export
         | A::Save
         | A::Undo

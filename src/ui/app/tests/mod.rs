@@ -34,6 +34,7 @@ mod trying;
 mod views;
 mod wires;
 mod xml;
+mod zooming;
 
 use std::path::{Path, PathBuf};
 
