@@ -182,9 +182,9 @@ impl Film {
         self.over_budget = self.tiles.iter().map(|tile| tile.over_budget).sum();
     }
 
-    /// Whether another film stores the same of its pixels.
-    pub(crate) fn stores_like(&self, other: &Self) -> bool {
-        self.remembers == other.remembers
+    /// Whether another film of the same size stores all that this one shows.
+    pub(crate) fn can_take_over(&self, other: &Self) -> bool {
+        self.remembers == Remembers::Pixels || other.remembers == Remembers::Causes
     }
 
     /// The number of pixels.

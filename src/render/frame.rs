@@ -243,10 +243,14 @@ pub struct Query {
 }
 
 impl Frame {
+    /// The settings it was traced with; `None` if it was not traced.
+    pub fn settings(&self) -> Option<&Settings> {
+        self.query.as_ref().map(|query| &query.settings)
+    }
+
     /// The size of the whole picture, of which the frame may be a region.
     pub fn whole(&self) -> Size {
-        let query = self.query.as_ref();
-        query.map_or(self.size, |query| query.settings.size)
+        self.settings().map_or(self.size, |settings| settings.size)
     }
 
     /// The index of a pixel of the whole picture in the frame's lists, if it is in its region.
@@ -255,11 +259,6 @@ impl Frame {
         let (x, y) = (x.checked_sub(left)?, y.checked_sub(top)?);
         let inside = x < self.size.width && y < self.size.height;
         inside.then_some(y as usize * self.size.width as usize + x as usize)
-    }
-
-    /// The settings it was traced with; `None` if it was not traced.
-    pub fn settings(&self) -> Option<&Settings> {
-        self.query.as_ref().map(|query| &query.settings)
     }
 
     /// A picture that was not traced, without values: red, green, blue of each pixel, in rows from

@@ -161,7 +161,9 @@ fn brackets_step_through_the_shares_of_the_light() {
     // A light that is deleted takes its share along.
     let text = SCENE.replace("\n1\n5 5 5 // the light\n1 1 1\n", "\n0\n");
     outside(&mut app, &text);
-    assert_eq!(app.error_count(), 0);
+    assert_eq!(app.document.text(), text);
+    let lights = app.scene.as_ref().map(|scene| scene.lights.len());
+    assert_eq!((app.error_count(), lights), (0, Some(0)));
     assert_eq!((app.pictures.aov, app.view_name()), (None, None));
 }
 
