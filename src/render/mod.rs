@@ -94,7 +94,7 @@ pub use frame::{
     Query, Settings, default_depth,
 };
 pub use histogram::{HISTOGRAM_STOPS, Histogram};
-pub use place::{SurfacePoint, axes, clearance, pixel_of, pixel_width, surface_under};
+pub use place::{SurfacePoint, axes, clearance, line_of, pixel_of, pixel_width, surface_under};
 pub use refusal::Refusal;
 pub use region::{NoRegion, Region};
 pub use renderer::{Renderer, Threads};

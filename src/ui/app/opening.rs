@@ -4,6 +4,7 @@ use std::path::PathBuf;
 
 use super::assets::Assets;
 use super::cursor::Names;
+use super::inspection::Inspection;
 use super::palette::Palette;
 use super::{
     App, Cursor, Disk, FirstReading, Jobs, OnDisk, Overlays, Page, Pictures, Quality, Thumbnails,
@@ -15,6 +16,7 @@ use crate::text::{Findings, Severity};
 use crate::ui::arrange::{PanelSizes, Zoom};
 use crate::ui::keymap::{Keymap, Mode};
 use crate::ui::msg::Effect;
+use crate::ui::pixels::Pixels;
 use crate::ui::reading::{News, Reading};
 use crate::ui::terminal::Mouse;
 use crate::ui::theme::Theme;
@@ -47,6 +49,8 @@ pub struct Preferences {
     pub keymap: Keymap,
     /// The colours of everything but pictures.
     pub theme: Theme,
+    /// What pixels are drawn with.
+    pub pixels: Pixels,
     /// The sizes of the panels, which an earlier session may have kept.
     pub panels: PanelSizes,
 }
@@ -86,12 +90,14 @@ impl App {
             disk: Disk::new(opening.path, state, first),
             cursor: Cursor::default(),
             pictures: Pictures::new(opening.quality),
+            inspection: Inspection::default(),
             thumbnails: Thumbnails::default(),
             overlays: Overlays::default(),
             jobs: Jobs::default(),
             mode: Mode::Select,
             keymap: opening.preferences.keymap,
             theme: opening.preferences.theme,
+            pixels: opening.preferences.pixels,
             prefix: None,
             palette: Palette::default(),
             zoom: Zoom::default(),

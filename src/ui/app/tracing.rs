@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use super::viewport::{Detail, Screen};
-use super::{App, Picture, Wires};
+use super::{App, Grid, Picture, Wires};
 use crate::image_file::ImageFormat;
 use crate::render::{Filter, Frame, Frames, Job, Region, Settings, default_depth};
 use crate::scene::{Integrator, Scene, Size};
@@ -13,12 +13,14 @@ use crate::ui::msg::{Effect, Target};
 use crate::ui::past::NoPicture;
 
 /// Samples per pixel at which the preview stops: by then edges are smooth and the noise of paths is
-/// invisible.
-fn preview_samples(integrator: Integrator) -> u32 {
-    match integrator {
+/// invisible. Where cells hold more pixels, each needs fewer samples.
+fn preview_samples(integrator: Integrator, grid: Grid) -> u32 {
+    let density = u32::from(grid.across) * u32::from(grid.down) / 2;
+    let samples = match integrator {
         Integrator::Whitted => 64,
         Integrator::Path => 1024,
-    }
+    };
+    samples / density.clamp(1, 4)
 }
 
 impl App {
@@ -36,7 +38,7 @@ impl App {
         }
         let screen = self.preview_screen();
         let asked = screen.map(|screen| self.preview_asked(screen));
-        if self.mode != Mode::Trace && self.pictures.preview.asked != asked {
+        if self.seen() == Target::Preview && self.pictures.preview.asked != asked {
             self.pictures.preview.asked = asked;
             let job = screen.zip(asked);
             let job = job.and_then(|(screen, asked)| self.preview_job(screen, asked));
@@ -58,7 +60,7 @@ impl App {
 
     fn preview_job(&self, screen: Screen, (size, region): (Size, Option<Region>)) -> Option<Job> {
         let (scene, numbers) = self.preview_scene()?;
-        let spp = preview_samples(self.integrator());
+        let spp = preview_samples(self.integrator(), screen.grid);
         let mut job = self.job_of(scene, size, spp, Filter::Box)?;
         job.settings.region = region;
         if region.is_none() {
@@ -74,12 +76,12 @@ impl App {
     /// The wireframe if it is on screen instead of a traced picture.
     pub fn wires(&self) -> Option<&Wires> {
         let wires = self.pictures.wires.as_ref();
-        wires.filter(|_| self.mode != Mode::Trace)
+        wires.filter(|_| self.seen() == Target::Preview)
     }
 
     /// Brings the wireframe up to date, if it is on screen.
     pub fn follow_wires(&mut self) {
-        if self.mode == Mode::Trace {
+        if self.seen() == Target::Trace {
             return;
         }
         let (camera, raster) = (self.camera(), self.raster());
@@ -93,7 +95,7 @@ impl App {
     fn follow_trace(&mut self) -> Vec<Effect> {
         match self.pictures.trace {
             None => Vec::new(),
-            Some(_) if self.mode == Mode::Trace => self.restart_trace(),
+            Some(_) if self.seen() == Target::Trace => self.restart_trace(),
             Some(_) => {
                 self.pictures.trace = None;
                 vec![Effect::Stop(Target::Trace)]
@@ -223,10 +225,10 @@ impl App {
     }
 
     pub(super) fn enter_trace(&mut self) {
-        if self.mode != Mode::Trace {
+        if self.seen() != Target::Trace {
             self.pictures.leave_mode(self.mode);
-            self.mode = Mode::Trace;
         }
+        self.mode = Mode::Trace;
     }
 
     /// Pauses the full-size trace, or goes on.

@@ -4,7 +4,7 @@ use crossterm::event::{KeyCode, KeyEvent, KeyModifiers};
 use tui_input::Input;
 
 use super::camera::{advanced, dollied, faced, panned, rolled, stepped, widened};
-use super::{App, Help, PageFocus, PromptKind, line};
+use super::{App, Grid, Help, PageFocus, PromptKind, line};
 use crate::text::Severity;
 use crate::ui::arrange::{Zoom, divided, resized};
 use crate::ui::keymap::{self, Action, Context, Meaning, Mode, Tool};
@@ -26,6 +26,7 @@ impl App {
         self.follow_views();
         effects.extend(self.follow());
         self.follow_histogram();
+        effects.extend(self.follow_explained());
         effects.extend(self.follow_steps());
         effects.extend(self.disk.journal.follow(&self.document));
         effects.extend(self.follow_kept());
@@ -41,11 +42,16 @@ impl App {
             Msg::Paste(text) => return self.paste(&text),
             Msg::Mouse(event) => return self.pointer(event),
             Msg::Resize(columns, rows) => self.terminal = (columns, rows),
+            Msg::Grid { across, down } => {
+                self.pictures.grid = Grid { across, down };
+                self.pictures.preview.asked = None;
+            }
             Msg::Started(Target::Thumbnail, generation) => self.thumbnails.started(generation),
             Msg::Started(target, generation) => self.pictures.want(target, Some(generation)),
             Msg::Derived(ticket, derived) => return self.derived(ticket, derived),
             Msg::Frame(target, frame) => return self.frame(target, frame),
             Msg::Refused(target, reason) => return self.ended(target, reason),
+            Msg::Explained(question, answer) => self.explained(question, answer),
             Msg::Ended(target) => return self.ended(target, "the renderer stopped early"),
             Msg::FileChanged => return self.read_again(),
             // The scene may have been given another name since the request.
@@ -249,6 +255,7 @@ impl App {
             Action::No => return self.decline(),
             Action::Search if self.overlays.open_search() => {}
             Action::Search => self.start_filter(),
+            Action::Fold(fold) if context == Context::Rays => self.fold_ray(fold),
             Action::Fold(fold) => self.fold(fold),
             Action::SearchAgain(step) => self.search(step),
             Action::Command => self.open_palette(),
@@ -263,6 +270,7 @@ impl App {
             Action::Insert => self.insert_copied(),
             Action::Rename => self.start_renaming(),
             Action::Add => self.open_additions(),
+            Action::Solo if context == Context::Rays => self.solo_explained(),
             Action::Solo => self.toggle_solo(),
             Action::Retype => self.open_kinds(),
             Action::Transform(tool) => self.start_transform(tool),
@@ -298,6 +306,8 @@ impl App {
             Action::SavedViews => self.list_views(),
             Action::DeleteView => self.delete_view(),
             Action::Cross(right, down) => self.move_cross(right, down),
+            Action::Explain => self.start_explaining(),
+            Action::Sample(step) => self.change_sample(step),
             Action::Mine | Action::Theirs | Action::AllMine | Action::AllTheirs => {
                 self.decide(action);
             }
@@ -342,13 +352,13 @@ impl App {
         self.document.end_step();
         match mode {
             Mode::Trace => return self.start_trace(),
-            Mode::View | Mode::Fly | Mode::Pick if self.scene.is_none() => {
+            Mode::View | Mode::Fly | Mode::Inspect if self.scene.is_none() => {
                 self.refuse_picture(Severity::Error, &self.no_picture());
             }
             Mode::Edit if self.cursor.fields().is_empty() => {
                 self.overlays.fail("nothing to edit here");
             }
-            Mode::Pick => self.start_pick(),
+            Mode::Inspect => self.start_inspecting(),
             Mode::Move => self.start_transform(Tool::Move),
             Mode::Select | Mode::View | Mode::Fly | Mode::Edit => self.mode = mode,
         }
@@ -383,10 +393,12 @@ impl App {
             }
             Context::Opening => {}
             Context::Colour => self.cancel_colour(),
+            Context::Rays => self.inspection.explained = None,
             Context::Region => self.pictures.drawing = None,
             Context::In(Mode::Trace) => {
                 self.mode = self.pictures.mode_before();
             }
+            Context::In(Mode::Inspect) => self.stop_inspecting(),
             Context::In(Mode::Select) if self.end_filter() => {}
             Context::In(Mode::Select) => self.cursor.marks.clear(),
             Context::In(Mode::Move) => self.cancel_transform(),
@@ -409,7 +421,8 @@ impl App {
             Context::Delete => self.delete_anyway(),
             Context::Overwrite => return self.answer_taken(Existing::Overwritten),
             Context::Recover => return self.restore(),
-            Context::In(Mode::Pick) => self.pick_cross(),
+            Context::In(Mode::Inspect) => self.select_crossed(),
+            Context::Rays => self.select_explained(),
             Context::In(Mode::Move) => self.confirm_transform(),
             Context::Colour => self.confirm_colour(),
             Context::Region => return self.confirm_region(),

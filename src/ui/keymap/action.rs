@@ -16,8 +16,8 @@ pub enum Mode {
     Edit,
     /// Shows the full-size trace.
     Trace,
-    /// Moves a cross over the picture to pick the object under it.
-    Pick,
+    /// Moves a cross over the picture to see what is under it, and why.
+    Inspect,
     /// Moves, rotates or scales things in the picture.
     Move,
 }
@@ -37,7 +37,7 @@ impl Mode {
         Self::Move,
         Self::View,
         Self::Fly,
-        Self::Pick,
+        Self::Inspect,
         Self::Trace,
     ];
 
@@ -50,7 +50,7 @@ impl Mode {
             Self::Move => "MOVE",
             Self::Edit => "EDIT",
             Self::Trace => "TRACE",
-            Self::Pick => "PICK",
+            Self::Inspect => "INSPECT",
         }
     }
 }
@@ -76,6 +76,8 @@ pub enum Context {
     Steps,
     /// The colour picker.
     Colour,
+    /// The rays behind the pixel under the cross.
+    Rays,
     /// The drawing of a region in the full-size trace.
     Region,
     /// The question how to resolve a merge.
@@ -197,8 +199,12 @@ pub enum Action {
     SavedViews,
     /// Deletes the saved view under the cursor.
     DeleteView,
-    /// Moves the cross, in cells to the right and down.
+    /// Moves the cross, in pixels to the right and down.
     Cross(i32, i32),
+    /// Explains the pixel under the cross.
+    Explain,
+    /// Explains the next or previous sample of the pixel.
+    Sample(i32),
     /// Stops the work in progress.
     Stop,
     /// Pauses the full-size trace, or goes on.

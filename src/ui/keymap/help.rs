@@ -8,7 +8,7 @@ use super::table::Scope;
 use crate::render::Aov;
 
 use Action as A;
-use Mode::{Edit, Fly, Move, Pick, Select, Trace, View};
+use Mode::{Edit, Fly, Inspect, Move, Select, Trace, View};
 use Stride::Plain;
 
 /// One line of help.
@@ -107,11 +107,12 @@ impl Keymap {
             Context::In(Edit) => EDIT_HINTS,
             Context::In(View) => VIEW_HINTS,
             Context::In(Fly) => FLY_HINTS,
-            Context::In(Pick) => PICK_HINTS,
+            Context::In(Inspect) => INSPECT_HINTS,
             Context::In(Move) => MOVE_HINTS,
             Context::In(Trace) => TRACE_HINTS,
             Context::Errors => ERROR_HINTS,
             Context::Colour => COLOUR_HINTS,
+            Context::Rays => RAY_HINTS,
             Context::Region => REGION_HINTS,
             Context::Opening => &[],
             Context::Help
@@ -211,7 +212,7 @@ const SELECT_HINTS: &[Hint] = &[
     (&[A::Add], "add"),
     (&[A::Transform(Tool::Move)], "move it"),
     (&[A::Go(View)], "camera"),
-    (&[A::Go(Pick)], "pick"),
+    (&[A::Go(Inspect)], "inspect"),
     (&[A::Search], "filter"),
 ];
 const EDIT_HINTS: &[Hint] = &[
@@ -278,7 +279,7 @@ const MOVE_HINTS: &[Hint] = &[
     (&[A::Back], "cancel"),
     (&[A::Snap], "grid"),
 ];
-const PICK_HINTS: &[Hint] = &[
+const INSPECT_HINTS: &[Hint] = &[
     (
         &[
             A::Cross(-1, 0),
@@ -288,7 +289,17 @@ const PICK_HINTS: &[Hint] = &[
         ],
         "move",
     ),
+    (&[A::Explain], "explain"),
     (&[A::Accept], "select"),
+    (&[A::Editor], "editor"),
+    (&[A::Back], "back"),
+];
+const RAY_HINTS: &[Hint] = &[
+    (&[A::Move(1), A::Move(-1)], "move"),
+    (&[A::Accept], "select"),
+    (&[A::Editor], "editor"),
+    (&[A::Solo], "solo light"),
+    (&[A::Sample(-1), A::Sample(1)], "sample"),
     (&[A::Back], "back"),
 ];
 const REGION_HINTS: &[Hint] = &[
@@ -320,6 +331,7 @@ const TRACE_HINTS: &[Hint] = &[
     (&[A::Pause], "pause"),
     (&[A::Region], "region"),
     (&[A::Stop], "stop"),
+    (&[A::Go(Inspect)], "inspect"),
     (&[A::Back], "back"),
     (&[A::Integrator], "path tracing"),
     (

@@ -350,7 +350,7 @@ fn time_left(progress: &Progress) -> Option<Duration> {
 
 fn mode_style(mode: Mode) -> Style {
     match mode {
-        Mode::Select | Mode::Pick => theme::ACCENT,
+        Mode::Select | Mode::Inspect => theme::ACCENT,
         Mode::View | Mode::Fly => theme::GOOD,
         Mode::Edit | Mode::Move => theme::WARNING,
         Mode::Trace => Style::new(),

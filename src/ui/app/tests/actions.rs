@@ -117,6 +117,8 @@ fn edits(action: A) -> bool {
         | A::LightView
         | A::SavedViews
         | A::Cross(..)
+        | A::Explain
+        | A::Sample(_)
         | A::Stop
         | A::Pause
         | A::Magnify(_)
@@ -184,6 +186,7 @@ const OTHERS: &[&str] = &[
     "theme dark",
     "theme light",
     "theme mono",
+    "pixels",
     "help",
 ];
 

@@ -10,6 +10,7 @@ mod editing;
 mod exports;
 mod fields;
 mod hints;
+mod inspecting;
 mod listing;
 mod looking;
 mod making;
