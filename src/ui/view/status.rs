@@ -270,11 +270,14 @@ fn making_segment(app: &App, say: &mut impl FnMut(u8, String, Style)) {
     if let Some(display) = app.display_name() {
         say(3, format!(" {display} "), theme::chip(theme::WARNING));
     }
+    let view = app.view_name();
+    if let Some(view) = &view {
+        say(7, view.clone(), theme::WARNING);
+    }
     if let Some(legend) = app.legend() {
         say(10, legend, theme::DIM);
     }
-    if let Some(view) = app.view_name() {
-        say(7, view, theme::WARNING);
+    if view.is_some() {
         return;
     }
     let name = match app.integrator() {
