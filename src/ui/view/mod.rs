@@ -12,6 +12,7 @@ mod dither;
 mod errors;
 mod fields;
 mod help;
+mod histogram;
 mod history;
 mod inks;
 mod list;
@@ -26,6 +27,7 @@ mod row;
 mod status;
 mod steps;
 mod symbols;
+mod values;
 mod wireframe;
 
 #[cfg(test)]
@@ -62,6 +64,7 @@ fn render(app: &App, inks: &mut Inks, area: Rect, buffer: &mut Buffer) {
         list::render(app, areas.list, buffer);
         fields::render(app, areas.fields, buffer);
     }
+    histogram::render(app, areas.picture, buffer);
     errors::render(app, areas.errors, buffer);
     let status = current::render(app, &areas, buffer);
     status::render(app, inks.glyphs, status, buffer);

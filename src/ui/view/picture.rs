@@ -12,7 +12,7 @@ use unicode_width::UnicodeWidthStr;
 use super::characters::Characters;
 use super::inks::{Glyphs, Inks};
 use super::row::Row;
-use super::{symbols, wireframe};
+use super::{symbols, values, wireframe};
 use crate::render::{pixel_of, pixel_width};
 use crate::scene::Size;
 use crate::ui::app::{App, FirstReading, Shown};
@@ -46,6 +46,9 @@ pub(crate) fn render(app: &App, inks: &mut Inks, area: Rect, buffer: &mut Buffer
         Cow::Owned(shown.resampled(pixels))
     };
     paint(&shown, inks, cells, buffer);
+    if let (Some(frame), Some(sight)) = (&app.picture().latest, app.sight()) {
+        values::render(frame, &sight, cells, buffer);
+    }
     overlays(app, inks.glyphs, area, (cells, size), buffer);
 }
 
@@ -154,14 +157,16 @@ fn axis(app: &App, cells: Rect, size: Size, buffer: &mut Buffer) {
         return;
     };
     let Some(axis) = transform.axis() else { return };
-    let unit = pixel_width(transform.pivot(), &camera, size);
+    let Some(sight) = app.sight() else { return };
+    let unit = pixel_width(transform.pivot(), &camera, size) / sight.magnification(size);
     let reach = i64::from(2 * size.width.max(size.height));
     let colour = theme::axis(axis);
     for at in -reach..=reach {
         let point = transform.pivot() + unit * at as f64 * axis;
-        let Some([x, y]) = pixel_of(point, &camera, size) else {
+        let Some(place) = pixel_of(point, &camera, size) else {
             continue;
         };
+        let [x, y] = sight.on_screen(place, size);
         if x < 0.0 || y < 0.0 || f64::from(cells.width) <= x || f64::from(size.height) <= y {
             continue;
         }
