@@ -1,7 +1,8 @@
-//! Headless work: check, compare and render. Knows no terminals, except for a progress line if standard
+//! Headless work: check, compare, explain and render. Knows no terminals, except for a progress line if standard
 //! error is one.
 
 mod compare;
+mod explain;
 mod progress;
 mod render;
 mod report;
@@ -24,6 +25,7 @@ use crate::scene::{Images, Scene};
 use crate::text::{Diagnostic, Findings, Span, counted, visible, without_codes};
 
 pub use compare::{Compare, Report, Verdict, compare};
+pub use explain::{Explain, explain};
 pub use render::{Output, Render, render};
 pub use tracing::Tracing;
 

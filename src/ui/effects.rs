@@ -15,6 +15,7 @@ use super::comparer::{Figures, References};
 use super::deriving::Deriver;
 use super::editor;
 use super::event::{Event, Work, sending};
+use super::explaining::Explainer;
 use super::heap;
 use super::msg::{Effect, Msg, SaveOutcome, Target, Timer};
 use super::options::Options;
@@ -47,6 +48,7 @@ pub(crate) struct Runtime {
     assets: AssetReader,
     references: References,
     figures: Figures,
+    explainer: Explainer,
     deriver: Deriver,
     threads: Option<usize>,
     /// The command line of the editor that is configured.
@@ -85,6 +87,7 @@ impl Runtime {
             references: References::start(&options.assets, sending(&sender))?,
             figures: Figures::start(sending(&sender))?,
             deriver: Deriver::start(&options.assets, sending(&sender))?,
+            explainer: Explainer::start(sending(&sender))?,
             threads: options.threads,
             editor: options.editor.clone(),
             preview: None,
@@ -190,6 +193,10 @@ impl Runtime {
         match effect {
             Effect::Trace(target, job) => return Ok(Some(self.trace(target, job))),
             Effect::Stop(target) => self.stop(target),
+            Effect::Explain(question, frame) => {
+                let work = Work::begin(&self.sender);
+                self.explainer.ask(question, frame, work)?;
+            }
             Effect::Halt(target) => self.with_renderer(target, Renderer::stop),
             Effect::Pause(target) => self.with_renderer(target, Renderer::pause),
             Effect::Resume(target) => self.with_renderer(target, Renderer::resume),

@@ -23,6 +23,7 @@ mod effects;
 mod ending;
 mod errors;
 mod event;
+mod explaining;
 pub mod filmstrip;
 mod fit;
 mod heap;
@@ -32,6 +33,7 @@ pub mod listing;
 pub mod msg;
 mod options;
 pub mod past;
+mod pixels;
 mod reader;
 pub mod reading;
 mod recent;
@@ -63,6 +65,7 @@ use arrange::PanelSizes;
 pub use ending::{Ending, Error};
 use keymap::Keymap;
 pub use options::{Options, Rehearsal};
+pub use pixels::Pixels;
 use reading::Opened;
 use script::Script;
 pub use script::parse_screen;
@@ -107,6 +110,7 @@ pub fn run(options: &Options) -> Result<Ending, Error> {
         preferences: Preferences {
             keymap: options.keymap.clone(),
             theme: options.theme.unwrap_or_default(),
+            pixels: options.pixels.unwrap_or_default(),
             panels: match script {
                 None => recent::panels(),
                 Some(_) => PanelSizes::default(),

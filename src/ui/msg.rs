@@ -19,7 +19,7 @@ use crate::compare::Comparison;
 use crate::document::Snapshot;
 use crate::file::{ReadError, Version};
 use crate::language::Language;
-use crate::render::{Frame, Job};
+use crate::render::{Explanation, Frame, Job};
 
 /// The picture that a frame belongs to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -36,6 +36,19 @@ pub enum Target {
     Reference,
     /// A picture on the page of the undo history, traced in the background.
     Thumbnail,
+}
+
+/// What is to be explained.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Question {
+    /// The picture.
+    pub target: Target,
+    /// The generation of its frames.
+    pub generation: u64,
+    /// Column and row of the pixel.
+    pub pixel: [u32; 2],
+    /// The index of the sample.
+    pub sample: u32,
 }
 
 /// Identifies an export of the session. If an export is cancelled while its file is being written,
@@ -66,6 +79,8 @@ pub enum Msg {
     Frame(Target, Arc<Frame>),
     /// The renderer of this picture has ended unexpectedly: it panicked or could not start threads.
     Ended(Target),
+    /// The result of [`Effect::Explain`]; `None` if the picture has been replaced.
+    Explained(Question, Option<Box<Explanation>>),
     /// The scene file may have changed.
     FileChanged,
     /// The result of [`Effect::Read`] for this path.
@@ -78,6 +93,13 @@ pub enum Msg {
     AssetsRead(Wanted, Loaded),
     /// A file that the scene names may have changed.
     AssetsChanged,
+    /// Cells hold another number of pixels.
+    Grid {
+        /// Pixels side by side.
+        across: u16,
+        /// Pixels one above the other.
+        down: u16,
+    },
     /// The delay set by [`Effect::Later`] has elapsed.
     Elapsed(Timer),
     /// The result of [`Effect::Save`].
@@ -163,6 +185,9 @@ pub enum Effect {
     Trace(Target, Job),
     /// Stops tracing this picture and forgets it.
     Stop(Target),
+    /// Explains a sample of a pixel of this frame, reported by [`Msg::Explained`] unless another
+    /// question follows at once.
+    Explain(Question, Arc<Frame>),
     /// Stops tracing this picture; [`Effect::Trace`] of the same continues it.
     Halt(Target),
     /// Pauses the tracing of this picture until [`Effect::Resume`] or [`Effect::Trace`].

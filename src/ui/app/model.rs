@@ -8,6 +8,7 @@ use super::assets::Assets;
 use super::compared::Compared;
 use super::cursor::Cursor;
 use super::disk::Disk;
+use super::inspection::Inspection;
 use super::jobs::Jobs;
 use super::overlays::Overlays;
 use super::palette::Palette;
@@ -18,6 +19,7 @@ use crate::scene::Scene;
 use crate::text::Findings;
 use crate::ui::arrange::{PanelSizes, Zoom};
 use crate::ui::keymap::{Keymap, Mode};
+use crate::ui::pixels::Pixels;
 use crate::ui::terminal::Mouse;
 use crate::ui::theme::Theme;
 
@@ -50,6 +52,8 @@ pub struct App {
     pub pictures: Pictures,
     /// What pictures are compared with, and the comparison.
     pub compared: Compared,
+    /// The pixel that is inspected.
+    pub inspection: Inspection,
     /// Pictures of the texts in the undo history.
     pub thumbnails: Thumbnails,
     /// Dialogs, help, errors, the line being typed, and messages.
@@ -62,6 +66,8 @@ pub struct App {
     pub mode: Mode,
     /// The colours of everything but pictures.
     pub theme: Theme,
+    /// What the user wants pixels of pictures to be drawn with.
+    pub pixels: Pixels,
     /// What keys do.
     pub keymap: Keymap,
     /// The first of two keys, until the second arrives.

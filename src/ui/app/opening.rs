@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use super::assets::Assets;
 use super::compared::Compared;
 use super::cursor::Names;
+use super::inspection::Inspection;
 use super::palette::Palette;
 use super::{
     App, Cursor, Disk, FirstReading, Jobs, OnDisk, Overlays, Page, Pictures, Quality, Thumbnails,
@@ -16,6 +17,7 @@ use crate::text::{Findings, Severity};
 use crate::ui::arrange::{PanelSizes, Zoom};
 use crate::ui::keymap::{Keymap, Mode};
 use crate::ui::msg::Effect;
+use crate::ui::pixels::Pixels;
 use crate::ui::reading::{News, Reading};
 use crate::ui::terminal::Mouse;
 use crate::ui::theme::Theme;
@@ -48,6 +50,8 @@ pub struct Preferences {
     pub keymap: Keymap,
     /// The colours of everything but pictures.
     pub theme: Theme,
+    /// What pixels are drawn with.
+    pub pixels: Pixels,
     /// The sizes of the panels, which an earlier session may have kept.
     pub panels: PanelSizes,
 }
@@ -88,12 +92,14 @@ impl App {
             cursor: Cursor::default(),
             pictures: Pictures::new(opening.quality),
             compared: Compared::default(),
+            inspection: Inspection::default(),
             thumbnails: Thumbnails::default(),
             overlays: Overlays::default(),
             jobs: Jobs::default(),
             mode: Mode::Select,
             keymap: opening.preferences.keymap,
             theme: opening.preferences.theme,
+            pixels: opening.preferences.pixels,
             prefix: None,
             palette: Palette::default(),
             zoom: Zoom::default(),

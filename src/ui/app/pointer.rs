@@ -117,6 +117,8 @@ impl App {
             if self.overlays.errors.is_some() {
                 self.move_cursor(Context::Errors, down);
             }
+        } else if self.context() == Context::Rays {
+            self.move_in_rays(down);
         } else if over(areas.list) {
             self.move_cursor(Context::In(Mode::Select), WHEEL * down);
         } else if over(areas.fields) && self.cursor.typing.is_none() {
@@ -194,6 +196,13 @@ impl App {
             self.press_comparison(at);
             return Vec::new();
         }
+        if self.context() == Context::Rays
+            && let Some(panels) = self.ray_panels()
+            && (panels.tree.contains(at.into()) || panels.values.contains(at.into()))
+        {
+            self.click_ray(&panels, at);
+            return Vec::new();
+        }
         if let Some(line) = list_row_at(areas.list, self.cursor.list_top, at.0, at.1) {
             let line = self.listing().get(line);
             if let Some(ListLine::Node(_, node)) = line {
@@ -213,12 +222,14 @@ impl App {
             }
             return Vec::new();
         }
-        if self.press_slider(at) {
+        if self.mode != Mode::Inspect && self.press_slider(at) {
             return Vec::new();
         }
         let fields = self.cursor.fields();
         let components = |field: usize| Some(fields.get(field)?.field.kind.components());
-        if let Some(clicked) = field_at(areas.fields, self.cursor.field_top, components, at) {
+        if self.mode != Mode::Inspect
+            && let Some(clicked) = field_at(areas.fields, self.cursor.field_top, components, at)
+        {
             return self.press_field(clicked);
         }
         let is_over = areas.picture.contains(at.into());
@@ -233,15 +244,23 @@ impl App {
             || self.mode == Mode::Trace && self.pans();
         if drags && areas.picture.contains(at.into()) {
             self.pictures.drag = Some(at);
-        } else if let Some((cells, _)) = self.raster()
-            && cells.contains(at.into())
-        {
-            let cell = (at.0 - cells.x, at.1 - cells.y);
-            if !self.pick_symbol(cell) {
-                self.pick(cell);
+        } else if let Some(cell) = self.picture_cell(at) {
+            if self.mode == Mode::Inspect {
+                self.place_cross(cell);
+            } else if !self.pick_symbol(cell)
+                && let Some(pixel) = self.pixel_at(cell)
+            {
+                self.pick(self.node_at(pixel));
             }
         }
         Vec::new()
+    }
+
+    /// The cell of the picture under the pointer, from the picture's corner.
+    fn picture_cell(&self, at: (u16, u16)) -> Option<(u16, u16)> {
+        let (cells, _) = self.raster()?;
+        let is_inside = cells.contains(at.into());
+        is_inside.then(|| (at.0 - cells.x, at.1 - cells.y))
     }
 
     /// The first click moves the cursor there, the second starts typing.
@@ -303,6 +322,12 @@ impl App {
         if self.is_drawing_region() {
             if let Some(cell) = self.cell_near(at) {
                 self.drag_region(cell);
+            }
+            return;
+        }
+        if self.mode == Mode::Inspect {
+            if let Some(cell) = self.picture_cell(at) {
+                self.place_cross(cell);
             }
             return;
         }

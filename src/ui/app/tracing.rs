@@ -13,12 +13,14 @@ use crate::ui::msg::{Effect, Target};
 use crate::ui::past::NoPicture;
 
 /// Samples per pixel at which the preview stops: by then edges are smooth and the noise of paths is
-/// invisible.
-fn preview_samples(integrator: Integrator) -> u32 {
-    match integrator {
+/// invisible. Where cells hold more pixels, each needs fewer samples.
+fn preview_samples(integrator: Integrator, grid: Grid) -> u32 {
+    let density = u32::from(grid.across) * u32::from(grid.down) / 2;
+    let samples = match integrator {
         Integrator::Whitted => 64,
         Integrator::Path => 1024,
-    }
+    };
+    samples / density.clamp(1, 4)
 }
 
 impl App {
@@ -37,8 +39,7 @@ impl App {
         effects.extend(self.follow_comparison(changed));
         let screen = self.preview_screen();
         let asked = screen.map(|screen| self.preview_asked(screen));
-        let has_preview = !matches!(self.mode, Mode::Trace | Mode::Compare);
-        if has_preview && self.pictures.preview.asked != asked {
+        if self.seen() == Target::Preview && self.pictures.preview.asked != asked {
             self.pictures.preview.asked = asked;
             let job = screen.zip(asked);
             let job = job.and_then(|(screen, asked)| self.preview_job(screen, asked));
@@ -59,7 +60,7 @@ impl App {
     }
 
     fn preview_job(&self, screen: Screen, (size, region): (Size, Option<Region>)) -> Option<Job> {
-        let spp = preview_samples(self.integrator());
+        let spp = preview_samples(self.integrator(), screen.grid);
         let mut job = match region {
             None => self.whole_preview_job(screen.halves, screen.grid, spp)?,
             Some(_) => self.shown_job(size, spp)?,
@@ -89,12 +90,12 @@ impl App {
     /// The wireframe if it is on screen instead of a traced picture.
     pub fn wires(&self) -> Option<&Wires> {
         let wires = self.pictures.wires.as_ref();
-        wires.filter(|_| !matches!(self.mode, Mode::Trace | Mode::Compare))
+        wires.filter(|_| self.seen() == Target::Preview)
     }
 
     /// Brings the wireframe up to date, if it is on screen.
     pub fn follow_wires(&mut self) {
-        if matches!(self.mode, Mode::Trace | Mode::Compare) {
+        if self.seen() != Target::Preview {
             return;
         }
         let (camera, raster) = (self.camera(), self.raster());
@@ -108,7 +109,7 @@ impl App {
     fn follow_trace(&mut self) -> Vec<Effect> {
         match self.pictures.trace {
             None => Vec::new(),
-            Some(_) if self.mode == Mode::Trace => self.restart_trace(),
+            Some(_) if self.seen() == Target::Trace => self.restart_trace(),
             Some(_) => {
                 self.pictures.trace = None;
                 vec![Effect::Stop(Target::Trace)]
@@ -241,6 +242,7 @@ impl App {
         match (self.mode, self.compared.before) {
             // The mode to return to is that before the comparison.
             (Mode::Trace, _) | (Mode::Compare, Some(Mode::Trace)) => {}
+            _ if self.seen() == Target::Trace => {}
             (Mode::Compare, before) => self.pictures.leave_mode(before.unwrap_or(Mode::Select)),
             (mode, _) => self.pictures.leave_mode(mode),
         }

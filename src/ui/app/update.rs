@@ -4,7 +4,7 @@ use crossterm::event::{KeyCode, KeyEvent, KeyModifiers};
 use tui_input::Input;
 
 use super::camera::{advanced, dollied, faced, panned, rolled, stepped, widened};
-use super::{App, Contrast, Help, PageFocus, PromptKind, line};
+use super::{App, Contrast, Grid, Help, PageFocus, PromptKind, line};
 use crate::text::Severity;
 use crate::ui::arrange::{Zoom, divided, resized};
 use crate::ui::keymap::{self, Action, Context, Meaning, Mode, Tool};
@@ -26,6 +26,7 @@ impl App {
         self.follow_views();
         effects.extend(self.follow());
         self.follow_histogram();
+        effects.extend(self.follow_explained());
         effects.extend(self.follow_steps());
         effects.extend(self.disk.journal.follow(&self.document));
         effects.extend(self.follow_kept());
@@ -41,6 +42,10 @@ impl App {
             Msg::Paste(text) => return self.paste(&text),
             Msg::Mouse(event) => return self.pointer(event),
             Msg::Resize(columns, rows) => self.terminal = (columns, rows),
+            Msg::Grid { across, down } => {
+                self.pictures.grid = Grid { across, down };
+                self.pictures.preview.asked = None;
+            }
             Msg::Started(Target::Thumbnail, generation) => self.thumbnails.started(generation),
             Msg::Started(target, generation) => {
                 self.pictures.want(target, Some(generation));
@@ -49,6 +54,7 @@ impl App {
             Msg::Derived(ticket, derived) => return self.derived(ticket, derived),
             Msg::Frame(target, frame) => return self.frame(target, frame),
             Msg::Refused(target, reason) => return self.ended(target, reason),
+            Msg::Explained(question, answer) => self.explained(question, answer),
             Msg::Ended(target) => return self.ended(target, "the renderer stopped early"),
             Msg::FileChanged => return self.read_again(),
             // The scene may have been given another name since the request.
@@ -254,6 +260,7 @@ impl App {
             Action::No => return self.decline(),
             Action::Search if self.overlays.open_search() => {}
             Action::Search => self.start_filter(),
+            Action::Fold(fold) if context == Context::Rays => self.fold_ray(fold),
             Action::Fold(fold) => self.fold(fold),
             Action::SearchAgain(step) => self.search(step),
             Action::Command => self.open_palette(),
@@ -268,6 +275,7 @@ impl App {
             Action::Insert => self.insert_copied(),
             Action::Rename => self.start_renaming(),
             Action::Add => self.open_additions(),
+            Action::Solo if context == Context::Rays => self.solo_explained(),
             Action::Solo => self.toggle_solo(),
             Action::Retype => self.open_kinds(),
             Action::Transform(tool) => self.start_transform(tool),
@@ -303,6 +311,8 @@ impl App {
             Action::SavedViews => self.list_views(),
             Action::DeleteView => self.delete_view(),
             Action::Cross(right, down) => self.move_cross(right, down),
+            Action::Explain => self.start_explaining(),
+            Action::Sample(step) => self.change_sample(step),
             Action::Mine | Action::Theirs | Action::AllMine | Action::AllTheirs => {
                 self.decide(action);
             }
@@ -354,13 +364,13 @@ impl App {
         match mode {
             Mode::Trace => return self.start_trace(),
             Mode::Compare => return self.start_comparison(),
-            Mode::View | Mode::Fly | Mode::Pick if self.scene.is_none() => {
+            Mode::View | Mode::Fly | Mode::Inspect if self.scene.is_none() => {
                 self.refuse_picture(Severity::Error, &self.no_picture());
             }
             Mode::Edit if self.cursor.fields().is_empty() => {
                 self.overlays.fail("nothing to edit here");
             }
-            Mode::Pick => self.start_pick(),
+            Mode::Inspect => self.start_inspecting(),
             Mode::Move => self.start_transform(Tool::Move),
             Mode::Select | Mode::View | Mode::Fly | Mode::Edit => self.mode = mode,
         }
@@ -395,11 +405,13 @@ impl App {
             }
             Context::Opening => {}
             Context::Colour => self.cancel_colour(),
+            Context::Rays => self.inspection.explained = None,
             Context::Region => self.pictures.drawing = None,
             Context::In(Mode::Trace) => {
                 self.mode = self.pictures.mode_before();
             }
             Context::In(Mode::Compare) => self.end_comparison(),
+            Context::In(Mode::Inspect) => self.stop_inspecting(),
             Context::In(Mode::Select) if self.end_filter() => {}
             Context::In(Mode::Select) => self.cursor.marks.clear(),
             Context::In(Mode::Move) => self.cancel_transform(),
@@ -422,7 +434,8 @@ impl App {
             Context::Delete => self.delete_anyway(),
             Context::Overwrite => return self.answer_taken(Existing::Overwritten),
             Context::Recover => return self.restore(),
-            Context::In(Mode::Pick) => self.pick_cross(),
+            Context::In(Mode::Inspect) => self.select_crossed(),
+            Context::Rays => self.select_explained(),
             Context::In(Mode::Move) => self.confirm_transform(),
             Context::Colour => self.confirm_colour(),
             Context::Region => return self.confirm_region(),

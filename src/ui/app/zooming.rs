@@ -4,8 +4,8 @@ use super::App;
 use super::sight::Sight;
 use super::viewport::{Detail, Screen, Viewport};
 use crate::scene::Size;
-use crate::ui::keymap::Mode;
 use crate::ui::layout::raster;
+use crate::ui::msg::Target;
 
 /// The middle of the window, in shares of its size.
 const MIDDLE: [f64; 2] = [0.5; 2];
@@ -37,8 +37,8 @@ impl App {
     /// How the picture on screen is seen; `None` if there is no room.
     pub fn sight(&self) -> Option<Sight> {
         let screen = self.screen()?;
-        let detail = match self.mode {
-            Mode::Trace | Mode::Compare => Detail::Full,
+        let detail = match self.seen() {
+            Target::Trace | Target::Compared => Detail::Full,
             _ => Detail::OnScreen,
         };
         Some(Sight {

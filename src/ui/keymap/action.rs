@@ -16,8 +16,8 @@ pub enum Mode {
     Edit,
     /// Shows the full-size trace.
     Trace,
-    /// Moves a cross over the picture to pick the object under it.
-    Pick,
+    /// Moves a cross over the picture to see what is under it, and why.
+    Inspect,
     /// Moves, rotates or scales things in the picture.
     Move,
     /// Compares the picture with a reference.
@@ -39,7 +39,7 @@ impl Mode {
         Self::Move,
         Self::View,
         Self::Fly,
-        Self::Pick,
+        Self::Inspect,
         Self::Trace,
         Self::Compare,
     ];
@@ -53,7 +53,7 @@ impl Mode {
             Self::Move => "MOVE",
             Self::Edit => "EDIT",
             Self::Trace => "TRACE",
-            Self::Pick => "PICK",
+            Self::Inspect => "INSPECT",
             Self::Compare => "COMPARE",
         }
     }
@@ -80,6 +80,8 @@ pub enum Context {
     Steps,
     /// The colour picker.
     Colour,
+    /// The rays behind the pixel under the cross.
+    Rays,
     /// The drawing of a region in the full-size trace.
     Region,
     /// The question how to resolve a merge.
@@ -201,7 +203,7 @@ pub enum Action {
     SavedViews,
     /// Deletes the saved view under the cursor.
     DeleteView,
-    /// Moves the cross, in cells to the right and down.
+    /// Moves the cross, in pixels to the right and down.
     Cross(i32, i32),
     /// Makes the picture on screen the reference that pictures are compared with.
     Pin,
@@ -215,6 +217,10 @@ pub enum Action {
     Difference,
     /// Goes to the next or previous of the pixels that differ most.
     Worst(isize),
+    /// Explains the pixel under the cross.
+    Explain,
+    /// Explains the next or previous sample of the pixel.
+    Sample(i32),
     /// Stops the work in progress.
     Stop,
     /// Pauses the full-size trace, or goes on.

@@ -16,18 +16,24 @@ mod help;
 mod histogram;
 mod history;
 mod inks;
+mod labelled;
+mod left;
 mod list;
 mod menu;
 mod message;
+mod mosaic;
 mod oklab;
 mod page;
 mod palette;
 mod picker;
 mod picture;
+mod pixel;
+mod rays;
 mod row;
 mod status;
 mod steps;
 mod symbols;
+mod tiles;
 mod values;
 mod wireframe;
 
@@ -41,34 +47,56 @@ use ratatui::style::Style;
 
 use super::app::App;
 use super::arrange::MIN_SIZE;
-use super::keymap::Mode;
+use super::keymap::{Context, Mode};
 use super::layout;
 use super::theme;
-pub use inks::Inks;
+pub use inks::{Drawing, Inks};
+pub use left::pixmap;
+pub use mosaic::Mosaic;
 
-/// Draws the whole screen.
-pub fn draw(app: &App, inks: &mut Inks, frame: &mut Frame) {
+/// Draws the whole screen. Returns the cells that are left to the terminal's own picture: none if
+/// anything but marks and words of the picture is over it, which is then drawn in half blocks.
+pub fn draw(app: &App, inks: &mut Inks, frame: &mut Frame) -> Option<Rect> {
     let area = frame.area();
-    render(app, inks, area, frame.buffer_mut());
-    inks.theme(app.theme).apply(frame.buffer_mut());
+    let buffer = frame.buffer_mut();
+    let mut left = render(app, inks, area, buffer);
+    if left.is_none() && inks.drawing == Drawing::Picture {
+        buffer.reset();
+        inks.drawing = Drawing::HalfBlocks;
+        render(app, inks, area, buffer);
+        inks.drawing = Drawing::Picture;
+    }
+    if let Some(cells) = left {
+        left = Some(cells.intersection(buffer.area));
+        left::blank(cells, buffer);
+    }
+    inks.theme(app.theme).apply(buffer);
+    left
 }
 
-fn render(app: &App, inks: &mut Inks, area: Rect, buffer: &mut Buffer) {
+/// Draws the whole screen; returns the cells that are left to a picture if nothing is over it.
+fn render(app: &App, inks: &mut Inks, area: Rect, buffer: &mut Buffer) -> Option<Rect> {
     let area = area.intersection(buffer.area);
     let areas = app.areas_in(area, app.zoom_now());
     if areas.status.is_empty() {
         too_small(area, buffer);
-        return;
+        return None;
     }
-    picture::render(app, inks, areas.picture, buffer);
+    let left = picture::render(app, inks, areas.picture, buffer);
+    let left = left.map(|cells| (cells, left::left_in(cells, buffer)));
     rule(app, areas.rule, buffer);
-    if !areas.list.is_empty() && !app.disk.is_opening() {
-        if app.mode == Mode::Compare {
-            comparison::render(app, inks, areas.list.union(areas.fields), buffer);
-        } else {
-            list::render(app, areas.list, buffer);
-            fields::render(app, areas.fields, buffer);
+    if app.context() == Context::Rays {
+        rays::render(app, buffer);
+    } else if !areas.list.is_empty() && app.mode == Mode::Compare {
+        comparison::render(app, inks, areas.list.union(areas.fields), buffer);
+    } else if !areas.list.is_empty() && !app.disk.is_opening() {
+        list::render(app, areas.list, buffer);
+        match app.mode {
+            Mode::Inspect => pixel::render(app, areas.fields, buffer),
+            _ => fields::render(app, areas.fields, buffer),
         }
+    } else if app.mode == Mode::Inspect {
+        pixel::render_over(app, areas.picture, buffer);
     }
     histogram::render(app, areas.picture, buffer);
     errors::render(app, areas.errors, buffer);
@@ -95,6 +123,8 @@ fn render(app: &App, inks: &mut Inks, area: Rect, buffer: &mut Buffer) {
     picker::render(app, inks, areas.list, body, buffer);
     completions::render(app, body, buffer);
     dialog::render(app, body, buffer);
+    let (cells, count) = left?;
+    (left::left_in(cells, buffer) == count).then_some(cells)
 }
 
 /// Draws the line between columns, which makes a stale picture obvious.

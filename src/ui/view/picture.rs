@@ -1,5 +1,6 @@
 //! The picture: two pixels per cell, drawn as `▀` with the upper pixel as foreground and the lower
-//! one as background; a character per cell on terminals without colours.
+//! one as background; more as mosaics; a character per cell on terminals without colours. Cells that
+//! the terminal fills with its own picture are left to it.
 
 use std::borrow::Cow;
 
@@ -10,25 +11,25 @@ use ratatui::widgets::{Clear, Widget};
 use unicode_width::UnicodeWidthStr;
 
 use super::characters::Characters;
-use super::inks::{Glyphs, Inks};
+use super::inks::{Drawing, Glyphs, Inks};
+use super::left::leave;
 use super::row::Row;
-use super::{comparison, symbols, values, wireframe};
-use crate::render::{pixel_of, pixel_width};
+use super::{comparison, pixel, symbols, tiles, values, wireframe};
+use crate::render::{line_of, pixel_of, pixel_width};
 use crate::scene::Size;
-use crate::ui::app::{App, FirstReading, Shown};
+use crate::ui::app::{App, FirstReading, Grid, Shown};
 use crate::ui::keymap::Mode;
 use crate::ui::layout::{self, raster};
 use crate::ui::theme;
 
-/// Draws the current picture, letterboxed, with its symbols.
-pub(crate) fn render(app: &App, inks: &mut Inks, area: Rect, buffer: &mut Buffer) {
-    let Some((cells, size)) = raster(area, app.output()) else {
-        return;
-    };
+/// Draws the current picture, letterboxed, with its symbols. Returns its cells if they are left to
+/// the terminal's own picture.
+pub(crate) fn render(app: &App, inks: &mut Inks, area: Rect, buffer: &mut Buffer) -> Option<Rect> {
+    let (cells, size) = raster(area, app.output())?;
     if let Some(wires) = app.wires().and_then(|wires| wires.lines(size)) {
         wireframe::paint(wires, &app.outlined_objects(), cells, buffer);
         overlays(app, inks.glyphs, area, (cells, size), buffer);
-        return;
+        return None;
     }
     let shown = &app.picture().shown;
     if shown.size.pixels() == 0 || shown.pixels.len() != shown.size.pixels() {
@@ -37,19 +38,29 @@ pub(crate) fn render(app: &App, inks: &mut Inks, area: Rect, buffer: &mut Buffer
         } else {
             notice(app, area, buffer);
         }
-        return;
+        return None;
     }
-    let pixels = app.pictures.grid.size(size);
-    let shown = if shown.size == pixels {
-        Cow::Borrowed(shown)
-    } else {
-        Cow::Owned(shown.resampled(pixels))
+    let resampled = |pixels: Size| {
+        if shown.size == pixels {
+            Cow::Borrowed(shown)
+        } else {
+            Cow::Owned(shown.resampled(pixels))
+        }
     };
-    paint(&shown, inks, cells, buffer);
+    match inks.drawing {
+        Drawing::HalfBlocks => paint(&resampled(size), inks, cells, buffer),
+        Drawing::Mosaic(mosaic) => {
+            let (across, down) = mosaic.grid();
+            let grid = Grid { across, down };
+            tiles::paint(&resampled(grid.size(size)), mosaic, inks, cells, buffer);
+        }
+        Drawing::Picture => leave(cells, buffer),
+    }
     if let (Some(frame), Some(sight)) = (&app.picture().latest, app.sight()) {
         values::render(frame, &sight, cells, buffer);
     }
     overlays(app, inks.glyphs, area, (cells, size), buffer);
+    (inks.drawing == Drawing::Picture).then_some(cells)
 }
 
 /// Draws what lies over the picture.
@@ -61,10 +72,11 @@ fn overlays(
     buffer: &mut Buffer,
 ) {
     if app.mode == Mode::Move {
-        axis(app, cells, size, buffer);
+        axis(app, glyphs, (cells, size), buffer);
     }
     symbols::render(app, glyphs, cells, buffer);
-    if app.mode == Mode::Pick {
+    if app.mode == Mode::Inspect {
+        path(app, glyphs, cells, buffer);
         cross(app, cells, buffer);
     }
     if app.mode == Mode::Compare {
@@ -132,9 +144,9 @@ fn opening(name: &str, bytes: u64) -> String {
     }
 }
 
-/// Marks the cell to pick from and names the object there.
+/// Marks the cell of the inspected pixel and says what is there.
 fn cross(app: &App, cells: Rect, buffer: &mut Buffer) {
-    let Some((column, row)) = app.pictures.cross else {
+    let Some((column, row)) = app.cross_cell() else {
         return;
     };
     let (x, y) = (cells.x.saturating_add(column), cells.y.saturating_add(row));
@@ -144,18 +156,15 @@ fn cross(app: &App, cells: Rect, buffer: &mut Buffer) {
         cell.set_symbol("┼").set_style(Style::reset());
         cell.set_style(theme::chip(Style::new()));
     }
-    let symbol = app.symbol_at((column, row));
-    let under = || app.node_under((column, row));
-    let name = match symbol.map_or_else(under, |node| Ok(Some(node))) {
-        Ok(Some(node)) => app.source().name(node),
-        Ok(None) => "nothing".to_owned(),
-        Err(reason) => reason.to_owned(),
+    let words = match app.symbol_at((column, row)) {
+        Some(node) => app.source().name(node),
+        None => pixel::in_short(app),
     };
-    Row::new(buffer, cells, 0).put(&format!(" {name} "), theme::chip(theme::ACCENT));
+    Row::new(buffer, cells, 0).put(&format!(" {words} "), theme::chip(theme::ACCENT));
 }
 
 /// Draws the axis that a transformation is locked to, through what is being transformed.
-fn axis(app: &App, cells: Rect, size: Size, buffer: &mut Buffer) {
+fn axis(app: &App, glyphs: Glyphs, (cells, size): (Rect, Size), buffer: &mut Buffer) {
     let (Some(transform), Some(camera)) = (&app.pictures.transform, app.camera()) else {
         return;
     };
@@ -170,19 +179,69 @@ fn axis(app: &App, cells: Rect, size: Size, buffer: &mut Buffer) {
             continue;
         };
         let [x, y] = sight.on_screen(place, size);
-        if x < 0.0 || y < 0.0 || f64::from(cells.width) <= x || f64::from(size.height) <= y {
-            continue;
+        if y < f64::from(size.height) {
+            plot([x, 0.5 * y], (glyphs, colour), cells, buffer);
         }
-        let (x, y) = (x as u16, y as u16);
-        let Some(cell) = buffer.cell_mut((cells.x + x, cells.y + y / 2)) else {
+    }
+}
+
+/// Draws the path of light that is explained.
+fn path(app: &App, glyphs: Glyphs, cells: Rect, buffer: &mut Buffer) {
+    let Some(frame) = &app.picture().latest else {
+        return;
+    };
+    let Some(camera) = frame.query.as_ref().map(|query| query.camera) else {
+        return;
+    };
+    let whole = frame.whole();
+    for segment in app.ray_path() {
+        let colour = if segment.is_dark {
+            theme::BLOCKED
+        } else {
+            theme::PATH
+        };
+        let Some(ends) = line_of(segment.ends, &camera, whole) else {
             continue;
         };
-        match (cell.symbol(), y % 2) {
-            ("▀", 0) => cell.set_fg(colour),
-            ("▀", _) => cell.set_bg(colour),
-            _ => cell.set_symbol("·"),
+        let places = ends.map(|end| app.place_on_screen(end, whole));
+        let [Some(from), Some(to)] = places else {
+            continue;
         };
+        let [across, down] = [0, 1].map(|axis| to[axis] - from[axis]);
+        let steps = across.abs().max(2.0 * down.abs()).ceil().max(1.0);
+        for step in 0..=steps as u32 {
+            let share = f64::from(step) / steps;
+            let place = [from[0] + share * across, from[1] + share * down];
+            plot(place, (glyphs, rgb(colour)), cells, buffer);
+        }
     }
+}
+
+/// Colours the half of a cell at a place, which is in cells from the picture's corner.
+fn plot(
+    [column, row]: [f64; 2],
+    (glyphs, colour): (Glyphs, Color),
+    cells: Rect,
+    buffer: &mut Buffer,
+) {
+    let is_inside = 0.0 <= column
+        && 0.0 <= row
+        && column < f64::from(cells.width)
+        && row < f64::from(cells.height);
+    if !is_inside {
+        return;
+    }
+    let half = (2.0 * row) as u16;
+    let Some(cell) = buffer.cell_mut((cells.x + column as u16, cells.y + half / 2)) else {
+        return;
+    };
+    match (cell.symbol(), half % 2) {
+        ("▀", 0) => cell.set_fg(colour),
+        ("▀", _) => cell.set_bg(colour),
+        // A dot in that colour, over the picture of the terminal or a mosaic.
+        _ if glyphs != Glyphs::Characters => cell.set_symbol("·").set_fg(colour),
+        _ => cell.set_symbol("·"),
+    };
 }
 
 /// Draws the pixels of a picture over its cells.

@@ -123,6 +123,8 @@ fn edits(action: A) -> bool {
         | A::SlideWipe(_)
         | A::Difference
         | A::Worst(_)
+        | A::Explain
+        | A::Sample(_)
         | A::Stop
         | A::Pause
         | A::Magnify(_)
@@ -177,6 +179,9 @@ const OTHERS: &[&str] = &[
     "export cancel",
     "render",
     "compare",
+    "until",
+    "region",
+    "zoom",
     "view light",
     "view reset",
     "show uv",
@@ -191,6 +196,7 @@ const OTHERS: &[&str] = &[
     "theme dark",
     "theme light",
     "theme mono",
+    "pixels",
     "help",
 ];
 

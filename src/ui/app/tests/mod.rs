@@ -11,6 +11,7 @@ mod editing;
 mod exports;
 mod fields;
 mod hints;
+mod inspecting;
 mod listing;
 mod looking;
 mod making;
