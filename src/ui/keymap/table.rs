@@ -310,6 +310,7 @@ pub(super) const TABLE: &[Binding] = &[
     bind(COMPARE, &[c('d')], A::Difference, "difference, times 4, times 16, heat map"),
     bind(COMPARE, &[c('+')], A::Magnify(1), "zoom in"),
     bind(COMPARE, &[c('-')], A::Magnify(-1), "zoom out"),
+    bind(COMPARE, &[c('e')], A::Explain, "explain the pixel that is pointed at, or the worst"),
     bind(COMPARE, &[c('n')], A::Worst(1), "next of the worst pixels"),
     bind(COMPARE, &[c('N')], A::Worst(-1), "previous of the worst pixels"),
 
