@@ -8,6 +8,7 @@ use glam::DVec3;
 
 use super::bsdf::{Bsdf, BsdfSample};
 use super::direct::shadow;
+use super::gather::Gather;
 use super::intersect::Nearest;
 use super::lights::SphereLight;
 use super::lobes::Scattered;
@@ -91,13 +92,20 @@ impl<C: Fn() -> bool> Probe<'_, C> {
             let mut mapped = None;
             let next = match self.reach(&mut path, sample, &mut mapped) {
                 Reached::Nothing(radiance) => {
-                    seen.radiance += path.throughput * radiance;
+                    if self.gather.glow(path.bounce) {
+                        seen.radiance += path.throughput * radiance;
+                    }
                     None
                 }
                 Reached::Light {
-                    radiance, weight, ..
+                    light,
+                    radiance,
+                    weight,
+                    ..
                 } => {
-                    seen.radiance += path.throughput * radiance * weight;
+                    if self.gathers(&light, &path) {
+                        seen.radiance += path.throughput * radiance * weight;
+                    }
                     None
                 }
                 Reached::Surface(vertex) => {
@@ -108,7 +116,12 @@ impl<C: Fn() -> bool> Probe<'_, C> {
                     self.touched |= Touched::object(object);
                     if vertex.material.is_lit(vertex.point.side) {
                         let light = self.light_of_all(&vertex, path.bounce, sample.sampler);
-                        seen.radiance += path.throughput * (vertex.material.emission + light);
+                        let emission = if self.gather.glow(path.bounce) {
+                            vertex.material.emission
+                        } else {
+                            Rgb::ZERO
+                        };
+                        seen.radiance += path.throughput * (emission + light);
                     }
                     vertex.sample(&path, sample.sampler)
                 }
@@ -179,6 +192,20 @@ impl<C: Fn() -> bool> Probe<'_, C> {
         path.go_on(next, sampler)
     }
 
+    /// Whether a light with a size that a path hits is part of the light gathered. Where it could
+    /// have been sampled from the first surface, it is that surface's direct light.
+    fn gathers(&self, light: &SphereLight, path: &Path) -> bool {
+        let from_first = path.bounce == 1 && path.chosen.is_some();
+        match self.gather {
+            Gather::Direct(number) => {
+                let wanted = self.world.scene.lights.get(number as usize);
+                from_first && wanted.and_then(Light::sphere).as_ref() == Some(light)
+            }
+            Gather::Indirect if from_first => false,
+            gather => gather.glow(path.bounce),
+        }
+    }
+
     /// Whether to stop before the light with this index; polled for some only, since a scene may
     /// have 100,000 lights.
     fn is_cancelled_at(&self, light: usize) -> bool {
@@ -192,7 +219,9 @@ impl<C: Fn() -> bool> Probe<'_, C> {
             if self.is_cancelled_at(number) {
                 break;
             }
-            sum += self.light_of(number, vertex, bounce, sampler);
+            if self.gather.light(number, bounce) {
+                sum += self.light_of(number, vertex, bounce, sampler);
+            }
         }
         sum
     }

@@ -11,8 +11,8 @@ use super::{App, Help, Next, PromptKind};
 use crate::document::StepName;
 use crate::image_file::ImageFormat;
 use crate::language::{Language, extensions};
-use crate::render::MAX_SPP;
-use crate::scene::{Camera, Size};
+use crate::render::{Aov, MAX_SPP, MOST_HALF_STOPS};
+use crate::scene::{Camera, Size, Transfer};
 use crate::text::{Severity, nearest_word};
 use crate::ui::keymap::{self, Action, HelpLine, Mode};
 use crate::ui::msg::{Effect, Guard};
@@ -59,6 +59,16 @@ enum Command {
     Mesh(Option<PathBuf>),
     /// Take the mouse or leave it to the terminal.
     Mouse,
+    /// Show an AOV.
+    Show(Aov),
+    /// Set the exposure of the display, in half stops.
+    Exposure(i8),
+    /// Display light by a transfer function, or by the scene's own.
+    Transfer(Option<Transfer>),
+    /// Display false colours, or true ones again.
+    FalseColour,
+    /// Show or hide the histogram.
+    Histogram,
     /// Use other colours.
     Theme(Theme),
     /// Open the help page.
@@ -99,6 +109,7 @@ enum Arguments {
     Size(fn(Size) -> Command),
     /// How they are spelled, and what reads them.
     Said(&'static str, fn(&str) -> Result<Command, String>),
+    Stops(fn(i8) -> Command),
 }
 
 const fn row(
@@ -145,6 +156,14 @@ const TABLE: &[CommandRow] = &[
     row(&["view reset"], A::Nothing(C::ViewReset), "reset to the scene's view"),
     row(&["size"], A::Size(C::Size), "set the picture size in the scene"),
     row(&["mesh"], A::File(C::Mesh), "add the mesh of an .obj FILE, named as from the scene"),
+    row(&["show uv"], A::Nothing(C::Show(Aov::Uv)), "show texture coordinates: u red, v green"),
+    row(&["show side"], A::Nothing(C::Show(Aov::Side)), "show sides of surfaces: front blue, back orange"),
+    row(&["exposure"], A::Stops(C::Exposure), "set the exposure of the display, in stops"),
+    row(&["transfer linear"], A::Nothing(C::Transfer(Some(Transfer::Linear))), "display light linearly"),
+    row(&["transfer srgb"], A::Nothing(C::Transfer(Some(Transfer::Srgb))), "display light by the sRGB curve"),
+    row(&["transfer scene"], A::Nothing(C::Transfer(None)), "display light as the scene says"),
+    row(&["falsecolour", "falsecolor"], A::Nothing(C::FalseColour), "display luminances as false colours, or no longer"),
+    row(&["histogram"], A::Nothing(C::Histogram), "show or hide the histogram of the light"),
     row(&["mouse"], A::Nothing(C::Mouse), "take the mouse or leave it to the terminal"),
     row(&["theme dark"], A::Nothing(C::Theme(Theme::Dark)), "use colours for dark screens"),
     row(&["theme light"], A::Nothing(C::Theme(Theme::Light)), "use colours for light screens"),
@@ -239,6 +258,7 @@ impl CommandRow {
             A::Picture(_) => " [FILE] [WxH] [SPP]",
             A::Size(_) => " WxH",
             A::Said(usage, _) => usage,
+            A::Stops(_) => " STOPS",
         };
         format!(":{name}{arguments}")
     }
@@ -260,6 +280,14 @@ impl CommandRow {
             }
             A::Picture(command) => picture(rest).map(command),
             A::Said(_, parse) => parse(rest),
+            A::Stops(command) => {
+                let stops = half_stops(rest);
+                let range = MOST_HALF_STOPS / 2;
+                let stops = stops.ok_or_else(|| {
+                    format!("{name} takes stops from -{range} to {range}, in steps of 0.5")
+                })?;
+                Ok(command(stops))
+            }
             A::Size(command) => {
                 let size = Size::parse(rest);
                 let size = size.ok_or_else(|| format!("{name} takes a size such as 800x600"))?;
@@ -298,6 +326,13 @@ fn parse(line: &str) -> Result<Command, String> {
 fn until(said: &str) -> Result<Command, String> {
     let until = (!said.is_empty()).then(|| Until::parse(said));
     until.transpose().map(Command::Until)
+}
+
+/// Parses a number of stops; `None` unless it is a multiple of ½ in range.
+fn half_stops(text: &str) -> Option<i8> {
+    let half_stops = 2.0 * text.parse::<f64>().ok()?;
+    let is_known = half_stops.fract() == 0.0 && half_stops.abs() <= f64::from(MOST_HALF_STOPS);
+    is_known.then_some(half_stops as i8)
 }
 
 /// Parses `[FILE] [WxH] [SPP]`; the file name may contain blanks.
@@ -434,6 +469,11 @@ impl App {
             Command::Size(size) => self.set_size(size),
             Command::Mesh(file) => self.add_mesh(file.as_deref()),
             Command::Mouse => return self.toggle_mouse(),
+            Command::Show(aov) => self.show(Some(aov)),
+            Command::Exposure(half_stops) => self.set_exposure(half_stops),
+            Command::Transfer(transfer) => self.set_transfer(transfer),
+            Command::FalseColour => self.toggle_false_colours(),
+            Command::Histogram => self.toggle_histogram(),
             Command::Theme(theme) => self.theme = theme,
             Command::Help => self.overlays.help = Some(Help::default()),
         }
@@ -510,10 +550,10 @@ mod tests {
     fn commands_are_found_by_every_name() {
         for (index, form) in TABLE.iter().enumerate() {
             for name in form.names {
-                let argument = if let A::Size(_) = form.arguments {
-                    " 8x6"
-                } else {
-                    ""
+                let argument = match form.arguments {
+                    A::Size(_) => " 8x6",
+                    A::Stops(_) => " -1.5",
+                    _ => "",
                 };
                 assert!(parse(&format!(" {name}{argument} ")).is_ok(), "{name}");
                 let mut others = TABLE[..index].iter().flat_map(|form| form.names);

@@ -2,6 +2,7 @@
 
 use std::sync::Arc;
 
+use super::looking::Tally;
 use super::picture::Picture;
 use super::regions::Drawing;
 use super::sight::Grid;
@@ -9,7 +10,7 @@ use super::soloed::Solo;
 use super::transform::Transform;
 use super::until::Until;
 use super::wires::Wires;
-use crate::render::{Aov, Filter, Frame, Region};
+use crate::render::{Aov, Display, Filter, Frame, Region};
 use crate::scene::{Camera, Integrator, Scene};
 use crate::ui::keymap::Mode;
 use crate::ui::msg::Target;
@@ -29,6 +30,12 @@ pub struct Pictures {
     pub grid: Grid,
     /// What traced pictures show instead of light.
     pub aov: Option<Aov>,
+    /// How light is displayed.
+    pub display: Display,
+    /// The histogram, if it is shown.
+    pub tally: Option<Tally>,
+    /// Whether the preview was said to be too bright, and is so still.
+    pub(super) is_bright: bool,
     /// The wireframe, if it is shown instead of the preview.
     pub wires: Option<Wires>,
     /// Whether the selected object is outlined in SELECT mode.
@@ -100,6 +107,9 @@ impl Pictures {
             quality,
             grid: Grid::HALF_BLOCKS,
             aov: None,
+            display: Display::default(),
+            tally: None,
+            is_bright: false,
             wires: None,
             outline: Outline::default(),
             symbols: Symbols::default(),
@@ -119,7 +129,9 @@ impl Pictures {
     pub(super) fn renew(&mut self) {
         *self = Self {
             grid: self.grid,
-            aov: self.aov,
+            aov: self.aov.filter(|aov| !matches!(aov, Aov::Direct(_))),
+            display: self.display,
+            tally: self.tally.take().map(|_| Tally::default()),
             wires: self.wires.take().map(|_| Wires::default()),
             outline: self.outline,
             symbols: self.symbols,
@@ -239,6 +251,11 @@ impl Pictures {
             self.preview.forget_objects();
         }
         let is_new = before != Some(scene);
+        if let Some(Aov::Direct(light)) = self.aov
+            && scene.lights.len() <= light as usize
+        {
+            self.aov = None;
+        }
         self.due |= is_new;
         is_new
     }
@@ -276,9 +293,12 @@ impl Pictures {
             Some(Aov::Albedo) => "albedo: unlit colours",
             Some(Aov::Uv) => "texture coordinates: u red, v green",
             Some(Aov::Side) => "sides: front blue, back orange",
-            Some(Aov::Cost) => "cost: rays per sample",
-            Some(Aov::Samples) => "samples per pixel",
-            Some(Aov::Noise) => "noise: estimated error",
+            Some(Aov::Cost) => "cost: rays traced for a sample, few dark, many bright",
+            Some(Aov::Samples) => "samples taken: few dark, many bright",
+            Some(Aov::Noise) => "noise: estimated error of the light, small dark, large bright",
+            Some(Aov::Direct(_)) => "direct light of one light",
+            Some(Aov::Emission) => "emission, ambient light and background alone",
+            Some(Aov::Indirect) => "indirect light alone: by way of other surfaces",
         }
     }
 

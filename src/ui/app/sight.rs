@@ -2,7 +2,7 @@
 
 use std::borrow::Cow;
 
-use crate::render::{Frame, Region};
+use crate::render::{Display, Frame, Region};
 use crate::scene::{Camera, Size};
 
 /// How a picture is mapped to the screen.
@@ -16,6 +16,8 @@ pub struct Sight {
     pub window: Option<Window>,
     /// The region that is marked.
     pub marked: Option<Marked>,
+    /// How light is displayed.
+    pub display: Display,
 }
 
 /// The part of a picture that is seen.
@@ -66,12 +68,14 @@ impl Sight {
             grid: Grid::HALF_BLOCKS,
             window: None,
             marked: None,
+            display: Display::default(),
         }
     }
 
     /// The colours of the frame's pixels as they are to be seen.
     pub(super) fn colours<'f>(&self, frame: &'f Frame) -> Cow<'f, [[u8; 3]]> {
-        Cow::Borrowed(&frame.pixels)
+        let displayed = self.display.apply(frame);
+        displayed.map_or(Cow::Borrowed(&frame.pixels), Cow::Owned)
     }
 
     /// What of a picture of this size is seen.

@@ -269,6 +269,7 @@ impl App {
         }
         // Without a scene, it is of one that was left.
         if self.scene.is_some() {
+            self.hint_exposure(target, &frame);
             self.pictures.take(target, frame);
         }
         Vec::new()

@@ -26,6 +26,7 @@ impl App {
         self.follow_views();
         effects.extend(self.follow());
         effects.extend(self.follow_explained());
+        self.follow_histogram();
         effects.extend(self.follow_steps());
         effects.extend(self.disk.journal.follow(&self.document));
         effects.extend(self.follow_kept());
@@ -315,7 +316,9 @@ impl App {
             Action::Zoom => self.toggle_zoom(),
             Action::Resize(step) => self.resize_panels(step),
             Action::Divide(step) => self.resize_list(step),
-            Action::Show(aov) => self.overlays.say(self.pictures.show(aov)),
+            Action::Show(aov) => self.show(aov),
+            Action::Share(step) => self.step_share(step),
+            Action::Expose(half_stops) => self.expose(half_stops),
             Action::Wireframe => self.overlays.say(self.pictures.show_wires()),
             Action::Integrator => {
                 let words = self.pictures.toggle_integrator(self.scene.as_deref());

@@ -46,6 +46,7 @@ impl App {
             grid: screen.grid,
             window: self.viewport().window(screen, detail),
             marked: self.marked(),
+            display: self.pictures.display,
         })
     }
 

@@ -247,6 +247,10 @@ pub enum Action {
     Divide(i32),
     /// Shows one of the auxiliary images, or the lit picture.
     Show(Option<Aov>),
+    /// Shows the next share of the light: that of a light, emission, indirect light, all.
+    Share(isize),
+    /// Changes the exposure of the display, in half stops.
+    Expose(i8),
     /// Shows the preview as a wireframe.
     Wireframe,
     /// Switches between Whitted ray tracing and path tracing.

@@ -344,6 +344,11 @@ pub(super) const TABLE: &[Binding] = &[
     bind(PICTURES, &[c('3')], A::Show(Some(Aov::Normal)), "show normals"),
     bind(PICTURES, &[c('4')], A::Show(Some(Aov::Object)), "show objects, one colour each"),
     bind(PICTURES, &[c('5')], A::Show(Some(Aov::Albedo)), "show unlit colours"),
+    bind(PICTURES, &[c('7')], A::Show(Some(Aov::Cost)), "show cost: rays traced"),
+    bind(PICTURES, &[c('8')], A::Show(Some(Aov::Samples)), "show samples taken"),
+    bind(PICTURES, &[c('9')], A::Show(Some(Aov::Noise)), "show noise: estimated error"),
+    bind(PICTURES, &[c(')')], A::Share(1), "next share of the light"),
+    bind(PICTURES, &[c('(')], A::Share(-1), "previous share of the light"),
 
     bind(PREVIEWS, &[c('6')], A::Wireframe, "show a wireframe, for slow links"),
 
@@ -386,6 +391,8 @@ pub(super) const TABLE: &[Binding] = &[
     bind(Scope::Everywhere, &[c('}')], A::Resize(-2), "smaller panels"),
     bind(Scope::Everywhere, &[alt('{')], A::Divide(-1), "smaller list, larger fields"),
     bind(Scope::Everywhere, &[alt('}')], A::Divide(1), "larger list, smaller fields"),
+    bind(Scope::Everywhere, &[c('<')], A::Expose(-1), "darker display, by half a stop"),
+    bind(Scope::Everywhere, &[c('>')], A::Expose(1), "brighter display"),
     bind(Scope::Everywhere, &[c('P')], A::Integrator, "toggle path tracing"),
     bind(Scope::Always, &[ctrl('l')], A::Repaint, "redraw the screen"),
     bind(Scope::Always, &[ctrl('z')], A::Suspend, "suspend"),

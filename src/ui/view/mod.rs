@@ -12,6 +12,7 @@ mod dither;
 mod errors;
 mod fields;
 mod help;
+mod histogram;
 mod history;
 mod inks;
 mod labelled;
@@ -74,6 +75,7 @@ fn render(app: &App, inks: &mut Inks, area: Rect, buffer: &mut Buffer) {
     } else if app.mode == Mode::Inspect {
         pixel::render_over(app, areas.picture, buffer);
     }
+    histogram::render(app, areas.picture, buffer);
     errors::render(app, areas.errors, buffer);
     let status = current::render(app, &areas, buffer);
     status::render(app, inks.glyphs, status, buffer);

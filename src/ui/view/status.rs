@@ -267,8 +267,14 @@ fn making_segment(app: &App, say: &mut impl FnMut(u8, String, Style)) {
         say(7, "wireframe".to_owned(), theme::WARNING);
         return;
     }
-    if let Some(aov) = app.pictures.aov {
-        say(7, aov.name().to_owned(), theme::WARNING);
+    if let Some(display) = app.display_name() {
+        say(3, format!(" {display} "), theme::chip(theme::WARNING));
+    }
+    if let Some(legend) = app.legend() {
+        say(10, legend, theme::DIM);
+    }
+    if let Some(view) = app.view_name() {
+        say(7, view, theme::WARNING);
         return;
     }
     let name = match app.integrator() {

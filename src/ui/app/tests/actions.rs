@@ -100,6 +100,7 @@ fn edits(action: A) -> bool {
         | A::Copy
         | A::Solo
         | A::Step(..)
+        | A::Steps
         | A::Lock(_)
         | A::Snap
         | A::Stride(_)
@@ -138,6 +139,8 @@ fn edits(action: A) -> bool {
         | A::Resize(_)
         | A::Divide(_)
         | A::Show(_)
+        | A::Share(_)
+        | A::Expose(_)
         | A::Wireframe
         | A::Integrator
         | A::Repaint
@@ -171,6 +174,14 @@ const OTHERS: &[&str] = &[
     "render",
     "view light",
     "view reset",
+    "show uv",
+    "show side",
+    "exposure",
+    "transfer linear",
+    "transfer srgb",
+    "transfer scene",
+    "falsecolour",
+    "histogram",
     "mouse",
     "theme dark",
     "theme light",

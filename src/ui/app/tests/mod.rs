@@ -12,6 +12,7 @@ mod fields;
 mod hints;
 mod inspecting;
 mod listing;
+mod looking;
 mod making;
 mod messages;
 mod moving;
@@ -140,6 +141,7 @@ fn named(name: &str) -> KeyEvent {
         "Tab" => KeyCode::Tab,
         "Back" => KeyCode::Backspace,
         "F5" => KeyCode::F(5),
+        "Lt" => KeyCode::Char('<'),
         one => KeyCode::Char(one.chars().next().expect("a key has a name")),
     })
 }

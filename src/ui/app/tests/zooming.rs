@@ -9,6 +9,7 @@ use super::pictures::frame;
 use super::*;
 use crate::render::{Job, Limit, MAX_SPP, Region};
 use crate::scene::Size;
+use crate::ui::keymap::Context;
 use crate::ui::msg::Target;
 
 /// The job of the last of these effects that traces this picture.
