@@ -19,8 +19,8 @@ const MIRROR: &str = "\
 0 9 9  1 1 1
 9 0 0  1 1 1
 2
-sphere 0 0 0 1  .1 .1 .1 .4 .4 .4 .5 .5 .5 9 0.5 0 1
-sphere 3 0 1 1  .1 .1 .1 .4 0 0 0 0 0 9 0 0 1
+sphere 0 0 0 2  .1 .1 .1 .4 .4 .4 .5 .5 .5 9 0.5 0 1
+sphere 3 0 2 1  .1 .1 .1 .4 0 0 0 0 0 9 0 0 1
 ";
 
 /// The interface with a finished preview, and the scene that answers questions about it.
