@@ -95,7 +95,9 @@ fn ours(scene: &str, depth: ColourDepth) -> (Shown, Vec<[u8; 3]>, [f64; 2]) {
     let mut inks = Inks::for_depth(depth);
     let mut draw = || {
         let begun = Instant::now();
-        let Ok(_) = terminal.draw(|frame| view::draw(&app, &mut inks, frame));
+        let Ok(_) = terminal.draw(|frame| {
+            view::draw(&app, &mut inks, frame);
+        });
         1000.0 * begun.elapsed().as_secs_f64()
     };
     let first = draw();

@@ -106,7 +106,9 @@ fn show(app: &mut App, frames: &[Arc<Frame>], turns: usize) -> Encoded {
         app.update(Msg::Frame(Target::Preview, frame));
         let sight = app.sight().expect("the picture has cells");
         app.picture_mut().advance(&sight, &[], usize::MAX);
-        let Ok(_) = terminal.draw(|frame| view::draw(app, &mut inks, frame));
+        let Ok(_) = terminal.draw(|frame| {
+            view::draw(app, &mut inks, frame);
+        });
         let taken = terminal.backend_mut().finish(|bytes| {
             sent.extend_from_slice(bytes);
             Ok::<_, Infallible>(())

@@ -4,8 +4,8 @@ use clap::ValueEnum;
 
 use crate::render::{Aov, Filter};
 use crate::scene::{Integrator, Transfer};
-use crate::ui::Theme;
 use crate::ui::terminal::{Choice, ColourDepth};
+use crate::ui::{Pixels, Theme};
 
 /// The terminal's colour depth.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
@@ -54,6 +54,42 @@ impl ThemeChoice {
             Self::Dark => Theme::Dark,
             Self::Light => Theme::Light,
             Self::Mono => Theme::Mono,
+        }
+    }
+}
+
+/// What pixels of pictures are drawn with.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(super) enum PixelsChoice {
+    /// Real pixels if the terminal reports that it shows them, otherwise half blocks.
+    Auto,
+    /// Half blocks, two pixels a cell.
+    Half,
+    /// Quadrants, four pixels a cell in two colours.
+    Quadrant,
+    /// Sextants, six pixels a cell, for fonts with Unicode 13.
+    Sextant,
+    /// Octants, eight pixels a cell, for fonts with Unicode 16.
+    Octant,
+    /// Real pixels in kitty's protocol.
+    Kitty,
+    /// Real pixels as sixels, in 256 colours.
+    Sixel,
+    /// Real pixels in iTerm2's protocol.
+    Iterm,
+}
+
+impl PixelsChoice {
+    pub(super) fn value(self) -> Pixels {
+        match self {
+            Self::Auto => Pixels::Auto,
+            Self::Half => Pixels::Half,
+            Self::Quadrant => Pixels::Quadrant,
+            Self::Sextant => Pixels::Sextant,
+            Self::Octant => Pixels::Octant,
+            Self::Kitty => Pixels::Kitty,
+            Self::Sixel => Pixels::Sixel,
+            Self::Iterm => Pixels::Iterm,
         }
     }
 }
@@ -183,5 +219,7 @@ mod tests {
         check(&FILTERS, FilterChoice::value);
         let themes = Theme::ALL.map(|theme| (theme.name(), theme));
         check(&themes, ThemeChoice::value);
+        let pixels = Pixels::ALL.map(|pixels| (pixels.name(), pixels));
+        check(&pixels, PixelsChoice::value);
     }
 }

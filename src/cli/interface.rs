@@ -5,7 +5,7 @@ use std::time::Duration;
 
 use clap::{ArgGroup, Args, value_parser};
 
-use super::choices::{ColourChoice, FilterChoice, IntegratorChoice, ThemeChoice};
+use super::choices::{ColourChoice, FilterChoice, IntegratorChoice, PixelsChoice, ThemeChoice};
 use super::shared::{AssetArguments, depth_range, spp_range, threads_range};
 use crate::config::{self, MAX_BANDWIDTH, POLLS};
 use crate::ui;
@@ -53,6 +53,9 @@ pub(super) struct InterfaceArguments {
     /// Colours of the interface [default: dark]
     #[arg(long, value_name = "THEME", value_enum)]
     theme: Option<ThemeChoice>,
+    /// What pixels of pictures are drawn with [default: auto]
+    #[arg(long, value_name = "PIXELS", value_enum)]
+    pixels: Option<PixelsChoice>,
     /// Do not capture the mouse
     #[arg(long)]
     no_mouse: bool,
@@ -122,6 +125,7 @@ impl InterfaceArguments {
             bandwidth: self.bandwidth.map(|kilobytes| kilobytes * 1000),
             colour: self.color.map(ColourChoice::value),
             theme: self.theme.map(ThemeChoice::value),
+            pixels: self.pixels.map(PixelsChoice::value),
             mouse: self.no_mouse.then_some(Mouse::Off),
             editor: None,
             spp: self.spp,

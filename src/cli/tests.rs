@@ -44,7 +44,7 @@ fn omitted_options_have_the_defaults_of_the_interface() {
 
 #[test]
 fn options_reach_the_interface() {
-    let line = "halflight --poll=20 --bandwidth 128 --color 256 --theme light --no-mouse --spp 4 --depth 0 --integrator path --filter gaussian --threads 3 --assets b --assets c a";
+    let line = "halflight --poll=20 --bandwidth 128 --color 256 --theme light --pixels octant --no-mouse --spp 4 --depth 0 --integrator path --filter gaussian --threads 3 --assets b --assets c a";
     assert_eq!(
         interface(line),
         ui::Options {
@@ -53,6 +53,7 @@ fn options_reach_the_interface() {
             bandwidth: Some(128_000),
             colour: Some(Choice::Fixed(ColourDepth::Palette256)),
             theme: Some(Theme::Light),
+            pixels: Some(ui::Pixels::Octant),
             mouse: Some(Mouse::Off),
             editor: None,
             spp: Some(4),
@@ -149,6 +150,21 @@ fn what_may_differ_reaches_the_comparison() {
 }
 
 #[test]
+fn the_pixel_and_the_sample_reach_the_explanation() {
+    let explain = |line: &str| match parsed(line) {
+        Ok(Command::Explain(explain)) => explain,
+        other => panic!("{line}: {other:?}"),
+    };
+    let default = explain("halflight explain a.ray 7 0");
+    assert_eq!((default.pixel, default.sample), ([7, 0], 0));
+    assert_eq!(default.report, Report::Text);
+    let given = explain("halflight explain a.ray 7 0 --sample 65535 --json --depth 3 --strict");
+    assert_eq!((given.sample, given.report), (65_535, Report::Json));
+    assert_eq!(given.tracing.depth, Some(3));
+    assert_eq!(given.warnings, crate::batch::Warnings::Refused);
+}
+
+#[test]
 fn asset_folders_reach_every_command() {
     let folders: Vec<PathBuf> = vec!["b".into(), "c".into()];
     let line = "halflight render a.dat -o a.bmp --assets b --assets c";
@@ -167,7 +183,7 @@ fn wrong_arguments_are_rejected_with_a_reason() {
     let cases = [
         (
             "halflight a b",
-            "unexpected second scene b: only one can be opened; the commands are render, compare, \
+            "unexpected second scene b: only one can be opened; the commands are render, compare, explain, \
              check, completions, man and doctor",
         ),
         (
@@ -206,6 +222,9 @@ fn wrong_arguments_are_rejected_with_a_reason() {
             "such as 800x600",
         ),
         ("halflight compare a", "<B>"),
+        ("halflight explain a 1", "<Y>"),
+        ("halflight explain a 1 2 --sample 65536", "0..=65535"),
+        ("halflight explain a -1 2", "-1"),
         ("halflight compare a b --tolerance 256", "0..=255"),
         ("halflight compare a b -o c", ".exr or .hdr"),
         ("halflight render a -o b.bmp --spp 0", "1..=65536"),

@@ -7,7 +7,7 @@ use std::time::Duration;
 use crate::render::{Filter, MAX_SPP};
 use crate::scene::Integrator;
 use crate::ui::terminal::{Choice, ColourDepth, Mouse};
-use crate::ui::{Options, Theme};
+use crate::ui::{Options, Pixels, Theme};
 
 /// Possible intervals between checks of files, in milliseconds.
 pub const POLLS: RangeInclusive<u64> = 10..=3_600_000;
@@ -97,6 +97,17 @@ pub(super) const SETTINGS: &[Setting] = &[
             words: || COLOURS.map(|(word, _)| word).to_vec(),
             set: |options, word| options.colour = meant(&COLOURS, word),
             get: |options| word_for(&COLOURS, options.colour),
+        },
+    },
+    Setting {
+        name: "pixels",
+        words: "What pixels are drawn with: \"half\", \"quadrant\", \"sextant\" or \"octant\" blocks, \"kitty\", \"sixel\"\n\
+                # or \"iterm\" pictures, or \"auto\": pictures if the terminal reports them, otherwise half blocks",
+        default: "\"auto\"",
+        kind: Kind::Word {
+            words: || Pixels::ALL.map(Pixels::name).to_vec(),
+            set: |options, word| options.pixels = Pixels::named(word),
+            get: |options| options.pixels.map(Pixels::name),
         },
     },
     Setting {

@@ -11,7 +11,7 @@ use crate::render::Frames;
 use crate::scene::Size;
 
 pub use read::{MAX_TEXTURE_PIXELS, Unreadable, decode};
-pub use write::save;
+pub use write::{encode_quickly, save};
 
 /// The picture formats that can be written. All of them can also be read.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -8,7 +8,7 @@ use image::codecs::gif::GifEncoder;
 use image::codecs::hdr::HdrEncoder;
 use image::codecs::jpeg::JpegEncoder;
 use image::codecs::openexr::OpenExrEncoder;
-use image::codecs::png::PngEncoder;
+use image::codecs::png::{CompressionType, FilterType, PngEncoder};
 use image::codecs::tiff::TiffEncoder;
 use image::{ExtendedColorType, ImageEncoder, ImageError, Rgb};
 
@@ -83,6 +83,18 @@ impl ImageFormat {
             }
         }
     }
+}
+
+/// Encodes pixels as a PNG that is read once, for a screen: a few milliseconds for a million. Fails
+/// if there are no pixels, or not as many as the size says.
+pub fn encode_quickly(size: Size, pixels: &[[u8; 3]]) -> io::Result<Vec<u8>> {
+    let mut png = Vec::new();
+    // Compressing the pixels as they are takes as long and gives half as many bytes more.
+    let encoder =
+        PngEncoder::new_with_quality(&mut png, CompressionType::Fast, FilterType::Adaptive);
+    let colour = ExtendedColorType::Rgb8;
+    let encoded = encoder.write_image(pixels.as_flattened(), size.width, size.height, colour);
+    encoded.map(|()| png).map_err(io::Error::other)
 }
 
 /// A writer that keeps its last error: some encoders replace it by a message of their own.

@@ -9,6 +9,7 @@ use std::time::{Duration, Instant};
 
 use super::event::Event;
 use super::options::Options;
+use super::terminal::query::Question;
 use super::terminal::tmux;
 use super::terminal::{self, Input, Replies, Reply, Terminal};
 #[cfg(unix)]
@@ -79,18 +80,20 @@ impl Console {
         self.terminal.is_clear()
     }
 
-    /// Queries the colours of the terminal and, through tmux, of the terminal behind it. Any
-    /// answers arrive as [`Event::Replied`].
-    pub(super) fn ask_for_colours(&self) -> io::Result<()> {
+    /// Queries the terminal and, through tmux, the terminal behind it. Any answers arrive as
+    /// [`Event::Replied`].
+    pub(super) fn ask(&self, questions: &[Question]) -> io::Result<()> {
         self.replies.expect(Reply::Attributes);
-        self.terminal.ask_for_colours()?;
+        self.terminal.ask(questions)?;
         let sender = self.sender.clone();
         // Without a thread there is no answer.
         let _ = thread::Builder::new()
-            .name("colours".to_owned())
+            .name("tmux".to_owned())
             .spawn(move || {
-                if tmux::shows_true_colour() == Some(true) {
-                    let _ = sender.send(Event::Replied(Reply::TrueColour, Instant::now()));
+                let Some(client) = tmux::client() else { return };
+                let colours = client.has_true_colour.then_some(Reply::TrueColour);
+                for reply in [Some(Reply::Tmux(client)), colours].into_iter().flatten() {
+                    let _ = sender.send(Event::Replied(reply, Instant::now()));
                 }
             });
         Ok(())
@@ -102,8 +105,8 @@ impl Console {
         self.terminal.ask_status()
     }
 
-    /// Stops expecting an answer about colours.
-    pub(super) fn give_up_colours(&self) {
+    /// Stops expecting answers to queries.
+    pub(super) fn give_up_answers(&self) {
         self.replies.came(Reply::Attributes);
     }
 

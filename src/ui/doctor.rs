@@ -10,7 +10,7 @@ use std::time::Duration;
 
 use super::recovery;
 use super::terminal::interview::{self, Answers};
-use super::terminal::{Budget, Choice, ColourDepth, query, tmux};
+use super::terminal::{self, Budget, Choice, ColourDepth, Protocol, query, tmux};
 use crate::assets::Assets;
 use crate::memory;
 use crate::memory::Available;
@@ -34,12 +34,21 @@ pub fn examine(scene: Option<&Path>) -> String {
         Some(folder) if !folder.as_os_str().is_empty() => folder.to_owned(),
         _ => PathBuf::from("."),
     };
+    let client = ask_tmux();
     // The label and the lines of each section.
     let findings = [
         ("terminal", terminal(has_terminal, variable)),
         (
             "colours",
-            colours(answers.as_ref(), behind_tmux(), variable),
+            colours(
+                answers.as_ref(),
+                client.map(|client| client.has_true_colour),
+                variable,
+            ),
+        ),
+        (
+            "pictures",
+            pictures(answers.as_ref(), client, terminal::cell_size()),
         ),
         ("synchronized", synchronized(answers.as_ref())),
         (
@@ -88,9 +97,9 @@ fn terminal(has_terminal: bool, variable: impl Fn(&str) -> Option<String>) -> Ve
 }
 
 /// The answer of tmux, if it arrives in time.
-fn behind_tmux() -> Option<bool> {
+fn ask_tmux() -> Option<tmux::Client> {
     let (sender, answer) = mpsc::channel();
-    thread::spawn(move || sender.send(tmux::shows_true_colour()));
+    thread::spawn(move || sender.send(tmux::client()));
     answer.recv_timeout(TMUX_PATIENCE).ok().flatten()
 }
 
@@ -135,6 +144,57 @@ fn colours(
     if !shows_more {
         lines.push(depth.cure());
     }
+    lines
+}
+
+/// The protocols for pictures that the terminal reports, and the size of its cells.
+fn pictures(
+    answers: Option<&Answers>,
+    client: Option<tmux::Client>,
+    cell: Option<(u16, u16)>,
+) -> Vec<String> {
+    let protocols = [
+        ("kitty", Protocol::Kitty),
+        ("iTerm2", Protocol::Iterm),
+        ("sixel", Protocol::Sixel),
+    ];
+    let shown = |answers: &Answers| {
+        let shown = protocols
+            .iter()
+            .filter(|(_, protocol)| answers.shows(*protocol));
+        shown.map(|(name, _)| *name).collect::<Vec<_>>()
+    };
+    let shown = answers.map(shown).unwrap_or_default();
+    let mut lines = vec![match (answers, &shown[..]) {
+        (None, _) => "half blocks: the terminal was not queried".to_owned(),
+        (Some(_), []) => "half blocks: the terminal reports no picture protocol".to_owned(),
+        (Some(_), [best, ..]) => {
+            let words = shown.join(", ");
+            match client {
+                Some(client) if !client.has_sixel => {
+                    format!("half blocks: tmux knows {words}, but not of its terminal")
+                }
+                _ => format!("real pixels by {best}; the terminal reports {words}"),
+            }
+        }
+    }];
+    match cell.or_else(|| answers.and_then(Answers::cell_size)) {
+        Some((width, height)) => lines.push(format!("cells of {width}x{height} pixels")),
+        None => lines.push("the size of cells is unknown, which sixels need".to_owned()),
+    }
+    if let Some(client) = client {
+        let passes = if client.passes_through {
+            "passes"
+        } else {
+            "does not pass"
+        };
+        lines.push(format!(
+            "tmux {passes} wrapped sequences on (allow-passthrough)"
+        ));
+    }
+    lines.push(
+        "--pixels chooses half, quadrant, sextant or octant blocks, or a protocol".to_owned(),
+    );
     lines
 }
 
@@ -317,6 +377,37 @@ mod tests {
             let said = said(answers, tmux, variables);
             assert!(said.contains(words), "{said}");
             assert_eq!(said.contains(cure), has_cure, "{said}");
+        }
+    }
+
+    #[test]
+    fn pictures_are_reported_by_protocol() {
+        let kitty = Reply::Shows(Protocol::Kitty);
+        let sixel = Reply::AttributesWithSixel;
+        let tmux = |has_sixel| {
+            Some(tmux::Client {
+                has_sixel,
+                ..tmux::Client::default()
+            })
+        };
+        for (answers, client, words) in [
+            (None, None, "was not queried"),
+            (Some(&[][..]), None, "reports no picture protocol"),
+            (
+                Some(&[kitty, sixel]),
+                None,
+                "by kitty; the terminal reports kitty, sixel",
+            ),
+            (Some(&[sixel]), None, "by sixel;"),
+            (Some(&[sixel]), tmux(true), "by sixel;"),
+            (Some(&[sixel]), tmux(false), "half blocks: tmux"),
+        ] {
+            let answers = answers.map(|replies| Answers {
+                replies: replies.to_vec(),
+            });
+            let said = pictures(answers.as_ref(), client, Some((9, 18))).join("\n");
+            assert!(said.contains(words), "{words} in {said}");
+            assert!(said.contains("9x18"), "{said}");
         }
     }
 

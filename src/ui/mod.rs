@@ -32,6 +32,7 @@ pub mod listing;
 pub mod msg;
 mod options;
 pub mod past;
+mod pixels;
 mod reader;
 pub mod reading;
 mod recent;
@@ -60,6 +61,7 @@ use arrange::PanelSizes;
 pub use ending::{Ending, Error};
 use keymap::Keymap;
 pub use options::{Options, Rehearsal};
+pub use pixels::Pixels;
 use reading::Opened;
 use script::Script;
 pub use script::parse_screen;
@@ -104,6 +106,7 @@ pub fn run(options: &Options) -> Result<Ending, Error> {
         preferences: Preferences {
             keymap: options.keymap.clone(),
             theme: options.theme.unwrap_or_default(),
+            pixels: options.pixels.unwrap_or_default(),
             panels: match script {
                 None => recent::panels(),
                 Some(_) => PanelSizes::default(),

@@ -87,6 +87,13 @@ pub enum Msg {
     AssetsRead(Wanted, Loaded),
     /// A file that the scene names may have changed.
     AssetsChanged,
+    /// Cells hold another number of pixels.
+    Grid {
+        /// Pixels side by side.
+        across: u16,
+        /// Pixels one above the other.
+        down: u16,
+    },
     /// The delay set by [`Effect::Later`] has elapsed.
     Elapsed(Timer),
     /// The result of [`Effect::Save`].

@@ -4,6 +4,7 @@ use std::path::PathBuf;
 use std::time::Duration;
 
 use super::keymap::Keymap;
+use super::pixels::Pixels;
 use super::terminal::{Choice, ColourDepth, Mouse};
 use super::theme::Theme;
 use crate::render::Filter;
@@ -24,6 +25,8 @@ pub struct Options {
     pub colour: Option<Choice>,
     /// The colours of everything but pictures.
     pub theme: Option<Theme>,
+    /// What pixels of pictures are drawn with.
+    pub pixels: Option<Pixels>,
     /// Whether the mouse is taken from the terminal.
     pub mouse: Option<Mouse>,
     /// The command line of the editor, before that of the environment.
@@ -67,6 +70,7 @@ impl Options {
             bandwidth: self.bandwidth.or(configured.bandwidth),
             colour: self.colour.or(configured.colour),
             theme: self.theme.or(configured.theme),
+            pixels: self.pixels.or(configured.pixels),
             mouse: self.mouse.or(configured.mouse),
             editor: self.editor.or(configured.editor),
             spp: self.spp.or(configured.spp),

@@ -7,11 +7,13 @@ use std::time::Instant;
 use ratatui::Frame;
 use ratatui::backend::TestBackend;
 use ratatui::buffer::Buffer;
+use ratatui::layout::Rect;
 
 use super::console::Console;
 use super::event::Event;
 use super::options::Options;
-use super::terminal::{ColourDepth, Mouse};
+use super::terminal::query::Question;
+use super::terminal::{ColourDepth, Means, Mouse, Pixmap};
 
 /// The screen of a session.
 pub(super) enum Screen {
@@ -41,17 +43,29 @@ impl Screen {
         }
     }
 
+    /// Whether it is a terminal, lent or not.
+    pub(super) fn is_terminal(&self) -> bool {
+        matches!(self, Self::Console(_))
+    }
+
     /// Whether there is a terminal that is not lent to another program.
     pub(super) fn has_terminal(&self) -> bool {
         matches!(self, Self::Console(console) if console.is_ours())
     }
 
-    /// Draws a frame; returns the number of bytes sent to the terminal.
-    pub(super) fn draw(&mut self, paint: impl FnOnce(&mut Frame)) -> io::Result<usize> {
+    /// Draws a frame; returns the number of bytes sent to the terminal. `paint` returns the cells
+    /// that it has left to `pixmap`, and may be called twice. On a page nothing is left to one.
+    pub(super) fn draw(
+        &mut self,
+        pixmap: Option<&Pixmap>,
+        mut paint: impl FnMut(&mut Frame) -> Option<Rect>,
+    ) -> io::Result<usize> {
         match self {
-            Self::Console(console) => console.terminal().draw(paint),
+            Self::Console(console) => console.terminal().draw(pixmap, paint),
             Self::Page(page) => {
-                let Ok(_) = page.draw(paint);
+                let Ok(_) = page.draw(|frame| {
+                    paint(frame);
+                });
                 Ok(0)
             }
         }
@@ -72,9 +86,17 @@ impl Screen {
         }
     }
 
-    /// Queries the colours of the terminal. Any answers arrive as [`Event::Replied`].
-    pub(super) fn ask_for_colours(&self) -> io::Result<()> {
-        self.console().map_or(Ok(()), Console::ask_for_colours)
+    /// Queries the terminal. Any answers arrive as [`Event::Replied`].
+    pub(super) fn ask(&self, questions: &[Question]) -> io::Result<()> {
+        let console = self.console();
+        console.map_or(Ok(()), |console| console.ask(questions))
+    }
+
+    /// Sets how pictures are sent from now on; `None` sends none.
+    pub(super) fn set_means(&mut self, means: Option<Means>) {
+        if let Self::Console(console) = self {
+            console.terminal().set_means(means);
+        }
     }
 
     /// Requests a status reply, which arrives after everything sent so far.
@@ -82,10 +104,10 @@ impl Screen {
         self.console().map_or(Ok(()), Console::ask_status)
     }
 
-    /// Stops expecting an answer about colours.
-    pub(super) fn give_up_colours(&self) {
+    /// Stops expecting answers to queries.
+    pub(super) fn give_up_answers(&self) {
         if let Some(console) = self.console() {
-            console.give_up_colours();
+            console.give_up_answers();
         }
     }
 

@@ -1,5 +1,7 @@
 //! The main loop: waits for events, performs steps, draws.
 
+mod asking;
+mod pixels;
 mod play;
 
 use std::borrow::Cow;
@@ -20,9 +22,10 @@ use super::options::Options;
 use super::reader::Reader;
 use super::recovery::End;
 use super::script::Script;
-use super::terminal::{self, Budget, Choice, ColourDepth, Link, Reply, query};
+use super::terminal::{self, Budget, Choice, ColourDepth, Link, Reply};
 use super::view::{self, Inks};
 use crate::text;
+use pixels::{Known, Manner};
 
 /// Minimum time between two drawings that only refine the picture.
 const FRAME_TIME: Duration = Duration::from_millis(33);
@@ -55,6 +58,10 @@ pub(crate) fn run(
         waiting: None,
         inks: Inks::for_depth(options.colours()),
         asked: None,
+        choice: options.colour(),
+        depth: options.colours(),
+        known: Known::asked_nothing(),
+        manner: Manner::Half,
         inbox,
         script,
         failed: None,
@@ -62,7 +69,7 @@ pub(crate) fn run(
         refined: None,
         ending: Ending::Quit,
     };
-    session.ask_for_colours(options)?;
+    session.ask_at_start()?;
     session.perform(beginning.effects);
     session.run();
     let finished = session.finish(options.rehearsal.as_ref());
@@ -79,6 +86,13 @@ struct Session {
     inks: Inks,
     /// The colour depth in use, and the deadline for an answer of the terminal that it has more.
     asked: Option<(ColourDepth, Instant)>,
+    /// The user's choice of colours, and the depth in use.
+    choice: Choice,
+    depth: ColourDepth,
+    /// What the terminal has answered about pictures.
+    known: Known,
+    /// What pixels are drawn with.
+    manner: Manner,
     inbox: Receiver<Event>,
     /// Where the keys come from, if not from the terminal.
     script: Option<Script>,
@@ -104,30 +118,25 @@ enum Urgency {
 }
 
 impl Session {
-    /// Queries the colours unless the user or the environment has decided.
-    fn ask_for_colours(&mut self, options: &Options) -> io::Result<()> {
-        let variable = |name: &str| std::env::var(name).ok();
-        let depth = options.colours();
-        let is_open = options.colour() == Choice::Auto
-            && depth < ColourDepth::TrueColour
-            && variable("NO_COLOR").is_none_or(|value| value.is_empty());
-        if is_open && query::may_ask(variable) {
-            self.runtime.screen().ask_for_colours()?;
-            self.asked = Some((depth, Instant::now() + query::PATIENCE));
-        }
-        Ok(())
-    }
-
     /// Handles a reply of the terminal. A report of 24-bit colour counts only within the deadline.
     fn replied(&mut self, reply: Reply, at: Instant) -> Urgency {
         if reply == Reply::Status {
             self.link.replied(at);
         }
+        self.known.take(reply);
+        let before = self.manner;
+        let changed = if self.wanted_manner() == before {
+            Urgency::Never
+        } else {
+            Urgency::Now
+        };
         let is_in_time = |&(_, until): &(ColourDepth, Instant)| at < until;
         if reply != Reply::TrueColour || self.asked.take_if(|asked| is_in_time(asked)).is_none() {
-            return Urgency::Never;
+            return changed;
         }
-        self.inks = Inks::for_depth(ColourDepth::TrueColour);
+        self.depth = ColourDepth::TrueColour;
+        self.inks = Inks::for_depth(self.depth);
+        self.inks.draw_with(self.manner.drawing());
         self.runtime.screen().recolour(ColourDepth::TrueColour);
         Urgency::Now
     }
@@ -135,9 +144,11 @@ impl Session {
     /// Shows how to force 24-bit colour once no answer can arrive any more.
     fn give_up_on_colours(&mut self) -> Urgency {
         let now = Instant::now();
+        if self.known.until.take_if(|until| *until <= now).is_some() {
+            self.runtime.screen().give_up_answers();
+        }
         match self.asked.take_if(|&mut (_, until)| until <= now) {
             Some((depth, _)) => {
-                self.runtime.screen().give_up_colours();
                 self.step(Msg::FewColours(depth));
                 Urgency::Now
             }
@@ -220,6 +231,7 @@ impl Session {
             self.link.gives_up_at(),
             self.link.asks_at().filter(|_| is_clear && has_terminal),
             self.asked.map(|(_, until)| until),
+            self.known.until,
         ];
         let deadline = others.into_iter().chain([deadline]).flatten().min();
         let first = match deadline {
@@ -317,6 +329,7 @@ impl Session {
 
     fn draw(&mut self, urgency: Urgency) -> io::Result<()> {
         let now = Instant::now();
+        self.fit_pixels()?;
         let is_limited = self.link.is_limited();
         self.app.follow_wires();
         self.app.thumbnails.has_colours = self.inks.have_colours();
@@ -328,6 +341,11 @@ impl Session {
                 Urgency::Now if is_limited => 0,
                 _ => self.link.allowance(now),
             };
+            let allowance = match (self.manner, allowance) {
+                // A picture is sent as a whole, and later ones wait until its bytes are paid.
+                (Manner::Picture(_), 1..) => usize::MAX,
+                (_, allowance) => allowance,
+            };
             let marked = self.app.outlined_objects();
             let picture = self.app.picture_mut();
             picture.advance(&sight, &marked, allowance);
@@ -336,9 +354,10 @@ impl Session {
         }
         let (app, inks) = (&self.app, &mut self.inks);
         let mut area = app.terminal;
-        let bytes = self.runtime.screen().draw(|frame| {
+        let pixmap = self.manner.means().map(|_| view::pixmap(app));
+        let bytes = self.runtime.screen().draw(pixmap.as_ref(), |frame| {
             area = (frame.area().width, frame.area().height);
-            view::draw(app, inks, frame);
+            view::draw(app, inks, frame)
         })?;
         self.link.spent(bytes, now);
         if !self.runtime.screen().is_clear() {

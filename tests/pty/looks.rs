@@ -245,7 +245,8 @@ fn file_contents_never_reach_the_terminal_raw() {
         .replacen("the green one", evil, 1);
     place.write(&name, &scene);
     let environment = [("VISUAL", "/none")];
-    let arguments = ["--color", "24", &name];
+    // Without queries, which are not control sequences.
+    let arguments = ["--color", "24", "--pixels", "half", &name];
     let mut session = Session::start(place.directory.path(), &arguments, WIDE, &environment);
     session.wait_for("1 error");
     session.wait_for("␛]52;c;ZXZpbA==");
@@ -283,7 +284,8 @@ fn the_doctor_reports_the_answers_of_the_terminal() {
     while last(b"\x1b[c", &session.written).is_none() {
         session.drain(Duration::from_millis(1));
     }
-    session.send([ANSWER, "\x1b[?2026;2$y\x1b[?62c"].concat());
+    let pictures = "\x1b_Gi=31;OK\x1b\\\x1b[6;20;10t";
+    session.send([ANSWER, pictures, "\x1b[?2026;2$y\x1b[?62;4c"].concat());
     let status = session.end();
     assert!(status.success());
     let text = session.text();
@@ -291,6 +293,8 @@ fn the_doctor_reports_the_answers_of_the_terminal() {
         "256 colours from TERM alone",
         "the terminal reports 24-bit colour",
         "supported by the terminal",
+        "real pixels by kitty; the terminal reports kitty, sixel",
+        "cells of 10x20 pixels",
     ] {
         assert!(text.contains(words), "{text}");
     }

@@ -8,6 +8,7 @@ mod harness;
 mod journals;
 mod looks;
 mod opening;
+mod pixels;
 
 use std::fs;
 use std::os::unix::fs::PermissionsExt;

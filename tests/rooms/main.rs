@@ -89,6 +89,7 @@ const DEPENDENCIES: &[(&str, &str)] = &[
     ("annotate_snippets", "batch"),
     ("anstyle_lossy", "ui"),
     ("arrayvec", "accel"),
+    ("base64", "ui"),
     ("clap", "cli"),
     ("clap_complete", "cli"),
     ("clap_mangen", "cli"),

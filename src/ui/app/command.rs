@@ -16,6 +16,7 @@ use crate::scene::{Camera, Size, Transfer};
 use crate::text::{Severity, nearest_word};
 use crate::ui::keymap::{self, Action, HelpLine, Mode};
 use crate::ui::msg::{Effect, Guard};
+use crate::ui::pixels::Pixels;
 use crate::ui::theme::Theme;
 
 /// A parsed command line.
@@ -71,6 +72,8 @@ enum Command {
     Histogram,
     /// Use other colours.
     Theme(Theme),
+    /// Draw pixels with something else.
+    Pixels(Pixels),
     /// Open the help page.
     Help,
 }
@@ -110,6 +113,7 @@ enum Arguments {
     /// How they are spelled, and what reads them.
     Said(&'static str, fn(&str) -> Result<Command, String>),
     Stops(fn(i8) -> Command),
+    Pixels(fn(Pixels) -> Command),
 }
 
 const fn row(
@@ -168,6 +172,7 @@ const TABLE: &[CommandRow] = &[
     row(&["theme dark"], A::Nothing(C::Theme(Theme::Dark)), "use colours for dark screens"),
     row(&["theme light"], A::Nothing(C::Theme(Theme::Light)), "use colours for light screens"),
     row(&["theme mono"], A::Nothing(C::Theme(Theme::Mono)), "use no colours except in pictures"),
+    row(&["pixels"], A::Pixels(C::Pixels), "set what pixels are drawn with, such as half, octant or auto"),
     row(&["help"], A::Nothing(C::Help), "show this page"),
 ];
 
@@ -259,6 +264,7 @@ impl CommandRow {
             A::Size(_) => " WxH",
             A::Said(usage, _) => usage,
             A::Stops(_) => " STOPS",
+            A::Pixels(_) => " MEANS",
         };
         format!(":{name}{arguments}")
     }
@@ -278,6 +284,10 @@ impl CommandRow {
                     (_, known) => Ok(command(known)),
                 }
             }
+            A::Pixels(command) => match Pixels::named(rest) {
+                Some(pixels) => Ok(command(pixels)),
+                None => Err(format!("{name} takes {}", Pixels::names())),
+            },
             A::Picture(command) => picture(rest).map(command),
             A::Said(_, parse) => parse(rest),
             A::Stops(command) => {
@@ -424,7 +434,11 @@ impl App {
 
     fn run(&mut self, command: Command) -> Vec<Effect> {
         match command {
-            Command::Quit(Force::Yes) | Command::Mouse | Command::Theme(_) | Command::Help => {}
+            Command::Quit(Force::Yes)
+            | Command::Mouse
+            | Command::Theme(_)
+            | Command::Pixels(_)
+            | Command::Help => {}
             _ if self.mode == Mode::Move => {
                 self.warn_of_transform();
                 return Vec::new();
@@ -475,6 +489,7 @@ impl App {
             Command::FalseColour => self.toggle_false_colours(),
             Command::Histogram => self.toggle_histogram(),
             Command::Theme(theme) => self.theme = theme,
+            Command::Pixels(pixels) => self.pixels = pixels,
             Command::Help => self.overlays.help = Some(Help::default()),
         }
         Vec::new()
@@ -553,6 +568,7 @@ mod tests {
                 let argument = match form.arguments {
                     A::Size(_) => " 8x6",
                     A::Stops(_) => " -1.5",
+                    A::Pixels(_) => " half",
                     _ => "",
                 };
                 assert!(parse(&format!(" {name}{argument} ")).is_ok(), "{name}");

@@ -18,6 +18,7 @@ use crate::scene::Scene;
 use crate::text::Findings;
 use crate::ui::arrange::{PanelSizes, Zoom};
 use crate::ui::keymap::{Keymap, Mode};
+use crate::ui::pixels::Pixels;
 use crate::ui::terminal::Mouse;
 use crate::ui::theme::Theme;
 
@@ -62,6 +63,8 @@ pub struct App {
     pub mode: Mode,
     /// The colours of everything but pictures.
     pub theme: Theme,
+    /// What the user wants pixels of pictures to be drawn with.
+    pub pixels: Pixels,
     /// What keys do.
     pub keymap: Keymap,
     /// The first of two keys, until the second arrives.

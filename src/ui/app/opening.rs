@@ -16,6 +16,7 @@ use crate::text::{Findings, Severity};
 use crate::ui::arrange::{PanelSizes, Zoom};
 use crate::ui::keymap::{Keymap, Mode};
 use crate::ui::msg::Effect;
+use crate::ui::pixels::Pixels;
 use crate::ui::reading::{News, Reading};
 use crate::ui::terminal::Mouse;
 use crate::ui::theme::Theme;
@@ -48,6 +49,8 @@ pub struct Preferences {
     pub keymap: Keymap,
     /// The colours of everything but pictures.
     pub theme: Theme,
+    /// What pixels are drawn with.
+    pub pixels: Pixels,
     /// The sizes of the panels, which an earlier session may have kept.
     pub panels: PanelSizes,
 }
@@ -94,6 +97,7 @@ impl App {
             mode: Mode::Select,
             keymap: opening.preferences.keymap,
             theme: opening.preferences.theme,
+            pixels: opening.preferences.pixels,
             prefix: None,
             palette: Palette::default(),
             zoom: Zoom::default(),

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use super::viewport::{Detail, Screen};
-use super::{App, Picture, Wires};
+use super::{App, Grid, Picture, Wires};
 use crate::image_file::ImageFormat;
 use crate::render::{Filter, Frame, Frames, Job, Region, Settings, default_depth};
 use crate::scene::{Integrator, Scene, Size};
@@ -13,12 +13,14 @@ use crate::ui::msg::{Effect, Target};
 use crate::ui::past::NoPicture;
 
 /// Samples per pixel at which the preview stops: by then edges are smooth and the noise of paths is
-/// invisible.
-fn preview_samples(integrator: Integrator) -> u32 {
-    match integrator {
+/// invisible. Where cells hold more pixels, each needs fewer samples.
+fn preview_samples(integrator: Integrator, grid: Grid) -> u32 {
+    let density = u32::from(grid.across) * u32::from(grid.down) / 2;
+    let samples = match integrator {
         Integrator::Whitted => 64,
         Integrator::Path => 1024,
-    }
+    };
+    samples / density.clamp(1, 4)
 }
 
 impl App {
@@ -58,7 +60,7 @@ impl App {
 
     fn preview_job(&self, screen: Screen, (size, region): (Size, Option<Region>)) -> Option<Job> {
         let (scene, numbers) = self.preview_scene()?;
-        let spp = preview_samples(self.integrator());
+        let spp = preview_samples(self.integrator(), screen.grid);
         let mut job = self.job_of(scene, size, spp, Filter::Box)?;
         job.settings.region = region;
         if region.is_none() {

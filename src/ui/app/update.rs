@@ -4,7 +4,7 @@ use crossterm::event::{KeyCode, KeyEvent, KeyModifiers};
 use tui_input::Input;
 
 use super::camera::{advanced, dollied, faced, panned, rolled, stepped, widened};
-use super::{App, Help, PageFocus, PromptKind, line};
+use super::{App, Grid, Help, PageFocus, PromptKind, line};
 use crate::text::Severity;
 use crate::ui::arrange::{Zoom, divided, resized};
 use crate::ui::keymap::{self, Action, Context, Meaning, Mode, Tool};
@@ -25,8 +25,8 @@ impl App {
         self.scroll(&areas);
         self.follow_views();
         effects.extend(self.follow());
-        effects.extend(self.follow_explained());
         self.follow_histogram();
+        effects.extend(self.follow_explained());
         effects.extend(self.follow_steps());
         effects.extend(self.disk.journal.follow(&self.document));
         effects.extend(self.follow_kept());
@@ -42,6 +42,10 @@ impl App {
             Msg::Paste(text) => return self.paste(&text),
             Msg::Mouse(event) => return self.pointer(event),
             Msg::Resize(columns, rows) => self.terminal = (columns, rows),
+            Msg::Grid { across, down } => {
+                self.pictures.grid = Grid { across, down };
+                self.pictures.preview.asked = None;
+            }
             Msg::Started(Target::Thumbnail, generation) => self.thumbnails.started(generation),
             Msg::Started(target, generation) => self.pictures.want(target, Some(generation)),
             Msg::Derived(ticket, derived) => return self.derived(ticket, derived),

@@ -1,6 +1,8 @@
 //! A font of 5×7 dots, with two more below the line, for pictures of screens. Lines and blocks are
 //! drawn up to the edges of the cell, so that they join.
 
+use crate::ui::view::Mosaic;
+
 /// Width of a cell, in dots.
 pub(super) const WIDTH: usize = 6;
 /// Height of a cell, in dots: even, so that half blocks are squares.
@@ -65,9 +67,20 @@ fn drawn(character: char) -> Option<Shape> {
         '▒' => dots(|x, y| (x + y).is_multiple_of(2)),
         '▓' => dots(|x, y| !(x + 2 * y).is_multiple_of(4)),
         '⠀'..='⣿' => braille(u32::from(character) - u32::from('⠀')),
-        _ => return None,
+        _ => mosaic(character)?,
     };
     Some(shape)
+}
+
+/// The pixels of a character of a mosaic.
+fn mosaic(character: char) -> Option<Shape> {
+    let (mosaic, pattern) = Mosaic::of(character).filter(|&(_, pattern)| pattern != 0)?;
+    let (across, down) = mosaic.grid();
+    let (across, down) = (usize::from(across), usize::from(down));
+    Some(dots(|x, y| {
+        let pixel = y * down / HEIGHT * across + x * across / WIDTH;
+        pattern >> pixel & 1 == 1
+    }))
 }
 
 /// The eight dots of a braille character: the first six go down the columns, the last two are below.

@@ -101,6 +101,24 @@ impl AnsiBackend {
         written.map(|()| bytes)
     }
 
+    /// Drops the frame so far. What the terminal shows is unknown until everything is drawn.
+    pub(super) fn discard(&mut self) {
+        self.out.truncate(BEGIN.len());
+        self.forget();
+    }
+
+    /// Appends bytes that change neither the cursor nor the style.
+    pub(super) fn append(&mut self, bytes: &[u8]) {
+        self.out.extend_from_slice(bytes);
+    }
+
+    /// Appends a picture that begins at a cell. It may leave the cursor anywhere.
+    pub(super) fn picture(&mut self, at: Position, bytes: &[u8]) {
+        self.move_to(at);
+        self.append(bytes);
+        self.place = CursorPosition::Unknown;
+    }
+
     fn move_to(&mut self, to: Position) {
         match self.place {
             CursorPosition::At(at) if at == to => return,

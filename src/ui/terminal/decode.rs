@@ -25,8 +25,8 @@ const LONGEST: usize = 64;
 const STRING_PATIENCE: Duration = Duration::from_secs(1);
 const LONGEST_STRING: usize = 4096;
 
-/// Begins a device control string.
-const STRING: &[u8] = b"\x1bP";
+/// Introducers of a device control string and of an application program command.
+const STRINGS: [&[u8]; 2] = [b"\x1bP", b"\x1b_"];
 
 const PASTE_END: &[u8] = b"\x1b[201~";
 
@@ -78,7 +78,7 @@ impl Decoder {
             Mode::Paste => PASTE_PATIENCE,
             Mode::Keys if self.pending.is_empty() => return None,
             Mode::NoiseString => STRING_PATIENCE,
-            Mode::Keys if self.pending.starts_with(STRING) => STRING_PATIENCE,
+            Mode::Keys if is_string(&self.pending) => STRING_PATIENCE,
             Mode::Keys | Mode::Noise => PATIENCE,
         };
         self.fed.map(|fed| fed + patience)
@@ -142,7 +142,7 @@ impl Decoder {
             match token(rest) {
                 Token::Unfinished if rest.len() < longest(rest) => break,
                 Token::Unfinished => {
-                    self.mode = if rest.starts_with(STRING) {
+                    self.mode = if is_string(rest) {
                         Mode::NoiseString
                     } else {
                         Mode::Noise
@@ -165,8 +165,14 @@ impl Decoder {
     }
 }
 
+fn is_string(bytes: &[u8]) -> bool {
+    STRINGS
+        .iter()
+        .any(|introducer| bytes.starts_with(introducer))
+}
+
 fn longest(bytes: &[u8]) -> usize {
-    if bytes.starts_with(STRING) {
+    if is_string(bytes) {
         LONGEST_STRING
     } else {
         LONGEST
@@ -175,9 +181,10 @@ fn longest(bytes: &[u8]) -> usize {
 
 fn token(bytes: &[u8]) -> Token {
     match bytes {
-        // Alt-P begins the same way; what follows the introducer of an answer is a parameter.
-        [0x1b] | [0x1b, b'P'] => Token::Unfinished,
-        [0x1b, b'P', 0x30..=0x3f, ..] => control_string(bytes),
+        // Alt-P begins the same way; what follows the introducer of an answer is a parameter. An
+        // answer about graphics begins with a G.
+        [0x1b] | [0x1b, b'P' | b'_'] => Token::Unfinished,
+        [0x1b, b'P', 0x30..=0x3f, ..] | [0x1b, b'_', b'G', ..] => control_string(bytes),
         [0x1b, b'[', ..] => control_sequence(bytes),
         [0x1b, b'O', rest @ ..] => match rest.first() {
             None => Token::Unfinished,
@@ -269,7 +276,12 @@ fn control_sequence(bytes: &[u8]) -> Token {
         }
         b'y' if parameters.starts_with(b"?") => event_or_noise(mode_report(parameters), length),
         b'c' if parameters.starts_with(b"?") => {
-            Token::Event(length, Event::Reply(Reply::Attributes))
+            let numbers = numbers(&parameters[1..]).unwrap_or_default();
+            Token::Event(length, Event::Reply(query::attributes(&numbers)))
+        }
+        b't' => {
+            let reply = numbers(parameters).and_then(|numbers| query::window(&numbers));
+            event_or_noise(reply.map(Event::Reply), length)
         }
         last @ 0x40..=0x7e => event_or_noise(sequence_key(parameters, last), length),
         // Another sequence interrupts this one and is decoded separately.
@@ -282,20 +294,24 @@ fn is_parameter(byte: u8) -> bool {
     (0x20..0x40).contains(&byte)
 }
 
-/// Decodes `ESC P`, printable characters and the terminator `ESC \\` (ECMA-48, 5.6).
+/// Decodes `ESC P` or `ESC _`, printable characters and the terminator `ESC \\` (ECMA-48, 5.6).
 fn control_string(bytes: &[u8]) -> Token {
-    let body = &bytes[STRING.len()..];
+    let (introducer, body) = bytes.split_at(STRINGS[0].len());
     let Some(end) = body.iter().position(u8::is_ascii_control) else {
         return Token::Unfinished;
     };
     match body[end..] {
         [0x1b] => Token::Unfinished,
         [0x1b, b'\\', ..] => {
-            let reply = query::answer(&body[..end]).map(Event::Reply);
-            event_or_noise(reply, STRING.len() + end + 2)
+            let reply = if introducer == STRINGS[0] {
+                query::answer(&body[..end])
+            } else {
+                query::command(&body[..end])
+            };
+            event_or_noise(reply.map(Event::Reply), introducer.len() + end + 2)
         }
         // Another sequence interrupts this one and is decoded separately.
-        _ => Token::Noise(STRING.len() + end),
+        _ => Token::Noise(introducer.len() + end),
     }
 }
 

@@ -10,15 +10,19 @@ use std::time::{Duration, Instant};
 use crossterm::Command;
 use crossterm::clipboard::CopyToClipboard;
 use ratatui::Frame;
+use ratatui::backend::Backend;
+use ratatui::buffer::Cell;
 use ratatui::layout::{Position, Rect};
 
 #[cfg(unix)]
 use super::abort;
 use super::backend::AnsiBackend;
+use super::canvas::{Canvas, Removal, text_over};
 use super::colour::ColourDepth;
+use super::graphics::{Means, Pixmap};
 use super::output::Output;
 use super::panics::{GuardState, Ownership};
-use super::query;
+use super::query::{self, Question};
 use super::reply::ASK_STATUS;
 use super::tty::{self, TtyWriter};
 
@@ -53,6 +57,7 @@ pub enum Mouse {
 #[derive(Debug)]
 pub struct Terminal {
     screen: ratatui::Terminal<AnsiBackend>,
+    canvas: Canvas,
     shared: Arc<GuardState>,
     mouse: Mouse,
 }
@@ -73,6 +78,7 @@ impl Terminal {
         abort::install(&shared, LEAVE)?;
         let mut terminal = Self {
             screen,
+            canvas: Canvas::default(),
             shared,
             mouse,
         };
@@ -92,26 +98,61 @@ impl Terminal {
     }
 
     /// Draws a frame and sends the differences from the previous one, without waiting for the
-    /// terminal.
+    /// terminal. `paint` returns the cells that it has left to `pixmap`, and may be called twice.
     ///
     /// Returns the number of bytes sent: zero if nothing differs or while the terminal is lent.
-    pub fn draw(&mut self, paint: impl FnOnce(&mut Frame)) -> io::Result<usize> {
+    pub fn draw(
+        &mut self,
+        pixmap: Option<&Pixmap>,
+        mut paint: impl FnMut(&mut Frame) -> Option<Rect>,
+    ) -> io::Result<usize> {
         if !self.is_ours() {
             return Ok(0);
         }
-        self.screen.backend_mut().fit(tty::size());
-        let Ok(_) = self.screen.draw(paint);
+        self.fit();
+        let mut painted = self.painted(&mut paint);
+        let place = painted.0.filter(|_| pixmap.is_some());
+        match self.canvas.removal(place) {
+            Removal::None => {}
+            Removal::Bytes(bytes) => self.screen.backend_mut().append(bytes.as_bytes()),
+            Removal::Repaint => {
+                self.screen.backend_mut().discard();
+                self.repaint();
+                painted = self.painted(&mut paint);
+            }
+        }
+        if let (Some(place), over) = painted
+            && let Some(pixmap) = pixmap
+            && let Some(sending) = self.canvas.sending(place, pixmap, over)?
+        {
+            let backend = self.screen.backend_mut();
+            backend.picture(sending.at, &sending.bytes);
+            let over = sending.over.iter();
+            let Ok(()) = backend.draw(over.map(|(at, cell)| (at.x, at.y, cell)));
+        }
         let output = self.shared.output();
         self.screen.backend_mut().finish(|frame| output.send(frame))
     }
 
-    /// Queries the terminal's colours, followed by [`Reply::Attributes`](super::Reply). Intended
-    /// before the first frame, which covers anything that a terminal without support displays for
-    /// the query.
-    pub fn ask_for_colours(&self) -> io::Result<()> {
+    /// Sends queries, followed by one that ends the answers with
+    /// [`Reply::Attributes`](super::Reply). Intended before the first frame, which covers anything
+    /// that a terminal without support displays for them.
+    pub fn ask(&self, questions: &[Question]) -> io::Result<()> {
         let output = self.shared.output();
-        output.send(query::COLOURS)?;
+        for question in questions {
+            output.send(question.query())?;
+        }
         output.send(query::ATTRIBUTES)
+    }
+
+    /// Sets how pictures are sent from now on; `None` sends none. The next frame is drawn in full.
+    pub fn set_means(&mut self, means: Option<Means>) {
+        if let Removal::Bytes(bytes) = self.canvas.removal(None) {
+            self.screen.backend_mut().append(bytes.as_bytes());
+        }
+        self.canvas.set_means(means);
+        self.shared.note_means(means);
+        self.repaint();
     }
 
     /// Uses this colour depth from now on; the next frame is drawn in full.
@@ -125,8 +166,33 @@ impl Terminal {
         let size = tty::size();
         self.screen.backend_mut().fit(size);
         self.screen.backend_mut().forget();
+        self.canvas.forget();
         // ratatui's own method queries the cursor position; resizing clears without a query.
         let Ok(()) = self.screen.resize(Rect::from((Position::ORIGIN, size)));
+    }
+
+    /// Draws a frame into the bytes to send. Returns the cells left to a picture, and those of them
+    /// that have text.
+    fn painted(
+        &mut self,
+        paint: &mut impl FnMut(&mut Frame) -> Option<Rect>,
+    ) -> (Option<Rect>, Vec<(Position, Cell)>) {
+        let mut painted = (None, Vec::new());
+        let Ok(_) = self.screen.draw(|frame| {
+            if let Some(place) = paint(frame) {
+                painted = (Some(place), text_over(place, frame.buffer_mut()));
+            }
+        });
+        painted
+    }
+
+    /// Follows the size of the window. A frame of another size begins by erasing the screen.
+    fn fit(&mut self) {
+        let (size, backend) = (tty::size(), self.screen.backend_mut());
+        if backend.size() != Ok(size) {
+            backend.fit(size);
+            self.canvas.forget();
+        }
     }
 
     /// Lends the terminal to another program; does nothing if the interface does not own it. Fails
@@ -228,7 +294,8 @@ fn give_back(shared: &GuardState, to: Ownership, deadline: Instant) -> io::Resul
     if before != Ownership::Ours {
         return Ok(());
     }
-    let written = shared.output().send_last(LEAVE.as_bytes(), deadline);
+    let bytes = [shared.ending(), LEAVE].concat();
+    let written = shared.output().send_last(bytes.as_bytes(), deadline);
     crossterm::terminal::disable_raw_mode()?;
     written
 }

@@ -5,9 +5,9 @@ use std::io;
 #[cfg(unix)]
 use std::time::{Duration, Instant};
 
-use super::Reply;
 #[cfg(unix)]
 use super::query;
+use super::{Protocol, Reply};
 
 /// The answers of a terminal.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -25,6 +25,20 @@ impl Answers {
     /// Whether the terminal reports 24-bit colour.
     pub(crate) fn has_true_colour(&self) -> bool {
         self.replies.contains(&Reply::TrueColour)
+    }
+
+    /// Whether the terminal shows pictures sent in this way.
+    pub(crate) fn shows(&self, protocol: Protocol) -> bool {
+        self.replies.contains(&Reply::Shows(protocol))
+            || protocol == Protocol::Sixel && self.replies.contains(&Reply::AttributesWithSixel)
+    }
+
+    /// The size of a cell in pixels, if the terminal reports it.
+    pub(crate) fn cell_size(&self) -> Option<(u16, u16)> {
+        self.replies.iter().find_map(|reply| match *reply {
+            Reply::CellSize { width, height } => Some((width, height)),
+            _ => None,
+        })
     }
 
     /// The state of a DEC private mode, if the terminal knows it.
@@ -57,7 +71,7 @@ impl Interview {
         if at.duration_since(self.asked) < query::PATIENCE {
             self.answers.replies.push(reply);
         }
-        self.is_over |= reply == Reply::Attributes;
+        self.is_over |= reply.is_last();
     }
 }
 
@@ -75,7 +89,15 @@ pub(crate) fn ask() -> io::Result<Answers> {
     let _raw = Raw::enter()?;
     let line = tty::TtyWriter::open()?;
     // A terminal that accepts nothing answers nothing.
-    let _ = line.write_at_once(&[query::COLOURS, query::MODES, query::ATTRIBUTES].concat())?;
+    let _ = line.write_at_once(
+        &[
+            query::COLOURS,
+            query::MODES,
+            query::pictures(),
+            query::ATTRIBUTES,
+        ]
+        .concat(),
+    )?;
     let mut interview = Interview {
         asked: Instant::now(),
         answers: Answers::default(),

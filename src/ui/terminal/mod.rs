@@ -8,10 +8,12 @@
 #[cfg(unix)]
 mod abort;
 mod backend;
+mod canvas;
 mod colour;
 #[cfg(unix)]
 mod decode;
 mod event;
+mod graphics;
 mod guard;
 mod input;
 pub(crate) mod interview;
@@ -33,6 +35,7 @@ pub(crate) use colour::{THEME, colour_on_screen};
 #[cfg(unix)]
 pub use decode::Decoder;
 pub use event::Event;
+pub use graphics::{Means, Pixmap, Protocol, Wrapping};
 pub use guard::{Mouse, Terminal};
 pub use input::Input;
 pub use link::{Budget, Link};
@@ -40,4 +43,4 @@ pub(crate) use print::printed;
 pub use reply::{Replies, Reply};
 #[cfg(unix)]
 pub use signals::{Signals, suspend_process};
-pub(crate) use tty::{complain, size};
+pub(crate) use tty::{cell_size, complain, size};

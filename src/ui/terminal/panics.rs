@@ -7,10 +7,11 @@ use std::backtrace::{Backtrace, BacktraceStatus};
 use std::panic::{self, PanicHookInfo};
 #[cfg(unix)]
 use std::sync::TryLockError;
-use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError, Weak};
 use std::thread::{self, ThreadId};
 
+use super::graphics::{self, Means};
 use super::output::Output;
 use super::tty;
 use crate::text::visible;
@@ -26,6 +27,14 @@ pub(super) enum Ownership {
     GivenBack,
 }
 
+/// What ends pictures: nothing if none were sent.
+const ENDINGS: [&str; 4] = [
+    "",
+    graphics::END,
+    graphics::REMOVE,
+    graphics::REMOVE_THROUGH_TMUX,
+];
+
 /// State shared by the terminal guard, the panic hook and the handler of aborts.
 #[derive(Debug)]
 pub(super) struct GuardState {
@@ -33,6 +42,8 @@ pub(super) struct GuardState {
     output: Output,
     ownership: Mutex<Ownership>,
     has_kept_edits: AtomicBool,
+    /// What ends pictures, as an index into [`ENDINGS`].
+    ending: AtomicUsize,
     panics: Mutex<Vec<String>>,
 }
 
@@ -44,6 +55,7 @@ impl GuardState {
             output,
             ownership: Mutex::new(Ownership::GivenBack),
             has_kept_edits: AtomicBool::new(false),
+            ending: AtomicUsize::new(0),
             panics: Mutex::new(Vec::new()),
         });
         let previous = panic::take_hook();
@@ -87,6 +99,18 @@ impl GuardState {
 
     pub(super) fn note_kept_edits(&self, are_kept: bool) {
         self.has_kept_edits.store(are_kept, Ordering::Relaxed);
+    }
+
+    /// What ends pictures on the screen, also for a signal handler: nothing if there are none.
+    pub(super) fn ending(&self) -> &'static str {
+        ENDINGS[self.ending.load(Ordering::Relaxed)]
+    }
+
+    /// Records how pictures are sent, if any are.
+    pub(super) fn note_means(&self, means: Option<Means>) {
+        let ending = means.map_or("", Means::ending);
+        let known = ENDINGS.iter().position(|known| *known == ending);
+        self.ending.store(known.unwrap_or(0), Ordering::Relaxed);
     }
 
     /// Returns the panics of other threads since the last call.

@@ -1,4 +1,4 @@
-//! Queries about the terminal's colours, and the meaning of the answers.
+//! Queries about the terminal's colours and pictures, and the meaning of the answers.
 //!
 //! A login over SSH has `TERM=xterm-256color` whatever the terminal can do. Most terminals with
 //! 24-bit colours report them when asked for the current colour (DECRQSS) or for terminfo entries
@@ -7,7 +7,8 @@
 
 use std::time::Duration;
 
-use super::Reply;
+use super::graphics::{self, Protocol};
+use super::{Reply, tmux};
 
 /// Sets a colour that no palette contains, queries the current colour, resets it, and queries
 /// terminfo's two names of 24-bit colour, RGB and Tc.
@@ -23,6 +24,46 @@ const COLOUR: [u16; 3] = [49, 73, 87];
 
 /// The names RGB and Tc in hexadecimal.
 const NAMES: [&[u8]; 2] = [b"524742", b"5463"];
+
+/// Queries the name of the terminal (XTVERSION) and the size of a cell (XTWINOPS). tmux would take
+/// kitty's query for the title of a window.
+const NAME_AND_CELL: &[u8] = b"\x1b[>q\x1b[16t";
+
+/// The same and whether the terminal knows kitty's protocol.
+const PICTURES: &[u8] = b"\x1b_Gi=31,s=1,v=1,a=q,t=d,f=24;AAAA\x1b\\\x1b[>q\x1b[16t";
+
+/// Names of terminals that show pictures in iTerm2's way and do not say so otherwise.
+const ITERM: [&[u8]; 3] = [b"iTerm2", b"WezTerm", b"mintty"];
+
+/// The longest side of a cell that is believed, in pixels.
+const LARGEST_CELL: u16 = 256;
+
+/// What is asked of the terminal.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Question {
+    /// Whether it shows 24-bit colours.
+    Colours,
+    /// How it shows pictures.
+    Pictures,
+}
+
+impl Question {
+    pub(super) fn query(self) -> &'static [u8] {
+        match self {
+            Self::Colours => COLOURS,
+            Self::Pictures => pictures(),
+        }
+    }
+}
+
+/// Queries how the terminal shows pictures.
+pub(super) fn pictures() -> &'static [u8] {
+    if tmux::is_around() {
+        NAME_AND_CELL
+    } else {
+        PICTURES
+    }
+}
 
 /// Queries the device attributes (DA1), which every terminal answers.
 pub(super) const ATTRIBUTES: &[u8] = b"\x1b[c";
@@ -55,6 +96,10 @@ pub(super) fn answer(string: &[u8]) -> Option<Reply> {
     if let Some(setting) = string.strip_prefix(b"1$r") {
         return shows_colour(setting).then_some(Reply::TrueColour);
     }
+    if let Some(name) = string.strip_prefix(b">|") {
+        let is_known = ITERM.iter().any(|known| name.starts_with(known));
+        return is_known.then_some(Reply::Shows(Protocol::Iterm));
+    }
     let capability = string.strip_prefix(b"1+r")?;
     let mut parts = capability.splitn(2, |&byte| byte == b'=');
     let name = parts.next()?;
@@ -64,6 +109,29 @@ pub(super) fn answer(string: &[u8]) -> Option<Reply> {
     let is_wide = value.is_empty() || value.starts_with(b"38");
     let is_asked = NAMES.contains(&name);
     (is_asked && is_wide).then_some(Reply::TrueColour)
+}
+
+/// Decodes the contents of an application program command.
+pub(super) fn command(string: &[u8]) -> Option<Reply> {
+    graphics::answers(string).then_some(Reply::Shows(Protocol::Kitty))
+}
+
+/// Decodes device attributes: 4 stands for sixel pictures.
+pub(super) fn attributes(numbers: &[u16]) -> Reply {
+    match numbers {
+        // The first one is the class of the terminal.
+        [_, extensions @ ..] if extensions.contains(&4) => Reply::AttributesWithSixel,
+        _ => Reply::Attributes,
+    }
+}
+
+/// Decodes a report of the window: 6 introduces the size of a cell, height before width.
+pub(super) fn window(numbers: &[u16]) -> Option<Reply> {
+    let &[6, height, width] = numbers else {
+        return None;
+    };
+    let is_plausible = |side: u16| (1..=LARGEST_CELL).contains(&side);
+    (is_plausible(width) && is_plausible(height)).then_some(Reply::CellSize { width, height })
 }
 
 /// Whether the reported colour is exactly the one set, rather than the nearest of a palette.
@@ -107,6 +175,25 @@ mod tests {
                 expected.then_some(Reply::TrueColour),
                 "{shown}"
             );
+        }
+    }
+
+    #[test]
+    fn answers_about_pictures_are_understood() {
+        let iterm = Some(Reply::Shows(Protocol::Iterm));
+        assert_eq!(answer(b">|iTerm2 3.5.10"), iterm);
+        assert_eq!(answer(b">|WezTerm 20240203-110809"), iterm);
+        assert_eq!(answer(b">|XTerm(390)"), None);
+        assert_eq!(command(b"Gi=31;OK"), Some(Reply::Shows(Protocol::Kitty)));
+        assert_eq!(command(b"Gi=31;EINVAL"), None);
+        assert_eq!(attributes(&[62, 4, 22]), Reply::AttributesWithSixel);
+        for numbers in [&[62, 22][..], &[4], &[]] {
+            assert_eq!(attributes(numbers), Reply::Attributes);
+        }
+        let (width, height) = (9, 20);
+        assert_eq!(window(&[6, 20, 9]), Some(Reply::CellSize { width, height }));
+        for numbers in [&[6, 0, 9][..], &[6, 20, 9999], &[4, 600, 800], &[6, 20]] {
+            assert_eq!(window(numbers), None);
         }
     }
 

@@ -3,6 +3,9 @@
 use std::sync::{Condvar, Mutex, MutexGuard, PoisonError};
 use std::time::Instant;
 
+use super::graphics::Protocol;
+use super::tmux;
+
 /// Requests a status report (DSR, ECMA-48 8.3.35), which the terminal sends when everything before
 /// has arrived. No key sends the same bytes; a report of the cursor position in the first row, in
 /// contrast, looks like F3.
@@ -25,6 +28,26 @@ pub enum Reply {
     /// The device attributes (DA1). Every terminal sends them, and in order, so that they end the
     /// replies before.
     Attributes,
+    /// The same of a terminal that shows sixel pictures.
+    AttributesWithSixel,
+    /// The terminal shows pictures sent in this way.
+    Shows(Protocol),
+    /// The size of a cell in pixels.
+    CellSize {
+        /// Its width.
+        width: u16,
+        /// Its height.
+        height: u16,
+    },
+    /// What tmux says of itself and of the terminal behind it.
+    Tmux(tmux::Client),
+}
+
+impl Reply {
+    /// Whether it ends the replies to queries.
+    pub fn is_last(self) -> bool {
+        matches!(self, Self::Attributes | Self::AttributesWithSixel)
+    }
 }
 
 /// Replies in flight, awaited before the terminal is handed to a program that would take them for
@@ -37,7 +60,7 @@ pub struct Replies {
 
 #[derive(Debug, Default)]
 struct Expected {
-    /// Whether [`Reply::Attributes`], which ends the answers about colours, is in flight.
+    /// Whether [`Reply::Attributes`], which ends the answers to queries, is in flight.
     attributes: bool,
     /// Number of [`Reply::Status`] in flight.
     statuses: usize,
@@ -49,8 +72,8 @@ impl Replies {
         let mut expected = self.lock();
         match reply {
             Reply::Status => expected.statuses += 1,
-            Reply::Attributes => expected.attributes = true,
-            Reply::TrueColour | Reply::Mode { .. } => {}
+            reply if reply.is_last() => expected.attributes = true,
+            _ => {}
         }
     }
 
@@ -59,8 +82,8 @@ impl Replies {
         let mut expected = self.lock();
         match reply {
             Reply::Status => expected.statuses = expected.statuses.saturating_sub(1),
-            Reply::Attributes => expected.attributes = false,
-            Reply::TrueColour | Reply::Mode { .. } => return,
+            reply if reply.is_last() => expected.attributes = false,
+            _ => return,
         }
         self.came.notify_all();
     }
@@ -116,6 +139,7 @@ mod tests {
             (&[Attributes], &[Status, Status], true),
             (&[Attributes], &[TrueColour, MODE], true),
             (&[Attributes], &[TrueColour, Attributes], false),
+            (&[Attributes], &[Reply::AttributesWithSixel], false),
             (&[Attributes, Status], &[Attributes], true),
             (&[Attributes, Status], &[Status, Attributes], false),
             (&[TrueColour, MODE], &[], false),

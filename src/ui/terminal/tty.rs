@@ -38,6 +38,14 @@ pub(crate) fn size() -> Size {
     drawn_part(known_size(Size { width, height }, variable))
 }
 
+/// The size of a cell in pixels, width and height, if the system knows it.
+pub(crate) fn cell_size() -> Option<(u16, u16)> {
+    let window = crossterm::terminal::window_size().ok()?;
+    let width = window.width.checked_div(window.columns)?;
+    let height = window.height.checked_div(window.rows)?;
+    (0 < width && 0 < height).then_some((width, height))
+}
+
 /// Result of a write that does not wait.
 #[derive(Debug)]
 pub(super) enum Taken {

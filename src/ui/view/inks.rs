@@ -2,6 +2,7 @@
 
 use ratatui::style::Color;
 
+use super::mosaic::Mosaic;
 use super::palette::Palette;
 use crate::ui::terminal::ColourDepth;
 use crate::ui::theme::Theme;
@@ -41,10 +42,22 @@ impl Glyphs {
     }
 }
 
+/// What fills the cells of a picture on a terminal with colours.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Drawing {
+    /// Half blocks.
+    HalfBlocks,
+    /// Block characters of more pixels in two colours.
+    Mosaic(Mosaic),
+    /// A picture in real pixels, which the terminal puts there.
+    Picture,
+}
+
 /// The glyphs of pictures, and a cache of their colour mixes.
 #[derive(Debug)]
 pub struct Inks {
     pub(super) glyphs: Glyphs,
+    pub(super) drawing: Drawing,
     palette: Option<Palette>,
 }
 
@@ -52,6 +65,11 @@ impl Inks {
     /// The inks for a colour depth.
     pub fn for_depth(depth: ColourDepth) -> Self {
         Self::new(Glyphs::for_depth(depth))
+    }
+
+    /// Fills the cells of pictures with this from now on.
+    pub fn draw_with(&mut self, drawing: Drawing) {
+        self.drawing = drawing;
     }
 
     /// Whether pixels have colours.
@@ -65,7 +83,11 @@ impl Inks {
             Glyphs::HalfBlocksOf16 => Some(Palette::of_16()),
             Glyphs::HalfBlocks | Glyphs::Characters => None,
         };
-        Self { glyphs, palette }
+        Self {
+            glyphs,
+            drawing: Drawing::HalfBlocks,
+            palette,
+        }
     }
 
     /// The theme to use when this one is wanted: without colours, attributes take their place.

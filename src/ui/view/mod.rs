@@ -16,9 +16,11 @@ mod histogram;
 mod history;
 mod inks;
 mod labelled;
+mod left;
 mod list;
 mod menu;
 mod message;
+mod mosaic;
 mod oklab;
 mod page;
 mod palette;
@@ -30,6 +32,7 @@ mod row;
 mod status;
 mod steps;
 mod symbols;
+mod tiles;
 mod values;
 mod wireframe;
 
@@ -46,23 +49,40 @@ use super::arrange::MIN_SIZE;
 use super::keymap::{Context, Mode};
 use super::layout;
 use super::theme;
-pub use inks::Inks;
+pub use inks::{Drawing, Inks};
+pub use left::pixmap;
+pub use mosaic::Mosaic;
 
-/// Draws the whole screen.
-pub fn draw(app: &App, inks: &mut Inks, frame: &mut Frame) {
+/// Draws the whole screen. Returns the cells that are left to the terminal's own picture: none if
+/// anything but marks and words of the picture is over it, which is then drawn in half blocks.
+pub fn draw(app: &App, inks: &mut Inks, frame: &mut Frame) -> Option<Rect> {
     let area = frame.area();
-    render(app, inks, area, frame.buffer_mut());
-    inks.theme(app.theme).apply(frame.buffer_mut());
+    let buffer = frame.buffer_mut();
+    let mut left = render(app, inks, area, buffer);
+    if left.is_none() && inks.drawing == Drawing::Picture {
+        buffer.reset();
+        inks.drawing = Drawing::HalfBlocks;
+        render(app, inks, area, buffer);
+        inks.drawing = Drawing::Picture;
+    }
+    if let Some(cells) = left {
+        left = Some(cells.intersection(buffer.area));
+        left::blank(cells, buffer);
+    }
+    inks.theme(app.theme).apply(buffer);
+    left
 }
 
-fn render(app: &App, inks: &mut Inks, area: Rect, buffer: &mut Buffer) {
+/// Draws the whole screen; returns the cells that are left to a picture if nothing is over it.
+fn render(app: &App, inks: &mut Inks, area: Rect, buffer: &mut Buffer) -> Option<Rect> {
     let area = area.intersection(buffer.area);
     let areas = app.areas_in(area, app.zoom_now());
     if areas.status.is_empty() {
         too_small(area, buffer);
-        return;
+        return None;
     }
-    picture::render(app, inks, areas.picture, buffer);
+    let left = picture::render(app, inks, areas.picture, buffer);
+    let left = left.map(|cells| (cells, left::left_in(cells, buffer)));
     rule(app, areas.rule, buffer);
     if app.context() == Context::Rays {
         rays::render(app, buffer);
@@ -100,6 +120,8 @@ fn render(app: &App, inks: &mut Inks, area: Rect, buffer: &mut Buffer) {
     picker::render(app, inks, areas.list, body, buffer);
     completions::render(app, body, buffer);
     dialog::render(app, body, buffer);
+    let (cells, count) = left?;
+    (left::left_in(cells, buffer) == count).then_some(cells)
 }
 
 /// Draws the line between columns, which makes a stale picture obvious.

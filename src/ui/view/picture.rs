@@ -1,5 +1,6 @@
 //! The picture: two pixels per cell, drawn as `▀` with the upper pixel as foreground and the lower
-//! one as background; a character per cell on terminals without colours.
+//! one as background; more as mosaics; a character per cell on terminals without colours. Cells that
+//! the terminal fills with its own picture are left to it.
 
 use std::borrow::Cow;
 
@@ -10,25 +11,25 @@ use ratatui::widgets::{Clear, Widget};
 use unicode_width::UnicodeWidthStr;
 
 use super::characters::Characters;
-use super::inks::{Glyphs, Inks};
+use super::inks::{Drawing, Glyphs, Inks};
+use super::left::leave;
 use super::row::Row;
-use super::{pixel, symbols, values, wireframe};
+use super::{pixel, symbols, tiles, values, wireframe};
 use crate::render::{line_of, pixel_of, pixel_width};
 use crate::scene::Size;
-use crate::ui::app::{App, FirstReading, Shown};
+use crate::ui::app::{App, FirstReading, Grid, Shown};
 use crate::ui::keymap::Mode;
 use crate::ui::layout::{self, raster};
 use crate::ui::theme;
 
-/// Draws the current picture, letterboxed, with its symbols.
-pub(crate) fn render(app: &App, inks: &mut Inks, area: Rect, buffer: &mut Buffer) {
-    let Some((cells, size)) = raster(area, app.output()) else {
-        return;
-    };
+/// Draws the current picture, letterboxed, with its symbols. Returns its cells if they are left to
+/// the terminal's own picture.
+pub(crate) fn render(app: &App, inks: &mut Inks, area: Rect, buffer: &mut Buffer) -> Option<Rect> {
+    let (cells, size) = raster(area, app.output())?;
     if let Some(wires) = app.wires().and_then(|wires| wires.lines(size)) {
         wireframe::paint(wires, &app.outlined_objects(), cells, buffer);
         overlays(app, inks.glyphs, area, (cells, size), buffer);
-        return;
+        return None;
     }
     let shown = &app.picture().shown;
     if shown.size.pixels() == 0 || shown.pixels.len() != shown.size.pixels() {
@@ -37,19 +38,29 @@ pub(crate) fn render(app: &App, inks: &mut Inks, area: Rect, buffer: &mut Buffer
         } else {
             notice(app, area, buffer);
         }
-        return;
+        return None;
     }
-    let pixels = app.pictures.grid.size(size);
-    let shown = if shown.size == pixels {
-        Cow::Borrowed(shown)
-    } else {
-        Cow::Owned(shown.resampled(pixels))
+    let resampled = |pixels: Size| {
+        if shown.size == pixels {
+            Cow::Borrowed(shown)
+        } else {
+            Cow::Owned(shown.resampled(pixels))
+        }
     };
-    paint(&shown, inks, cells, buffer);
+    match inks.drawing {
+        Drawing::HalfBlocks => paint(&resampled(size), inks, cells, buffer),
+        Drawing::Mosaic(mosaic) => {
+            let (across, down) = mosaic.grid();
+            let grid = Grid { across, down };
+            tiles::paint(&resampled(grid.size(size)), mosaic, inks, cells, buffer);
+        }
+        Drawing::Picture => leave(cells, buffer),
+    }
     if let (Some(frame), Some(sight)) = (&app.picture().latest, app.sight()) {
         values::render(frame, &sight, cells, buffer);
     }
     overlays(app, inks.glyphs, area, (cells, size), buffer);
+    (inks.drawing == Drawing::Picture).then_some(cells)
 }
 
 /// Draws what lies over the picture.
@@ -61,11 +72,11 @@ fn overlays(
     buffer: &mut Buffer,
 ) {
     if app.mode == Mode::Move {
-        axis(app, cells, size, buffer);
+        axis(app, glyphs, (cells, size), buffer);
     }
     symbols::render(app, glyphs, cells, buffer);
     if app.mode == Mode::Inspect {
-        path(app, cells, buffer);
+        path(app, glyphs, cells, buffer);
         cross(app, cells, buffer);
     }
     if app.is_empty() {
@@ -150,7 +161,7 @@ fn cross(app: &App, cells: Rect, buffer: &mut Buffer) {
 }
 
 /// Draws the axis that a transformation is locked to, through what is being transformed.
-fn axis(app: &App, cells: Rect, size: Size, buffer: &mut Buffer) {
+fn axis(app: &App, glyphs: Glyphs, (cells, size): (Rect, Size), buffer: &mut Buffer) {
     let (Some(transform), Some(camera)) = (&app.pictures.transform, app.camera()) else {
         return;
     };
@@ -166,13 +177,13 @@ fn axis(app: &App, cells: Rect, size: Size, buffer: &mut Buffer) {
         };
         let [x, y] = sight.on_screen(place, size);
         if y < f64::from(size.height) {
-            plot([x, 0.5 * y], colour, cells, buffer);
+            plot([x, 0.5 * y], (glyphs, colour), cells, buffer);
         }
     }
 }
 
 /// Draws the path of light that is explained.
-fn path(app: &App, cells: Rect, buffer: &mut Buffer) {
+fn path(app: &App, glyphs: Glyphs, cells: Rect, buffer: &mut Buffer) {
     let Some(frame) = &app.picture().latest else {
         return;
     };
@@ -198,13 +209,18 @@ fn path(app: &App, cells: Rect, buffer: &mut Buffer) {
         for step in 0..=steps as u32 {
             let share = f64::from(step) / steps;
             let place = [from[0] + share * across, from[1] + share * down];
-            plot(place, rgb(colour), cells, buffer);
+            plot(place, (glyphs, rgb(colour)), cells, buffer);
         }
     }
 }
 
 /// Colours the half of a cell at a place, which is in cells from the picture's corner.
-fn plot([column, row]: [f64; 2], colour: Color, cells: Rect, buffer: &mut Buffer) {
+fn plot(
+    [column, row]: [f64; 2],
+    (glyphs, colour): (Glyphs, Color),
+    cells: Rect,
+    buffer: &mut Buffer,
+) {
     let is_inside = 0.0 <= column
         && 0.0 <= row
         && column < f64::from(cells.width)
@@ -219,6 +235,8 @@ fn plot([column, row]: [f64; 2], colour: Color, cells: Rect, buffer: &mut Buffer
     match (cell.symbol(), half % 2) {
         ("▀", 0) => cell.set_fg(colour),
         ("▀", _) => cell.set_bg(colour),
+        // A dot in that colour, over the picture of the terminal or a mosaic.
+        _ if glyphs != Glyphs::Characters => cell.set_symbol("·").set_fg(colour),
         _ => cell.set_symbol("·"),
     };
 }

@@ -11,7 +11,7 @@ use ratatui::layout::Rect;
 use tui_input::Input;
 
 use super::inks::Glyphs;
-use super::{Inks, draw};
+use super::{Drawing, Inks, draw};
 use crate::document::{Document, Merge, Side};
 use crate::language::{Language, Node};
 use crate::render::{Filter, Frame, NO_OBJECT, Progress};
@@ -117,7 +117,9 @@ fn screen(app: &mut App, width: u16, height: u16) -> Vec<String> {
     app.follow_wires();
     let mut terminal = Terminal::new(TestBackend::new(width, height)).expect("cannot fail");
     terminal
-        .draw(|frame| draw(app, &mut Inks::new(Glyphs::HalfBlocks), frame))
+        .draw(|frame| {
+            draw(app, &mut Inks::new(Glyphs::HalfBlocks), frame);
+        })
         .expect("cannot fail");
     lines(terminal.backend().buffer())
 }
@@ -492,6 +494,44 @@ fn errors_mark_the_picture_as_stale_and_are_explained() {
     for part in ["STALE", "1 error", "test.ray:6:18", "^^", "SELECT", "[+]"] {
         assert!(text.contains(part), "{part:?} in\n{text}");
     }
+}
+
+/// The cells left to a picture by the terminal, and whether any half blocks are drawn.
+fn left(app: &mut App) -> (Option<Rect>, bool) {
+    let (width, height) = (100, 30);
+    app.terminal = (width, height);
+    let mut inks = Inks::new(Glyphs::HalfBlocks);
+    inks.draw_with(Drawing::Picture);
+    let mut terminal = Terminal::new(TestBackend::new(width, height)).expect("cannot fail");
+    let mut left = None;
+    terminal
+        .draw(|frame| left = draw(app, &mut inks, frame))
+        .expect("cannot fail");
+    let text = lines(terminal.backend().buffer()).join("");
+    assert!(
+        !text.contains('\u{f8ff}'),
+        "the mark of what is left is not shown"
+    );
+    (left, text.contains('▀'))
+}
+
+#[test]
+fn cells_are_left_to_a_picture_unless_a_panel_is_over_it() {
+    let mut app = app();
+    assert_eq!(left(&mut app), (None, false), "there is no picture yet");
+    app.pictures.preview.take(frame(8, 6));
+    let sight = app.sight().expect("there is room");
+    app.pictures.preview.advance(&sight, &[], usize::MAX);
+    let cells = app.raster().map(|(cells, _)| cells);
+    assert_eq!(left(&mut app), (cells, false));
+    app.overlays.help = Some(Help::default());
+    assert_eq!(left(&mut app), (None, true));
+    app.overlays.help = None;
+    assert_eq!(left(&mut app), (cells, false));
+    // A few words over it are drawn on top.
+    retype(&mut app, " 0.25 ", " -1 ");
+    let (place, has_blocks) = left(&mut app);
+    assert!(place.is_some() && !has_blocks);
 }
 
 #[test]

@@ -186,6 +186,7 @@ const OTHERS: &[&str] = &[
     "theme dark",
     "theme light",
     "theme mono",
+    "pixels",
     "help",
 ];
 

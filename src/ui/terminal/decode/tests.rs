@@ -73,7 +73,12 @@ fn whole_sequences() {
         (b"\x1b[<35;9;9M\x1b[M !!x", &["Char('x')"]),
         (
             b"\x1b[?62;4cx\x1b[12;40Ry\x1b[Iz",
-            &["Reply(Attributes)", "Char('x')", "Char('y')", "Char('z')"],
+            &[
+                "Reply(AttributesWithSixel)",
+                "Char('x')",
+                "Char('y')",
+                "Char('z')",
+            ],
         ),
         (
             b"\x1b[200~a\rb\x1b[201~c",
@@ -160,6 +165,21 @@ fn answers_are_not_keys() {
             &[(0, b"\x1bP1+r54"), (500, b"63\x1b"), (900, b"\\")],
             &[colour],
         ),
+        // About pictures.
+        (
+            &[
+                (0, b"\x1b_Gi=31;"),
+                (500, b"OK\x1b\\\x1b[6;20;9t\x1b[?62cx"),
+            ],
+            &[
+                "Reply(Shows(Kitty))",
+                "Reply(CellSize { width: 9, height: 20 })",
+                "Reply(Attributes)",
+                "Char('x')",
+            ],
+        ),
+        (&[(0, b"\x1b_Gi=31;ENOENT\x1b\\x")], &["Char('x')"]),
+        (&[(0, b"\x1b_j")], &["ALT+Char('_')", "Char('j')"]),
         // Malformed answers, and one that never ends.
         (&[(0, b"\x1bP1$r\x1b[A")], &["Up"]),
         (&[(0, b"\x1bP1$rquit:q!\rj")], &["Enter", "Char('j')"]),
@@ -170,7 +190,7 @@ fn answers_are_not_keys() {
             &[(0, b"\x1b[?2026;2$y\x1b[?62;4c")],
             &[
                 "Reply(Mode { number: 2026, state: 2 })",
-                "Reply(Attributes)",
+                "Reply(AttributesWithSixel)",
             ],
         ),
         (

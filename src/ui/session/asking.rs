@@ -1,0 +1,116 @@
+//! Asks the terminal what it can show, and draws accordingly.
+
+use std::io;
+use std::time::Instant;
+
+use super::Session;
+use super::pixels::{Limited, Manner};
+use crate::ui::msg::Msg;
+use crate::ui::pixels::Pixels;
+use crate::ui::terminal::query::{self, Question};
+use crate::ui::terminal::{self, Choice, ColourDepth};
+
+impl Session {
+    /// Queries what neither the user nor the environment has decided.
+    pub(super) fn ask_at_start(&mut self) -> io::Result<()> {
+        let is_open = self.choice == Choice::Auto
+            && self.depth < ColourDepth::TrueColour
+            && is_coloured(variable);
+        let colours = is_open.then_some(Question::Colours);
+        let pictures = self.wants_answers().then_some(Question::Pictures);
+        let questions: Vec<_> = colours.into_iter().chain(pictures).collect();
+        self.put(&questions)
+    }
+
+    /// Whether the terminal is still to be asked how it shows pictures.
+    fn wants_answers(&self) -> bool {
+        let is_open = match self.app.pixels {
+            Pixels::Auto => self.shows_pictures(),
+            Pixels::Kitty | Pixels::Sixel | Pixels::Iterm => true,
+            Pixels::Half | Pixels::Quadrant | Pixels::Sextant | Pixels::Octant => false,
+        };
+        is_open && !self.known.was_asked
+    }
+
+    /// Whether pictures may be shown without being chosen: a user who wants few colours does not
+    /// want more in pictures.
+    fn shows_pictures(&self) -> bool {
+        match self.choice {
+            Choice::Auto => is_coloured(variable),
+            Choice::Fixed(depth) => depth == ColourDepth::TrueColour,
+        }
+    }
+
+    /// Asks the terminal, if there is one that may be asked.
+    fn put(&mut self, questions: &[Question]) -> io::Result<()> {
+        self.known.was_asked |= questions.contains(&Question::Pictures);
+        let may_ask = query::may_ask(variable);
+        if questions.is_empty() || !may_ask || !self.runtime.screen().has_terminal() {
+            return Ok(());
+        }
+        self.runtime.screen().ask(questions)?;
+        let until = Instant::now() + query::PATIENCE;
+        if questions.contains(&Question::Colours) {
+            self.asked = Some((self.depth, until));
+        }
+        self.known.until = Some(until);
+        Ok(())
+    }
+
+    /// What pixels are to be drawn with.
+    pub(super) fn wanted_manner(&mut self) -> Manner {
+        let is_page = !self.runtime.screen().is_terminal();
+        let cell = terminal::cell_size().filter(|_| !is_page);
+        let choice = match self.app.pixels {
+            // A page has cells only.
+            Pixels::Kitty | Pixels::Sixel | Pixels::Iterm | Pixels::Auto if is_page => Pixels::Half,
+            Pixels::Auto if !self.shows_pictures() => Pixels::Half,
+            choice => choice,
+        };
+        Manner::of(choice, self.depth, &self.known, cell)
+    }
+
+    /// Draws pixels with what the user wants and the terminal can show.
+    pub(super) fn fit_pixels(&mut self) -> io::Result<()> {
+        if self.wants_answers() {
+            self.put(&[Question::Pictures])?;
+        }
+        let manner = self.wanted_manner();
+        if manner != self.manner {
+            let (before, after) = (self.manner.means(), manner.means());
+            self.manner = manner;
+            self.inks.draw_with(manner.drawing());
+            if before != after {
+                self.runtime.screen().set_means(after);
+            }
+        }
+        let choice = self.app.pixels;
+        if self.known.refused != Some(choice)
+            && let Some(reason) = self.known.refusal(choice, manner)
+            && self.runtime.screen().is_terminal()
+        {
+            self.known.refused = Some(choice);
+            self.step(Msg::Failed(reason.to_owned()));
+        }
+        let limited = if self.link.is_limited() {
+            Limited::Yes
+        } else {
+            Limited::No
+        };
+        let (across, down) = manner.grid(self.app.terminal, limited);
+        let grid = self.app.pictures.grid;
+        if (grid.across, grid.down) != (across, down) {
+            self.step(Msg::Grid { across, down });
+        }
+        Ok(())
+    }
+}
+
+/// Whether the environment does not forbid colours.
+fn is_coloured(variable: impl Fn(&str) -> Option<String>) -> bool {
+    variable("NO_COLOR").is_none_or(|value| value.is_empty())
+}
+
+fn variable(name: &str) -> Option<String> {
+    std::env::var(name).ok()
+}

@@ -1,0 +1,338 @@
+//! What pixels are drawn with: the user's choice, and what is known of the terminal.
+
+use std::time::Instant;
+
+use crate::ui::pixels::Pixels;
+use crate::ui::terminal::tmux::{self, Client};
+use crate::ui::terminal::{ColourDepth, Means, Protocol, Reply, Wrapping};
+use crate::ui::view::{Drawing, Mosaic};
+
+/// The most pixels of a screen that are traced and sent as pictures: at more, a frame takes longer
+/// than it is shown. Over a limited line, about as many as half a second carries.
+const MOST: u32 = 640_000;
+const MOST_LIMITED: u32 = 100_000;
+
+/// The size of a cell in pixels where nothing is known and pictures are scaled to their cells.
+const USUAL_CELL: (u16, u16) = (8, 16);
+
+/// What the terminal has answered about pictures.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Known {
+    /// Until when answers are expected; `None` before a question and after the answers.
+    pub(super) until: Option<Instant>,
+    /// Whether it was asked.
+    pub(super) was_asked: bool,
+    /// Whether the process runs in tmux, which must be asked what it passes on.
+    is_in_tmux: bool,
+    /// The choice of the user that cannot be followed, once its reason was shown.
+    pub(super) refused: Option<Pixels>,
+    /// Whether all answers have arrived.
+    is_complete: bool,
+    shows_kitty: bool,
+    shows_iterm: bool,
+    shows_sixel: bool,
+    cell: Option<(u16, u16)>,
+    tmux: Option<Client>,
+}
+
+impl Known {
+    /// Nothing but the environment is known.
+    pub(super) fn asked_nothing() -> Self {
+        Self {
+            is_in_tmux: tmux::is_around(),
+            ..Self::default()
+        }
+    }
+
+    /// Takes a reply of the terminal; those that say nothing about pictures change nothing.
+    pub(super) fn take(&mut self, reply: Reply) {
+        match reply {
+            Reply::Shows(Protocol::Kitty) => self.shows_kitty = true,
+            Reply::Shows(Protocol::Iterm) => self.shows_iterm = true,
+            Reply::Shows(Protocol::Sixel) => self.shows_sixel = true,
+            Reply::AttributesWithSixel => self.shows_sixel = true,
+            Reply::CellSize { width, height } => self.cell = Some((width, height)),
+            Reply::Tmux(client) => self.tmux = Some(client),
+            _ => {}
+        }
+        if reply.is_last() {
+            self.is_complete = true;
+            self.until = None;
+        }
+    }
+
+    /// Why a protocol that the user has chosen is not used, once that is known.
+    pub(super) fn refusal(&self, choice: Pixels, manner: Manner) -> Option<&'static str> {
+        if self.until.is_some() || manner.means().is_some() {
+            return None;
+        }
+        match choice {
+            Pixels::Kitty | Pixels::Iterm => {
+                Some("tmux passes no pictures on; set -g allow-passthrough on")
+            }
+            Pixels::Sixel => {
+                Some("sixels need the size of a cell, which the terminal does not tell")
+            }
+            _ => None,
+        }
+    }
+
+    /// What is on the way to the terminal for a protocol; `None` if it does not pass.
+    fn wrapping(&self, protocol: Protocol) -> Option<Wrapping> {
+        match self.tmux {
+            // tmux understands sixels.
+            _ if protocol == Protocol::Sixel || !self.is_in_tmux => Some(Wrapping::Plain),
+            Some(Client {
+                passes_through: true,
+                corner: (left, top),
+                ..
+            }) => Some(Wrapping::Tmux { left, top }),
+            _ => None,
+        }
+    }
+
+    /// The best protocol that the terminal says it shows. tmux draws sixels itself; what it passes
+    /// on stays where it is when windows or panes change, so that is only for those who ask.
+    fn best(&self) -> Option<Protocol> {
+        if !self.is_complete {
+            return None;
+        }
+        if self.is_in_tmux {
+            let client = self.tmux?;
+            return (self.shows_sixel && client.has_sixel).then_some(Protocol::Sixel);
+        }
+        [
+            (self.shows_kitty, Protocol::Kitty),
+            (self.shows_iterm, Protocol::Iterm),
+            (self.shows_sixel, Protocol::Sixel),
+        ]
+        .into_iter()
+        .find_map(|(shows, protocol)| shows.then_some(protocol))
+    }
+}
+
+/// What pixels are drawn with.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Manner {
+    Half,
+    Mosaic(Mosaic),
+    Picture(Means),
+}
+
+impl Manner {
+    /// What to draw with, at best. `cell` is the size of a cell as the system knows it. Sixels
+    /// cannot be scaled, so they need it.
+    pub(super) fn of(
+        choice: Pixels,
+        depth: ColourDepth,
+        known: &Known,
+        cell: Option<(u16, u16)>,
+    ) -> Self {
+        let mosaic = |mosaic| {
+            if depth == ColourDepth::Mono {
+                Self::Half
+            } else {
+                Self::Mosaic(mosaic)
+            }
+        };
+        let protocol = match choice {
+            Pixels::Half => None,
+            Pixels::Quadrant => return mosaic(Mosaic::Quadrant),
+            Pixels::Sextant => return mosaic(Mosaic::Sextant),
+            Pixels::Octant => return mosaic(Mosaic::Octant),
+            Pixels::Kitty => Some(Protocol::Kitty),
+            Pixels::Iterm => Some(Protocol::Iterm),
+            Pixels::Sixel => Some(Protocol::Sixel),
+            Pixels::Auto => known.best().filter(|_| depth != ColourDepth::Mono),
+        };
+        let cell = cell.or(known.cell);
+        let wrapped = protocol.and_then(|protocol| Some((protocol, known.wrapping(protocol)?)));
+        match (wrapped, cell) {
+            (None, _) | (Some((Protocol::Sixel, _)), None) => Self::Half,
+            (Some((protocol, wrapping)), cell) => Self::Picture(Means {
+                protocol,
+                wrapping,
+                cell: cell.unwrap_or(USUAL_CELL),
+            }),
+        }
+    }
+
+    /// How the view draws.
+    pub(super) fn drawing(self) -> Drawing {
+        match self {
+            Self::Half => Drawing::HalfBlocks,
+            Self::Mosaic(mosaic) => Drawing::Mosaic(mosaic),
+            Self::Picture(_) => Drawing::Picture,
+        }
+    }
+
+    /// How pictures are sent, if they are.
+    pub(super) fn means(self) -> Option<Means> {
+        match self {
+            Self::Picture(means) => Some(means),
+            Self::Half | Self::Mosaic(_) => None,
+        }
+    }
+
+    /// Pixels across and down a cell, on a screen of so many columns and rows.
+    pub(super) fn grid(self, (columns, rows): (u16, u16), is_limited: Limited) -> (u16, u16) {
+        let means = match self {
+            Self::Half => return (1, 2),
+            Self::Mosaic(mosaic) => return mosaic.grid(),
+            Self::Picture(means) => means,
+        };
+        let most = match is_limited {
+            Limited::No => MOST,
+            Limited::Yes => MOST_LIMITED,
+        };
+        let (width, height) = means.cell;
+        let at = |divisor: u16| ((width / divisor).max(1), (height / divisor).max(2));
+        let fits = |&divisor: &u16| {
+            let (across, down) = at(divisor);
+            u32::from(columns) * u32::from(across) * u32::from(rows) * u32::from(down) <= most
+        };
+        at((1..height.max(2)).find(fits).unwrap_or(height.max(1)))
+    }
+}
+
+/// Whether the line to the terminal is limited.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Limited {
+    No,
+    Yes,
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const CELL: Option<(u16, u16)> = Some((10, 20));
+
+    fn known(replies: &[Reply]) -> Known {
+        let mut known = Known {
+            is_in_tmux: replies.iter().any(|reply| matches!(reply, Reply::Tmux(_))),
+            ..Known::default()
+        };
+        for &reply in replies {
+            known.take(reply);
+        }
+        known
+    }
+
+    fn protocol(choice: Pixels, replies: &[Reply], cell: Option<(u16, u16)>) -> Option<Protocol> {
+        let manner = Manner::of(choice, ColourDepth::TrueColour, &known(replies), cell);
+        manner.means().map(|means| means.protocol)
+    }
+
+    #[test]
+    fn the_best_protocol_that_the_terminal_reports_is_chosen() {
+        use Protocol::{Iterm, Kitty, Sixel};
+        use Reply::{Attributes, AttributesWithSixel, Shows, Tmux};
+        let tmux = |has_sixel| {
+            Tmux(Client {
+                has_sixel,
+                passes_through: true,
+                ..Client::default()
+            })
+        };
+        for (replies, expected) in [
+            (&[][..], None),
+            (&[Attributes], None),
+            (&[Shows(Kitty)], None),
+            (&[Shows(Kitty), Attributes], Some(Kitty)),
+            (&[Shows(Iterm), AttributesWithSixel], Some(Iterm)),
+            (&[AttributesWithSixel], Some(Sixel)),
+            (&[Shows(Iterm), Shows(Kitty), Attributes], Some(Kitty)),
+            (&[tmux(true), AttributesWithSixel], Some(Sixel)),
+            (&[tmux(false), AttributesWithSixel], None),
+            (&[tmux(true), Attributes], None),
+        ] {
+            assert_eq!(
+                protocol(Pixels::Auto, replies, CELL),
+                expected,
+                "{replies:?}"
+            );
+        }
+    }
+
+    fn through(passes_through: bool) -> Reply {
+        Reply::Tmux(Client {
+            passes_through,
+            ..Client::default()
+        })
+    }
+
+    #[test]
+    fn a_choice_that_cannot_be_followed_is_explained() {
+        for (choice, replies, is_refused) in [
+            (Pixels::Sixel, &[][..], true),
+            (Pixels::Kitty, &[through(false)], true),
+            (Pixels::Kitty, &[through(true)], false),
+            (Pixels::Auto, &[Reply::Attributes], false),
+            (Pixels::Octant, &[], false),
+        ] {
+            let known = known(replies);
+            let manner = Manner::of(choice, ColourDepth::TrueColour, &known, None);
+            assert_eq!(
+                known.refusal(choice, manner).is_some(),
+                is_refused,
+                "{choice:?}"
+            );
+        }
+    }
+
+    #[test]
+    fn a_choice_needs_no_answer_but_sixels_need_the_size_of_cells() {
+        let size = Reply::CellSize {
+            width: 9,
+            height: 18,
+        };
+        for (choice, replies, cell, expected) in [
+            (Pixels::Kitty, &[][..], None, Some(Protocol::Kitty)),
+            (Pixels::Iterm, &[], None, Some(Protocol::Iterm)),
+            (Pixels::Sixel, &[], None, None),
+            (Pixels::Sixel, &[], CELL, Some(Protocol::Sixel)),
+            (Pixels::Sixel, &[size], None, Some(Protocol::Sixel)),
+            (Pixels::Octant, &[Reply::AttributesWithSixel], CELL, None),
+            (Pixels::Kitty, &[through(true)], CELL, Some(Protocol::Kitty)),
+            (Pixels::Iterm, &[through(false)], CELL, None),
+            (
+                Pixels::Sixel,
+                &[through(false)],
+                CELL,
+                Some(Protocol::Sixel),
+            ),
+        ] {
+            assert_eq!(protocol(choice, replies, cell), expected, "{choice:?}");
+        }
+    }
+
+    #[test]
+    fn without_colours_nothing_but_characters_is_drawn_unless_a_protocol_is_chosen() {
+        let known = known(&[Reply::Shows(Protocol::Kitty), Reply::Attributes]);
+        for choice in [Pixels::Auto, Pixels::Octant, Pixels::Half] {
+            let manner = Manner::of(choice, ColourDepth::Mono, &known, CELL);
+            assert_eq!(manner, Manner::Half);
+        }
+    }
+
+    #[test]
+    fn a_large_screen_has_fewer_pixels_in_a_cell() {
+        let means = |cell| Means {
+            protocol: Protocol::Kitty,
+            wrapping: Wrapping::Plain,
+            cell,
+        };
+        for (cell, screen, is_limited, grid) in [
+            ((10, 20), (100, 30), Limited::No, (10, 20)),
+            ((10, 20), (200, 50), Limited::No, (5, 10)),
+            ((10, 20), (100, 30), Limited::Yes, (3, 6)),
+            ((9, 19), (80, 24), Limited::No, (9, 19)),
+            ((1, 1), (80, 24), Limited::No, (1, 2)),
+            ((10, 20), (2000, 250), Limited::No, (1, 2)),
+        ] {
+            let manner = Manner::Picture(means(cell));
+            assert_eq!(manner.grid(screen, is_limited), grid, "{cell:?} {screen:?}");
+        }
+    }
+}

@@ -1,0 +1,217 @@
+//! The picture on the screen: where it is, and what must be sent to change it.
+
+use std::io;
+
+use ratatui::buffer::{Buffer, Cell};
+use ratatui::layout::{Position, Rect};
+use ratatui::style::Color;
+
+use super::graphics::{Means, Pixmap};
+
+/// Keeps account of the picture on the screen.
+#[derive(Debug, Default)]
+pub(super) struct Canvas {
+    means: Option<Means>,
+    shown: Option<Placed>,
+    /// Whether a picture that erasing cells does not erase may still be on the screen.
+    lingers: bool,
+}
+
+/// A picture in its cells.
+#[derive(Debug, PartialEq, Eq)]
+struct Placed {
+    place: Rect,
+    pixmap: Pixmap,
+    /// Cells in which text has replaced the picture.
+    text: Vec<Position>,
+}
+
+/// What to do about the picture before a frame.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Removal {
+    /// Nothing: there is none, or it stays where it is.
+    None,
+    /// Send these bytes.
+    Bytes(&'static str),
+    /// Erase the screen and draw all of it: the cells of the picture are unknown to the drawing.
+    Repaint,
+}
+
+/// A picture to be sent, and the cells to be drawn over it afterwards.
+pub(super) struct Sending {
+    pub(super) at: Position,
+    pub(super) bytes: Vec<u8>,
+    pub(super) over: Vec<(Position, Cell)>,
+}
+
+impl Canvas {
+    /// Sets how pictures are sent from now on; `None` sends none.
+    pub(super) fn set_means(&mut self, means: Option<Means>) {
+        self.means = means;
+    }
+
+    /// Forgets what is on the screen, after it was erased.
+    pub(super) fn forget(&mut self) {
+        let is_content = self.means.is_none_or(Means::is_content);
+        self.lingers |= self.shown.take().is_some() && !is_content;
+    }
+
+    /// What must be done before the picture is at `place`, or nowhere.
+    pub(super) fn removal(&mut self, place: Option<Rect>) -> Removal {
+        let is_elsewhere = |shown: &Placed| Some(shown.place) != place;
+        let Some(means) = self.means else {
+            return Removal::None;
+        };
+        let leaves = self.shown.as_ref().is_some_and(is_elsewhere);
+        if means.is_content() {
+            if leaves {
+                self.shown = None;
+                return Removal::Repaint;
+            }
+        } else if place.is_none() && (leaves || self.lingers) {
+            // A picture that moves is replaced.
+            self.shown = None;
+            self.lingers = false;
+            return Removal::Bytes(means.ending());
+        }
+        Removal::None
+    }
+
+    /// What must be sent so that `pixmap` is in the cells of `place`, with the text `over` it; `None`
+    /// if it is there.
+    pub(super) fn sending(
+        &mut self,
+        place: Rect,
+        pixmap: &Pixmap,
+        mut over: Vec<(Position, Cell)>,
+    ) -> io::Result<Option<Sending>> {
+        let Some(means) = self.means else {
+            return Ok(None);
+        };
+        if !means.is_content() {
+            over.clear();
+        }
+        let text = || over.iter().map(|(position, _)| *position);
+        let is_shown = self.shown.as_ref().is_some_and(|shown| {
+            shown.place == place && shown.pixmap == *pixmap && text().eq(shown.text.iter().copied())
+        });
+        if is_shown {
+            return Ok(None);
+        }
+        let mut bytes = Vec::new();
+        means.encode(pixmap, place, &mut bytes)?;
+        self.lingers = false;
+        self.shown = Some(Placed {
+            place,
+            pixmap: pixmap.clone(),
+            text: text().collect(),
+        });
+        Ok(Some(Sending {
+            at: place.as_position(),
+            bytes,
+            over,
+        }))
+    }
+}
+
+/// The cells of a place that are not blank.
+pub(super) fn text_over(place: Rect, frame: &Buffer) -> Vec<(Position, Cell)> {
+    let cells = place.intersection(frame.area).positions();
+    let is_text = |cell: &Cell| cell.symbol() != " " || cell.bg != Color::Reset;
+    cells
+        .filter(|&position| is_text(&frame[position]))
+        .map(|position| (position, frame[position].clone()))
+        .collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::Size;
+    use crate::ui::terminal::{Protocol, Wrapping};
+
+    const PLACE: Rect = Rect::new(1, 1, 4, 2);
+    const ELSEWHERE: Rect = Rect::new(2, 1, 4, 2);
+
+    fn canvas(protocol: Protocol) -> Canvas {
+        let mut canvas = Canvas::default();
+        canvas.set_means(Some(Means {
+            protocol,
+            wrapping: Wrapping::Plain,
+            cell: (4, 6),
+        }));
+        canvas
+    }
+
+    fn pixmap(light: u8) -> Pixmap {
+        let size = Size {
+            width: 4,
+            height: 4,
+        };
+        Pixmap {
+            size,
+            pixels: vec![[light; 3]; size.pixels()],
+        }
+    }
+
+    fn frame(text: &str) -> Buffer {
+        let mut frame = Buffer::empty(Rect::new(0, 0, 8, 4));
+        frame.set_string(2, 1, text, Color::Reset);
+        frame
+    }
+
+    /// Whether a picture is sent, and the number of cells drawn over it.
+    fn sent(canvas: &mut Canvas, light: u8, text: &str) -> Option<usize> {
+        let over = text_over(PLACE, &frame(text));
+        let sending = canvas.sending(PLACE, &pixmap(light), over);
+        sending.expect("pixels").map(|sending| sending.over.len())
+    }
+
+    #[test]
+    fn a_picture_is_sent_when_it_changes_or_text_has_replaced_it() {
+        for protocol in [Protocol::Kitty, Protocol::Iterm, Protocol::Sixel] {
+            let mut canvas = canvas(protocol);
+            let over = |cells| {
+                if canvas_is_content(protocol) {
+                    cells
+                } else {
+                    0
+                }
+            };
+            assert_eq!(sent(&mut canvas, 1, ""), Some(0));
+            assert_eq!(sent(&mut canvas, 1, ""), None);
+            assert_eq!(sent(&mut canvas, 2, "ab"), Some(over(2)));
+            assert_eq!(sent(&mut canvas, 2, "cd"), None, "the same cells");
+            let is_content = canvas_is_content(protocol);
+            let again = is_content.then_some(0);
+            assert_eq!(sent(&mut canvas, 2, ""), again, "uncovered");
+            canvas.forget();
+            assert_eq!(sent(&mut canvas, 2, ""), Some(0), "erased");
+        }
+    }
+
+    fn canvas_is_content(protocol: Protocol) -> bool {
+        protocol != Protocol::Kitty
+    }
+
+    #[test]
+    fn a_picture_that_leaves_is_removed_once() {
+        for protocol in [Protocol::Kitty, Protocol::Iterm, Protocol::Sixel] {
+            let mut canvas = canvas(protocol);
+            let (gone, moved) = if canvas_is_content(protocol) {
+                (Removal::Repaint, Removal::Repaint)
+            } else {
+                let ending = canvas.means.map_or("", Means::ending);
+                (Removal::Bytes(ending), Removal::None)
+            };
+            assert_eq!(canvas.removal(None), Removal::None, "there is none");
+            sent(&mut canvas, 1, "");
+            assert_eq!(canvas.removal(Some(PLACE)), Removal::None);
+            assert_eq!(canvas.removal(Some(ELSEWHERE)), moved);
+            canvas.forget();
+            sent(&mut canvas, 1, "");
+            assert_eq!(canvas.removal(None), gone);
+            assert_eq!(canvas.removal(None), Removal::None);
+        }
+    }
+}

@@ -1,0 +1,27 @@
+//! iTerm2's inline images (<https://iterm2.com/documentation-images.html>), which become the contents
+//! of cells: text replaces them.
+
+use base64::Engine;
+use base64::engine::general_purpose::STANDARD;
+
+use ratatui::layout::Rect;
+
+use super::Wrapping;
+
+/// Appends a PNG, to be shown over these cells, at the cursor, which moves.
+pub(super) fn encode(png: &[u8], place: Rect, wrapping: Wrapping, out: &mut Vec<u8>) {
+    let (columns, rows) = (place.width, place.height);
+    let length = png.len();
+    let data = STANDARD.encode(png);
+    wrapping.append(place, out, |out| {
+        out.extend_from_slice(
+            format!(
+                "\x1b]1337;File=inline=1;size={length};width={columns};height={rows};\
+                 preserveAspectRatio=0;doNotMoveCursor=1:"
+            )
+            .as_bytes(),
+        );
+        out.extend_from_slice(data.as_bytes());
+        out.push(b'\x07');
+    });
+}

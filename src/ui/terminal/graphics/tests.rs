@@ -1,0 +1,304 @@
+use std::io::Cursor;
+
+use base64::Engine;
+use base64::engine::general_purpose::STANDARD;
+
+use super::*;
+
+/// Where pictures are put: nine columns and four rows.
+const PLACE: Rect = Rect::new(3, 2, 9, 4);
+
+fn decoded(png: &[u8]) -> Pixmap {
+    let picture = image_file::decode(Cursor::new(png), 1 << 20).expect("a PNG");
+    Pixmap {
+        size: picture.size(),
+        pixels: picture.pixels().to_vec(),
+    }
+}
+
+/// Two columns from the left and one row from the top.
+const TMUX: Wrapping = Wrapping::Tmux { left: 2, top: 1 };
+
+/// Removes what tmux removes: the wrapping, and one of two escapes. Each sequence begins by moving
+/// the cursor to the cell.
+fn unwrapped(bytes: &[u8]) -> Vec<u8> {
+    let mut rest = bytes;
+    let mut inner = Vec::new();
+    while let Some(body) = rest.strip_prefix(b"\x1bPtmux;\x1b\x1b[4;6H") {
+        let mut at = 0;
+        while body[at..at + 2] != *b"\x1b\\" {
+            at += usize::from(body[at] == 0x1b);
+            inner.push(body[at]);
+            at += 1;
+        }
+        rest = &body[at + 2..];
+    }
+    assert_eq!(rest, b"", "nothing but wrapped sequences");
+    inner
+}
+
+/// Follows the commands for kitty; returns the control data of the first one and the picture.
+fn commands(bytes: &[u8]) -> (String, Pixmap) {
+    let text = str::from_utf8(bytes).expect("ASCII");
+    let commands = text.split("\x1b\\").filter(|command| !command.is_empty());
+    let (mut first, mut data, mut is_last) = (None, String::new(), false);
+    for command in commands {
+        assert!(!is_last, "a chunk after the last one");
+        let body = command.strip_prefix("\x1b_G").expect("a graphics command");
+        let (control, chunk) = body.split_once(';').expect("data");
+        assert!(chunk.len() <= 4096);
+        is_last = control.ends_with("m=0");
+        assert!(is_last || control.ends_with("m=1") && chunk.len() % 4 == 0);
+        assert!(control.contains("q=2"), "an answer would be taken for keys");
+        data.push_str(chunk);
+        first.get_or_insert_with(|| control.to_owned());
+    }
+    assert!(is_last);
+    let png = STANDARD.decode(data).expect("base64");
+    (first.expect("a command"), decoded(&png))
+}
+
+/// Follows iTerm2's command; returns its arguments and the picture.
+fn file(bytes: &[u8]) -> (String, Pixmap) {
+    let text = str::from_utf8(bytes).expect("ASCII");
+    let body = text.strip_prefix("\x1b]1337;File=").expect("a file");
+    let (arguments, data) = body.split_once(':').expect("data");
+    let data = data.strip_suffix('\x07').expect("the end");
+    let png = STANDARD.decode(data).expect("base64");
+    assert!(arguments.contains(&format!("size={};", png.len())));
+    (arguments.to_owned(), decoded(&png))
+}
+
+/// Draws a sixel sequence, as described in DEC STD 070. Panics where pixels are left out.
+fn sixels(bytes: &[u8]) -> Pixmap {
+    let text = str::from_utf8(bytes).expect("ASCII");
+    let body = text.strip_prefix("\x1bP0;1;0q\"").expect("sixels");
+    let mut rest = body.strip_suffix("\x1b\\").expect("the end");
+    let number = |rest: &mut &str| -> usize {
+        let end = rest
+            .find(|c: char| !c.is_ascii_digit())
+            .unwrap_or(rest.len());
+        let (digits, after) = rest.split_at(end);
+        *rest = after;
+        digits.parse().expect("a number")
+    };
+    let numbers = |rest: &mut &str| {
+        let mut numbers = vec![number(rest)];
+        while let Some(after) = rest.strip_prefix(';') {
+            *rest = after;
+            numbers.push(number(rest));
+        }
+        numbers
+    };
+    let [_, _, width, height] = numbers(&mut rest)[..] else {
+        panic!("no size");
+    };
+    let mut pixels = vec![None; width * height];
+    let (mut palette, mut colour) = (vec![[0; 3]; 256], [0; 3]);
+    let (mut x, mut top) = (0, 0);
+    while let Some(command) = rest.chars().next() {
+        rest = &rest[1..];
+        let mut count = 1;
+        let mut bits = command;
+        match command {
+            '#' => {
+                let parameters = numbers(&mut rest);
+                if let [index, 2, parts @ ..] = &parameters[..] {
+                    for (channel, part) in palette[*index].iter_mut().zip(parts) {
+                        *channel = ((part * 255 + 50) / 100) as u8;
+                    }
+                }
+                colour = palette[parameters[0]];
+                continue;
+            }
+            '$' => {
+                x = 0;
+                continue;
+            }
+            '-' => {
+                (x, top) = (0, top + 6);
+                continue;
+            }
+            '!' => {
+                count = number(&mut rest);
+                bits = rest.chars().next().expect("pixels");
+                rest = &rest[1..];
+            }
+            _ => {}
+        }
+        let bits = bits as u32 - u32::from('?');
+        assert!(bits < 64, "no pixels: {command}");
+        for _ in 0..count {
+            for y in (0..6).filter(|y| bits >> y & 1 == 1) {
+                let pixel: &mut Option<[u8; 3]> = &mut pixels[(top + y) * width + x];
+                assert!(pixel.replace(colour).is_none(), "drawn twice");
+            }
+            x += 1;
+        }
+    }
+    let pixels = pixels
+        .into_iter()
+        .map(|pixel| pixel.expect("a pixel is left out"));
+    Pixmap {
+        size: Size {
+            width: width as u32,
+            height: height as u32,
+        },
+        pixels: pixels.collect(),
+    }
+}
+
+/// A picture with smooth and sharp parts and more than 256 colours, too large for a single chunk.
+fn picture() -> Pixmap {
+    let size = Size {
+        width: 90,
+        height: 64,
+    };
+    let pixel = |x: u32, y: u32| {
+        let is_ball = (x as i32 - 40).pow(2) + (y as i32 - 30).pow(2) < 500;
+        let grain = (x * 7919 + y * 104_729) % 13;
+        if is_ball {
+            [200 - y, 3 * x / 2, grain].map(|channel| channel as u8)
+        } else {
+            [x + grain, 2 * y + grain, 255 - y].map(|channel| channel as u8)
+        }
+    };
+    let pixels = (0..size.height).flat_map(|y| (0..size.width).map(move |x| pixel(x, y)));
+    Pixmap {
+        pixels: pixels.collect(),
+        size,
+    }
+}
+
+fn sent(picture: &Pixmap, protocol: Protocol, cell: (u16, u16), wrapping: Wrapping) -> Vec<u8> {
+    let means = Means {
+        protocol,
+        wrapping,
+        cell,
+    };
+    let mut out = Vec::new();
+    let encoded = means.encode(picture, PLACE, &mut out);
+    encoded.expect("there are pixels");
+    out
+}
+
+/// The error of a picture, as the mean of the squares over all channels, and the greatest one.
+fn errors(shown: &Pixmap, wanted: &Pixmap) -> (f64, u8) {
+    let channels = shown.pixels.as_flattened().iter();
+    let pairs = channels.zip(wanted.pixels.as_flattened());
+    let offs: Vec<u8> = pairs
+        .map(|(shown, wanted)| shown.abs_diff(*wanted))
+        .collect();
+    let squares: f64 = offs.iter().map(|&off| f64::from(off).powi(2)).sum();
+    (
+        squares / offs.len() as f64,
+        offs.into_iter().max().unwrap_or(0),
+    )
+}
+
+#[test]
+fn kitty_gets_the_picture_exactly() {
+    let picture = picture();
+    for wrapping in [Wrapping::Plain, TMUX] {
+        let mut bytes = sent(&picture, Protocol::Kitty, (10, 16), wrapping);
+        if wrapping == TMUX {
+            bytes = unwrapped(&bytes);
+        }
+        let (control, shown) = commands(&bytes);
+        assert!(shown == picture, "another picture");
+        for part in ["a=T,", "f=100,", "c=9,", "r=4,", "C=1,", "p=1,"] {
+            assert!(control.contains(part), "{part} in {control}");
+        }
+        let id = control.split(',').find(|part| part.starts_with("i="));
+        for removal in [REMOVE, REMOVE_THROUGH_TMUX] {
+            assert!(removal.contains(id.expect("a number")), "it can be removed");
+        }
+    }
+}
+
+#[test]
+fn iterm_gets_the_picture_exactly() {
+    let picture = picture();
+    for wrapping in [Wrapping::Plain, TMUX] {
+        let mut bytes = sent(&picture, Protocol::Iterm, (10, 16), wrapping);
+        if wrapping == TMUX {
+            bytes = unwrapped(&bytes);
+        }
+        let (arguments, shown) = file(&bytes);
+        assert!(shown == picture, "another picture");
+        for part in [
+            "inline=1;",
+            "width=9;",
+            "height=4;",
+            "preserveAspectRatio=0",
+        ] {
+            assert!(arguments.contains(part), "{part} in {arguments}");
+        }
+    }
+}
+
+#[test]
+fn sixels_are_close_to_the_picture() {
+    let picture = picture();
+    let shown = sixels(&sent(&picture, Protocol::Sixel, (10, 16), Wrapping::Plain));
+    assert_eq!(shown.size, picture.size);
+    let (mean, greatest) = errors(&shown, &picture);
+    assert!(mean < 12.0 && greatest < 24, "{mean} and {greatest}");
+}
+
+#[test]
+fn few_colours_are_shown_in_sixels_up_to_their_rounding_to_percents() {
+    let mut picture = picture();
+    for (at, pixel) in picture.pixels.iter_mut().enumerate() {
+        let colour = 8 * (at % 90 / 20 + at / 90 / 12 * 5) as u8;
+        *pixel = [colour, 255 - colour, colour / 2];
+    }
+    let shown = sixels(&sent(&picture, Protocol::Sixel, (10, 16), Wrapping::Plain));
+    let (_, greatest) = errors(&shown, &picture);
+    assert!(greatest <= 2, "{greatest}");
+}
+
+/// A cell has more pixels than are traced: each is repeated, also in an incomplete last band.
+#[test]
+fn sixels_fill_their_cells() {
+    let picture = Pixmap {
+        size: Size {
+            width: 18,
+            height: 8,
+        },
+        pixels: (0..18 * 8)
+            .map(|at| [if at % 5 == 0 { 255 } else { 0 }; 3])
+            .collect(),
+    };
+    let shown = sixels(&sent(&picture, Protocol::Sixel, (7, 13), Wrapping::Plain));
+    assert_eq!((shown.size.width, shown.size.height), (63, 52));
+    for y in 0..52 {
+        for x in 0..63 {
+            let wanted = picture.pixels[y * 8 / 52 * 18 + x * 18 / 63];
+            assert_eq!(shown.pixels[y * 63 + x], wanted, "{x}, {y}");
+        }
+    }
+}
+
+#[test]
+fn equal_pictures_give_equal_bytes() {
+    let picture = picture();
+    for protocol in [Protocol::Kitty, Protocol::Iterm, Protocol::Sixel] {
+        let send = || sent(&picture, protocol, (10, 16), Wrapping::Plain);
+        assert_eq!(send(), send(), "{protocol:?}");
+    }
+}
+
+#[test]
+fn only_success_answers_the_query() {
+    for (command, expected) in [
+        (&b"Gi=31;OK"[..], true),
+        (b"Gi=31,p=1;OK", true),
+        (b"Gi=3;OK", false),
+        (b"Gi=31;ENOTSUPPORTED:x", false),
+        (b"i=31;OK", false),
+        (b"", false),
+    ] {
+        assert_eq!(answers(command), expected);
+    }
+}

@@ -1,0 +1,221 @@
+//! Pictures in real pixels: asked for, sent, replaced and removed.
+
+use base64::Engine;
+use base64::engine::general_purpose::STANDARD;
+
+use super::*;
+
+/// Asks for kitty's protocol, the name of the terminal and the size of its cells.
+const QUESTION: &[u8] = b"\x1b_Gi=31,s=1,v=1,a=q,t=d,f=24;AAAA\x1b\\\x1b[>q\x1b[16t";
+
+/// Answers of a terminal with cells of 10×20 pixels: nothing known, then sixel.
+const CELLS: &str = "\x1b[6;20;10t\x1b[?62c";
+const CELLS_AND_SIXEL: &str = "\x1b[6;20;10t\x1b[?62;4c";
+
+/// Removes kitty's picture.
+const REMOVE: &[u8] = b"\x1b_Ga=d,d=I,i=18508,q=2\x1b\\";
+
+/// Leaves the alternate screen.
+const LEAVE_SCREEN: &[u8] = b"\x1b[?1049l";
+
+/// Starts with a terminal that answers.
+fn start_with(place: &Place, arguments: &[&str], answers: &str) -> Session {
+    let mut session = place.start(arguments, (100, 30));
+    wait_for_bytes(&mut session, QUESTION, 0);
+    session.send(answers);
+    session
+}
+
+/// Reads until the program has written these bytes after the first `from` bytes; returns where.
+fn wait_for_bytes(session: &mut Session, bytes: &[u8], from: usize) -> usize {
+    let deadline = Instant::now() + Duration::from_secs(30);
+    loop {
+        if let Some(at) = last(bytes, &session.written[from..]) {
+            return from + at;
+        }
+        assert!(Instant::now() < deadline, "no {}", bytes.escape_ascii());
+        session.drain(Duration::from_millis(1));
+    }
+}
+
+/// Waits until the picture is finished, at the 16 samples of one in real pixels.
+fn wait_for_picture(session: &mut Session) {
+    session.wait("waiting for the finished picture", |screen| {
+        let text = screen.contents();
+        text.contains("16 spp") && !text.contains("pass ")
+    });
+}
+
+/// The control data of the last picture for kitty, and its PNG.
+fn kitty(written: &[u8]) -> (String, Vec<u8>) {
+    let start = last(b"\x1b_Ga=T", written).expect("a picture");
+    let rest = &written[start..];
+    let mut control = None;
+    let mut data = String::new();
+    for command in rest.split(|&byte| byte == 0x1b) {
+        let Some(command) = command.strip_prefix(b"_G") else {
+            continue;
+        };
+        let command = str::from_utf8(command).expect("ASCII");
+        let (keys, chunk) = command.split_once(';').expect("data");
+        data.push_str(chunk);
+        control.get_or_insert_with(|| keys.to_owned());
+        if keys.ends_with("m=0") {
+            break;
+        }
+    }
+    let png = STANDARD.decode(data).expect("base64");
+    (control.expect("a command"), png)
+}
+
+fn pixels_of(png: &[u8]) -> image::RgbImage {
+    let picture = image::load_from_memory_with_format(png, image::ImageFormat::Png);
+    picture.expect("a PNG").to_rgb8()
+}
+
+/// The value of a key of kitty's control data.
+fn value(control: &str, key: &str) -> u32 {
+    let mut pairs = control.split(',').filter_map(|pair| pair.split_once('='));
+    let (_, value) = pairs.find(|(name, _)| *name == key).expect("the key");
+    value.parse().expect("a number")
+}
+
+#[test]
+fn kitty_gets_pictures_until_the_end() {
+    let place = Place::new();
+    let mut session = start_with(
+        &place,
+        &["balls.ray"],
+        &["\x1b_Gi=31;OK\x1b\\", CELLS].concat(),
+    );
+    wait_for_bytes(&mut session, b"\x1b_Ga=T", 0);
+    wait_for_picture(&mut session);
+    assert!(picture(session.screen()).is_empty(), "cells are left to it");
+    let (control, png) = kitty(&session.written);
+    let pixels = pixels_of(&png);
+    let size = (pixels.width(), pixels.height());
+    assert_eq!(size.0, 10 * value(&control, "c"), "{control}");
+    assert!(size.1.abs_diff(20 * value(&control, "r")) < 20, "{control}");
+    for colour in [[255, 0, 0], [0, 255, 0]] {
+        let count = pixels.pixels().filter(|pixel| pixel.0 == colour).count();
+        assert!(1000 < count, "{count} of {colour:?}");
+    }
+
+    // A page is not covered by it, and gives its place back.
+    let sent = session.written.len();
+    session.send("?");
+    session.wait_for(" Keys ");
+    wait_for_bytes(&mut session, REMOVE, sent);
+    assert!(!picture(session.screen()).is_empty(), "half blocks again");
+    let sent = session.written.len();
+    session.send(ESC);
+    wait_for_bytes(&mut session, b"\x1b_Ga=T", sent);
+
+    let sent = session.written.len();
+    session.resize(120, 40);
+    wait_for_bytes(&mut session, b"\x1b_Ga=T", sent);
+    wait_for_picture(&mut session);
+    session.wait("a larger picture", |_| true);
+    let (larger, _) = kitty(&session.written);
+    assert!(value(&control, "c") < value(&larger, "c"), "{larger}");
+
+    session.send(":pixels half\r");
+    wait_for_rest(&mut session);
+    let sent = session.written.len();
+    session.send(":pixels auto\r");
+    wait_for_bytes(&mut session, b"\x1b_Ga=T", sent);
+    wait_for_picture(&mut session);
+    let sent = session.written.len();
+    session.send("q");
+    let removed = wait_for_bytes(&mut session, REMOVE, sent);
+    let left = wait_for_bytes(&mut session, LEAVE_SCREEN, sent);
+    assert!(removed < left);
+    assert_end(session, 0);
+}
+
+#[test]
+fn the_editor_gets_a_screen_without_the_picture() {
+    let place = Place::new();
+    let environment = [("VISUAL", "true")];
+    let arguments = ["--color", "24", "--pixels", "kitty", "balls.ray"];
+    let mut session = Session::start(place.directory.path(), &arguments, (100, 30), &environment);
+    wait_for_bytes(&mut session, b"\x1b_Ga=T", 0);
+    wait_for_picture(&mut session);
+    let sent = session.written.len();
+    session.send("E");
+    let left = wait_for_bytes(&mut session, LEAVE_SCREEN, sent);
+    let removed = wait_for_bytes(&mut session, REMOVE, sent);
+    assert!(removed < left);
+    let back = wait_for_bytes(&mut session, ENTER_SCREEN, left);
+    wait_for_bytes(&mut session, b"\x1b_Ga=T", back);
+    quit(session);
+}
+
+#[test]
+fn sixels_fill_their_cells_and_are_erased_by_cells() {
+    let place = Place::new();
+    let mut session = start_with(&place, &["balls.ray"], CELLS_AND_SIXEL);
+    let at = wait_for_bytes(&mut session, b"\x1bP0;1;0q\"1;1;", 0);
+    wait_for_picture(&mut session);
+    let header = String::from_utf8_lossy(&session.written[at + 13..at + 24]).into_owned();
+    let mut numbers = header.split(|c: char| !c.is_ascii_digit());
+    let mut number = || numbers.next().and_then(|text| text.parse::<u32>().ok());
+    let (width, height) = (number().expect("a width"), number().expect("a height"));
+    assert_eq!((width % 10, height % 20), (0, 0), "{header}");
+    assert!(width <= 1000 && height < 600, "{header}");
+    assert!(picture(session.screen()).is_empty());
+    // What a page covers is drawn in full: the screen is erased first.
+    let sent = session.written.len();
+    session.send("?");
+    session.wait_for(" Keys ");
+    wait_for_bytes(&mut session, b"\x1b[2J", sent);
+    assert!(!picture(session.screen()).is_empty());
+    quit(session);
+}
+
+#[test]
+fn iterm_is_known_by_its_name() {
+    let place = Place::new();
+    let answers = ["\x1bP>|iTerm2 3.5.4\x1b\\", CELLS].concat();
+    let mut session = start_with(&place, &["balls.ray"], &answers);
+    let at = wait_for_bytes(&mut session, b"\x1b]1337;File=inline=1;", 0);
+    wait_for_picture(&mut session);
+    let rest = &session.written[at..];
+    let start = rest.iter().position(|&byte| byte == b':').expect("data") + 1;
+    let end = rest.iter().position(|&byte| byte == 0x07).expect("an end");
+    let png = STANDARD.decode(&rest[start..end]).expect("base64");
+    assert!(0 < pixels_of(&png).width());
+    quit(session);
+}
+
+#[test]
+fn a_terminal_that_is_silent_or_shows_no_pictures_gets_half_blocks() {
+    let place = Place::new();
+    for answers in ["", CELLS] {
+        let mut session = start_with(&place, &["balls.ray"], answers);
+        wait_for_rest(&mut session);
+        for picture in [&b"\x1b_Ga=T"[..], b"\x1bP0;1;0q", b"\x1b]1337"] {
+            assert_eq!(last(picture, &session.written), None);
+        }
+        quit(session);
+    }
+}
+
+#[test]
+fn blocks_of_more_pixels_are_drawn_on_request() {
+    let place = Place::new();
+    let mut session = place.start(&["--pixels", "half", "balls.ray"], (100, 30));
+    wait_for_rest(&mut session);
+    assert_eq!(last(b"\x1b_G", &session.written), None, "nothing is asked");
+    for (name, first, end) in [
+        ("sextant", '\u{1fb00}', '\u{1fb3b}'),
+        ("octant", '\u{1cd00}', '\u{1cde5}'),
+        ("quadrant", '▖', '▟'),
+    ] {
+        session.send(format!(":pixels {name}\r"));
+        session.wait(name, |screen| {
+            screen.contents().contains(|c| (first..=end).contains(&c))
+        });
+    }
+    quit(session);
+}
