@@ -174,6 +174,21 @@ fn the_cross_follows_keys_and_the_mouse() {
 }
 
 #[test]
+fn a_zoomed_picture_follows_the_cross() {
+    let mut inspected = Inspected::of("a.ray", MIRROR);
+    let app = &mut inspected.app;
+    press(app, ":zoom 4<Enter>i");
+    let edge = app.pixel_in_corner();
+    for said in ["h", "L"] {
+        for _ in 0..99 {
+            press(app, said);
+            assert!(app.cross_cell().is_some());
+        }
+        assert_ne!(app.pixel_in_corner(), edge, "{said}");
+    }
+}
+
+#[test]
 fn an_explanation_is_asked_for_once_and_only_the_newest_is_shown() {
     let mut inspected = Inspected::of("a.ray", MIRROR);
     inspected.press("ie");
