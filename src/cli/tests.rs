@@ -161,7 +161,7 @@ fn the_pixel_and_the_sample_reach_the_explanation() {
     let given = explain("halflight explain a.ray 7 0 --sample 65535 --json --depth 3 --strict");
     assert_eq!((given.sample, given.report), (65_535, Report::Json));
     assert_eq!(given.tracing.depth, Some(3));
-    assert_eq!(given.warnings, crate::batch::Warnings::Refused);
+    assert_eq!(given.warnings, Warnings::Refused);
 }
 
 #[test]

@@ -10,7 +10,7 @@ const NEAREST: i8 = 6;
 /// The weakest: one pixel on screen for 2^16 of the picture, more than any has.
 const FARTHEST: i8 = -16;
 
-/// The part of a step across the window that a pan moves it.
+/// The share of the window by which a step of a pan moves it.
 const PAN: f64 = 0.125;
 
 /// Which part of a picture is on screen.

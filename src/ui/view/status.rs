@@ -270,11 +270,14 @@ fn making_segment(app: &App, say: &mut impl FnMut(u8, String, Style)) {
     if let Some(display) = app.display_name() {
         say(3, format!(" {display} "), theme::chip(theme::WARNING));
     }
+    let view = app.view_name();
+    if let Some(view) = &view {
+        say(7, view.clone(), theme::WARNING);
+    }
     if let Some(legend) = app.legend() {
         say(10, legend, theme::DIM);
     }
-    if let Some(view) = app.view_name() {
-        say(7, view, theme::WARNING);
+    if view.is_some() {
         return;
     }
     let name = match app.integrator() {
@@ -374,7 +377,7 @@ mod tests {
     use super::*;
     use crate::language::Language;
     use crate::render::Aov;
-    use crate::ui::app::{Message, Typing, Wires};
+    use crate::ui::app::{Message, Picture, Typing, Wires};
     use crate::ui::view::tests::{app, app_of, drawn, retype};
     use tui_input::Input;
 
@@ -446,6 +449,24 @@ mod tests {
             "pass 3/6 · 2 spp · 25 % · noise 1.3 % · 1.5 s · ETA 4.5 s · 14 Mray/s"
         );
         assert_eq!(said(true), "2 spp · noise 1.3 % · 1.5 s · 14 Mray/s");
+    }
+
+    #[test]
+    fn the_scale_and_a_pause_are_told() {
+        let mut app = app();
+        app.terminal = (80, 24);
+        let said = |app: &App| {
+            let mut words = Vec::new();
+            zoom_segment(app, &mut |_, text, _| words.push(text));
+            text_segments(app, &mut |_, text, _| words.push(text.trim().to_owned()));
+            words.join(" · ")
+        };
+        assert!(!said(&app).contains("fit"));
+        app.mode = Mode::Trace;
+        app.pictures.trace = Some(Picture::default());
+        assert!(said(&app).starts_with("fit · TRACE"), "{}", said(&app));
+        app.picture_mut().paused = true;
+        assert!(said(&app).contains("PAUSED"), "{}", said(&app));
     }
 
     #[test]
