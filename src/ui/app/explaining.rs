@@ -39,8 +39,9 @@ pub struct RayPanels {
 impl App {
     /// Explains a pixel of the picture on screen.
     pub fn explain_at(&mut self, pixel: Cross) {
-        self.inspection.cross = Some(pixel);
         self.start_inspecting();
+        self.inspection.cross = Some(pixel);
+        self.reveal_cross();
         self.start_explaining();
     }
 

@@ -9,16 +9,19 @@ use crate::ui::keymap::{Context, Mode};
 use crate::ui::layout::Side;
 
 impl App {
-    /// Starts inspecting where the cross was last, first in the middle of the picture.
+    /// Starts inspecting where the cross was last if that is on screen, otherwise in the middle.
     pub(super) fn start_inspecting(&mut self) {
-        if self.sight().is_none() {
+        let Some((cells, _)) = self.raster() else {
             self.overlays.fail("no room for a picture");
             return;
-        }
+        };
         if self.mode != Mode::Inspect {
             self.inspection.begin(self.mode, self.seen());
             self.inspection.explained = None;
             self.mode = Mode::Inspect;
+        }
+        if self.cross_cell().is_none() {
+            self.place_cross((cells.width / 2, cells.height / 2));
         }
         self.move_cross(0, 0);
     }
@@ -41,6 +44,24 @@ impl App {
         if let Some(mut cross) = self.cross() {
             cross.step(right, down);
             self.inspection.cross = Some(cross);
+            self.reveal_cross();
+        }
+    }
+
+    /// Moves the window over a zoomed picture to the cross if that has left it.
+    pub(super) fn reveal_cross(&mut self) {
+        /// The share of the window that is kept between the cross and its edge.
+        const MARGIN: f64 = 0.1;
+        if self.cross_cell().is_none()
+            && let (Some(place), Some((cells, _))) = (self.cross_place(), self.raster())
+        {
+            let [column, row] = place;
+            let from = [
+                column / f64::from(cells.width),
+                row / f64::from(cells.height),
+            ];
+            let to = from.map(|share| share.clamp(MARGIN, 1.0 - MARGIN));
+            self.shift_window(from, to);
         }
     }
 
@@ -60,14 +81,18 @@ impl App {
     /// on screen.
     pub fn cross_cell(&self) -> Option<(u16, u16)> {
         let (cells, _) = self.raster()?;
-        let cross = self.cross()?;
-        let centre = cross.pixel.map(|at| f64::from(at) + 0.5);
-        let [column, row] = self.place_on_screen(centre, cross.size)?;
+        let [column, row] = self.cross_place()?;
         let is_inside = 0.0 <= column
             && 0.0 <= row
             && column < f64::from(cells.width)
             && row < f64::from(cells.height);
         is_inside.then_some((column as u16, row as u16))
+    }
+
+    /// Where the middle of the crossed pixel is, in cells from the upper left corner of the picture.
+    fn cross_place(&self) -> Option<[f64; 2]> {
+        let cross = self.cross()?;
+        self.place_on_screen(cross.pixel.map(|at| f64::from(at) + 0.5), cross.size)
     }
 
     /// The side of the picture that the cross is not on.

@@ -130,6 +130,11 @@ impl App {
         }
     }
 
+    /// Moves the window so that what is at one place of it is at another, both in shares of its size.
+    pub(super) fn shift_window(&mut self, from: [f64; 2], to: [f64; 2]) {
+        self.adjust(|now, screen| now.dragged(from, to, screen));
+    }
+
     /// Switches between one pixel on screen for one of the picture, and all of it.
     pub(super) fn toggle_scale(&mut self) {
         self.adjust(Viewport::toggled);

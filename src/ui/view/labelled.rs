@@ -5,7 +5,7 @@ use ratatui::layout::Rect;
 use ratatui::style::{Color, Style};
 
 use super::row::Row;
-use crate::text::{concise, rounded};
+use crate::explain::number;
 use crate::ui::theme;
 
 /// Columns of labels with the gaps around them.
@@ -53,20 +53,12 @@ pub(super) fn render(values: &[Value], area: Rect, buffer: &mut Buffer) {
     }
 }
 
-/// Numbers with at most so many decimals.
-pub(super) fn numbers(of: &[f64], decimals: usize) -> String {
-    let numbers: Vec<_> = of.iter().map(|&of| number(of, decimals)).collect();
+/// Numbers with blanks between them; rounding errors beside larger ones are 0.
+pub(super) fn numbers(of: &[f64]) -> String {
+    let largest = of.iter().fold(0.0, |most: f64, of| most.max(of.abs()));
+    let settled = |of: f64| if of.abs() < 1e-12 * largest { 0.0 } else { of };
+    let numbers: Vec<_> = of.iter().map(|&of| number(settled(of))).collect();
     numbers.join(" ")
-}
-
-/// A number with at most so many decimals; in scientific notation if all would be zero.
-pub(super) fn number(of: f64, decimals: usize) -> String {
-    let rounded = rounded(of, decimals);
-    if rounded == 0.0 && of != 0.0 && of.is_finite() {
-        format!("{of:.1e}")
-    } else {
-        concise(rounded)
-    }
 }
 
 #[cfg(test)]
@@ -74,17 +66,8 @@ mod tests {
     use super::*;
 
     #[test]
-    fn numbers_are_rounded_but_never_to_nothing() {
-        for (of, decimals, expected) in [
-            (0.0, 3, "0"),
-            (-0.0, 3, "0"),
-            (1.23456, 3, "1.235"),
-            (-2.0, 3, "-2"),
-            (0.00012, 3, "1.2e-4"),
-            (f64::INFINITY, 3, "inf"),
-        ] {
-            assert_eq!(number(of, decimals), expected);
-        }
-        assert_eq!(numbers(&[1.0, 0.25], 1), "1 0.2");
+    fn rounding_errors_are_no_digits() {
+        assert_eq!(numbers(&[1.0, 1e-17, -0.25]), "1 0 -0.25");
+        assert_eq!(numbers(&[1e-17]), "1e-17");
     }
 }

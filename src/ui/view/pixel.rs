@@ -5,8 +5,9 @@ use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 use ratatui::widgets::{Clear, Widget};
 
-use super::labelled::{self, Value, number, numbers};
+use super::labelled::{self, Value, numbers};
 use super::row;
+use crate::explain::number;
 use crate::render::{self, Aov, FirstHit};
 use crate::ui::app::{App, Pixel};
 use crate::ui::layout::{Side, contents};
@@ -90,7 +91,7 @@ fn values(app: &App, pixel: &Pixel) -> Vec<Value> {
     ));
     values.extend(pixel.colour.map(|colour| Value::of_colour("8-bit", colour)));
     let noise = pixel.error.map_or_else(String::new, |error| {
-        format!(", noise {} %", number(100.0 * f64::from(error), 2))
+        format!(", noise {} %", number(100.0 * f64::from(error)))
     });
     values.push(Value::new("samples", format!("{}{noise}", pixel.samples)));
     values.extend(surface_values(first));
@@ -115,10 +116,10 @@ fn surface_values(first: Option<&FirstHit>) -> Vec<Value> {
         return Vec::new();
     };
     vec![
-        Value::new("depth", number(first.depth, 4)),
-        Value::new("point", numbers(&surface.point.to_array(), 3)),
-        Value::new("normal", numbers(&surface.normal.to_array(), 3)),
-        Value::new("uv", numbers(&surface.uv.to_array(), 4)),
+        Value::new("depth", number(first.depth)),
+        Value::new("point", numbers(&surface.point.to_array())),
+        Value::new("normal", numbers(&surface.normal.to_array())),
+        Value::new("uv", numbers(&surface.uv.to_array())),
     ]
 }
 
@@ -139,5 +140,5 @@ fn value_of(aov: Option<Aov>, value: [f32; 3]) -> String {
         Some(Aov::Uv) => 2,
         Some(_) => 1,
     };
-    numbers(&value.map(f64::from)[..channels], 4)
+    numbers(&value.map(f64::from)[..channels])
 }

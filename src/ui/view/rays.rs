@@ -5,10 +5,11 @@ use ratatui::layout::Rect;
 use ratatui::style::{Modifier, Style};
 use ratatui::widgets::{Clear, Widget};
 
-use super::labelled::{self, Value, number, numbers};
+use super::labelled::{self, Value, numbers};
 use super::row::{Row, title};
+use crate::explain::number;
 use crate::language::Node;
-use crate::render::{Dark, Explanation, LightTerm, RayEnd, RayKind, Shading, Stop};
+use crate::render::{Dark, Densities, Explanation, LightTerm, RayEnd, RayKind, Shading, Stop};
 use crate::scene::Rgb;
 use crate::ui::app::{App, RayLine, RayPart};
 use crate::ui::layout::contents;
@@ -68,7 +69,7 @@ fn tree(app: &App, area: Rect, verdict: Rect, lines: Rect, buffer: &mut Buffer) 
             Style::new()
         };
         let mut row = Row::new(buffer, lines, index);
-        let adds = adds(&line.adds(explanation), area.width);
+        let adds = adds(line.adds(explanation), area.width);
         let sign = match line.part {
             RayPart::Whole if explained.folded.contains(&line.ray) => "▸ ",
             RayPart::Whole => "▾ ",
@@ -82,14 +83,20 @@ fn tree(app: &App, area: Rect, verdict: Rect, lines: Rect, buffer: &mut Buffer) 
     }
 }
 
-/// What a line adds, in a few columns.
-fn adds(radiance: &Rgb, width: u16) -> String {
+/// What a line adds, in a few columns: all channels if there is room, otherwise their mean.
+fn adds(radiance: Rgb, width: u16) -> String {
+    let column = |channel: f64| {
+        let words = if channel == 0.0 {
+            "0".to_owned()
+        } else {
+            format!("{channel:.3}")
+        };
+        format!("{words:>6}")
+    };
     if WIDE <= width {
-        let channels = radiance.to_array().map(|channel| number(channel, 3));
-        channels.map(|channel| format!("{channel:>6}")).join(" ")
+        radiance.to_array().map(column).join(" ")
     } else {
-        let mean = radiance.element_sum() / 3.0;
-        format!("{:>6}", number(mean, 3))
+        column(radiance.element_sum() / 3.0)
     }
 }
 
@@ -131,7 +138,7 @@ fn stop_words(stop: Stop, depth: u32) -> String {
         Stop::Nowhere => "ends: no way on".to_owned(),
         Stop::Overflow => "ends: weight overflowed".to_owned(),
         Stop::Roulette { survival } => {
-            let chance = number(100.0 * survival, 1);
+            let chance = number(100.0 * survival);
             format!("ends by roulette, survival {chance} %")
         }
     }
@@ -182,15 +189,30 @@ fn values_of(app: &App, explanation: &Explanation, line: &RayLine) -> Vec<Value>
             format!("{name}:{}", app.line_of(node)),
         ));
     }
-    match (line.part, ray.shading()) {
+    match (line.part, &ray.end) {
         (RayPart::Light(_), _) => {
             if let Some(light) = line.light(explanation) {
                 values.extend(light_values(app, light));
             }
         }
-        (RayPart::Whole, shading) => {
+        (RayPart::Whole, end) => {
             values.push(Value::new("weight", colour(ray.weight)));
-            values.extend(shading.map(surface_values).into_iter().flatten());
+            if let Some(chosen) = ray.chosen {
+                values.push(Value::new(
+                    "chance",
+                    percent(chosen.chance * chosen.survival),
+                ));
+                values.extend(chosen.density.map(|of| Value::new("density", number(of))));
+            }
+            match end {
+                RayEnd::Surface(shading) => values.extend(surface_values(shading)),
+                RayEnd::Light(hit) => {
+                    values.push(Value::new("t", number(hit.t)));
+                    values.push(Value::new("radiance", colour(hit.radiance)));
+                    values.extend(hit.densities.map(weight));
+                }
+                RayEnd::Missed { .. } | RayEnd::OverBudget => {}
+            }
         }
         _ => {}
     }
@@ -199,37 +221,52 @@ fn values_of(app: &App, explanation: &Explanation, line: &RayLine) -> Vec<Value>
 
 fn surface_values(shading: &Shading) -> Vec<Value> {
     let hit = &shading.hit;
-    let mut values = vec![
-        Value::new("side", super::pixel::side(hit.side, hit.solid)),
-        Value::new("t", number(hit.t, 4)),
-        Value::new("point", numbers(&hit.point.to_array(), 3)),
-        Value::new("normal", numbers(&hit.normal.to_array(), 3)),
-    ];
+    let mut values = Vec::new();
     if let Some(boundary) = shading.boundary {
-        let [near, far] = boundary.indices;
-        let share = number(100.0 * boundary.reflectance, 1);
-        let indices = format!("n {} to {}", number(near, 3), number(far, 3));
-        values.push(Value::new("reflects", format!("{share} %, {indices}")));
+        let share = percent(boundary.reflectance);
+        let indices = boundary.indices.map(number).join(" to ");
+        values.push(Value::new("reflects", format!("{share}, n {indices}")));
     }
+    values.extend([
+        Value::new("side", super::pixel::side(hit.side, hit.solid)),
+        Value::new("t", number(hit.t)),
+        Value::new("point", numbers(&hit.point.to_array())),
+        Value::new("normal", numbers(&hit.normal.to_array())),
+    ]);
     values
 }
 
 fn light_values(app: &App, light: &LightTerm) -> Vec<Value> {
-    let passes = match (light.transmittance, blocker(app, light)) {
-        (Some(share), None) => format!("{} %", number(100.0 * share, 1)),
-        (_, Some(node)) => format!("no, {}", app.source().name(node)),
-        (None, None) => "not asked".to_owned(),
+    let visible = match (light.transmittance, blocker(app, light)) {
+        (_, Some(node)) => format!("no: {}", app.source().name(node)),
+        (Some(share), None) => percent(share),
+        (None, None) => "not looked at".to_owned(),
     };
-    vec![
-        Value::new("visible", passes),
-        Value::new("N·L", number(light.cosine, 4)),
-        Value::new("distance", number(light.distance, 4)),
-        Value::new("falloff", number(light.radial, 6)),
-        Value::new("cone", number(light.spot, 4)),
+    let mut values = vec![
+        Value::new("visible", visible),
+        Value::new("N·L", number(light.cosine)),
         Value::new("reflects", colour(light.reflected)),
-    ]
+        Value::new("distance", number(light.distance)),
+        Value::new("falloff", number(light.radial)),
+    ];
+    if light.spot != 1.0 {
+        values.push(Value::new("cone", number(light.spot)));
+    }
+    values.extend(light.densities.map(weight));
+    values
+}
+
+/// The weight of a technique in multiple importance sampling, with the densities of both.
+fn weight(densities: Densities) -> Value {
+    let [share, by_light, by_path] =
+        [densities.weight, densities.by_light, densities.by_path].map(number);
+    Value::new("MIS", format!("{share}, light {by_light}, path {by_path}"))
+}
+
+fn percent(share: f64) -> String {
+    format!("{} %", number(100.0 * share))
 }
 
 fn colour(of: Rgb) -> String {
-    numbers(&of.to_array(), 4)
+    numbers(&of.to_array())
 }

@@ -19,8 +19,8 @@ const MIRROR: &str = "\
 0 9 9  1 1 1
 9 0 0  1 1 1
 2
-sphere 0 0 0 1  .1 .1 .1 .4 .4 .4 .5 .5 .5 9 0.5 0 1
-sphere 3 0 1 1  .1 .1 .1 .4 0 0 0 0 0 9 0 0 1
+sphere 0 0 0 2  .1 .1 .1 .4 .4 .4 .5 .5 .5 9 0.5 0 1
+sphere 3 0 2 1  .1 .1 .1 .4 0 0 0 0 0 9 0 0 1
 ";
 
 /// The interface with a finished preview, and the scene that answers questions about it.
@@ -170,6 +170,21 @@ fn the_cross_follows_keys_and_the_mouse() {
         }));
         assert_eq!(app.cross_cell(), Some(cell));
         assert_eq!(app.mode, Mode::Inspect);
+    }
+}
+
+#[test]
+fn a_zoomed_picture_follows_the_cross() {
+    let mut inspected = Inspected::of("a.ray", MIRROR);
+    let app = &mut inspected.app;
+    press(app, ":zoom 4<Enter>i");
+    let edge = app.pixel_in_corner();
+    for said in ["h", "L"] {
+        for _ in 0..99 {
+            press(app, said);
+            assert!(app.cross_cell().is_some());
+        }
+        assert_ne!(app.pixel_in_corner(), edge, "{said}");
     }
 }
 
