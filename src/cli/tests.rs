@@ -1,7 +1,7 @@
 use std::time::Duration;
 
 use super::*;
-use crate::batch::Report;
+use crate::batch::{Report, Warnings};
 use crate::image_file::MAX_PIXELS;
 use crate::render::{Filter, MAX_SPP, Region};
 use crate::scene::{Integrator, Size};

@@ -180,6 +180,9 @@ fn verdicts_of_ray_scenes() {
     let mirror = ball("0 0 0 0 0 0 0 0 0 1 .9 0 1");
     let words = "reflected in object 1 (sphere, line 4): the ray hits nothing";
     check(ray(".1 .1 .1", LAMP, &[&mirror]), PLAIN, "missed", words);
+    let pane = "box -1 -1 2 1 0 0 0 1 0 0 0 1 2 2 .1 0 0 0 0 0 0 0 0 0 1 0 .8 1";
+    let words = "object 1 (box, line 4) transmits object 2 (sphere, line 5)";
+    check(ray("0 0 0", LAMP, &[pane, &grey]), PLAIN, "ordinary", words);
     let around = format!("sphere 0 0 0 20 {GREY}");
     let text = ray("0 0 0", "0 50 0 1 1 1", &[&around]);
     check(text, PLAIN, "inside", "the camera is inside object 1");
@@ -264,6 +267,10 @@ fn verdicts_of_dat_scenes() {
     let cut =
         format!("{lamp}\nobj sphere ID 2 mat ID 1  0 0 1 .5\nobj CSG ID 3 difference ID 1 ID 2");
     check(dat(".1 99", &cut), PLAIN, "ordinary", "object 3");
+    let missing =
+        format!("{lamp}\nobj sphere ID 2 mat ID 1  2 0 0 1.5\nobj CSG ID 3 difference ID 2 ID 1");
+    let words = "but object 3 (CSG, line 8) does not include this part of it";
+    check(dat(".1 99", &missing), PLAIN, "not-drawn", words);
     let off = format!(
         "{}\n{lamp}",
         lamp.replace("1 1 1", "0 0 0").replace("ID 1", "ID 2")

@@ -11,6 +11,7 @@ use std::thread;
 use std::time::{Duration, Instant};
 
 use super::assets::AssetReader;
+use super::comparer::{Figures, References};
 use super::deriving::Deriver;
 use super::editor;
 use super::event::{Event, Work, sending};
@@ -22,6 +23,7 @@ use super::past::NoPicture;
 use super::reader::Reader;
 use super::recent::Recent;
 use super::recovery::{self, Edits, End, Keeper, Outcome, Request};
+use super::reference::ReferenceSource;
 use super::screen::Screen;
 use super::service::{Ended, Service};
 use super::writing::Writers;
@@ -44,6 +46,8 @@ pub(crate) struct Runtime {
     keeper: Keeper,
     recent: Recent,
     assets: AssetReader,
+    references: References,
+    figures: Figures,
     explainer: Explainer,
     deriver: Deriver,
     threads: Option<usize>,
@@ -52,6 +56,8 @@ pub(crate) struct Runtime {
     preview: Option<Numbered>,
     trace: Option<Numbered>,
     export: Option<Numbered>,
+    compared: Option<Numbered>,
+    reference: Option<Numbered>,
     thumbnail: Option<Numbered>,
     /// Number of renderers started so far.
     renderers: u64,
@@ -78,6 +84,8 @@ impl Runtime {
             keeper: Keeper::start(keeping(&sender))?,
             recent: remembering(&sender)?,
             assets: AssetReader::start(&options.assets, options.watching(), sending(&sender))?,
+            references: References::start(&options.assets, sending(&sender))?,
+            figures: Figures::start(sending(&sender))?,
             deriver: Deriver::start(&options.assets, sending(&sender))?,
             explainer: Explainer::start(sending(&sender))?,
             threads: options.threads,
@@ -85,6 +93,8 @@ impl Runtime {
             preview: None,
             trace: None,
             export: None,
+            compared: None,
+            reference: None,
             thumbnail: None,
             renderers: 0,
             timers: Vec::new(),
@@ -173,6 +183,10 @@ impl Runtime {
             return Ok(match effect {
                 Effect::WriteRecovery { revision, .. } => Some(Msg::Kept(revision, Ok(()))),
                 Effect::ListRecent => Some(Msg::RecentListed(Vec::new())),
+                Effect::ReadReference(id, _) => {
+                    let reason = "a script of keys does not run git".to_owned();
+                    Some(Msg::ReferenceRead(id, Err(reason)))
+                }
                 _ => None,
             });
         }
@@ -230,6 +244,14 @@ impl Runtime {
                 let work = Work::begin(&self.sender);
                 self.assets.request(wanted, work)?;
             }
+            Effect::ReadReference(id, source) => {
+                let work = Work::begin(&self.sender);
+                self.references.request(id, source, work)?;
+            }
+            Effect::Compare(pair) => {
+                let work = Work::begin(&self.sender);
+                self.figures.request(pair, work)?;
+            }
             Effect::Later(time, timer) => {
                 self.timers.retain(|&(_, set)| set != timer);
                 self.timers.push((Instant::now() + time, timer));
@@ -275,6 +297,8 @@ impl Runtime {
             Target::Preview => self.preview.as_ref(),
             Target::Trace => self.trace.as_ref(),
             Target::Export => self.export.as_ref(),
+            Target::Compared => self.compared.as_ref(),
+            Target::Reference => self.reference.as_ref(),
             Target::Thumbnail => self.thumbnail.as_ref(),
         }
     }
@@ -285,9 +309,7 @@ impl Runtime {
             (Target::Preview, None) => Threads::Preview,
             (Target::Preview, Some(count)) => Threads::Exactly(count),
             (Target::Thumbnail, _) => Threads::Background(1),
-            (Target::Trace | Target::Export, count) => {
-                Threads::Background(count.unwrap_or_else(cores))
-            }
+            (_, count) => Threads::Background(count.unwrap_or_else(cores)),
         };
         let (sender, renderers) = (&self.sender, &mut self.renderers);
         let mut start = || {
@@ -306,6 +328,8 @@ impl Runtime {
             Target::Preview => &mut self.preview,
             Target::Trace => &mut self.trace,
             Target::Export => &mut self.export,
+            Target::Compared => &mut self.compared,
+            Target::Reference => &mut self.reference,
             Target::Thumbnail => &mut self.thumbnail,
         };
         let running = slot.get_or_insert_with(&mut start);
@@ -330,6 +354,8 @@ impl Runtime {
             Target::Preview => {}
             Target::Trace => self.trace = None,
             Target::Export => self.export = None,
+            Target::Compared => self.compared = None,
+            Target::Reference => self.reference = None,
             Target::Thumbnail => self.thumbnail = None,
         }
     }
@@ -339,6 +365,8 @@ impl Runtime {
             Target::Preview => &mut self.preview,
             Target::Trace => &mut self.trace,
             Target::Export => &mut self.export,
+            Target::Compared => &mut self.compared,
+            Target::Reference => &mut self.reference,
             Target::Thumbnail => &mut self.thumbnail,
         };
         if let Some(running) = slot {
@@ -367,6 +395,7 @@ fn reaches_others(effect: &Effect) -> bool {
             | Effect::NoteRecent(_)
             | Effect::ListRecent
             | Effect::KeepPanels(_)
+            | Effect::ReadReference(_, ReferenceSource::Revision(..))
     )
 }
 

@@ -14,6 +14,7 @@ pub mod app;
 pub mod arrange;
 mod assets;
 mod beginning;
+mod comparer;
 mod console;
 mod deriving;
 pub mod doctor;
@@ -37,6 +38,9 @@ mod reader;
 pub mod reading;
 mod recent;
 pub mod recovery;
+pub mod reference;
+
+mod revision;
 mod screen;
 mod script;
 mod service;

@@ -12,8 +12,10 @@ use super::arrange::PanelSizes;
 use super::past::{NoPicture, PastScene, PastText};
 use super::reading::{Baseline, Opened, Reading};
 use super::recovery::{Claim, Found, Sought};
+use super::reference::{Pair, ReferenceId, ReferenceRead, ReferenceSource};
 use super::terminal::{ColourDepth, Mouse};
 use crate::assets::{Loaded, Wanted};
+use crate::compare::Comparison;
 use crate::document::Snapshot;
 use crate::file::{ReadError, Version};
 use crate::language::Language;
@@ -28,6 +30,10 @@ pub enum Target {
     Trace,
     /// An export, traced in the background.
     Export,
+    /// The picture that is compared with the reference, traced as that was.
+    Compared,
+    /// The scene that pictures are compared with.
+    Reference,
     /// A picture on the page of the undo history, traced in the background.
     Thumbnail,
 }
@@ -107,6 +113,10 @@ pub enum Msg {
     /// The result of [`Effect::ListFolder`]: the names in the folder, sorted; those of folders end
     /// in `/`.
     Listed(PathBuf, Vec<String>),
+    /// The result of [`Effect::ReadReference`], or the reason why there is none.
+    ReferenceRead(ReferenceId, Result<ReferenceRead, String>),
+    /// The result of [`Effect::Compare`]; `None` for pictures of different sizes.
+    Compared(Pair, Option<Arc<Comparison>>),
     /// The external editor has ended.
     EditorClosed(Result<(), String>),
     /// The result of [`Effect::ListRecent`].
@@ -226,6 +236,10 @@ pub enum Effect {
     /// Reads the files that the scene names and watches them from now on, reported by
     /// [`Msg::AssetsRead`] and [`Msg::AssetsChanged`].
     ReadAssets(Wanted),
+    /// Reads what pictures are to be compared with, reported by [`Msg::ReferenceRead`].
+    ReadReference(ReferenceId, ReferenceSource),
+    /// Measures how pictures differ, reported by [`Msg::Compared`].
+    Compare(Pair),
     /// Sends [`Msg::Elapsed`] after a delay. Setting the same timer again restarts it.
     Later(Duration, Timer),
     /// Stores unsaved edits for recovery, reported by [`Msg::Kept`].

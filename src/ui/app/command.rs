@@ -42,6 +42,8 @@ enum Command {
     ExportCancel,
     /// Trace at full size.
     Render,
+    /// Compare with the reference, or with another one.
+    Compare(Option<PathBuf>),
     /// Write the working view into the text, under a name if one is given.
     ViewSave(Option<String>),
     /// Look from the selected light.
@@ -151,6 +153,7 @@ const TABLE: &[CommandRow] = &[
     row(&["export!"], A::Picture(|picture| C::Export(picture, Force::Yes)), "export, overwriting an existing file"),
     row(&["export cancel"], A::Nothing(C::ExportCancel), "cancel the export"),
     row(&["render"], A::Nothing(C::Render), "trace at full size"),
+    row(&["compare"], A::File(C::Compare), "compare with a picture or scene FILE, saved, or git [REVISION]"),
     row(&["until"], A::Said(" [N spp|TIME|noise E]", until), "end the full-size trace at N spp, after 30 s or 5 min, or below noise 0.01"),
     row(&["region"], A::Said(" [X,Y,W,H|off]", |said| RegionOrder::parse(said).map(C::Region)), "trace only these pixels at full size, or all"),
     row(&["zoom"], A::Said(" [fit|1:1|N]", |said| ScaleOrder::parse(said).map(C::Scale)), "zoom the picture, also the preview"),
@@ -183,6 +186,7 @@ const KEYS: &[(&str, Action)] = &[
     ("export", Action::Export),
     ("export cancel", Action::Stop),
     ("render", Action::Go(Mode::Trace)),
+    ("compare", Action::Go(Mode::Compare)),
     ("region", Action::Region),
     ("view save", Action::SaveView),
     ("view reset", Action::ResetView),
@@ -473,6 +477,7 @@ impl App {
             }
             Command::ExportCancel => return self.cancel_export(),
             Command::Render => return self.start_trace(),
+            Command::Compare(with) => return self.compare_with(with),
             Command::Until(until) => return self.trace_until(until),
             Command::Region(order) => return self.order_region(order),
             Command::Scale(order) => self.order_scale(order),

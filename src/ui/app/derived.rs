@@ -110,18 +110,25 @@ impl App {
         match self.mode {
             Mode::Inspect => self.inspection.seen(),
             Mode::Trace => Target::Trace,
+            Mode::Compare => Target::Compared,
             _ => Target::Preview,
         }
     }
 
     /// The picture on screen.
     pub fn picture(&self) -> &Picture {
-        self.pictures.seen(self.seen())
+        match self.seen() {
+            Target::Compared => &self.compared.seen,
+            target => self.pictures.seen(target),
+        }
     }
 
     /// The picture on screen, mutable in order to advance it.
     pub fn picture_mut(&mut self) -> &mut Picture {
-        self.pictures.seen_mut(self.seen())
+        match self.seen() {
+            Target::Compared => &mut self.compared.seen,
+            target => self.pictures.seen_mut(target),
+        }
     }
 
     /// The camera of the pictures: the working view, otherwise the scene's own.

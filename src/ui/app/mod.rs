@@ -15,7 +15,10 @@ mod choosing;
 mod colouring;
 mod colours;
 mod command;
+mod compared;
+mod comparing;
 mod completing;
+mod contrast;
 mod cursor;
 mod derived;
 mod disk;
@@ -84,6 +87,8 @@ mod zooming;
 
 use std::time::Duration;
 
+pub use compared::{Compared, Reference, Wipe};
+pub use contrast::Contrast;
 pub use cursor::{Cursor, Names, Typing};
 pub use derived::{FieldRow, Provenance};
 pub use disk::{Disk, FirstReading, OnDisk};

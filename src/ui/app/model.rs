@@ -5,6 +5,7 @@ use std::sync::Arc;
 use crossterm::event::KeyEvent;
 
 use super::assets::Assets;
+use super::compared::Compared;
 use super::cursor::Cursor;
 use super::disk::Disk;
 use super::inspection::Inspection;
@@ -49,6 +50,8 @@ pub struct App {
     pub cursor: Cursor,
     /// The preview, the full-size trace and the working view.
     pub pictures: Pictures,
+    /// What pictures are compared with, and the comparison.
+    pub compared: Compared,
     /// The pixel that is inspected.
     pub inspection: Inspection,
     /// Pictures of the texts in the undo history.

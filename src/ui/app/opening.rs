@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 
 use super::assets::Assets;
+use super::compared::Compared;
 use super::cursor::Names;
 use super::inspection::Inspection;
 use super::palette::Palette;
@@ -90,6 +91,7 @@ impl App {
             disk: Disk::new(opening.path, state, first),
             cursor: Cursor::default(),
             pictures: Pictures::new(opening.quality),
+            compared: Compared::default(),
             inspection: Inspection::default(),
             thumbnails: Thumbnails::default(),
             overlays: Overlays::default(),

@@ -167,7 +167,7 @@ impl Pictures {
         match target {
             Target::Preview => Some(&mut self.preview),
             Target::Trace => self.trace.as_mut(),
-            Target::Export | Target::Thumbnail => None,
+            Target::Export | Target::Thumbnail | Target::Compared | Target::Reference => None,
         }
     }
 

@@ -105,6 +105,9 @@ impl App {
             self.move_cursor(Context::Help, WHEEL * down);
             return;
         }
+        if self.mode == Mode::Compare {
+            return;
+        }
         let (areas, mode) = (self.areas(), self.mode);
         let over = |area: ratatui::layout::Rect| area.contains(at.into());
         if self
@@ -187,6 +190,10 @@ impl App {
         }
         if areas.divider().contains(at.into()) {
             self.resizing = Some(Border::List);
+            return Vec::new();
+        }
+        if self.mode == Mode::Compare {
+            self.press_comparison(at);
             return Vec::new();
         }
         if self.context() == Context::Rays
@@ -305,6 +312,9 @@ impl App {
             Some(Border::Panels) => return self.resize_panels(self.areas().dragged(at)),
             Some(Border::List) => return self.resize_list(self.areas().divided_at(at)),
             None => {}
+        }
+        if self.mode == Mode::Compare {
+            return self.press_comparison(at);
         }
         if self.slide_to(at.0) {
             return;

@@ -80,7 +80,7 @@ impl Sight {
 
     /// What of a picture of this size is seen.
     pub(super) fn window_of(&self, whole: Size) -> Window {
-        self.window.unwrap_or(Window {
+        self.window.unwrap_or_else(|| Window {
             whole,
             part: Region::whole(whole),
             fills: self.size,

@@ -36,6 +36,7 @@ impl App {
             self.pictures.preview.asked = None;
             effects.extend(self.follow_trace());
         }
+        effects.extend(self.follow_comparison(changed));
         let screen = self.preview_screen();
         let asked = screen.map(|screen| self.preview_asked(screen));
         if self.seen() == Target::Preview && self.pictures.preview.asked != asked {
@@ -59,17 +60,30 @@ impl App {
     }
 
     fn preview_job(&self, screen: Screen, (size, region): (Size, Option<Region>)) -> Option<Job> {
-        let (scene, numbers) = self.preview_scene()?;
         let spp = preview_samples(self.integrator(), screen.grid);
-        let mut job = self.job_of(scene, size, spp, Filter::Box)?;
+        let mut job = match region {
+            None => self.whole_preview_job(screen.halves, screen.grid, spp)?,
+            Some(_) => self.shown_job(size, spp)?,
+        };
         job.settings.region = region;
-        if region.is_none() {
-            job.camera = screen.grid.camera(job.camera, screen.halves);
-        }
         job.settings.aov = self.pictures.preview_aov();
         if let Some(aov) = job.settings.aov {
             job.settings.spp = aov.samples(spp);
         }
+        Some(job)
+    }
+
+    /// The job of a whole picture in the quality of the preview, of this size in half blocks.
+    pub(super) fn whole_preview_job(&self, halves: Size, grid: Grid, spp: u32) -> Option<Job> {
+        let job = self.shown_job(grid.size(halves), spp)?;
+        let camera = grid.camera(job.camera, halves);
+        Some(Job { camera, ..job })
+    }
+
+    /// The job of what the preview shows of the scene.
+    fn shown_job(&self, size: Size, spp: u32) -> Option<Job> {
+        let (scene, numbers) = self.preview_scene()?;
+        let job = self.job_of(scene, size, spp, Filter::Box)?;
         Some(Job { numbers, ..job })
     }
 
@@ -81,7 +95,7 @@ impl App {
 
     /// Brings the wireframe up to date, if it is on screen.
     pub fn follow_wires(&mut self) {
-        if self.seen() == Target::Trace {
+        if self.seen() != Target::Preview {
             return;
         }
         let (camera, raster) = (self.camera(), self.raster());
@@ -225,8 +239,12 @@ impl App {
     }
 
     pub(super) fn enter_trace(&mut self) {
-        if self.seen() != Target::Trace {
-            self.pictures.leave_mode(self.mode);
+        match (self.mode, self.compared.before) {
+            // The mode to return to is that before the comparison.
+            (Mode::Trace, _) | (Mode::Compare, Some(Mode::Trace)) => {}
+            _ if self.seen() == Target::Trace => {}
+            (Mode::Compare, before) => self.pictures.leave_mode(before.unwrap_or(Mode::Select)),
+            (mode, _) => self.pictures.leave_mode(mode),
         }
         self.mode = Mode::Trace;
     }
@@ -267,6 +285,10 @@ impl App {
                 self.thumbnails.take(&frame);
                 return Vec::new();
             }
+            Target::Compared | Target::Reference => {
+                self.compared.take(target, frame);
+                return Vec::new();
+            }
             Target::Preview | Target::Trace => {}
         }
         // Without a scene, it is of one that was left.
@@ -285,9 +307,10 @@ impl App {
                 self.thumbnails.fail(NoPicture::Failed(reason.into()));
                 return Vec::new();
             }
-            Target::Preview | Target::Trace => {}
+            Target::Preview | Target::Trace | Target::Compared | Target::Reference => {}
         }
         self.pictures.want(target, None);
+        self.compared.want(target, None);
         self.overlays.fail(reason);
         Vec::new()
     }

@@ -4,7 +4,7 @@ use crossterm::event::{KeyCode, KeyEvent, KeyModifiers};
 use tui_input::Input;
 
 use super::camera::{advanced, dollied, faced, panned, rolled, stepped, widened};
-use super::{App, Grid, Help, PageFocus, PromptKind, line};
+use super::{App, Contrast, Grid, Help, PageFocus, PromptKind, line};
 use crate::text::Severity;
 use crate::ui::arrange::{Zoom, divided, resized};
 use crate::ui::keymap::{self, Action, Context, Meaning, Mode, Tool};
@@ -47,7 +47,10 @@ impl App {
                 self.pictures.preview.asked = None;
             }
             Msg::Started(Target::Thumbnail, generation) => self.thumbnails.started(generation),
-            Msg::Started(target, generation) => self.pictures.want(target, Some(generation)),
+            Msg::Started(target, generation) => {
+                self.pictures.want(target, Some(generation));
+                self.compared.want(target, Some(generation));
+            }
             Msg::Derived(ticket, derived) => return self.derived(ticket, derived),
             Msg::Frame(target, frame) => return self.frame(target, frame),
             Msg::Refused(target, reason) => return self.ended(target, reason),
@@ -72,6 +75,8 @@ impl App {
             Msg::Exported(id, outcome) => return self.exported(id, outcome),
             Msg::Listed(folder, names) => self.folder_listed(folder, names),
             Msg::Taken(id, reason) => return self.is_taken(id, reason),
+            Msg::ReferenceRead(id, read) => return self.reference_read(id, read),
+            Msg::Compared(pair, found) => self.compared.measured(pair, found),
             Msg::EditorClosed(outcome) => return self.editor_closed(outcome),
             Msg::RecentListed(scenes) => self.show_recent(scenes),
             Msg::Recovered(found) => self.found_kept(found),
@@ -328,6 +333,12 @@ impl App {
                 let words = self.pictures.toggle_integrator(self.scene.as_deref());
                 self.overlays.say(words);
             }
+            Action::Pin => return self.pin(),
+            Action::Flip => self.look_at(self.compared.view.flipped()),
+            Action::Wipe => self.look_at(Contrast::Wipe),
+            Action::SlideWipe(cells) => self.slide_wipe(cells),
+            Action::Difference => self.look_at(self.compared.view.next_difference()),
+            Action::Worst(step) => self.go_to_worst(step),
             Action::Stop => return self.stop(),
             Action::Pause => return self.toggle_pause(),
             Action::Magnify(steps) => self.magnify(steps),
@@ -352,6 +363,7 @@ impl App {
         self.document.end_step();
         match mode {
             Mode::Trace => return self.start_trace(),
+            Mode::Compare => return self.start_comparison(),
             Mode::View | Mode::Fly | Mode::Inspect if self.scene.is_none() => {
                 self.refuse_picture(Severity::Error, &self.no_picture());
             }
@@ -398,6 +410,7 @@ impl App {
             Context::In(Mode::Trace) => {
                 self.mode = self.pictures.mode_before();
             }
+            Context::In(Mode::Compare) => self.end_comparison(),
             Context::In(Mode::Inspect) => self.stop_inspecting(),
             Context::In(Mode::Select) if self.end_filter() => {}
             Context::In(Mode::Select) => self.cursor.marks.clear(),

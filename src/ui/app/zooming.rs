@@ -38,7 +38,7 @@ impl App {
     pub fn sight(&self) -> Option<Sight> {
         let screen = self.screen()?;
         let detail = match self.seen() {
-            Target::Trace => Detail::Full,
+            Target::Trace | Target::Compared => Detail::Full,
             _ => Detail::OnScreen,
         };
         Some(Sight {
@@ -109,6 +109,18 @@ impl App {
     /// Moves the window by steps to the right and down.
     pub(super) fn scroll_picture(&mut self, right: i8, down: i8) {
         self.adjust(|now, screen| now.panned([right.into(), down.into()], screen));
+    }
+
+    /// Moves what is at a place on screen, in half blocks from the picture's upper left corner, to the
+    /// middle, unless all of the picture is on screen.
+    pub(super) fn centre_on(&mut self, [x, y]: [f64; 2]) {
+        if !self.viewport().is_fit() {
+            self.adjust(|now, screen| {
+                let Size { width, height } = screen.halves;
+                let from = [x / f64::from(width), y / f64::from(height)];
+                now.dragged(from, MIDDLE, screen)
+            });
+        }
     }
 
     /// Moves what is in one cell of the screen to another.

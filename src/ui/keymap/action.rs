@@ -20,6 +20,8 @@ pub enum Mode {
     Inspect,
     /// Moves, rotates or scales things in the picture.
     Move,
+    /// Compares the picture with a reference.
+    Compare,
 }
 
 impl Mode {
@@ -31,7 +33,7 @@ impl Mode {
 
 impl Mode {
     /// All modes, in the order of the help.
-    pub const ALL: [Self; 7] = [
+    pub const ALL: [Self; 8] = [
         Self::Select,
         Self::Edit,
         Self::Move,
@@ -39,6 +41,7 @@ impl Mode {
         Self::Fly,
         Self::Inspect,
         Self::Trace,
+        Self::Compare,
     ];
 
     /// The name of the mode, as in the status line.
@@ -51,6 +54,7 @@ impl Mode {
             Self::Edit => "EDIT",
             Self::Trace => "TRACE",
             Self::Inspect => "INSPECT",
+            Self::Compare => "COMPARE",
         }
     }
 }
@@ -201,6 +205,18 @@ pub enum Action {
     DeleteView,
     /// Moves the cross, in pixels to the right and down.
     Cross(i32, i32),
+    /// Makes the picture on screen the reference that pictures are compared with.
+    Pin,
+    /// Shows the picture or the reference, in turn.
+    Flip,
+    /// Shows the picture to the left of a line and the reference to its right.
+    Wipe,
+    /// Moves that line by this many cells to the right.
+    SlideWipe(i16),
+    /// Shows the difference, in turn amplified and as a heat map.
+    Difference,
+    /// Goes to the next or previous of the pixels that differ most.
+    Worst(isize),
     /// Explains the pixel under the cross.
     Explain,
     /// Explains the next or previous sample of the pixel.

@@ -8,7 +8,7 @@ use super::table::Scope;
 use crate::render::Aov;
 
 use Action as A;
-use Mode::{Edit, Fly, Inspect, Move, Select, Trace, View};
+use Mode::{Compare, Edit, Fly, Inspect, Move, Select, Trace, View};
 use Stride::Plain;
 
 /// One line of help.
@@ -31,7 +31,7 @@ const START: [(&str, &str); 2] = [
     ("halflight doctor", "what was detected, and why"),
 ];
 
-const MOUSE: [(&str, &str); 14] = [
+const MOUSE: [(&str, &str); 15] = [
     ("click the list", "select"),
     ("click a field", "move the cursor there"),
     ("click it again", "choose or type a value"),
@@ -41,6 +41,7 @@ const MOUSE: [(&str, &str); 14] = [
     ("drag it in VIEW", "orbit"),
     ("drag it with Ctrl or right", "in VIEW, pan"),
     ("drag it in MOVE", "move, rotate or scale"),
+    ("drag it in COMPARE", "move the wipe line"),
     ("drag it in TRACE", "pan; after R, draw the region"),
     ("drag a border", "resize the panels"),
     ("wheel", "scroll; in VIEW, dolly; in TRACE, zoom"),
@@ -110,6 +111,7 @@ impl Keymap {
             Context::In(Inspect) => INSPECT_HINTS,
             Context::In(Move) => MOVE_HINTS,
             Context::In(Trace) => TRACE_HINTS,
+            Context::In(Compare) => COMPARE_HINTS,
             Context::Errors => ERROR_HINTS,
             Context::Colour => COLOUR_HINTS,
             Context::Rays => RAY_HINTS,
@@ -344,6 +346,15 @@ const TRACE_HINTS: &[Hint] = &[
         ],
         "channel",
     ),
+];
+const COMPARE_HINTS: &[Hint] = &[
+    (&[A::Flip], "flip"),
+    (&[A::Wipe], "wipe (:w saves)"),
+    (&[A::Difference], "difference"),
+    (&[A::Worst(1), A::Worst(-1)], "worst"),
+    (&[A::Magnify(1), A::Magnify(-1)], "zoom"),
+    (&[A::Back], "back"),
+    (&[A::Pin], "pin"),
 ];
 const ERROR_HINTS: &[Hint] = &[
     (&[A::Move(1), A::Move(-1)], "move"),

@@ -9,7 +9,7 @@ use crate::render::Aov;
 
 use Action as A;
 use KeyCode::{BackTab, Down, End, Enter, Esc, F, Home, Left, PageDown, PageUp, Right, Tab, Up};
-use Mode::{Edit, Fly, Inspect, Move, Select, Trace, View};
+use Mode::{Compare, Edit, Fly, Inspect, Move, Select, Trace, View};
 use Stride::{Coarse, Fine, Plain};
 
 /// A row of the table: within its scope, each of these keys has the same action.
@@ -109,6 +109,7 @@ const PANELS: Scope = Scope::These(&[
     Context::In(View),
     Context::In(Fly),
     Context::In(Inspect),
+    Context::In(Compare),
     Context::Errors,
 ]);
 const REGION: Scope = Scope::These(&[Context::Region]);
@@ -120,6 +121,7 @@ const PICTURES: Scope = Scope::These(&[
     Context::In(Fly),
     Context::In(Trace),
     Context::In(Inspect),
+    Context::In(Compare),
 ]);
 /// Such contexts with the preview on screen.
 const PREVIEWS: Scope = Scope::These(&[
@@ -137,6 +139,7 @@ const INSPECTABLE: Scope = Scope::These(&[
 ]);
 const INSPECT: Scope = Scope::These(&[Context::In(Inspect)]);
 const RAYS: Scope = Scope::These(&[Context::Rays]);
+const COMPARE: Scope = Scope::These(&[Context::In(Compare)]);
 const HELP: Scope = Scope::These(&[Context::Help]);
 const MESSAGES: Scope = Scope::These(&[Context::Messages]);
 const ERRORS: Scope = Scope::These(&[Context::Errors]);
@@ -298,6 +301,18 @@ pub(super) const TABLE: &[Binding] = &[
     bind(RAYS, &[c(',')], A::Sample(-1), "previous sample"),
     bind(RAYS, &[c('.')], A::Sample(1), "next sample"),
 
+    bind(COMPARE, &[c('f')], A::Flip, "flip: the picture or the reference"),
+    bind(COMPARE, &[c('w')], A::Wipe, "wipe: the picture beside the reference (:w saves)"),
+    bind(COMPARE, &[c('h'), key(Left)], A::SlideWipe(-1), "wipe further left"),
+    bind(COMPARE, &[c('l'), key(Right)], A::SlideWipe(1), "wipe further right"),
+    bind(COMPARE, &[c('H'), Chord(Left, SHIFT)], A::SlideWipe(-8), "wipe 8 cells further left"),
+    bind(COMPARE, &[c('L'), Chord(Right, SHIFT)], A::SlideWipe(8), "wipe 8 cells further right"),
+    bind(COMPARE, &[c('d')], A::Difference, "difference, times 4, times 16, heat map"),
+    bind(COMPARE, &[c('+')], A::Magnify(1), "zoom in"),
+    bind(COMPARE, &[c('-')], A::Magnify(-1), "zoom out"),
+    bind(COMPARE, &[c('n')], A::Worst(1), "next of the worst pixels"),
+    bind(COMPARE, &[c('N')], A::Worst(-1), "previous of the worst pixels"),
+
     bind(CONFLICT, &[c('M')], A::AllMine, "keep mine everywhere"),
     bind(CONFLICT, &[c('T')], A::AllTheirs, "take the file's everywhere"),
     bind(CONFLICT, &[key(Esc)], A::Back, "decide later"),
@@ -380,6 +395,8 @@ pub(super) const TABLE: &[Binding] = &[
     bind(Scope::Everywhere, &[c('w')], A::Save, "save the scene"),
     bind(Scope::Everywhere, &[c('b')], A::Export, "export what is shown"),
     bind(Scope::Everywhere, &[key(F(5)), c('r')], A::Go(Trace), "trace at full size"),
+    bind(Scope::Everywhere, &[c('A')], A::Pin, "pin the picture, to compare with it"),
+    bind(Scope::Everywhere, &[c('=')], A::Go(Compare), "compare with the reference"),
     bind(Scope::Everywhere, &[c('u')], A::Undo, "undo"),
     bind(Scope::Everywhere, &[ctrl('r')], A::Redo, "redo"),
     bind(Scope::Everywhere, &[c('U')], A::Steps, "undo history as pictures"),
@@ -423,7 +440,7 @@ mod tests {
 
     #[test]
     fn no_key_has_two_meanings_in_one_context() {
-        let modes = [Select, View, Fly, Edit, Trace, Inspect, Move].map(Context::In);
+        let modes = Mode::ALL.map(Context::In);
         let others = [
             Opening,
             Help,
@@ -445,11 +462,15 @@ mod tests {
             Recover,
         ];
         for context in modes.into_iter().chain(others) {
-            let rows = TABLE.iter().filter(|row| row.scope.holds(context));
-            let mut bound: Vec<_> = rows.flat_map(Binding::keys).collect();
-            while let Some(keys) = bound.pop() {
-                let is_free = bound.iter().all(|other| !other.collides(keys));
-                assert!(is_free, "{context:?} {keys:?}");
+            // A key of the context itself takes precedence over one that acts anywhere.
+            for is_own in [true, false] {
+                let rows = TABLE.iter().filter(|row| row.scope.holds(context));
+                let rows = rows.filter(|row| matches!(row.scope, Scope::These(_)) == is_own);
+                let mut bound: Vec<_> = rows.flat_map(Binding::keys).collect();
+                while let Some(keys) = bound.pop() {
+                    let is_free = bound.iter().all(|other| !other.collides(keys));
+                    assert!(is_free, "{context:?} {keys:?}");
+                }
             }
         }
     }

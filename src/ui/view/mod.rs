@@ -5,6 +5,7 @@
 //! through [`row`], which shows control characters instead of sending them.
 
 mod characters;
+mod comparison;
 mod completions;
 mod current;
 mod dialog;
@@ -86,6 +87,8 @@ fn render(app: &App, inks: &mut Inks, area: Rect, buffer: &mut Buffer) -> Option
     rule(app, areas.rule, buffer);
     if app.context() == Context::Rays {
         rays::render(app, buffer);
+    } else if !areas.list.is_empty() && app.mode == Mode::Compare {
+        comparison::render(app, inks, areas.list.union(areas.fields), buffer);
     } else if !areas.list.is_empty() && !app.disk.is_opening() {
         list::render(app, areas.list, buffer);
         match app.mode {

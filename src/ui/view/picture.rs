@@ -14,7 +14,7 @@ use super::characters::Characters;
 use super::inks::{Drawing, Glyphs, Inks};
 use super::left::leave;
 use super::row::Row;
-use super::{pixel, symbols, tiles, values, wireframe};
+use super::{comparison, pixel, symbols, tiles, values, wireframe};
 use crate::render::{line_of, pixel_of, pixel_width};
 use crate::scene::Size;
 use crate::ui::app::{App, FirstReading, Grid, Shown};
@@ -78,6 +78,9 @@ fn overlays(
     if app.mode == Mode::Inspect {
         path(app, glyphs, cells, buffer);
         cross(app, cells, buffer);
+    }
+    if app.mode == Mode::Compare {
+        comparison::mark(app, cells, buffer);
     }
     if app.is_empty() {
         invitation(area, buffer);

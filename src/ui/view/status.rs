@@ -223,6 +223,9 @@ fn text_segments(app: &App, say: &mut impl FnMut(u8, String, Style)) {
         (app.mode.name(), mode_style(app.mode))
     };
     say(0, format!(" {mode} "), theme::chip(style));
+    if app.mode == Mode::Compare {
+        comparison_segments(app, say);
+    }
     let errors = app.error_count();
     let warnings = app.diagnostics.warnings();
     if 0 < errors {
@@ -258,6 +261,30 @@ fn text_segments(app: &App, say: &mut impl FnMut(u8, String, Style)) {
     }
     if 0 < warnings {
         say(9, counted(warnings, "warning"), theme::WARNING);
+    }
+}
+
+/// Adds what is seen of the pictures that are compared and, without a panel, how they differ.
+fn comparison_segments(app: &App, say: &mut impl FnMut(u8, String, Style)) {
+    let view = app.compared.view.name().to_uppercase();
+    say(1, format!(" {view} "), theme::chip(theme::ACCENT));
+    if let Some(unlike) = app.compares_unlike() {
+        say(3, unlike, theme::WARNING);
+    }
+    if let Some(found) = app
+        .compared
+        .figures()
+        .filter(|_| app.areas().list.is_empty())
+    {
+        let (psnr, flip) = (found.psnr(), found.flip);
+        let differing = counted(found.differing, "pixel");
+        let text = format!("{differing} differ, {psnr:.2} dB, FLIP {flip:.5}");
+        let style = if app.compared.are_figures_final() {
+            Style::new()
+        } else {
+            theme::DIM
+        };
+        say(6, text, style);
     }
 }
 
@@ -353,7 +380,7 @@ fn mode_style(mode: Mode) -> Style {
         Mode::Select | Mode::Inspect => theme::ACCENT,
         Mode::View | Mode::Fly => theme::GOOD,
         Mode::Edit | Mode::Move => theme::WARNING,
-        Mode::Trace => Style::new(),
+        Mode::Trace | Mode::Compare => Style::new(),
     }
 }
 

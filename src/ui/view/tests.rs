@@ -311,12 +311,13 @@ const STATES: &[(&str, Change)] = &[
     }),
 ];
 
-const MODES: [Mode; 5] = [
+const MODES: [Mode; 6] = [
     Mode::Select,
     Mode::View,
     Mode::Edit,
     Mode::Trace,
     Mode::Inspect,
+    Mode::Compare,
 ];
 
 #[test]

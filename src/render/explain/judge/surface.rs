@@ -68,7 +68,7 @@ impl Judge<'_> {
         let mut findings = self.ray(child);
         let total = self.totals[child];
         if !self.is_dark(total) {
-            let seen = match &self.case.rays[child].end {
+            let seen = match &self.case.rays[self.brightest(child)].end {
                 RayEnd::Surface(shading) => Some(shading.hit.object),
                 RayEnd::Missed { .. } | RayEnd::Light(_) | RayEnd::OverBudget => None,
             };
@@ -90,6 +90,21 @@ impl Judge<'_> {
             actual: self.shown(total),
             findings,
         }
+    }
+
+    /// The ray that adds most among one and those that descend from it: what it leads to, such as
+    /// what is seen through both sides of a glass. Of equal ones the first.
+    fn brightest(&self, ray: usize) -> usize {
+        let shown = |ray: usize| self.shown(self.case.rays[ray].contribution);
+        let mut best = ray;
+        let mut left = vec![ray];
+        while let Some(ray) = left.pop() {
+            if shown(best) < shown(ray) {
+                best = ray;
+            }
+            left.extend(self.children[ray].iter().rev());
+        }
+        best
     }
 
     /// Whether a finding is that rays are cut by the depth where they would get out.

@@ -117,6 +117,12 @@ fn edits(action: A) -> bool {
         | A::LightView
         | A::SavedViews
         | A::Cross(..)
+        | A::Pin
+        | A::Flip
+        | A::Wipe
+        | A::SlideWipe(_)
+        | A::Difference
+        | A::Worst(_)
         | A::Explain
         | A::Sample(_)
         | A::Stop
@@ -172,6 +178,7 @@ const OTHERS: &[&str] = &[
     "export!",
     "export cancel",
     "render",
+    "compare",
     "until",
     "region",
     "zoom",

@@ -4,6 +4,7 @@ mod actions;
 mod adding;
 mod assets;
 mod colours;
+mod comparing;
 mod dat;
 mod disk;
 mod editing;

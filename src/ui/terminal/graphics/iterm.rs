@@ -6,7 +6,7 @@ use base64::engine::general_purpose::STANDARD;
 
 use ratatui::layout::Rect;
 
-use super::Wrapping;
+use super::wrapping::Wrapping;
 
 /// Appends a PNG, to be shown over these cells, at the cursor, which moves.
 pub(super) fn encode(png: &[u8], place: Rect, wrapping: Wrapping, out: &mut Vec<u8>) {

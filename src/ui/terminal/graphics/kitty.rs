@@ -6,7 +6,7 @@ use base64::engine::general_purpose::STANDARD;
 
 use ratatui::layout::Rect;
 
-use super::Wrapping;
+use super::wrapping::Wrapping;
 
 /// The number of the picture. The terminal's numbers are shared by all programs in a window; small
 /// ones are the likeliest to be used by others.

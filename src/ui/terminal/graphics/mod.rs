@@ -7,7 +7,9 @@
 
 mod iterm;
 mod kitty;
+mod pixmap;
 mod sixel;
+mod wrapping;
 
 #[cfg(test)]
 mod tests;
@@ -17,9 +19,11 @@ use std::io;
 use ratatui::layout::Rect;
 
 use crate::image_file;
-use crate::scene::Size;
 
 pub(super) use kitty::{REMOVE, REMOVE_THROUGH_TMUX, answers};
+pub use pixmap::Pixmap;
+pub(super) use wrapping::END;
+pub use wrapping::Wrapping;
 
 /// How pictures are sent to the terminal.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -32,22 +36,6 @@ pub enum Protocol {
     Sixel,
 }
 
-/// What stands between this process and the terminal.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Wrapping {
-    /// Nothing: sequences are sent as they are.
-    #[default]
-    Plain,
-    /// tmux, which passes on what is wrapped for it, but does not put the cursor where the pane has
-    /// it: the pane is so many columns from the left of the terminal and rows from its top.
-    Tmux {
-        /// Columns to the left of the pane.
-        left: u16,
-        /// Rows above the pane.
-        top: u16,
-    },
-}
-
 /// How and in which cells pictures are sent.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Means {
@@ -58,18 +46,6 @@ pub struct Means {
     /// Width and height of a cell in pixels.
     pub cell: (u16, u16),
 }
-
-/// A picture to send.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Pixmap {
-    /// Size in pixels.
-    pub size: Size,
-    /// RGB, row by row.
-    pub pixels: Vec<[u8; 3]>,
-}
-
-/// Ends an incomplete sequence.
-pub(super) const END: &str = "\x1b\\";
 
 impl Means {
     /// Whether text replaces pictures, so that erasing cells erases them; otherwise they are below
@@ -105,26 +81,5 @@ impl Means {
             }
         }
         Ok(())
-    }
-}
-
-impl Wrapping {
-    /// Appends a sequence that begins at a cell, wrapped if necessary.
-    fn append(self, place: Rect, out: &mut Vec<u8>, sequence: impl FnOnce(&mut Vec<u8>)) {
-        let Self::Tmux { left, top } = self else {
-            sequence(out);
-            return;
-        };
-        let (row, column) = (top + place.y + 1, left + place.x + 1);
-        let mut inner = format!("\x1b[{row};{column}H").into_bytes();
-        sequence(&mut inner);
-        out.extend_from_slice(b"\x1bPtmux;");
-        for byte in inner {
-            if byte == 0x1b {
-                out.push(byte);
-            }
-            out.push(byte);
-        }
-        out.extend_from_slice(END.as_bytes());
     }
 }

@@ -7,7 +7,7 @@
 
 use std::ops::Range;
 
-use super::Pixmap;
+use super::pixmap::Pixmap;
 
 /// The most colours of a picture: what terminals have registers for.
 const MOST: usize = 256;

@@ -4,6 +4,7 @@ use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
 
 use super::*;
+use crate::scene::Size;
 
 /// Where pictures are put: nine columns and four rows.
 const PLACE: Rect = Rect::new(3, 2, 9, 4);
