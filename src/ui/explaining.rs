@@ -61,3 +61,77 @@ impl Explainer {
         })
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use std::sync::mpsc;
+
+    use super::*;
+    use crate::language::{Language, Source};
+    use crate::render::{DEFAULT_DEPTH, Filter, Frames, Job, NO_OBJECT, PreparedScene, Settings};
+    use crate::scene::{Images, Integrator, Meshes, Size, Transfer};
+    use crate::ui::app::tests::pictures;
+    use crate::ui::msg::Target;
+
+    fn job() -> Job {
+        let text = Arc::new(Language::Ray.template().to_owned());
+        let mut source = Source::new(Language::Ray, text);
+        let lowered = source.lower(&Meshes::default()).expect("there is memory");
+        let scene = Arc::new(lowered.scene.expect("a valid scene"));
+        Job {
+            images: Images::default(),
+            camera: scene.camera,
+            settings: Settings {
+                size: Size {
+                    width: 8,
+                    height: 6,
+                },
+                spp: 1,
+                depth: DEFAULT_DEPTH,
+                seed: 0,
+                aov: None,
+                integrator: Integrator::Whitted,
+                filter: Filter::Box,
+                transfer: Transfer::default(),
+                exposure: 0.0,
+                region: None,
+            },
+            scene,
+            frames: Frames::Live,
+            numbers: None,
+            limit: None,
+        }
+    }
+
+    #[test]
+    fn the_last_question_is_answered() {
+        let job = job();
+        let prepared = PreparedScene::new(&job, || false).expect("it is not cancelled");
+        let size = job.settings.size;
+        let mut frame = pictures::frame(size, vec![NO_OBJECT; size.pixels()]);
+        frame.query = Some(prepared.query().clone());
+        let frame = Arc::new(frame);
+        let (sender, answers) = mpsc::channel();
+        let (events, _inbox) = mpsc::channel();
+        let explainer = Explainer::start(move |msg| {
+            let _ = sender.send(msg);
+        });
+        let explainer = explainer.expect("a thread");
+        for sample in 0..20 {
+            let question = Question {
+                target: Target::Preview,
+                generation: frame.generation,
+                pixel: [4, 3],
+                sample,
+            };
+            let asked = explainer.ask(question, Arc::clone(&frame), Work::begin(&events));
+            asked.expect("the thread runs");
+        }
+        drop(explainer);
+        let last = answers.iter().last();
+        let Some(Msg::Explained(question, Some(answer))) = last else {
+            panic!("{last:?}");
+        };
+        assert_eq!((question.sample, answer.sample), (19, 19));
+    }
+}

@@ -263,8 +263,8 @@ pub fn split_top(area: Rect, lines: u16) -> (Rect, Rect) {
 /// Divides the right of a picture's area, or its left, between a tree and the values of one of its
 /// lines; in a narrow area, the lower half.
 pub fn over_picture(area: Rect, side: Side) -> (Rect, Rect) {
-    const WIDEST: u16 = 60;
-    const VALUES: u16 = 11;
+    const WIDEST: u16 = 52;
+    const VALUES: u16 = 10;
     let panel = if area.width < WIDEST {
         split_bottom(area, area.height.div_ceil(2)).1
     } else {

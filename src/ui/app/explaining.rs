@@ -21,6 +21,9 @@ const VALUES: u16 = 10;
 /// Fewest lines of the tree with its verdict, below which values are cut.
 const TREE: u16 = 8;
 
+/// The width below which a tree takes that of the values, too.
+const NARROW: u16 = 32;
+
 /// Where an explanation is drawn.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct RayPanels {
@@ -270,8 +273,8 @@ impl App {
         let is_over_picture = areas.list.is_empty();
         let (tree, values) = if is_over_picture {
             layout::over_picture(areas.picture, self.free_side())
-        } else if areas.list.x == areas.fields.x {
-            // The tree needs more lines than the list, and the values fewer than fields.
+        } else if areas.list.x == areas.fields.x || areas.list.width < NARROW {
+            // The tree needs more room than the list, and the values less than fields.
             let column = areas.list.union(areas.fields);
             let values = VALUES.min(column.height.saturating_sub(TREE));
             layout::split_bottom(column, values)

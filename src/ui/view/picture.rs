@@ -18,7 +18,7 @@ use super::{comparison, pixel, symbols, tiles, values, wireframe};
 use crate::render::{line_of, pixel_of, pixel_width};
 use crate::scene::Size;
 use crate::ui::app::{App, FirstReading, Grid, Shown};
-use crate::ui::keymap::Mode;
+use crate::ui::keymap::{Context, Mode};
 use crate::ui::layout::{self, raster};
 use crate::ui::theme;
 
@@ -155,6 +155,9 @@ fn cross(app: &App, cells: Rect, buffer: &mut Buffer) {
     {
         cell.set_symbol("┼").set_style(Style::reset());
         cell.set_style(theme::chip(Style::new()));
+    }
+    if app.context() == Context::Rays {
+        return;
     }
     let words = match app.symbol_at((column, row)) {
         Some(node) => app.source().name(node),

@@ -81,7 +81,7 @@ fn values(app: &App, pixel: &Pixel) -> Vec<Value> {
         values.push(Value::new("material", app.source().name(material)));
     }
     if let Some(at) = pixel.line {
-        values.push(Value::new("source", format!("{}:{at}", app.disk.name())));
+        values.push(Value::new("source", source(app, at)));
     }
     let label = pixel.aov.map_or("linear", Aov::name);
     let value = pixel.value.map(|value| value_of(pixel.aov, value));
@@ -96,6 +96,14 @@ fn values(app: &App, pixel: &Pixel) -> Vec<Value> {
     values.push(Value::new("samples", format!("{}{noise}", pixel.samples)));
     values.extend(surface_values(first));
     values
+}
+
+/// A line of the text, with the name of its file.
+pub(super) fn source(app: &App, line: usize) -> String {
+    match app.disk.path {
+        Some(_) => format!("{}:{line}", app.disk.name()),
+        None => format!("line {line}"),
+    }
 }
 
 /// The word for a side of a surface, which may be that of a solid.

@@ -16,7 +16,7 @@ use crate::ui::layout::contents;
 use crate::ui::theme;
 
 /// The width from which all three channels of a line are shown.
-const WIDE: u16 = 56;
+const WIDE: u16 = 50;
 
 /// Draws the tree and the numbers of its current line.
 pub(super) fn render(app: &App, buffer: &mut Buffer) {
@@ -183,11 +183,8 @@ fn values_of(app: &App, explanation: &Explanation, line: &RayLine) -> Vec<Value>
     let ray = line.ray(explanation);
     let mut values = vec![Value::new("adds", colour(line.adds(explanation)))];
     if let Some(node) = app.ray_node(*line) {
-        let name = app.disk.name();
-        values.push(Value::new(
-            "source",
-            format!("{name}:{}", app.line_of(node)),
-        ));
+        let source = super::pixel::source(app, app.line_of(node));
+        values.push(Value::new("source", source));
     }
     match (line.part, &ray.end) {
         (RayPart::Light(_), _) => {
