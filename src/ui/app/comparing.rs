@@ -75,7 +75,7 @@ impl App {
         };
         let shows = shown(self.pictures.aov);
         Ok(Reference {
-            name: format!("{kind} of {}, {shows}, {spp} spp", self.disk.name()),
+            name: format!("{kind}, {spp} spp, {shows}"),
             shows: Some(shows),
             origin,
             frame: Some(Arc::clone(frame)),
