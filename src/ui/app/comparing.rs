@@ -75,7 +75,7 @@ impl App {
         };
         let shows = shown(self.pictures.aov);
         Ok(Reference {
-            name: format!("{kind}, {spp} spp, {shows}"),
+            name: format!("{kind}, {shows}, {spp} spp"),
             shows: Some(shows),
             origin,
             frame: Some(Arc::clone(frame)),
