@@ -352,6 +352,7 @@ const COMPARE_HINTS: &[Hint] = &[
     (&[A::Wipe], "wipe (:w saves)"),
     (&[A::Difference], "difference"),
     (&[A::Worst(1), A::Worst(-1)], "worst"),
+    (&[A::Explain], "explain"),
     (&[A::Magnify(1), A::Magnify(-1)], "zoom"),
     (&[A::Back], "back"),
     (&[A::Pin], "pin"),

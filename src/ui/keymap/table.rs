@@ -136,6 +136,7 @@ const INSPECTABLE: Scope = Scope::These(&[
     Context::In(View),
     Context::In(Fly),
     Context::In(Trace),
+    Context::In(Compare),
 ]);
 const INSPECT: Scope = Scope::These(&[Context::In(Inspect)]);
 const RAYS: Scope = Scope::These(&[Context::Rays]);
@@ -294,6 +295,7 @@ pub(super) const TABLE: &[Binding] = &[
     bind(INSPECT, &[c('L'), Chord(Right, SHIFT)], A::Cross(8, 0), "right 8 pixels"),
     bind(INSPECT, &[key(Enter)], A::Accept, "select what is there"),
     bind(INSPECT, &[c('e')], A::Explain, "explain the pixel"),
+    bind(COMPARE, &[c('e')], A::Explain, "explain the pixel pointed at"),
     bind(RAYS, &[key(Enter)], A::Accept, "select its object or light"),
     bind(RAYS, &[c('l')], A::Solo, "show only its light in the preview"),
     bind(RAYS, &[key(Left)], A::Fold(Fold::Selected), "fold it, or go to what it is in"),
