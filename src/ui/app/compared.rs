@@ -31,6 +31,8 @@ pub struct Compared {
     pub(super) due: bool,
     /// Whether they are being traced, or were.
     is_running: bool,
+    /// Whether the present picture is seen alone, to be inspected.
+    is_inspected: bool,
     /// The newest frame of the present picture.
     live: Option<Arc<Frame>>,
     /// The figures found last, and of which frames.
@@ -164,6 +166,15 @@ impl Compared {
         }
     }
 
+    /// Shows the present picture itself, with all that is known of its pixels, or the comparison
+    /// again.
+    pub(super) fn inspect(&mut self, is_inspected: bool) {
+        if is_inspected != self.is_inspected {
+            self.is_inspected = is_inspected;
+            self.compose();
+        }
+    }
+
     /// Takes the figures of frames.
     pub(super) fn measured(&mut self, pair: Pair, found: Option<Arc<Comparison>>) {
         self.is_measuring = false;
@@ -274,6 +285,10 @@ impl Compared {
         let Some(live) = &self.live else {
             return;
         };
+        if self.is_inspected {
+            self.seen.take(Arc::clone(live));
+            return;
+        }
         let pixels = match self.pair() {
             Some(pair) => {
                 let both = Both {

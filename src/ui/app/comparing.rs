@@ -3,9 +3,9 @@
 use std::path::PathBuf;
 use std::sync::Arc;
 
-use super::App;
 use super::compared::{Origin, Reference, Wipe};
 use super::contrast::Contrast;
+use super::{App, Cross};
 use crate::image_file::ImageFormat;
 use crate::render::{Aov, Frame, Frames, Job, Settings, default_depth};
 use crate::scene::{Camera, Images, Scene, Size};
@@ -179,7 +179,7 @@ impl App {
 
     /// Traces what is compared if it is not up to date, and nothing outside of [`Mode::Compare`].
     pub(super) fn follow_comparison(&mut self, has_changed: bool) -> Vec<Effect> {
-        if self.mode != Mode::Compare {
+        if self.seen() != Target::Compared {
             return if self.compared.end() {
                 vec![
                     Effect::Stop(Target::Compared),
@@ -189,6 +189,7 @@ impl App {
                 Vec::new()
             };
         }
+        self.compared.inspect(self.mode == Mode::Inspect);
         if !std::mem::take(&mut self.compared.due) && !has_changed {
             return self.measure();
         }
@@ -325,6 +326,21 @@ impl App {
             self.overlays.say(reason);
         } else if let Some(place) = self.cross_on_screen() {
             self.centre_on(place);
+        }
+    }
+
+    /// Explains the pixel of the present picture that is pointed at, otherwise the worst one.
+    pub(super) fn explain_compared(&mut self) {
+        if self.compared.cross.is_none() {
+            self.go_to_worst(1);
+        }
+        let size = self.compared.live().map(|live| live.size);
+        if let Some(((x, y), size)) = self.compared.cross.zip(size) {
+            self.compared.inspect(true);
+            self.explain_at(Cross {
+                pixel: [x, y],
+                size,
+            });
         }
     }
 

@@ -40,21 +40,7 @@ pub struct RayPanels {
 }
 
 impl App {
-    /// Explains the pixel pointed at in a comparison, in the picture of the present scene.
-    pub(super) fn explain_compared(&mut self) {
-        let frame = self.compared.seen.latest.as_ref();
-        let place = self.compared.cross.zip(frame.map(|frame| frame.whole()));
-        if let Some(((x, y), size)) = place {
-            let pixel = [x, y];
-            self.explain_at(Cross { pixel, size });
-        } else {
-            let worst = self.key_for(Action::Worst(1));
-            self.overlays
-                .say(format!("{worst} points at the worst pixel first"));
-        }
-    }
-
-    /// Explains a pixel of the picture on screen; from a comparison, of the present scene's picture.
+    /// Explains a pixel of the picture on screen.
     pub(super) fn explain_at(&mut self, pixel: Cross) {
         self.start_inspecting();
         self.inspection.cross = Some(pixel);

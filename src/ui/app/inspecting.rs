@@ -7,7 +7,6 @@ use crate::scene::Size;
 use crate::text::{Position, Severity};
 use crate::ui::keymap::{Context, Mode};
 use crate::ui::layout::Side;
-use crate::ui::msg::Target;
 
 impl App {
     /// Starts inspecting where the cross was last if that is on screen, otherwise in the middle.
@@ -17,12 +16,7 @@ impl App {
             return;
         };
         if self.mode != Mode::Inspect {
-            let seen = match (self.mode, self.compared.before) {
-                (Mode::Compare, Some(Mode::Trace)) => Target::Trace,
-                (Mode::Compare, _) => Target::Preview,
-                _ => self.seen(),
-            };
-            self.inspection.begin(self.mode, seen);
+            self.inspection.begin(self.mode, self.seen());
             self.inspection.explained = None;
             self.mode = Mode::Inspect;
         }
@@ -35,7 +29,6 @@ impl App {
     /// Returns to the mode before.
     pub(super) fn stop_inspecting(&mut self) {
         self.mode = self.inspection.before();
-        self.compared.due |= self.mode == Mode::Compare;
     }
 
     /// The cross as a pixel of the picture on screen; in its middle before the first inspection.

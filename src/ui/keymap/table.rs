@@ -295,7 +295,6 @@ pub(super) const TABLE: &[Binding] = &[
     bind(INSPECT, &[c('L'), Chord(Right, SHIFT)], A::Cross(8, 0), "right 8 pixels"),
     bind(INSPECT, &[key(Enter)], A::Accept, "select what is there"),
     bind(INSPECT, &[c('e')], A::Explain, "explain the pixel"),
-    bind(COMPARE, &[c('e')], A::Explain, "explain the pixel pointed at"),
     bind(RAYS, &[key(Enter)], A::Accept, "select its object or light"),
     bind(RAYS, &[c('l')], A::Solo, "show only its light in the preview"),
     bind(RAYS, &[key(Left)], A::Fold(Fold::Selected), "fold it, or go to what it is in"),
@@ -312,6 +311,7 @@ pub(super) const TABLE: &[Binding] = &[
     bind(COMPARE, &[c('d')], A::Difference, "difference, times 4, times 16, heat map"),
     bind(COMPARE, &[c('+')], A::Magnify(1), "zoom in"),
     bind(COMPARE, &[c('-')], A::Magnify(-1), "zoom out"),
+    bind(COMPARE, &[c('e')], A::Explain, "explain the pixel that is pointed at, or the worst"),
     bind(COMPARE, &[c('n')], A::Worst(1), "next of the worst pixels"),
     bind(COMPARE, &[c('N')], A::Worst(-1), "previous of the worst pixels"),
 

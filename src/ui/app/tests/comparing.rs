@@ -83,7 +83,7 @@ fn the_present_picture_is_traced_as_the_pinned_one_was_and_looked_at() {
         ("d", "difference", 20),
         ("d", "difference ×4", 80),
         ("d", "difference ×16", 255),
-        ("d", "heat map", 255),
+        ("d", "heat map", 251),
         ("d", "difference", 20),
         ("h", "wipe", 29),
     ] {
@@ -104,6 +104,26 @@ fn the_present_picture_is_traced_as_the_pinned_one_was_and_looked_at() {
         let stops = |effect: &Effect| matches!(effect, Effect::Stop(of) if *of == target);
         assert!(effects.iter().any(stops), "{target:?}");
     }
+}
+
+#[test]
+fn a_pixel_is_explained_in_the_present_picture_and_the_comparison_goes_on() {
+    let (mut app, size) = previewed();
+    press(&mut app, "A=");
+    let live = picture(size, 7, [29; 3]);
+    compare(&mut app, Arc::clone(&live));
+    let effects = press(&mut app, "fe");
+    assert_eq!((app.mode, app.seen()), (Mode::Inspect, Target::Compared));
+    let explained = effects.iter().find_map(|effect| match effect {
+        Effect::Explain(question, frame) => Some((question.pixel, frame)),
+        _ => None,
+    });
+    let (pixel, frame) = explained.expect("it is asked for");
+    assert_eq!(pixel, [0, 0]);
+    assert!(Arc::ptr_eq(frame, &live));
+    press(&mut app, "<Esc><Esc>");
+    assert_eq!(app.mode, Mode::Compare);
+    assert_eq!(seen(&app), [9; 3]);
 }
 
 #[test]

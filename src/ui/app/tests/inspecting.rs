@@ -295,29 +295,3 @@ fn samples_are_walked_through_as_far_as_there_are_some() {
         assert_eq!(explanation.sample, sample, "{said}");
     }
 }
-
-#[test]
-fn a_pixel_of_a_comparison_is_explained_in_the_present_picture() {
-    let mut inspected = Inspected::of("a.ray", MIRROR);
-    inspected.press("A=e");
-    assert_eq!(inspected.app.mode, Mode::Compare);
-    assert!(words(&inspected.app).ends_with("points at the worst pixel first"));
-    let size = Size {
-        width: 40,
-        height: 30,
-    };
-    let frame = pictures::frame(size, vec![NO_OBJECT; size.pixels()]);
-    inspected.app.compared.seen.latest = Some(Arc::new(frame));
-    inspected.app.compared.cross = Some((20, 15));
-    inspected.press("e").answer();
-    let app = &inspected.app;
-    assert_eq!(
-        (app.context(), app.seen()),
-        (Context::Rays, Target::Preview)
-    );
-    let cross = app.cross().expect("a picture");
-    assert_eq!(cross.in_size(size).pixel, [20, 15]);
-    assert_eq!(app.ray_node(app.ray_lines()[0]), Some(Node::Object(0)));
-    inspected.press("<Esc><Esc>");
-    assert_eq!(inspected.app.mode, Mode::Compare);
-}
