@@ -32,7 +32,7 @@ pub(super) struct ExplainArguments {
     #[arg(value_name = "Y")]
     y: u32,
     /// Index of the sample, 0 to 65535: 0 is the centre of the pixel
-    #[arg(long, value_name = "N", default_value_t = 0, value_parser = value_parser!(u32).range(..i64::from(MAX_SPP)))]
+    #[arg(long, value_name = "N", default_value_t = 0, value_parser = value_parser!(u32).range(..=i64::from(MAX_SPP) - 1))]
     sample: u32,
     /// Print the explanation as JSON
     #[arg(long)]

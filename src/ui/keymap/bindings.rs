@@ -138,8 +138,10 @@ impl Keymap {
         // Several rows may have one action.
         let chosen = candidates().find(|&at| is_default(at));
         let chosen = chosen.or_else(|| candidates().next());
+        // What acts anywhere keeps them: the keys of a mode itself take precedence.
+        let is_own = chosen.is_some_and(|at| !self.rows[at].is_common());
         for (at, row) in self.rows.iter_mut().enumerate() {
-            if section.has(row.scope) {
+            if section.has(row.scope) && !(is_own && row.is_common()) {
                 row.change(section, |bound| {
                     bound.retain(|other| !other.collides(keys));
                     if chosen == Some(at) {

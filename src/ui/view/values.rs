@@ -116,7 +116,7 @@ mod tests {
     fn values_are_written_where_they_fit() {
         let low = ["", "  20 7 255    40 7 255", ""];
         assert_eq!(written("1,0,2,1", (24, 3)), low);
-        let roomy = ["", "  200 7 255", "    0.500", "   -1.000", "   12.346", ""];
+        let roomy = ["", " 200 7 255", "   0.500", "   -1.000", "   12.346", ""];
         assert_eq!(written("2,2,1,1", (12, 6)), roomy);
         assert_eq!(written("2,2,1,1", (11, 6)), [""; 6]);
         assert_eq!(written("2,2,1,1", (12, 2)), [""; 2]);
