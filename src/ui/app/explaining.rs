@@ -41,7 +41,7 @@ pub struct RayPanels {
 
 impl App {
     /// Explains a pixel of the picture on screen.
-    pub fn explain_at(&mut self, pixel: Cross) {
+    pub(super) fn explain_at(&mut self, pixel: Cross) {
         self.start_inspecting();
         self.inspection.cross = Some(pixel);
         self.reveal_cross();

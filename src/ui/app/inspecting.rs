@@ -36,7 +36,8 @@ impl App {
     pub fn cross(&self) -> Option<Cross> {
         let size = self.frame_size()?;
         let cross = self.inspection.cross;
-        Some(cross.map_or(Cross::middle(size), |cross| cross.in_size(size)))
+        let middle = || Cross::middle(size);
+        Some(cross.map_or_else(middle, |cross| cross.in_size(size)))
     }
 
     /// Moves the cross by some pixels.

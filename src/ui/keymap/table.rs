@@ -136,6 +136,7 @@ const INSPECTABLE: Scope = Scope::These(&[
     Context::In(View),
     Context::In(Fly),
     Context::In(Trace),
+    Context::In(Compare),
 ]);
 const INSPECT: Scope = Scope::These(&[Context::In(Inspect)]);
 const RAYS: Scope = Scope::These(&[Context::Rays]);
