@@ -32,13 +32,14 @@
 //! | [`document`] | sole owner of a source, its undo history and its saved text | individual languages, files |
 //! | [`accel`] | bounding volume hierarchies | what the boxes contain |
 //! | [`render`] | renders scenes: worker, integrators, film, tone mapping | documents, files, terminals |
+//! | [`explain`] | records of samples in words, with the names and places of the text | how rays are traced, terminals |
 //! | [`file`](mod@file) | reads scenes and replaces files, atomically where the file system allows it; says why it could not | what the bytes mean |
 //! | [`image_file`] | picture files: writes frames, reads textures | what is in a scene |
 //! | [`assets`] | reads the pictures and meshes that scenes name | how they are shaded |
 //! | [`compare`] | two pictures against each other | files, scenes |
 //! | [`watch`] | reports changes of paths on disk | what the files contain |
 //! | [`ui`] | the terminal: the only room that knows ratatui and crossterm; commands are rows of `app/command.rs`, keys of `keymap/table.rs` | how pixels are computed |
-//! | [`batch`] | headless work: check, render, compare | terminals |
+//! | [`batch`] | headless work: check, render, compare, explain | terminals |
 //! | [`config`] | the user's configuration: reads, checks and prints it | what the settings do |
 //! | [`cli`] | arguments and exit codes | how the work is done |
 //!
@@ -66,6 +67,7 @@ pub mod cli;
 pub mod compare;
 pub mod config;
 pub mod document;
+pub mod explain;
 pub mod file;
 pub mod geometry;
 pub mod image_file;

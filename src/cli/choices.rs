@@ -115,6 +115,10 @@ pub(super) enum AovChoice {
     Samples,
     /// Estimated error of the light, 0 to 1: dark small, bright large.
     Noise,
+    /// The share of the light that is seen to glow: emission, ambient light, background.
+    Emission,
+    /// The share of the light that arrives over further surfaces.
+    Indirect,
 }
 
 impl AovChoice {
@@ -129,6 +133,8 @@ impl AovChoice {
             Self::Cost => Aov::Cost,
             Self::Samples => Aov::Samples,
             Self::Noise => Aov::Noise,
+            Self::Emission => Aov::Emission,
+            Self::Indirect => Aov::Indirect,
         }
     }
 }

@@ -1,5 +1,6 @@
 //! Secondary rays of Whitted ray tracing.
 
+use super::gather::Gather;
 use super::optics::{fresnel, mirror, refract_all, spread};
 use super::probe::{Point, Sample, Seen};
 use super::sampler::{Sampler, Use};
@@ -60,7 +61,7 @@ impl Wave<'_> {
         &mut self,
         simd: S,
         packet: usize,
-        depth: u32,
+        (depth, gather): (u32, Gather),
         samples: &[Sample],
         seen: &mut [Seen],
     ) {
@@ -75,7 +76,9 @@ impl Wave<'_> {
             let Some(material) = arrived.found.material(&self.mapped) else {
                 continue;
             };
-            seen[state.tree].radiance += arrived.weight * arrived.radiance;
+            if gather.surface(state.bounce) {
+                seen[state.tree].radiance += arrived.weight * arrived.radiance;
+            }
             if state.bounce == depth {
                 continue;
             }

@@ -17,8 +17,16 @@ pub(crate) struct Bsdf<'m> {
     /// Probability of continuing by the lobes.
     pub(crate) lobes_chance: f64,
     /// Mirror reflectance, not counting the boundary.
-    mirror: Rgb,
+    pub(crate) mirror: Rgb,
     mirror_chance: f64,
+}
+
+/// The part of a BSDF by which a path goes on, each with a number in 0..1 for further choices.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Component {
+    Lobes(f64),
+    Mirror,
+    Boundary(f64),
 }
 
 /// The continuation of a path.
@@ -72,19 +80,6 @@ impl<'m> Bsdf<'m> {
         bounce: u32,
     ) -> Option<BsdfSample> {
         let [choice, u, v, _] = sampler.four(bounce, Use::Bounce);
-        let choice = self.in_order(choice);
-        if choice < self.lobes_chance {
-            let direction = self.lobes.choose(point, choice / self.lobes_chance, [u, v]);
-            let scattered = self.lobes.scatter(point, direction);
-            let density = self.lobes_chance * scattered.density;
-            let leads_on = scattered.value != Rgb::ZERO && 0.0 < density;
-            return leads_on.then(|| BsdfSample {
-                ray: point.leave(direction),
-                weight: scattered.value / density,
-                absorption: Rgb::ZERO,
-                chosen: Some((point.surface.point, density)),
-            });
-        }
         let numbers = || {
             let [u, v, ..] = sampler.four(bounce, Use::Spread);
             Some([u, v])
@@ -97,33 +92,88 @@ impl<'m> Bsdf<'m> {
                 chosen: None,
             })
         };
-        let losses = self.material.losses(point.side);
-        let mirrored = reflect(ray.direction, point.normal);
+        let component = self.component(choice)?;
+        let chance = self.chance(component);
+        match component {
+            Component::Lobes(choice) => {
+                let direction = self.lobes.choose(point, choice, [u, v]);
+                let scattered = self.lobes.scatter(point, direction);
+                let density = chance * scattered.density;
+                let leads_on = scattered.value != Rgb::ZERO && 0.0 < density;
+                leads_on.then(|| BsdfSample {
+                    ray: point.leave(direction),
+                    weight: scattered.value / density,
+                    absorption: Rgb::ZERO,
+                    chosen: Some((point.surface.point, density)),
+                })
+            }
+            Component::Mirror => {
+                let losses = self.material.losses(point.side);
+                let mirrored = reflect(ray.direction, point.normal);
+                let tangent = self.material.mirror.spread;
+                let direction = spread(mirrored, tangent, point.normal, numbers);
+                specular(direction, self.mirror / chance, losses.mirrored)
+            }
+            Component::Boundary(choice) => {
+                let losses = self.material.losses(point.side);
+                let dielectric = &self.material.dielectric;
+                let weight = dielectric.tint / chance;
+                let tangent = dielectric.spread;
+                if let Some(refracted) = self.refracted(ray, point, choice) {
+                    let direction = spread(refracted, tangent, -point.normal, numbers);
+                    return specular(direction, weight, losses.refracted);
+                }
+                let mirrored = reflect(ray.direction, point.normal);
+                let direction = spread(mirrored, tangent, point.normal, numbers);
+                specular(direction, weight, losses.mirrored)
+            }
+        }
+    }
+
+    /// The component that a number in 0..1 chooses; `None` if there is none.
+    pub(crate) fn component(&self, choice: f64) -> Option<Component> {
+        let choice = self.in_order(choice);
+        if choice < self.lobes_chance {
+            return Some(Component::Lobes(choice / self.lobes_chance));
+        }
         let choice = choice - self.lobes_chance;
         if choice < self.mirror_chance {
-            let tangent = self.material.mirror.spread;
-            let direction = spread(mirrored, tangent, point.normal, numbers);
-            return specular(direction, self.mirror / self.mirror_chance, losses.mirrored);
+            return Some(Component::Mirror);
         }
-        let chance = 1.0 - self.lobes_chance - self.mirror_chance;
-        let dielectric = &self.material.dielectric;
-        if dielectric.tint == Rgb::ZERO || chance <= 0.0 {
-            return None;
+        let chance = self.boundary_chance();
+        let is_clear = self.material.dielectric.tint != Rgb::ZERO && 0.0 < chance;
+        is_clear.then(|| Component::Boundary((choice - self.mirror_chance) / chance))
+    }
+
+    /// Whether there is any component.
+    pub(crate) fn can_go_on(&self) -> bool {
+        let of_surface = self.lobes_chance + self.mirror_chance;
+        0.0 < of_surface || self.material.dielectric.tint != Rgb::ZERO
+    }
+
+    /// The probability of going on by a component.
+    pub(crate) fn chance(&self, component: Component) -> f64 {
+        match component {
+            Component::Lobes(_) => self.lobes_chance,
+            Component::Mirror => self.mirror_chance,
+            Component::Boundary(_) => self.boundary_chance(),
         }
-        let weight = dielectric.tint / chance;
-        let choice = (choice - self.mirror_chance) / chance;
-        let tangent = dielectric.spread;
+    }
+
+    fn boundary_chance(&self) -> f64 {
+        1.0 - self.lobes_chance - self.mirror_chance
+    }
+
+    /// The refracted direction if a number in 0..1 lets a path pass the boundary, else `None`.
+    pub(crate) fn refracted(&self, ray: &Ray, point: &Point, choice: f64) -> Option<DVec3> {
         let indices = self.material.indices(point.side);
+        let model = self.material.dielectric.reflectance;
+        let refraction = Refraction::new(ray.direction, point.normal, indices, model);
         let Refraction {
             reflectance,
             refracted,
-        } = Refraction::new(ray.direction, point.normal, indices, dielectric.reflectance);
-        if let Some(refracted) = refracted.filter(|_| reflectance <= choice) {
-            let direction = spread(refracted, tangent, -point.normal, numbers);
-            return specular(direction, weight, losses.refracted);
-        }
-        let direction = spread(mirrored, tangent, point.normal, numbers);
-        specular(direction, weight, losses.mirrored)
+        } = refraction;
+        refracted.filter(|_| reflectance <= choice)
     }
 
     /// Rotates the number that chooses a component, so that their order is lobes, mirror, boundary;

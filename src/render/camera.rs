@@ -158,6 +158,11 @@ impl Projection {
         [self.right, self.up, self.forward]
     }
 
+    /// The near and far limits of visible distances along the view.
+    pub(crate) fn depths(&self) -> [f64; 2] {
+        self.depths
+    }
+
     /// The size of the picture's plane at a point, relative to one unit in front of the eye.
     fn scale_at(&self, point: DVec3) -> f64 {
         match self.bundle {

@@ -6,6 +6,7 @@ use std::ops::Range;
 use rayon::prelude::*;
 
 use super::frame::{Aov, Frames, Settings};
+use super::gather::Gather;
 use super::noise::Doubling;
 use super::probe::Counts;
 use super::shot::Shot;
@@ -54,7 +55,7 @@ pub(crate) struct Film {
 /// What the tiles of a picture store.
 fn remembers(settings: &Settings, frames: Frames) -> Remembers {
     let shown = matches!(settings.aov, Some(Aov::Cost | Aov::Noise));
-    if shown || frames == Frames::Live && settings.size.pixels() <= MOST_REMEMBERED {
+    if shown || frames == Frames::Live && settings.traced().size().pixels() <= MOST_REMEMBERED {
         Remembers::Causes
     } else {
         Remembers::Pixels
@@ -171,6 +172,7 @@ impl Film {
     /// pixels that cannot be continued to this number of samples. Runs on the current thread pool.
     pub(crate) fn take_over(&mut self, other: Self, changed: Touched) {
         self.tiles = other.tiles;
+        self.remembers = other.remembers;
         let spp = [other.spp, self.spp];
         let reached = self.tiles.par_iter_mut().map(|tile| {
             tile.forget(changed, spp);
@@ -178,6 +180,11 @@ impl Film {
         });
         self.reached = reached.max().unwrap_or(0);
         self.over_budget = self.tiles.iter().map(|tile| tile.over_budget).sum();
+    }
+
+    /// Whether another film of the same size stores all that this one shows.
+    pub(crate) fn can_take_over(&self, other: &Self) -> bool {
+        self.remembers == Remembers::Pixels || other.remembers == Remembers::Causes
     }
 
     /// The number of pixels.
@@ -229,6 +236,7 @@ impl Film {
                         integrator, depth, ..
                     } = shot.settings;
                     let tracer = Tracer::new(shot.world, integrator, depth, &cancelled);
+                    let tracer = tracer.gathering(Gather::of(shot.settings.aov));
                     Work::new(match remembers {
                         Remembers::Pixels => tracer,
                         Remembers::Causes => tracer.noting(),
@@ -369,7 +377,9 @@ impl Film {
     fn tone(&self, range: Option<[f64; 2]>) -> Tone {
         let [least, most] = range.unwrap_or([0.0; 2]);
         match self.aov {
-            None | Some(Aov::Albedo) => Tone::Colour(self.light),
+            None | Some(Aov::Albedo | Aov::Direct(_) | Aov::Emission | Aov::Indirect) => {
+                Tone::Colour(self.light)
+            }
             Some(Aov::Normal) => Tone::Normal,
             Some(Aov::Object) => Tone::Number,
             Some(Aov::Depth) => Tone::Depth {
@@ -389,7 +399,7 @@ impl Film {
         let starts_at_zero = match aov {
             Aov::Depth | Aov::Cost | Aov::Samples => false,
             Aov::Noise => true,
-            Aov::Normal | Aov::Object | Aov::Albedo | Aov::Uv | Aov::Side => return None,
+            _ => return None,
         };
         let values = |tile| Tile::values(tile, self.spp, Some(aov));
         let values = self.tiles.par_iter().flat_map_iter(values);

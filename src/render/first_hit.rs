@@ -40,8 +40,8 @@ pub(crate) fn first_hit(world: &World, ray: &Ray, reach: f64, skipped: f64, aov:
             Side::Front => 1.0,
             Side::Back => -1.0,
         }),
-        // These belong to light, see [`Settings::surface`](super::Settings).
-        Aov::Cost | Aov::Samples | Aov::Noise => DVec3::ZERO,
+        // The others belong to light, see [`Settings::surface`](super::Settings).
+        _ => DVec3::ZERO,
     };
     Seen {
         radiance: value,

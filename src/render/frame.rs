@@ -65,14 +65,14 @@ impl Settings {
 
     /// The AOV of the surfaces to trace instead of light.
     pub(crate) fn surface(&self) -> Option<Aov> {
-        self.aov.filter(|aov| !aov.is_of_light())
+        self.aov.filter(|aov| !aov.is_of_light() && !aov.is_share())
     }
 
     /// Whether a film traced with these settings holds what others show, or the first samples of
     /// it.
     pub(crate) fn trace_alike(&self, other: &Self) -> bool {
         let traced = |settings: &Self| Self {
-            aov: settings.surface(),
+            aov: settings.aov.filter(|aov| !aov.is_of_light()),
             spp: 1,
             ..*settings
         };
@@ -90,8 +90,8 @@ pub enum Limit {
     Noise(f64),
 }
 
-/// An arbitrary output variable: a property of the first surface under a pixel, or of the samples
-/// of its light.
+/// An arbitrary output variable: a property of the first surface under a pixel, of the samples of
+/// its light, or a share of the light.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Aov {
     /// Distance from the eye in world units, infinite without a surface. In 8 bits the nearest is
@@ -119,6 +119,14 @@ pub enum Aov {
     /// Estimated error of the displayed light, 0 to 1, in its worst channel; 0 before samples were
     /// first doubled. In 8 bits dark to bright.
     Noise,
+    /// Light that the first surface reflects of the light with this index in the scene. Together
+    /// with [`Aov::Emission`] and [`Aov::Indirect`], such shares of all lights add up to the light.
+    Direct(u32),
+    /// Light seen to glow: emission and ambient light of the first surface, the background, and
+    /// lights with a size.
+    Emission,
+    /// Light that arrives over further surfaces: by mirrors and glass, with path tracing by all.
+    Indirect,
 }
 
 impl Aov {
@@ -134,6 +142,9 @@ impl Aov {
             Self::Cost => "cost",
             Self::Samples => "samples",
             Self::Noise => "noise",
+            Self::Direct(_) => "direct",
+            Self::Emission => "emission",
+            Self::Indirect => "indirect",
         }
     }
 
@@ -142,12 +153,17 @@ impl Aov {
         matches!(self, Self::Cost | Self::Samples | Self::Noise)
     }
 
+    /// Whether it is a share of the light.
+    pub fn is_share(self) -> bool {
+        matches!(self, Self::Direct(_) | Self::Emission | Self::Indirect)
+    }
+
     /// The number of samples per pixel to take if `asked` are requested. Distances, numbers of
     /// objects, texture coordinates and sides cannot be averaged: they take one, at the centre.
     pub fn samples(self, asked: u32) -> u32 {
         match self {
             Self::Depth | Self::Object | Self::Uv | Self::Side => 1,
-            Self::Normal | Self::Albedo | Self::Cost | Self::Samples | Self::Noise => asked,
+            _ => asked,
         }
     }
 }
@@ -216,8 +232,8 @@ pub struct Frame {
 
 /// A handle by which pixels of a frame are traced again and explained.
 ///
-/// It keeps nothing alive: it answers as long as the renderer has the scene prepared, which is until
-/// the next job is begun or the renderer is dropped.
+/// It keeps nothing alive: it answers as long as the renderer holds the scene prepared, which may end
+/// once a later job is given.
 #[derive(Clone, Debug)]
 pub struct Query {
     pub(crate) world: Weak<World>,
@@ -227,6 +243,24 @@ pub struct Query {
 }
 
 impl Frame {
+    /// The settings it was traced with; `None` if it was not traced.
+    pub fn settings(&self) -> Option<&Settings> {
+        self.query.as_ref().map(|query| &query.settings)
+    }
+
+    /// The size of the whole picture, of which the frame may be a region.
+    pub fn whole(&self) -> Size {
+        self.settings().map_or(self.size, |settings| settings.size)
+    }
+
+    /// The index of a pixel of the whole picture in the frame's lists, if it is in its region.
+    pub fn index_of(&self, [x, y]: [u32; 2]) -> Option<usize> {
+        let [left, top] = self.corner;
+        let (x, y) = (x.checked_sub(left)?, y.checked_sub(top)?);
+        let inside = x < self.size.width && y < self.size.height;
+        inside.then_some(y as usize * self.size.width as usize + x as usize)
+    }
+
     /// A picture that was not traced, without values: red, green, blue of each pixel, in rows from
     /// the top left.
     pub fn drawn(size: Size, pixels: Vec<[u8; 3]>) -> Self {

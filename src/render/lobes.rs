@@ -157,10 +157,16 @@ impl Lobes {
         }
     }
 
+    /// Whether a number in 0..1 chooses the diffuse lobe.
+    #[inline]
+    pub(crate) fn is_diffuse(&self, lobe: f64) -> bool {
+        lobe < self.even
+    }
+
     /// Samples a direction by three numbers in 0..1. It may point below the surface, into darkness.
     #[inline]
     pub(crate) fn choose(&self, point: &Point, lobe: f64, place: [f64; 2]) -> DVec3 {
-        if lobe < self.even {
+        if self.is_diffuse(lobe) {
             return warp::by_cosine(point.normal, place);
         }
         match self.glossy {

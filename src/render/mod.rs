@@ -22,10 +22,13 @@
 //! on [`surfaces`] and [`branch`]; [`path`] traces samples one by one, continuing by a [`bsdf`] and
 //! its [`lobes`]. Both query the world through a [`probe`], which applies a material's maps
 //! ([`texture`]), shade according to [`shading`], and sample [`lights`] for [`direct`] light.
-//! [`optics`], [`microfacet`] and [`warp`] hold the formulas.
+//! [`optics`], [`microfacet`] and [`warp`] hold the formulas. [`gather`] tells the shares of the
+//! light apart.
 //!
 //! [`explain`] records every ray behind a sample, part by part, by driving the same integrators;
 //! a [`Query`] of a frame does so for the frame's pixels.
+//!
+//! [`display`] says how a finished frame is looked at, and a [`histogram`] how bright it is.
 //!
 //! [`mod@wireframe`] projects the outlines of objects without tracing.
 //!
@@ -36,11 +39,14 @@ mod branch;
 mod bsdf;
 mod camera;
 mod direct;
+mod display;
 mod explain;
 mod film;
 mod filter;
 mod first_hit;
 mod frame;
+mod gather;
+mod histogram;
 mod intersect;
 mod lights;
 mod lobes;
@@ -76,15 +82,18 @@ mod wireframe;
 mod worker;
 mod world;
 
+pub use display::{Colours, Display, MOST_HALF_STOPS, exposes};
 pub use explain::{
-    Boundary, Crossing, Dark, Explanation, FirstHit, LightTerm, PreparedScene, RayEnd, RayKind,
-    Shading, Stop, SurfaceHit, TracedRay, Unlisted,
+    Boundary, Chosen, Crossing, Dark, Densities, DepthLimit, Explanation, Finding, FirstHit,
+    LightHit, LightTerm, PreparedScene, RayEnd, RayKind, Shading, Stop, SurfaceHit, Term,
+    TermSource, TracedRay, Unlisted, Verdict,
 };
 pub use filter::Filter;
 pub use frame::{
     Aov, DEFAULT_DEPTH, DEFAULT_SPP, Frame, Frames, Job, Limit, MAX_SPP, NO_OBJECT, Progress,
     Query, Settings, default_depth,
 };
+pub use histogram::{HISTOGRAM_STOPS, Histogram};
 pub use place::{SurfacePoint, axes, clearance, pixel_of, pixel_width, surface_under};
 pub use refusal::Refusal;
 pub use region::{NoRegion, Region};

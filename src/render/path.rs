@@ -8,100 +8,202 @@ use glam::DVec3;
 
 use super::bsdf::{Bsdf, BsdfSample};
 use super::direct::shadow;
-use super::frame::NO_OBJECT;
+use super::gather::Gather;
+use super::intersect::Nearest;
 use super::lights::SphereLight;
+use super::lobes::Scattered;
 use super::optics::transmitted;
 use super::probe::{Point, Probe, RAY_BUDGET, Sample, Seen};
 use super::sampler::{Sampler, Use};
 use super::touched::Touched;
 use crate::geometry::Ray;
 use crate::geometry::lanes::Vector;
-use crate::scene::{Light, Rgb};
+use crate::scene::{Light, Material, Rgb};
 
 /// Paths with a throughput below this are subject to Russian roulette.
 const FAINT: f64 = 1.0 / 16.0;
 
 /// The state of a path.
-struct Path {
-    ray: Ray,
+pub(super) struct Path {
+    pub(super) ray: Ray,
     /// Weight of the incoming radiance in the pixel.
-    throughput: Rgb,
+    pub(super) throughput: Rgb,
     /// Absorption per unit of length up to the next hit.
-    absorption: Rgb,
+    pub(super) absorption: Rgb,
     /// The point of the last scattering and the probability density of the direction per steradian;
     /// `None` after mirrors and boundaries.
-    chosen: Option<(DVec3, f64)>,
-    bounce: u32,
+    pub(super) chosen: Option<(DVec3, f64)>,
+    pub(super) bounce: u32,
+}
+
+/// What the ray of a path leads to.
+pub(super) enum Reached<'m> {
+    /// Nothing but the background or environment, with this radiance.
+    Nothing(Rgb),
+    /// A light with a size.
+    Light {
+        light: SphereLight,
+        distance: f64,
+        radiance: Rgb,
+        /// The multiple importance sampling weight.
+        weight: f64,
+    },
+    /// A surface.
+    Surface(Vertex<'m>),
+}
+
+/// A surface that a path reached.
+pub(super) struct Vertex<'m> {
+    pub(super) nearest: Nearest,
+    pub(super) point: Point,
+    pub(super) material: &'m Material,
+    pub(super) bsdf: Bsdf<'m>,
+}
+
+/// Whether a path goes on from a surface.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Onward {
+    /// It does, having survived Russian roulette with this probability.
+    Goes {
+        survival: f64,
+    },
+    /// No direction leads on.
+    Nowhere,
+    /// It would exceed the maximum number of bounces.
+    Depth,
+    /// The budget of rays is spent.
+    Budget,
+    /// The throughput overflowed, because materials reflect more than they receive.
+    Overflow,
+    /// It did not survive Russian roulette, with this probability.
+    Roulette {
+        survival: f64,
+    },
+    Cancelled,
 }
 
 impl<C: Fn() -> bool> Probe<'_, C> {
     /// Estimates the radiance along a camera ray.
     pub(crate) fn by_path(&mut self, sample: &Sample) -> Seen {
-        let mut seen = Seen {
-            radiance: Rgb::ZERO,
-            object: NO_OBJECT,
-            touched: Touched::default(),
-            rays: 0,
-        };
-        let mut path = Path {
-            ray: sample.ray,
-            throughput: Rgb::ONE,
-            absorption: Rgb::ZERO,
-            chosen: None,
-            bounce: 0,
-        };
+        let mut seen = Seen::NOTHING;
+        let mut path = Path::new(sample);
         loop {
             self.counts.rays += 1;
-            let next = self.follow(&mut path, sample, &mut seen);
-            let Some(next) = next.filter(|_| path.bounce < self.depth) else {
+            let mut mapped = None;
+            let next = match self.reach(&mut path, sample, &mut mapped) {
+                Reached::Nothing(radiance) => {
+                    if self.gather.glow(path.bounce) {
+                        seen.radiance += path.throughput * radiance;
+                    }
+                    None
+                }
+                Reached::Light {
+                    light,
+                    radiance,
+                    weight,
+                    ..
+                } => {
+                    if self.gathers(&light, &path) {
+                        seen.radiance += path.throughput * radiance * weight;
+                    }
+                    None
+                }
+                Reached::Surface(vertex) => {
+                    let object = vertex.nearest.object;
+                    if path.bounce == 0 {
+                        seen.object = object;
+                    }
+                    self.touched |= Touched::object(object);
+                    if vertex.material.is_lit(vertex.point.side) {
+                        let light = self.light_of_all(&vertex, path.bounce, sample.sampler);
+                        let emission = if self.gather.glow(path.bounce) {
+                            vertex.material.emission
+                        } else {
+                            Rgb::ZERO
+                        };
+                        seen.radiance += path.throughput * (emission + light);
+                    }
+                    vertex.sample(&path, sample.sampler)
+                }
+            };
+            let Onward::Goes { .. } = self.onward(&mut path, next, sample.sampler) else {
                 return seen;
             };
-            if path.bounce + 1 == RAY_BUDGET {
-                self.counts.over_budget += 1;
-                return seen;
-            }
-            if path.bounce % 64 == 63 && (self.cancelled)() {
-                return seen;
-            }
-            if !path.go_on(next, sample.sampler) {
-                return seen;
-            }
         }
     }
 
-    /// Adds the light at the path's next hit and samples its continuation; `None` at its end.
-    fn follow(&mut self, path: &mut Path, sample: &Sample, seen: &mut Seen) -> Option<BsdfSample> {
+    /// Finds what a path's ray leads to, reducing the throughput by absorption up to there.
+    pub(super) fn reach<'m>(
+        &self,
+        path: &mut Path,
+        sample: &Sample,
+        mapped: &'m mut Option<Material>,
+    ) -> Reached<'m>
+    where
+        Self: 'm,
+    {
         let world = self.world;
-        let reach = if path.bounce == 0 {
-            sample.reach
-        } else {
-            f64::INFINITY
-        };
+        let reach = path.reach(sample);
         let nearest = world.nearest(&path.ray, reach);
         let distance = nearest.map_or(reach, |nearest| nearest.hit.t);
         if let Some((light, distance)) = world.sphere_lights.nearest(&path.ray, distance) {
             path.throughput *= transmitted(path.absorption, distance);
-            let radiance = light.scale * light.radiance();
-            seen.radiance += path.throughput * radiance * path.weight_of_chance(&light);
-            return None;
+            return Reached::Light {
+                radiance: light.scale * light.radiance(),
+                weight: path.weight_of_chance(&light),
+                light,
+                distance,
+            };
         }
         let Some(nearest) = nearest else {
-            seen.radiance += path.throughput * world.around(&path.ray, path.bounce, sample.screen);
-            return None;
+            return Reached::Nothing(world.around(&path.ray, path.bounce, sample.screen));
         };
-        if path.bounce == 0 {
-            seen.object = nearest.object;
-        }
-        self.touched |= Touched::object(nearest.object);
         path.throughput *= transmitted(path.absorption, nearest.hit.t);
-        let mut mapped = None;
-        let (point, material) = world.arrive(&path.ray, nearest, &mut mapped);
-        let bsdf = Bsdf::at(&point, material);
-        if material.is_lit(point.side) {
-            let light = self.light_of_all(&point, &bsdf, path.bounce, sample.sampler);
-            seen.radiance += path.throughput * (material.emission + light);
+        let (point, material) = world.arrive(&path.ray, nearest, mapped);
+        Reached::Surface(Vertex {
+            nearest,
+            bsdf: Bsdf::at(&point, material),
+            point,
+            material,
+        })
+    }
+
+    /// Continues a path in a sampled direction, if there is one, the depth and the budget allow it
+    /// and it survives Russian roulette.
+    pub(super) fn onward(
+        &mut self,
+        path: &mut Path,
+        next: Option<BsdfSample>,
+        sampler: Sampler,
+    ) -> Onward {
+        let Some(next) = next else {
+            return Onward::Nowhere;
+        };
+        if self.depth <= path.bounce {
+            return Onward::Depth;
         }
-        bsdf.sample(&path.ray, &point, sample.sampler, path.bounce)
+        if path.bounce + 1 == RAY_BUDGET {
+            self.counts.over_budget += 1;
+            return Onward::Budget;
+        }
+        if path.bounce % 64 == 63 && (self.cancelled)() {
+            return Onward::Cancelled;
+        }
+        path.go_on(next, sampler)
+    }
+
+    /// Whether a light with a size that a path hits is part of the light gathered. Where it could
+    /// have been sampled from the first surface, it is that surface's direct light.
+    fn gathers(&self, light: &SphereLight, path: &Path) -> bool {
+        let from_first = path.bounce == 1 && path.chosen.is_some();
+        match self.gather {
+            Gather::Direct(number) => {
+                let wanted = self.world.scene.lights.get(number as usize);
+                from_first && wanted.and_then(Light::sphere).as_ref() == Some(light)
+            }
+            Gather::Indirect if from_first => false,
+            gather => gather.glow(path.bounce),
+        }
     }
 
     /// Whether to stop before the light with this index; polled for some only, since a scene may
@@ -111,33 +213,41 @@ impl<C: Fn() -> bool> Probe<'_, C> {
     }
 
     /// Sums the reflected light of all lights, in file order.
-    fn light_of_all(
-        &mut self,
-        point: &Point,
-        bsdf: &Bsdf<'_>,
-        bounce: u32,
-        sampler: Sampler,
-    ) -> Rgb {
-        let world = self.world;
+    fn light_of_all(&mut self, vertex: &Vertex<'_>, bounce: u32, sampler: Sampler) -> Rgb {
         let mut sum = Rgb::ZERO;
-        for (number, light) in world.scene.lights.iter().enumerate() {
+        for number in 0..self.world.scene.lights.len() {
             if self.is_cancelled_at(number) {
                 break;
             }
-            let sent_back = match light.sphere() {
-                None => self.direct(point, light, |facing| {
-                    let toward = facing.toward.into();
-                    let scattered = bsdf.lobes.scatter(point, toward);
-                    scattered.value + bsdf.lobes.highlight(point, toward)
-                }),
-                Some(sphere) => {
-                    let [u, v, ..] = sampler.four(bounce, Use::Light(number as u32));
-                    self.of_sphere_light(point, bsdf, bounce, light, &sphere, [u, v])
-                }
-            };
-            sum += light.scale * sent_back;
+            if self.gather.light(number, bounce) {
+                sum += self.light_of(number, vertex, bounce, sampler);
+            }
         }
         sum
+    }
+
+    /// Returns the reflected light of the light with this index.
+    pub(super) fn light_of(
+        &mut self,
+        number: usize,
+        vertex: &Vertex<'_>,
+        bounce: u32,
+        sampler: Sampler,
+    ) -> Rgb {
+        let light = &self.world.scene.lights[number];
+        let Vertex { point, bsdf, .. } = vertex;
+        let sent_back = match light.sphere() {
+            None => self.direct(point, light, |facing| {
+                let toward = facing.toward.into();
+                let scattered = bsdf.lobes.scatter(point, toward);
+                scattered.value + bsdf.lobes.highlight(point, toward)
+            }),
+            Some(sphere) => {
+                let place = place_on_light(number, bounce, sampler);
+                self.of_sphere_light(point, bsdf, bounce, light, &sphere, place)
+            }
+        };
+        light.scale * sent_back
     }
 
     /// Returns the reflected light of a light with a size, sampled at the point that `place` gives.
@@ -166,12 +276,7 @@ impl<C: Fn() -> bool> Probe<'_, C> {
         if is_dark || incoming.source.is_some_and(hides) {
             return Rgb::ZERO;
         }
-        // At the last bounce no BSDF sample can hit the light.
-        let chance = if bounce < self.depth {
-            bsdf.lobes_chance * scattered.density
-        } else {
-            0.0
-        };
+        let chance = self.density_of(bsdf, scattered, bounce);
         let weight = power_heuristic(sphere.density(from), chance);
         let irradiance = sphere.irradiance(from);
         let arriving = weight * irradiance;
@@ -182,7 +287,47 @@ impl<C: Fn() -> bool> Probe<'_, C> {
     }
 }
 
+impl<C> Probe<'_, C> {
+    /// The density with which a path at a bounce goes on in a direction, per steradian; 0 at the last
+    /// bounce, after which no BSDF sample can hit a light.
+    pub(super) fn density_of(&self, bsdf: &Bsdf<'_>, scattered: Scattered, bounce: u32) -> f64 {
+        if bounce < self.depth {
+            bsdf.lobes_chance * scattered.density
+        } else {
+            0.0
+        }
+    }
+}
+
+impl Vertex<'_> {
+    /// Samples the continuation of a path; `None` at its end.
+    pub(super) fn sample(&self, path: &Path, sampler: Sampler) -> Option<BsdfSample> {
+        self.bsdf
+            .sample(&path.ray, &self.point, sampler, path.bounce)
+    }
+}
+
 impl Path {
+    /// Starts a path along a camera ray.
+    pub(super) fn new(sample: &Sample) -> Self {
+        Self {
+            ray: sample.ray,
+            throughput: Rgb::ONE,
+            absorption: Rgb::ZERO,
+            chosen: None,
+            bounce: 0,
+        }
+    }
+
+    /// The length up to which its ray is followed.
+    pub(super) fn reach(&self, sample: &Sample) -> f64 {
+        if self.bounce == 0 {
+            sample.reach
+        } else {
+            f64::INFINITY
+        }
+    }
+
     /// The multiple importance sampling weight of a light hit by a BSDF sample.
     fn weight_of_chance(&self, light: &SphereLight) -> f64 {
         self.chosen.map_or(1.0, |(from, density)| {
@@ -192,31 +337,38 @@ impl Path {
 
     /// Continues a path, subject to Russian roulette if it is faint (Arvo and Kirk, "Particle
     /// Transport and Image Synthesis", 1990).
-    fn go_on(&mut self, next: BsdfSample, sampler: Sampler) -> bool {
+    fn go_on(&mut self, next: BsdfSample, sampler: Sampler) -> Onward {
         self.throughput *= next.weight;
         if !self.throughput.is_finite() {
-            // Overflow caused by materials that reflect more than they receive.
-            return false;
+            return Onward::Overflow;
         }
-        let left = self.throughput.abs().max_element() / FAINT;
-        if left < 1.0 {
+        let survival = self.throughput.abs().max_element() / FAINT;
+        if survival < 1.0 {
             let [.., chance] = sampler.four(self.bounce, Use::Bounce);
-            if left <= chance {
-                return false;
+            if survival <= chance {
+                return Onward::Roulette { survival };
             }
-            self.throughput /= left;
+            self.throughput /= survival;
         }
         self.ray = next.ray;
         self.absorption = next.absorption;
         self.chosen = next.chosen;
         self.bounce += 1;
-        true
+        Onward::Goes {
+            survival: survival.min(1.0),
+        }
     }
+}
+
+/// Where on a light with a size, given its index, a path samples it.
+pub(super) fn place_on_light(number: usize, bounce: u32, sampler: Sampler) -> [f64; 2] {
+    let [u, v, ..] = sampler.four(bounce, Use::Light(number as u32));
+    [u, v]
 }
 
 /// Veach's power heuristic: the weight of a sample with density `own` that another technique would
 /// produce with density `other`.
-fn power_heuristic(own: f64, other: f64) -> f64 {
+pub(super) fn power_heuristic(own: f64, other: f64) -> f64 {
     let ratio = other / own;
     1.0 / (1.0 + ratio * ratio)
 }

@@ -5,6 +5,7 @@ use std::borrow::Cow;
 use glam::{DVec2, DVec3};
 
 use super::frame::NO_OBJECT;
+use super::gather::Gather;
 use super::intersect::{Crossed, Nearest};
 use super::sampler::Sampler;
 use super::shading::Side;
@@ -27,6 +28,8 @@ pub(crate) struct Probe<'w, C> {
     pub(crate) cancelled: C,
     /// Maximum bounces.
     pub(crate) depth: u32,
+    /// The light to gather.
+    pub(crate) gather: Gather,
     /// Scratch space.
     pub(crate) crossed: Crossed,
     /// Dependencies of the current path.
@@ -119,6 +122,7 @@ impl<'w, C: Fn() -> bool> Probe<'w, C> {
             world,
             cancelled,
             depth,
+            gather: Gather::All,
             crossed: Crossed::default(),
             touched: Touched::default(),
             counts: Counts::default(),

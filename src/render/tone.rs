@@ -133,7 +133,7 @@ fn srgb(linear: f64) -> f64 {
 }
 
 /// Quantises each channel: ⌊255 · clamp(c, 0, 1) + ½⌋.
-fn to_bytes(colour: Rgb) -> [u8; 3] {
+pub(crate) fn to_bytes(colour: Rgb) -> [u8; 3] {
     // The cast truncates and maps NaN to 0.
     colour
         .to_array()

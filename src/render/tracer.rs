@@ -1,5 +1,6 @@
 //! Radiance along camera rays, computed by either integrator.
 
+use super::gather::Gather;
 use super::probe::{Counts, Probe, Sample, Seen};
 use super::touched::Touched;
 use super::wave::Wave;
@@ -29,6 +30,13 @@ impl<'w, C: Fn() -> bool> Tracer<'w, C> {
     /// Enables recording of dependencies.
     pub(crate) fn noting(mut self) -> Self {
         self.probe.crossed.notes = true;
+        self
+    }
+
+    /// Restricts the light to a share.
+    pub(crate) fn gathering(mut self, gather: Gather) -> Self {
+        self.probe.gather = gather;
+        self.probe.depth = gather.depth(self.integrator, self.probe.depth);
         self
     }
 

@@ -5,6 +5,7 @@ use std::borrow::Cow;
 use glam::DVec3;
 
 use super::direct::{Facing, Points, Shadow, sent_back};
+use super::gather::Gather;
 use super::intersect::Nearest;
 use super::lights::{self, Incoming, SphereLight};
 use super::optics::transmitted;
@@ -37,7 +38,9 @@ impl<'w, C: Fn() -> bool> Probe<'w, C> {
                 if 0 < number && (self.cancelled)() {
                     break;
                 }
-                self.light(wave, number, samples, seen);
+                if self.gather.light_anywhere(number) {
+                    self.light(wave, number, samples, seen);
+                }
             }
             self.branch(wave, samples, seen);
         }
@@ -48,7 +51,7 @@ impl<'w, C: Fn() -> bool> Probe<'w, C> {
         let world = self.world;
         world.nearest_each(&wave.rays, &mut wave.nearest);
         world.land_each(&wave.rays, &wave.nearest, &mut wave.landings);
-        wave.arrive(world, samples, seen);
+        wave.arrive(world, self.gather, samples, seen);
         wave.blockers.resize(world.scene.lights.len(), None);
     }
 
@@ -100,7 +103,7 @@ impl<'w, C: Fn() -> bool> Probe<'w, C> {
     pub(super) fn branch(&mut self, wave: &mut Wave<'_>, samples: &[Sample], seen: &mut [Seen]) {
         dispatch!(self.world.level, simd => {
             for packet in 0..wave.rays.len() {
-                wave.go_on(simd, packet, self.depth, samples, seen);
+                wave.go_on(simd, packet, (self.depth, self.gather), samples, seen);
             }
         });
     }
@@ -108,7 +111,7 @@ impl<'w, C: Fn() -> bool> Probe<'w, C> {
 
 impl<'w> Wave<'w> {
     /// Shades the hits of the front's rays.
-    fn arrive(&mut self, world: &'w World, samples: &[Sample], seen: &mut [Seen]) {
+    fn arrive(&mut self, world: &'w World, gather: Gather, samples: &[Sample], seen: &mut [Seen]) {
         self.arrived.clear();
         self.mapped.clear();
         for (number, (nearest, state)) in self.nearest.iter().zip(&self.states).enumerate() {
@@ -133,7 +136,7 @@ impl<'w> Wave<'w> {
                     landing.normal.set(lane, side.turn(normal));
                 }
                 arrived.weight = state.through(nearest);
-                if material.is_lit(side) {
+                if material.is_lit(side) && gather.glow(state.bounce) {
                     arrived.radiance = material.glow(world.ambient);
                 }
                 arrived.found = match material {
@@ -143,7 +146,7 @@ impl<'w> Wave<'w> {
                         Found::Mapped(self.mapped.len() - 1)
                     }
                 };
-            } else {
+            } else if gather.glow(state.bounce) {
                 let screen = samples[state.tree].screen;
                 let around = world.around(&packet.ray(lane), state.bounce, screen);
                 seen.radiance += state.weight * around;

@@ -92,14 +92,15 @@ fn trace<W: Fn() + Sync>(
     }) = &mut previous
         && let Some(old) = traced.take()
     {
-        match Touched::between((&old.job, world_before), (&job, &world)) {
+        let changed = Touched::between((&old.job, world_before), (&job, &world));
+        match changed.filter(|_| film.can_take_over(&old.film)) {
             Some(changed) => {
                 film.take_over(old.film, changed);
-                if changed == Touched::NOTHING {
+                if changed == Touched::NOTHING && 0 < film.reached() {
                     before = old.effort;
                 }
             }
-            None => old.film.free_later(),
+            _ => old.film.free_later(),
         }
     }
     let shot = Shot {

@@ -37,10 +37,10 @@ impl Deriver {
 }
 
 fn follow(inbox: &Receiver<(PastText, Work)>, folders: &[PathBuf], send: impl Fn(Msg)) {
-    let mut assets = Assets::new(folders);
     while let Ok(first) = inbox.recv() {
         let (text, work) = inbox.try_iter().last().unwrap_or(first);
-        let derived = derive(&text, &mut assets);
+        // Files of other texts are rarely named twice, and may be large.
+        let derived = derive(&text, &mut Assets::new(folders));
         let derived = derived.unwrap_or_else(|refused| Err(NoPicture::Failed(refused.to_string())));
         send(Msg::Derived(text.ticket, derived));
         drop(work);

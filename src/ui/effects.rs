@@ -176,6 +176,9 @@ impl Runtime {
         match effect {
             Effect::Trace(target, job) => return Ok(Some(self.trace(target, job))),
             Effect::Stop(target) => self.stop(target),
+            Effect::Halt(target) => self.with_renderer(target, Renderer::stop),
+            Effect::Pause(target) => self.with_renderer(target, Renderer::pause),
+            Effect::Resume(target) => self.with_renderer(target, Renderer::resume),
             Effect::Derive(past) => {
                 let (ticket, work) = (past.ticket, Work::begin(&self.sender));
                 let begun = self.deriver.request(*past, work);
@@ -321,6 +324,18 @@ impl Runtime {
             Target::Trace => self.trace = None,
             Target::Export => self.export = None,
             Target::Thumbnail => self.thumbnail = None,
+        }
+    }
+
+    fn with_renderer(&mut self, target: Target, act: impl FnOnce(&mut Renderer)) {
+        let slot = match target {
+            Target::Preview => &mut self.preview,
+            Target::Trace => &mut self.trace,
+            Target::Export => &mut self.export,
+            Target::Thumbnail => &mut self.thumbnail,
+        };
+        if let Some(running) = slot {
+            act(&mut running.renderer);
         }
     }
 

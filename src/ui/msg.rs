@@ -158,8 +158,14 @@ pub enum Effect {
     /// Starts tracing this picture, reported by [`Msg::Started`] and [`Msg::Frame`], or by
     /// [`Msg::Refused`].
     Trace(Target, Job),
-    /// Stops tracing this picture.
+    /// Stops tracing this picture and forgets it.
     Stop(Target),
+    /// Stops tracing this picture; [`Effect::Trace`] of the same continues it.
+    Halt(Target),
+    /// Pauses the tracing of this picture until [`Effect::Resume`] or [`Effect::Trace`].
+    Pause(Target),
+    /// Continues a paused picture.
+    Resume(Target),
     /// Derives the scene of a text of the history, reported by [`Msg::Derived`].
     Derive(Box<PastText>),
     /// Writes a frame to a picture file, reported by [`Msg::Exported`] or

@@ -135,3 +135,53 @@ fn a_picture_has_the_requested_format() {
         assert_eq!(streamed.stdout, place.read(name), "{name}");
     }
 }
+
+/// The rows of a PPM of this size, after its header.
+fn rows(ppm: &[u8], (width, height): (usize, usize)) -> Vec<&[u8]> {
+    let header = format!("P6\n{width} {height}\n255\n");
+    let pixels = ppm.strip_prefix(header.as_bytes()).expect("the size");
+    pixels.chunks(3 * width).collect()
+}
+
+#[test]
+fn a_region_is_a_part_of_the_picture() {
+    let place = Place::new();
+    let whole = place.run("render ball.ray -o - --format ppm --size 24x18");
+    let part = place.run("render ball.ray -o - --format ppm --size 24x18 --region 7,5,9,10");
+    let expected: Vec<_> = rows(&whole.stdout, (24, 18))[5..15]
+        .iter()
+        .map(|row| &row[3 * 7..3 * 16])
+        .collect();
+    assert_eq!(rows(&part.stdout, (9, 10)), expected);
+    for (region, reason) in [
+        ("5,5,9,0", "region 5,5,9,0 is empty"),
+        (
+            "0,0,9,6",
+            "region 0,0,9,6 reaches outside the picture, which is 8x6",
+        ),
+    ] {
+        let stderr = place.stderr(&format!("render ball.ray -o a.bmp --region {region}"), 2);
+        let message = format!("error: --region: {reason}");
+        assert!(stderr.starts_with(&message), "{stderr}");
+    }
+    let stderr = place.stderr("render ball.ray -o a.bmp --region 1,2,3", 2);
+    assert!(stderr.contains("such as 100,50,64,48"), "{stderr}");
+    place.stderr("render ball.ray -o a.ppm --size 24x18 --region 7,5,9,10", 0);
+    let compared = place.run("compare ball.ray a.ppm --size 24x18 --region 7,5,9,10");
+    assert_eq!(compared.status.code(), Some(0));
+}
+
+/// The picture is the one with the samples that the time permitted.
+#[test]
+fn a_time_ends_with_a_whole_pass() {
+    let place = Place::new();
+    let stderr = place.stderr("render ball.ray -o a.ppm --time 20ms", 0);
+    let samples = stderr.strip_prefix("note: ").expect("a note");
+    let spp = samples.split(' ').next().expect("a number");
+    let count: u32 = spp.parse().expect("a number");
+    assert!(count.is_power_of_two(), "{stderr}");
+    place.stderr(&format!("render ball.ray -o b.ppm --spp {spp}"), 0);
+    assert_eq!(place.read("a.ppm"), place.read("b.ppm"));
+    let stderr = place.stderr("render ball.ray -o a.ppm --time 1h --spp 2", 0);
+    assert!(stderr.starts_with("note: 2 samples per pixel"), "{stderr}");
+}

@@ -20,6 +20,7 @@ const ARROWS: &[(&str, &[&str])] = &[
     ("document", &["language", "memory", "scene", "text"]),
     ("accel", &["geometry"]),
     ("render", &["accel", "geometry", "memory", "scene"]),
+    ("explain", &["language", "render", "scene", "text"]),
     ("file", &["memory", "text"]),
     ("image_file", &["file", "render", "scene"]),
     (
@@ -41,6 +42,7 @@ const ARROWS: &[(&str, &[&str])] = &[
         &[
             "assets",
             "compare",
+            "explain",
             "file",
             "image_file",
             "language",
@@ -55,6 +57,7 @@ const ARROWS: &[(&str, &[&str])] = &[
         &[
             "assets",
             "document",
+            "explain",
             "file",
             "image_file",
             "language",

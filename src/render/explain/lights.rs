@@ -3,7 +3,8 @@
 use glam::DVec3;
 
 use super::super::direct::{Facing, Points};
-use super::super::lights::{Incoming, SphereLight, incoming};
+use super::super::intersect::{Crossed, Nearest};
+use super::super::lights::{Incoming, incoming};
 use super::super::probe::Point;
 use super::super::world::World;
 use super::record::{Crossing, Dark, LightTerm};
@@ -13,52 +14,39 @@ use crate::scene::{Emitter, Light, Material, Rgb};
 /// Objects listed on a shadow ray.
 const MOST_CROSSED: usize = 16;
 
-/// A point that a light may light.
+/// A point that lights may light.
+#[derive(Clone, Copy)]
 pub(super) struct Lit<'r> {
     pub(super) world: &'r World,
     pub(super) point: &'r Point,
     pub(super) material: &'r Material,
-    /// What the integrator added for the light.
-    pub(super) added: Rgb,
-}
-
-/// A shadow ray that the integrator traced.
-#[derive(Clone, Copy)]
-pub(super) struct Asked {
-    /// The reflected light without occlusion.
-    pub(super) unblocked: Rgb,
-    pub(super) transmittance: f64,
 }
 
 impl Lit<'_> {
-    /// Describes the light with this index, sampled where `choose` says if it has a size; `asked` is
-    /// the shadow ray that the integrator traced to it. `None` for ambient light.
+    /// Describes the light with this index, sampled where `chosen` says if that is not its centre;
+    /// `reflected` gives the reflectance for its geometry, and `added` is what the integrator added
+    /// for it. `None` for ambient light.
     pub(super) fn term(
         &self,
         number: usize,
-        choose: impl FnOnce(&SphereLight) -> Option<Incoming<f64>>,
-        asked: Option<Asked>,
+        chosen: Option<Incoming<f64>>,
+        reflected: impl FnOnce(&Facing<f64>) -> Rgb,
+        added: Rgb,
     ) -> Option<LightTerm> {
         let light = &self.world.scene.lights[number];
         let from = self.point.surface.point;
         let centre = incoming(light, from.into())?;
-        let sphere = light.sphere();
-        let incoming = sphere.and_then(|sphere| choose(&sphere)).unwrap_or(centre);
+        let incoming = chosen.unwrap_or(centre);
         let facing = Facing::new(&Points::from(self.point), light, incoming);
         let toward = DVec3::from(facing.toward);
         let [radial, spot] = shares(light, from, toward);
+        let source = incoming.source.map(DVec3::from);
         let reflected = if facing.is_lit {
-            self.reflected(&facing)
+            reflected(&facing)
         } else {
             Rgb::ZERO
         };
-        let radiance = match asked {
-            Some(asked) if asked.transmittance != 0.0 => asked.transmittance * asked.unblocked,
-            Some(_) => Rgb::ZERO,
-            None => self.added,
-        };
-        let source = incoming.source.map(DVec3::from);
-        let transmittance = asked.map(|asked| asked.transmittance);
+        let arriving = radial * spot * light.colour;
         let mut term = LightTerm {
             light: number as u32,
             toward,
@@ -66,54 +54,46 @@ impl Lit<'_> {
             cosine: facing.cosine,
             radial,
             spot,
+            arriving,
             reflected,
-            transmittance,
+            densities: None,
+            transmittance: None,
             crossed: Vec::new(),
-            radiance,
+            radiance: added,
             dark: None,
         };
-        if let Some(shadow) = facing
-            .shadow
-            .filter(|_| transmittance.is_some_and(|t| t < 1.0))
-        {
+        // Otherwise the integrators ask for no shadow.
+        let is_asked = reflected != Rgb::ZERO && radial * spot != 0.0;
+        if let Some(shadow) = facing.shadow.filter(|_| is_asked) {
             let ray = Ray {
                 origin: shadow.rays.origin.into(),
                 direction: shadow.rays.direction.into(),
             };
-            term.crossed = self.crossed(&ray, shadow.ends);
+            self.cross(&mut term, &ray, shadow.ends);
         }
-        term.dark = (radiance == Rgb::ZERO).then(|| self.dark(&term, light));
+        term.dark = (added == Rgb::ZERO).then(|| self.dark(&term, light));
         Some(term)
     }
 
-    fn reflected(&self, facing: &Facing<f64>) -> Rgb {
-        let halfway = || {
-            let toward = DVec3::from(facing.toward);
-            let halfway = (toward + self.point.view).normalize();
-            self.point.normal.dot(halfway)
-        };
-        let material = self.material;
-        material.reflected(facing.cosine, facing.mirrored, halfway)
-    }
-
-    /// The objects that a shadow ray crosses.
-    fn crossed(&self, ray: &Ray, end: f64) -> Vec<Crossing> {
-        let crossings = self.world.crossings(ray, end);
-        let crossing = |nearest: super::super::intersect::Nearest| {
-            let object = &self.world.scene.objects[nearest.object as usize];
+    /// Records what a shadow ray crosses.
+    fn cross(&self, term: &mut LightTerm, ray: &Ray, end: f64) {
+        let world = self.world;
+        let transmittance = world.transmittance(ray, end, &mut Crossed::default());
+        term.transmittance = Some(transmittance);
+        let crossing = |nearest: Nearest| {
+            let object = &world.scene.objects[nearest.object as usize];
             let material = object.material_at(nearest.hit);
             Crossing {
                 object: nearest.object,
                 material,
                 t: nearest.hit.t,
-                transmittance: self.world.transmission(material),
+                transmittance: world.transmission(material),
             }
         };
-        crossings
-            .into_iter()
-            .map(crossing)
-            .take(MOST_CROSSED)
-            .collect()
+        if transmittance != 1.0 {
+            let crossed = world.crossings(ray, end).into_iter().map(crossing);
+            term.crossed.extend(crossed.take(MOST_CROSSED));
+        }
     }
 
     /// Why a light adds nothing.

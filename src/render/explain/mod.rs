@@ -4,9 +4,12 @@
 //! read between their steps. So the record cannot drift from the picture, and costs nothing where no
 //! one asks.
 
+mod judge;
 mod lights;
+mod path;
 mod record;
 mod surface;
+mod verdict;
 mod whitted;
 
 use std::sync::Arc;
@@ -18,13 +21,19 @@ use super::filter::Spread;
 use super::frame::{Job, MAX_SPP, Query, Settings};
 use super::probe::Sample;
 use super::shot::Shot;
+use super::tone::{Light, Tone};
 use super::world::World;
 use crate::scene::Integrator;
+use judge::Case;
 
 pub use record::{
-    Boundary, Crossing, Dark, Explanation, LightTerm, RayEnd, RayKind, Shading, Stop, SurfaceHit,
-    TracedRay, Unlisted,
+    Boundary, Chosen, Crossing, Dark, Densities, Explanation, LightHit, LightTerm, RayEnd, RayKind,
+    Shading, Stop, SurfaceHit, TracedRay, Unlisted,
 };
+pub use verdict::{DepthLimit, Finding, Term, TermSource, Verdict};
+
+/// Lights listed per sample: a scene may have 100,000 lights, a sample 4096 rays.
+const MOST_TERMS: usize = 1 << 14;
 
 /// A scene prepared for questions without a renderer.
 #[derive(Debug)]
@@ -71,7 +80,11 @@ impl Query {
         Self {
             world: Arc::downgrade(world),
             camera: job.camera,
-            settings: job.settings,
+            // Its pixels are those of the whole picture.
+            settings: Settings {
+                region: None,
+                ..job.settings
+            },
             numbers: job.numbers.clone(),
         }
     }
@@ -93,7 +106,15 @@ impl Query {
         let traced = self.sample(&world, pixel, sample)?;
         let (radiance, rays) = match settings.integrator {
             Integrator::Whitted => whitted::record(&world, settings.depth, traced, cancelled)?,
-            Integrator::Path => return None,
+            Integrator::Path => path::record(&world, settings.depth, traced, cancelled)?,
+        };
+        let case = Case {
+            world: &world,
+            projection: &Projection::new(&self.camera, settings.size),
+            rays: &rays,
+            light: Light::of(&settings),
+            integrator: settings.integrator,
+            depth: settings.depth,
         };
         let mut explanation = Explanation {
             pixel,
@@ -101,6 +122,8 @@ impl Query {
             integrator: settings.integrator,
             depth: settings.depth,
             radiance,
+            displayed: Tone::Colour(case.light).bytes(radiance),
+            verdicts: judge::judge(&case),
             rays,
         };
         if let Some(numbers) = &self.numbers {

@@ -4,6 +4,7 @@
 use glam::{DVec2, DVec3};
 
 use super::super::shading::Side;
+use super::verdict::Finding;
 use crate::scene::{Integrator, Material, Rgb};
 
 /// The whole tree of rays behind one sample of a pixel.
@@ -22,6 +23,10 @@ pub struct Explanation {
     pub depth: u32,
     /// Linear radiance of the sample.
     pub radiance: Rgb,
+    /// The 8-bit colour of a pixel with this sample alone.
+    pub displayed: [u8; 3],
+    /// Why it is so, what explains it best first; never empty.
+    pub verdicts: Vec<Finding>,
     /// The rays in the order in which they were traced, each after its parent; the camera ray is the
     /// first. Those that were never traced are last.
     pub rays: Vec<TracedRay>,
@@ -46,6 +51,8 @@ pub struct TracedRay {
     pub reach: f64,
     /// Absorption per unit of length.
     pub absorption: Rgb,
+    /// How a path chose it; `None` for the camera ray and in Whitted ray tracing.
+    pub chosen: Option<Chosen>,
     /// What it led to.
     pub end: RayEnd,
     /// What its end adds to the sample, without the rays that start there.
@@ -65,6 +72,24 @@ pub enum RayKind {
     Refraction,
     /// Reflected at the boundary of a transparent solid, because none of the light can leave.
     TotalReflection,
+    /// Scattered by a path in a direction of the diffuse lobe.
+    Diffuse,
+    /// Scattered by a path in a direction of the glossy lobe.
+    Glossy,
+}
+
+/// How a path chose to go on.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Chosen {
+    /// The probability of the component: lobes, mirror or boundary.
+    pub chance: f64,
+    /// The probability density of the direction per steradian, that of the component included;
+    /// `None` for mirrors and boundaries.
+    pub density: Option<f64>,
+    /// The factor on the weight: reflectance over probability.
+    pub factor: Rgb,
+    /// The probability of surviving Russian roulette, by which the weight is divided; 1 without it.
+    pub survival: f64,
 }
 
 /// What a ray led to.
@@ -79,8 +104,38 @@ pub enum RayEnd {
     },
     /// A surface.
     Surface(Box<Shading>),
+    /// A light with a size, which paths see.
+    Light(LightHit),
     /// It was not traced because the sample's budget of rays was spent.
     OverBudget,
+}
+
+/// Where a path hit a light with a size.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct LightHit {
+    /// Index of the light in the scene.
+    pub light: u32,
+    /// The distance along the ray.
+    pub t: f64,
+    /// The fraction that absorption leaves along the ray.
+    pub transmitted: Rgb,
+    /// Emitted radiance.
+    pub radiance: Rgb,
+    /// The densities and the multiple importance sampling weight of the ray's direction; `None`
+    /// where only the path can find the light: from the camera, mirrors and boundaries.
+    pub densities: Option<Densities>,
+}
+
+/// The probability densities, per steradian, with which two techniques choose a direction to a light
+/// with a size.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Densities {
+    /// By sampling the light.
+    pub by_light: f64,
+    /// By continuing the path.
+    pub by_path: f64,
+    /// The multiple importance sampling weight of the technique used.
+    pub weight: f64,
 }
 
 /// Where a ray hit a surface.
@@ -133,7 +188,7 @@ pub struct Shading {
     pub mirror: Rgb,
     /// The boundary of a transparent solid.
     pub boundary: Option<Boundary>,
-    /// Why the rays that a mirror or boundary asks for do not go on.
+    /// Why no rays go on from there, where the material asks for some.
     pub stop: Option<Stop>,
 }
 
@@ -164,6 +219,17 @@ pub struct Boundary {
 pub enum Stop {
     /// They would exceed the maximum number of bounces.
     Depth,
+    /// The path's budget of rays is spent.
+    Budget,
+    /// The path found no direction that leads on.
+    Nowhere,
+    /// The path's weight overflowed, because materials reflect more than they receive.
+    Overflow,
+    /// The path did not survive Russian roulette.
+    Roulette {
+        /// The probability of surviving.
+        survival: f64,
+    },
 }
 
 /// The light of one light at a point of a surface.
@@ -181,8 +247,12 @@ pub struct LightTerm {
     pub radial: f64,
     /// The factor of a spot light's cone.
     pub spot: f64,
+    /// The light that arrives without occlusion, attenuation included: intensity or irradiance.
+    pub arriving: Rgb,
     /// The fraction that the surface reflects from there toward the ray, N·L included; 0 behind.
     pub reflected: Rgb,
+    /// The densities of the direction, for a light with a size in path tracing.
+    pub densities: Option<Densities>,
     /// The fraction that reaches the point past all objects; `None` if no shadow ray was traced.
     pub transmittance: Option<f64>,
     /// What the shadow ray crosses, nearest to the point first.
@@ -215,7 +285,7 @@ pub enum Dark {
     UnlitSide,
     /// The surface faces away from it.
     FacesAway,
-    /// It is at the point itself.
+    /// It is at the point itself, or the point is inside it.
     AtThePoint,
     /// The point is outside its cone.
     OutsideCone,
@@ -225,6 +295,8 @@ pub enum Dark {
     NotReflected,
     /// Objects block it.
     Blocked,
+    /// Another light with a size, which paths see, hides it.
+    Hidden,
 }
 
 impl Explanation {
@@ -247,6 +319,9 @@ impl Explanation {
                 crossing.object = name(crossing.object);
             }
         }
+        for finding in &mut self.verdicts {
+            finding.verdict.rename(&name);
+        }
     }
 }
 
@@ -255,7 +330,7 @@ impl TracedRay {
     pub fn shading(&self) -> Option<&Shading> {
         match &self.end {
             RayEnd::Surface(shading) => Some(shading),
-            RayEnd::Missed { .. } | RayEnd::OverBudget => None,
+            RayEnd::Missed { .. } | RayEnd::Light(_) | RayEnd::OverBudget => None,
         }
     }
 }

@@ -3,12 +3,13 @@
 use glam::{DVec2, DVec3};
 
 use super::super::intersect::Nearest;
+use super::super::optics::Refraction;
 use super::super::probe::Point;
 use super::super::texture::environment_place;
 use super::super::world::World;
-use super::record::SurfaceHit;
+use super::record::{Boundary, SurfaceHit};
 use crate::geometry::{Ray, Shape};
-use crate::scene::{Maps, Tinted};
+use crate::scene::{Maps, Material, Rgb, Tinted};
 
 /// Describes where a ray hit a surface.
 pub(super) fn surface_hit(world: &World, ray: &Ray, nearest: Nearest, point: &Point) -> SurfaceHit {
@@ -45,6 +46,22 @@ pub(super) fn missing_around(world: &World, ray: &Ray, bounce: u32, screen: DVec
     } else {
         missing(setting.environment, environment_place(ray.direction))
     }
+}
+
+/// What a material does with light at the boundary of a transparent solid; `None` if opaque.
+pub(super) fn boundary(ray: &Ray, point: &Point, material: &Material) -> Option<Boundary> {
+    let tint = material.dielectric.tint;
+    let indices = material.indices(point.side);
+    let model = material.dielectric.reflectance;
+    (tint != Rgb::ZERO).then(|| {
+        let refraction = Refraction::new(ray.direction, point.normal, indices, model);
+        Boundary {
+            tint,
+            indices,
+            reflectance: refraction.reflectance,
+            total: refraction.refracted.is_none(),
+        }
+    })
 }
 
 /// The texture of each slot.

@@ -2,15 +2,18 @@
 //! leave in the wave is read between them.
 
 use super::super::branch::Secondary;
-use super::super::optics::{Refraction, transmitted};
-use super::super::probe::{Point, Probe, Sample, Seen};
+use super::super::direct::Facing;
+use super::super::optics::transmitted;
+use super::super::probe::{Probe, Sample, Seen};
 use super::super::wave::{RayState, Wave};
 use super::super::world::World;
-use super::lights::{Asked, Lit};
-use super::record::{Boundary, RayEnd, RayKind, Shading, Stop, TracedRay, Unlisted};
-use super::surface::{missing_around, missing_at, surface_hit};
+use super::lights::Lit;
+use super::record::{RayEnd, RayKind, Shading, Stop, TracedRay, Unlisted};
+use super::surface::{boundary, missing_around, missing_at, surface_hit};
+use glam::DVec3;
+
 use crate::geometry::Ray;
-use crate::scene::{Material, Rgb};
+use crate::scene::Rgb;
 
 /// A ray that is yet to be traced.
 struct Waiting {
@@ -35,15 +38,12 @@ pub(super) fn record(
             kind: RayKind::Camera,
         }],
         rays: Vec::new(),
-        room: MOST_TERMS,
+        room: super::MOST_TERMS,
     };
     recorder.wave.start(&recorder.samples);
     while recorder.step()? {}
     Some((recorder.seen[0].radiance, recorder.rays))
 }
-
-/// Lights listed per sample: a scene may have 100,000 lights, a sample 4096 rays.
-const MOST_TERMS: usize = 1 << 14;
 
 struct Recorder<'w, C> {
     probe: Probe<'w, C>,
@@ -192,26 +192,31 @@ impl<C: Fn() -> bool> Recorder<'_, C> {
             shading.unlisted.radiance += after - before;
             return;
         }
-        let asked = wave.asking.first().zip(wave.transmittances.first());
-        let asked = asked.map(|(&(_, unblocked), &transmittance)| Asked {
-            unblocked,
-            transmittance,
-        });
         let point = wave.landings[0].point(&wave.rays[0], 0);
+        let material = &shading.material;
         let lit = Lit {
             world: probe.world,
             point: &point,
-            material: &shading.material,
-            added: after - before,
+            material,
         };
-        let chosen = |sphere: &_| {
-            let from = point.surface.point;
-            state.choose((number, sphere), from, samples[0].sampler)
+        let sphere = probe.world.scene.lights[number].sphere();
+        let from = point.surface.point;
+        let sampler = samples[0].sampler;
+        let chosen = sphere.and_then(|sphere| state.choose((number, &sphere), from, sampler));
+        let reflected = |facing: &Facing<f64>| {
+            let toward = DVec3::from(facing.toward);
+            let halfway = || point.normal.dot((toward + point.view).normalize());
+            material.reflected(facing.cosine, facing.mirrored, halfway)
         };
-        if let Some(term) = lit.term(number, chosen, asked) {
-            shading.lights.push(term);
-            self.room -= 1;
-        }
+        let added = match (wave.asking.first(), wave.transmittances.first()) {
+            (Some(_), Some(0.0)) => Rgb::ZERO,
+            (Some((_, unblocked)), Some(transmittance)) => transmittance * unblocked,
+            // Nothing was added, or light without shadows.
+            _ => after - before,
+        };
+        let term = lit.term(number, chosen, reflected, added);
+        self.room -= usize::from(term.is_some());
+        shading.lights.extend(term);
     }
 
     /// Ends the current ray.
@@ -234,25 +239,10 @@ fn traced((ray, state): (Ray, RayState), waiting: Waiting, reach: f64) -> Traced
         direction: ray.direction,
         reach,
         absorption: state.absorption,
+        chosen: None,
         end: RayEnd::OverBudget,
         contribution: Rgb::ZERO,
     }
-}
-
-/// What a material does with light at the boundary of a transparent solid; `None` if opaque.
-fn boundary(ray: &Ray, point: &Point, material: &Material) -> Option<Boundary> {
-    let tint = material.dielectric.tint;
-    let indices = material.indices(point.side);
-    let model = material.dielectric.reflectance;
-    (tint != Rgb::ZERO).then(|| {
-        let refraction = Refraction::new(ray.direction, point.normal, indices, model);
-        Boundary {
-            tint,
-            indices,
-            reflectance: refraction.reflectance,
-            total: refraction.refracted.is_none(),
-        }
-    })
 }
 
 /// What the ray of a node is, given the node of its parent and where that ended.

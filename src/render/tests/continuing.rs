@@ -11,7 +11,7 @@ const LONG: Duration = Duration::from_millis(150);
 
 /// A picture that takes a second or more.
 fn slow() -> Settings {
-    settings(200, 150, 64)
+    settings(100, 75, 16)
 }
 
 #[test]
@@ -20,6 +20,7 @@ fn a_paused_job_publishes_nothing_and_continues_to_the_same_picture() {
     let (mut renderer, woken) = renderer(2);
     let generation = restart(&mut renderer, job(&scene, slow()));
     woken.recv().expect("a first frame");
+    renderer.latest();
     renderer.pause();
     // What was on its way when the pause began still arrives.
     while woken.recv_timeout(LONG).is_ok() {

@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use super::*;
 use crate::assets::{Assets, Loaded, Wanted};
 use crate::render::shot::Shot;
-use crate::render::{Explanation, PreparedScene, Query, RayEnd};
+use crate::render::{Explanation, PreparedScene, Query, RayEnd, RayKind, Stop};
 
 /// Samples explained per scene and integrator.
 const PER_SCENE: usize = 40;
@@ -143,8 +143,118 @@ fn the_root_of_every_explanation_is_its_sample() {
     let scenes = scenes();
     assert!(10 < scenes.len(), "our own scenes are there");
     for path in scenes {
-        for integrator in [Integrator::Whitted] {
+        for integrator in [Integrator::Whitted, Integrator::Path] {
             check_scene(&path, integrator);
         }
     }
+}
+
+/// A grey ball on a table in one light.
+fn ball() -> Scene {
+    let matte = Coefficients {
+        diffuse: Rgb::splat(0.5),
+        ..BLACK
+    };
+    let table = cuboid([-9.0, -9.0, -2.0], [18.0, 18.0, 1.0]);
+    scene(
+        &[(sphere([0.0; 3], 1.0), matte), (table, matte)],
+        &[white_light([3.0, 4.0, 5.0])],
+    )
+}
+
+/// A diffuse surface is sampled with density N·L/π alone, so that each bounce weighs its albedo.
+#[test]
+fn densities_of_a_path_are_those_of_its_lobes() {
+    let job = job_of((ball(), Images::default()), Integrator::Path);
+    let prepared = PreparedScene::new(&job, || false).expect("nothing cancels");
+    let mut scattered = 0;
+    for index in 0..40 {
+        let explained = prepared.query().explain([20, 15], index, || false);
+        let rays = explained.expect("it is prepared").rays;
+        for pair in rays.windows(2) {
+            let [from, to] = pair else { continue };
+            let hit = from.shading().expect("the path goes on from a surface").hit;
+            let chosen = to.chosen.expect("it is scattered");
+            assert_eq!((to.kind, chosen.chance), (RayKind::Diffuse, 1.0));
+            let cosine = hit.normal.dot(to.direction);
+            let density = chosen.density.expect("a lobe has one");
+            assert_near(density, cosine / std::f64::consts::PI, 1e-12);
+            assert_near(chosen.factor.x, 0.5, 1e-12);
+            let weight = from.weight.x * chosen.factor.x / chosen.survival;
+            assert_near(to.weight.x, weight, 1e-12);
+            scattered += 1;
+        }
+        let last = &rays[rays.len() - 1];
+        let stop = last.shading().and_then(|shading| shading.stop);
+        let missed = matches!(last.end, RayEnd::Missed { .. });
+        assert!(
+            missed || matches!(stop, Some(Stop::Roulette { .. })),
+            "{last:?}"
+        );
+    }
+    assert!(40 <= scattered, "{scattered}");
+}
+
+/// A light with a size is found by sampling it and by chance; the weights of both are those of the
+/// power heuristic, and the densities of the light are one over its solid angle.
+#[test]
+fn lights_with_a_size_are_weighted_by_both_densities() {
+    let scene = xml("<object type=\"plane\" material=\"m\"><scale value=\"9\"/></object>
+        <material type=\"blinn\" name=\"m\"><specular value=\"0\"/></material>
+        <light type=\"point\"><intensity value=\"9\"/><position z=\"4\"/><size value=\"2\"/></light>");
+    let mut job = job_of((scene, Images::default()), Integrator::Path);
+    job.camera.eye = DVec3::new(0.0, 0.0, 1.0);
+    job.camera.target = DVec3::ZERO;
+    let prepared = PreparedScene::new(&job, || false).expect("nothing cancels");
+    let explained = prepared.query().explain([100, 75], 1, || false);
+    let rays = explained.expect("it is prepared").rays;
+    let shading = rays[0].shading().expect("the plane");
+    let densities = shading.lights[0].densities.expect("it has a size");
+    let distance = (shading.hit.point - DVec3::new(0.0, 0.0, 4.0)).length();
+    let versine = 1.0 - (1.0 - 4.0 / (distance * distance)).sqrt();
+    assert_near(
+        densities.by_light,
+        1.0 / (std::f64::consts::TAU * versine),
+        1e-12,
+    );
+    let by_path = shading.lights[0].cosine / std::f64::consts::PI;
+    assert_near(densities.by_path, by_path, 1e-12);
+    let [own, other] = [densities.by_light.powi(2), densities.by_path.powi(2)];
+    assert_near(densities.weight, own / (own + other), 1e-12);
+}
+
+/// The handle of a frame answers what the frame shows, until another scene is prepared.
+#[test]
+fn frames_can_be_asked_about_their_pixels() {
+    let scene = Arc::new(ball());
+    let (mut renderer, woken) = renderer(2);
+    let job = Job {
+        frames: Frames::LastWithValues,
+        numbers: Some(Arc::from([7, 3])),
+        ..job(&scene, settings(40, 30, 1))
+    };
+    let generation = restart(&mut renderer, job);
+    let frame = finish(&renderer, &woken, generation);
+    let query = frame.query.as_ref().expect("it was traced");
+    let explained = query
+        .explain([20, 15], 0, || false)
+        .expect("it is prepared");
+    let value = frame.values[15 * 40 + 20];
+    assert_eq!(explained.radiance.as_vec3().to_array(), value);
+    let hit = query.first_hit([20, 15]).expect("it is prepared");
+    let surface = hit.surface.expect("the ball");
+    assert_eq!((surface.object, surface.material), (7, 0));
+    assert_eq!(explained.rays[0].shading().expect("the ball").hit, surface);
+    assert_near(
+        hit.depth,
+        (surface.point - scene.camera.eye).length(),
+        1e-12,
+    );
+    assert_eq!(query.first_hit([40, 0]), None);
+    for _ in 0..2 {
+        let later = Arc::new(ball());
+        let generation = restart(&mut renderer, self::job(&later, settings(40, 30, 1)));
+        finish(&renderer, &woken, generation);
+    }
+    assert_eq!(query.first_hit([20, 15]), None);
 }

@@ -2,6 +2,7 @@
 
 use super::*;
 use crate::render::Aov;
+use crate::scene::Emitter;
 
 const SIZE: [u32; 2] = [41, 31];
 const CENTRE: usize = 15 * 41 + 20;
@@ -87,7 +88,8 @@ fn switching_between_light_and_its_aovs_traces_nothing() {
     assert!(0 < light.progress.rays);
     for aov in [Aov::Cost, Aov::Samples, Aov::Noise] {
         let reused = show(Some(aov));
-        assert_eq!(reused.progress.rays, 0, "{aov:?}");
+        // The rays of the light count on.
+        assert_eq!(reused.progress.rays, light.progress.rays, "{aov:?}");
         assert_eq!(reused.progress.noise, light.progress.noise);
         let anew = frame(job(&ball(), seen(Integrator::Path, 8, Some(aov))));
         assert_eq!(
@@ -97,8 +99,10 @@ fn switching_between_light_and_its_aovs_traces_nothing() {
         assert_eq!((&reused.errors, reused.range), (&light.errors, anew.range));
     }
     let again = show(None);
-    assert_eq!((again.progress.rays, &again.pixels), (0, &light.pixels));
-    assert!(0 < show(Some(Aov::Side)).progress.rays);
+    assert_eq!(again.progress.rays, light.progress.rays);
+    assert_eq!(again.pixels, light.pixels);
+    let side = show(Some(Aov::Side));
+    assert_ne!(side.progress.rays, light.progress.rays);
 }
 
 /// What the picture's noise averages is the noise of its pixels.
@@ -161,6 +165,64 @@ fn coordinates_and_sides_are_those_of_the_first_surface() {
         let coordinates = of(Aov::Uv);
         assert_near(coordinates.values[CENTRE][1].into(), v, 1e-6);
         assert_eq!(coordinates.values[0], [0.0; 3]);
+    }
+}
+
+/// A white ball over a mirror, lit by a point, a light with a size and a distant one.
+fn shares_scene() -> Arc<Scene> {
+    let white = Coefficients {
+        diffuse: Rgb::splat(0.6),
+        specular: Rgb::splat(0.2),
+        exponent: 20.0,
+        ..grey(0.1)
+    };
+    let mirror = Coefficients {
+        reflection: 0.7,
+        ..white
+    };
+    let objects = [
+        (sphere([0.0, 0.5, 0.0], 1.0), white),
+        (cuboid([-3.0, -1.5, -3.0], [6.0, 1.0, 6.0]), mirror),
+    ];
+    let mut sized = Light::point(DVec3::new(-2.0, 2.5, 1.0), Rgb::new(6.0, 5.0, 4.0));
+    if let Emitter::Point { radius, .. } = &mut sized.emitter {
+        *radius = 0.4;
+    }
+    let mut scene = scene(&objects, &[white_light([3.0, 4.0, 5.0]), sized]);
+    scene.setting.background.colour = Rgb::new(0.1, 0.2, 0.4);
+    scene.materials[0].emission = Rgb::new(0.0, 0.1, 0.05);
+    Arc::new(scene)
+}
+
+/// Every share takes the same samples as the whole, so that they add up but for rounding.
+#[test]
+fn the_shares_of_the_lights_emission_and_indirect_light_add_up() {
+    let scene = shares_scene();
+    for integrator in [Integrator::Whitted, Integrator::Path] {
+        let values = |aov| {
+            let settings = Settings {
+                depth: 4,
+                ..seen(integrator, 4, aov)
+            };
+            frame(job(&scene, settings)).values.clone()
+        };
+        let whole = values(None);
+        let shares = [Aov::Direct(0), Aov::Direct(1), Aov::Emission, Aov::Indirect];
+        let shares = shares.map(|share| values(Some(share)));
+        for (at, whole) in whole.iter().enumerate() {
+            for channel in 0..3 {
+                let sum: f32 = shares.iter().map(|share| share[at][channel]).sum();
+                let off = (sum - whole[channel]).abs();
+                assert!(
+                    off <= 1e-5 * whole[channel].max(1.0),
+                    "{integrator:?} {at}: {sum}"
+                );
+            }
+        }
+        for share in shares {
+            assert!(share.iter().any(|value| value[0] != 0.0 || value[1] != 0.0));
+            assert_ne!(share, whole);
+        }
     }
 }
 

@@ -4,12 +4,15 @@
 use std::path::{Path, PathBuf};
 
 use super::jobs::Asking;
+use super::regions::RegionOrder;
+use super::until::Until;
+use super::zooming::ScaleOrder;
 use super::{App, Help, Next, PromptKind};
 use crate::document::StepName;
 use crate::image_file::ImageFormat;
 use crate::language::{Language, extensions};
-use crate::render::MAX_SPP;
-use crate::scene::{Camera, Size};
+use crate::render::{Aov, MAX_SPP, MOST_HALF_STOPS};
+use crate::scene::{Camera, Size, Transfer};
 use crate::text::{Severity, nearest_word};
 use crate::ui::keymap::{self, Action, HelpLine, Mode};
 use crate::ui::msg::{Effect, Guard};
@@ -17,7 +20,7 @@ use crate::ui::pixels::Pixels;
 use crate::ui::theme::Theme;
 
 /// A parsed command line.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq)]
 enum Command {
     /// Save, optionally to another file.
     Write(Option<PathBuf>, Force),
@@ -45,12 +48,28 @@ enum Command {
     ViewLight,
     /// Return to the text's view.
     ViewReset,
+    /// Set when the full-size trace is complete, or say when it is.
+    Until(Option<Until>),
+    /// Trace only a region at full size.
+    Region(RegionOrder),
+    /// Zoom the picture.
+    Scale(ScaleOrder),
     /// Set the size of the output picture.
     Size(Size),
     /// Add a mesh from a file.
     Mesh(Option<PathBuf>),
     /// Take the mouse or leave it to the terminal.
     Mouse,
+    /// Show an AOV.
+    Show(Aov),
+    /// Set the exposure of the display, in half stops.
+    Exposure(i8),
+    /// Display light by a transfer function, or by the scene's own.
+    Transfer(Option<Transfer>),
+    /// Display false colours, or true ones again.
+    FalseColour,
+    /// Show or hide the histogram.
+    Histogram,
     /// Use other colours.
     Theme(Theme),
     /// Draw pixels with something else.
@@ -92,6 +111,9 @@ enum Arguments {
     Picture(fn(ExportArguments) -> Command),
     Size(fn(Size) -> Command),
     Pixels(fn(Pixels) -> Command),
+    /// How they are spelled, and what reads them.
+    Said(&'static str, fn(&str) -> Result<Command, String>),
+    Stops(fn(i8) -> Command),
 }
 
 const fn row(
@@ -130,11 +152,22 @@ const TABLE: &[CommandRow] = &[
     row(&["export!"], A::Picture(|picture| C::Export(picture, Force::Yes)), "export, overwriting an existing file"),
     row(&["export cancel"], A::Nothing(C::ExportCancel), "cancel the export"),
     row(&["render"], A::Nothing(C::Render), "trace at full size"),
+    row(&["until"], A::Said(" [N spp|TIME|noise E]", until), "end the full-size trace at N spp, after 30 s or 5 min, or below noise 0.01"),
+    row(&["region"], A::Said(" [X,Y,W,H|off]", |said| RegionOrder::parse(said).map(C::Region)), "trace only these pixels at full size, or all"),
+    row(&["zoom"], A::Said(" [fit|1:1|N]", |said| ScaleOrder::parse(said).map(C::Scale)), "zoom the picture, also the preview"),
     row(&["view save"], A::Name(C::ViewSave), "write the view into the scene, or save it as NAME"),
     row(&["view light"], A::Nothing(C::ViewLight), "look from the selected light"),
     row(&["view reset"], A::Nothing(C::ViewReset), "reset to the scene's view"),
     row(&["size"], A::Size(C::Size), "set the picture size in the scene"),
     row(&["mesh"], A::File(C::Mesh), "add the mesh of an .obj FILE, named as from the scene"),
+    row(&["show uv"], A::Nothing(C::Show(Aov::Uv)), "show texture coordinates: u red, v green"),
+    row(&["show side"], A::Nothing(C::Show(Aov::Side)), "show sides of surfaces: front blue, back orange"),
+    row(&["exposure"], A::Stops(C::Exposure), "set the exposure of the display, in stops"),
+    row(&["transfer linear"], A::Nothing(C::Transfer(Some(Transfer::Linear))), "display light linearly"),
+    row(&["transfer srgb"], A::Nothing(C::Transfer(Some(Transfer::Srgb))), "display light by the sRGB curve"),
+    row(&["transfer scene"], A::Nothing(C::Transfer(None)), "display light as the scene says"),
+    row(&["falsecolour", "falsecolor"], A::Nothing(C::FalseColour), "display luminances as false colours, or no longer"),
+    row(&["histogram"], A::Nothing(C::Histogram), "show or hide the histogram of the light"),
     row(&["mouse"], A::Nothing(C::Mouse), "take the mouse or leave it to the terminal"),
     row(&["theme dark"], A::Nothing(C::Theme(Theme::Dark)), "use colours for dark screens"),
     row(&["theme light"], A::Nothing(C::Theme(Theme::Light)), "use colours for light screens"),
@@ -151,6 +184,7 @@ const KEYS: &[(&str, Action)] = &[
     ("export", Action::Export),
     ("export cancel", Action::Stop),
     ("render", Action::Go(Mode::Trace)),
+    ("region", Action::Region),
     ("view save", Action::SaveView),
     ("view reset", Action::ResetView),
     ("help", Action::Help),
@@ -229,6 +263,8 @@ impl CommandRow {
             A::Picture(_) => " [FILE] [WxH] [SPP]",
             A::Size(_) => " WxH",
             A::Pixels(_) => " MEANS",
+            A::Said(usage, _) => usage,
+            A::Stops(_) => " STOPS",
         };
         format!(":{name}{arguments}")
     }
@@ -253,6 +289,15 @@ impl CommandRow {
                 None => Err(format!("{name} takes {}", Pixels::names())),
             },
             A::Picture(command) => picture(rest).map(command),
+            A::Said(_, parse) => parse(rest),
+            A::Stops(command) => {
+                let stops = half_stops(rest);
+                let range = MOST_HALF_STOPS / 2;
+                let stops = stops.ok_or_else(|| {
+                    format!("{name} takes stops from -{range} to {range}, in steps of 0.5")
+                })?;
+                Ok(command(stops))
+            }
             A::Size(command) => {
                 let size = Size::parse(rest);
                 let size = size.ok_or_else(|| format!("{name} takes a size such as 800x600"))?;
@@ -285,6 +330,19 @@ fn parse(line: &str) -> Result<Command, String> {
         [] => Err(unknown(name)),
         longer => Err(format!("{}?", longer.join(", or "))),
     }
+}
+
+/// Parses when a trace ends; nothing asks when it does.
+fn until(said: &str) -> Result<Command, String> {
+    let until = (!said.is_empty()).then(|| Until::parse(said));
+    until.transpose().map(Command::Until)
+}
+
+/// Parses a number of stops; `None` unless it is a multiple of ½ in range.
+fn half_stops(text: &str) -> Option<i8> {
+    let half_stops = 2.0 * text.parse::<f64>().ok()?;
+    let is_known = half_stops.fract() == 0.0 && half_stops.abs() <= f64::from(MOST_HALF_STOPS);
+    is_known.then_some(half_stops as i8)
 }
 
 /// Parses `[FILE] [WxH] [SPP]`; the file name may contain blanks.
@@ -415,6 +473,9 @@ impl App {
             }
             Command::ExportCancel => return self.cancel_export(),
             Command::Render => return self.start_trace(),
+            Command::Until(until) => return self.trace_until(until),
+            Command::Region(order) => return self.order_region(order),
+            Command::Scale(order) => self.order_scale(order),
             Command::ViewSave(None) => self.save_view(),
             Command::ViewSave(Some(name)) => self.save_view_as(&name),
             Command::ViewLight => self.look_from_light(),
@@ -422,6 +483,11 @@ impl App {
             Command::Size(size) => self.set_size(size),
             Command::Mesh(file) => self.add_mesh(file.as_deref()),
             Command::Mouse => return self.toggle_mouse(),
+            Command::Show(aov) => self.show(Some(aov)),
+            Command::Exposure(half_stops) => self.set_exposure(half_stops),
+            Command::Transfer(transfer) => self.set_transfer(transfer),
+            Command::FalseColour => self.toggle_false_colours(),
+            Command::Histogram => self.toggle_histogram(),
             Command::Theme(theme) => self.theme = theme,
             Command::Pixels(pixels) => self.pixels = pixels,
             Command::Help => self.overlays.help = Some(Help::default()),
@@ -502,6 +568,7 @@ mod tests {
                 let argument = match form.arguments {
                     A::Size(_) => " 8x6",
                     A::Pixels(_) => " half",
+                    A::Stops(_) => " -1.5",
                     _ => "",
                 };
                 assert!(parse(&format!(" {name}{argument} ")).is_ok(), "{name}");

@@ -14,7 +14,6 @@ use super::overlays::{Dialog, PromptKind};
 use super::page::{List, PageFocus};
 use super::picture::Picture;
 use super::pictures::Outline;
-use super::sight::Sight;
 use crate::language::table::Field;
 use crate::language::{Node, Nodes, Source};
 use crate::scene::{Camera, Integrator, Rgb, Scene, Size};
@@ -58,6 +57,7 @@ impl App {
             None if self.overlays.errors.is_some() => Context::Errors,
             None if self.disk.is_opening() => Context::Opening,
             None if self.overlays.picker.is_some() => Context::Colour,
+            None if self.pictures.drawing.is_some() && self.mode == Mode::Trace => Context::Region,
             None => Context::In(self.mode),
         }
     }
@@ -99,22 +99,6 @@ impl App {
     /// The cells of the picture on screen and its size in half blocks; `None` if there is no room.
     pub fn raster(&self) -> Option<(Rect, Size)> {
         raster(self.areas().picture, self.output())
-    }
-
-    /// How the picture on screen is seen; `None` if there is no room.
-    pub fn sight(&self) -> Option<Sight> {
-        let (_, halves) = self.raster()?;
-        let grid = self.pictures.grid;
-        Some(Sight {
-            size: grid.size(halves),
-            grid,
-            part: None,
-        })
-    }
-
-    /// The size in half blocks of the preview, even while the full-size trace is on screen.
-    pub(super) fn preview_size(&self) -> Option<Size> {
-        raster(self.areas_at(self.zoom).picture, self.output()).map(|(_, size)| size)
     }
 
     /// The picture on screen.
@@ -349,7 +333,7 @@ impl App {
         }
     }
 
-    fn areas_at(&self, zoom: Zoom) -> Areas {
+    pub(super) fn areas_at(&self, zoom: Zoom) -> Areas {
         let (columns, rows) = self.terminal;
         self.areas_in(Rect::new(0, 0, columns, rows), zoom)
     }

@@ -19,6 +19,8 @@ impl App {
             (Action::SaveView, Context::Quit | Context::Leave) => self.is_view_unwritten(),
             (Action::SaveView | Action::ResetView, Context::In(_)) => self.pictures.view.is_some(),
             (Action::Save, Context::In(_)) => !self.is_saved(),
+            (Action::Scroll(..), _) => !self.viewport().is_fit(),
+            (Action::Pause | Action::Stop, Context::In(Mode::Trace)) => self.picture().is_awaited(),
             (Action::Undo, _) => self.document.undoable().is_some(),
             (Action::Transform(tool), Context::In(Mode::Select)) => self.is_movable(tool),
             (Action::Go(Mode::Edit), _) => !self.cursor.fields().is_empty(),

@@ -59,6 +59,7 @@ impl App {
             Context::Colour => self.move_picker(rows),
             Context::In(_)
             | Context::Opening
+            | Context::Region
             | Context::Quit
             | Context::Leave
             | Context::MovedView

@@ -3,9 +3,10 @@
 use std::collections::VecDeque;
 use std::sync::Arc;
 
-use super::shown::Shown;
-use super::sight::Sight;
-use crate::render::{Frame, NO_OBJECT, Progress};
+use super::shown::{Layer, Shown, border};
+use super::sight::{Reason, Sight};
+use super::viewport::Viewport;
+use crate::render::{Frame, NO_OBJECT, Progress, Region};
 use crate::scene::Size;
 
 /// Mean cost of sending one changed cell to the terminal, in bytes.
@@ -20,10 +21,16 @@ pub struct Picture {
     /// The generation requested last; older frames show an older scene. `None` while nothing is
     /// running, before a start or after a stop.
     pub wanted: Option<u64>,
-    /// The size requested last.
-    pub asked: Option<Size>,
+    /// The size requested last, and the part of it.
+    pub asked: Option<(Size, Option<Region>)>,
+    /// Which part of it is on screen.
+    pub viewport: Viewport,
+    /// Whether tracing is paused.
+    pub paused: bool,
     /// The newest frame; `None` before the first.
     pub latest: Option<Arc<Frame>>,
+    /// What is seen where the newest frame, of a region, shows nothing: the last frame of all.
+    under: Option<Arc<Frame>>,
     /// The picture on screen.
     pub shown: Shown,
     target: Shown,
@@ -40,10 +47,31 @@ pub struct Picture {
 }
 
 impl Picture {
+    /// Creates a picture of which nothing is traced yet. What a region leaves is seen in another
+    /// frame.
+    pub(super) fn over(under: Option<Arc<Frame>>) -> Self {
+        Self {
+            under,
+            ..Self::default()
+        }
+    }
+
     /// Takes a frame. Frames must arrive in the order in which they were made.
     pub fn take(&mut self, frame: Arc<Frame>) {
-        self.latest = Some(frame);
+        let covers = is_whole(&frame);
+        let before = self.latest.replace(frame);
+        if covers {
+            self.under = None;
+        } else if let Some(before) = before.filter(|before| is_whole(before)) {
+            self.under = Some(before);
+        }
         self.sight = None;
+    }
+
+    /// The last frame of all of the picture.
+    pub(super) fn whole(&self) -> Option<Arc<Frame>> {
+        let latest = self.latest.as_ref().filter(|frame| is_whole(frame));
+        latest.or(self.under.as_ref()).cloned()
     }
 
     /// Whether a frame is the first of its generation, the answer to an edit.
@@ -150,8 +178,17 @@ impl Picture {
         if self.sight != Some(*sight) {
             is_stale = true;
             let colours = sight.colours(frame);
-            let part = sight.part_of(frame.size);
-            self.target = Shown::of((&colours, &frame.objects), frame.size, part, size);
+            let under = self
+                .under
+                .as_deref()
+                .map(|under| (under, sight.colours(under)));
+            let under = under.as_ref();
+            let layers = [(&**frame, &colours)].into_iter();
+            let layers = layers.chain(under.map(|(frame, colours)| (*frame, colours)));
+            let layers: Vec<_> = layers
+                .map(|(frame, colours)| Layer::of(frame, colours))
+                .collect();
+            self.target = Shown::seen(&layers, sight);
             self.sight = Some(*sight);
             // The objects under the pixels cost nothing to send.
             self.shown.objects.clone_from(&self.target.objects);
@@ -169,6 +206,12 @@ impl Picture {
             [] => Vec::new(),
             outlined => self.shown.outline_of(outlined),
         };
+        if let Some(marked) = sight.marked.filter(|marked| marked.reason == Reason::Drawn) {
+            self.target.outline.resize(self.shown.size.pixels(), false);
+            for at in border(sight, marked) {
+                self.target.outline[at] = true;
+            }
+        }
         let changes = |cell: &usize| {
             let mut pixels = sight.grid.pixels(self.shown.size, *cell);
             pixels.any(|at| self.shown.is_outlined(at) != self.target.is_outlined(at))
@@ -195,6 +238,10 @@ impl Picture {
         }
         changed
     }
+}
+
+fn is_whole(frame: &Frame) -> bool {
+    frame.size == frame.whole()
 }
 
 #[cfg(test)]

@@ -2,12 +2,15 @@
 
 use std::sync::Arc;
 
+use super::looking::Tally;
 use super::picture::Picture;
+use super::regions::Drawing;
 use super::sight::Grid;
 use super::soloed::Solo;
 use super::transform::Transform;
+use super::until::Until;
 use super::wires::Wires;
-use crate::render::{Aov, Filter, Frame};
+use crate::render::{Aov, Display, Filter, Frame, Region};
 use crate::scene::{Camera, Integrator, Scene};
 use crate::ui::keymap::Mode;
 use crate::ui::msg::Target;
@@ -27,6 +30,12 @@ pub struct Pictures {
     pub grid: Grid,
     /// What traced pictures show instead of light.
     pub aov: Option<Aov>,
+    /// How light is displayed.
+    pub display: Display,
+    /// The histogram, if it is shown.
+    pub tally: Option<Tally>,
+    /// Whether the preview was said to be too bright, and is so still.
+    pub(super) is_bright: bool,
     /// The wireframe, if it is shown instead of the preview.
     pub wires: Option<Wires>,
     /// Whether the selected object is outlined in SELECT mode.
@@ -42,6 +51,12 @@ pub struct Pictures {
     pub(super) due: bool,
     /// What the preview shows alone.
     pub solo: Option<Solo>,
+    /// The only part of the picture that the full-size trace traces, if not all of it.
+    pub(super) region: Option<Region>,
+    /// A region that is being drawn.
+    pub(super) drawing: Option<Drawing>,
+    /// When the full-size trace is complete, if not with the samples of exports.
+    pub(super) until: Option<Until>,
     /// What is being moved in [`Mode::Move`].
     pub transform: Option<Transform>,
     /// The pointer's cell when the camera or a thing was last dragged.
@@ -95,6 +110,9 @@ impl Pictures {
             quality,
             grid: Grid::HALF_BLOCKS,
             aov: None,
+            display: Display::default(),
+            tally: None,
+            is_bright: false,
             wires: None,
             outline: Outline::default(),
             symbols: Symbols::default(),
@@ -102,6 +120,9 @@ impl Pictures {
             net: None,
             due: false,
             solo: None,
+            region: None,
+            drawing: None,
+            until: None,
             transform: None,
             drag: None,
             before_trace: None,
@@ -112,7 +133,9 @@ impl Pictures {
     pub(super) fn renew(&mut self) {
         *self = Self {
             grid: self.grid,
-            aov: self.aov,
+            aov: self.aov.filter(|aov| !matches!(aov, Aov::Direct(_))),
+            display: self.display,
+            tally: self.tally.take().map(|_| Tally::default()),
             wires: self.wires.take().map(|_| Wires::default()),
             outline: self.outline,
             symbols: self.symbols,
@@ -137,9 +160,10 @@ impl Pictures {
         }
     }
 
-    /// Whether a sample of the preview or the trace is still to be taken.
+    /// Whether a sample of the preview or the trace is still to be taken, without being told to.
     pub fn are_awaited(&self) -> bool {
-        self.preview.is_awaited() || self.trace.as_ref().is_some_and(Picture::is_awaited)
+        let goes_on = |trace: &Picture| trace.is_awaited() && !trace.paused;
+        self.preview.is_awaited() || self.trace.as_ref().is_some_and(goes_on)
     }
 
     /// The picture that receives a target's frames.
@@ -165,6 +189,11 @@ impl Pictures {
         {
             picture.take(frame);
         }
+    }
+
+    /// When the full-size trace is complete.
+    pub(super) fn until(&self) -> Until {
+        self.until.unwrap_or(Until::Samples(self.quality.spp))
     }
 
     /// Whether the full-size trace was started and has not been stopped.
@@ -226,6 +255,11 @@ impl Pictures {
             self.preview.forget_objects();
         }
         let is_new = before != Some(scene);
+        if let Some(Aov::Direct(light)) = self.aov
+            && scene.lights.len() <= light as usize
+        {
+            self.aov = None;
+        }
         self.due |= is_new;
         is_new
     }
@@ -263,9 +297,12 @@ impl Pictures {
             Some(Aov::Albedo) => "albedo: unlit colours",
             Some(Aov::Uv) => "texture coordinates: u red, v green",
             Some(Aov::Side) => "sides: front blue, back orange",
-            Some(Aov::Cost) => "cost: rays per sample",
-            Some(Aov::Samples) => "samples per pixel",
-            Some(Aov::Noise) => "noise: estimated error",
+            Some(Aov::Cost) => "cost: rays traced for a sample, few dark, many bright",
+            Some(Aov::Samples) => "samples taken: few dark, many bright",
+            Some(Aov::Noise) => "noise: estimated error of the light, small dark, large bright",
+            Some(Aov::Direct(_)) => "direct light of one light",
+            Some(Aov::Emission) => "emission, ambient light and background alone",
+            Some(Aov::Indirect) => "indirect light alone: by way of other surfaces",
         }
     }
 

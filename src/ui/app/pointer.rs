@@ -4,6 +4,7 @@ use crossterm::event::{KeyModifiers, MouseButton, MouseEvent, MouseEventKind};
 
 use super::camera::{advanced, dollied, orbited, shifted, turned};
 use super::model::Border;
+use super::regions::Held;
 use super::{App, PickerRow};
 use crate::render::{axes, pixel_width};
 use crate::ui::keymap::{Context, Mode};
@@ -30,6 +31,16 @@ impl App {
             _ if waits => {}
             MouseEventKind::ScrollUp | MouseEventKind::ScrollDown
                 if self.overlays.menu.is_some() || self.overlays.picker.is_some() => {}
+            MouseEventKind::ScrollUp | MouseEventKind::ScrollDown
+                if self.zooms(at, event.modifiers) =>
+            {
+                let steps = if event.kind == MouseEventKind::ScrollUp {
+                    1
+                } else {
+                    -1
+                };
+                self.magnify_at(steps, at);
+            }
             MouseEventKind::ScrollUp => self.wheel(at, -1),
             MouseEventKind::ScrollDown => self.wheel(at, 1),
             _ if self.overlays.help.is_some() => {}
@@ -50,6 +61,7 @@ impl App {
                 self.drag(at);
             }
             MouseEventKind::Drag(_) => self.drag_to_pan(at),
+            MouseEventKind::Up(_) if self.is_drawing_region() => return self.confirm_region(),
             MouseEventKind::Up(_) => {
                 self.pictures.drag = None;
                 self.resizing = None;
@@ -58,6 +70,34 @@ impl App {
             _ => {}
         }
         Vec::new()
+    }
+
+    /// Whether the wheel zooms the picture here.
+    fn zooms(&self, at: (u16, u16), modifiers: KeyModifiers) -> bool {
+        let asked = self.mode == Mode::Trace || modifiers.contains(KeyModifiers::CONTROL);
+        asked && self.overlays.help.is_none() && self.areas().picture.contains(at.into())
+    }
+
+    /// Whether the pointer is drawing a region.
+    fn is_drawing_region(&self) -> bool {
+        let drawing = self.pictures.drawing;
+        drawing.is_some_and(|drawing| drawing.held == Held::ByPointer)
+    }
+
+    /// The cell of the picture at this cell of the screen, or the nearest one.
+    fn cell_near(&self, at: (u16, u16)) -> Option<(u16, u16)> {
+        let (cells, _) = self.raster()?;
+        let near =
+            |at: u16, from: u16, length: u16| at.saturating_sub(from).min(length.saturating_sub(1));
+        Some((
+            near(at.0, cells.x, cells.width),
+            near(at.1, cells.y, cells.height),
+        ))
+    }
+
+    /// Whether dragging pans the picture on screen.
+    fn pans(&self) -> bool {
+        !self.viewport().is_fit() && !self.mode.moves_camera() && self.mode != Mode::Move
     }
 
     fn wheel(&mut self, at: (u16, u16), down: isize) {
@@ -174,7 +214,16 @@ impl App {
         if let Some(clicked) = field_at(areas.fields, self.cursor.field_top, components, at) {
             return self.press_field(clicked);
         }
-        let drags = self.mode.moves_camera() || self.mode == Mode::Move;
+        let is_over = areas.picture.contains(at.into());
+        if is_over && self.context() == Context::Region {
+            if let Some(cell) = self.cell_near(at) {
+                self.press_region(cell);
+            }
+            return Vec::new();
+        }
+        let drags = self.mode.moves_camera()
+            || self.mode == Mode::Move
+            || self.mode == Mode::Trace && self.pans();
         if drags && areas.picture.contains(at.into()) {
             self.pictures.drag = Some(at);
         } else if let Some((cells, _)) = self.raster()
@@ -200,20 +249,30 @@ impl App {
     }
 
     fn press_to_pan(&mut self, at: (u16, u16)) {
-        if self.mode.moves_camera() && self.areas().picture.contains(at.into()) {
+        let drags = self.mode.moves_camera() || self.pans();
+        if drags && self.areas().picture.contains(at.into()) {
             self.pictures.drag = Some(at);
         }
     }
 
     /// Pans so that what is at the distance of the target follows the pointer.
     fn drag_to_pan(&mut self, at: (u16, u16)) {
-        let Some(from) = self.pictures.drag.filter(|_| self.mode.moves_camera()) else {
+        let Some(from) = self.pictures.drag else {
             return;
         };
+        if self.pans() {
+            self.drag_picture(from, at);
+            self.pictures.drag = Some(at);
+            return;
+        }
+        if !self.mode.moves_camera() {
+            return;
+        }
         let Some((camera, (_, size))) = self.camera().zip(self.raster()) else {
             return;
         };
-        let unit = pixel_width(camera.target, &camera, size);
+        let magnification = self.sight().map_or(1.0, |sight| sight.magnification(size));
+        let unit = pixel_width(camera.target, &camera, size) / magnification;
         let [right, up, _] = axes(&camera);
         let moved = |from: u16, to: u16| f64::from(to) - f64::from(from);
         // A cell shows two pixels, one above the other.
@@ -231,9 +290,20 @@ impl App {
         if self.slide_to(at.0) {
             return;
         }
+        if self.is_drawing_region() {
+            if let Some(cell) = self.cell_near(at) {
+                self.drag_region(cell);
+            }
+            return;
+        }
         let Some(from) = self.pictures.drag else {
             return;
         };
+        if self.mode == Mode::Trace {
+            self.drag_picture(from, at);
+            self.pictures.drag = Some(at);
+            return;
+        }
         let moved = |from: u16, to: u16| f64::from(to) - f64::from(from);
         if self.mode == Mode::Move {
             // A cell shows two pixels, one above the other.

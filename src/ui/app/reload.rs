@@ -251,6 +251,9 @@ impl App {
         lowered: Lowered,
         words: &Wording,
     ) {
+        if let Ends::Merge = words.ends {
+            self.document.name_step(StepName::done("merged the file"));
+        }
         let (scene, sound) = (self.scene.clone(), self.error_count() == 0);
         self.install(lowered);
         let lost = self.cursor.follow(held, edit, self.document.source());

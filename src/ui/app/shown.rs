@@ -2,8 +2,8 @@
 
 use std::ops::Range;
 
-use super::sight::Part;
-use crate::render::NO_OBJECT;
+use super::sight::{Marked, Reason, Sight, Window};
+use crate::render::{Frame, NO_OBJECT};
 use crate::scene::Size;
 
 /// Pixels as shown on screen.
@@ -78,74 +78,229 @@ impl Shown {
     /// Resamples the picture, without its outline.
     #[must_use]
     pub fn resampled(&self, size: Size) -> Self {
-        let whole = Part {
-            left: 0,
-            top: 0,
+        let layer = Layer {
+            colours: &self.pixels,
+            objects: &self.objects,
             size: self.size,
+            corner: [0; 2],
+            whole: self.size,
         };
-        Self::of((&self.pixels, &self.objects), self.size, whole, size)
+        Self::seen(&[layer], &Sight::whole(size))
     }
 
-    /// Resamples a part of a picture of size `from`, given the colours of its pixels and the
-    /// objects under them, to size `to`: averages when shrinking, repeats the nearest pixels when
-    /// enlarging.
-    pub(super) fn of(
-        (pixels, objects): (&[[u8; 3]], &[u32]),
-        from: Size,
-        part: Part,
-        to: Size,
-    ) -> Self {
-        if from == to && part.size == from || part.size.pixels() == 0 {
+    /// The picture as it is seen: from the first of the layers that has what a pixel shows; black
+    /// outside all of them. Averages when shrinking, repeats the nearest pixels when enlarging. A
+    /// marked region has a dim border.
+    pub(super) fn seen(layers: &[Layer<'_>], sight: &Sight) -> Self {
+        let to = sight.size;
+        let Some(first) = layers.first() else {
+            return Self::default();
+        };
+        let is_empty = first.size.pixels() == 0;
+        if is_empty || sight.window.is_none() && first.is_whole() && first.size == to {
             return Self {
-                size: from,
-                pixels: pixels.to_vec(),
-                objects: objects.to_vec(),
+                size: first.size,
+                pixels: first.colours.to_vec(),
+                objects: first.objects.to_vec(),
                 outline: Vec::new(),
             };
         }
-        let width = from.width as usize;
+        let window = sight.window_of(first.whole);
+        let placed: Vec<_> = layers
+            .iter()
+            .map(|layer| (layer, layer.columns(&window, to), layer.rows(&window, to)))
+            .collect();
         let mut shown = Self {
             size: to,
             pixels: Vec::with_capacity(to.pixels()),
             objects: Vec::with_capacity(to.pixels()),
             outline: Vec::new(),
         };
-        for y in 0..to.height {
-            let rows = covered(y, to.height, part.top, part.size.height);
-            for x in 0..to.width {
-                let columns = covered(x, to.width, part.left, part.size.width);
-                let mut sum = [0u64; 3];
-                for row in rows.clone() {
-                    for pixel in &pixels[row * width + columns.start..row * width + columns.end] {
-                        for (sum, channel) in sum.iter_mut().zip(pixel) {
-                            *sum += u64::from(*channel);
-                        }
-                    }
-                }
-                let count = (rows.len() * columns.len()) as u64;
-                shown
-                    .pixels
-                    .push(sum.map(|sum| ((sum + count / 2) / count) as u8));
-                let middle = |range: &Range<usize>| range.start + range.len() / 2;
-                shown
-                    .objects
-                    .push(objects[middle(&rows) * width + middle(&columns)]);
+        for y in 0..to.height as usize {
+            for x in 0..to.width as usize {
+                let mut known = placed.iter().filter_map(|(layer, columns, rows)| {
+                    Some(layer.mean(columns[x].clone()?, rows[y].clone()?))
+                });
+                let (colour, object) = known.next().unwrap_or(([0; 3], NO_OBJECT));
+                shown.pixels.push(colour);
+                shown.objects.push(object);
+            }
+        }
+        if let Some(marked) = sight
+            .marked
+            .filter(|marked| marked.reason == Reason::Traced)
+        {
+            for at in border(sight, marked) {
+                shown.pixels[at] = shown.pixels[at].map(|channel| channel / 2 + 64);
             }
         }
         shown
     }
 }
 
-/// The pixels that pixel `at` of `to` covers, at least one, where all cover `length` from `start`.
-fn covered(at: u32, to: u32, start: u32, length: u32) -> Range<usize> {
-    let scaled = |at: u32| (u64::from(at) * u64::from(length) / u64::from(to)) as usize;
+/// A frame to see, or what another frame leaves to see.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Layer<'f> {
+    /// The colours of its pixels.
+    pub(super) colours: &'f [[u8; 3]],
+    /// The objects under its pixels.
+    pub(super) objects: &'f [u32],
+    /// Size in pixels.
+    pub(super) size: Size,
+    /// The place of the top left pixel in the whole picture.
+    pub(super) corner: [u32; 2],
+    /// The size of the whole picture.
+    pub(super) whole: Size,
+}
+
+impl<'f> Layer<'f> {
+    /// A frame in these colours.
+    pub(super) fn of(frame: &'f Frame, colours: &'f [[u8; 3]]) -> Self {
+        Self {
+            colours,
+            objects: &frame.objects,
+            size: frame.size,
+            corner: frame.corner,
+            whole: frame.whole(),
+        }
+    }
+
+    fn is_whole(&self) -> bool {
+        self.size == self.whole
+    }
+
+    /// The columns that each pixel in a row on screen covers, if it covers any.
+    fn columns(&self, window: &Window, to: Size) -> Vec<Option<Range<usize>>> {
+        let scale = (window.whole.width, self.whole.width);
+        let own = (self.corner[0], self.size.width);
+        let part = (window.part.x, window.part.width);
+        (0..to.width)
+            .map(|x| {
+                covered(x, window.fills.width, part).and_then(|range| scaled(range, scale, own))
+            })
+            .collect()
+    }
+
+    /// The rows that each pixel in a column on screen covers, if it covers any.
+    fn rows(&self, window: &Window, to: Size) -> Vec<Option<Range<usize>>> {
+        let scale = (window.whole.height, self.whole.height);
+        let own = (self.corner[1], self.size.height);
+        let part = (window.part.y, window.part.height);
+        (0..to.height)
+            .map(|y| {
+                covered(y, window.fills.height, part).and_then(|range| scaled(range, scale, own))
+            })
+            .collect()
+    }
+
+    /// The mean colour of some pixels, and the object in their middle.
+    fn mean(&self, columns: Range<usize>, rows: Range<usize>) -> ([u8; 3], u32) {
+        let width = self.size.width as usize;
+        let mut sum = [0u64; 3];
+        for row in rows.clone() {
+            for pixel in &self.colours[row * width + columns.start..row * width + columns.end] {
+                for (sum, channel) in sum.iter_mut().zip(pixel) {
+                    *sum += u64::from(*channel);
+                }
+            }
+        }
+        let count = (rows.len() * columns.len()) as u64;
+        let object = self.objects[middle(&rows) * width + middle(&columns)];
+        (sum.map(|sum| ((sum + count / 2) / count) as u8), object)
+    }
+}
+
+/// The indices of the pixels on screen around a region.
+pub(super) fn border(sight: &Sight, marked: Marked) -> Vec<usize> {
+    let Size { width, height } = sight.size;
+    let window = sight.window_of(marked.whole);
+    let own = |from: u32, length: u32| (from, length);
+    let columns = (window.part.x, window.part.width);
+    let rows = (window.part.y, window.part.height);
+    let inside = |at: u32, fills: u32, part, scale, own| {
+        covered(at, fills, part)
+            .and_then(|range| scaled(range, scale, own))
+            .is_some()
+    };
+    let region = marked.region;
+    let across: Vec<_> = (0..width)
+        .map(|x| {
+            let scale = (window.whole.width, marked.whole.width);
+            inside(
+                x,
+                window.fills.width,
+                columns,
+                scale,
+                own(region.x, region.width),
+            )
+        })
+        .collect();
+    let down: Vec<_> = (0..height)
+        .map(|y| {
+            let scale = (window.whole.height, marked.whole.height);
+            inside(
+                y,
+                window.fills.height,
+                rows,
+                scale,
+                own(region.y, region.height),
+            )
+        })
+        .collect();
+    let near = |inside: &[bool], at: usize| {
+        let beside = at.saturating_sub(1)..inside.len().min(at + 2);
+        inside[beside].contains(&true)
+    };
+    let is_border =
+        |&(x, y): &(usize, usize)| near(&across, x) && near(&down, y) && !(across[x] && down[y]);
+    (0..height as usize)
+        .flat_map(|y| (0..width as usize).map(move |x| (x, y)))
+        .filter(is_border)
+        .map(|(x, y)| y * width as usize + x)
+        .collect()
+}
+
+/// The pixels that pixel `at` of `fills` covers, at least one, where all cover a part with this start
+/// and length; `None` beyond.
+fn covered(at: u32, fills: u32, (start, length): (u32, u32)) -> Option<Range<usize>> {
+    let scaled = |at: u32| u64::from(at) * u64::from(length) / u64::from(fills.max(1));
     let (first, end) = (scaled(at), scaled(at + 1));
-    start as usize + first..start as usize + end.max(first + 1)
+    let end = end.max(first + 1).min(length.into());
+    (first < end).then(|| {
+        let start = start as usize;
+        start + first as usize..start + end as usize
+    })
+}
+
+/// A range of pixels in a picture of another length, from the start of a part of that; `None` if its
+/// middle is outside the part.
+fn scaled(
+    range: Range<usize>,
+    (from, to): (u32, u32),
+    (start, length): (u32, u32),
+) -> Option<Range<usize>> {
+    let (start, end) = (start as usize, start as usize + length as usize);
+    let range = if from == to {
+        range
+    } else {
+        let scaled = |at: usize| (at as u64 * u64::from(to) / u64::from(from.max(1))) as usize;
+        let first = scaled(range.start);
+        first..scaled(range.end).max(first + 1)
+    };
+    (start..end).contains(&middle(&range)).then(|| {
+        let first = range.start.max(start);
+        first - start..range.end.min(end) - start
+    })
+}
+
+fn middle(range: &Range<usize>) -> usize {
+    range.start + range.len() / 2
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::render::Region;
 
     fn size(width: u32, height: u32) -> Size {
         Size { width, height }
@@ -168,18 +323,84 @@ mod tests {
         assert_eq!(shown.resampled(size(2, 2)), shown);
     }
 
+    /// Pixels numbered row by row.
+    fn numbers(count: u32) -> (Vec<[u8; 3]>, Vec<u32>) {
+        let colours = (0..count).map(|at| [at as u8; 3]).collect();
+        (colours, (0..count).collect())
+    }
+
+    fn window(whole: Size, part: &str, fills: Size) -> Window {
+        Window {
+            whole,
+            part: Region::parse(part).expect("a region"),
+            fills,
+        }
+    }
+
     #[test]
     fn a_part_fills_the_screen() {
-        let pixels: Vec<_> = (0..12).map(|at| [at; 3]).collect();
-        let objects: Vec<_> = (0..12).collect();
-        let part = Part {
-            left: 1,
-            top: 1,
-            size: size(2, 2),
+        let (colours, objects) = numbers(12);
+        let whole = size(4, 3);
+        let layer = Layer {
+            colours: &colours,
+            objects: &objects,
+            size: whole,
+            corner: [0; 2],
+            whole,
         };
-        let seen = |to| Shown::of((&pixels, &objects), size(4, 3), part, to).objects;
-        assert_eq!(seen(size(2, 2)), [5, 6, 9, 10]);
-        assert_eq!(seen(size(4, 2)), [5, 5, 6, 6, 9, 9, 10, 10]);
-        assert_eq!(seen(size(1, 1)), [10]);
+        let seen = |to, window| {
+            let sight = Sight {
+                window: Some(window),
+                ..Sight::whole(to)
+            };
+            Shown::seen(&[layer], &sight).objects
+        };
+        let part = |fills| window(whole, "1,1,2,2", fills);
+        assert_eq!(seen(size(2, 2), part(size(2, 2))), [5, 6, 9, 10]);
+        assert_eq!(
+            seen(size(4, 2), part(size(4, 2))),
+            [5, 5, 6, 6, 9, 9, 10, 10]
+        );
+        assert_eq!(seen(size(1, 1), part(size(1, 1))), [10]);
+        // Blocks that do not fit are cut off, and what is beyond the picture is black.
+        assert_eq!(seen(size(3, 2), part(size(4, 4))), [5, 5, 6, 5, 5, 6]);
+        let none = NO_OBJECT;
+        assert_eq!(
+            seen(size(3, 2), part(size(2, 2))),
+            [5, 6, none, 9, 10, none]
+        );
+    }
+
+    /// A region, over another frame of a smaller picture.
+    #[test]
+    fn what_a_layer_lacks_is_seen_in_the_next() {
+        let (colours, objects) = numbers(4);
+        let region = Layer {
+            colours: &colours,
+            objects: &objects,
+            size: size(2, 2),
+            corner: [2, 0],
+            whole: size(4, 4),
+        };
+        let under = Layer {
+            size: size(2, 2),
+            corner: [0; 2],
+            whole: size(2, 2),
+            objects: &[6, 7, 8, 9],
+            ..region
+        };
+        let sight = Sight::whole(size(4, 4));
+        let seen = Shown::seen(&[region, under], &sight);
+        let rows: Vec<_> = seen.objects.chunks(4).collect();
+        assert_eq!(
+            rows,
+            [[6, 6, 0, 1], [6, 6, 2, 3], [8, 8, 9, 9], [8, 8, 9, 9]]
+        );
+        let marked = Marked {
+            whole: size(4, 4),
+            region: Region::parse("2,0,2,2").expect("a region"),
+            reason: Reason::Traced,
+        };
+        assert_eq!(border(&sight, marked), [1, 5, 9, 10, 11]);
     }
 }

@@ -2,18 +2,53 @@
 
 use std::borrow::Cow;
 
-use crate::render::Frame;
+use crate::render::{Display, Frame, Region};
 use crate::scene::{Camera, Size};
 
-/// How a frame is mapped to the screen.
+/// How a picture is mapped to the screen.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Sight {
     /// Pixels of the picture on screen.
     pub size: Size,
     /// Pixels in each cell.
     pub grid: Grid,
-    /// The part of the frame that fills them; `None` for all of it.
-    pub part: Option<Part>,
+    /// The part of the picture that fills them; `None` for all of it.
+    pub window: Option<Window>,
+    /// The region that is marked.
+    pub marked: Option<Marked>,
+    /// How light is displayed.
+    pub display: Display,
+}
+
+/// The part of a picture that is seen.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Window {
+    /// The size of the whole picture at this scale.
+    pub whole: Size,
+    /// The part of it.
+    pub part: Region,
+    /// The pixels on screen that the part covers; those beyond the screen are cut off.
+    pub fills: Size,
+}
+
+/// A region of a picture, marked on screen.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Marked {
+    /// The size of the whole picture.
+    pub whole: Size,
+    /// The region.
+    pub region: Region,
+    /// Why it is marked.
+    pub reason: Reason,
+}
+
+/// Why a region is marked.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Reason {
+    /// It is being drawn.
+    Drawn,
+    /// It alone is traced.
+    Traced,
 }
 
 /// Pixels in each cell, which is taken to be twice as high as wide.
@@ -25,61 +60,111 @@ pub struct Grid {
     pub down: u16,
 }
 
-/// A rectangle of a frame, in pixels from its top left corner.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Part {
-    /// Columns to its left.
-    pub left: u32,
-    /// Rows above it.
-    pub top: u32,
-    /// Width and height, at least 1.
-    pub size: Size,
-}
-
 impl Sight {
     /// A sight of a whole frame on two pixels a cell.
     pub fn whole(size: Size) -> Self {
         Self {
             size,
             grid: Grid::HALF_BLOCKS,
-            part: None,
+            window: None,
+            marked: None,
+            display: Display::default(),
         }
     }
 
     /// The colours of the frame's pixels as they are to be seen.
     pub(super) fn colours<'f>(&self, frame: &'f Frame) -> Cow<'f, [[u8; 3]]> {
-        Cow::Borrowed(&frame.pixels)
+        let displayed = self.display.apply(frame);
+        displayed.map_or(Cow::Borrowed(&frame.pixels), Cow::Owned)
     }
 
-    /// The part of a frame of this size that is seen.
-    pub(super) fn part_of(&self, frame: Size) -> Part {
-        let whole = Part {
-            left: 0,
-            top: 0,
-            size: frame,
+    /// What of a picture of this size is seen.
+    pub(super) fn window_of(&self, whole: Size) -> Window {
+        self.window.unwrap_or(Window {
+            whole,
+            part: Region::whole(whole),
+            fills: self.size,
+        })
+    }
+
+    /// The pixel, in a picture of this size, under the upper half of a cell, counted from the
+    /// picture's upper left one.
+    pub fn pixel_at(&self, (column, row): (u16, u16), whole: Size) -> Option<[u32; 2]> {
+        let Grid { across, down } = self.grid;
+        let x = u32::from(column) * u32::from(across) + u32::from(across) / 2;
+        let y = u32::from(row) * u32::from(down) + u32::from(down) / 4;
+        if self.size.width <= x || self.size.height <= y {
+            return None;
+        }
+        let Window {
+            whole: seen,
+            part,
+            fills,
+        } = self.window_of(whole);
+        let scaled = |at: u32, fills: u32, from: u32, length: u32, seen: u32, whole: u32| {
+            // Twice the centre of the pixel on screen, in pixels of the part.
+            let within = (2 * u64::from(at) + 1) * u64::from(length) / u64::from(fills.max(1));
+            let twice = (2 * u64::from(from) + within) * u64::from(whole) / u64::from(seen.max(1));
+            let inside = u64::from(at) * u64::from(length) / u64::from(fills.max(1));
+            let pixel = (twice / 2).min(u64::from(whole.max(1)) - 1) as u32;
+            (inside < u64::from(length)).then_some(pixel)
         };
-        self.part
-            .map_or(whole, |part| part.clipped(frame).unwrap_or(whole))
+        Some([
+            scaled(x, fills.width, part.x, part.width, seen.width, whole.width)?,
+            scaled(
+                y,
+                fills.height,
+                part.y,
+                part.height,
+                seen.height,
+                whole.height,
+            )?,
+        ])
+    }
+
+    /// Where a place of the whole picture is on screen, both in half blocks from its upper left
+    /// corner, if the whole picture has the size `halves`.
+    pub fn on_screen(&self, [x, y]: [f64; 2], halves: Size) -> [f64; 2] {
+        let Some(Window { whole, part, fills }) = self.window else {
+            return [x, y];
+        };
+        let moved =
+            |at: f64, all: u32, seen: u32, from: u32, length: u32, fills: u32, cell: f64| {
+                let at = at / f64::from(all) * f64::from(seen) - f64::from(from);
+                at * f64::from(fills) / f64::from(length) / cell
+            };
+        let (across, down) = (f64::from(self.grid.across), f64::from(self.grid.down));
+        [
+            moved(
+                x,
+                halves.width,
+                whole.width,
+                part.x,
+                part.width,
+                fills.width,
+                across,
+            ),
+            moved(
+                y,
+                halves.height,
+                whole.height,
+                part.y,
+                part.height,
+                fills.height,
+                0.5 * down,
+            ),
+        ]
+    }
+
+    /// How much larger it shows the picture than if it showed all of it in the size `halves`.
+    pub fn magnification(&self, halves: Size) -> f64 {
+        let [from, to] = [0.0, 1.0].map(|x| self.on_screen([x, 0.0], halves)[0]);
+        to - from
     }
 
     /// The number of cells of the picture.
     pub(super) fn cells(&self) -> usize {
         self.grid.cells(self.size)
-    }
-}
-
-impl Part {
-    /// What of it lies inside a frame of this size, if anything does.
-    fn clipped(self, frame: Size) -> Option<Self> {
-        let inside = |from: u32, length: u32, end: u32| {
-            let length = length.min(end.checked_sub(from)?);
-            (0 < length).then_some(length)
-        };
-        let size = Size {
-            width: inside(self.left, self.size.width, frame.width)?,
-            height: inside(self.top, self.size.height, frame.height)?,
-        };
-        Some(Self { size, ..self })
     }
 }
 
@@ -185,22 +270,49 @@ mod tests {
     }
 
     #[test]
-    fn a_part_is_clipped_to_the_frame() {
-        let part = |left, top, width, height| Part {
-            left,
-            top,
-            size: size(width, height),
+    fn cells_find_the_pixels_they_show() {
+        let whole = size(40, 30);
+        let sight = |part: &str, fills| Sight {
+            window: Some(Window {
+                whole,
+                part: Region::parse(part).expect("a region"),
+                fills,
+            }),
+            ..Sight::whole(size(20, 12))
         };
-        for (asked, seen) in [
-            (part(1, 2, 3, 3), part(1, 2, 3, 3)),
-            (part(8, 5, 3, 3), part(8, 5, 2, 1)),
-            (part(10, 0, 3, 3), part(0, 0, 10, 6)),
+        let all = Sight::whole(size(20, 12));
+        let blocks = sight("8,6,5,3", size(20, 12));
+        let cut = sight("8,6,3,2", size(24, 16));
+        let narrow = sight("8,6,4,3", size(16, 12));
+        for (sight, cell, whole, pixel) in [
+            (all, (0, 0), whole, Some([1, 1])),
+            (all, (19, 5), whole, Some([39, 26])),
+            (all, (20, 0), whole, None),
+            (blocks, (0, 0), whole, Some([8, 6])),
+            (blocks, (3, 1), whole, Some([8, 6])),
+            (blocks, (4, 2), whole, Some([9, 7])),
+            (blocks, (4, 2), size(80, 60), Some([19, 15])),
+            (cut, (8, 4), whole, Some([9, 7])),
+            (narrow, (16, 0), whole, None),
         ] {
-            let sight = Sight {
-                part: Some(asked),
-                ..Sight::whole(size(4, 4))
-            };
-            assert_eq!(sight.part_of(size(10, 6)), seen);
+            assert_eq!(sight.pixel_at(cell, whole), pixel, "{sight:?} {cell:?}");
         }
+    }
+
+    #[test]
+    fn places_move_with_the_window() {
+        let halves = size(20, 12);
+        let sight = Sight {
+            window: Some(Window {
+                whole: size(40, 24),
+                part: Region::parse("8,6,5,3").expect("a region"),
+                fills: halves,
+            }),
+            ..Sight::whole(halves)
+        };
+        assert_eq!(sight.on_screen([4.0, 3.0], halves), [0.0, 0.0]);
+        assert_eq!(sight.on_screen([6.5, 4.5], halves), [20.0, 12.0]);
+        let whole = Sight::whole(halves);
+        assert_eq!(whole.on_screen([4.0, 3.0], halves), [4.0, 3.0]);
     }
 }

@@ -211,7 +211,8 @@ impl App {
             .collect()
     }
 
-    /// The job of a picture: as the preview would show the text, but always light.
+    /// The job of a picture: as the preview would show the text, from the working view if there is
+    /// one, so that pictures differ only by their texts; but always light, as files hold it.
     fn thumbnail_job(&mut self, slot: Slot, past: PastScene) -> Option<Job> {
         let own = past.scene.camera;
         let view = self.pictures.view.map(|view| Camera {

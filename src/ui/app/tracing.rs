@@ -2,9 +2,10 @@
 
 use std::sync::Arc;
 
+use super::viewport::{Detail, Screen};
 use super::{App, Grid, Picture, Wires};
 use crate::image_file::ImageFormat;
-use crate::render::{Filter, Frame, Frames, Job, Settings, default_depth};
+use crate::render::{Filter, Frame, Frames, Job, Region, Settings, default_depth};
 use crate::scene::{Integrator, Scene, Size};
 use crate::text::Severity;
 use crate::ui::keymap::{Action, Mode};
@@ -35,24 +36,41 @@ impl App {
             self.pictures.preview.asked = None;
             effects.extend(self.follow_trace());
         }
-        let size = self.preview_size();
-        if self.mode != Mode::Trace && self.pictures.preview.asked != size {
-            self.pictures.preview.asked = size;
-            let spp = preview_samples(self.integrator(), self.pictures.grid);
-            let job = size.zip(self.preview_scene());
-            let job = job.and_then(|(size, (scene, numbers))| {
-                let grid = self.pictures.grid;
-                let mut job = self.job_of(scene, grid.size(size), spp, Filter::Box)?;
-                job.camera = grid.camera(job.camera, size);
-                job.settings.aov = self.pictures.preview_aov();
-                if let Some(aov) = job.settings.aov {
-                    job.settings.spp = aov.samples(spp);
-                }
-                Some(Job { numbers, ..job })
-            });
+        let screen = self.preview_screen();
+        let asked = screen.map(|screen| self.preview_asked(screen));
+        if self.mode != Mode::Trace && self.pictures.preview.asked != asked {
+            self.pictures.preview.asked = asked;
+            let job = screen.zip(asked);
+            let job = job.and_then(|(screen, asked)| self.preview_job(screen, asked));
             effects.extend(job.map(|job| Effect::Trace(Target::Preview, job)));
         }
         effects
+    }
+
+    /// The size of the preview, and the part of it that is on screen.
+    fn preview_asked(&self, screen: Screen) -> (Size, Option<Region>) {
+        let preview = &self.pictures.preview;
+        let viewport = preview.viewport;
+        let window = viewport.window(screen, Detail::OnScreen);
+        match window.filter(|_| self.pictures.wires.is_none()) {
+            Some(window) => (window.whole, Some(window.part)),
+            None => (screen.grid.size(screen.halves), None),
+        }
+    }
+
+    fn preview_job(&self, screen: Screen, (size, region): (Size, Option<Region>)) -> Option<Job> {
+        let (scene, numbers) = self.preview_scene()?;
+        let spp = preview_samples(self.integrator(), screen.grid);
+        let mut job = self.job_of(scene, size, spp, Filter::Box)?;
+        job.settings.region = region;
+        if region.is_none() {
+            job.camera = screen.grid.camera(job.camera, screen.halves);
+        }
+        job.settings.aov = self.pictures.preview_aov();
+        if let Some(aov) = job.settings.aov {
+            job.settings.spp = aov.samples(spp);
+        }
+        Some(Job { numbers, ..job })
     }
 
     /// The wireframe if it is on screen instead of a traced picture.
@@ -74,15 +92,34 @@ impl App {
         }
     }
 
-    fn follow_trace(&mut self) -> Option<Effect> {
-        self.pictures.trace.as_ref()?;
-        if self.mode == Mode::Trace {
-            return self
-                .trace_job()
-                .map(|job| Effect::Trace(Target::Trace, job));
+    fn follow_trace(&mut self) -> Vec<Effect> {
+        match self.pictures.trace {
+            None => Vec::new(),
+            Some(_) if self.mode == Mode::Trace => self.restart_trace(),
+            Some(_) => {
+                self.pictures.trace = None;
+                vec![Effect::Stop(Target::Trace)]
+            }
         }
-        self.pictures.trace = None;
-        Some(Effect::Stop(Target::Trace))
+    }
+
+    /// Restarts the full-size trace if it is running; it continues from the pixels that stay valid.
+    pub(super) fn retrace(&mut self) -> Vec<Effect> {
+        if self.pictures.is_tracing() {
+            self.restart_trace()
+        } else {
+            Vec::new()
+        }
+    }
+
+    fn restart_trace(&mut self) -> Vec<Effect> {
+        let Ok(job) = self.trace_job() else {
+            return Vec::new();
+        };
+        if let Some(trace) = &mut self.pictures.trace {
+            trace.paused = false;
+        }
+        vec![Effect::Trace(Target::Trace, job)]
     }
 
     fn job(&self, size: Size, spp: u32, filter: Filter) -> Option<Job> {
@@ -146,20 +183,21 @@ impl App {
         }
     }
 
-    fn trace_job(&self) -> Option<Job> {
-        self.job(
-            self.output(),
-            self.pictures.quality.spp,
-            self.pictures.quality.filter,
-        )
+    fn trace_job(&self) -> Result<Job, String> {
+        let (spp, limit) = self.pictures.until().limits();
+        let mut job = self.final_job(self.output(), spp)?;
+        job.limit = limit;
+        job.settings.region = self.region();
+        Ok(job)
     }
 
+    /// Starts the full-size trace, or continues it after a stop or a pause.
     pub(super) fn start_trace(&mut self) -> Vec<Effect> {
         let is_begun = self.pictures.is_tracing();
         if self.mode == Mode::Trace && is_begun {
-            return Vec::new();
+            return self.resume();
         }
-        let job = match self.final_job(self.output(), self.pictures.quality.spp) {
+        let job = match self.trace_job() {
             Ok(job) => job,
             Err(reason) => {
                 self.refuse_picture(Severity::Error, &reason);
@@ -167,14 +205,11 @@ impl App {
             }
         };
         // A picture too large for a picture file is also too large to look at.
-        if let Some(reason) = ImageFormat::Bmp.refuses(job.settings.size) {
+        if let Some(reason) = ImageFormat::Bmp.refuses(job.settings.traced().size()) {
             self.overlays.fail(reason);
             return Vec::new();
         }
-        if self.mode != Mode::Trace {
-            self.pictures.leave_mode(self.mode);
-            self.mode = Mode::Trace;
-        }
+        self.enter_trace();
         if 0 < self.error_count() {
             let words = "the text has errors: this is the last valid scene";
             self.overlays.blame_errors(Severity::Warning, words);
@@ -182,8 +217,47 @@ impl App {
         if is_begun {
             return Vec::new();
         }
-        self.pictures.trace = Some(Picture::default());
+        let under = self.pictures.preview.whole();
+        let under = under.filter(|_| job.settings.region.is_some());
+        let trace = &mut self.pictures.trace;
+        trace.get_or_insert_with(|| Picture::over(under));
         vec![Effect::Trace(Target::Trace, job)]
+    }
+
+    pub(super) fn enter_trace(&mut self) {
+        if self.mode != Mode::Trace {
+            self.pictures.leave_mode(self.mode);
+            self.mode = Mode::Trace;
+        }
+    }
+
+    /// Pauses the full-size trace, or goes on.
+    pub(super) fn toggle_pause(&mut self) -> Vec<Effect> {
+        match &mut self.pictures.trace {
+            Some(trace) if trace.paused => self.resume(),
+            Some(trace) if trace.is_awaited() => {
+                trace.paused = true;
+                vec![Effect::Pause(Target::Trace)]
+            }
+            Some(trace) if trace.is_complete() => {
+                self.overlays
+                    .say("the picture is complete: there is nothing to pause");
+                Vec::new()
+            }
+            _ => self.start_trace(),
+        }
+    }
+
+    /// Ends the pause of the full-size trace, if it is paused.
+    fn resume(&mut self) -> Vec<Effect> {
+        let trace = self.pictures.trace.as_mut();
+        match trace.filter(|trace| trace.paused) {
+            Some(trace) => {
+                trace.paused = false;
+                vec![Effect::Resume(Target::Trace)]
+            }
+            None => Vec::new(),
+        }
     }
 
     pub(super) fn frame(&mut self, target: Target, frame: Arc<Frame>) -> Vec<Effect> {
@@ -197,6 +271,7 @@ impl App {
         }
         // Without a scene, it is of one that was left.
         if self.scene.is_some() {
+            self.hint_exposure(target, &frame);
             self.pictures.take(target, frame);
         }
         Vec::new()
@@ -226,10 +301,11 @@ impl App {
             .filter(|_| self.mode == Mode::Trace);
         if let Some(trace) = seen.filter(|trace| trace.wanted.is_some() && !trace.is_complete()) {
             trace.wanted = None;
+            trace.paused = false;
             let trace = self.key_for(Action::Go(Mode::Trace));
             self.overlays
-                .say(format!("stopped; press {trace} to restart"));
-            return vec![Effect::Stop(Target::Trace)];
+                .say(format!("stopped; press {trace} to continue"));
+            return vec![Effect::Halt(Target::Trace)];
         }
         self.cancel_export()
     }

@@ -48,7 +48,8 @@ impl App {
                 return;
             }
         };
-        let pixel = pixel_at(pose.centre, &camera, size);
+        let magnification = self.sight().map_or(1.0, |sight| sight.magnification(size));
+        let pixel = pixel_at(pose.centre, &camera, size) / magnification;
         let step = round_up(pixel);
         let trial = self.begin_trial();
         self.pictures.transform = Some(Transform {

@@ -25,6 +25,7 @@ impl App {
         self.scroll(&areas);
         self.follow_views();
         effects.extend(self.follow());
+        self.follow_histogram();
         effects.extend(self.follow_steps());
         effects.extend(self.disk.journal.follow(&self.document));
         effects.extend(self.follow_kept());
@@ -313,13 +314,22 @@ impl App {
             Action::Zoom => self.toggle_zoom(),
             Action::Resize(step) => self.resize_panels(step),
             Action::Divide(step) => self.resize_list(step),
-            Action::Show(aov) => self.overlays.say(self.pictures.show(aov)),
+            Action::Show(aov) => self.show(aov),
+            Action::Share(step) => self.step_share(step),
+            Action::Expose(half_stops) => self.expose(half_stops),
             Action::Wireframe => self.overlays.say(self.pictures.show_wires()),
             Action::Integrator => {
                 let words = self.pictures.toggle_integrator(self.scene.as_deref());
                 self.overlays.say(words);
             }
             Action::Stop => return self.stop(),
+            Action::Pause => return self.toggle_pause(),
+            Action::Magnify(steps) => self.magnify(steps),
+            Action::Scroll(right, down) => self.scroll_picture(right, down),
+            Action::OneToOne => self.toggle_scale(),
+            Action::Region => self.start_region(),
+            Action::Corner(right, down) => self.move_corner(right, down),
+            Action::OtherCorner => self.swap_corners(),
             Action::Export => return self.export_default(),
             Action::Save => return self.save_key(),
             Action::Editor => return self.open_editor(),
@@ -377,6 +387,7 @@ impl App {
             }
             Context::Opening => {}
             Context::Colour => self.cancel_colour(),
+            Context::Region => self.pictures.drawing = None,
             Context::In(Mode::Trace) => {
                 self.mode = self.pictures.mode_before();
             }
@@ -405,6 +416,7 @@ impl App {
             Context::In(Mode::Pick) => self.pick_cross(),
             Context::In(Mode::Move) => self.confirm_transform(),
             Context::Colour => self.confirm_colour(),
+            Context::Region => return self.confirm_region(),
             Context::In(_) | Context::Help | Context::Messages | Context::Opening => {}
         }
         Vec::new()

@@ -76,6 +76,8 @@ pub enum Context {
     Steps,
     /// The colour picker.
     Colour,
+    /// The drawing of a region in the full-size trace.
+    Region,
     /// The question how to resolve a merge.
     Conflict,
     /// The question whether to quit although edits are unsaved.
@@ -199,6 +201,20 @@ pub enum Action {
     Cross(i32, i32),
     /// Stops the work in progress.
     Stop,
+    /// Pauses the full-size trace, or goes on.
+    Pause,
+    /// Zooms the picture by doublings.
+    Magnify(i8),
+    /// Moves the window over the picture, in steps to the right and down.
+    Scroll(i8, i8),
+    /// Shows each pixel as one of the screen, or all of the picture.
+    OneToOne,
+    /// Begins to draw a region to trace alone.
+    Region,
+    /// Moves a corner of the region, in pixels of the screen to the right and down.
+    Corner(i32, i32),
+    /// Moves the opposite corner from now on.
+    OtherCorner,
     /// Exports what is shown, under the scene's name.
     Export,
     /// Saves the scene to its file; in the question whether to leave it, then leaves.
@@ -225,6 +241,10 @@ pub enum Action {
     Divide(i32),
     /// Shows one of the auxiliary images, or the lit picture.
     Show(Option<Aov>),
+    /// Shows the next share of the light: that of a light, emission, indirect light, all.
+    Share(isize),
+    /// Changes the exposure of the display, in half stops.
+    Expose(i8),
     /// Shows the preview as a wireframe.
     Wireframe,
     /// Switches between Whitted ray tracing and path tracing.

@@ -31,7 +31,7 @@ const START: [(&str, &str); 2] = [
     ("halflight doctor", "what was detected, and why"),
 ];
 
-const MOUSE: [(&str, &str); 11] = [
+const MOUSE: [(&str, &str); 14] = [
     ("click the list", "select"),
     ("click a field", "move the cursor there"),
     ("click it again", "choose or type a value"),
@@ -41,8 +41,11 @@ const MOUSE: [(&str, &str); 11] = [
     ("drag it in VIEW", "orbit"),
     ("drag it with Ctrl or right", "in VIEW, pan"),
     ("drag it in MOVE", "move, rotate or scale"),
+    ("drag it in TRACE", "pan; after R, draw the region"),
     ("drag a border", "resize the panels"),
-    ("wheel", "scroll; in VIEW, dolly"),
+    ("wheel", "scroll; in VIEW, dolly; in TRACE, zoom"),
+    ("Ctrl and wheel", "zoom the preview"),
+    ("drag with another button", "pan the zoomed preview"),
 ];
 
 /// An input and its description.
@@ -109,6 +112,7 @@ impl Keymap {
             Context::In(Trace) => TRACE_HINTS,
             Context::Errors => ERROR_HINTS,
             Context::Colour => COLOUR_HINTS,
+            Context::Region => REGION_HINTS,
             Context::Opening => &[],
             Context::Help
             | Context::Messages
@@ -287,7 +291,34 @@ const PICK_HINTS: &[Hint] = &[
     (&[A::Accept], "select"),
     (&[A::Back], "back"),
 ];
+const REGION_HINTS: &[Hint] = &[
+    (
+        &[
+            A::Corner(-1, 0),
+            A::Corner(0, 1),
+            A::Corner(0, -1),
+            A::Corner(1, 0),
+        ],
+        "move the corner",
+    ),
+    (&[A::OtherCorner], "other corner"),
+    (&[A::Accept], "trace it"),
+    (&[A::Back], "cancel"),
+];
 const TRACE_HINTS: &[Hint] = &[
+    (&[A::Magnify(1), A::Magnify(-1)], "zoom"),
+    (
+        &[
+            A::Scroll(-1, 0),
+            A::Scroll(0, 1),
+            A::Scroll(0, -1),
+            A::Scroll(1, 0),
+        ],
+        "pan",
+    ),
+    (&[A::OneToOne], "1:1"),
+    (&[A::Pause], "pause"),
+    (&[A::Region], "region"),
     (&[A::Stop], "stop"),
     (&[A::Back], "back"),
     (&[A::Integrator], "path tracing"),

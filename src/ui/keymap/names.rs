@@ -75,6 +75,13 @@ pub(super) const fn of_action(action: Action) -> &'static str {
         A::SavedViews => "saved-views",
         A::DeleteView => "delete-view",
         A::Stop => "stop",
+        A::Pause => "pause",
+        A::Magnify(1..) => "zoom-in",
+        A::Magnify(_) => "zoom-out",
+        A::Scroll(..) | A::Corner(..) => of_window(action),
+        A::OneToOne => "one-to-one",
+        A::Region => "region",
+        A::OtherCorner => "other-corner",
         A::Export => "export",
         A::Save => "save",
         A::Undo => "undo",
@@ -99,6 +106,13 @@ pub(super) const fn of_action(action: Action) -> &'static str {
         A::Show(Some(Aov::Cost)) => "show-cost",
         A::Show(Some(Aov::Samples)) => "show-samples",
         A::Show(Some(Aov::Noise)) => "show-noise",
+        A::Show(Some(Aov::Direct(_))) => "show-direct",
+        A::Show(Some(Aov::Emission)) => "show-emission",
+        A::Show(Some(Aov::Indirect)) => "show-indirect",
+        A::Share(1..) => "next-share",
+        A::Share(_) => "previous-share",
+        A::Expose(1..) => "brighter",
+        A::Expose(_) => "darker",
         A::Wireframe => "wireframe",
         A::Integrator => "integrator",
         A::Repaint => "redraw",
@@ -152,6 +166,23 @@ const fn of_step(action: Action) -> &'static str {
     }
 }
 
+const fn of_window(action: Action) -> &'static str {
+    match action {
+        A::Scroll(1.., _) => "scroll-right",
+        A::Scroll(0, 1..) => "scroll-down",
+        A::Scroll(0, _) => "scroll-up",
+        A::Scroll(..) => "scroll-left",
+        A::Corner(2.., _) => "corner-right-far",
+        A::Corner(1, _) => "corner-right",
+        A::Corner(0, 2..) => "corner-down-far",
+        A::Corner(0, 1) => "corner-down",
+        A::Corner(0, -1) => "corner-up",
+        A::Corner(0, _) => "corner-up-far",
+        A::Corner(-1, _) => "corner-left",
+        _ => "corner-left-far",
+    }
+}
+
 const fn of_camera(action: Action) -> &'static str {
     match action {
         A::Orbit(1.., _) => "orbit-left",
@@ -188,6 +219,7 @@ pub(super) const fn of_context(context: Context) -> Option<&'static str> {
         Context::In(Mode::Pick) => "pick",
         Context::In(Mode::Move) => "move",
         Context::Colour => "colour",
+        Context::Region => "region",
         Context::Opening => return None,
         Context::Help => "help",
         Context::Messages => "messages",

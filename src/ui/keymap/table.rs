@@ -100,6 +100,16 @@ const EDIT: Scope = Scope::These(&[Context::In(Edit)]);
 const COLOUR: Scope = Scope::These(&[Context::Colour]);
 /// Where numbers are nudged.
 const VALUES: Scope = Scope::These(&[Context::In(Edit), Context::Colour]);
+/// Where panels are on screen or can be.
+const PANELS: Scope = Scope::These(&[
+    Context::In(Select),
+    Context::In(Edit),
+    Context::In(View),
+    Context::In(Fly),
+    Context::In(Pick),
+    Context::Errors,
+]);
+const REGION: Scope = Scope::These(&[Context::Region]);
 const TRACE: Scope = Scope::These(&[Context::In(Trace)]);
 /// Contexts in which digits are not part of a number.
 const PICTURES: Scope = Scope::These(&[
@@ -314,10 +324,35 @@ pub(super) const TABLE: &[Binding] = &[
     bind(PICTURES, &[c('3')], A::Show(Some(Aov::Normal)), "show normals"),
     bind(PICTURES, &[c('4')], A::Show(Some(Aov::Object)), "show objects, one colour each"),
     bind(PICTURES, &[c('5')], A::Show(Some(Aov::Albedo)), "show unlit colours"),
+    bind(PICTURES, &[c('7')], A::Show(Some(Aov::Cost)), "show cost: rays traced"),
+    bind(PICTURES, &[c('8')], A::Show(Some(Aov::Samples)), "show samples taken"),
+    bind(PICTURES, &[c('9')], A::Show(Some(Aov::Noise)), "show noise: estimated error"),
+    bind(PICTURES, &[c(')')], A::Share(1), "next share of the light"),
+    bind(PICTURES, &[c('(')], A::Share(-1), "previous share of the light"),
 
     bind(PREVIEWS, &[c('6')], A::Wireframe, "show a wireframe, for slow links"),
 
+    bind(TRACE, &[c('h'), key(Left)], A::Scroll(-1, 0), "pan left"),
+    bind(TRACE, &[c('j'), key(Down)], A::Scroll(0, 1), "pan down"),
+    bind(TRACE, &[c('k'), key(Up)], A::Scroll(0, -1), "pan up"),
+    bind(TRACE, &[c('l'), key(Right)], A::Scroll(1, 0), "pan right"),
+    bind(TRACE, &[c('+')], A::Magnify(1), "zoom in"),
+    bind(TRACE, &[c('-')], A::Magnify(-1), "zoom out"),
+    bind(TRACE, &[c('z')], A::OneToOne, "zoom to 1:1, or fit the picture"),
+    bind(TRACE, &[c(' ')], A::Pause, "pause or continue"),
+    bind(TRACE, &[c('R')], A::Region, "draw a region to trace alone"),
     bind(TRACE, &[c('x')], A::Stop, "stop"),
+    bind(REGION, &[c('h'), key(Left)], A::Corner(-1, 0), "corner left"),
+    bind(REGION, &[c('j'), key(Down)], A::Corner(0, 1), "corner down"),
+    bind(REGION, &[c('k'), key(Up)], A::Corner(0, -1), "corner up"),
+    bind(REGION, &[c('l'), key(Right)], A::Corner(1, 0), "corner right"),
+    bind(REGION, &[c('H'), Chord(Left, SHIFT)], A::Corner(-8, 0), "corner left 8 pixels"),
+    bind(REGION, &[c('J'), Chord(Down, SHIFT)], A::Corner(0, 8), "corner down 8 pixels"),
+    bind(REGION, &[c('K'), Chord(Up, SHIFT)], A::Corner(0, -8), "corner up 8 pixels"),
+    bind(REGION, &[c('L'), Chord(Right, SHIFT)], A::Corner(8, 0), "corner right 8 pixels"),
+    bind(REGION, &[key(Tab)], A::OtherCorner, "other corner"),
+    bind(REGION, &[key(Enter)], A::Accept, "trace the region"),
+    bind(REGION, &[key(Esc)], A::Back, "cancel"),
     bind(SELECT, &[c('x')], A::Stop, "cancel the export"),
     bind(Scope::Everywhere, &[key(Esc)], A::Back, "back"),
     bind(Scope::Sceneless, &[c('?')], A::Help, "help"),
@@ -331,11 +366,13 @@ pub(super) const TABLE: &[Binding] = &[
     bind(Scope::Everywhere, &[c('!')], A::Errors, "errors and warnings"),
     bind(Scope::Sceneless, &[c('M')], A::Messages, "messages so far"),
     bind(Scope::Everywhere, &[c('E')], A::Editor, "open the editor at the selected item"),
-    bind(Scope::Everywhere, &[c('z')], A::Zoom, "show or hide the panels"),
+    bind(PANELS, &[c('z')], A::Zoom, "show or hide the panels"),
     bind(Scope::Everywhere, &[c('{')], A::Resize(2), "larger panels"),
     bind(Scope::Everywhere, &[c('}')], A::Resize(-2), "smaller panels"),
     bind(Scope::Everywhere, &[alt('{')], A::Divide(-1), "smaller list, larger fields"),
     bind(Scope::Everywhere, &[alt('}')], A::Divide(1), "larger list, smaller fields"),
+    bind(Scope::Everywhere, &[c('<')], A::Expose(-1), "darker display, by half a stop"),
+    bind(Scope::Everywhere, &[c('>')], A::Expose(1), "brighter display"),
     bind(Scope::Everywhere, &[c('P')], A::Integrator, "toggle path tracing"),
     bind(Scope::Always, &[ctrl('l')], A::Repaint, "redraw the screen"),
     bind(Scope::Always, &[ctrl('z')], A::Suspend, "suspend"),
@@ -376,6 +413,7 @@ mod tests {
             Recent,
             Context::Steps,
             Context::Colour,
+            Context::Region,
             Conflict,
             Quit,
             Leave,

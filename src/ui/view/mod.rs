@@ -12,6 +12,7 @@ mod dither;
 mod errors;
 mod fields;
 mod help;
+mod histogram;
 mod history;
 mod inks;
 mod left;
@@ -29,6 +30,7 @@ mod status;
 mod steps;
 mod symbols;
 mod tiles;
+mod values;
 mod wireframe;
 
 #[cfg(test)]
@@ -82,6 +84,7 @@ fn render(app: &App, inks: &mut Inks, area: Rect, buffer: &mut Buffer) -> Option
         list::render(app, areas.list, buffer);
         fields::render(app, areas.fields, buffer);
     }
+    histogram::render(app, areas.picture, buffer);
     errors::render(app, areas.errors, buffer);
     let status = current::render(app, &areas, buffer);
     status::render(app, inks.glyphs, status, buffer);

@@ -14,7 +14,7 @@ use super::characters::Characters;
 use super::inks::{Drawing, Glyphs, Inks};
 use super::left::leave;
 use super::row::Row;
-use super::{symbols, tiles, wireframe};
+use super::{symbols, tiles, values, wireframe};
 use crate::render::{pixel_of, pixel_width};
 use crate::scene::Size;
 use crate::ui::app::{App, FirstReading, Grid, Shown};
@@ -55,6 +55,9 @@ pub(crate) fn render(app: &App, inks: &mut Inks, area: Rect, buffer: &mut Buffer
             tiles::paint(&resampled(grid.size(size)), mosaic, inks, cells, buffer);
         }
         Drawing::Picture => leave(cells, buffer),
+    }
+    if let (Some(frame), Some(sight)) = (&app.picture().latest, app.sight()) {
+        values::render(frame, &sight, cells, buffer);
     }
     overlays(app, inks.glyphs, area, (cells, size), buffer);
     (inks.drawing == Drawing::Picture).then_some(cells)
@@ -165,14 +168,16 @@ fn axis(app: &App, glyphs: Glyphs, (cells, size): (Rect, Size), buffer: &mut Buf
         return;
     };
     let Some(axis) = transform.axis() else { return };
-    let unit = pixel_width(transform.pivot(), &camera, size);
+    let Some(sight) = app.sight() else { return };
+    let unit = pixel_width(transform.pivot(), &camera, size) / sight.magnification(size);
     let reach = i64::from(2 * size.width.max(size.height));
     let colour = theme::axis(axis);
     for at in -reach..=reach {
         let point = transform.pivot() + unit * at as f64 * axis;
-        let Some([x, y]) = pixel_of(point, &camera, size) else {
+        let Some(place) = pixel_of(point, &camera, size) else {
             continue;
         };
+        let [x, y] = sight.on_screen(place, size);
         if x < 0.0 || y < 0.0 || f64::from(cells.width) <= x || f64::from(size.height) <= y {
             continue;
         }

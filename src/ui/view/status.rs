@@ -199,6 +199,7 @@ fn segments(app: &App, glyphs: Glyphs) -> Vec<Segment> {
         say(30, size, theme::DIM);
         say(31, glyphs.name().to_owned(), theme::DIM);
     }
+    zoom_segment(app, &mut say);
     if let Some(bytes) = app.pictures.net {
         say(8, format!("net {} KB/s", bytes.div_ceil(1000)), theme::DIM);
     }
@@ -246,6 +247,9 @@ fn text_segments(app: &App, say: &mut impl FnMut(u8, String, Style)) {
     if app.fails_to_keep() {
         say(3, "[not kept]".to_owned(), theme::WARNING);
     }
+    if app.picture().paused {
+        say(3, " PAUSED ".to_owned(), theme::chip(theme::WARNING));
+    }
     if app.pictures.solo.is_some() {
         say(3, " SOLO ".to_owned(), theme::chip(theme::WARNING));
     }
@@ -263,8 +267,14 @@ fn making_segment(app: &App, say: &mut impl FnMut(u8, String, Style)) {
         say(7, "wireframe".to_owned(), theme::WARNING);
         return;
     }
-    if let Some(aov) = app.pictures.aov {
-        say(7, aov.name().to_owned(), theme::WARNING);
+    if let Some(display) = app.display_name() {
+        say(3, format!(" {display} "), theme::chip(theme::WARNING));
+    }
+    if let Some(legend) = app.legend() {
+        say(10, legend, theme::DIM);
+    }
+    if let Some(view) = app.view_name() {
+        say(7, view, theme::WARNING);
         return;
     }
     let name = match app.integrator() {
@@ -276,6 +286,22 @@ fn making_segment(app: &App, say: &mut impl FnMut(u8, String, Style)) {
     } else {
         say(28, name.to_owned(), theme::DIM);
     }
+}
+
+/// Adds the region being drawn, or the scale of the picture and its place in the window.
+fn zoom_segment(app: &App, say: &mut impl FnMut(u8, String, Style)) {
+    if let Some(region) = app.region_drawn() {
+        say(6, format!("region {region}"), theme::ACCENT);
+        return;
+    }
+    let viewport = app.viewport();
+    if app.mode != Mode::Trace && viewport.is_fit() {
+        return;
+    }
+    let name = viewport.name();
+    let place = app.pixel_in_corner().filter(|_| !viewport.is_fit());
+    let place = place.map_or_else(String::new, |[x, y]| format!(" at {x},{y}"));
+    say(10, format!("{name}{place}"), theme::ACCENT);
 }
 
 fn progress_segments(progress: &Progress, say: &mut impl FnMut(u8, String, Style)) {

@@ -100,6 +100,7 @@ fn edits(action: A) -> bool {
         | A::Copy
         | A::Solo
         | A::Step(..)
+        | A::Steps
         | A::Lock(_)
         | A::Snap
         | A::Stride(_)
@@ -117,11 +118,17 @@ fn edits(action: A) -> bool {
         | A::SavedViews
         | A::Cross(..)
         | A::Stop
+        | A::Pause
+        | A::Magnify(_)
+        | A::Scroll(..)
+        | A::OneToOne
+        | A::Region
+        | A::Corner(..)
+        | A::OtherCorner
         | A::Export
         | A::Save
         | A::Undo
         | A::Redo
-        | A::Steps
         | A::Editor
         | A::Errors
         | A::Messages
@@ -130,6 +137,8 @@ fn edits(action: A) -> bool {
         | A::Resize(_)
         | A::Divide(_)
         | A::Show(_)
+        | A::Share(_)
+        | A::Expose(_)
         | A::Wireframe
         | A::Integrator
         | A::Repaint
@@ -163,6 +172,14 @@ const OTHERS: &[&str] = &[
     "render",
     "view light",
     "view reset",
+    "show uv",
+    "show side",
+    "exposure",
+    "transfer linear",
+    "transfer srgb",
+    "transfer scene",
+    "falsecolour",
+    "histogram",
     "mouse",
     "theme dark",
     "theme light",

@@ -93,11 +93,14 @@ fn a_depth_set_by_the_user_applies_to_both_integrators() {
 }
 
 /// Keys, what they show, and the samples taken when many are requested.
-const SHOWN: [(&str, Option<Aov>, u32); 5] = [
+const SHOWN: [(&str, Option<Aov>, u32); 8] = [
     ("2", Some(Aov::Depth), 1),
     ("3", Some(Aov::Normal), 4),
     ("4", Some(Aov::Object), 1),
     ("5", Some(Aov::Albedo), 4),
+    ("7", Some(Aov::Cost), 4),
+    ("8", Some(Aov::Samples), 4),
+    ("9", Some(Aov::Noise), 4),
     ("1", None, 4),
 ];
 

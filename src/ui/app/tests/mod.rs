@@ -11,6 +11,7 @@ mod exports;
 mod fields;
 mod hints;
 mod listing;
+mod looking;
 mod making;
 mod messages;
 mod moving;
@@ -33,6 +34,7 @@ mod trying;
 mod views;
 mod wires;
 mod xml;
+mod zooming;
 
 use std::path::{Path, PathBuf};
 
@@ -138,6 +140,7 @@ fn named(name: &str) -> KeyEvent {
         "Tab" => KeyCode::Tab,
         "Back" => KeyCode::Backspace,
         "F5" => KeyCode::F(5),
+        "Lt" => KeyCode::Char('<'),
         one => KeyCode::Char(one.chars().next().expect("a key has a name")),
     })
 }

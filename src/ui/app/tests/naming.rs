@@ -104,3 +104,21 @@ fn each_kind_of_action_names_its_step() {
         assert_eq!(names(&app), named, "{said}: redone");
     }
 }
+
+#[test]
+fn merges_are_named_after_what_they_changed() {
+    let mut app = open(SCENE);
+    press(&mut app, "jjjel<Esc>");
+    outside(&mut app, &SCENE.replace("1.5 //", "2.5 //"));
+    let expected = [
+        "object 1 (sphere) centre x: 0 → 0.1",
+        "merged the file: object 1 (sphere) radius",
+    ];
+    assert_eq!(names(&app), expected);
+    press(&mut app, "u");
+    assert_eq!(words(&app), format!("undone: {}", expected[1]));
+    // A text taken as it is has no history.
+    let mut app = open(SCENE);
+    outside(&mut app, &SCENE.replace("1.5 //", "2.5 //"));
+    assert_eq!(names(&app), [""; 0]);
+}

@@ -96,7 +96,7 @@ fn errors_take_lines_from_the_picture_and_return_them() {
     assert!(smaller.bottom() <= areas.errors.y);
     let panel = app.errors_panel(areas.errors).expect("an error");
     assert_eq!(panel.area, areas.errors);
-    assert_eq!(app.pictures.preview.asked, Some(less));
+    assert_eq!(app.pictures.preview.asked, Some((less, None)));
     outside(&mut app, SCENE);
     assert_eq!(app.raster(), Some((cells, size)));
 }

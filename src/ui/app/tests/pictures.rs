@@ -285,7 +285,7 @@ fn quitting_asks_about_an_export_and_can_wait_for_it() {
 }
 
 #[test]
-fn a_stopped_trace_restarts() {
+fn a_stopped_trace_continues() {
     let traces = |effects: &[Effect]| {
         wants(effects, |effect| {
             matches!(effect, Effect::Trace(Target::Trace, _))
@@ -298,13 +298,13 @@ fn a_stopped_trace_restarts() {
     let effects = press(&mut app, "x");
     assert!(wants(&effects, |effect| matches!(
         effect,
-        Effect::Stop(Target::Trace)
+        Effect::Halt(Target::Trace)
     )));
     assert!(traces(&press(&mut app, "<Esc><F5>")));
 }
 
 #[test]
-fn f5_restarts_a_stopped_trace_but_not_a_running_one() {
+fn f5_continues_a_stopped_trace_but_not_a_running_one() {
     let begun = |effects: &[Effect]| {
         wants(effects, |effect| {
             matches!(effect, Effect::Trace(Target::Trace, _))
@@ -315,7 +315,7 @@ fn f5_restarts_a_stopped_trace_but_not_a_running_one() {
     app.update(Msg::Started(Target::Trace, 1));
     assert!(!begun(&press(&mut app, "<F5>")));
     press(&mut app, "x");
-    assert_eq!(words(&app), "stopped; press F5 to restart");
+    assert_eq!(words(&app), "stopped; press F5 to continue");
     assert!(begun(&press(&mut app, "<F5>")));
     press(&mut app, "<Esc>");
     assert_eq!(app.mode, Mode::Select);

@@ -232,6 +232,17 @@ fn without_colours_and_in_little_room_nothing_is_traced() {
 }
 
 #[test]
+fn in_a_large_text_only_the_selected_step_has_a_picture() {
+    let comment = "x".repeat(17 << 20);
+    let mut app = opened(&format!("{SCENE}// {comment}\n")).0;
+    app.thumbnails.has_colours = true;
+    press(&mut app, "ggjjjel<Esc>");
+    assert_eq!(opens_page(&mut app).derived, [1]);
+    let effects = press(&mut app, "k");
+    assert_eq!(perform(&mut app, effects).derived, [0]);
+}
+
+#[test]
 fn enter_goes_to_a_step_and_undo_and_redo_go_on_from_there() {
     let mut app = changed();
     let texts: Vec<_> = (0..4).map(|at| app.document.timeline().text(at)).collect();

@@ -1,0 +1,136 @@
+//! Puts into words why a pixel has its colour: the verdicts as sentences, the tree of rays as lines,
+//! with the names and places of the text.
+//!
+//! [`render`](crate::render) records and judges a sample in numbers; here objects and lights get
+//! their names back, and what the text holds but the picture does not is looked for. Words and
+//! structure are kept apart from printing: the interface shows the same lines as the command line.
+
+mod names;
+mod sentences;
+#[cfg(test)]
+mod tests;
+mod tree;
+mod undrawn;
+
+use glam::DVec3;
+
+use crate::language::{Node, Source};
+use crate::render::Explanation;
+use crate::scene::{Camera, Rgb, Scene, Size};
+
+use names::Names;
+
+pub use names::number;
+
+/// What an explanation is about.
+#[derive(Clone, Copy, Debug)]
+pub struct Subject<'s> {
+    /// The text of the scene, lowered.
+    pub source: &'s Source,
+    /// The scene that the text means.
+    pub scene: &'s Scene,
+    /// The camera by which the sample was traced.
+    pub camera: &'s Camera,
+    /// The size of the whole picture.
+    pub size: Size,
+}
+
+/// An explanation in words.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Words {
+    /// The verdicts, the best first; never empty.
+    pub verdicts: Vec<Sentence>,
+    /// The tree of rays.
+    pub lines: Vec<Line>,
+}
+
+/// A verdict in words.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Sentence {
+    /// The name of the kind of verdict, one of [`VERDICTS`].
+    pub name: &'static str,
+    /// What is the case, without a full stop.
+    pub text: String,
+    /// What would change it.
+    pub help: Option<String>,
+    /// What it is about, to be selected.
+    pub node: Option<Node>,
+    /// The place of that, or of the field that would help.
+    pub place: Option<Place>,
+    /// Index of the ray at whose end it was found.
+    pub ray: usize,
+}
+
+/// A line of the tree of rays.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Line {
+    /// How far it is indented; the camera ray is 0.
+    pub depth: usize,
+    /// Its words.
+    pub text: String,
+    /// What it adds to the sample, if it adds anything of its own.
+    pub adds: Option<Rgb>,
+    /// The object, light or material it is about.
+    pub node: Option<Node>,
+    /// The place of that in the text.
+    pub place: Option<Place>,
+    /// Index of the ray it belongs to.
+    pub ray: usize,
+    /// The way of the light, to be drawn: the ray, or from a surface to a light.
+    pub segment: Option<[DVec3; 2]>,
+}
+
+/// A place in the text.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Place {
+    /// The line, from 1.
+    pub line: usize,
+    /// The column, from 1.
+    pub column: usize,
+    /// The field there.
+    pub field: Option<&'static str>,
+}
+
+/// The names of all kinds of verdicts.
+pub const VERDICTS: [&str; 26] = [
+    "not-drawn",
+    "no-objects",
+    "missed",
+    "clipped-near",
+    "clipped-far",
+    "inside",
+    "missing-texture",
+    "not-finite",
+    "too-bright",
+    "black",
+    "depth",
+    "budget",
+    "total-reflection",
+    "no-lights",
+    "switched-off",
+    "enclosed",
+    "shadow",
+    "outside-cone",
+    "faces-away",
+    "attenuated",
+    "dim",
+    "not-reflected",
+    "unlit-side",
+    "no-ambient",
+    "no-material",
+    "ordinary",
+];
+
+/// Puts an explanation into words. Looking for objects that are not drawn lowers the text again, if
+/// it has any.
+pub fn words(explanation: &Explanation, subject: &Subject<'_>) -> Words {
+    let names = Names::new(subject);
+    let mut verdicts = sentences::sentences(explanation, &names);
+    if let Some(undrawn) = undrawn::undrawn(explanation, subject, &names) {
+        verdicts.insert(0, undrawn);
+    }
+    Words {
+        verdicts,
+        lines: tree::lines(explanation, &names),
+    }
+}

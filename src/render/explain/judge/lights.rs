@@ -1,0 +1,260 @@
+//! Why lights add nothing, or little, at a surface.
+
+use super::super::super::shading::Side;
+use super::super::record::{Dark, LightTerm, Shading};
+use super::super::verdict::{Finding, Verdict, angle};
+use super::surface::reflectance;
+use super::{DARK, Judge, found};
+use crate::scene::{Emitter, Integrator, Light, Rgb, Scene};
+
+/// Missing light at a surface.
+pub(super) struct Lacks {
+    /// Why, most important first.
+    pub(super) findings: Vec<Finding>,
+    /// The light lost in shadows and outside cones, as displayed.
+    pub(super) lost: f64,
+}
+
+/// A reason with how much light it may cost.
+type Reason = (f64, Verdict);
+
+impl Judge<'_> {
+    /// Why lights add nothing, or little, at the end of a ray; `weight` is the weight of the surface's
+    /// light in the sample.
+    pub(super) fn lacks(&self, ray: usize, shading: &Shading, weight: Rgb) -> Lacks {
+        let object = shading.hit.object;
+        let scene = &self.case.world.scene;
+        let mut reasons: Vec<Reason> = Vec::new();
+        let mut lost = 0.0;
+        if reflectance(&shading.material) == 0.0 {
+            return Lacks {
+                findings: Vec::new(),
+                lost,
+            };
+        }
+        if !shading.lit {
+            return Lacks {
+                findings: vec![found(Verdict::UnlitSide { object }, ray)],
+                lost,
+            };
+        }
+        reasons.extend(self.no_lights());
+        let mut off = Vec::new();
+        let mut away = Vec::new();
+        for term in &shading.lights {
+            let light = &scene.lights[term.light as usize];
+            match term.dark {
+                Some(Dark::SwitchedOff) => {
+                    off.push((term.light, term.reflected.max_element()));
+                }
+                Some(Dark::FacesAway | Dark::AtThePoint) => match self.around(term, shading) {
+                    Some(reason) => reasons.push(reason),
+                    None => away.push(term.light),
+                },
+                dark => {
+                    let Some((loss, verdict)) = self.reason(term, light, dark, shading, weight)
+                    else {
+                        continue;
+                    };
+                    if matches!(
+                        verdict,
+                        Verdict::Shadow { .. }
+                            | Verdict::Enclosed { .. }
+                            | Verdict::OutsideCone { .. }
+                    ) {
+                        lost += self.shown(weight * loss);
+                    }
+                    reasons.push((loss, verdict));
+                }
+            }
+        }
+        let lights = scene.lights.iter().filter(|light| is_direct(light)).count();
+        if !off.is_empty() {
+            let loss = off.iter().map(|(_, loss)| *loss).fold(0.0, f64::max);
+            let all = off.len() == lights;
+            let verdict = Verdict::SwitchedOff {
+                lights: off.iter().map(|(light, _)| *light).collect(),
+                all,
+            };
+            reasons.push((if all { f64::INFINITY } else { loss }, verdict));
+        }
+        if !away.is_empty() {
+            let all = away.len() + off.len() == lights;
+            let verdict = Verdict::FacesAway {
+                lights: away,
+                all,
+                object,
+            };
+            reasons.push((0.01, verdict));
+        }
+        reasons.sort_by(|(a, _), (b, _)| b.total_cmp(a));
+        let mut findings: Vec<_> = reasons
+            .into_iter()
+            .map(|(_, verdict)| found(verdict, ray))
+            .collect();
+        if self.case.integrator == Integrator::Whitted && shading.ambient == Rgb::ZERO {
+            let none = self.case.world.ambient == Rgb::ZERO;
+            findings.push(found(Verdict::NoAmbient { object, none }, ray));
+        }
+        Lacks { findings, lost }
+    }
+
+    /// That nothing in the scene can light anything.
+    fn no_lights(&self) -> Option<Reason> {
+        let scene = &self.case.world.scene;
+        if scene.lights.iter().any(is_direct) {
+            return None;
+        }
+        let others = match self.case.integrator {
+            Integrator::Whitted => shines(scene),
+            Integrator::Path if shines(scene) => return None,
+            Integrator::Path => self.case.world.ambient != Rgb::ZERO,
+        };
+        Some((f64::INFINITY, Verdict::NoLights { others }))
+    }
+
+    /// That a light is inside the object that a surface belongs to and faces away from it.
+    fn around(&self, term: &LightTerm, shading: &Shading) -> Option<Reason> {
+        let light = &self.case.world.scene.lights[term.light as usize];
+        let object = shading.hit.object;
+        let is_around = shading.hit.side == Side::Front && self.encloses(object, light);
+        is_around.then(|| {
+            let verdict = Verdict::Enclosed {
+                light: term.light,
+                object,
+            };
+            (0.5 * light.colour.abs().max_element(), verdict)
+        })
+    }
+
+    /// Why a light in front of a surface adds nothing, or little.
+    fn reason(
+        &self,
+        term: &LightTerm,
+        light: &Light,
+        dark: Option<Dark>,
+        shading: &Shading,
+        weight: Rgb,
+    ) -> Option<Reason> {
+        let object = shading.hit.object;
+        let reflected = term.reflected.abs().max_element();
+        let loss = (term.reflected * term.arriving).abs().max_element();
+        let colour = light.colour.abs().max_element();
+        let transmittance = term.transmittance.unwrap_or(1.0);
+        let shadow = || self.shadow(term, light, (loss, object));
+        let outside = || {
+            let verdict = Verdict::OutsideCone {
+                light: term.light,
+                angle: off_axis(light, term),
+                spot: term.spot,
+            };
+            (reflected * colour * term.radial, verdict)
+        };
+        let attenuated = || {
+            let verdict = Verdict::Attenuated {
+                light: term.light,
+                distance: term.distance,
+                radial: term.radial,
+            };
+            (reflected * colour, verdict)
+        };
+        let not_reflected = || {
+            let light = term.light;
+            let verdict = Verdict::NotReflected { light, object };
+            (0.5 * term.arriving.abs().max_element(), verdict)
+        };
+        match dark {
+            Some(Dark::Blocked | Dark::Hidden) => return Some(shadow()),
+            Some(Dark::OutsideCone) => return Some(outside()),
+            Some(Dark::Attenuated) => return Some(attenuated()),
+            Some(Dark::NotReflected) => return Some(not_reflected()),
+            Some(_) => return None,
+            None => {}
+        }
+        if DARK <= self.shown(weight * term.radiance) {
+            // Light filtered by transparent objects is less, but not gone.
+            return (transmittance < 0.5).then(shadow);
+        }
+        // The smallest factor of the product that the light is.
+        let factors = [
+            transmittance,
+            term.spot,
+            term.radial,
+            colour,
+            term.cosine,
+            reflected / term.cosine,
+        ];
+        let least = (0..factors.len()).min_by(|&a, &b| factors[a].total_cmp(&factors[b]))?;
+        Some(match least {
+            0 => shadow(),
+            1 => outside(),
+            2 => attenuated(),
+            3 => {
+                let verdict = Verdict::Dim {
+                    light: term.light,
+                    colour: light.colour,
+                };
+                (reflected * term.radial * term.spot, verdict)
+            }
+            4 => {
+                let verdict = Verdict::FacesAway {
+                    lights: vec![term.light],
+                    all: false,
+                    object,
+                };
+                (0.01, verdict)
+            }
+            _ => not_reflected(),
+        })
+    }
+
+    fn shadow(&self, term: &LightTerm, light: &Light, (loss, object): (f64, u32)) -> Reason {
+        let transmittance = term.transmittance.unwrap_or(0.0);
+        let mut blockers: Vec<_> = term
+            .crossed
+            .iter()
+            .filter(|crossing| crossing.transmittance < 0.5)
+            .map(|crossing| crossing.object)
+            .collect();
+        let opaque = |crossing: &&super::super::record::Crossing| crossing.transmittance == 0.0;
+        let mut opaque = term.crossed.iter().filter(opaque);
+        let around = opaque.find(|crossing| self.encloses(crossing.object, light));
+        if blockers.is_empty() {
+            blockers.extend(term.crossed.iter().map(|crossing| crossing.object));
+        }
+        let verdict = match around {
+            Some(crossing) => Verdict::Enclosed {
+                light: term.light,
+                object: crossing.object,
+            },
+            None => Verdict::Shadow {
+                light: term.light,
+                blockers,
+                transmittance,
+                object,
+            },
+        };
+        ((1.0 - transmittance) * loss, verdict)
+    }
+}
+
+/// Whether a light is not ambient.
+fn is_direct(light: &Light) -> bool {
+    light.emitter != Emitter::Ambient
+}
+
+/// Whether emission or an environment lights the scene in path tracing.
+fn shines(scene: &Scene) -> bool {
+    let emits = |material: &crate::scene::Material| material.emission != Rgb::ZERO;
+    scene.setting.environment.colour != Rgb::ZERO || scene.materials.iter().any(emits)
+}
+
+/// The angle between a spot light's direction and a point, in degrees.
+fn off_axis(light: &Light, term: &LightTerm) -> f64 {
+    match light.emitter {
+        Emitter::Point { falloff, .. } => falloff
+            .spot
+            .map_or(0.0, |(direction, _)| angle(direction, term.toward)),
+        Emitter::Distant(_) | Emitter::Ambient => 0.0,
+    }
+}

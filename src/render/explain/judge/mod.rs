@@ -1,0 +1,167 @@
+//! Verdicts over a recorded sample.
+//!
+//! What is recorded says what happened; a verdict says which part of it matters. Where a pixel is
+//! dark, the parts that could have lit it come first, by how much they would have added; elsewhere
+//! what did add most.
+
+mod camera;
+mod lights;
+mod surface;
+
+use super::super::camera::Projection;
+use super::super::tone::Light;
+use super::super::world::World;
+use super::record::{RayEnd, TracedRay};
+use super::verdict::{Finding, Term, TermSource, Verdict};
+use crate::scene::{Integrator, Rgb};
+
+/// Displayed colours below this, of 1, count as dark: five levels of 255.
+const DARK: f64 = 0.02;
+
+/// Displayed colours below this, of 1, are dim: without direct light, its absence explains them.
+const DIM: f64 = 0.35;
+
+/// Findings that are kept.
+const MOST: usize = 16;
+
+/// A recorded sample with what is needed to judge it.
+pub(super) struct Case<'r> {
+    pub(super) world: &'r World,
+    pub(super) projection: &'r Projection,
+    pub(super) rays: &'r [TracedRay],
+    pub(super) light: Light,
+    pub(super) integrator: Integrator,
+    pub(super) depth: u32,
+}
+
+/// Returns the verdicts, the one that best explains the sample first.
+pub(super) fn judge(case: &Case<'_>) -> Vec<Finding> {
+    let judge = Judge::new(case);
+    let mut findings = judge.oddities();
+    let rest = judge.ray(0);
+    let untraced = judge.untraced();
+    if judge.is_dark(judge.totals[0]) {
+        findings.extend(untraced);
+        findings.extend(rest);
+    } else {
+        findings.extend(rest);
+        findings.extend(untraced);
+    }
+    let mut kept: Vec<Finding> = Vec::new();
+    for finding in findings {
+        if kept.iter().all(|before| before.verdict != finding.verdict) {
+            kept.push(finding);
+        }
+    }
+    kept.truncate(MOST);
+    kept
+}
+
+struct Judge<'r> {
+    case: &'r Case<'r>,
+    /// For each ray, those that start at its end.
+    children: Vec<Vec<usize>>,
+    /// For each ray, what it and all rays after it add to the sample.
+    totals: Vec<Rgb>,
+}
+
+impl<'r> Judge<'r> {
+    fn new(case: &'r Case<'r>) -> Self {
+        let rays = case.rays;
+        let mut children = vec![Vec::new(); rays.len()];
+        let mut totals: Vec<_> = rays.iter().map(|ray| ray.contribution).collect();
+        for (number, ray) in rays.iter().enumerate().rev() {
+            if let Some(parent) = ray.parent {
+                children[parent].insert(0, number);
+                let total = totals[number];
+                totals[parent] += total;
+            }
+        }
+        Self {
+            case,
+            children,
+            totals,
+        }
+    }
+
+    /// The brightness of a part of the sample as displayed, where 1 is white.
+    fn shown(&self, part: Rgb) -> f64 {
+        self.case.light.exposed(part).max_element()
+    }
+
+    fn is_dark(&self, part: Rgb) -> bool {
+        // NaN is displayed as black.
+        !(DARK <= self.shown(part))
+    }
+
+    fn is_dim(&self, part: Rgb) -> bool {
+        !(DIM <= self.shown(part))
+    }
+
+    /// What is wrong wherever the light comes from.
+    fn oddities(&self) -> Vec<Finding> {
+        let mut findings = Vec::new();
+        let missing = self.case.rays.iter().enumerate().find_map(|(ray, traced)| {
+            let (texture, object) = match &traced.end {
+                RayEnd::Missed { missing, .. } => ((*missing)?, None),
+                RayEnd::Surface(shading) => (shading.missing?, Some(shading.hit.object)),
+                RayEnd::Light(_) | RayEnd::OverBudget => return None,
+            };
+            let verdict = Verdict::MissingTexture { texture, object };
+            (!self.is_dark(traced.weight)).then_some(Finding { verdict, ray })
+        });
+        findings.extend(missing);
+        let total = self.totals[0];
+        let exposed = self.case.light.exposed(total);
+        if !total.is_finite() {
+            findings.push(found(Verdict::NotFinite, 0));
+        }
+        if 1.0 + 1e-9 < exposed.max_element() {
+            findings.push(found(Verdict::TooBright { exposed }, 0));
+        }
+        findings
+    }
+
+    /// The rays that exceed the budget.
+    fn untraced(&self) -> Option<Finding> {
+        let is_untraced = |ray: &&TracedRay| matches!(ray.end, RayEnd::OverBudget);
+        let untraced = self.case.rays.iter().filter(is_untraced).count();
+        (0 < untraced).then(|| found(Verdict::Budget { untraced }, 0))
+    }
+
+    /// What explains the light along a ray.
+    fn ray(&self, ray: usize) -> Vec<Finding> {
+        let traced = &self.case.rays[ray];
+        match &traced.end {
+            RayEnd::Missed { radiance, .. } if ray == 0 => self.missed(traced, *radiance),
+            RayEnd::Missed { radiance, .. } if self.is_dark(self.totals[ray]) => {
+                let verdict = Verdict::Missed {
+                    radiance: *radiance,
+                    behind: None,
+                };
+                vec![found(verdict, ray)]
+            }
+            RayEnd::Missed { .. } => {
+                vec![self.term(TermSource::Surroundings, traced.contribution, ray)]
+            }
+            RayEnd::Light(hit) => {
+                let light = TermSource::LightItself { light: hit.light };
+                vec![self.term(light, traced.contribution, ray)]
+            }
+            RayEnd::Surface(shading) => self.surface(ray, shading),
+            RayEnd::OverBudget => Vec::new(),
+        }
+    }
+
+    fn term(&self, source: TermSource, contribution: Rgb, ray: usize) -> Finding {
+        let term = Term {
+            source,
+            contribution,
+        };
+        found(Verdict::Ordinary(term), ray)
+    }
+}
+
+fn found(verdict: Verdict, ray: usize) -> Finding {
+    Finding { verdict, ray }
+}

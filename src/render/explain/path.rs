@@ -1,0 +1,315 @@
+//! The rays of a path: the integrator's own steps run one by one, and what each returns is recorded.
+
+use glam::DVec3;
+
+use super::super::bsdf::{BsdfSample, Component};
+use super::super::direct::Facing;
+use super::super::lights::{Incoming, SphereLight};
+use super::super::optics::transmitted;
+use super::super::path::{Onward, Path, Reached, Vertex, place_on_light, power_heuristic};
+use super::super::probe::{Probe, Sample};
+use super::super::sampler::Use;
+use super::super::world::World;
+use super::lights::Lit;
+use super::record::{
+    Chosen, Dark, Densities, LightHit, LightTerm, RayEnd, RayKind, Shading, Stop, TracedRay,
+    Unlisted,
+};
+use super::surface::{boundary, missing_around, missing_at, surface_hit};
+use crate::scene::Rgb;
+
+/// Traces a sample; returns its radiance and all rays, or `None` once `cancelled` returns true.
+pub(super) fn record(
+    world: &World,
+    depth: u32,
+    sample: Sample,
+    cancelled: impl Fn() -> bool,
+) -> Option<(Rgb, Vec<TracedRay>)> {
+    let mut recorder = Recorder {
+        probe: Probe::new(world, depth, cancelled),
+        sample,
+        radiance: Rgb::ZERO,
+        rays: Vec::new(),
+        room: super::MOST_TERMS,
+    };
+    let mut path = Path::new(&sample);
+    recorder.begin(&path, RayKind::Camera, None);
+    while let Some((kind, chosen)) = recorder.step(&mut path)? {
+        recorder.begin(&path, kind, Some(chosen));
+    }
+    Some((recorder.radiance, recorder.rays))
+}
+
+struct Recorder<'w, C> {
+    probe: Probe<'w, C>,
+    sample: Sample,
+    radiance: Rgb,
+    rays: Vec<TracedRay>,
+    /// Lights that may still be listed.
+    room: usize,
+}
+
+/// How a path goes on.
+type Next = (RayKind, Chosen);
+
+impl<C: Fn() -> bool> Recorder<'_, C> {
+    /// Records the ray that a path is about to follow.
+    fn begin(&mut self, path: &Path, kind: RayKind, chosen: Option<Chosen>) {
+        self.rays.push(TracedRay {
+            parent: self.rays.len().checked_sub(1),
+            kind,
+            bounce: path.bounce,
+            weight: path.throughput,
+            origin: path.ray.origin,
+            direction: path.ray.direction,
+            reach: path.reach(&self.sample),
+            absorption: path.absorption,
+            chosen,
+            end: RayEnd::OverBudget,
+            contribution: Rgb::ZERO,
+        });
+    }
+
+    /// Ends the current ray.
+    fn end(&mut self, end: RayEnd, contribution: Rgb) {
+        self.radiance += contribution;
+        if let Some(ray) = self.rays.last_mut() {
+            ray.end = end;
+            ray.contribution = contribution;
+        }
+    }
+
+    /// Follows a path to its next vertex and returns how it goes on from there, if it does; `None`
+    /// if cancelled.
+    fn step(&mut self, path: &mut Path) -> Option<Option<Next>> {
+        let mut mapped = None;
+        match self.probe.reach(path, &self.sample, &mut mapped) {
+            Reached::Nothing(radiance) => {
+                let screen = self.sample.screen;
+                let missing = missing_around(self.probe.world, &path.ray, path.bounce, screen);
+                let contribution = path.throughput * radiance;
+                self.end(RayEnd::Missed { radiance, missing }, contribution);
+                Some(None)
+            }
+            Reached::Light {
+                light,
+                distance,
+                radiance,
+                weight,
+            } => {
+                let hit = self.light_hit(path, &light, (distance, radiance, weight));
+                self.end(RayEnd::Light(hit), path.throughput * radiance * weight);
+                Some(None)
+            }
+            Reached::Surface(vertex) => self.surface(path, &vertex),
+        }
+    }
+
+    fn light_hit(
+        &self,
+        path: &Path,
+        light: &SphereLight,
+        (t, radiance, weight): (f64, Rgb, f64),
+    ) -> LightHit {
+        let lights = &self.probe.world.scene.lights;
+        let number = lights.iter().position(|of| of.sphere() == Some(*light));
+        LightHit {
+            light: number.unwrap_or_default() as u32,
+            t,
+            transmitted: transmitted(path.absorption, t),
+            radiance,
+            densities: path.chosen.map(|(from, by_path)| Densities {
+                by_light: light.density(from),
+                by_path,
+                weight,
+            }),
+        }
+    }
+
+    fn surface(&mut self, path: &mut Path, vertex: &Vertex<'_>) -> Option<Option<Next>> {
+        let world = self.probe.world;
+        let Vertex {
+            nearest,
+            point,
+            material,
+            bsdf,
+        } = vertex;
+        let lit = material.is_lit(point.side);
+        let emission = if lit { material.emission } else { Rgb::ZERO };
+        let mut shading = Box::new(Shading {
+            hit: surface_hit(world, &path.ray, *nearest, point),
+            missing: missing_at(world, &path.ray, *nearest),
+            lit,
+            transmitted: transmitted(path.absorption, nearest.hit.t),
+            emission,
+            ambient: Rgb::ZERO,
+            lights: Vec::new(),
+            unlisted: Unlisted::default(),
+            radiance: Rgb::ZERO,
+            mirror: bsdf.mirror,
+            boundary: boundary(&path.ray, point, material),
+            stop: None,
+            material: (*material).clone(),
+        });
+        let mut sum = Rgb::ZERO;
+        for number in 0..world.scene.lights.len() {
+            if number % 16 == 15 && (self.probe.cancelled)() {
+                return None;
+            }
+            sum += self.light(number, path, vertex, &mut shading);
+        }
+        let mut contribution = Rgb::ZERO;
+        if lit {
+            shading.radiance = material.emission + sum;
+            contribution = path.throughput * shading.radiance;
+        }
+        let sampler = self.sample.sampler;
+        let next = vertex.sample(path, sampler);
+        let kind = self.kind(path, vertex);
+        let onward = self.probe.onward(path, next, sampler);
+        let can_go_on = bsdf.can_go_on();
+        shading.stop = stop(onward).filter(|_| can_go_on);
+        self.end(RayEnd::Surface(shading), contribution);
+        match (onward, next, kind) {
+            (Onward::Cancelled, ..) => None,
+            (Onward::Goes { survival }, Some(next), Some((kind, chance))) => {
+                let BsdfSample { weight, chosen, .. } = next;
+                Some(Some((
+                    kind,
+                    Chosen {
+                        chance,
+                        density: chosen.map(|(_, density)| density),
+                        factor: weight,
+                        survival,
+                    },
+                )))
+            }
+            _ => Some(None),
+        }
+    }
+
+    /// Records a light at a vertex and returns what it adds.
+    fn light(
+        &mut self,
+        number: usize,
+        path: &Path,
+        vertex: &Vertex<'_>,
+        shading: &mut Shading,
+    ) -> Rgb {
+        let sampler = self.sample.sampler;
+        let added = if shading.lit {
+            self.probe.light_of(number, vertex, path.bounce, sampler)
+        } else {
+            Rgb::ZERO
+        };
+        if self.room == 0 {
+            shading.unlisted.lights += 1;
+            shading.unlisted.radiance += added;
+            return added;
+        }
+        if let Some(term) = self.term(number, path, vertex, added) {
+            shading.lights.push(term);
+            self.room -= 1;
+        }
+        added
+    }
+
+    fn term(
+        &self,
+        number: usize,
+        path: &Path,
+        vertex: &Vertex<'_>,
+        added: Rgb,
+    ) -> Option<LightTerm> {
+        let Vertex {
+            point,
+            material,
+            bsdf,
+            ..
+        } = vertex;
+        let world = self.probe.world;
+        let lit = Lit {
+            world,
+            point,
+            material,
+        };
+        let light = &world.scene.lights[number];
+        let scattered = |toward| {
+            let scattered = bsdf.lobes.scatter(point, toward);
+            scattered.value + bsdf.lobes.highlight(point, toward)
+        };
+        let reflected = |facing: &Facing<f64>| light.scale * scattered(facing.toward.into());
+        let Some(sphere) = light.sphere() else {
+            return lit.term(number, None, reflected, added);
+        };
+        let from = point.surface.point;
+        let place = place_on_light(number, path.bounce, self.sample.sampler);
+        let chosen = sphere.choose(from, place);
+        let mut term = lit.term(number, chosen, reflected, added)?;
+        // Falloff does not apply to lights with a size.
+        [term.radial, term.spot] = [1.0; 2];
+        term.arriving = sphere.irradiance(from);
+        let Some(chosen) = chosen else {
+            term.arriving = Rgb::ZERO;
+            if term.dark.is_some_and(|dark| dark != Dark::UnlitSide) {
+                term.dark = Some(Dark::AtThePoint);
+            }
+            return Some(term);
+        };
+        let scattered = bsdf.lobes.scatter(point, chosen.toward.into());
+        let by_path = self.probe.density_of(bsdf, scattered, path.bounce);
+        let by_light = sphere.density(from);
+        term.densities = Some(Densities {
+            by_light,
+            by_path,
+            weight: power_heuristic(by_light, by_path),
+        });
+        if term.dark == Some(Dark::NotReflected) && self.is_hidden(vertex, &sphere, chosen) {
+            term.dark = Some(Dark::Hidden);
+        }
+        Some(term)
+    }
+
+    /// Whether another light with a size lies before a point of one.
+    fn is_hidden(&self, vertex: &Vertex<'_>, sphere: &SphereLight, chosen: Incoming<f64>) -> bool {
+        let ray = vertex.point.leave(chosen.toward.into());
+        chosen.source.is_some_and(|source| {
+            let distance = DVec3::from(source).distance(ray.origin);
+            self.probe.world.sphere_lights.hide(sphere, &ray, distance)
+        })
+    }
+
+    /// What the ray is that a path chooses next, and the probability of its component.
+    fn kind(&self, path: &Path, vertex: &Vertex<'_>) -> Option<(RayKind, f64)> {
+        let Vertex { point, bsdf, .. } = vertex;
+        let [choice, ..] = self.sample.sampler.four(path.bounce, Use::Bounce);
+        let component = bsdf.component(choice)?;
+        let kind = match component {
+            Component::Lobes(choice) if bsdf.lobes.is_diffuse(choice) => RayKind::Diffuse,
+            Component::Lobes(_) => RayKind::Glossy,
+            Component::Mirror => RayKind::Mirror,
+            Component::Boundary(choice) => {
+                if bsdf.refracted(&path.ray, point, choice).is_some() {
+                    RayKind::Refraction
+                } else if bsdf.refracted(&path.ray, point, 1.0).is_some() {
+                    RayKind::Boundary
+                } else {
+                    RayKind::TotalReflection
+                }
+            }
+        };
+        Some((kind, bsdf.chance(component)))
+    }
+}
+
+/// Why a path ends.
+fn stop(onward: Onward) -> Option<Stop> {
+    match onward {
+        Onward::Goes { .. } | Onward::Cancelled => None,
+        Onward::Nowhere => Some(Stop::Nowhere),
+        Onward::Depth => Some(Stop::Depth),
+        Onward::Budget => Some(Stop::Budget),
+        Onward::Overflow => Some(Stop::Overflow),
+        Onward::Roulette { survival } => Some(Stop::Roulette { survival }),
+    }
+}
