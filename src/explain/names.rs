@@ -63,25 +63,12 @@ impl<'s> Names<'s> {
 
     /// Several lights.
     pub(super) fn lights(&self, lights: &[u32]) -> String {
-        self.several(lights, |light| self.light(light))
+        several(lights, |light| self.light(light))
     }
 
     /// Several objects.
     pub(super) fn objects(&self, objects: &[u32]) -> String {
-        self.several(objects, |object| self.object(object))
-    }
-
-    fn several(&self, all: &[u32], name: impl Fn(u32) -> String) -> String {
-        const MOST: usize = 3;
-        let mut names: Vec<_> = all.iter().take(MOST).map(|&one| name(one)).collect();
-        if MOST < all.len() {
-            names.push(format!("{} more", all.len() - MOST));
-        }
-        match names.split_last() {
-            Some((last, [])) => last.clone(),
-            Some((last, others)) => format!("{} and {last}", others.join(", ")),
-            None => String::new(),
-        }
+        several(objects, |object| self.object(object))
     }
 
     /// A node's name with its line: `object 2 (box, line 14)`.
@@ -132,6 +119,20 @@ impl<'s> Names<'s> {
             column,
             field,
         }
+    }
+}
+
+/// The names of some, the first three at most.
+fn several(all: &[u32], name: impl Fn(u32) -> String) -> String {
+    const MOST: usize = 3;
+    let mut names: Vec<_> = all.iter().take(MOST).map(|&one| name(one)).collect();
+    if MOST < all.len() {
+        names.push(format!("{} more", all.len() - MOST));
+    }
+    match names.split_last() {
+        Some((last, [])) => last.clone(),
+        Some((last, others)) => format!("{} and {last}", others.join(", ")),
+        None => String::new(),
     }
 }
 

@@ -37,6 +37,10 @@ pub(super) struct Path {
 }
 
 /// What the ray of a path leads to.
+#[expect(
+    clippy::large_enum_variant,
+    reason = "a surface is what most rays lead to, and it must not cost an allocation"
+)]
 pub(super) enum Reached<'m> {
     /// Nothing but the background or environment, with this radiance.
     Nothing(Rgb),

@@ -47,7 +47,7 @@ impl<'w, C: Fn() -> bool> Probe<'w, C> {
     }
 
     /// Finds the hits of the front's rays and shades them without lights.
-    pub(super) fn land(&mut self, wave: &mut Wave<'w>, samples: &[Sample], seen: &mut [Seen]) {
+    pub(super) fn land(&self, wave: &mut Wave<'w>, samples: &[Sample], seen: &mut [Seen]) {
         let world = self.world;
         world.nearest_each(&wave.rays, &mut wave.nearest);
         world.land_each(&wave.rays, &wave.nearest, &mut wave.landings);
@@ -100,7 +100,7 @@ impl<'w, C: Fn() -> bool> Probe<'w, C> {
     }
 
     /// Adds the radiance of the hits to `seen` and makes their secondary rays pending.
-    pub(super) fn branch(&mut self, wave: &mut Wave<'_>, samples: &[Sample], seen: &mut [Seen]) {
+    pub(super) fn branch(&self, wave: &mut Wave<'_>, samples: &[Sample], seen: &mut [Seen]) {
         dispatch!(self.world.level, simd => {
             for packet in 0..wave.rays.len() {
                 wave.go_on(simd, packet, (self.depth, self.gather), samples, seen);

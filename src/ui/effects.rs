@@ -180,23 +180,17 @@ impl Runtime {
 
     fn try_perform(&mut self, effect: Effect) -> Result<Option<Msg>, Failure> {
         if matches!(self.screen, Screen::Page(_)) && reaches_others(&effect) {
-            return Ok(match effect {
-                Effect::WriteRecovery { revision, .. } => Some(Msg::Kept(revision, Ok(()))),
-                Effect::ListRecent => Some(Msg::RecentListed(Vec::new())),
-                Effect::ReadReference(id, _) => {
-                    let reason = "a script of keys does not run git".to_owned();
-                    Some(Msg::ReferenceRead(id, Err(reason)))
-                }
-                _ => None,
-            });
+            return Ok(without_others(&effect));
         }
         match effect {
             Effect::Trace(target, job) => return Ok(Some(self.trace(target, job))),
             Effect::Stop(target) => self.stop(target),
-            Effect::Explain(question, frame) => {
-                let work = Work::begin(&self.sender);
-                self.explainer.ask(question, frame, work)?;
-            }
+            Effect::Explain(..)
+            | Effect::Read(..)
+            | Effect::Open(..)
+            | Effect::ReadAssets(_)
+            | Effect::ReadReference(..)
+            | Effect::Compare(_) => self.ask_service(effect)?,
             Effect::Halt(target) => self.with_renderer(target, Renderer::stop),
             Effect::Pause(target) => self.with_renderer(target, Renderer::pause),
             Effect::Resume(target) => self.with_renderer(target, Renderer::resume),
@@ -217,14 +211,6 @@ impl Runtime {
             Effect::CheckPlace(path) => self.writers.check_place(path)?,
             Effect::ListFolder(folder) => self.writers.list_folder(folder)?,
             Effect::FindBackups(scene) => self.writers.find_backups(scene)?,
-            Effect::Read(path, baseline) => {
-                let work = Work::begin(&self.sender);
-                self.reader.read(path, baseline, work)?;
-            }
-            Effect::Open(path, language) => {
-                let work = Work::begin(&self.sender);
-                self.reader.open(path, language, work)?;
-            }
             Effect::Free(unneeded) => self.freeing.request(unneeded)?,
             Effect::Save {
                 id,
@@ -240,18 +226,6 @@ impl Runtime {
             Effect::ListRecent => self.recent.list()?,
             Effect::KeepPanels(sizes) => self.recent.keep_panels(sizes)?,
             Effect::Watch(path) => self.reader.watch(path)?,
-            Effect::ReadAssets(wanted) => {
-                let work = Work::begin(&self.sender);
-                self.assets.request(wanted, work)?;
-            }
-            Effect::ReadReference(id, source) => {
-                let work = Work::begin(&self.sender);
-                self.references.request(id, source, work)?;
-            }
-            Effect::Compare(pair) => {
-                let work = Work::begin(&self.sender);
-                self.figures.request(pair, work)?;
-            }
             Effect::Later(time, timer) => {
                 self.timers.retain(|&(_, set)| set != timer);
                 self.timers.push((Instant::now() + time, timer));
@@ -290,6 +264,21 @@ impl Runtime {
             Effect::Quit => self.ended = true,
         }
         Ok(None)
+    }
+
+    /// Asks a service, whose answer arrives in the inbox.
+    fn ask_service(&self, effect: Effect) -> Result<(), Failure> {
+        let work = Work::begin(&self.sender);
+        match effect {
+            Effect::Explain(question, frame) => self.explainer.ask(question, frame, work)?,
+            Effect::Read(path, baseline) => self.reader.read(path, baseline, work)?,
+            Effect::Open(path, language) => self.reader.open(path, language, work)?,
+            Effect::ReadAssets(wanted) => self.assets.request(wanted, work)?,
+            Effect::ReadReference(id, source) => self.references.request(id, source, work)?,
+            Effect::Compare(pair) => self.figures.request(pair, work)?,
+            _ => {}
+        }
+        Ok(())
     }
 
     fn numbered(&self, target: Target) -> Option<&Numbered> {
@@ -378,6 +367,19 @@ impl Runtime {
         let configured = self.editor.as_deref();
         let ran = self.screen.lend(|| editor::run(configured, path, line));
         ran.map_err(Failure::Terminal)?.map_err(Failure::Editor)
+    }
+}
+
+/// The result of an effect on others in a script of keys, which performs none.
+fn without_others(effect: &Effect) -> Option<Msg> {
+    match effect {
+        Effect::WriteRecovery { revision, .. } => Some(Msg::Kept(*revision, Ok(()))),
+        Effect::ListRecent => Some(Msg::RecentListed(Vec::new())),
+        Effect::ReadReference(id, _) => {
+            let reason = "a script of keys does not run git".to_owned();
+            Some(Msg::ReferenceRead(*id, Err(reason)))
+        }
+        _ => None,
     }
 }
 

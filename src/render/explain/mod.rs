@@ -5,6 +5,7 @@
 //! one asks.
 
 mod judge;
+mod kind;
 mod lights;
 mod path;
 mod record;
@@ -26,9 +27,10 @@ use super::world::World;
 use crate::scene::Integrator;
 use judge::Case;
 
+pub use kind::RayKind;
 pub use record::{
-    Boundary, Chosen, Crossing, Dark, Densities, Explanation, LightHit, LightTerm, RayEnd, RayKind,
-    Shading, Stop, SurfaceHit, TracedRay, Unlisted,
+    Boundary, Chosen, Crossing, Dark, Densities, Explanation, LightHit, LightTerm, RayEnd, Shading,
+    Stop, SurfaceHit, TracedRay, Unlisted,
 };
 pub use verdict::{DepthLimit, Finding, Term, TermSource, Verdict};
 

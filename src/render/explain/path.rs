@@ -10,10 +10,10 @@ use super::super::path::{Onward, Path, Reached, Vertex, place_on_light, power_he
 use super::super::probe::{Probe, Sample};
 use super::super::sampler::Use;
 use super::super::world::World;
+use super::kind::RayKind;
 use super::lights::Lit;
 use super::record::{
-    Chosen, Dark, Densities, LightHit, LightTerm, RayEnd, RayKind, Shading, Stop, TracedRay,
-    Unlisted,
+    Chosen, Dark, Densities, LightHit, LightTerm, RayEnd, Shading, Stop, TracedRay, Unlisted,
 };
 use super::surface::{boundary, missing_around, missing_at, surface_hit};
 use crate::scene::Rgb;
@@ -34,10 +34,13 @@ pub(super) fn record(
     };
     let mut path = Path::new(&sample);
     recorder.begin(&path, RayKind::Camera, None);
-    while let Some((kind, chosen)) = recorder.step(&mut path)? {
-        recorder.begin(&path, kind, Some(chosen));
+    loop {
+        match recorder.step(&mut path) {
+            Step::Cancelled => return None,
+            Step::Ended => return Some((recorder.radiance, recorder.rays)),
+            Step::GoesOn(kind, chosen) => recorder.begin(&path, kind, Some(chosen)),
+        }
     }
-    Some((recorder.radiance, recorder.rays))
 }
 
 struct Recorder<'w, C> {
@@ -49,8 +52,12 @@ struct Recorder<'w, C> {
     room: usize,
 }
 
-/// How a path goes on.
-type Next = (RayKind, Chosen);
+/// How a path goes on from a vertex.
+enum Step {
+    Cancelled,
+    Ended,
+    GoesOn(RayKind, Chosen),
+}
 
 impl<C: Fn() -> bool> Recorder<'_, C> {
     /// Records the ray that a path is about to follow.
@@ -79,9 +86,8 @@ impl<C: Fn() -> bool> Recorder<'_, C> {
         }
     }
 
-    /// Follows a path to its next vertex and returns how it goes on from there, if it does; `None`
-    /// if cancelled.
-    fn step(&mut self, path: &mut Path) -> Option<Option<Next>> {
+    /// Follows a path to its next vertex.
+    fn step(&mut self, path: &mut Path) -> Step {
         let mut mapped = None;
         match self.probe.reach(path, &self.sample, &mut mapped) {
             Reached::Nothing(radiance) => {
@@ -89,7 +95,7 @@ impl<C: Fn() -> bool> Recorder<'_, C> {
                 let missing = missing_around(self.probe.world, &path.ray, path.bounce, screen);
                 let contribution = path.throughput * radiance;
                 self.end(RayEnd::Missed { radiance, missing }, contribution);
-                Some(None)
+                Step::Ended
             }
             Reached::Light {
                 light,
@@ -99,7 +105,7 @@ impl<C: Fn() -> bool> Recorder<'_, C> {
             } => {
                 let hit = self.light_hit(path, &light, (distance, radiance, weight));
                 self.end(RayEnd::Light(hit), path.throughput * radiance * weight);
-                Some(None)
+                Step::Ended
             }
             Reached::Surface(vertex) => self.surface(path, &vertex),
         }
@@ -126,7 +132,7 @@ impl<C: Fn() -> bool> Recorder<'_, C> {
         }
     }
 
-    fn surface(&mut self, path: &mut Path, vertex: &Vertex<'_>) -> Option<Option<Next>> {
+    fn surface(&mut self, path: &mut Path, vertex: &Vertex<'_>) -> Step {
         let world = self.probe.world;
         let Vertex {
             nearest,
@@ -154,7 +160,7 @@ impl<C: Fn() -> bool> Recorder<'_, C> {
         let mut sum = Rgb::ZERO;
         for number in 0..world.scene.lights.len() {
             if number % 16 == 15 && (self.probe.cancelled)() {
-                return None;
+                return Step::Cancelled;
             }
             sum += self.light(number, path, vertex, &mut shading);
         }
@@ -171,10 +177,10 @@ impl<C: Fn() -> bool> Recorder<'_, C> {
         shading.stop = stop(onward).filter(|_| can_go_on);
         self.end(RayEnd::Surface(shading), contribution);
         match (onward, next, kind) {
-            (Onward::Cancelled, ..) => None,
+            (Onward::Cancelled, ..) => Step::Cancelled,
             (Onward::Goes { survival }, Some(next), Some((kind, chance))) => {
                 let BsdfSample { weight, chosen, .. } = next;
-                Some(Some((
+                Step::GoesOn(
                     kind,
                     Chosen {
                         chance,
@@ -182,9 +188,9 @@ impl<C: Fn() -> bool> Recorder<'_, C> {
                         factor: weight,
                         survival,
                     },
-                )))
+                )
             }
-            _ => Some(None),
+            _ => Step::Ended,
         }
     }
 

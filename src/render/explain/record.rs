@@ -4,6 +4,7 @@
 use glam::{DVec2, DVec3};
 
 use super::super::shading::Side;
+use super::kind::RayKind;
 use super::verdict::Finding;
 use crate::scene::{Integrator, Material, Rgb};
 
@@ -57,25 +58,6 @@ pub struct TracedRay {
     pub end: RayEnd,
     /// What its end adds to the sample, without the rays that start there.
     pub contribution: Rgb,
-}
-
-/// Why a ray was traced.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum RayKind {
-    /// From the camera.
-    Camera,
-    /// Reflected by a mirror.
-    Mirror,
-    /// The part that the boundary of a transparent solid reflects.
-    Boundary,
-    /// Into or out of a transparent solid.
-    Refraction,
-    /// Reflected at the boundary of a transparent solid, because none of the light can leave.
-    TotalReflection,
-    /// Scattered by a path in a direction of the diffuse lobe.
-    Diffuse,
-    /// Scattered by a path in a direction of the glossy lobe.
-    Glossy,
 }
 
 /// How a path chose to go on.

@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-use super::record::RayKind;
+use super::kind::RayKind;
 use crate::scene::Rgb;
 
 /// A verdict with the ray at whose end it was found.

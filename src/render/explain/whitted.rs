@@ -7,8 +7,9 @@ use super::super::optics::transmitted;
 use super::super::probe::{Probe, Sample, Seen};
 use super::super::wave::{RayState, Wave};
 use super::super::world::World;
+use super::kind::RayKind;
 use super::lights::Lit;
-use super::record::{RayEnd, RayKind, Shading, Stop, TracedRay, Unlisted};
+use super::record::{RayEnd, Shading, Stop, TracedRay, Unlisted};
 use super::surface::{boundary, missing_around, missing_at, surface_hit};
 use glam::DVec3;
 
@@ -16,6 +17,7 @@ use crate::geometry::Ray;
 use crate::scene::Rgb;
 
 /// A ray that is yet to be traced.
+#[derive(Clone, Copy)]
 struct Waiting {
     parent: Option<usize>,
     kind: RayKind,

@@ -24,15 +24,16 @@ fn cropped(whole: &Frame, region: Region) -> (Vec<[u8; 3]>, Vec<u32>, Vec<[f32; 
     let rows = region.y..region.y + region.height;
     let places = rows.flat_map(|y| (region.x..region.x + region.width).map(move |x| [x, y]));
     let places: Vec<_> = places.map(|[x, y]| (y * SIZE.width + x) as usize).collect();
-    fn of<T: Copy>(all: &[T], places: &[usize]) -> Vec<T> {
-        let taken = places.iter().filter_map(|&at| all.get(at).copied());
-        taken.collect()
-    }
     (
         of(&whole.pixels, &places),
         of(&whole.objects, &places),
         of(&whole.values, &places),
     )
+}
+
+fn of<T: Copy>(all: &[T], places: &[usize]) -> Vec<T> {
+    let taken = places.iter().filter_map(|&at| all.get(at).copied());
+    taken.collect()
 }
 
 fn traced(scene: &Arc<Scene>, settings: Settings, frames: Frames) -> Arc<Frame> {

@@ -3,8 +3,8 @@
 
 use std::path::{Path, PathBuf};
 
+use super::drawing::RegionOrder;
 use super::jobs::Asking;
-use super::regions::RegionOrder;
 use super::until::Until;
 use super::zooming::ScaleOrder;
 use super::{App, Help, Next, PromptKind};
@@ -332,15 +332,11 @@ fn exposure(said: &str) -> Result<Command, String> {
     let is_known = |half_stops: &f64| {
         half_stops.fract() == 0.0 && half_stops.abs() <= f64::from(MOST_HALF_STOPS)
     };
-    match half_stops.filter(is_known) {
-        Some(half_stops) => Ok(Command::Exposure(half_stops as i8)),
-        None => {
-            let most = MOST_HALF_STOPS / 2;
-            Err(format!(
-                "exposure takes stops from -{most} to {most}, in steps of 0.5"
-            ))
-        }
-    }
+    let most = MOST_HALF_STOPS / 2;
+    let known = half_stops.filter(is_known);
+    known
+        .map(|half_stops| Command::Exposure(half_stops as i8))
+        .ok_or_else(|| format!("exposure takes stops from -{most} to {most}, in steps of 0.5"))
 }
 
 /// Parses when a trace ends; nothing asks when it does.

@@ -1,34 +1,15 @@
 //! What pictures show, and how light is displayed: views, shares of the light, exposure.
 
-use std::sync::{Arc, Weak};
+use std::sync::Arc;
 
 use super::App;
+use super::tally::Tally;
 use crate::language::Node;
 use crate::render::{Aov, Colours, Frame, Histogram, MOST_HALF_STOPS, exposes};
 use crate::scene::{Emitter, Transfer};
 use crate::text::{concise, percentage, rounded};
 use crate::ui::keymap::Action;
 use crate::ui::msg::Target;
-
-/// A histogram on screen.
-#[derive(Debug, Default)]
-pub struct Tally {
-    /// The frame counted and the exposure of the display, in half stops.
-    of: (Weak<Frame>, i8),
-    /// The counts; `None` without a picture of light or albedo.
-    pub histogram: Option<Histogram>,
-}
-
-#[cfg(test)]
-impl Tally {
-    /// A histogram of no particular frame.
-    pub(in crate::ui) fn of(histogram: Histogram) -> Self {
-        Self {
-            histogram: Some(histogram),
-            ..Self::default()
-        }
-    }
-}
 
 impl App {
     /// Shows light or an AOV.

@@ -2,11 +2,11 @@
 
 use std::sync::Arc;
 
-use super::looking::Tally;
+use super::drawing::Drawing;
 use super::picture::Picture;
-use super::regions::Drawing;
 use super::sight::Grid;
 use super::soloed::Solo;
+use super::tally::Tally;
 use super::transform::Transform;
 use super::until::Until;
 use super::wires::Wires;

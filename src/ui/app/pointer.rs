@@ -3,8 +3,8 @@
 use crossterm::event::{KeyModifiers, MouseButton, MouseEvent, MouseEventKind};
 
 use super::camera::{advanced, dollied, orbited, shifted, turned};
+use super::drawing::Held;
 use super::model::Border;
-use super::regions::Held;
 use super::{App, PickerRow};
 use crate::render::{axes, pixel_width};
 use crate::ui::keymap::{Context, Mode};

@@ -2,6 +2,7 @@
 
 use std::sync::Arc;
 
+use super::until::Until;
 use super::viewport::{Detail, Screen};
 use super::{App, Grid, Picture, Wires};
 use crate::image_file::ImageFormat;
@@ -331,5 +332,17 @@ impl App {
             return vec![Effect::Halt(Target::Trace)];
         }
         self.cancel_export()
+    }
+
+    /// Sets when the full-size trace is complete, or says when it is. A trace in progress continues
+    /// from the samples it has.
+    pub(super) fn trace_until(&mut self, until: Option<Until>) -> Vec<Effect> {
+        if until.is_some() {
+            self.pictures.until = until;
+        }
+        let until = self.pictures.until();
+        self.overlays
+            .say(format!("the full-size trace ends {until}"));
+        self.retrace()
     }
 }

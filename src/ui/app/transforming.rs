@@ -148,12 +148,12 @@ impl App {
     }
 
     /// Moves by steps to the right and up.
-    pub(super) fn step_transform(&mut self, right: f64, up: f64, stride: Stride) {
+    pub(super) fn step_transform(&mut self, right: i8, up: i8, stride: Stride) {
         let factor = stride.of(1.0);
         self.change_transform(|transform| {
             transform.typed.clear();
-            transform.steps[0] += factor * right;
-            transform.steps[1] += factor * up;
+            transform.steps[0] += factor * f64::from(right);
+            transform.steps[1] += factor * f64::from(up);
         });
     }
 

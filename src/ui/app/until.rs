@@ -3,10 +3,8 @@
 use std::fmt;
 use std::time::Duration;
 
-use super::App;
 use crate::render::{Limit, MAX_SPP};
 use crate::text::{parse_duration, rounded};
-use crate::ui::msg::Effect;
 
 /// When the full-size trace is complete.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -63,20 +61,6 @@ impl fmt::Display for Until {
             Self::Time(time) => write!(f, "after {} s", rounded(time.as_secs_f64(), 3)),
             Self::Noise(level) => write!(f, "below a noise of {} %", rounded(100.0 * level, 4)),
         }
-    }
-}
-
-impl App {
-    /// Sets when the full-size trace is complete, or says when it is. A trace in progress continues
-    /// from the samples it has.
-    pub(super) fn trace_until(&mut self, until: Option<Until>) -> Vec<Effect> {
-        if until.is_some() {
-            self.pictures.until = until;
-        }
-        let until = self.pictures.until();
-        self.overlays
-            .say(format!("the full-size trace ends {until}"));
-        self.retrace()
     }
 }
 

@@ -7,7 +7,7 @@ use super::camera::{advanced, dollied, faced, panned, rolled, stepped, widened};
 use super::{App, Grid, Help, PageFocus, PromptKind, line};
 use crate::text::Severity;
 use crate::ui::arrange::{Zoom, divided, resized};
-use crate::ui::keymap::{self, Action, Context, Meaning, Mode, Tool};
+use crate::ui::keymap::{self, Action, Context, Meaning, Mode, Stride, Tool};
 use crate::ui::msg::{Effect, Existing, Msg, Target, Timer};
 use crate::ui::terminal::Mouse;
 
@@ -254,9 +254,7 @@ impl App {
             Action::Go(mode) => return self.go(mode),
             Action::Back => return self.back(context),
             Action::Accept => return self.accept(context),
-            Action::No if context == Context::Overwrite => {
-                return self.answer_taken(Existing::Numbered);
-            }
+            Action::No if context == Context::Overwrite => return self.number_taken(),
             Action::No => return self.decline(),
             Action::Search if self.overlays.open_search() => {}
             Action::Search => self.start_filter(),
@@ -279,31 +277,23 @@ impl App {
             Action::Solo => self.toggle_solo(),
             Action::Retype => self.open_kinds(),
             Action::Transform(tool) => self.start_transform(tool),
-            Action::Step(right, up, stride) => {
-                self.step_transform(right.into(), up.into(), stride);
-            }
+            Action::Step(right, up, stride) => self.step_transform(right, up, stride),
             Action::Lock(axis) => self.lock_axis(axis),
             Action::Snap => self.toggle_snap(),
             Action::Choose => self.enter_value(),
             Action::Type => self.type_current(),
-            Action::Nudge(steps, stride) if context == Context::Colour => {
-                self.step_colour(steps, stride);
-            }
-            Action::Nudge(steps, stride) => self.nudge(steps, stride),
+            Action::Nudge(steps, stride) => self.nudge_in(context, steps, stride),
             Action::Colour => self.open_picker(),
             Action::Orthonormalise => self.orthonormalise(),
-            Action::Stride(step) => {
-                let words = self.cursor.change_stride(step);
-                self.overlays.say(words);
-            }
+            Action::Stride(step) => self.overlays.say(self.cursor.change_stride(step)),
             Action::Component(step) => self.next_component(step),
-            Action::Orbit(left, up) => self.move_camera(|now| stepped(now, left, up)),
-            Action::Pan(left, up) => self.move_camera(|now| panned(now, left, up)),
-            Action::Dolly(steps) => self.move_camera(|now| dollied(now, steps)),
-            Action::Turn(left, up) => self.move_camera(|now| faced(now, left, up)),
-            Action::Advance(steps) => self.move_camera(|now| advanced(now, steps)),
-            Action::Roll(left) => self.move_camera(|now| rolled(now, left)),
-            Action::Widen(steps) => self.move_camera(|now| widened(now, steps)),
+            Action::Orbit(..)
+            | Action::Pan(..)
+            | Action::Dolly(_)
+            | Action::Turn(..)
+            | Action::Advance(_)
+            | Action::Roll(_)
+            | Action::Widen(_) => self.step_camera(action),
             Action::ResetView => self.pictures.reset_view(),
             Action::FrameSelected => self.frame_selected(),
             Action::SaveView => return self.save_view_key(),
@@ -330,10 +320,7 @@ impl App {
             Action::Share(step) => self.step_share(step),
             Action::Expose(half_stops) => self.expose(half_stops),
             Action::Wireframe => self.overlays.say(self.pictures.show_wires()),
-            Action::Integrator => {
-                let words = self.pictures.toggle_integrator(self.scene.as_deref());
-                self.overlays.say(words);
-            }
+            Action::Integrator => self.toggle_integrator(),
             Action::Pin => return self.pin(),
             Action::Flip
             | Action::Wipe
@@ -342,12 +329,12 @@ impl App {
             | Action::Worst(_) => self.act_on_comparison(action),
             Action::Stop => return self.stop(),
             Action::Pause => return self.toggle_pause(),
-            Action::Magnify(steps) => self.magnify(steps),
-            Action::Scroll(right, down) => self.scroll_picture(right, down),
-            Action::OneToOne => self.toggle_scale(),
-            Action::Region => self.start_region(),
-            Action::Corner(right, down) => self.move_corner(right, down),
-            Action::OtherCorner => self.swap_corners(),
+            Action::Magnify(_)
+            | Action::Scroll(..)
+            | Action::OneToOne
+            | Action::Region
+            | Action::Corner(..)
+            | Action::OtherCorner => self.act_on_window(action),
             Action::Export => return self.export_default(),
             Action::Save => return self.save_key(),
             Action::Editor => return self.open_editor(),
@@ -358,6 +345,49 @@ impl App {
             Action::Interrupt => return self.interrupt(),
         }
         Vec::new()
+    }
+
+    /// Moves the camera by steps.
+    fn step_camera(&mut self, action: Action) {
+        self.move_camera(|now| match action {
+            Action::Orbit(left, up) => stepped(now, left, up),
+            Action::Pan(left, up) => panned(now, left, up),
+            Action::Dolly(steps) => dollied(now, steps),
+            Action::Turn(left, up) => faced(now, left, up),
+            Action::Advance(steps) => advanced(now, steps),
+            Action::Roll(left) => rolled(now, left),
+            Action::Widen(steps) => widened(now, steps),
+            _ => now,
+        });
+    }
+
+    /// Changes what of the picture is seen, or the region that is drawn.
+    fn act_on_window(&mut self, action: Action) {
+        match action {
+            Action::Magnify(steps) => self.magnify(steps),
+            Action::Scroll(right, down) => self.scroll_picture(right, down),
+            Action::OneToOne => self.toggle_scale(),
+            Action::Region => self.start_region(),
+            Action::Corner(right, down) => self.move_corner(right, down),
+            _ => self.swap_corners(),
+        }
+    }
+
+    fn number_taken(&mut self) -> Vec<Effect> {
+        self.answer_taken(Existing::Numbered)
+    }
+
+    fn nudge_in(&mut self, context: Context, steps: i8, stride: Stride) {
+        if context == Context::Colour {
+            self.step_colour(steps, stride);
+        } else {
+            self.nudge(steps, stride);
+        }
+    }
+
+    fn toggle_integrator(&mut self) {
+        let words = self.pictures.toggle_integrator(self.scene.as_deref());
+        self.overlays.say(words);
     }
 
     pub(super) fn go(&mut self, mode: Mode) -> Vec<Effect> {

@@ -23,10 +23,7 @@ pub(super) const fn of_action(action: Action) -> &'static str {
         A::Go(mode) => of_mode(mode),
         A::Back => "back",
         A::Accept => "accept",
-        A::Fold(Fold::Selected) => "fold",
-        A::Fold(Fold::Unselected) => "unfold",
-        A::Fold(Fold::All) => "fold-all",
-        A::Fold(Fold::None) => "unfold-all",
+        A::Fold(fold) => of_fold(fold),
         A::Search => "search",
         A::SearchAgain(1..) => "next-match",
         A::SearchAgain(_) => "previous-match",
@@ -45,16 +42,12 @@ pub(super) const fn of_action(action: Action) -> &'static str {
         A::Solo => "solo",
         A::Add => "add",
         A::Retype => "change-type",
-        A::Transform(Tool::Move) => "move",
-        A::Transform(Tool::Rotate) => "rotate",
-        A::Transform(Tool::Scale) => "scale",
+        A::Transform(tool) => of_tool(tool),
         A::Explain => "explain",
         A::Sample(1..) => "next-sample",
         A::Sample(_) => "previous-sample",
         A::Step(..) | A::Cross(..) | A::Nudge(..) => of_step(action),
-        A::Lock(0) => "lock-x",
-        A::Lock(1) => "lock-y",
-        A::Lock(_) => "lock-z",
+        A::Lock(axis) => of_lock(axis),
         A::Snap => "snap",
         A::Choose => "choose",
         A::Type => "type",
@@ -101,19 +94,7 @@ pub(super) const fn of_action(action: Action) -> &'static str {
         A::Resize(_) => "smaller-panels",
         A::Divide(1..) => "larger-list",
         A::Divide(_) => "smaller-list",
-        A::Show(None) => "show-light",
-        A::Show(Some(Aov::Depth)) => "show-depth",
-        A::Show(Some(Aov::Normal)) => "show-normals",
-        A::Show(Some(Aov::Object)) => "show-objects",
-        A::Show(Some(Aov::Albedo)) => "show-albedo",
-        A::Show(Some(Aov::Uv)) => "show-uv",
-        A::Show(Some(Aov::Side)) => "show-sides",
-        A::Show(Some(Aov::Cost)) => "show-cost",
-        A::Show(Some(Aov::Samples)) => "show-samples",
-        A::Show(Some(Aov::Noise)) => "show-noise",
-        A::Show(Some(Aov::Direct(_))) => "show-direct",
-        A::Show(Some(Aov::Emission)) => "show-emission",
-        A::Show(Some(Aov::Indirect)) => "show-indirect",
+        A::Show(aov) => of_view(aov),
         A::Share(1..) => "next-share",
         A::Share(_) => "previous-share",
         A::Expose(1..) => "brighter",
@@ -129,6 +110,49 @@ pub(super) const fn of_action(action: Action) -> &'static str {
         A::AllMine => "all-mine",
         A::AllTheirs => "all-theirs",
         A::No => "no",
+    }
+}
+
+const fn of_fold(fold: Fold) -> &'static str {
+    match fold {
+        Fold::Selected => "fold",
+        Fold::Unselected => "unfold",
+        Fold::All => "fold-all",
+        Fold::None => "unfold-all",
+    }
+}
+
+const fn of_lock(axis: usize) -> &'static str {
+    match axis {
+        0 => "lock-x",
+        1 => "lock-y",
+        _ => "lock-z",
+    }
+}
+
+const fn of_tool(tool: Tool) -> &'static str {
+    match tool {
+        Tool::Move => "move",
+        Tool::Rotate => "rotate",
+        Tool::Scale => "scale",
+    }
+}
+
+const fn of_view(aov: Option<Aov>) -> &'static str {
+    match aov {
+        None => "show-light",
+        Some(Aov::Depth) => "show-depth",
+        Some(Aov::Normal) => "show-normals",
+        Some(Aov::Object) => "show-objects",
+        Some(Aov::Albedo) => "show-albedo",
+        Some(Aov::Uv) => "show-uv",
+        Some(Aov::Side) => "show-sides",
+        Some(Aov::Cost) => "show-cost",
+        Some(Aov::Samples) => "show-samples",
+        Some(Aov::Noise) => "show-noise",
+        Some(Aov::Direct(_)) => "show-direct",
+        Some(Aov::Emission) => "show-emission",
+        Some(Aov::Indirect) => "show-indirect",
     }
 }
 

@@ -49,8 +49,7 @@ impl Known {
         match reply {
             Reply::Shows(Protocol::Kitty) => self.shows_kitty = true,
             Reply::Shows(Protocol::Iterm) => self.shows_iterm = true,
-            Reply::Shows(Protocol::Sixel) => self.shows_sixel = true,
-            Reply::AttributesWithSixel => self.shows_sixel = true,
+            Reply::Shows(Protocol::Sixel) | Reply::AttributesWithSixel => self.shows_sixel = true,
             Reply::CellSize { width, height } => self.cell = Some((width, height)),
             Reply::Tmux(client) => self.tmux = Some(client),
             _ => {}
@@ -191,7 +190,9 @@ impl Manner {
             let (across, down) = at(divisor);
             u32::from(columns) * u32::from(across) * u32::from(rows) * u32::from(down) <= most
         };
-        at((1..height.max(2)).find(fits).unwrap_or(height.max(1)))
+        at((1..height.max(2))
+            .find(fits)
+            .unwrap_or_else(|| height.max(1)))
     }
 }
 

@@ -94,11 +94,13 @@ impl<'r> Judge<'r> {
 
     fn is_dark(&self, part: Rgb) -> bool {
         // NaN is displayed as black.
-        !(DARK <= self.shown(part))
+        let shown = self.shown(part);
+        shown.is_nan() || shown < DARK
     }
 
     fn is_dim(&self, part: Rgb) -> bool {
-        !(DIM <= self.shown(part))
+        let shown = self.shown(part);
+        shown.is_nan() || shown < DIM
     }
 
     /// What is wrong wherever the light comes from.
@@ -145,11 +147,11 @@ impl<'r> Judge<'r> {
                 vec![found(verdict, ray)]
             }
             RayEnd::Missed { .. } => {
-                vec![self.term(TermSource::Surroundings, traced.contribution, ray)]
+                vec![term(TermSource::Surroundings, traced.contribution, ray)]
             }
             RayEnd::Light(hit) => {
                 let light = TermSource::LightItself { light: hit.light };
-                vec![self.term(light, traced.contribution, ray)]
+                vec![term(light, traced.contribution, ray)]
             }
             RayEnd::Surface(shading) => self.surface(ray, shading),
             RayEnd::OverBudget => Vec::new(),
@@ -162,16 +164,16 @@ impl<'r> Judge<'r> {
         let source = first.map_or(TermSource::Surroundings, |shading| TermSource::Emission {
             object: shading.hit.object,
         });
-        self.term(source, self.totals[0], 0)
+        term(source, self.totals[0], 0)
     }
+}
 
-    fn term(&self, source: TermSource, contribution: Rgb, ray: usize) -> Finding {
-        let term = Term {
-            source,
-            contribution,
-        };
-        found(Verdict::Ordinary(term), ray)
-    }
+fn term(source: TermSource, contribution: Rgb, ray: usize) -> Finding {
+    let term = Term {
+        source,
+        contribution,
+    };
+    found(Verdict::Ordinary(term), ray)
 }
 
 fn found(verdict: Verdict, ray: usize) -> Finding {

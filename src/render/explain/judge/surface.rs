@@ -1,9 +1,10 @@
 //! Surfaces: which of local light, mirror and boundary matters.
 
 use super::super::super::shading::Side;
-use super::super::record::{RayEnd, RayKind, Shading, Stop};
+use super::super::kind::RayKind;
+use super::super::record::{RayEnd, Shading, Stop};
 use super::super::verdict::{Finding, TermSource, Verdict};
-use super::{Judge, found};
+use super::{Judge, found, term};
 use crate::geometry::Ray;
 use crate::scene::{Emitter, Highlight, Light, Material, Rgb};
 
@@ -75,7 +76,7 @@ impl Judge<'_> {
             // What is seen there has its own pixels to be explained by.
             findings.retain(|finding| is_lack(&finding.verdict, kind));
             let source = TermSource::Ray { kind, object, seen };
-            findings.insert(0, self.term(source, total, child));
+            findings.insert(0, term(source, total, child));
         }
         if kind == RayKind::TotalReflection {
             // A ray that is cut is the cause, unless it would be reflected further on and on.
@@ -163,7 +164,7 @@ impl Judge<'_> {
         let lacks_first = !lacks.findings.is_empty() && (is_unlit || 2.0 * direct < lacks.lost);
         let ordinary = ordinary
             .into_iter()
-            .map(|(source, part)| self.term(source, part, ray));
+            .map(|(source, part)| term(source, part, ray));
         let findings = if lacks_first {
             lacks.findings.into_iter().chain(ordinary).collect()
         } else {
