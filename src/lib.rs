@@ -55,10 +55,10 @@
 //!   of cancelled renders.
 //! - `ui` changes documents, never scenes. `App::update` is a pure step that returns effects;
 //!   drawing never locks.
-//! - Threads communicate by messages. The exceptions are a renderer's newest generation and frame
-//!   slot; and in [`ui::terminal`] the count of expected replies, and what a panic hook or signal
-//!   handler must reach: the queued output, the owner of the terminal, the panics of other threads
-//!   and whether unsaved edits are stored.
+//! - Threads communicate by messages. The exceptions are a renderer's newest generation, which
+//!   may be paused, and its frame slot; and in [`ui::terminal`] the count of expected replies, and
+//!   what a panic hook or signal handler must reach: the queued output, the owner of the terminal,
+//!   the panics of other threads and whether unsaved edits are stored.
 
 pub mod accel;
 pub mod assets;

@@ -17,6 +17,7 @@ fn main() -> ExitCode {
         Ok(Command::Render(work)) => cli::exit_code(&batch::render(&work)),
         Ok(Command::Check(work)) => cli::exit_code(&batch::check(&work)),
         Ok(Command::Compare(work)) => cli::comparison_exit_code(&batch::compare(&work)),
+        Ok(Command::Explain(work)) => cli::exit_code(&batch::explain(&work)),
         Ok(Command::Doctor(scene)) => print(&Stop {
             text: ui::doctor::examine(scene.as_deref()),
             code: cli::DONE,

@@ -12,7 +12,8 @@ use std::collections::{BTreeMap, BTreeSet, HashMap};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use crate::language::{FileKind, NamedFile};
+use crate::language::{FileKind, Lowered, NamedFile, Source};
+use crate::memory::OutOfMemory;
 use crate::obj;
 use crate::scene::{Image, Images, Meshes};
 
@@ -120,6 +121,35 @@ impl Assets {
             limits: LIMITS,
             known: Known::default(),
         }
+    }
+
+    /// Lowers the text of a scene file with the files that it names, and returns what was read of
+    /// them too. The diagnostics include those of the files.
+    ///
+    /// # Errors
+    ///
+    /// Fails if lowering would take more memory than is available.
+    pub fn lower(
+        &mut self,
+        path: &Path,
+        source: &mut Source,
+    ) -> Result<(Lowered, Loaded), OutOfMemory> {
+        let mut lowered = source.lower(&Meshes::default())?;
+        let mut files = source.files();
+        let mut wanted = Wanted::new(path, &files);
+        let mut loaded = self.read(&wanted);
+        if !wanted.meshes.is_empty() {
+            lowered = source.lower(&loaded.meshes)?;
+            // Meshes may reference pictures.
+            files = source.files();
+            let before = wanted;
+            wanted = Wanted::new(path, &files);
+            if wanted != before {
+                loaded = self.read(&wanted);
+            }
+        }
+        lowered.diagnostics = report(&loaded.picture_errors, &files, lowered.diagnostics);
+        Ok((lowered, loaded))
     }
 
     /// Reads all files wanted and the material libraries that the meshes name. A picture that could

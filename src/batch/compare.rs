@@ -79,7 +79,7 @@ fn try_compare(work: &Compare) -> Result<Verdict, Error> {
         source,
     })?;
     if let (Some((path, format)), Ok(found)) = (&work.output, &found) {
-        draw(path, *format, found.size, heat_map(&a, &b))?;
+        draw(path, *format, found.size, heat_map(a.pixels(), b.pixels()))?;
     }
     Ok(verdict)
 }
@@ -170,8 +170,6 @@ fn table(work: &Compare, found: &Result<Comparison, SizesDiffer>, verdict: Verdi
             line("size", format!("{a} and {b}"));
         }
         Ok(found) => {
-            let count = found.size.pixels();
-            let percent = 100.0 * found.differing as f64 / count as f64;
             let beyond = match work.tolerance {
                 0 => String::new(),
                 tolerance => format!(" by more than {tolerance} of 255"),
@@ -180,21 +178,10 @@ fn table(work: &Compare, found: &Result<Comparison, SizesDiffer>, verdict: Verdi
                 "size",
                 format!("{}x{}", found.size.width, found.size.height),
             );
-            line(
-                "differing pixels",
-                format!("{} of {count} ({percent:.2} %){beyond}", found.differing),
-            );
-            line("largest", format!("{} of 255", found.largest));
-            line("MSE", format!("{:.4}", found.mse));
-            line("PSNR", format!("{:.2} dB", found.psnr()));
-            line(
-                "SSIM",
-                found.ssim.map_or_else(
-                    || "none: below 11 pixels wide or high".to_owned(),
-                    |ssim| format!("{ssim:.5}"),
-                ),
-            );
-            line("FLIP", format!("{:.5}", found.flip));
+            line("differing pixels", found.differing_words() + &beyond);
+            for (name, figure) in found.figures() {
+                line(name, figure);
+            }
             for (at, worst) in found.worst.iter().enumerate() {
                 let Difference { x, y, colours } = worst;
                 let [a, b] = colours.map(|[r, g, b]| format!("{r:3} {g:3} {b:3}"));

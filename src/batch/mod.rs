@@ -1,7 +1,8 @@
-//! Headless work: check, compare and render. Knows no terminals, except for a progress line if standard
+//! Headless work: check, compare, explain and render. Knows no terminals, except for a progress line if standard
 //! error is one.
 
 mod compare;
+mod explain;
 mod progress;
 mod render;
 mod report;
@@ -12,7 +13,7 @@ use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use crate::assets::{self, Assets, NoFolder, Wanted};
+use crate::assets::{self, Assets, NoFolder};
 use crate::file::{self, ReadError};
 use crate::image_file::Unreadable;
 use crate::language::{
@@ -20,10 +21,11 @@ use crate::language::{
 };
 use crate::memory::{self, OutOfMemory};
 use crate::render::Refusal;
-use crate::scene::{Images, Meshes, Scene};
+use crate::scene::{Images, Scene};
 use crate::text::{Diagnostic, Findings, Span, counted, visible, without_codes};
 
 pub use compare::{Compare, Report, Verdict, compare};
+pub use explain::{Explain, explain};
 pub use render::{Output, Render, render};
 pub use tracing::Tracing;
 
@@ -242,22 +244,7 @@ fn lower(
     source: &mut Source,
     folders: &[PathBuf],
 ) -> Result<(Lowered, Images, Vec<PathBuf>), OutOfMemory> {
-    let mut assets = Assets::new(folders);
-    let mut lowered = source.lower(&Meshes::default())?;
-    let mut files = source.files();
-    let mut wanted = Wanted::new(path, &files);
-    let mut loaded = assets.read(&wanted);
-    if !wanted.meshes.is_empty() {
-        lowered = source.lower(&loaded.meshes)?;
-        // Meshes may reference pictures.
-        files = source.files();
-        let before = wanted;
-        wanted = Wanted::new(path, &files);
-        if wanted != before {
-            loaded = assets.read(&wanted);
-        }
-    }
-    lowered.diagnostics = assets::report(&loaded.picture_errors, &files, lowered.diagnostics);
+    let (lowered, loaded) = Assets::new(folders).lower(path, source)?;
     for (name, found) in &loaded.elsewhere {
         print_message("note", &format!("{name} is read from {}", found.display()));
     }

@@ -87,7 +87,8 @@ impl Tracing {
         self.size.unwrap_or(scene.camera.size)
     }
 
-    fn job(&self, scene: Scene, images: Images, frames: Frames) -> Job {
+    /// The job that traces a scene.
+    pub(super) fn job(&self, scene: Scene, images: Images, frames: Frames) -> Job {
         let transfer = self.transfer.unwrap_or(scene.setting.transfer);
         let integrator = self.integrator.unwrap_or(scene.setting.integrator);
         let size = self.size_of(&scene);

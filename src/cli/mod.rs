@@ -2,6 +2,7 @@
 
 mod choices;
 mod compare;
+mod explain;
 mod interface;
 mod shared;
 mod tracing;
@@ -16,12 +17,13 @@ use clap::{Args, CommandFactory, Parser, Subcommand, ValueEnum};
 use clap_complete::Shell;
 
 use compare::CompareArguments;
+use explain::ExplainArguments;
 use interface::InterfaceArguments;
 pub use interface::Purpose;
 use shared::{AssetArguments, StrictnessArguments, picture_format};
 use tracing::TracingArguments;
 
-use crate::batch::{self, Check, Compare, Output, Render, Verdict};
+use crate::batch::{self, Check, Compare, Explain, Output, Render, Verdict};
 use crate::config;
 use crate::file::ReadError;
 use crate::image_file::{FORMATS, ImageFormat, known_extensions};
@@ -61,6 +63,8 @@ pub enum Command {
     Render(Render),
     /// Compare two pictures.
     Compare(Compare),
+    /// Explain a pixel.
+    Explain(Explain),
     /// Report what was detected about the terminal and the machine, for this scene.
     Doctor(Option<PathBuf>),
     /// Report errors and warnings in scenes.
@@ -88,6 +92,7 @@ pub fn parse(arguments: impl IntoIterator<Item = OsString>) -> Result<Command, S
             .into_compare()
             .map(Command::Compare)
             .map_err(|reason| refusal(Some("compare"), reason)),
+        Some(Subcommands::Explain(explain)) => Ok(Command::Explain(explain.into_explain())),
         Some(Subcommands::Check {
             scenes,
             strictness,
@@ -249,6 +254,9 @@ enum Subcommands {
     /// Compare two pictures, or what scenes show
     #[command(after_help = compare::EXAMPLES)]
     Compare(CompareArguments),
+    /// Say why a pixel has its colour, and show the rays behind it
+    #[command(after_help = explain::EXAMPLES)]
+    Explain(ExplainArguments),
     /// Report errors and warnings in scenes without rendering them
     Check {
         /// Scene files

@@ -1,7 +1,7 @@
 use std::time::Duration;
 
 use super::*;
-use crate::batch::Report;
+use crate::batch::{Report, Warnings};
 use crate::image_file::MAX_PIXELS;
 use crate::render::{Filter, MAX_SPP, Region};
 use crate::scene::{Integrator, Size};
@@ -150,6 +150,21 @@ fn what_may_differ_reaches_the_comparison() {
 }
 
 #[test]
+fn the_pixel_and_the_sample_reach_the_explanation() {
+    let explain = |line: &str| match parsed(line) {
+        Ok(Command::Explain(explain)) => explain,
+        other => panic!("{line}: {other:?}"),
+    };
+    let default = explain("halflight explain a.ray 7 0");
+    assert_eq!((default.pixel, default.sample), ([7, 0], 0));
+    assert_eq!(default.report, Report::Text);
+    let given = explain("halflight explain a.ray 7 0 --sample 65535 --json --depth 3 --strict");
+    assert_eq!((given.sample, given.report), (65_535, Report::Json));
+    assert_eq!(given.tracing.depth, Some(3));
+    assert_eq!(given.warnings, Warnings::Refused);
+}
+
+#[test]
 fn asset_folders_reach_every_command() {
     let folders: Vec<PathBuf> = vec!["b".into(), "c".into()];
     let line = "halflight render a.dat -o a.bmp --assets b --assets c";
@@ -168,7 +183,7 @@ fn wrong_arguments_are_rejected_with_a_reason() {
     let cases = [
         (
             "halflight a b",
-            "unexpected second scene b: only one can be opened; the commands are render, compare, \
+            "unexpected second scene b: only one can be opened; the commands are render, compare, explain, \
              check, completions, man and doctor",
         ),
         (
@@ -207,6 +222,9 @@ fn wrong_arguments_are_rejected_with_a_reason() {
             "such as 800x600",
         ),
         ("halflight compare a", "<B>"),
+        ("halflight explain a 1", "<Y>"),
+        ("halflight explain a 1 2 --sample 65536", "0..=65535"),
+        ("halflight explain a -1 2", "-1"),
         ("halflight compare a b --tolerance 256", "0..=255"),
         ("halflight compare a b -o c", ".exr or .hdr"),
         ("halflight render a -o b.bmp --spp 0", "1..=65536"),

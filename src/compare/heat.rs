@@ -1,16 +1,15 @@
 //! A picture of the differences of two pictures.
 
 use super::levels;
-use crate::scene::Image;
 
 /// The difference, in levels, from which a pixel is white.
 const HOTTEST: f64 = 64.0;
 
-/// A picture that shows where two pictures of the same size differ: black where they agree, then
+/// The pixels of a picture that shows where two pictures of the same size differ: black where they agree, then
 /// blue, red, yellow and white by the largest difference of a channel, the smallest of 1 level
 /// visible and all from 64 levels white.
-pub fn heat_map(a: &Image, b: &Image) -> Vec<[u8; 3]> {
-    let pairs = a.pixels().iter().zip(b.pixels());
+pub fn heat_map(a: &[[u8; 3]], b: &[[u8; 3]]) -> Vec<[u8; 3]> {
+    let pairs = a.iter().zip(b);
     let heat = |(a, b): (&[u8; 3], &[u8; 3])| {
         let levels = levels(*a, *b);
         heat(levels.into_iter().max().unwrap_or(0))

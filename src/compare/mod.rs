@@ -47,6 +47,14 @@ pub struct Difference {
     pub colours: [[u8; 3]; 2],
 }
 
+impl Difference {
+    /// The largest difference of a channel, in levels.
+    pub fn largest(&self) -> u8 {
+        let [a, b] = self.colours;
+        levels(a, b).into_iter().max().unwrap_or(0)
+    }
+}
+
 /// Pictures of different sizes cannot be compared pixel by pixel.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct SizesDiffer(pub [Size; 2]);
@@ -91,6 +99,28 @@ impl Comparison {
     /// The peak signal-to-noise ratio in decibels, infinite for equal pictures.
     pub fn psnr(&self) -> f64 {
         20.0 * 255_f64.log10() - 10.0 * self.mse.log10()
+    }
+
+    /// The number of differing pixels in words, with their share.
+    pub fn differing_words(&self) -> String {
+        let count = self.size.pixels();
+        let percent = 100.0 * self.differing as f64 / count as f64;
+        format!("{} of {count} ({percent:.2} %)", self.differing)
+    }
+
+    /// The other figures in words, by their names.
+    pub fn figures(&self) -> [(&'static str, String); 5] {
+        let ssim = self.ssim.map_or_else(
+            || "none: below 11 pixels wide or high".to_owned(),
+            |ssim| format!("{ssim:.5}"),
+        );
+        [
+            ("largest", format!("{} of 255", self.largest)),
+            ("MSE", format!("{:.4}", self.mse)),
+            ("PSNR", format!("{:.2} dB", self.psnr())),
+            ("SSIM", ssim),
+            ("FLIP", format!("{:.5}", self.flip)),
+        ]
     }
 }
 

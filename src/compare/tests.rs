@@ -157,7 +157,8 @@ fn the_heat_map_is_black_where_pictures_agree_and_white_where_they_differ_much()
         let most = [0, 1, 64, 255][x as usize];
         if channel == 1 { most } else { 0 }
     };
-    let map = heat_map(&image(size, |_, _, _| 0), &image(size, levels));
+    let [black, spotted] = [image(size, |_, _, _| 0), image(size, levels)];
+    let map = heat_map(black.pixels(), spotted.pixels());
     assert_eq!([map[0], map[2], map[3]], [[0; 3], [255; 3], [255; 3]]);
     assert!(map[1] != [0; 3], "{:?}", map[1]);
 }

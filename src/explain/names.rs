@@ -1,5 +1,8 @@
 //! Names, places and numbers as they are written in explanations.
 
+use std::cell::RefCell;
+use std::collections::HashMap;
+
 use glam::DVec3;
 
 use super::{Place, Subject};
@@ -11,11 +14,16 @@ use crate::text::{Position, Span};
 /// The text and scene that names come from.
 pub(super) struct Names<'s> {
     pub(super) subject: &'s Subject<'s>,
+    /// Positions found so far, by offset: finding one reads the text up to it.
+    positions: RefCell<HashMap<usize, Position>>,
 }
 
 impl<'s> Names<'s> {
     pub(super) fn new(subject: &'s Subject<'s>) -> Self {
-        Self { subject }
+        Self {
+            subject,
+            positions: RefCell::default(),
+        }
     }
 
     /// The node of an object of the scene.
@@ -114,7 +122,11 @@ impl<'s> Names<'s> {
     }
 
     fn place_of(&self, span: Span, field: Option<&'static str>) -> Place {
-        let Position { line, column } = Position::of(self.subject.source.text(), span.start());
+        let text = self.subject.source.text();
+        let mut positions = self.positions.borrow_mut();
+        let position = positions.entry(span.start());
+        let Position { line, column } =
+            *position.or_insert_with(|| Position::of(text, span.start()));
         Place {
             line,
             column,

@@ -7,6 +7,7 @@ use crate::render::{
     DepthLimit, Explanation, Finding, RayKind, Shading, Term, TermSource, Verdict,
 };
 use crate::scene::{Integrator, Rgb};
+use crate::text::counted;
 
 /// Keys of fields, by what they mean, in the order of the languages.
 pub(super) const LIGHT_COLOUR: &[&str] = &["colour", "intensity"];
@@ -15,6 +16,8 @@ const CONE: &[&str] = &["direction", "aa"];
 const ATTENUATION: &[&str] = &["attenuation", "a2", "a1", "a0"];
 const DIFFUSE: &[&str] = &["kd", "Kd", "diffuse", "color"];
 const AMBIENT: &[&str] = &["ka", "Ka", "diffuse", "color"];
+const MIRROR: &[&str] = &["kr", "Kr", "reflection"];
+const TRANSPARENCY: &[&str] = &["kt", "Kt", "refraction", "transmittance"];
 const EYE: &[&str] = &["eye", "position"];
 const MATERIAL: &[&str] = &["material", "mat"];
 const FILE: &[&str] = &["file", "texture"];
@@ -111,7 +114,7 @@ impl Case<'_> {
                     let object = names.object(object);
                     format!("{object} is behind the camera: turn the view toward it")
                 });
-                sentence
+                self.seen_by_nothing(sentence)
             }
             Verdict::Clipped {
                 object,
@@ -144,20 +147,38 @@ impl Case<'_> {
         }
     }
 
+    /// Adds why a ray that hits nothing was traced, unless it is the camera's.
+    fn seen_by_nothing(&self, sentence: Sentence) -> Sentence {
+        let names = self.names;
+        let ray = &self.explanation.rays[self.ray];
+        let parent = ray.parent.map(|parent| &self.explanation.rays[parent]);
+        let Some(shading) = parent.and_then(|parent| parent.shading()) else {
+            return sentence;
+        };
+        let node = names.material_node(shading.hit.object);
+        let (keys, does, other) = match ray.kind {
+            RayKind::Refraction => (TRANSPARENCY, "transmits", "reflects as a mirror"),
+            RayKind::Mirror => (MIRROR, "reflects as a mirror", "transmits"),
+            _ => return sentence,
+        };
+        let key = names.key(node, keys).unwrap_or(keys[0]);
+        let others = if keys == MIRROR { TRANSPARENCY } else { MIRROR };
+        let other_key = names.key(node, others).unwrap_or(others[0]);
+        let help = format!("{key} is what {does}; {other_key} is what {other}");
+        let mut sentence = self.about(node, keys, sentence);
+        sentence.help = Some(help);
+        sentence
+    }
+
     fn of_rays(&self, verdict: &Verdict) -> Sentence {
         let names = self.names;
         match verdict {
             Verdict::Depth { object, depth } => {
                 let object_name = names.object(*object);
-                let bounces = match depth {
-                    0 => "no bounces".to_owned(),
-                    1 => "1 bounce".to_owned(),
-                    depth => format!("{depth} bounces"),
-                };
                 let text = format!(
-                    "cut by depth: {object_name} reflects or transmits rays, but {bounces} are allowed",
+                    "cut by depth {depth}: {object_name} reflects or transmits light that is not \
+                     traced"
                 );
-                let text = text.replace("1 bounce are", "1 bounce is");
                 let mut sentence = self.sentence("depth", text);
                 sentence.help = Some(format!("raise the depth above {depth}"));
                 self.about(names.object_node(*object), &[], sentence)
@@ -185,8 +206,8 @@ impl Case<'_> {
                 let text = format!("clipped at 255: the sum {} is above 1", colour(*exposed));
                 let mut sentence = self.sentence("too-bright", text);
                 let main = self.main_term();
-                let stops = (1.0 / exposed.max_element()).log2().floor();
-                let exposure = format!("lower the exposure by {} stops", number(-stops));
+                let stops = counted(exposed.max_element().log2().ceil() as usize, "stop");
+                let exposure = format!("lower the exposure by {stops}");
                 sentence.help = Some(match &main {
                     Some(main) => format!("most of it is {main}; dim that, or {exposure}"),
                     None => exposure,
@@ -325,6 +346,7 @@ impl Case<'_> {
             Verdict::FacesAway {
                 lights,
                 all,
+                cosine,
                 object,
             } => {
                 let which = if *all && 1 < lights.len() {
@@ -332,7 +354,15 @@ impl Case<'_> {
                 } else {
                     names.lights(lights)
                 };
-                let text = format!("{} faces away from {which} here", names.object(*object));
+                let object = names.object(*object);
+                let text = if 0.0 < *cosine {
+                    format!(
+                        "{which} only grazes {object} here: N·L is {}",
+                        number(*cosine)
+                    )
+                } else {
+                    format!("{object} faces away from {which} here")
+                };
                 let mut sentence = self.sentence("faces-away", text);
                 sentence.help = Some("move the light to this side, or add one".to_owned());
                 self.about(light_node(&lights[0]), LIGHT_PLACE, sentence)

@@ -16,11 +16,13 @@ pub(super) fn undrawn(
     names: &Names<'_>,
 ) -> Option<Sentence> {
     let source = subject.source;
-    // What a drawn object combines is drawn as a part of it.
+    let first = explanation.rays.first().and_then(|ray| ray.shading());
+    // What a drawn object combines is drawn as a part of it; where nothing is seen, that part was
+    // left out.
     let is_left_out = |&object: &usize| {
         source.drawn(object).is_none()
             && !source.is_group(object)
-            && source.group_of(object).is_none()
+            && (source.group_of(object).is_none() || first.is_none())
     };
     let left_out: Vec<_> = (0..source.nodes().objects())
         .filter(is_left_out)
@@ -41,14 +43,20 @@ pub(super) fn undrawn(
         Some((under.point.distance(eye), object))
     });
     let (distance, object) = seen.min_by(|(a, _), (b, _)| a.total_cmp(b))?;
-    let first = explanation.rays.first().and_then(|ray| ray.shading());
     let shown = first.map_or(f64::INFINITY, |shading| shading.hit.point.distance(eye));
     (distance < shown).then(|| {
         let node = Node::Object(object);
+        let reason = match source.group_of(object) {
+            Some(whole) => {
+                let whole = names.node(Node::Object(whole));
+                format!("{whole} does not include this part of it")
+            }
+            None => "it is not drawn".to_owned(),
+        };
         Sentence {
             name: "not-drawn",
             text: format!(
-                "{} is here, {} from the eye, but it is not drawn",
+                "{} is here, {} from the eye, but {reason}",
                 names.node(node),
                 number(distance)
             ),

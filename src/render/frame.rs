@@ -60,7 +60,7 @@ pub struct Settings {
 impl Settings {
     /// What is traced: the region, or the whole picture.
     pub fn traced(&self) -> Region {
-        self.region.unwrap_or(Region::whole(self.size))
+        self.region.unwrap_or_else(|| Region::whole(self.size))
     }
 
     /// The AOV of the surfaces to trace instead of light.

@@ -9,11 +9,11 @@
 //! few milliseconds, and a film's memory is first touched while tracing and freed by the pool.
 //!
 //! Data flow: [`renderer`] hands a job to [`worker`], which builds a [`world`] with the
-//! [`structures`] of its meshes and fills the [`tile`]s of a [`film`] in [`steps`]. Each sample
-//! gets its numbers from [`sampler`], its place around the pixel from [`filter`], its ray from
-//! [`camera`] and its radiance from a [`tracer`], or an AOV from [`first_hit`]. [`tone`] converts
-//! the film to a frame (heat maps by a [`ramp`]), and [`noise`] estimates the remaining error. Of a
-//! picture, a [`mod@region`] can be traced alone.
+//! [`structures`] of its meshes and, pass by pass ([`mod@tracing`]), fills the [`tile`]s of a
+//! [`film`] in [`steps`]. Each sample gets its numbers from [`sampler`], its place around the pixel
+//! from [`filter`], its ray from [`camera`] and its radiance from a [`tracer`], or an AOV from
+//! [`first_hit`]. [`tone`] converts the film to a frame (heat maps by a [`ramp`]), and [`noise`]
+//! estimates the remaining error. A part of a picture, a [`mod@region`], can be traced alone.
 //!
 //! Pixels of live pictures record their dependencies ([`touched`]): after an edit of a material or
 //! of a light's colour the film is reused, and only dependent pixels are traced again.
@@ -94,7 +94,7 @@ pub use frame::{
     Query, Settings, default_depth,
 };
 pub use histogram::{HISTOGRAM_STOPS, Histogram};
-pub use place::{SurfacePoint, axes, clearance, pixel_of, pixel_width, surface_under};
+pub use place::{SurfacePoint, axes, clearance, line_of, pixel_of, pixel_width, surface_under};
 pub use refusal::Refusal;
 pub use region::{NoRegion, Region};
 pub use renderer::{Renderer, Threads};

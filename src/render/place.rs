@@ -56,6 +56,12 @@ pub fn pixel_of(point: DVec3, camera: &Camera, raster: Size) -> Option<[f64; 2]>
     Projection::new(camera, raster).pixel(point)
 }
 
+/// The part of a line that is inside a picture of this size, as its ends in pixels from the top left
+/// corner; `None` if none is.
+pub fn line_of(ends: [DVec3; 2], camera: &Camera, raster: Size) -> Option<[[f64; 2]; 2]> {
+    Projection::new(camera, raster).line(ends)
+}
+
 /// The width of a pixel at the distance of a point, in world units.
 pub fn pixel_width(point: DVec3, camera: &Camera, raster: Size) -> f64 {
     Projection::new(camera, raster).pixel_width(point)

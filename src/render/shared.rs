@@ -67,7 +67,7 @@ impl Shared {
     /// Waits while this generation is paused; its job may go on, be old, or end after that.
     #[inline]
     pub(crate) fn wait(&self, generation: u64) {
-        let is_paused = || self.state.load(Ordering::Relaxed) == 2 * generation | PAUSED;
+        let is_paused = || self.state.load(Ordering::Relaxed) == (2 * generation) | PAUSED;
         if is_paused() {
             let slot = self.lock();
             let waited = self.changed.wait_while(slot, |_| is_paused());

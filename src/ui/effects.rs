@@ -11,9 +11,11 @@ use std::thread;
 use std::time::{Duration, Instant};
 
 use super::assets::AssetReader;
+use super::comparer::{Figures, References};
 use super::deriving::Deriver;
 use super::editor;
 use super::event::{Event, Work, sending};
+use super::explaining::Explainer;
 use super::heap;
 use super::msg::{Effect, Msg, SaveOutcome, Target, Timer};
 use super::options::Options;
@@ -21,6 +23,7 @@ use super::past::NoPicture;
 use super::reader::Reader;
 use super::recent::Recent;
 use super::recovery::{self, Edits, End, Keeper, Outcome, Request};
+use super::reference::ReferenceSource;
 use super::screen::Screen;
 use super::service::{Ended, Service};
 use super::writing::Writers;
@@ -43,6 +46,9 @@ pub(crate) struct Runtime {
     keeper: Keeper,
     recent: Recent,
     assets: AssetReader,
+    references: References,
+    figures: Figures,
+    explainer: Explainer,
     deriver: Deriver,
     threads: Option<usize>,
     /// The command line of the editor that is configured.
@@ -50,6 +56,8 @@ pub(crate) struct Runtime {
     preview: Option<Numbered>,
     trace: Option<Numbered>,
     export: Option<Numbered>,
+    compared: Option<Numbered>,
+    reference: Option<Numbered>,
     thumbnail: Option<Numbered>,
     /// Number of renderers started so far.
     renderers: u64,
@@ -76,12 +84,17 @@ impl Runtime {
             keeper: Keeper::start(keeping(&sender))?,
             recent: remembering(&sender)?,
             assets: AssetReader::start(&options.assets, options.watching(), sending(&sender))?,
+            references: References::start(&options.assets, sending(&sender))?,
+            figures: Figures::start(sending(&sender))?,
             deriver: Deriver::start(&options.assets, sending(&sender))?,
+            explainer: Explainer::start(sending(&sender))?,
             threads: options.threads,
             editor: options.editor.clone(),
             preview: None,
             trace: None,
             export: None,
+            compared: None,
+            reference: None,
             thumbnail: None,
             renderers: 0,
             timers: Vec::new(),
@@ -170,12 +183,20 @@ impl Runtime {
             return Ok(match effect {
                 Effect::WriteRecovery { revision, .. } => Some(Msg::Kept(revision, Ok(()))),
                 Effect::ListRecent => Some(Msg::RecentListed(Vec::new())),
+                Effect::ReadReference(id, _) => {
+                    let reason = "a script of keys does not run git".to_owned();
+                    Some(Msg::ReferenceRead(id, Err(reason)))
+                }
                 _ => None,
             });
         }
         match effect {
             Effect::Trace(target, job) => return Ok(Some(self.trace(target, job))),
             Effect::Stop(target) => self.stop(target),
+            Effect::Explain(question, frame) => {
+                let work = Work::begin(&self.sender);
+                self.explainer.ask(question, frame, work)?;
+            }
             Effect::Halt(target) => self.with_renderer(target, Renderer::stop),
             Effect::Pause(target) => self.with_renderer(target, Renderer::pause),
             Effect::Resume(target) => self.with_renderer(target, Renderer::resume),
@@ -223,6 +244,14 @@ impl Runtime {
                 let work = Work::begin(&self.sender);
                 self.assets.request(wanted, work)?;
             }
+            Effect::ReadReference(id, source) => {
+                let work = Work::begin(&self.sender);
+                self.references.request(id, source, work)?;
+            }
+            Effect::Compare(pair) => {
+                let work = Work::begin(&self.sender);
+                self.figures.request(pair, work)?;
+            }
             Effect::Later(time, timer) => {
                 self.timers.retain(|&(_, set)| set != timer);
                 self.timers.push((Instant::now() + time, timer));
@@ -268,6 +297,8 @@ impl Runtime {
             Target::Preview => self.preview.as_ref(),
             Target::Trace => self.trace.as_ref(),
             Target::Export => self.export.as_ref(),
+            Target::Compared => self.compared.as_ref(),
+            Target::Reference => self.reference.as_ref(),
             Target::Thumbnail => self.thumbnail.as_ref(),
         }
     }
@@ -278,9 +309,7 @@ impl Runtime {
             (Target::Preview, None) => Threads::Preview,
             (Target::Preview, Some(count)) => Threads::Exactly(count),
             (Target::Thumbnail, _) => Threads::Background(1),
-            (Target::Trace | Target::Export, count) => {
-                Threads::Background(count.unwrap_or_else(cores))
-            }
+            (_, count) => Threads::Background(count.unwrap_or_else(cores)),
         };
         let (sender, renderers) = (&self.sender, &mut self.renderers);
         let mut start = || {
@@ -299,6 +328,8 @@ impl Runtime {
             Target::Preview => &mut self.preview,
             Target::Trace => &mut self.trace,
             Target::Export => &mut self.export,
+            Target::Compared => &mut self.compared,
+            Target::Reference => &mut self.reference,
             Target::Thumbnail => &mut self.thumbnail,
         };
         let running = slot.get_or_insert_with(&mut start);
@@ -323,6 +354,8 @@ impl Runtime {
             Target::Preview => {}
             Target::Trace => self.trace = None,
             Target::Export => self.export = None,
+            Target::Compared => self.compared = None,
+            Target::Reference => self.reference = None,
             Target::Thumbnail => self.thumbnail = None,
         }
     }
@@ -332,6 +365,8 @@ impl Runtime {
             Target::Preview => &mut self.preview,
             Target::Trace => &mut self.trace,
             Target::Export => &mut self.export,
+            Target::Compared => &mut self.compared,
+            Target::Reference => &mut self.reference,
             Target::Thumbnail => &mut self.thumbnail,
         };
         if let Some(running) = slot {
@@ -360,6 +395,7 @@ fn reaches_others(effect: &Effect) -> bool {
             | Effect::NoteRecent(_)
             | Effect::ListRecent
             | Effect::KeepPanels(_)
+            | Effect::ReadReference(_, ReferenceSource::Revision(..))
     )
 }
 

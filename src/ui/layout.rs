@@ -29,27 +29,6 @@ pub fn raster(area: Rect, output: Size) -> Option<(Rect, Size)> {
     Some((centred(area, cells), size))
 }
 
-/// Returns the pixel, in a picture of `size`, under the upper half of a cell, which a click there
-/// picks. The picture is shown over the cells returned by [`raster`]; the cell is counted from their
-/// corner.
-pub fn pixel_at(raster: (Rect, Size), size: Size, cell: (u16, u16)) -> Option<(u32, u32)> {
-    let (cells, shown) = raster;
-    let is_inside = cell.0 < cells.width && cell.1 < cells.height;
-    if !is_inside || size.pixels() == 0 {
-        return None;
-    }
-    let scaled = |at: u32, shown: u32, pixels: u32| {
-        // The pixel of the frame that contains the centre of the shown pixel.
-        let pixel = (2 * u64::from(at) + 1) * u64::from(pixels) / (2 * u64::from(shown.max(1)));
-        pixel.min(u64::from(pixels) - 1) as u32
-    };
-    let (x, y) = (cell.0, 2 * cell.1);
-    Some((
-        scaled(x.into(), shown.width, size.width),
-        scaled(y.into(), shown.height, size.height),
-    ))
-}
-
 /// Returns the first line to show so that line `at` is among the `rows` visible lines, with two
 /// lines of context if there is room, scrolling as little as possible from `top`.
 pub fn first_shown(top: usize, at: usize, count: usize, rows: usize) -> usize {
@@ -276,6 +255,40 @@ pub fn split_bottom(area: Rect, lines: u16) -> (Rect, Rect) {
     )
 }
 
+/// Splits off the `lines` lines at the top, or fewer if the area has fewer.
+pub fn split_top(area: Rect, lines: u16) -> (Rect, Rect) {
+    split_bottom(area, area.height.saturating_sub(lines))
+}
+
+/// Divides the right of a picture's area, or its left, between a tree and the values of one of its
+/// lines; in a narrow area, the lower half.
+pub fn over_picture(area: Rect, side: Side) -> (Rect, Rect) {
+    const WIDEST: u16 = 52;
+    const VALUES: u16 = 10;
+    let panel = if area.width < WIDEST {
+        split_bottom(area, area.height.div_ceil(2)).1
+    } else {
+        let (left, right) = split_right(area, (area.width / 2).min(WIDEST));
+        match side {
+            Side::Right => right,
+            Side::Left => Rect {
+                width: right.width,
+                ..left
+            },
+        }
+    };
+    split_bottom(panel, VALUES.min(panel.height / 2))
+}
+
+/// A side of the picture.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Side {
+    /// The left.
+    Left,
+    /// The right.
+    Right,
+}
+
 /// Number of lines that explain a field if there is room.
 pub const NOTES: u16 = 4;
 /// Minimum height of fields and notes together for all the notes to be shown.
@@ -366,20 +379,6 @@ mod tests {
         check((40, 20), size(1000, 1), (0, 9, 40, 1), size(40, 1));
         check((1, 1), size(u32::MAX, u32::MAX), (0, 0, 1, 1), size(1, 1));
         assert_eq!(raster(Rect::new(0, 0, 0, 9), size(4, 3)), None);
-    }
-
-    #[test]
-    fn a_cell_picks_the_pixel_under_its_upper_half() {
-        let cells = Rect::new(10, 5, 4, 3);
-        let pick = |shown, pixels, column, row| pixel_at((cells, shown), pixels, (column, row));
-        let even = size(4, 6);
-        assert_eq!(pick(even, even, 0, 0), Some((0, 0)));
-        assert_eq!(pick(even, even, 3, 2), Some((3, 4)));
-        let odd = size(4, 5);
-        assert_eq!(pick(odd, odd, 3, 2), Some((3, 4)));
-        assert_eq!(pick(even, size(400, 600), 1, 1), Some((150, 250)));
-        assert_eq!(pick(even, even, 4, 2), None);
-        assert_eq!(pick(even, even, 3, 3), None);
     }
 
     #[test]

@@ -12,12 +12,14 @@ use super::arrange::PanelSizes;
 use super::past::{NoPicture, PastScene, PastText};
 use super::reading::{Baseline, Opened, Reading};
 use super::recovery::{Claim, Found, Sought};
+use super::reference::{Pair, ReferenceId, ReferenceRead, ReferenceSource};
 use super::terminal::{ColourDepth, Mouse};
 use crate::assets::{Loaded, Wanted};
+use crate::compare::Comparison;
 use crate::document::Snapshot;
 use crate::file::{ReadError, Version};
 use crate::language::Language;
-use crate::render::{Frame, Job};
+use crate::render::{Explanation, Frame, Job};
 
 /// The picture that a frame belongs to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -28,8 +30,25 @@ pub enum Target {
     Trace,
     /// An export, traced in the background.
     Export,
+    /// The picture that is compared with the reference, traced as that was.
+    Compared,
+    /// The scene that pictures are compared with.
+    Reference,
     /// A picture on the page of the undo history, traced in the background.
     Thumbnail,
+}
+
+/// What is to be explained.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Question {
+    /// The picture.
+    pub target: Target,
+    /// The generation of its frames.
+    pub generation: u64,
+    /// Column and row of the pixel.
+    pub pixel: [u32; 2],
+    /// The index of the sample.
+    pub sample: u32,
 }
 
 /// Identifies an export of the session. If an export is cancelled while its file is being written,
@@ -60,6 +79,8 @@ pub enum Msg {
     Frame(Target, Arc<Frame>),
     /// The renderer of this picture has ended unexpectedly: it panicked or could not start threads.
     Ended(Target),
+    /// The result of [`Effect::Explain`]; `None` if the picture has been replaced.
+    Explained(Question, Option<Box<Explanation>>),
     /// The scene file may have changed.
     FileChanged,
     /// The result of [`Effect::Read`] for this path.
@@ -92,6 +113,10 @@ pub enum Msg {
     /// The result of [`Effect::ListFolder`]: the names in the folder, sorted; those of folders end
     /// in `/`.
     Listed(PathBuf, Vec<String>),
+    /// The result of [`Effect::ReadReference`], or the reason why there is none.
+    ReferenceRead(ReferenceId, Result<ReferenceRead, String>),
+    /// The result of [`Effect::Compare`]; `None` for pictures of different sizes.
+    Compared(Pair, Option<Arc<Comparison>>),
     /// The external editor has ended.
     EditorClosed(Result<(), String>),
     /// The result of [`Effect::ListRecent`].
@@ -160,6 +185,9 @@ pub enum Effect {
     Trace(Target, Job),
     /// Stops tracing this picture and forgets it.
     Stop(Target),
+    /// Explains a sample of a pixel of this frame, reported by [`Msg::Explained`] unless another
+    /// question follows at once.
+    Explain(Question, Arc<Frame>),
     /// Stops tracing this picture; [`Effect::Trace`] of the same continues it.
     Halt(Target),
     /// Pauses the tracing of this picture until [`Effect::Resume`] or [`Effect::Trace`].
@@ -208,6 +236,10 @@ pub enum Effect {
     /// Reads the files that the scene names and watches them from now on, reported by
     /// [`Msg::AssetsRead`] and [`Msg::AssetsChanged`].
     ReadAssets(Wanted),
+    /// Reads what pictures are to be compared with, reported by [`Msg::ReferenceRead`].
+    ReadReference(ReferenceId, ReferenceSource),
+    /// Measures how pictures differ, reported by [`Msg::Compared`].
+    Compare(Pair),
     /// Sends [`Msg::Elapsed`] after a delay. Setting the same timer again restarts it.
     Later(Duration, Timer),
     /// Stores unsaved edits for recovery, reported by [`Msg::Kept`].

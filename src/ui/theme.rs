@@ -48,6 +48,10 @@ pub(crate) const CURSOR: Style = Style::new().add_modifier(Modifier::REVERSED);
 /// The outline of the selected object in the picture; unlike the colours of most scenes.
 pub(crate) const OUTLINE: [u8; 3] = [255, 140, 0];
 
+/// The path of light that is explained, and its part that no light comes along.
+pub(crate) const PATH: [u8; 3] = [255, 230, 0];
+pub(crate) const BLOCKED: [u8; 3] = [255, 60, 60];
+
 /// The lines of the selected object in a wireframe.
 pub(crate) const OUTLINED: Style = Style::new().fg(Color::Yellow).add_modifier(Modifier::BOLD);
 

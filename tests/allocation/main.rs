@@ -77,6 +77,7 @@ mod unix {
         failing::fail(first, last);
         let code = match &command {
             Ok(cli::Command::Render(work)) => cli::exit_code(&batch::render(work)),
+            Ok(cli::Command::Explain(work)) => cli::exit_code(&batch::explain(work)),
             Ok(cli::Command::Check(work)) => cli::exit_code(&batch::check(work)),
             Ok(cli::Command::Interface(options, ..)) => cli::interface_exit_code(&ui::run(options)),
             Ok(cli::Command::Compare(_) | cli::Command::Doctor(_)) => {

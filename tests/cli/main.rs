@@ -3,6 +3,7 @@
 mod arguments;
 mod comparing;
 mod config;
+mod explaining;
 mod keys;
 mod limits;
 mod pictures;

@@ -185,3 +185,54 @@ fn a_time_ends_with_a_whole_pass() {
     let stderr = place.stderr("render ball.ray -o a.ppm --time 1h --spp 2", 0);
     assert!(stderr.starts_with("note: 2 samples per pixel"), "{stderr}");
 }
+
+#[test]
+fn an_exposure_of_0_changes_no_byte_and_one_stop_doubles() {
+    let place = Place::new();
+    let rendered = |options: &str, output: &str| {
+        place.run(&format!(
+            "render ball.ray --size 24x16 --spp 2 {options} -o {output}"
+        ));
+        place.read(output)
+    };
+    for output in ["a.ppm", "a.exr"] {
+        let plain = rendered("", output);
+        assert_eq!(plain, rendered("--exposure 0", output), "{output}");
+        assert_ne!(plain, rendered("--exposure -1", output), "{output}");
+        // Sides have no brightness.
+        let sides = rendered("--aov side", output);
+        assert_eq!(sides, rendered("--aov side --exposure 1", output));
+    }
+    let size = (24, 16);
+    let (plain, doubled) = (rendered("", "a.ppm"), rendered("--exposure 1", "b.ppm"));
+    let pairs = rows(&plain, size).concat().into_iter();
+    let pairs = pairs.zip(rows(&doubled, size).concat());
+    for (level, double) in pairs {
+        let exact = (2 * i32::from(level)).min(255);
+        assert!((i32::from(double) - exact).abs() <= 1, "{level} {double}");
+    }
+    for stops in ["101", "nan", "bright"] {
+        let reason = place.stderr(&format!("render ball.ray --exposure {stops} -o a.ppm"), 2);
+        assert!(reason.contains("a number from -100 to 100"), "{reason}");
+    }
+}
+
+#[test]
+fn every_aov_is_rendered_to_every_kind_of_picture() {
+    let place = Place::new();
+    let mut pictures = std::collections::BTreeSet::new();
+    for aov in [
+        "depth", "normal", "object", "albedo", "uv", "side", "cost", "samples", "noise",
+        "emission", "indirect",
+    ] {
+        for output in ["a.png", "a.exr"] {
+            let ran = place.run(&format!(
+                "render ball.ray --size 24x16 --spp 4 --aov {aov} -o {output}"
+            ));
+            assert!(ran.status.success(), "{aov} {output}");
+        }
+        pictures.insert(place.read("a.png"));
+    }
+    // The ball has no mirror: its indirect light is black.
+    assert!(10 <= pictures.len(), "{} are distinct", pictures.len());
+}

@@ -56,6 +56,7 @@ const ARROWS: &[(&str, &[&str])] = &[
         "ui",
         &[
             "assets",
+            "compare",
             "document",
             "explain",
             "file",

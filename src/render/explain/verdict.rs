@@ -128,6 +128,8 @@ pub enum Verdict {
         lights: Vec<u32>,
         /// Whether that is true of all lights that are switched on.
         all: bool,
+        /// N·L if a light still grazes the surface, else 0.
+        cosine: f64,
         /// The object.
         object: u32,
     },

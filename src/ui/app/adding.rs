@@ -5,6 +5,7 @@ use std::path::Path;
 use glam::DVec3;
 
 use super::App;
+use super::inspection::Cross;
 use super::menu::{Entry, Menu, Purpose};
 use super::transform::{decimals_of, round_up};
 use crate::language::{Node, Wish};
@@ -165,15 +166,12 @@ impl App {
     /// The point and the normal of the surface under the cross, or without a cross under the middle
     /// of the picture, if there is one.
     fn surface_looked_at(&self) -> Option<(DVec3, DVec3)> {
-        let (cells, size) = self.raster()?;
-        let middle = (cells.width / 2, cells.height / 2);
-        let cell = self.pictures.cross.unwrap_or(middle);
-        let Ok(Some(Node::Object(index))) = self.node_under(cell) else {
+        let Cross { pixel, size } = self.cross()?;
+        let Ok(Some(Node::Object(index))) = self.node_at(pixel) else {
             return None;
         };
         let scene = self.scene.as_ref()?;
         let object = scene.objects.get(self.source().drawn(index)? as usize)?;
-        let pixel = [u32::from(cell.0), 2 * u32::from(cell.1)];
         let found = surface_under(object, &self.camera()?, size, pixel)?;
         Some((found.point, found.normal))
     }

@@ -4,6 +4,7 @@ use std::path::PathBuf;
 use std::sync::Arc;
 
 use super::assets::Assets;
+use super::inspection::Inspection;
 use super::next::name_of;
 use super::{App, Cursor, List, Next, OnDisk, Overlays, Page};
 use crate::document::Document;
@@ -136,6 +137,7 @@ impl App {
         self.disk.replace(path, state);
         self.assets = Assets::default();
         self.pictures.renew();
+        self.inspection = Inspection::default();
         self.thumbnails.forget();
         self.cursor = Cursor::default();
         self.overlays = Overlays::default();

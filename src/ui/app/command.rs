@@ -42,6 +42,8 @@ enum Command {
     ExportCancel,
     /// Trace at full size.
     Render,
+    /// Compare with the reference, or with another one.
+    Compare(Option<PathBuf>),
     /// Write the working view into the text, under a name if one is given.
     ViewSave(Option<String>),
     /// Look from the selected light.
@@ -110,10 +112,9 @@ enum Arguments {
     Language(fn(Option<Language>) -> Command),
     Picture(fn(ExportArguments) -> Command),
     Size(fn(Size) -> Command),
-    Pixels(fn(Pixels) -> Command),
     /// How they are spelled, and what reads them.
     Said(&'static str, fn(&str) -> Result<Command, String>),
-    Stops(fn(i8) -> Command),
+    Pixels(fn(Pixels) -> Command),
 }
 
 const fn row(
@@ -152,6 +153,7 @@ const TABLE: &[CommandRow] = &[
     row(&["export!"], A::Picture(|picture| C::Export(picture, Force::Yes)), "export, overwriting an existing file"),
     row(&["export cancel"], A::Nothing(C::ExportCancel), "cancel the export"),
     row(&["render"], A::Nothing(C::Render), "trace at full size"),
+    row(&["compare"], A::File(C::Compare), "compare with a picture or scene FILE, saved, or git [REVISION]"),
     row(&["until"], A::Said(" [N spp|TIME|noise E]", until), "end the full-size trace at N spp, after 30 s or 5 min, or below noise 0.01"),
     row(&["region"], A::Said(" [X,Y,W,H|off]", |said| RegionOrder::parse(said).map(C::Region)), "trace only these pixels at full size, or all"),
     row(&["zoom"], A::Said(" [fit|1:1|N]", |said| ScaleOrder::parse(said).map(C::Scale)), "zoom the picture, also the preview"),
@@ -162,7 +164,7 @@ const TABLE: &[CommandRow] = &[
     row(&["mesh"], A::File(C::Mesh), "add the mesh of an .obj FILE, named as from the scene"),
     row(&["show uv"], A::Nothing(C::Show(Aov::Uv)), "show texture coordinates: u red, v green"),
     row(&["show side"], A::Nothing(C::Show(Aov::Side)), "show sides of surfaces: front blue, back orange"),
-    row(&["exposure"], A::Stops(C::Exposure), "set the exposure of the display, in stops"),
+    row(&["exposure"], A::Said(" STOPS", exposure), "set the exposure of the display, in stops"),
     row(&["transfer linear"], A::Nothing(C::Transfer(Some(Transfer::Linear))), "display light linearly"),
     row(&["transfer srgb"], A::Nothing(C::Transfer(Some(Transfer::Srgb))), "display light by the sRGB curve"),
     row(&["transfer scene"], A::Nothing(C::Transfer(None)), "display light as the scene says"),
@@ -184,6 +186,7 @@ const KEYS: &[(&str, Action)] = &[
     ("export", Action::Export),
     ("export cancel", Action::Stop),
     ("render", Action::Go(Mode::Trace)),
+    ("compare", Action::Go(Mode::Compare)),
     ("region", Action::Region),
     ("view save", Action::SaveView),
     ("view reset", Action::ResetView),
@@ -262,9 +265,8 @@ impl CommandRow {
             A::Language(_) => " [LANGUAGE]",
             A::Picture(_) => " [FILE] [WxH] [SPP]",
             A::Size(_) => " WxH",
-            A::Pixels(_) => " MEANS",
             A::Said(usage, _) => usage,
-            A::Stops(_) => " STOPS",
+            A::Pixels(_) => " MEANS",
         };
         format!(":{name}{arguments}")
     }
@@ -290,14 +292,6 @@ impl CommandRow {
             },
             A::Picture(command) => picture(rest).map(command),
             A::Said(_, parse) => parse(rest),
-            A::Stops(command) => {
-                let stops = half_stops(rest);
-                let range = MOST_HALF_STOPS / 2;
-                let stops = stops.ok_or_else(|| {
-                    format!("{name} takes stops from -{range} to {range}, in steps of 0.5")
-                })?;
-                Ok(command(stops))
-            }
             A::Size(command) => {
                 let size = Size::parse(rest);
                 let size = size.ok_or_else(|| format!("{name} takes a size such as 800x600"))?;
@@ -332,17 +326,27 @@ fn parse(line: &str) -> Result<Command, String> {
     }
 }
 
+/// Parses the exposure of the display.
+fn exposure(said: &str) -> Result<Command, String> {
+    let half_stops = said.parse().ok().map(|stops: f64| 2.0 * stops);
+    let is_known = |half_stops: &f64| {
+        half_stops.fract() == 0.0 && half_stops.abs() <= f64::from(MOST_HALF_STOPS)
+    };
+    match half_stops.filter(is_known) {
+        Some(half_stops) => Ok(Command::Exposure(half_stops as i8)),
+        None => {
+            let most = MOST_HALF_STOPS / 2;
+            Err(format!(
+                "exposure takes stops from -{most} to {most}, in steps of 0.5"
+            ))
+        }
+    }
+}
+
 /// Parses when a trace ends; nothing asks when it does.
 fn until(said: &str) -> Result<Command, String> {
     let until = (!said.is_empty()).then(|| Until::parse(said));
     until.transpose().map(Command::Until)
-}
-
-/// Parses a number of stops; `None` unless it is a multiple of ½ in range.
-fn half_stops(text: &str) -> Option<i8> {
-    let half_stops = 2.0 * text.parse::<f64>().ok()?;
-    let is_known = half_stops.fract() == 0.0 && half_stops.abs() <= f64::from(MOST_HALF_STOPS);
-    is_known.then_some(half_stops as i8)
 }
 
 /// Parses `[FILE] [WxH] [SPP]`; the file name may contain blanks.
@@ -473,6 +477,7 @@ impl App {
             }
             Command::ExportCancel => return self.cancel_export(),
             Command::Render => return self.start_trace(),
+            Command::Compare(with) => return self.compare_with(with),
             Command::Until(until) => return self.trace_until(until),
             Command::Region(order) => return self.order_region(order),
             Command::Scale(order) => self.order_scale(order),
@@ -567,8 +572,8 @@ mod tests {
             for name in form.names {
                 let argument = match form.arguments {
                     A::Size(_) => " 8x6",
+                    A::Said(" STOPS", _) => " -1.5",
                     A::Pixels(_) => " half",
-                    A::Stops(_) => " -1.5",
                     _ => "",
                 };
                 assert!(parse(&format!(" {name}{argument} ")).is_ok(), "{name}");

@@ -9,6 +9,7 @@ use tui_input::Input;
 use super::command::{self, Described};
 use super::{App, Completion, PromptKind, line};
 use crate::image_file::ImageFormat;
+use crate::language::Language;
 use crate::ui::keymap::{Action, Context, Mode};
 use crate::ui::msg::Effect;
 
@@ -214,15 +215,23 @@ impl App {
                 || if command.starts_with('w') {
                     path.extension().is_some_and(|extension| extension == own)
                 } else {
-                    ImageFormat::of_path(path).is_some()
+                    let is_scene = command == "compare" && Language::of_path(path).is_ok();
+                    is_scene || ImageFormat::of_path(path).is_some()
                 }
         };
         let matching = names.iter().filter(|name| name.starts_with(start));
-        matching
-            .filter(|name| is_wanted(name))
-            .map(|name| Completion {
-                line: format!("{command} {folder}{name}"),
-                shown: format!("{folder}{name}"),
+        let others = match (command, folder) {
+            ("compare", "") => &["saved", "git"][..],
+            _ => &[],
+        };
+        let others = others.iter().filter(|word| word.starts_with(start));
+        let files = matching.filter(|name| is_wanted(name));
+        others
+            .map(|word| (*word).to_owned())
+            .chain(files.map(|name| format!("{folder}{name}")))
+            .map(|shown| Completion {
+                line: format!("{command} {shown}"),
+                shown,
                 words: "",
                 keys: String::new(),
                 act: None,

@@ -23,6 +23,7 @@ use crate::ui::errors::{self, Panel, Wrong};
 use crate::ui::keymap::{Context, Line, Mode};
 use crate::ui::layout::raster;
 use crate::ui::listing::Listing;
+use crate::ui::msg::Target;
 
 /// The picture size without a scene.
 const NO_SCENE: Size = Size {
@@ -57,6 +58,9 @@ impl App {
             None if self.overlays.errors.is_some() => Context::Errors,
             None if self.disk.is_opening() => Context::Opening,
             None if self.overlays.picker.is_some() => Context::Colour,
+            None if self.mode == Mode::Inspect && self.inspection.explained.is_some() => {
+                Context::Rays
+            }
             None if self.pictures.drawing.is_some() && self.mode == Mode::Trace => Context::Region,
             None => Context::In(self.mode),
         }
@@ -85,8 +89,8 @@ impl App {
 
     /// How much of the screen the picture currently takes.
     pub fn zoom_now(&self) -> Zoom {
-        match self.mode {
-            Mode::Trace => Zoom::Picture,
+        match self.seen() {
+            Target::Trace => Zoom::Picture,
             _ => self.zoom,
         }
     }
@@ -101,14 +105,30 @@ impl App {
         raster(self.areas().picture, self.output())
     }
 
+    /// Which picture is on screen.
+    pub fn seen(&self) -> Target {
+        match self.mode {
+            Mode::Inspect => self.inspection.seen(),
+            Mode::Trace => Target::Trace,
+            Mode::Compare => Target::Compared,
+            _ => Target::Preview,
+        }
+    }
+
     /// The picture on screen.
     pub fn picture(&self) -> &Picture {
-        self.pictures.seen(self.mode)
+        match self.seen() {
+            Target::Compared => &self.compared.seen,
+            target => self.pictures.seen(target),
+        }
     }
 
     /// The picture on screen, mutable in order to advance it.
     pub fn picture_mut(&mut self) -> &mut Picture {
-        self.pictures.seen_mut(self.mode)
+        match self.seen() {
+            Target::Compared => &mut self.compared.seen,
+            target => self.pictures.seen_mut(target),
+        }
     }
 
     /// The camera of the pictures: the working view, otherwise the scene's own.

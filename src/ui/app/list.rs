@@ -1,9 +1,8 @@
-//! Moving cursors: in the list, the fields, the help and the errors; picking.
+//! Moving cursors: in the list, the fields, the help and the errors.
 
 use super::App;
 use super::cursor::moved;
 use crate::language::Node;
-use crate::text::Severity;
 use crate::ui::arrange::Areas;
 use crate::ui::keymap::{Action, Context, Mode};
 use crate::ui::layout;
@@ -57,6 +56,7 @@ impl App {
                 }
             }
             Context::Colour => self.move_picker(rows),
+            Context::Rays => self.move_in_rays(rows),
             Context::In(_)
             | Context::Opening
             | Context::Region
@@ -82,6 +82,7 @@ impl App {
         let areas = self.areas();
         let panel = match context {
             Context::Help => return (self.help_rows() as isize - 1).max(1),
+            Context::Rays => self.ray_panels().map_or(areas.list, |panels| panels.lines),
             Context::Errors => areas.errors,
             Context::Steps => return self.step_rows(),
             Context::Messages | Context::Views | Context::Recent => areas.picture,
@@ -102,6 +103,7 @@ impl App {
         let errors = self.overlays.errors.filter(|_| 0 < wrong);
         self.overlays.errors = errors.map(|at| at.min(wrong - 1));
         self.cursor.scroll(areas, self.document.source());
+        self.scroll_rays();
     }
 
     /// Selects the next or previous light or object in the list, wrapping around.
@@ -159,82 +161,6 @@ impl App {
             self.overlays.warn(format!(
                 "nothing to select there: press {editor} to edit that line"
             ));
-        }
-    }
-
-    /// Starts picking, in the middle of the picture or where the last pick was.
-    pub(super) fn start_pick(&mut self) {
-        let Some((cells, _)) = self.raster() else {
-            self.overlays.fail("no room for a picture");
-            return;
-        };
-        let centre = (cells.width / 2, cells.height / 2);
-        self.pictures.cross.get_or_insert(centre);
-        self.mode = Mode::Pick;
-        self.move_cross(0, 0);
-    }
-
-    pub(super) fn move_cross(&mut self, right: i32, down: i32) {
-        let Some((cells, _)) = self.raster() else {
-            return;
-        };
-        let Some((column, row)) = &mut self.pictures.cross else {
-            return;
-        };
-        let moved = |at: u16, by: i32, cells: u16| {
-            (i32::from(at) + by).clamp(0, i32::from(cells.max(1)) - 1) as u16
-        };
-        *column = moved(*column, right, cells.width);
-        *row = moved(*row, down, cells.height);
-    }
-
-    pub(super) fn pick_cross(&mut self) {
-        if let Some((column, row)) = self.pictures.cross
-            && !self.pick_symbol((column, row))
-        {
-            self.pick((column, row));
-        }
-    }
-
-    /// The node under the upper half of a cell of the picture. Fails if it cannot be determined:
-    /// objects are known by their numbers in the scene shown, which may differ from the text's.
-    pub fn node_under(&self, cell: (u16, u16)) -> Result<Option<Node>, &'static str> {
-        if 0 < self.error_count() {
-            return Err("the text has errors: the picture shows the last valid scene");
-        }
-        if self.picture().is_outdated() {
-            return Err("the preview does not show the changed scene yet");
-        }
-        let shown = &self.picture().shown;
-        let raster = self.raster();
-        let pixel = raster.and_then(|raster| layout::pixel_at(raster, shown.size, cell));
-        let object = pixel.and_then(|(x, y)| shown.object_at(x, y));
-        Ok(object.map(|object| Node::Object(self.source().object(object))))
-    }
-
-    /// Selects the node whose symbol is at a cell of the picture, and ends picking; returns whether
-    /// there is one.
-    pub(super) fn pick_symbol(&mut self, cell: (u16, u16)) -> bool {
-        let node = self.symbol_at(cell);
-        if let Some(node) = node {
-            self.pick_node(node);
-        }
-        node.is_some()
-    }
-
-    fn pick_node(&mut self, node: Node) {
-        self.select(node);
-        if self.mode == Mode::Pick {
-            self.mode = Mode::Select;
-        }
-    }
-
-    /// Selects the node under the upper half of a cell of the picture, and ends picking.
-    pub(super) fn pick(&mut self, cell: (u16, u16)) {
-        match self.node_under(cell) {
-            Ok(Some(node)) => self.pick_node(node),
-            Ok(None) => self.overlays.say("nothing there"),
-            Err(reason) => self.refuse_picture(Severity::Warning, reason),
         }
     }
 }

@@ -5,8 +5,10 @@ use std::sync::Arc;
 use crossterm::event::KeyEvent;
 
 use super::assets::Assets;
+use super::compared::Compared;
 use super::cursor::Cursor;
 use super::disk::Disk;
+use super::inspection::Inspection;
 use super::jobs::Jobs;
 use super::overlays::Overlays;
 use super::palette::Palette;
@@ -48,6 +50,10 @@ pub struct App {
     pub cursor: Cursor,
     /// The preview, the full-size trace and the working view.
     pub pictures: Pictures,
+    /// What pictures are compared with, and the comparison.
+    pub compared: Compared,
+    /// The pixel that is inspected.
+    pub inspection: Inspection,
     /// Pictures of the texts in the undo history.
     pub thumbnails: Thumbnails,
     /// Dialogs, help, errors, the line being typed, and messages.

@@ -3,7 +3,9 @@
 use std::path::PathBuf;
 
 use super::assets::Assets;
+use super::compared::Compared;
 use super::cursor::Names;
+use super::inspection::Inspection;
 use super::palette::Palette;
 use super::{
     App, Cursor, Disk, FirstReading, Jobs, OnDisk, Overlays, Page, Pictures, Quality, Thumbnails,
@@ -89,6 +91,8 @@ impl App {
             disk: Disk::new(opening.path, state, first),
             cursor: Cursor::default(),
             pictures: Pictures::new(opening.quality),
+            compared: Compared::default(),
+            inspection: Inspection::default(),
             thumbnails: Thumbnails::default(),
             overlays: Overlays::default(),
             jobs: Jobs::default(),

@@ -42,6 +42,8 @@ pub struct Picture {
     left: usize,
     /// The object outlined in the target.
     outlined: Vec<u32>,
+    /// Whether the scene's objects were renumbered since the newest frame.
+    is_renumbered: bool,
     /// The cells in which the outline changes. They are sent first, because they answer a key.
     outline: VecDeque<usize>,
 }
@@ -58,6 +60,7 @@ impl Picture {
 
     /// Takes a frame. Frames must arrive in the order in which they were made.
     pub fn take(&mut self, frame: Arc<Frame>) {
+        self.is_renumbered = false;
         let covers = is_whole(&frame);
         let before = self.latest.replace(frame);
         if covers {
@@ -95,10 +98,18 @@ impl Picture {
         latest.is_some_and(|frame| self.wanted.is_some_and(|wanted| wanted != frame.generation))
     }
 
+    /// The object under a pixel of the newest frame.
+    pub fn object_at(&self, pixel: [u32; 2]) -> Option<u32> {
+        let frame = self.latest.as_ref().filter(|_| !self.is_renumbered)?;
+        let object = frame.objects.get(frame.index_of(pixel)?).copied()?;
+        (object != NO_OBJECT).then_some(object)
+    }
+
     /// Forgets the objects under the pixels on screen until a newer frame arrives: after
     /// renumbering, the outline would be around an object that is not selected.
     pub fn forget_objects(&mut self) {
         self.shown.objects.fill(NO_OBJECT);
+        self.is_renumbered = true;
         if let Some(sight) = self.sight {
             self.outline(&sight, &[]);
         }

@@ -42,9 +42,6 @@ pub struct Pictures {
     pub(super) outline: Outline,
     /// Which symbols are shown of what has no surface.
     pub(super) symbols: Symbols,
-    /// The cell of the crosshair in [`Mode::Pick`], relative to the picture's upper left corner;
-    /// `None` before the first pick.
-    pub cross: Option<(u16, u16)>,
     /// Bytes sent to the terminal during the last second, while a picture waits for a slow link.
     pub net: Option<usize>,
     /// Whether the pictures must be traced again.
@@ -116,7 +113,6 @@ impl Pictures {
             wires: None,
             outline: Outline::default(),
             symbols: Symbols::default(),
-            cross: None,
             net: None,
             due: false,
             solo: None,
@@ -145,17 +141,17 @@ impl Pictures {
     }
 
     /// The picture on screen.
-    pub fn seen(&self, mode: Mode) -> &Picture {
-        match (mode, &self.trace) {
-            (Mode::Trace, Some(trace)) => trace,
+    pub fn seen(&self, target: Target) -> &Picture {
+        match (target, &self.trace) {
+            (Target::Trace, Some(trace)) => trace,
             _ => &self.preview,
         }
     }
 
     /// The picture on screen, mutable in order to advance it.
-    pub(super) fn seen_mut(&mut self, mode: Mode) -> &mut Picture {
-        match (mode, &mut self.trace) {
-            (Mode::Trace, Some(trace)) => trace,
+    pub(super) fn seen_mut(&mut self, target: Target) -> &mut Picture {
+        match (target, &mut self.trace) {
+            (Target::Trace, Some(trace)) => trace,
             _ => &mut self.preview,
         }
     }
@@ -171,7 +167,7 @@ impl Pictures {
         match target {
             Target::Preview => Some(&mut self.preview),
             Target::Trace => self.trace.as_mut(),
-            Target::Export | Target::Thumbnail => None,
+            Target::Export | Target::Thumbnail | Target::Compared | Target::Reference => None,
         }
     }
 

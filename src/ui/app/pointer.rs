@@ -105,6 +105,9 @@ impl App {
             self.move_cursor(Context::Help, WHEEL * down);
             return;
         }
+        if self.mode == Mode::Compare {
+            return;
+        }
         let (areas, mode) = (self.areas(), self.mode);
         let over = |area: ratatui::layout::Rect| area.contains(at.into());
         if self
@@ -114,6 +117,8 @@ impl App {
             if self.overlays.errors.is_some() {
                 self.move_cursor(Context::Errors, down);
             }
+        } else if self.context() == Context::Rays {
+            self.move_in_rays(down);
         } else if over(areas.list) {
             self.move_cursor(Context::In(Mode::Select), WHEEL * down);
         } else if over(areas.fields) && self.cursor.typing.is_none() {
@@ -187,6 +192,17 @@ impl App {
             self.resizing = Some(Border::List);
             return Vec::new();
         }
+        if self.mode == Mode::Compare {
+            self.press_comparison(at);
+            return Vec::new();
+        }
+        if self.context() == Context::Rays
+            && let Some(panels) = self.ray_panels()
+            && (panels.tree.contains(at.into()) || panels.values.contains(at.into()))
+        {
+            self.click_ray(&panels, at);
+            return Vec::new();
+        }
         if let Some(line) = list_row_at(areas.list, self.cursor.list_top, at.0, at.1) {
             let line = self.listing().get(line);
             if let Some(ListLine::Node(_, node)) = line {
@@ -206,12 +222,14 @@ impl App {
             }
             return Vec::new();
         }
-        if self.press_slider(at) {
+        if self.mode != Mode::Inspect && self.press_slider(at) {
             return Vec::new();
         }
         let fields = self.cursor.fields();
         let components = |field: usize| Some(fields.get(field)?.field.kind.components());
-        if let Some(clicked) = field_at(areas.fields, self.cursor.field_top, components, at) {
+        if self.mode != Mode::Inspect
+            && let Some(clicked) = field_at(areas.fields, self.cursor.field_top, components, at)
+        {
             return self.press_field(clicked);
         }
         let is_over = areas.picture.contains(at.into());
@@ -226,15 +244,23 @@ impl App {
             || self.mode == Mode::Trace && self.pans();
         if drags && areas.picture.contains(at.into()) {
             self.pictures.drag = Some(at);
-        } else if let Some((cells, _)) = self.raster()
-            && cells.contains(at.into())
-        {
-            let cell = (at.0 - cells.x, at.1 - cells.y);
-            if !self.pick_symbol(cell) {
-                self.pick(cell);
+        } else if let Some(cell) = self.picture_cell(at) {
+            if self.mode == Mode::Inspect {
+                self.place_cross(cell);
+            } else if !self.pick_symbol(cell)
+                && let Some(pixel) = self.pixel_at(cell)
+            {
+                self.pick(self.node_at(pixel));
             }
         }
         Vec::new()
+    }
+
+    /// The cell of the picture under the pointer, from the picture's corner.
+    fn picture_cell(&self, at: (u16, u16)) -> Option<(u16, u16)> {
+        let (cells, _) = self.raster()?;
+        let is_inside = cells.contains(at.into());
+        is_inside.then(|| (at.0 - cells.x, at.1 - cells.y))
     }
 
     /// The first click moves the cursor there, the second starts typing.
@@ -287,12 +313,21 @@ impl App {
             Some(Border::List) => return self.resize_list(self.areas().divided_at(at)),
             None => {}
         }
+        if self.mode == Mode::Compare {
+            return self.press_comparison(at);
+        }
         if self.slide_to(at.0) {
             return;
         }
         if self.is_drawing_region() {
             if let Some(cell) = self.cell_near(at) {
                 self.drag_region(cell);
+            }
+            return;
+        }
+        if self.mode == Mode::Inspect {
+            if let Some(cell) = self.picture_cell(at) {
+                self.place_cross(cell);
             }
             return;
         }

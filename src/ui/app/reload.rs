@@ -402,7 +402,7 @@ impl App {
         Vec::new()
     }
 
-    /// Opens the user's editor at the cursor.
+    /// Opens the user's editor at the cursor, or at what is inspected.
     pub(super) fn open_editor(&mut self) -> Vec<Effect> {
         let Some(path) = self.disk.path.clone() else {
             self.overlays
@@ -432,7 +432,7 @@ impl App {
             None if self.is_disk_wrong() => wrong.findings.iter().find(|d| d.is_error()),
             None => None,
         };
-        let span = error.map_or_else(|| self.source().span(self.cursor.selected()), |d| d.span);
+        let span = error.map_or_else(|| self.source().span(self.node_in_focus()), |d| d.span);
         let line = Position::of(wrong.text, span.start()).line;
         vec![Effect::OpenEditor { path, line }]
     }

@@ -97,7 +97,8 @@ impl Shown {
             return Self::default();
         };
         let is_empty = first.size.pixels() == 0;
-        if is_empty || sight.window.is_none() && first.is_whole() && first.size == to {
+        let is_plain = sight.window.is_none() && sight.marked.is_none();
+        if is_empty || is_plain && first.is_whole() && first.size == to {
             return Self {
                 size: first.size,
                 pixels: first.colours.to_vec(),

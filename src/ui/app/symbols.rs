@@ -40,7 +40,7 @@ impl App {
     /// something; all of them while picking or on request.
     pub fn symbols(&self) -> Vec<Symbol> {
         let asked = match (self.mode, self.pictures.symbols) {
-            (Mode::Pick, _) | (Mode::Select | Mode::Move, Symbols::All) => None,
+            (Mode::Inspect, _) | (Mode::Select | Mode::Move, Symbols::All) => None,
             (Mode::Select | Mode::Move, Symbols::Selected) => match self.selected_kind() {
                 Some(kind) if self.pictures.outline == Outline::Shown => Some(kind),
                 _ => return Vec::new(),

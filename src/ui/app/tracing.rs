@@ -36,9 +36,10 @@ impl App {
             self.pictures.preview.asked = None;
             effects.extend(self.follow_trace());
         }
+        effects.extend(self.follow_comparison(changed));
         let screen = self.preview_screen();
         let asked = screen.map(|screen| self.preview_asked(screen));
-        if self.mode != Mode::Trace && self.pictures.preview.asked != asked {
+        if self.seen() == Target::Preview && self.pictures.preview.asked != asked {
             self.pictures.preview.asked = asked;
             let job = screen.zip(asked);
             let job = job.and_then(|(screen, asked)| self.preview_job(screen, asked));
@@ -59,29 +60,42 @@ impl App {
     }
 
     fn preview_job(&self, screen: Screen, (size, region): (Size, Option<Region>)) -> Option<Job> {
-        let (scene, numbers) = self.preview_scene()?;
         let spp = preview_samples(self.integrator(), screen.grid);
-        let mut job = self.job_of(scene, size, spp, Filter::Box)?;
+        let mut job = match region {
+            None => self.whole_preview_job(screen.halves, screen.grid, spp)?,
+            Some(_) => self.shown_job(size, spp)?,
+        };
         job.settings.region = region;
-        if region.is_none() {
-            job.camera = screen.grid.camera(job.camera, screen.halves);
-        }
         job.settings.aov = self.pictures.preview_aov();
         if let Some(aov) = job.settings.aov {
             job.settings.spp = aov.samples(spp);
         }
+        Some(job)
+    }
+
+    /// The job of a whole picture in the quality of the preview, of this size in half blocks.
+    pub(super) fn whole_preview_job(&self, halves: Size, grid: Grid, spp: u32) -> Option<Job> {
+        let job = self.shown_job(grid.size(halves), spp)?;
+        let camera = grid.camera(job.camera, halves);
+        Some(Job { camera, ..job })
+    }
+
+    /// The job of what the preview shows of the scene.
+    fn shown_job(&self, size: Size, spp: u32) -> Option<Job> {
+        let (scene, numbers) = self.preview_scene()?;
+        let job = self.job_of(scene, size, spp, Filter::Box)?;
         Some(Job { numbers, ..job })
     }
 
     /// The wireframe if it is on screen instead of a traced picture.
     pub fn wires(&self) -> Option<&Wires> {
         let wires = self.pictures.wires.as_ref();
-        wires.filter(|_| self.mode != Mode::Trace)
+        wires.filter(|_| self.seen() == Target::Preview)
     }
 
     /// Brings the wireframe up to date, if it is on screen.
     pub fn follow_wires(&mut self) {
-        if self.mode == Mode::Trace {
+        if self.seen() != Target::Preview {
             return;
         }
         let (camera, raster) = (self.camera(), self.raster());
@@ -95,7 +109,7 @@ impl App {
     fn follow_trace(&mut self) -> Vec<Effect> {
         match self.pictures.trace {
             None => Vec::new(),
-            Some(_) if self.mode == Mode::Trace => self.restart_trace(),
+            Some(_) if self.seen() == Target::Trace => self.restart_trace(),
             Some(_) => {
                 self.pictures.trace = None;
                 vec![Effect::Stop(Target::Trace)]
@@ -225,10 +239,14 @@ impl App {
     }
 
     pub(super) fn enter_trace(&mut self) {
-        if self.mode != Mode::Trace {
-            self.pictures.leave_mode(self.mode);
-            self.mode = Mode::Trace;
+        match (self.mode, self.compared.before) {
+            // The mode to return to is that before the comparison.
+            (Mode::Trace, _) | (Mode::Compare, Some(Mode::Trace)) => {}
+            _ if self.seen() == Target::Trace => {}
+            (Mode::Compare, before) => self.pictures.leave_mode(before.unwrap_or(Mode::Select)),
+            (mode, _) => self.pictures.leave_mode(mode),
         }
+        self.mode = Mode::Trace;
     }
 
     /// Pauses the full-size trace, or goes on.
@@ -267,6 +285,10 @@ impl App {
                 self.thumbnails.take(&frame);
                 return Vec::new();
             }
+            Target::Compared | Target::Reference => {
+                self.compared.take(target, frame);
+                return Vec::new();
+            }
             Target::Preview | Target::Trace => {}
         }
         // Without a scene, it is of one that was left.
@@ -285,9 +307,10 @@ impl App {
                 self.thumbnails.fail(NoPicture::Failed(reason.into()));
                 return Vec::new();
             }
-            Target::Preview | Target::Trace => {}
+            Target::Preview | Target::Trace | Target::Compared | Target::Reference => {}
         }
         self.pictures.want(target, None);
+        self.compared.want(target, None);
         self.overlays.fail(reason);
         Vec::new()
     }

@@ -26,6 +26,7 @@ impl App {
         self.follow_views();
         effects.extend(self.follow());
         self.follow_histogram();
+        effects.extend(self.follow_explained());
         effects.extend(self.follow_steps());
         effects.extend(self.disk.journal.follow(&self.document));
         effects.extend(self.follow_kept());
@@ -46,10 +47,14 @@ impl App {
                 self.pictures.preview.asked = None;
             }
             Msg::Started(Target::Thumbnail, generation) => self.thumbnails.started(generation),
-            Msg::Started(target, generation) => self.pictures.want(target, Some(generation)),
+            Msg::Started(target, generation) => {
+                self.pictures.want(target, Some(generation));
+                self.compared.want(target, Some(generation));
+            }
             Msg::Derived(ticket, derived) => return self.derived(ticket, derived),
             Msg::Frame(target, frame) => return self.frame(target, frame),
             Msg::Refused(target, reason) => return self.ended(target, reason),
+            Msg::Explained(question, answer) => self.explained(question, answer),
             Msg::Ended(target) => return self.ended(target, "the renderer stopped early"),
             Msg::FileChanged => return self.read_again(),
             // The scene may have been given another name since the request.
@@ -70,6 +75,8 @@ impl App {
             Msg::Exported(id, outcome) => return self.exported(id, outcome),
             Msg::Listed(folder, names) => self.folder_listed(folder, names),
             Msg::Taken(id, reason) => return self.is_taken(id, reason),
+            Msg::ReferenceRead(id, read) => return self.reference_read(id, read),
+            Msg::Compared(pair, found) => self.compared.measured(pair, found),
             Msg::EditorClosed(outcome) => return self.editor_closed(outcome),
             Msg::RecentListed(scenes) => self.show_recent(scenes),
             Msg::Recovered(found) => self.found_kept(found),
@@ -253,6 +260,7 @@ impl App {
             Action::No => return self.decline(),
             Action::Search if self.overlays.open_search() => {}
             Action::Search => self.start_filter(),
+            Action::Fold(fold) if context == Context::Rays => self.fold_ray(fold),
             Action::Fold(fold) => self.fold(fold),
             Action::SearchAgain(step) => self.search(step),
             Action::Command => self.open_palette(),
@@ -267,6 +275,7 @@ impl App {
             Action::Insert => self.insert_copied(),
             Action::Rename => self.start_renaming(),
             Action::Add => self.open_additions(),
+            Action::Solo if context == Context::Rays => self.solo_explained(),
             Action::Solo => self.toggle_solo(),
             Action::Retype => self.open_kinds(),
             Action::Transform(tool) => self.start_transform(tool),
@@ -302,6 +311,9 @@ impl App {
             Action::SavedViews => self.list_views(),
             Action::DeleteView => self.delete_view(),
             Action::Cross(right, down) => self.move_cross(right, down),
+            Action::Explain if self.mode == Mode::Compare => self.explain_compared(),
+            Action::Explain => self.start_explaining(),
+            Action::Sample(step) => self.change_sample(step),
             Action::Mine | Action::Theirs | Action::AllMine | Action::AllTheirs => {
                 self.decide(action);
             }
@@ -322,6 +334,12 @@ impl App {
                 let words = self.pictures.toggle_integrator(self.scene.as_deref());
                 self.overlays.say(words);
             }
+            Action::Pin => return self.pin(),
+            Action::Flip
+            | Action::Wipe
+            | Action::SlideWipe(_)
+            | Action::Difference
+            | Action::Worst(_) => self.act_on_comparison(action),
             Action::Stop => return self.stop(),
             Action::Pause => return self.toggle_pause(),
             Action::Magnify(steps) => self.magnify(steps),
@@ -346,13 +364,14 @@ impl App {
         self.document.end_step();
         match mode {
             Mode::Trace => return self.start_trace(),
-            Mode::View | Mode::Fly | Mode::Pick if self.scene.is_none() => {
+            Mode::Compare => return self.start_comparison(),
+            Mode::View | Mode::Fly | Mode::Inspect if self.scene.is_none() => {
                 self.refuse_picture(Severity::Error, &self.no_picture());
             }
             Mode::Edit if self.cursor.fields().is_empty() => {
                 self.overlays.fail("nothing to edit here");
             }
-            Mode::Pick => self.start_pick(),
+            Mode::Inspect => self.start_inspecting(),
             Mode::Move => self.start_transform(Tool::Move),
             Mode::Select | Mode::View | Mode::Fly | Mode::Edit => self.mode = mode,
         }
@@ -387,10 +406,13 @@ impl App {
             }
             Context::Opening => {}
             Context::Colour => self.cancel_colour(),
+            Context::Rays => self.inspection.explained = None,
             Context::Region => self.pictures.drawing = None,
             Context::In(Mode::Trace) => {
                 self.mode = self.pictures.mode_before();
             }
+            Context::In(Mode::Compare) => self.end_comparison(),
+            Context::In(Mode::Inspect) => self.stop_inspecting(),
             Context::In(Mode::Select) if self.end_filter() => {}
             Context::In(Mode::Select) => self.cursor.marks.clear(),
             Context::In(Mode::Move) => self.cancel_transform(),
@@ -413,7 +435,8 @@ impl App {
             Context::Delete => self.delete_anyway(),
             Context::Overwrite => return self.answer_taken(Existing::Overwritten),
             Context::Recover => return self.restore(),
-            Context::In(Mode::Pick) => self.pick_cross(),
+            Context::In(Mode::Inspect) => self.select_crossed(),
+            Context::Rays => self.select_explained(),
             Context::In(Mode::Move) => self.confirm_transform(),
             Context::Colour => self.confirm_colour(),
             Context::Region => return self.confirm_region(),

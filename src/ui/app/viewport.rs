@@ -10,7 +10,7 @@ const NEAREST: i8 = 6;
 /// The weakest: one pixel on screen for 2^16 of the picture, more than any has.
 const FARTHEST: i8 = -16;
 
-/// The part of a step across the window that a pan moves it.
+/// The share of the window by which a step of a pan moves it.
 const PAN: f64 = 0.125;
 
 /// Which part of a picture is on screen.
@@ -68,7 +68,7 @@ impl Viewport {
 
     /// The scale with this name, without `fit`: a power of two up to 64, `N:1`, or `1:N`.
     pub(super) fn parse(said: &str) -> Option<i8> {
-        let (shown, pixels) = said.trim().split_once(':').unwrap_or((said.trim(), "1"));
+        let (shown, pixels) = said.split_once(':').unwrap_or((said, "1"));
         let power = |digits: &str| {
             let number: u32 = digits.trim().parse().ok()?;
             number.is_power_of_two().then(|| number.ilog2() as i8)

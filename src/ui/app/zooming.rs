@@ -4,8 +4,8 @@ use super::App;
 use super::sight::Sight;
 use super::viewport::{Detail, Screen, Viewport};
 use crate::scene::Size;
-use crate::ui::keymap::Mode;
 use crate::ui::layout::raster;
+use crate::ui::msg::Target;
 
 /// The middle of the window, in shares of its size.
 const MIDDLE: [f64; 2] = [0.5; 2];
@@ -37,8 +37,8 @@ impl App {
     /// How the picture on screen is seen; `None` if there is no room.
     pub fn sight(&self) -> Option<Sight> {
         let screen = self.screen()?;
-        let detail = match self.mode {
-            Mode::Trace => Detail::Full,
+        let detail = match self.seen() {
+            Target::Trace | Target::Compared => Detail::Full,
             _ => Detail::OnScreen,
         };
         Some(Sight {
@@ -111,11 +111,28 @@ impl App {
         self.adjust(|now, screen| now.panned([right.into(), down.into()], screen));
     }
 
+    /// Moves what is at a place on screen, in half blocks from the picture's upper left corner, to the
+    /// middle, unless all of the picture is on screen.
+    pub(super) fn centre_on(&mut self, [x, y]: [f64; 2]) {
+        if !self.viewport().is_fit() {
+            self.adjust(|now, screen| {
+                let Size { width, height } = screen.halves;
+                let from = [x / f64::from(width), y / f64::from(height)];
+                now.dragged(from, MIDDLE, screen)
+            });
+        }
+    }
+
     /// Moves what is in one cell of the screen to another.
     pub(super) fn drag_picture(&mut self, from: (u16, u16), to: (u16, u16)) {
         if let (Some(from), Some(to)) = (self.share_at(from), self.share_at(to)) {
             self.adjust(|now, screen| now.dragged(from, to, screen));
         }
+    }
+
+    /// Moves the window so that what is at one place of it is at another, both in shares of its size.
+    pub(super) fn shift_window(&mut self, from: [f64; 2], to: [f64; 2]) {
+        self.adjust(|now, screen| now.dragged(from, to, screen));
     }
 
     /// Switches between one pixel on screen for one of the picture, and all of it.

@@ -16,10 +16,12 @@ pub enum Mode {
     Edit,
     /// Shows the full-size trace.
     Trace,
-    /// Moves a cross over the picture to pick the object under it.
-    Pick,
+    /// Moves a cross over the picture to see what is under it, and why.
+    Inspect,
     /// Moves, rotates or scales things in the picture.
     Move,
+    /// Compares the picture with a reference.
+    Compare,
 }
 
 impl Mode {
@@ -31,14 +33,15 @@ impl Mode {
 
 impl Mode {
     /// All modes, in the order of the help.
-    pub const ALL: [Self; 7] = [
+    pub const ALL: [Self; 8] = [
         Self::Select,
         Self::Edit,
         Self::Move,
         Self::View,
         Self::Fly,
-        Self::Pick,
+        Self::Inspect,
         Self::Trace,
+        Self::Compare,
     ];
 
     /// The name of the mode, as in the status line.
@@ -50,7 +53,8 @@ impl Mode {
             Self::Move => "MOVE",
             Self::Edit => "EDIT",
             Self::Trace => "TRACE",
-            Self::Pick => "PICK",
+            Self::Inspect => "INSPECT",
+            Self::Compare => "COMPARE",
         }
     }
 }
@@ -76,6 +80,8 @@ pub enum Context {
     Steps,
     /// The colour picker.
     Colour,
+    /// The rays behind the pixel under the cross.
+    Rays,
     /// The drawing of a region in the full-size trace.
     Region,
     /// The question how to resolve a merge.
@@ -197,8 +203,24 @@ pub enum Action {
     SavedViews,
     /// Deletes the saved view under the cursor.
     DeleteView,
-    /// Moves the cross, in cells to the right and down.
+    /// Moves the cross, in pixels to the right and down.
     Cross(i32, i32),
+    /// Makes the picture on screen the reference that pictures are compared with.
+    Pin,
+    /// Shows the picture or the reference, in turn.
+    Flip,
+    /// Shows the picture to the left of a line and the reference to its right.
+    Wipe,
+    /// Moves that line by this many cells to the right.
+    SlideWipe(i16),
+    /// Shows the difference, in turn amplified and as a heat map.
+    Difference,
+    /// Goes to the next or previous of the pixels that differ most.
+    Worst(isize),
+    /// Explains the pixel under the cross.
+    Explain,
+    /// Explains the next or previous sample of the pixel.
+    Sample(i32),
     /// Stops the work in progress.
     Stop,
     /// Pauses the full-size trace, or goes on.

@@ -98,7 +98,22 @@ impl Keymap {
     /// The first key of an action in a context, as the help shows it.
     pub fn key(&self, context: Context, action: Action) -> Option<String> {
         let mut rows = self.rows_in(context).filter(|row| row.action == action);
-        rows.find_map(|row| Some(row.keys_in(context).first()?.name()))
+        rows.find_map(|row| Some(self.keys_of(row, context).next()?.name()))
+    }
+
+    /// The keys of a row that act in a context: those of the context itself take precedence over
+    /// those that act anywhere.
+    pub(super) fn keys_of<'k>(
+        &'k self,
+        row: &'k Row,
+        context: Context,
+    ) -> impl Iterator<Item = &'k Keys> {
+        let own = self.rows.iter().filter(|other| !other.is_common());
+        let taken = own.flat_map(move |other| other.keys_in(context));
+        let is_free = move |keys: &&Keys| {
+            !row.is_common() || taken.clone().all(|other| !other.collides(**keys))
+        };
+        row.keys_in(context).iter().filter(is_free)
     }
 
     /// The two keys of a sequence that has an action anywhere, by its name in the help: `gg`.
@@ -123,8 +138,10 @@ impl Keymap {
         // Several rows may have one action.
         let chosen = candidates().find(|&at| is_default(at));
         let chosen = chosen.or_else(|| candidates().next());
+        // What acts anywhere keeps them: the keys of a mode itself take precedence.
+        let is_own = chosen.is_some_and(|at| !self.rows[at].is_common());
         for (at, row) in self.rows.iter_mut().enumerate() {
-            if section.has(row.scope) {
+            if section.has(row.scope) && !(is_own && row.is_common()) {
                 row.change(section, |bound| {
                     bound.retain(|other| !other.collides(keys));
                     if chosen == Some(at) {
@@ -176,8 +193,8 @@ impl Row {
 }
 
 /// The names of keys, as the help shows them: `j ↓`.
-pub(super) fn names(keys: &[Keys]) -> String {
-    let names: Vec<_> = keys.iter().map(Keys::name).collect();
+pub(super) fn names<'k>(keys: impl IntoIterator<Item = &'k Keys>) -> String {
+    let names: Vec<_> = keys.into_iter().map(Keys::name).collect();
     names.join(" ")
 }
 
@@ -266,6 +283,21 @@ mod tests {
         let keymap = bound(&[(Section::Anywhere, "d", Some(Action::Undo))]);
         check(&keymap, SELECT, "d", Some(Action::Delete));
         check(&keymap, Context::In(Mode::View), "d", Some(Action::Undo));
+    }
+
+    #[test]
+    fn a_key_that_a_mode_has_for_itself_is_not_offered_for_what_it_does_anywhere() {
+        let keymap = Keymap::default();
+        let compare = Context::In(Mode::Compare);
+        check(&keymap, compare, "w", Some(Action::Wipe));
+        assert_eq!(keymap.key(compare, Action::Save), None);
+        let view = Context::In(Mode::View);
+        check(&keymap, view, "=", Some(Action::Dolly(1)));
+        assert_eq!(keymap.key(view, Action::Go(Mode::Compare)), None);
+        let moved = bound(&[(Section::In(compare), "W", Some(Action::Wipe))]);
+        assert_eq!(moved.key(compare, Action::Save), None);
+        let freed = bound(&[(Section::In(compare), "w", Some(Action::Save))]);
+        assert_eq!(freed.key(compare, Action::Save).as_deref(), Some("w"));
     }
 
     #[test]

@@ -8,7 +8,7 @@ use super::table::Scope;
 use crate::render::Aov;
 
 use Action as A;
-use Mode::{Edit, Fly, Move, Pick, Select, Trace, View};
+use Mode::{Compare, Edit, Fly, Inspect, Move, Select, Trace, View};
 use Stride::Plain;
 
 /// One line of help.
@@ -31,7 +31,7 @@ const START: [(&str, &str); 2] = [
     ("halflight doctor", "what was detected, and why"),
 ];
 
-const MOUSE: [(&str, &str); 14] = [
+const MOUSE: [(&str, &str); 15] = [
     ("click the list", "select"),
     ("click a field", "move the cursor there"),
     ("click it again", "choose or type a value"),
@@ -41,6 +41,7 @@ const MOUSE: [(&str, &str); 14] = [
     ("drag it in VIEW", "orbit"),
     ("drag it with Ctrl or right", "in VIEW, pan"),
     ("drag it in MOVE", "move, rotate or scale"),
+    ("drag it in COMPARE", "move the wipe line"),
     ("drag it in TRACE", "pan; after R, draw the region"),
     ("drag a border", "resize the panels"),
     ("wheel", "scroll; in VIEW, dolly; in TRACE, zoom"),
@@ -107,11 +108,13 @@ impl Keymap {
             Context::In(Edit) => EDIT_HINTS,
             Context::In(View) => VIEW_HINTS,
             Context::In(Fly) => FLY_HINTS,
-            Context::In(Pick) => PICK_HINTS,
+            Context::In(Inspect) => INSPECT_HINTS,
             Context::In(Move) => MOVE_HINTS,
             Context::In(Trace) => TRACE_HINTS,
+            Context::In(Compare) => COMPARE_HINTS,
             Context::Errors => ERROR_HINTS,
             Context::Colour => COLOUR_HINTS,
+            Context::Rays => RAY_HINTS,
             Context::Region => REGION_HINTS,
             Context::Opening => &[],
             Context::Help
@@ -211,7 +214,7 @@ const SELECT_HINTS: &[Hint] = &[
     (&[A::Add], "add"),
     (&[A::Transform(Tool::Move)], "move it"),
     (&[A::Go(View)], "camera"),
-    (&[A::Go(Pick)], "pick"),
+    (&[A::Go(Inspect)], "inspect"),
     (&[A::Search], "filter"),
 ];
 const EDIT_HINTS: &[Hint] = &[
@@ -278,7 +281,7 @@ const MOVE_HINTS: &[Hint] = &[
     (&[A::Back], "cancel"),
     (&[A::Snap], "grid"),
 ];
-const PICK_HINTS: &[Hint] = &[
+const INSPECT_HINTS: &[Hint] = &[
     (
         &[
             A::Cross(-1, 0),
@@ -288,7 +291,17 @@ const PICK_HINTS: &[Hint] = &[
         ],
         "move",
     ),
+    (&[A::Explain], "explain"),
     (&[A::Accept], "select"),
+    (&[A::Editor], "editor"),
+    (&[A::Back], "back"),
+];
+const RAY_HINTS: &[Hint] = &[
+    (&[A::Move(1), A::Move(-1)], "move"),
+    (&[A::Accept], "select"),
+    (&[A::Editor], "editor"),
+    (&[A::Solo], "solo light"),
+    (&[A::Sample(-1), A::Sample(1)], "sample"),
     (&[A::Back], "back"),
 ];
 const REGION_HINTS: &[Hint] = &[
@@ -320,6 +333,7 @@ const TRACE_HINTS: &[Hint] = &[
     (&[A::Pause], "pause"),
     (&[A::Region], "region"),
     (&[A::Stop], "stop"),
+    (&[A::Go(Inspect)], "inspect"),
     (&[A::Back], "back"),
     (&[A::Integrator], "path tracing"),
     (
@@ -332,6 +346,16 @@ const TRACE_HINTS: &[Hint] = &[
         ],
         "channel",
     ),
+];
+const COMPARE_HINTS: &[Hint] = &[
+    (&[A::Flip], "flip"),
+    (&[A::Wipe], "wipe (:w saves)"),
+    (&[A::Difference], "difference"),
+    (&[A::Worst(1), A::Worst(-1)], "worst"),
+    (&[A::Explain], "explain"),
+    (&[A::Magnify(1), A::Magnify(-1)], "zoom"),
+    (&[A::Back], "back"),
+    (&[A::Pin], "pin"),
 ];
 const ERROR_HINTS: &[Hint] = &[
     (&[A::Move(1), A::Move(-1)], "move"),
@@ -389,7 +413,7 @@ mod tests {
     fn the_keys_of_the_mode_come_first_and_no_key_is_missing() {
         let lines = lines("", View);
         assert_eq!(headings(&lines)[..3], ["VIEW", "anywhere", "SELECT"]);
-        assert_eq!(headings(&lines).len(), 31);
+        assert_eq!(headings(&lines).len(), 34);
         assert!(lines.contains(&entry("gg", "first")));
         for row in Keymap::default().rows {
             let entry = entry(&names(&row.keys), row.words);

@@ -27,7 +27,7 @@ impl Keymap {
                 let known = found
                     .iter_mut()
                     .find(|named| named.action == row.action && named.words == row.words);
-                let keys = names(row.keys_in(context));
+                let keys = names(self.keys_of(row, context));
                 match known {
                     None => found.push(NamedAction {
                         action: row.action,

@@ -48,6 +48,9 @@ pub(super) const fn of_action(action: Action) -> &'static str {
         A::Transform(Tool::Move) => "move",
         A::Transform(Tool::Rotate) => "rotate",
         A::Transform(Tool::Scale) => "scale",
+        A::Explain => "explain",
+        A::Sample(1..) => "next-sample",
+        A::Sample(_) => "previous-sample",
         A::Step(..) | A::Cross(..) | A::Nudge(..) => of_step(action),
         A::Lock(0) => "lock-x",
         A::Lock(1) => "lock-y",
@@ -74,6 +77,8 @@ pub(super) const fn of_action(action: Action) -> &'static str {
         A::LightView => "view-from-light",
         A::SavedViews => "saved-views",
         A::DeleteView => "delete-view",
+        A::Pin => "pin",
+        A::Flip | A::Wipe | A::SlideWipe(_) | A::Difference | A::Worst(_) => of_comparison(action),
         A::Stop => "stop",
         A::Pause => "pause",
         A::Magnify(1..) => "zoom-in",
@@ -134,8 +139,23 @@ const fn of_mode(mode: Mode) -> &'static str {
         Mode::Fly => "fly",
         Mode::Edit => "edit",
         Mode::Trace => "trace",
-        Mode::Pick => "pick",
+        Mode::Inspect => "inspect",
+        Mode::Compare => "compare",
         Mode::Move => "transform",
+    }
+}
+
+const fn of_comparison(action: Action) -> &'static str {
+    match action {
+        A::Flip => "flip",
+        A::Wipe => "wipe",
+        A::SlideWipe(2..) => "wipe-right-far",
+        A::SlideWipe(1) => "wipe-right",
+        A::SlideWipe(-1) => "wipe-left",
+        A::SlideWipe(_) => "wipe-left-far",
+        A::Worst(1..) => "next-worst",
+        A::Worst(_) => "previous-worst",
+        _ => "difference",
     }
 }
 
@@ -216,9 +236,11 @@ pub(super) const fn of_context(context: Context) -> Option<&'static str> {
         Context::In(Mode::Fly) => "fly",
         Context::In(Mode::Edit) => "edit",
         Context::In(Mode::Trace) => "trace",
-        Context::In(Mode::Pick) => "pick",
+        Context::In(Mode::Inspect) => "inspect",
+        Context::In(Mode::Compare) => "compare",
         Context::In(Mode::Move) => "move",
         Context::Colour => "colour",
+        Context::Rays => "rays",
         Context::Region => "region",
         Context::Opening => return None,
         Context::Help => "help",

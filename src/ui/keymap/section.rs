@@ -14,8 +14,9 @@ pub enum Section {
 }
 
 /// Contexts other than modes, by their headings in the help.
-pub(super) const DIALOGS: [(&str, Context); 16] = [
+pub(super) const DIALOGS: [(&str, Context); 17] = [
     ("the colour picker", Context::Colour),
+    ("the rays behind a pixel", Context::Rays),
     ("while a region is drawn", Context::Region),
     ("the list of errors", Context::Errors),
     ("the list of saved views", Context::Views),

@@ -9,7 +9,7 @@ use crate::render::Aov;
 
 use Action as A;
 use KeyCode::{BackTab, Down, End, Enter, Esc, F, Home, Left, PageDown, PageUp, Right, Tab, Up};
-use Mode::{Edit, Fly, Move, Pick, Select, Trace, View};
+use Mode::{Compare, Edit, Fly, Inspect, Move, Select, Trace, View};
 use Stride::{Coarse, Fine, Plain};
 
 /// A row of the table: within its scope, each of these keys has the same action.
@@ -38,7 +38,7 @@ pub(super) enum Pressed {
 pub(super) enum Scope {
     /// Active only in these contexts.
     These(&'static [Context]),
-    /// All modes but [`Mode::Move`], and the list of errors.
+    /// All modes but [`Mode::Move`], the list of errors, and the rays behind a pixel.
     Everywhere,
     /// [`Self::Everywhere`], while something is being transformed, and while a scene is being opened.
     Sceneless,
@@ -53,10 +53,12 @@ impl Scope {
             Self::These(contexts) => contexts.contains(&context),
             // While something is being transformed, nothing else may change the text.
             Self::Everywhere => {
-                matches!(context, Context::In(mode) if mode != Move) || context == Context::Errors
+                matches!(context, Context::In(mode) if mode != Move)
+                    || matches!(context, Context::Errors | Context::Rays)
             }
             Self::Sceneless => {
-                matches!(context, Context::In(_) | Context::Opening | Context::Errors)
+                let others = [Context::Opening, Context::Errors, Context::Rays];
+                matches!(context, Context::In(_)) || others.contains(&context)
             }
             Self::Always => true,
         }
@@ -106,7 +108,8 @@ const PANELS: Scope = Scope::These(&[
     Context::In(Edit),
     Context::In(View),
     Context::In(Fly),
-    Context::In(Pick),
+    Context::In(Inspect),
+    Context::In(Compare),
     Context::Errors,
 ]);
 const REGION: Scope = Scope::These(&[Context::Region]);
@@ -117,15 +120,27 @@ const PICTURES: Scope = Scope::These(&[
     Context::In(View),
     Context::In(Fly),
     Context::In(Trace),
+    Context::In(Inspect),
+    Context::In(Compare),
 ]);
 /// Such contexts with the preview on screen.
 const PREVIEWS: Scope = Scope::These(&[
     Context::In(Select),
     Context::In(View),
     Context::In(Fly),
-    Context::In(Pick),
+    Context::In(Inspect),
 ]);
-const PICK: Scope = Scope::These(&[Context::In(Pick)]);
+/// Where no letter is part of a value, and the cross has another key.
+const INSPECTABLE: Scope = Scope::These(&[
+    Context::In(Select),
+    Context::In(View),
+    Context::In(Fly),
+    Context::In(Trace),
+    Context::In(Compare),
+]);
+const INSPECT: Scope = Scope::These(&[Context::In(Inspect)]);
+const RAYS: Scope = Scope::These(&[Context::Rays]);
+const COMPARE: Scope = Scope::These(&[Context::In(Compare)]);
 const HELP: Scope = Scope::These(&[Context::Help]);
 const MESSAGES: Scope = Scope::These(&[Context::Messages]);
 const ERRORS: Scope = Scope::These(&[Context::Errors]);
@@ -151,6 +166,7 @@ const LISTS: Scope = Scope::These(&[
     Context::Steps,
     Context::Colour,
     Context::Conflict,
+    Context::Rays,
 ]);
 const LONG_LISTS: Scope = Scope::These(&[
     Context::In(Select),
@@ -159,6 +175,7 @@ const LONG_LISTS: Scope = Scope::These(&[
     Context::Errors,
     Context::Views,
     Context::Recent,
+    Context::Rays,
     Context::Steps,
 ]);
 
@@ -202,7 +219,7 @@ pub(super) const TABLE: &[Binding] = &[
     bind(MOVE, &[c('g')], A::Snap, "snap to a grid"),
     bind(MOVE, &[key(Enter)], A::Accept, "confirm"),
     bind(MOVE, &[key(Esc)], A::Back, "cancel"),
-    bind(SELECT, &[c('i')], A::Go(Pick), "pick in the picture"),
+    bind(INSPECTABLE, &[c('i')], A::Go(Inspect), "inspect a pixel of the picture"),
     bind(SELECT, &[key(Tab)], A::Cycle(1), "next light or object"),
     bind(SELECT, &[c('h')], A::Visibility, "show or hide the object"),
     bind(SELECT, &[c('/')], A::Search, "filter the list"),
@@ -268,15 +285,35 @@ pub(super) const TABLE: &[Binding] = &[
     bind(VIEWS, &[c(',')], A::Roll(1), "roll left"),
     bind(VIEWS, &[c('.')], A::Roll(-1), "roll right"),
 
-    bind(PICK, &[c('h'), key(Left)], A::Cross(-1, 0), "left"),
-    bind(PICK, &[c('j'), key(Down)], A::Cross(0, 1), "down"),
-    bind(PICK, &[c('k'), key(Up)], A::Cross(0, -1), "up"),
-    bind(PICK, &[c('l'), key(Right)], A::Cross(1, 0), "right"),
-    bind(PICK, &[c('H'), Chord(Left, SHIFT)], A::Cross(-8, 0), "left 8 cells"),
-    bind(PICK, &[c('J'), Chord(Down, SHIFT)], A::Cross(0, 4), "down 4 cells"),
-    bind(PICK, &[c('K'), Chord(Up, SHIFT)], A::Cross(0, -4), "up 4 cells"),
-    bind(PICK, &[c('L'), Chord(Right, SHIFT)], A::Cross(8, 0), "right 8 cells"),
-    bind(PICK, &[key(Enter)], A::Accept, "select the object there"),
+    bind(INSPECT, &[c('h'), key(Left)], A::Cross(-1, 0), "left"),
+    bind(INSPECT, &[c('j'), key(Down)], A::Cross(0, 1), "down"),
+    bind(INSPECT, &[c('k'), key(Up)], A::Cross(0, -1), "up"),
+    bind(INSPECT, &[c('l'), key(Right)], A::Cross(1, 0), "right"),
+    bind(INSPECT, &[c('H'), Chord(Left, SHIFT)], A::Cross(-8, 0), "left 8 pixels"),
+    bind(INSPECT, &[c('J'), Chord(Down, SHIFT)], A::Cross(0, 8), "down 8 pixels"),
+    bind(INSPECT, &[c('K'), Chord(Up, SHIFT)], A::Cross(0, -8), "up 8 pixels"),
+    bind(INSPECT, &[c('L'), Chord(Right, SHIFT)], A::Cross(8, 0), "right 8 pixels"),
+    bind(INSPECT, &[key(Enter)], A::Accept, "select what is there"),
+    bind(INSPECT, &[c('e')], A::Explain, "explain the pixel"),
+    bind(RAYS, &[key(Enter)], A::Accept, "select its object or light"),
+    bind(RAYS, &[c('l')], A::Solo, "show only its light in the preview"),
+    bind(RAYS, &[key(Left)], A::Fold(Fold::Selected), "fold it, or go to what it is in"),
+    bind(RAYS, &[key(Right)], A::Fold(Fold::Unselected), "unfold it, or go into it"),
+    bind(RAYS, &[c(',')], A::Sample(-1), "previous sample"),
+    bind(RAYS, &[c('.')], A::Sample(1), "next sample"),
+
+    bind(COMPARE, &[c('f')], A::Flip, "flip: the picture or the reference"),
+    bind(COMPARE, &[c('w')], A::Wipe, "wipe: the picture beside the reference (:w saves)"),
+    bind(COMPARE, &[c('h'), key(Left)], A::SlideWipe(-1), "wipe further left"),
+    bind(COMPARE, &[c('l'), key(Right)], A::SlideWipe(1), "wipe further right"),
+    bind(COMPARE, &[c('H'), Chord(Left, SHIFT)], A::SlideWipe(-8), "wipe 8 cells further left"),
+    bind(COMPARE, &[c('L'), Chord(Right, SHIFT)], A::SlideWipe(8), "wipe 8 cells further right"),
+    bind(COMPARE, &[c('d')], A::Difference, "difference, times 4, times 16, heat map"),
+    bind(COMPARE, &[c('+')], A::Magnify(1), "zoom in"),
+    bind(COMPARE, &[c('-')], A::Magnify(-1), "zoom out"),
+    bind(COMPARE, &[c('e')], A::Explain, "explain the pixel that is pointed at, or the worst"),
+    bind(COMPARE, &[c('n')], A::Worst(1), "next of the worst pixels"),
+    bind(COMPARE, &[c('N')], A::Worst(-1), "previous of the worst pixels"),
 
     bind(CONFLICT, &[c('M')], A::AllMine, "keep mine everywhere"),
     bind(CONFLICT, &[c('T')], A::AllTheirs, "take the file's everywhere"),
@@ -360,6 +397,8 @@ pub(super) const TABLE: &[Binding] = &[
     bind(Scope::Everywhere, &[c('w')], A::Save, "save the scene"),
     bind(Scope::Everywhere, &[c('b')], A::Export, "export what is shown"),
     bind(Scope::Everywhere, &[key(F(5)), c('r')], A::Go(Trace), "trace at full size"),
+    bind(Scope::Everywhere, &[c('A')], A::Pin, "pin the picture, to compare with it"),
+    bind(Scope::Everywhere, &[c('=')], A::Go(Compare), "compare with the reference"),
     bind(Scope::Everywhere, &[c('u')], A::Undo, "undo"),
     bind(Scope::Everywhere, &[ctrl('r')], A::Redo, "redo"),
     bind(Scope::Everywhere, &[c('U')], A::Steps, "undo history as pictures"),
@@ -403,7 +442,7 @@ mod tests {
 
     #[test]
     fn no_key_has_two_meanings_in_one_context() {
-        let modes = [Select, View, Fly, Edit, Trace, Pick, Move].map(Context::In);
+        let modes = Mode::ALL.map(Context::In);
         let others = [
             Opening,
             Help,
@@ -413,6 +452,7 @@ mod tests {
             Recent,
             Context::Steps,
             Context::Colour,
+            Context::Rays,
             Context::Region,
             Conflict,
             Quit,
@@ -424,11 +464,15 @@ mod tests {
             Recover,
         ];
         for context in modes.into_iter().chain(others) {
-            let rows = TABLE.iter().filter(|row| row.scope.holds(context));
-            let mut bound: Vec<_> = rows.flat_map(Binding::keys).collect();
-            while let Some(keys) = bound.pop() {
-                let is_free = bound.iter().all(|other| !other.collides(keys));
-                assert!(is_free, "{context:?} {keys:?}");
+            // A key of the context itself takes precedence over one that acts anywhere.
+            for is_own in [true, false] {
+                let rows = TABLE.iter().filter(|row| row.scope.holds(context));
+                let rows = rows.filter(|row| matches!(row.scope, Scope::These(_)) == is_own);
+                let mut bound: Vec<_> = rows.flat_map(Binding::keys).collect();
+                while let Some(keys) = bound.pop() {
+                    let is_free = bound.iter().all(|other| !other.collides(keys));
+                    assert!(is_free, "{context:?} {keys:?}");
+                }
             }
         }
     }

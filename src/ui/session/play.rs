@@ -27,6 +27,7 @@ impl Session {
         let pictures = &self.app.pictures;
         let is_busy = if is_last {
             pictures.are_awaited()
+                || self.app.compared.is_awaited()
                 || self.app.thumbnails.are_awaited()
                 || self.app.jobs.export.is_some()
         } else {

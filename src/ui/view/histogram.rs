@@ -14,8 +14,8 @@ use crate::ui::theme;
 /// Lines of its bars.
 const HEIGHT: u16 = 4;
 
-/// Bars of eighths of a cell, from 0.
-const BARS: [&str; 9] = [" ", "▁", "▂", "▃", "▄", "▅", "▆", "▇", "█"];
+/// Bars in halves of a cell, which every font has.
+const BARS: [&str; 3] = [" ", "▄", "█"];
 
 /// Draws the histogram in the lower left corner of the picture, if it is on and fits.
 pub(crate) fn render(app: &App, area: Rect, buffer: &mut Buffer) {
@@ -55,12 +55,12 @@ fn chart(histogram: &Histogram, panel: Rect, buffer: &mut Buffer) {
     let [first, last] = HISTOGRAM_STOPS;
     let bins = &histogram.bins;
     let most = bins.iter().copied().max().unwrap_or(0).max(1);
-    let steps = u64::from(HEIGHT) * 8;
+    let steps = u64::from(HEIGHT) * 2;
     let one = bins.len() * first.unsigned_abs() as usize / first.abs_diff(last) as usize;
     for line in 0..HEIGHT {
         let mut row = Row::new(buffer, panel, 1 + line);
         row.skip(1);
-        let below = u64::from(HEIGHT - 1 - line) * 8;
+        let below = u64::from(HEIGHT - 1 - line) * 2;
         for (at, &count) in bins.iter().enumerate() {
             // Something is always visible of what is not nothing.
             let filled = (u64::from(count) * steps).div_ceil(u64::from(most));
@@ -69,7 +69,7 @@ fn chart(histogram: &Histogram, panel: Rect, buffer: &mut Buffer) {
             } else {
                 theme::WARNING
             };
-            row.put(BARS[filled.saturating_sub(below).min(8) as usize], style);
+            row.put(BARS[filled.saturating_sub(below).min(2) as usize], style);
         }
     }
     let mut scale = Row::new(buffer, panel, 1 + HEIGHT);
@@ -109,7 +109,7 @@ mod tests {
                 "",
                 "luminance ───────────── EV",
                 "             █",
-                "             █   ▆   ▆",
+                "             █   █   █",
                 "             █   █   █",
                 "             █   █   █",
                 " -8              0     +4",

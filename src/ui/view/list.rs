@@ -26,7 +26,7 @@ pub(crate) fn render(app: &App, area: Rect, buffer: &mut Buffer) {
     let selected = app.selected_row();
     let rows = &app.cursor.rows;
     let count = rows.count(app.source());
-    let focused = matches!(app.mode, Mode::Select | Mode::Pick | Mode::Move);
+    let focused = matches!(app.mode, Mode::Select | Mode::Move);
     let place = format!("{}/{count}", (rows.place_of(selected) + 1).min(count));
     let place = match app.cursor.marks.len() {
         0 => place,

@@ -5,6 +5,7 @@
 //! through [`row`], which shows control characters instead of sending them.
 
 mod characters;
+mod comparison;
 mod completions;
 mod current;
 mod dialog;
@@ -15,6 +16,7 @@ mod help;
 mod histogram;
 mod history;
 mod inks;
+mod labelled;
 mod left;
 mod list;
 mod menu;
@@ -25,6 +27,8 @@ mod page;
 mod palette;
 mod picker;
 mod picture;
+mod pixel;
+mod rays;
 mod row;
 mod status;
 mod steps;
@@ -43,6 +47,7 @@ use ratatui::style::Style;
 
 use super::app::App;
 use super::arrange::MIN_SIZE;
+use super::keymap::{Context, Mode};
 use super::layout;
 use super::theme;
 pub use inks::{Drawing, Inks};
@@ -80,9 +85,18 @@ fn render(app: &App, inks: &mut Inks, area: Rect, buffer: &mut Buffer) -> Option
     let left = picture::render(app, inks, areas.picture, buffer);
     let left = left.map(|cells| (cells, left::left_in(cells, buffer)));
     rule(app, areas.rule, buffer);
-    if !areas.list.is_empty() && !app.disk.is_opening() {
+    if app.context() == Context::Rays {
+        rays::render(app, buffer);
+    } else if !areas.list.is_empty() && app.mode == Mode::Compare {
+        comparison::render(app, inks, areas.list.union(areas.fields), buffer);
+    } else if !areas.list.is_empty() && !app.disk.is_opening() {
         list::render(app, areas.list, buffer);
-        fields::render(app, areas.fields, buffer);
+        match app.mode {
+            Mode::Inspect => pixel::render(app, areas.fields, buffer),
+            _ => fields::render(app, areas.fields, buffer),
+        }
+    } else if app.mode == Mode::Inspect {
+        pixel::render_over(app, areas.picture, buffer);
     }
     histogram::render(app, areas.picture, buffer);
     errors::render(app, areas.errors, buffer);

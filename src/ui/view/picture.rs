@@ -14,11 +14,11 @@ use super::characters::Characters;
 use super::inks::{Drawing, Glyphs, Inks};
 use super::left::leave;
 use super::row::Row;
-use super::{symbols, tiles, values, wireframe};
-use crate::render::{pixel_of, pixel_width};
+use super::{comparison, pixel, symbols, tiles, values, wireframe};
+use crate::render::{line_of, pixel_of, pixel_width};
 use crate::scene::Size;
 use crate::ui::app::{App, FirstReading, Grid, Shown};
-use crate::ui::keymap::Mode;
+use crate::ui::keymap::{Context, Mode};
 use crate::ui::layout::{self, raster};
 use crate::ui::theme;
 
@@ -75,8 +75,12 @@ fn overlays(
         axis(app, glyphs, (cells, size), buffer);
     }
     symbols::render(app, glyphs, cells, buffer);
-    if app.mode == Mode::Pick {
+    if app.mode == Mode::Inspect {
+        path(app, glyphs, cells, buffer);
         cross(app, cells, buffer);
+    }
+    if app.mode == Mode::Compare {
+        comparison::mark(app, cells, buffer);
     }
     if app.is_empty() {
         invitation(area, buffer);
@@ -140,9 +144,9 @@ fn opening(name: &str, bytes: u64) -> String {
     }
 }
 
-/// Marks the cell to pick from and names the object there.
+/// Marks the cell of the inspected pixel and says what is there.
 fn cross(app: &App, cells: Rect, buffer: &mut Buffer) {
-    let Some((column, row)) = app.pictures.cross else {
+    let Some((column, row)) = app.cross_cell() else {
         return;
     };
     let (x, y) = (cells.x.saturating_add(column), cells.y.saturating_add(row));
@@ -152,14 +156,14 @@ fn cross(app: &App, cells: Rect, buffer: &mut Buffer) {
         cell.set_symbol("┼").set_style(Style::reset());
         cell.set_style(theme::chip(Style::new()));
     }
-    let symbol = app.symbol_at((column, row));
-    let under = || app.node_under((column, row));
-    let name = match symbol.map_or_else(under, |node| Ok(Some(node))) {
-        Ok(Some(node)) => app.source().name(node),
-        Ok(None) => "nothing".to_owned(),
-        Err(reason) => reason.to_owned(),
+    if app.context() == Context::Rays {
+        return;
+    }
+    let words = match app.symbol_at((column, row)) {
+        Some(node) => app.source().name(node),
+        None => pixel::in_short(app),
     };
-    Row::new(buffer, cells, 0).put(&format!(" {name} "), theme::chip(theme::ACCENT));
+    Row::new(buffer, cells, 0).put(&format!(" {words} "), theme::chip(theme::ACCENT));
 }
 
 /// Draws the axis that a transformation is locked to, through what is being transformed.
@@ -178,21 +182,69 @@ fn axis(app: &App, glyphs: Glyphs, (cells, size): (Rect, Size), buffer: &mut Buf
             continue;
         };
         let [x, y] = sight.on_screen(place, size);
-        if x < 0.0 || y < 0.0 || f64::from(cells.width) <= x || f64::from(size.height) <= y {
-            continue;
+        if y < f64::from(size.height) {
+            plot([x, 0.5 * y], (glyphs, colour), cells, buffer);
         }
-        let (x, y) = (x as u16, y as u16);
-        let Some(cell) = buffer.cell_mut((cells.x + x, cells.y + y / 2)) else {
+    }
+}
+
+/// Draws the path of light that is explained.
+fn path(app: &App, glyphs: Glyphs, cells: Rect, buffer: &mut Buffer) {
+    let Some(frame) = &app.picture().latest else {
+        return;
+    };
+    let Some(camera) = frame.query.as_ref().map(|query| query.camera) else {
+        return;
+    };
+    let whole = frame.whole();
+    for segment in app.ray_path() {
+        let colour = if segment.is_dark {
+            theme::BLOCKED
+        } else {
+            theme::PATH
+        };
+        let Some(ends) = line_of(segment.ends, &camera, whole) else {
             continue;
         };
-        match (cell.symbol(), y % 2) {
-            ("▀", 0) => cell.set_fg(colour),
-            ("▀", _) => cell.set_bg(colour),
-            // A dot in the colour of the axis, over the picture of the terminal or a mosaic.
-            _ if glyphs != Glyphs::Characters => cell.set_symbol("·").set_fg(colour),
-            _ => cell.set_symbol("·"),
+        let places = ends.map(|end| app.place_on_screen(end, whole));
+        let [Some(from), Some(to)] = places else {
+            continue;
         };
+        let [across, down] = [0, 1].map(|axis| to[axis] - from[axis]);
+        let steps = across.abs().max(2.0 * down.abs()).ceil().max(1.0);
+        for step in 0..=steps as u32 {
+            let share = f64::from(step) / steps;
+            let place = [from[0] + share * across, from[1] + share * down];
+            plot(place, (glyphs, rgb(colour)), cells, buffer);
+        }
     }
+}
+
+/// Colours the half of a cell at a place, which is in cells from the picture's corner.
+fn plot(
+    [column, row]: [f64; 2],
+    (glyphs, colour): (Glyphs, Color),
+    cells: Rect,
+    buffer: &mut Buffer,
+) {
+    let is_inside = 0.0 <= column
+        && 0.0 <= row
+        && column < f64::from(cells.width)
+        && row < f64::from(cells.height);
+    if !is_inside {
+        return;
+    }
+    let half = (2.0 * row) as u16;
+    let Some(cell) = buffer.cell_mut((cells.x + column as u16, cells.y + half / 2)) else {
+        return;
+    };
+    match (cell.symbol(), half % 2) {
+        ("▀", 0) => cell.set_fg(colour),
+        ("▀", _) => cell.set_bg(colour),
+        // A dot in that colour, over the picture of the terminal or a mosaic.
+        _ if glyphs != Glyphs::Characters => cell.set_symbol("·").set_fg(colour),
+        _ => cell.set_symbol("·"),
+    };
 }
 
 /// Draws the pixels of a picture over its cells.

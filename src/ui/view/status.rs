@@ -223,6 +223,9 @@ fn text_segments(app: &App, say: &mut impl FnMut(u8, String, Style)) {
         (app.mode.name(), mode_style(app.mode))
     };
     say(0, format!(" {mode} "), theme::chip(style));
+    if app.mode == Mode::Compare {
+        comparison_segments(app, say);
+    }
     let errors = app.error_count();
     let warnings = app.diagnostics.warnings();
     if 0 < errors {
@@ -261,6 +264,30 @@ fn text_segments(app: &App, say: &mut impl FnMut(u8, String, Style)) {
     }
 }
 
+/// Adds what is seen of the pictures that are compared and, without a panel, how they differ.
+fn comparison_segments(app: &App, say: &mut impl FnMut(u8, String, Style)) {
+    let view = app.compared.view.name().to_uppercase();
+    say(1, format!(" {view} "), theme::chip(theme::ACCENT));
+    if let Some(unlike) = app.compares_unlike() {
+        say(3, unlike, theme::WARNING);
+    }
+    if let Some(found) = app
+        .compared
+        .figures()
+        .filter(|_| app.areas().list.is_empty())
+    {
+        let (psnr, flip) = (found.psnr(), found.flip);
+        let differing = counted(found.differing, "pixel");
+        let text = format!("{differing} differ, {psnr:.2} dB, FLIP {flip:.5}");
+        let style = if app.compared.are_figures_final() {
+            Style::new()
+        } else {
+            theme::DIM
+        };
+        say(6, text, style);
+    }
+}
+
 /// Adds the auxiliary image shown, or the integrator, with a star if it differs from the scene's.
 fn making_segment(app: &App, say: &mut impl FnMut(u8, String, Style)) {
     if app.wires().is_some() {
@@ -270,11 +297,14 @@ fn making_segment(app: &App, say: &mut impl FnMut(u8, String, Style)) {
     if let Some(display) = app.display_name() {
         say(3, format!(" {display} "), theme::chip(theme::WARNING));
     }
+    let view = app.view_name();
+    if let Some(view) = &view {
+        say(7, view.clone(), theme::WARNING);
+    }
     if let Some(legend) = app.legend() {
         say(10, legend, theme::DIM);
     }
-    if let Some(view) = app.view_name() {
-        say(7, view, theme::WARNING);
+    if view.is_some() {
         return;
     }
     let name = match app.integrator() {
@@ -347,10 +377,10 @@ fn time_left(progress: &Progress) -> Option<Duration> {
 
 fn mode_style(mode: Mode) -> Style {
     match mode {
-        Mode::Select | Mode::Pick => theme::ACCENT,
+        Mode::Select | Mode::Inspect => theme::ACCENT,
         Mode::View | Mode::Fly => theme::GOOD,
         Mode::Edit | Mode::Move => theme::WARNING,
-        Mode::Trace => Style::new(),
+        Mode::Trace | Mode::Compare => Style::new(),
     }
 }
 
@@ -374,7 +404,7 @@ mod tests {
     use super::*;
     use crate::language::Language;
     use crate::render::Aov;
-    use crate::ui::app::{Message, Typing, Wires};
+    use crate::ui::app::{Message, Picture, Typing, Wires};
     use crate::ui::view::tests::{app, app_of, drawn, retype};
     use tui_input::Input;
 
@@ -446,6 +476,24 @@ mod tests {
             "pass 3/6 · 2 spp · 25 % · noise 1.3 % · 1.5 s · ETA 4.5 s · 14 Mray/s"
         );
         assert_eq!(said(true), "2 spp · noise 1.3 % · 1.5 s · 14 Mray/s");
+    }
+
+    #[test]
+    fn the_scale_and_a_pause_are_told() {
+        let mut app = app();
+        app.terminal = (80, 24);
+        let said = |app: &App| {
+            let mut words = Vec::new();
+            zoom_segment(app, &mut |_, text, _| words.push(text));
+            text_segments(app, &mut |_, text, _| words.push(text.trim().to_owned()));
+            words.join(" · ")
+        };
+        assert!(!said(&app).contains("fit"));
+        app.mode = Mode::Trace;
+        app.pictures.trace = Some(Picture::default());
+        assert!(said(&app).starts_with("fit · TRACE"), "{}", said(&app));
+        app.picture_mut().paused = true;
+        assert!(said(&app).contains("PAUSED"), "{}", said(&app));
     }
 
     #[test]

@@ -18,8 +18,9 @@ use crate::render::{Filter, Frame, NO_OBJECT, Progress};
 use crate::scene::Size;
 use crate::text::{Edit, Severity, Span};
 use crate::ui::app::{
-    App, Dialog, Export, Help, List, Message, Names, Next, OnDisk, Opening, OpeningText, Outside,
-    Page, PageFocus, Preferences, Prompt, PromptKind, Quality, Sight, Stage, Typing, Wires,
+    App, Cross, Dialog, Export, Help, List, Message, Names, Next, OnDisk, Opening, OpeningText,
+    Outside, Page, PageFocus, Preferences, Prompt, PromptKind, Quality, Sight, Stage, Typing,
+    Wires,
 };
 use crate::ui::arrange::Zoom;
 use crate::ui::keymap::Mode;
@@ -310,12 +311,13 @@ const STATES: &[(&str, Change)] = &[
     }),
 ];
 
-const MODES: [Mode; 5] = [
+const MODES: [Mode; 6] = [
     Mode::Select,
     Mode::View,
     Mode::Edit,
     Mode::Trace,
-    Mode::Pick,
+    Mode::Inspect,
+    Mode::Compare,
 ];
 
 #[test]
@@ -337,7 +339,13 @@ fn every_screen_can_be_drawn_at_every_size() {
         for mode in MODES {
             let mut app = app();
             app.mode = mode;
-            app.pictures.cross = Some((3, 300));
+            app.inspection.cross = Some(Cross {
+                pixel: [3, 300],
+                size: Size {
+                    width: 4,
+                    height: 3,
+                },
+            });
             change(&mut app);
             for &(width, height) in &sizes {
                 let lines = screen(&mut app, width, height);

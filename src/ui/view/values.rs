@@ -76,3 +76,61 @@ fn write(lines: Vec<String>, colour: [u8; 3], pixel: Rect, buffer: &mut Buffer) 
             .put(&text, style.bg(ground));
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::render::Region;
+    use crate::scene::Size;
+
+    /// What is written into the pixels of a part of a picture that fills so many cells.
+    fn written(part: &str, (columns, rows): (u16, u16)) -> Vec<String> {
+        let size = Size {
+            width: 4,
+            height: 3,
+        };
+        let colours = (0..12).map(|at| [20 * at, 7, 255]).collect();
+        let mut frame = Frame::drawn(size, colours);
+        frame.values = vec![[0.5, -1.0, 12.3456]; 12];
+        let area = Rect::new(0, 0, columns, rows);
+        let fills = Size {
+            width: columns.into(),
+            height: 2 * u32::from(rows),
+        };
+        let sight = Sight {
+            window: Some(Window {
+                whole: size,
+                part: Region::parse(part).expect("a region"),
+                fills,
+            }),
+            ..Sight::whole(fills)
+        };
+        let mut buffer = Buffer::empty(area);
+        render(&frame, &sight, area, &mut buffer);
+        let row = |y| (0..columns).map(move |x| (x, y));
+        let lines = (0..rows).map(|y| row(y).map(|at| buffer[at].symbol()).collect::<String>());
+        lines.map(|line| line.trim_end().to_owned()).collect()
+    }
+
+    #[test]
+    fn values_are_written_where_they_fit() {
+        let low = ["", "  20 7 255    40 7 255", ""];
+        assert_eq!(written("1,0,2,1", (24, 3)), low);
+        let roomy = ["", " 200 7 255", "   0.500", "   -1.000", "   12.346", ""];
+        assert_eq!(written("2,2,1,1", (12, 6)), roomy);
+        assert_eq!(written("2,2,1,1", (11, 6)), [""; 6]);
+        assert_eq!(written("2,2,1,1", (12, 2)), [""; 2]);
+    }
+
+    #[test]
+    fn the_ink_contrasts_with_the_pixel() {
+        let ink = |colour| {
+            let area = Rect::new(0, 0, 12, 3);
+            let mut buffer = Buffer::empty(area);
+            write(vec!["x".to_owned()], colour, area, &mut buffer);
+            buffer[(5, 1)].fg
+        };
+        assert_eq!(ink([0, 0, 255]), Color::White);
+        assert_eq!(ink([0, 255, 0]), Color::Black);
+    }
+}

@@ -26,9 +26,13 @@ impl Judge<'_> {
         let scene = &self.case.world.scene;
         let mut reasons: Vec<Reason> = Vec::new();
         let mut lost = 0.0;
+        let none = self.case.world.ambient == Rgb::ZERO;
+        let no_ambient = found(Verdict::NoAmbient { object, none }, ray);
         if reflectance(&shading.material) == 0.0 {
+            let reflects = shading.material.ambient.is_some_and(|ka| ka != Rgb::ZERO);
+            let lacks = reflects && shading.ambient == Rgb::ZERO;
             return Lacks {
-                findings: Vec::new(),
+                findings: lacks.then_some(no_ambient).into_iter().collect(),
                 lost,
             };
         }
@@ -83,6 +87,7 @@ impl Judge<'_> {
             let verdict = Verdict::FacesAway {
                 lights: away,
                 all,
+                cosine: 0.0,
                 object,
             };
             reasons.push((0.01, verdict));
@@ -92,9 +97,10 @@ impl Judge<'_> {
             .into_iter()
             .map(|(_, verdict)| found(verdict, ray))
             .collect();
-        if self.case.integrator == Integrator::Whitted && shading.ambient == Rgb::ZERO {
-            let none = self.case.world.ambient == Rgb::ZERO;
-            findings.push(found(Verdict::NoAmbient { object, none }, ray));
+        let is_dim = self.is_dim(weight * shading.radiance);
+        let has_ambient = self.case.integrator == Integrator::Whitted;
+        if is_dim && has_ambient && shading.ambient == Rgb::ZERO {
+            findings.push(no_ambient);
         }
         Lacks { findings, lost }
     }
@@ -171,7 +177,8 @@ impl Judge<'_> {
             Some(_) => return None,
             None => {}
         }
-        if DARK <= self.shown(weight * term.radiance) {
+        let is_seen = DARK <= self.shown(weight * term.radiance);
+        if is_seen || !self.is_dim(weight * shading.radiance) {
             // Light filtered by transparent objects is less, but not gone.
             return (transmittance < 0.5).then(shadow);
         }
@@ -200,6 +207,7 @@ impl Judge<'_> {
                 let verdict = Verdict::FacesAway {
                     lights: vec![term.light],
                     all: false,
+                    cosine: term.cosine,
                     object,
                 };
                 (0.01, verdict)

@@ -53,6 +53,9 @@ pub(super) fn judge(case: &Case<'_>) -> Vec<Finding> {
             kept.push(finding);
         }
     }
+    if kept.is_empty() {
+        kept.push(judge.faint());
+    }
     kept.truncate(MOST);
     kept
 }
@@ -151,6 +154,15 @@ impl<'r> Judge<'r> {
             RayEnd::Surface(shading) => self.surface(ray, shading),
             RayEnd::OverBudget => Vec::new(),
         }
+    }
+
+    /// What a sample shows that is too faint for any part of it to count.
+    fn faint(&self) -> Finding {
+        let first = self.case.rays[0].shading();
+        let source = first.map_or(TermSource::Surroundings, |shading| TermSource::Emission {
+            object: shading.hit.object,
+        });
+        self.term(source, self.totals[0], 0)
     }
 
     fn term(&self, source: TermSource, contribution: Rgb, ray: usize) -> Finding {

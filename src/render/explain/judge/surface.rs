@@ -68,18 +68,21 @@ impl Judge<'_> {
         let mut findings = self.ray(child);
         let total = self.totals[child];
         if !self.is_dark(total) {
-            let seen = match &self.case.rays[child].end {
+            let seen = match &self.case.rays[self.brightest(child)].end {
                 RayEnd::Surface(shading) => Some(shading.hit.object),
                 RayEnd::Missed { .. } | RayEnd::Light(_) | RayEnd::OverBudget => None,
             };
+            // What is seen there has its own pixels to be explained by.
+            findings.retain(|finding| is_lack(&finding.verdict, kind));
             let source = TermSource::Ray { kind, object, seen };
             findings.insert(0, self.term(source, total, child));
         }
         if kind == RayKind::TotalReflection {
-            // A ray that is cut is the cause, however it came about.
-            let first = findings.first().map(|finding| &finding.verdict);
-            let at = usize::from(matches!(first, Some(Verdict::Depth { .. })));
-            findings.insert(at, found(Verdict::TotalReflection { object }, ray));
+            // A ray that is cut is the cause, unless it would be reflected further on and on.
+            let first = findings.first();
+            let is_cause = first.is_some_and(|first| self.is_cut_short(first));
+            let total = found(Verdict::TotalReflection { object }, ray);
+            findings.insert(usize::from(is_cause), total);
         }
         let weight = self.case.rays[child].weight.abs().max_element();
         Part {
@@ -87,6 +90,29 @@ impl Judge<'_> {
             actual: self.shown(total),
             findings,
         }
+    }
+
+    /// The ray that adds most among one and those that descend from it: what it leads to, such as
+    /// what is seen through both sides of a glass. Of equal ones the first.
+    fn brightest(&self, ray: usize) -> usize {
+        let shown = |ray: usize| self.shown(self.case.rays[ray].contribution);
+        let mut best = ray;
+        let mut left = vec![ray];
+        while let Some(ray) = left.pop() {
+            if shown(best) < shown(ray) {
+                best = ray;
+            }
+            left.extend(self.children[ray].iter().rev());
+        }
+        best
+    }
+
+    /// Whether a finding is that rays are cut by the depth where they would get out.
+    fn is_cut_short(&self, finding: &Finding) -> bool {
+        let shading = self.case.rays[finding.ray].shading();
+        let boundary = shading.and_then(|shading| shading.boundary);
+        let is_total = boundary.is_some_and(|boundary| boundary.total);
+        matches!(finding.verdict, Verdict::Depth { .. }) && !is_total
     }
 
     /// Rays that are cut by the maximum number of bounces.
@@ -172,7 +198,12 @@ impl Judge<'_> {
         };
         if let Some(clipped) = self.too_near(&line) {
             // The near limit has cut it open.
-            findings.push(clipped);
+            let at = if self.is_dim(self.totals[ray]) {
+                0
+            } else {
+                findings.len()
+            };
+            findings.insert(at, clipped);
             return;
         }
         let inside = found(Verdict::Inside { object }, ray);
@@ -209,6 +240,16 @@ struct Local {
     part: Part,
     /// Whether missing light explains it better than the light that is there.
     lacks_first: bool,
+}
+
+/// Whether a verdict on what a bright ray brings is worth telling at the surface it comes from.
+fn is_lack(verdict: &Verdict, kind: RayKind) -> bool {
+    let is_scattered = matches!(kind, RayKind::Diffuse | RayKind::Glossy);
+    !is_scattered
+        && matches!(
+            verdict,
+            Verdict::Depth { .. } | Verdict::TotalReflection { .. }
+        )
 }
 
 /// How much of a light's light a material reflects at most.

@@ -117,6 +117,14 @@ fn edits(action: A) -> bool {
         | A::LightView
         | A::SavedViews
         | A::Cross(..)
+        | A::Pin
+        | A::Flip
+        | A::Wipe
+        | A::SlideWipe(_)
+        | A::Difference
+        | A::Worst(_)
+        | A::Explain
+        | A::Sample(_)
         | A::Stop
         | A::Pause
         | A::Magnify(_)
@@ -170,6 +178,10 @@ const OTHERS: &[&str] = &[
     "export!",
     "export cancel",
     "render",
+    "compare",
+    "until",
+    "region",
+    "zoom",
     "view light",
     "view reset",
     "show uv",

@@ -158,9 +158,16 @@ fn brackets_step_through_the_shares_of_the_light() {
     }
     press(&mut app, ")");
     assert_eq!(app.view_name().as_deref(), Some("only light 1"));
-    // A light that is deleted takes its share along.
-    let text = SCENE.replace("\n1\n5 5 5 // the light\n1 1 1\n", "\n0\n");
-    outside(&mut app, &text);
+}
+
+#[test]
+fn the_share_of_a_light_goes_with_it() {
+    let one = "1\n5 5 5 // the light\n1 1 1\n";
+    let two = "2\n5 5 5 // the light\n1 1 1\n-5 5 5\n1 1 1\n";
+    let mut app = open(&SCENE.replace(one, two));
+    press(&mut app, "))");
+    assert_eq!(app.pictures.aov, Some(Aov::Direct(1)));
+    outside(&mut app, SCENE);
     assert_eq!(app.error_count(), 0);
     assert_eq!((app.pictures.aov, app.view_name()), (None, None));
 }

@@ -106,7 +106,7 @@ fn show_half(app: &mut App) {
 }
 
 #[test]
-fn picking_selects_the_object_under_the_cross() {
+fn enter_selects_the_object_under_the_cross() {
     let mut app = open(SCENE);
     show_half(&mut app);
     press(&mut app, "iHH<Enter>");
@@ -117,19 +117,22 @@ fn picking_selects_the_object_under_the_cross() {
     press(&mut app, "ggi");
     press(&mut app, &"L".repeat(9));
     press(&mut app, "<Enter>");
-    assert_eq!((app.mode, app.cursor.selected()), (Mode::Pick, Node::View));
+    assert_eq!(
+        (app.mode, app.cursor.selected()),
+        (Mode::Inspect, Node::View)
+    );
 }
 
 #[test]
-fn picking_starts_where_the_last_pick_was() {
+fn inspecting_starts_where_the_cross_was_last() {
     let mut app = open(SCENE);
     show_half(&mut app);
-    for cross in [(0, 0), (1, 0)] {
+    for cross in [[0, 0], [1, 0]] {
         press(&mut app, "i");
         press(&mut app, &"HK".repeat(99));
-        press(&mut app, &"l".repeat(cross.0.into()));
+        press(&mut app, &"l".repeat(cross[0] as usize));
         press(&mut app, "<Esc>i");
-        assert_eq!(app.pictures.cross, Some(cross));
+        assert_eq!(app.cross().map(|cross| cross.pixel), Some(cross));
         press(&mut app, "<Esc>");
     }
 }
@@ -246,7 +249,7 @@ fn picking_works_only_for_the_scene_on_screen() {
     assert_eq!(app.cursor.selected(), selected);
     assert!(words(&app).contains("does not show the changed scene yet"));
     press(&mut app, "i<Enter>");
-    assert_eq!((app.mode, app.cursor.selected()), (Mode::Pick, selected));
+    assert_eq!((app.mode, app.cursor.selected()), (Mode::Inspect, selected));
 }
 
 #[test]

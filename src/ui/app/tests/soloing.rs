@@ -143,12 +143,12 @@ fn picking_in_a_picture_of_one_object_selects_it() {
     app.update(Msg::Frame(Target::Preview, Arc::new(frame)));
     app.picture_mut()
         .advance(&Sight::whole(size), &[], usize::MAX);
-    assert_eq!(app.node_under((0, 0)), Ok(Some(Object(2))));
+    assert_eq!(app.node_at([0, 0]), Ok(Some(Object(2))));
     let nothing = pictures::frame(size, vec![NO_OBJECT; size.pixels()]);
     app.update(Msg::Frame(Target::Preview, Arc::new(nothing)));
     app.picture_mut()
         .advance(&Sight::whole(size), &[], usize::MAX);
-    assert_eq!(app.node_under((0, 0)), Ok(None));
+    assert_eq!(app.node_at([0, 0]), Ok(None));
 }
 
 #[test]

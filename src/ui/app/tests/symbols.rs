@@ -127,7 +127,7 @@ fn symbols_are_where_things_are_and_are_picked_before_objects() {
         for (away, picked) in [(1, node), (2, Object(app.source().object(0)))] {
             let place = (symbol.cell.0 + away, symbol.cell.1);
             press(&mut app, "i");
-            app.pictures.cross = Some(place);
+            app.place_cross(place);
             press(&mut app, "<Enter>");
             assert_eq!(
                 (app.cursor.selected(), app.mode),
@@ -136,6 +136,7 @@ fn symbols_are_where_things_are_and_are_picked_before_objects() {
             );
             press(&mut app, "i");
             click(&mut app, cells.x + place.0, cells.y + place.1);
+            press(&mut app, "<Enter>");
             assert_eq!(
                 (app.cursor.selected(), app.mode),
                 (picked, Mode::Select),
@@ -154,9 +155,9 @@ fn without_a_symbol_or_an_object_nothing_is_picked() {
     app.picture_mut()
         .advance(&Sight::whole(size), &[], usize::MAX);
     press(&mut app, "i");
-    app.pictures.cross = Some((0, 0));
+    app.place_cross((0, 0));
     press(&mut app, "<Enter>");
-    assert_eq!((words(&app), app.mode), ("nothing there", Mode::Pick));
+    assert_eq!((words(&app), app.mode), ("nothing there", Mode::Inspect));
 }
 
 #[test]

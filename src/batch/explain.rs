@@ -1,0 +1,138 @@
+//! Explains a pixel of a scene: the verdict and the tree of rays behind it.
+
+mod json;
+
+use std::fmt::Write;
+use std::path::{Path, PathBuf};
+
+use super::{Error, Report, Tracing, Warnings, load, print_error, stdout};
+use crate::assets;
+use crate::explain::{Line, Place, Sentence, Subject, Words, number, words};
+use crate::memory;
+use crate::render::{Explanation, Frames, PreparedScene};
+use crate::scene::Size;
+use crate::text::visible;
+
+/// A pixel to explain.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Explain {
+    /// The scene file.
+    pub scene: PathBuf,
+    /// The pixel of the whole picture, from the left and from the top.
+    pub pixel: [u32; 2],
+    /// The index of the sample.
+    pub sample: u32,
+    /// How the explanation is printed.
+    pub report: Report,
+    /// How the picture is traced.
+    pub tracing: Tracing,
+    /// How warnings of the scene are treated.
+    pub warnings: Warnings,
+    /// Additional folders that pictures and meshes may be read from.
+    pub assets: Vec<PathBuf>,
+}
+
+/// Explains a pixel and prints the verdict and the tree of rays to standard output.
+pub fn explain(work: &Explain) -> Result<(), Error> {
+    try_explain(work).inspect_err(print_error)
+}
+
+fn try_explain(work: &Explain) -> Result<(), Error> {
+    assets::check_folders(&work.assets)?;
+    memory::start_threads_or_none();
+    let loaded = load(&work.scene, &work.assets, work.warnings)?;
+    let scene = loaded.scene.ok_or(Error::Invalid {
+        errors: loaded.errors,
+    })?;
+    let job = work.tracing.job(scene, loaded.images, Frames::Last);
+    let size = job.settings.size;
+    check_pixel(work.pixel, size)?;
+    let prepared = PreparedScene::new(&job, || false).ok_or(Error::Stopped)?;
+    let explained = prepared.query().explain(work.pixel, work.sample, || false);
+    let explanation = explained.ok_or(Error::Stopped)?;
+    let subject = Subject {
+        source: &loaded.source,
+        scene: &job.scene,
+        camera: &job.camera,
+        size,
+    };
+    let words = words(&explanation, &subject);
+    let report = match work.report {
+        Report::Text => text(&work.scene, &explanation, &words),
+        Report::Json => {
+            let object = json::object(&work.scene, &explanation, &words, &subject);
+            format!("{object:#}\n")
+        }
+    };
+    stdout::print(&report).map_err(|source| Error::Write {
+        to: "standard output".to_owned(),
+        source,
+    })
+}
+
+/// Refuses a pixel outside the picture.
+fn check_pixel([x, y]: [u32; 2], Size { width, height }: Size) -> Result<(), Error> {
+    if x < width && y < height {
+        return Ok(());
+    }
+    Err(Error::Refused(format!(
+        "pixel {x},{y} is outside the picture of {width}x{height}: X is 0 to {}, Y is 0 to {}",
+        width - 1,
+        height - 1
+    )))
+}
+
+/// The explanation for people.
+fn text(scene: &Path, explanation: &Explanation, words: &Words) -> String {
+    let name = scene.to_string_lossy();
+    let Explanation {
+        pixel: [x, y],
+        sample,
+        radiance,
+        displayed: [red, green, blue],
+        ..
+    } = explanation;
+    let linear = radiance.to_array().map(number).join(" ");
+    let mut text = format!(
+        "pixel {x},{y} of {name}, sample {sample}: {linear}, displayed {red} {green} {blue}\n"
+    );
+    for (number, sentence) in words.verdicts.iter().enumerate() {
+        let kind = if number == 0 { "verdict" } else { "also" };
+        add_sentence(&mut text, &name, kind, sentence);
+    }
+    text.push('\n');
+    for line in &words.lines {
+        add_line(&mut text, &name, line);
+    }
+    let lines = text.lines().map(visible);
+    lines.fold(String::new(), |text, line| text + &line + "\n")
+}
+
+fn add_sentence(text: &mut String, name: &str, kind: &str, sentence: &Sentence) {
+    let place = place_after(name, sentence.place);
+    // Writing to a string cannot fail.
+    let _ = writeln!(text, "{kind}: {}{place}", sentence.text);
+    if let Some(help) = &sentence.help {
+        let _ = writeln!(text, "  help: {help}");
+    }
+}
+
+fn add_line(text: &mut String, name: &str, line: &Line) {
+    /// Deeper lines are indented no further, so that long paths stay readable.
+    const DEEPEST: usize = 20;
+    let indent = "  ".repeat(line.depth.min(DEEPEST));
+    let adds = line.adds.map_or(String::new(), |adds| {
+        let [red, green, blue] = adds.to_array().map(number);
+        format!(": adds {red} {green} {blue}")
+    });
+    let place = place_after(name, line.place);
+    // Writing to a string cannot fail.
+    let _ = writeln!(text, "{indent}{}{adds}{place}", line.text);
+}
+
+/// A place as the end of a line.
+fn place_after(name: &str, place: Option<Place>) -> String {
+    place.map_or(String::new(), |Place { line, column, .. }| {
+        format!("  [{name}:{line}:{column}]")
+    })
+}

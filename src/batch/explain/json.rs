@@ -1,0 +1,215 @@
+//! An explanation as JSON. The keys are part of the interface of the command.
+
+use std::path::Path;
+
+use glam::DVec3;
+use serde_json::{Value, json};
+
+use crate::explain::{Place, Sentence, Subject, Words};
+use crate::language::Node;
+use crate::render::{
+    Crossing, Dark, Densities, Explanation, LightTerm, RayEnd, RayKind, Shading, Side, Stop,
+    TracedRay,
+};
+use crate::scene::Integrator;
+
+/// The explanation as an object; numbers that are infinite or undefined are null.
+pub(super) fn object(
+    scene: &Path,
+    explanation: &Explanation,
+    words: &Words,
+    subject: &Subject<'_>,
+) -> Value {
+    let integrator = match explanation.integrator {
+        Integrator::Whitted => "whitted",
+        Integrator::Path => "path",
+    };
+    let rays = explanation.rays.iter().map(|traced| ray(traced, subject));
+    json!({
+        "scene": scene.to_string_lossy(),
+        "pixel": explanation.pixel,
+        "sample": explanation.sample,
+        "integrator": integrator,
+        "depth": explanation.depth,
+        "radiance": vector(explanation.radiance),
+        "displayed": explanation.displayed,
+        "verdict": words.verdicts.first().map(|sentence| sentence.name),
+        "verdicts": words.verdicts.iter().map(|sentence| verdict(sentence, subject)).collect::<Value>(),
+        "rays": rays.collect::<Value>(),
+    })
+}
+
+fn verdict(sentence: &Sentence, subject: &Subject<'_>) -> Value {
+    json!({
+        "name": sentence.name,
+        "text": sentence.text,
+        "help": sentence.help,
+        "about": sentence.node.map(|node| subject.source.name(node)),
+        "place": sentence.place.map(place),
+        "ray": sentence.ray,
+    })
+}
+
+fn place(place: Place) -> Value {
+    json!({ "line": place.line, "column": place.column, "field": place.field })
+}
+
+fn ray(ray: &TracedRay, subject: &Subject<'_>) -> Value {
+    json!({
+        "parent": ray.parent,
+        "kind": kind(ray.kind),
+        "bounce": ray.bounce,
+        "weight": vector(ray.weight),
+        "origin": vector(ray.origin),
+        "direction": vector(ray.direction),
+        "reach": ray.reach,
+        "absorption": vector(ray.absorption),
+        "chosen": ray.chosen.map(|chosen| json!({
+            "chance": chosen.chance,
+            "density": chosen.density,
+            "factor": vector(chosen.factor),
+            "survival": chosen.survival,
+        })),
+        "contribution": vector(ray.contribution),
+        "end": end(&ray.end, subject),
+    })
+}
+
+fn end(end: &RayEnd, subject: &Subject<'_>) -> Value {
+    match end {
+        RayEnd::Missed { radiance, .. } => json!({ "missed": { "radiance": vector(*radiance) } }),
+        RayEnd::OverBudget => json!("over budget"),
+        RayEnd::Light(hit) => json!({ "light": {
+            "light": light(hit.light, subject),
+            "t": hit.t,
+            "transmitted": vector(hit.transmitted),
+            "radiance": vector(hit.radiance),
+            "densities": hit.densities.map(densities),
+        }}),
+        RayEnd::Surface(shading) => json!({ "surface": surface(shading, subject) }),
+    }
+}
+
+fn surface(shading: &Shading, subject: &Subject<'_>) -> Value {
+    let hit = &shading.hit;
+    let lights = shading.lights.iter().map(|shown| term(shown, subject));
+    json!({
+        "object": object_name(hit.object, subject),
+        "material": hit.material,
+        "t": hit.t,
+        "point": vector(hit.point),
+        "geometric_normal": vector(hit.geometric),
+        "normal": vector(hit.normal),
+        "uv": hit.uv.to_array(),
+        "side": match hit.side {
+            Side::Front => "front",
+            Side::Back => "back",
+        },
+        "transmitted": vector(shading.transmitted),
+        "lit": shading.lit,
+        "missing_texture": shading.missing,
+        "emission": vector(shading.emission),
+        "ambient": vector(shading.ambient),
+        "lights": lights.collect::<Value>(),
+        "unlisted_lights": shading.unlisted.lights,
+        "unlisted_radiance": vector(shading.unlisted.radiance),
+        "radiance": vector(shading.radiance),
+        "mirror": vector(shading.mirror),
+        "boundary": shading.boundary.map(|boundary| json!({
+            "tint": vector(boundary.tint),
+            "indices": boundary.indices,
+            "reflectance": boundary.reflectance,
+            "total": boundary.total,
+        })),
+        "stop": shading.stop.map(stop),
+    })
+}
+
+fn term(term: &LightTerm, subject: &Subject<'_>) -> Value {
+    let crossed = term.crossed.iter().map(|crossing| {
+        let Crossing {
+            object,
+            material,
+            t,
+            transmittance,
+        } = *crossing;
+        json!({
+            "object": object_name(object, subject),
+            "material": material,
+            "t": t,
+            "transmittance": transmittance,
+        })
+    });
+    json!({
+        "light": light(term.light, subject),
+        "toward": vector(term.toward),
+        "distance": term.distance,
+        "cosine": term.cosine,
+        "falloff": term.radial,
+        "cone": term.spot,
+        "arriving": vector(term.arriving),
+        "reflected": vector(term.reflected),
+        "densities": term.densities.map(densities),
+        "transmittance": term.transmittance,
+        "crossed": crossed.collect::<Value>(),
+        "radiance": vector(term.radiance),
+        "dark": term.dark.map(dark),
+    })
+}
+
+fn object_name(object: u32, subject: &Subject<'_>) -> String {
+    let node = Node::Object(subject.source.object(object));
+    subject.source.name(node)
+}
+
+fn light(light: u32, subject: &Subject<'_>) -> String {
+    subject.source.name(Node::Light(light as usize))
+}
+
+fn densities(densities: Densities) -> Value {
+    json!({
+        "by_light": densities.by_light,
+        "by_path": densities.by_path,
+        "weight": densities.weight,
+    })
+}
+
+fn vector(vector: DVec3) -> Value {
+    json!(vector.to_array())
+}
+
+fn kind(kind: RayKind) -> &'static str {
+    match kind {
+        RayKind::Camera => "camera",
+        RayKind::Mirror => "mirror",
+        RayKind::Boundary => "boundary",
+        RayKind::Refraction => "refraction",
+        RayKind::TotalReflection => "total reflection",
+        RayKind::Diffuse => "diffuse",
+        RayKind::Glossy => "glossy",
+    }
+}
+
+fn stop(stop: Stop) -> Value {
+    match stop {
+        Stop::Depth => json!("depth"),
+        Stop::Budget => json!("budget"),
+        Stop::Nowhere => json!("nowhere"),
+        Stop::Overflow => json!("overflow"),
+        Stop::Roulette { survival } => json!({ "roulette": survival }),
+    }
+}
+
+fn dark(dark: Dark) -> &'static str {
+    match dark {
+        Dark::SwitchedOff => "switched off",
+        Dark::UnlitSide => "unlit side",
+        Dark::FacesAway => "faces away",
+        Dark::AtThePoint => "at the point",
+        Dark::OutsideCone => "outside cone",
+        Dark::Attenuated => "attenuated",
+        Dark::NotReflected => "not reflected",
+        Dark::Blocked => "blocked",
+        Dark::Hidden => "hidden",
+    }
+}

@@ -1,0 +1,64 @@
+//! The arguments of `explain`.
+
+use std::path::PathBuf;
+
+use clap::{Args, value_parser};
+
+use super::shared::{AssetArguments, StrictnessArguments};
+use super::tracing::TracingArguments;
+use crate::batch::{Explain, Report};
+use crate::render::MAX_SPP;
+
+pub(super) const EXAMPLES: &str = "\
+Examples:
+  halflight explain scene.ray 400 300
+  halflight explain scene.xml 12 40 --size 320x240 --integrator path --sample 3
+  halflight explain scene.dat 0 0 --json
+
+Prints a verdict, which says why the pixel is dark, bright or odd and what would change it, and the \
+tree of rays behind one sample: what each hit, the light of every light factor by factor, and what \
+blocks it. The root is the sample of the picture to the last bit; pixels are counted from the top \
+left corner of the whole picture, from 0.";
+
+#[derive(Args, Debug)]
+pub(super) struct ExplainArguments {
+    /// Scene file: .ray, .dat or .xml
+    #[arg(value_name = "SCENE")]
+    scene: PathBuf,
+    /// Column of the pixel, from 0 at the left
+    #[arg(value_name = "X")]
+    x: u32,
+    /// Row of the pixel, from 0 at the top
+    #[arg(value_name = "Y")]
+    y: u32,
+    /// Index of the sample, 0 to 65535: 0 is the centre of the pixel
+    #[arg(long, value_name = "N", default_value_t = 0, value_parser = value_parser!(u32).range(..=i64::from(MAX_SPP) - 1))]
+    sample: u32,
+    /// Print the explanation as JSON
+    #[arg(long)]
+    json: bool,
+    #[command(flatten)]
+    tracing: TracingArguments,
+    #[command(flatten)]
+    strictness: StrictnessArguments,
+    #[command(flatten)]
+    assets: AssetArguments,
+}
+
+impl ExplainArguments {
+    pub(super) fn into_explain(self) -> Explain {
+        Explain {
+            scene: self.scene,
+            pixel: [self.x, self.y],
+            sample: self.sample,
+            report: if self.json {
+                Report::Json
+            } else {
+                Report::Text
+            },
+            tracing: self.tracing.into_tracing(),
+            warnings: self.strictness.warnings(),
+            assets: self.assets.folders,
+        }
+    }
+}

@@ -1,0 +1,456 @@
+//! Comparing pictures: pins and loads a reference, traces what corresponds to it, and looks at both.
+
+use std::path::PathBuf;
+use std::sync::Arc;
+
+use super::compared::{Origin, Reference, Wipe};
+use super::contrast::Contrast;
+use super::{App, Cross};
+use crate::image_file::ImageFormat;
+use crate::render::{Aov, Frame, Frames, Job, Settings, default_depth};
+use crate::scene::{Camera, Images, Scene, Size};
+use crate::text::Severity;
+use crate::ui::keymap::{Action, Context, Mode};
+use crate::ui::msg::{Effect, Target};
+use crate::ui::reference::{ReferenceId, ReferenceRead, ReferenceSource};
+
+impl App {
+    /// Makes the picture on screen the reference.
+    pub(super) fn pin(&mut self) -> Vec<Effect> {
+        let pinned = match self.pinned() {
+            Ok(pinned) => pinned,
+            Err(reason) => {
+                self.overlays.warn(reason);
+                return Vec::new();
+            }
+        };
+        let size = pinned.frame.as_ref().map_or_else(String::new, |frame| {
+            format!(", {}×{}", frame.size.width, frame.size.height)
+        });
+        let how = self.keymap.key(self.context(), Action::Go(Mode::Compare));
+        let how = how.unwrap_or_else(|| ":compare".to_owned());
+        let name = &pinned.name;
+        self.overlays
+            .say(format!("pinned the {name}{size}; {how} compares with it"));
+        self.refer(pinned)
+    }
+
+    /// The picture on screen as a reference, or the reason why it cannot be one.
+    fn pinned(&self) -> Result<Reference, String> {
+        if self.wires().is_some() {
+            let light = self.key_for(Action::Show(None));
+            return Err(format!(
+                "a wireframe cannot be pinned: {light} shows a picture"
+            ));
+        }
+        let picture = self.picture();
+        let frame = match self.mode {
+            Mode::Compare => self.compared.live(),
+            _ => picture.latest.as_ref(),
+        };
+        let is_whole = |frame: &&Arc<Frame>| {
+            1 <= frame.progress.spp && picture.wanted == Some(frame.generation)
+        };
+        let untraced = || "cannot pin the picture: it is still being traced".to_owned();
+        let frame = frame.filter(is_whole).ok_or_else(untraced)?;
+        if frame.whole() != frame.size {
+            return Err("only a whole picture can be pinned, not a part of it".to_owned());
+        }
+        let spp = frame.progress.spp;
+        let grid = self.pictures.grid;
+        let (kind, origin) = match (self.mode, &self.compared.reference) {
+            (Mode::Compare, Some(reference)) => match &reference.origin {
+                Origin::Preview(halves, grid, _) => {
+                    ("preview", Origin::Preview(*halves, *grid, spp))
+                }
+                _ => ("trace", Origin::Traced(spp)),
+            },
+            (Mode::Trace | Mode::Compare, _) => ("trace", Origin::Traced(spp)),
+            _ => {
+                let screen = self.preview_screen();
+                let screen = screen.filter(|screen| grid.size(screen.halves) == frame.size);
+                let halves = screen.ok_or_else(untraced)?.halves;
+                ("preview", Origin::Preview(halves, grid, spp))
+            }
+        };
+        let shows = shown(self.pictures.aov);
+        Ok(Reference {
+            name: format!("{kind}, {shows}, {spp} spp"),
+            shows: Some(shows),
+            origin,
+            frame: Some(Arc::clone(frame)),
+        })
+    }
+
+    fn refer(&mut self, reference: Reference) -> Vec<Effect> {
+        let former = self.compared.refer(reference);
+        let free = former.map(|former| Effect::Free(Arc::new(former)));
+        free.into_iter().collect()
+    }
+
+    /// Compares with the reference, or reads another one first, for `:compare`.
+    pub(super) fn compare_with(&mut self, words: Option<PathBuf>) -> Vec<Effect> {
+        let Some(path) = words else {
+            return self.go(Mode::Compare);
+        };
+        let line = path.to_string_lossy().into_owned();
+        let (first, rest) = line.split_once(' ').unwrap_or((&line, ""));
+        let revision = match (first, rest.trim()) {
+            ("git", "") => Some("HEAD"),
+            ("git", revision) => Some(revision),
+            (revision, "") if is_head(revision) => Some(revision),
+            _ => None,
+        };
+        let is_own = revision.is_some() || line == "saved";
+        let own = self.disk.path.clone();
+        let (name, source) = match (revision, own) {
+            (_, None) if is_own => {
+                self.overlays.fail("the scene has no file yet: :w FILE");
+                return Vec::new();
+            }
+            // Git would take it for an option.
+            (Some(revision), _) if revision.starts_with('-') => {
+                self.overlays.fail(format!("{revision} is no revision"));
+                return Vec::new();
+            }
+            (Some(revision), Some(own)) => (
+                format!("{} in {revision}", self.disk.name()),
+                ReferenceSource::Revision(revision.to_owned(), own),
+            ),
+            (None, Some(own)) if is_own => (
+                format!("{} as saved", self.disk.name()),
+                ReferenceSource::File(own),
+            ),
+            (None, _) => (line, ReferenceSource::File(path)),
+            (Some(_), None) => return Vec::new(),
+        };
+        let id = self.compared.ask(name);
+        vec![Effect::ReadReference(id, source)]
+    }
+
+    /// Takes a reference that was read, and compares with it unless the user does something else.
+    pub(super) fn reference_read(
+        &mut self,
+        id: ReferenceId,
+        read: Result<ReferenceRead, String>,
+    ) -> Vec<Effect> {
+        let Some(name) = self.compared.answered(id) else {
+            return vec![Effect::Free(Arc::new(read))];
+        };
+        let reference = match read {
+            Ok(read) => Reference::read(name, read),
+            Err(reason) => {
+                self.overlays.fail(reason);
+                return Vec::new();
+            }
+        };
+        let is_free = matches!(self.context(), Context::In(mode) if mode != Mode::Move)
+            && self.typed_line().is_none();
+        let name = reference.name.clone();
+        let mut effects = self.refer(reference);
+        if !is_free {
+            self.overlays.say(format!(":compare compares with {name}"));
+        } else if self.mode != Mode::Compare {
+            effects.extend(self.go(Mode::Compare));
+        }
+        effects
+    }
+
+    /// Starts to compare, or stops.
+    pub(super) fn start_comparison(&mut self) -> Vec<Effect> {
+        if self.mode == Mode::Compare {
+            self.end_comparison();
+            return Vec::new();
+        }
+        if let Err(reason) = self.comparison_jobs() {
+            self.refuse_picture(Severity::Error, &reason);
+            return Vec::new();
+        }
+        self.compared.before = Some(self.mode);
+        self.mode = Mode::Compare;
+        self.compared.due = true;
+        Vec::new()
+    }
+
+    /// Returns to the mode before the comparison.
+    pub(super) fn end_comparison(&mut self) {
+        self.mode = self.compared.before.take().unwrap_or(Mode::Select);
+    }
+
+    /// Traces what is compared if it is not up to date, and nothing outside of [`Mode::Compare`].
+    pub(super) fn follow_comparison(&mut self, has_changed: bool) -> Vec<Effect> {
+        if self.seen() != Target::Compared {
+            return if self.compared.end() {
+                vec![
+                    Effect::Stop(Target::Compared),
+                    Effect::Stop(Target::Reference),
+                ]
+            } else {
+                Vec::new()
+            };
+        }
+        self.compared.inspect(self.mode == Mode::Inspect);
+        if !std::mem::take(&mut self.compared.due) && !has_changed {
+            return self.measure();
+        }
+        match self.comparison_jobs() {
+            Ok((live, reference)) => {
+                self.compared.begin();
+                let other = match reference {
+                    Some(job) => Effect::Trace(Target::Reference, job),
+                    None => Effect::Stop(Target::Reference),
+                };
+                vec![Effect::Trace(Target::Compared, live), other]
+            }
+            Err(reason) => {
+                self.refuse_picture(Severity::Error, &reason);
+                self.end_comparison();
+                self.follow_comparison(has_changed)
+            }
+        }
+    }
+
+    fn measure(&mut self) -> Vec<Effect> {
+        let pair = self.compared.next_to_measure();
+        pair.map(Effect::Compare).into_iter().collect()
+    }
+
+    /// What to trace of the present scene, and of the reference if that is a scene; the error says
+    /// why they cannot be compared.
+    fn comparison_jobs(&self) -> Result<(Job, Option<Job>), String> {
+        let reference = self.compared.reference.as_ref().ok_or_else(|| {
+            let pin = self.key_for(Action::Pin);
+            format!("nothing to compare with: {pin} pins the picture, :compare FILE loads one")
+        })?;
+        let output = self.output();
+        let quality = &self.pictures.quality;
+        let size = match (&reference.origin, &reference.frame) {
+            (Origin::Preview(halves, ..), _) => *halves,
+            (Origin::Traced(_) | Origin::File, Some(frame)) => frame.size,
+            _ => output,
+        };
+        if let Some(reason) = ImageFormat::Bmp.refuses(size) {
+            return Err(reason);
+        }
+        if !corresponds(size, output) {
+            return Err(self.mismatch(reference, size));
+        }
+        let spp = match reference.origin {
+            Origin::Preview(halves, grid, spp) => {
+                let job = self.whole_preview_job(halves, grid, spp);
+                return Ok((job.ok_or_else(|| self.no_picture())?, None));
+            }
+            Origin::Traced(spp) => spp,
+            Origin::File | Origin::Scene(..) => quality.spp,
+        };
+        let live = self.final_job(size, spp)?;
+        // As exports of this size are framed.
+        let camera = Camera {
+            size,
+            ..live.camera
+        };
+        let live = Job { camera, ..live };
+        let other = match &reference.origin {
+            Origin::Scene(scene, images, _) => Some(self.reference_job(scene, images, &live)),
+            Origin::Preview(..) | Origin::Traced(_) | Origin::File => None,
+        };
+        Ok((live, other))
+    }
+
+    /// What to trace of a scene that is compared with the present one: the same, except for what the
+    /// scene itself says.
+    fn reference_job(&self, scene: &Arc<Scene>, images: &Images, live: &Job) -> Job {
+        let quality = &self.pictures.quality;
+        let integrator = quality.integrator.unwrap_or(scene.setting.integrator);
+        let camera = self.pictures.view.unwrap_or(scene.camera);
+        Job {
+            scene: Arc::clone(scene),
+            images: images.clone(),
+            camera: Camera {
+                size: live.settings.size,
+                ..camera
+            },
+            settings: Settings {
+                integrator,
+                depth: quality.depth.unwrap_or_else(|| default_depth(integrator)),
+                transfer: scene.setting.transfer,
+                ..live.settings
+            },
+            limit: None,
+            frames: Frames::Live,
+            numbers: None,
+        }
+    }
+
+    /// Why pixels of the reference do not correspond to those of the scene's picture.
+    fn mismatch(&self, reference: &Reference, size: Size) -> String {
+        let Size { width, height } = size;
+        let output = self.output();
+        let cure = match reference.origin {
+            Origin::File => format!(":size {width}x{height} sets that of the scene"),
+            _ => format!("{} pins the present picture", self.key_for(Action::Pin)),
+        };
+        format!(
+            "{} is {width}×{height}, the scene's picture {}×{}: they cannot be compared; {cure}",
+            reference.name, output.width, output.height
+        )
+    }
+
+    /// What is unlike about the two pictures, if they show different things: `light, not depth`.
+    pub fn compares_unlike(&self) -> Option<String> {
+        let reference = self.compared.reference.as_ref()?.shows?;
+        let live = shown(self.pictures.aov);
+        (live != reference).then(|| format!("{live} against {reference}"))
+    }
+
+    /// Performs an action of [`Mode::Compare`].
+    pub(super) fn act_on_comparison(&mut self, action: Action) {
+        let compared = &mut self.compared;
+        let view = match action {
+            Action::Flip => compared.view.flipped(),
+            Action::Wipe => Contrast::Wipe,
+            Action::Difference => compared.view.next_difference(),
+            Action::SlideWipe(cells) => return self.slide_wipe(cells),
+            Action::Worst(step) => return self.go_to_worst(step),
+            _ => return,
+        };
+        compared.look(view, compared.wipe);
+    }
+
+    /// Moves the line of the wipe by some cells to the right.
+    fn slide_wipe(&mut self, cells: i16) {
+        let Some(((area, halves), sight)) = self.raster().zip(self.sight()) else {
+            return;
+        };
+        // The cells across the whole picture.
+        let width = f64::from(area.width) * sight.magnification(halves);
+        let column = (self.compared.wipe.0 * width).round() + f64::from(cells);
+        let wipe = Wipe(column.clamp(0.0, width) / width);
+        self.compared.look(Contrast::Wipe, wipe);
+    }
+
+    /// Points at one of the worst pixels.
+    fn go_to_worst(&mut self, step: isize) {
+        if let Err(reason) = self.compared.go_to_worst(step) {
+            self.overlays.say(reason);
+        } else if let Some(place) = self.cross_on_screen() {
+            self.centre_on(place);
+        }
+    }
+
+    /// Explains the pixel of the present picture that is pointed at, otherwise the worst one.
+    pub(super) fn explain_compared(&mut self) {
+        if self.compared.cross.is_none() {
+            self.go_to_worst(1);
+        }
+        let size = self.compared.live().map(|live| live.size);
+        if let Some(((x, y), size)) = self.compared.cross.zip(size) {
+            self.compared.inspect(true);
+            self.explain_at(Cross {
+                pixel: [x, y],
+                size,
+            });
+        }
+    }
+
+    /// Where the pixel that is pointed at is on screen, in half blocks from the picture's upper left
+    /// corner.
+    pub fn cross_on_screen(&self) -> Option<[f64; 2]> {
+        let here = self.compared.at_cross()?;
+        let size = self.compared.pair()?.size()?;
+        let (_, halves) = self.raster()?;
+        let scaled = |at: u32, pixels: u32, shown: u32| {
+            (f64::from(at) + 0.5) / f64::from(pixels) * f64::from(shown)
+        };
+        let place = [
+            scaled(here.x, size.width, halves.width),
+            scaled(here.y, size.height, halves.height),
+        ];
+        Some(self.sight()?.on_screen(place, halves))
+    }
+
+    /// Where the line of the wipe is on screen, in half blocks from the picture's left edge, if it is
+    /// seen.
+    pub fn wipe_on_screen(&self) -> Option<f64> {
+        let (_, halves) = self.raster()?;
+        let at = self.compared.wipe.0 * f64::from(halves.width);
+        let [column, _] = self.sight()?.on_screen([at, 0.0], halves);
+        (self.compared.view == Contrast::Wipe).then_some(column)
+    }
+
+    /// Moves the line of the wipe to a cell of the screen; in other views, points at the pixel there.
+    pub(super) fn press_comparison(&mut self, at: (u16, u16)) {
+        let Some((cells, _)) = self.raster().filter(|(cells, _)| cells.contains(at.into())) else {
+            return;
+        };
+        let cell = (at.0 - cells.x, at.1 - cells.y);
+        let Some([x, y]) = self.pixel_at(cell) else {
+            return;
+        };
+        let seen = self.compared.seen.latest.as_ref();
+        match (self.compared.view, seen) {
+            (Contrast::Wipe, Some(seen)) => {
+                let wipe = Wipe(f64::from(x) / f64::from(seen.size.width));
+                self.compared.look(Contrast::Wipe, wipe);
+            }
+            _ => self.compared.cross = Some((x, y)),
+        }
+    }
+}
+
+/// What a picture shows, in a word.
+fn shown(aov: Option<Aov>) -> &'static str {
+    aov.map_or("light", Aov::name)
+}
+
+/// Whether these are words of git for the newest commit or one before it.
+fn is_head(word: &str) -> bool {
+    let rest = word.strip_prefix("HEAD");
+    rest.is_some_and(|rest| rest.is_empty() || rest.starts_with(['~', '^', '@']))
+}
+
+/// Whether a picture of one size has the aspect ratio of another, up to the rounding of one side.
+fn corresponds(size: Size, output: Size) -> bool {
+    let scaled = |side: u32, to: u32, from: u32| {
+        let (side, to, from) = (u64::from(side), u64::from(to), u64::from(from.max(1)));
+        (2 * side * to + from) / (2 * from)
+    };
+    let width = scaled(size.height, output.width, output.height);
+    let height = scaled(size.width, output.height, output.width);
+    width.abs_diff(size.width.into()) <= 1 || height.abs_diff(size.height.into()) <= 1
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn sizes_correspond_up_to_rounding() {
+        let size = |width, height| Size { width, height };
+        for (one, other, fits) in [
+            ((800, 600), (800, 600), true),
+            ((400, 300), (800, 600), true),
+            ((53, 40), (800, 600), true),
+            ((1, 1), (800, 600), true),
+            ((640, 640), (800, 600), false),
+            ((800, 602), (800, 600), false),
+        ] {
+            let found = corresponds(size(one.0, one.1), size(other.0, other.1));
+            assert_eq!(found, fits, "{one:?} {other:?}");
+        }
+    }
+
+    #[test]
+    fn revisions_before_the_newest_are_recognised() {
+        for (word, is) in [
+            ("HEAD", true),
+            ("HEAD~3", true),
+            ("HEAD^", true),
+            ("HEAD@{1}", true),
+            ("HEADS.ppm", false),
+            ("a.ray", false),
+        ] {
+            assert_eq!(is_head(word), is, "{word}");
+        }
+    }
+}

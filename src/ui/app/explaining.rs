@@ -1,0 +1,324 @@
+//! Explaining the pixel under the cross: asking for its rays and walking through them.
+
+use ratatui::layout::Rect;
+
+use super::App;
+use super::cursor::moved;
+use super::inspection::{Cross, Explained};
+use super::rays::{self, RayLine, RayPart, Segment};
+use crate::explain::{Subject, words};
+use crate::language::Node;
+use crate::render::{Explanation, NO_OBJECT, RayEnd};
+use crate::ui::fit::{shorten, wrap};
+use crate::ui::keymap::{Action, Context, Fold};
+use crate::ui::layout;
+use crate::ui::msg::{Effect, Question};
+
+/// Most lines of the verdict.
+const VERDICT: u16 = 3;
+/// Lines of the values of a line, with their title.
+const VALUES: u16 = 10;
+/// Fewest lines of the tree with its verdict, below which values are cut.
+const TREE: u16 = 8;
+
+/// The width below which a tree takes that of the values, too.
+const NARROW: u16 = 32;
+
+/// Where an explanation is drawn.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct RayPanels {
+    /// The tree with its title and the verdict.
+    pub tree: Rect,
+    /// The verdict.
+    pub verdict: Rect,
+    /// The lines of the tree.
+    pub lines: Rect,
+    /// The values of the line under the cursor, with their title.
+    pub values: Rect,
+    /// Whether they hide a part of the picture.
+    pub is_over_picture: bool,
+}
+
+impl App {
+    /// Explains a pixel of the picture on screen.
+    pub(super) fn explain_at(&mut self, pixel: Cross) {
+        self.start_inspecting();
+        self.inspection.cross = Some(pixel);
+        self.reveal_cross();
+        self.start_explaining();
+    }
+
+    /// Explains the pixel under the cross.
+    pub(super) fn start_explaining(&mut self) {
+        self.inspection.explained = Some(Explained::default());
+    }
+
+    /// Asks for the explanation of the pixel under the cross, unless that is what was asked last.
+    pub(super) fn follow_explained(&mut self) -> Option<Effect> {
+        let pixel = self.cross()?.pixel;
+        let (target, picture) = (self.seen(), self.picture());
+        if picture.is_outdated() || self.pictures.due {
+            return None;
+        }
+        let frame = picture.latest.clone()?;
+        let is_inspecting = self.context() == Context::Rays;
+        let explained = self
+            .inspection
+            .explained
+            .as_mut()
+            .filter(|_| is_inspecting)?;
+        let question = Question {
+            target,
+            generation: frame.generation,
+            pixel,
+            sample: explained.sample,
+        };
+        if explained.asked.replace(question) == Some(question) {
+            return None;
+        }
+        Some(Effect::Explain(question, frame))
+    }
+
+    /// Shows an explanation if it is the one asked for last.
+    pub(super) fn explained(&mut self, question: Question, answer: Option<Box<Explanation>>) {
+        let explained = self.inspection.explained.as_mut();
+        let Some(explained) = explained.filter(|explained| explained.asked == Some(question))
+        else {
+            return;
+        };
+        let is_other =
+            |old: &Explanation| old.pixel != question.pixel || old.sample != question.sample;
+        if explained.answer.as_deref().is_none_or(is_other) {
+            (explained.at, explained.top) = (0, 0);
+            explained.folded.clear();
+        }
+        explained.answer = answer;
+        let verdict = self.verdict();
+        if let Some(explained) = &mut self.inspection.explained {
+            explained.verdict = verdict;
+        }
+    }
+
+    /// The verdict on the explanation on screen; `None` if its scene may not be the text's.
+    fn verdict(&self) -> Option<String> {
+        let picture = self.picture();
+        let is_known = self.error_count() == 0 && !picture.is_outdated() && !self.pictures.due;
+        let frame = picture.latest.as_ref().filter(|_| is_known)?;
+        let subject = Subject {
+            source: self.source(),
+            scene: self.scene.as_deref()?,
+            camera: &frame.query.as_ref()?.camera,
+            size: frame.whole(),
+        };
+        let words = words(self.explanation()?, &subject);
+        let first = words.verdicts.into_iter().next()?;
+        Some(match first.help {
+            Some(help) => format!("{}: {help}", first.text),
+            None => first.text,
+        })
+    }
+
+    /// The explanation on screen.
+    pub fn explanation(&self) -> Option<&Explanation> {
+        self.inspection.explained.as_ref()?.answer.as_deref()
+    }
+
+    /// The lines of the explanation on screen.
+    pub fn ray_lines(&self) -> Vec<RayLine> {
+        let explained = self.inspection.explained.as_ref();
+        let lines = explained.and_then(|explained| {
+            let explanation = explained.answer.as_deref()?;
+            Some(rays::lines(explanation, &explained.folded))
+        });
+        lines.unwrap_or_default()
+    }
+
+    /// The line of the explanation under the cursor.
+    pub fn ray_line(&self) -> Option<RayLine> {
+        let at = self.inspection.explained.as_ref()?.at;
+        self.ray_lines().get(at).copied()
+    }
+
+    /// The node that a line of the explanation is about: an object or a light.
+    pub fn ray_node(&self, line: RayLine) -> Option<Node> {
+        let explanation = self.explanation()?;
+        if let Some(light) = line.light(explanation) {
+            return Some(Node::Light(light.light as usize));
+        }
+        match &line.ray(explanation).end {
+            RayEnd::Surface(shading) => self.object_named(shading.hit.object),
+            RayEnd::Light(hit) => Some(Node::Light(hit.light as usize)),
+            RayEnd::Missed { .. } | RayEnd::OverBudget => None,
+        }
+    }
+
+    /// The object that pictures call by this number; `None` if that may be of another scene.
+    pub fn object_named(&self, number: u32) -> Option<Node> {
+        let is_known = number != NO_OBJECT
+            && self.error_count() == 0
+            && !self.picture().is_outdated()
+            && !self.pictures.due;
+        is_known.then(|| Node::Object(self.source().object(number)))
+    }
+
+    /// The node of the line under the cursor.
+    pub(super) fn explained_node(&self) -> Option<Node> {
+        self.ray_node(self.ray_line()?)
+    }
+
+    /// The path of light from the eye to what the line under the cursor shows.
+    pub fn ray_path(&self) -> Vec<Segment> {
+        let path = self
+            .explanation()
+            .zip(self.ray_line())
+            .map(|(explanation, line)| line.path(explanation));
+        path.unwrap_or_default()
+    }
+
+    /// Selects the object or light of the line under the cursor, and ends inspecting.
+    pub(super) fn select_explained(&mut self) {
+        match self.explained_node() {
+            Some(node) => self.pick_node(node),
+            None => self.overlays.say("no object or light"),
+        }
+    }
+
+    /// Shows the light of the line under the cursor alone in the preview, or all again.
+    pub(super) fn solo_explained(&mut self) {
+        match self.explained_node() {
+            Some(node @ Node::Light(_)) => self.toggle_solo_of(&[node]),
+            _ if self.pictures.solo.is_some() => self.toggle_solo_of(&[]),
+            _ => {
+                let solo = self.key_for(Action::Solo);
+                self.overlays
+                    .say(format!("{solo} works on the line of a light"));
+            }
+        }
+    }
+
+    /// Moves the cursor of the explanation by some lines.
+    pub(super) fn move_in_rays(&mut self, by: isize) {
+        let count = self.ray_lines().len();
+        if let Some(explained) = &mut self.inspection.explained {
+            explained.at = moved(explained.at, by, count);
+        }
+    }
+
+    /// Moves the cursor of the explanation to the line under the pointer.
+    pub(super) fn click_ray(&mut self, panels: &RayPanels, at: (u16, u16)) {
+        let count = self.ray_lines().len();
+        if let Some(explained) = &mut self.inspection.explained
+            && panels.lines.contains(at.into())
+        {
+            let line = explained.top + usize::from(at.1 - panels.lines.y);
+            explained.at = line.min(count.saturating_sub(1));
+        }
+    }
+
+    /// Folds or unfolds the ray of the line under the cursor; if it is already, goes out of it or into
+    /// it.
+    pub(super) fn fold_ray(&mut self, fold: Fold) {
+        let (Some(line), Some(explained)) = (self.ray_line(), &mut self.inspection.explained)
+        else {
+            return;
+        };
+        let Some(explanation) = explained.answer.as_deref() else {
+            return;
+        };
+        let is_ray = line.part == RayPart::Whole;
+        let is_open = is_ray
+            && !explained.folded.contains(&line.ray)
+            && rays::is_foldable(explanation, line.ray);
+        let parent = match line.part {
+            RayPart::Whole => explanation.rays[line.ray].parent,
+            _ => Some(line.ray),
+        };
+        match fold {
+            Fold::Unselected if is_open => explained.at += 1,
+            Fold::Unselected => {
+                explained.folded.remove(&line.ray);
+            }
+            _ if is_open => {
+                explained.folded.insert(line.ray);
+            }
+            _ => {
+                let is_parent = |of: &RayLine| Some(of.ray) == parent && of.part == RayPart::Whole;
+                let lines = rays::lines(explanation, &explained.folded);
+                let at = lines.iter().position(is_parent);
+                explained.at = at.unwrap_or(explained.at);
+            }
+        }
+    }
+
+    /// Explains another sample of the pixel.
+    pub(super) fn change_sample(&mut self, step: i32) {
+        let count = self.sample_count();
+        if let Some(explained) = &mut self.inspection.explained {
+            let last = count.saturating_sub(1);
+            explained.sample = explained.sample.saturating_add_signed(step).min(last);
+        }
+    }
+
+    /// The number of samples of the pixels on screen so far.
+    pub fn sample_count(&self) -> u32 {
+        let latest = self.picture().latest.as_ref();
+        latest.map_or(1, |frame| frame.progress.spp.max(1))
+    }
+
+    /// Where the explanation is drawn: in place of the list and the fields, or over the picture on the
+    /// side away from the cross.
+    pub fn ray_panels(&self) -> Option<RayPanels> {
+        self.inspection.explained.as_ref()?;
+        let areas = self.areas();
+        let is_over_picture = areas.list.is_empty();
+        let (tree, values) = if is_over_picture {
+            layout::over_picture(areas.picture, self.free_side())
+        } else if areas.list.x == areas.fields.x || areas.list.width < NARROW {
+            // The tree needs more room than the list, and the values less than fields.
+            let column = areas.list.union(areas.fields);
+            let values = VALUES.min(column.height.saturating_sub(TREE));
+            layout::split_bottom(column, values)
+        } else {
+            (areas.list, areas.fields)
+        };
+        let room = layout::contents(tree);
+        let verdict = self.verdict_lines(room.width).len();
+        let verdict = u16::try_from(verdict).unwrap_or(VERDICT);
+        let (verdict, lines) = layout::split_top(room, verdict);
+        Some(RayPanels {
+            tree,
+            verdict,
+            lines,
+            values,
+            is_over_picture,
+        })
+    }
+
+    /// The verdict in lines of this width, with a blank before each.
+    pub fn verdict_lines(&self, width: u16) -> Vec<String> {
+        let explained = self.inspection.explained.as_ref();
+        let verdict = explained.and_then(|explained| explained.verdict.as_deref());
+        let width = usize::from(width.saturating_sub(1));
+        let mut lines = verdict.map_or_else(Vec::new, |verdict| wrap(verdict, width));
+        if usize::from(VERDICT) < lines.len() {
+            lines.truncate(VERDICT.into());
+            if let Some(last) = lines.last_mut() {
+                *last = shorten(&format!("{last} …"), width).into_owned();
+            }
+        }
+        lines
+    }
+
+    /// Scrolls so that the line under the cursor is visible.
+    pub(super) fn scroll_rays(&mut self) {
+        let rows = self
+            .ray_panels()
+            .map_or(0, |panels| usize::from(panels.lines.height));
+        let count = self.ray_lines().len();
+        if let Some(explained) = &mut self.inspection.explained {
+            let at = explained.at.min(count.saturating_sub(1));
+            explained.at = at;
+            explained.top = layout::first_shown(explained.top, at, count, rows);
+        }
+    }
+}

@@ -1,0 +1,122 @@
+//! What pictures are compared with: a picture file, or a scene from a file or from a git repository.
+
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use super::revision;
+use crate::assets::Assets;
+use crate::compare::{Comparison, SizesDiffer};
+use crate::file;
+use crate::image_file;
+use crate::language::{self, Language, Source};
+use crate::memory::OutOfMemory;
+use crate::render::Frame;
+use crate::scene::{Image, Images, Scene, Size};
+use crate::text::{Position, counted};
+
+/// Identifies a request of the session; starts at 1 and increases.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct ReferenceId(pub u32);
+
+/// Where to read a reference.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum ReferenceSource {
+    /// A scene file by its extension, otherwise a picture file.
+    File(PathBuf),
+    /// The file of a scene in a revision of its git repository.
+    Revision(String, PathBuf),
+}
+
+/// A reference that was read.
+#[derive(Clone, Debug)]
+pub enum ReferenceRead {
+    /// A picture.
+    Picture(Arc<Frame>),
+    /// A scene, which is still to be traced, and the images of its textures.
+    Scene(Arc<Scene>, Images),
+}
+
+/// Two pictures to compare.
+#[derive(Clone, Debug)]
+pub struct Pair {
+    /// The present picture.
+    pub live: Arc<Frame>,
+    /// What it is compared with.
+    pub reference: Arc<Frame>,
+}
+
+impl Pair {
+    /// Whether both have the same pixels and progress, because they are the same frames.
+    pub fn is(&self, other: &Self) -> bool {
+        Arc::ptr_eq(&self.live, &other.live) && Arc::ptr_eq(&self.reference, &other.reference)
+    }
+
+    /// The size of both, if it is the same.
+    pub fn size(&self) -> Option<Size> {
+        (self.live.size == self.reference.size).then_some(self.live.size)
+    }
+
+    /// Measures the difference; the present picture is the first of the two.
+    pub(super) fn compare(&self) -> Result<Comparison, SizesDiffer> {
+        let image = |frame: &Frame| Image::new(frame.size, frame.pixels.clone());
+        let sizes = SizesDiffer([self.live.size, self.reference.size]);
+        let images = image(&self.live).zip(image(&self.reference));
+        let (live, reference) = images.ok_or(sizes)?;
+        Comparison::of(&live, &reference, 0)
+    }
+}
+
+impl ReferenceSource {
+    /// Reads the reference; the error says why it cannot be read.
+    pub(super) fn read(&self, assets: &mut Assets) -> Result<ReferenceRead, String> {
+        match self {
+            Self::File(path) => match Language::of_path(path) {
+                Ok(language) => {
+                    let text = file::read_text(path).map_err(|error| error.to_string())?;
+                    scene(path, language, text, assets)
+                }
+                Err(_) => picture(path),
+            },
+            Self::Revision(revision, path) => {
+                let text = revision::text_in(revision, path)?;
+                let language = Language::of_path(path).map_err(|error| error.to_string())?;
+                scene(path, language, text, assets)
+            }
+        }
+    }
+}
+
+fn picture(path: &Path) -> Result<ReferenceRead, String> {
+    let file = file::open(path).map_err(|error| error.to_string())?;
+    let image = image_file::decode(file, u64::MAX);
+    let image = image.map_err(|error| format!("{} {error}", path.display()))?;
+    let frame = Frame::drawn(image.size(), image.pixels().to_vec());
+    Ok(ReferenceRead::Picture(Arc::new(frame)))
+}
+
+fn scene(
+    path: &Path,
+    language: Language,
+    text: String,
+    assets: &mut Assets,
+) -> Result<ReferenceRead, String> {
+    let name = path.display();
+    let no_memory = |reason: OutOfMemory| format!("{name}: {reason}");
+    language::fits(language, &text, 0).map_err(no_memory)?;
+    let mut source = Source::new(language, Arc::new(text));
+    let (lowered, loaded) = assets.lower(path, &mut source).map_err(no_memory)?;
+    let findings = &lowered.diagnostics;
+    let faults = || match findings.first_error() {
+        Some(error) => {
+            let Position { line, column } = Position::of(source.text(), error.span.start());
+            let count = counted(findings.errors(), "error");
+            format!(
+                "{name} has {count}, the first at {line}:{column}: {}",
+                error.message
+            )
+        }
+        None => format!("{name} has errors"),
+    };
+    let scene = lowered.scene.ok_or_else(faults)?;
+    Ok(ReferenceRead::Scene(Arc::new(scene), loaded.images))
+}

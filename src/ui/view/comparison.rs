@@ -1,0 +1,140 @@
+//! The comparison: its panel, and what marks the compared pictures.
+
+use ratatui::buffer::Buffer;
+use ratatui::layout::Rect;
+use ratatui::style::{Color, Style};
+use ratatui::widgets::{Clear, Widget};
+
+use super::Inks;
+use super::row::{Row, title};
+use crate::compare::{Comparison, Difference};
+use crate::ui::app::App;
+use crate::ui::theme;
+
+/// Width of the names of the panel, with a gap.
+const NAMES: u16 = 11;
+
+/// Draws what is compared, how it differs, and the worst pixels.
+pub(super) fn render(app: &App, inks: &mut Inks, area: Rect, buffer: &mut Buffer) {
+    let area = area.intersection(buffer.area);
+    Clear.render(area, buffer);
+    let (compared, view) = (&app.compared, app.compared.view.name());
+    title("comparison", &view, Some(theme::ACCENT), area, buffer);
+    let mut lines = Lines {
+        area,
+        at: 1,
+        buffer,
+    };
+    let spp = compared.progress().map(|progress| progress.spp);
+    let spp = spp.map_or_else(String::new, |spp| format!(", {spp} spp"));
+    lines.put("live", &format!("{}{spp}", app.disk.name()), Style::new());
+    if let Some(reference) = &compared.reference {
+        lines.put("reference", &reference.name, Style::new());
+    }
+    if let Some(unlike) = app.compares_unlike() {
+        lines.put("", &unlike, theme::WARNING);
+    }
+    lines.at += 1;
+    let Some(found) = compared.figures() else {
+        lines.put("", "still being traced", theme::DIM);
+        return;
+    };
+    let style = if compared.are_figures_final() {
+        Style::new()
+    } else {
+        lines.put("", "so far:", theme::DIM);
+        theme::DIM
+    };
+    lines.put("differing", &found.differing_words(), style);
+    for (name, figure) in found.figures() {
+        lines.put(name, &figure, style);
+    }
+    lines.at += 1;
+    worst(app, found, &mut lines, inks);
+}
+
+/// The lines of the panel that are still free.
+struct Lines<'b> {
+    area: Rect,
+    at: u16,
+    buffer: &'b mut Buffer,
+}
+
+impl Lines<'_> {
+    /// Begins the next line.
+    fn row(&mut self) -> Row<'_> {
+        let at = self.at;
+        self.at += 1;
+        Row::new(self.buffer, self.area, at)
+    }
+
+    /// Draws a name and what it stands for.
+    fn put(&mut self, name: &str, text: &str, style: Style) {
+        let column = self.area.x + NAMES;
+        let mut row = self.row();
+        row.skip(1).put(name, theme::DIM);
+        row.skip_to(column).put(text, style);
+    }
+}
+
+/// Draws the worst pixels with their colours in both pictures.
+fn worst(app: &App, found: &Comparison, lines: &mut Lines, inks: &mut Inks) {
+    if found.worst.is_empty() {
+        lines.put("", "no pixel differs", theme::GOOD);
+        return;
+    }
+    let mut row = lines.row();
+    row.skip(1).put("worst pixels", theme::DIM);
+    for worst in &found.worst {
+        let is_here = app.compared.cross == Some((worst.x, worst.y));
+        let style = if is_here { theme::BOLD } else { Style::new() };
+        let column = lines.area.x + NAMES;
+        let mut row = lines.row();
+        row.put(if is_here { "▸" } else { " " }, style);
+        row.put(&format!("{},{}", worst.x, worst.y), style);
+        row.skip_to(column);
+        for colour in worst.colours {
+            row.put("██", Style::new().fg(inks.colour(colour, 0, 0)));
+            row.skip(1);
+        }
+        row.put(&format!("by {}", worst.largest()), style);
+    }
+}
+
+/// Draws the line of a wipe, and the cross with the colours there, over the cells of the picture.
+pub(super) fn mark(app: &App, cells: Rect, buffer: &mut Buffer) {
+    let cell = |[column, row]: [f64; 2]| {
+        let inside = |at: f64, cells: u16| (0.0..f64::from(cells)).contains(&at);
+        let is_inside = inside(column, cells.width) && inside(row / 2.0, cells.height);
+        is_inside.then_some((cells.x + column as u16, cells.y + (row / 2.0) as u16))
+    };
+    if let Some(column) = app.wipe_on_screen() {
+        // At the right edge it is beyond the last cell.
+        let column = column.round().min(f64::from(cells.width) - 1.0);
+        let place = cell([column, 0.0]);
+        for y in cells.top()..cells.bottom() {
+            if let Some((x, _)) = place
+                && let Some(cell) = buffer.cell_mut((x, y))
+            {
+                let [red, green, blue] = theme::OUTLINE;
+                cell.set_symbol("│").set_fg(Color::Rgb(red, green, blue));
+            }
+        }
+    }
+    let Some(Difference { x, y, colours }) = app.compared.at_cross() else {
+        return;
+    };
+    if let Some(place) = app.cross_on_screen().and_then(cell)
+        && let Some(cell) = buffer.cell_mut(place)
+    {
+        cell.set_symbol("┼").set_style(Style::reset());
+        cell.set_style(theme::chip(Style::new()));
+    }
+    let [live, reference] = colours.map(levels);
+    let text = format!(" {x},{y}: {live}, reference {reference} ");
+    Row::new(buffer, cells, 0).put(&text, theme::chip(theme::ACCENT));
+}
+
+fn levels([red, green, blue]: [u8; 3]) -> String {
+    format!("{red} {green} {blue}")
+}

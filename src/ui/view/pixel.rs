@@ -1,0 +1,152 @@
+//! What is known of the pixel under the cross: in place of the fields, over the picture where there
+//! are no panels, or in a line.
+
+use ratatui::buffer::Buffer;
+use ratatui::layout::Rect;
+use ratatui::widgets::{Clear, Widget};
+
+use super::labelled::{self, Value, numbers};
+use super::row;
+use crate::explain::number;
+use crate::render::{self, Aov, FirstHit};
+use crate::ui::app::{App, Pixel};
+use crate::ui::layout::{Side, contents};
+use crate::ui::theme;
+
+/// The width of the values over the picture.
+const WIDTH: u16 = 36;
+/// Stands for what is not known yet.
+const UNKNOWN: &str = "…";
+
+/// Draws the values in a panel.
+pub(super) fn render(app: &App, area: Rect, buffer: &mut Buffer) {
+    if let Some(pixel) = app.pixel() {
+        panel(&pixel, &values(app, &pixel), area, buffer);
+    }
+}
+
+fn panel(pixel: &Pixel, values: &[Value], area: Rect, buffer: &mut Buffer) {
+    let [x, y] = pixel.at;
+    let output = pixel.output.map_or_else(
+        || format!("of {}×{}", pixel.size.width, pixel.size.height),
+        |([x, y], _)| format!("output {x} {y}"),
+    );
+    let title = format!("pixel {x} {y}");
+    row::title(&title, &output, Some(theme::ACCENT), area, buffer);
+    labelled::render(values, contents(area), buffer);
+}
+
+/// Draws the values over the picture on the side away from the cross, if there is room.
+pub(super) fn render_over(app: &App, area: Rect, buffer: &mut Buffer) {
+    let Some(pixel) = app.pixel() else { return };
+    let values = values(app, &pixel);
+    let height = 1 + values.len() as u16;
+    if area.width < 2 * WIDTH || area.height < height + 3 {
+        return;
+    }
+    let over = Rect {
+        x: match app.free_side() {
+            Side::Right => area.right() - WIDTH,
+            Side::Left => area.x,
+        },
+        y: area.bottom() - height,
+        width: WIDTH,
+        height,
+    };
+    let over = over.intersection(buffer.area);
+    Clear.render(over, buffer);
+    panel(&pixel, &values, over, buffer);
+}
+
+/// The most important values in a few words, for a line over the picture.
+pub(super) fn in_short(app: &App) -> String {
+    let Some(pixel) = app.pixel() else {
+        return String::new();
+    };
+    let [x, y] = pixel.at;
+    let value = pixel.value.map_or_else(String::new, |value| {
+        format!("  {}", value_of(pixel.aov, value))
+    });
+    format!("{}  {x} {y}{value}", name(app, &pixel))
+}
+
+fn values(app: &App, pixel: &Pixel) -> Vec<Value> {
+    let first = pixel.first.as_ref();
+    let surface = first.and_then(|first| first.surface);
+    let side = surface.map_or_else(String::new, |surface| {
+        format!(", {}", side(surface.side, surface.solid))
+    });
+    let mut values = vec![Value::new("object", format!("{}{side}", name(app, pixel)))];
+    if let Some(material) = pixel.material {
+        values.push(Value::new("material", app.source().name(material)));
+    }
+    if let Some(at) = pixel.line {
+        values.push(Value::new("source", source(app, at)));
+    }
+    let label = pixel.aov.map_or("linear", Aov::name);
+    let value = pixel.value.map(|value| value_of(pixel.aov, value));
+    values.push(Value::new(
+        label,
+        value.unwrap_or_else(|| UNKNOWN.to_owned()),
+    ));
+    values.extend(pixel.colour.map(|colour| Value::of_colour("8-bit", colour)));
+    let noise = pixel.error.map_or_else(String::new, |error| {
+        format!(", noise {} %", number(100.0 * f64::from(error)))
+    });
+    values.push(Value::new("samples", format!("{}{noise}", pixel.samples)));
+    values.extend(surface_values(first));
+    values
+}
+
+/// A line of the text, with the name of its file.
+pub(super) fn source(app: &App, line: usize) -> String {
+    match app.disk.path {
+        Some(_) => format!("{}:{line}", app.disk.name()),
+        None => format!("line {line}"),
+    }
+}
+
+/// The word for a side of a surface, which may be that of a solid.
+pub(super) fn side(side: render::Side, is_solid: bool) -> &'static str {
+    match (side, is_solid) {
+        (render::Side::Front, _) => "front",
+        (render::Side::Back, true) => "inside",
+        (render::Side::Back, false) => "back",
+    }
+}
+
+/// What is known of the first surface.
+fn surface_values(first: Option<&FirstHit>) -> Vec<Value> {
+    let Some(first) = first else {
+        return vec![Value::new("depth", UNKNOWN)];
+    };
+    let Some(surface) = first.surface else {
+        return Vec::new();
+    };
+    vec![
+        Value::new("depth", number(first.depth)),
+        Value::new("point", numbers(&surface.point.to_array())),
+        Value::new("normal", numbers(&surface.normal.to_array())),
+        Value::new("uv", numbers(&surface.uv.to_array())),
+    ]
+}
+
+/// The name of what is under the cross, or why it is not known.
+fn name(app: &App, pixel: &Pixel) -> String {
+    match pixel.node {
+        Ok(Some(node)) => app.source().name(node),
+        Ok(None) => "nothing".to_owned(),
+        Err(_) if app.picture().is_outdated() => UNKNOWN.to_owned(),
+        Err(reason) => reason.to_owned(),
+    }
+}
+
+/// The linear radiance or the value of an AOV.
+fn value_of(aov: Option<Aov>, value: [f32; 3]) -> String {
+    let channels = match aov {
+        None | Some(Aov::Normal | Aov::Albedo) => 3,
+        Some(Aov::Uv) => 2,
+        Some(_) => 1,
+    };
+    numbers(&value.map(f64::from)[..channels])
+}

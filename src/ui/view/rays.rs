@@ -1,0 +1,269 @@
+//! The rays behind a pixel as a tree, and the numbers of the line under the cursor.
+
+use ratatui::buffer::Buffer;
+use ratatui::layout::Rect;
+use ratatui::style::{Modifier, Style};
+use ratatui::widgets::{Clear, Widget};
+
+use super::labelled::{self, Value, numbers};
+use super::row::{Row, title};
+use crate::explain::number;
+use crate::language::Node;
+use crate::render::{Dark, Densities, Explanation, LightTerm, RayEnd, RayKind, Shading, Stop};
+use crate::scene::Rgb;
+use crate::ui::app::{App, RayLine, RayPart};
+use crate::ui::layout::contents;
+use crate::ui::theme;
+
+/// The width from which all three channels of a line are shown.
+const WIDE: u16 = 50;
+
+/// Draws the tree and the numbers of its current line.
+pub(super) fn render(app: &App, buffer: &mut Buffer) {
+    let Some(panels) = app.ray_panels() else {
+        return;
+    };
+    if panels.is_over_picture {
+        for area in [panels.tree, panels.values] {
+            Clear.render(area.intersection(buffer.area), buffer);
+        }
+    }
+    tree(app, panels.tree, panels.verdict, panels.lines, buffer);
+    if let (Some(explanation), Some(line)) = (app.explanation(), app.ray_line()) {
+        let words = words(app, explanation, &line);
+        title(&words, "", None, panels.values, buffer);
+        let values = values_of(app, explanation, &line);
+        labelled::render(&values, contents(panels.values), buffer);
+    } else {
+        title("", "", None, panels.values, buffer);
+    }
+}
+
+fn tree(app: &App, area: Rect, verdict: Rect, lines: Rect, buffer: &mut Buffer) {
+    let Some(explained) = &app.inspection.explained else {
+        return;
+    };
+    let sample = explained.sample + 1;
+    let place = format!("sample {sample} of {}", app.sample_count());
+    let pixel = app.cross().map_or_else(String::new, |cross| {
+        let [x, y] = cross.pixel;
+        format!("why pixel {x} {y}")
+    });
+    title(&pixel, &place, Some(theme::ACCENT), area, buffer);
+    let Some(explanation) = app.explanation() else {
+        Row::new(buffer, lines, 0).skip(1).put("…", theme::DIM);
+        return;
+    };
+    for (index, words) in (0..).zip(app.verdict_lines(verdict.width)) {
+        Row::new(buffer, verdict, index)
+            .skip(1)
+            .put(&words, theme::WARNING);
+    }
+    let shown = app.ray_lines().into_iter().enumerate().skip(explained.top);
+    for (index, (at, line)) in (0..lines.height).zip(shown) {
+        let style = if at == explained.at {
+            theme::CURSOR.add_modifier(Modifier::BOLD)
+        } else if line.adds(explanation) == Rgb::ZERO {
+            theme::DIM
+        } else {
+            Style::new()
+        };
+        let mut row = Row::new(buffer, lines, index);
+        let adds = adds(line.adds(explanation), area.width);
+        let sign = match line.part {
+            RayPart::Whole if explained.folded.contains(&line.ray) => "▸ ",
+            RayPart::Whole => "▾ ",
+            _ => "",
+        };
+        let indent = " ".repeat(2 * line.depth);
+        let words = format!("{indent}{sign}{}", words(app, explanation, &line));
+        let room = row.room().saturating_sub(adds.len() + 1);
+        row.put_in(&format!("{words:room$}"), room, style);
+        row.put(&format!(" {adds}"), style);
+    }
+}
+
+/// What a line adds, in a few columns: all channels if there is room, otherwise their mean.
+fn adds(radiance: Rgb, width: u16) -> String {
+    let column = |channel: f64| {
+        let words = if channel == 0.0 {
+            "0".to_owned()
+        } else {
+            format!("{channel:.3}")
+        };
+        format!("{words:>6}")
+    };
+    if WIDE <= width {
+        radiance.to_array().map(column).join(" ")
+    } else {
+        column(radiance.element_sum() / 3.0)
+    }
+}
+
+/// The name of a line.
+fn words(app: &App, explanation: &Explanation, line: &RayLine) -> String {
+    let node = app.ray_node(*line);
+    let name = || node.map_or_else(|| "…".to_owned(), |node| app.source().name(node));
+    let ray = line.ray(explanation);
+    match line.part {
+        RayPart::Whole => {
+            let end = match &ray.end {
+                RayEnd::Surface(_) | RayEnd::Light(_) => name(),
+                RayEnd::Missed { .. } => "nothing".to_owned(),
+                RayEnd::OverBudget => "not traced: over budget".to_owned(),
+            };
+            format!("{} → {end}", kind(ray.kind))
+        }
+        RayPart::Emission => "emission".to_owned(),
+        RayPart::Ambient => "ambient light".to_owned(),
+        RayPart::Light(_) => match line.light(explanation).and_then(|light| light.dark) {
+            Some(dark) => format!("{}: {}", name(), reason(dark)),
+            None => name(),
+        },
+        RayPart::Unlisted => {
+            let count = ray.shading().map_or(0, |shading| shading.unlisted.lights);
+            format!("{count} more lights")
+        }
+        RayPart::Stop => match ray.shading().and_then(|shading| shading.stop) {
+            Some(stop) => stop_words(stop, explanation.depth),
+            None => String::new(),
+        },
+    }
+}
+
+fn stop_words(stop: Stop, depth: u32) -> String {
+    match stop {
+        Stop::Depth => format!("cut: depth {depth} is reached"),
+        Stop::Budget => "cut: too many rays".to_owned(),
+        Stop::Nowhere => "ends: no way on".to_owned(),
+        Stop::Overflow => "ends: weight overflowed".to_owned(),
+        Stop::Roulette { survival } => {
+            let chance = number(100.0 * survival);
+            format!("ends by roulette, survival {chance} %")
+        }
+    }
+}
+
+fn kind(kind: RayKind) -> &'static str {
+    match kind {
+        RayKind::Camera => "camera",
+        RayKind::Mirror => "mirror",
+        RayKind::Boundary => "reflection",
+        RayKind::Refraction => "refraction",
+        RayKind::TotalReflection => "total reflection",
+        RayKind::Diffuse => "diffuse",
+        RayKind::Glossy => "glossy",
+    }
+}
+
+/// Why a light adds nothing.
+fn reason(dark: Dark) -> &'static str {
+    match dark {
+        Dark::SwitchedOff => "switched off",
+        Dark::UnlitSide => "unlit side",
+        Dark::FacesAway => "faces away",
+        Dark::AtThePoint => "at the point",
+        Dark::OutsideCone => "outside cone",
+        Dark::Attenuated => "too far away",
+        Dark::NotReflected => "not reflected",
+        Dark::Hidden => "hidden",
+        Dark::Blocked => "in shadow",
+    }
+}
+
+/// The object that blocks a light.
+fn blocker(app: &App, light: &LightTerm) -> Option<Node> {
+    let mut crossed = light.crossed.iter();
+    let blocking = crossed.find(|crossing| crossing.transmittance == 0.0)?;
+    app.object_named(blocking.object)
+}
+
+/// The numbers of a line.
+fn values_of(app: &App, explanation: &Explanation, line: &RayLine) -> Vec<Value> {
+    let ray = line.ray(explanation);
+    let mut values = vec![Value::new("adds", colour(line.adds(explanation)))];
+    if let Some(node) = app.ray_node(*line) {
+        let source = super::pixel::source(app, app.line_of(node));
+        values.push(Value::new("source", source));
+    }
+    match (line.part, &ray.end) {
+        (RayPart::Light(_), _) => {
+            if let Some(light) = line.light(explanation) {
+                values.extend(light_values(app, light));
+            }
+        }
+        (RayPart::Whole, end) => {
+            values.push(Value::new("weight", colour(ray.weight)));
+            if let Some(chosen) = ray.chosen {
+                values.push(Value::new(
+                    "chance",
+                    percent(chosen.chance * chosen.survival),
+                ));
+                values.extend(chosen.density.map(|of| Value::new("density", number(of))));
+            }
+            match end {
+                RayEnd::Surface(shading) => values.extend(surface_values(shading)),
+                RayEnd::Light(hit) => {
+                    values.push(Value::new("t", number(hit.t)));
+                    values.push(Value::new("radiance", colour(hit.radiance)));
+                    values.extend(hit.densities.map(weight));
+                }
+                RayEnd::Missed { .. } | RayEnd::OverBudget => {}
+            }
+        }
+        _ => {}
+    }
+    values
+}
+
+fn surface_values(shading: &Shading) -> Vec<Value> {
+    let hit = &shading.hit;
+    let mut values = Vec::new();
+    if let Some(boundary) = shading.boundary {
+        let share = percent(boundary.reflectance);
+        let indices = boundary.indices.map(number).join(" to ");
+        values.push(Value::new("reflects", format!("{share}, n {indices}")));
+    }
+    values.extend([
+        Value::new("side", super::pixel::side(hit.side, hit.solid)),
+        Value::new("t", number(hit.t)),
+        Value::new("point", numbers(&hit.point.to_array())),
+        Value::new("normal", numbers(&hit.normal.to_array())),
+    ]);
+    values
+}
+
+fn light_values(app: &App, light: &LightTerm) -> Vec<Value> {
+    let visible = match (light.transmittance, blocker(app, light)) {
+        (_, Some(node)) => format!("no: {}", app.source().name(node)),
+        (Some(share), None) => percent(share),
+        (None, None) => "not looked at".to_owned(),
+    };
+    let mut values = vec![
+        Value::new("visible", visible),
+        Value::new("N·L", number(light.cosine)),
+        Value::new("reflects", colour(light.reflected)),
+        Value::new("distance", number(light.distance)),
+        Value::new("falloff", number(light.radial)),
+    ];
+    if light.spot != 1.0 {
+        values.push(Value::new("cone", number(light.spot)));
+    }
+    values.extend(light.densities.map(weight));
+    values
+}
+
+/// The weight of a technique in multiple importance sampling, with the densities of both.
+fn weight(densities: Densities) -> Value {
+    let [share, by_light, by_path] =
+        [densities.weight, densities.by_light, densities.by_path].map(number);
+    Value::new("MIS", format!("{share}, light {by_light}, path {by_path}"))
+}
+
+fn percent(share: f64) -> String {
+    format!("{} %", number(100.0 * share))
+}
+
+fn colour(of: Rgb) -> String {
+    numbers(&of.to_array())
+}
