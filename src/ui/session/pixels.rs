@@ -16,7 +16,7 @@ const MOST_LIMITED: u32 = 100_000;
 const USUAL_CELL: (u16, u16) = (8, 16);
 
 /// What the terminal has answered about pictures.
-#[derive(Clone, Copy, Debug, Default)]
+#[derive(Clone, Debug, Default)]
 pub(super) struct Known {
     /// Until when answers are expected; `None` before a question and after the answers.
     pub(super) until: Option<Instant>,
@@ -28,9 +28,7 @@ pub(super) struct Known {
     pub(super) refused: Option<Pixels>,
     /// Whether all answers have arrived.
     is_complete: bool,
-    shows_kitty: bool,
-    shows_iterm: bool,
-    shows_sixel: bool,
+    shows: Vec<Protocol>,
     cell: Option<(u16, u16)>,
     tmux: Option<Client>,
 }
@@ -47,9 +45,8 @@ impl Known {
     /// Takes a reply of the terminal; those that say nothing about pictures change nothing.
     pub(super) fn take(&mut self, reply: Reply) {
         match reply {
-            Reply::Shows(Protocol::Kitty) => self.shows_kitty = true,
-            Reply::Shows(Protocol::Iterm) => self.shows_iterm = true,
-            Reply::Shows(Protocol::Sixel) | Reply::AttributesWithSixel => self.shows_sixel = true,
+            Reply::Shows(protocol) => self.shows.push(protocol),
+            Reply::AttributesWithSixel => self.shows.push(Protocol::Sixel),
             Reply::CellSize { width, height } => self.cell = Some((width, height)),
             Reply::Tmux(client) => self.tmux = Some(client),
             _ => {}
@@ -98,15 +95,11 @@ impl Known {
         }
         if self.is_in_tmux {
             let client = self.tmux?;
-            return (self.shows_sixel && client.has_sixel).then_some(Protocol::Sixel);
+            return (self.shows.contains(&Protocol::Sixel) && client.has_sixel)
+                .then_some(Protocol::Sixel);
         }
-        [
-            (self.shows_kitty, Protocol::Kitty),
-            (self.shows_iterm, Protocol::Iterm),
-            (self.shows_sixel, Protocol::Sixel),
-        ]
-        .into_iter()
-        .find_map(|(shows, protocol)| shows.then_some(protocol))
+        let mut best_first = [Protocol::Kitty, Protocol::Iterm, Protocol::Sixel].into_iter();
+        best_first.find(|protocol| self.shows.contains(protocol))
     }
 }
 
