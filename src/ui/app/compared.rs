@@ -29,10 +29,8 @@ pub struct Compared {
     pub(super) before: Option<Mode>,
     /// Whether the pictures must be traced again.
     pub(super) due: bool,
-    /// Whether they are being traced, or were.
-    is_running: bool,
-    /// Whether the present picture is seen alone, to be inspected.
-    is_inspected: bool,
+    /// What the pictures are used for.
+    work: Work,
     /// The newest frame of the present picture.
     live: Option<Arc<Frame>>,
     /// The figures found last, and of which frames.
@@ -72,6 +70,18 @@ pub(super) enum Origin {
     Scene(Arc<Scene>, Images, Option<u64>),
 }
 
+/// What the compared pictures are used for.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+enum Work {
+    /// Nothing: they are not traced.
+    #[default]
+    None,
+    /// They are compared.
+    Compared,
+    /// The present one is seen alone, to be inspected.
+    Inspected,
+}
+
 /// A place between the left edge of a picture, 0, and the right one, 1.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Wipe(pub f64);
@@ -107,12 +117,14 @@ impl Compared {
 
     /// Begins to trace the pictures anew.
     pub(super) fn begin(&mut self) {
-        self.is_running = true;
+        if self.work == Work::None {
+            self.work = Work::Compared;
+        }
     }
 
     /// Forgets the pictures; returns whether any were being traced, or had been.
     pub(super) fn end(&mut self) -> bool {
-        if !std::mem::take(&mut self.is_running) {
+        if std::mem::take(&mut self.work) == Work::None {
             return false;
         }
         self.seen = Picture::default();
@@ -143,7 +155,7 @@ impl Compared {
 
     /// Takes a frame of either picture.
     pub(super) fn take(&mut self, target: Target, frame: Arc<Frame>) {
-        if !self.is_running {
+        if self.work == Work::None {
             return;
         }
         match (target, &mut self.reference) {
@@ -169,8 +181,13 @@ impl Compared {
     /// Shows the present picture itself, with all that is known of its pixels, or the comparison
     /// again.
     pub(super) fn inspect(&mut self, is_inspected: bool) {
-        if is_inspected != self.is_inspected {
-            self.is_inspected = is_inspected;
+        let work = if is_inspected {
+            Work::Inspected
+        } else {
+            Work::Compared
+        };
+        if self.work != Work::None && self.work != work {
+            self.work = work;
             self.compose();
         }
     }
@@ -178,14 +195,14 @@ impl Compared {
     /// Takes the figures of frames.
     pub(super) fn measured(&mut self, pair: Pair, found: Option<Arc<Comparison>>) {
         self.is_measuring = false;
-        if self.is_running {
+        if self.work != Work::None {
             self.figures = found.map(|found| (pair, found));
         }
     }
 
     /// The frames to measure next: complete ones, and those of at least twice as many samples as
     /// were measured before; FLIP takes longer than the next frame.
-    pub(super) fn to_measure(&mut self) -> Option<Pair> {
+    pub(super) fn next_to_measure(&mut self) -> Option<Pair> {
         let pair = self.pair().filter(|_| !self.is_measuring)?;
         let before = self.figures.as_ref().map(|(before, _)| before);
         let samples = |pair: &Pair| pair.live.progress.spp.min(pair.reference.progress.spp);
@@ -215,7 +232,7 @@ impl Compared {
     pub fn is_awaited(&self) -> bool {
         let of_reference = self.reference.as_ref().is_some_and(Reference::is_awaited);
         let is_live_done = self.live().is_some_and(|live| live.progress.complete);
-        self.is_running && (of_reference || self.seen.wanted.is_some() && !is_live_done)
+        self.work != Work::None && (of_reference || self.seen.wanted.is_some() && !is_live_done)
     }
 
     /// Progress of the present picture.
@@ -285,7 +302,7 @@ impl Compared {
         let Some(live) = &self.live else {
             return;
         };
-        if self.is_inspected {
+        if self.work == Work::Inspected {
             self.seen.take(Arc::clone(live));
             return;
         }

@@ -75,7 +75,7 @@ impl App {
         };
         let shows = shown(self.pictures.aov);
         Ok(Reference {
-            name: format!("{kind} of {}, {shows}, {spp} spp", self.disk.name()),
+            name: format!("{kind}, {shows}, {spp} spp"),
             shows: Some(shows),
             origin,
             frame: Some(Arc::clone(frame)),
@@ -211,7 +211,7 @@ impl App {
     }
 
     fn measure(&mut self) -> Vec<Effect> {
-        let pair = self.compared.to_measure();
+        let pair = self.compared.next_to_measure();
         pair.map(Effect::Compare).into_iter().collect()
     }
 
@@ -303,13 +303,22 @@ impl App {
         (live != reference).then(|| format!("{live} against {reference}"))
     }
 
-    /// Selects what of both pictures is seen.
-    pub(super) fn look_at(&mut self, view: Contrast) {
-        self.compared.look(view, self.compared.wipe);
+    /// Performs an action of [`Mode::Compare`].
+    pub(super) fn act_on_comparison(&mut self, action: Action) {
+        let compared = &mut self.compared;
+        let view = match action {
+            Action::Flip => compared.view.flipped(),
+            Action::Wipe => Contrast::Wipe,
+            Action::Difference => compared.view.next_difference(),
+            Action::SlideWipe(cells) => return self.slide_wipe(cells),
+            Action::Worst(step) => return self.go_to_worst(step),
+            _ => return,
+        };
+        compared.look(view, compared.wipe);
     }
 
     /// Moves the line of the wipe by some cells to the right.
-    pub(super) fn slide_wipe(&mut self, cells: i16) {
+    fn slide_wipe(&mut self, cells: i16) {
         let Some(((area, halves), sight)) = self.raster().zip(self.sight()) else {
             return;
         };
@@ -321,7 +330,7 @@ impl App {
     }
 
     /// Points at one of the worst pixels.
-    pub(super) fn go_to_worst(&mut self, step: isize) {
+    fn go_to_worst(&mut self, step: isize) {
         if let Err(reason) = self.compared.go_to_worst(step) {
             self.overlays.say(reason);
         } else if let Some(place) = self.cross_on_screen() {

@@ -4,7 +4,7 @@ use crossterm::event::{KeyCode, KeyEvent, KeyModifiers};
 use tui_input::Input;
 
 use super::camera::{advanced, dollied, faced, panned, rolled, stepped, widened};
-use super::{App, Contrast, Grid, Help, PageFocus, PromptKind, line};
+use super::{App, Grid, Help, PageFocus, PromptKind, line};
 use crate::text::Severity;
 use crate::ui::arrange::{Zoom, divided, resized};
 use crate::ui::keymap::{self, Action, Context, Meaning, Mode, Tool};
@@ -335,11 +335,11 @@ impl App {
                 self.overlays.say(words);
             }
             Action::Pin => return self.pin(),
-            Action::Flip => self.look_at(self.compared.view.flipped()),
-            Action::Wipe => self.look_at(Contrast::Wipe),
-            Action::SlideWipe(cells) => self.slide_wipe(cells),
-            Action::Difference => self.look_at(self.compared.view.next_difference()),
-            Action::Worst(step) => self.go_to_worst(step),
+            Action::Flip
+            | Action::Wipe
+            | Action::SlideWipe(_)
+            | Action::Difference
+            | Action::Worst(_) => self.act_on_comparison(action),
             Action::Stop => return self.stop(),
             Action::Pause => return self.toggle_pause(),
             Action::Magnify(steps) => self.magnify(steps),

@@ -51,7 +51,7 @@ pub(super) const fn of_action(action: Action) -> &'static str {
         A::Explain => "explain",
         A::Sample(1..) => "next-sample",
         A::Sample(_) => "previous-sample",
-        A::Step(..) | A::Cross(..) | A::Nudge(..) | A::SlideWipe(_) => of_step(action),
+        A::Step(..) | A::Cross(..) | A::Nudge(..) => of_step(action),
         A::Lock(0) => "lock-x",
         A::Lock(1) => "lock-y",
         A::Lock(_) => "lock-z",
@@ -78,11 +78,7 @@ pub(super) const fn of_action(action: Action) -> &'static str {
         A::SavedViews => "saved-views",
         A::DeleteView => "delete-view",
         A::Pin => "pin",
-        A::Flip => "flip",
-        A::Wipe => "wipe",
-        A::Difference => "difference",
-        A::Worst(1..) => "next-worst",
-        A::Worst(_) => "previous-worst",
+        A::Flip | A::Wipe | A::SlideWipe(_) | A::Difference | A::Worst(_) => of_comparison(action),
         A::Stop => "stop",
         A::Pause => "pause",
         A::Magnify(1..) => "zoom-in",
@@ -149,6 +145,20 @@ const fn of_mode(mode: Mode) -> &'static str {
     }
 }
 
+const fn of_comparison(action: Action) -> &'static str {
+    match action {
+        A::Flip => "flip",
+        A::Wipe => "wipe",
+        A::SlideWipe(2..) => "wipe-right-far",
+        A::SlideWipe(1) => "wipe-right",
+        A::SlideWipe(-1) => "wipe-left",
+        A::SlideWipe(_) => "wipe-left-far",
+        A::Worst(1..) => "next-worst",
+        A::Worst(_) => "previous-worst",
+        _ => "difference",
+    }
+}
+
 const fn of_step(action: Action) -> &'static str {
     match action {
         A::Step(1.., _, Stride::Coarse) => "step-right-far",
@@ -167,10 +177,6 @@ const fn of_step(action: Action) -> &'static str {
         A::Cross(0, _) => "cross-up-far",
         A::Cross(-1, _) => "cross-left",
         A::Cross(..) => "cross-left-far",
-        A::SlideWipe(2..) => "wipe-right-far",
-        A::SlideWipe(1) => "wipe-right",
-        A::SlideWipe(-1) => "wipe-left",
-        A::SlideWipe(_) => "wipe-left-far",
         A::Nudge(1.., Stride::Fine) => "nudge-up-fine",
         A::Nudge(1.., Stride::Plain) => "nudge-up",
         A::Nudge(1.., Stride::Coarse) => "nudge-up-coarse",

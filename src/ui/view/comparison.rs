@@ -131,7 +131,7 @@ pub(super) fn mark(app: &App, cells: Rect, buffer: &mut Buffer) {
         cell.set_style(theme::chip(Style::new()));
     }
     let [live, reference] = colours.map(levels);
-    let text = format!(" {x},{y}: {live} here, {reference} in the reference ");
+    let text = format!(" {x},{y}: {live}, reference {reference} ");
     Row::new(buffer, cells, 0).put(&text, theme::chip(theme::ACCENT));
 }
 

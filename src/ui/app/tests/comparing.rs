@@ -62,7 +62,7 @@ fn the_present_picture_is_traced_as_the_pinned_one_was_and_looked_at() {
     let (mut app, size) = previewed();
     press(&mut app, "A");
     assert!(
-        words(&app).starts_with("pinned the preview of scene.ray, light, 16 spp"),
+        words(&app).starts_with("pinned the preview, light, 16 spp"),
         "{}",
         words(&app)
     );
