@@ -73,16 +73,14 @@ pub(super) fn in_short(app: &App) -> String {
 fn values(app: &App, pixel: &Pixel) -> Vec<Value> {
     let first = pixel.first.as_ref();
     let surface = first.and_then(|first| first.surface);
-    let side = surface.map_or_else(String::new, |surface| {
-        format!(", {}", side(surface.side, surface.solid))
-    });
-    let mut values = vec![Value::new("object", format!("{}{side}", name(app, pixel)))];
+    let mut values = vec![Value::new("object", name(app, pixel))];
     if let Some(material) = pixel.material {
         values.push(Value::new("material", app.source().name(material)));
     }
     if let Some(at) = pixel.line {
         values.push(Value::new("source", source(app, at)));
     }
+    values.extend(surface.map(|at| Value::new("side", side(at.side, at.solid))));
     let label = pixel.aov.map_or("linear", Aov::name);
     let value = pixel.value.map(|value| value_of(pixel.aov, value));
     values.push(Value::new(
