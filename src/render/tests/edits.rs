@@ -401,7 +401,10 @@ fn other_edits_trace_everything_again() {
     };
     assert_eq!(of_job(&|_| {}), Some(Touched::default()));
     assert_eq!(of_job(&|job| job.camera.eye.x += 1.0), None);
-    assert_eq!(of_job(&|job| job.settings.spp += 1), None);
+    assert_eq!(
+        of_job(&|job| job.settings.spp += 1),
+        Some(Touched::default())
+    );
     assert_eq!(of_job(&|job| job.settings.size.width += 1), None);
     assert_eq!(of_job(&|job| job.settings.aov = Some(Aov::Albedo)), None);
     assert_eq!(of_job(&|job| job.frames = Frames::Last), None);
