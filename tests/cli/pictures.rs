@@ -220,6 +220,10 @@ fn an_exposure_of_0_changes_no_byte_and_one_stop_doubles() {
 #[test]
 fn every_aov_is_rendered_to_every_kind_of_picture() {
     let place = Place::new();
+    let mirrors = "1 0 1\n1 0 9 9 1 1 1\n2\n\
+                   sphere 0 0 0 1  .2 .2 .2 .4 .5 .6 0 0 0 1 .5 0 1\n\
+                   sphere 2 0 0 1  .2 .2 .2 .6 .5 .4 0 0 0 1 .5 0 1\n";
+    place.write("mirrors.ray", mirrors);
     let mut pictures = std::collections::BTreeSet::new();
     for aov in [
         "depth", "normal", "object", "albedo", "uv", "side", "cost", "samples", "noise",
@@ -227,12 +231,11 @@ fn every_aov_is_rendered_to_every_kind_of_picture() {
     ] {
         for output in ["a.png", "a.exr"] {
             let ran = place.run(&format!(
-                "render ball.ray --size 24x16 --spp 4 --aov {aov} -o {output}"
+                "render mirrors.ray --size 24x16 --spp 4 --aov {aov} -o {output}"
             ));
             assert!(ran.status.success(), "{aov} {output}");
         }
         pictures.insert(place.read("a.png"));
     }
-    // The ball has no mirror: its indirect light is black.
-    assert!(10 <= pictures.len(), "{} are distinct", pictures.len());
+    assert_eq!(pictures.len(), 11, "all are distinct");
 }
