@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 
 use serde_json::{Value, json};
 
-use super::{Error, Tracing, Warnings, load, print_error, stdout};
+use super::{Error, Tracing, Warnings, load, print_error, print_message, stdout};
 use crate::assets;
 use crate::compare::{Comparison, Difference, SizesDiffer, heat_map};
 use crate::file;
@@ -78,8 +78,18 @@ fn try_compare(work: &Compare) -> Result<Verdict, Error> {
         to: "standard output".to_owned(),
         source,
     })?;
-    if let (Some((path, format)), Ok(found)) = (&work.output, &found) {
-        draw(path, *format, found.size, heat_map(a.pixels(), b.pixels()))?;
+    match (&work.output, &found) {
+        (Some((path, format)), Ok(found)) => {
+            draw(path, *format, found.size, heat_map(a.pixels(), b.pixels()))?;
+        }
+        (Some((path, _)), Err(_)) => print_message(
+            "note",
+            &format!(
+                "{} is not written: pictures of different sizes have no differences to draw",
+                path.display()
+            ),
+        ),
+        (None, _) => {}
     }
     Ok(verdict)
 }
@@ -92,7 +102,7 @@ fn check(work: &Compare) -> Result<(), Error> {
     };
     if let Some(side) = work.sides.iter().find(|side| file::is_same(path, side)) {
         return Err(Error::Refused(format!(
-            "cannot overwrite {}: it is compared; name another file",
+            "cannot overwrite {}: it is one of those compared; name another file",
             side.display()
         )));
     }
@@ -147,6 +157,20 @@ fn trace(work: &Compare, path: &Path, size: Option<Size>) -> Result<Image, Error
         )));
     }
     let size = size.filter(|_| work.tracing.region.is_none());
+    let own = scene.camera.size;
+    if let (None, Some(size)) = (work.tracing.size, size)
+        && size != own
+    {
+        let [own, size] = [own, size].map(|Size { width, height }| format!("{width}x{height}"));
+        let name = path.display();
+        print_message(
+            "note",
+            &format!(
+                "{name} is traced at {size}, the size of the picture; its own is {own}: --size {own} \
+             compares at that"
+            ),
+        );
+    }
     let tracing = Tracing {
         size: work.tracing.size.or(size),
         ..work.tracing.clone()

@@ -94,7 +94,7 @@ fn text(scene: &Path, explanation: &Explanation, words: &Words) -> String {
     } = explanation;
     let linear = radiance.to_array().map(number).join(" ");
     let mut text = format!(
-        "pixel {x},{y} of {name}, sample {sample}: {linear}, displayed {red} {green} {blue}\n"
+        "pixel {x},{y} of {name}, sample {sample}: {linear}, alone displayed as {red} {green} {blue}\n"
     );
     for (number, sentence) in words.verdicts.iter().enumerate() {
         let kind = if number == 0 { "verdict" } else { "also" };

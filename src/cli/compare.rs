@@ -15,8 +15,8 @@ Examples:
   halflight compare before.xml after.xml --json -o difference.png
 
 A scene is traced at the size of the picture it is compared with, unless --size or --region is \
-given. Pictures
-are compared as they are displayed: with 8 bits per channel.
+given. Pictures are compared as they are displayed: with 8 bits per channel. The worst pixels listed \
+are each from another block of 16 × 16 pixels.
 
 Exit codes: 0 alike, 1 different, 2 wrong arguments, 65 invalid scene or picture, 66 not found or \
 unreadable, 73 difference picture cannot be created, 74 write or system error. Nothing but a \

@@ -398,7 +398,9 @@ impl RenderArguments {
         let format = match self.format {
             Some(format) => format,
             None if to_stdout => ImageFormat::Bmp,
-            None => picture_format(&self.output)?,
+            None => {
+                picture_format(&self.output).map_err(|reason| format!("{reason}, or --format"))?
+            }
         };
         Ok(Render {
             scene: self.scene,

@@ -51,7 +51,7 @@ pub(super) fn threads_range() -> impl TypedValueParser<Value = u16> {
 pub(super) fn picture_format(path: &Path) -> Result<ImageFormat, String> {
     ImageFormat::of_path(path).ok_or_else(|| {
         format!(
-            "cannot tell the format of {}: use the extension {}, or --format",
+            "cannot tell the format of {}: use the extension {}",
             path.display(),
             known_extensions()
         )

@@ -211,7 +211,7 @@ impl Case<'_> {
                 let stops = counted(exposed.max_element().log2().ceil() as usize, "stop");
                 let exposure = format!("lower the exposure by {stops}");
                 sentence.help = Some(match &main {
-                    Some(main) => format!("most of it is {main}; dim that, or {exposure}"),
+                    Some(main) => format!("it is mostly {main}: dim that, or {exposure}"),
                     None => exposure,
                 });
                 sentence
@@ -329,15 +329,17 @@ impl Case<'_> {
     fn source(&self, source: &TermSource) -> String {
         let names = self.names;
         match source {
-            TermSource::Surroundings => "shows what surrounds the scene".to_owned(),
+            TermSource::Surroundings => "the surroundings of the scene".to_owned(),
             TermSource::Light { light, object } => {
                 format!("{} lit by {}", names.object(*object), names.light(*light))
             }
             TermSource::Ambient { object } => {
                 format!("{} lit by ambient light", names.object(*object))
             }
-            TermSource::Emission { object } => format!("{} shines itself", names.object(*object)),
-            TermSource::LightItself { light } => format!("shows {} itself", names.light(*light)),
+            TermSource::Emission { object } => format!("the emission of {}", names.object(*object)),
+            TermSource::LightItself { light } => {
+                format!("{} itself, seen directly", names.light(*light))
+            }
             TermSource::Ray { kind, object, seen } => {
                 let object = names.object(*object);
                 let seen = seen.map_or_else(

@@ -180,6 +180,18 @@ fn verdicts_of_ray_scenes() {
     let mirror = ball("0 0 0 0 0 0 0 0 0 1 .9 0 1");
     let words = "reflected in object 1 (sphere, line 4): the ray hits nothing";
     check(ray(".1 .1 .1", LAMP, &[&mirror]), PLAIN, "missed", words);
+    let faint = ball(".2 .2 .2 .7 .7 .7 0 0 0 1 .001 0 1");
+    let words = explain(
+        Language::Ray,
+        &ray("0 0 0", LAMP, &[&faint]),
+        [20, 15],
+        DEPTH_0,
+    );
+    let mut names = words.verdicts.iter().map(|verdict| verdict.name);
+    assert!(
+        names.all(|name| name != "depth"),
+        "what is cut is invisible"
+    );
     let pane = "box -1 -1 2 1 0 0 0 1 0 0 0 1 2 2 .1 0 0 0 0 0 0 0 0 0 1 0 .8 1";
     let words = "object 1 (box, line 4) transmits object 2 (sphere, line 5)";
     check(ray("0 0 0", LAMP, &[pane, &grey]), PLAIN, "ordinary", words);

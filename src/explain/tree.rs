@@ -292,7 +292,7 @@ pub(super) fn reason(dark: Dark) -> &'static str {
     match dark {
         Dark::SwitchedOff => "switched off",
         Dark::UnlitSide => "not shown on this side",
-        Dark::FacesAway => "behind the surface",
+        Dark::FacesAway => "faces away",
         Dark::AtThePoint => "at the point itself",
         Dark::OutsideCone => "outside its cone",
         Dark::Attenuated => "attenuated to nothing",

@@ -13,13 +13,19 @@ fn pictures() -> Place {
     place
 }
 
-/// What a comparison prints, and its exit code.
+/// What a comparison prints without notes, and its exit code.
 fn compared(place: &Place, words: &str) -> (String, Option<i32>) {
+    let (printed, notes, code) = noted(place, words);
+    assert_eq!(notes, "", "{words}");
+    (printed, code)
+}
+
+/// What a comparison prints, its notes, and its exit code.
+fn noted(place: &Place, words: &str) -> (String, String, Option<i32>) {
     let ran = place.run(&format!("compare {words}"));
-    let errors = String::from_utf8_lossy(&ran.stderr);
-    assert_eq!(errors, "", "{words}");
-    let printed = String::from_utf8(ran.stdout).expect("text");
-    (printed, ran.status.code())
+    let [printed, notes] =
+        [ran.stdout, ran.stderr].map(|text| String::from_utf8(text).expect("text"));
+    (printed, notes, ran.status.code())
 }
 
 #[test]
@@ -85,15 +91,25 @@ fn a_scene_is_traced_at_the_size_of_the_picture() {
         "dimmer.ray",
         BALL.replace("1 1 1\n1 0 9", ".5 .5 .5\n1 0 9"),
     );
-    for (words, code, size) in [
-        ("ball.bmp ball.ray --spp 2", 0, "16x12"),
-        ("ball.ray ball.bmp --spp 2", 0, "16x12"),
-        ("ball.ray dimmer.ray", 1, "8x6"),
-        ("ball.ray ball.ray --size 20x10", 0, "20x10"),
-        ("ball.bmp ball.ray --size 4x3", 1, "16x12 and 4x3"),
+    let its_size = "note: ball.ray is traced at 16x12, the size of the picture; its own is 8x6: \
+                    --size 8x6 compares at that\n";
+    let undrawn = "note: c.png is not written: pictures of different sizes have no differences to \
+                   draw\n";
+    for (words, code, size, told) in [
+        ("ball.bmp ball.ray --spp 2", 0, "16x12", its_size),
+        ("ball.ray ball.bmp --spp 2", 0, "16x12", its_size),
+        ("ball.ray dimmer.ray", 1, "8x6", ""),
+        ("ball.ray ball.ray --size 20x10", 0, "20x10", ""),
+        ("ball.bmp ball.ray --size 4x3", 1, "16x12 and 4x3", ""),
+        (
+            "ball.bmp ball.ray --size 4x3 -o c.png",
+            1,
+            "16x12 and 4x3",
+            undrawn,
+        ),
     ] {
-        let (printed, found) = compared(&place, words);
-        assert_eq!(found, Some(code), "{words}: {printed}");
+        let (printed, notes, found) = noted(&place, words);
+        assert_eq!((found, &*notes), (Some(code), told), "{words}: {printed}");
         let first = format!("size              {size}\n");
         assert!(printed.starts_with(&first), "{words}: {printed}");
     }

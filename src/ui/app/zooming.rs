@@ -4,6 +4,7 @@ use super::App;
 use super::sight::Sight;
 use super::viewport::{Detail, Screen, Viewport};
 use crate::scene::Size;
+use crate::ui::keymap::Mode;
 use crate::ui::layout::raster;
 use crate::ui::msg::Target;
 
@@ -95,9 +96,17 @@ impl App {
         }
     }
 
-    /// Zooms by doublings about the middle.
+    /// Zooms by doublings about the pixel that is pointed at, otherwise about the middle.
     pub(super) fn magnify(&mut self, steps: i8) {
-        self.adjust(|now, screen| now.zoomed(steps, MIDDLE, screen));
+        let pointed = match self.mode {
+            Mode::Compare => self.cross_on_screen(),
+            _ => None,
+        };
+        self.adjust(|now, screen| {
+            let Size { width, height } = screen.halves;
+            let about = pointed.map(|[x, y]| [x / f64::from(width), y / f64::from(height)]);
+            now.zoomed(steps, about.unwrap_or(MIDDLE), screen)
+        });
     }
 
     /// Zooms by doublings about a cell of the screen.

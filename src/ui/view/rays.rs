@@ -43,7 +43,7 @@ fn tree(app: &App, area: Rect, verdict: Rect, lines: Rect, buffer: &mut Buffer) 
     let Some(explained) = &app.inspection.explained else {
         return;
     };
-    let sample = explained.sample + 1;
+    let sample = explained.sample;
     let place = format!("sample {sample} of {}", app.sample_count());
     let pixel = app.cross().map_or_else(String::new, |cross| {
         let [x, y] = cross.pixel;
@@ -181,7 +181,11 @@ fn blocker(app: &App, light: &LightTerm) -> Option<Node> {
 /// The numbers of a line.
 fn values_of(app: &App, explanation: &Explanation, line: &RayLine) -> Vec<Value> {
     let ray = line.ray(explanation);
-    let mut values = vec![Value::new("adds", colour(line.adds(explanation)))];
+    let name = match line.part {
+        RayPart::Whole => "in all",
+        _ => "adds",
+    };
+    let mut values = vec![Value::new(name, colour(line.adds(explanation)))];
     if let Some(node) = app.ray_node(*line) {
         let source = super::pixel::source(app, app.line_of(node));
         values.push(Value::new("source", source));
@@ -237,7 +241,7 @@ fn light_values(app: &App, light: &LightTerm) -> Vec<Value> {
     let visible = match (light.transmittance, blocker(app, light)) {
         (_, Some(node)) => format!("no: {}", app.source().name(node)),
         (Some(share), None) => percent(share),
-        (None, None) => "not looked at".to_owned(),
+        (None, None) => "not traced".to_owned(),
     };
     let mut values = vec![
         Value::new("visible", visible),

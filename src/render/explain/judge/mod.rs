@@ -38,15 +38,8 @@ pub(super) struct Case<'r> {
 pub(super) fn judge(case: &Case<'_>) -> Vec<Finding> {
     let judge = Judge::new(case);
     let mut findings = judge.oddities();
-    let rest = judge.ray(0);
-    let untraced = judge.untraced();
-    if judge.is_dark(judge.totals[0]) {
-        findings.extend(untraced);
-        findings.extend(rest);
-    } else {
-        findings.extend(rest);
-        findings.extend(untraced);
-    }
+    findings.extend(judge.untraced());
+    findings.extend(judge.ray(0));
     let mut kept: Vec<Finding> = Vec::new();
     for finding in findings {
         if kept.iter().all(|before| before.verdict != finding.verdict) {
@@ -98,6 +91,11 @@ impl<'r> Judge<'r> {
         shown.is_nan() || shown < DARK
     }
 
+    /// Whether a part changes the displayed colour.
+    fn is_visible(&self, part: Rgb) -> bool {
+        0.5 / 255.0 <= self.shown(part)
+    }
+
     fn is_dim(&self, part: Rgb) -> bool {
         let shown = self.shown(part);
         shown.is_nan() || shown < DIM
@@ -127,11 +125,14 @@ impl<'r> Judge<'r> {
         findings
     }
 
-    /// The rays that exceed the budget.
+    /// The rays that exceed the budget, if their light could be seen.
     fn untraced(&self) -> Option<Finding> {
         let is_untraced = |ray: &&TracedRay| matches!(ray.end, RayEnd::OverBudget);
-        let untraced = self.case.rays.iter().filter(is_untraced).count();
-        (0 < untraced).then(|| found(Verdict::Budget { untraced }, 0))
+        let rays = self.case.rays.iter().filter(is_untraced);
+        let untraced = rays.clone().count();
+        let missing: Rgb = rays.map(|ray| ray.weight).sum();
+        self.is_visible(missing)
+            .then(|| found(Verdict::Budget { untraced }, 0))
     }
 
     /// What explains the light along a ray.

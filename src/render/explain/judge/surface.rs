@@ -1,5 +1,6 @@
 //! Surfaces: which of local light, mirror and boundary matters.
 
+use super::super::super::display::luminance;
 use super::super::super::shading::Side;
 use super::super::kind::RayKind;
 use super::super::record::{RayEnd, Shading, Stop};
@@ -120,7 +121,8 @@ impl Judge<'_> {
     fn cut(&self, ray: usize, shading: &Shading) -> Option<Part> {
         let boundary = shading.boundary.map_or(Rgb::ZERO, |boundary| boundary.tint);
         let potential = shading.mirror.max(boundary).abs().max_element();
-        let is_cut = shading.stop == Some(Stop::Depth) && potential != 0.0;
+        let missing = potential * self.case.rays[ray].weight * shading.transmitted;
+        let is_cut = shading.stop == Some(Stop::Depth) && self.is_visible(missing);
         let verdict = Verdict::Depth {
             object: shading.hit.object,
             depth: self.case.depth,
@@ -153,9 +155,9 @@ impl Judge<'_> {
         let mut ordinary: Vec<_> = terms
             .into_iter()
             .map(|(source, radiance)| (source, weight * radiance))
-            .filter(|(_, part)| 0.5 / 255.0 <= self.shown(*part))
+            .filter(|(_, part)| self.is_visible(*part))
             .collect();
-        ordinary.sort_by(|(_, a), (_, b)| self.shown(*b).total_cmp(&self.shown(*a)));
+        ordinary.sort_by(|(_, a), (_, b)| luminance(*b).total_cmp(&luminance(*a)));
         let direct: Rgb = shading.lights.iter().map(|term| term.radiance).sum();
         let direct = self.shown(weight * (direct + shading.unlisted.radiance));
         let lacks = self.lacks(ray, shading, weight);
