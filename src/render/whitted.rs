@@ -44,6 +44,9 @@ impl<'w, C: Fn() -> bool> Probe<'w, C> {
             }
             self.branch(wave, samples, seen);
         }
+        for (seen, tree) in seen.iter_mut().zip(&wave.trees) {
+            seen.rays += tree.traced;
+        }
     }
 
     /// Finds the hits of the front's rays and shades them without lights.
@@ -92,6 +95,7 @@ impl<'w, C: Fn() -> bool> Probe<'w, C> {
         // Empty unless dependencies are recorded.
         for ((&(ray, _), &transmittance), &touched) in asking.zip(&self.crossed.touched) {
             let seen = &mut seen[wave.states[ray].tree];
+            seen.rays += 1;
             seen.touched |= touched;
             if transmittance != 0.0 {
                 seen.touched |= Touched::light(number);
@@ -116,7 +120,6 @@ impl<'w> Wave<'w> {
         self.mapped.clear();
         for (number, (nearest, state)) in self.nearest.iter().zip(&self.states).enumerate() {
             let seen = &mut seen[state.tree];
-            seen.rays += 1;
             let (packet, lane) = (&self.rays[number / WIDTH], number % WIDTH);
             let landing = &mut self.landings[number / WIDTH];
             let mut arrived = Arrived {
@@ -217,7 +220,6 @@ impl<'w> Wave<'w> {
                     arrived.radiance += unblocked;
                 }
                 Some(Shadow { rays, ends }) => {
-                    seen[self.states[first + lane].tree].rays += 1;
                     self.asking.push((first + lane, unblocked));
                     self.shadows.push(&rays.ray(lane), ends[lane]);
                 }
