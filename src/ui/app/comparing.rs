@@ -237,7 +237,7 @@ impl App {
         }
         let spp = match reference.origin {
             Origin::Preview(halves, grid, spp) => {
-                let job = self.whole_preview_job(halves, grid, spp);
+                let job = self.shown_job(grid.size(halves), spp);
                 return Ok((job.ok_or_else(|| self.no_picture())?, None));
             }
             Origin::Traced(spp) => spp,

@@ -3,7 +3,7 @@
 use std::borrow::Cow;
 
 use crate::render::{Display, Frame, Region};
-use crate::scene::{Camera, Size};
+use crate::scene::Size;
 
 /// How a picture is mapped to the screen.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -181,18 +181,6 @@ impl Grid {
         }
     }
 
-    /// The camera that shows on this grid what `camera` shows on half blocks of this size.
-    pub(super) fn camera(self, camera: Camera, halves: Size) -> Camera {
-        if self == Self::HALF_BLOCKS {
-            return camera;
-        }
-        let aspect = |size: Size| f64::from(size.width) / f64::from(size.height);
-        Camera {
-            pixel_aspect: camera.pixel_aspect * aspect(halves) / aspect(self.size(halves)),
-            ..camera
-        }
-    }
-
     /// The number of cells of a picture of this size.
     pub(super) fn cells(self, size: Size) -> usize {
         self.columns(size) * size.height.div_ceil(self.down.into()) as usize
@@ -219,7 +207,6 @@ impl Grid {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scene::{Focus, Lens};
 
     fn size(width: u32, height: u32) -> Size {
         Size { width, height }
@@ -239,18 +226,7 @@ mod tests {
     }
 
     #[test]
-    fn every_grid_shows_the_same_framing() {
-        let camera = Camera {
-            eye: glam::DVec3::Z,
-            target: glam::DVec3::ZERO,
-            up: glam::DVec3::Y,
-            lens: Lens::Perspective(45.0),
-            pixel_aspect: 1.5,
-            depths: Camera::ALL_DEPTHS,
-            focus: Focus::PINHOLE,
-            size: size(4, 3),
-        };
-        let halves = size(40, 31);
+    fn every_grid_divides_the_same_cells() {
         for (across, down, expected) in [
             (1, 2, size(40, 31)),
             (2, 2, size(80, 31)),
@@ -258,14 +234,7 @@ mod tests {
             (2, 4, size(80, 62)),
             (8, 16, size(320, 248)),
         ] {
-            let grid = Grid { across, down };
-            let pixels = grid.size(halves);
-            assert_eq!(pixels, expected);
-            let width = |camera: Camera, size: Size| {
-                camera.pixel_aspect * f64::from(size.width) / f64::from(size.height)
-            };
-            let seen = width(grid.camera(camera, halves), pixels);
-            assert!((seen - width(camera, halves)).abs() < 1e-12);
+            assert_eq!(Grid { across, down }.size(size(40, 31)), expected);
         }
     }
 

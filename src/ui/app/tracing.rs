@@ -62,10 +62,7 @@ impl App {
 
     fn preview_job(&self, screen: Screen, (size, region): (Size, Option<Region>)) -> Option<Job> {
         let spp = preview_samples(self.integrator(), screen.grid);
-        let mut job = match region {
-            None => self.whole_preview_job(screen.halves, screen.grid, spp)?,
-            Some(_) => self.shown_job(size, spp)?,
-        };
+        let mut job = self.shown_job(size, spp)?;
         job.settings.region = region;
         job.settings.aov = self.pictures.preview_aov();
         if let Some(aov) = job.settings.aov {
@@ -74,15 +71,8 @@ impl App {
         Some(job)
     }
 
-    /// The job of a whole picture in the quality of the preview, of this size in half blocks.
-    pub(super) fn whole_preview_job(&self, halves: Size, grid: Grid, spp: u32) -> Option<Job> {
-        let job = self.shown_job(grid.size(halves), spp)?;
-        let camera = grid.camera(job.camera, halves);
-        Some(Job { camera, ..job })
-    }
-
     /// The job of what the preview shows of the scene.
-    fn shown_job(&self, size: Size, spp: u32) -> Option<Job> {
+    pub(super) fn shown_job(&self, size: Size, spp: u32) -> Option<Job> {
         let (scene, numbers) = self.preview_scene()?;
         let job = self.job_of(scene, size, spp, Filter::Box)?;
         Some(Job { numbers, ..job })

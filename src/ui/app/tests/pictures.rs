@@ -50,6 +50,27 @@ fn an_edit_restarts_the_preview_and_a_refused_one_does_not() {
     assert_eq!(traces("?"), 0);
 }
 
+/// Cells may be divided into pixels that are not square.
+#[test]
+fn every_division_of_cells_frames_the_picture_alike() {
+    let mut app = open(SCENE);
+    let mut traced = |across, down| {
+        let effects = app.update(Msg::Grid { across, down });
+        let job = effects.into_iter().find_map(|effect| match effect {
+            Effect::Trace(Target::Preview, job) => Some(job),
+            _ => None,
+        });
+        let job = job.expect("the preview is traced");
+        (job.settings.size, job.camera)
+    };
+    let (quadrants, camera) = traced(2, 2);
+    for (across, down) in [(2, 3), (2, 4), (1, 2)] {
+        let (size, same) = traced(across, down);
+        assert_eq!(same, camera, "{across}x{down}");
+        assert_eq!(2 * size.width, u32::from(across) * quadrants.width);
+    }
+}
+
 #[test]
 fn impossible_commands_are_refused_with_a_reason() {
     for (said, reason) in [
