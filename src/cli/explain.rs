@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use clap::{Args, value_parser};
 
 use super::shared::{AssetArguments, StrictnessArguments};
-use super::tracing::TracingArguments;
+use super::tracing::SampleArguments;
 use crate::batch::{Explain, Report};
 use crate::render::MAX_SPP;
 
@@ -26,10 +26,10 @@ pub(super) struct ExplainArguments {
     #[arg(value_name = "SCENE")]
     scene: PathBuf,
     /// Column of the pixel, from 0 at the left
-    #[arg(value_name = "X")]
+    #[arg(value_name = "X", allow_negative_numbers = true)]
     x: u32,
     /// Row of the pixel, from 0 at the top
-    #[arg(value_name = "Y")]
+    #[arg(value_name = "Y", allow_negative_numbers = true)]
     y: u32,
     /// Index of the sample, 0 to 65535: 0 is the centre of the pixel
     #[arg(long, value_name = "N", default_value_t = 0, value_parser = value_parser!(u32).range(..=i64::from(MAX_SPP) - 1))]
@@ -38,7 +38,7 @@ pub(super) struct ExplainArguments {
     #[arg(long)]
     json: bool,
     #[command(flatten)]
-    tracing: TracingArguments,
+    samples: SampleArguments,
     #[command(flatten)]
     strictness: StrictnessArguments,
     #[command(flatten)]
@@ -56,7 +56,7 @@ impl ExplainArguments {
             } else {
                 Report::Text
             },
-            tracing: self.tracing.into_tracing(),
+            tracing: self.samples.into_tracing(),
             warnings: self.strictness.warnings(),
             assets: self.assets.folders,
         }

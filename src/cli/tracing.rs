@@ -18,10 +18,8 @@ const MOST_STOPS: f64 = 100.0;
 
 #[derive(Args, Debug)]
 pub(super) struct TracingArguments {
-    /// Width and height in pixels, such as 800x600; at most 268435456 pixels in all (16384x16384)
-    /// [default: the scene's]
-    #[arg(long, value_name = "WxH", value_parser = parse_size)]
-    size: Option<Size>,
+    #[command(flatten)]
+    samples: SampleArguments,
     /// Trace only this part of the picture, in pixels from its top left corner; its pixels are those
     /// of the whole picture
     #[arg(long, value_name = "X,Y,W,H", value_parser = parse_region)]
@@ -33,6 +31,22 @@ pub(super) struct TracingArguments {
     /// The picture is the one with that --spp
     #[arg(long, value_name = "TIME", value_parser = parse_time)]
     time: Option<Duration>,
+    /// Render a property of the first surface under each pixel, or of the samples of its light,
+    /// instead of light
+    #[arg(long, value_name = "AOV", value_enum)]
+    aov: Option<AovChoice>,
+    /// Number of tracing threads, 1 to 1024 [default: one per core]
+    #[arg(long, value_name = "N", value_parser = threads_range())]
+    threads: Option<u16>,
+}
+
+/// What the samples of a picture depend on.
+#[derive(Args, Debug)]
+pub(super) struct SampleArguments {
+    /// Width and height in pixels, such as 800x600; at most 268435456 pixels in all (16384x16384)
+    /// [default: the scene's]
+    #[arg(long, value_name = "WxH", value_parser = parse_size)]
+    size: Option<Size>,
     /// Maximum number of bounces, 0 to 4096 [default: 8, or 64 with path tracing]
     #[arg(long, value_name = "N", value_parser = depth_range())]
     depth: Option<u32>,
@@ -45,10 +59,6 @@ pub(super) struct TracingArguments {
     /// Random seed, 0 to 4294967295
     #[arg(long, value_name = "N", default_value_t = 0)]
     seed: u32,
-    /// Render a property of the first surface under each pixel, or of the samples of its light,
-    /// instead of light
-    #[arg(long, value_name = "AOV", value_enum)]
-    aov: Option<AovChoice>,
     /// Transfer curve from colours to 8-bit values [default: linear, unless the scene sets srgb]
     #[arg(long, value_name = "CURVE", value_enum)]
     transfer: Option<TransferChoice>,
@@ -56,27 +66,37 @@ pub(super) struct TracingArguments {
     /// in EXR and HDR too
     #[arg(long, value_name = "STOPS", default_value_t = 0.0, allow_negative_numbers = true, value_parser = parse_stops)]
     exposure: f64,
-    /// Number of tracing threads, 1 to 1024 [default: one per core]
-    #[arg(long, value_name = "N", value_parser = threads_range())]
-    threads: Option<u16>,
 }
 
 impl TracingArguments {
     pub(super) fn into_tracing(self) -> Tracing {
-        let all_cores = || thread::available_parallelism().map_or(1, NonZero::get);
+        let samples = self.samples.into_tracing();
         Tracing {
-            size: self.size,
             region: self.region,
             spp: self.spp,
             time: self.time,
+            aov: self.aov.map(AovChoice::value),
+            threads: self.threads.map_or(samples.threads, usize::from),
+            ..samples
+        }
+    }
+}
+
+impl SampleArguments {
+    pub(super) fn into_tracing(self) -> Tracing {
+        Tracing {
+            size: self.size,
+            region: None,
+            spp: None,
+            time: None,
             depth: self.depth,
             integrator: self.integrator.map(IntegratorChoice::value),
             filter: self.filter.value(),
             seed: self.seed,
-            aov: self.aov.map(AovChoice::value),
+            aov: None,
             transfer: self.transfer.map(TransferChoice::value),
             exposure: self.exposure,
-            threads: self.threads.map_or_else(all_cores, usize::from),
+            threads: thread::available_parallelism().map_or(1, NonZero::get),
         }
     }
 }
