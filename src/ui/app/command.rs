@@ -504,7 +504,7 @@ impl App {
             let extension = own.extension();
             let name = path.with_extension(extension);
             self.overlays
-                .open_prompt(PromptKind::Command, &format!("w {}", name.display()));
+                .open_prompt_over(PromptKind::Command, &format!("w {}", name.display()));
             let shown = path.display();
             self.overlays
                 .fail(format!("{shown}: the name must end in .{extension}"));

@@ -42,12 +42,10 @@ impl App {
             KeyCode::BackTab | KeyCode::Up => self.choose_completion(-1),
             KeyCode::Tab | KeyCode::Down => self.choose_completion(1),
             _ => {
-                if let Some(prompt) = &mut self.overlays.prompt {
-                    let before = prompt.input.value().to_owned();
-                    line::edit(&mut prompt.input, key);
-                    if prompt.input.value() != before {
-                        self.palette.reset();
-                    }
+                if let Some(prompt) = &mut self.overlays.prompt
+                    && line::edit_over(&mut prompt.input, &mut prompt.is_selected, key)
+                {
+                    self.palette.reset();
                 }
             }
         }
@@ -62,6 +60,8 @@ impl App {
 
     /// Runs the command line: the action chosen or uniquely described, otherwise a command.
     pub(super) fn run_line(&mut self, line: &str) -> Vec<Effect> {
+        // A colon typed once more is no part of the command, as in vi.
+        let line = line.trim_start().trim_start_matches(':');
         let found = self.completions();
         let chosen = self.palette.chosen;
         let is_typed = chosen.is_none() && !line.trim().is_empty();

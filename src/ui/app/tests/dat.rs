@@ -214,7 +214,7 @@ fn a_scene_keeps_its_language() {
         .as_ref()
         .map(|prompt| prompt.input.value());
     assert_eq!(line, Some("w mine.dat"));
-    press(&mut app, "<Esc>");
+    // What is typed replaces it.
     let effects = press(&mut app, ":w other.DAT<Enter>");
     assert!(wants(&effects, |effect| matches!(
         effect,
