@@ -21,7 +21,7 @@ pub(super) struct TracingArguments {
     #[command(flatten)]
     samples: SampleArguments,
     /// Trace only this part of the picture, in pixels from its top left corner; its pixels are those
-    /// of the whole picture
+    /// of the whole picture, but AOVs on a scale take its ends from the part
     #[arg(long, value_name = "X,Y,W,H", value_parser = parse_region)]
     region: Option<Region>,
     /// Samples per pixel, 1 to 65536 [default: 16, or 65536 with --time]

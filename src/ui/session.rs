@@ -212,9 +212,9 @@ impl Session {
         unreadable.map_or(Ok(self.ending), |error| Err(error.into()))
     }
 
-    /// When the rest of a picture may be sent, if there is one.
+    /// When the rest of a picture may be sent, if there is one and room for it.
     fn rest_at(&self, now: Instant) -> Option<Instant> {
-        if !self.app.picture().is_pending() {
+        if !self.app.picture().is_pending() || self.app.sight().is_none() {
             return None;
         }
         Some(self.link.ready_at(now).unwrap_or(now))

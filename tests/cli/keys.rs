@@ -95,6 +95,15 @@ fn a_script_sees_no_scenes_of_other_runs() {
     assert!(screen.contains("no recently used scenes"), "{screen}");
 }
 
+/// An outline that changes cannot be drawn there, and must not be waited for.
+#[test]
+fn edits_in_a_terminal_without_room_for_the_picture_are_taken() {
+    let place = Place::new();
+    place.write("tiny.keys", "G resize 2x6 d resize 80x24");
+    let (screen, _) = played(&place.at("tiny.keys"), "80x24");
+    assert!(screen.contains("[+]"), "{screen}");
+}
+
 #[test]
 fn a_screen_never_replaces_a_file_that_the_scene_uses() {
     let place = Place::new();
