@@ -100,11 +100,9 @@ impl Claim {
     }
 
     /// Marks it as holding more than can be read.
-    pub(super) fn damaged(self) -> Self {
-        Self {
-            is_damaged: true,
-            ..self
-        }
+    pub(super) fn damaged(mut self) -> Self {
+        self.is_damaged = true;
+        self
     }
 
     /// Whether it may hold more than can be read.
@@ -166,7 +164,38 @@ impl Claim {
     }
 }
 
+impl Drop for Claim {
+    /// Closing the file does not end its lock while a child process has a copy of it, until it runs
+    /// its program.
+    fn drop(&mut self) {
+        let _ = self.file.unlock();
+    }
+}
+
 fn write(mut file: &File, content: &[u8]) -> io::Result<()> {
     io::Write::write_all(&mut file, content)?;
     file.sync_all()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::language::Language;
+
+    #[test]
+    #[cfg(unix)]
+    fn a_claim_ends_despite_copies_of_its_file() {
+        let state = tempfile::tempdir().expect("a folder");
+        let folder = Arc::new(Folder::make(state.path()).expect("a folder"));
+        let scene = Identity::of(None, Language::Ray);
+        let claim = Claim::new(&folder, &scene).expect("the name is free");
+        let name = claim.name().to_owned();
+        let copy = claim.file().try_clone().expect("a copy");
+        let other = Claim::take(&folder, name.clone());
+        assert!(other.expect("readable").is_none(), "it is in use");
+        drop(claim);
+        let other = Claim::take(&folder, name);
+        assert!(other.expect("readable").is_some());
+        drop(copy);
+    }
 }

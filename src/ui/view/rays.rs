@@ -47,7 +47,7 @@ fn tree(app: &App, area: Rect, verdict: Rect, lines: Rect, buffer: &mut Buffer) 
     let place = format!("sample {sample} of {}", app.sample_count());
     let pixel = app.cross().map_or_else(String::new, |cross| {
         let [x, y] = cross.pixel;
-        format!("why pixel {x} {y}")
+        format!("why {x} {y}")
     });
     title(&pixel, &place, Some(theme::ACCENT), area, buffer);
     let Some(explanation) = app.explanation() else {
