@@ -37,6 +37,7 @@
 //! | [`image_file`] | picture files: writes frames, reads textures | what is in a scene |
 //! | [`assets`] | reads the pictures and meshes that scenes name | how they are shaded |
 //! | [`compare`] | two pictures against each other | files, scenes |
+//! | [`part`] | blocks of pictures on disk: shards, checkpoints, merging | scenes, tracing |
 //! | [`watch`] | reports changes of paths on disk | what the files contain |
 //! | [`ui`] | the terminal: the only room that knows ratatui and crossterm; commands are rows of `app/command.rs`, keys of `keymap/table.rs` | how pixels are computed |
 //! | [`batch`] | headless work: check, render, compare, explain | terminals |
@@ -74,6 +75,7 @@ pub mod image_file;
 pub mod language;
 pub mod memory;
 pub mod obj;
+pub mod part;
 pub mod render;
 pub mod scene;
 pub mod text;

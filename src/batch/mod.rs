@@ -3,9 +3,13 @@
 
 mod compare;
 mod explain;
+mod fingerprint;
+mod merge;
+mod parts;
 mod progress;
 mod render;
 mod report;
+mod signals;
 mod stdout;
 mod tracing;
 
@@ -20,13 +24,17 @@ use crate::language::{
     self, Language, Lowered, Node, Source, UnknownLanguage, errors_of_beginning,
 };
 use crate::memory::{self, OutOfMemory};
+use crate::part::{self, Unmerged};
 use crate::render::Refusal;
 use crate::scene::{Images, Scene};
-use crate::text::{Diagnostic, Findings, Span, counted, visible, without_codes};
+use crate::text::{Diagnostic, Findings, Span, counted, percentage, visible, without_codes};
 
 pub use compare::{Compare, Report, Verdict, compare};
 pub use explain::{Explain, explain};
+pub use merge::{Merge, MergePurpose, merge};
+pub use parts::{Existing, Parts};
 pub use render::{Output, Render, render};
+pub use signals::Signal;
 pub use tracing::Tracing;
 
 /// Formats errors in a text for standard error, each with its place, an excerpt and a hint.
@@ -78,6 +86,38 @@ pub enum Error {
         to: String,
         /// The error of the system.
         source: io::Error,
+    },
+    /// A file that the scene references cannot be read again.
+    #[error("{path}: {source}", path = path.display())]
+    Asset {
+        /// The file.
+        path: PathBuf,
+        /// The error of the file system.
+        source: io::Error,
+    },
+    /// A part file cannot be written.
+    #[error("{path}: {source}", path = path.display())]
+    Part {
+        /// The part file.
+        path: PathBuf,
+        /// Why not.
+        source: part::Refused,
+    },
+    /// Parts make no picture.
+    #[error(transparent)]
+    Unmerged(#[from] Unmerged),
+    /// A signal stopped the tracing, which can be continued.
+    #[error(
+        "stopped by {} after {} of the work, which is kept in {path}: the same command with \
+         --resume continues it", signal.name(), percentage(*done), path = path.display()
+    )]
+    Kept {
+        /// The part file.
+        path: PathBuf,
+        /// The signal.
+        signal: Signal,
+        /// The fraction of the work done, 0 to 1.
+        done: f64,
     },
     /// The machine cannot trace the picture.
     #[error(transparent)]

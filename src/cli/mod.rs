@@ -4,6 +4,7 @@ mod choices;
 mod compare;
 mod explain;
 mod interface;
+mod merge;
 mod shared;
 mod tracing;
 
@@ -11,7 +12,6 @@ use std::ffi::OsString;
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
 
-use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use clap::error::ErrorKind;
 use clap::{Args, CommandFactory, Parser, Subcommand, ValueEnum};
 use clap_complete::Shell;
@@ -20,16 +20,22 @@ use compare::CompareArguments;
 use explain::ExplainArguments;
 use interface::InterfaceArguments;
 pub use interface::Purpose;
-use shared::{AssetArguments, StrictnessArguments, picture_format};
+use merge::MergeArguments;
+use shared::{AssetArguments, StrictnessArguments, format_names, output, output_help};
 use tracing::TracingArguments;
 
-use crate::batch::{self, Check, Compare, Explain, Output, Render, Verdict};
+use crate::batch::{self, Check, Compare, Existing, Explain, Merge, Parts, Render, Verdict};
 use crate::config;
 use crate::file::ReadError;
-use crate::image_file::{FORMATS, ImageFormat, known_extensions};
+use crate::image_file::ImageFormat;
+use crate::part::{self, MOST_SHARDS, Shard, Unmerged};
 use crate::text::{nearest_word, visible};
 use crate::ui;
 
+/// Parts make no picture.
+pub const INCOMPLETE: u8 = 3;
+/// Stopped, but what was traced is kept: try again.
+pub const TRY_AGAIN: u8 = 75;
 /// Success.
 pub const DONE: u8 = 0;
 /// A write or system error.
@@ -61,6 +67,8 @@ pub enum Command {
     Interface(ui::Options, config::Source, Purpose),
     /// Render a picture.
     Render(Render),
+    /// Merge part files.
+    Merge(Merge),
     /// Compare two pictures.
     Compare(Compare),
     /// Explain a pixel.
@@ -88,6 +96,10 @@ pub fn parse(arguments: impl IntoIterator<Item = OsString>) -> Result<Command, S
             .into_render()
             .map(Command::Render)
             .map_err(|reason| refusal(Some("render"), reason)),
+        Some(Subcommands::Merge(merge)) => merge
+            .into_merge()
+            .map(Command::Merge)
+            .map_err(|reason| refusal(Some("merge"), reason)),
         Some(Subcommands::Compare(compare)) => compare
             .into_compare()
             .map(Command::Compare)
@@ -138,10 +150,19 @@ fn failure_code(error: &batch::Error) -> u8 {
     use batch::Error;
     match error {
         Error::Read(error) => read_code(error),
-        Error::Assets(_) => NO_INPUT,
+        Error::Assets(_) | Error::Asset { .. } => NO_INPUT,
         Error::UnknownLanguage(_) | Error::Invalid { .. } | Error::Picture { .. } => INVALID,
         Error::Refused(_) => USAGE,
         Error::Create { .. } => NO_OUTPUT,
+        Error::Part { source, .. } => match source {
+            part::Refused::Busy => TRY_AGAIN,
+            _ => NO_OUTPUT,
+        },
+        Error::Unmerged(Unmerged::Io { .. }) => NO_INPUT,
+        Error::Unmerged(Unmerged::Refused(_)) => FAILED,
+        Error::Unmerged(_) => INCOMPLETE,
+        Error::Kept { signal, .. } if signal.is_interrupt() => INTERRUPTED,
+        Error::Kept { .. } => TRY_AGAIN,
         Error::Write { .. } | Error::Untraced(_) | Error::Stopped => FAILED,
     }
 }
@@ -242,8 +263,9 @@ Examples:
 To open a scene named like a command, write ./render, ./check or ./doctor. Scenes are read from \
 files, not from standard input, pipes or devices.
 
-Exit codes: 0 success, 1 write or system error, 2 wrong arguments or configuration, 65 invalid scene, \
-66 scene not found or unreadable, 73 picture file cannot be created, 129 terminal gone, \
+Exit codes: 0 success, 1 write or system error, 2 wrong arguments or configuration, 3 parts make \
+no picture, 65 invalid scene, 66 scene not found or unreadable, 73 picture file cannot be created, \
+75 stopped, but continued by --resume, 129 terminal gone, \
 130 SIGINT, 143 SIGTERM, 128 + N any other signal N. Ctrl-C quits the interface with 0, like q.";
 
 #[derive(Debug, Subcommand)]
@@ -251,6 +273,9 @@ enum Subcommands {
     /// Render a scene to a picture file
     #[command(after_help = RENDER_EXAMPLES)]
     Render(RenderArguments),
+    /// Merge the part files of a picture, or say which are missing
+    #[command(after_help = merge::EXAMPLES)]
+    Merge(MergeArguments),
     /// Compare two pictures, or what scenes show
     #[command(after_help = compare::EXAMPLES)]
     Compare(CompareArguments),
@@ -366,11 +391,6 @@ other formats keep every pixel with 8 bits per channel.
 
 The same scene and options give the same bytes on every machine and with any number of threads.";
 
-fn output_help() -> String {
-    let known = known_extensions();
-    format!("Picture file, in the format of its extension: {known}; - for standard output")
-}
-
 #[derive(Args, Debug)]
 struct RenderArguments {
     /// Scene file: .ray, .dat or .xml
@@ -387,6 +407,13 @@ struct RenderArguments {
     strictness: StrictnessArguments,
     #[command(flatten)]
     assets: AssetArguments,
+    /// Trace only shard K of N, from 0, into a part file beside FILE; see merge
+    #[arg(long, value_name = "K/N", value_parser = parse_shard)]
+    shard: Option<Shard>,
+    /// Keep a part file beside FILE, and continue it if it is there: after SIGTERM, SIGUSR1 or a
+    /// crash, or with a larger --spp
+    #[arg(long)]
+    resume: bool,
     /// Write to standard output even if it is a terminal
     #[arg(long)]
     force: bool,
@@ -394,37 +421,32 @@ struct RenderArguments {
 
 impl RenderArguments {
     fn into_render(self) -> Result<Render, String> {
-        let to_stdout = self.output == Path::new("-");
-        let format = match self.format {
-            Some(format) => format,
-            None if to_stdout => ImageFormat::Bmp,
-            None => {
-                picture_format(&self.output).map_err(|reason| format!("{reason}, or --format"))?
-            }
-        };
+        let (output, format) = output(self.output, self.format, self.force)?;
+        if self.shard.is_some() && self.tracing.is_limited() {
+            return Err("--time ends shards with different samples: use --spp".to_owned());
+        }
         Ok(Render {
             scene: self.scene,
             warnings: self.strictness.warnings(),
-            output: match (to_stdout, self.force) {
-                (false, _) => Output::File(self.output),
-                (true, false) => Output::Stdout,
-                (true, true) => Output::StdoutTerminal,
-            },
+            output,
             format,
             tracing: self.tracing.into_tracing(),
+            parts: (self.resume || self.shard.is_some()).then_some(Parts {
+                shard: self.shard.unwrap_or(Shard::WHOLE),
+                existing: if self.resume {
+                    Existing::Continued
+                } else {
+                    Existing::Refused
+                },
+            }),
             assets: self.assets.folders,
         })
     }
 }
 
-fn format_names() -> impl TypedValueParser<Value = ImageFormat> {
-    let names = FORMATS.map(|(format, extensions)| {
-        PossibleValue::new(format.name()).aliases(extensions.iter().copied())
-    });
-    PossibleValuesParser::new(names).try_map(|name| {
-        let mut formats = FORMATS.into_iter();
-        let known = formats.find(|(_, extensions)| extensions.contains(&name.as_str()));
-        known.map(|(format, _)| format).ok_or("unknown format")
+fn parse_shard(text: &str) -> Result<Shard, String> {
+    Shard::parse(text).ok_or_else(|| {
+        format!("expected K/N with K from 0 to N - 1 and N up to {MOST_SHARDS}, such as 3/8")
     })
 }
 

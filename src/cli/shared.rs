@@ -2,12 +2,12 @@
 
 use std::path::{Path, PathBuf};
 
-use clap::builder::TypedValueParser;
+use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use clap::{Args, value_parser};
 
-use crate::batch::Warnings;
+use crate::batch::{Output, Warnings};
 use crate::config::{MAX_DEPTH, MAX_THREADS};
-use crate::image_file::{ImageFormat, known_extensions};
+use crate::image_file::{FORMATS, ImageFormat, known_extensions};
 use crate::render::MAX_SPP;
 
 #[derive(Args, Debug)]
@@ -55,5 +55,43 @@ pub(super) fn picture_format(path: &Path) -> Result<ImageFormat, String> {
             path.display(),
             known_extensions()
         )
+    })
+}
+
+/// The help of `-o` for pictures.
+pub(super) fn output_help() -> String {
+    let known = known_extensions();
+    format!("Picture file, in the format of its extension: {known}; - for standard output")
+}
+
+/// Where a picture goes, and in which format: by default that of the file's extension.
+pub(super) fn output(
+    path: PathBuf,
+    format: Option<ImageFormat>,
+    force: bool,
+) -> Result<(Output, ImageFormat), String> {
+    let to_stdout = path == Path::new("-");
+    let format = match format {
+        Some(format) => format,
+        None if to_stdout => ImageFormat::Bmp,
+        None => picture_format(&path).map_err(|reason| format!("{reason}, or --format"))?,
+    };
+    let output = match (to_stdout, force) {
+        (false, _) => Output::File(path),
+        (true, false) => Output::Stdout,
+        (true, true) => Output::StdoutTerminal,
+    };
+    Ok((output, format))
+}
+
+/// The names of the picture formats.
+pub(super) fn format_names() -> impl TypedValueParser<Value = ImageFormat> {
+    let names = FORMATS.map(|(format, extensions)| {
+        PossibleValue::new(format.name()).aliases(extensions.iter().copied())
+    });
+    PossibleValuesParser::new(names).try_map(|name| {
+        let mut formats = FORMATS.into_iter();
+        let known = formats.find(|(_, extensions)| extensions.contains(&name.as_str()));
+        known.map(|(format, _)| format).ok_or("unknown format")
     })
 }

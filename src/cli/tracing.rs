@@ -69,6 +69,11 @@ pub(super) struct SampleArguments {
 }
 
 impl TracingArguments {
+    /// Whether a limit of time decides how many samples are taken.
+    pub(super) fn is_limited(&self) -> bool {
+        self.time.is_some()
+    }
+
     pub(super) fn into_tracing(self) -> Tracing {
         let samples = self.samples.into_tracing();
         Tracing {

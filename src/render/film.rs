@@ -12,10 +12,10 @@ use super::probe::Counts;
 use super::shot::Shot;
 use super::steps::Step;
 use super::tile::{AREA, Remembers, Tile, TileShape, Work};
-use super::tone::{Light, Tone};
+use super::tone::{self, Light, Tone};
 use super::touched::Touched;
 use super::tracer::Tracer;
-use crate::scene::{Rgb, Size};
+use crate::scene::Size;
 
 /// Most pixels of a picture whose dependencies are recorded; for larger pictures that would cost
 /// more memory than the time saved is worth.
@@ -297,12 +297,8 @@ impl Film {
 
     fn develop_in(&self, mut raster: Raster, cancelled: impl Fn() -> bool) -> Option<Raster> {
         raster.range = self.range();
-        let tone = self.tone(raster.range);
+        let tone = Tone::of(self.aov, self.light, raster.range);
         let value = |tile: &Tile, at| tile.value(at, self.spp, self.aov);
-        let linear = |value: Rgb| match tone {
-            Tone::Colour(light) => light.exposed(value),
-            _ => value,
-        };
         let tells_objects = 0 < raster.objects.capacity();
         let tells_values = 0 < raster.values.capacity();
         let tells_errors = 0 < raster.errors.capacity() && self.noise.is_some();
@@ -322,7 +318,7 @@ impl Film {
             }
             if tells_values {
                 self.develop_rows(rows.clone(), &mut raster.values, |tile, at| {
-                    linear(value(tile, at)).as_vec3().to_array()
+                    tone.linear(value(tile, at)).as_vec3().to_array()
                 });
             }
             if tells_errors {
@@ -373,42 +369,9 @@ impl Film {
         });
     }
 
-    /// How pixel values are converted to 8 bits, on a scale with these ends.
-    fn tone(&self, range: Option<[f64; 2]>) -> Tone {
-        let [least, most] = range.unwrap_or([0.0; 2]);
-        match self.aov {
-            None | Some(Aov::Albedo | Aov::Direct(_) | Aov::Emission | Aov::Indirect) => {
-                Tone::Colour(self.light)
-            }
-            Some(Aov::Normal) => Tone::Normal,
-            Some(Aov::Object) => Tone::Number,
-            Some(Aov::Depth) => Tone::Depth {
-                nearest: least,
-                farthest: most,
-            },
-            Some(Aov::Uv) => Tone::Uv,
-            Some(Aov::Side) => Tone::Side,
-            Some(Aov::Cost | Aov::Samples) => Tone::Logarithm { least, most },
-            Some(Aov::Noise) => Tone::Part { most },
-        }
-    }
-
-    /// The ends of the scale of AOVs that have one; without a value on it, infinity and 0.
+    /// The ends of the scale of AOVs that have one.
     fn range(&self) -> Option<[f64; 2]> {
-        let aov = self.aov?;
-        let starts_at_zero = match aov {
-            Aov::Depth | Aov::Cost | Aov::Samples => false,
-            Aov::Noise => true,
-            _ => return None,
-        };
-        let values = |tile| Tile::values(tile, self.spp, Some(aov));
-        let values = self.tiles.par_iter().flat_map_iter(values);
-        let values = values
-            .map(|value| value.x)
-            .filter(|&x| 0.0 < x && x.is_finite());
-        let (least, most) = values
-            .map(|x| (x, x))
-            .reduce(|| (f64::INFINITY, 0.0), |a, b| (a.0.min(b.0), a.1.max(b.1)));
-        Some([if starts_at_zero { 0.0 } else { least }, most])
+        let values = |tile| Tile::values(tile, self.spp, self.aov);
+        tone::scale(self.aov, self.tiles.par_iter().flat_map_iter(values))
     }
 }

@@ -63,6 +63,11 @@ impl Settings {
         self.region.unwrap_or_else(|| Region::whole(self.size))
     }
 
+    /// The number of passes to all samples: 1, 1, 2, 4 …
+    pub fn passes(&self) -> u32 {
+        1 + self.spp.next_power_of_two().ilog2()
+    }
+
     /// The AOV of the surfaces to trace instead of light.
     pub(crate) fn surface(&self) -> Option<Aov> {
         self.aov.filter(|aov| !aov.is_of_light() && !aov.is_share())

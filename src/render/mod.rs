@@ -28,6 +28,9 @@
 //! [`explain`] records every ray behind a sample, part by part, by driving the same integrators;
 //! a [`Query`] of a frame does so for the frame's pixels.
 //!
+//! A [`BlockTracer`] traces a picture by [`mod@block`]s, which may be stored, continued and put
+//! together in an [`assembly`] later, on other machines too, to the same frame.
+//!
 //! [`display`] says how a finished frame is looked at, and a [`histogram`] how bright it is.
 //!
 //! [`mod@wireframe`] projects the outlines of objects without tracing.
@@ -35,6 +38,9 @@
 //! Rays are intersected in packets of eight with one object after the other ([`packets`]), or
 //! singly with up to eight [`spheres`] at once ([`intersect`]), with bitwise equal results.
 
+mod assembly;
+mod block;
+mod block_tracer;
 mod branch;
 mod bsdf;
 mod camera;
@@ -81,7 +87,11 @@ mod whitted;
 mod wireframe;
 mod worker;
 mod world;
+mod written;
 
+pub use assembly::Assembly;
+pub use block::{BLOCK, Block, Blocks};
+pub use block_tracer::BlockTracer;
 pub use display::{Colours, Display, MOST_HALF_STOPS, exposes};
 pub use explain::{
     Boundary, Chosen, Crossing, Dark, Densities, DepthLimit, Explanation, Finding, FirstHit,
@@ -95,6 +105,7 @@ pub use frame::{
 };
 pub use histogram::{HISTOGRAM_STOPS, Histogram};
 pub use place::{SurfacePoint, axes, clearance, line_of, pixel_of, pixel_width, surface_under};
+pub use probe::Counts;
 pub use refusal::Refusal;
 pub use region::{NoRegion, Region};
 pub use renderer::{Renderer, Threads};

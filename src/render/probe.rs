@@ -40,13 +40,13 @@ pub(crate) struct Probe<'w, C> {
 
 /// Counts of work done.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub(crate) struct Counts {
+pub struct Counts {
     /// Rays, including shadow rays.
-    pub(crate) rays: u64,
+    pub rays: u64,
     /// Shadow rays.
-    pub(crate) shadow_rays: u64,
+    pub shadow_rays: u64,
     /// Samples that exceeded their ray budget.
-    pub(crate) over_budget: u64,
+    pub over_budget: u64,
 }
 
 impl Counts {
@@ -60,7 +60,7 @@ impl Counts {
     }
 
     /// The sum of both.
-    pub(crate) fn and(self, other: Self) -> Self {
+    pub fn and(self, other: Self) -> Self {
         Self {
             rays: self.rays + other.rays,
             shadow_rays: self.shadow_rays + other.shadow_rays,

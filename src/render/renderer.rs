@@ -152,7 +152,8 @@ impl Threads {
     }
 }
 
-fn pool(threads: Threads) -> Result<ThreadPool, rayon::ThreadPoolBuildError> {
+/// The threads that trace.
+pub(super) fn pool(threads: Threads) -> Result<ThreadPool, rayon::ThreadPoolBuildError> {
     let builder = ThreadPoolBuilder::new().num_threads(memory::threads(threads.count()));
     match threads {
         Threads::Background(_) => builder.start_handler(|_| lower_priority()).build(),

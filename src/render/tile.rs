@@ -26,11 +26,11 @@ const BEYOND: u8 = u8::MAX;
 pub(crate) struct Work<'w, C> {
     pub(crate) tracer: Tracer<'w, C>,
     /// Pixels to sample.
-    pixels: Vec<[u32; 2]>,
+    pub(crate) pixels: Vec<[u32; 2]>,
     /// A sample of each pixel.
     samples: Vec<Sample>,
     /// Results of the samples.
-    seen: Vec<Seen>,
+    pub(crate) seen: Vec<Seen>,
 }
 
 impl<'w, C: Fn() -> bool> Work<'w, C> {
@@ -40,6 +40,29 @@ impl<'w, C: Fn() -> bool> Work<'w, C> {
             pixels: Vec::new(),
             samples: Vec::new(),
             seen: Vec::new(),
+        }
+    }
+
+    /// Takes the sample with this index of each of the pixels. Meaningless once the tracer is
+    /// cancelled.
+    pub(crate) fn sample(&mut self, index: u32, shot: &Shot<'_>) {
+        let Self {
+            tracer,
+            pixels,
+            samples,
+            seen,
+        } = self;
+        shot.samples(pixels, index, samples);
+        match shot.settings.surface() {
+            None => tracer.trace(samples, seen),
+            Some(aov) => {
+                tracer.count(samples.len());
+                seen.clear();
+                seen.extend(samples.iter().map(|&Sample { ray, reach, .. }| {
+                    let skipped = (ray.origin - shot.eye).dot(ray.direction);
+                    first_hit(shot.world, &ray, reach, skipped, aov)
+                }));
+            }
         }
     }
 }
@@ -226,25 +249,8 @@ impl Tile {
 
     /// Adds one sample to each of the given pixels.
     fn sample<C: Fn() -> bool>(&mut self, index: u32, shot: &Shot<'_>, work: &mut Work<'_, C>) {
-        let Work {
-            tracer,
-            pixels,
-            samples,
-            seen,
-        } = work;
-        shot.samples(pixels, index, samples);
-        match shot.settings.surface() {
-            None => tracer.trace(samples, seen),
-            Some(aov) => {
-                tracer.count(samples.len());
-                seen.clear();
-                seen.extend(samples.iter().map(|&Sample { ray, reach, .. }| {
-                    let skipped = (ray.origin - shot.eye).dot(ray.direction);
-                    first_hit(shot.world, &ray, reach, skipped, aov)
-                }));
-            }
-        }
-        for (&pixel, seen) in pixels.iter().zip(seen) {
+        work.sample(index, shot);
+        for (&pixel, seen) in work.pixels.iter().zip(&work.seen) {
             let at = self.index(pixel);
             self.sums[at] += seen.radiance;
             if index == 0 {

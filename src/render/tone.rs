@@ -1,6 +1,8 @@
 //! Conversion of pixel values to 8 bits per channel.
 
-use super::frame::Settings;
+use rayon::prelude::*;
+
+use super::frame::{Aov, Settings};
 use super::ramp::heat;
 use crate::scene::{Rgb, Transfer};
 
@@ -78,6 +80,34 @@ pub(crate) enum Tone {
 }
 
 impl Tone {
+    /// The mapping of light, or of an AOV on a scale with these ends.
+    pub(crate) fn of(aov: Option<Aov>, light: Light, range: Option<[f64; 2]>) -> Self {
+        let [least, most] = range.unwrap_or([0.0; 2]);
+        match aov {
+            None | Some(Aov::Albedo | Aov::Direct(_) | Aov::Emission | Aov::Indirect) => {
+                Self::Colour(light)
+            }
+            Some(Aov::Normal) => Self::Normal,
+            Some(Aov::Object) => Self::Number,
+            Some(Aov::Depth) => Self::Depth {
+                nearest: least,
+                farthest: most,
+            },
+            Some(Aov::Uv) => Self::Uv,
+            Some(Aov::Side) => Self::Side,
+            Some(Aov::Cost | Aov::Samples) => Self::Logarithm { least, most },
+            Some(Aov::Noise) => Self::Part { most },
+        }
+    }
+
+    /// The linear value after exposure, if it has one.
+    pub(crate) fn linear(self, value: Rgb) -> Rgb {
+        match self {
+            Self::Colour(light) => light.exposed(value),
+            _ => value,
+        }
+    }
+
     /// Converts a value to 8 bits per channel.
     #[inline]
     pub(crate) fn bytes(self, value: Rgb) -> [u8; 3] {
@@ -100,6 +130,26 @@ impl Tone {
             Self::Part { most } => to_bytes(heat(share(value.x, most))),
         }
     }
+}
+
+/// The ends of the scale of AOVs that have one, given all values; without a value on it, infinity
+/// and 0.
+pub(crate) fn scale(
+    aov: Option<Aov>,
+    values: impl ParallelIterator<Item = Rgb>,
+) -> Option<[f64; 2]> {
+    let starts_at_zero = match aov? {
+        Aov::Depth | Aov::Cost | Aov::Samples => false,
+        Aov::Noise => true,
+        _ => return None,
+    };
+    let values = values
+        .map(|value| value.x)
+        .filter(|&x| 0.0 < x && x.is_finite());
+    let (least, most) = values
+        .map(|x| (x, x))
+        .reduce(|| (f64::INFINITY, 0.0), |a, b| (a.0.min(b.0), a.1.max(b.1)));
+    Some([if starts_at_zero { 0.0 } else { least }, most])
 }
 
 /// The share of a scale from 0 at which a value stands; 1 on an empty scale.

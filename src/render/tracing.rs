@@ -313,7 +313,7 @@ impl<'s, W: Fn() + Sync> Tracing<'s, W> {
     fn progress(&self) -> Progress {
         Progress {
             pass: self.pass,
-            passes: 1 + self.job.settings.spp.next_power_of_two().ilog2(),
+            passes: self.job.settings.passes(),
             spp: self.whole_samples,
             done: self.done(),
             elapsed: self.elapsed(),

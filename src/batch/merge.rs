@@ -1,0 +1,55 @@
+//! Merges part files to a picture.
+
+use std::path::PathBuf;
+
+use super::render::{Output, check_output, stdout_error, write};
+use super::{Error, print_error, print_message, stdout};
+use crate::image_file::ImageFormat;
+use crate::part::{self, ranges};
+
+/// Part files to merge.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Merge {
+    /// The part files, in any order.
+    pub parts: Vec<PathBuf>,
+    /// What to do with them.
+    pub purpose: MergePurpose,
+}
+
+/// What to do with part files.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum MergePurpose {
+    /// Write the picture.
+    Write(Output, ImageFormat),
+    /// Print which shards have blocks that are missing.
+    Missing,
+}
+
+/// Merges part files, or prints what they lack.
+pub fn merge(work: &Merge) -> Result<(), Error> {
+    try_merge(work).inspect_err(print_error)
+}
+
+fn try_merge(work: &Merge) -> Result<(), Error> {
+    match &work.purpose {
+        MergePurpose::Write(output, format) => {
+            check_output(output)?;
+            let merged = part::merge(&work.parts, format.frames())?;
+            if let Some(reason) = format.refuses(merged.frame.size) {
+                return Err(Error::Refused(format!("the picture is {reason}")));
+            }
+            write(output, *format, &merged.frame)
+        }
+        MergePurpose::Missing => {
+            let (shards, damaged) = part::missing(&work.parts)?;
+            for damage in damaged {
+                print_message("note", &damage.to_string());
+            }
+            let line = match ranges(&shards) {
+                none if none.is_empty() => none,
+                ranges => ranges + "\n",
+            };
+            stdout::print(&line).map_err(stdout_error)
+        }
+    }
+}

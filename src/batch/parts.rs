@@ -1,0 +1,305 @@
+//! Traces pictures into part files, which can be continued and merged.
+
+use std::collections::BTreeMap;
+use std::path::PathBuf;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::mpsc::{self, Receiver};
+use std::thread;
+use std::time::{Duration, Instant};
+
+use super::progress::ProgressLine;
+use super::signals::Signals;
+use super::{Error, Output, Render, print_message};
+use crate::part::{self, Header, Part, Shard};
+use crate::render::{Block, BlockTracer, Blocks, Frame, Job, Progress, Settings};
+use crate::text::counted;
+
+/// How a picture is traced into a part file.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Parts {
+    /// The part of the picture to trace.
+    pub shard: Shard,
+    /// What becomes of a part file that is there already.
+    pub existing: Existing,
+}
+
+/// What becomes of a part file that is there already.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Existing {
+    /// It is continued.
+    Continued,
+    /// It is an error.
+    Refused,
+}
+
+/// A block takes this long at most until it is written, and this long again until it is synced: at
+/// most 30 s of work are lost.
+const INTERVAL: Duration = Duration::from_secs(10);
+
+/// Blocks that wait to be written. Tracing waits for a slow disk.
+const WAITING: usize = 64;
+
+/// Traces a job, of the scene with this digest, into the part file beside the picture. Returns the
+/// picture if that is all of it.
+pub(super) fn trace(
+    work: &Render,
+    parts: Parts,
+    job: Job,
+    scene: String,
+) -> Result<Option<Frame>, Error> {
+    let frames = job.frames;
+    let header = Header {
+        version: env!("CARGO_PKG_VERSION").to_owned(),
+        scene,
+        settings: job.settings,
+        shard: parts.shard,
+    };
+    let path = file_of(work, parts.shard)?;
+    let refused = |source| Error::Part {
+        path: path.clone(),
+        source,
+    };
+    // Without them, a signal ends the process, and what was synced is kept.
+    let signals = Signals::noted().unwrap_or_default();
+    let part = match parts.existing {
+        Existing::Continued => Part::open(&path, &header),
+        Existing::Refused => Part::create(&path, &header),
+    };
+    let part = part.map_err(refused)?;
+    if 0 < part.cut() {
+        let cut = counted(part.cut() as usize, "byte");
+        let note = format!(
+            "{}: the last {cut} were damaged and are cut off",
+            path.display()
+        );
+        print_message("note", &note);
+    }
+    let mut continued = Continued {
+        numbers: parts.shard.blocks(Blocks::of(job.settings.traced().size())),
+        part,
+        path,
+        signals,
+        limit: work.tracing.time,
+        begun: Instant::now(),
+    };
+    let spp = continued.run(job, work.tracing.threads)?;
+    let Continued { path, numbers, .. } = &continued;
+    if parts.shard != Shard::WHOLE {
+        let blocks = counted(numbers.len(), "block");
+        let note = format!(
+            "shard {}: {blocks} with {spp} spp in {}",
+            parts.shard,
+            path.display()
+        );
+        print_message("note", &note);
+        return Ok(None);
+    }
+    let merged = part::merge(std::slice::from_ref(path), frames)?;
+    Ok(Some(merged.frame))
+}
+
+/// The part file beside the picture.
+fn file_of(work: &Render, shard: Shard) -> Result<PathBuf, Error> {
+    match &work.output {
+        Output::File(picture) => Ok(part::path_beside(picture, shard)),
+        Output::Stdout | Output::StdoutTerminal => Err(Error::Refused(
+            "--shard and --resume keep a file beside the picture: use -o FILE".to_owned(),
+        )),
+    }
+}
+
+/// A part that is traced.
+struct Continued {
+    part: Part,
+    path: PathBuf,
+    /// The numbers of its blocks.
+    numbers: Vec<u32>,
+    signals: Signals,
+    /// The time after which no pass begins.
+    limit: Option<Duration>,
+    begun: Instant,
+}
+
+impl Continued {
+    /// Traces all blocks as far as asked. Returns their samples.
+    fn run(&mut self, job: Job, threads: usize) -> Result<u32, Error> {
+        let Settings { spp, .. } = job.settings;
+        let samples = || self.numbers.iter().map(|&number| self.part.samples(number));
+        if let Some(most) = samples().max().filter(|&most| spp < most) {
+            return Err(Error::Refused(format!(
+                "{} has {most} samples per pixel already: use --spp {most} or more, or delete it",
+                self.path.display()
+            )));
+        }
+        let mut whole = samples().min().unwrap_or(spp);
+        if whole == spp {
+            self.aim(spp)?;
+            return Ok(spp);
+        }
+        let signals = self.signals.clone();
+        let tracer = BlockTracer::new(job, threads, || signals.arrived())?;
+        let Some(tracer) = tracer else {
+            return Err(self.stopped(0.0));
+        };
+        let (first, begun) = (whole, Instant::now());
+        loop {
+            let goal = match self.limit {
+                None => spp,
+                Some(_) => (whole + 1).next_power_of_two().min(spp),
+            };
+            self.sweep(&tracer, goal)?;
+            let took = begun.elapsed().as_secs_f64() / f64::from(goal - first);
+            whole = goal;
+            let next = f64::from(whole.min(spp - whole));
+            let left = self
+                .limit
+                .map(|limit| limit.saturating_sub(self.begun.elapsed()));
+            if whole == spp || left.is_some_and(|left| left.as_secs_f64() < next * took) {
+                return Ok(whole);
+            }
+        }
+    }
+
+    /// Traces all blocks to this number of samples.
+    fn sweep(&mut self, tracer: &BlockTracer, spp: u32) -> Result<(), Error> {
+        self.aim(spp)?;
+        let Self { part, numbers, .. } = self;
+        let blocks = tracer.blocks();
+        let lacking = numbers
+            .iter()
+            .copied()
+            .filter(|&number| part.samples(number) < spp);
+        let lacking: Vec<_> = lacking.collect();
+        let begun = lacking.iter().filter(|&&number| 0 < part.samples(number));
+        let begun = begun.map(|&number| Ok((number, part.block(number)?)));
+        let begun: Result<BTreeMap<_, _>, _> = begun.collect();
+        let mut begun = begun.map_err(|source| self.unwritten(source))?;
+        let reached = |number| match begun.get(&number) {
+            Some(block) => (number, block.samples, block.counts.rays),
+            None => (number, 0, 0),
+        };
+        let mut tally = Tally::new(spp, blocks, lacking.iter().copied().map(reached));
+        let todo = lacking.into_iter().map(move |number| {
+            let block = begun.remove(&number);
+            block.unwrap_or_else(|| Block::new(number, blocks))
+        });
+        let (signals, failed) = (self.signals.clone(), &AtomicBool::new(false));
+        let stopped = move || signals.arrived() || failed.load(Ordering::Relaxed);
+        let (hand_over, handed_over) = mpsc::sync_channel(WAITING);
+        let written = thread::scope(|scope| {
+            // The sender ends with the tracing, and with it the loop that writes.
+            scope.spawn(move || {
+                // The receiver is dropped only after a failure, which stops the tracing.
+                let hand_over = |block| drop(hand_over.send(block));
+                tracer.trace(todo, spp, INTERVAL, stopped, hand_over);
+            });
+            let written = self.write(&handed_over, &mut tally);
+            failed.store(written.is_err(), Ordering::Relaxed);
+            drop(handed_over);
+            written
+        });
+        written.map_err(|source| self.unwritten(source))?;
+        if tally.done() < 1.0 {
+            return Err(self.stopped(tally.done()));
+        }
+        Ok(())
+    }
+
+    /// Writes blocks as they come.
+    fn write(&mut self, blocks: &Receiver<Block>, tally: &mut Tally) -> std::io::Result<()> {
+        let mut line = ProgressLine::new();
+        let mut synced = Instant::now();
+        while let Ok(block) = blocks.recv() {
+            tally.add(&block);
+            self.part.put(block)?;
+            if INTERVAL <= synced.elapsed() {
+                self.part.sync()?;
+                synced = Instant::now();
+            }
+            line.show(&tally.progress(self.begun.elapsed()));
+        }
+        self.part.sync()
+    }
+
+    fn aim(&mut self, spp: u32) -> Result<(), Error> {
+        self.part.aim(spp).map_err(|source| self.unwritten(source))
+    }
+
+    fn unwritten(&self, source: std::io::Error) -> Error {
+        Error::Write {
+            to: self.path.display().to_string(),
+            source,
+        }
+    }
+
+    /// The error that tracing was stopped.
+    fn stopped(&self, done: f64) -> Error {
+        match self.signals.last() {
+            Some(signal) => Error::Kept {
+                path: self.path.clone(),
+                signal,
+                done,
+            },
+            None => Error::Stopped,
+        }
+    }
+}
+
+/// How far the blocks of a sweep are traced.
+struct Tally {
+    /// Samples of each pixel to reach.
+    spp: u32,
+    blocks: Blocks,
+    /// The samples and rays of each block.
+    reached: BTreeMap<u32, [u64; 2]>,
+    /// Samples to take, taken, and rays traced.
+    all: u64,
+    taken: u64,
+    rays: u64,
+}
+
+impl Tally {
+    /// Begins with blocks of some samples.
+    fn new(spp: u32, blocks: Blocks, begun: impl Iterator<Item = (u32, u32, u64)>) -> Self {
+        let mut tally = Self {
+            spp,
+            blocks,
+            reached: BTreeMap::new(),
+            all: 0,
+            taken: 0,
+            rays: 0,
+        };
+        for (number, samples, rays) in begun {
+            tally.all += u64::from(spp - samples) * blocks.area(number) as u64;
+            tally.reached.insert(number, [samples.into(), rays]);
+        }
+        tally
+    }
+
+    fn add(&mut self, block: &Block) {
+        let now = [block.samples.into(), block.counts.rays];
+        let before = self.reached.insert(block.number, now).unwrap_or_default();
+        self.taken += (now[0] - before[0]) * self.blocks.area(block.number) as u64;
+        self.rays += now[1] - before[1];
+    }
+
+    /// The share of the work done, 0 to 1.
+    fn done(&self) -> f64 {
+        self.taken as f64 / self.all.max(1) as f64
+    }
+
+    fn progress(&self, elapsed: Duration) -> Progress {
+        Progress {
+            pass: 1,
+            passes: 1,
+            spp: self.spp,
+            done: self.done(),
+            elapsed,
+            rays: self.rays,
+            shadow_rays: 0,
+            over_budget: 0,
+            noise: None,
+            complete: false,
+        }
+    }
+}

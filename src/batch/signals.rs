@@ -1,0 +1,70 @@
+//! Signals that ask a long render to keep what it has and stop.
+
+use std::io;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+/// The signals that stop a render that can be continued, and their names. `SIGUSR1` is what Slurm's
+/// `--signal` is mostly set to, to warn of the end of the time.
+#[cfg(unix)]
+const SIGNALS: [(i32, &str); 3] = [
+    (signal_hook::consts::SIGTERM, "SIGTERM"),
+    (signal_hook::consts::SIGUSR1, "SIGUSR1"),
+    (signal_hook::consts::SIGINT, "SIGINT"),
+];
+
+/// The number of the last such signal; 0 before the first.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Signals(Arc<AtomicUsize>);
+
+impl Signals {
+    /// Notes signals from now on, instead of being ended by them.
+    #[cfg(unix)]
+    pub(super) fn noted() -> io::Result<Self> {
+        let noted = Self::default();
+        for (signal, _) in SIGNALS {
+            let cell = Arc::clone(&noted.0);
+            signal_hook::flag::register_usize(signal, cell, signal as usize)?;
+        }
+        Ok(noted)
+    }
+
+    /// Signals are not noted on systems without them.
+    #[cfg(not(unix))]
+    pub(super) fn noted() -> io::Result<Self> {
+        Ok(Self::default())
+    }
+
+    /// Whether one has arrived.
+    pub(super) fn arrived(&self) -> bool {
+        self.0.load(Ordering::Relaxed) != 0
+    }
+
+    /// The last one that has arrived.
+    pub(super) fn last(&self) -> Option<Signal> {
+        let number = self.0.load(Ordering::Relaxed);
+        (number != 0).then_some(Signal(number as u8))
+    }
+}
+
+/// A signal.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Signal(u8);
+
+impl Signal {
+    /// Whether it came from the keyboard.
+    pub fn is_interrupt(self) -> bool {
+        self.name() == "SIGINT"
+    }
+
+    /// Its name, such as `SIGTERM`.
+    pub fn name(self) -> &'static str {
+        #[cfg(unix)]
+        for (number, name) in SIGNALS {
+            if number == i32::from(self.0) {
+                return name;
+            }
+        }
+        "a signal"
+    }
+}

@@ -1,0 +1,54 @@
+//! The arguments of `merge`.
+
+use std::path::PathBuf;
+
+use clap::Args;
+
+use super::shared::{format_names, output, output_help};
+use crate::batch::{Merge, MergePurpose};
+use crate::image_file::ImageFormat;
+
+pub(super) const EXAMPLES: &str = "\
+Examples:
+  halflight render scene.ray -o scene.png --shard 0/2     on one machine
+  halflight render scene.ray -o scene.png --shard 1/2     on another
+  halflight merge scene.*.part -o scene.png               the same bytes as from one
+  halflight merge --missing scene.*.part                  the shards to run again: 3,7-9
+
+Exit code 3 means that the parts make no picture: some are missing, damaged, incomplete or of \
+another picture. With --missing, the exit code is 0 whether or not some are.";
+
+#[derive(Args, Debug)]
+pub(super) struct MergeArguments {
+    /// Part files, in any order
+    #[arg(required = true, value_name = "PART")]
+    parts: Vec<PathBuf>,
+    #[arg(short, long, value_name = "FILE", help = output_help(), required_unless_present = "missing")]
+    output: Option<PathBuf>,
+    /// Picture format, regardless of the file's extension [default for -o -: bmp]
+    #[arg(long, value_name = "FORMAT", value_parser = format_names(), requires = "output")]
+    format: Option<ImageFormat>,
+    /// Print the indices of the shards that are not complete, as an array job takes them, instead of
+    /// merging
+    #[arg(long, conflicts_with = "output")]
+    missing: bool,
+    /// Write to standard output even if it is a terminal
+    #[arg(long, requires = "output")]
+    force: bool,
+}
+
+impl MergeArguments {
+    pub(super) fn into_merge(self) -> Result<Merge, String> {
+        let purpose = match self.output {
+            None => MergePurpose::Missing,
+            Some(path) => {
+                let (output, format) = output(path, self.format, self.force)?;
+                MergePurpose::Write(output, format)
+            }
+        };
+        Ok(Merge {
+            parts: self.parts,
+            purpose,
+        })
+    }
+}

@@ -1,0 +1,336 @@
+//! The picture that parts make together.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::fs::File;
+use std::io::{self, BufReader, Seek};
+use std::path::{Path, PathBuf};
+
+use super::header::{Difference, Header};
+use super::record::{Damage, Record};
+use super::shard::{Shard, deal};
+use super::writer::blocks;
+use crate::render::{Assembly, Block, Frame, Frames, Refusal, Settings};
+
+/// The size of the buffer that parts are read through, in bytes.
+const CHUNK: usize = 1 << 20;
+
+/// A picture put together of parts.
+#[derive(Debug)]
+pub struct Merged {
+    /// The picture.
+    pub frame: Frame,
+    /// Its scene and settings.
+    pub header: Header,
+}
+
+/// Why parts make no picture.
+#[derive(Debug, thiserror::Error)]
+pub enum Unmerged {
+    /// A part cannot be read.
+    #[error("{path}: {source}", path = path.display())]
+    Io {
+        /// The part.
+        path: PathBuf,
+        /// The error of the file system.
+        source: io::Error,
+    },
+    /// A file is no part, or its header is damaged.
+    #[error("{path}: is no part file, or its beginning is damaged", path = path.display())]
+    NoPart {
+        /// The file.
+        path: PathBuf,
+    },
+    /// A part is not as it was written.
+    #[error("{path}: is damaged from byte {offset} on; continue it with --resume", path = path.display())]
+    Damaged {
+        /// The part.
+        path: PathBuf,
+        /// Where its first damaged record begins.
+        offset: u64,
+    },
+    /// A part ends within a record.
+    #[error("{path}: ends early, after byte {offset}; continue it with --resume", path = path.display())]
+    Short {
+        /// The part.
+        path: PathBuf,
+        /// Where its last record begins.
+        offset: u64,
+    },
+    /// Two parts belong to different pictures.
+    #[error(
+        "{path} and {first} belong to different pictures: {} {} and {}",
+        difference.what, difference.ours, difference.theirs,
+        path = path.display(), first = first.display()
+    )]
+    Mismatch {
+        /// The part.
+        path: PathBuf,
+        /// The first part.
+        first: PathBuf,
+        /// What differs.
+        difference: Difference,
+    },
+    /// Two parts are of one shard.
+    #[error("{path} and {first} are both shard {shard}", path = path.display(), first = first.display())]
+    Twice {
+        /// The part.
+        path: PathBuf,
+        /// The other part.
+        first: PathBuf,
+        /// Their shard.
+        shard: Shard,
+    },
+    /// Blocks of the picture are not traced to the end.
+    #[error(
+        "incomplete: {blocks} of {all} blocks are missing, of the shards {shards} of {count}; to \
+         trace them, run these again with --resume", shards = ranges(shards)
+    )]
+    Holes {
+        /// How many blocks are missing.
+        blocks: u32,
+        /// How many there are.
+        all: u32,
+        /// The shards that they belong to, in ascending order.
+        shards: Vec<u32>,
+        /// How many shards there are.
+        count: u32,
+    },
+    /// The picture does not fit into memory.
+    #[error(transparent)]
+    Refused(#[from] Refusal),
+}
+
+/// Puts parts together, one after the other, in the memory of one picture. Its last frame has what
+/// `frames` says.
+pub fn merge(parts: &[PathBuf], frames: Frames) -> Result<Merged, Unmerged> {
+    let mut picture: Option<(Assembly, Survey)> = None;
+    for path in parts {
+        let (mut reader, header) = Reader::open(path)?;
+        let (assembly, survey) = match &mut picture {
+            Some(picture) => picture,
+            None => picture.insert((
+                Assembly::new(header.settings, frames)?,
+                Survey::new(header.clone()),
+            )),
+        };
+        survey.add(path, &header)?;
+        while let Some(record) = reader.next()? {
+            survey.note(header.shard.index, &record);
+            if let Record::Block(block) = record {
+                assembly.place(&block);
+            }
+        }
+    }
+    let Some((assembly, survey)) = picture else {
+        let source = io::Error::other("no parts");
+        return Err(Unmerged::Io {
+            path: PathBuf::new(),
+            source,
+        });
+    };
+    survey.holes()?;
+    let spp = survey.goal();
+    let mut header = survey.header;
+    header.settings = Settings {
+        spp,
+        ..header.settings
+    };
+    let frame = assembly.finish(spp);
+    Ok(Merged { frame, header })
+}
+
+/// The shards that lack blocks, given all parts there are, as ranges such as `3,7-9`; and what is
+/// wrong with parts that are damaged, whose shards count as lacking.
+pub fn missing(parts: &[PathBuf]) -> Result<(Vec<u32>, Vec<Unmerged>), Unmerged> {
+    let mut survey: Option<Survey> = None;
+    let mut damaged = Vec::new();
+    for path in parts {
+        let (mut reader, header) = match Reader::open(path) {
+            Err(no_part @ Unmerged::NoPart { .. }) => {
+                damaged.push(no_part);
+                continue;
+            }
+            opened => opened?,
+        };
+        let survey = survey.get_or_insert_with(|| Survey::new(header.clone()));
+        survey.add(path, &header)?;
+        loop {
+            match reader.next() {
+                Ok(Some(record)) => survey.note(header.shard.index, &record),
+                Ok(None) => break,
+                Err(error @ Unmerged::Io { .. }) => return Err(error),
+                Err(damage) => {
+                    survey.damaged.insert(header.shard.index);
+                    damaged.push(damage);
+                    break;
+                }
+            }
+        }
+    }
+    match survey {
+        Some(survey) => Ok((survey.lacking(), damaged)),
+        // How many shards there are is not known.
+        None => Err(damaged.pop().unwrap_or_else(|| Unmerged::Io {
+            path: PathBuf::new(),
+            source: io::Error::other("no parts"),
+        })),
+    }
+}
+
+/// Formats ascending numbers as ranges: `3,7-9`.
+pub fn ranges(numbers: &[u32]) -> String {
+    let chunks = numbers.chunk_by(|before, after| before + 1 == *after);
+    let ranges = chunks.map(|chunk| match chunk {
+        [one] => one.to_string(),
+        [first, .., last] => format!("{first}-{last}"),
+        [] => String::new(),
+    });
+    ranges.collect::<Vec<_>>().join(",")
+}
+
+/// A part that is read.
+struct Reader<'p> {
+    path: &'p Path,
+    from: BufReader<File>,
+    header: Header,
+    crc: u32,
+}
+
+impl<'p> Reader<'p> {
+    fn open(path: &'p Path) -> Result<(Self, Header), Unmerged> {
+        let io = |source| Unmerged::Io {
+            path: path.to_owned(),
+            source,
+        };
+        let file = File::open(path).map_err(io)?;
+        let mut from = BufReader::with_capacity(CHUNK, file);
+        let header = Header::read(&mut from).map_err(io)?;
+        let (header, crc) = header.ok_or_else(|| Unmerged::NoPart {
+            path: path.to_owned(),
+        })?;
+        let reader = Self {
+            path,
+            from,
+            header: header.clone(),
+            crc,
+        };
+        Ok((reader, header))
+    }
+
+    fn next(&mut self) -> Result<Option<Record>, Unmerged> {
+        let path = || self.path.to_owned();
+        let io = |source| Unmerged::Io {
+            path: path(),
+            source,
+        };
+        let offset = self.from.stream_position().map_err(io)?;
+        let record = Record::read(&mut self.from, blocks(&self.header), self.crc);
+        record.map_err(|damage| match damage {
+            Damage::Io(source) => io(source),
+            Damage::Short => Unmerged::Short {
+                path: path(),
+                offset,
+            },
+            Damage::Corrupt => Unmerged::Damaged {
+                path: path(),
+                offset,
+            },
+        })
+    }
+}
+
+/// What the parts hold.
+struct Survey {
+    header: Header,
+    /// The file of each shard.
+    paths: BTreeMap<u32, PathBuf>,
+    /// The samples that each shard is traced to.
+    goals: BTreeMap<u32, u32>,
+    /// The samples of each block.
+    samples: Vec<u32>,
+    damaged: BTreeSet<u32>,
+}
+
+impl Survey {
+    /// Begins with the header of the first part.
+    fn new(header: Header) -> Self {
+        let count = blocks(&header).count() as usize;
+        Self {
+            header,
+            paths: BTreeMap::new(),
+            goals: BTreeMap::new(),
+            samples: vec![0; count],
+            damaged: BTreeSet::new(),
+        }
+    }
+
+    /// Adds a part, if it belongs to the others.
+    fn add(&mut self, path: &Path, header: &Header) -> Result<(), Unmerged> {
+        let first = || self.paths.values().next().cloned().unwrap_or_default();
+        if let Some(difference) = header.difference(&self.header) {
+            return Err(Unmerged::Mismatch {
+                path: path.to_owned(),
+                first: first(),
+                difference,
+            });
+        }
+        let shard = header.shard;
+        match self.paths.insert(shard.index, path.to_owned()) {
+            Some(first) => Err(Unmerged::Twice {
+                path: path.to_owned(),
+                first,
+                shard,
+            }),
+            None => Ok(()),
+        }
+    }
+
+    fn note(&mut self, shard: u32, record: &Record) {
+        match record {
+            Record::Goal(spp) => {
+                self.goals.insert(shard, *spp);
+            }
+            Record::Block(Block {
+                number, samples, ..
+            }) => self.samples[*number as usize] = *samples,
+        }
+    }
+
+    /// The samples that the picture is traced to.
+    fn goal(&self) -> u32 {
+        self.goals.values().copied().max().unwrap_or(0)
+    }
+
+    /// The shard of each block that is not traced to the end.
+    fn unfinished(&self) -> impl Iterator<Item = u32> {
+        let goal = self.goal();
+        let owners = deal(blocks(&self.header), self.header.shard.count);
+        let samples = self.samples.iter().zip(owners);
+        samples
+            .filter(move |&(&samples, owner)| {
+                samples < goal || goal == 0 || self.damaged.contains(&owner)
+            })
+            .map(|(_, owner)| owner)
+    }
+
+    /// The shards that have to be traced on, in ascending order.
+    fn lacking(&self) -> Vec<u32> {
+        self.unfinished()
+            .collect::<BTreeSet<_>>()
+            .into_iter()
+            .collect()
+    }
+
+    fn holes(&self) -> Result<(), Unmerged> {
+        let shards = self.lacking();
+        if shards.is_empty() {
+            return Ok(());
+        }
+        Err(Unmerged::Holes {
+            blocks: self.unfinished().count() as u32,
+            all: self.samples.len() as u32,
+            shards,
+            count: self.header.shard.count,
+        })
+    }
+}

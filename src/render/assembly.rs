@@ -1,0 +1,123 @@
+//! A picture put together of blocks.
+
+use std::collections::TryReserveError;
+
+use rayon::prelude::*;
+
+use super::block::{Block, Blocks};
+use super::frame::{Frame, Frames, Progress, Settings};
+use super::probe::Counts;
+use super::refusal::Refusal;
+use super::tone::{self, Light, Tone};
+use crate::scene::Rgb;
+
+/// A picture whose blocks arrive in any order; a later one replaces an earlier one of its number.
+///
+/// It needs the memory of one picture, and gives the same frame as a renderer that traces all of it.
+#[derive(Debug)]
+pub struct Assembly {
+    settings: Settings,
+    frames: Frames,
+    /// The values of all pixels, in rows.
+    values: Vec<Rgb>,
+    /// What is known of each block.
+    placed: Vec<Placed>,
+}
+
+/// A block whose pixels are placed.
+#[derive(Clone, Copy, Debug, Default)]
+struct Placed {
+    counts: Counts,
+    squared_errors: f64,
+}
+
+impl Assembly {
+    /// Begins a picture with these settings, whose number of samples does not matter; its frame has
+    /// what `frames` says of the last frame.
+    pub fn new(settings: Settings, frames: Frames) -> Result<Self, Refusal> {
+        let size = settings.traced().size();
+        let blocks = Blocks::of(size);
+        let room = || -> Result<_, TryReserveError> {
+            let (mut values, mut placed) = (Vec::new(), Vec::new());
+            values.try_reserve_exact(size.pixels())?;
+            placed.try_reserve_exact(blocks.count() as usize)?;
+            Ok((values, placed))
+        };
+        let bytes = (size.pixels() * size_of::<Rgb>()) as u64;
+        let (mut values, mut placed) = room().map_err(|_| Refusal::Memory { size, bytes })?;
+        values.resize(size.pixels(), Rgb::ZERO);
+        placed.resize(blocks.count() as usize, Placed::default());
+        Ok(Self {
+            settings,
+            frames,
+            values,
+            placed,
+        })
+    }
+
+    /// Places the pixels of a block, which must be one of this picture.
+    pub fn place(&mut self, block: &Block) {
+        let size = self.settings.traced().size();
+        let region = Blocks::of(size).region(block.number);
+        for (row, y) in (region.y..region.y + region.height).enumerate() {
+            let from = y as usize * size.width as usize + region.x as usize;
+            let pixels = self.values[from..][..region.width as usize].iter_mut();
+            for (at, value) in (row * region.width as usize..).zip(pixels) {
+                *value = block.value(at, self.settings.aov);
+            }
+        }
+        let squared_errors = block.squared_errors.iter().copied().map(f64::from);
+        self.placed[block.number as usize] = Placed {
+            counts: block.counts,
+            squared_errors: squared_errors.sum(),
+        };
+    }
+
+    /// The complete frame, with `spp` samples of each pixel.
+    pub fn finish(self, spp: u32) -> Frame {
+        let Self {
+            mut settings,
+            frames,
+            values,
+            placed,
+        } = self;
+        settings.spp = spp;
+        let range = tone::scale(settings.aov, values.par_iter().copied());
+        let tone = Tone::of(settings.aov, Light::of(&settings), range);
+        let pixels = values.par_iter().map(|&value| tone.bytes(value)).collect();
+        let values = match frames {
+            Frames::Last => Vec::new(),
+            Frames::Live | Frames::LastWithValues => {
+                let linear = |&value| tone.linear(value).as_vec3().to_array();
+                values.par_iter().map(linear).collect()
+            }
+        };
+        let traced = settings.traced();
+        let counts = placed.iter().map(|block| block.counts);
+        let Counts {
+            rays,
+            shadow_rays,
+            over_budget,
+        } = counts.fold(Counts::default(), Counts::and);
+        let squared_errors: f64 = placed.iter().map(|block| block.squared_errors).sum();
+        let noise = (squared_errors / traced.size().pixels() as f64).sqrt();
+        let is_estimated = 1 < settings.spp && settings.surface().is_none();
+        let drawn = Frame::drawn(traced.size(), pixels);
+        Frame {
+            corner: traced.corner(),
+            values,
+            range,
+            progress: Progress {
+                pass: settings.passes(),
+                passes: settings.passes(),
+                spp: settings.spp,
+                rays,
+                shadow_rays,
+                over_budget,
+                noise: is_estimated.then_some(noise),
+                ..drawn.progress
+            },
+            ..drawn
+        }
+    }
+}

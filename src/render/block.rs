@@ -1,0 +1,187 @@
+//! Square parts of a picture that are traced apart from each other, stored and put together again.
+
+use std::time::{Duration, Instant};
+
+use super::frame::{Aov, Settings};
+use super::noise::Doubling;
+use super::probe::Counts;
+use super::region::Region;
+use super::shot::Shot;
+use super::steps::Step;
+use super::tile::Work;
+use crate::scene::{Rgb, Size};
+
+/// Edge length of blocks in pixels; blocks at the right and lower edges of a picture are cut.
+pub const BLOCK: u32 = 32;
+
+/// Pixels traced together: most of a block's share of the cache.
+const TOGETHER: usize = 256;
+
+/// The division of a picture into blocks, numbered in rows from the top left.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Blocks {
+    size: Size,
+}
+
+impl Blocks {
+    /// Divides a picture of this size.
+    pub fn of(size: Size) -> Self {
+        Self { size }
+    }
+
+    /// The number of blocks in each row.
+    pub fn across(self) -> u32 {
+        self.size.width.div_ceil(BLOCK)
+    }
+
+    /// The number of blocks.
+    pub fn count(self) -> u32 {
+        self.across() * self.size.height.div_ceil(BLOCK)
+    }
+
+    /// The pixels of a block.
+    pub fn region(self, number: u32) -> Region {
+        let (x, y) = (
+            number % self.across() * BLOCK,
+            number / self.across() * BLOCK,
+        );
+        Region {
+            x,
+            y,
+            width: BLOCK.min(self.size.width - x),
+            height: BLOCK.min(self.size.height - y),
+        }
+    }
+
+    /// The number of pixels of a block.
+    pub fn area(self, number: u32) -> usize {
+        self.region(number).size().pixels()
+    }
+}
+
+/// The pixels of a block as far as they are traced. Its samples are those of the whole picture, and
+/// sums are added in the order of the samples, so that it may be continued anywhere at any time.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Block {
+    /// Its number in the picture.
+    pub number: u32,
+    /// Samples of each pixel.
+    pub samples: u32,
+    /// The sums of each pixel's radiance or AOV, in rows.
+    pub sums: Vec<Rgb>,
+    /// The sums after the last power of two of samples, which the next doubling is compared with;
+    /// empty if that is now, and before the first sample.
+    pub half: Vec<Rgb>,
+    /// The square of each pixel's estimated error, see [`Progress::noise`](super::Progress::noise);
+    /// 0 before samples were first doubled, and for AOVs of surfaces.
+    pub squared_errors: Vec<f32>,
+    /// The rays traced for it.
+    pub counts: Counts,
+}
+
+impl Block {
+    /// A block of which nothing is traced.
+    pub fn new(number: u32, blocks: Blocks) -> Self {
+        let area = blocks.area(number);
+        Self {
+            number,
+            samples: 0,
+            sums: vec![Rgb::ZERO; area],
+            half: Vec::new(),
+            squared_errors: vec![0.0; area],
+            counts: Counts::default(),
+        }
+    }
+
+    /// Continues to `spp` samples of each pixel. Once the tracer is cancelled, ends after the last
+    /// sample that all pixels have. Calls `keep` whenever this much time has passed since its last
+    /// call.
+    pub(super) fn trace<C: Fn() -> bool>(
+        &mut self,
+        spp: u32,
+        shot: &Shot<'_>,
+        work: &mut Work<'_, C>,
+        (interval, keep): (Duration, impl Fn(&Self)),
+    ) {
+        let region = Blocks::of(shot.settings.traced().size()).region(self.number);
+        let pixels = in_squares(region);
+        let mut seen = Vec::with_capacity(pixels.len());
+        let mut kept = Instant::now();
+        for index in self.samples..spp {
+            let before = work.tracer.counts();
+            seen.clear();
+            for together in pixels.chunks(TOGETHER) {
+                work.pixels.clear();
+                work.pixels.extend_from_slice(together);
+                work.sample(index, shot);
+                seen.extend_from_slice(&work.seen);
+            }
+            if work.tracer.is_cancelled() {
+                return;
+            }
+            if index.is_power_of_two() && self.half.is_empty() {
+                self.half.clone_from(&self.sums);
+            }
+            for (pixel, seen) in pixels.iter().zip(&seen) {
+                let at = (pixel[1] - region.y) * region.width + (pixel[0] - region.x);
+                self.sums[at as usize] += match shot.settings.aov {
+                    Some(Aov::Cost) => Rgb::splat(seen.rays.into()),
+                    _ => seen.radiance,
+                };
+            }
+            self.samples = index + 1;
+            let rays = work.tracer.counts().since(before);
+            self.counts = self.counts.and(rays);
+            if self.samples.is_power_of_two() {
+                self.estimate(&shot.settings);
+            }
+            if interval <= kept.elapsed() && self.samples < spp {
+                keep(self);
+                kept = Instant::now();
+            }
+        }
+    }
+
+    /// Estimates the errors after the samples were doubled.
+    fn estimate(&mut self, settings: &Settings) {
+        let step = Step::Samples(self.samples / 2..self.samples);
+        if let Some(doubling) = Doubling::of(&step, settings).filter(|_| !self.half.is_empty()) {
+            let sums = self.half.iter().zip(&self.sums);
+            for (error, (&half, &sum)) in self.squared_errors.iter_mut().zip(sums) {
+                *error = doubling.squared_error(half, sum) as f32;
+            }
+        }
+        self.half.clear();
+    }
+
+    /// The mean of a pixel's samples, or what an AOV of light shows of them.
+    pub(super) fn value(&self, at: usize, aov: Option<Aov>) -> Rgb {
+        let samples = f64::from(self.samples);
+        match aov {
+            Some(Aov::Samples) => Rgb::splat(samples),
+            Some(Aov::Noise) => Rgb::splat(self.squared_errors[at].sqrt().into()),
+            _ => self.sums[at] / samples.max(1.0),
+        }
+    }
+}
+
+/// The pixels of a region square by square, in pieces of 4×2, so that adjacent ones are traced
+/// together.
+fn in_squares(region: Region) -> Vec<[u32; 2]> {
+    let steps = |from: u32, to: u32, step: usize| (from..to).step_by(step);
+    let (right, bottom) = (region.x + region.width, region.y + region.height);
+    let mut pixels = Vec::with_capacity(region.size().pixels());
+    for top in steps(region.y, bottom, 16) {
+        for left in steps(region.x, right, 16) {
+            let (end, below) = (right.min(left + 16), bottom.min(top + 16));
+            for y0 in steps(top, below, 2) {
+                for x0 in steps(left, end, 4) {
+                    for y in y0..below.min(y0 + 2) {
+                        pixels.extend((x0..end.min(x0 + 4)).map(|x| [x, y]));
+                    }
+                }
+            }
+        }
+    }
+    pixels
+}

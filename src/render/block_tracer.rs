@@ -1,0 +1,86 @@
+//! Traces blocks of a picture, without a worker.
+
+use std::sync::Arc;
+use std::time::Duration;
+
+use rayon::ThreadPool;
+use rayon::prelude::*;
+
+use super::block::{Block, Blocks};
+use super::camera::Projection;
+use super::filter::Spread;
+use super::frame::Job;
+use super::gather::Gather;
+use super::refusal::{self, Refusal};
+use super::renderer::{Threads, pool};
+use super::shot::Shot;
+use super::tile::Work;
+use super::tracer::Tracer;
+use super::world::World;
+
+/// A scene prepared to be traced block by block on threads of its own.
+#[derive(Debug)]
+pub struct BlockTracer {
+    world: World,
+    job: Job,
+    pool: ThreadPool,
+}
+
+impl BlockTracer {
+    /// Prepares to trace a job, whose limit and frames do not matter. `None` once `stopped` returns
+    /// true.
+    pub fn new(
+        job: Job,
+        threads: usize,
+        stopped: impl Fn() -> bool + Sync,
+    ) -> Result<Option<Self>, Refusal> {
+        let pool = pool(Threads::Exactly(threads)).map_err(|error| Refusal::Threads {
+            count: threads,
+            reason: error.to_string(),
+        })?;
+        job.settings.traced().within(job.settings.size)?;
+        refusal::fits(&job, None)?;
+        let build = || World::build(Arc::clone(&job.scene), &job.images, None, &stopped);
+        let world = pool.install(build);
+        Ok(world.map(|world| Self { world, job, pool }))
+    }
+
+    /// The blocks of the traced region.
+    pub fn blocks(&self) -> Blocks {
+        Blocks::of(self.job.settings.traced().size())
+    }
+
+    /// Continues blocks to `spp` samples of each pixel, and returns once all are handed over: each
+    /// when it is done, and whenever it took another `interval`. Once `stopped` returns true, those
+    /// begun are handed over soon, as they are.
+    pub fn trace(
+        &self,
+        blocks: impl Iterator<Item = Block> + Send,
+        spp: u32,
+        interval: Duration,
+        stopped: impl Fn() -> bool + Sync,
+        hand_over: impl Fn(Block) + Sync,
+    ) {
+        let settings = self.job.settings;
+        let shot = Shot {
+            world: &self.world,
+            projection: Projection::new(&self.job.camera, settings.size),
+            eye: self.job.camera.eye,
+            settings,
+            spread: Spread::of(settings.filter),
+        };
+        let work = || {
+            let tracer = Tracer::new(&self.world, settings.integrator, settings.depth, &stopped);
+            Work::new(tracer.gathering(Gather::of(settings.aov)))
+        };
+        let trace = |work: &mut Work<'_, _>, mut block: Block| {
+            if !stopped() {
+                let keep = |block: &Block| hand_over(block.clone());
+                block.trace(spp, &shot, work, (interval, keep));
+                hand_over(block);
+            }
+        };
+        self.pool
+            .install(|| blocks.par_bridge().for_each_init(work, trace));
+    }
+}

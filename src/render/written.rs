@@ -1,0 +1,189 @@
+//! Render settings as text, with the names and values of the command line's options.
+
+use super::filter::Filter;
+use super::frame::{Aov, Settings};
+use super::region::Region;
+use crate::scene::{Integrator, Size, Transfer};
+
+impl Settings {
+    /// The name and value of each setting but the number of samples, in a fixed order. Numbers are
+    /// the shortest that read back as the same bits.
+    pub fn written(&self) -> [(&'static str, String); 9] {
+        let Self {
+            size: Size { width, height },
+            region,
+            spp: _,
+            depth,
+            seed,
+            aov,
+            integrator,
+            filter,
+            transfer,
+            exposure,
+        } = *self;
+        let none = || "none".to_owned();
+        [
+            ("size", format!("{width}x{height}")),
+            (
+                "region",
+                region.map_or_else(none, |region| region.to_string()),
+            ),
+            ("depth", depth.to_string()),
+            ("seed", seed.to_string()),
+            ("aov", aov.map_or_else(none, aov_name)),
+            ("integrator", integrator_name(integrator).to_owned()),
+            ("filter", filter_name(filter).to_owned()),
+            ("transfer", transfer_name(transfer).to_owned()),
+            ("exposure", exposure.to_string()),
+        ]
+    }
+
+    /// Reads settings as [`Settings::written`], in this order, for `spp` samples. `None` if they are
+    /// no such settings.
+    pub fn read<'t>(pairs: impl IntoIterator<Item = (&'t str, &'t str)>, spp: u32) -> Option<Self> {
+        let mut pairs = pairs.into_iter();
+        let mut next = |name: &str| {
+            let (written, value) = pairs.next()?;
+            (written == name).then_some(value)
+        };
+        let size = Size::parse(next("size")?)?;
+        let region = match next("region")? {
+            "none" => None,
+            region => Some(Region::parse(region)?.within(size).ok()?),
+        };
+        let settings = Self {
+            size,
+            region,
+            spp,
+            depth: next("depth")?.parse().ok()?,
+            seed: next("seed")?.parse().ok()?,
+            aov: match next("aov")? {
+                "none" => None,
+                aov => Some(aov_of(aov)?),
+            },
+            integrator: one_of(INTEGRATORS, integrator_name, next("integrator")?)?,
+            filter: one_of(FILTERS, filter_name, next("filter")?)?,
+            transfer: one_of(TRANSFERS, transfer_name, next("transfer")?)?,
+            exposure: next("exposure")?.parse().ok()?,
+        };
+        settings.exposure.is_finite().then_some(settings)
+    }
+}
+
+const INTEGRATORS: &[Integrator] = &[Integrator::Whitted, Integrator::Path];
+const FILTERS: &[Filter] = &[Filter::Box, Filter::Gaussian, Filter::BlackmanHarris];
+const TRANSFERS: &[Transfer] = &[Transfer::Linear, Transfer::Srgb];
+
+/// The AOVs that are named without a number.
+const AOVS: &[Aov] = &[
+    Aov::Depth,
+    Aov::Normal,
+    Aov::Object,
+    Aov::Albedo,
+    Aov::Uv,
+    Aov::Side,
+    Aov::Cost,
+    Aov::Samples,
+    Aov::Noise,
+    Aov::Emission,
+    Aov::Indirect,
+];
+
+fn one_of<T: Copy>(all: &[T], name: impl Fn(T) -> &'static str, written: &str) -> Option<T> {
+    all.iter().copied().find(|&one| name(one) == written)
+}
+
+fn aov_name(aov: Aov) -> String {
+    match aov {
+        Aov::Direct(light) => format!("direct {light}"),
+        _ => aov.name().to_owned(),
+    }
+}
+
+fn aov_of(written: &str) -> Option<Aov> {
+    match written.strip_prefix("direct ") {
+        Some(light) => light.parse().ok().map(Aov::Direct),
+        None => one_of(AOVS, Aov::name, written),
+    }
+}
+
+fn integrator_name(integrator: Integrator) -> &'static str {
+    match integrator {
+        Integrator::Whitted => "whitted",
+        Integrator::Path => "path",
+    }
+}
+
+fn filter_name(filter: Filter) -> &'static str {
+    match filter {
+        Filter::Box => "box",
+        Filter::Gaussian => "gaussian",
+        Filter::BlackmanHarris => "blackman-harris",
+    }
+}
+
+fn transfer_name(transfer: Transfer) -> &'static str {
+    match transfer {
+        Transfer::Linear => "linear",
+        Transfer::Srgb => "srgb",
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const SIZE: Size = Size {
+        width: 64,
+        height: 48,
+    };
+
+    #[test]
+    fn settings_read_back_as_they_were() {
+        let plain = Settings {
+            size: SIZE,
+            region: None,
+            spp: 4,
+            depth: 8,
+            seed: 0,
+            aov: None,
+            integrator: Integrator::Whitted,
+            filter: Filter::Box,
+            transfer: Transfer::Linear,
+            exposure: 0.0,
+        };
+        let region = Region {
+            x: 1,
+            y: 2,
+            width: 3,
+            height: 4,
+        };
+        let other = Settings {
+            region: Some(region),
+            depth: 4096,
+            seed: u32::MAX,
+            integrator: Integrator::Path,
+            filter: Filter::BlackmanHarris,
+            transfer: Transfer::Srgb,
+            exposure: -0.1,
+            ..plain
+        };
+        let with = |&aov: &Aov| Settings {
+            aov: Some(aov),
+            ..other
+        };
+        let aovs = AOVS.iter().chain(&[Aov::Direct(3)]).map(with);
+        for settings in [plain, other].into_iter().chain(aovs) {
+            let written = settings.written();
+            let pairs = written.iter().map(|(name, value)| (*name, value.as_str()));
+            assert_eq!(Settings::read(pairs, 4), Some(settings));
+            // Each name and value is needed.
+            for wrong in 0..written.len() {
+                let pairs = written.iter().enumerate().map(|(at, (name, value))| {
+                    (*name, if at == wrong { "?" } else { value.as_str() })
+                });
+                assert_eq!(Settings::read(pairs, 4), None);
+            }
+        }
+    }
+}
