@@ -1,7 +1,7 @@
 //! Traces pictures into part files, which can be continued and merged.
 
 use std::collections::BTreeMap;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{self, Receiver};
 use std::thread;
@@ -9,7 +9,8 @@ use std::time::{Duration, Instant};
 
 use super::progress::ProgressLine;
 use super::signals::Signals;
-use super::{Error, Output, Render, print_message};
+use super::tracing::Tracing;
+use super::{Error, print_message};
 use crate::part::{self, Header, Part, Shard};
 use crate::render::{Block, BlockTracer, Blocks, Frame, Job, Progress, Settings};
 use crate::text::counted;
@@ -42,8 +43,8 @@ const WAITING: usize = 64;
 /// Traces a job, of the scene with this digest, into the part file beside the picture. Returns the
 /// picture if that is all of it.
 pub(super) fn trace(
-    work: &Render,
-    parts: Parts,
+    tracing: &Tracing,
+    (picture, parts): (&Path, Parts),
     job: Job,
     scene: String,
 ) -> Result<Option<Frame>, Error> {
@@ -54,7 +55,7 @@ pub(super) fn trace(
         settings: job.settings,
         shard: parts.shard,
     };
-    let path = file_of(work, parts.shard)?;
+    let path = part::path_beside(picture, parts.shard);
     let refused = |source| Error::Part {
         path: path.clone(),
         source,
@@ -79,10 +80,10 @@ pub(super) fn trace(
         part,
         path,
         signals,
-        limit: work.tracing.time,
+        limit: tracing.time,
         begun: Instant::now(),
     };
-    let spp = continued.run(job, work.tracing.threads)?;
+    let spp = continued.run(job, tracing.threads)?;
     let Continued { path, numbers, .. } = &continued;
     if parts.shard != Shard::WHOLE {
         let blocks = counted(numbers.len(), "block");
@@ -96,16 +97,6 @@ pub(super) fn trace(
     }
     let merged = part::merge(std::slice::from_ref(path), frames)?;
     Ok(Some(merged.frame))
-}
-
-/// The part file beside the picture.
-fn file_of(work: &Render, shard: Shard) -> Result<PathBuf, Error> {
-    match &work.output {
-        Output::File(picture) => Ok(part::path_beside(picture, shard)),
-        Output::Stdout | Output::StdoutTerminal => Err(Error::Refused(
-            "--shard and --resume keep a file beside the picture: use -o FILE".to_owned(),
-        )),
-    }
 }
 
 /// A part that is traced.

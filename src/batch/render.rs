@@ -75,10 +75,15 @@ fn try_render(work: &Render) -> Result<(), Error> {
     }
     let frames = work.format.frames();
     if let Some(parts) = work.parts {
+        let Output::File(picture) = &work.output else {
+            return Err(Error::Refused(
+                "--shard and --resume keep a file beside the picture: use -o FILE".to_owned(),
+            ));
+        };
         let digest = fingerprint(loaded.source.text(), &loaded.files)?;
         let job = work.tracing.job(scene, loaded.images, frames);
         drop(loaded.source);
-        let frame = parts::trace(work, parts, job, digest)?;
+        let frame = parts::trace(&work.tracing, (picture, parts), job, digest)?;
         return frame.map_or(Ok(()), |frame| finish(work, &frame));
     }
     // Freeing a text of 85 MB takes 10 ms, its tree nearly as long: the worker is already running.

@@ -150,7 +150,7 @@ fn failure_code(error: &batch::Error) -> u8 {
     use batch::Error;
     match error {
         Error::Read(error) => read_code(error),
-        Error::Assets(_) | Error::Asset { .. } => NO_INPUT,
+        Error::Assets(_) | Error::Asset { .. } | Error::Unmerged(Unmerged::Io { .. }) => NO_INPUT,
         Error::UnknownLanguage(_) | Error::Invalid { .. } | Error::Picture { .. } => INVALID,
         Error::Refused(_) => USAGE,
         Error::Create { .. } => NO_OUTPUT,
@@ -158,12 +158,13 @@ fn failure_code(error: &batch::Error) -> u8 {
             part::Refused::Busy => TRY_AGAIN,
             _ => NO_OUTPUT,
         },
-        Error::Unmerged(Unmerged::Io { .. }) => NO_INPUT,
-        Error::Unmerged(Unmerged::Refused(_)) => FAILED,
-        Error::Unmerged(_) => INCOMPLETE,
         Error::Kept { signal, .. } if signal.is_interrupt() => INTERRUPTED,
         Error::Kept { .. } => TRY_AGAIN,
-        Error::Write { .. } | Error::Untraced(_) | Error::Stopped => FAILED,
+        Error::Write { .. }
+        | Error::Untraced(_)
+        | Error::Stopped
+        | Error::Unmerged(Unmerged::Refused(_)) => FAILED,
+        Error::Unmerged(_) => INCOMPLETE,
     }
 }
 

@@ -1,1 +1,271 @@
+//! Part files: what is written is read, and nothing else is taken for it.
 
+use std::fs;
+use std::path::PathBuf;
+
+use glam::DVec3;
+use tempfile::TempDir;
+
+use super::*;
+use crate::render::{Block, Blocks, Counts, Filter, Frames, Settings};
+use crate::scene::{Integrator, Size, Transfer};
+
+const SIZE: Size = Size {
+    width: 40,
+    height: 6,
+};
+
+fn header(shard: &str) -> Header {
+    Header {
+        version: "1.2.3".to_owned(),
+        scene: "ab12".to_owned(),
+        settings: Settings {
+            size: SIZE,
+            region: None,
+            spp: 1,
+            depth: 8,
+            seed: 0,
+            aov: None,
+            integrator: Integrator::Whitted,
+            filter: Filter::Box,
+            transfer: Transfer::Linear,
+            exposure: 0.0,
+        },
+        shard: Shard::parse(shard).expect("a shard"),
+    }
+}
+
+/// A block whose pixels are told apart by their sums.
+fn block(number: u32, samples: u32) -> Block {
+    let blocks = Blocks::of(SIZE);
+    let area = blocks.area(number);
+    let sum =
+        |at: usize| DVec3::new(number.into(), at as f64 / area as f64, 0.25) * f64::from(samples);
+    let sums: Vec<_> = (0..area).map(sum).collect();
+    Block {
+        samples,
+        half: if samples.is_power_of_two() {
+            Vec::new()
+        } else {
+            sums.clone()
+        },
+        squared_errors: vec![0.5; area],
+        counts: Counts {
+            rays: 10,
+            shadow_rays: 4,
+            over_budget: 1,
+        },
+        sums,
+        number,
+    }
+}
+
+/// Writes a whole part; returns its file.
+fn part(folder: &TempDir, shard: &str, samples: u32) -> PathBuf {
+    let header = header(shard);
+    let path = path_beside(&folder.path().join("out.png"), header.shard);
+    let mut part = Part::create(&path, &header).expect("it is new");
+    part.aim(samples).expect("it is written");
+    for number in header.shard.blocks(Blocks::of(SIZE)) {
+        part.put(block(number, samples)).expect("it is written");
+    }
+    part.sync().expect("it is written");
+    path
+}
+
+fn folder() -> TempDir {
+    tempfile::tempdir().expect("a folder")
+}
+
+fn error(parts: &[PathBuf]) -> String {
+    let merged = merge(parts, Frames::Last);
+    merged.expect_err("they make no picture").to_string()
+}
+
+#[test]
+fn parts_are_named_after_the_picture() {
+    for (shard, name) in [("0/1", "a/out.part"), ("3/8", "a/out.3-8.part")] {
+        let shard = Shard::parse(shard).expect("a shard");
+        assert_eq!(
+            path_beside("a/out.png".as_ref(), shard),
+            PathBuf::from(name)
+        );
+    }
+}
+
+#[test]
+fn parts_make_a_picture_in_any_order() {
+    let folder = folder();
+    let mut parts = [part(&folder, "0/2", 4), part(&folder, "1/2", 4)];
+    for _ in 0..2 {
+        let merged = merge(&parts, Frames::LastWithValues).expect("they are complete");
+        assert_eq!(merged.header.settings.spp, 4);
+        assert_eq!(merged.frame.values[0], [0.0, 0.0, 0.25]);
+        assert_eq!(merged.frame.values[33], [1.0, 1.0 / 48.0, 0.25]);
+        assert_eq!(merged.frame.progress.rays, 20);
+        assert!(missing(&parts).expect("they are parts").0.is_empty());
+        parts.reverse();
+    }
+}
+
+/// What was written can be continued, from its last record on.
+#[test]
+fn a_part_is_continued_where_it_ended() {
+    let folder = folder();
+    let path = part(&folder, "0/1", 3);
+    let complete = fs::read(&path).expect("it is there");
+    let header = header("0/1");
+    for length in (0..=complete.len()).rev().step_by(97) {
+        fs::write(&path, &complete[..length]).expect("it is written");
+        let mut part = match Part::open(&path, &header) {
+            Ok(part) => part,
+            Err(Refused::NoPart) => {
+                assert!(length < header.text().0.len());
+                continue;
+            }
+            Err(error) => panic!("{error}"),
+        };
+        let kept = fs::metadata(&path).expect("it is there").len();
+        assert!(length == 0 || kept + part.cut() == length as u64);
+        part.aim(3).expect("it is written");
+        for number in 0..2 {
+            if part.samples(number) == 0 {
+                part.put(block(number, 3)).expect("it is written");
+            }
+            assert_eq!(part.block(number).expect("it is there"), block(number, 3));
+        }
+        drop(part);
+        assert!(
+            fs::read(&path).expect("it is there") == complete,
+            "{length}"
+        );
+    }
+}
+
+#[test]
+fn later_records_replace_earlier_ones() {
+    let folder = folder();
+    let path = part(&folder, "0/1", 1);
+    let mut part = Part::open(&path, &header("0/1")).expect("it is continued");
+    part.aim(8).expect("it is written");
+    part.put(block(1, 8)).expect("it is written");
+    assert_eq!(
+        error(std::slice::from_ref(&path)),
+        "incomplete: 1 of 2 blocks are missing, of the shards 0 of 1; to trace them, run these \
+         again with --resume"
+    );
+    part.put(block(0, 5)).expect("it is written");
+    assert_eq!(part.block(0).expect("it is there"), block(0, 5));
+    part.put(block(0, 8)).expect("it is written");
+    let merged = merge(&[path], Frames::Last).expect("it is complete");
+    assert_eq!(merged.frame.progress.spp, 8);
+}
+
+/// Every byte is protected: those of the header, of every record, and of every checksum.
+#[test]
+fn a_flipped_byte_is_found_wherever_it_is() {
+    let folder = folder();
+    let paths = [part(&folder, "0/2", 1), part(&folder, "1/2", 3)];
+    for (at, path) in paths.iter().enumerate() {
+        let good = fs::read(path).expect("it is there");
+        for byte in 0..good.len() {
+            let mut bad = good.clone();
+            bad[byte] ^= 1 << (byte % 8);
+            fs::write(path, &bad).expect("it is written");
+            let said = error(&paths[at..=at]);
+            let named = said.starts_with(&format!("{}: is ", path.display()))
+                || said.starts_with(&format!("{}: ends early", path.display()));
+            assert!(named, "byte {byte}: {said}");
+        }
+        fs::write(path, &good).expect("it is written");
+    }
+}
+
+#[test]
+fn what_lacks_is_named() {
+    let folder = folder();
+    let parts: Vec<_> = ["0/3", "1/3"].map(|shard| part(&folder, shard, 2)).into();
+    let (shards, damaged) = missing(&parts[1..]).expect("it is a part");
+    assert_eq!((ranges(&shards), damaged.len()), ("0".to_owned(), 0));
+    // A shard without blocks lacks none, and its part need not be there.
+    assert!(merge(&parts, Frames::Last).is_ok());
+    let good = fs::read(&parts[0]).expect("it is there");
+    for (length, expected) in [
+        (good.len() - 1, "ends early, after byte"),
+        (90, "is no part file"),
+    ] {
+        fs::write(&parts[0], &good[..length]).expect("it is written");
+        assert!(error(&parts).contains(expected), "{}", error(&parts));
+        let (shards, damaged) = missing(&parts).expect("they are parts");
+        assert_eq!((ranges(&shards), damaged.len()), ("0".to_owned(), 1));
+    }
+    for (numbers, said) in [
+        (&[][..], ""),
+        (&[3], "3"),
+        (&[0, 1, 2, 7, 9, 10], "0-2,7,9-10"),
+    ] {
+        assert_eq!(ranges(numbers), said);
+    }
+}
+
+#[test]
+fn parts_of_different_pictures_are_refused() {
+    let folder = folder();
+    let first = part(&folder, "0/2", 1);
+    let other = |header: Header| {
+        let path = folder.path().join("other.part");
+        let _ = fs::remove_file(&path);
+        Part::create(&path, &header).expect("it is new");
+        path
+    };
+    let same = header("1/2");
+    let cases = [
+        (
+            Header {
+                version: "1.2.4".to_owned(),
+                ..same.clone()
+            },
+            "version 1.2.4 and 1.2.3",
+        ),
+        (
+            Header {
+                scene: "ab13".to_owned(),
+                ..same.clone()
+            },
+            "scene ab13 and ab12",
+        ),
+        (header("1/3"), "number of shards 3 and 2"),
+        (
+            Header {
+                settings: Settings {
+                    seed: 1,
+                    ..same.settings
+                },
+                ..same.clone()
+            },
+            "seed 1 and 0",
+        ),
+        (header("0/2"), "are both shard 0/2"),
+    ];
+    for (header, expected) in cases {
+        let path = other(header.clone());
+        let said = error(&[first.clone(), path.clone()]);
+        assert!(said.contains(expected), "{said}");
+        let refused = Part::open(&path, &same).expect_err("it belongs to another");
+        assert!(matches!(refused, Refused::Other(_)), "{refused}");
+    }
+}
+
+#[test]
+fn a_part_has_one_writer_and_is_not_replaced() {
+    let folder = folder();
+    let path = part(&folder, "0/1", 1);
+    let header = header("0/1");
+    assert!(matches!(Part::create(&path, &header), Err(Refused::Exists)));
+    let writer = Part::open(&path, &header).expect("it is continued");
+    assert!(matches!(Part::open(&path, &header), Err(Refused::Busy)));
+    drop(writer);
+    fs::write(&path, "no part\n").expect("it is written");
+    assert!(matches!(Part::open(&path, &header), Err(Refused::NoPart)));
+    assert_eq!(fs::read(&path).expect("it is there"), b"no part\n");
+}

@@ -5,7 +5,7 @@ use std::collections::TryReserveError;
 use rayon::prelude::*;
 
 use super::block::{Block, Blocks};
-use super::frame::{Frame, Frames, Progress, Settings};
+use super::frame::{Aov, Frame, Frames, Progress, Settings};
 use super::probe::Counts;
 use super::refusal::Refusal;
 use super::tone::{self, Light, Tone};
@@ -101,7 +101,9 @@ impl Assembly {
         } = counts.fold(Counts::default(), Counts::and);
         let squared_errors: f64 = placed.iter().map(|block| block.squared_errors).sum();
         let noise = (squared_errors / traced.size().pixels() as f64).sqrt();
-        let is_estimated = 1 < settings.spp && settings.surface().is_none();
+        // Blocks of the cost hold no light.
+        let is_of_light = settings.surface().is_none() && settings.aov != Some(Aov::Cost);
+        let is_estimated = 1 < settings.spp && is_of_light;
         let drawn = Frame::drawn(traced.size(), pixels);
         Frame {
             corner: traced.corner(),

@@ -9,7 +9,7 @@ use rayon::prelude::*;
 use super::block::{Block, Blocks};
 use super::camera::Projection;
 use super::filter::Spread;
-use super::frame::Job;
+use super::frame::{Aov, Job};
 use super::gather::Gather;
 use super::refusal::{self, Refusal};
 use super::renderer::{Threads, pool};
@@ -71,7 +71,12 @@ impl BlockTracer {
         };
         let work = || {
             let tracer = Tracer::new(&self.world, settings.integrator, settings.depth, &stopped);
-            Work::new(tracer.gathering(Gather::of(settings.aov)))
+            let tracer = tracer.gathering(Gather::of(settings.aov));
+            Work::new(match settings.aov {
+                // Only then are rays told apart by samples.
+                Some(Aov::Cost) => tracer.noting(),
+                _ => tracer,
+            })
         };
         let trace = |work: &mut Work<'_, _>, mut block: Block| {
             if !stopped() {

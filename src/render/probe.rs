@@ -60,6 +60,7 @@ impl Counts {
     }
 
     /// The sum of both.
+    #[must_use]
     pub fn and(self, other: Self) -> Self {
         Self {
             rays: self.rays + other.rays,

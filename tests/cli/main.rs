@@ -6,6 +6,7 @@ mod config;
 mod explaining;
 mod keys;
 mod limits;
+mod parts;
 mod pictures;
 mod scenes;
 mod streams;

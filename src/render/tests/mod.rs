@@ -1,5 +1,6 @@
 //! Tests of pixels whose values are known analytically.
 
+mod blocks;
 mod cameras;
 mod continuing;
 mod edits;

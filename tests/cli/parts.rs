@@ -1,0 +1,239 @@
+//! Shards and checkpoints: however a picture is divided and interrupted, its bytes are the same.
+
+use std::path::Path;
+
+use super::*;
+
+/// A scene with mirrors, shadows and glass, which the repository has a picture of.
+const SCENE: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/scenes/default.ray");
+
+impl Place {
+    /// Renders the scene; returns the bytes of the picture.
+    fn rendered(&self, picture: &str, options: &str) -> Vec<u8> {
+        self.stderr(&format!("render {SCENE} -o {picture} {options}"), 0);
+        self.read(picture)
+    }
+
+    /// Merges part files of a picture; asserts the exit code, and returns standard error.
+    fn merged(&self, parts: &[String], picture: &str, code: i32) -> String {
+        self.stderr(&format!("merge {} -o {picture}", parts.join(" ")), code)
+    }
+}
+
+#[test]
+fn shards_make_the_picture_of_a_single_render() {
+    let place = Place::new();
+    for options in [
+        "--size 100x70 --spp 3",
+        "--size 70x40 --integrator path --spp 2 --transfer srgb",
+        "--size 64x70 --aov depth --region 3,5,40,60",
+    ] {
+        let whole = place.rendered("whole.png", options);
+        for count in [1, 2, 3, 7, 64] {
+            let name = format!("{count}.png");
+            let parts = (0..count).map(|at| match count {
+                1 => format!("{count}.part"),
+                _ => format!("{count}.{at}-{count}.part"),
+            });
+            let parts: Vec<_> = parts.collect();
+            for shard in 0..count {
+                let threads = 1 + shard % 3;
+                let options = format!("{options} --shard {shard}/{count} --threads {threads}");
+                let line = format!("render {SCENE} -o {name} {options}");
+                place.stderr(&line, 0);
+            }
+            place.merged(&parts, &name, 0);
+            assert!(place.read(&name) == whole, "{options} in {count}");
+            for part in parts {
+                fs::remove_file(place.at(&part)).expect("it is there");
+            }
+        }
+    }
+}
+
+#[test]
+fn parts_that_make_no_picture_are_named() {
+    let place = Place::new();
+    let options = "--size 100x80 --spp 1";
+    for shard in 0..4 {
+        place.stderr(
+            &format!("render {SCENE} -o a.bmp {options} --shard {shard}/4"),
+            0,
+        );
+    }
+    let parts: Vec<_> = (0..4).map(|shard| format!("a.{shard}-4.part")).collect();
+    let missing = |parts: &[String]| {
+        let output = place.run(&format!("merge --missing {}", parts.join(" ")));
+        assert_eq!(output.status.code(), Some(0));
+        let said =
+            [output.stdout, output.stderr].map(|said| String::from_utf8(said).expect("UTF-8"));
+        said.concat()
+    };
+    assert_eq!(missing(&parts), "");
+    assert_eq!(missing(&parts[1..2]), "0,2-3\n");
+    let said = place.merged(&parts[1..], "a.bmp", 3);
+    assert_eq!(
+        said,
+        "error: incomplete: 3 of 12 blocks are missing, of the shards 0 of 4; to trace them, run \
+         these again with --resume\n"
+    );
+    assert!(!place.at("a.bmp").exists());
+    // A damaged shard is missing too, and is continued.
+    let good = place.read("a.2-4.part");
+    let mut bad = good.clone();
+    bad[good.len() / 2] ^= 1;
+    place.write("a.2-4.part", &bad);
+    let said = place.merged(&parts, "a.bmp", 3);
+    assert!(
+        said.starts_with("error: a.2-4.part: is damaged from byte "),
+        "{said}"
+    );
+    assert!(missing(&parts).starts_with("2\nnote: a.2-4.part: is damaged "));
+    let line = format!("render {SCENE} -o a.bmp {options} --shard 2/4");
+    let said = place.stderr(&line, 73);
+    assert!(
+        said.contains("it exists; continue it with --resume"),
+        "{said}"
+    );
+    let said = place.stderr(&format!("{line} --resume"), 0);
+    assert!(said.contains("were damaged and are cut off"), "{said}");
+    place.merged(&parts, "a.bmp", 0);
+    assert!(place.read("a.bmp") == place.rendered("b.bmp", options));
+    // Another scene, other settings.
+    place.stderr(
+        &format!("render ball.ray -o c.bmp {options} --shard 0/4"),
+        0,
+    );
+    place.stderr(
+        &format!("render {SCENE} -o d.bmp {options} --seed 2 --shard 0/4"),
+        0,
+    );
+    for (part, difference) in [("c.0-4.part", "scene "), ("d.0-4.part", "seed 2 and 0")] {
+        let parts = [parts[1].clone(), part.to_owned()];
+        let said = place.merged(&parts, "e.bmp", 3);
+        let expected =
+            format!("error: {part} and a.1-4.part belong to different pictures: {difference}");
+        assert!(said.starts_with(&expected), "{said}");
+    }
+    place.merged(&["none.part".to_owned()], "e.bmp", 66);
+}
+
+#[test]
+fn a_picture_is_continued_with_more_samples() {
+    let place = Place::new();
+    let options = "--size 60x40 --resume";
+    for spp in [1, 3, 4, 16] {
+        let continued = place.rendered("a.png", &format!("{options} --spp {spp}"));
+        let whole = place.rendered("b.png", &format!("--size 60x40 --spp {spp}"));
+        assert!(continued == whole, "{spp}");
+    }
+    // The part has the samples, for any format.
+    place.stderr("merge a.part -o a.ppm", 0);
+    assert!(place.read("a.ppm") == place.rendered("b.ppm", "--size 60x40 --spp 16"));
+    let said = place.stderr(&format!("render {SCENE} -o a.png {options} --spp 8"), 2);
+    assert!(said.contains("has 16 samples per pixel already"), "{said}");
+    let said = place.stderr(
+        &format!("render {SCENE} -o a.png {options} --spp 16 --depth 3"),
+        73,
+    );
+    assert!(
+        said.contains("belongs to another picture: depth 8, not 3"),
+        "{said}"
+    );
+    // With a limit of time, the samples are those of a whole pass.
+    let said = place.stderr(
+        &format!("render {SCENE} -o a.png {options} --time 1ms --spp 64"),
+        0,
+    );
+    assert!(said.starts_with("note: 32 samples per pixel "), "{said}");
+    assert!(place.read("a.png") == place.rendered("b.png", "--size 60x40 --spp 32"));
+}
+
+#[test]
+fn parts_need_files_and_fixed_samples() {
+    let place = Place::new();
+    for (line, expected) in [
+        ("render ball.ray -o - --resume", "use -o FILE"),
+        ("render ball.ray -o - --shard 0/2", "use -o FILE"),
+        ("render ball.ray -o a.bmp --shard 2/2", "expected K/N"),
+        (
+            "render ball.ray -o a.bmp --shard 0/2 --time 1s",
+            "use --spp",
+        ),
+        ("merge", "required"),
+        ("merge a.part", "--output"),
+        ("merge a.part -o a.bmp --missing", "cannot be used with"),
+        ("merge a.part -o a", "cannot tell the format"),
+    ] {
+        let said = place.stderr(line, 2);
+        assert!(said.contains(expected), "{line}: {said}");
+    }
+    assert_eq!(place.names(), ["ball.ray"]);
+}
+
+/// Begins to render, and waits until the part file is longer than `length`, or all is done.
+#[cfg(unix)]
+fn begun(place: &Place, line: &str, part: &Path, length: u64) -> std::process::Child {
+    let mut child = place.command(line);
+    let mut child = child.stderr(Stdio::piped()).spawn().expect("it starts");
+    let is_longer = || fs::metadata(part).is_ok_and(|file| length < file.len());
+    while !is_longer() && child.try_wait().expect("it is a child").is_none() {
+        std::thread::yield_now();
+    }
+    child
+}
+
+#[cfg(unix)]
+fn send(signal: &str, child: &std::process::Child) {
+    let mut kill = Command::new("kill");
+    kill.args([&format!("-{signal}"), &child.id().to_string()]);
+    // It may have ended.
+    let _ = kill.stderr(Stdio::null()).status().expect("it is sent");
+}
+
+#[test]
+#[cfg(unix)]
+fn signals_keep_what_was_traced() {
+    let place = Place::new();
+    let part = place.at("a.part");
+    let line = format!("render {SCENE} -o a.bmp --size 64x64 --spp 65536 --resume");
+    for (signal, code) in [("TERM", 75), ("USR1", 75), ("INT", 130)] {
+        let child = begun(&place, &line, &part, 0);
+        send(signal, &child);
+        let output = child.wait_with_output().expect("it ends");
+        assert_eq!(output.status.code(), Some(code));
+        let said = String::from_utf8_lossy(&output.stderr);
+        let kept = format!("error: stopped by SIG{signal} after ");
+        assert!(said.starts_with(&kept), "{said}");
+    }
+    assert_eq!(place.names(), ["a.part", "ball.ray"]);
+    // Without a part file, a signal ends the process, and nothing is left behind.
+    let line = format!("render {SCENE} -o b.bmp --size 64x64 --spp 65536");
+    let child = begun(&place, &line, &place.at("none"), 0);
+    send("TERM", &child);
+    assert_eq!(
+        child.wait_with_output().expect("it ends").status.code(),
+        None
+    );
+}
+
+/// Killed after each block, and stopped within blocks.
+#[test]
+#[cfg(unix)]
+fn an_interrupted_picture_is_continued_to_the_same_bytes() {
+    let place = Place::new();
+    let options = "--size 64x96 --spp 50";
+    let whole = place.rendered("whole.bmp", options);
+    let part = place.at("a.part");
+    let line = format!("render {SCENE} -o a.bmp {options} --threads 1 --resume");
+    for signal in ["KILL", "TERM"].into_iter().cycle() {
+        let length = fs::metadata(&part).map_or(0, |file| file.len());
+        let child = begun(&place, &line, &part, length);
+        send(signal, &child);
+        child.wait_with_output().expect("it ends");
+        if place.at("a.bmp").exists() {
+            break;
+        }
+    }
+    assert!(place.read("a.bmp") == whole);
+}
