@@ -1,5 +1,6 @@
 //! The arguments that say how a scene is traced without an interface.
 
+use std::env;
 use std::num::NonZero;
 use std::thread;
 use std::time::Duration;
@@ -35,7 +36,8 @@ pub(super) struct TracingArguments {
     /// instead of light
     #[arg(long, value_name = "AOV", value_enum)]
     aov: Option<AovChoice>,
-    /// Number of tracing threads, 1 to 1024 [default: one per core]
+    /// Number of tracing threads, 1 to 1024 [default: one per core that the process may use; in a
+    /// Slurm job, as many as its task has]
     #[arg(long, value_name = "N", value_parser = threads_range())]
     threads: Option<u16>,
 }
@@ -101,9 +103,20 @@ impl SampleArguments {
             aov: None,
             transfer: self.transfer.map(TransferChoice::value),
             exposure: self.exposure,
-            threads: thread::available_parallelism().map_or(1, NonZero::get),
+            threads: default_threads(|name| env::var(name).ok()),
         }
     }
+}
+
+/// As many threads as the process may use cores, by its affinity and control group, and no more
+/// than Slurm has given its task, which it does not enforce everywhere.
+fn default_threads(variable: impl Fn(&str) -> Option<String>) -> usize {
+    let cores = thread::available_parallelism().map_or(1, NonZero::get);
+    let given = ["SLURM_CPUS_PER_TASK", "SLURM_CPUS_ON_NODE"];
+    let mut given = given.iter().filter_map(|name| variable(name)?.parse().ok());
+    given
+        .next()
+        .map_or(cores, |given: NonZero<usize>| cores.min(given.get()))
 }
 
 fn parse_stops(text: &str) -> Result<f64, String> {
@@ -126,4 +139,25 @@ fn parse_region(text: &str) -> Result<Region, String> {
 
 fn parse_time(text: &str) -> Result<Duration, String> {
     parse_duration(text).ok_or_else(|| "expected a time, such as 90s, 5min or 2h".to_owned())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_task_takes_no_more_threads_than_slurm_gives_it() {
+        let cores = thread::available_parallelism().map_or(1, NonZero::get);
+        let with = |task: &str, node: &str| {
+            default_threads(|name| match name {
+                "SLURM_CPUS_PER_TASK" => Some(task.to_owned()),
+                _ => Some(node.to_owned()),
+            })
+        };
+        assert_eq!(default_threads(|_| None), cores);
+        assert_eq!(with("1", "64"), 1);
+        assert_eq!(with("", "1"), 1);
+        assert_eq!(with("4096", "1"), cores);
+        assert_eq!(with("0", "no number"), cores);
+    }
 }

@@ -50,35 +50,46 @@ impl fmt::Display for Shard {
 
 /// The index of the shard that each block is dealt to, by its number.
 ///
-/// Blocks are dealt along a curve on which neighbours are close in the picture, one to each shard in
-/// turn, so that each gets as much of every part of it. The turn starts elsewhere each time, because
-/// otherwise shards would be a regular pattern, of which one may have all the blocks with, say, a
-/// horizon. Measured at 3840×2160, the costs of shards differ less than those of rows, columns,
-/// diagonals or a random order.
+/// Blocks are dealt in turn along a Hilbert curve, on which neighbours are close in the picture, so
+/// that each shard gets as much of every part of it. Measured at 3840×2160 in 64 shards of 127 or
+/// 128 blocks, the costliest takes 1.02 to 1.15 times the mean (of four scenes); in Z-order up to
+/// 1.22, in rows 1.20, in Z-order with each turn begun elsewhere 1.21, in a random order 1.56. In 8
+/// shards it takes at most 1.03 times the mean.
 pub(super) fn deal(blocks: Blocks, shards: u32) -> impl Iterator<Item = u32> {
-    let mut along: Vec<_> = (0..blocks.count()).collect();
     let across = blocks.across();
-    along.sort_by_cached_key(|number| interleaved(number % across, number / across));
+    let edge = across.max(blocks.count() / across).next_power_of_two();
+    let mut along: Vec<_> = (0..blocks.count()).collect();
+    along.sort_by_cached_key(|number| place_along(edge, [number % across, number / across]));
     let mut owners = vec![0; along.len()];
-    for (turn, numbers) in (0_u32..).zip(along.chunks(shards as usize)) {
-        for (place, &number) in (0_u32..).zip(numbers) {
-            owners[number as usize] = (place + scattered(turn)) % shards;
-        }
+    for (place, number) in (0_u32..).zip(along) {
+        owners[number as usize] = place % shards;
     }
     owners.into_iter()
 }
 
-/// The place on the Z-order curve (Morton, 1966): the bits of both coordinates in turn.
-fn interleaved(x: u32, y: u32) -> u64 {
-    (0..32).fold(0, |key, bit| {
-        let bits = u64::from(x >> bit & 1) | u64::from(y >> bit & 1) << 1;
-        key | bits << (2 * bit)
-    })
-}
-
-/// Fibonacci hashing (Knuth, The Art of Computer Programming 6.4).
-fn scattered(number: u32) -> u32 {
-    number.wrapping_mul(0x9E37_79B9) >> 8
+/// The place of a point on the Hilbert curve that fills a square of this edge, a power of two: from
+/// the largest quarters down, each is turned as the curve enters it.
+fn place_along(edge: u32, [mut x, mut y]: [u32; 2]) -> u64 {
+    let mut place = 0;
+    let mut half = edge / 2;
+    while 0 < half {
+        let (right, low) = (x & half != 0, y & half != 0);
+        let quarter = match (right, low) {
+            (false, false) => 0,
+            (false, true) => 1,
+            (true, true) => 2,
+            (true, false) => 3,
+        };
+        place += quarter * u64::from(half) * u64::from(half);
+        if !low {
+            if right {
+                (x, y) = (edge - 1 - x, edge - 1 - y);
+            }
+            (x, y) = (y, x);
+        }
+        half /= 2;
+    }
+    place
 }
 
 #[cfg(test)]
@@ -103,6 +114,21 @@ mod tests {
         ] {
             let shard = Shard::parse(said).map(|shard| shard.to_string());
             assert_eq!(shard.as_deref(), written, "{said:?}");
+        }
+    }
+
+    #[test]
+    fn the_curve_visits_every_point_by_single_steps() {
+        for edge in [1, 2, 8, 32] {
+            let points = (0..edge).flat_map(|y| (0..edge).map(move |x| [x, y]));
+            let mut along: Vec<_> = points.collect();
+            along.sort_by_key(|&point| place_along(edge, point));
+            let places = along.iter().map(|&point| place_along(edge, point));
+            assert!(places.eq(0..u64::from(edge * edge)), "{edge}");
+            for pair in along.windows(2) {
+                let [[x0, y0], [x1, y1]] = [pair[0], pair[1]];
+                assert_eq!(x0.abs_diff(x1) + y0.abs_diff(y1), 1, "{pair:?}");
+            }
         }
     }
 
