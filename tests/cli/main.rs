@@ -8,6 +8,7 @@ mod keys;
 mod limits;
 mod parts;
 mod pictures;
+mod recipes;
 mod scenes;
 mod streams;
 mod textures;
