@@ -10,20 +10,20 @@ scene=$here/../scenes/default.ray
 folder=${1:-$(mktemp -d)}
 export SBATCH_PARTITION=${LOW:-low}
 [ -z "${HALFLIGHT:-}" ] || PATH=$(cd "$(dirname "$HALFLIGHT")" && pwd):$PATH
-options=(--size 1600x1200 --spp 64)
+options=(--size 1600x1200 --spp 96)
 mkdir -p "$folder"
 cd "$folder"
 rm -f ./*.part out.png ./*.log
 
 say() { echo "$(date +%T) $*"; }
 await() { # DESCRIPTION COMMAND...
-    local what=$1
+    local what=$1 queued
     shift
     for _ in $(seq 600); do
         if "$@" > /dev/null 2>&1; then return; fi
         # A job that was queued again waits two minutes otherwise.
-        for job in $(squeue -h -t PD -o %F_%K 2> /dev/null | sed '/\[/d'); do
-            scontrol update "JobId=$job" StartTime=now > /dev/null 2>&1 || true
+        for queued in $(squeue -h -t PD -o %F_%K 2> /dev/null | sed '/\[/d'); do
+            scontrol update "JobId=$queued" StartTime=now > /dev/null 2>&1 || true
         done
         sleep 0.5
     done
@@ -53,7 +53,8 @@ another() { other=$(first_running) && [ -n "$other" ] && [ "$other" != "$task" ]
 await "another task" another
 await "its part" grown "out.${other#*_}-8.part"
 say "warn task $other, as before the end of its time"
-scancel --batch --signal=USR1 "$other"
+# It waits for an answer that a job queued again does not give.
+timeout 5 scancel --batch --signal=USR1 "$other" || true
 await "its exit with 75" grep -q "stopped by SIGUSR1" "halflight-${other#*_}.log"
 grep -h "stopped by" "halflight-${other#*_}.log"
 

@@ -3,7 +3,8 @@
 //!
 //! [`render`](crate::render) records and judges a sample in numbers; here objects and lights get
 //! their names back, and what the text holds but the picture does not is looked for. Words and
-//! structure are kept apart from printing: the interface shows the same lines as the command line.
+//! structure are kept apart from printing. The interface shows the verdicts, and folds the tree in
+//! its own lines.
 
 mod names;
 mod sentences;
@@ -92,7 +93,7 @@ pub struct Place {
 }
 
 /// The names of all kinds of verdicts.
-pub const VERDICTS: [&str; 26] = [
+pub const VERDICTS: [&str; 27] = [
     "not-drawn",
     "no-objects",
     "missed",
@@ -112,6 +113,7 @@ pub const VERDICTS: [&str; 26] = [
     "shadow",
     "outside-cone",
     "faces-away",
+    "at-the-light",
     "attenuated",
     "dim",
     "not-reflected",
@@ -121,16 +123,21 @@ pub const VERDICTS: [&str; 26] = [
     "ordinary",
 ];
 
-/// Puts an explanation into words. Looking for objects that are not drawn lowers the text again, if
-/// it has any.
+/// Puts an explanation into words.
 pub fn words(explanation: &Explanation, subject: &Subject<'_>) -> Words {
+    Words {
+        verdicts: verdicts(explanation, subject),
+        lines: tree::lines(explanation, &Names::new(subject)),
+    }
+}
+
+/// The verdicts in words, the best first; never empty. Looking for objects that are not drawn lowers
+/// the text again, if it has any.
+pub fn verdicts(explanation: &Explanation, subject: &Subject<'_>) -> Vec<Sentence> {
     let names = Names::new(subject);
     let mut verdicts = sentences::sentences(explanation, &names);
     if let Some(undrawn) = undrawn::undrawn(explanation, subject, &names) {
         verdicts.insert(0, undrawn);
     }
-    Words {
-        verdicts,
-        lines: tree::lines(explanation, &names),
-    }
+    verdicts
 }

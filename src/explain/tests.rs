@@ -287,6 +287,45 @@ fn verdicts_of_dat_scenes() {
     check(dat(".1 99", &off), PLAIN, "ordinary", "lit by light 1");
 }
 
+/// Between two mirrors, on a stack that has no room for a call per bounce.
+#[test]
+fn thousands_of_bounces_are_explained() {
+    let mirror = |z: &str| {
+        format!("box -999 -999 {z} 1 0 0 0 1 0 0 0 1 1998 1998 1 0 0 0 0 0 0 0 0 0 1 1 0 1")
+    };
+    let text = ray("0 0 0", "0 0 2 1 1 1", &[&mirror("-1"), &mirror("10")]);
+    let how = How {
+        depth: Some(4096),
+        ..PLAIN
+    };
+    let explained = move || explain(Language::Ray, &text, [20, 15], how);
+    let thread = std::thread::Builder::new().stack_size(1 << 20);
+    let words = thread.spawn(explained).expect("it starts").join();
+    let words = words.expect("the stack suffices");
+    assert!(4000 < words.lines.len(), "{}", words.lines.len());
+}
+
+#[test]
+fn verdicts_of_sums_that_overflow() {
+    let text = "0 0 0 2 0 0 9 1e308 1e308 1e308 0 0 9 1e308 1e308 1e308\n1\n\
+                sphere 0 0 0 1  0 0 0 .99 .99 .99 0 0 0 1 0 0 1\n\
+                // view: eye 0 0 5 target 0 0 0 up 0 1 0 fov 40 size 40 30\n";
+    check(Language::Ray, text, PLAIN, "not-finite", "");
+    let words = explain(Language::Ray, text, [20, 15], PLAIN);
+    assert!(words.verdicts.iter().all(|said| said.name != "too-bright"));
+}
+
+/// Pixel (20, 15) sees the point where the light is.
+#[test]
+fn verdicts_of_a_light_on_a_surface() {
+    let text = "camera orthographic 0 0 5 0 0 0 0 1 0 1 0 100\nresolution 1 1\nviewport 40 30\n\
+                light ID 1 pnt .5 -.5 0 0 0 0 1 1 1 1 0 0 0 shadow_on\n\
+                mat ID 1 1 1 1 0 1 0 1 0 0 1\n\
+                obj box ID 1 mat ID 1 0 0 -1 1 0 0 0 1 0 0 0 1 50 50 2\n";
+    let words = "this point of object 1 (box, line 6) is within light 1";
+    check(Language::Dat, text, PLAIN, "at-the-light", words);
+}
+
 /// An `.xml` scene with a plane of scale 9 of a material, seen from (0, 0, 5).
 fn xml(material: &str, others: &str) -> String {
     format!(
@@ -294,6 +333,33 @@ fn xml(material: &str, others: &str) -> String {
          </scene><camera><position z=\"5\"/><target z=\"0\"/><width value=\"40\"/>\
          <height value=\"30\"/></camera></xml>"
     )
+}
+
+/// A light with a size, at this place.
+fn globe(place: [i32; 3], size: f64, intensity: f64) -> String {
+    let [x, y, z] = place;
+    format!(
+        "<light type=\"point\" name=\"globe {x}\"><intensity value=\"{intensity}\"/>\
+         <position x=\"{x}\" y=\"{y}\" z=\"{z}\"/><size value=\"{size}\"/></light>"
+    )
+}
+
+#[test]
+fn verdicts_of_lights_with_a_size() {
+    let painted = "material=\"m\"";
+    let white = "<material type=\"blinn\" name=\"m\"><diffuse/><specular value=\"0\"/></material>";
+    let scene = |lights: &[String]| {
+        let text = xml(painted, &[white, &lights.concat()].concat());
+        text.replace("<camera>", "<camera gamma=\"sRGB\">")
+    };
+    let (near, far) = (globe([4, 0, 3], 0.5, 1e-9), globe([8, 0, 6], 0.2, 1000.0));
+    check(
+        Language::Xml,
+        &scene(&[near, far]),
+        PLAIN,
+        "shadow",
+        "another light hides",
+    );
 }
 
 #[test]

@@ -12,12 +12,7 @@ use crate::scene::Rgb;
 
 /// Writes a record as lines, each ray below the surface it starts from.
 pub(super) fn lines(explanation: &Explanation, names: &Names<'_>) -> Vec<Line> {
-    let mut children = vec![Vec::new(); explanation.rays.len()];
-    for (number, ray) in explanation.rays.iter().enumerate() {
-        if let Some(parent) = ray.parent {
-            children[parent].push(number);
-        }
-    }
+    let children = explanation.children();
     let mut writer = Writer {
         explanation,
         names,

@@ -153,6 +153,15 @@ impl Aov {
         }
     }
 
+    /// The number of channels that its values differ in; the others repeat the first or are 0.
+    pub fn channels(self) -> usize {
+        match self {
+            Self::Normal | Self::Albedo | Self::Direct(_) | Self::Emission | Self::Indirect => 3,
+            Self::Uv => 2,
+            Self::Depth | Self::Object | Self::Side | Self::Cost | Self::Samples | Self::Noise => 1,
+        }
+    }
+
     /// Whether it is known from tracing light, which makes switching between it and light free.
     pub fn is_of_light(self) -> bool {
         matches!(self, Self::Cost | Self::Samples | Self::Noise)

@@ -282,11 +282,9 @@ pub enum Dark {
 }
 
 impl Explanation {
-    /// The rays that start at the end of a ray, in the order in which they were traced.
-    pub fn children(&self, ray: usize) -> impl Iterator<Item = usize> {
-        let rays = self.rays.iter().enumerate();
-        rays.filter(move |(_, child)| child.parent == Some(ray))
-            .map(|(number, _)| number)
+    /// For each ray, those that start at its end, in the order in which they were traced.
+    pub fn children(&self) -> Vec<Vec<usize>> {
+        children(&self.rays)
     }
 
     /// Calls the objects by other names.
@@ -305,6 +303,17 @@ impl Explanation {
             finding.verdict.rename(&name);
         }
     }
+}
+
+/// For each ray, those that start at its end, in order.
+pub(super) fn children(rays: &[TracedRay]) -> Vec<Vec<usize>> {
+    let mut children = vec![Vec::new(); rays.len()];
+    for (number, ray) in rays.iter().enumerate() {
+        if let Some(parent) = ray.parent {
+            children[parent].push(number);
+        }
+    }
+    children
 }
 
 impl TracedRay {

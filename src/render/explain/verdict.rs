@@ -133,6 +133,13 @@ pub enum Verdict {
         /// The object.
         object: u32,
     },
+    /// A light is at the point itself, or has a size and the point is inside it.
+    AtTheLight {
+        /// The light.
+        light: u32,
+        /// The object.
+        object: u32,
+    },
     /// Attenuation leaves too little of a light.
     Attenuated {
         /// The light.
@@ -245,6 +252,7 @@ impl Verdict {
             | Self::TotalReflection { object }
             | Self::Enclosed { object, .. }
             | Self::FacesAway { object, .. }
+            | Self::AtTheLight { object, .. }
             | Self::NotReflected { object, .. }
             | Self::UnlitSide { object }
             | Self::NoAmbient { object, .. } => rename(object),

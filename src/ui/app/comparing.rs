@@ -296,7 +296,7 @@ impl App {
         )
     }
 
-    /// What is unlike about the two pictures, if they show different things: `light, not depth`.
+    /// What is unlike about the two pictures, if they show different things: `light against depth`.
     pub fn compares_unlike(&self) -> Option<String> {
         let reference = self.compared.reference.as_ref()?.shows?;
         let live = shown(self.pictures.aov);

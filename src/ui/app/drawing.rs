@@ -19,7 +19,7 @@ pub(super) struct Drawing {
     pub(super) fixed: [u32; 2],
     /// The corner that keys and the pointer move.
     pub(super) moving: [u32; 2],
-    /// Whether the pointer is drawing it.
+    /// What is drawing it.
     pub(super) held: Held,
 }
 

@@ -6,7 +6,7 @@ use super::App;
 use super::cursor::moved;
 use super::inspection::{Cross, Explained};
 use super::rays::{self, RayLine, RayPart, Segment};
-use crate::explain::{Subject, words};
+use crate::explain::{Subject, verdicts};
 use crate::language::Node;
 use crate::render::{Explanation, NO_OBJECT, RayEnd};
 use crate::ui::fit::{shorten, wrap};
@@ -110,8 +110,8 @@ impl App {
             camera: &frame.query.as_ref()?.camera,
             size: frame.whole(),
         };
-        let words = words(self.explanation()?, &subject);
-        let first = words.verdicts.into_iter().next()?;
+        let verdicts = verdicts(self.explanation()?, &subject);
+        let first = verdicts.into_iter().next()?;
         Some(match first.help {
             Some(help) => format!("{}: {help}", first.text),
             None => first.text,

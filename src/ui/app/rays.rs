@@ -43,13 +43,14 @@ pub enum RayPart {
 pub struct Segment {
     /// Its ends.
     pub ends: [DVec3; 2],
-    /// Whether light comes along it.
+    /// Whether no light comes along it.
     pub is_dark: bool,
 }
 
 /// The lines of an explanation, without those inside of folded rays.
 pub(super) fn lines(explanation: &Explanation, folded: &BTreeSet<usize>) -> Vec<RayLine> {
     let mut lines = Vec::new();
+    let children = explanation.children();
     let mut left: Vec<_> = (!explanation.rays.is_empty())
         .then_some((0, 0))
         .into_iter()
@@ -62,9 +63,7 @@ pub(super) fn lines(explanation: &Explanation, folded: &BTreeSet<usize>) -> Vec<
         }
         let parts = parts(&explanation.rays[ray]);
         lines.extend(parts.into_iter().map(|part| line(part, depth + 1)));
-        let mut children: Vec<_> = explanation.children(ray).collect();
-        children.reverse();
-        left.extend(children.into_iter().map(|child| (child, depth + 1)));
+        left.extend(children[ray].iter().rev().map(|&child| (child, depth + 1)));
     }
     lines
 }
@@ -85,8 +84,8 @@ fn parts(ray: &TracedRay) -> Vec<RayPart> {
 
 /// Whether a ray has lines inside of it.
 pub(super) fn is_foldable(explanation: &Explanation, ray: usize) -> bool {
-    let has_children = || explanation.children(ray).next().is_some();
-    !parts(&explanation.rays[ray]).is_empty() || has_children()
+    let mut rays = explanation.rays.iter();
+    !parts(&explanation.rays[ray]).is_empty() || rays.any(|child| child.parent == Some(ray))
 }
 
 impl RayLine {

@@ -33,7 +33,7 @@ impl App {
         region.within(self.output()).ok()
     }
 
-    /// The corners of the region being drawn, as told in the status line.
+    /// The region being drawn, as told in the status line.
     pub fn region_drawn(&self) -> Option<Region> {
         self.pictures.drawing.map(Drawing::region)
     }

@@ -52,6 +52,16 @@ impl Default for Viewport {
 }
 
 impl Viewport {
+    /// The same on this screen, which may have grown since: a scale that shows all of the picture
+    /// fits it.
+    #[must_use]
+    pub(super) fn on(self, screen: Screen) -> Self {
+        match self.scale {
+            Some(scale) if scale < screen.least_scale() => Self::default(),
+            _ => self,
+        }
+    }
+
     /// Whether all of the picture is on screen.
     pub fn is_fit(self) -> bool {
         self.scale.is_none()

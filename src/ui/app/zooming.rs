@@ -53,9 +53,11 @@ impl App {
 
     /// Which part of the picture on screen is seen. A wireframe is seen whole.
     pub fn viewport(&self) -> Viewport {
-        match self.wires() {
-            Some(_) => Viewport::default(),
-            None => self.picture().viewport,
+        let viewport = self.picture().viewport;
+        match (self.wires(), self.screen()) {
+            (Some(_), _) => Viewport::default(),
+            (None, Some(screen)) => viewport.on(screen),
+            (None, None) => viewport,
         }
     }
 
@@ -173,7 +175,7 @@ impl App {
         }
         if let Some(screen) = self.screen() {
             let picture = self.picture_mut();
-            picture.viewport = change(picture.viewport, screen);
+            picture.viewport = change(picture.viewport.on(screen), screen);
         }
     }
 

@@ -28,11 +28,11 @@ pub(super) struct Tile {
 
 /// The most pixels in a cell.
 pub(super) const MOST: usize = 8;
+/// The number of ways to divide them into two groups.
+const DIVISIONS: usize = 1 << (MOST - 1);
 /// What a division must gain in squared error to be better, more than sums lose by rounding: equal
 /// pixels are not divided.
 const ROUNDING: f32 = 1.0;
-/// The number of ways to divide them into two groups.
-const DIVISIONS: usize = 1 << (MOST - 1);
 
 impl Mosaic {
     /// The number of pixels of a cell across and down.
@@ -87,10 +87,10 @@ fn divide<const N: usize>(pixels: &[[u8; 3]; MOST]) -> (usize, [[u8; 3]; 2]) {
     let divisions = 1 << (N - 1);
     let sums: [[f32; DIVISIONS]; 3] = std::array::from_fn(|channel| {
         let mut sums = [0.0; DIVISIONS];
-        for (pixel, color) in pixels[..N - 1].iter().enumerate() {
+        for (pixel, colour) in pixels[..N - 1].iter().enumerate() {
             let (known, new) = sums.split_at_mut(1 << pixel);
             for (new, known) in new.iter_mut().zip(known) {
-                *new = *known + f32::from(color[channel]);
+                *new = *known + f32::from(colour[channel]);
             }
         }
         sums

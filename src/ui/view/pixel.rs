@@ -141,10 +141,6 @@ fn name(app: &App, pixel: &Pixel) -> String {
 
 /// The linear radiance or the value of an AOV.
 fn value_of(aov: Option<Aov>, value: [f32; 3]) -> String {
-    let channels = match aov {
-        None | Some(Aov::Normal | Aov::Albedo) => 3,
-        Some(Aov::Uv) => 2,
-        Some(_) => 1,
-    };
+    let channels = aov.map_or(3, Aov::channels);
     numbers(&value.map(f64::from)[..channels])
 }

@@ -75,7 +75,9 @@ fn tree(app: &App, area: Rect, verdict: Rect, lines: Rect, buffer: &mut Buffer) 
             RayPart::Whole => "▾ ",
             _ => "",
         };
-        let indent = " ".repeat(2 * line.depth);
+        // Deep rays keep most of the line for their words.
+        let deepest = usize::from(lines.width) / 6;
+        let indent = " ".repeat(2 * line.depth.min(deepest));
         let words = format!("{indent}{sign}{}", words(app, explanation, &line));
         let room = row.room().saturating_sub(adds.len() + 1);
         row.put_in(&format!("{words:room$}"), room, style);

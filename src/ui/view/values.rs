@@ -24,11 +24,15 @@ pub(super) fn render(frame: &Frame, sight: &Sight, cells: Rect, buffer: &mut Buf
     if width < SMALLEST.0 || height < SMALLEST.1 || frame.whole() != whole {
         return;
     }
+    // The first whole cell of a pixel: pixels need not begin at the edges of cells.
+    let begin = |number: usize, fills: u32, of: u32, across: u16| {
+        (number as u32 * fills / of).div_ceil(across.into()) as u16
+    };
     for (row, y) in (part.y..part.y + part.height).enumerate() {
         for (column, x) in (part.x..part.x + part.width).enumerate() {
             let pixel = Rect {
-                x: cells.x + column as u16 * width,
-                y: cells.y + row as u16 * height,
+                x: cells.x + begin(column, fills.width, part.width, sight.grid.across),
+                y: cells.y + begin(row, fills.height, part.height, sight.grid.down),
                 width,
                 height,
             };
@@ -82,6 +86,7 @@ mod tests {
     use super::*;
     use crate::render::Region;
     use crate::scene::Size;
+    use crate::ui::app::Grid;
 
     /// What is written into the pixels of a part of a picture that fills so many cells.
     fn written(part: &str, (columns, rows): (u16, u16)) -> Vec<String> {
@@ -120,6 +125,42 @@ mod tests {
         assert_eq!(written("2,2,1,1", (12, 6)), roomy);
         assert_eq!(written("2,2,1,1", (11, 6)), [""; 6]);
         assert_eq!(written("2,2,1,1", (12, 2)), [""; 2]);
+    }
+
+    /// On a grid of 5 by 10 pixels a cell, a pixel of the picture is 12.8 cells wide.
+    #[test]
+    fn values_stay_in_their_pixels_where_these_begin_within_cells() {
+        let size = Size {
+            width: 16,
+            height: 1,
+        };
+        let frame = Frame::drawn(size, (0..16).map(|at| [at, 0, 0]).collect());
+        let fills = Size {
+            width: 1024,
+            height: 64,
+        };
+        let sight = Sight {
+            window: Some(Window {
+                whole: size,
+                part: Region::whole(size),
+                fills,
+            }),
+            grid: Grid {
+                across: 5,
+                down: 10,
+            },
+            ..Sight::whole(fills)
+        };
+        let area = Rect::new(0, 0, 205, 6);
+        let mut buffer = Buffer::empty(area);
+        render(&frame, &sight, area, &mut buffer);
+        for x in 0..205 {
+            let Color::Rgb(pixel, ..) = buffer[(x, 2)].bg else {
+                continue;
+            };
+            let edges = [u32::from(x) * 5, u32::from(x) * 5 + 4];
+            assert_eq!(edges.map(|edge| edge / 64), [u32::from(pixel); 2], "{x}");
+        }
     }
 
     #[test]

@@ -51,7 +51,18 @@ impl Judge<'_> {
                 Some(Dark::SwitchedOff) => {
                     off.push((term.light, term.reflected.max_element()));
                 }
-                Some(Dark::FacesAway | Dark::AtThePoint) => match self.around(term, shading) {
+                Some(Dark::AtThePoint) => {
+                    let (light, verdict) = (
+                        term.light,
+                        Verdict::AtTheLight {
+                            light: term.light,
+                            object,
+                        },
+                    );
+                    let colour = scene.lights[light as usize].colour;
+                    reasons.push((0.5 * colour.abs().max_element(), verdict));
+                }
+                Some(Dark::FacesAway) => match self.around(term, shading) {
                     Some(reason) => reasons.push(reason),
                     None => away.push(term.light),
                 },
@@ -170,7 +181,16 @@ impl Judge<'_> {
             (0.5 * term.arriving.abs().max_element(), verdict)
         };
         match dark {
-            Some(Dark::Blocked | Dark::Hidden) => return Some(shadow()),
+            Some(Dark::Blocked) => return Some(shadow()),
+            Some(Dark::Hidden) => {
+                let verdict = Verdict::Shadow {
+                    light: term.light,
+                    blockers: Vec::new(),
+                    transmittance: 0.0,
+                    object,
+                };
+                return Some((loss, verdict));
+            }
             Some(Dark::OutsideCone) => return Some(outside()),
             Some(Dark::Attenuated) => return Some(attenuated()),
             Some(Dark::NotReflected) => return Some(not_reflected()),

@@ -11,7 +11,7 @@ mod surface;
 use super::super::camera::Projection;
 use super::super::tone::Light;
 use super::super::world::World;
-use super::record::{RayEnd, TracedRay};
+use super::record::{RayEnd, TracedRay, children};
 use super::verdict::{Finding, Term, TermSource, Verdict};
 use crate::scene::{Integrator, Rgb};
 
@@ -39,7 +39,7 @@ pub(super) fn judge(case: &Case<'_>) -> Vec<Finding> {
     let judge = Judge::new(case);
     let mut findings = judge.oddities();
     findings.extend(judge.untraced());
-    findings.extend(judge.ray(0));
+    findings.extend(judge.first_ray());
     let mut kept: Vec<Finding> = Vec::new();
     for finding in findings {
         if kept.iter().all(|before| before.verdict != finding.verdict) {
@@ -64,20 +64,29 @@ struct Judge<'r> {
 impl<'r> Judge<'r> {
     fn new(case: &'r Case<'r>) -> Self {
         let rays = case.rays;
-        let mut children = vec![Vec::new(); rays.len()];
         let mut totals: Vec<_> = rays.iter().map(|ray| ray.contribution).collect();
         for (number, ray) in rays.iter().enumerate().rev() {
             if let Some(parent) = ray.parent {
-                children[parent].insert(0, number);
                 let total = totals[number];
                 totals[parent] += total;
             }
         }
         Self {
             case,
-            children,
+            children: children(rays),
             totals,
         }
+    }
+
+    /// What explains the light along the camera ray. Rays start at the ends of earlier ones, so they
+    /// are judged from the last to the first: of a few thousand bounces between mirrors, calls would
+    /// be nested too deep.
+    fn first_ray(&self) -> Vec<Finding> {
+        let mut judged = vec![Vec::new(); self.case.rays.len()];
+        for ray in (0..judged.len()).rev() {
+            judged[ray] = self.ray(ray, &mut judged);
+        }
+        judged.swap_remove(0)
     }
 
     /// The brightness of a part of the sample as displayed, where 1 is white.
@@ -118,8 +127,7 @@ impl<'r> Judge<'r> {
         let exposed = self.case.light.exposed(total);
         if !total.is_finite() {
             findings.push(found(Verdict::NotFinite, 0));
-        }
-        if 1.0 + 1e-9 < exposed.max_element() {
+        } else if 1.0 + 1e-9 < exposed.max_element() {
             findings.push(found(Verdict::TooBright { exposed }, 0));
         }
         findings
@@ -135,8 +143,8 @@ impl<'r> Judge<'r> {
             .then(|| found(Verdict::Budget { untraced }, 0))
     }
 
-    /// What explains the light along a ray.
-    fn ray(&self, ray: usize) -> Vec<Finding> {
+    /// What explains the light along a ray, given what explains it along those that start at its end.
+    fn ray(&self, ray: usize, judged: &mut [Vec<Finding>]) -> Vec<Finding> {
         let traced = &self.case.rays[ray];
         match &traced.end {
             RayEnd::Missed { radiance, .. } if ray == 0 => self.missed(traced, *radiance),
@@ -154,7 +162,7 @@ impl<'r> Judge<'r> {
                 let light = TermSource::LightItself { light: hit.light };
                 vec![term(light, traced.contribution, ray)]
             }
-            RayEnd::Surface(shading) => self.surface(ray, shading),
+            RayEnd::Surface(shading) => self.surface(ray, shading, judged),
             RayEnd::OverBudget => Vec::new(),
         }
     }

@@ -1,5 +1,7 @@
 //! Surfaces: which of local light, mirror and boundary matters.
 
+use std::mem;
+
 use super::super::super::display::luminance;
 use super::super::super::shading::Side;
 use super::super::kind::RayKind;
@@ -20,7 +22,12 @@ struct Part {
 
 impl Judge<'_> {
     /// What explains the light from a surface at the end of a ray.
-    pub(super) fn surface(&self, ray: usize, shading: &Shading) -> Vec<Finding> {
+    pub(super) fn surface(
+        &self,
+        ray: usize,
+        shading: &Shading,
+        judged: &mut [Vec<Finding>],
+    ) -> Vec<Finding> {
         let object = shading.hit.object;
         if is_black(&shading.material) {
             let material = shading.hit.material;
@@ -29,7 +36,10 @@ impl Judge<'_> {
         let mut local = self.local(ray, shading);
         let mut parts: Vec<_> = self.children[ray]
             .iter()
-            .map(|&child| self.secondary(ray, child, shading))
+            .map(|&child| {
+                let findings = mem::take(&mut judged[child]);
+                self.secondary(ray, (child, findings), shading)
+            })
             .collect();
         parts.extend(self.cut(ray, shading));
         let total = self.totals[ray];
@@ -63,11 +73,15 @@ impl Judge<'_> {
         matches!(kind, Some(RayKind::Diffuse | RayKind::Glossy))
     }
 
-    /// A ray that starts at the surface.
-    fn secondary(&self, ray: usize, child: usize, shading: &Shading) -> Part {
+    /// A ray that starts at the surface, with what explains its light.
+    fn secondary(
+        &self,
+        ray: usize,
+        (child, mut findings): (usize, Vec<Finding>),
+        shading: &Shading,
+    ) -> Part {
         let kind = self.case.rays[child].kind;
         let object = shading.hit.object;
-        let mut findings = self.ray(child);
         let total = self.totals[child];
         if !self.is_dark(total) {
             let seen = match &self.case.rays[self.brightest(child)].end {

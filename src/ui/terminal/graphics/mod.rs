@@ -67,7 +67,7 @@ impl Means {
     }
 
     /// Appends the bytes that fill these cells with a picture. The cursor is at the first of them,
-    /// and anywhere afterwards. Fails if there are not as many pixels as the size says.
+    /// and anywhere afterwards. There must be as many pixels as the size says.
     pub(super) fn encode(self, pixmap: &Pixmap, place: Rect, out: &mut Vec<u8>) -> io::Result<()> {
         let png = || image_file::encode_quickly(pixmap.size, &pixmap.pixels);
         match self.protocol {
