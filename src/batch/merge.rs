@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use super::render::{Output, check_output, stdout_error, write};
+use super::render::{Output, check_output, write};
 use super::{Error, print_error, print_message, stdout};
 use crate::image_file::ImageFormat;
 use crate::part::{self, ranges};
@@ -49,7 +49,7 @@ fn try_merge(work: &Merge) -> Result<(), Error> {
                 none if none.is_empty() => none,
                 ranges => ranges + "\n",
             };
-            stdout::print(&line).map_err(stdout_error)
+            stdout::print(&line).map_err(stdout::error)
         }
     }
 }

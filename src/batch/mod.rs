@@ -10,6 +10,7 @@ mod progress;
 mod render;
 mod report;
 mod signals;
+mod stats;
 mod stdout;
 mod tracing;
 
@@ -33,8 +34,10 @@ pub use compare::{Compare, Report, Verdict, compare};
 pub use explain::{Explain, explain};
 pub use merge::{Merge, MergePurpose, merge};
 pub use parts::{Existing, Parts};
-pub use render::{Output, Render, render};
+pub use progress::ProgressStyle;
+pub use render::{Output, Purpose, Render, render};
 pub use signals::Signal;
+pub use stats::Sink;
 pub use tracing::Tracing;
 
 /// Formats errors in a text for standard error, each with its place, an excerpt and a hint.

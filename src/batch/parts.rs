@@ -7,12 +7,12 @@ use std::sync::mpsc::{self, Receiver};
 use std::thread;
 use std::time::{Duration, Instant};
 
-use super::progress::ProgressLine;
+use super::progress::{ProgressStyle, Reporter};
 use super::signals::Signals;
 use super::tracing::Tracing;
 use super::{Error, print_message};
 use crate::part::{self, Header, Part, Shard};
-use crate::render::{Block, BlockTracer, Blocks, Frame, Job, Progress, Settings};
+use crate::render::{Block, BlockTracer, Blocks, Counts, Frame, Job, Progress, Settings};
 use crate::text::counted;
 
 /// How a picture is traced into a part file.
@@ -40,14 +40,23 @@ const INTERVAL: Duration = Duration::from_secs(10);
 /// Blocks that wait to be written. Tracing waits for a slow disk.
 const WAITING: usize = 64;
 
-/// Traces a job, of the scene with this digest, into the part file beside the picture. Returns the
-/// picture if that is all of it.
+/// What was traced into a part file.
+pub(super) struct Traced {
+    /// The picture, if the part is all of it.
+    pub(super) frame: Option<Frame>,
+    /// What it took, without what was there before.
+    pub(super) progress: Progress,
+    /// The number of pixels traced.
+    pub(super) pixels: usize,
+}
+
+/// Traces a job, of the scene with this digest, into the part file beside the picture.
 pub(super) fn trace(
     tracing: &Tracing,
     (picture, parts): (&Path, Parts),
     job: Job,
     scene: String,
-) -> Result<Option<Frame>, Error> {
+) -> Result<Traced, Error> {
     let frames = job.frames;
     let header = Header {
         version: env!("CARGO_PKG_VERSION").to_owned(),
@@ -55,6 +64,7 @@ pub(super) fn trace(
         settings: job.settings,
         shard: parts.shard,
     };
+    let blocks = Blocks::of(job.settings.traced().size());
     let path = part::path_beside(picture, parts.shard);
     let refused = |source| Error::Part {
         path: path.clone(),
@@ -76,15 +86,30 @@ pub(super) fn trace(
         print_message("note", &note);
     }
     let mut continued = Continued {
-        numbers: parts.shard.blocks(Blocks::of(job.settings.traced().size())),
+        numbers: parts.shard.blocks(blocks),
         part,
         path,
         signals,
         limit: tracing.time,
+        style: tracing.progress,
         begun: Instant::now(),
+        counts: Counts::default(),
     };
     let spp = continued.run(job, tracing.threads)?;
-    let Continued { path, numbers, .. } = &continued;
+    let Continued {
+        path,
+        numbers,
+        begun,
+        counts,
+        ..
+    } = &continued;
+    let progress = progress(spp, 1.0, begun.elapsed(), *counts);
+    Reporter::new(tracing.progress).finish(&progress);
+    let traced = |frame| Traced {
+        frame,
+        progress,
+        pixels: numbers.iter().map(|&number| blocks.area(number)).sum(),
+    };
     if parts.shard != Shard::WHOLE {
         let blocks = counted(numbers.len(), "block");
         let note = format!(
@@ -93,10 +118,10 @@ pub(super) fn trace(
             path.display()
         );
         print_message("note", &note);
-        return Ok(None);
+        return Ok(traced(None));
     }
     let merged = part::merge(std::slice::from_ref(path), frames)?;
-    Ok(Some(merged.frame))
+    Ok(traced(Some(merged.frame)))
 }
 
 /// A part that is traced.
@@ -108,7 +133,10 @@ struct Continued {
     signals: Signals,
     /// The time after which no pass begins.
     limit: Option<Duration>,
+    style: ProgressStyle,
     begun: Instant,
+    /// Rays traced.
+    counts: Counts,
 }
 
 impl Continued {
@@ -166,8 +194,8 @@ impl Continued {
         let begun: Result<BTreeMap<_, _>, _> = begun.collect();
         let mut begun = begun.map_err(|source| self.unwritten(source))?;
         let reached = |number| match begun.get(&number) {
-            Some(block) => (number, block.samples, block.counts.rays),
-            None => (number, 0, 0),
+            Some(block) => (number, block.samples, block.counts),
+            None => (number, 0, Counts::default()),
         };
         let mut tally = Tally::new(spp, blocks, lacking.iter().copied().map(reached));
         let todo = lacking.into_iter().map(move |number| {
@@ -198,7 +226,7 @@ impl Continued {
 
     /// Writes blocks as they come.
     fn write(&mut self, blocks: &Receiver<Block>, tally: &mut Tally) -> std::io::Result<()> {
-        let mut line = ProgressLine::new();
+        let mut reporter = Reporter::new(self.style);
         let mut synced = Instant::now();
         while let Ok(block) = blocks.recv() {
             tally.add(&block);
@@ -207,8 +235,11 @@ impl Continued {
                 self.part.sync()?;
                 synced = Instant::now();
             }
-            line.show(&tally.progress(self.begun.elapsed()));
+            let counts = self.counts.and(tally.counts);
+            let elapsed = self.begun.elapsed();
+            reporter.show(&progress(tally.spp, tally.done(), elapsed, counts));
         }
+        self.counts = self.counts.and(tally.counts);
         self.part.sync()
     }
 
@@ -242,55 +273,58 @@ struct Tally {
     spp: u32,
     blocks: Blocks,
     /// The samples and rays of each block.
-    reached: BTreeMap<u32, [u64; 2]>,
-    /// Samples to take, taken, and rays traced.
+    reached: BTreeMap<u32, (u32, Counts)>,
+    /// Samples to take, and taken.
     all: u64,
     taken: u64,
-    rays: u64,
+    /// Rays traced.
+    counts: Counts,
 }
 
 impl Tally {
     /// Begins with blocks of some samples.
-    fn new(spp: u32, blocks: Blocks, begun: impl Iterator<Item = (u32, u32, u64)>) -> Self {
+    fn new(spp: u32, blocks: Blocks, begun: impl Iterator<Item = (u32, u32, Counts)>) -> Self {
         let mut tally = Self {
             spp,
             blocks,
             reached: BTreeMap::new(),
             all: 0,
             taken: 0,
-            rays: 0,
+            counts: Counts::default(),
         };
-        for (number, samples, rays) in begun {
+        for (number, samples, counts) in begun {
             tally.all += u64::from(spp - samples) * blocks.area(number) as u64;
-            tally.reached.insert(number, [samples.into(), rays]);
+            tally.reached.insert(number, (samples, counts));
         }
         tally
     }
 
     fn add(&mut self, block: &Block) {
-        let now = [block.samples.into(), block.counts.rays];
-        let before = self.reached.insert(block.number, now).unwrap_or_default();
-        self.taken += (now[0] - before[0]) * self.blocks.area(block.number) as u64;
-        self.rays += now[1] - before[1];
+        let now = (block.samples, block.counts);
+        let (samples, counts) = self.reached.insert(block.number, now).unwrap_or_default();
+        let taken = u64::from(block.samples - samples);
+        self.taken += taken * self.blocks.area(block.number) as u64;
+        self.counts = self.counts.and(block.counts.since(counts));
     }
 
     /// The share of the work done, 0 to 1.
     fn done(&self) -> f64 {
         self.taken as f64 / self.all.max(1) as f64
     }
+}
 
-    fn progress(&self, elapsed: Duration) -> Progress {
-        Progress {
-            pass: 1,
-            passes: 1,
-            spp: self.spp,
-            done: self.done(),
-            elapsed,
-            rays: self.rays,
-            shadow_rays: 0,
-            over_budget: 0,
-            noise: None,
-            complete: false,
-        }
+/// The progress of blocks traced to `spp` samples.
+fn progress(spp: u32, done: f64, elapsed: Duration, counts: Counts) -> Progress {
+    Progress {
+        pass: 1,
+        passes: 1,
+        spp,
+        done,
+        elapsed,
+        rays: counts.rays,
+        shadow_rays: counts.shadow_rays,
+        over_budget: counts.over_budget,
+        noise: None,
+        complete: false,
     }
 }

@@ -1,7 +1,9 @@
-//! A progress line.
+//! Progress on standard error: a line that is updated, or lines of JSON for other programs.
 
 use std::io::{self, IsTerminal, Write};
 use std::time::{Duration, Instant};
+
+use serde_json::{Value, json};
 
 use crate::render::Progress;
 use crate::text::percentage;
@@ -12,40 +14,84 @@ const INTERVAL: Duration = Duration::from_millis(200);
 /// Width of the bar in cells.
 const BAR: usize = 20;
 
-/// A line on standard error, shown only if that is a terminal, and erased on drop.
-pub(super) struct ProgressLine {
-    terminal: Option<io::Stderr>,
+/// How progress is shown.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum ProgressStyle {
+    /// A line that is updated, if standard error is a terminal, and erased at the end.
+    #[default]
+    Line,
+    /// An object of JSON a line, at least one, the last with the event `done`.
+    Json,
+    /// Not at all.
+    Off,
+}
+
+/// Shows progress on standard error. Failing to write it does no harm.
+pub(super) struct Reporter {
+    style: ProgressStyle,
     last: Option<Instant>,
 }
 
-impl ProgressLine {
-    pub(super) fn new() -> Self {
-        let stream = io::stderr();
-        Self {
-            terminal: stream.is_terminal().then_some(stream),
-            last: None,
-        }
+impl Reporter {
+    pub(super) fn new(style: ProgressStyle) -> Self {
+        let style = match style {
+            ProgressStyle::Line if !io::stderr().is_terminal() => ProgressStyle::Off,
+            style => style,
+        };
+        Self { style, last: None }
     }
 
     /// Shows the current state, at most once per [`INTERVAL`].
     pub(super) fn show(&mut self, progress: &Progress) {
-        let Some(terminal) = &mut self.terminal else {
-            return;
-        };
         if self.last.is_some_and(|last| last.elapsed() < INTERVAL) {
             return;
         }
         self.last = Some(Instant::now());
-        // Failing to write a progress line does no harm.
-        let _ = write!(terminal, "\r{}\x1b[K", line(progress));
+        let _ = match self.style {
+            ProgressStyle::Line => write!(io::stderr(), "\r{}\x1b[K", line(progress)),
+            ProgressStyle::Json => writeln!(io::stderr(), "{}", object("progress", progress)),
+            ProgressStyle::Off => Ok(()),
+        };
+    }
+
+    /// Says that all is traced.
+    pub(super) fn finish(self, progress: &Progress) {
+        if self.style == ProgressStyle::Json {
+            let _ = writeln!(io::stderr(), "{}", object("done", progress));
+        }
     }
 }
 
-impl Drop for ProgressLine {
+impl Drop for Reporter {
     fn drop(&mut self) {
-        if let (Some(terminal), Some(_)) = (&mut self.terminal, self.last) {
-            let _ = write!(terminal, "\r\x1b[K");
+        if self.style == ProgressStyle::Line && self.last.is_some() {
+            let _ = write!(io::stderr(), "\r\x1b[K");
         }
+    }
+}
+
+/// Progress as JSON. The keys are part of the interface of the command; times are in seconds, what
+/// is not known yet is null.
+fn object(event: &str, progress: &Progress) -> Value {
+    json!({
+        "event": event,
+        "done": progress.done,
+        "pass": progress.pass,
+        "passes": progress.passes,
+        "spp": progress.spp,
+        "elapsed": progress.elapsed.as_secs_f64(),
+        "left": left(progress),
+        "rays": progress.rays,
+        "noise": progress.noise,
+    })
+}
+
+/// The seconds that are left; `None` early on, when the rate is too noisy to extrapolate from.
+fn left(progress: &Progress) -> Option<f64> {
+    let elapsed = progress.elapsed.as_secs_f64();
+    match progress.done {
+        1.0 => Some(0.0),
+        done => (0.0 < done && 0.5 < elapsed).then(|| elapsed * (1.0 - done) / done),
     }
 }
 
@@ -62,11 +108,9 @@ fn line(progress: &Progress) -> String {
         "{bar} {percent} %  pass {}/{}{noise}  {elapsed:.1} s",
         progress.pass, progress.passes
     );
-    // Early on, the rate is too noisy to extrapolate from.
-    if progress.done <= 0.0 || elapsed <= 0.5 {
+    let Some(left) = left(progress) else {
         return state;
-    }
-    let left = elapsed * (1.0 - progress.done) / progress.done;
+    };
     let rate = progress.rays as f64 / elapsed / 1e6;
     format!("{state}, about {left:.1} s left  {rate:.1} Mray/s")
 }
@@ -88,6 +132,24 @@ mod tests {
             noise: Some(0.0134),
             complete: false,
         }
+    }
+
+    #[test]
+    fn the_object_has_all_figures() {
+        let expected = json!({
+            "event": "progress", "done": 0.25, "pass": 3, "passes": 6, "spp": 2, "elapsed": 2.0,
+            "left": 6.0, "rays": 28_000_000, "noise": 0.0134,
+        });
+        assert_eq!(object("progress", &progress(0.25, 2.0)), expected);
+        let done = object("done", &progress(1.0, 0.1));
+        assert_eq!(
+            (&done["left"], &done["event"]),
+            (&json!(0.0), &json!("done"))
+        );
+        assert_eq!(
+            object("progress", &progress(0.25, 0.1))["left"],
+            Value::Null
+        );
     }
 
     #[test]

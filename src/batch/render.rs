@@ -5,12 +5,13 @@ use std::path::PathBuf;
 
 use super::fingerprint::fingerprint;
 use super::parts::{self, Parts};
+use super::stats::{Sink, Stats, Times};
 use super::{Error, Tracing, Warnings, load, print_error, print_findings, print_message, stdout};
 use crate::assets;
 use crate::file;
 use crate::image_file::ImageFormat;
 use crate::memory;
-use crate::render::{Frame, Progress};
+use crate::render::{Frame, Job, Progress, memory_for};
 use crate::text::{Diagnostic, counted};
 
 /// A picture to render.
@@ -28,8 +29,22 @@ pub struct Render {
     pub tracing: Tracing,
     /// Whether it is traced into a part file, and how.
     pub parts: Option<Parts>,
+    /// What is to be done.
+    pub purpose: Purpose,
+    /// Where figures about the render go.
+    pub stats: Option<Sink>,
     /// Additional folders that pictures and meshes may be read from.
     pub assets: Vec<PathBuf>,
+}
+
+/// What is to be done with a scene.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Purpose {
+    /// It is rendered.
+    #[default]
+    Render,
+    /// The memory that rendering takes is printed, as batch systems take it, such as `340M`.
+    Estimate,
 }
 
 /// Where a picture goes.
@@ -53,6 +68,7 @@ pub fn render(work: &Render) -> Result<(), Error> {
 fn try_render(work: &Render) -> Result<(), Error> {
     check_not_scene(work)?;
     assets::check_folders(&work.assets)?;
+    let mut times = Times::started();
     memory::start_threads_or_none();
     let loaded = load(&work.scene, &work.assets, work.warnings)?;
     let scene = loaded.scene.ok_or(Error::Invalid {
@@ -73,23 +89,63 @@ fn try_render(work: &Render) -> Result<(), Error> {
         print_findings(&work.scene, loaded.source.text(), &[diagnostic]);
         return Err(Error::Invalid { errors: 1 });
     }
-    let frames = work.format.frames();
+    let digest = match (work.parts, &work.stats) {
+        (None, None) => String::new(),
+        _ => fingerprint(loaded.source.text(), &loaded.files)?,
+    };
+    let job = work.tracing.job(scene, loaded.images, work.format.frames());
+    let estimate = estimate(&job);
+    if work.purpose == Purpose::Estimate {
+        let line = format!("{}M\n", estimate.div_ceil(1 << 20));
+        return stdout::print(&line).map_err(stdout::error);
+    }
+    let settings = job.settings;
+    times.load = times.lap();
+    let stats = |times, settings, progress, pixels| match &work.stats {
+        Some(sink) => Stats {
+            scene: &work.scene,
+            digest: &digest,
+            settings,
+            threads: work.tracing.threads,
+            progress,
+            pixels,
+            estimate,
+            times,
+        }
+        .write(sink),
+        None => Ok(()),
+    };
     if let Some(parts) = work.parts {
         let Output::File(picture) = &work.output else {
             return Err(Error::Refused(
                 "--shard and --resume keep a file beside the picture: use -o FILE".to_owned(),
             ));
         };
-        let digest = fingerprint(loaded.source.text(), &loaded.files)?;
-        let job = work.tracing.job(scene, loaded.images, frames);
         drop(loaded.source);
-        let frame = parts::trace(&work.tracing, (picture, parts), job, digest)?;
-        return frame.map_or(Ok(()), |frame| finish(work, &frame));
+        let traced = parts::trace(&work.tracing, (picture, parts), job, digest.clone())?;
+        times.trace = times.lap();
+        if let Some(frame) = &traced.frame {
+            finish(work, frame)?;
+            times.write = times.lap();
+        }
+        return stats(times, settings, traced.progress, traced.pixels);
     }
     // Freeing a text of 85 MB takes 10 ms, its tree nearly as long: the worker is already running.
     let free = || drop(loaded.source);
-    let traced = work.tracing.trace(scene, loaded.images, frames, free)?;
-    finish(work, &traced.frame)
+    let traced = work.tracing.trace_job(job, free)?;
+    times.trace = times.lap();
+    let frame = &traced.frame;
+    finish(work, frame)?;
+    times.write = times.lap();
+    stats(times, settings, frame.progress, frame.size.pixels())
+}
+
+/// About how many bytes of memory a job takes in all, now that its scene is loaded: a tenth more than
+/// the larger parts, for all the others, and the threads.
+fn estimate(job: &Job) -> u64 {
+    const THREADS: u64 = 32 << 20;
+    let all = memory::used().unwrap_or(0).saturating_add(memory_for(job));
+    all.saturating_add(all / 10).saturating_add(THREADS)
 }
 
 /// Says what is to be said of a picture, and writes it.
@@ -131,7 +187,7 @@ pub(super) fn check_output(output: &Output) -> Result<(), Error> {
         Output::Stdout if stdout::is_terminal() => Err(Error::Refused(
             "standard output is a terminal; use -o FILE, a pipe, or --force".to_owned(),
         )),
-        Output::Stdout | Output::StdoutTerminal => stdout::check().map_err(stdout_error),
+        Output::Stdout | Output::StdoutTerminal => stdout::check().map_err(stdout::error),
     }
 }
 
@@ -158,7 +214,7 @@ pub(super) fn write(output: &Output, format: ImageFormat, frame: &Frame) -> Resu
     };
     written.or_else(|source| match (source.kind(), output) {
         (io::ErrorKind::BrokenPipe, _) => Ok(()),
-        (_, Output::Stdout | Output::StdoutTerminal) => Err(stdout_error(source)),
+        (_, Output::Stdout | Output::StdoutTerminal) => Err(stdout::error(source)),
         (
             io::ErrorKind::NotFound
             | io::ErrorKind::PermissionDenied
@@ -173,12 +229,4 @@ pub(super) fn write(output: &Output, format: ImageFormat, frame: &Frame) -> Resu
             source,
         }),
     })
-}
-
-/// The error of writing to standard output.
-pub(super) fn stdout_error(source: io::Error) -> Error {
-    Error::Write {
-        to: "standard output".to_owned(),
-        source,
-    }
 }

@@ -2,6 +2,7 @@
 
 use std::io::{self, BufWriter, IsTerminal, Write};
 
+use super::Error;
 use crate::image_file::ImageFormat;
 use crate::render::Frame;
 
@@ -38,6 +39,14 @@ pub(super) fn print(text: &str) -> io::Result<()> {
     match out.write_all(text.as_bytes()).and_then(|()| out.flush()) {
         Err(error) if error.kind() != io::ErrorKind::BrokenPipe => Err(error),
         _ => Ok(()),
+    }
+}
+
+/// The error of writing to standard output.
+pub(super) fn error(source: io::Error) -> Error {
+    Error::Write {
+        to: "standard output".to_owned(),
+        source,
     }
 }
 

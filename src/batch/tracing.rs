@@ -5,7 +5,7 @@ use std::sync::mpsc::{self, Receiver};
 use std::time::Duration;
 
 use super::Error;
-use super::progress::ProgressLine;
+use super::progress::{ProgressStyle, Reporter};
 use crate::render::{
     Aov, DEFAULT_SPP, Filter, Frame, Frames, Job, Limit, MAX_SPP, Region, Renderer, Settings,
     Threads, default_depth,
@@ -39,6 +39,8 @@ pub struct Tracing {
     pub exposure: f64,
     /// The number of tracing threads.
     pub threads: usize,
+    /// How the progress is shown.
+    pub progress: ProgressStyle,
 }
 
 /// A renderer with a complete picture. Kept to the end, so that its threads free memory while the
@@ -57,15 +59,20 @@ impl Tracing {
         frames: Frames,
         started: impl FnOnce(),
     ) -> Result<Traced, Error> {
+        self.trace_job(self.job(scene, images, frames), started)
+    }
+
+    /// Traces a job like [`Tracing::trace`].
+    pub(super) fn trace_job(&self, job: Job, started: impl FnOnce()) -> Result<Traced, Error> {
         let (wake, woken) = mpsc::channel();
         // Starting its threads before reading the scene was no faster.
         let mut renderer = Renderer::new(Threads::Exactly(self.threads), move || {
             // This fails only while the renderer is being dropped.
             let _ = wake.send(());
         });
-        renderer.restart(self.job(scene, images, frames))?;
+        renderer.restart(job)?;
         started();
-        let frame = wait_for_last_frame(&renderer, &woken)?;
+        let frame = wait_for_last_frame(&renderer, &woken, Reporter::new(self.progress))?;
         Ok(Traced {
             frame,
             _renderer: renderer,
@@ -121,16 +128,20 @@ impl Tracing {
     }
 }
 
-fn wait_for_last_frame(renderer: &Renderer, woken: &Receiver<()>) -> Result<Arc<Frame>, Error> {
-    let mut line = ProgressLine::new();
+fn wait_for_last_frame(
+    renderer: &Renderer,
+    woken: &Receiver<()>,
+    mut reporter: Reporter,
+) -> Result<Arc<Frame>, Error> {
     while woken.recv().is_ok() {
         let Some(frame) = renderer.latest() else {
             continue;
         };
         if frame.progress.complete {
+            reporter.finish(&frame.progress);
             return Ok(frame);
         }
-        line.show(&frame.progress);
+        reporter.show(&frame.progress);
     }
     Err(Error::Stopped)
 }

@@ -2,6 +2,7 @@
 
 use clap::ValueEnum;
 
+use crate::batch::ProgressStyle;
 use crate::render::{Aov, Filter};
 use crate::scene::{Integrator, Transfer};
 use crate::ui::terminal::{Choice, ColourDepth};
@@ -90,6 +91,28 @@ impl PixelsChoice {
             Self::Kitty => Pixels::Kitty,
             Self::Sixel => Pixels::Sixel,
             Self::Iterm => Pixels::Iterm,
+        }
+    }
+}
+
+/// How progress is shown.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
+pub(super) enum ProgressChoice {
+    /// A line, if standard error is a terminal.
+    #[default]
+    Auto,
+    /// An object a line, the last with the event "done".
+    Json,
+    /// Not at all.
+    None,
+}
+
+impl ProgressChoice {
+    pub(super) fn value(self) -> ProgressStyle {
+        match self {
+            Self::Auto => ProgressStyle::Line,
+            Self::Json => ProgressStyle::Json,
+            Self::None => ProgressStyle::Off,
         }
     }
 }

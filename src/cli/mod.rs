@@ -16,6 +16,7 @@ use clap::error::ErrorKind;
 use clap::{Args, CommandFactory, Parser, Subcommand, ValueEnum};
 use clap_complete::Shell;
 
+use choices::ProgressChoice;
 use compare::CompareArguments;
 use explain::ExplainArguments;
 use interface::InterfaceArguments;
@@ -24,7 +25,9 @@ use merge::MergeArguments;
 use shared::{AssetArguments, StrictnessArguments, format_names, output, output_help};
 use tracing::TracingArguments;
 
-use crate::batch::{self, Check, Compare, Existing, Explain, Merge, Parts, Render, Verdict};
+use crate::batch::{
+    self, Check, Compare, Existing, Explain, Merge, Output, Parts, Render, Sink, Tracing, Verdict,
+};
 use crate::config;
 use crate::file::ReadError;
 use crate::image_file::ImageFormat;
@@ -415,6 +418,16 @@ struct RenderArguments {
     /// crash, or with a larger --spp
     #[arg(long)]
     resume: bool,
+    /// Show progress as a line on a terminal (auto), as lines of JSON on standard error, or not
+    #[arg(long, value_name = "STYLE", value_enum, default_value_t)]
+    progress: ProgressChoice,
+    /// Write figures about the render to this file as JSON: times, rays, memory, noise; - for
+    /// standard output
+    #[arg(long, value_name = "FILE")]
+    stats: Option<PathBuf>,
+    /// Print about how much memory the render takes, such as 340M, instead of rendering
+    #[arg(long)]
+    estimate: bool,
     /// Write to standard output even if it is a terminal
     #[arg(long)]
     force: bool,
@@ -423,6 +436,10 @@ struct RenderArguments {
 impl RenderArguments {
     fn into_render(self) -> Result<Render, String> {
         let (output, format) = output(self.output, self.format, self.force)?;
+        let to_stdout = |path: &PathBuf| path.as_os_str() == "-";
+        if self.stats.as_ref().is_some_and(to_stdout) && !matches!(output, Output::File(_)) {
+            return Err("-o - and --stats - cannot both use standard output".to_owned());
+        }
         if self.shard.is_some() && self.tracing.is_limited() {
             return Err("--time ends shards with different samples: use --spp".to_owned());
         }
@@ -431,7 +448,19 @@ impl RenderArguments {
             warnings: self.strictness.warnings(),
             output,
             format,
-            tracing: self.tracing.into_tracing(),
+            tracing: Tracing {
+                progress: self.progress.value(),
+                ..self.tracing.into_tracing()
+            },
+            purpose: if self.estimate {
+                batch::Purpose::Estimate
+            } else {
+                batch::Purpose::Render
+            },
+            stats: self.stats.map(|path| match path.to_str() {
+                Some("-") => Sink::Stdout,
+                _ => Sink::File(path),
+            }),
             parts: (self.resume || self.shard.is_some()).then_some(Parts {
                 shard: self.shard.unwrap_or(Shard::WHOLE),
                 existing: if self.resume {

@@ -1,7 +1,6 @@
 use std::time::Duration;
 
 use super::*;
-use crate::batch::Output;
 use crate::batch::{Report, Warnings};
 use crate::image_file::MAX_PIXELS;
 use crate::render::{Filter, MAX_SPP, Region};

@@ -9,7 +9,7 @@ use clap::Args;
 
 use super::choices::{AovChoice, FilterChoice, IntegratorChoice, TransferChoice};
 use super::shared::{depth_range, spp_range, threads_range};
-use crate::batch::Tracing;
+use crate::batch::{ProgressStyle, Tracing};
 use crate::render::Region;
 use crate::scene::Size;
 use crate::text::parse_duration;
@@ -104,6 +104,7 @@ impl SampleArguments {
             transfer: self.transfer.map(TransferChoice::value),
             exposure: self.exposure,
             threads: default_threads(|name| env::var(name).ok()),
+            progress: ProgressStyle::default(),
         }
     }
 }

@@ -18,6 +18,28 @@ pub fn available() -> Option<Available> {
     })
 }
 
+/// The most bytes of memory that the process has had at once; `None` where that is not known.
+pub fn peak() -> Option<u64> {
+    #[cfg(target_os = "linux")]
+    return resident("VmHWM:");
+    #[cfg(not(target_os = "linux"))]
+    None
+}
+
+/// The bytes of memory that the process has now; `None` where that is not known.
+pub fn used() -> Option<u64> {
+    #[cfg(target_os = "linux")]
+    return resident("VmRSS:");
+    #[cfg(not(target_os = "linux"))]
+    None
+}
+
+#[cfg(target_os = "linux")]
+fn resident(key: &str) -> Option<u64> {
+    let status = super::proc::read("/proc/self/status");
+    super::proc::kilobytes(&status, key)
+}
+
 /// The memory available within each known limit.
 #[cfg(target_os = "linux")]
 pub fn limits() -> Vec<Available> {

@@ -106,7 +106,7 @@ pub use frame::{
 pub use histogram::{HISTOGRAM_STOPS, Histogram};
 pub use place::{SurfacePoint, axes, clearance, line_of, pixel_of, pixel_width, surface_under};
 pub use probe::Counts;
-pub use refusal::Refusal;
+pub use refusal::{Refusal, memory_for};
 pub use region::{NoRegion, Region};
 pub use renderer::{Renderer, Threads};
 pub use shading::Side;

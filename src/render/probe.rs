@@ -51,7 +51,8 @@ pub struct Counts {
 
 impl Counts {
     /// The difference since `before`.
-    pub(crate) fn since(self, before: Self) -> Self {
+    #[must_use]
+    pub fn since(self, before: Self) -> Self {
         Self {
             rays: self.rays - before.rays,
             shadow_rays: self.shadow_rays - before.shadow_rays,

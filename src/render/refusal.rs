@@ -53,12 +53,23 @@ pub enum Refusal {
     },
 }
 
+/// About how many bytes of memory tracing a job takes, without those of its scene.
+pub fn memory_for(job: &Job) -> u64 {
+    film(job).saturating_add(world(&job.scene))
+}
+
+/// Bytes of the picture while it is traced and encoded.
+fn film(job: &Job) -> u64 {
+    let size = job.settings.traced().size();
+    let pixels = (size.pixels() as u64).saturating_mul(ENCODED as u64);
+    Film::bytes(&job.settings, job.frames).saturating_add(pixels)
+}
+
 /// Refuses a job whose world and film do not fit into memory. For an edit of the scene `before`,
 /// the world exists already or is about to exist.
 pub(super) fn fits(job: &Job, before: Option<&Arc<Scene>>) -> Result<(), Refusal> {
     let size = job.settings.traced().size();
-    let pixels = (size.pixels() as u64).saturating_mul(ENCODED as u64);
-    let film = Film::bytes(&job.settings, job.frames).saturating_add(pixels);
+    let film = film(job);
     let objects = job.scene.objects.len();
     let world = match before {
         Some(before) if is_edit_of(before, &job.scene) => 0,

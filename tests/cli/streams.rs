@@ -124,3 +124,78 @@ fn a_terminal_is_refused_unless_forced() {
         assert!(String::from_utf8_lossy(&shown).contains(mark), "{shown:?}");
     }
 }
+
+/// The words of a JSON text that stand after a key.
+fn after<'t>(text: &'t str, key: &str) -> &'t str {
+    let (_, rest) = text.split_once(&format!("\"{key}\":")).expect("the key");
+    rest.split([',', '}', '\n']).next().expect("a value").trim()
+}
+
+#[test]
+fn progress_is_told_to_programs() {
+    let place = Place::new();
+    let said = place.stderr("render ball.ray -o a.bmp --spp 4 --progress json", 0);
+    let last = said.lines().last().expect("at least one line");
+    for (key, value) in [
+        ("event", "\"done\""),
+        ("done", "1.0"),
+        ("spp", "4"),
+        ("left", "0.0"),
+    ] {
+        assert_eq!(after(last, key), value, "{said}");
+    }
+    assert_eq!(
+        place.stderr("render ball.ray -o a.bmp --progress none", 0),
+        ""
+    );
+}
+
+#[test]
+fn figures_of_a_render_are_written() {
+    let place = Place::new();
+    let line = "render ball.ray -o a.bmp --size 40x30 --spp 4 --seed 5 --stats";
+    place.stderr(&format!("{line} stats.json"), 0);
+    let whole = String::from_utf8(place.read("stats.json")).expect("UTF-8");
+    place.stderr(&format!("{line} - --resume"), 0);
+    let output = place.run(&format!("{line} - --shard 0/2"));
+    let shard = String::from_utf8(output.stdout).expect("UTF-8");
+    for (key, of_whole, of_shard) in [
+        ("scene", "\"ball.ray\"", "\"ball.ray\""),
+        ("pixels", "1200", "960"),
+        ("samples", "4800", "3840"),
+        ("size", "\"40x30\"", "\"40x30\""),
+        ("seed", "5", "5"),
+        ("spp", "4", "4"),
+        ("shadow", "0", "0"),
+    ] {
+        assert_eq!(
+            [after(&whole, key), after(&shard, key)],
+            [of_whole, of_shard],
+            "{key}"
+        );
+    }
+    // A camera ray each; those that hit nothing count too.
+    assert_eq!(after(&whole, "all"), "4800");
+    assert_eq!(after(&whole, "digest"), after(&shard, "digest"));
+    place.stderr("render ball.ray -o - --stats -", 2);
+}
+
+#[test]
+fn memory_is_estimated_without_rendering() {
+    let place = Place::new();
+    let estimate = |size: &str| -> u32 {
+        let output = place.run(&format!(
+            "render ball.ray -o a.exr --size {size} --estimate"
+        ));
+        let said = String::from_utf8(output.stdout).expect("UTF-8");
+        let number = said.trim_end().strip_suffix('M').expect("megabytes");
+        number.parse().expect("a number")
+    };
+    let (small, large) = (estimate("8x6"), estimate("4000x3000"));
+    // At least 24 bytes of sums and 12 of values a pixel.
+    assert!(
+        12 * 36 < large - small && large - small < 12 * 100,
+        "{small} {large}"
+    );
+    assert_eq!(place.names(), ["ball.ray"]);
+}

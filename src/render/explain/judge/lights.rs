@@ -42,7 +42,7 @@ impl Judge<'_> {
                 lost,
             };
         }
-        reasons.extend(self.no_lights());
+        reasons.extend(self.no_lights(shading));
         let mut off = Vec::new();
         let mut away = Vec::new();
         for term in &shading.lights {
@@ -116,10 +116,10 @@ impl Judge<'_> {
         Lacks { findings, lost }
     }
 
-    /// That nothing in the scene can light anything.
-    fn no_lights(&self) -> Option<Reason> {
+    /// That nothing in the scene can light a surface; not if ambient light does.
+    fn no_lights(&self, shading: &Shading) -> Option<Reason> {
         let scene = &self.case.world.scene;
-        if scene.lights.iter().any(is_direct) {
+        if scene.lights.iter().any(is_direct) || shading.ambient != Rgb::ZERO {
             return None;
         }
         let others = match self.case.integrator {

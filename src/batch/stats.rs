@@ -1,0 +1,136 @@
+//! Figures about a finished render, as JSON.
+
+use std::path::{Path, PathBuf};
+use std::time::{Duration, Instant};
+
+use serde_json::{Map, Value, json};
+
+use super::{Error, stdout};
+use crate::file;
+use crate::memory;
+use crate::render::{Progress, Settings};
+
+/// Where figures go.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Sink {
+    /// A file.
+    File(PathBuf),
+    /// Standard output.
+    Stdout,
+}
+
+/// What is counted and timed.
+pub(super) struct Stats<'s> {
+    pub(super) scene: &'s Path,
+    pub(super) digest: &'s str,
+    pub(super) settings: Settings,
+    pub(super) threads: usize,
+    pub(super) progress: Progress,
+    /// The number of pixels traced.
+    pub(super) pixels: usize,
+    /// The bytes of memory estimated beforehand.
+    pub(super) estimate: u64,
+    pub(super) times: Times,
+}
+
+/// How long the steps of a render took.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Times {
+    last: Instant,
+    pub(super) load: Duration,
+    pub(super) trace: Duration,
+    pub(super) write: Duration,
+}
+
+impl Times {
+    pub(super) fn started() -> Self {
+        Self {
+            last: Instant::now(),
+            load: Duration::ZERO,
+            trace: Duration::ZERO,
+            write: Duration::ZERO,
+        }
+    }
+
+    /// The time since the last call, or the start.
+    pub(super) fn lap(&mut self) -> Duration {
+        let now = Instant::now();
+        now - std::mem::replace(&mut self.last, now)
+    }
+}
+
+impl Stats<'_> {
+    /// Writes the figures.
+    pub(super) fn write(&self, sink: &Sink) -> Result<(), Error> {
+        let text = format!("{:#}\n", self.object());
+        match sink {
+            Sink::Stdout => stdout::print(&text).map_err(stdout::error),
+            Sink::File(path) => {
+                file::deliver(path, |out| out.write_all(text.as_bytes()), || Ok(()))
+                    .map(drop)
+                    .map_err(|source| Error::Write {
+                        to: path.display().to_string(),
+                        source,
+                    })
+            }
+        }
+    }
+
+    /// The keys are part of the interface of the command. Times are in seconds, memory in bytes; what
+    /// is not known is null.
+    fn object(&self) -> Value {
+        let Progress {
+            spp,
+            rays,
+            shadow_rays,
+            over_budget,
+            noise,
+            ..
+        } = self.progress;
+        let Times {
+            load, trace, write, ..
+        } = self.times;
+        let seconds = |time: Duration| time.as_secs_f64();
+        let mut settings: Map<_, _> = self
+            .settings
+            .written()
+            .into_iter()
+            .map(|(name, value)| (name.to_owned(), number_or_word(value)))
+            .collect();
+        settings.insert("spp".to_owned(), spp.into());
+        let samples = self.pixels as u64 * u64::from(spp);
+        json!({
+            "version": env!("CARGO_PKG_VERSION"),
+            "scene": self.scene.to_string_lossy(),
+            "digest": self.digest,
+            "settings": settings,
+            "threads": self.threads,
+            "pixels": self.pixels,
+            "samples": samples,
+            "samples_over_budget": over_budget,
+            "noise": noise,
+            "rays": {
+                "all": rays,
+                "shadow": shadow_rays,
+                "other": rays - shadow_rays,
+            },
+            "seconds": {
+                "load": seconds(load),
+                "trace": seconds(trace),
+                "write": seconds(write),
+                "total": seconds(load + trace + write),
+            },
+            "memory": {
+                "estimate": self.estimate,
+                "peak": memory::peak(),
+            },
+        })
+    }
+}
+
+/// A setting, as a number if it is one.
+fn number_or_word(written: String) -> Value {
+    written
+        .parse()
+        .map_or(Value::String(written), Value::Number)
+}
