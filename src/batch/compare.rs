@@ -74,10 +74,7 @@ fn try_compare(work: &Compare) -> Result<Verdict, Error> {
         Report::Text => table(work, &found, verdict),
         Report::Json => format!("{:#}\n", object(work, &found, verdict)),
     };
-    stdout::print(&report).map_err(|source| Error::Write {
-        to: "standard output".to_owned(),
-        source,
-    })?;
+    stdout::print(&report).map_err(stdout::error)?;
     match (&work.output, &found) {
         (Some((path, format)), Ok(found)) => {
             draw(path, *format, found.size, heat_map(a.pixels(), b.pixels()))?;

@@ -64,10 +64,7 @@ fn try_explain(work: &Explain) -> Result<(), Error> {
             format!("{object:#}\n")
         }
     };
-    stdout::print(&report).map_err(|source| Error::Write {
-        to: "standard output".to_owned(),
-        source,
-    })
+    stdout::print(&report).map_err(stdout::error)
 }
 
 /// Refuses a pixel outside the picture.
