@@ -1,9 +1,11 @@
 //! Headless work: check, compare, explain and render. Knows no terminals, except for a progress line if standard
 //! error is one.
 
+mod bench;
 mod compare;
 mod explain;
 mod fingerprint;
+mod machine;
 mod merge;
 mod parts;
 mod progress;
@@ -30,6 +32,7 @@ use crate::render::Refusal;
 use crate::scene::{Images, Scene};
 use crate::text::{Diagnostic, Findings, Span, counted, percentage, visible, without_codes};
 
+pub use bench::{Bench, bench};
 pub use compare::{Compare, Report, Verdict, compare};
 pub use explain::{Explain, explain};
 pub use merge::{Merge, MergePurpose, merge};

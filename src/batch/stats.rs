@@ -91,13 +91,10 @@ impl Stats<'_> {
             load, trace, write, ..
         } = self.times;
         let seconds = |time: Duration| time.as_secs_f64();
-        let mut settings: Map<_, _> = self
-            .settings
-            .written()
-            .into_iter()
-            .map(|(name, value)| (name.to_owned(), number_or_word(value)))
-            .collect();
-        settings.insert("spp".to_owned(), spp.into());
+        let settings = settings(&Settings {
+            spp,
+            ..self.settings
+        });
         let samples = self.pixels as u64 * u64::from(spp);
         json!({
             "version": env!("CARGO_PKG_VERSION"),
@@ -126,6 +123,16 @@ impl Stats<'_> {
             },
         })
     }
+}
+
+/// Settings with the names of the command line's options.
+pub(super) fn settings(settings: &Settings) -> Value {
+    let written = settings.written().into_iter();
+    let mut named: Map<_, _> = written
+        .map(|(name, value)| (name.to_owned(), number_or_word(value)))
+        .collect();
+    named.insert("spp".to_owned(), settings.spp.into());
+    Value::Object(named)
 }
 
 /// A setting, as a number if it is one.

@@ -1,5 +1,6 @@
 //! Command-line arguments and exit codes. Does no work itself.
 
+mod bench;
 mod choices;
 mod compare;
 mod explain;
@@ -16,6 +17,7 @@ use clap::error::ErrorKind;
 use clap::{Args, CommandFactory, Parser, Subcommand, ValueEnum};
 use clap_complete::Shell;
 
+use bench::BenchArguments;
 use choices::ProgressChoice;
 use compare::CompareArguments;
 use explain::ExplainArguments;
@@ -26,7 +28,8 @@ use shared::{AssetArguments, StrictnessArguments, format_names, output, output_h
 use tracing::TracingArguments;
 
 use crate::batch::{
-    self, Check, Compare, Existing, Explain, Merge, Output, Parts, Render, Sink, Tracing, Verdict,
+    self, Bench, Check, Compare, Existing, Explain, Merge, Output, Parts, Render, Sink, Tracing,
+    Verdict,
 };
 use crate::config;
 use crate::file::ReadError;
@@ -70,6 +73,8 @@ pub enum Command {
     Interface(ui::Options, config::Source, Purpose),
     /// Render a picture.
     Render(Render),
+    /// Measure scenes.
+    Bench(Bench),
     /// Merge part files.
     Merge(Merge),
     /// Compare two pictures.
@@ -99,6 +104,10 @@ pub fn parse(arguments: impl IntoIterator<Item = OsString>) -> Result<Command, S
             .into_render()
             .map(Command::Render)
             .map_err(|reason| refusal(Some("render"), reason)),
+        Some(Subcommands::Bench(bench)) => bench
+            .into_bench()
+            .map(Command::Bench)
+            .map_err(|reason| refusal(Some("bench"), reason)),
         Some(Subcommands::Merge(merge)) => merge
             .into_merge()
             .map(Command::Merge)
@@ -286,6 +295,9 @@ enum Subcommands {
     /// Say why a pixel has its colour, and show the rays behind it
     #[command(after_help = explain::EXAMPLES)]
     Explain(ExplainArguments),
+    /// Measure how fast scenes are loaded and traced on this machine
+    #[command(after_help = bench::EXAMPLES)]
+    Bench(BenchArguments),
     /// Report errors and warnings in scenes without rendering them
     Check {
         /// Scene files

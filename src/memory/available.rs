@@ -34,6 +34,17 @@ pub fn used() -> Option<u64> {
     None
 }
 
+/// The bytes of memory that the machine has; `None` where that is not known.
+pub fn installed() -> Option<u64> {
+    #[cfg(target_os = "linux")]
+    {
+        use super::proc;
+        proc::kilobytes(&proc::read("/proc/meminfo"), "MemTotal:")
+    }
+    #[cfg(not(target_os = "linux"))]
+    None
+}
+
 #[cfg(target_os = "linux")]
 fn resident(key: &str) -> Option<u64> {
     let status = super::proc::read("/proc/self/status");

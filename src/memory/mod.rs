@@ -14,7 +14,7 @@ mod threads;
 
 use std::fmt;
 
-pub use available::{available, limits, peak, used};
+pub use available::{available, installed, limits, peak, used};
 pub use threads::{NoThreads, start_threads, start_threads_or_none, threads};
 
 /// Work that needs fewer bytes is not checked: asking the system takes longer, and any other

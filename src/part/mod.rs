@@ -3,7 +3,7 @@
 //! A part file is written while its blocks are traced, and only ever appended to: a [`header`] says
 //! which picture it is a part of, [`record`]s hold its blocks. Whatever ends the writing, all but the
 //! last record are good, and the tracing [continues](Part::open) from them. A picture traced by one
-//! process has one part; for several, [`shard`]s say whose blocks are whose, and a [`merge`] puts
+//! process has one part; for several, [`shard`]s say whose blocks are whose, and a [merge](mod@merge) puts
 //! their parts together.
 
 mod header;

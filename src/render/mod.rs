@@ -111,6 +111,7 @@ pub use region::{NoRegion, Region};
 pub use renderer::{Renderer, Threads};
 pub use shading::Side;
 pub use wireframe::{WireLine, Wireframe, wireframe};
+pub use world::vectors;
 
 #[cfg(test)]
 mod tests;

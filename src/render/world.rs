@@ -24,6 +24,22 @@ pub(super) const FEW: usize = 4;
 /// The order of objects without a tree.
 const FILE_ORDER: [u32; FEW] = [0, 1, 2, 3];
 
+/// The vector instructions that tracing uses on this machine.
+pub fn vectors() -> &'static str {
+    let level = Level::new();
+    #[cfg(target_arch = "x86_64")]
+    return match level {
+        _ if level.as_avx512().is_some() => "AVX-512",
+        _ if level.as_avx2().is_some() => "AVX2",
+        _ => "SSE2",
+    };
+    #[cfg(not(target_arch = "x86_64"))]
+    match level.is_fallback() {
+        true => "no vectors",
+        false => "native vectors",
+    }
+}
+
 /// A scene and its acceleration structures.
 #[derive(Clone, Debug)]
 pub(crate) struct World {

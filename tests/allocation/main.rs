@@ -80,7 +80,12 @@ mod unix {
             Ok(cli::Command::Explain(work)) => cli::exit_code(&batch::explain(work)),
             Ok(cli::Command::Check(work)) => cli::exit_code(&batch::check(work)),
             Ok(cli::Command::Interface(options, ..)) => cli::interface_exit_code(&ui::run(options)),
-            Ok(cli::Command::Merge(_) | cli::Command::Compare(_) | cli::Command::Doctor(_)) => {
+            Ok(
+                cli::Command::Bench(_)
+                | cli::Command::Merge(_)
+                | cli::Command::Compare(_)
+                | cli::Command::Doctor(_),
+            ) => {
                 panic!("{command:?} is not tested here")
             }
             Err(stop) => panic!("{}", stop.text),

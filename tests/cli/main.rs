@@ -1,6 +1,7 @@
 //! Tests of the program as run from a shell: arguments, streams, files and exit codes.
 
 mod arguments;
+mod bench;
 mod comparing;
 mod config;
 mod explaining;
