@@ -16,6 +16,7 @@ fn main() -> ExitCode {
         Ok(Command::Interface(options, source, purpose)) => configured(options, &source, purpose),
         Ok(Command::Render(work)) => cli::exit_code(&batch::render(&work)),
         Ok(Command::Check(work)) => cli::exit_code(&batch::check(&work)),
+        Ok(Command::Sequence(work)) => cli::exit_code(&batch::render_sequence(&work)),
         Ok(Command::Bench(work)) => cli::exit_code(&batch::bench(&work)),
         Ok(Command::Merge(work)) => cli::exit_code(&batch::merge(&work)),
         Ok(Command::Compare(work)) => cli::comparison_exit_code(&batch::compare(&work)),

@@ -30,6 +30,19 @@ pub enum ProgressStyle {
 pub(super) struct Reporter {
     style: ProgressStyle,
     last: Option<Instant>,
+    /// The place in a sequence, such as `frame 3/36`.
+    place: Option<Place>,
+}
+
+/// The place of a picture in a sequence.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Place {
+    /// The number of the frame.
+    pub(super) frame: u32,
+    /// How many are done before it.
+    pub(super) before: usize,
+    /// How many there are to do.
+    pub(super) all: usize,
 }
 
 impl Reporter {
@@ -38,7 +51,16 @@ impl Reporter {
             ProgressStyle::Line if !io::stderr().is_terminal() => ProgressStyle::Off,
             style => style,
         };
-        Self { style, last: None }
+        Self {
+            style,
+            last: None,
+            place: None,
+        }
+    }
+
+    /// Tells the place of the picture in a sequence.
+    pub(super) fn at(self, place: Option<Place>) -> Self {
+        Self { place, ..self }
     }
 
     /// Shows the current state, at most once per [`INTERVAL`].
@@ -48,16 +70,36 @@ impl Reporter {
         }
         self.last = Some(Instant::now());
         let _ = match self.style {
-            ProgressStyle::Line => write!(io::stderr(), "\r{}\x1b[K", line(progress)),
-            ProgressStyle::Json => writeln!(io::stderr(), "{}", object("progress", progress)),
+            ProgressStyle::Line => {
+                let place = self.place.map_or_else(String::new, |place| {
+                    format!(
+                        "frame {} ({}/{})  ",
+                        place.frame,
+                        place.before + 1,
+                        place.all
+                    )
+                });
+                write!(io::stderr(), "\r{place}{}\x1b[K", line(progress))
+            }
+            ProgressStyle::Json => writeln!(io::stderr(), "{}", self.object("progress", progress)),
             ProgressStyle::Off => Ok(()),
         };
     }
 
+    fn object(&self, event: &str, progress: &Progress) -> Value {
+        let mut object = object(event, progress);
+        if let Some(Place { frame, before, all }) = self.place {
+            object["frame"] = frame.into();
+            object["frames_before"] = before.into();
+            object["frames"] = all.into();
+        }
+        object
+    }
+
     /// Says that all is traced.
-    pub(super) fn finish(self, progress: &Progress) {
+    pub(super) fn finish(&self, progress: &Progress) {
         if self.style == ProgressStyle::Json {
-            let _ = writeln!(io::stderr(), "{}", object("done", progress));
+            let _ = writeln!(io::stderr(), "{}", self.object("done", progress));
         }
     }
 }

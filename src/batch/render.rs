@@ -206,13 +206,18 @@ fn check_references(work: &Render, files: &[PathBuf]) -> Result<(), Error> {
 
 /// Writes a picture.
 pub(super) fn write(output: &Output, format: ImageFormat, frame: &Frame) -> Result<(), Error> {
-    let written = match output {
+    let saved = match output {
         Output::File(path) => {
             file::deliver(path, |out| format.write(frame, out), || Ok(())).map(drop)
         }
         Output::Stdout | Output::StdoutTerminal => stdout::write(format, frame),
     };
-    written.or_else(|source| match (source.kind(), output) {
+    written(output, saved)
+}
+
+/// What the outcome of writing a picture means.
+pub(super) fn written(output: &Output, saved: io::Result<()>) -> Result<(), Error> {
+    saved.or_else(|source| match (source.kind(), output) {
         (io::ErrorKind::BrokenPipe, _) => Ok(()),
         (_, Output::Stdout | Output::StdoutTerminal) => Err(stdout::error(source)),
         (

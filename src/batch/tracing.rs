@@ -5,7 +5,7 @@ use std::sync::mpsc::{self, Receiver};
 use std::time::Duration;
 
 use super::Error;
-use super::progress::{ProgressStyle, Reporter};
+use super::progress::{Place, ProgressStyle, Reporter};
 use crate::render::{
     Aov, DEFAULT_SPP, Filter, Frame, Frames, Job, Limit, MAX_SPP, Region, Renderer, Settings,
     Threads, default_depth,
@@ -43,11 +43,49 @@ pub struct Tracing {
     pub progress: ProgressStyle,
 }
 
-/// A renderer with a complete picture. Kept to the end, so that its threads free memory while the
+/// A complete picture, with the renderer that traced it. Kept to the end, so that its threads free memory while the
 /// picture is used.
 pub(super) struct Traced {
     pub(super) frame: Arc<Frame>,
-    _renderer: Renderer,
+    _tracer: Tracer,
+}
+
+/// A renderer that traces one job after the other, and keeps the structures of objects that stay as
+/// they are.
+pub(super) struct Tracer {
+    renderer: Renderer,
+    woken: Receiver<()>,
+    style: ProgressStyle,
+}
+
+impl Tracer {
+    pub(super) fn new(tracing: &Tracing) -> Self {
+        let (wake, woken) = mpsc::channel();
+        // Starting its threads before reading the scene was no faster.
+        let renderer = Renderer::new(Threads::Exactly(tracing.threads), move || {
+            // This fails only while the renderer is being dropped.
+            let _ = wake.send(());
+        });
+        Self {
+            renderer,
+            woken,
+            style: tracing.progress,
+        }
+    }
+
+    /// Traces a job, at a place in a sequence, and shows the progress. `started` is called while the
+    /// renderer works.
+    pub(super) fn trace(
+        &mut self,
+        job: Job,
+        place: Option<Place>,
+        started: impl FnOnce(),
+    ) -> Result<Arc<Frame>, Error> {
+        self.renderer.restart(job)?;
+        started();
+        let reporter = Reporter::new(self.style).at(place);
+        wait_for_last_frame(&self.renderer, &self.woken, reporter)
+    }
 }
 
 impl Tracing {
@@ -64,18 +102,11 @@ impl Tracing {
 
     /// Traces a job like [`Tracing::trace`].
     pub(super) fn trace_job(&self, job: Job, started: impl FnOnce()) -> Result<Traced, Error> {
-        let (wake, woken) = mpsc::channel();
-        // Starting its threads before reading the scene was no faster.
-        let mut renderer = Renderer::new(Threads::Exactly(self.threads), move || {
-            // This fails only while the renderer is being dropped.
-            let _ = wake.send(());
-        });
-        renderer.restart(job)?;
-        started();
-        let frame = wait_for_last_frame(&renderer, &woken, Reporter::new(self.progress))?;
+        let mut tracer = Tracer::new(self);
+        let frame = tracer.trace(job, None, started)?;
         Ok(Traced {
             frame,
-            _renderer: renderer,
+            _tracer: tracer,
         })
     }
 

@@ -6,6 +6,7 @@ mod compare;
 mod explain;
 mod interface;
 mod merge;
+mod render;
 mod shared;
 mod tracing;
 
@@ -14,27 +15,22 @@ use std::fmt::Write;
 use std::path::{Path, PathBuf};
 
 use clap::error::ErrorKind;
-use clap::{Args, CommandFactory, Parser, Subcommand, ValueEnum};
+use clap::{CommandFactory, Parser, Subcommand, ValueEnum};
 use clap_complete::Shell;
 
 use bench::BenchArguments;
-use choices::ProgressChoice;
 use compare::CompareArguments;
 use explain::ExplainArguments;
 use interface::InterfaceArguments;
 pub use interface::Purpose;
 use merge::MergeArguments;
-use shared::{AssetArguments, StrictnessArguments, format_names, output, output_help};
-use tracing::TracingArguments;
+use render::{RenderArguments, Work};
+use shared::{AssetArguments, StrictnessArguments};
 
-use crate::batch::{
-    self, Bench, Check, Compare, Existing, Explain, Merge, Output, Parts, Render, Sink, Tracing,
-    Verdict,
-};
+use crate::batch::{self, Bench, Check, Compare, Explain, Merge, Render, Sequence, Verdict};
 use crate::config;
 use crate::file::ReadError;
-use crate::image_file::ImageFormat;
-use crate::part::{self, MOST_SHARDS, Shard, Unmerged};
+use crate::part::{self, Unmerged};
 use crate::text::{nearest_word, visible};
 use crate::ui;
 
@@ -73,6 +69,8 @@ pub enum Command {
     Interface(ui::Options, config::Source, Purpose),
     /// Render a picture.
     Render(Render),
+    /// Render a sequence of pictures.
+    Sequence(Sequence),
     /// Measure scenes.
     Bench(Bench),
     /// Merge part files.
@@ -101,8 +99,11 @@ pub fn parse(arguments: impl IntoIterator<Item = OsString>) -> Result<Command, S
     let cli = Cli::try_parse_from(arguments).map_err(|error| Stop::of(&error))?;
     match cli.command {
         Some(Subcommands::Render(render)) => render
-            .into_render()
-            .map(Command::Render)
+            .into_work()
+            .map(|work| match work {
+                Work::Picture(render) => Command::Render(render),
+                Work::Sequence(sequence) => Command::Sequence(sequence),
+            })
             .map_err(|reason| refusal(Some("render"), reason)),
         Some(Subcommands::Bench(bench)) => bench
             .into_bench()
@@ -284,7 +285,7 @@ no picture, 65 invalid scene, 66 scene not found or unreadable, 73 picture file 
 #[derive(Debug, Subcommand)]
 enum Subcommands {
     /// Render a scene to a picture file
-    #[command(after_help = RENDER_EXAMPLES)]
+    #[command(after_help = render::EXAMPLES)]
     Render(RenderArguments),
     /// Merge the part files of a picture, or say which are missing
     #[command(after_help = merge::EXAMPLES)]
@@ -394,102 +395,6 @@ fn likely_command(scene: &Path) -> Option<String> {
     let cli = Cli::command();
     let names = cli.get_subcommands().map(clap::Command::get_name);
     nearest_word(word, names).map(str::to_owned)
-}
-
-const RENDER_EXAMPLES: &str = "\
-Examples:
-  halflight render scene.ray -o scene.bmp
-  halflight render scene.ray -o scene.png --size 1920x1080 --spp 64
-  halflight render scene.ray -o - --format ppm | display
-
-GIF is reduced to 256 colours and JPEG has quality 95. EXR and HDR keep unclamped values; the \
-other formats keep every pixel with 8 bits per channel.
-
-The same scene and options give the same bytes on every machine and with any number of threads.";
-
-#[derive(Args, Debug)]
-struct RenderArguments {
-    /// Scene file: .ray, .dat or .xml
-    #[arg(value_name = "SCENE")]
-    scene: PathBuf,
-    #[arg(short, long, value_name = "FILE", help = output_help())]
-    output: PathBuf,
-    /// Picture format, regardless of the file's extension [default for -o -: bmp]
-    #[arg(long, value_name = "FORMAT", value_parser = format_names())]
-    format: Option<ImageFormat>,
-    #[command(flatten)]
-    tracing: TracingArguments,
-    #[command(flatten)]
-    strictness: StrictnessArguments,
-    #[command(flatten)]
-    assets: AssetArguments,
-    /// Trace only shard K of N, from 0, into a part file beside FILE; see merge
-    #[arg(long, value_name = "K/N", value_parser = parse_shard)]
-    shard: Option<Shard>,
-    /// Keep a part file beside FILE, and continue it if it is there: after SIGTERM, SIGUSR1 or a
-    /// crash, or with a larger --spp
-    #[arg(long)]
-    resume: bool,
-    /// Show progress as a line on a terminal (auto), as lines of JSON on standard error, or not
-    #[arg(long, value_name = "STYLE", value_enum, default_value_t)]
-    progress: ProgressChoice,
-    /// Write figures about the render to this file as JSON: times, rays, memory, noise; - for
-    /// standard output
-    #[arg(long, value_name = "FILE")]
-    stats: Option<PathBuf>,
-    /// Print about how much memory the render takes, such as 340M, instead of rendering
-    #[arg(long)]
-    estimate: bool,
-    /// Write to standard output even if it is a terminal
-    #[arg(long)]
-    force: bool,
-}
-
-impl RenderArguments {
-    fn into_render(self) -> Result<Render, String> {
-        let (output, format) = output(self.output, self.format, self.force)?;
-        let to_stdout = |path: &PathBuf| path.as_os_str() == "-";
-        if self.stats.as_ref().is_some_and(to_stdout) && !matches!(output, Output::File(_)) {
-            return Err("-o - and --stats - cannot both use standard output".to_owned());
-        }
-        if self.shard.is_some() && self.tracing.is_limited() {
-            return Err("--time ends shards with different samples: use --spp".to_owned());
-        }
-        Ok(Render {
-            scene: self.scene,
-            warnings: self.strictness.warnings(),
-            output,
-            format,
-            tracing: Tracing {
-                progress: self.progress.value(),
-                ..self.tracing.into_tracing()
-            },
-            purpose: if self.estimate {
-                batch::Purpose::Estimate
-            } else {
-                batch::Purpose::Render
-            },
-            stats: self.stats.map(|path| match path.to_str() {
-                Some("-") => Sink::Stdout,
-                _ => Sink::File(path),
-            }),
-            parts: (self.resume || self.shard.is_some()).then_some(Parts {
-                shard: self.shard.unwrap_or(Shard::WHOLE),
-                existing: if self.resume {
-                    Existing::Continued
-                } else {
-                    Existing::Refused
-                },
-            }),
-            assets: self.assets.folders,
-        })
-    }
-}
-
-fn parse_shard(text: &str) -> Result<Shard, String> {
-    Shard::parse(text).ok_or_else(|| {
-        format!("expected K/N with K from 0 to N - 1 and N up to {MOST_SHARDS}, such as 3/8")
-    })
 }
 
 #[cfg(test)]

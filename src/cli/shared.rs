@@ -76,12 +76,16 @@ pub(super) fn output(
         None if to_stdout => ImageFormat::Bmp,
         None => picture_format(&path).map_err(|reason| format!("{reason}, or --format"))?,
     };
-    let output = match (to_stdout, force) {
+    Ok((destination(path, force), format))
+}
+
+/// Where a file goes; `-` is standard output.
+pub(super) fn destination(path: PathBuf, force: bool) -> Output {
+    match (path.as_os_str() == "-", force) {
         (false, _) => Output::File(path),
         (true, false) => Output::Stdout,
         (true, true) => Output::StdoutTerminal,
-    };
-    Ok((output, format))
+    }
 }
 
 /// The names of the picture formats.
@@ -89,9 +93,12 @@ pub(super) fn format_names() -> impl TypedValueParser<Value = ImageFormat> {
     let names = FORMATS.map(|(format, extensions)| {
         PossibleValue::new(format.name()).aliases(extensions.iter().copied())
     });
-    PossibleValuesParser::new(names).try_map(|name| {
-        let mut formats = FORMATS.into_iter();
-        let known = formats.find(|(_, extensions)| extensions.contains(&name.as_str()));
-        known.map(|(format, _)| format).ok_or("unknown format")
-    })
+    PossibleValuesParser::new(names).try_map(|name| format_named(&name).ok_or("unknown format"))
+}
+
+/// The picture format with a name or extension.
+pub(super) fn format_named(name: &str) -> Option<ImageFormat> {
+    let mut formats = FORMATS.into_iter();
+    let known = formats.find(|(_, extensions)| extensions.contains(&name));
+    known.map(|(format, _)| format)
 }

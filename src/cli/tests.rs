@@ -1,8 +1,8 @@
 use std::time::Duration;
 
 use super::*;
-use crate::batch::{Report, Warnings};
-use crate::image_file::MAX_PIXELS;
+use crate::batch::{Output, Report, Warnings};
+use crate::image_file::{ImageFormat, MAX_PIXELS};
 use crate::render::{Filter, MAX_SPP, Region};
 use crate::scene::{Integrator, Size};
 use crate::ui::Theme;
@@ -183,8 +183,8 @@ fn wrong_arguments_are_rejected_with_a_reason() {
     let cases = [
         (
             "halflight a b",
-            "unexpected second scene b: only one can be opened; the commands are render, compare, explain, \
-             check, completions, man and doctor",
+            "unexpected second scene b: only one can be opened; the commands are render, merge, compare, \
+             explain, bench, check, completions, man and doctor",
         ),
         (
             "halflight --color blue a",

@@ -1,6 +1,7 @@
 //! Picture files: writing frames, reading textures. Of scenes it knows only pictures and their
 //! sizes.
 
+mod movie;
 mod read;
 mod sieve;
 mod write;
@@ -10,6 +11,7 @@ use std::path::Path;
 use crate::render::Frames;
 use crate::scene::Size;
 
+pub use movie::{MovieFormat, MovieWriter};
 pub use read::{MAX_TEXTURE_PIXELS, Unreadable, decode};
 pub use write::{encode_quickly, save};
 

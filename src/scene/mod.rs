@@ -123,6 +123,21 @@ impl Camera {
 
     /// Depth limits that clip nothing.
     pub const ALL_DEPTHS: [f64; 2] = [0.0, f64::INFINITY];
+
+    /// The camera turned about the axis through its target in the up direction, counter-clockwise as
+    /// seen from above, by an angle in radians (Rodrigues' formula). It still looks at the target.
+    #[must_use]
+    pub fn about_target(&self, angle: f64) -> Self {
+        let axis = self.up.normalize();
+        let (sine, cosine) = (libm::sin(angle), libm::cos(angle));
+        let from = self.eye - self.target;
+        let turned =
+            cosine * from + sine * axis.cross(from) + (1.0 - cosine) * axis.dot(from) * axis;
+        Self {
+            eye: self.target + turned,
+            ..*self
+        }
+    }
 }
 
 /// The depth of field of a camera.

@@ -81,7 +81,8 @@ mod unix {
             Ok(cli::Command::Check(work)) => cli::exit_code(&batch::check(work)),
             Ok(cli::Command::Interface(options, ..)) => cli::interface_exit_code(&ui::run(options)),
             Ok(
-                cli::Command::Bench(_)
+                cli::Command::Sequence(_)
+                | cli::Command::Bench(_)
                 | cli::Command::Merge(_)
                 | cli::Command::Compare(_)
                 | cli::Command::Doctor(_),

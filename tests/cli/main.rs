@@ -5,6 +5,7 @@ mod bench;
 mod comparing;
 mod config;
 mod explaining;
+mod frames;
 mod keys;
 mod limits;
 mod parts;

@@ -102,7 +102,7 @@ const DEPENDENCIES: &[(&str, &str)] = &[
     ("fearless_simd", "geometry"),
     ("glam", "*"),
     ("image", "image_file"),
-    ("libm", "geometry language render ui"),
+    ("libm", "geometry language render scene ui"),
     ("notify", "watch"),
     ("ratatui", "ui"),
     (

@@ -1,0 +1,258 @@
+//! The arguments of `render`.
+
+use std::path::PathBuf;
+
+use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
+use clap::{Args, value_parser};
+
+use super::choices::ProgressChoice;
+use super::shared::{
+    AssetArguments, StrictnessArguments, destination, format_named, output, output_help,
+    picture_format,
+};
+use super::tracing::TracingArguments;
+use crate::batch::{
+    self, Existing, Finished, FrameSource, Output, Parts, Pattern, Render, Sequence,
+    SequenceOutput, Sink, Tracing,
+};
+use crate::image_file::{FORMATS, ImageFormat, MovieFormat};
+use crate::part::{MOST_SHARDS, Shard};
+
+pub(super) const EXAMPLES: &str = "\
+Examples:
+  halflight render scene.ray -o scene.bmp
+  halflight render scene.ray -o scene.png --size 1920x1080 --spp 64
+  halflight render scene.ray -o - --format ppm | display
+
+GIF is reduced to 256 colours and JPEG has quality 95. EXR and HDR keep unclamped values; the \
+other formats keep every pixel with 8 bits per channel.
+
+A scene may be a folder of scenes, the frames of a sequence, numbered from 0; %05d in FILE stands for \
+the number. Frames that are finished are not rendered again. Y4M and GIF hold a whole sequence:
+  halflight render scene.ray --turntable 36 -o turn.gif
+  halflight render scene.ray --turntable 250 -o - --format y4m | ffmpeg -i - turn.mp4
+  halflight render shots/ -o shot.%05d.png --frames 0-99
+
+The same scene and options give the same bytes on every machine and with any number of threads.";
+
+#[derive(Args, Debug)]
+pub(super) struct RenderArguments {
+    /// Scene file: .ray, .dat or .xml; or a folder of them, the frames of a sequence
+    #[arg(value_name = "SCENE")]
+    scene: PathBuf,
+    #[arg(short, long, value_name = "FILE", help = output_help())]
+    output: PathBuf,
+    /// Picture format, regardless of the file's extension [default for -o -: bmp]
+    #[arg(long, value_name = "FORMAT", value_parser = picture_or_movie())]
+    format: Option<Format>,
+    #[command(flatten)]
+    tracing: TracingArguments,
+    #[command(flatten)]
+    strictness: StrictnessArguments,
+    #[command(flatten)]
+    assets: AssetArguments,
+    /// Trace only shard K of N, from 0, into a part file beside FILE; see merge
+    #[arg(long, value_name = "K/N", value_parser = parse_shard)]
+    shard: Option<Shard>,
+    #[command(flatten)]
+    sequence: SequenceArguments,
+    /// Keep a part file beside FILE, and continue it if it is there: after SIGTERM, SIGUSR1 or a
+    /// crash, or with a larger --spp
+    #[arg(long)]
+    resume: bool,
+    /// Show progress as a line on a terminal (auto), as lines of JSON on standard error, or not
+    #[arg(long, value_name = "STYLE", value_enum, default_value_t)]
+    progress: ProgressChoice,
+    /// Write figures about the render to this file as JSON: times, rays, memory, noise; - for
+    /// standard output
+    #[arg(long, value_name = "FILE")]
+    stats: Option<PathBuf>,
+    /// Print about how much memory the render takes, such as 340M, instead of rendering
+    #[arg(long)]
+    estimate: bool,
+    /// Write to standard output even if it is a terminal
+    #[arg(long)]
+    force: bool,
+}
+
+/// What the frames of a sequence are.
+#[derive(Args, Debug)]
+struct SequenceArguments {
+    /// Render N frames of a whole turn around the point that the view looks at
+    #[arg(long, value_name = "N", value_parser = value_parser!(u32).range(1..))]
+    turntable: Option<u32>,
+    /// Render only these frames of a sequence, numbered from 0 [default: all]
+    #[arg(long, value_name = "A-B", value_parser = parse_frames)]
+    frames: Option<[u32; 2]>,
+    /// Frames per second of Y4M and GIF, 1 to 100
+    #[arg(long, value_name = "N", default_value_t = 24, value_parser = value_parser!(u32).range(1..=100))]
+    fps: u32,
+    /// Render frames again that are finished
+    #[arg(long)]
+    again: bool,
+}
+
+/// What is to be rendered.
+pub(super) enum Work {
+    /// A picture.
+    Picture(Render),
+    /// A sequence of pictures.
+    Sequence(Sequence),
+}
+
+impl RenderArguments {
+    pub(super) fn into_work(self) -> Result<Work, String> {
+        if self.sequence.turntable.is_some() || self.scene.is_dir() {
+            self.into_sequence().map(Work::Sequence)
+        } else {
+            self.into_picture().map(Work::Picture)
+        }
+    }
+
+    fn into_picture(self) -> Result<Render, String> {
+        if self.sequence.frames.is_some() || self.sequence.again {
+            return Err("--frames and --again need --turntable, or a folder of scenes".to_owned());
+        }
+        let format = match self.format {
+            Some(Format::Movie(_)) => {
+                return Err("y4m needs --turntable, or a folder of scenes".to_owned());
+            }
+            Some(Format::Picture(format)) => Some(format),
+            None => None,
+        };
+        let (output, format) = output(self.output, format, self.force)?;
+        let to_stdout = |path: &PathBuf| path.as_os_str() == "-";
+        if self.stats.as_ref().is_some_and(to_stdout) && !matches!(output, Output::File(_)) {
+            return Err("-o - and --stats - cannot both use standard output".to_owned());
+        }
+        if self.shard.is_some() && self.tracing.is_limited() {
+            return Err("--time ends shards with different samples: use --spp".to_owned());
+        }
+        Ok(Render {
+            scene: self.scene,
+            warnings: self.strictness.warnings(),
+            output,
+            format,
+            tracing: Tracing {
+                progress: self.progress.value(),
+                ..self.tracing.into_tracing()
+            },
+            purpose: if self.estimate {
+                batch::Purpose::Estimate
+            } else {
+                batch::Purpose::Render
+            },
+            stats: self.stats.map(|path| match path.to_str() {
+                Some("-") => Sink::Stdout,
+                _ => Sink::File(path),
+            }),
+            parts: (self.resume || self.shard.is_some()).then_some(Parts {
+                shard: self.shard.unwrap_or(Shard::WHOLE),
+                existing: if self.resume {
+                    Existing::Continued
+                } else {
+                    Existing::Refused
+                },
+            }),
+            assets: self.assets.folders,
+        })
+    }
+}
+
+impl RenderArguments {
+    fn into_sequence(self) -> Result<Sequence, String> {
+        if self.stats.is_some() || self.estimate {
+            return Err("--stats and --estimate are for single pictures".to_owned());
+        }
+        let extension = self.output.extension().unwrap_or_default();
+        let is_y4m = extension.eq_ignore_ascii_case("y4m");
+        let movie = match (Pattern::of(&self.output), self.format) {
+            (_, Some(Format::Movie(format))) => Some(format),
+            (None, Some(Format::Picture(ImageFormat::Gif))) => Some(MovieFormat::Gif),
+            (None, None) if is_y4m => Some(MovieFormat::Y4m),
+            (None, None) if extension.eq_ignore_ascii_case("gif") => Some(MovieFormat::Gif),
+            _ => None,
+        };
+        let output = match (movie, Pattern::of(&self.output), self.format) {
+            (Some(_), ..) if self.shard.is_some() => {
+                return Err("frames of one file cannot be sharded: use %05d in its name".to_owned());
+            }
+            (Some(format), ..) => SequenceOutput::Movie {
+                to: destination(self.output, self.force),
+                format,
+                rate: self.sequence.fps,
+            },
+            (None, Some(pattern), format) => SequenceOutput::Pictures {
+                format: match format {
+                    Some(Format::Picture(format)) => format,
+                    _ => picture_format(&self.output)?,
+                },
+                pattern,
+                shard: self.shard.unwrap_or(Shard::WHOLE),
+                finished: if self.sequence.again {
+                    Finished::Rendered
+                } else {
+                    Finished::Skipped
+                },
+            },
+            (None, None, _) => {
+                return Err(format!(
+                    "{} has no place for the number of the frame: name it like out.%05d.png, or \
+                     use .y4m or .gif",
+                    self.output.display()
+                ));
+            }
+        };
+        Ok(Sequence {
+            shows: match self.sequence.turntable {
+                Some(count) => FrameSource::Turntable {
+                    scene: self.scene,
+                    count,
+                },
+                None => FrameSource::Folder(self.scene),
+            },
+            frames: self.sequence.frames,
+            output,
+            warnings: self.strictness.warnings(),
+            tracing: Tracing {
+                progress: self.progress.value(),
+                ..self.tracing.into_tracing()
+            },
+            assets: self.assets.folders,
+        })
+    }
+}
+
+/// A format of one picture, or of several.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Format {
+    Picture(ImageFormat),
+    Movie(MovieFormat),
+}
+
+fn picture_or_movie() -> impl TypedValueParser<Value = Format> {
+    let pictures = FORMATS.map(|(format, extensions)| {
+        PossibleValue::new(format.name()).aliases(extensions.iter().copied())
+    });
+    let names = pictures.into_iter().chain([PossibleValue::new("y4m")]);
+    PossibleValuesParser::new(names).try_map(|name| {
+        let picture = format_named(&name).map(Format::Picture);
+        let movie = (name == "y4m").then_some(Format::Movie(MovieFormat::Y4m));
+        picture.or(movie).ok_or("unknown format")
+    })
+}
+
+fn parse_frames(text: &str) -> Result<[u32; 2], String> {
+    let (first, last) = text.split_once('-').unwrap_or((text, text));
+    let numbers = first.parse().ok().zip(last.parse().ok());
+    numbers
+        .filter(|(first, last)| first <= last)
+        .map(|(first, last)| [first, last])
+        .ok_or_else(|| "expected a frame or a range of frames, such as 0-99".to_owned())
+}
+
+fn parse_shard(text: &str) -> Result<Shard, String> {
+    Shard::parse(text).ok_or_else(|| {
+        format!("expected K/N with K from 0 to N - 1 and N up to {MOST_SHARDS}, such as 3/8")
+    })
+}
