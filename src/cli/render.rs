@@ -102,7 +102,8 @@ pub(super) enum Work {
 
 impl RenderArguments {
     pub(super) fn into_work(self) -> Result<Work, String> {
-        if self.sequence.turntable.is_some() || self.scene.is_dir() {
+        let takes_frames = self.movie().is_some() || Pattern::of(&self.output).is_some();
+        if self.sequence.turntable.is_some() || takes_frames && self.scene.is_dir() {
             self.into_sequence().map(Work::Sequence)
         } else {
             self.into_picture().map(Work::Picture)
@@ -160,20 +161,24 @@ impl RenderArguments {
 }
 
 impl RenderArguments {
+    /// The format of one file for all frames of a sequence.
+    fn movie(&self) -> Option<MovieFormat> {
+        let extension = self.output.extension().unwrap_or_default();
+        let is = |name: &str| extension.eq_ignore_ascii_case(name);
+        match (Pattern::of(&self.output), self.format) {
+            (_, Some(Format::Movie(format))) => Some(format),
+            (None, Some(Format::Picture(ImageFormat::Gif))) => Some(MovieFormat::Gif),
+            (None, None) if is("y4m") => Some(MovieFormat::Y4m),
+            (None, None) if is("gif") => Some(MovieFormat::Gif),
+            _ => None,
+        }
+    }
+
     fn into_sequence(self) -> Result<Sequence, String> {
         if self.stats.is_some() || self.estimate {
             return Err("--stats and --estimate are for single pictures".to_owned());
         }
-        let extension = self.output.extension().unwrap_or_default();
-        let is_y4m = extension.eq_ignore_ascii_case("y4m");
-        let movie = match (Pattern::of(&self.output), self.format) {
-            (_, Some(Format::Movie(format))) => Some(format),
-            (None, Some(Format::Picture(ImageFormat::Gif))) => Some(MovieFormat::Gif),
-            (None, None) if is_y4m => Some(MovieFormat::Y4m),
-            (None, None) if extension.eq_ignore_ascii_case("gif") => Some(MovieFormat::Gif),
-            _ => None,
-        };
-        let output = match (movie, Pattern::of(&self.output), self.format) {
+        let output = match (self.movie(), Pattern::of(&self.output), self.format) {
             (Some(_), ..) if self.shard.is_some() => {
                 return Err("frames of one file cannot be sharded: use %05d in its name".to_owned());
             }
