@@ -1,5 +1,5 @@
-//! Headless work: check, compare, explain and render. Knows no terminals, except for a progress line if standard
-//! error is one.
+//! Headless work, a command a file: check, render (a picture, a part of one, or a sequence), merge,
+//! compare, explain and bench. Knows no terminals, except for a progress line if standard error is one.
 
 mod bench;
 mod compare;
