@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Renders a picture in shards with GNU parallel: on this machine, or on those named in HOSTS, such as
-# HOSTS=4/one,4/two for four at a time on each. They need halflight, and no shared folder. Run again
-# after an interruption, it goes on with the shards that are not complete.
+# HOSTS=4/one,4/two for four at a time on each. They need halflight and rsync, and no shared folder.
+# Run again after an interruption, it goes on with the shards that are not complete.
 #   [HOSTS=HOST,...] [JOBS=N] parallel.sh SCENE PICTURE SHARDS [OPTION of render]...
 # Files that the scene names are taken along if ASSETS lists them, separated by spaces.
 set -euo pipefail
