@@ -27,13 +27,15 @@ pub const COLOURS: [(&str, Choice); 5] = [
     ("mono", Choice::Fixed(ColourDepth::Mono)),
 ];
 /// The words for integrators.
-pub const INTEGRATORS: [(&str, Integrator); 2] =
-    [("whitted", Integrator::Whitted), ("path", Integrator::Path)];
+pub const INTEGRATORS: [(&str, Integrator); 2] = [
+    (Integrator::Whitted.name(), Integrator::Whitted),
+    (Integrator::Path.name(), Integrator::Path),
+];
 /// The words for pixel filters.
 pub const FILTERS: [(&str, Filter); 3] = [
-    ("box", Filter::Box),
-    ("gaussian", Filter::Gaussian),
-    ("blackman-harris", Filter::BlackmanHarris),
+    (Filter::Box.name(), Filter::Box),
+    (Filter::Gaussian.name(), Filter::Gaussian),
+    (Filter::BlackmanHarris.name(), Filter::BlackmanHarris),
 ];
 
 /// A setting: one declaration for reading, errors and printing.

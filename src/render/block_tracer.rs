@@ -7,8 +7,6 @@ use rayon::ThreadPool;
 use rayon::prelude::*;
 
 use super::block::{Block, Blocks};
-use super::camera::Projection;
-use super::filter::Spread;
 use super::frame::{Aov, Job};
 use super::gather::Gather;
 use super::refusal::{self, Refusal};
@@ -62,13 +60,7 @@ impl BlockTracer {
         hand_over: impl Fn(Block) + Sync,
     ) {
         let settings = self.job.settings;
-        let shot = Shot {
-            world: &self.world,
-            projection: Projection::new(&self.job.camera, settings.size),
-            eye: self.job.camera.eye,
-            settings,
-            spread: Spread::of(settings.filter),
-        };
+        let shot = Shot::new(&self.world, &self.job.camera, settings);
         let work = || {
             let tracer = Tracer::new(&self.world, settings.integrator, settings.depth, &stopped);
             let tracer = tracer.gathering(Gather::of(settings.aov));

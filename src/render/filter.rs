@@ -31,6 +31,18 @@ const TERMS: [f64; 4] = [0.35875, 0.48829, 0.14128, 0.01168];
 const STEPS: usize = 256;
 
 impl Filter {
+    /// All filters.
+    pub const ALL: [Self; 3] = [Self::Box, Self::Gaussian, Self::BlackmanHarris];
+
+    /// The name, such as `blackman-harris`.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Box => "box",
+            Self::Gaussian => "gaussian",
+            Self::BlackmanHarris => "blackman-harris",
+        }
+    }
+
     /// The fraction of the filter, along one axis, within this distance of the centre, in pixels.
     fn within(self, distance: f64) -> f64 {
         match self {

@@ -9,7 +9,7 @@ use super::probe::Sample;
 use super::sampler::{Sampler, Use};
 use super::world::World;
 use crate::geometry::lanes::{Eight, Lanes, Row, Simd, SimdBase, WIDTH, dispatch};
-use crate::scene::Integrator;
+use crate::scene::{Camera, Integrator};
 
 /// The inputs of tracing a tile.
 #[derive(Debug)]
@@ -24,6 +24,19 @@ pub(crate) struct Shot<'w> {
     pub(crate) settings: Settings,
     /// The pixel filter.
     pub(crate) spread: Spread,
+}
+
+impl<'w> Shot<'w> {
+    /// The inputs of tracing a world from a camera.
+    pub(crate) fn new(world: &'w World, camera: &Camera, settings: Settings) -> Self {
+        Self {
+            world,
+            projection: Projection::new(camera, settings.size),
+            eye: camera.eye,
+            settings,
+            spread: Spread::of(settings.filter),
+        }
+    }
 }
 
 impl Shot<'_> {

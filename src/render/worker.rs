@@ -5,9 +5,7 @@ use std::sync::mpsc::Receiver;
 
 use rayon::ThreadPool;
 
-use super::camera::Projection;
 use super::film::Film;
-use super::filter::Spread;
 use super::frame::{Frames, Job, Query};
 use super::shared::Shared;
 use super::shot::Shot;
@@ -103,13 +101,7 @@ fn trace<W: Fn() + Sync>(
             _ => old.film.free_later(),
         }
     }
-    let shot = Shot {
-        world: &world,
-        projection: Projection::new(&job.camera, job.settings.size),
-        eye: job.camera.eye,
-        settings: job.settings,
-        spread: Spread::of(job.settings.filter),
-    };
+    let shot = Shot::new(&world, &job.camera, job.settings);
     let query = Query::new(&world, &job);
     let mut picture = Tracing::new(ticket.with_world(), &job, (film, before), wake, query);
     for step in steps(job.settings.spp, job.frames) {

@@ -31,9 +31,9 @@ impl Settings {
             ("depth", depth.to_string()),
             ("seed", seed.to_string()),
             ("aov", aov.map_or_else(none, aov_name)),
-            ("integrator", integrator_name(integrator).to_owned()),
-            ("filter", filter_name(filter).to_owned()),
-            ("transfer", transfer_name(transfer).to_owned()),
+            ("integrator", integrator.name().to_owned()),
+            ("filter", filter.name().to_owned()),
+            ("transfer", transfer.name().to_owned()),
             ("exposure", exposure.to_string()),
         ]
     }
@@ -61,21 +61,17 @@ impl Settings {
                 "none" => None,
                 aov => Some(aov_of(aov)?),
             },
-            integrator: one_of(INTEGRATORS, integrator_name, next("integrator")?)?,
-            filter: one_of(FILTERS, filter_name, next("filter")?)?,
-            transfer: one_of(TRANSFERS, transfer_name, next("transfer")?)?,
+            integrator: one_of(&Integrator::ALL, Integrator::name, next("integrator")?)?,
+            filter: one_of(&Filter::ALL, Filter::name, next("filter")?)?,
+            transfer: one_of(&Transfer::ALL, Transfer::name, next("transfer")?)?,
             exposure: next("exposure")?.parse().ok()?,
         };
         settings.exposure.is_finite().then_some(settings)
     }
 }
 
-const INTEGRATORS: &[Integrator] = &[Integrator::Whitted, Integrator::Path];
-const FILTERS: &[Filter] = &[Filter::Box, Filter::Gaussian, Filter::BlackmanHarris];
-const TRANSFERS: &[Transfer] = &[Transfer::Linear, Transfer::Srgb];
-
 /// The AOVs that are named without a number.
-const AOVS: &[Aov] = &[
+pub(super) const AOVS: &[Aov] = &[
     Aov::Depth,
     Aov::Normal,
     Aov::Object,
@@ -104,28 +100,6 @@ fn aov_of(written: &str) -> Option<Aov> {
     match written.strip_prefix("direct ") {
         Some(light) => light.parse().ok().map(Aov::Direct),
         None => one_of(AOVS, Aov::name, written),
-    }
-}
-
-fn integrator_name(integrator: Integrator) -> &'static str {
-    match integrator {
-        Integrator::Whitted => "whitted",
-        Integrator::Path => "path",
-    }
-}
-
-fn filter_name(filter: Filter) -> &'static str {
-    match filter {
-        Filter::Box => "box",
-        Filter::Gaussian => "gaussian",
-        Filter::BlackmanHarris => "blackman-harris",
-    }
-}
-
-fn transfer_name(transfer: Transfer) -> &'static str {
-    match transfer {
-        Transfer::Linear => "linear",
-        Transfer::Srgb => "srgb",
     }
 }
 

@@ -25,6 +25,19 @@ pub enum Integrator {
     Path,
 }
 
+impl Integrator {
+    /// All integrators.
+    pub const ALL: [Self; 2] = [Self::Whitted, Self::Path];
+
+    /// The name, such as `path`.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Whitted => "whitted",
+            Self::Path => "path",
+        }
+    }
+}
+
 /// The transfer function applied before quantisation to bytes.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Transfer {
@@ -33,4 +46,17 @@ pub enum Transfer {
     Linear,
     /// The sRGB curve.
     Srgb,
+}
+
+impl Transfer {
+    /// All transfer functions.
+    pub const ALL: [Self; 2] = [Self::Linear, Self::Srgb];
+
+    /// The name, such as `srgb`.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Linear => "linear",
+            Self::Srgb => "srgb",
+        }
+    }
 }

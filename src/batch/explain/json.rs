@@ -11,7 +11,6 @@ use crate::render::{
     Crossing, Dark, Densities, Explanation, LightTerm, RayEnd, RayKind, Shading, Side, Stop,
     TracedRay,
 };
-use crate::scene::Integrator;
 
 /// The explanation as an object; numbers that are infinite or undefined are null.
 pub(super) fn object(
@@ -20,16 +19,12 @@ pub(super) fn object(
     words: &Words,
     subject: &Subject<'_>,
 ) -> Value {
-    let integrator = match explanation.integrator {
-        Integrator::Whitted => "whitted",
-        Integrator::Path => "path",
-    };
     let rays = explanation.rays.iter().map(|traced| ray(traced, subject));
     json!({
         "scene": scene.to_string_lossy(),
         "pixel": explanation.pixel,
         "sample": explanation.sample,
-        "integrator": integrator,
+        "integrator": explanation.integrator.name(),
         "depth": explanation.depth,
         "radiance": vector(explanation.radiance),
         "displayed": explanation.displayed,

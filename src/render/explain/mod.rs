@@ -18,7 +18,6 @@ use std::sync::Arc;
 use glam::DVec3;
 
 use super::camera::Projection;
-use super::filter::Spread;
 use super::frame::{Job, MAX_SPP, Query, Settings};
 use super::probe::Sample;
 use super::shot::Shot;
@@ -164,16 +163,11 @@ impl Query {
         if size.width <= pixel[0] || size.height <= pixel[1] || MAX_SPP <= index {
             return None;
         }
-        let shot = Shot {
-            world,
-            projection: Projection::new(&self.camera, size),
-            eye: self.camera.eye,
-            settings: Settings {
-                aov: None,
-                ..self.settings
-            },
-            spread: Spread::of(self.settings.filter),
+        let settings = Settings {
+            aov: None,
+            ..self.settings
         };
+        let shot = Shot::new(world, &self.camera, settings);
         let mut samples = Vec::new();
         shot.samples(&[pixel], index, &mut samples);
         samples.pop()

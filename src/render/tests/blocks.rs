@@ -6,6 +6,7 @@ use std::time::Duration;
 
 use super::progress::still;
 use super::*;
+use crate::render::written::AOVS;
 use crate::render::{Aov, Assembly, Block, BlockTracer, Blocks, Filter, Region};
 
 const SIZE: (u32, u32) = (75, 40);
@@ -123,20 +124,7 @@ fn a_picture_of_blocks_is_that_of_a_renderer() {
 #[test]
 fn aovs_of_blocks_are_those_of_a_renderer() {
     let scene = still();
-    for aov in [
-        Aov::Depth,
-        Aov::Normal,
-        Aov::Object,
-        Aov::Albedo,
-        Aov::Uv,
-        Aov::Side,
-        Aov::Cost,
-        Aov::Samples,
-        Aov::Noise,
-        Aov::Direct(0),
-        Aov::Emission,
-        Aov::Indirect,
-    ] {
+    for &aov in AOVS.iter().chain(&[Aov::Direct(0)]) {
         let settings = Settings {
             aov: Some(aov),
             ..settings(SIZE.0, SIZE.1, aov.samples(6))

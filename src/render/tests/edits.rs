@@ -4,9 +4,7 @@
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::Duration;
 
-use super::super::camera::Projection;
 use super::super::film::Film;
-use super::super::filter::Spread;
 use super::super::probe::Counts;
 use super::super::shot::Shot;
 use super::super::steps::steps;
@@ -54,13 +52,7 @@ impl Easel {
     fn trace(&mut self, patience: u64) -> bool {
         let asked = AtomicU64::new(0);
         let cancelled = || patience <= asked.fetch_add(1, Ordering::Relaxed);
-        let shot = Shot {
-            world: &self.world,
-            projection: Projection::new(&self.job.camera, self.job.settings.size),
-            eye: self.job.camera.eye,
-            settings: self.job.settings,
-            spread: Spread::of(self.job.settings.filter),
-        };
+        let shot = Shot::new(&self.world, &self.job.camera, self.job.settings);
         for step in steps(self.job.settings.spp, self.job.frames) {
             let tiles = 0..self.film.tiles();
             let counts = self.film.advance(tiles, &step, &shot, cancelled);

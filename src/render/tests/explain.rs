@@ -63,13 +63,7 @@ fn job_of((scene, images): (Scene, Images), integrator: Integrator) -> Job {
 
 /// The radiance of a sample, traced among others as in a picture.
 fn traced(job: &Job, world: &World, pixel: [u32; 2], index: u32) -> Rgb {
-    let shot = Shot {
-        world,
-        projection: super::super::camera::Projection::new(&job.camera, job.settings.size),
-        eye: job.camera.eye,
-        settings: job.settings,
-        spread: super::super::filter::Spread::of(job.settings.filter),
-    };
+    let shot = Shot::new(world, &job.camera, job.settings);
     let [x, y] = pixel;
     let beside = [x.saturating_sub(1), y];
     let mut samples = Vec::new();

@@ -5,7 +5,6 @@ use std::cell::Cell;
 use super::super::Refusal;
 use super::super::camera::Projection;
 use super::super::film::Film;
-use super::super::filter::Spread;
 use super::super::shot::Shot;
 use super::super::steps::{Step, steps};
 use super::super::tone::{self, Tone};
@@ -316,13 +315,8 @@ fn a_film_touches_memory_while_tracing_and_developing_can_be_cancelled() {
         height: 1000,
     };
     let world = world(Scene::clone(&still()));
-    let shot = Shot {
-        world: &world,
-        projection: Projection::new(&world.scene.camera, size),
-        eye: world.scene.camera.eye,
-        settings: settings(size.width, size.height, 1),
-        spread: Spread::of(Filter::Box),
-    };
+    let traced = settings(size.width, size.height, 1);
+    let shot = Shot::new(&world, &world.scene.camera, traced);
     let mut film =
         Film::new(&settings(size.width, size.height, 1), Frames::Live).expect("memory is there");
     assert_eq!((film.tiles(), film.begun()), (125 * 63, 0));

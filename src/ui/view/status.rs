@@ -10,7 +10,6 @@ use unicode_width::UnicodeWidthStr;
 use super::inks::Glyphs;
 use super::row::Row;
 use crate::render::Progress;
-use crate::scene::Integrator;
 use crate::text::{counted, percentage};
 use crate::ui::app::{App, Message, OnDisk, Prompt, PromptKind};
 use crate::ui::fit::visible;
@@ -307,10 +306,7 @@ fn making_segment(app: &App, say: &mut impl FnMut(u8, String, Style)) {
     if view.is_some() {
         return;
     }
-    let name = match app.integrator() {
-        Integrator::Whitted => "whitted",
-        Integrator::Path => "path",
-    };
+    let name = app.integrator().name();
     if app.is_integrator_changed() {
         say(7, format!("{name}*"), theme::WARNING);
     } else {
@@ -404,6 +400,7 @@ mod tests {
     use super::*;
     use crate::language::Language;
     use crate::render::Aov;
+    use crate::scene::Integrator;
     use crate::ui::app::{Message, Picture, Typing, Wires};
     use crate::ui::view::tests::{app, app_of, drawn, retype};
     use tui_input::Input;
