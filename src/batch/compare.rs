@@ -1,11 +1,11 @@
 //! Compares two pictures, each from a picture file or traced from a scene.
 
 use std::fmt::Write;
-use std::io;
 use std::path::{Path, PathBuf};
 
 use serde_json::{Value, json};
 
+use super::output::Output;
 use super::{Error, Tracing, Warnings, load, print_error, print_message, stdout};
 use crate::assets;
 use crate::compare::{Comparison, Difference, SizesDiffer, heat_map};
@@ -97,22 +97,15 @@ fn check(work: &Compare) -> Result<(), Error> {
     let Some((path, format)) = &work.output else {
         return Ok(());
     };
-    if let Some(side) = work.sides.iter().find(|side| file::is_same(path, side)) {
-        return Err(Error::Refused(format!(
-            "cannot overwrite {}: it is one of those compared; name another file",
-            side.display()
-        )));
-    }
+    let output = Output::File(path.clone());
+    output.check_is_not(&work.sides, "it is one of those compared")?;
     if format.frames() != Frames::Last {
         return Err(Error::Refused(format!(
             "a picture of differences has 8 bits per channel: name a .png, not .{}",
             format.name()
         )));
     }
-    file::check_target(path).map_err(|source| Error::Create {
-        path: path.clone(),
-        source,
-    })
+    output.check()
 }
 
 /// The pictures of both sides. A scene is traced at the size of the picture on the other side,
@@ -144,14 +137,9 @@ fn trace(work: &Compare, path: &Path, size: Option<Size>) -> Result<Image, Error
     let scene = loaded.scene.ok_or(Error::Invalid {
         errors: loaded.errors,
     })?;
-    if let Some((output, _)) = &work.output
-        && loaded.files.iter().any(|used| file::is_same(output, used))
-    {
-        return Err(Error::Refused(format!(
-            "cannot overwrite {}: {} uses it; name another file",
-            output.display(),
-            path.display()
-        )));
+    if let Some((output, _)) = &work.output {
+        let reason = format!("{} uses it", path.display());
+        Output::File(output.clone()).check_is_not(&loaded.files, &reason)?;
     }
     let size = size.filter(|_| work.tracing.region.is_none());
     let own = scene.camera.size;
@@ -254,9 +242,5 @@ fn object(work: &Compare, found: &Result<Comparison, SizesDiffer>, verdict: Verd
 
 fn draw(path: &Path, format: ImageFormat, size: Size, pixels: Vec<[u8; 3]>) -> Result<(), Error> {
     let frame = Frame::drawn(size, pixels);
-    let written = file::deliver(path, |out| format.write(&frame, out), || Ok(()));
-    written.map(drop).map_err(|source: io::Error| Error::Write {
-        to: path.display().to_string(),
-        source,
-    })
+    Output::File(path.to_owned()).write(|out| format.write(&frame, out))
 }

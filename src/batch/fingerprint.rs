@@ -7,18 +7,18 @@ use std::path::{Path, PathBuf};
 
 use sha2::{Digest, Sha256};
 
-use super::Error;
+use crate::file::ReadError;
 
 /// Bytes read at once.
 const CHUNK: usize = 1 << 18;
 
 /// The digest of a scene's text and of the files it references, in the order of their names in it: of
 /// each the length as u64 in little-endian order, then the bytes. Where the files are does not matter.
-pub(super) fn fingerprint(text: &str, files: &[PathBuf]) -> Result<String, Error> {
+pub(super) fn fingerprint(text: &str, files: &[PathBuf]) -> Result<String, ReadError> {
     let mut hasher = Sha256::new();
     add(&mut hasher, text.as_bytes());
     for path in files {
-        add_file(&mut hasher, path).map_err(|source| Error::Asset {
+        add_file(&mut hasher, path).map_err(|source| ReadError::Io {
             path: path.clone(),
             source,
         })?;

@@ -2,19 +2,19 @@
 
 use std::f64::consts::TAU;
 use std::fs;
-use std::io::{self, BufWriter, Write};
+use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use super::fingerprint::{digest, fingerprint};
 use super::ledger::Ledger;
+use super::output::Output;
 use super::pattern::Pattern;
 use super::progress::Place;
-use super::render::{Output, check_output, written};
 use super::tracing::{Tracer, Tracing};
 use super::{Error, Warnings, load, print_error, print_message};
 use crate::assets;
-use crate::file::{self, ReadError};
+use crate::file::ReadError;
 use crate::image_file::{ImageFormat, MovieFormat, MovieWriter};
 use crate::language::Language;
 use crate::memory;
@@ -110,7 +110,8 @@ fn try_render(work: &Sequence) -> Result<(), Error> {
             pictures(work, &source, (pattern, *shard), *format, *finished)
         }
         SequenceOutput::Movie { to, format, rate } => {
-            check_output(to)?;
+            source.check_spared(to, &[])?;
+            to.check()?;
             movie(work, &source, to, (*format, *rate))
         }
     }
@@ -134,14 +135,15 @@ fn pictures(
     let (numbers, mut skipped) = (source.numbers.clone(), 0);
     for (before, &number) in numbers.iter().enumerate() {
         let picture = pattern.path(number);
-        let (job, inputs) = source.job(number, format.frames())?;
+        let Still { job, inputs, files } = source.still(number, format.frames())?;
         let inputs = digest([inputs.as_bytes(), format.name().as_bytes()]);
         if finished == Finished::Skipped && ledger.has(number, &inputs, &picture) {
             skipped += 1;
             continue;
         }
         let output = Output::File(picture);
-        check_output(&output)?;
+        source.check_spared(&output, &files)?;
+        output.check()?;
         if let Some(reason) = format.refuses(job.settings.traced().size()) {
             return Err(Error::Refused(format!("frame {number}: {reason}")));
         }
@@ -152,18 +154,15 @@ fn pictures(
         };
         let frame = tracer.trace(job, Some(place), || {})?;
         let mut bytes = Vec::new();
-        let encoded = format.write(&frame, &mut bytes);
-        let saved = encoded.and_then(|()| match &output {
-            Output::File(path) => {
-                file::deliver(path, |out| out.write_all(&bytes), || Ok(())).map(drop)
-            }
-            Output::Stdout | Output::StdoutTerminal => Ok(()),
-        });
-        written(&output, saved)?;
+        output.write(|out| {
+            format.write(&frame, &mut bytes)?;
+            out.write_all(&bytes)
+        })?;
         ledger.add(number, &inputs, &bytes).map_err(io)?;
     }
     if 0 < skipped {
-        let note = format!("{} finished before", counted(skipped, "frame"));
+        let was = if skipped == 1 { "was" } else { "were" };
+        let note = format!("{} {was} already finished", counted(skipped, "frame"));
         print_message("note", &note);
     }
     Ok(())
@@ -177,9 +176,8 @@ fn movie(
     format: (MovieFormat, u32),
 ) -> Result<(), Error> {
     let mut failed = None;
-    let mut write = |out: &mut dyn Write| {
-        let out = BufWriter::new(out);
-        let outcome = write_movie(work, source, out, format);
+    let written = to.write(|out| {
+        let outcome = write_movie(work, source, (to, out), format);
         outcome.map_err(|failure| match failure {
             Failure::Writing(error) => error,
             Failure::Rendering(error) => {
@@ -187,15 +185,8 @@ fn movie(
                 io::Error::other("a frame cannot be rendered")
             }
         })
-    };
-    let saved = match to {
-        Output::File(path) => file::deliver(path, &mut write, || Ok(())).map(drop),
-        Output::Stdout | Output::StdoutTerminal => write(&mut io::stdout().lock()),
-    };
-    match failed {
-        Some(error) => Err(error),
-        None => written(to, saved),
-    }
+    });
+    failed.map_or(written, Err)
 }
 
 /// Why a movie is not written.
@@ -207,14 +198,15 @@ enum Failure {
 fn write_movie(
     work: &Sequence,
     source: &Source<'_>,
-    out: impl Write,
+    (to, out): (&Output, &mut dyn Write),
     (format, rate): (MovieFormat, u32),
 ) -> Result<(), Failure> {
     let mut tracer = Tracer::new(&work.tracing);
     let numbers = source.numbers.clone();
     let mut next = |before: usize| {
         let number = numbers[before];
-        let (job, _) = source.job(number, Frames::Last)?;
+        let Still { job, files, .. } = source.still(number, Frames::Last)?;
+        source.check_spared(to, &files)?;
         let place = Place {
             frame: number,
             before,
@@ -238,32 +230,30 @@ struct Source<'w> {
     work: &'w Sequence,
     /// The numbers of those to render; not empty at first.
     numbers: Vec<u32>,
+    /// The scene files.
+    scenes: Vec<PathBuf>,
     shows: Shows,
 }
 
 enum Shows {
-    /// The scene of each frame.
-    Scenes(Vec<PathBuf>),
-    /// Turns of a job, whose inputs have this digest.
-    Turns {
-        job: Box<Job>,
-        inputs: String,
-        count: u32,
-    },
+    /// A scene each.
+    Scenes,
+    /// Turns of one scene.
+    Turns { still: Box<Still>, count: u32 },
 }
 
 impl<'w> Source<'w> {
     fn new(work: &'w Sequence) -> Result<Self, Error> {
-        let shows = match &work.shows {
-            FrameSource::Folder(folder) => Shows::Scenes(scenes_in(folder)?),
+        let (scenes, shows) = match &work.shows {
+            FrameSource::Folder(folder) => (scenes_in(folder)?, Shows::Scenes),
             FrameSource::Turntable { scene, count } => {
-                let (job, inputs) = job_of(work, scene)?;
-                let (job, count) = (Box::new(job), *count);
-                Shows::Turns { job, inputs, count }
+                let still = Box::new(Still::of(work, scene, Frames::Last)?);
+                let count = *count;
+                (vec![scene.clone()], Shows::Turns { still, count })
             }
         };
         let count = match &shows {
-            Shows::Scenes(scenes) => scenes.len() as u32,
+            Shows::Scenes => scenes.len() as u32,
             Shows::Turns { count, .. } => *count,
         };
         let [first, last] = work.frames.unwrap_or_else(|| [0, count.saturating_sub(1)]);
@@ -276,49 +266,67 @@ impl<'w> Source<'w> {
         Ok(Self {
             work,
             numbers: (first..=last).collect(),
+            scenes,
             shows,
         })
     }
 
-    /// The job of a frame, and the digest of all that its picture depends on but the format.
-    fn job(&self, number: u32, frames: Frames) -> Result<(Job, String), Error> {
+    /// A frame, ready to trace.
+    fn still(&self, number: u32, frames: Frames) -> Result<Still, Error> {
         match &self.shows {
-            Shows::Scenes(scenes) => {
-                let (job, inputs) = job_of(self.work, &scenes[number as usize])?;
-                Ok((Job { frames, ..job }, inputs))
-            }
-            Shows::Turns { job, inputs, count } => {
+            Shows::Scenes => Still::of(self.work, &self.scenes[number as usize], frames),
+            Shows::Turns { still, count } => {
                 let turn = f64::from(number) / f64::from(*count);
+                let Still { job, inputs, files } = (**still).clone();
                 let job = Job {
                     camera: job.camera.about_target(TAU * turn),
                     frames,
-                    ..(**job).clone()
+                    ..job
                 };
                 let turn = turn.to_bits().to_le_bytes();
-                Ok((job, digest([inputs.as_bytes(), &turn])))
+                let inputs = digest([inputs.as_bytes(), &turn]);
+                Ok(Still { job, inputs, files })
             }
         }
     }
+
+    /// Refuses to overwrite a scene, or one of these files that scenes reference.
+    fn check_spared(&self, output: &Output, files: &[PathBuf]) -> Result<(), Error> {
+        output.check_is_not(&self.scenes, "it is a scene of the sequence")?;
+        output.check_is_not(files, "a scene uses it")
+    }
 }
 
-/// The job of a scene file, and the digest of all that its picture depends on but the format.
-fn job_of(work: &Sequence, path: &Path) -> Result<(Job, String), Error> {
-    let loaded = load(path, &work.assets, work.warnings)?;
-    let errors = loaded.errors;
-    let scene = loaded.scene.ok_or(Error::Invalid { errors })?;
-    let scene_digest = fingerprint(loaded.source.text(), &loaded.files)?;
-    work.tracing.traced_size(&scene)?;
-    let frames = Frames::Last;
-    let job = work.tracing.job(scene, loaded.images, frames);
-    let written = job.settings.written();
-    let mut parts = vec![env!("CARGO_PKG_VERSION").to_owned(), scene_digest];
-    parts.extend(written.map(|(_, value)| value));
-    parts.push(match work.tracing.time {
-        Some(time) => format!("{} s", time.as_secs_f64()),
-        None => job.settings.spp.to_string(),
-    });
-    let inputs = digest(parts.iter().map(String::as_bytes));
-    Ok((job, inputs))
+/// A picture of a sequence, ready to trace.
+#[derive(Clone)]
+struct Still {
+    job: Job,
+    /// The digest of all that the picture depends on but its format.
+    inputs: String,
+    /// The files that its scene references.
+    files: Vec<PathBuf>,
+}
+
+impl Still {
+    /// Reads a scene file.
+    fn of(work: &Sequence, path: &Path, frames: Frames) -> Result<Self, Error> {
+        let loaded = load(path, &work.assets, work.warnings)?;
+        let errors = loaded.errors;
+        let scene = loaded.scene.ok_or(Error::Invalid { errors })?;
+        let scene_digest = fingerprint(loaded.source.text(), &loaded.files)?;
+        work.tracing.traced_size(&scene)?;
+        let job = work.tracing.job(scene, loaded.images, frames);
+        let written = job.settings.written();
+        let mut parts = vec![env!("CARGO_PKG_VERSION").to_owned(), scene_digest];
+        parts.extend(written.map(|(_, value)| value));
+        parts.push(match work.tracing.time {
+            Some(time) => format!("{} s", time.as_secs_f64()),
+            None => job.settings.spp.to_string(),
+        });
+        let inputs = digest(parts.iter().map(String::as_bytes));
+        let files = loaded.files;
+        Ok(Self { job, inputs, files })
+    }
 }
 
 /// The scene files of a folder, in the order of their names.

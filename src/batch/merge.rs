@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use super::render::{Output, check_output, write};
+use super::output::Output;
 use super::{Error, print_error, print_message, stdout};
 use crate::image_file::ImageFormat;
 use crate::part::{self, ranges};
@@ -33,12 +33,13 @@ pub fn merge(work: &Merge) -> Result<(), Error> {
 fn try_merge(work: &Merge) -> Result<(), Error> {
     match &work.purpose {
         MergePurpose::Write(output, format) => {
-            check_output(output)?;
+            output.check()?;
+            output.check_is_not(&work.parts, "it is one of the parts")?;
             let merged = part::merge(&work.parts, format.frames())?;
             if let Some(reason) = format.refuses(merged.frame.size) {
                 return Err(Error::Refused(format!("the picture is {reason}")));
             }
-            write(output, *format, &merged.frame)
+            output.write(|out| format.write(&merged.frame, out))
         }
         MergePurpose::Missing => {
             let (shards, damaged) = part::missing(&work.parts)?;

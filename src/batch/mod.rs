@@ -9,6 +9,7 @@ mod frames;
 mod ledger;
 mod machine;
 mod merge;
+mod output;
 mod parts;
 mod pattern;
 mod progress;
@@ -40,12 +41,12 @@ pub use compare::{Compare, Report, Verdict, compare};
 pub use explain::{Explain, explain};
 pub use frames::{Finished, FrameSource, Sequence, SequenceOutput, render_sequence};
 pub use merge::{Merge, MergePurpose, merge};
+pub use output::Output;
 pub use parts::{Existing, Parts};
 pub use pattern::Pattern;
 pub use progress::ProgressStyle;
-pub use render::{Output, Purpose, Render, render};
+pub use render::{Purpose, Render, render};
 pub use signals::Signal;
-pub use stats::Sink;
 pub use tracing::Tracing;
 
 /// Formats errors in a text for standard error, each with its place, an excerpt and a hint.
@@ -98,14 +99,6 @@ pub enum Error {
         /// The error of the system.
         source: io::Error,
     },
-    /// A file that the scene references cannot be read again.
-    #[error("{path}: {source}", path = path.display())]
-    Asset {
-        /// The file.
-        path: PathBuf,
-        /// The error of the file system.
-        source: io::Error,
-    },
     /// A part file cannot be written.
     #[error("{path}: {source}", path = path.display())]
     Part {
@@ -114,13 +107,13 @@ pub enum Error {
         /// Why not.
         source: part::Refused,
     },
-    /// Parts make no picture.
+    /// Parts cannot be merged.
     #[error(transparent)]
     Unmerged(#[from] Unmerged),
     /// A signal stopped the tracing, which can be continued.
     #[error(
-        "stopped by {} after {} of the work, which is kept in {path}: the same command with \
-         --resume continues it", signal.name(), percentage(*done), path = path.display()
+        "stopped by {}; {} of the work is saved in {path}: rerun with --resume to continue",
+        signal.name(), percentage(*done), path = path.display()
     )]
     Kept {
         /// The part file.

@@ -44,7 +44,7 @@ const WAITING: usize = 64;
 pub(super) struct Traced {
     /// The picture, if the part is all of it.
     pub(super) frame: Option<Frame>,
-    /// What it took, without what was there before.
+    /// The samples and rays of all of it, and the time of this process.
     pub(super) progress: Progress,
     /// The number of pixels traced.
     pub(super) pixels: usize,
@@ -80,7 +80,7 @@ pub(super) fn trace(
     if 0 < part.cut() {
         let cut = counted(part.cut() as usize, "byte");
         let note = format!(
-            "{}: the last {cut} were damaged and are cut off",
+            "{}: discarded {cut} at the end, which were damaged",
             path.display()
         );
         print_message("note", &note);
@@ -97,19 +97,17 @@ pub(super) fn trace(
     };
     let spp = continued.run(job, tracing.threads)?;
     let Continued {
+        part,
         path,
         numbers,
         begun,
         counts,
         ..
     } = &continued;
-    let progress = progress(spp, 1.0, begun.elapsed(), *counts);
-    Reporter::new(tracing.progress).finish(&progress);
-    let traced = |frame| Traced {
-        frame,
-        progress,
-        pixels: numbers.iter().map(|&number| blocks.area(number)).sum(),
-    };
+    let elapsed = begun.elapsed();
+    Reporter::new(tracing.progress).finish(&progress(spp, 1.0, elapsed, *counts));
+    let progress = progress(spp, 1.0, elapsed, part.counts());
+    let pixels = numbers.iter().map(|&number| blocks.area(number)).sum();
     if parts.shard != Shard::WHOLE {
         let blocks = counted(numbers.len(), "block");
         let note = format!(
@@ -118,10 +116,19 @@ pub(super) fn trace(
             path.display()
         );
         print_message("note", &note);
-        return Ok(traced(None));
+        return Ok(Traced {
+            frame: None,
+            progress,
+            pixels,
+        });
     }
-    let merged = part::merge(std::slice::from_ref(path), frames)?;
-    Ok(traced(Some(merged.frame)))
+    let mut frame = part::merge(std::slice::from_ref(path), frames)?.frame;
+    frame.progress.elapsed = elapsed;
+    Ok(Traced {
+        progress: frame.progress,
+        frame: Some(frame),
+        pixels,
+    })
 }
 
 /// A part that is traced.

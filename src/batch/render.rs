@@ -1,14 +1,13 @@
 //! Renders a scene file to a picture file.
 
-use std::io;
 use std::path::PathBuf;
 
 use super::fingerprint::fingerprint;
+use super::output::Output;
 use super::parts::{self, Parts};
-use super::stats::{Sink, Stats, Times};
+use super::stats::{Stats, Times};
 use super::{Error, Tracing, Warnings, load, print_error, print_findings, print_message, stdout};
 use crate::assets;
-use crate::file;
 use crate::image_file::ImageFormat;
 use crate::memory;
 use crate::render::{Frame, Job, Progress, memory_for};
@@ -32,7 +31,7 @@ pub struct Render {
     /// What is to be done.
     pub purpose: Purpose,
     /// Where figures about the render go.
-    pub stats: Option<Sink>,
+    pub stats: Option<Output>,
     /// Additional folders that pictures and meshes may be read from.
     pub assets: Vec<PathBuf>,
 }
@@ -47,17 +46,6 @@ pub enum Purpose {
     Estimate,
 }
 
-/// Where a picture goes.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub enum Output {
-    /// A file, replaced once the picture is complete.
-    File(PathBuf),
-    /// Standard output, unless it is a terminal.
-    Stdout,
-    /// Standard output, even if it is a terminal.
-    StdoutTerminal,
-}
-
 /// Renders a scene and writes the picture. Warnings, notes and progress go to standard error. A
 /// reader that closes the pipe early is not an error. If interrupted, leaves either the old file or
 /// the new one, see [`file::deliver`].
@@ -66,7 +54,10 @@ pub fn render(work: &Render) -> Result<(), Error> {
 }
 
 fn try_render(work: &Render) -> Result<(), Error> {
-    check_not_scene(work)?;
+    for output in outputs(work) {
+        output.check_spares(&work.scene, &[])?;
+        output.check()?;
+    }
     assets::check_folders(&work.assets)?;
     let mut times = Times::started();
     memory::start_threads_or_none();
@@ -74,7 +65,9 @@ fn try_render(work: &Render) -> Result<(), Error> {
     let scene = loaded.scene.ok_or(Error::Invalid {
         errors: loaded.errors,
     })?;
-    check_references(work, &loaded.files)?;
+    for output in outputs(work) {
+        output.check_spares(&work.scene, &loaded.files)?;
+    }
     let size = work.tracing.traced_size(&scene)?;
     if let Some(reason) = work.format.refuses(size) {
         let (size, region) = (work.tracing.size, work.tracing.region);
@@ -102,7 +95,7 @@ fn try_render(work: &Render) -> Result<(), Error> {
     let settings = job.settings;
     times.load = times.lap();
     let stats = |times, settings, progress, pixels| match &work.stats {
-        Some(sink) => Stats {
+        Some(output) => Stats {
             scene: &work.scene,
             digest: &digest,
             settings,
@@ -112,7 +105,7 @@ fn try_render(work: &Render) -> Result<(), Error> {
             estimate,
             times,
         }
-        .write(sink),
+        .write(output),
         None => Ok(()),
     };
     if let Some(parts) = work.parts {
@@ -163,75 +156,10 @@ fn finish(work: &Render, frame: &Frame) -> Result<(), Error> {
         let seconds = elapsed.as_secs_f64();
         print_message("note", &format!("{samples} per pixel in {seconds:.1} s"));
     }
-    write(&work.output, work.format, frame)
+    work.output.write(|out| work.format.write(frame, out))
 }
 
-/// Checks before any work that the picture can be written, and is not the scene.
-fn check_not_scene(work: &Render) -> Result<(), Error> {
-    match &work.output {
-        Output::File(path) if file::is_same(path, &work.scene) => Err(Error::Refused(format!(
-            "cannot overwrite {}: it is the scene itself; name another file",
-            path.display()
-        ))),
-        output => check_output(output),
-    }
-}
-
-/// Checks before any work that a picture can be written.
-pub(super) fn check_output(output: &Output) -> Result<(), Error> {
-    match output {
-        Output::File(path) => file::check_target(path).map_err(|source| Error::Create {
-            path: path.clone(),
-            source,
-        }),
-        Output::Stdout if stdout::is_terminal() => Err(Error::Refused(
-            "standard output is a terminal; use -o FILE, a pipe, or --force".to_owned(),
-        )),
-        Output::Stdout | Output::StdoutTerminal => stdout::check().map_err(stdout::error),
-    }
-}
-
-/// Refuses to replace a file that the scene references.
-fn check_references(work: &Render, files: &[PathBuf]) -> Result<(), Error> {
-    match &work.output {
-        Output::File(path) if files.iter().any(|named| file::is_same(path, named)) => {
-            Err(Error::Refused(format!(
-                "cannot overwrite {}: the scene uses it; name another file",
-                path.display()
-            )))
-        }
-        Output::File(_) | Output::Stdout | Output::StdoutTerminal => Ok(()),
-    }
-}
-
-/// Writes a picture.
-pub(super) fn write(output: &Output, format: ImageFormat, frame: &Frame) -> Result<(), Error> {
-    let saved = match output {
-        Output::File(path) => {
-            file::deliver(path, |out| format.write(frame, out), || Ok(())).map(drop)
-        }
-        Output::Stdout | Output::StdoutTerminal => stdout::write(format, frame),
-    };
-    written(output, saved)
-}
-
-/// What the outcome of writing a picture means.
-pub(super) fn written(output: &Output, saved: io::Result<()>) -> Result<(), Error> {
-    saved.or_else(|source| match (source.kind(), output) {
-        (io::ErrorKind::BrokenPipe, _) => Ok(()),
-        (_, Output::Stdout | Output::StdoutTerminal) => Err(stdout::error(source)),
-        (
-            io::ErrorKind::NotFound
-            | io::ErrorKind::PermissionDenied
-            | io::ErrorKind::ReadOnlyFilesystem,
-            Output::File(path),
-        ) => Err(Error::Create {
-            path: path.clone(),
-            source,
-        }),
-        (_, Output::File(path)) => Err(Error::Write {
-            to: path.display().to_string(),
-            source,
-        }),
-    })
+/// Where the picture and the statistics go.
+fn outputs(work: &Render) -> impl Iterator<Item = &Output> {
+    [&work.output].into_iter().chain(&work.stats)
 }

@@ -1,23 +1,14 @@
 //! Figures about a finished render, as JSON.
 
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::time::{Duration, Instant};
 
 use serde_json::{Map, Value, json};
 
-use super::{Error, stdout};
-use crate::file;
+use super::Error;
+use super::output::Output;
 use crate::memory;
 use crate::render::{Progress, Settings};
-
-/// Where figures go.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub enum Sink {
-    /// A file.
-    File(PathBuf),
-    /// Standard output.
-    Stdout,
-}
 
 /// What is counted and timed.
 pub(super) struct Stats<'s> {
@@ -61,19 +52,9 @@ impl Times {
 
 impl Stats<'_> {
     /// Writes the figures.
-    pub(super) fn write(&self, sink: &Sink) -> Result<(), Error> {
+    pub(super) fn write(&self, output: &Output) -> Result<(), Error> {
         let text = format!("{:#}\n", self.object());
-        match sink {
-            Sink::Stdout => stdout::print(&text).map_err(stdout::error),
-            Sink::File(path) => {
-                file::deliver(path, |out| out.write_all(text.as_bytes()), || Ok(()))
-                    .map(drop)
-                    .map_err(|source| Error::Write {
-                        to: path.display().to_string(),
-                        source,
-                    })
-            }
-        }
+        output.write(|out| out.write_all(text.as_bytes()))
     }
 
     /// The keys are part of the interface of the command. Times are in seconds, memory in bytes; what

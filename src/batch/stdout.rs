@@ -1,10 +1,8 @@
-//! Pictures and texts on standard output.
+//! Standard output.
 
 use std::io::{self, BufWriter, IsTerminal, Write};
 
 use super::Error;
-use crate::image_file::ImageFormat;
-use crate::render::Frame;
 
 /// Bytes written at once. `Stdout` flushes at every byte that looks like a line break, but passes
 /// on writes longer than its own buffer in one or two pieces.
@@ -26,10 +24,10 @@ pub(super) fn check() -> io::Result<()> {
     }
 }
 
-/// Encodes a frame to standard output.
-pub(super) fn write(format: ImageFormat, frame: &Frame) -> io::Result<()> {
+/// Writes to standard output in long pieces.
+pub(super) fn write(write: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> io::Result<()> {
     let mut out = BufWriter::with_capacity(CHUNK, io::stdout().lock());
-    format.write(frame, &mut out)?;
+    write(&mut out)?;
     out.flush()
 }
 

@@ -22,7 +22,7 @@ pub(super) struct BenchArguments {
     /// Scene files [default: the embedded scene, and cubes of 1000 and 64000 spheres]
     #[arg(value_name = "SCENE")]
     scenes: Vec<PathBuf>,
-    /// How often each figure is measured, 1 to 1000
+    /// Number of runs, 1 to 1000
     #[arg(long, value_name = "N", default_value_t = 5, value_parser = value_parser!(u32).range(1..=1000))]
     runs: u32,
     /// Print the figures as JSON

@@ -15,8 +15,8 @@ Examples:
   halflight merge scene.*.part -o scene.png               the same bytes as from one
   halflight merge --missing scene.*.part                  the shards to run again: 3,7-9
 
-Exit code 3 means that the parts make no picture: some are missing, damaged, incomplete or of \
-another picture. With --missing, the exit code is 0 whether or not some are.";
+Exit code 3 means that the parts cannot be merged: some are missing, damaged, incomplete or of \
+another picture. With --missing, the exit code is 0 either way.";
 
 #[derive(Args, Debug)]
 pub(super) struct MergeArguments {
@@ -28,8 +28,7 @@ pub(super) struct MergeArguments {
     /// Picture format, regardless of the file's extension [default for -o -: bmp]
     #[arg(long, value_name = "FORMAT", value_parser = format_names(), requires = "output")]
     format: Option<ImageFormat>,
-    /// Print the indices of the shards that are not complete, as an array job takes them, instead of
-    /// merging
+    /// List incomplete shards in the form --array takes, instead of merging
     #[arg(long, conflicts_with = "output")]
     missing: bool,
     /// Write to standard output even if it is a terminal

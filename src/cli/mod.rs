@@ -34,7 +34,7 @@ use crate::part::{self, Unmerged};
 use crate::text::{nearest_word, visible};
 use crate::ui;
 
-/// Parts make no picture.
+/// Parts cannot be merged.
 pub const INCOMPLETE: u8 = 3;
 /// Stopped, but what was traced is kept: try again.
 pub const TRY_AGAIN: u8 = 75;
@@ -163,7 +163,7 @@ fn failure_code(error: &batch::Error) -> u8 {
     use batch::Error;
     match error {
         Error::Read(error) => read_code(error),
-        Error::Assets(_) | Error::Asset { .. } | Error::Unmerged(Unmerged::Io { .. }) => NO_INPUT,
+        Error::Assets(_) | Error::Unmerged(Unmerged::Io { .. }) => NO_INPUT,
         Error::UnknownLanguage(_) | Error::Invalid { .. } | Error::Picture { .. } => INVALID,
         Error::Refused(_) => USAGE,
         Error::Create { .. } => NO_OUTPUT,
@@ -277,9 +277,9 @@ Examples:
 To open a scene named like a command, write ./render, ./check or ./doctor. Scenes are read from \
 files, not from standard input, pipes or devices.
 
-Exit codes: 0 success, 1 write or system error, 2 wrong arguments or configuration, 3 parts make \
-no picture, 65 invalid scene, 66 scene not found or unreadable, 73 picture file cannot be created, \
-75 stopped, but continued by --resume, 129 terminal gone, \
+Exit codes: 0 success, 1 write or system error, 2 wrong arguments or configuration, 3 parts \
+cannot be merged, 65 invalid scene, 66 scene not found or unreadable, 73 picture file cannot be \
+created, 75 stopped (--resume continues), 129 terminal gone, \
 130 SIGINT, 143 SIGTERM, 128 + N any other signal N. Ctrl-C quits the interface with 0, like q.";
 
 #[derive(Debug, Subcommand)]
@@ -287,7 +287,7 @@ enum Subcommands {
     /// Render a scene to a picture file
     #[command(after_help = render::EXAMPLES)]
     Render(RenderArguments),
-    /// Merge the part files of a picture, or say which are missing
+    /// Merge the part files of a picture, or list incomplete shards
     #[command(after_help = merge::EXAMPLES)]
     Merge(MergeArguments),
     /// Compare two pictures, or what scenes show

@@ -13,7 +13,7 @@ use super::shared::{
 use super::tracing::TracingArguments;
 use crate::batch::{
     self, Existing, Finished, FrameSource, Output, Parts, Pattern, Render, Sequence,
-    SequenceOutput, Sink, Tracing,
+    SequenceOutput, Tracing,
 };
 use crate::image_file::{FORMATS, ImageFormat, MovieFormat};
 use crate::part::{MOST_SHARDS, Shard};
@@ -27,8 +27,8 @@ Examples:
 GIF is reduced to 256 colours and JPEG has quality 95. EXR and HDR keep unclamped values; the \
 other formats keep every pixel with 8 bits per channel.
 
-A scene may be a folder of scenes, the frames of a sequence, numbered from 0; %05d in FILE stands for \
-the number. Frames that are finished are not rendered again. Y4M and GIF hold a whole sequence:
+SCENE may be a folder of scenes, the frames of a sequence, numbered from 0; %05d in FILE is replaced \
+by the frame number. Frames that are already finished are skipped. Y4M and GIF hold a whole sequence:
   halflight render scene.ray --turntable 36 -o turn.gif
   halflight render scene.ray --turntable 250 -o - --format y4m | ffmpeg -i - turn.mp4
   halflight render shots/ -o shot.%05d.png --frames 0-99
@@ -51,23 +51,23 @@ pub(super) struct RenderArguments {
     strictness: StrictnessArguments,
     #[command(flatten)]
     assets: AssetArguments,
-    /// Trace only shard K of N, from 0, into a part file beside FILE; see merge
+    /// Trace only shard K of N, numbered from 0, into a part file next to FILE; see merge
     #[arg(long, value_name = "K/N", value_parser = parse_shard)]
     shard: Option<Shard>,
     #[command(flatten)]
     sequence: SequenceArguments,
-    /// Keep a part file beside FILE, and continue it if it is there: after SIGTERM, SIGUSR1 or a
-    /// crash, or with a larger --spp
+    /// Checkpoint to a part file next to FILE, and continue from one that exists: after SIGTERM,
+    /// SIGUSR1 or a crash, or with a larger --spp
     #[arg(long)]
     resume: bool,
     /// Show progress as a line on a terminal (auto), as lines of JSON on standard error, or not
     #[arg(long, value_name = "STYLE", value_enum, default_value_t)]
     progress: ProgressChoice,
-    /// Write figures about the render to this file as JSON: times, rays, memory, noise; - for
+    /// Write statistics about the render to this file as JSON: times, rays, memory, noise; - for
     /// standard output
     #[arg(long, value_name = "FILE")]
     stats: Option<PathBuf>,
-    /// Print about how much memory the render takes, such as 340M, instead of rendering
+    /// Print an estimate of the memory needed, such as 340M, instead of rendering
     #[arg(long)]
     estimate: bool,
     /// Write to standard output even if it is a terminal
@@ -78,7 +78,7 @@ pub(super) struct RenderArguments {
 /// What the frames of a sequence are.
 #[derive(Args, Debug)]
 struct SequenceArguments {
-    /// Render N frames of a whole turn around the point that the view looks at
+    /// Render N frames of a full turn around the view's target
     #[arg(long, value_name = "N", value_parser = value_parser!(u32).range(1..))]
     turntable: Option<u32>,
     /// Render only these frames of a sequence, numbered from 0 [default: all]
@@ -87,7 +87,7 @@ struct SequenceArguments {
     /// Frames per second of Y4M and GIF, 1 to 100
     #[arg(long, value_name = "N", default_value_t = 24, value_parser = value_parser!(u32).range(1..=100))]
     fps: u32,
-    /// Render frames again that are finished
+    /// Render frames again that are already finished
     #[arg(long)]
     again: bool,
 }
@@ -127,7 +127,9 @@ impl RenderArguments {
             return Err("-o - and --stats - cannot both use standard output".to_owned());
         }
         if self.shard.is_some() && self.tracing.is_limited() {
-            return Err("--time ends shards with different samples: use --spp".to_owned());
+            return Err(
+                "--time would give shards different numbers of samples: use --spp".to_owned(),
+            );
         }
         Ok(Render {
             scene: self.scene,
@@ -143,10 +145,7 @@ impl RenderArguments {
             } else {
                 batch::Purpose::Render
             },
-            stats: self.stats.map(|path| match path.to_str() {
-                Some("-") => Sink::Stdout,
-                _ => Sink::File(path),
-            }),
+            stats: self.stats.map(|path| destination(path, true)),
             parts: (self.resume || self.shard.is_some()).then_some(Parts {
                 shard: self.shard.unwrap_or(Shard::WHOLE),
                 existing: if self.resume {
@@ -180,7 +179,7 @@ impl RenderArguments {
         }
         let output = match (self.movie(), Pattern::of(&self.output), self.format) {
             (Some(_), ..) if self.shard.is_some() => {
-                return Err("frames of one file cannot be sharded: use %05d in its name".to_owned());
+                return Err("a .y4m or .gif cannot be sharded: write one file per frame, such as out.%05d.png".to_owned());
             }
             (Some(format), ..) => SequenceOutput::Movie {
                 to: destination(self.output, self.force),
@@ -202,8 +201,8 @@ impl RenderArguments {
             },
             (None, None, _) => {
                 return Err(format!(
-                    "{} has no place for the number of the frame: name it like out.%05d.png, or \
-                     use .y4m or .gif",
+                    "{} has no placeholder for the frame number: use a name such as out.%05d.png, \
+                     or .y4m or .gif",
                     self.output.display()
                 ));
             }

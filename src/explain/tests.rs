@@ -322,7 +322,7 @@ fn verdicts_of_a_light_on_a_surface() {
                 light ID 1 pnt .5 -.5 0 0 0 0 1 1 1 1 0 0 0 shadow_on\n\
                 mat ID 1 1 1 1 0 1 0 1 0 0 1\n\
                 obj box ID 1 mat ID 1 0 0 -1 1 0 0 0 1 0 0 0 1 50 50 2\n";
-    let words = "this point of object 1 (box, line 6) is within light 1";
+    let words = "this point of object 1 (box, line 6) lies inside light 1";
     check(Language::Dat, text, PLAIN, "at-the-light", words);
 }
 

@@ -23,7 +23,7 @@ pub struct Merged {
     pub header: Header,
 }
 
-/// Why parts make no picture.
+/// Why parts cannot be merged.
 #[derive(Debug, thiserror::Error)]
 pub enum Unmerged {
     /// A part cannot be read.
@@ -34,14 +34,14 @@ pub enum Unmerged {
         /// The error of the file system.
         source: io::Error,
     },
-    /// A file is no part, or its header is damaged.
-    #[error("{path}: is no part file, or its beginning is damaged", path = path.display())]
+    /// A file is not a part, or its header is damaged.
+    #[error("{path}: is not a part file, or its header is damaged", path = path.display())]
     NoPart {
         /// The file.
         path: PathBuf,
     },
     /// A part is not as it was written.
-    #[error("{path}: is damaged from byte {offset} on; continue it with --resume", path = path.display())]
+    #[error("{path}: damaged from byte {offset} on; continue it with --resume", path = path.display())]
     Damaged {
         /// The part.
         path: PathBuf,
@@ -49,7 +49,7 @@ pub enum Unmerged {
         offset: u64,
     },
     /// A part ends within a record.
-    #[error("{path}: ends early, after byte {offset}; continue it with --resume", path = path.display())]
+    #[error("{path}: ends early, in the record at byte {offset}; continue it with --resume", path = path.display())]
     Short {
         /// The part.
         path: PathBuf,
@@ -82,8 +82,8 @@ pub enum Unmerged {
     },
     /// Blocks of the picture are not traced to the end.
     #[error(
-        "incomplete: {blocks} of {all} blocks are missing, of the shards {shards} of {count}; to \
-         trace them, run these again with --resume", shards = ranges(shards)
+        "incomplete: {blocks} of {all} blocks are missing; rerun shards {shards} (of {count}) with \
+         --resume", shards = ranges(shards)
     )]
     Holes {
         /// How many blocks are missing.

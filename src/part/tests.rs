@@ -79,7 +79,7 @@ fn folder() -> TempDir {
 
 fn error(parts: &[PathBuf]) -> String {
     let merged = merge(parts, Frames::Last);
-    merged.expect_err("they make no picture").to_string()
+    merged.expect_err("they cannot be merged").to_string()
 }
 
 #[test]
@@ -191,8 +191,8 @@ fn what_lacks_is_named() {
     assert!(merge(&parts, Frames::Last).is_ok());
     let good = fs::read(&parts[0]).expect("it is there");
     for (length, expected) in [
-        (good.len() - 1, "ends early, after byte"),
-        (90, "is no part file"),
+        (good.len() - 1, "ends early, in the record at byte"),
+        (90, "is not a part file"),
     ] {
         fs::write(&parts[0], &good[..length]).expect("it is written");
         assert!(error(&parts).contains(expected), "{}", error(&parts));

@@ -8,7 +8,7 @@ use std::path::{Path, PathBuf};
 use super::header::{Difference, Header};
 use super::record::{Damage, Record};
 use crate::file::{Lock, lock};
-use crate::render::{Block, Blocks};
+use crate::render::{Block, Blocks, Counts};
 
 /// A part file open for writing, locked against other writers.
 #[derive(Debug)]
@@ -16,7 +16,7 @@ pub struct Part {
     file: File,
     blocks: Blocks,
     header_crc: u32,
-    /// Where the newest record of each block begins, and its samples.
+    /// The newest record of each block.
     index: BTreeMap<u32, Place>,
     /// The samples that blocks are traced to.
     goal: Option<u32>,
@@ -28,8 +28,20 @@ pub struct Part {
 
 #[derive(Clone, Copy, Debug)]
 struct Place {
+    /// Where it begins.
     offset: u64,
     samples: u32,
+    counts: Counts,
+}
+
+impl Place {
+    fn of(block: &Block, offset: u64) -> Self {
+        Self {
+            offset,
+            samples: block.samples,
+            counts: block.counts,
+        }
+    }
 }
 
 /// Why a part file cannot be continued.
@@ -45,7 +57,7 @@ pub enum Refused {
     #[error("it exists; continue it with --resume, or delete it")]
     Exists,
     /// It is not a part file, or its header is damaged.
-    #[error("it is no part file, or its beginning is damaged; delete it to start over")]
+    #[error("it is not a part file, or its header is damaged; delete it to start over")]
     NoPart,
     /// It is a part of another picture.
     #[error(
@@ -127,10 +139,8 @@ impl Part {
         loop {
             match Record::read(&mut from, blocks, header_crc) {
                 Ok(Some(Record::Goal(spp))) => goal = Some(spp),
-                Ok(Some(Record::Block(Block {
-                    number, samples, ..
-                }))) => {
-                    index.insert(number, Place { offset, samples });
+                Ok(Some(Record::Block(block))) => {
+                    index.insert(block.number, Place::of(&block, offset));
                 }
                 Err(Damage::Io(error)) => return Err(error.into()),
                 Ok(None) | Err(Damage::Short | Damage::Corrupt) => break,
@@ -160,7 +170,13 @@ impl Part {
         self.index.get(&number).map_or(0, |place| place.samples)
     }
 
-    /// A block as far as it was written, which it then is not continued from any earlier.
+    /// The rays of all blocks, in this process and before.
+    pub fn counts(&self) -> Counts {
+        let counts = self.index.values().map(|place| place.counts);
+        counts.fold(Counts::default(), Counts::and)
+    }
+
+    /// A block as far as it was written.
     pub fn block(&self, number: u32) -> io::Result<Block> {
         let Some(place) = self.index.get(&number) else {
             return Ok(Block::new(number, self.blocks));
@@ -185,9 +201,9 @@ impl Part {
 
     /// Appends a block. If that fails, the file ends as before.
     pub fn put(&mut self, block: Block) -> io::Result<()> {
-        let (number, samples) = (block.number, block.samples);
-        let offset = self.append(&Record::Block(block))?;
-        self.index.insert(number, Place { offset, samples });
+        let (number, place) = (block.number, Place::of(&block, self.end));
+        self.append(&Record::Block(block))?;
+        self.index.insert(number, place);
         Ok(())
     }
 
@@ -196,8 +212,8 @@ impl Part {
         self.file.sync_data()
     }
 
-    /// Appends a record; returns where it begins.
-    fn append(&mut self, record: &Record) -> io::Result<u64> {
+    /// Appends a record.
+    fn append(&mut self, record: &Record) -> io::Result<()> {
         let bytes = record.bytes(self.header_crc);
         let begin = self.end;
         let written = self
@@ -210,7 +226,7 @@ impl Part {
             return Err(error);
         }
         self.end += bytes.len() as u64;
-        Ok(begin)
+        Ok(())
     }
 }
 

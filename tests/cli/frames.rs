@@ -67,14 +67,14 @@ fn finished_frames_are_skipped_unless_anything_has_changed() {
     let line = "render box.ray --turntable 3 -o t.%d.png --size 20x15";
     let skipped = |line: &str| place.stderr(line, 0);
     assert_eq!(skipped(line), "");
-    assert_eq!(skipped(line), "note: 3 frames finished before\n");
+    assert_eq!(skipped(line), "note: 3 frames were already finished\n");
     let pictures: Vec<_> = (0..3)
         .map(|frame| place.read(&format!("t.{frame}.png")))
         .collect();
     // A picture that is gone, and one that was changed.
     fs::remove_file(place.at("t.0.png")).expect("it is there");
     place.write("t.1.png", "no picture");
-    assert_eq!(skipped(line), "note: 1 frame finished before\n");
+    assert_eq!(skipped(line), "note: 1 frame was already finished\n");
     for (frame, picture) in pictures.iter().enumerate() {
         assert!(place.read(&format!("t.{frame}.png")) == *picture);
     }
@@ -84,7 +84,7 @@ fn finished_frames_are_skipped_unless_anything_has_changed() {
     assert_eq!(skipped(&format!("{line} --spp 2")), "");
     assert_eq!(
         skipped(&format!("{line} --spp 2")),
-        "note: 3 frames finished before\n"
+        "note: 3 frames were already finished\n"
     );
 }
 
@@ -116,10 +116,13 @@ fn one_file_holds_all_frames() {
     place.stderr(&format!("render box.ray -o a.gif --fps 10 {options}"), 0);
     assert!(place.read("a.gif").starts_with(b"GIF89a"));
     for (line, expected) in [
-        ("render box.ray -o a.png --turntable 3", "like out.%05d.png"),
+        (
+            "render box.ray -o a.png --turntable 3",
+            "no placeholder for the frame number",
+        ),
         (
             "render box.ray -o a.y4m --turntable 3 --shard 0/2",
-            "use %05d",
+            "one file per frame",
         ),
         ("render box.ray -o a.png --frames 0-1", "need --turntable"),
         ("render box.ray -o a.bmp --format y4m", "needs --turntable"),
@@ -132,6 +135,10 @@ fn one_file_holds_all_frames() {
             "for single pictures",
         ),
         ("render . -o a%d.png --turntable 0", "--turntable"),
+        (
+            "render box.ray -o box.ray --format gif --turntable 2",
+            "cannot overwrite box.ray: it is a scene of the sequence",
+        ),
     ] {
         let said = place.stderr(line, 2);
         assert!(said.contains(expected), "{line}: {said}");

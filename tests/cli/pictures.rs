@@ -50,6 +50,28 @@ fn a_picture_never_replaces_a_file_that_its_scene_uses() {
         );
         assert_eq!(place.read("skin.ppm"), SKIN.as_bytes());
     }
+    for line in [
+        "render a.dat -o a.bmp --stats skin.ppm",
+        "render a.dat -o a.bmp --stats a.dat",
+        "render a.dat -o skin.ppm --format gif --turntable 2",
+        "render a.dat -o sk%d.ppm --turntable 2",
+        "merge a.part -o a.part --format bmp",
+    ] {
+        place.write("sk0.ppm", SKIN);
+        place.write("a.part", "a part");
+        let textured = TEXTURED.replace("skin.ppm", "sk0.ppm");
+        place.write(
+            "a.dat",
+            if line.contains("sk%d") {
+                &textured
+            } else {
+                TEXTURED
+            },
+        );
+        let stderr = place.stderr(line, 2);
+        assert!(stderr.contains("cannot overwrite "), "{line}: {stderr}");
+        assert_eq!(place.read("skin.ppm"), SKIN.as_bytes());
+    }
 }
 
 #[test]

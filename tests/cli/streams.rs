@@ -36,6 +36,14 @@ fn a_full_device_is_an_error() {
     for (line, stdout) in [
         ("render ball.ray -o -", Stdio::from(full())),
         ("render ball.ray -o /dev/full --format bmp", Stdio::null()),
+        (
+            "render ball.ray -o - --format gif --turntable 2 --size 8x6",
+            Stdio::from(full()),
+        ),
+        (
+            "render ball.ray -o /dev/full --format gif --turntable 2 --size 8x6",
+            Stdio::null(),
+        ),
         ("--help", Stdio::from(full())),
     ] {
         let mut command = place.command(line);
@@ -156,7 +164,16 @@ fn figures_of_a_render_are_written() {
     let line = "render ball.ray -o a.bmp --size 40x30 --spp 4 --seed 5 --stats";
     place.stderr(&format!("{line} stats.json"), 0);
     let whole = String::from_utf8(place.read("stats.json")).expect("UTF-8");
-    place.stderr(&format!("{line} - --resume"), 0);
+    // A part that was continued has the figures of all of it.
+    place.stderr(
+        "render ball.ray -o a.bmp --size 40x30 --spp 2 --seed 5 --resume",
+        0,
+    );
+    place.stderr(&format!("{line} resumed.json --resume"), 0);
+    let resumed = String::from_utf8(place.read("resumed.json")).expect("UTF-8");
+    for key in ["all", "shadow", "samples", "noise", "spp", "digest"] {
+        assert_eq!(after(&resumed, key), after(&whole, key), "{key}");
+    }
     let output = place.run(&format!("{line} - --shard 0/2"));
     let shard = String::from_utf8(output.stdout).expect("UTF-8");
     for (key, of_whole, of_shard) in [

@@ -64,7 +64,7 @@ impl Case<'_> {
             } => self.faces_away((lights, *all), *cosine, *object),
             Verdict::AtTheLight { light, object } => {
                 let (light_name, object_name) = (names.light(*light), names.object(*object));
-                let text = format!("this point of {object_name} is within {light_name}");
+                let text = format!("this point of {object_name} lies inside {light_name}");
                 let mut sentence = self.sentence("at-the-light", text);
                 sentence.help = Some(format!("move the light away from {object_name}"));
                 self.about(light_node(light), LIGHT_PLACE, sentence)
