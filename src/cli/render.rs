@@ -8,14 +8,14 @@ use clap::{Args, value_parser};
 use super::choices::ProgressChoice;
 use super::shared::{
     AssetArguments, StrictnessArguments, destination, format_named, output, output_help,
-    picture_format,
+    picture_format, picture_names,
 };
 use super::tracing::TracingArguments;
 use crate::batch::{
     self, Existing, Finished, FrameSource, Output, Parts, Pattern, Render, Sequence,
     SequenceOutput, Tracing,
 };
-use crate::image_file::{FORMATS, ImageFormat, MovieFormat};
+use crate::image_file::{ImageFormat, MovieFormat};
 use crate::part::{MOST_SHARDS, Shard};
 
 pub(super) const EXAMPLES: &str = "\
@@ -157,9 +157,7 @@ impl RenderArguments {
             assets: self.assets.folders,
         })
     }
-}
 
-impl RenderArguments {
     /// The format of one file for all frames of a sequence.
     fn movie(&self) -> Option<MovieFormat> {
         let extension = self.output.extension().unwrap_or_default();
@@ -235,10 +233,7 @@ enum Format {
 }
 
 fn picture_or_movie() -> impl TypedValueParser<Value = Format> {
-    let pictures = FORMATS.map(|(format, extensions)| {
-        PossibleValue::new(format.name()).aliases(extensions.iter().copied())
-    });
-    let names = pictures.into_iter().chain([PossibleValue::new("y4m")]);
+    let names = picture_names().chain([PossibleValue::new("y4m")]);
     PossibleValuesParser::new(names).try_map(|name| {
         let picture = format_named(&name).map(Format::Picture);
         let movie = (name == "y4m").then_some(Format::Movie(MovieFormat::Y4m));

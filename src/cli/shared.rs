@@ -88,12 +88,17 @@ pub(super) fn destination(path: PathBuf, force: bool) -> Output {
     }
 }
 
-/// The names of the picture formats.
-pub(super) fn format_names() -> impl TypedValueParser<Value = ImageFormat> {
-    let names = FORMATS.map(|(format, extensions)| {
+/// The names of the picture formats, as values of an option.
+pub(super) fn picture_names() -> impl Iterator<Item = PossibleValue> {
+    FORMATS.into_iter().map(|(format, extensions)| {
         PossibleValue::new(format.name()).aliases(extensions.iter().copied())
-    });
-    PossibleValuesParser::new(names).try_map(|name| format_named(&name).ok_or("unknown format"))
+    })
+}
+
+/// Reads the name of a picture format.
+pub(super) fn format_names() -> impl TypedValueParser<Value = ImageFormat> {
+    let names = PossibleValuesParser::new(picture_names());
+    names.try_map(|name| format_named(&name).ok_or("unknown format"))
 }
 
 /// The picture format with a name or extension.
