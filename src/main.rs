@@ -19,6 +19,7 @@ fn main() -> ExitCode {
         Ok(Command::Sequence(work)) => cli::exit_code(&batch::render_sequence(&work)),
         Ok(Command::Bench(work)) => cli::exit_code(&batch::bench(&work)),
         Ok(Command::Merge(work)) => cli::exit_code(&batch::merge(&work)),
+        Ok(Command::Show(work)) => cli::comparison_exit_code(&batch::show(&work)),
         Ok(Command::Compare(work)) => cli::comparison_exit_code(&batch::compare(&work)),
         Ok(Command::Explain(work)) => cli::exit_code(&batch::explain(&work)),
         Ok(Command::Doctor(scene)) => print(&Stop {

@@ -5,7 +5,7 @@ use std::sync::{Arc, mpsc};
 
 use halflight::assets::{Assets, Loaded, Wanted};
 use halflight::document::Document;
-use halflight::image_file::ImageFormat;
+use halflight::image_file::{ImageFormat, Picture};
 use halflight::language::table::{Field, Kind, Range};
 use halflight::language::{Language, Lowered, NamedFile, Node, Source};
 use halflight::render::{Filter, Frame, Frames, Job, Renderer, Settings, Threads, default_depth};
@@ -33,7 +33,7 @@ fn the_pictures_beside_the_scenes_match_the_renderer() {
         let frame = trace(&scene, images, SIZE, spp);
         let mut bytes = Vec::new();
         ImageFormat::Bmp
-            .write(&frame, &mut bytes)
+            .write(Picture::of(&frame), &mut bytes)
             .expect("memory takes any picture");
         let expected =
             std::fs::read(own.path.with_extension("bmp")).expect("every scene has a picture");

@@ -168,7 +168,7 @@ fn measure(
         let (scene, images) = read()?;
         times[0].push(begun.elapsed());
         let objects = scene.objects.len();
-        let job = tracing.job(scene, images, Frames::Live);
+        let job = tracing.job(scene, images, Frames::Live)?;
         let settings = job.settings;
         times[2].push(first_picture(job.clone(), tracing.threads)?);
         let begun = Instant::now();

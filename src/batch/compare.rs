@@ -10,7 +10,7 @@ use super::{Error, Tracing, Warnings, load, print_error, print_message, stdout};
 use crate::assets;
 use crate::compare::{Comparison, Difference, SizesDiffer, heat_map};
 use crate::file;
-use crate::image_file::{self, ImageFormat};
+use crate::image_file::{self, ImageFormat, Picture};
 use crate::language::Language;
 use crate::memory;
 use crate::render::{Frame, Frames};
@@ -160,7 +160,6 @@ fn trace(work: &Compare, path: &Path, size: Option<Size>) -> Result<Image, Error
         size: work.tracing.size.or(size),
         ..work.tracing.clone()
     };
-    tracing.traced_size(&scene)?;
     let traced = tracing.trace(scene, loaded.images, Frames::Last, || {})?;
     let frame = &traced.frame;
     Image::new(frame.size, frame.pixels.clone()).ok_or(Error::Stopped)
@@ -242,5 +241,5 @@ fn object(work: &Compare, found: &Result<Comparison, SizesDiffer>, verdict: Verd
 
 fn draw(path: &Path, format: ImageFormat, size: Size, pixels: Vec<[u8; 3]>) -> Result<(), Error> {
     let frame = Frame::drawn(size, pixels);
-    Output::File(path.to_owned()).write(|out| format.write(&frame, out))
+    Output::File(path.to_owned()).write(|out| format.write(Picture::of(&frame), out))
 }

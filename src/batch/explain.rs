@@ -44,7 +44,7 @@ fn try_explain(work: &Explain) -> Result<(), Error> {
     let scene = loaded.scene.ok_or(Error::Invalid {
         errors: loaded.errors,
     })?;
-    let job = work.tracing.job(scene, loaded.images, Frames::Last);
+    let job = work.tracing.job(scene, loaded.images, Frames::Last)?;
     let size = job.settings.size;
     check_pixel(work.pixel, size)?;
     let prepared = PreparedScene::new(&job, || false).ok_or(Error::Stopped)?;

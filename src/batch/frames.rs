@@ -6,20 +6,19 @@ use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use super::fingerprint::{digest, fingerprint};
 use super::ledger::Ledger;
 use super::output::Output;
 use super::pattern::Pattern;
 use super::progress::Place;
 use super::tracing::{Tracer, Tracing};
 use super::{Error, Warnings, load, print_error, print_message};
-use crate::assets;
-use crate::file::ReadError;
-use crate::image_file::{ImageFormat, MovieFormat, MovieWriter};
+use crate::assets::{self, fingerprint};
+use crate::file::{Digest, ReadError};
+use crate::image_file::{ImageFormat, MovieFormat, MovieWriter, Picture};
 use crate::language::Language;
 use crate::memory;
 use crate::part::Shard;
-use crate::render::{Frame, Frames, Job};
+use crate::render::{Frame, Frames, Job, Provenance};
 use crate::text::counted;
 
 /// A sequence of pictures to render.
@@ -135,8 +134,9 @@ fn pictures(
     let (numbers, mut skipped) = (source.numbers.clone(), 0);
     for (before, &number) in numbers.iter().enumerate() {
         let picture = pattern.path(number);
-        let Still { job, inputs, files } = source.still(number, format.frames())?;
-        let inputs = digest([inputs.as_bytes(), format.name().as_bytes()]);
+        let Still { job, scene, files } = source.still(number, format.frames())?;
+        let provenance = work.tracing.provenance(&job, scene);
+        let inputs = inputs(&work.tracing, &provenance, format);
         if finished == Finished::Skipped && ledger.has(number, &inputs, &picture) {
             skipped += 1;
             continue;
@@ -152,10 +152,16 @@ fn pictures(
             before,
             all: numbers.len(),
         };
-        let frame = tracer.trace(job, Some(place), || {})?;
+        let frame = tracer.trace(job.clone(), Some(place), || {})?;
+        let layers = tracer.layers(&job, frame.progress.spp, &work.tracing.layers)?;
+        let picture = Picture {
+            frame: &frame,
+            layers: &layers,
+            provenance: Some(&provenance.in_frame(&frame)),
+        };
         let mut bytes = Vec::new();
         output.write(|out| {
-            format.write(&frame, &mut bytes)?;
+            format.write(picture, &mut bytes)?;
             out.write_all(&bytes)
         })?;
         ledger.add(number, &inputs, &bytes).map_err(io)?;
@@ -277,15 +283,13 @@ impl<'w> Source<'w> {
             Shows::Scenes => Still::of(self.work, &self.scenes[number as usize], frames),
             Shows::Turns { still, count } => {
                 let turn = f64::from(number) / f64::from(*count);
-                let Still { job, inputs, files } = (**still).clone();
+                let Still { job, scene, files } = (**still).clone();
                 let job = Job {
                     camera: job.camera.about_target(TAU * turn),
                     frames,
                     ..job
                 };
-                let turn = turn.to_bits().to_le_bytes();
-                let inputs = digest([inputs.as_bytes(), &turn]);
-                Ok(Still { job, inputs, files })
+                Ok(Still { job, scene, files })
             }
         }
     }
@@ -301,8 +305,8 @@ impl<'w> Source<'w> {
 #[derive(Clone)]
 struct Still {
     job: Job,
-    /// The digest of all that the picture depends on but its format.
-    inputs: String,
+    /// The digest of its scene.
+    scene: String,
     /// The files that its scene references.
     files: Vec<PathBuf>,
 }
@@ -313,20 +317,24 @@ impl Still {
         let loaded = load(path, &work.assets, work.warnings)?;
         let errors = loaded.errors;
         let scene = loaded.scene.ok_or(Error::Invalid { errors })?;
-        let scene_digest = fingerprint(loaded.source.text(), &loaded.files)?;
-        work.tracing.traced_size(&scene)?;
-        let job = work.tracing.job(scene, loaded.images, frames);
-        let written = job.settings.written();
-        let mut parts = vec![env!("CARGO_PKG_VERSION").to_owned(), scene_digest];
-        parts.extend(written.map(|(_, value)| value));
-        parts.push(match work.tracing.time {
-            Some(time) => format!("{} s", time.as_secs_f64()),
-            None => job.settings.spp.to_string(),
-        });
-        let inputs = digest(parts.iter().map(String::as_bytes));
-        let files = loaded.files;
-        Ok(Self { job, inputs, files })
+        let job = work.tracing.job(scene, loaded.images, frames)?;
+        Ok(Self {
+            job,
+            scene: fingerprint(loaded.source.text(), &loaded.files)?,
+            files: loaded.files,
+        })
     }
+}
+
+/// The digest of all that a picture file depends on.
+fn inputs(tracing: &Tracing, picture: &Provenance, format: ImageFormat) -> String {
+    let entries = picture.written().into_iter().map(|(_, value)| value);
+    let samples = match tracing.time {
+        Some(time) => format!("{} s", time.as_secs_f64()),
+        None => picture.settings.spp.to_string(),
+    };
+    let parts: Vec<_> = entries.chain([samples, format.name().to_owned()]).collect();
+    Digest::of(parts.iter().map(String::as_bytes))
 }
 
 /// The scene files of a folder, in the order of their names.

@@ -5,7 +5,7 @@ use std::fs::{self, File, OpenOptions};
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
-use super::fingerprint::{digest, digest_of_file};
+use crate::file::Digest;
 
 /// A list of finished frames beside their pictures: a line `FRAME INPUTS PICTURE` for each, with the
 /// SHA-256 of what it was made of and of its file. Lines are only appended; a later one of the same
@@ -41,7 +41,7 @@ impl Ledger {
     /// Whether a frame is made of these inputs, and its file is as it was written.
     pub(super) fn has(&self, frame: u32, inputs: &str, picture: &Path) -> bool {
         self.finished.get(&frame).is_some_and(|[made_of, written]| {
-            made_of == inputs && digest_of_file(picture).is_ok_and(|found| found == *written)
+            made_of == inputs && Digest::of_file(picture).is_ok_and(|found| found == *written)
         })
     }
 
@@ -54,7 +54,7 @@ impl Ledger {
             let opened = options.append(true).create(true).open(&self.path)?;
             self.file.insert(opened)
         };
-        let line = format!("{frame} {inputs} {}\n", digest([picture]));
+        let line = format!("{frame} {inputs} {}\n", Digest::of([picture]));
         file.write_all(line.as_bytes())
     }
 }

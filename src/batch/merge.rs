@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use super::output::Output;
 use super::{Error, print_error, print_message, stdout};
-use crate::image_file::ImageFormat;
+use crate::image_file::{ImageFormat, Picture};
 use crate::part::{self, ranges};
 
 /// Part files to merge.
@@ -39,7 +39,11 @@ fn try_merge(work: &Merge) -> Result<(), Error> {
             if let Some(reason) = format.refuses(merged.frame.size) {
                 return Err(Error::Refused(format!("the picture is {reason}")));
             }
-            output.write(|out| format.write(&merged.frame, out))
+            let picture = Picture {
+                provenance: Some(&merged.picture),
+                ..Picture::of(&merged.frame)
+            };
+            output.write(|out| format.write(picture, out))
         }
         MergePurpose::Missing => {
             let (shards, damaged) = part::missing(&work.parts)?;

@@ -1,10 +1,9 @@
 //! Headless work, a command a file: check, render (a picture, a part of one, or a sequence), merge,
-//! compare, explain and bench. Knows no terminals, except for a progress line if standard error is one.
+//! show, compare, explain and bench. Knows no terminals, except for a progress line if standard error is one.
 
 mod bench;
 mod compare;
 mod explain;
-mod fingerprint;
 mod frames;
 mod ledger;
 mod machine;
@@ -15,6 +14,7 @@ mod pattern;
 mod progress;
 mod render;
 mod report;
+mod show;
 mod signals;
 mod stats;
 mod stdout;
@@ -46,6 +46,7 @@ pub use parts::{Existing, Parts};
 pub use pattern::Pattern;
 pub use progress::ProgressStyle;
 pub use render::{Purpose, Render, render};
+pub use show::{Show, show};
 pub use signals::Signal;
 pub use tracing::Tracing;
 
@@ -83,6 +84,9 @@ pub enum Error {
         /// What is wrong with it.
         source: Unreadable,
     },
+    /// A picture does not say what it is made from.
+    #[error("{} does not say what it is made from", .0.display())]
+    NoProvenance(PathBuf),
     /// The picture file cannot be created.
     #[error("{path}: {source}", path = path.display())]
     Create {

@@ -12,7 +12,9 @@ use super::signals::Signals;
 use super::tracing::Tracing;
 use super::{Error, print_message};
 use crate::part::{self, Header, Part, Shard};
-use crate::render::{Block, BlockTracer, Blocks, Counts, Frame, Job, Progress, Settings};
+use crate::render::{
+    Block, BlockTracer, Blocks, Counts, Frame, Job, Progress, Provenance, Settings,
+};
 use crate::text::counted;
 
 /// How a picture is traced into a part file.
@@ -50,22 +52,20 @@ pub(super) struct Traced {
     pub(super) pixels: usize,
 }
 
-/// Traces a job, of the scene with this digest, into the part file beside the picture.
+/// Traces a job, of this picture, into the part file beside its file.
 pub(super) fn trace(
     tracing: &Tracing,
-    (picture, parts): (&Path, Parts),
+    (path, parts): (&Path, Parts),
     job: Job,
-    scene: String,
+    picture: &Provenance,
 ) -> Result<Traced, Error> {
     let frames = job.frames;
     let header = Header {
-        version: env!("CARGO_PKG_VERSION").to_owned(),
-        scene,
-        settings: job.settings,
+        picture: picture.clone(),
         shard: parts.shard,
     };
     let blocks = Blocks::of(job.settings.traced().size());
-    let path = part::path_beside(picture, parts.shard);
+    let path = part::path_beside(path, parts.shard);
     let refused = |source| Error::Part {
         path: path.clone(),
         source,

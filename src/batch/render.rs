@@ -1,17 +1,20 @@
 //! Renders a scene file to a picture file.
 
 use std::path::PathBuf;
+use std::sync::Arc;
 
-use super::fingerprint::fingerprint;
 use super::output::Output;
 use super::parts::{self, Parts};
 use super::stats::{Stats, Times};
+use super::tracing::Tracer;
 use super::{Error, Tracing, Warnings, load, print_error, print_findings, print_message, stdout};
-use crate::assets;
-use crate::image_file::ImageFormat;
+use crate::assets::{self, fingerprint};
+use crate::image_file::{ImageFormat, Picture};
+use crate::language::Source;
 use crate::memory;
-use crate::render::{Frame, Job, Progress, memory_for};
-use crate::text::{Diagnostic, counted};
+use crate::render::{Aov, Frame, Job, Progress, Provenance, memory_for};
+use crate::scene::Size;
+use crate::text::{Diagnostic, Span, counted};
 
 /// A picture to render.
 #[derive(Clone, Debug, PartialEq)]
@@ -48,7 +51,7 @@ pub enum Purpose {
 
 /// Renders a scene and writes the picture. Warnings, notes and progress go to standard error. A
 /// reader that closes the pipe early is not an error. If interrupted, leaves either the old file or
-/// the new one, see [`file::deliver`].
+/// the new one, see [`deliver`](crate::file::deliver).
 pub fn render(work: &Render) -> Result<(), Error> {
     try_render(work).inspect_err(print_error)
 }
@@ -68,69 +71,148 @@ fn try_render(work: &Render) -> Result<(), Error> {
     for output in outputs(work) {
         output.check_spares(&work.scene, &loaded.files)?;
     }
-    let size = work.tracing.traced_size(&scene)?;
-    if let Some(reason) = work.format.refuses(size) {
-        let (size, region) = (work.tracing.size, work.tracing.region);
-        let of_scene = loaded.size.filter(|_| size.is_none() && region.is_none());
-        let Some(span) = of_scene else {
-            let option = region.map_or("--size", |_| "--region");
-            return Err(Error::Refused(format!("{option} {reason}")));
-        };
-        let message = format!("view size {reason}");
-        let diagnostic = Diagnostic::error(span, message, "a smaller size")
-            .with_hint("or override it: --size WxH");
-        print_findings(&work.scene, loaded.source.text(), &[diagnostic]);
-        return Err(Error::Invalid { errors: 1 });
-    }
-    let digest = match (work.parts, &work.stats) {
-        (None, None) => String::new(),
-        _ => fingerprint(loaded.source.text(), &loaded.files)?,
-    };
-    let job = work.tracing.job(scene, loaded.images, work.format.frames());
+    let frames = work.format.frames();
+    let job = work.tracing.job(scene, loaded.images, frames)?;
+    check_size(
+        work,
+        job.settings.traced().size(),
+        &loaded.source,
+        loaded.size,
+    )?;
     let estimate = estimate(&job);
     if work.purpose == Purpose::Estimate {
         let line = format!("{}M\n", estimate.div_ceil(1 << 20));
         return stdout::print(&line).map_err(stdout::error);
     }
-    let settings = job.settings;
     times.load = times.lap();
-    let stats = |times, settings, progress, pixels| match &work.stats {
-        Some(output) => Stats {
-            scene: &work.scene,
-            digest: &digest,
-            settings,
-            threads: work.tracing.threads,
-            progress,
-            pixels,
-            estimate,
-            times,
-        }
-        .write(output),
-        None => Ok(()),
+    let text = (loaded.source, loaded.files);
+    let traced = match work.parts {
+        Some(parts) => trace_parts(work, parts, &job, text)?,
+        None => trace_whole(work, job, text)?,
     };
-    if let Some(parts) = work.parts {
-        let Output::File(picture) = &work.output else {
-            return Err(Error::Refused(
-                "--shard and --resume keep a file beside the picture: use -o FILE".to_owned(),
-            ));
-        };
-        drop(loaded.source);
-        let traced = parts::trace(&work.tracing, (picture, parts), job, digest.clone())?;
-        times.trace = times.lap();
-        if let Some(frame) = &traced.frame {
-            finish(work, frame)?;
-            times.write = times.lap();
-        }
-        return stats(times, settings, traced.progress, traced.pixels);
-    }
-    // Freeing a text of 85 MB takes 10 ms, its tree nearly as long: the worker is already running.
-    let free = || drop(loaded.source);
-    let traced = work.tracing.trace_job(job, free)?;
     times.trace = times.lap();
-    let frame = &traced.frame;
-    finish(work, frame)?;
+    if let Some(frame) = &traced.frame {
+        finish(work, frame, &traced)?;
+    }
     times.write = times.lap();
-    stats(times, settings, frame.progress, frame.size.pixels())
+    let Some(output) = &work.stats else {
+        return Ok(());
+    };
+    let stats = Stats {
+        scene: &work.scene,
+        picture: &traced.picture,
+        threads: work.tracing.threads,
+        progress: traced.progress,
+        pixels: traced.pixels,
+        estimate,
+        times,
+    };
+    stats.write(output)
+}
+
+/// A picture, or a part of one, that was traced.
+struct Traced {
+    /// `None` for a part.
+    frame: Option<Arc<Frame>>,
+    layers: Vec<(Aov, Arc<Frame>)>,
+    /// What it is made from; without the digest of the scene where nothing says it.
+    picture: Provenance,
+    progress: Progress,
+    /// The number of pixels traced.
+    pixels: usize,
+    /// Kept to the end, so that its threads free memory while the picture is written.
+    _tracer: Option<Tracer>,
+}
+
+fn trace_whole(
+    work: &Render,
+    job: Job,
+    (source, files): (Source, Vec<PathBuf>),
+) -> Result<Traced, Error> {
+    let tracing = &work.tracing;
+    let mut picture = tracing.provenance(&job, String::new());
+    // Another reference would keep the scene in memory until the end.
+    let again = (!tracing.layers.is_empty()).then(|| job.clone());
+    let is_digest_said = work.format.has_metadata() || work.stats.is_some();
+    let mut digest = None;
+    let mut tracer = Tracer::new(tracing);
+    // Freeing a text of 85 MB takes 10 ms, its tree nearly as long: the worker is already running.
+    let meanwhile = || {
+        digest = is_digest_said.then(|| fingerprint(source.text(), &files));
+        drop(source);
+    };
+    let frame = tracer.trace(job, None, meanwhile)?;
+    if let Some(digest) = digest {
+        picture.scene = digest?;
+    }
+    let layers = match again {
+        Some(job) => tracer.layers(&job, frame.progress.spp, &tracing.layers)?,
+        None => Vec::new(),
+    };
+    Ok(Traced {
+        picture: picture.in_frame(&frame),
+        progress: frame.progress,
+        pixels: frame.size.pixels(),
+        frame: Some(frame),
+        layers,
+        _tracer: Some(tracer),
+    })
+}
+
+fn trace_parts(
+    work: &Render,
+    parts: Parts,
+    job: &Job,
+    (source, files): (Source, Vec<PathBuf>),
+) -> Result<Traced, Error> {
+    let Output::File(path) = &work.output else {
+        return Err(Error::Refused(
+            "--shard and --resume keep a file next to the picture: use -o FILE".to_owned(),
+        ));
+    };
+    let tracing = &work.tracing;
+    let digest = fingerprint(source.text(), &files)?;
+    drop(source);
+    let mut picture = tracing.provenance(job, digest);
+    let traced = parts::trace(tracing, (path, parts), job.clone(), &picture)?;
+    let mut layers = Vec::new();
+    if let Some(frame) = &traced.frame
+        && !tracing.layers.is_empty()
+    {
+        layers = Tracer::new(tracing).layers(job, frame.progress.spp, &tracing.layers)?;
+    }
+    picture.settings.spp = traced.progress.spp;
+    Ok(Traced {
+        frame: traced.frame.map(Arc::new),
+        layers,
+        picture,
+        progress: traced.progress,
+        pixels: traced.pixels,
+        _tracer: None,
+    })
+}
+
+/// Refuses a size that the format has not, at its place in the text if it is from there.
+fn check_size(
+    work: &Render,
+    traced: Size,
+    source: &Source,
+    of_scene: Option<Span>,
+) -> Result<(), Error> {
+    let Some(reason) = work.format.refuses(traced) else {
+        return Ok(());
+    };
+    let (size, region) = (work.tracing.size, work.tracing.region);
+    let of_scene = of_scene.filter(|_| size.is_none() && region.is_none());
+    let Some(span) = of_scene else {
+        let option = region.map_or("--size", |_| "--region");
+        return Err(Error::Refused(format!("{option} {reason}")));
+    };
+    let message = format!("view size {reason}");
+    let diagnostic =
+        Diagnostic::error(span, message, "a smaller size").with_hint("or override it: --size WxH");
+    print_findings(&work.scene, source.text(), &[diagnostic]);
+    Err(Error::Invalid { errors: 1 })
 }
 
 /// About how many bytes of memory a job takes in all, now that its scene is loaded: a tenth more than
@@ -142,7 +224,7 @@ fn estimate(job: &Job) -> u64 {
 }
 
 /// Says what is to be said of a picture, and writes it.
-fn finish(work: &Render, frame: &Frame) -> Result<(), Error> {
+fn finish(work: &Render, frame: &Frame, traced: &Traced) -> Result<(), Error> {
     if 0 < frame.progress.over_budget {
         let samples = counted(frame.progress.over_budget as usize, "sample");
         print_message(
@@ -156,7 +238,12 @@ fn finish(work: &Render, frame: &Frame) -> Result<(), Error> {
         let seconds = elapsed.as_secs_f64();
         print_message("note", &format!("{samples} per pixel in {seconds:.1} s"));
     }
-    work.output.write(|out| work.format.write(frame, out))
+    let picture = Picture {
+        frame,
+        layers: &traced.layers,
+        provenance: Some(&traced.picture),
+    };
+    work.output.write(|out| work.format.write(picture, out))
 }
 
 /// Where the picture and the statistics go.

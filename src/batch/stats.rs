@@ -8,13 +8,12 @@ use serde_json::{Map, Value, json};
 use super::Error;
 use super::output::Output;
 use crate::memory;
-use crate::render::{Progress, Settings};
+use crate::render::{Progress, Provenance, Settings};
 
 /// What is counted and timed.
 pub(super) struct Stats<'s> {
     pub(super) scene: &'s Path,
-    pub(super) digest: &'s str,
-    pub(super) settings: Settings,
+    pub(super) picture: &'s Provenance,
     pub(super) threads: usize,
     pub(super) progress: Progress,
     /// The number of pixels traced.
@@ -72,16 +71,12 @@ impl Stats<'_> {
             load, trace, write, ..
         } = self.times;
         let seconds = |time: Duration| time.as_secs_f64();
-        let settings = settings(&Settings {
-            spp,
-            ..self.settings
-        });
         let samples = self.pixels as u64 * u64::from(spp);
         json!({
             "version": env!("CARGO_PKG_VERSION"),
             "scene": self.scene.to_string_lossy(),
-            "digest": self.digest,
-            "settings": settings,
+            "digest": self.picture.scene,
+            "settings": settings(&self.picture.settings),
             "threads": self.threads,
             "pixels": self.pixels,
             "samples": samples,

@@ -7,16 +7,18 @@ use std::time::Duration;
 use super::Error;
 use super::progress::{Place, ProgressStyle, Reporter};
 use crate::render::{
-    Aov, DEFAULT_SPP, Filter, Frame, Frames, Job, Limit, MAX_SPP, Region, Renderer, Settings,
-    Threads, default_depth,
+    Aov, DEFAULT_SPP, Filter, Frame, Frames, Job, Limit, MAX_SPP, Provenance, Region, Renderer,
+    Settings, Threads, default_depth,
 };
-use crate::scene::{Camera, Images, Integrator, Scene, Size, Transfer};
+use crate::scene::{Camera, Images, Integrator, Scene, Size, Transfer, Viewpoint};
 
 /// How a scene is traced.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Tracing {
     /// The size of the picture; the scene's if `None`.
     pub size: Option<Size>,
+    /// What replaces parts of the scene's own camera.
+    pub view: Viewpoint,
     /// The only part of the picture to render, if not all of it.
     pub region: Option<Region>,
     /// Samples per pixel: by default [`DEFAULT_SPP`], or as many as the time permits.
@@ -33,6 +35,8 @@ pub struct Tracing {
     pub seed: u32,
     /// What to render instead of light.
     pub aov: Option<Aov>,
+    /// What to render beside light.
+    pub layers: Vec<Aov>,
     /// The transfer curve to 8-bit values; the scene's if `None`.
     pub transfer: Option<Transfer>,
     /// Exposure in stops.
@@ -86,6 +90,31 @@ impl Tracer {
         let reporter = Reporter::new(self.style).at(place);
         wait_for_last_frame(&self.renderer, &self.woken, reporter)
     }
+
+    /// Traces AOVs of a job whose light was traced with `spp` samples.
+    pub(super) fn layers(
+        &mut self,
+        job: &Job,
+        spp: u32,
+        aovs: &[Aov],
+    ) -> Result<Vec<(Aov, Arc<Frame>)>, Error> {
+        let layers = aovs.iter().map(|&aov| {
+            let settings = Settings {
+                aov: Some(aov),
+                spp: aov.samples(spp),
+                ..job.settings
+            };
+            self.renderer.restart(Job {
+                settings,
+                limit: None,
+                ..job.clone()
+            })?;
+            let reporter = Reporter::new(ProgressStyle::Off);
+            let frame = wait_for_last_frame(&self.renderer, &self.woken, reporter)?;
+            Ok((aov, frame))
+        });
+        layers.collect()
+    }
 }
 
 impl Tracing {
@@ -97,11 +126,7 @@ impl Tracing {
         frames: Frames,
         started: impl FnOnce(),
     ) -> Result<Traced, Error> {
-        self.trace_job(self.job(scene, images, frames), started)
-    }
-
-    /// Traces a job like [`Tracing::trace`].
-    pub(super) fn trace_job(&self, job: Job, started: impl FnOnce()) -> Result<Traced, Error> {
+        let job = self.job(scene, images, frames)?;
         let mut tracer = Tracer::new(self);
         let frame = tracer.trace(job, None, started)?;
         Ok(Traced {
@@ -110,35 +135,30 @@ impl Tracing {
         })
     }
 
-    /// The size of the picture that is traced of a scene: of its region, if it has one.
-    pub(super) fn traced_size(&self, scene: &Scene) -> Result<Size, Error> {
-        let size = self.size_of(scene);
-        let Some(region) = self.region else {
-            return Ok(size);
-        };
-        let region = region.within(size);
-        let refused = |reason| Error::Refused(format!("--region: {reason}"));
-        Ok(region.map_err(refused)?.size())
-    }
-
-    fn size_of(&self, scene: &Scene) -> Size {
-        self.size.unwrap_or(scene.camera.size)
+    /// What the picture of a job is made from, whose scene has this digest.
+    pub(super) fn provenance(&self, job: &Job, scene: String) -> Provenance {
+        Provenance {
+            layers: self.layers.clone(),
+            ..Provenance::of(job, scene)
+        }
     }
 
     /// The job that traces a scene.
-    pub(super) fn job(&self, scene: Scene, images: Images, frames: Frames) -> Job {
+    pub(super) fn job(&self, scene: Scene, images: Images, frames: Frames) -> Result<Job, Error> {
         let transfer = self.transfer.unwrap_or(scene.setting.transfer);
         let integrator = self.integrator.unwrap_or(scene.setting.integrator);
-        let size = self.size_of(&scene);
+        let size = self.size.unwrap_or(scene.camera.size);
+        if let Some(Err(reason)) = self.region.map(|region| region.within(size)) {
+            return Err(Error::Refused(format!("--region: {reason}")));
+        }
+        let camera = self.view.of(&scene.camera);
+        let camera = camera.map_err(|reason| Error::Refused(format!("--view: {reason}")))?;
         let most = self.time.map_or(DEFAULT_SPP, |_| MAX_SPP);
         let spp = self.spp.unwrap_or(most);
-        Job {
+        Ok(Job {
             images,
             // The requested size sets the aspect ratio.
-            camera: Camera {
-                size,
-                ..scene.camera
-            },
+            camera: Camera { size, ..camera },
             scene: Arc::new(scene),
             settings: Settings {
                 size,
@@ -155,7 +175,7 @@ impl Tracing {
             limit: self.time.map(Limit::Time),
             frames,
             numbers: None,
-        }
+        })
     }
 }
 

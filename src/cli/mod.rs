@@ -8,6 +8,7 @@ mod interface;
 mod merge;
 mod render;
 mod shared;
+mod show;
 mod tracing;
 
 use std::ffi::OsString;
@@ -26,8 +27,9 @@ pub use interface::Purpose;
 use merge::MergeArguments;
 use render::{RenderArguments, Work};
 use shared::{AssetArguments, StrictnessArguments};
+use show::ShowArguments;
 
-use crate::batch::{self, Bench, Check, Compare, Explain, Merge, Render, Sequence, Verdict};
+use crate::batch::{self, Bench, Check, Compare, Explain, Merge, Render, Sequence, Show, Verdict};
 use crate::config;
 use crate::file::ReadError;
 use crate::part::{self, Unmerged};
@@ -75,6 +77,8 @@ pub enum Command {
     Bench(Bench),
     /// Merge part files.
     Merge(Merge),
+    /// Show what a picture is made from.
+    Show(Show),
     /// Compare two pictures.
     Compare(Compare),
     /// Explain a pixel.
@@ -113,6 +117,7 @@ pub fn parse(arguments: impl IntoIterator<Item = OsString>) -> Result<Command, S
             .into_merge()
             .map(Command::Merge)
             .map_err(|reason| refusal(Some("merge"), reason)),
+        Some(Subcommands::Show(show)) => Ok(Command::Show(show.into_show())),
         Some(Subcommands::Compare(compare)) => compare
             .into_compare()
             .map(Command::Compare)
@@ -164,7 +169,10 @@ fn failure_code(error: &batch::Error) -> u8 {
     match error {
         Error::Read(error) => read_code(error),
         Error::Assets(_) | Error::Unmerged(Unmerged::Io { .. }) => NO_INPUT,
-        Error::UnknownLanguage(_) | Error::Invalid { .. } | Error::Picture { .. } => INVALID,
+        Error::UnknownLanguage(_)
+        | Error::Invalid { .. }
+        | Error::Picture { .. }
+        | Error::NoProvenance(_) => INVALID,
         Error::Refused(_) => USAGE,
         Error::Create { .. } => NO_OUTPUT,
         Error::Part { source, .. } => match source {
@@ -290,6 +298,9 @@ enum Subcommands {
     /// Merge the part files of a picture, or list incomplete shards
     #[command(after_help = merge::EXAMPLES)]
     Merge(MergeArguments),
+    /// Show what a picture is made from
+    #[command(after_help = show::EXAMPLES)]
+    Show(ShowArguments),
     /// Compare two pictures, or what scenes show
     #[command(after_help = compare::EXAMPLES)]
     Compare(CompareArguments),

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use clap::{Args, value_parser};
 
-use super::choices::ProgressChoice;
+use super::choices::{AovChoice, ProgressChoice};
 use super::shared::{
     AssetArguments, StrictnessArguments, destination, format_named, output, output_help,
     picture_format, picture_names,
@@ -51,6 +51,16 @@ pub(super) struct RenderArguments {
     strictness: StrictnessArguments,
     #[command(flatten)]
     assets: AssetArguments,
+    /// Also render these AOVs, separated by commas, as layers of an EXR, such as
+    /// depth,normal,object,albedo,samples
+    #[arg(
+        long,
+        value_name = "AOVS",
+        value_enum,
+        value_delimiter = ',',
+        conflicts_with = "aov"
+    )]
+    layers: Vec<AovChoice>,
     /// Trace only shard K of N, numbered from 0, into a part file next to FILE; see merge
     #[arg(long, value_name = "K/N", value_parser = parse_shard)]
     shard: Option<Shard>,
@@ -131,15 +141,21 @@ impl RenderArguments {
                 "--time would give shards different numbers of samples: use --spp".to_owned(),
             );
         }
+        if self.shard.is_some() && !self.layers.is_empty() {
+            return Err("--layers cannot be sharded: shard each with --aov".to_owned());
+        }
+        check_layers(&self.layers, format)?;
+        let tracing = Tracing {
+            progress: self.progress.value(),
+            layers: self.layers.into_iter().map(AovChoice::value).collect(),
+            ..self.tracing.into_tracing()
+        };
         Ok(Render {
             scene: self.scene,
             warnings: self.strictness.warnings(),
             output,
             format,
-            tracing: Tracing {
-                progress: self.progress.value(),
-                ..self.tracing.into_tracing()
-            },
+            tracing,
             purpose: if self.estimate {
                 batch::Purpose::Estimate
             } else {
@@ -205,6 +221,16 @@ impl RenderArguments {
                 ));
             }
         };
+        let format = match &output {
+            SequenceOutput::Pictures { format, .. } => *format,
+            SequenceOutput::Movie { .. } => ImageFormat::Gif,
+        };
+        check_layers(&self.layers, format)?;
+        let tracing = Tracing {
+            progress: self.progress.value(),
+            layers: self.layers.into_iter().map(AovChoice::value).collect(),
+            ..self.tracing.into_tracing()
+        };
         Ok(Sequence {
             shows: match self.sequence.turntable {
                 Some(count) => FrameSource::Turntable {
@@ -216,12 +242,22 @@ impl RenderArguments {
             frames: self.sequence.frames,
             output,
             warnings: self.strictness.warnings(),
-            tracing: Tracing {
-                progress: self.progress.value(),
-                ..self.tracing.into_tracing()
-            },
+            tracing,
             assets: self.assets.folders,
         })
+    }
+}
+
+/// Refuses layers in a format that has none, and a layer twice.
+fn check_layers(layers: &[AovChoice], format: ImageFormat) -> Result<(), String> {
+    let again = |at: usize| layers[..at].contains(&layers[at]);
+    if !layers.is_empty() && format != ImageFormat::Exr {
+        Err("--layers needs a .exr: other formats have none".to_owned())
+    } else if let Some(at) = (0..layers.len()).find(|&at| again(at)) {
+        let name = layers[at].value().name();
+        Err(format!("--layers names {name} twice"))
+    } else {
+        Ok(())
     }
 }
 

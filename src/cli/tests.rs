@@ -183,8 +183,8 @@ fn wrong_arguments_are_rejected_with_a_reason() {
     let cases = [
         (
             "halflight a b",
-            "unexpected second scene b: only one can be opened; the commands are render, merge, compare, \
-             explain, bench, check, completions, man and doctor",
+            "unexpected second scene b: only one can be opened; the commands are render, merge, show, \
+             compare, explain, bench, check, completions, man and doctor",
         ),
         (
             "halflight --color blue a",

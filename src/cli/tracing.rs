@@ -11,7 +11,7 @@ use super::choices::{AovChoice, FilterChoice, IntegratorChoice, TransferChoice};
 use super::shared::{depth_range, spp_range, threads_range};
 use crate::batch::{ProgressStyle, Tracing};
 use crate::render::Region;
-use crate::scene::Size;
+use crate::scene::{Size, Viewpoint};
 use crate::text::parse_duration;
 
 /// The largest exposure in stops either way, beyond which single precision overflows soon.
@@ -49,6 +49,10 @@ pub(super) struct SampleArguments {
     /// [default: the scene's]
     #[arg(long, value_name = "WxH", value_parser = parse_size)]
     size: Option<Size>,
+    /// Replace parts of the scene's view, such as "eye 0 1 5 fov 30"; parts: eye X Y Z, target X Y Z,
+    /// up X Y Z, fov DEGREES, height H, aspect A, near D, far D, focus D, lens R
+    #[arg(long, value_name = "PARTS", value_parser = Viewpoint::parse)]
+    view: Option<Viewpoint>,
     /// Maximum number of bounces, 0 to 4096 [default: 8, or 64 with path tracing]
     #[arg(long, value_name = "N", value_parser = depth_range())]
     depth: Option<u32>,
@@ -93,6 +97,7 @@ impl SampleArguments {
     pub(super) fn into_tracing(self) -> Tracing {
         Tracing {
             size: self.size,
+            view: self.view.unwrap_or_default(),
             region: None,
             spp: None,
             time: None,
@@ -101,6 +106,7 @@ impl SampleArguments {
             filter: self.filter.value(),
             seed: self.seed,
             aov: None,
+            layers: Vec::new(),
             transfer: self.transfer.map(TransferChoice::value),
             exposure: self.exposure,
             threads: default_threads(|name| env::var(name).ok()),

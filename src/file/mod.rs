@@ -4,6 +4,7 @@
 mod alike;
 mod backup;
 mod calls;
+mod digest;
 #[cfg(test)]
 pub(crate) mod faults;
 mod lock;
@@ -22,6 +23,7 @@ use crate::memory::{self, Need, OutOfMemory};
 use crate::text::{Position, Span};
 
 pub use backup::{backups, interruption};
+pub use digest::Digest;
 pub(crate) use lock::{Lock, lock};
 pub use replace::{deliver, replace};
 pub(crate) use target::end_of_links;

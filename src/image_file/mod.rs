@@ -1,7 +1,10 @@
 //! Picture files: writing frames, reading textures. Of scenes it knows only pictures and their
 //! sizes.
 
+mod exr;
+mod metadata;
 mod movie;
+mod picture;
 mod read;
 mod sieve;
 mod write;
@@ -11,7 +14,9 @@ use std::path::Path;
 use crate::render::Frames;
 use crate::scene::Size;
 
+pub use metadata::provenance;
 pub use movie::{MovieFormat, MovieWriter};
+pub use picture::Picture;
 pub use read::{MAX_TEXTURE_PIXELS, Unreadable, decode};
 pub use write::{encode_quickly, save};
 
@@ -121,6 +126,11 @@ impl ImageFormat {
             Self::Exr | Self::Hdr => Frames::LastWithValues,
             Self::Bmp | Self::Ppm | Self::Png | Self::Tiff | Self::Gif | Self::Jpeg => Frames::Last,
         }
+    }
+
+    /// Whether its files say what a picture is made from.
+    pub fn has_metadata(self) -> bool {
+        matches!(self, Self::Png | Self::Exr)
     }
 
     /// The name in lower case, e.g. `bmp`.

@@ -22,7 +22,9 @@ const BLUE: [u8; 3] = [5, 6, 253];
 
 fn encoded(format: ImageFormat, frame: &Frame) -> Vec<u8> {
     let mut bytes = Vec::new();
-    format.write(frame, &mut bytes).expect("memory takes all");
+    format
+        .write(Picture::of(frame), &mut bytes)
+        .expect("memory takes all");
     bytes
 }
 
@@ -133,7 +135,7 @@ fn a_frame_without_values_is_refused() {
         ..gradient()
     };
     for format in [ImageFormat::Exr, ImageFormat::Hdr] {
-        assert!(format.write(&frame, &mut Vec::new()).is_err());
+        assert!(format.write(Picture::of(&frame), &mut Vec::new()).is_err());
     }
 }
 
@@ -185,7 +187,9 @@ fn every_format_reports_a_full_disk() {
     let frame = gradient();
     for (format, _) in FORMATS {
         for room in [0, 10, 300] {
-            let error = format.write(&frame, &mut Full(room)).expect_err("full");
+            let error = format
+                .write(Picture::of(&frame), &mut Full(room))
+                .expect_err("full");
             assert_eq!(
                 error.kind(),
                 io::ErrorKind::StorageFull,
@@ -319,7 +323,7 @@ fn the_extension_determines_the_format_in_any_case() {
 fn an_unknown_extension_is_refused_with_the_known_ones() {
     let directory = tempfile::tempdir().expect("a directory for a test");
     let path = directory.path().join("a.webp");
-    let saved: io::Result<_> = save(&frame(1, 1, &[RED]), &path, || Ok(()));
+    let saved: io::Result<_> = save(Picture::of(&frame(1, 1, &[RED])), &path, || Ok(()));
     let error = saved.expect_err("unknown").to_string();
     assert!(error.starts_with("picture files end in .bmp, .ppm, .png, .tiff"));
     assert!(!path.exists());
@@ -332,7 +336,8 @@ fn a_picture_is_whole_whichever_call_fails() {
     let directory = tempfile::tempdir().expect("a directory for a test");
     let path = directory.path().join("a.png");
     let (old, new) = (frame(1, 1, &[RED]), frame(2, 1, &[RED, RED]));
-    let write = |frame: &Frame| -> io::Result<()> { save(frame, &path, || Ok(())).map(drop) };
+    let write =
+        |frame: &Frame| -> io::Result<()> { save(Picture::of(frame), &path, || Ok(())).map(drop) };
     let bytes = |frame: &Frame| {
         write(frame).expect("no errors or warnings");
         std::fs::read(&path).expect("a file")

@@ -7,14 +7,14 @@ use image::codecs::bmp::BmpEncoder;
 use image::codecs::gif::GifEncoder;
 use image::codecs::hdr::HdrEncoder;
 use image::codecs::jpeg::JpegEncoder;
-use image::codecs::openexr::OpenExrEncoder;
 use image::codecs::png::{CompressionType, FilterType, PngEncoder};
 use image::codecs::tiff::TiffEncoder;
 use image::{ExtendedColorType, ImageEncoder, ImageError, Rgb};
 
-use super::{ImageFormat, known_extensions};
+use super::picture::Picture;
+use super::{ImageFormat, exr, known_extensions, metadata};
 use crate::file::{self, Version};
-use crate::render::{Frame, Frames};
+use crate::render::Frames;
 use crate::scene::Size;
 
 /// From 1 to 100. At 95 errors are invisible, and files are a third as long as a PNG.
@@ -34,15 +34,16 @@ const BMP_HEADER: usize = 54;
 const TIFF_HEADER: usize = 4096;
 
 impl ImageFormat {
-    /// Encodes a frame of the kind that [`ImageFormat::frames`] requires. Deterministic: the same
-    /// frame gives the same bytes.
-    pub fn write(self, frame: &Frame, out: &mut dyn Write) -> io::Result<()> {
+    /// Encodes a picture whose frame is of the kind that [`ImageFormat::frames`] requires.
+    /// Deterministic: the same picture gives the same bytes.
+    pub fn write(self, picture: Picture<'_>, out: &mut dyn Write) -> io::Result<()> {
+        let frame = picture.frame;
         if self.frames() == Frames::LastWithValues && frame.values.len() != frame.pixels.len() {
             let reason = "the picture was traced without floating-point values";
             return Err(io::Error::new(io::ErrorKind::InvalidInput, reason));
         }
         let mut out = Remembering { out, error: None };
-        let encoded = self.encode(frame, &mut out);
+        let encoded = self.encode(picture, &mut out);
         match (encoded, out.error) {
             (Ok(()), _) => Ok(()),
             (Err(_), Some(error)) | (Err(ImageError::IoError(error)), None) => Err(error),
@@ -50,7 +51,8 @@ impl ImageFormat {
         }
     }
 
-    fn encode(self, frame: &Frame, out: &mut Remembering<'_>) -> Result<(), ImageError> {
+    fn encode(self, picture: Picture<'_>, out: &mut Remembering<'_>) -> Result<(), ImageError> {
+        let frame = picture.frame;
         let Size { width, height } = frame.size;
         let pixels = frame.pixels.as_flattened();
         let colour = ExtendedColorType::Rgb8;
@@ -61,7 +63,7 @@ impl ImageFormat {
                 BmpEncoder::new(&mut bytes).write_image(pixels, width, height, colour)?;
                 out.write_all(&bytes).map_err(ImageError::IoError)
             }
-            Self::Png => PngEncoder::new(out).write_image(pixels, width, height, colour),
+            Self::Png => write_png(picture, out).map_err(|error| ImageError::IoError(error.into())),
             // The `image` crate writes a header that readers which expect three lines refuse.
             Self::Ppm => write!(out, "P6\n{width} {height}\n255\n")
                 .and_then(|()| out.write_all(pixels))
@@ -74,7 +76,10 @@ impl ImageFormat {
             }
             Self::Jpeg => JpegEncoder::new_with_quality(out, JPEG_QUALITY)
                 .write_image(pixels, width, height, colour),
-            Self::Exr => write_exr(&frame.values, frame.size, out),
+            Self::Exr => {
+                let written = exr::write(picture, out);
+                written.map_err(|error| ImageError::IoError(io::Error::other(error)))
+            }
             Self::Hdr => {
                 // The format has neither negative nor infinite values.
                 let clamped = |value: &[f32; 3]| Rgb(value.map(|x| x.clamp(0.0, MAX_HDR)));
@@ -143,25 +148,29 @@ fn write_tiff(pixels: &[u8], size: Size, out: &mut impl Write) -> Result<(), Ima
     out.write_all(bytes.get_ref()).map_err(ImageError::IoError)
 }
 
-/// Encodes an `OpenEXR` in memory: it too contains tables of offsets.
-fn write_exr(values: &[[f32; 3]], size: Size, out: &mut impl Write) -> Result<(), ImageError> {
-    let mut bytes = Cursor::new(Vec::new());
-    // The encoder expects native byte order.
-    let values: Vec<u8> = values
-        .as_flattened()
-        .iter()
-        .flat_map(|value| value.to_ne_bytes())
-        .collect();
-    let colour = ExtendedColorType::Rgb32F;
-    OpenExrEncoder::new(&mut bytes).write_image(&values, size.width, size.height, colour)?;
-    out.write_all(bytes.get_ref()).map_err(ImageError::IoError)
+/// Encodes a PNG. The encoder of the `image` crate has the same defaults, but writes no texts.
+fn write_png(picture: Picture<'_>, out: &mut impl Write) -> Result<(), png::EncodingError> {
+    let Size { width, height } = picture.frame.size;
+    let mut encoder = png::Encoder::new(out, width, height);
+    encoder.set_color(png::ColorType::Rgb);
+    encoder.set_depth(png::BitDepth::Eight);
+    encoder.set_compression(png::Compression::Fast);
+    encoder.set_filter(png::Filter::Adaptive);
+    if let Some(provenance) = picture.provenance {
+        let software = format!("Halflight {}", provenance.version);
+        encoder.add_text_chunk("Software".to_owned(), software)?;
+        encoder.add_text_chunk(metadata::KEYWORD.to_owned(), metadata::text(provenance))?;
+    }
+    let mut writer = encoder.write_header()?;
+    writer.write_image_data(picture.frame.pixels.as_flattened())?;
+    writer.finish()
 }
 
-/// Writes a frame in the format of the path's extension, atomically to a file, or to a pipe or
+/// Writes a picture in the format of the path's extension, atomically to a file, or to a pipe or
 /// device. `confirm` is called just before the finished picture takes its name. Returns the version
 /// of the file, `None` for pipes and devices.
 pub fn save<E: From<io::Error>>(
-    frame: &Frame,
+    picture: Picture<'_>,
     path: &Path,
     confirm: impl Fn() -> Result<(), E>,
 ) -> Result<Option<Version>, E> {
@@ -171,5 +180,5 @@ pub fn save<E: From<io::Error>>(
             format!("picture files end in {}", known_extensions()),
         )
     })?;
-    file::deliver(path, |out| format.write(frame, out), confirm)
+    file::deliver(path, |out| format.write(picture, out), confirm)
 }

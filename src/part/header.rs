@@ -4,6 +4,8 @@
 //! halflight part 1
 //! version 0.1.0
 //! scene 9f86d081884c7d659a2feaa0c55ad015a3bf4f1b2b0bd3ee0e1f5a3f0b6b9c1d
+//! view own
+//! layers none
 //! size 800x600
 //! …
 //! shard 3/8
@@ -15,7 +17,7 @@
 use std::io::{self, BufRead, Read};
 
 use super::shard::Shard;
-use crate::render::Settings;
+use crate::render::Provenance;
 
 /// The first line, with the version of the format.
 const MAGIC: &str = "halflight part 1";
@@ -26,12 +28,8 @@ const LONGEST: u64 = 4096;
 /// Which picture a part file is a part of, and which part.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Header {
-    /// The version of the program that traces it.
-    pub version: String,
-    /// The digest of the scene and all files it names, in hexadecimal.
-    pub scene: String,
-    /// The settings. The number of samples does not matter: a part can be continued.
-    pub settings: Settings,
+    /// The picture. Its number of samples does not matter: a part can be continued.
+    pub picture: Provenance,
     /// Its place among the parts.
     pub shard: Shard,
 }
@@ -40,10 +38,8 @@ impl Header {
     /// The text, which ends with a line break, and its checksum.
     pub(super) fn text(&self) -> (String, u32) {
         let mut lines = vec![MAGIC.to_owned()];
-        let pairs = [("version", &self.version), ("scene", &self.scene)];
-        lines.extend(pairs.map(|(name, value)| format!("{name} {value}")));
-        let settings = self.settings.written();
-        lines.extend(settings.map(|(name, value)| format!("{name} {value}")));
+        let entries = self.picture.written().into_iter();
+        lines.extend(entries.map(|(name, value)| format!("{name} {value}")));
         lines.push(format!("shard {}\n", self.shard));
         let text = lines.join("\n");
         let crc = crc32fast::hash(text.as_bytes());
@@ -76,16 +72,13 @@ impl Header {
             (written == name).then_some(value)
         };
         next("halflight")?;
-        let (version, scene) = (next("version")?.to_owned(), next("scene")?.to_owned());
-        let settings = Settings::read(pairs.by_ref(), 1)?;
+        let picture = Provenance::read(pairs.by_ref(), 1)?;
         let mut next = |name: &str| {
             let (written, value) = pairs.next()?;
             (written == name).then_some(value)
         };
         let header = Self {
-            version,
-            scene,
-            settings,
+            picture,
             shard: Shard::parse(next("shard")?)?,
         };
         // Whatever was read is only right if it is written so.
@@ -97,9 +90,7 @@ impl Header {
     /// they belong together. Their shards are not compared.
     pub fn difference(&self, other: &Self) -> Option<Difference> {
         let lines = |header: &Self| {
-            let mut lines = vec![("version", header.version.clone())];
-            lines.push(("scene", header.scene.clone()));
-            lines.extend(header.settings.written());
+            let mut lines = header.picture.written();
             lines.push(("number of shards", header.shard.count.to_string()));
             lines
         };

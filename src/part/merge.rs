@@ -9,7 +9,7 @@ use super::header::{Difference, Header};
 use super::record::{Damage, Record};
 use super::shard::{Shard, deal};
 use super::writer::blocks;
-use crate::render::{Assembly, Block, Frame, Frames, Refusal, Settings};
+use crate::render::{Assembly, Block, Frame, Frames, Provenance, Refusal};
 
 /// The size of the buffer that parts are read through, in bytes.
 const CHUNK: usize = 1 << 20;
@@ -19,8 +19,8 @@ const CHUNK: usize = 1 << 20;
 pub struct Merged {
     /// The picture.
     pub frame: Frame,
-    /// Its scene and settings.
-    pub header: Header,
+    /// What it is made from.
+    pub picture: Provenance,
 }
 
 /// Why parts cannot be merged.
@@ -109,7 +109,7 @@ pub fn merge(parts: &[PathBuf], frames: Frames) -> Result<Merged, Unmerged> {
         let (assembly, survey) = match &mut picture {
             Some(picture) => picture,
             None => picture.insert((
-                Assembly::new(header.settings, frames)?,
+                Assembly::new(header.picture.settings, frames)?,
                 Survey::new(header.clone()),
             )),
         };
@@ -130,13 +130,11 @@ pub fn merge(parts: &[PathBuf], frames: Frames) -> Result<Merged, Unmerged> {
     };
     survey.holes()?;
     let spp = survey.goal();
-    let mut header = survey.header;
-    header.settings = Settings {
-        spp,
-        ..header.settings
-    };
     let frame = assembly.finish(spp);
-    Ok(Merged { frame, header })
+    Ok(Merged {
+        picture: survey.header.picture.in_frame(&frame),
+        frame,
+    })
 }
 
 /// The shards that lack blocks, given all parts there are, as ranges such as `3,7-9`; and what is

@@ -7,8 +7,8 @@ use glam::DVec3;
 use tempfile::TempDir;
 
 use super::*;
-use crate::render::{Block, Blocks, Counts, Filter, Frames, Settings};
-use crate::scene::{Integrator, Size, Transfer};
+use crate::render::{Block, Blocks, Counts, Filter, Frames, Provenance, Settings};
+use crate::scene::{Integrator, Size, Transfer, Viewpoint};
 
 const SIZE: Size = Size {
     width: 40,
@@ -17,8 +17,17 @@ const SIZE: Size = Size {
 
 fn header(shard: &str) -> Header {
     Header {
+        picture: picture(),
+        shard: Shard::parse(shard).expect("a shard"),
+    }
+}
+
+fn picture() -> Provenance {
+    Provenance {
         version: "1.2.3".to_owned(),
         scene: "ab12".to_owned(),
+        view: Viewpoint::default(),
+        layers: Vec::new(),
         settings: Settings {
             size: SIZE,
             region: None,
@@ -31,7 +40,6 @@ fn header(shard: &str) -> Header {
             transfer: Transfer::Linear,
             exposure: 0.0,
         },
-        shard: Shard::parse(shard).expect("a shard"),
     }
 }
 
@@ -99,7 +107,7 @@ fn parts_make_a_picture_in_any_order() {
     let mut parts = [part(&folder, "0/2", 4), part(&folder, "1/2", 4)];
     for _ in 0..2 {
         let merged = merge(&parts, Frames::LastWithValues).expect("they are complete");
-        assert_eq!(merged.header.settings.spp, 4);
+        assert_eq!(merged.picture.settings.spp, 4);
         assert_eq!(merged.frame.values[0], [0.0, 0.0, 0.25]);
         assert_eq!(merged.frame.values[33], [1.0, 1.0 / 48.0, 0.25]);
         assert_eq!(merged.frame.progress.rays, 20);
@@ -219,30 +227,41 @@ fn parts_of_different_pictures_are_refused() {
         path
     };
     let same = header("1/2");
+    let with = |picture| Header {
+        picture,
+        ..same.clone()
+    };
     let cases = [
         (
-            Header {
+            with(Provenance {
                 version: "1.2.4".to_owned(),
-                ..same.clone()
-            },
+                ..picture()
+            }),
             "version 1.2.4 and 1.2.3",
         ),
         (
-            Header {
+            with(Provenance {
                 scene: "ab13".to_owned(),
-                ..same.clone()
-            },
+                ..picture()
+            }),
             "scene ab13 and ab12",
+        ),
+        (
+            with(Provenance {
+                view: Viewpoint::parse("eye 1 2 3").expect("a view"),
+                ..picture()
+            }),
+            "view eye 1 2 3 and own",
         ),
         (header("1/3"), "number of shards 3 and 2"),
         (
-            Header {
+            with(Provenance {
                 settings: Settings {
                     seed: 1,
-                    ..same.settings
+                    ..picture().settings
                 },
-                ..same.clone()
-            },
+                ..picture()
+            }),
             "seed 1 and 0",
         ),
         (header("0/2"), "are both shard 0/2"),

@@ -232,7 +232,7 @@ impl Part {
 
 /// The blocks of the picture that a part belongs to.
 pub(super) fn blocks(header: &Header) -> Blocks {
-    Blocks::of(header.settings.traced().size())
+    Blocks::of(header.picture.settings.traced().size())
 }
 
 /// The part file beside a picture, such as `out.part` or `out.3-8.part` beside `out.png`.

@@ -63,6 +63,7 @@ mod packets;
 mod path;
 mod place;
 mod probe;
+mod provenance;
 mod ramp;
 mod refusal;
 mod region;
@@ -106,6 +107,7 @@ pub use frame::{
 pub use histogram::{HISTOGRAM_STOPS, Histogram};
 pub use place::{SurfacePoint, axes, clearance, line_of, pixel_of, pixel_width, surface_under};
 pub use probe::Counts;
+pub use provenance::Provenance;
 pub use refusal::{Refusal, memory_for};
 pub use region::{NoRegion, Region};
 pub use renderer::{Renderer, Threads};

@@ -89,14 +89,14 @@ fn one_of<T: Copy>(all: &[T], name: impl Fn(T) -> &'static str, written: &str) -
     all.iter().copied().find(|&one| name(one) == written)
 }
 
-fn aov_name(aov: Aov) -> String {
+pub(super) fn aov_name(aov: Aov) -> String {
     match aov {
         Aov::Direct(light) => format!("direct {light}"),
         _ => aov.name().to_owned(),
     }
 }
 
-fn aov_of(written: &str) -> Option<Aov> {
+pub(super) fn aov_of(written: &str) -> Option<Aov> {
     match written.strip_prefix("direct ") {
         Some(light) => light.parse().ok().map(Aov::Direct),
         None => one_of(AOVS, Aov::name, written),

@@ -6,6 +6,7 @@ mod mesh;
 pub(crate) mod objects;
 mod setting;
 mod texture;
+mod viewpoint;
 
 use glam::DVec3;
 
@@ -19,6 +20,7 @@ pub use mesh::{Meshes, NoMesh, beside};
 pub use objects::Objects;
 pub use setting::{Integrator, Setting, Transfer};
 pub use texture::{Image, Images, Pattern, Side, Texture, Tinted};
+pub use viewpoint::Viewpoint;
 
 /// A linear colour: red, green and blue, unclamped.
 pub type Rgb = DVec3;

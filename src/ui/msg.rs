@@ -20,6 +20,7 @@ use crate::document::Snapshot;
 use crate::file::{ReadError, Version};
 use crate::language::Language;
 use crate::render::{Explanation, Frame, Job};
+use crate::scene::Viewpoint;
 
 /// The picture that a frame belongs to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -293,7 +294,7 @@ pub enum Guard {
 }
 
 /// Destination of a picture.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Destination {
     /// Path of the file.
     pub path: PathBuf,
@@ -303,6 +304,17 @@ pub struct Destination {
     pub scene: Option<PathBuf>,
     /// The files that the scene names, which no picture may replace either.
     pub named: Vec<PathBuf>,
+    /// What the picture is made from, if its file says that and there is such a text.
+    pub origin: Option<Origin>,
+}
+
+/// What a picture is made from, apart from the files that the scene names and the settings.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Origin {
+    /// The text of the scene.
+    pub text: Arc<String>,
+    /// What the working view replaces.
+    pub view: Viewpoint,
 }
 
 /// A picture that was written.

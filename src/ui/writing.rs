@@ -11,10 +11,10 @@ use std::time::Instant;
 
 use super::event::{Event, Work};
 use super::msg::{Destination, Existing, ExportId, Exported, Guard, Msg, SaveId, SaveOutcome};
-use crate::file;
-use crate::file::{ReadError, Version};
-use crate::image_file;
-use crate::render::Frame;
+use crate::assets::fingerprint;
+use crate::file::{self, ReadError, Version};
+use crate::image_file::{self, Picture};
+use crate::render::{Frame, Provenance};
 
 /// Starts a thread for each file to write, and waits for all of them at the end.
 pub(super) struct Writers {
@@ -238,7 +238,12 @@ fn export(frame: &Frame, to: Destination) -> Result<Exported, Refused> {
     let to = numbered(to);
     check_target(&to)?;
     let may = || check_target(&to).map_err(|refused| WriteError::Other(refused.reason));
-    let written = image_file::save(frame, &to.path, may);
+    let provenance = provenance(frame, &to).map_err(|error| error.to_string())?;
+    let picture = Picture {
+        provenance: provenance.as_ref(),
+        ..Picture::of(frame)
+    };
+    let written = image_file::save(picture, &to.path, may);
     let reason = match written {
         Ok(version) => {
             return Ok(Exported {
@@ -251,6 +256,21 @@ fn export(frame: &Frame, to: Destination) -> Result<Exported, Refused> {
         Err(WriteError::Changed) => format!("{}: has changed", to.path.display()),
     };
     Err(reason.into())
+}
+
+/// What a picture is made from, if that is known.
+fn provenance(frame: &Frame, to: &Destination) -> Result<Option<Provenance>, ReadError> {
+    let (Some(origin), Some(settings)) = (&to.origin, frame.settings()) else {
+        return Ok(None);
+    };
+    let provenance = Provenance {
+        version: env!("CARGO_PKG_VERSION").to_owned(),
+        scene: fingerprint(&origin.text, &to.named)?,
+        view: origin.view.clone(),
+        layers: Vec::new(),
+        settings: *settings,
+    };
+    Ok(Some(provenance.in_frame(frame)))
 }
 
 /// Why a picture is not written.
@@ -413,6 +433,7 @@ mod tests {
                 existing,
                 scene: Some(place.path().join("a.ray")),
                 named: vec![place.path().join("x/../bricks.png"), texture.clone()],
+                origin: None,
             };
             let refused = check_target(&to).expect_err("one file");
             assert!(refused.reason.contains("the scene uses it"), "{refused:?}");
@@ -426,6 +447,7 @@ mod tests {
             existing,
             scene: None,
             named: Vec::new(),
+            origin: None,
         }
     }
 
@@ -502,6 +524,7 @@ mod tests {
                 existing,
                 scene: Some(scene.clone()),
                 named: Vec::new(),
+                origin: None,
             };
             let refused = check_target(&to).expect_err("one file");
             assert!(

@@ -84,6 +84,7 @@ mod unix {
                 cli::Command::Sequence(_)
                 | cli::Command::Bench(_)
                 | cli::Command::Merge(_)
+                | cli::Command::Show(_)
                 | cli::Command::Compare(_)
                 | cli::Command::Doctor(_),
             ) => {

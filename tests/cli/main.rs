@@ -8,6 +8,7 @@ mod explaining;
 mod frames;
 mod keys;
 mod limits;
+mod metadata;
 mod parts;
 mod pictures;
 mod recipes;

@@ -7,9 +7,9 @@ use super::jobs::{Asking, Making, Pending};
 use super::{App, Dialog, Export, Stage};
 use crate::image_file::{ImageFormat, known_extensions};
 use crate::render::{Aov, Frame, Frames, Job};
-use crate::scene::{Camera, Size};
+use crate::scene::{Camera, Size, Viewpoint};
 use crate::text::Severity;
-use crate::ui::msg::{Destination, Effect, Existing, ExportId, Exported, Target};
+use crate::ui::msg::{Destination, Effect, Existing, ExportId, Exported, Origin, Target};
 
 impl App {
     /// Exports to the scene's folder under the scene's name. If another program has written that
@@ -67,6 +67,7 @@ impl App {
                 },
                 scene: self.disk.path.clone(),
                 named: self.assets.files().to_vec(),
+                origin: self.origin(path),
             },
             size,
             spp,
@@ -210,6 +211,21 @@ impl App {
         pending.export.destination.existing = existing;
         pending.asking = Asking::No;
         self.begin_or_queue(pending)
+    }
+
+    /// What a picture to be written there is made from. A text with errors has none: the picture is
+    /// of an earlier one.
+    fn origin(&self, path: &Path) -> Option<Origin> {
+        let is_said = ImageFormat::of_path(path).is_some_and(ImageFormat::has_metadata);
+        if !is_said || 0 < self.error_count() {
+            return None;
+        }
+        let own = self.scene.as_ref()?.camera;
+        let camera = self.camera()?;
+        Some(Origin {
+            text: self.document.shared_text(),
+            view: Viewpoint::between(&own, &camera),
+        })
     }
 
     /// The job whose picture an export to `path` writes, or the reason why there is none.

@@ -44,7 +44,12 @@ pub(super) fn write(cells: &Buffer, path: &Path, format: Format, theme: Theme) -
         Format::Text => text(cells).into_bytes(),
         Format::Ansi => terminal::printed(cells),
         Format::Picture => {
-            return image_file::save(&picture::drawn(cells, theme), path, confirm).map(drop);
+            return image_file::save(
+                image_file::Picture::of(&picture::drawn(cells, theme)),
+                path,
+                confirm,
+            )
+            .map(drop);
         }
     };
     file::deliver(path, |out| out.write_all(&bytes), confirm).map(drop)

@@ -298,6 +298,7 @@ const STATES: &[(&str, Change)] = &[
                 existing: Existing::Kept,
                 scene: None,
                 named: Vec::new(),
+                origin: None,
             },
             size: Size {
                 width: 4,

@@ -1,0 +1,84 @@
+//! What a picture is made from, stored in PNG and EXR files as lines of names and values.
+
+use std::io::{BufReader, Read, Seek};
+use std::panic::{self, AssertUnwindSafe};
+
+use exr::meta::MetaData;
+use exr::meta::attribute::AttributeValue;
+
+use super::Unreadable;
+use crate::render::Provenance;
+
+/// The keyword of the text in a PNG, and the name of the attribute in an EXR.
+pub(super) const KEYWORD: &str = "halflight";
+
+/// The first bytes of a PNG.
+const PNG: &[u8] = b"\x89PNG\r\n\x1a\n";
+
+/// The first bytes of an EXR.
+const EXR: &[u8] = b"\x76\x2f\x31\x01";
+
+/// The memory limit, in bytes, for what comes before the pixels of a PNG.
+const MOST: usize = 16 << 20;
+
+/// A picture's origin as text.
+pub(super) fn text(provenance: &Provenance) -> String {
+    let entries = provenance.written().into_iter();
+    let spp = ("spp", provenance.settings.spp.to_string());
+    let lines = entries.chain([spp]);
+    let lines: Vec<_> = lines
+        .map(|(name, value)| format!("{name} {value}\n"))
+        .collect();
+    lines.concat()
+}
+
+fn of_text(text: &str) -> Option<Provenance> {
+    let (entries, spp) = text.strip_suffix('\n')?.rsplit_once('\n')?;
+    let spp = spp.strip_prefix("spp ")?.parse().ok()?;
+    let lines = entries.lines();
+    Provenance::read(lines.map_while(|line| line.split_once(' ')), spp)
+}
+
+/// Reads what a picture is made from; `None` if its file does not say so.
+///
+/// # Errors
+///
+/// Fails if it is neither a PNG nor an EXR, or damaged before its pixels.
+pub fn provenance(file: impl Read + Seek) -> Result<Option<Provenance>, Unreadable> {
+    // As for pixels, decoders run on untrusted bytes.
+    let read = panic::catch_unwind(AssertUnwindSafe(|| stored_text(file)));
+    let text = read.unwrap_or_else(|_| Err(Unreadable::Broken("its decoder failed".to_owned())))?;
+    Ok(text.as_deref().and_then(of_text))
+}
+
+fn stored_text(mut file: impl Read + Seek) -> Result<Option<String>, Unreadable> {
+    let mut magic = Vec::new();
+    let read = (&mut file).take(PNG.len() as u64).read_to_end(&mut magic);
+    read.and_then(|_| file.rewind()).map_err(broken)?;
+    let file = BufReader::new(file);
+    if magic == PNG {
+        let mut decoder = png::Decoder::new(file);
+        decoder.set_limits(png::Limits { bytes: MOST });
+        let reader = decoder.read_info().map_err(broken)?;
+        let texts = &reader.info().uncompressed_latin1_text;
+        let found = texts.iter().find(|text| text.keyword == KEYWORD);
+        Ok(found.map(|found| found.text.clone()))
+    } else if magic.starts_with(EXR) {
+        let meta = MetaData::read_from_buffered(file, false).map_err(broken)?;
+        let first = meta.headers.first();
+        let others = first.map(|header| header.own_attributes.other.iter());
+        let found = others.into_iter().flatten().find_map(|(name, value)| {
+            let AttributeValue::Text(text) = value else {
+                return None;
+            };
+            (*name == *KEYWORD).then(|| text.to_string())
+        });
+        Ok(found)
+    } else {
+        Err(Unreadable::Unknown)
+    }
+}
+
+fn broken(error: impl std::fmt::Display) -> Unreadable {
+    Unreadable::Broken(error.to_string())
+}

@@ -1,0 +1,88 @@
+//! What a picture is made from, as text.
+
+use super::frame::{Aov, Frame, Job, Settings};
+use super::written::{aov_name, aov_of};
+use crate::scene::Viewpoint;
+
+/// What a picture is made from: enough to render the same bytes again.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Provenance {
+    /// The version of the program.
+    pub version: String,
+    /// The digest of the scene's text and all files it names, in hexadecimal.
+    pub scene: String,
+    /// What differs from the scene's own camera, apart from the size.
+    pub view: Viewpoint,
+    /// The AOVs that its file holds beside it.
+    pub layers: Vec<Aov>,
+    /// The settings, with the samples that were taken.
+    pub settings: Settings,
+}
+
+impl Provenance {
+    /// That of the picture of a job, whose scene has this digest, without layers.
+    pub fn of(job: &Job, scene: String) -> Self {
+        Self {
+            version: env!("CARGO_PKG_VERSION").to_owned(),
+            scene,
+            view: Viewpoint::between(&job.scene.camera, &job.camera),
+            layers: Vec::new(),
+            settings: job.settings,
+        }
+    }
+
+    /// With the samples that the frame has, which a limit or a larger number asked for may change.
+    #[must_use]
+    pub fn in_frame(mut self, frame: &Frame) -> Self {
+        self.settings.spp = frame.progress.spp;
+        self
+    }
+
+    /// The name and value of each entry but the number of samples, in a fixed order.
+    pub fn written(&self) -> Vec<(&'static str, String)> {
+        let or_word = |text: String, word: &str| {
+            if text.is_empty() {
+                word.to_owned()
+            } else {
+                text
+            }
+        };
+        let layers: Vec<_> = self.layers.iter().copied().map(aov_name).collect();
+        let entries = [
+            ("version", self.version.clone()),
+            ("scene", self.scene.clone()),
+            ("view", or_word(self.view.to_string(), "own")),
+            ("layers", or_word(layers.join(","), "none")),
+        ];
+        entries.into_iter().chain(self.settings.written()).collect()
+    }
+
+    /// Reads entries as [`Provenance::written`], in this order, for `spp` samples; entries after them
+    /// are left. `None` if they are no such entries.
+    pub fn read<'t>(
+        mut entries: impl Iterator<Item = (&'t str, &'t str)>,
+        spp: u32,
+    ) -> Option<Self> {
+        let mut next = |name: &str| {
+            let (written, value) = entries.next()?;
+            (written == name).then_some(value)
+        };
+        let version = next("version")?.to_owned();
+        let scene = next("scene")?.to_owned();
+        let view = match next("view")? {
+            "own" => Viewpoint::default(),
+            view => Viewpoint::parse(view).ok()?,
+        };
+        let layers = match next("layers")? {
+            "none" => Vec::new(),
+            names => names.split(',').map(aov_of).collect::<Option<_>>()?,
+        };
+        Some(Self {
+            version,
+            scene,
+            view,
+            layers,
+            settings: Settings::read(entries, spp)?,
+        })
+    }
+}

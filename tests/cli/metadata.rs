@@ -1,0 +1,197 @@
+//! What pictures say about themselves, and layers.
+
+use exr::prelude::{FlatSamples, read_all_data_from_file};
+
+use super::*;
+
+impl Place {
+    /// Runs `show`; returns its exit code and what it printed.
+    fn shown(&self, arguments: &str) -> (Option<i32>, String) {
+        let output = self.run(&format!("show {arguments}"));
+        let said = String::from_utf8(output.stdout).expect("UTF-8");
+        (output.status.code(), said)
+    }
+}
+
+#[test]
+fn a_picture_says_how_to_render_it_again() {
+    let place = Place::new();
+    for (picture, options) in [
+        ("a.png", "--size 40x30 --spp 3 --depth 2 --seed 7"),
+        (
+            "a.exr",
+            "--size 40x30 --spp 2 --integrator path --transfer srgb --exposure -0.5 \
+             --filter blackman-harris --layers depth,normal",
+        ),
+        ("b.exr", "--aov normal --region 3,1,4,5 --spp 2"),
+    ] {
+        place.stderr(&format!("render ball.ray -o {picture} {options}"), 0);
+        let first = place.read(picture);
+        let (code, said) = place.shown(&format!("{picture} ball.ray"));
+        assert_eq!(code, Some(0));
+        assert!(
+            said.ends_with("ball.ray is the scene of this picture\n"),
+            "{said}"
+        );
+        let again = said
+            .lines()
+            .find_map(|line| line.strip_prefix("again       halflight "));
+        let again = again
+            .expect("the command")
+            .replace(picture, &format!("2{picture}"));
+        place.stderr(&again, 0);
+        assert!(place.read(&format!("2{picture}")) == first, "{again}");
+    }
+    // The comment is not in the picture, but in the text.
+    place.write("ball.ray", format!("{BALL}// a comment\n"));
+    let (code, said) = place.shown("a.png ball.ray");
+    assert_eq!(code, Some(1));
+    assert!(said.contains("is another scene, or its text"), "{said}");
+}
+
+#[test]
+fn another_view_is_said_and_rendered_again() {
+    let place = Place::new();
+    let line = "render ball.ray --size 40x30 --spp 2";
+    let view = "--view";
+    let with_view = |picture: &str, parts: &str| {
+        let mut command = place.command(&format!("{line} -o {picture}"));
+        let output = command.args([view, parts]).output().expect("it runs");
+        assert_eq!(output.status.code(), Some(0), "{output:?}");
+        place.read(picture)
+    };
+    let turned = with_view("a.png", "fov 30 eye 5 0.1 0");
+    place.stderr(&format!("{line} -o own.png"), 0);
+    assert!(turned != place.read("own.png"));
+    let (_, said) = place.shown("a.png");
+    assert!(said.contains("view        eye 5 0.1 0 fov 30\n"), "{said}");
+    assert!(said.contains(" --view \"eye 5 0.1 0 fov 30\""), "{said}");
+    assert!(with_view("b.png", "eye 5 0.1 0 fov 30") == turned);
+    // Frames of a turntable say theirs.
+    place.stderr(&format!("{line} -o t%d.png --turntable 4"), 0);
+    let (_, said) = place.shown("t1.png");
+    let view = said
+        .lines()
+        .find_map(|line| line.strip_prefix("view        "));
+    assert!(with_view("c.png", view.expect("a view")) == place.read("t1.png"));
+    let mut command = place.command(line);
+    let refused = command.args(["-o", "d.png", "--view", "fov 200"]).output();
+    let said = String::from_utf8(refused.expect("it runs").stderr).expect("UTF-8");
+    assert!(
+        said.contains("`fov` must be above 0 and below 180"),
+        "{said}"
+    );
+}
+
+#[test]
+fn merged_and_resumed_pictures_say_the_same() {
+    let place = Place::new();
+    let line = "render ball.ray --size 70x40 --spp 2";
+    place.stderr(&format!("{line} -o whole.png"), 0);
+    for shard in 0..2 {
+        place.stderr(&format!("{line} -o a.png --shard {shard}/2"), 0);
+    }
+    place.stderr("merge a.0-2.part a.1-2.part -o a.png", 0);
+    place.stderr(&format!("{line} -o b.png --resume"), 0);
+    for picture in ["a.png", "b.png"] {
+        assert!(place.read(picture) == place.read("whole.png"), "{picture}");
+    }
+}
+
+#[test]
+fn pictures_that_say_nothing_are_refused() {
+    let place = Place::new();
+    place.stderr("render ball.ray -o a.bmp --spp 1", 0);
+    place.write("bad.png", b"\x89PNG\r\n\x1a\nnothing");
+    for (picture, code, expected) in [
+        ("a.bmp", 65, "a.bmp is not in a supported picture format"),
+        ("bad.png", 65, "bad.png is not a valid picture: "),
+        ("none.png", 66, "none.png: no such file"),
+    ] {
+        let said = place.stderr(&format!("show {picture}"), code);
+        assert!(said.contains(expected), "{said}");
+    }
+}
+
+#[test]
+fn layers_are_the_aovs_that_are_rendered_alone() {
+    let place = Place::new();
+    let options = "--size 20x15 --spp 4";
+    let layers = "depth,normal,object,albedo,samples,uv";
+    place.stderr(
+        &format!("render ball.ray -o a.exr {options} --layers {layers}"),
+        0,
+    );
+    place.stderr(
+        &format!("render ball.ray -o f%d.exr {options} --layers {layers} --turntable 2"),
+        0,
+    );
+    place.stderr(
+        &format!("render ball.ray -o r.exr {options} --layers {layers} --resume"),
+        0,
+    );
+    assert!(
+        place.read("f0.exr") == place.read("a.exr") && place.read("r.exr") == place.read("a.exr")
+    );
+    // The values of each channel, by its name.
+    let channels = |picture: &str| {
+        let image = read_all_data_from_file(place.at(picture)).expect("an EXR");
+        let channels = image
+            .layer_data
+            .into_iter()
+            .flat_map(|layer| layer.channel_data.list);
+        let values = channels.map(|channel| {
+            let values: Vec<_> = match channel.sample_data {
+                exr::prelude::Levels::Singular(FlatSamples::F32(values)) => values,
+                other => panic!("{other:?}"),
+            };
+            (channel.name.to_string(), values)
+        });
+        values.collect::<std::collections::BTreeMap<_, _>>()
+    };
+    let layered = channels("a.exr");
+    let names: Vec<_> = layered.keys().map(String::as_str).collect();
+    let expected = "B G R albedo.B albedo.G albedo.R depth.Z normal.X normal.Y normal.Z object.V \
+                    samples.V uv.U uv.V";
+    assert_eq!(names.join(" "), expected);
+    place.stderr(&format!("render ball.ray -o light.exr {options}"), 0);
+    assert_eq!(channels("light.exr")["R"], layered["R"]);
+    for aov in layers.split(',') {
+        place.stderr(
+            &format!("render ball.ray -o {aov}.exr {options} --aov {aov}"),
+            0,
+        );
+        let alone = channels(&format!("{aov}.exr"));
+        for (name, values) in layered.iter().filter(|(name, _)| name.starts_with(aov)) {
+            let of_alone = match name.rsplit_once('.').expect("a layer").1 {
+                "Z" if aov == "depth" => "R",
+                "X" | "U" | "V" if name != "uv.V" => "R",
+                "Y" | "V" => "G",
+                "Z" => "B",
+                rgb => rgb,
+            };
+            assert_eq!(&alone[of_alone], values, "{name}");
+        }
+    }
+    for (line, expected) in [
+        (
+            "render ball.ray -o a.png --layers depth",
+            "--layers needs a .exr",
+        ),
+        (
+            "render ball.ray -o a.exr --layers depth,depth",
+            "names depth twice",
+        ),
+        (
+            "render ball.ray -o a.exr --layers depth --shard 0/2",
+            "cannot be sharded",
+        ),
+        (
+            "render ball.ray -o a.exr --layers depth --aov uv",
+            "cannot be used with",
+        ),
+    ] {
+        let said = place.stderr(line, 2);
+        assert!(said.contains(expected), "{said}");
+    }
+}
