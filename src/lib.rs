@@ -38,6 +38,7 @@
 //! | [`assets`] | reads the pictures and meshes that scenes name | how they are shaded |
 //! | [`compare`] | two pictures against each other | files, scenes |
 //! | [`part`] | blocks of pictures on disk: shards, checkpoints, merging | scenes, tracing |
+//! | [`track`] | values over frames: reads track files, edits texts to show a frame | files, rendering |
 //! | [`watch`] | reports changes of paths on disk | what the files contain |
 //! | [`ui`] | the terminal: the only room that knows ratatui and crossterm; commands are rows of `app/command.rs`, keys of `keymap/table.rs` | how pixels are computed |
 //! | [`batch`] | headless work: check, render, merge, show, compare, explain, bench | terminals |
@@ -79,6 +80,7 @@ pub mod part;
 pub mod render;
 pub mod scene;
 pub mod text;
+pub mod track;
 pub mod ui;
 pub mod watch;
 

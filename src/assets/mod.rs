@@ -88,6 +88,8 @@ pub struct Loaded {
     pub picture_errors: PictureErrors,
     /// The paths by name, for files that were not at the first path tried.
     pub elsewhere: BTreeMap<String, PathBuf>,
+    /// The paths of the files that were read, by name.
+    pub found: BTreeMap<String, PathBuf>,
     /// The paths to watch: see [`Assets::places`].
     pub files: Vec<PathBuf>,
 }
@@ -111,6 +113,13 @@ impl Wanted {
         self.scene == others.scene
             && self.pictures.is_subset(&others.pictures)
             && self.meshes.is_subset(&others.meshes)
+    }
+}
+
+impl Loaded {
+    /// Whether every file could be read.
+    pub fn is_whole(&self) -> bool {
+        self.picture_errors.is_empty() && self.meshes.unreadable() == 0
     }
 }
 
@@ -162,19 +171,21 @@ impl Assets {
         let mut load = Load {
             gate: &gate,
             elsewhere: BTreeMap::new(),
+            found: BTreeMap::new(),
             before: std::mem::take(&mut self.known),
             now: Known::default(),
             room: self.limits,
         };
         let meshes = load.meshes(&wanted.meshes);
         let (images, picture_errors) = load.pictures(&wanted.pictures);
-        let elsewhere = load.elsewhere;
+        let (elsewhere, found) = (load.elsewhere, load.found);
         self.known = load.now;
         Loaded {
             images,
             meshes,
             picture_errors,
             elsewhere,
+            found,
             files: self.places(wanted),
         }
     }
@@ -204,6 +215,8 @@ struct Load<'a> {
     gate: &'a Gate,
     /// The paths by name, for files that were not at the first path tried.
     elsewhere: BTreeMap<String, PathBuf>,
+    /// The paths of the files that were read, by name.
+    found: BTreeMap<String, PathBuf>,
     before: Known,
     now: Known,
     room: Room,
@@ -224,11 +237,13 @@ impl Load<'_> {
         Ok(stream)
     }
 
-    /// Records the path of a file that was not at the first path tried.
+    /// Records the path of a file, which may not be the first path tried.
     fn note(&mut self, name: &str, elsewhere: Option<PathBuf>) {
-        if let Some(place) = elsewhere {
-            self.elsewhere.insert(name.to_owned(), place);
+        if let Some(place) = &elsewhere {
+            self.elsewhere.insert(name.to_owned(), place.clone());
         }
+        let place = elsewhere.unwrap_or_else(|| self.gate.place(name));
+        self.found.insert(name.to_owned(), place);
     }
 }
 

@@ -1,4 +1,5 @@
-//! Renders sequences of pictures: scenes of a folder, or turns of the view of one.
+//! Renders sequences of pictures: scenes of a folder, or one scene that a track changes or that is
+//! seen from all around.
 
 use std::f64::consts::TAU;
 use std::fs;
@@ -11,6 +12,7 @@ use super::output::Output;
 use super::pattern::Pattern;
 use super::progress::Place;
 use super::tracing::{Tracer, Tracing};
+use super::tracked::{Tracked, TrackedFrame};
 use super::{Error, Warnings, load, print_error, print_message};
 use crate::assets::{self, fingerprint};
 use crate::file::{Digest, ReadError};
@@ -50,6 +52,13 @@ pub enum FrameSource {
         /// How many frames a whole turn has.
         count: u32,
     },
+    /// A scene whose values a track changes.
+    Track {
+        /// The scene file.
+        scene: PathBuf,
+        /// The track file.
+        track: PathBuf,
+    },
 }
 
 /// Where the frames of a sequence go.
@@ -72,10 +81,13 @@ pub enum SequenceOutput {
         to: Output,
         /// Its format.
         format: MovieFormat,
-        /// Frames per second.
-        rate: u32,
+        /// Frames per second; by default those of the track, or 24.
+        rate: Option<u32>,
     },
 }
+
+/// Frames per second of a movie unless others are asked for.
+const RATE: u32 = 24;
 
 /// What becomes of frames that are finished already.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -106,12 +118,13 @@ fn try_render(work: &Sequence) -> Result<(), Error> {
             source.numbers = numbers
                 .filter(|number| number % shard.count == shard.index)
                 .collect();
-            pictures(work, &source, (pattern, *shard), *format, *finished)
+            pictures(work, &mut source, (pattern, *shard), *format, *finished)
         }
         SequenceOutput::Movie { to, format, rate } => {
             source.check_spared(to, &[])?;
             to.check()?;
-            movie(work, &source, to, (*format, *rate))
+            let rate = rate.or(source.rate()).unwrap_or(RATE);
+            movie(work, &mut source, to, (*format, rate))
         }
     }
 }
@@ -119,7 +132,7 @@ fn try_render(work: &Sequence) -> Result<(), Error> {
 /// Renders frames to a file each.
 fn pictures(
     work: &Sequence,
-    source: &Source<'_>,
+    source: &mut Source<'_>,
     (pattern, shard): (&Pattern, Shard),
     format: ImageFormat,
     finished: Finished,
@@ -177,7 +190,7 @@ fn pictures(
 /// Renders frames to one file.
 fn movie(
     work: &Sequence,
-    source: &Source<'_>,
+    source: &mut Source<'_>,
     to: &Output,
     format: (MovieFormat, u32),
 ) -> Result<(), Error> {
@@ -203,7 +216,7 @@ enum Failure {
 
 fn write_movie(
     work: &Sequence,
-    source: &Source<'_>,
+    source: &mut Source<'_>,
     (to, out): (&Output, &mut dyn Write),
     (format, rate): (MovieFormat, u32),
 ) -> Result<(), Failure> {
@@ -236,7 +249,7 @@ struct Source<'w> {
     work: &'w Sequence,
     /// The numbers of those to render; not empty at first.
     numbers: Vec<u32>,
-    /// The scene files.
+    /// The scene files, and the track file.
     scenes: Vec<PathBuf>,
     shows: Shows,
 }
@@ -244,6 +257,8 @@ struct Source<'w> {
 enum Shows {
     /// A scene each.
     Scenes,
+    /// One scene, changed by a track.
+    Tracked(Box<Tracked>),
     /// Turns of one scene.
     Turns { still: Box<Still>, count: u32 },
 }
@@ -257,9 +272,15 @@ impl<'w> Source<'w> {
                 let count = *count;
                 (vec![scene.clone()], Shows::Turns { still, count })
             }
+            FrameSource::Track { scene, track } => {
+                let tracked = Tracked::open(scene, track, &work.assets, work.warnings)?;
+                let shows = Shows::Tracked(Box::new(tracked));
+                (vec![scene.clone(), track.clone()], shows)
+            }
         };
         let count = match &shows {
             Shows::Scenes => scenes.len() as u32,
+            Shows::Tracked(tracked) => tracked.frames,
             Shows::Turns { count, .. } => *count,
         };
         let [first, last] = work.frames.unwrap_or_else(|| [0, count.saturating_sub(1)]);
@@ -277,10 +298,31 @@ impl<'w> Source<'w> {
         })
     }
 
-    /// A frame, ready to trace.
-    fn still(&self, number: u32, frames: Frames) -> Result<Still, Error> {
+    /// Frames per second, if that is said.
+    fn rate(&self) -> Option<u32> {
         match &self.shows {
+            Shows::Tracked(tracked) => tracked.rate,
+            Shows::Scenes | Shows::Turns { .. } => None,
+        }
+    }
+
+    /// A frame, ready to trace.
+    fn still(&mut self, number: u32, frames: Frames) -> Result<Still, Error> {
+        match &mut self.shows {
             Shows::Scenes => Still::of(self.work, &self.scenes[number as usize], frames),
+            Shows::Tracked(tracked) => {
+                let TrackedFrame {
+                    scene,
+                    images,
+                    digest,
+                    files,
+                } = tracked.frame(number)?;
+                Ok(Still {
+                    job: self.work.tracing.job(scene, images, frames)?,
+                    scene: digest,
+                    files,
+                })
+            }
             Shows::Turns { still, count } => {
                 let turn = f64::from(number) / f64::from(*count);
                 let Still { job, scene, files } = (**still).clone();
@@ -296,7 +338,7 @@ impl<'w> Source<'w> {
 
     /// Refuses to overwrite a scene, or one of these files that scenes reference.
     fn check_spared(&self, output: &Output, files: &[PathBuf]) -> Result<(), Error> {
-        output.check_is_not(&self.scenes, "it is a scene of the sequence")?;
+        output.check_is_not(&self.scenes, "it is a file of the sequence")?;
         output.check_is_not(files, "a scene uses it")
     }
 }
@@ -317,10 +359,13 @@ impl Still {
         let loaded = load(path, &work.assets, work.warnings)?;
         let errors = loaded.errors;
         let scene = loaded.scene.ok_or(Error::Invalid { errors })?;
+        if !loaded.is_whole {
+            return Err(Error::Incomplete);
+        }
         let job = work.tracing.job(scene, loaded.images, frames)?;
         Ok(Self {
             job,
-            scene: fingerprint(loaded.source.text(), &loaded.files)?,
+            scene: fingerprint(loaded.source.text(), &loaded.found)?,
             files: loaded.files,
         })
     }

@@ -19,7 +19,9 @@ mod signals;
 mod stats;
 mod stdout;
 mod tracing;
+mod tracked;
 
+use std::collections::BTreeMap;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -33,7 +35,7 @@ use crate::language::{
 use crate::memory::{self, OutOfMemory};
 use crate::part::{self, Unmerged};
 use crate::render::Refusal;
-use crate::scene::{Images, Scene};
+use crate::scene::{Images, Meshes, Scene};
 use crate::text::{Diagnostic, Findings, Span, counted, percentage, visible, without_codes};
 
 pub use bench::{Bench, bench};
@@ -73,6 +75,15 @@ pub enum Error {
         /// The number of errors.
         errors: usize,
     },
+    /// A track has errors, which were printed.
+    #[error("nothing was rendered: the track has {}", counted(*.errors, "error"))]
+    InvalidTrack {
+        /// The number of errors.
+        errors: usize,
+    },
+    /// A file of a scene could not be read, which was printed.
+    #[error("nothing was rendered: shards and sequences need every file of the scene")]
+    Incomplete,
     /// The picture cannot be rendered, for a reason known before tracing.
     #[error("{0}")]
     Refused(String),
@@ -218,8 +229,14 @@ struct Loaded {
     scene: Option<Scene>,
     /// The images of its textures.
     images: Images,
-    /// The paths of all files it references.
+    /// The meshes of its objects.
+    meshes: Meshes,
+    /// The paths of all files it references, and where they are looked for.
     files: Vec<PathBuf>,
+    /// The paths of the files that were read, by name.
+    found: BTreeMap<String, PathBuf>,
+    /// Whether all of them were read.
+    is_whole: bool,
     /// Slow to free for a large scene.
     source: Source,
     /// The span that sets the size of the picture, if there is one.
@@ -247,15 +264,18 @@ fn load(path: &Path, folders: &[PathBuf], warnings: Warnings) -> Result<Loaded, 
     };
     language::fits(language, &text, 0).map_err(no_memory)?;
     let mut source = Source::new(language, Arc::new(text));
-    let (lowered, images, files) = lower(path, &mut source, folders).map_err(no_memory)?;
+    let (lowered, assets) = lower(path, &mut source, folders).map_err(no_memory)?;
     let findings = warnings.apply(lowered.diagnostics);
     print_all_findings(path, source.text(), &findings);
     let (errors, warnings) = (findings.errors(), findings.warnings());
     Ok(Loaded {
         size: size_span(&source),
         scene: lowered.scene.filter(|_| errors == 0),
-        images,
-        files,
+        is_whole: assets.is_whole(),
+        images: assets.images,
+        meshes: assets.meshes,
+        files: assets.files,
+        found: assets.found,
         errors,
         warnings,
         source,
@@ -284,19 +304,18 @@ fn check_beginning(
     })
 }
 
-/// Lowers a text with the files it references. Returns it with their images and the paths of all of
-/// them. The diagnostics include those of the files; files found elsewhere than at the path written
+/// Lowers a text with the files it references. Returns it with them. The diagnostics include those of the files; files found elsewhere than at the path written
 /// are printed as notes.
 fn lower(
     path: &Path,
     source: &mut Source,
     folders: &[PathBuf],
-) -> Result<(Lowered, Images, Vec<PathBuf>), OutOfMemory> {
+) -> Result<(Lowered, assets::Loaded), OutOfMemory> {
     let (lowered, loaded) = Assets::new(folders).lower(path, source)?;
     for (name, found) in &loaded.elsewhere {
         print_message("note", &format!("{name} is read from {}", found.display()));
     }
-    Ok((lowered, loaded.images, loaded.files))
+    Ok((lowered, loaded))
 }
 
 /// The span that sets the size of the picture, if there is one.

@@ -171,6 +171,8 @@ fn failure_code(error: &batch::Error) -> u8 {
         Error::Assets(_) | Error::Unmerged(Unmerged::Io { .. }) => NO_INPUT,
         Error::UnknownLanguage(_)
         | Error::Invalid { .. }
+        | Error::InvalidTrack { .. }
+        | Error::Incomplete
         | Error::Picture { .. }
         | Error::NoProvenance(_) => INVALID,
         Error::Refused(_) => USAGE,

@@ -31,6 +31,7 @@ SCENE may be a folder of scenes, the frames of a sequence, numbered from 0; %05d
 by the frame number. Frames that are already finished are skipped. Y4M and GIF hold a whole sequence:
   halflight render scene.ray --turntable 36 -o turn.gif
   halflight render scene.ray --turntable 250 -o - --format y4m | ffmpeg -i - turn.mp4
+  halflight render scene.ray --track scene.toml -o frame.%05d.png
   halflight render shots/ -o shot.%05d.png --frames 0-99
 
 The same scene and options give the same bytes on every machine and with any number of threads.";
@@ -91,12 +92,16 @@ struct SequenceArguments {
     /// Render N frames of a full turn around the view's target
     #[arg(long, value_name = "N", value_parser = value_parser!(u32).range(1..))]
     turntable: Option<u32>,
+    /// Render the frames of a track file, which changes fields of the scene and moves the camera; see
+    /// scenes/README.md
+    #[arg(long, value_name = "FILE", conflicts_with = "turntable")]
+    track: Option<PathBuf>,
     /// Render only these frames of a sequence, numbered from 0 [default: all]
     #[arg(long, value_name = "A-B", value_parser = parse_frames)]
     frames: Option<[u32; 2]>,
-    /// Frames per second of Y4M and GIF, 1 to 100
-    #[arg(long, value_name = "N", default_value_t = 24, value_parser = value_parser!(u32).range(1..=100))]
-    fps: u32,
+    /// Frames per second of Y4M and GIF, 1 to 100 [default: the track's, or 24]
+    #[arg(long, value_name = "N", value_parser = value_parser!(u32).range(1..=100))]
+    fps: Option<u32>,
     /// Render frames again that are already finished
     #[arg(long)]
     again: bool,
@@ -113,7 +118,8 @@ pub(super) enum Work {
 impl RenderArguments {
     pub(super) fn into_work(self) -> Result<Work, String> {
         let takes_frames = self.movie().is_some() || Pattern::of(&self.output).is_some();
-        if self.sequence.turntable.is_some() || takes_frames && self.scene.is_dir() {
+        let is_moved = self.sequence.turntable.is_some() || self.sequence.track.is_some();
+        if is_moved || takes_frames && self.scene.is_dir() {
             self.into_sequence().map(Work::Sequence)
         } else {
             self.into_picture().map(Work::Picture)
@@ -122,11 +128,13 @@ impl RenderArguments {
 
     fn into_picture(self) -> Result<Render, String> {
         if self.sequence.frames.is_some() || self.sequence.again {
-            return Err("--frames and --again need --turntable, or a folder of scenes".to_owned());
+            return Err(
+                "--frames and --again need --turntable, --track, or a folder of scenes".to_owned(),
+            );
         }
         let format = match self.format {
             Some(Format::Movie(_)) => {
-                return Err("y4m needs --turntable, or a folder of scenes".to_owned());
+                return Err("y4m needs --turntable, --track, or a folder of scenes".to_owned());
             }
             Some(Format::Picture(format)) => Some(format),
             None => None,
@@ -232,12 +240,16 @@ impl RenderArguments {
             ..self.tracing.into_tracing()
         };
         Ok(Sequence {
-            shows: match self.sequence.turntable {
-                Some(count) => FrameSource::Turntable {
+            shows: match (self.sequence.turntable, self.sequence.track) {
+                (Some(count), _) => FrameSource::Turntable {
                     scene: self.scene,
                     count,
                 },
-                None => FrameSource::Folder(self.scene),
+                (None, Some(track)) => FrameSource::Track {
+                    scene: self.scene,
+                    track,
+                },
+                (None, None) => FrameSource::Folder(self.scene),
             },
             frames: self.sequence.frames,
             output,

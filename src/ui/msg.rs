@@ -2,6 +2,7 @@
 //! everything that it does.
 
 use std::any::Any;
+use std::collections::BTreeMap;
 use std::path::PathBuf;
 use std::sync::Arc;
 use std::time::Duration;
@@ -308,11 +309,13 @@ pub struct Destination {
     pub origin: Option<Origin>,
 }
 
-/// What a picture is made from, apart from the files that the scene names and the settings.
+/// What a picture is made from, apart from the settings.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Origin {
     /// The text of the scene.
     pub text: Arc<String>,
+    /// The paths of the files that were read for it, by name.
+    pub found: BTreeMap<String, PathBuf>,
     /// What the working view replaces.
     pub view: Viewpoint,
 }

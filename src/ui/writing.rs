@@ -265,7 +265,7 @@ fn provenance(frame: &Frame, to: &Destination) -> Result<Option<Provenance>, Rea
     };
     let provenance = Provenance {
         version: env!("CARGO_PKG_VERSION").to_owned(),
-        scene: fingerprint(&origin.text, &to.named)?,
+        scene: fingerprint(&origin.text, &origin.found)?,
         view: origin.view.clone(),
         layers: Vec::new(),
         settings: *settings,

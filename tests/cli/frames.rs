@@ -137,7 +137,7 @@ fn one_file_holds_all_frames() {
         ("render . -o a%d.png --turntable 0", "--turntable"),
         (
             "render box.ray -o box.ray --format gif --turntable 2",
-            "cannot overwrite box.ray: it is a scene of the sequence",
+            "cannot overwrite box.ray: it is a file of the sequence",
         ),
     ] {
         let said = place.stderr(line, 2);
@@ -146,4 +146,116 @@ fn one_file_holds_all_frames() {
     fs::create_dir(place.at("empty")).expect("it is new");
     let said = place.stderr("render empty -o a%d.png", 2);
     assert_eq!(said, "error: empty: there are no scenes in this folder\n");
+}
+
+const TRACK: &str = "\
+frames = 6
+fps = 5
+
+[[track]]
+thing = \"object 2\"
+field = \"radius\"
+keys = [{ frame = 0, value = 0.3 }, { frame = 2, value = 0.5 }, { frame = 4, value = 0.3 }]
+
+[camera]
+keys = [{ frame = 3, eye = [0, 0, 5] }, { frame = 5, eye = [5, 0, 0] }]
+";
+
+/// A frame of a track is a scene like any other: with these values in its text.
+#[test]
+fn a_track_gives_the_pictures_of_edited_scenes() {
+    let place = Place::with_box();
+    place.write("box.toml", TRACK);
+    let line = "render box.ray --track box.toml -o t%d.ppm --spp 2";
+    place.stderr(line, 0);
+    for (frame, radius, eye) in [
+        (0, ".3", "0 0 5"),
+        (1, "0.4", "0 0 5"),
+        (2, "0.5", "0 0 5"),
+        (4, ".3", "2.5 0 2.5"),
+        (5, ".3", "5 0 0"),
+    ] {
+        let edited = BOX
+            .replace(".5 .5 .5 .3 ", &format!(".5 .5 .5 {radius} "))
+            .replace("eye 0 0 5", &format!("eye {eye}"));
+        place.write("one.ray", edited);
+        place.stderr("render one.ray -o one.ppm --spp 2", 0);
+        assert!(
+            place.read(&format!("t{frame}.ppm")) == place.read("one.ppm"),
+            "{frame}"
+        );
+    }
+    // A key that is changed changes the frames beside it only.
+    place.write(
+        "box.toml",
+        TRACK.replace("frame = 4, value = 0.3", "frame = 4, value = 0.2"),
+    );
+    assert_eq!(
+        place.stderr(line, 0),
+        "note: 3 frames were already finished\n"
+    );
+    assert_eq!(
+        place.stderr(line, 0),
+        "note: 6 frames were already finished\n"
+    );
+    assert_eq!(place.stderr(&format!("{line} --again --frames 2-3"), 0), "");
+    // A movie has the track's rate, unless another is asked for.
+    for (options, rate) in [("", "F5:1"), ("--fps 7", "F7:1")] {
+        let line =
+            format!("render box.ray --track box.toml -o - --format y4m --size 8x6 {options}");
+        let output = place.run(&line);
+        let header = String::from_utf8_lossy(&output.stdout[..40]).into_owned();
+        assert!(header.contains(rate), "{header}");
+    }
+}
+
+#[test]
+fn errors_in_tracks_are_shown_at_their_places() {
+    let place = Place::with_box();
+    for (track, code, expected) in [
+        (
+            TRACK.replace("object 2", "object 3"),
+            65,
+            "error: box.toml:5:9: nothing in the scene is called `object 3`",
+        ),
+        // Valid keys, but between them the camera passes through its target.
+        (
+            TRACK.replace("eye = [5, 0, 0]", "eye = [0, 0, -5]"),
+            65,
+            "note: the text is that of frame 4\n",
+        ),
+        (
+            TRACK.replace("frames = 6", "frames = 4"),
+            0,
+            "warning: box.toml:7:",
+        ),
+    ] {
+        place.write("box.toml", track);
+        let line = "render box.ray --track box.toml -o t%d.ppm --size 8x6 --spp 1";
+        let said = place.stderr(line, code);
+        assert!(said.contains(expected), "{said}");
+    }
+    place.stderr("render box.ray --track none.toml -o t%d.ppm", 66);
+    place.stderr(
+        "render box.ray --track box.toml --turntable 3 -o t%d.ppm",
+        2,
+    );
+    let said = place.stderr(
+        "render box.ray --track box.toml -o box.toml --format gif",
+        2,
+    );
+    assert!(said.contains("cannot overwrite box.toml"), "{said}");
+}
+
+/// The example in the repository.
+#[test]
+fn the_track_beside_the_default_scene_is_valid() {
+    let place = Place::new();
+    let scenes = concat!(env!("CARGO_MANIFEST_DIR"), "/scenes/default");
+    let options = "--size 20x15 --spp 1 --frames 0-1 -o a%d.png";
+    let said = place.stderr(
+        &format!("render {scenes}.ray --track {scenes}.toml {options}"),
+        0,
+    );
+    assert_eq!(said, "");
 }

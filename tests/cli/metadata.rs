@@ -98,6 +98,73 @@ fn merged_and_resumed_pictures_say_the_same() {
     }
 }
 
+/// Where a file is found does not matter, but what is in it.
+#[test]
+fn the_digest_is_of_the_files_that_were_read() {
+    let place = Place::new();
+    place.write("a.dat", TEXTURED);
+    let scene = |options: &str| {
+        place.stderr(&format!("render a.dat -o a.png --size 8x6 {options}"), 0);
+        let (_, said) = place.shown("a.png");
+        let line = said.lines().find(|line| line.starts_with("scene"));
+        line.expect("the digest").to_owned()
+    };
+    let missing = scene("");
+    place.write("skin.ppm", SKIN);
+    let beside = scene("");
+    fs::create_dir(place.at("there")).expect("it is new");
+    fs::rename(place.at("skin.ppm"), place.at("there/skin.ppm")).expect("it is moved");
+    assert_eq!(scene("--assets there"), beside);
+    assert_ne!(missing, beside);
+    // Other machines might find it.
+    for line in [
+        "render a.dat -o b.png --shard 0/2",
+        "render a.dat -o b%d.png --turntable 2",
+    ] {
+        let said = place.stderr(line, 65);
+        assert!(
+            said.contains("shards and sequences need every file"),
+            "{said}"
+        );
+    }
+}
+
+/// The interface and the command line write the same file.
+#[test]
+fn an_export_is_the_file_of_a_render() {
+    let place = Place::new();
+    place.write("a.dat", TEXTURED);
+    place.write("skin.ppm", SKIN);
+    for picture in ["a.png", "a.exr"] {
+        place.write(
+            "export.keys",
+            format!(": \"export ui-{picture} 40x30 4\" Enter wait"),
+        );
+        place.stderr(
+            "a.dat --screen 80x24 --keys export.keys --dump-frame s.txt",
+            0,
+        );
+        place.stderr(
+            &format!("render a.dat -o {picture} --size 40x30 --spp 4"),
+            0,
+        );
+        assert!(
+            place.read(&format!("ui-{picture}")) == place.read(picture),
+            "{picture}"
+        );
+    }
+    // From another side, the file says the view.
+    let view = "eye 1 2 3 fov 20";
+    let mut command = place.command("render a.dat -o v.png --size 40x30 --spp 4 --view");
+    let output = command.arg(view).output().expect("it runs");
+    assert_eq!(output.status.code(), Some(0));
+    let (_, said) = place.shown("v.png a.dat");
+    assert!(
+        said.contains(view) && said.contains("is the scene"),
+        "{said}"
+    );
+}
+
 #[test]
 fn pictures_that_say_nothing_are_refused() {
     let place = Place::new();

@@ -37,6 +37,7 @@ const ARROWS: &[(&str, &[&str])] = &[
     ),
     ("compare", &["scene"]),
     ("part", &["file", "render"]),
+    ("track", &["language", "scene", "text"]),
     ("watch", &["file"]),
     (
         "batch",
@@ -52,6 +53,7 @@ const ARROWS: &[(&str, &[&str])] = &[
             "render",
             "scene",
             "text",
+            "track",
         ],
     ),
     (
@@ -103,7 +105,7 @@ const DEPENDENCIES: &[(&str, &str)] = &[
     ("fearless_simd", "geometry"),
     ("glam", "*"),
     ("image", "image_file"),
-    ("libm", "geometry language render scene ui"),
+    ("libm", "geometry language render scene track ui"),
     ("notify", "watch"),
     ("png", "image_file"),
     ("ratatui", "ui"),
@@ -126,7 +128,7 @@ const DEPENDENCIES: &[(&str, &str)] = &[
         "thiserror",
         "assets batch config file geometry image_file language memory part render ui",
     ),
-    ("toml", "config"),
+    ("toml", "config track"),
     ("tui_input", "ui"),
     ("unicode_width", "text ui"),
 ];

@@ -29,8 +29,10 @@ pub struct Assets {
     picture_errors: PictureErrors,
     /// Where files were found other than where first looked for, by name; each was announced.
     elsewhere: BTreeMap<String, PathBuf>,
-    /// The paths of the files that were read.
+    /// The paths of the files that may be read, to be watched.
     files: Vec<PathBuf>,
+    /// The paths of the files that were read, by name.
+    found: BTreeMap<String, PathBuf>,
 }
 
 /// Changes brought by files that were read.
@@ -65,6 +67,11 @@ impl Assets {
             images: self.images.clone(),
             meshes: self.meshes.clone(),
         }
+    }
+
+    /// The paths of the files that were read, by name.
+    pub(super) fn found(&self) -> &BTreeMap<String, PathBuf> {
+        &self.found
     }
 
     /// The paths of the scene's files that were read.
@@ -111,6 +118,7 @@ impl Assets {
             self.meshes = Meshes::default();
             self.picture_errors.clear();
             self.files.clear();
+            self.found.clear();
         }
         self.asked = wanted;
     }
@@ -152,6 +160,7 @@ impl Assets {
         self.images = loaded.images;
         self.meshes = loaded.meshes;
         self.picture_errors = loaded.picture_errors;
+        self.found = loaded.found;
         self.files = loaded.files;
         Some(News {
             images,

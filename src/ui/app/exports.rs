@@ -224,6 +224,7 @@ impl App {
         let camera = self.camera()?;
         Some(Origin {
             text: self.document.shared_text(),
+            found: self.assets.found().clone(),
             view: Viewpoint::between(&own, &camera),
         })
     }

@@ -1,0 +1,217 @@
+//! Fields of a thing by their names, and the values that they may have.
+
+use std::collections::BTreeMap;
+
+use super::{Key, Keys, Named, Value};
+use crate::language::table::{Field, Kind, Range};
+use crate::language::{Node, Placed, Source};
+use crate::text::{Diagnostic, Findings, alternatives, counted, nearest_word};
+
+/// A field of a thing, or one component of it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct Place {
+    /// The index of the field among those of the thing.
+    pub(super) field: usize,
+    /// The component, if only that is meant.
+    pub(super) component: Option<usize>,
+}
+
+impl Place {
+    /// Whether two places of one thing overlap.
+    pub(super) fn overlaps(self, other: Self) -> bool {
+        let apart = self
+            .component
+            .zip(other.component)
+            .is_some_and(|(a, b)| a != b);
+        self.field == other.field && !apart
+    }
+}
+
+/// Finds a field of a thing: `position`, `position y`, or `rotate 2` of several with one name.
+pub(super) fn find(thing: &str, fields: &[Placed], wanted: &Named) -> Result<Place, Diagnostic> {
+    let mut counts: BTreeMap<&str, usize> = BTreeMap::new();
+    for placed in fields {
+        *counts.entry(placed.field.key).or_default() += 1;
+    }
+    let mut numbers: BTreeMap<&str, usize> = BTreeMap::new();
+    let mut names = Vec::new();
+    for (at, placed) in fields.iter().enumerate() {
+        let key = placed.field.key;
+        let number = numbers.entry(key).or_default();
+        *number += 1;
+        let name = match counts.get(key) {
+            Some(1) | None => key.to_owned(),
+            Some(_) => format!("{key} {number}"),
+        };
+        let components = placed.field.kind.component_names().iter().enumerate();
+        for (component, word) in components.filter(|(_, word)| !word.is_empty()) {
+            names.push((format!("{name} {word}"), at, Some(component)));
+        }
+        names.push((name, at, None));
+    }
+    let found = names.iter().find(|(name, ..)| *name == wanted.name);
+    if let Some(&(_, field, component)) = found {
+        return Ok(Place { field, component });
+    }
+    let several = counts.get(wanted.name.as_str()).filter(|&&count| 1 < count);
+    let message = match several {
+        Some(count) => format!("{thing} has {count} fields called `{}`", wanted.name),
+        None => format!("{thing} has no field called `{}`", wanted.name),
+    };
+    let whole = || {
+        let whole = names.iter().filter(|(.., component)| component.is_none());
+        let whole = whole.map(|(name, ..)| name.as_str());
+        whole.filter(|name| several.is_none() || name.starts_with(&wanted.name))
+    };
+    let error = Diagnostic::error(wanted.span, message, alternatives(whole()));
+    let nearest = nearest_word(&wanted.name, names.iter().map(|(name, ..)| name.as_str()));
+    Err(match nearest {
+        Some(nearest) if several.is_none() => error.with_hint(format!("did you mean {nearest}?")),
+        _ => error,
+    })
+}
+
+/// Checks the values that keys give to a field.
+pub(super) fn check(
+    source: &Source,
+    node: Node,
+    (placed, component): (&Placed, Option<usize>),
+    keys: &Keys,
+    findings: &mut Findings,
+) {
+    let field = placed.field;
+    let what = format!("{} {}", source.name(node), field.key);
+    let mut counts = keys.iter().map(|key| count(&key.value));
+    let first = counts.next().unwrap_or_default();
+    for key in keys.iter() {
+        let checked = match &key.value {
+            Value::Numbers(numbers) if field.kind.is_numeric() => {
+                check_numbers(field, component, numbers)
+            }
+            Value::Numbers(numbers) => check_id(source, (node, field), numbers),
+            Value::Word(word) => check_word(source, (node, field), word),
+        };
+        let checked = checked.and_then(|()| {
+            let alike = count(&key.value) == first;
+            let other = || {
+                (
+                    format!("has {}", numbers(count(&key.value))),
+                    numbers(first),
+                )
+            };
+            alike.then_some(()).ok_or_else(other)
+        });
+        if let Err((is, expected)) = checked {
+            findings.error(|| {
+                wrong(
+                    source,
+                    (node, field),
+                    key,
+                    (format!("{what}: {is}"), expected),
+                )
+            });
+        }
+    }
+}
+
+/// What is wrong with a value, and what was expected.
+type Wrong = (String, String);
+
+fn count(value: &Value) -> usize {
+    match value {
+        Value::Numbers(numbers) => numbers.len(),
+        Value::Word(_) => 1,
+    }
+}
+
+fn numbers(count: usize) -> String {
+    counted(count, "number")
+}
+
+fn check_numbers(field: &Field, component: Option<usize>, values: &[f64]) -> Result<(), Wrong> {
+    let names = field.kind.component_names();
+    let expected = match component {
+        Some(_) => vec![1],
+        None if takes_three(field.kind) => vec![3, names.len()],
+        None => vec![names.len()],
+    };
+    if !expected.contains(&values.len()) {
+        let list = alternatives(&expected);
+        let few = counted(expected.iter().copied().max().unwrap_or_default(), "number");
+        let few = few.split_once(' ').map_or(&*few, |(_, noun)| noun);
+        let named = match component {
+            None if 1 < names.len() => format!(": {}", names.join(", ")),
+            _ => String::new(),
+        };
+        return Err((
+            format!("has {}", numbers(values.len())),
+            format!("{list} {few}{named}"),
+        ));
+    }
+    if values.iter().all(|&value| field.allowed.contains(value)) {
+        Ok(())
+    } else {
+        let limits = format!("must be {}", field.allowed.limits());
+        Err((limits, field.allowed.words()))
+    }
+}
+
+/// Whether the factor or the angle may be left out, and stays.
+fn takes_three(kind: Kind) -> bool {
+    matches!(
+        kind,
+        Kind::ScaledVector | Kind::ScaledColour | Kind::Rotation
+    )
+}
+
+/// Checks a number as the ID of another thing.
+fn check_id(source: &Source, (node, field): (Node, &Field), values: &[f64]) -> Result<(), Wrong> {
+    match (field.kind, values) {
+        (Kind::Reference(_), [id]) if Range::Identity.contains(*id) => {
+            check_word(source, (node, field), &id.to_string())
+        }
+        _ => Err(("is no number".to_owned(), field.expected())),
+    }
+}
+
+fn check_word(source: &Source, (node, field): (Node, &Field), word: &str) -> Result<(), Wrong> {
+    let unknown = || (format!("`{word}` is unknown"), field.expected());
+    match field.kind {
+        Kind::Choice(_) if field.chosen(word).is_some() => Ok(()),
+        Kind::Reference(category) | Kind::Name(category) => {
+            let known = source.references(node, category);
+            let is_known = known.iter().any(|(name, _)| name == word);
+            is_known.then_some(()).ok_or_else(unknown)
+        }
+        Kind::Choice(_) => Err(unknown()),
+        Kind::Word if word.trim().is_empty() || word.contains(char::is_control) => {
+            Err(("is no word".to_owned(), field.expected()))
+        }
+        Kind::Word => Ok(()),
+        _ => Err(("is a word".to_owned(), field.expected())),
+    }
+}
+
+fn wrong(
+    source: &Source,
+    (node, field): (Node, &Field),
+    key: &Key,
+    (message, expected): Wrong,
+) -> Diagnostic {
+    let error = Diagnostic::error(key.span, message, expected);
+    let Value::Word(word) = &key.value else {
+        return error;
+    };
+    let known: Vec<_> = match field.kind {
+        Kind::Choice(words) => words.iter().map(|&word| word.to_owned()).collect(),
+        Kind::Reference(category) | Kind::Name(category) => {
+            let known = source.references(node, category).into_iter();
+            known.map(|(name, _)| name).collect()
+        }
+        _ => Vec::new(),
+    };
+    match nearest_word(word, known.iter().map(String::as_str)) {
+        Some(nearest) => error.with_hint(format!("did you mean {nearest}?")),
+        None => error,
+    }
+}
