@@ -5,6 +5,7 @@ use std::sync::Arc;
 
 use glam::DVec3;
 
+use super::level::level;
 use super::optics::power;
 use super::warp;
 use crate::accel::Bvh;
@@ -194,6 +195,7 @@ impl SphereLight {
 pub(crate) struct SphereLights {
     all: Vec<SphereLight>,
     tree: Arc<Bvh>,
+    level: Level,
 }
 
 impl SphereLights {
@@ -202,7 +204,8 @@ impl SphereLights {
         let all: Vec<_> = lights.iter().filter_map(Light::sphere).collect();
         let boxes: Vec<_> = all.iter().map(SphereLight::bounds).collect();
         let tree = Arc::new(Bvh::build(&boxes, cancelled)?);
-        Some(Self { all, tree })
+        let level = level();
+        Some(Self { all, tree, level })
     }
 
     /// Returns the nearest light that a ray hits before a distance, and where; of several at the
@@ -237,7 +240,7 @@ impl SphereLights {
         if self.all.is_empty() {
             return;
         }
-        dispatch!(Level::new(), simd => {
+        dispatch!(self.level, simd => {
             self.tree.traverse(simd, ray, limit, |places| {
                 let mut limit = limit;
                 for &number in &self.tree.order()[places] {

@@ -54,6 +54,7 @@ mod frame;
 mod gather;
 mod histogram;
 mod intersect;
+mod level;
 mod lights;
 mod lobes;
 mod microfacet;
@@ -105,6 +106,7 @@ pub use frame::{
     Query, Settings, default_depth,
 };
 pub use histogram::{HISTOGRAM_STOPS, Histogram};
+pub use level::{CAP, CAPS, vectors};
 pub use place::{SurfacePoint, axes, clearance, line_of, pixel_of, pixel_width, surface_under};
 pub use probe::Counts;
 pub use provenance::Provenance;
@@ -113,7 +115,6 @@ pub use region::{NoRegion, Region};
 pub use renderer::{Renderer, Threads};
 pub use shading::Side;
 pub use wireframe::{WireLine, Wireframe, wireframe};
-pub use world::vectors;
 
 #[cfg(test)]
 mod tests;

@@ -7,6 +7,7 @@ use std::sync::Arc;
 
 use glam::DVec2;
 
+use super::level::level;
 use super::lights::SphereLights;
 use super::spheres::Spheres;
 use super::structures::{Structures, instances};
@@ -23,22 +24,6 @@ pub(super) const FEW: usize = 4;
 
 /// The order of objects without a tree.
 const FILE_ORDER: [u32; FEW] = [0, 1, 2, 3];
-
-/// The vector instructions that tracing uses on this machine.
-pub fn vectors() -> &'static str {
-    let level = Level::new();
-    #[cfg(target_arch = "x86_64")]
-    return match level {
-        _ if level.as_avx512().is_some() => "AVX-512",
-        _ if level.as_avx2().is_some() => "AVX2",
-        _ => "SSE2",
-    };
-    #[cfg(not(target_arch = "x86_64"))]
-    match level.is_fallback() {
-        true => "no vectors",
-        false => "native vectors",
-    }
-}
 
 /// A scene and its acceleration structures.
 #[derive(Clone, Debug)]
@@ -71,7 +56,7 @@ impl World {
         let textures = Textures::new(&scene.textures, images);
         let ambient = scene.ambient_light();
         let sphere_lights = SphereLights::new(&scene.lights, &cancelled)?;
-        let level = Level::new();
+        let level = level();
         let opaque = opaque_meshes(&scene);
         let changed = previous.and_then(|world| changed_shapes(&world.scene, &scene));
         if let Some(previous) = previous.filter(|_| changed.as_deref() == Some(&[])) {

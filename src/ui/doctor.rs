@@ -14,6 +14,7 @@ use super::terminal::{self, Budget, Choice, ColourDepth, Protocol, query, tmux};
 use crate::assets::Assets;
 use crate::memory;
 use crate::memory::Available;
+use crate::render::{CAP, CAPS, vectors};
 use crate::text::{counted, visible};
 
 /// The DEC private mode of synchronized output.
@@ -284,7 +285,16 @@ fn processor() -> String {
         ];
         let features =
             known.map(|(name, has)| format!("{name} {}", if has { "yes" } else { "no" }));
-        format!("x86_64: {}", features.join(", "))
+        let cap = match std::env::var(CAP) {
+            Ok(cap) if CAPS.contains(&cap.as_str()) => format!(", capped by {CAP}"),
+            Ok(cap) => format!(", as {CAP}={} is none of {}", cap, CAPS.join(", ")),
+            Err(_) => String::new(),
+        };
+        format!(
+            "x86_64: {}; tracing uses {}{cap}",
+            features.join(", "),
+            vectors()
+        )
     }
     #[cfg(not(target_arch = "x86_64"))]
     {

@@ -140,6 +140,39 @@ fn threads_and_destination_do_not_change_the_bytes() {
 }
 
 #[test]
+fn vector_instructions_do_not_change_the_bytes() {
+    const SCENES: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/scenes");
+    let place = Place::new();
+    for scene in ["default.ray", "courtyard.xml", "lamp.xml", "pool.dat"] {
+        let line = format!("render {SCENES}/{scene} --size 40x30 --spp 2");
+        let with = |cap: &str, options: &str| {
+            let mut command = place.command(&format!("{line} {options}"));
+            let output = command.env("HALFLIGHT_CPU", cap).output().expect("it runs");
+            assert_eq!(output.status.code(), Some(0), "{output:?}");
+        };
+        with("no cap", "-o best.png");
+        for cap in ["sse2", "sse4.2", "avx2", "avx512"] {
+            with(cap, "-o capped.png");
+            assert!(
+                place.read("capped.png") == place.read("best.png"),
+                "{scene} {cap}"
+            );
+            // Shards of one picture may be traced on machines of all levels.
+            with(cap, "-o a.png --shard 1/2");
+            with("no cap", "-o a.png --shard 0/2");
+            place.stderr("merge a.0-2.part a.1-2.part -o a.png", 0);
+            assert!(
+                place.read("a.png") == place.read("best.png"),
+                "{scene} {cap}"
+            );
+            for part in ["a.0-2.part", "a.1-2.part"] {
+                fs::remove_file(place.at(part)).expect("it is there");
+            }
+        }
+    }
+}
+
+#[test]
 fn a_picture_has_the_requested_format() {
     let place = Place::new();
     for (name, magic) in [
