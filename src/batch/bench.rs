@@ -1,12 +1,14 @@
 //! Measures how fast scenes are read, built and traced here.
 
 use std::fmt::Write;
+use std::fs;
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, mpsc};
 use std::time::{Duration, Instant};
 
 use serde_json::{Value, json};
 
+use super::plan::Measured;
 use super::{Error, Report, Tracing, Warnings, load, machine, print_error, stdout};
 use crate::assets;
 use crate::language::{Language, Source};
@@ -23,6 +25,8 @@ pub struct Bench {
     pub tracing: Tracing,
     /// How often each figure is measured; the median counts.
     pub runs: u32,
+    /// Whether a cluster is planned for each scene.
+    pub plan: bool,
     /// How the figures are printed.
     pub report: Report,
     /// How their warnings are treated.
@@ -80,21 +84,39 @@ fn try_bench(work: &Bench) -> Result<(), Error> {
     stdout::print(&report).map_err(stdout::error)
 }
 
+/// A scene that was read.
+struct Read {
+    scene: Scene,
+    images: Images,
+    /// The length of its text and files.
+    bytes: u64,
+}
+
 /// Reads a scene file and lowers it.
-fn from_file(work: &Bench, path: &Path) -> Result<(Scene, Images), Error> {
+fn from_file(work: &Bench, path: &Path) -> Result<Read, Error> {
     let loaded = load(path, &work.assets, work.warnings)?;
     let errors = loaded.errors;
     let scene = loaded.scene.ok_or(Error::Invalid { errors })?;
-    Ok((scene, loaded.images))
+    let files = loaded.found.values();
+    let lengths = files.map(|file| fs::metadata(file).map_or(0, |file| file.len()));
+    Ok(Read {
+        scene,
+        images: loaded.images,
+        bytes: loaded.source.text().len() as u64 + lengths.sum::<u64>(),
+    })
 }
 
 /// Lowers a `.ray` text without errors.
-fn built_in(text: &str) -> Result<(Scene, Images), Error> {
+fn built_in(text: &str) -> Result<Read, Error> {
     let mut source = Source::new(Language::Ray, Arc::new(text.to_owned()));
     let lowered = source.lower(&Meshes::default());
     let scene = lowered.ok().and_then(|lowered| lowered.scene);
     let scene = scene.ok_or(Error::Invalid { errors: 1 })?;
-    Ok((scene, Images::default()))
+    Ok(Read {
+        scene,
+        images: Images::default(),
+        bytes: text.len() as u64,
+    })
 }
 
 /// A `.ray` scene of spheres in a cube, every fourth of them a mirror.
@@ -125,6 +147,8 @@ struct Row {
     objects: usize,
     settings: Settings,
     rays: u64,
+    /// What a cluster would take, if that is asked for.
+    plan: Option<Measured>,
     /// From the file, or the text, to the scene.
     load: Spread,
     /// The acceleration structures.
@@ -159,28 +183,38 @@ fn measure(
     work: &Bench,
     tracing: &Tracing,
     name: &str,
-    read: impl Fn() -> Result<(Scene, Images), Error>,
+    read: impl Fn() -> Result<Read, Error>,
 ) -> Result<Row, Error> {
     let mut times: [Vec<Duration>; 4] = Default::default();
     let mut found = None;
     for _ in 0..work.runs {
         let begun = Instant::now();
-        let (scene, images) = read()?;
+        let Read {
+            scene,
+            images,
+            bytes,
+        } = read()?;
         times[0].push(begun.elapsed());
         let objects = scene.objects.len();
         let job = tracing.job(scene, images, Frames::Live)?;
-        let settings = job.settings;
+        let picture = tracing.provenance(&job, String::new());
         times[2].push(first_picture(job.clone(), tracing.threads)?);
         let begun = Instant::now();
         let tracer = BlockTracer::new(job, tracing.threads, || false)?.ok_or(Error::Stopped)?;
         times[1].push(begun.elapsed());
-        let (took, rays) = trace(&tracer, settings.spp);
+        let (took, rays) = trace(&tracer, picture.settings.spp);
         times[3].push(took);
-        found = Some((objects, settings, rays));
+        found = Some((objects, picture, rays, tracer, bytes));
     }
-    let (objects, settings, rays) = found.ok_or(Error::Stopped)?;
+    let (objects, picture, rays, tracer, bytes) = found.ok_or(Error::Stopped)?;
     let [load, build, first, trace] = times.map(Spread::new);
+    let settings = picture.settings;
+    let plan = work.plan.then(|| {
+        let times = (load.median() + build.median(), trace.median());
+        Measured::new(&tracer, &picture, times, (tracing.threads, bytes))
+    });
     Ok(Row {
+        plan: plan.transpose()?,
         name: name.to_owned(),
         objects,
         settings,
@@ -272,6 +306,11 @@ fn table(work: &Bench, tracing: &Tracing, rows: &[Row]) -> String {
             1e-6 * row.samples() / row.trace.median(),
         ));
     }
+    for row in rows {
+        if let Some(plan) = &row.plan {
+            text += &plan.table(&row.name);
+        }
+    }
     text
 }
 
@@ -316,6 +355,7 @@ fn object(work: &Bench, tracing: &Tracing, rows: &[Row]) -> Value {
             "rays_per_second": row.rays as f64 / row.trace.median(),
             "samples_per_second": row.samples() / row.trace.median(),
             "settings": super::stats::settings(&row.settings),
+            "plan": row.plan.as_ref().map(Measured::object),
         })
     });
     json!({

@@ -11,6 +11,7 @@ mod merge;
 mod output;
 mod parts;
 mod pattern;
+mod plan;
 mod progress;
 mod render;
 mod report;

@@ -13,6 +13,7 @@ Examples:
   halflight bench                                     built-in scenes, a few seconds each
   halflight bench scene.xml --size 1920x1080 --spp 16
   halflight bench --threads 1 --json > bench.json
+  halflight bench scene.xml --size 3840x2160 --spp 256 --plan
 
 Prints medians: the time to load a scene, to build its acceleration structures, to show a first \
 picture, and to trace all samples; and the rays and samples per second while tracing.";
@@ -25,6 +26,10 @@ pub(super) struct BenchArguments {
     /// Number of runs, 1 to 1000
     #[arg(long, value_name = "N", default_value_t = 5, value_parser = value_parser!(u32).range(1..=1000))]
     runs: u32,
+    /// Also plan a cluster: how long 1 to 10000 tasks would take for a picture, computed from what is
+    /// measured here
+    #[arg(long)]
+    plan: bool,
     /// Print the figures as JSON
     #[arg(long)]
     json: bool,
@@ -45,6 +50,7 @@ impl BenchArguments {
             scenes: self.scenes,
             tracing: self.tracing.into_tracing(),
             runs: self.runs,
+            plan: self.plan,
             report: if self.json {
                 Report::Json
             } else {

@@ -15,7 +15,7 @@ use crate::assets::Assets;
 use crate::memory;
 use crate::memory::Available;
 use crate::render::{CAP, CAPS, vectors};
-use crate::text::{counted, visible};
+use crate::text::{alternatives, counted, visible};
 
 /// The DEC private mode of synchronized output.
 const SYNCHRONIZED: u16 = 2026;
@@ -287,7 +287,7 @@ fn processor() -> String {
             known.map(|(name, has)| format!("{name} {}", if has { "yes" } else { "no" }));
         let cap = match std::env::var(CAP) {
             Ok(cap) if CAPS.contains(&cap.as_str()) => format!(", capped by {CAP}"),
-            Ok(cap) => format!(", as {CAP}={} is none of {}", cap, CAPS.join(", ")),
+            Ok(cap) => format!("; {CAP}={cap} is ignored: expected {}", alternatives(CAPS)),
             Err(_) => String::new(),
         };
         format!(
