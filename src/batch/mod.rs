@@ -1,8 +1,9 @@
 //! Headless work, a command a file: check, render (a picture, a part of one, or a sequence), merge,
-//! compare, explain and bench. Knows no terminals, except for a progress line if standard error is one.
+//! compare, explain, convert and bench. Knows no terminals, except for a progress line if standard error is one.
 
 mod bench;
 mod compare;
+mod convert;
 mod explain;
 mod fingerprint;
 mod frames;
@@ -37,6 +38,7 @@ use crate::text::{Diagnostic, Findings, Span, counted, percentage, visible, with
 
 pub use bench::{Bench, bench};
 pub use compare::{Compare, Report, Verdict, compare};
+pub use convert::{Convert, convert};
 pub use explain::{Explain, explain};
 pub use frames::{Finished, FrameSource, Sequence, SequenceOutput, render_sequence};
 pub use merge::{Merge, MergePurpose, merge};
@@ -68,6 +70,12 @@ pub enum Error {
     /// Scenes have errors, which were printed.
     #[error("nothing was rendered: the scene has {}", counted(*.errors, "error"))]
     Invalid {
+        /// The number of errors.
+        errors: usize,
+    },
+    /// A scene has errors, or loses something in another language, all of which was printed.
+    #[error("nothing was written: there {}", if *.errors == 1 { "is 1 error".to_owned() } else { format!("are {errors} errors") })]
+    Unconverted {
         /// The number of errors.
         errors: usize,
     },

@@ -3,6 +3,7 @@
 mod bench;
 mod choices;
 mod compare;
+mod convert;
 mod explain;
 mod interface;
 mod merge;
@@ -20,6 +21,7 @@ use clap_complete::Shell;
 
 use bench::BenchArguments;
 use compare::CompareArguments;
+use convert::ConvertArguments;
 use explain::ExplainArguments;
 use interface::InterfaceArguments;
 pub use interface::Purpose;
@@ -27,7 +29,9 @@ use merge::MergeArguments;
 use render::{RenderArguments, Work};
 use shared::{AssetArguments, StrictnessArguments};
 
-use crate::batch::{self, Bench, Check, Compare, Explain, Merge, Render, Sequence, Verdict};
+use crate::batch::{
+    self, Bench, Check, Compare, Convert, Explain, Merge, Render, Sequence, Verdict,
+};
 use crate::config;
 use crate::file::ReadError;
 use crate::part::{self, Unmerged};
@@ -79,6 +83,8 @@ pub enum Command {
     Compare(Compare),
     /// Explain a pixel.
     Explain(Explain),
+    /// Convert a scene to another language.
+    Convert(Convert),
     /// Report what was detected about the terminal and the machine, for this scene.
     Doctor(Option<PathBuf>),
     /// Report errors and warnings in scenes.
@@ -118,6 +124,10 @@ pub fn parse(arguments: impl IntoIterator<Item = OsString>) -> Result<Command, S
             .map(Command::Compare)
             .map_err(|reason| refusal(Some("compare"), reason)),
         Some(Subcommands::Explain(explain)) => Ok(Command::Explain(explain.into_explain())),
+        Some(Subcommands::Convert(convert)) => convert
+            .into_convert()
+            .map(Command::Convert)
+            .map_err(|reason| refusal(Some("convert"), reason)),
         Some(Subcommands::Check {
             scenes,
             strictness,
@@ -164,7 +174,10 @@ fn failure_code(error: &batch::Error) -> u8 {
     match error {
         Error::Read(error) => read_code(error),
         Error::Assets(_) | Error::Asset { .. } | Error::Unmerged(Unmerged::Io { .. }) => NO_INPUT,
-        Error::UnknownLanguage(_) | Error::Invalid { .. } | Error::Picture { .. } => INVALID,
+        Error::UnknownLanguage(_)
+        | Error::Invalid { .. }
+        | Error::Unconverted { .. }
+        | Error::Picture { .. } => INVALID,
         Error::Refused(_) => USAGE,
         Error::Create { .. } => NO_OUTPUT,
         Error::Part { source, .. } => match source {
@@ -296,6 +309,9 @@ enum Subcommands {
     /// Say why a pixel has its colour, and show the rays behind it
     #[command(after_help = explain::EXAMPLES)]
     Explain(ExplainArguments),
+    /// Convert a scene to another language, and say what it cannot hold
+    #[command(after_help = convert::EXAMPLES)]
+    Convert(ConvertArguments),
     /// Measure how fast scenes are loaded and traced on this machine
     #[command(after_help = bench::EXAMPLES)]
     Bench(BenchArguments),

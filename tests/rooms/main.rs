@@ -79,6 +79,7 @@ const ARROWS: &[(&str, &[&str])] = &[
             "config",
             "file",
             "image_file",
+            "language",
             "part",
             "render",
             "scene",
