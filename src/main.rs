@@ -22,6 +22,7 @@ fn main() -> ExitCode {
         Ok(Command::Show(work)) => cli::comparison_exit_code(&batch::show(&work)),
         Ok(Command::Compare(work)) => cli::comparison_exit_code(&batch::compare(&work)),
         Ok(Command::Explain(work)) => cli::exit_code(&batch::explain(&work)),
+        Ok(Command::Convert(work)) => cli::exit_code(&batch::convert(&work)),
         Ok(Command::Doctor(scene)) => print(&Stop {
             text: ui::doctor::examine(scene.as_deref()),
             code: cli::DONE,

@@ -1,8 +1,9 @@
 //! Headless work, a command a file: check, render (a picture, a part of one, or a sequence), merge,
-//! show, compare, explain and bench. Knows no terminals, except for a progress line if standard error is one.
+//! show, compare, explain, convert and bench. Knows no terminals, except for a progress line if standard error is one.
 
 mod bench;
 mod compare;
+mod convert;
 mod explain;
 mod frames;
 mod ledger;
@@ -41,6 +42,7 @@ use crate::text::{Diagnostic, Findings, Span, counted, percentage, visible, with
 
 pub use bench::{Bench, bench};
 pub use compare::{Compare, Report, Verdict, compare};
+pub use convert::{Convert, convert};
 pub use explain::{Explain, explain};
 pub use frames::{Finished, FrameSource, Sequence, SequenceOutput, render_sequence};
 pub use merge::{Merge, MergePurpose, merge};
@@ -85,6 +87,12 @@ pub enum Error {
     /// A file of a scene could not be read, which was printed.
     #[error("nothing was rendered: shards and sequences need every file of the scene")]
     Incomplete,
+    /// A scene has errors, or loses something in another language, all of which was printed.
+    #[error("nothing was written: there {}", if *.errors == 1 { "is 1 error".to_owned() } else { format!("are {errors} errors") })]
+    Unconverted {
+        /// The number of errors.
+        errors: usize,
+    },
     /// The picture cannot be rendered, for a reason known before tracing.
     #[error("{0}")]
     Refused(String),

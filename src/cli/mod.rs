@@ -3,6 +3,7 @@
 mod bench;
 mod choices;
 mod compare;
+mod convert;
 mod explain;
 mod interface;
 mod merge;
@@ -21,6 +22,7 @@ use clap_complete::Shell;
 
 use bench::BenchArguments;
 use compare::CompareArguments;
+use convert::ConvertArguments;
 use explain::ExplainArguments;
 use interface::InterfaceArguments;
 pub use interface::Purpose;
@@ -29,7 +31,9 @@ use render::{RenderArguments, Work};
 use shared::{AssetArguments, StrictnessArguments};
 use show::ShowArguments;
 
-use crate::batch::{self, Bench, Check, Compare, Explain, Merge, Render, Sequence, Show, Verdict};
+use crate::batch::{
+    self, Bench, Check, Compare, Convert, Explain, Merge, Render, Sequence, Show, Verdict,
+};
 use crate::config;
 use crate::file::ReadError;
 use crate::part::{self, Unmerged};
@@ -83,6 +87,8 @@ pub enum Command {
     Compare(Compare),
     /// Explain a pixel.
     Explain(Explain),
+    /// Convert a scene to another language.
+    Convert(Convert),
     /// Report what was detected about the terminal and the machine, for this scene.
     Doctor(Option<PathBuf>),
     /// Report errors and warnings in scenes.
@@ -123,6 +129,10 @@ pub fn parse(arguments: impl IntoIterator<Item = OsString>) -> Result<Command, S
             .map(Command::Compare)
             .map_err(|reason| refusal(Some("compare"), reason)),
         Some(Subcommands::Explain(explain)) => Ok(Command::Explain(explain.into_explain())),
+        Some(Subcommands::Convert(convert)) => convert
+            .into_convert()
+            .map(Command::Convert)
+            .map_err(|reason| refusal(Some("convert"), reason)),
         Some(Subcommands::Check {
             scenes,
             strictness,
@@ -173,6 +183,7 @@ fn failure_code(error: &batch::Error) -> u8 {
         | Error::Invalid { .. }
         | Error::InvalidTrack { .. }
         | Error::Incomplete
+        | Error::Unconverted { .. }
         | Error::Picture { .. }
         | Error::NoProvenance(_) => INVALID,
         Error::Refused(_) => USAGE,
@@ -309,6 +320,9 @@ enum Subcommands {
     /// Say why a pixel has its colour, and show the rays behind it
     #[command(after_help = explain::EXAMPLES)]
     Explain(ExplainArguments),
+    /// Convert a scene to another language, and say what it cannot hold
+    #[command(after_help = convert::EXAMPLES)]
+    Convert(ConvertArguments),
     /// Measure how fast scenes are loaded and traced on this machine
     #[command(after_help = bench::EXAMPLES)]
     Bench(BenchArguments),

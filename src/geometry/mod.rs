@@ -21,6 +21,7 @@ mod hit;
 pub mod lanes;
 mod line;
 mod mesh;
+mod numbers;
 mod outline;
 mod plane;
 mod quadric;
@@ -46,6 +47,7 @@ pub use hit::{Crossings, Hit, Hits, Spans};
 pub use mesh::{
     ABSENT, Attribute, Instance, Mesh, MeshError, MeshLine, MeshLines, MeshParts, SlotRun,
 };
+pub use numbers::{FrameNumbers, direction_of};
 pub use outline::Detail;
 pub use plane::Plane;
 pub use quadric::{Quadric, principal_axes};

@@ -260,7 +260,7 @@ pub(super) fn normalised<N: Lanes>(v: Vector<N>, otherwise: DVec3) -> Vector<N> 
 }
 
 /// The length of a vector whose components may be too large or too small to be squared.
-fn length(v: DVec3) -> f64 {
+pub(super) fn length(v: DVec3) -> f64 {
     let size = power_of_two(v.abs().max_element());
     size * (v / size).length()
 }

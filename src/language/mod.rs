@@ -5,14 +5,17 @@
 //! and places of one scene together. The rest of the program uses it through [`Answers`] and never
 //! learns which language it is.
 
+mod alike;
 mod at;
 mod camera;
 pub(crate) mod coefficients;
+mod convert;
 mod dat;
 mod first;
 mod form;
 mod frame;
 mod listed;
+mod losses;
 mod node;
 mod partition;
 mod placed;
@@ -22,11 +25,15 @@ mod report;
 mod roles;
 mod room;
 mod saved;
+mod spelling;
+mod stand_ins;
 mod structure;
+mod surroundings;
 pub mod table;
 #[cfg(test)]
 mod tests;
 mod view;
+mod whitted;
 mod words;
 mod written;
 mod xml;
@@ -42,10 +49,12 @@ use std::sync::Arc;
 use crate::memory::OutOfMemory;
 use crate::scene::{Camera, Meshes, Scene};
 use crate::text::{Diagnostic, Edit, Findings, Span, alternatives};
+use losses::Losses;
 use room::Counts;
 use table::{Category, Field};
 use view::Numbers;
 
+pub use convert::{Converted, convert};
 pub use form::{Along, Motion};
 pub use node::{FileKind, NamedFile, Node, Nodes};
 pub use placed::{Placed, Wanted};
@@ -55,7 +64,8 @@ pub use saved::{SavedView, view_name};
 pub use structure::{Addition, Neighbour, Placement, Pose, Restructure, StructureError, Wish};
 
 /// Declares the languages, one per line, by folder name, which is also the file extension. A folder
-/// provides `Source`, `errors_of_beginning`, `tree_bytes`, `LEAVES_KEEP_TO_LINES`, `TEMPLATE` and `SKELETON`.
+/// provides `Source`, `errors_of_beginning`, `tree_bytes`, `write`, `LEAVES_KEEP_TO_LINES`, `TEMPLATE`
+/// and `SKELETON`.
 macro_rules! languages {
     ($($(#[$doc:meta])* $name:ident in $folder:ident,)+) => {
         /// The supported scene languages.
@@ -93,6 +103,13 @@ macro_rules! languages {
             pub const fn leaves_keep_to_lines(self) -> bool {
                 match self {
                     $(Self::$name => $folder::LEAVES_KEEP_TO_LINES,)+
+                }
+            }
+
+            /// Writes a scene of any language, and reports what it loses.
+            fn write(self, scene: &Scene, losses: &mut Losses<'_>) -> String {
+                match self {
+                    $(Self::$name => $folder::write(scene, losses),)+
                 }
             }
 

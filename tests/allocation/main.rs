@@ -78,6 +78,7 @@ mod unix {
         let code = match &command {
             Ok(cli::Command::Render(work)) => cli::exit_code(&batch::render(work)),
             Ok(cli::Command::Explain(work)) => cli::exit_code(&batch::explain(work)),
+            Ok(cli::Command::Convert(work)) => cli::exit_code(&batch::convert(work)),
             Ok(cli::Command::Check(work)) => cli::exit_code(&batch::check(work)),
             Ok(cli::Command::Interface(options, ..)) => cli::interface_exit_code(&ui::run(options)),
             Ok(

@@ -81,6 +81,7 @@ const ARROWS: &[(&str, &[&str])] = &[
             "config",
             "file",
             "image_file",
+            "language",
             "part",
             "render",
             "scene",

@@ -12,6 +12,7 @@ mod apart;
 mod evaluate;
 mod exact;
 mod merge;
+mod uncut;
 
 use super::lanes::{Eight, Simd, bits, mask};
 use super::{Aabb, Chart, Crossings, Hit, Hits, Ray, Rays, Solid, Spans, Surface, ulp};

@@ -9,6 +9,7 @@ mod lanes;
 mod leaving;
 mod mesh_known;
 mod meshes;
+mod numbers;
 mod planes;
 mod properties;
 mod quadric_bounds;

@@ -16,6 +16,7 @@ mod tests;
 mod tree;
 mod view;
 mod visibility;
+mod write;
 
 use super::written::Written;
 use crate::text::Findings;
@@ -23,6 +24,7 @@ use origins::Origins;
 use tree::Tree;
 
 pub(super) use room::tree_bytes;
+pub(super) use write::write;
 
 /// A `.dat` text.
 pub(super) type Source = Written<Tree, Origins>;

@@ -12,7 +12,7 @@ use crate::scene::{Camera, Focus, Lens, Size};
 use crate::text::{Edit, Span, spell_like};
 
 /// The far distance written for an unlimited view: `.dat` cannot express infinity.
-const FARTHEST: f64 = 1e30;
+pub(super) const FARTHEST: f64 = 1e30;
 
 /// The default size of the picture.
 pub(super) const DEFAULT_SIZE: Size = Size {

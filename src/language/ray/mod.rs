@@ -19,6 +19,7 @@ mod tests;
 mod tree;
 mod view;
 mod view_comment;
+mod write;
 
 use super::written::Written;
 use crate::text::Findings;
@@ -26,6 +27,7 @@ use origins::Origins;
 use tree::Tree;
 
 pub(super) use room::tree_bytes;
+pub(super) use write::write;
 
 /// A `.ray` text.
 pub(super) type Source = Written<Tree, Origins>;

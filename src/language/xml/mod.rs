@@ -15,6 +15,7 @@ mod table;
 mod tests;
 mod tree;
 mod view;
+mod write;
 
 use super::written::Written;
 use crate::text::Findings;
@@ -22,6 +23,7 @@ use origins::Origins;
 use tree::Tree;
 
 pub(super) use room::tree_bytes;
+pub(super) use write::write;
 
 /// An `.xml` text.
 pub(super) type Source = Written<Tree, Origins>;

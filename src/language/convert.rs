@@ -1,0 +1,62 @@
+//! Conversion of a scene to another language.
+
+use std::sync::Arc;
+
+use super::losses::Losses;
+use super::{Language, Source, alike, fits};
+use crate::memory::OutOfMemory;
+use crate::scene::{Meshes, Scene};
+use crate::text::{Diagnostic, Findings, Span};
+
+/// A scene in another language.
+#[derive(Clone, Debug)]
+pub struct Converted {
+    /// The text; meaningless if there are errors.
+    pub text: Arc<String>,
+    /// A warning for all that the other language cannot hold, at its place in the source, with the
+    /// nearest that was written instead. Without any, pictures by the default settings are the same.
+    pub losses: Findings,
+}
+
+/// Converts a source, as last lowered to `scene`, to a language. A source in that language is copied
+/// as it is. Takes time linear in the scene.
+///
+/// # Errors
+///
+/// Fails if the other text does not fit into memory.
+pub fn convert(source: &Source, scene: &Scene, to: Language) -> Result<Converted, OutOfMemory> {
+    if source.language() == to {
+        return Ok(Converted {
+            text: Arc::clone(source.text()),
+            losses: Findings::default(),
+        });
+    }
+    let mut losses = Losses::new(source, scene, to);
+    let text = Arc::new(to.write(scene, &mut losses));
+    fits(to, &text, 0)?;
+    let mut written = Source::new(to, text);
+    let lowered = written.lower(&Meshes::default())?;
+    if let Some(other) = &lowered.scene {
+        alike::report(scene, other, &mut losses);
+    }
+    let mut findings = losses.into_findings();
+    if let Some(error) = lowered.diagnostics.first_error() {
+        findings.error(|| {
+            let message = format!("the scene cannot be written: {}", error.message);
+            Diagnostic::error(
+                Span::at(0),
+                message,
+                "numbers that the other language allows",
+            )
+        });
+    }
+    for view in source.saved_views() {
+        let camera = view.camera(&scene.camera);
+        let edits = written.saved_view_edits(&view.name, Some(&camera));
+        written.change(&edits);
+    }
+    Ok(Converted {
+        text: Arc::clone(written.text()),
+        losses: findings,
+    })
+}

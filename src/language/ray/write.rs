@@ -1,0 +1,219 @@
+//! Writes any scene as a `.ray` text.
+
+use std::fmt::Write;
+
+use glam::DVec3;
+
+use crate::geometry::{Affine, FrameNumbers, Solid};
+use crate::language::coefficients::Coefficients;
+use crate::language::losses::{Loss, Losses, Of};
+use crate::language::spelling::{number, numbers, vector};
+use crate::language::stand_ins::solids;
+use crate::language::surroundings::{
+    DISTANT, FADING, SHADOWLESS, SIZE, SPOT, angle, faded, report_plain,
+};
+use crate::language::whitted::whitted;
+use crate::scene::{Camera, Emitter, Falloff, Light, Rgb, Scene, Shadows, Size};
+
+/// The distance of a point light that stands for one infinitely far away, in radii of the scene.
+const FAR_AWAY: f64 = 1e4;
+
+const TEXTURED: Loss = Loss {
+    keys: &["diffuse", "color", "specular", "reflection", "emission"],
+    lost: "textures",
+    instead: "written in its plain colour",
+};
+
+const NO_OBJECT: Loss = Loss {
+    keys: &[],
+    lost: "a scene without objects",
+    instead: "written with a black sphere behind the eye",
+};
+
+/// Writes a scene and reports what it loses.
+pub(in crate::language) fn write(scene: &Scene, losses: &mut Losses<'_>) -> String {
+    report_plain(scene, losses);
+    let mut text = String::new();
+    view(&mut text, &scene.camera, angle(scene, losses));
+    let whitted = whitted(scene, losses);
+    for (index, material) in (0..).zip(&scene.materials) {
+        if material.maps.is_some() {
+            losses.add(Of::Material(index), &TEXTURED);
+        }
+    }
+    let [red, green, blue] = whitted.ambient.to_array();
+    text.push('\n');
+    number(&mut text, red);
+    numbers(&mut text, [green, blue]);
+    text.push_str("  // ambient light\n\n");
+    lights(&mut text, scene, losses);
+    objects(&mut text, scene, &whitted.materials, losses);
+    text
+}
+
+fn view(text: &mut String, camera: &Camera, angle: f64) {
+    text.push_str("// view:");
+    for (key, point) in [
+        ("eye", camera.eye),
+        ("target", camera.target),
+        ("up", camera.up),
+    ] {
+        text.push(' ');
+        text.push_str(key);
+        numbers(text, point.to_array());
+    }
+    text.push_str(" fov");
+    numbers(text, [angle]);
+    let Size { width, height } = camera.size;
+    // Writing to a string cannot fail.
+    let _ = writeln!(text, " size {width} {height}");
+}
+
+fn lights(text: &mut String, scene: &Scene, losses: &mut Losses<'_>) {
+    let mut count = 0_usize;
+    let mut written = String::new();
+    for (index, light) in scene.lights.iter().enumerate() {
+        let Some((position, colour)) = point(index, light, scene, losses) else {
+            continue;
+        };
+        count += 1;
+        one_light(&mut written, position, colour);
+        if let Some(label) = losses.label(Of::Light(index)) {
+            let _ = write!(written, "  // {}", label.trim());
+        }
+        written.push('\n');
+    }
+    if count == 0 {
+        // At least one is required.
+        count = 1;
+        one_light(&mut written, scene.camera.eye, Rgb::ZERO);
+        written.push('\n');
+    }
+    let _ = writeln!(text, "{count}  // lights: position, colour\n{written}");
+}
+
+fn one_light(text: &mut String, position: DVec3, colour: Rgb) {
+    number(text, position.x);
+    numbers(text, [position.y, position.z]);
+    vector(text, colour);
+}
+
+/// The position and colour of a light; `None` for ambient light.
+fn point(
+    index: usize,
+    light: &Light,
+    scene: &Scene,
+    losses: &mut Losses<'_>,
+) -> Option<(DVec3, Rgb)> {
+    let of = Of::Light(index);
+    if light.shadows == Shadows::Off && light.emitter != Emitter::Ambient {
+        losses.add(of, &SHADOWLESS);
+    }
+    match &light.emitter {
+        Emitter::Point {
+            position,
+            radius,
+            falloff,
+        } => {
+            if *radius != 0.0 {
+                losses.add(of, &SIZE);
+            }
+            if falloff.spot.is_some() {
+                losses.add(of, &SPOT);
+            }
+            let mut colour = light.colour;
+            if falloff.radial != Falloff::NONE.radial {
+                losses.add(of, &FADING);
+                colour = faded(light, *position, falloff, scene.bounds());
+            }
+            Some((*position, colour))
+        }
+        Emitter::Distant(toward) => {
+            losses.add(of, &DISTANT);
+            let bounds = scene.bounds();
+            let (centre, radius) = if bounds.is_empty() {
+                (DVec3::ZERO, 1.0)
+            } else {
+                (bounds.centre(), bounds.half_diagonal())
+            };
+            let position = centre + FAR_AWAY * radius * *toward;
+            let is_known = position.is_finite();
+            Some((if is_known { position } else { *toward }, light.colour))
+        }
+        Emitter::Ambient => None,
+    }
+}
+
+fn objects(text: &mut String, scene: &Scene, materials: &[Coefficients], losses: &mut Losses<'_>) {
+    let mut written = String::new();
+    let mut count = 0_usize;
+    for (index, object) in scene.objects.iter().enumerate() {
+        solids(index, object, losses, |solid, material, losses| {
+            count += 1;
+            let label = losses.label(Of::Object(index));
+            shape(&mut written, solid, label.as_deref());
+            one_material(&mut written, &materials[material as usize]);
+        });
+    }
+    if count == 0 {
+        count = 1;
+        losses.add(Of::View, &NO_OBJECT);
+        let Camera { eye, target, .. } = scene.camera;
+        let behind = eye + 4.0 * (eye - target);
+        written.push_str("\nsphere\n");
+        number(&mut written, behind.x);
+        numbers(&mut written, [behind.y, behind.z, eye.distance(target)]);
+        one_material(&mut written, &Coefficients::default());
+    }
+    let _ = write!(text, "{count}  // objects\n{written}");
+}
+
+/// The keyword and the numbers of a solid; its quadrics have stand-ins.
+fn shape(text: &mut String, solid: &Solid, label: Option<&str>) {
+    let (keyword, frame): (_, Option<&Affine>) = match solid {
+        Solid::Sphere(_) | Solid::Quadric(_) => ("sphere", None),
+        Solid::Ellipsoid(ellipsoid) => ("ellipsoid", Some(&ellipsoid.0)),
+        Solid::Cuboid(cuboid) => ("box", Some(&cuboid.0)),
+        Solid::Cylinder(cylinder) => ("cylinder", Some(&cylinder.0)),
+        Solid::Cone(cone) => ("cone", Some(&cone.0)),
+    };
+    let _ = write!(text, "\n{keyword}");
+    if let Some(label) = label {
+        let _ = write!(text, "  // {}", label.trim());
+    }
+    text.push('\n');
+    if let Solid::Sphere(sphere) = solid {
+        let DVec3 { x, y, z } = sphere.centre;
+        number(text, x);
+        numbers(text, [y, z]);
+        text.push(' ');
+        numbers(text, [sphere.radius]);
+    }
+    if let Some(frame) = frame {
+        let FrameNumbers {
+            origin,
+            directions,
+            lengths,
+        } = frame.numbers();
+        number(text, origin.x);
+        numbers(text, [origin.y, origin.z]);
+        for direction in directions {
+            vector(text, direction);
+        }
+        vector(text, lengths);
+    }
+}
+
+/// The numbers of a material, on a line of their own.
+fn one_material(text: &mut String, of: &Coefficients) {
+    text.push('\n');
+    number(text, of.ambient.x);
+    numbers(text, [of.ambient.y, of.ambient.z]);
+    vector(text, of.diffuse);
+    vector(text, of.specular);
+    text.push(' ');
+    numbers(text, [of.exponent]);
+    text.push(' ');
+    numbers(text, [of.reflection, of.transmission, of.index]);
+    text.push('\n');
+}

@@ -1,0 +1,125 @@
+//! Writes any scene as an `.xml` text.
+
+mod lights;
+mod materials;
+mod objects;
+mod textures;
+mod transforms;
+
+use std::fmt::Write;
+
+use glam::DVec3;
+
+use super::tree::escaped;
+use crate::language::losses::Losses;
+use crate::language::spelling;
+use crate::language::surroundings::angle;
+use crate::scene::{Camera, Focus, Rgb, Scene, Setting, Size, Tinted, Transfer};
+
+/// Writes a scene and reports what it loses.
+pub(in crate::language) fn write(scene: &Scene, losses: &mut Losses<'_>) -> String {
+    let mut text = "<xml>\n  <scene>\n".to_owned();
+    let Setting {
+        background,
+        environment,
+        ..
+    } = scene.setting;
+    for (word, around) in [("background", background), ("environment", environment)] {
+        if around.colour != Rgb::ZERO {
+            textures::tinted(&mut text, 4, word, around, scene);
+        }
+    }
+    let is_baked = materials::is_baked(scene, losses);
+    let names = materials::names(scene, losses);
+    objects::write(&mut text, scene, &names, losses);
+    materials::write(&mut text, scene, (&names, is_baked), losses);
+    lights::write(&mut text, scene, is_baked, losses);
+    text.push_str("  </scene>\n\n");
+    camera(&mut text, scene, angle(scene, losses));
+    text.push_str("</xml>\n");
+    text
+}
+
+fn camera(text: &mut String, scene: &Scene, angle: f64) {
+    text.push_str(match scene.setting.transfer {
+        Transfer::Linear => "  <camera>\n",
+        Transfer::Srgb => "  <camera gamma=\"sRGB\">\n",
+    });
+    let Camera {
+        eye,
+        target,
+        up,
+        focus,
+        size: Size { width, height },
+        ..
+    } = scene.camera;
+    for (word, vector) in [("position", eye), ("target", target), ("up", up)] {
+        element(text, 4, word, |text| xyz(text, vector));
+    }
+    element(text, 4, "fov", |text| value(text, angle));
+    if focus != Focus::PINHOLE {
+        element(text, 4, "focaldist", |text| value(text, focus.distance));
+        element(text, 4, "dof", |text| value(text, focus.lens_radius));
+    }
+    element(text, 4, "width", |text| value(text, width.into()));
+    element(text, 4, "height", |text| value(text, height.into()));
+    text.push_str("  </camera>\n");
+}
+
+/// Writes an empty element, indented by so many blanks.
+fn element(text: &mut String, indent: usize, word: &str, attributes: impl FnOnce(&mut String)) {
+    open(text, indent, word);
+    attributes(text);
+    text.push_str("/>\n");
+}
+
+/// Begins the tag of an element.
+fn open(text: &mut String, indent: usize, word: &str) {
+    // Writing to a string cannot fail.
+    let _ = write!(text, "{:indent$}<{word}", "");
+}
+
+/// Writes the attribute `value`.
+fn value(text: &mut String, number: f64) {
+    attribute(text, "value", number);
+}
+
+fn attribute(text: &mut String, name: &str, number: f64) {
+    text.push(' ');
+    text.push_str(name);
+    text.push_str("=\"");
+    spelling::number(text, number);
+    text.push('"');
+}
+
+/// Writes an attribute of any content that XML can hold.
+fn word(text: &mut String, name: &str, word: &str) {
+    let word = word.replace(|c: char| c.is_control() && !c.is_ascii_whitespace(), " ");
+    // Writing to a string cannot fail.
+    let _ = write!(text, " {name}=\"{}\"", escaped(&word, '"'));
+}
+
+fn xyz(text: &mut String, vector: DVec3) {
+    for (name, number) in ["x", "y", "z"].into_iter().zip(vector.to_array()) {
+        attribute(text, name, number);
+    }
+}
+
+/// Writes a colour, a grey as one number.
+fn rgb(text: &mut String, colour: Rgb) {
+    if colour == Rgb::splat(colour.x) {
+        value(text, colour.x);
+    } else {
+        for (name, number) in ["r", "g", "b"].into_iter().zip(colour.to_array()) {
+            attribute(text, name, number);
+        }
+    }
+}
+
+/// A colour without texture.
+fn plain(colour: Rgb) -> Tinted {
+    Tinted {
+        colour,
+        texture: None,
+    }
+}
