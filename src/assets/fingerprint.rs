@@ -12,15 +12,33 @@ use crate::file::{Digest, ReadError};
 ///
 /// Fails if a file cannot be read.
 pub fn fingerprint(text: &str, found: &BTreeMap<String, PathBuf>) -> Result<String, ReadError> {
-    let mut digest = Digest::default();
-    digest.add(text.as_bytes());
-    for (name, path) in found {
-        digest.add(name.as_bytes());
-        let added = digest.add_file(path);
-        added.map_err(|source| ReadError::Io {
-            path: path.clone(),
-            source,
-        })?;
+    Ok(FileDigests::of(found)?.fingerprint(text))
+}
+
+/// The digests of files, to be used for several texts.
+#[derive(Clone, Debug, Default)]
+pub struct FileDigests(Vec<[String; 2]>);
+
+impl FileDigests {
+    /// Those of files by their names.
+    ///
+    /// # Errors
+    ///
+    /// Fails if a file cannot be read.
+    pub fn of(found: &BTreeMap<String, PathBuf>) -> Result<Self, ReadError> {
+        let digests = found.iter().map(|(name, path)| {
+            let digest = Digest::of_file(path).map_err(|source| ReadError::Io {
+                path: path.clone(),
+                source,
+            });
+            Ok([name.clone(), digest?])
+        });
+        digests.collect::<Result<_, _>>().map(Self)
     }
-    Ok(digest.finish())
+
+    /// As [`fingerprint()`] of a text that uses these files.
+    pub fn fingerprint(&self, text: &str) -> String {
+        let files = self.0.as_flattened().iter().map(String::as_bytes);
+        Digest::of([text.as_bytes()].into_iter().chain(files))
+    }
 }

@@ -23,7 +23,7 @@ use gate::{FileContent, Gate, Stream};
 use meshes::KnownMesh;
 
 pub use failure::{PictureError, PictureErrors, report};
-pub use fingerprint::fingerprint;
+pub use fingerprint::{FileDigests, fingerprint};
 pub use folder::{NoFolder, check_folders};
 
 /// The limits for all files of a scene in total: 512 MiB of files, 384 MiB of decoded pictures, and

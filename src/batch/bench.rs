@@ -95,13 +95,13 @@ struct Read {
 /// Reads a scene file and lowers it.
 fn from_file(work: &Bench, path: &Path) -> Result<Read, Error> {
     let loaded = load(path, &work.assets, work.warnings)?;
-    let errors = loaded.errors;
+    let errors = loaded.findings.errors();
     let scene = loaded.scene.ok_or(Error::Invalid { errors })?;
-    let files = loaded.found.values();
+    let files = loaded.read.found.values();
     let lengths = files.map(|file| fs::metadata(file).map_or(0, |file| file.len()));
     Ok(Read {
         scene,
-        images: loaded.images,
+        images: loaded.read.images,
         bytes: loaded.source.text().len() as u64 + lengths.sum::<u64>(),
     })
 }

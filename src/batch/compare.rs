@@ -134,12 +134,12 @@ fn read(path: &Path) -> Result<Image, Error> {
 
 fn trace(work: &Compare, path: &Path, size: Option<Size>) -> Result<Image, Error> {
     let loaded = load(path, &work.assets, work.warnings)?;
-    let scene = loaded.scene.ok_or(Error::Invalid {
-        errors: loaded.errors,
+    let scene = loaded.scene.ok_or_else(|| Error::Invalid {
+        errors: loaded.findings.errors(),
     })?;
     if let Some((output, _)) = &work.output {
         let reason = format!("{} uses it", path.display());
-        Output::File(output.clone()).check_is_not(&loaded.files, &reason)?;
+        Output::File(output.clone()).check_is_not(&loaded.read.files, &reason)?;
     }
     let size = size.filter(|_| work.tracing.region.is_none());
     let own = scene.camera.size;
@@ -160,7 +160,7 @@ fn trace(work: &Compare, path: &Path, size: Option<Size>) -> Result<Image, Error
         size: work.tracing.size.or(size),
         ..work.tracing.clone()
     };
-    let traced = tracing.trace(scene, loaded.images, Frames::Last, || {})?;
+    let traced = tracing.trace(scene, loaded.read.images, Frames::Last, || {})?;
     let frame = &traced.frame;
     Image::new(frame.size, frame.pixels.clone()).ok_or(Error::Stopped)
 }

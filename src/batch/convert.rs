@@ -35,10 +35,10 @@ fn try_convert(work: &Convert) -> Result<(), Error> {
     assets::check_folders(&work.assets)?;
     memory::start_threads_or_none();
     let loaded = load(&work.scene, &work.assets, work.warnings)?;
-    let scene = loaded.scene.as_ref().ok_or(Error::Unconverted {
-        errors: loaded.errors,
+    let scene = loaded.scene.as_ref().ok_or_else(|| Error::Unconverted {
+        errors: loaded.findings.errors(),
     })?;
-    work.output.check_spares(&work.scene, &loaded.files)?;
+    work.output.check_spares(&work.scene, &loaded.read.files)?;
     let Converted { text, losses } = language::convert(&loaded.source, scene, work.to)
         .map_err(|reason| Error::Refused(reason.to_string()))?;
     let losses = work.warnings.apply(losses);
@@ -57,7 +57,7 @@ fn try_convert(work: &Convert) -> Result<(), Error> {
 /// Says that the files a scene names may not be found from another folder.
 fn note_folder(work: &Convert, path: &Path, loaded: &Loaded) {
     let folders = [&work.scene, path].map(|file| file::directory_of(file).canonicalize().ok());
-    if folders[0] != folders[1] && work.to != Language::Ray && !loaded.files.is_empty() {
+    if folders[0] != folders[1] && work.to != Language::Ray && !loaded.read.files.is_empty() {
         let message = format!(
             "{} names pictures or meshes as {} does, but is in another folder",
             path.display(),

@@ -41,10 +41,10 @@ fn try_explain(work: &Explain) -> Result<(), Error> {
     assets::check_folders(&work.assets)?;
     memory::start_threads_or_none();
     let loaded = load(&work.scene, &work.assets, work.warnings)?;
-    let scene = loaded.scene.ok_or(Error::Invalid {
-        errors: loaded.errors,
+    let scene = loaded.scene.ok_or_else(|| Error::Invalid {
+        errors: loaded.findings.errors(),
     })?;
-    let job = work.tracing.job(scene, loaded.images, Frames::Last)?;
+    let job = work.tracing.job(scene, loaded.read.images, Frames::Last)?;
     let size = job.settings.size;
     check_pixel(work.pixel, size)?;
     let prepared = PreparedScene::new(&job, || false).ok_or(Error::Stopped)?;

@@ -7,14 +7,15 @@ use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
+use super::animated::{Animated, Origin};
 use super::ledger::Ledger;
 use super::output::Output;
 use super::pattern::Pattern;
 use super::progress::Place;
+use super::still::Still;
 use super::tracing::{Tracer, Tracing};
-use super::tracked::{Tracked, TrackedFrame};
-use super::{Error, Warnings, load, print_error, print_message};
-use crate::assets::{self, fingerprint};
+use super::{Error, Warnings, print_error, print_message};
+use crate::assets;
 use crate::file::{Digest, ReadError};
 use crate::image_file::{ImageFormat, MovieFormat, MovieWriter, Picture};
 use crate::language::Language;
@@ -251,14 +252,14 @@ struct Source<'w> {
     numbers: Vec<u32>,
     /// The scene files, and the track file.
     scenes: Vec<PathBuf>,
-    shows: Shows,
+    shows: Shows<'w>,
 }
 
-enum Shows {
+enum Shows<'w> {
     /// A scene each.
     Scenes,
-    /// One scene, changed by a track.
-    Tracked(Box<Tracked>),
+    /// Edits of one scene's text.
+    Edits(Box<Animated<'w>>),
     /// Turns of one scene.
     Turns { still: Box<Still>, count: u32 },
 }
@@ -268,19 +269,24 @@ impl<'w> Source<'w> {
         let (scenes, shows) = match &work.shows {
             FrameSource::Folder(folder) => (scenes_in(folder)?, Shows::Scenes),
             FrameSource::Turntable { scene, count } => {
-                let still = Box::new(Still::of(work, scene, Frames::Last)?);
+                let still = Box::new(work.still(scene, Frames::Last)?);
                 let count = *count;
                 (vec![scene.clone()], Shows::Turns { still, count })
             }
             FrameSource::Track { scene, track } => {
-                let tracked = Tracked::open(scene, track, &work.assets, work.warnings)?;
-                let shows = Shows::Tracked(Box::new(tracked));
+                let origin = Origin {
+                    scene,
+                    track,
+                    folders: &work.assets,
+                    warnings: work.warnings,
+                };
+                let shows = Shows::Edits(Box::new(Animated::new(origin)?));
                 (vec![scene.clone(), track.clone()], shows)
             }
         };
         let count = match &shows {
             Shows::Scenes => scenes.len() as u32,
-            Shows::Tracked(tracked) => tracked.frames,
+            Shows::Edits(animated) => animated.count,
             Shows::Turns { count, .. } => *count,
         };
         let [first, last] = work.frames.unwrap_or_else(|| [0, count.saturating_sub(1)]);
@@ -301,7 +307,7 @@ impl<'w> Source<'w> {
     /// Frames per second, if that is said.
     fn rate(&self) -> Option<u32> {
         match &self.shows {
-            Shows::Tracked(tracked) => tracked.rate,
+            Shows::Edits(animated) => animated.rate,
             Shows::Scenes | Shows::Turns { .. } => None,
         }
     }
@@ -309,20 +315,8 @@ impl<'w> Source<'w> {
     /// A frame, ready to trace.
     fn still(&mut self, number: u32, frames: Frames) -> Result<Still, Error> {
         match &mut self.shows {
-            Shows::Scenes => Still::of(self.work, &self.scenes[number as usize], frames),
-            Shows::Tracked(tracked) => {
-                let TrackedFrame {
-                    scene,
-                    images,
-                    digest,
-                    files,
-                } = tracked.frame(number)?;
-                Ok(Still {
-                    job: self.work.tracing.job(scene, images, frames)?,
-                    scene: digest,
-                    files,
-                })
-            }
+            Shows::Scenes => self.work.still(&self.scenes[number as usize], frames),
+            Shows::Edits(animated) => animated.still(number, &self.work.tracing, frames),
             Shows::Turns { still, count } => {
                 let turn = f64::from(number) / f64::from(*count);
                 let Still { job, scene, files } = (**still).clone();
@@ -343,31 +337,10 @@ impl<'w> Source<'w> {
     }
 }
 
-/// A picture of a sequence, ready to trace.
-#[derive(Clone)]
-struct Still {
-    job: Job,
-    /// The digest of its scene.
-    scene: String,
-    /// The files that its scene references.
-    files: Vec<PathBuf>,
-}
-
-impl Still {
+impl Sequence {
     /// Reads a scene file.
-    fn of(work: &Sequence, path: &Path, frames: Frames) -> Result<Self, Error> {
-        let loaded = load(path, &work.assets, work.warnings)?;
-        let errors = loaded.errors;
-        let scene = loaded.scene.ok_or(Error::Invalid { errors })?;
-        if !loaded.is_whole {
-            return Err(Error::Incomplete);
-        }
-        let job = work.tracing.job(scene, loaded.images, frames)?;
-        Ok(Self {
-            job,
-            scene: fingerprint(loaded.source.text(), &loaded.found)?,
-            files: loaded.files,
-        })
+    fn still(&self, path: &Path, frames: Frames) -> Result<Still, Error> {
+        Still::of(path, (&self.assets, self.warnings), &self.tracing, frames)
     }
 }
 

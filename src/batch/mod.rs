@@ -1,6 +1,7 @@
 //! Headless work, a command a file: check, render (a picture, a part of one, or a sequence), merge,
 //! show, compare, explain, convert and bench. Knows no terminals, except for a progress line if standard error is one.
 
+mod animated;
 mod bench;
 mod compare;
 mod convert;
@@ -20,10 +21,9 @@ mod show;
 mod signals;
 mod stats;
 mod stdout;
+mod still;
 mod tracing;
-mod tracked;
 
-use std::collections::BTreeMap;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -37,7 +37,7 @@ use crate::language::{
 use crate::memory::{self, OutOfMemory};
 use crate::part::{self, Unmerged};
 use crate::render::Refusal;
-use crate::scene::{Images, Meshes, Scene};
+use crate::scene::Scene;
 use crate::text::{Diagnostic, Findings, Span, counted, percentage, visible, without_codes};
 
 pub use bench::{Bench, bench};
@@ -202,9 +202,9 @@ pub fn check(work: &Check) -> Result<(), Error> {
     for path in &work.scenes {
         match load(path, &work.assets, work.warnings) {
             Ok(loaded) => {
-                errors += loaded.errors;
-                warnings += loaded.warnings;
-                if 0 < loaded.errors {
+                errors += loaded.findings.errors();
+                warnings += loaded.findings.warnings();
+                if 0 < loaded.findings.errors() {
                     first.get_or_insert(Error::Invalid { errors: 0 });
                 }
             }
@@ -236,22 +236,14 @@ pub fn check(work: &Check) -> Result<(), Error> {
 struct Loaded {
     /// `None` if there are errors.
     scene: Option<Scene>,
-    /// The images of its textures.
-    images: Images,
-    /// The meshes of its objects.
-    meshes: Meshes,
-    /// The paths of all files it references, and where they are looked for.
-    files: Vec<PathBuf>,
-    /// The paths of the files that were read, by name.
-    found: BTreeMap<String, PathBuf>,
-    /// Whether all of them were read.
-    is_whole: bool,
+    /// The files it references.
+    read: assets::Loaded,
     /// Slow to free for a large scene.
     source: Source,
     /// The span that sets the size of the picture, if there is one.
     size: Option<Span>,
-    errors: usize,
-    warnings: usize,
+    /// All of its findings, which were printed.
+    findings: Findings,
 }
 
 /// Reads a scene and the files it references, from `folders` too, and prints all findings.
@@ -273,20 +265,14 @@ fn load(path: &Path, folders: &[PathBuf], warnings: Warnings) -> Result<Loaded, 
     };
     language::fits(language, &text, 0).map_err(no_memory)?;
     let mut source = Source::new(language, Arc::new(text));
-    let (lowered, assets) = lower(path, &mut source, folders).map_err(no_memory)?;
+    let (lowered, read) = lower(path, &mut source, folders).map_err(no_memory)?;
     let findings = warnings.apply(lowered.diagnostics);
     print_all_findings(path, source.text(), &findings);
-    let (errors, warnings) = (findings.errors(), findings.warnings());
     Ok(Loaded {
         size: size_span(&source),
-        scene: lowered.scene.filter(|_| errors == 0),
-        is_whole: assets.is_whole(),
-        images: assets.images,
-        meshes: assets.meshes,
-        files: assets.files,
-        found: assets.found,
-        errors,
-        warnings,
+        scene: lowered.scene.filter(|_| findings.errors() == 0),
+        read,
+        findings,
         source,
     })
 }

@@ -66,14 +66,17 @@ fn try_render(work: &Render) -> Result<(), Error> {
     let mut times = Times::started();
     memory::start_threads_or_none();
     let loaded = load(&work.scene, &work.assets, work.warnings)?;
-    let scene = loaded.scene.ok_or(Error::Invalid {
-        errors: loaded.errors,
+    let scene = loaded.scene.ok_or_else(|| Error::Invalid {
+        errors: loaded.findings.errors(),
     })?;
     for output in outputs(work) {
-        output.check_spares(&work.scene, &loaded.files)?;
+        output.check_spares(&work.scene, &loaded.read.files)?;
+    }
+    if work.parts.is_some() && !loaded.read.is_whole() {
+        return Err(Error::Incomplete);
     }
     let frames = work.format.frames();
-    let job = work.tracing.job(scene, loaded.images, frames)?;
+    let job = work.tracing.job(scene, loaded.read.images, frames)?;
     check_size(
         work,
         job.settings.traced().size(),
@@ -86,10 +89,7 @@ fn try_render(work: &Render) -> Result<(), Error> {
         return stdout::print(&line).map_err(stdout::error);
     }
     times.load = times.lap();
-    if work.parts.is_some() && !loaded.is_whole {
-        return Err(Error::Incomplete);
-    }
-    let text = (loaded.source, loaded.found);
+    let text = (loaded.source, loaded.read.found);
     let traced = match work.parts {
         Some(parts) => trace_parts(work, parts, &job, text)?,
         None => trace_whole(work, job, text)?,

@@ -44,7 +44,7 @@ fn try_show(work: &Show) -> Result<Verdict, Error> {
     if let Some(scene) = &work.scene {
         memory::start_threads_or_none();
         let loaded = load(scene, &work.assets, Warnings::Allowed)?;
-        let digest = fingerprint(loaded.source.text(), &loaded.found)?;
+        let digest = fingerprint(loaded.source.text(), &loaded.read.found)?;
         let is = if digest == provenance.scene {
             "is the scene of this picture"
         } else {

@@ -52,8 +52,8 @@ pub struct Key {
     pub span: Span,
 }
 
-/// One or more keys, in ascending order of their frames.
-#[derive(Clone, Debug, PartialEq)]
+/// Keys in ascending order of their frames; none if the file has errors in them.
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Keys(Vec<Key>);
 
 impl Keys {

@@ -121,11 +121,12 @@ impl Reader {
             Some(vec![(0, read, span_of(value))])
         });
         table.finish(&mut self.findings);
-        let keys = Keys::new(keys?.into_iter().map(|(_, key)| key).collect());
+        let keys = keys.map(|keys| keys.into_iter().map(|(_, key)| key).collect());
         Some(FieldTrack {
             thing: thing?,
             field: field?,
-            keys: keys?,
+            // Names are checked even so.
+            keys: keys.and_then(Keys::new).unwrap_or_default(),
         })
     }
 
@@ -221,10 +222,11 @@ impl Reader {
                 let message = format!("frame {frame} comes after frame {later}");
                 Diagnostic::error(span_of(value), message, "frames in ascending order")
             }),
-            _ if last < frame => self.findings.warning(|| {
+            _ if last.saturating_add(1) < frame => self.findings.warning(|| {
                 let frames = counted(last as usize + 1, "frame");
-                let message = format!("frame {frame} is behind the end: there are {frames}");
-                Diagnostic::warning(span_of(value), message, format!("a frame from 0 to {last}"))
+                let expected = format!("a frame from 0 to {last}, or the next to close a loop");
+                let message = format!("frame {frame} is beyond the end: there are {frames}");
+                Diagnostic::warning(span_of(value), message, expected)
             }),
             _ => {}
         }

@@ -15,6 +15,7 @@ mod recipes;
 mod scenes;
 mod streams;
 mod textures;
+mod tracks;
 
 use std::fs;
 use std::path::PathBuf;

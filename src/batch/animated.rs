@@ -1,0 +1,205 @@
+//! The frames of a track over a scene: edits of its text, each lowered with the files read once.
+
+use std::collections::BTreeSet;
+use std::path::{Path, PathBuf};
+
+use super::still::Still;
+use super::{Error, Tracing, Warnings, load, print_all_findings};
+use crate::assets::{self, Assets, FileDigests, Wanted};
+use crate::file::{self, ReadError};
+use crate::language::{Before, Lowered, Source};
+use crate::render::Frames;
+use crate::scene::Scene;
+use crate::text::{Diagnostic, Edit, Findings, cover};
+use crate::track::{self, Bound};
+
+/// Where an animated scene comes from, and how it is read.
+pub(super) struct Origin<'w> {
+    /// The scene file.
+    pub(super) scene: &'w Path,
+    /// The track file.
+    pub(super) track: &'w Path,
+    /// Additional folders that pictures and meshes may be read from.
+    pub(super) folders: &'w [PathBuf],
+    /// How the warnings of both files are treated.
+    pub(super) warnings: Warnings,
+}
+
+/// A scene whose text a track changes from frame to frame.
+pub(super) struct Animated<'w> {
+    origin: Origin<'w>,
+    track: Bound,
+    /// The number of frames.
+    pub(super) count: u32,
+    /// Frames per second, if the track says so.
+    pub(super) rate: Option<u32>,
+    source: Source,
+    /// The scene of the text without the track, and its findings.
+    scene: Scene,
+    findings: Findings,
+    files: Files,
+    /// The messages of warnings that were printed.
+    told: BTreeSet<String>,
+}
+
+/// The files that the text names, as read last.
+struct Files {
+    wanted: Wanted,
+    read: assets::Loaded,
+    digests: FileDigests,
+    /// What read them again; `None` while the first are those that count.
+    assets: Option<Assets>,
+}
+
+impl<'w> Animated<'w> {
+    /// Reads a track and its scene, and prints all findings in both.
+    pub(super) fn new(origin: Origin<'w>) -> Result<Self, Error> {
+        let text = file::read_text(origin.track)?;
+        let (track, mut findings) = track::read(&text);
+        let loaded = load(origin.scene, origin.folders, origin.warnings);
+        let scene = loaded.as_ref().ok().and_then(|loaded| {
+            let scene = loaded.scene.as_ref()?;
+            Some((&loaded.source, &scene.camera))
+        });
+        let bound = scene.map(|(source, camera)| {
+            let (bound, more) = track::bind(&track, source, camera);
+            findings.append(more);
+            bound
+        });
+        let findings = origin.warnings.apply(findings.sorted());
+        print_all_findings(origin.track, &text, &findings);
+        let loaded = loaded?;
+        let (Some(scene), Some(bound)) = (loaded.scene, bound) else {
+            let errors = loaded.findings.errors();
+            return Err(Error::Invalid { errors });
+        };
+        if 0 < findings.errors() {
+            let errors = findings.errors();
+            return Err(Error::InvalidTrack { errors });
+        }
+        let warnings = loaded.findings.iter();
+        Ok(Self {
+            track: bound,
+            count: track.frames,
+            rate: track.rate,
+            told: warnings.map(|found| found.message.clone()).collect(),
+            files: Files::new(origin.scene, &loaded.source, loaded.read)?,
+            source: loaded.source,
+            scene,
+            findings: loaded.findings,
+            origin,
+        })
+    }
+
+    /// A frame, ready to trace. Prints what was not found in a frame before.
+    pub(super) fn still(
+        &mut self,
+        number: u32,
+        tracing: &Tracing,
+        frames: Frames,
+    ) -> Result<Still, Error> {
+        let edits = self.track.edits(&self.source, number);
+        let inverse = self.source.change(&edits);
+        let still = self.still_of_text(number, [&edits, &inverse], tracing, frames);
+        self.source.revert(&inverse);
+        still
+    }
+
+    /// The frame of the text as edited for it.
+    fn still_of_text(
+        &mut self,
+        number: u32,
+        edits: [&[Edit]; 2],
+        tracing: &Tracing,
+        frames: Frames,
+    ) -> Result<Still, Error> {
+        let lowered = self.lower(edits)?;
+        self.print_findings(number, lowered.diagnostics)?;
+        let scene = lowered.scene.ok_or(Error::Invalid { errors: 1 })?;
+        let Files { read, digests, .. } = &self.files;
+        if !read.is_whole() {
+            return Err(Error::Incomplete);
+        }
+        Ok(Still {
+            job: tracing.job(scene, read.images.clone(), frames)?,
+            scene: digests.fingerprint(self.source.text()),
+            files: read.files.clone(),
+        })
+    }
+
+    /// Lowers the edited text, and reads files only if it names others than before.
+    fn lower(&mut self, [edits, inverse]: [&[Edit]; 2]) -> Result<Lowered, Error> {
+        let scene = self.origin.scene;
+        let no_memory = |reason| ReadError::NoMemory {
+            path: scene.to_owned(),
+            reason,
+        };
+        let before = Before {
+            scene: &self.scene,
+            diagnostics: &self.findings,
+        };
+        let (source, meshes) = (&mut self.source, &self.files.read.meshes);
+        let lowered = match cover(edits).zip(cover(inverse)) {
+            Some((old, changed)) => source.lower_again(meshes, before, [old, changed]),
+            None => source.lower(meshes),
+        };
+        let mut lowered = lowered.map_err(no_memory)?;
+        let files = source.files();
+        if Wanted::new(scene, &files).is_among(&self.files.wanted) {
+            let errors = &self.files.read.picture_errors;
+            lowered.diagnostics = assets::report(errors, &files, lowered.diagnostics);
+            return Ok(lowered);
+        }
+        let assets = self
+            .files
+            .assets
+            .get_or_insert_with(|| Assets::new(self.origin.folders));
+        let (lowered, read) = assets.lower(scene, source).map_err(no_memory)?;
+        let wanted = Wanted::new(scene, &source.files());
+        self.files.replace(wanted, read)?;
+        Ok(lowered)
+    }
+
+    /// Prints the findings in a frame, but no warnings that are the same as before.
+    fn print_findings(&mut self, number: u32, findings: Findings) -> Result<(), Error> {
+        let findings = self.origin.warnings.apply(findings);
+        let mut new = Findings::default();
+        for found in findings.iter() {
+            if found.is_error() || self.told.insert(found.message.clone()) {
+                let message = format!("frame {number}: {}", found.message);
+                let found = Diagnostic {
+                    message,
+                    ..found.clone()
+                };
+                if found.is_error() {
+                    new.error(|| found);
+                } else {
+                    new.warning(|| found);
+                }
+            }
+        }
+        print_all_findings(self.origin.scene, self.source.text(), &new);
+        match findings.errors() {
+            0 => Ok(()),
+            errors => Err(Error::Invalid { errors }),
+        }
+    }
+}
+
+impl Files {
+    fn new(scene: &Path, source: &Source, read: assets::Loaded) -> Result<Self, Error> {
+        Ok(Self {
+            wanted: Wanted::new(scene, &source.files()),
+            digests: FileDigests::of(&read.found)?,
+            read,
+            assets: None,
+        })
+    }
+
+    fn replace(&mut self, wanted: Wanted, read: assets::Loaded) -> Result<(), Error> {
+        self.digests = FileDigests::of(&read.found)?;
+        self.wanted = wanted;
+        self.read = read;
+        Ok(())
+    }
+}
