@@ -1,6 +1,7 @@
 //! Tests of the meaning of texts in all languages.
 
 mod beginning;
+mod convert;
 mod line_ends;
 mod motion;
 mod saved;
@@ -9,8 +10,9 @@ mod template;
 
 use std::sync::Arc;
 
-use super::{Language, Lowered, Source};
-use crate::scene::Meshes;
+use super::losses::Losses;
+use super::{Language, Lowered, Source, alike};
+use crate::scene::{Meshes, Scene};
 use crate::text::{Diagnostic, Position, Span};
 
 /// Parses and lowers a text.
@@ -32,6 +34,19 @@ pub(super) fn shown(text: &str, lowered: &Lowered) -> Vec<String> {
         format!("{line}:{column} {severity}: {}", diagnostic.message)
     };
     lowered.diagnostics.iter().map(line).collect()
+}
+
+/// The scene of a text written again in its own language, as though that were another one, and the
+/// number of losses.
+pub(super) fn rewritten(source: &Source, scene: &Scene) -> (String, Scene, usize) {
+    let language = source.language();
+    let mut losses = Losses::new(source, scene, language);
+    let text = language.write(scene, &mut losses);
+    let (_, lowered) = read_as(language, &text, &Meshes::default());
+    let said = shown(&text, &lowered);
+    let again = lowered.scene.unwrap_or_else(|| panic!("{text}\n{said:#?}"));
+    alike::report(scene, &again, &mut losses);
+    (text, again, losses.into_findings().warnings())
 }
 
 /// Steele, Lea and Flood's `SplitMix64`: random enough for tests, and reproducible.

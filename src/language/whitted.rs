@@ -172,6 +172,10 @@ fn coefficients(of: Of, material: &Material, losses: &mut Losses<'_>) -> Coeffic
     if mirrors || refracts {
         lose(&SPREAD);
     }
+    if found.transmission == 0.0 && found.index <= 0.0 {
+        // It counts as 1, and is warned of.
+        found.index = 1.0;
+    }
     found.ambient = material.ambient.unwrap_or(found.diffuse);
     found
 }

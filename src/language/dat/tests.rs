@@ -8,6 +8,7 @@ mod pictures;
 mod properties;
 mod solids;
 mod views;
+mod written;
 
 use crate::language::tests::{read_as, shown};
 use crate::language::{Language, Lowered, Source};

@@ -33,9 +33,12 @@ pub(in crate::language) fn write(scene: &Scene, losses: &mut Losses<'_>) -> Stri
     text.push('\n');
     let mut id = 0;
     for (index, object) in scene.objects.iter().enumerate() {
-        comment(&mut text, losses, Of::Object(index));
+        let mut is_first = true;
         solids(index, object, losses, |solid, material, losses| {
             id += 1;
+            if std::mem::take(&mut is_first) {
+                comment(&mut text, losses, Of::Object(index));
+            }
             shapes::write(
                 &mut text,
                 (index, solid),

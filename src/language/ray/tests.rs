@@ -5,6 +5,7 @@ mod errors;
 mod meaning;
 pub(in crate::language) mod properties;
 mod views;
+mod written;
 
 use crate::language::tests::{read_as, shown};
 use crate::language::{Language, Lowered, Source};

@@ -5,6 +5,7 @@ mod errors;
 mod meaning;
 mod meshes;
 mod properties;
+mod written;
 
 use crate::language::tests::{read_as, shown};
 use crate::language::{Language, Lowered, Source};

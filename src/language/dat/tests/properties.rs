@@ -11,7 +11,7 @@ use crate::language::tests::{Random, damage};
 use crate::text::{Edit, Span, apply};
 
 /// The records of a random scene, each as its tokens. IDs are the indices in their category.
-fn records(random: &mut Random) -> Vec<Vec<String>> {
+pub(super) fn records(random: &mut Random) -> Vec<Vec<String>> {
     let mut records = Vec::new();
     let (materials, textures) = (1 + random.below(3), random.below(3));
     let objects = 1 + random.below(6);

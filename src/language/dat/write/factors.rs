@@ -57,29 +57,37 @@ impl Factors {
             };
         }
         let [dim, body, shine] = wanted;
-        let mut bases = [body, dim, shine]
+        let bases = [body, dim, shine]
             .into_iter()
             .filter(|base| *base != Rgb::ZERO);
-        let candidates = || bases.clone().flat_map(colours);
-        for colour in candidates() {
+        let base = bases.clone().next().unwrap_or(Rgb::ONE);
+        // Most colours are no multiples, and the search is long.
+        let may_fit = (0..3).all(|at| !counts[at] || is_about_multiple(base, wanted[at]));
+        for colour in bases.filter(|_| may_fit).flat_map(colours) {
             let exact = [0, 1, 2].map(|at| factor(colour, wanted[at]));
             let fits = (0..3).all(|at| exact[at].is_some() || !counts[at]);
             if fits {
+                let of =
+                    [0, 1, 2].map(|at| exact[at].unwrap_or_else(|| nearest(colour, wanted[at])));
                 return Self {
                     colour,
-                    of: [0, 1, 2]
-                        .map(|at| exact[at].unwrap_or_else(|| nearest(colour, wanted[at]))),
+                    of,
                     is_exact: true,
                 };
             }
         }
-        let colour = bases.next().unwrap_or(Rgb::ONE);
         Self {
-            colour,
-            of: wanted.map(|wanted| nearest(colour, wanted)),
+            colour: base,
+            of: wanted.map(|wanted| nearest(base, wanted)),
             is_exact: false,
         }
     }
+}
+
+/// Whether a colour is a multiple of another but for rounding.
+fn is_about_multiple(colour: Rgb, wanted: Rgb) -> bool {
+    let rest = wanted - nearest(colour, wanted) * colour;
+    rest.abs().max_element() <= 1e-12 * wanted.abs().max_element()
 }
 
 /// Colours that a colour may be a multiple of: itself, and quotients by usual factors.

@@ -34,12 +34,12 @@ impl Random {
 type Said = Vec<(&'static Field, Vec<String>)>;
 
 /// A random scene as fields, and its text.
-struct Model {
+pub(super) struct Model {
     nodes: Vec<(Node, Option<ShapeKind>, Said)>,
 }
 
 impl Model {
-    fn random(random: &mut Random) -> Self {
+    pub(super) fn random(random: &mut Random) -> Self {
         let say = |random: &mut Random, fields: &mut dyn Iterator<Item = &'static Field>| -> Said {
             let mut axis = 0;
             fields
@@ -77,7 +77,7 @@ impl Model {
         Self { nodes }
     }
 
-    fn text(&self, random: &mut Random) -> String {
+    pub(super) fn text(&self, random: &mut Random) -> String {
         const GAPS: [&str; 9] = [
             " ",
             "  ",

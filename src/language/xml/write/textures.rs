@@ -4,20 +4,16 @@ use glam::{DAffine3, DVec3};
 
 use super::transforms::placed;
 use super::{element, open, rgb, value, word};
-use crate::scene::{Pattern, Scene, Side, Texture, Tinted};
+use crate::scene::{Pattern, Rgb, Scene, Side, Texture, Tinted};
 
 /// The deepest checkerboards in checkerboards that are written.
 const DEEPEST: usize = 32;
 
 /// Writes a colour.
 pub(super) fn tinted(text: &mut String, indent: usize, name: &str, tinted: Tinted, scene: &Scene) {
-    with(
-        text,
-        (indent, name),
-        |text| rgb(text, tinted.colour),
-        tinted.texture,
-        scene,
-    );
+    let texture = tinted.texture.filter(|_| tinted.colour != Rgb::ZERO);
+    let colour = |text: &mut String| rgb(text, tinted.colour);
+    with(text, (indent, name), colour, texture, scene);
 }
 
 /// Writes an element with a texture.

@@ -16,6 +16,7 @@ pub(super) fn placed(text: &mut String, indent: usize, columns: [DVec3; 3], orig
     } else if is_right(columns) {
         let lengths = DVec3::from_array(columns.map(DVec3::length));
         let (scale, turn) = proper(lengths, [0, 1, 2].map(|at| columns[at] / lengths[at]));
+        let scale = DVec3::from_array(scale.to_array().map(short));
         scaled(text, indent, scale);
         turned(text, indent, turn);
     } else {
@@ -51,6 +52,11 @@ fn proper(scale: DVec3, [x, y, z]: [DVec3; 3]) -> (DVec3, [DVec3; 3]) {
     } else {
         (scale, [x, y, z])
     }
+}
+
+/// A number rounded to fifteen digits, without the rounding errors of a length.
+fn short(number: f64) -> f64 {
+    format!("{number:.14e}").parse().unwrap_or(number)
 }
 
 fn is_right([x, y, z]: [DVec3; 3]) -> bool {

@@ -1,0 +1,32 @@
+//! Scenes written again.
+
+use super::properties::records;
+use super::read;
+use crate::language::tests::{Random, rewritten};
+
+#[test]
+fn a_written_scene_is_the_same_where_nothing_is_lost() {
+    let mut random = Random(12);
+    let (mut checked, mut same) = (0, 0);
+    while checked < 1_000 {
+        let records = records(&mut random).into_iter().filter(|record| {
+            let has = |word: &str| record.iter().any(|own| own == word);
+            // What these were made of is not known; they are reported.
+            !has("CSG") && !has("quadric") && !has("render")
+        });
+        let text: Vec<_> = records.map(|record| record.join(" ")).collect();
+        let text = text.join("\n");
+        let (source, lowered) = read(&text);
+        let Some(scene) = lowered.scene else {
+            continue;
+        };
+        let (written, again, losses) = rewritten(&source, &scene);
+        // Each use has a texture of its own.
+        if losses == 0 && scene.textures.is_empty() {
+            assert_eq!(again, scene, "{text}\n\n{written}");
+            same += 1;
+        }
+        checked += usize::from(scene.textures.is_empty());
+    }
+    assert!(900 < same, "{same} of {checked}");
+}
