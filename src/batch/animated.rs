@@ -203,3 +203,85 @@ impl Files {
         Ok(())
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use std::fs;
+    use std::sync::Arc;
+
+    use super::*;
+    use crate::batch::ProgressStyle;
+    use crate::geometry::{Mesh, Shape};
+    use crate::render::Filter;
+    use crate::scene::Viewpoint;
+
+    const SCENE: &str = "\
+<xml><scene><object type=\"obj\" name=\"a.obj\"/><object type=\"sphere\" name=\"ball\"/>
+<light type=\"point\" name=\"key\"/></scene><camera><position z=\"9\"/></camera></xml>";
+
+    const TRACK: &str = "\
+frames = 3
+[[track]]
+thing = 'key'
+field = 'intensity'
+keys = [{ frame = 0, value = [0, 0, 0] }, { frame = 2, value = [1, 1, 1] }]";
+
+    const MESH: &str = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
+
+    fn tracing() -> Tracing {
+        Tracing {
+            size: None,
+            view: Viewpoint::default(),
+            region: None,
+            spp: Some(1),
+            time: None,
+            depth: None,
+            integrator: None,
+            filter: Filter::default(),
+            seed: 0,
+            aov: None,
+            layers: Vec::new(),
+            transfer: None,
+            exposure: 0.0,
+            threads: 1,
+            progress: ProgressStyle::Off,
+        }
+    }
+
+    fn mesh(still: &Still) -> Arc<Mesh> {
+        let mut objects = still.job.scene.objects.iter();
+        let mesh = objects.find_map(|object| match &object.shape {
+            Shape::Mesh(instance) => Some(Arc::clone(instance.mesh())),
+            _ => None,
+        });
+        mesh.expect("the scene has a mesh")
+    }
+
+    /// The renderer keeps the structure of a mesh that is the same value.
+    #[test]
+    fn the_files_of_a_scene_are_read_once() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let at = |name: &str| folder.path().join(name);
+        for (name, text) in [("a.xml", SCENE), ("a.toml", TRACK), ("a.obj", MESH)] {
+            fs::write(at(name), text).expect("written");
+        }
+        let (scene, track) = (at("a.xml"), at("a.toml"));
+        let origin = Origin {
+            scene: &scene,
+            track: &track,
+            folders: &[],
+            warnings: Warnings::Allowed,
+        };
+        let mut animated = Animated::new(origin).expect("it is valid");
+        fs::remove_file(at("a.obj")).expect("it is there");
+        let mut still = |number| {
+            let still = animated.still(number, &tracing(), Frames::Last);
+            still.expect("it is valid")
+        };
+        let [first, last] = [still(0), still(2)];
+        assert!(Arc::ptr_eq(&mesh(&first), &mesh(&last)));
+        assert_ne!(first.job.scene.lights, last.job.scene.lights);
+        assert_ne!(first.scene, last.scene);
+        assert_eq!(still(0).scene, first.scene);
+    }
+}

@@ -100,7 +100,11 @@ fn bound(
     Ok(BoundField {
         node,
         place,
-        keys: track.keys.clone(),
+        keys: if placed.field.kind.is_numeric() {
+            track.keys.clone()
+        } else {
+            track.keys.clone().into_words()
+        },
     })
 }
 

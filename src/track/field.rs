@@ -81,8 +81,8 @@ pub(super) fn check(
 ) {
     let field = placed.field;
     let what = format!("{} {}", source.name(node), field.key);
-    let mut counts = keys.iter().map(|key| count(&key.value));
-    let first = counts.next().unwrap_or_default();
+    let first = keys.iter().next();
+    let first = first.map(|key| count(&key.value)).unwrap_or_default();
     for key in keys.iter() {
         let checked = match &key.value {
             Value::Numbers(numbers) if field.kind.is_numeric() => {
@@ -91,25 +91,14 @@ pub(super) fn check(
             Value::Numbers(numbers) => check_id(source, (node, field), numbers),
             Value::Word(word) => check_word(source, (node, field), word),
         };
+        let own = count(&key.value);
         let checked = checked.and_then(|()| {
-            let alike = count(&key.value) == first;
-            let other = || {
-                (
-                    format!("has {}", numbers(count(&key.value))),
-                    numbers(first),
-                )
-            };
-            alike.then_some(()).ok_or_else(other)
+            let wrong = || (format!("has {}", numbers(own)), numbers(first));
+            (own == first).then_some(()).ok_or_else(wrong)
         });
         if let Err((is, expected)) = checked {
-            findings.error(|| {
-                wrong(
-                    source,
-                    (node, field),
-                    key,
-                    (format!("{what}: {is}"), expected),
-                )
-            });
+            let message = format!("{what}: {is}");
+            findings.error(|| wrong(source, (node, field), key, (message, expected)));
         }
     }
 }
@@ -136,16 +125,17 @@ fn check_numbers(field: &Field, component: Option<usize>, values: &[f64]) -> Res
         None => vec![names.len()],
     };
     if !expected.contains(&values.len()) {
-        let list = alternatives(&expected);
-        let few = counted(expected.iter().copied().max().unwrap_or_default(), "number");
-        let few = few.split_once(' ').map_or(&*few, |(_, noun)| noun);
+        let list = match expected[..] {
+            [count] => numbers(count),
+            _ => format!("{} numbers", alternatives(&expected)),
+        };
         let named = match component {
             None if 1 < names.len() => format!(": {}", names.join(", ")),
             _ => String::new(),
         };
         return Err((
             format!("has {}", numbers(values.len())),
-            format!("{list} {few}{named}"),
+            format!("{list}{named}"),
         ));
     }
     if values.iter().all(|&value| field.allowed.contains(value)) {
@@ -170,7 +160,8 @@ fn check_id(source: &Source, (node, field): (Node, &Field), values: &[f64]) -> R
         (Kind::Reference(_), [id]) if Range::Identity.contains(*id) => {
             check_word(source, (node, field), &id.to_string())
         }
-        _ => Err(("is no number".to_owned(), field.expected())),
+        (Kind::Reference(_), _) => Err(("is no ID".to_owned(), field.expected())),
+        _ => Err(("is a number".to_owned(), field.expected())),
     }
 }
 
@@ -192,6 +183,7 @@ fn check_word(source: &Source, (node, field): (Node, &Field), word: &str) -> Res
     }
 }
 
+/// The error for a value, which advises the nearest of the words that it may be.
 fn wrong(
     source: &Source,
     (node, field): (Node, &Field),

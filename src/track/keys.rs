@@ -83,6 +83,19 @@ impl Keys {
         }
     }
 
+    /// The same keys with single numbers as words, which are not interpolated.
+    #[must_use]
+    pub(super) fn into_words(self) -> Self {
+        let word = |key: Key| match &key.value {
+            Value::Numbers(numbers) => {
+                let value = Value::Word(numbers.iter().map(f64::to_string).collect());
+                Key { value, ..key }
+            }
+            Value::Word(_) => key,
+        };
+        Self(self.0.into_iter().map(word).collect())
+    }
+
     /// The numbers at a frame; none of words.
     pub fn numbers_at(&self, frame: u32) -> Vec<f64> {
         match self.at(frame) {

@@ -157,6 +157,19 @@ fn a_frame_is_the_text_edited_by_hand() {
     }
 }
 
+/// IDs are not numbers: between 4 and 3 there are none.
+#[test]
+fn words_and_ids_change_at_their_keys() {
+    for (value, next) in [("4", "3"), ("'4'", "'3'")] {
+        let track = two_keys("object 2", "mat", value, next);
+        for (number, id) in [(0, 4), (3, 4), (4, 3)] {
+            let (edited, _) = frame(Language::Dat, DAT, &track, number);
+            let object = format!("obj sphere ID 2 mat ID {id}  0 0 0");
+            assert!(edited.contains(&object), "{value} {number}: {edited}");
+        }
+    }
+}
+
 fn text_of(language: Language) -> &'static str {
     match language {
         Language::Ray => RAY,
@@ -308,6 +321,9 @@ fn errors_are_at_the_text_that_causes_them() {
         (Language::Ray, value("view", "fov", "40"), &["4:9 error the scene does not state its fov | a field that is in the text of the scene | move the view by [camera] or [orbit] instead"]),
         (Language::Ray, value("light 1", "position", "[1, 2, 3]") + "\n[[track]]\nthing = 'the lamp'\nfield = 'position x'\n" + key, &["8:9 error this field is already set by another track | one track for each field"]),
         (Language::Dat, value("object 2", "mat", "5"), &["5:29 error object 2 (sphere) mat: `5` is unknown | the number of one material"]),
+        (Language::Dat, value("object 2", "mat", "3.5"), &["5:29 error object 2 (sphere) mat: is no ID | the number of one material"]),
+        (Language::Dat, value("light 7", "source", "1"), &["5:29 error light 7 source: is a number | pnt or inf or amb"]),
+        (Language::Xml, value("a ball", "rotate 1", "[1, 1]"), &["5:29 error a ball (sphere) rotate: has 2 numbers | 3 or 4 numbers: x, y, z, angle"]),
         (Language::Dat, value("light 7", "source", "'pn'"), &["5:29 error light 7 source: `pn` is unknown | pnt or inf or amb | did you mean pnt?"]),
         (Language::Xml, value("a ball", "rotate", "[0, 0, 1]"), &["4:9 error a ball (sphere) has 2 fields called `rotate` | rotate 1 or rotate 2"]),
         (Language::Xml, value("a ball", "material", "'read'"), &["5:29 error a ball (sphere) material: `read` is unknown | the name of one material | did you mean red?"]),
