@@ -69,8 +69,11 @@ impl Affine {
 /// A direction, as short as it may have been written, that [`normalise`] makes this unit vector; the
 /// vector itself if none is found.
 pub fn direction_of(unit: DVec3) -> DVec3 {
-    let mut found = directions(unit).filter(|&direction| normalise(direction) == Some(unit));
-    found.next().unwrap_or(unit)
+    // Multiples are rounded otherwise: about every tenth is normalised to this very vector.
+    let multiples = (1..1024).map(|step| (1.0 + f64::from(step) / 1024.0) * unit);
+    let mut candidates = directions(unit).chain(multiples);
+    let found = candidates.find(|&direction| normalise(direction) == Some(unit));
+    found.unwrap_or(unit)
 }
 
 /// Pairs of different unit vectors.

@@ -98,13 +98,14 @@ fn thin(Plane(frame): &Plane) -> Option<Cuboid> {
     let [across, up, ahead] = numbers.columns();
     let [x, y, _] = numbers.directions;
     let normal = normalise(x.cross(y))?;
-    let back = if 0.0 < normal.dot(ahead) {
-        -normal
-    } else {
-        normal
-    };
     let corner = numbers.origin - across - up;
     let (width, height) = (2.0 * numbers.lengths.x, 2.0 * numbers.lengths.y);
-    let sizes = DVec3::new(width, height, THIN * width.min(height));
-    Some(Cuboid(Affine::new(corner, [x, y, back], sizes)?))
+    let depth = THIN * width.min(height);
+    // In the order of a right-handed frame.
+    let (axes, sizes) = if 0.0 < normal.dot(ahead) {
+        ([y, x, -normal], DVec3::new(height, width, depth))
+    } else {
+        ([x, y, normal], DVec3::new(width, height, depth))
+    };
+    Some(Cuboid(Affine::new(corner, axes, sizes)?))
 }

@@ -3,6 +3,17 @@
 use super::properties::records;
 use super::read;
 use crate::language::tests::{Random, rewritten};
+use crate::scene::{Rgb, Scene};
+
+/// A scene without what no picture shows: ambient reflectance where there is no ambient light.
+fn shown(mut scene: Scene) -> Scene {
+    if scene.ambient_light() == Rgb::ZERO {
+        for material in &mut scene.materials {
+            material.ambient = None;
+        }
+    }
+    scene
+}
 
 #[test]
 fn a_written_scene_is_the_same_where_nothing_is_lost() {
@@ -23,7 +34,7 @@ fn a_written_scene_is_the_same_where_nothing_is_lost() {
         let (written, again, losses) = rewritten(&source, &scene);
         // Each use has a texture of its own.
         if losses == 0 && scene.textures.is_empty() {
-            assert_eq!(again, scene, "{text}\n\n{written}");
+            assert_eq!(shown(again), shown(scene.clone()), "{text}\n\n{written}");
             same += 1;
         }
         checked += usize::from(scene.textures.is_empty());
