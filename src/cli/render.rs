@@ -17,6 +17,7 @@ use crate::batch::{
 };
 use crate::image_file::{ImageFormat, MovieFormat};
 use crate::part::{MOST_SHARDS, Shard};
+use crate::render::Aov;
 
 pub(super) const EXAMPLES: &str = "\
 Examples:
@@ -152,10 +153,11 @@ impl RenderArguments {
         if self.shard.is_some() && !self.layers.is_empty() {
             return Err("--layers cannot be sharded: shard each with --aov".to_owned());
         }
-        check_layers(&self.layers, format)?;
+        let layers = checked(self.layers, format)?;
+        let progress = self.progress.value();
         let tracing = Tracing {
-            progress: self.progress.value(),
-            layers: self.layers.into_iter().map(AovChoice::value).collect(),
+            layers,
+            progress,
             ..self.tracing.into_tracing()
         };
         Ok(Render {
@@ -201,7 +203,11 @@ impl RenderArguments {
         }
         let output = match (self.movie(), Pattern::of(&self.output), self.format) {
             (Some(_), ..) if self.shard.is_some() => {
-                return Err("a .y4m or .gif cannot be sharded: write one file per frame, such as out.%05d.png".to_owned());
+                return Err(
+                    "a .y4m or .gif cannot be sharded: write one file per frame, such as \
+                     out.%05d.png"
+                        .to_owned(),
+                );
             }
             (Some(format), ..) => SequenceOutput::Movie {
                 to: destination(self.output, self.force),
@@ -233,10 +239,11 @@ impl RenderArguments {
             SequenceOutput::Pictures { format, .. } => *format,
             SequenceOutput::Movie { .. } => ImageFormat::Gif,
         };
-        check_layers(&self.layers, format)?;
+        let layers = checked(self.layers, format)?;
+        let progress = self.progress.value();
         let tracing = Tracing {
-            progress: self.progress.value(),
-            layers: self.layers.into_iter().map(AovChoice::value).collect(),
+            layers,
+            progress,
             ..self.tracing.into_tracing()
         };
         Ok(Sequence {
@@ -260,17 +267,19 @@ impl RenderArguments {
     }
 }
 
-/// Refuses layers in a format that has none, and a layer twice.
-fn check_layers(layers: &[AovChoice], format: ImageFormat) -> Result<(), String> {
-    let again = |at: usize| layers[..at].contains(&layers[at]);
+/// The AOVs of layers; refuses a layer twice, and layers in a format that has none.
+fn checked(layers: Vec<AovChoice>, format: ImageFormat) -> Result<Vec<Aov>, String> {
     if !layers.is_empty() && format != ImageFormat::Exr {
-        Err("--layers needs a .exr: other formats have none".to_owned())
-    } else if let Some(at) = (0..layers.len()).find(|&at| again(at)) {
-        let name = layers[at].value().name();
-        Err(format!("--layers names {name} twice"))
-    } else {
-        Ok(())
+        return Err("--layers needs a .exr: other formats have none".to_owned());
     }
+    let mut aovs = Vec::new();
+    for aov in layers.into_iter().map(AovChoice::value) {
+        if aovs.contains(&aov) {
+            return Err(format!("--layers names {} twice", aov.name()));
+        }
+        aovs.push(aov);
+    }
+    Ok(aovs)
 }
 
 /// A format of one picture, or of several.
