@@ -5,8 +5,11 @@ use glam::DVec3;
 use super::transform::length;
 use super::{Affine, normalise};
 
-/// Maximum number of pairs of a direction and a length kept for one axis.
-const MOST: usize = 4;
+/// Maximum number of pairs of a direction and a length tried for one axis.
+const PAIRS: usize = 12;
+
+/// Maximum number of frames tried.
+const FRAMES: usize = 100;
 
 /// The arguments of [`Affine::new`].
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -35,101 +38,89 @@ impl Affine {
     /// The numbers of the frame, as short as they may have been written. They give the same frame
     /// to the last bit, except for some frames of matrices, where they give the nearest one found.
     pub fn numbers(&self) -> FrameNumbers {
-        let origin = self.origin();
         let axes = self.axes();
-        let simple = axes.map(|axis| {
-            let first = pairs(axis).next();
-            first.unwrap_or_else(|| (normalise(axis).unwrap_or(DVec3::Z), length(axis)))
-        });
         let of = |pairs: [(DVec3, f64); 3]| FrameNumbers {
-            origin,
+            origin: self.origin(),
             directions: pairs.map(|(direction, _)| direction),
             lengths: pairs.map(|(_, length)| length).into(),
         };
         let is_same = |numbers: &FrameNumbers| numbers.affine().as_ref() == Some(self);
-        let first = of(simple);
+        let first = of(axes.map(|axis| {
+            let first = pairs(axis).next();
+            first.unwrap_or_else(|| (normalise(axis).unwrap_or(DVec3::Z), length(axis)))
+        }));
         if is_same(&first) {
             return first;
         }
-        let [x, y, z] = axes.map(distinct);
-        for &x in &x {
-            for &y in &y {
-                for &z in &z {
-                    let numbers = of([x, y, z]);
-                    if is_same(&numbers) {
-                        return numbers;
-                    }
-                }
-            }
-        }
-        first
+        let [x, y, z] = axes.map(|axis| pairs(axis).take(PAIRS).collect::<Vec<_>>());
+        // The likeliest of each come first.
+        let ranks = (0..3 * PAIRS).flat_map(|sum| {
+            let pair = move |i: usize| (0..=sum - i).map(move |j| [i, j, sum - i - j]);
+            (0..=sum).flat_map(pair)
+        });
+        let frames = ranks.filter_map(|[i, j, k]| Some(of([*x.get(i)?, *y.get(j)?, *z.get(k)?])));
+        let mut tried = frames.take(FRAMES);
+        tried.find(is_same).unwrap_or(first)
     }
 }
 
 /// A direction, as short as it may have been written, that [`normalise`] makes this unit vector; the
 /// vector itself if none is found.
 pub fn direction_of(unit: DVec3) -> DVec3 {
-    let mut found = directions(unit).filter(|&direction| normalise(direction) == Some(unit));
-    found.next().unwrap_or(unit)
+    direction(unit).unwrap_or(unit)
 }
 
-/// Pairs of different unit vectors.
-fn distinct(axis: DVec3) -> Vec<(DVec3, f64)> {
-    let mut kept: Vec<(DVec3, f64)> = Vec::with_capacity(MOST);
-    for (direction, length) in pairs(axis) {
-        let is_known =
-            |known: &(DVec3, f64)| known.1 == length && normalise(known.0) == normalise(direction);
-        if !kept.iter().any(is_known) {
-            kept.push((direction, length));
-        }
-        if kept.len() == MOST {
-            break;
-        }
-    }
-    kept
+/// A direction of about unit length that becomes this unit vector.
+fn direction(unit: DVec3) -> Option<DVec3> {
+    /// The number of lengths tried.
+    const LENGTHS: i32 = 40;
+    /// By how much they differ.
+    const STEP: f64 = 1.3e-5;
+    let short = DVec3::from_array(unit.to_array().map(plain));
+    let other = (1..=LENGTHS).flat_map(move |step| {
+        let change = STEP * f64::from(step);
+        [(1.0 + change) * unit, (1.0 - change) * unit]
+    });
+    let mut tried = [short, unit].into_iter().chain(other);
+    tried.find(|&direction| normalise(direction) == Some(unit))
 }
 
-/// Directions and lengths whose product is this axis.
+/// Directions and lengths whose product is this axis, the likeliest first.
 fn pairs(axis: DVec3) -> impl Iterator<Item = (DVec3, f64)> {
     let whole = length(axis);
-    let lengths = [
-        plain(whole),
-        whole,
-        whole.next_up(),
-        whole.next_down(),
-        whole.next_up().next_up(),
-        whole.next_down().next_down(),
-    ];
-    let units = normalise(axis).into_iter().flat_map(directions);
-    units.flat_map(move |direction| {
-        let unit = normalise(direction);
-        let fits = move |&length: &f64| {
-            0.0 < length && length.is_finite() && unit.map(|unit| length * unit) == Some(axis)
-        };
-        lengths
-            .into_iter()
-            .filter(fits)
-            .map(move |length| (direction, length))
+    let [up, down] = [whole.next_up(), whole.next_down()];
+    let short = plain(whole);
+    let lengths = [short, whole, up, down, up.next_up(), down.next_down()];
+    let lengths = lengths
+        .into_iter()
+        .enumerate()
+        .filter(move |&(rank, length)| {
+            let is_known = 0 < rank && length == short;
+            0.0 < length && length.is_finite() && !is_known
+        });
+    let about = normalise(axis);
+    lengths.flat_map(move |(_, length)| {
+        let units = about.into_iter().flat_map(neighbours);
+        let fitting = units.filter(move |&unit| length * unit == axis);
+        fitting.filter_map(move |unit| Some((direction(unit)?, length)))
     })
 }
 
-/// Vectors within about a rounding error of a unit vector: that with components of fifteen digits
-/// first.
-fn directions(unit: DVec3) -> impl Iterator<Item = DVec3> {
-    let steps = (0..27).map(move |number| {
+/// A vector, and those that differ by the last bit of some components.
+fn neighbours(vector: DVec3) -> impl Iterator<Item = DVec3> {
+    (0..27).map(move |number| {
         let stepped = |axis: usize, step: usize| match step {
-            1 => unit[axis].next_up(),
-            2 => unit[axis].next_down(),
-            _ => unit[axis],
+            // The sign of 0 does not count, and nothing beside it is meant.
+            1 if vector[axis] != 0.0 => vector[axis].next_up(),
+            2 if vector[axis] != 0.0 => vector[axis].next_down(),
+            _ => vector[axis],
         };
         DVec3::new(
             stepped(0, number % 3),
             stepped(1, number / 3 % 3),
             stepped(2, number / 9),
         )
-    });
-    let short = DVec3::from_array(unit.to_array().map(plain));
-    [short].into_iter().chain(steps)
+    })
 }
 
 /// The number rounded to fifteen digits, as decimals that people write have them.

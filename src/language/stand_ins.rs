@@ -98,13 +98,14 @@ fn thin(Plane(frame): &Plane) -> Option<Cuboid> {
     let [across, up, ahead] = numbers.columns();
     let [x, y, _] = numbers.directions;
     let normal = normalise(x.cross(y))?;
-    let back = if 0.0 < normal.dot(ahead) {
-        -normal
+    let (width, height) = (2.0 * numbers.lengths.x, 2.0 * numbers.lengths.y);
+    let thickness = THIN * width.min(height);
+    // Right-handed, with the last edge away from the face.
+    let (directions, sizes) = if 0.0 < normal.dot(ahead) {
+        ([y, x, -normal], DVec3::new(height, width, thickness))
     } else {
-        normal
+        ([x, y, normal], DVec3::new(width, height, thickness))
     };
     let corner = numbers.origin - across - up;
-    let (width, height) = (2.0 * numbers.lengths.x, 2.0 * numbers.lengths.y);
-    let sizes = DVec3::new(width, height, THIN * width.min(height));
-    Some(Cuboid(Affine::new(corner, [x, y, back], sizes)?))
+    Some(Cuboid(Affine::new(corner, directions, sizes)?))
 }

@@ -215,7 +215,7 @@ fn xml_becomes_ray() {
 2  // objects
 
 box  // a "b" \n -->
--1 0 -1  1 0 0  0 0 1  0 1 0  2 2 0.0002
+-1 0 -1  0 0 1  1 0 0  0 1 0  2 2 0.0002
 0 0 0  0.5 0.5 0.5  0.7 0.7 0.7  5  0.25 0 1
 
 ellipsoid
@@ -253,7 +253,7 @@ mat ID 1  1 1 1  0 0.5 0.7 5  0 0.25 1
 mat ID 2  1 1 1  1 0 0 0  0 0 1
 
 # a "b" \n -->
-obj box ID 1 mat ID 1  0 0.0001 0  1 0 0  0 0 1  0 1 0  2 2 0.0002
+obj box ID 1 mat ID 1  0 0.0001 0  0 0 1  1 0 0  0 1 0  2 2 0.0002
 obj quadric ID 2 mat ID 2  0.8125000000000001 0.3247595264191645 0 0 0.4375 0 0 0.1111111111111111 0 -1  0
 "#,
         &[
@@ -285,7 +285,7 @@ fn the_same_language_is_copied() {
 fn a_scene_without_objects_and_lights_can_be_written() {
     let empty = "<xml><scene/><camera><position z='5'/></camera></xml>";
     for (to, losses) in [
-        (Language::Ray, vec!["1:15 view: a scene without objects"]),
+        (Language::Ray, vec!["1:14 view: a scene without objects"]),
         (Language::Dat, Vec::new()),
     ] {
         let (written, lost) = converted(Language::Xml, empty, to);
