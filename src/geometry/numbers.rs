@@ -2,14 +2,11 @@
 
 use glam::DVec3;
 
-use super::transform::length;
+use super::transform::{exact_cross, exact_dot, length};
 use super::{Affine, normalise};
 
 /// Maximum number of pairs of a direction and a length tried for one axis.
 const PAIRS: usize = 12;
-
-/// Maximum number of frames tried.
-const FRAMES: usize = 100;
 
 /// The arguments of [`Affine::new`].
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -39,28 +36,53 @@ impl Affine {
     /// to the last bit, except for some frames of matrices, where they give the nearest one found.
     pub fn numbers(&self) -> FrameNumbers {
         let axes = self.axes();
-        let of = |pairs: [(DVec3, f64); 3]| FrameNumbers {
+        let of = |pairs: [Pair; 3]| FrameNumbers {
             origin: self.origin(),
-            directions: pairs.map(|(direction, _)| direction),
-            lengths: pairs.map(|(_, length)| length).into(),
+            directions: pairs.map(|pair| pair.direction),
+            lengths: pairs.map(|pair| pair.length).into(),
         };
         let is_same = |numbers: &FrameNumbers| numbers.affine().as_ref() == Some(self);
-        let first = of(axes.map(|axis| {
-            let first = pairs(axis).next();
-            first.unwrap_or_else(|| (normalise(axis).unwrap_or(DVec3::Z), length(axis)))
-        }));
+        let first = of(axes.map(|axis| pairs(axis).next().unwrap_or_else(|| Pair::about(axis))));
         if is_same(&first) {
             return first;
         }
+        let [dual, ..] = self.duals();
         let [x, y, z] = axes.map(|axis| pairs(axis).take(PAIRS).collect::<Vec<_>>());
-        // The likeliest of each come first.
-        let ranks = (0..3 * PAIRS).flat_map(|sum| {
-            let pair = move |i: usize| (0..=sum - i).map(move |j| [i, j, sum - i - j]);
-            (0..=sum).flat_map(pair)
-        });
-        let frames = ranks.filter_map(|[i, j, k]| Some(of([*x.get(i)?, *y.get(j)?, *z.get(k)?])));
-        let mut tried = frames.take(FRAMES);
-        tried.find(is_same).unwrap_or(first)
+        for &second in &y {
+            for &third in &z {
+                let across = exact_cross(second.unit, third.unit);
+                // Most are ruled out by the first of the dual vectors.
+                let fits = |one: &&Pair| across / exact_dot(across, one.unit) / one.length == dual;
+                for &one in x.iter().filter(fits) {
+                    let numbers = of([one, second, third]);
+                    if is_same(&numbers) {
+                        return numbers;
+                    }
+                }
+            }
+        }
+        first
+    }
+}
+
+/// A direction and a length that make an axis.
+#[derive(Clone, Copy)]
+struct Pair {
+    direction: DVec3,
+    /// The direction, normalised.
+    unit: DVec3,
+    length: f64,
+}
+
+impl Pair {
+    /// A pair that makes nearly this axis.
+    fn about(axis: DVec3) -> Self {
+        let unit = normalise(axis).unwrap_or(DVec3::Z);
+        Self {
+            direction: unit,
+            unit,
+            length: length(axis),
+        }
     }
 }
 
@@ -72,10 +94,11 @@ pub fn direction_of(unit: DVec3) -> DVec3 {
 
 /// A direction of about unit length that becomes this unit vector.
 fn direction(unit: DVec3) -> Option<DVec3> {
-    /// The number of lengths tried.
-    const LENGTHS: i32 = 40;
-    /// By how much they differ.
-    const STEP: f64 = 1.3e-5;
+    /// The number of lengths tried, above and below 1: few vectors need more than ten, the most
+    /// stubborn of thousands needed thirty.
+    const LENGTHS: i32 = 400;
+    /// By how much they differ: none is off by more than what readers take for a unit vector.
+    const STEP: f64 = 1.23e-6;
     let short = DVec3::from_array(unit.to_array().map(plain));
     let other = (1..=LENGTHS).flat_map(move |step| {
         let change = STEP * f64::from(step);
@@ -86,7 +109,7 @@ fn direction(unit: DVec3) -> Option<DVec3> {
 }
 
 /// Directions and lengths whose product is this axis, the likeliest first.
-fn pairs(axis: DVec3) -> impl Iterator<Item = (DVec3, f64)> {
+fn pairs(axis: DVec3) -> impl Iterator<Item = Pair> {
     let whole = length(axis);
     let [up, down] = [whole.next_up(), whole.next_down()];
     let short = plain(whole);
@@ -102,24 +125,34 @@ fn pairs(axis: DVec3) -> impl Iterator<Item = (DVec3, f64)> {
     lengths.flat_map(move |(_, length)| {
         let units = about.into_iter().flat_map(neighbours);
         let fitting = units.filter(move |&unit| length * unit == axis);
-        fitting.filter_map(move |unit| Some((direction(unit)?, length)))
+        fitting.filter_map(move |unit| {
+            let direction = direction(unit)?;
+            Some(Pair {
+                direction,
+                unit,
+                length,
+            })
+        })
     })
 }
 
-/// A vector, and those that differ by the last bit of some components.
+/// A vector, and those that differ by the last bit of one component, two or all. The components that
+/// are 0 are kept: nothing beside them is meant.
 fn neighbours(vector: DVec3) -> impl Iterator<Item = DVec3> {
-    (0..27).map(move |number| {
-        let stepped = |axis: usize, step: usize| match step {
-            // The sign of 0 does not count, and nothing beside it is meant.
-            1 if vector[axis] != 0.0 => vector[axis].next_up(),
-            2 if vector[axis] != 0.0 => vector[axis].next_down(),
-            _ => vector[axis],
-        };
-        DVec3::new(
-            stepped(0, number % 3),
-            stepped(1, number / 3 % 3),
-            stepped(2, number / 9),
-        )
+    let steps = |number: usize| [number % 3, number / 3 % 3, number / 9];
+    let changes = move |number: &usize| steps(*number).iter().filter(|&&step| step != 0).count();
+    let ordered = (0..=3).flat_map(move |count| (0..27).filter(move |at| changes(at) == count));
+    ordered.filter_map(move |number| {
+        let mut stepped = vector;
+        for (axis, step) in steps(number).into_iter().enumerate() {
+            stepped[axis] = match step {
+                0 => vector[axis],
+                _ if vector[axis] == 0.0 => return None,
+                1 => vector[axis].next_up(),
+                _ => vector[axis].next_down(),
+            };
+        }
+        Some(stepped)
     })
 }
 
