@@ -112,6 +112,11 @@ impl Affine {
         self.axes
     }
 
+    /// The dual basis: the rows of the world-to-unit matrix.
+    pub(super) fn duals(&self) -> [DVec3; 3] {
+        self.duals
+    }
+
     /// The half extent, along each world axis, of the image of the unit disc or ball in the given
     /// axes: the length of that row of the unit-to-world matrix.
     pub(super) fn reach_of_disc<const N: usize>(&self, axes: [usize; N]) -> DVec3 {
@@ -290,7 +295,7 @@ pub(super) fn exact_difference([a, b]: [f64; 2], [c, d]: [f64; 2]) -> f64 {
 
 /// The dot product as if computed in twice the precision: T. Ogita, S. Rump, S. Oishi, "Accurate
 /// sum and dot product", SIAM Journal on Scientific Computing 26 (2005).
-fn exact_dot(u: DVec3, v: DVec3) -> f64 {
+pub(super) fn exact_dot(u: DVec3, v: DVec3) -> f64 {
     let mut sum = u.x * v.x;
     let mut error = u.x.mul_add(v.x, -sum);
     for (a, b) in [(u.y, v.y), (u.z, v.z)] {

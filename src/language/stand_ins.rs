@@ -98,14 +98,14 @@ fn thin(Plane(frame): &Plane) -> Option<Cuboid> {
     let [across, up, ahead] = numbers.columns();
     let [x, y, _] = numbers.directions;
     let normal = normalise(x.cross(y))?;
-    let corner = numbers.origin - across - up;
     let (width, height) = (2.0 * numbers.lengths.x, 2.0 * numbers.lengths.y);
-    let depth = THIN * width.min(height);
-    // In the order of a right-handed frame.
-    let (axes, sizes) = if 0.0 < normal.dot(ahead) {
-        ([y, x, -normal], DVec3::new(height, width, depth))
+    let thickness = THIN * width.min(height);
+    // Right-handed, with the last edge away from the face.
+    let (directions, sizes) = if 0.0 < normal.dot(ahead) {
+        ([y, x, -normal], DVec3::new(height, width, thickness))
     } else {
-        ([x, y, normal], DVec3::new(width, height, depth))
+        ([x, y, normal], DVec3::new(width, height, thickness))
     };
-    Some(Cuboid(Affine::new(corner, axes, sizes)?))
+    let corner = numbers.origin - across - up;
+    Some(Cuboid(Affine::new(corner, directions, sizes)?))
 }

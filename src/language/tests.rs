@@ -13,7 +13,7 @@ use std::sync::Arc;
 use super::losses::Losses;
 use super::{Language, Lowered, Source, alike};
 use crate::scene::{Meshes, Scene};
-use crate::text::{Diagnostic, Position, Span};
+use crate::text::{Diagnostic, Findings, Position, Span};
 
 /// Parses and lowers a text.
 pub(super) fn read_as(language: Language, text: &str, meshes: &Meshes) -> (Source, Lowered) {
@@ -37,8 +37,8 @@ pub(super) fn shown(text: &str, lowered: &Lowered) -> Vec<String> {
 }
 
 /// The scene of a text written again in its own language, as though that were another one, and the
-/// number of losses.
-pub(super) fn rewritten(source: &Source, scene: &Scene) -> (String, Scene, usize) {
+/// losses.
+pub(super) fn rewritten(source: &Source, scene: &Scene) -> (String, Scene, Findings) {
     let language = source.language();
     let mut losses = Losses::new(source, scene, language);
     let text = language.write(scene, &mut losses);
@@ -46,7 +46,7 @@ pub(super) fn rewritten(source: &Source, scene: &Scene) -> (String, Scene, usize
     let said = shown(&text, &lowered);
     let again = lowered.scene.unwrap_or_else(|| panic!("{text}\n{said:#?}"));
     alike::report(scene, &again, &mut losses);
-    (text, again, losses.into_findings().warnings())
+    (text, again, losses.into_findings())
 }
 
 /// Steele, Lea and Flood's `SplitMix64`: random enough for tests, and reproducible.

@@ -4,6 +4,7 @@ mod arguments;
 mod bench;
 mod comparing;
 mod config;
+mod converting;
 mod explaining;
 mod frames;
 mod keys;

@@ -163,7 +163,11 @@ fn objects(text: &mut String, scene: &Scene, materials: &[Coefficients], losses:
         written.push_str("\nsphere\n");
         number(&mut written, behind.x);
         numbers(&mut written, [behind.y, behind.z, eye.distance(target)]);
-        one_material(&mut written, &Coefficients::default());
+        let black = Coefficients {
+            index: 1.0,
+            ..Coefficients::default()
+        };
+        one_material(&mut written, &black);
     }
     let _ = write!(text, "{count}  // objects\n{written}");
 }

@@ -101,7 +101,7 @@ fn a_written_scene_gives_the_same_picture() {
         let (source, lowered) = read(&text);
         let scene = lowered.scene.expect("it has no errors");
         let (written, again, losses) = rewritten(&source, &scene);
-        assert_eq!(losses, 0, "{text}\n\n{written}");
+        assert_eq!(*losses, [], "{text}\n\n{written}");
         assert!(again.objects == scene.objects, "{text}\n\n{written}");
         assert_eq!(again.lights, scene.lights);
         assert_eq!(again.camera, scene.camera);
