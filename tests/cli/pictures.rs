@@ -250,7 +250,7 @@ fn an_exposure_of_0_changes_no_byte_and_one_stop_doubles() {
         ));
         place.read(output)
     };
-    for output in ["a.ppm", "a.exr"] {
+    for output in ["a.ppm", "a.hdr"] {
         let plain = rendered("", output);
         assert_eq!(plain, rendered("--exposure 0", output), "{output}");
         assert_ne!(plain, rendered("--exposure -1", output), "{output}");
