@@ -121,9 +121,8 @@ fn pairs(axis: DVec3) -> impl Iterator<Item = Pair> {
             let is_known = 0 < rank && length == short;
             0.0 < length && length.is_finite() && !is_known
         });
-    let about = normalise(axis);
     lengths.flat_map(move |(_, length)| {
-        let units = about.into_iter().flat_map(neighbours);
+        let units = neighbours(axis / length);
         let fitting = units.filter(move |&unit| length * unit == axis);
         fitting.filter_map(move |unit| {
             let direction = direction(unit)?;

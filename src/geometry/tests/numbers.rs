@@ -55,6 +55,6 @@ fn most_frames_of_any_directions_are_found_again_to_the_last_bit() {
         let unit = normalise(directions[0]).expect("it is no zero");
         vectors += usize::from(normalise(direction_of(unit)) == Some(unit));
     }
-    assert!(750 < found, "{found}");
+    assert!(900 < found, "{found}");
     assert!(990 < vectors, "{vectors}");
 }
