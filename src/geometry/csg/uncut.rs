@@ -56,3 +56,39 @@ impl Csg {
         boxes
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use glam::DVec3;
+
+    use super::*;
+    use crate::geometry::{Node, Sphere};
+
+    #[test]
+    fn unions_keep_both_operands_and_cuts_one() {
+        let ball = |tag: u32| Node::Leaf {
+            solid: Solid::Sphere(Sphere {
+                centre: DVec3::ZERO,
+                radius: f64::from(1 + tag),
+            }),
+            tag,
+        };
+        let combined = |operation, [first, second]: [u32; 2]| Node::Operation {
+            operation,
+            first,
+            second,
+        };
+        for (last, kept) in [
+            (combined(Operation::Union, [2, 3]), vec![0, 2]),
+            (combined(Operation::Difference, [2, 3]), vec![0]),
+            (combined(Operation::Difference, [3, 2]), vec![2]),
+            (combined(Operation::Intersection, [3, 2]), vec![0]),
+        ] {
+            // The second of them is cut away from the first.
+            let cut = combined(Operation::Difference, [0, 1]);
+            let csg = Csg::new(vec![ball(0), ball(1), cut, ball(2), last]);
+            let tags: Vec<_> = csg.uncut().into_iter().map(|(_, tag)| tag).collect();
+            assert_eq!(tags, kept);
+        }
+    }
+}

@@ -92,9 +92,14 @@ fn attribute(text: &mut String, name: &str, number: f64) {
     text.push('"');
 }
 
-/// Writes an attribute of any content that XML can hold.
+/// Writes an attribute. What XML cannot hold becomes a blank.
 fn word(text: &mut String, name: &str, word: &str) {
-    let word = word.replace(|c: char| c.is_control() && !c.is_ascii_whitespace(), " ");
+    let is_foreign = |c: char| match c {
+        '\t' | '\n' | '\r' => false,
+        '\u{FFFE}' | '\u{FFFF}' => true,
+        c => c.is_ascii_control(),
+    };
+    let word = word.replace(is_foreign, " ");
     // Writing to a string cannot fail.
     let _ = write!(text, " {name}=\"{}\"", escaped(&word, '"'));
 }
