@@ -157,6 +157,23 @@ fn is_moved(source: &Source, (course, camera): (&CameraTrack, &Camera), field: u
 }
 
 impl Bound {
+    /// The tracks that set a field of the text or a component of it: their indices in
+    /// [`Track::fields`], and the component if only that is set.
+    pub(super) fn tracks_of(
+        &self,
+        node: Node,
+        field: usize,
+    ) -> impl Iterator<Item = (usize, Option<usize>)> {
+        let fields = self.fields.iter().enumerate();
+        let own = fields.filter(move |(_, bound)| (bound.node, bound.place.field) == (node, field));
+        own.map(|(index, bound)| (index, bound.place.component))
+    }
+
+    /// Whether it moves the camera.
+    pub fn moves_camera(&self) -> bool {
+        self.camera.is_some()
+    }
+
     /// The edits that make the text show a frame, sorted and disjoint. The text must be as it was
     /// bound, and lowered.
     pub fn edits(&self, source: &Source, frame: u32) -> Vec<Edit> {

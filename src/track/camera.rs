@@ -106,6 +106,34 @@ impl Parameter {
         allowed && (self != Self::Up || numbers.iter().any(|&number| number != 0.0))
     }
 
+    /// Its value in a camera, `base` being that of the scene; `None` if the camera has another kind of
+    /// lens. The inverse of [`CameraTrack::at`].
+    pub(super) fn of(self, camera: &Camera, base: &Camera) -> Option<Vec<f64>> {
+        let axis = camera.up.normalize_or(DVec3::Y);
+        let parts = |camera: &Camera| {
+            let from = camera.eye - camera.target;
+            let rise = from.dot(axis);
+            (from, rise, from - rise * axis)
+        };
+        let (from, rise, across) = parts(camera);
+        let number = match (self, camera.lens) {
+            (Self::Eye, _) => return Some(camera.eye.to_array().to_vec()),
+            (Self::Target, _) => return Some(camera.target.to_array().to_vec()),
+            (Self::Up, _) => return Some(camera.up.to_array().to_vec()),
+            (Self::Fov, Lens::Perspective(fov)) => fov,
+            (Self::Height, Lens::Orthographic(height)) => height,
+            (Self::Fov | Self::Height, _) => return None,
+            (Self::Distance, _) => from.length(),
+            (Self::Elevation, _) => libm::atan2(rise, across.length()).to_degrees(),
+            (Self::Azimuth, _) => {
+                let (.., start) = parts(base);
+                let turned = axis.dot(start.cross(across));
+                libm::atan2(turned, start.dot(across)).to_degrees()
+            }
+        };
+        Some(vec![number])
+    }
+
     const fn range(self) -> Range {
         match self {
             Self::Eye | Self::Target | Self::Up | Self::Azimuth => Range::Any,

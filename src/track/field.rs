@@ -29,26 +29,8 @@ impl Place {
 
 /// Finds a field of a thing: `position`, `position y`, or `rotate 2` of several with one name.
 pub(super) fn find(thing: &str, fields: &[Placed], wanted: &Named) -> Result<Place, Diagnostic> {
-    let mut counts: BTreeMap<&str, usize> = BTreeMap::new();
-    for placed in fields {
-        *counts.entry(placed.field.key).or_default() += 1;
-    }
-    let mut numbers: BTreeMap<&str, usize> = BTreeMap::new();
-    let mut names = Vec::new();
-    for (at, placed) in fields.iter().enumerate() {
-        let key = placed.field.key;
-        let number = numbers.entry(key).or_default();
-        *number += 1;
-        let name = match counts.get(key) {
-            Some(1) | None => key.to_owned(),
-            Some(_) => format!("{key} {number}"),
-        };
-        let components = placed.field.kind.component_names().iter().enumerate();
-        for (component, word) in components.filter(|(_, word)| !word.is_empty()) {
-            names.push((format!("{name} {word}"), at, Some(component)));
-        }
-        names.push((name, at, None));
-    }
+    let counts = counts(fields);
+    let names = names(fields);
     let found = names.iter().find(|(name, ..)| *name == wanted.name);
     if let Some(&(_, field, component)) = found {
         return Ok(Place { field, component });
@@ -71,6 +53,44 @@ pub(super) fn find(thing: &str, fields: &[Placed], wanted: &Named) -> Result<Pla
     })
 }
 
+/// The number of fields with each name.
+fn counts(fields: &[Placed]) -> BTreeMap<&str, usize> {
+    let mut counts = BTreeMap::new();
+    for placed in fields {
+        *counts.entry(placed.field.key).or_default() += 1;
+    }
+    counts
+}
+
+/// The names of all fields and components, with their places.
+fn names(fields: &[Placed]) -> Vec<(String, usize, Option<usize>)> {
+    let counts = counts(fields);
+    let mut numbers: BTreeMap<&str, usize> = BTreeMap::new();
+    let mut names = Vec::new();
+    for (at, placed) in fields.iter().enumerate() {
+        let key = placed.field.key;
+        let number = numbers.entry(key).or_default();
+        *number += 1;
+        let name = match counts.get(key) {
+            Some(1) | None => key.to_owned(),
+            Some(_) => format!("{key} {number}"),
+        };
+        let components = placed.field.kind.component_names().iter().enumerate();
+        for (component, word) in components.filter(|(_, word)| !word.is_empty()) {
+            names.push((format!("{name} {word}"), at, Some(component)));
+        }
+        names.push((name, at, None));
+    }
+    names
+}
+
+/// The name of a field, or of one of its components.
+pub(super) fn name_of(fields: &[Placed], field: usize, component: Option<usize>) -> String {
+    let mut names = names(fields).into_iter();
+    let named = names.find(|(_, at, own)| (*at, *own) == (field, component));
+    named.map_or_else(String::new, |(name, ..)| name)
+}
+
 /// Checks the values that keys give to a field.
 pub(super) fn check(
     source: &Source,
@@ -82,7 +102,7 @@ pub(super) fn check(
     let field = placed.field;
     let what = format!("{} {}", source.name(node), field.key);
     let first = keys.iter().next();
-    let first = first.map(|key| count(&key.value)).unwrap_or_default();
+    let first = first.map(|key| key.value.count()).unwrap_or_default();
     for key in keys.iter() {
         let checked = match &key.value {
             Value::Numbers(numbers) if field.kind.is_numeric() => {
@@ -91,7 +111,7 @@ pub(super) fn check(
             Value::Numbers(numbers) => check_id(source, (node, field), numbers),
             Value::Word(word) => check_word(source, (node, field), word),
         };
-        let own = count(&key.value);
+        let own = key.value.count();
         let checked = checked.and_then(|()| {
             let wrong = || (format!("has {}", numbers(own)), numbers(first));
             (own == first).then_some(()).ok_or_else(wrong)
@@ -105,13 +125,6 @@ pub(super) fn check(
 
 /// What is wrong with a value, and what was expected.
 type Wrong = (String, String);
-
-fn count(value: &Value) -> usize {
-    match value {
-        Value::Numbers(numbers) => numbers.len(),
-        Value::Word(_) => 1,
-    }
-}
 
 fn numbers(count: usize) -> String {
     counted(count, "number")

@@ -13,6 +13,14 @@ pub enum Value {
 }
 
 impl Value {
+    /// The number of its numbers; 1 of a word.
+    pub(super) fn count(&self) -> usize {
+        match self {
+            Self::Numbers(numbers) => numbers.len(),
+            Self::Word(_) => 1,
+        }
+    }
+
     /// The value a fraction of the way to another one, from 0 to below 1. Words stay.
     #[must_use]
     pub fn towards(&self, other: &Self, way: f64) -> Self {
@@ -66,6 +74,13 @@ impl Keys {
     /// The keys.
     pub fn iter(&self) -> impl Iterator<Item = &Key> {
         self.0.iter()
+    }
+
+    /// The easing that a new key at a frame takes over: that of the key before, or of the first.
+    pub(super) fn easing_for(&self, frame: u32) -> Easing {
+        let after = self.0.partition_point(|key| key.frame < frame);
+        let neighbour = self.0.get(after.saturating_sub(1));
+        neighbour.map(|key| key.easing).unwrap_or_default()
     }
 
     /// The value at a frame: that of a key at its frame, in between as the easing of the key before

@@ -2,13 +2,14 @@
 //! names them, and the camera, at some frames; between these the values are interpolated.
 //!
 //! A [`Track`] is what its file says, [`bind()`] relates it to a scene's text, and a [`Bound`] track makes
-//! the edits of that text that show a frame. So a frame is a scene like any other. Knows no files,
-//! and not how frames are rendered or shown.
+//! the edits of that text that show a frame. So a frame is a scene like any other. Values are also keyed
+//! in the track's own text. Knows no files, and not how frames are rendered or shown.
 
 mod bind;
 mod camera;
 mod easing;
 mod field;
+mod keying;
 mod keys;
 mod read;
 mod table;
@@ -16,11 +17,14 @@ mod table;
 mod tests;
 mod thing;
 
+use std::collections::BTreeSet;
+
 use crate::text::Span;
 
 pub use bind::{Bound, bind};
 pub use camera::{CameraTrack, Movement, Parameter};
 pub use easing::Easing;
+pub use keying::{BEGUN, Keyed, Unkeyed, key_camera, key_field};
 pub use keys::{Key, Keys, Value};
 pub use read::{MAX_FRAMES, RATES, read};
 
@@ -46,6 +50,23 @@ pub struct FieldTrack {
     pub field: Named,
     /// Its values.
     pub keys: Keys,
+}
+
+impl Track {
+    /// The names of what it sets, each with the frames that have keys, ascending.
+    pub fn rows(&self) -> impl Iterator<Item = (String, Vec<u32>)> {
+        let frames = |keys: &Keys| keys.iter().map(|key| key.frame).collect();
+        let camera = self.camera.iter().map(|camera| {
+            let keys = camera.parameters.iter().flat_map(|(_, keys)| keys.iter());
+            let frames: BTreeSet<u32> = keys.map(|key| key.frame).collect();
+            ("camera".to_owned(), frames.into_iter().collect())
+        });
+        let fields = self.fields.iter().map(move |track| {
+            let name = format!("{} {}", track.thing.name, track.field.name);
+            (name, frames(&track.keys))
+        });
+        camera.chain(fields)
+    }
 }
 
 /// A name with its place in the track file.

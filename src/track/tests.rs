@@ -1,3 +1,5 @@
+mod keying;
+
 use std::sync::Arc;
 
 use glam::DVec3;

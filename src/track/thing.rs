@@ -2,7 +2,7 @@
 
 use super::Named;
 use crate::language::{Node, Source};
-use crate::text::{Diagnostic, alternatives, nearest_word};
+use crate::text::{Diagnostic, Span, alternatives, nearest_word};
 
 /// How many names a message lists.
 const MOST_LISTED: usize = 6;
@@ -43,6 +43,23 @@ pub(super) fn find(source: &Source, names: &[&Named]) -> Vec<Result<Node, Diagno
     found
         .map(|(wanted, found)| only(source, wanted, found))
         .collect()
+}
+
+/// The shortest name by which [`find`] finds a thing.
+pub(super) fn name_of(source: &Source, node: Node) -> String {
+    let full = source.name(node);
+    let names = [
+        without_kind(&full).to_owned(),
+        full.clone(),
+        node.to_string(),
+    ];
+    let named = names.clone().map(|name| Named {
+        name,
+        span: Span::default(),
+    });
+    let found = find(source, &named.each_ref());
+    let first = found.iter().position(|found| *found == Ok(node));
+    names.into_iter().nth(first.unwrap_or(2)).unwrap_or(full)
 }
 
 /// The only thing that a name means.
