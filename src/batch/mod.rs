@@ -104,9 +104,9 @@ pub enum Error {
         /// What is wrong with it.
         source: Unreadable,
     },
-    /// A picture does not say what it is made from.
-    #[error("{} does not say what it is made from", .0.display())]
-    NoProvenance(PathBuf),
+    /// A picture does not say what it is made from; whether it could.
+    #[error("{} does not say what it is made from{}", .0.display(), if *.1 { "" } else { ": only PNG and EXR do" })]
+    NoProvenance(PathBuf, bool),
     /// The picture file cannot be created.
     #[error("{path}: {source}", path = path.display())]
     Create {

@@ -1,15 +1,15 @@
 //! Shows what a picture is made from, as its file says.
 
 use std::fmt::Write;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use super::{Error, Verdict, Warnings, load, print_error, stdout};
 use crate::assets::{self, fingerprint};
 use crate::file;
-use crate::image_file;
+use crate::image_file::{self, ImageFormat, Unreadable};
 use crate::memory;
 use crate::render::{Aov, Provenance};
-use crate::text::visible;
+use crate::text::{shell_path, shell_word, visible};
 
 /// A picture to show the origin of.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -30,31 +30,45 @@ pub fn show(work: &Show) -> Result<Verdict, Error> {
 fn try_show(work: &Show) -> Result<Verdict, Error> {
     assets::check_folders(&work.assets)?;
     let path = &work.picture;
-    let file = file::open(path)?;
-    let provenance = image_file::provenance(file).map_err(|source| Error::Picture {
-        path: path.clone(),
-        source,
-    })?;
-    let provenance = provenance.ok_or_else(|| Error::NoProvenance(path.clone()))?;
+    let provenance = match image_file::provenance(file::open(path)?) {
+        Ok(Some(provenance)) => provenance,
+        Ok(None) => return Err(Error::NoProvenance(path.clone(), true)),
+        Err(Unreadable::Unknown) => return Err(Error::NoProvenance(path.clone(), false)),
+        Err(source) => {
+            let path = path.clone();
+            return Err(Error::Picture { path, source });
+        }
+    };
+    let is_same = match &work.scene {
+        None => None,
+        Some(scene) => {
+            memory::start_threads_or_none();
+            let loaded = load(scene, &work.assets, Warnings::Allowed)?;
+            let digest = fingerprint(loaded.source.text(), &loaded.read.found)?;
+            Some(digest == provenance.scene)
+        }
+    };
     let mut text = entries(&provenance);
-    if let Some(line) = command_line(work, &provenance) {
+    if is_same != Some(false)
+        && let Some(line) = command_line(work, &provenance)
+    {
         text += &line;
     }
-    let mut verdict = Verdict::Alike;
-    if let Some(scene) = &work.scene {
-        memory::start_threads_or_none();
-        let loaded = load(scene, &work.assets, Warnings::Allowed)?;
-        let digest = fingerprint(loaded.source.text(), &loaded.read.found)?;
-        let is = if digest == provenance.scene {
+    if let (Some(scene), Some(is_same)) = (&work.scene, is_same) {
+        let is = if is_same {
             "is the scene of this picture"
         } else {
-            verdict = Verdict::Different;
-            "is another scene, or its text or a file that it names has changed"
+            "is not the scene of this picture: it is another one, or its text or a file that it names \
+             has changed, or the picture is a frame of a track"
         };
+        // Writing to a string cannot fail.
         let _ = writeln!(text, "{} {is}", visible(&scene.to_string_lossy()));
     }
     stdout::print(&text).map_err(stdout::error)?;
-    Ok(verdict)
+    Ok(match is_same {
+        Some(false) => Verdict::Different,
+        None | Some(true) => Verdict::Alike,
+    })
 }
 
 /// All entries, a line each.
@@ -63,7 +77,7 @@ fn entries(provenance: &Provenance) -> String {
     let mut text = String::new();
     for (name, value) in provenance.written().into_iter().chain([spp]) {
         // Writing to a string cannot fail.
-        let _ = writeln!(text, "{name:<12}{value}");
+        let _ = writeln!(text, "{name:<12}{}", visible(&value));
     }
     text
 }
@@ -74,12 +88,18 @@ fn command_line(work: &Show, provenance: &Provenance) -> Option<String> {
     if matches!(provenance.settings.aov, Some(Aov::Direct(_))) {
         return None;
     }
-    let name = |path: &PathBuf| visible(&path.to_string_lossy()).into_owned();
-    let scene = work.scene.as_ref().map_or_else(|| "SCENE".to_owned(), name);
-    let mut line = format!(
-        "again       halflight render {scene} -o {}",
-        name(&work.picture)
-    );
+    let scene = work.scene.as_deref();
+    let scene = scene
+        .and_then(argument)
+        .unwrap_or_else(|| "SCENE".to_owned());
+    let is_named = ImageFormat::of_path(&work.picture).is_some();
+    let picture = argument(&work.picture).filter(|_| is_named);
+    let picture = picture.unwrap_or_else(|| "PICTURE".to_owned());
+    let mut line = format!("again       halflight render {scene} -o {picture}");
+    for folder in &work.assets {
+        let folder = argument(folder).unwrap_or_else(|| "FOLDER".to_owned());
+        let _ = write!(line, " --assets {folder}");
+    }
     let spp = ("spp", provenance.settings.spp.to_string());
     for (option, value) in provenance.written().into_iter().chain([spp]) {
         let is_default = matches!(
@@ -89,12 +109,19 @@ fn command_line(work: &Show, provenance: &Provenance) -> Option<String> {
         if is_default {
             continue;
         }
+        // Others are of letters, digits and what means nothing to a shell.
         let value = if value.contains(' ') {
-            format!("\"{value}\"")
+            shell_word(&value)
         } else {
-            value
+            value.as_str().into()
         };
         let _ = write!(line, " --{option} {value}");
     }
     Some(line + "\n")
+}
+
+/// A path as an argument in a shell; `None` if it cannot be printed as it is.
+fn argument(path: &Path) -> Option<String> {
+    let path = path.to_str().filter(|path| visible(path) == *path)?;
+    Some(shell_path(path))
 }

@@ -185,7 +185,7 @@ fn failure_code(error: &batch::Error) -> u8 {
         | Error::Incomplete
         | Error::Unconverted { .. }
         | Error::Picture { .. }
-        | Error::NoProvenance(_) => INVALID,
+        | Error::NoProvenance(..) => INVALID,
         Error::Refused(_) => USAGE,
         Error::Create { .. } => NO_OUTPUT,
         Error::Part { source, .. } => match source {

@@ -15,7 +15,9 @@ Examples:
 PNG and EXR say what they are made from; other formats cannot. The digest is the SHA-256 of the scene's \
 text and of all files that it names.
 
-Exit code 1 means that the picture is of another scene.";
+A frame of --track is made from a text of its own, which is never that of the scene.
+
+Exit code 1 means that the picture is not of this scene as it is now.";
 
 #[derive(Args, Debug)]
 pub(super) struct ShowArguments {

@@ -43,12 +43,17 @@ fn of_text(text: &str) -> Option<Provenance> {
 ///
 /// # Errors
 ///
-/// Fails if it is neither a PNG nor an EXR, or damaged before its pixels.
+/// Fails if it is neither a PNG nor an EXR, or damaged before its pixels, or says it in a way that
+/// this version does not know.
 pub fn provenance(file: impl Read + Seek) -> Result<Option<Provenance>, Unreadable> {
     // As for pixels, decoders run on untrusted bytes.
     let read = panic::catch_unwind(AssertUnwindSafe(|| stored_text(file)));
     let text = read.unwrap_or_else(|_| Err(Unreadable::Broken("its decoder failed".to_owned())))?;
-    Ok(text.as_deref().and_then(of_text))
+    let read = |text: String| {
+        let foreign = || "what it says of itself is damaged, or of another version".to_owned();
+        of_text(&text).ok_or_else(|| Unreadable::Broken(foreign()))
+    };
+    text.map(read).transpose()
 }
 
 fn stored_text(mut file: impl Read + Seek) -> Result<Option<String>, Unreadable> {

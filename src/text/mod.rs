@@ -11,6 +11,7 @@ mod nearest;
 mod number;
 mod percentage;
 mod seek;
+mod shell;
 mod span;
 mod visible;
 
@@ -27,5 +28,6 @@ pub use number::{
 };
 pub use percentage::percentage;
 pub use seek::first_byte;
+pub use shell::{shell_path, shell_word, shell_words};
 pub use span::{Position, Span, mark_len};
 pub use visible::visible;

@@ -12,6 +12,8 @@ use std::io;
 use std::path::{Component, Path, PathBuf};
 use std::process::{Command, ExitStatus};
 
+use crate::text::shell_words;
+
 /// The editor if neither variable is set.
 const DEFAULT: &str = "vi";
 
@@ -130,7 +132,7 @@ fn words(command: &str) -> Result<Vec<String>, String> {
     if Path::new(command).is_absolute() && Path::new(command).is_file() {
         return Ok(vec![command.to_owned()]);
     }
-    shlex::split(command).ok_or_else(|| format!("`{command}` has an unmatched quote"))
+    shell_words(command).ok_or_else(|| format!("`{command}` has an unmatched quote"))
 }
 
 /// The absolute path of a file, with single slashes.

@@ -4,11 +4,9 @@ mod asking;
 mod pixels;
 mod play;
 
-use std::borrow::Cow;
 use std::collections::VecDeque;
 use std::io;
 use std::mem;
-use std::path::Path;
 use std::sync::mpsc::{self, Receiver, RecvTimeoutError};
 use std::time::{Duration, Instant};
 
@@ -24,7 +22,7 @@ use super::recovery::End;
 use super::script::Script;
 use super::terminal::{self, Budget, Choice, ColourDepth, Link, Reply};
 use super::view::{self, Inks};
-use crate::text;
+use crate::text::{self, shell_path};
 use pixels::{Known, Manner};
 
 /// Minimum time between two drawings that only refine the picture.
@@ -195,7 +193,9 @@ impl Session {
     fn close(mut self) -> Result<Ending, Error> {
         let unreadable = self.app.disk.take_failure();
         let path = self.app.disk.path.as_deref();
-        let path = path.map_or_else(String::new, |path| format!(" {}", argument(path)));
+        let path = path.map_or_else(String::new, |path| {
+            format!(" {}", shell_path(&path.to_string_lossy()))
+        });
         // The end of the process frees a large scene immediately.
         mem::forget(self.app);
         let (terminal, files) = patience(self.ending);
@@ -371,17 +371,6 @@ impl Session {
     }
 }
 
-/// A path quoted for a shell command line.
-fn argument(path: &Path) -> String {
-    let mut path = path.to_string_lossy();
-    if path.starts_with('-') {
-        path = format!("./{path}").into();
-    }
-    // Only NUL cannot be quoted, and paths contain none.
-    let quoted = shlex::try_quote(&path).unwrap_or(Cow::Borrowed(&path));
-    quoted.into_owned()
-}
-
 /// Time limits for restoring the terminal and for writing files. A user who quits may be at the far
 /// end of a slow link, but should not wait a second for a terminal that takes no output; a file
 /// being saved gets longer. A terminal that hung up is not waited for.
@@ -404,23 +393,5 @@ fn ending(msg: &Msg) -> Ending {
         Msg::Terminate { signal } => Ending::Terminated { signal: *signal },
         Msg::HangUp => Ending::HungUp,
         _ => Ending::Quit,
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_path_is_quoted_for_a_shell() {
-        for (path, typed) in [
-            ("a/b.ray", "a/b.ray"),
-            ("my scene.ray", "'my scene.ray'"),
-            ("it's.ray", "\"it's.ray\""),
-            ("$(a).ray", "'$(a).ray'"),
-            ("-x.ray", "./-x.ray"),
-        ] {
-            assert_eq!(argument(Path::new(path)), typed);
-        }
     }
 }

@@ -46,7 +46,87 @@ fn a_picture_says_how_to_render_it_again() {
     place.write("ball.ray", format!("{BALL}// a comment\n"));
     let (code, said) = place.shown("a.png ball.ray");
     assert_eq!(code, Some(1));
-    assert!(said.contains("is another scene, or its text"), "{said}");
+    assert!(
+        said.contains("ball.ray is not the scene of this picture: "),
+        "{said}"
+    );
+    assert!(!said.contains("again"), "{said}");
+}
+
+/// Names that came from elsewhere may be pasted into a shell.
+#[test]
+fn the_command_is_safe_in_a_shell() {
+    let place = Place::new();
+    place.stderr("render ball.ray -o a.png --size 8x6 --spp 1", 0);
+    let again = |arguments: &[&str]| {
+        let mut command = place.command("show");
+        let output = command.args(arguments).output().expect("it runs");
+        assert_eq!(output.status.code(), Some(0), "{output:?}");
+        let said = String::from_utf8(output.stdout).expect("UTF-8");
+        let line = said
+            .lines()
+            .find_map(|line| line.strip_prefix("again       halflight "));
+        let (command, _) = line
+            .expect("the command")
+            .split_once(" --size")
+            .expect("a size");
+        command.to_owned()
+    };
+    for (picture, expected) in [
+        ("a;touch x;#.png", "render SCENE -o 'a;touch x;#.png'"),
+        ("$(touch x).png", "render SCENE -o '$(touch x).png'"),
+        ("a\ntouch x\n.png", "render SCENE -o PICTURE"),
+        ("\x1b[31m.png", "render SCENE -o PICTURE"),
+        ("a.other", "render SCENE -o PICTURE"),
+    ] {
+        place.write(picture, place.read("a.png"));
+        assert_eq!(again(&[picture]), expected);
+    }
+    place.write("-a.png", place.read("a.png"));
+    place.write("my `ball`.ray", BALL);
+    assert_eq!(
+        again(&["--assets", ".", "--", "-a.png", "my `ball`.ray"]),
+        "render 'my `ball`.ray' -o ./-a.png --assets ."
+    );
+}
+
+/// A PNG of one pixel with this text in it.
+fn forged(text: &str) -> Vec<u8> {
+    let mut bytes = Vec::new();
+    let mut encoder = png::Encoder::new(&mut bytes, 1, 1);
+    encoder
+        .add_text_chunk("halflight".to_owned(), text.to_owned())
+        .expect("a text");
+    let mut writer = encoder.write_header().expect("a header");
+    writer.write_image_data(&[0]).expect("a pixel");
+    writer.finish().expect("an end");
+    bytes
+}
+
+#[test]
+fn forged_origins_control_no_terminal() {
+    let place = Place::new();
+    let origin = "view own\nlayers none\nsize 8x6\nregion none\ndepth 8\nseed 0\naov none\n\
+                  integrator whitted\nfilter box\ntransfer linear\nexposure 0\nspp 1\n";
+    place.write(
+        "a.png",
+        forged(&format!("version 9\x1b[31m\nscene \x1b]0;x\x07\n{origin}")),
+    );
+    let (code, said) = place.shown("a.png");
+    assert_eq!(code, Some(0), "{said}");
+    assert!(
+        said.starts_with("version     9\\u{1b}[31m\nscene       \\u{1b}]0;x\\u{7}\n"),
+        "{said}"
+    );
+    place.write(
+        "b.png",
+        forged(&format!("version 1\nscene 0\nnew 1\n{origin}")),
+    );
+    let said = place.stderr("show b.png", 65);
+    assert!(
+        said.contains("b.png is not a valid picture: what it says of itself is damaged"),
+        "{said}"
+    );
 }
 
 #[test]
@@ -65,7 +145,7 @@ fn another_view_is_said_and_rendered_again() {
     assert!(turned != place.read("own.png"));
     let (_, said) = place.shown("a.png");
     assert!(said.contains("view        eye 5 0.1 0 fov 30\n"), "{said}");
-    assert!(said.contains(" --view \"eye 5 0.1 0 fov 30\""), "{said}");
+    assert!(said.contains(" --view 'eye 5 0.1 0 fov 30'"), "{said}");
     assert!(with_view("b.png", "eye 5 0.1 0 fov 30") == turned);
     // Frames of a turntable say theirs.
     place.stderr(&format!("{line} -o t%d.png --turntable 4"), 0);
@@ -171,7 +251,11 @@ fn pictures_that_say_nothing_are_refused() {
     place.stderr("render ball.ray -o a.bmp --spp 1", 0);
     place.write("bad.png", b"\x89PNG\r\n\x1a\nnothing");
     for (picture, code, expected) in [
-        ("a.bmp", 65, "a.bmp is not in a supported picture format"),
+        (
+            "a.bmp",
+            65,
+            "a.bmp does not say what it is made from: only PNG and EXR do",
+        ),
         ("bad.png", 65, "bad.png is not a valid picture: "),
         ("none.png", 66, "none.png: no such file"),
     ] {

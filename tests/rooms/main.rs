@@ -118,7 +118,7 @@ const DEPENDENCIES: &[(&str, &str)] = &[
     ("rustix", "assets batch file memory render ui"),
     ("serde_json", "batch"),
     ("sha2", "file"),
-    ("shlex", "ui"),
+    ("shlex", "text"),
     ("signal_hook", "batch ui"),
     ("signal_hook_registry", "ui"),
     ("similar", "document"),
