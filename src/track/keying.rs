@@ -1,31 +1,20 @@
-//! Keys written into the text of a track file, in the style of their neighbours.
+//! Keying present values: of fields, as the text of the scene states them, and of the camera.
 
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
 use super::camera::Parameter;
-use super::table::{integer, span_of};
-use super::{Bound, CameraTrack, Easing, MAX_FRAMES, Movement, Track, field, thing};
+use super::written::{Unkeyed, Written, appended, entry};
+use super::{Bound, CameraTrack, Easing, Movement, Track, field, thing};
 use crate::language::{Node, Placed, Source};
 use crate::scene::Camera;
-use crate::text::{Edit, Span, line_end, line_start, parse_number};
+use crate::text::{Edit, parse_number};
 
 /// What a track that is begun says of its length: two seconds.
 pub const BEGUN: &str = "frames = 48\nfps = 24\n";
 
 /// Significant digits of the numbers of a camera, which is moved by hand.
 const DIGITS: usize = 6;
-
-/// Why a value cannot be keyed.
-#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-pub enum Unkeyed {
-    /// The scene does not state the field.
-    #[error("the scene does not state its {0}: set it first")]
-    Unstated(&'static str),
-    /// The keys are not written as an array of inline tables.
-    #[error("these keys are not written as keys = [{{ frame = 0, … }}]: add one in an editor")]
-    NoArray,
-}
 
 /// A key for the text of a track file.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -113,8 +102,8 @@ pub fn key_camera(
     };
     let values = camera_values(track.camera.as_ref(), movement, [base, now], frame);
     let written = values.into_iter().map(|(parameter, numbers)| {
-        let numbers = numbers.into_iter().map(tidy).map(number).collect();
-        (parameter.name().to_owned(), list(numbers))
+        let numbers: Vec<_> = numbers.into_iter().map(tidy).map(number).collect();
+        (parameter.name().to_owned(), list(&numbers))
     });
     let values: Vec<_> = written.collect();
     let what = "the camera".to_owned();
@@ -188,13 +177,12 @@ fn value_of(
         return quoted(&literal(component.unwrap_or_default()));
     }
     let as_number = |at: usize| parse_number(&literal(at)).map_or_else(|_| literal(at), number);
-    match component {
-        Some(component) => as_number(component),
-        None => {
-            let most = count.unwrap_or(placed.spans.len()).min(placed.spans.len());
-            list((0..most).map(as_number).collect())
-        }
+    if let Some(component) = component {
+        return as_number(component);
     }
+    let most = count.unwrap_or(placed.spans.len()).min(placed.spans.len());
+    let numbers: Vec<_> = (0..most).map(as_number).collect();
+    list(&numbers)
 }
 
 /// A number as TOML, which parses to the same value.
@@ -215,8 +203,8 @@ fn tidy(number: f64) -> f64 {
 }
 
 /// Numbers as TOML: one alone, several in an array.
-fn list(numbers: Vec<String>) -> String {
-    match &numbers[..] {
+fn list(numbers: &[String]) -> String {
+    match numbers {
         [one] => one.clone(),
         several => format!("[{}]", several.join(", ")),
     }
@@ -228,187 +216,10 @@ fn quoted(text: &str) -> String {
     for character in text.chars() {
         match character {
             '"' | '\\' => quoted.extend(['\\', character]),
-            c if c.is_control() => quoted.push_str(&format!("\\u{:04X}", u32::from(c))),
+            c if c.is_control() => quoted.extend(format!("\\u{:04X}", u32::from(c)).chars()),
             c => quoted.push(c),
         }
     }
     quoted.push('"');
     quoted
-}
-
-/// The inline table of a key.
-fn entry(frame: u32, values: &[(String, String)], easing: Easing) -> String {
-    let mut entry = format!("{{ frame = {frame}");
-    for (name, value) in values {
-        entry.push_str(&format!(", {name} = {value}"));
-    }
-    if easing != Easing::default() {
-        entry.push_str(&format!(", easing = \"{}\"", easing.name()));
-    }
-    entry.push_str(" }");
-    entry
-}
-
-/// Appends a table, after a blank line.
-fn appended(text: &str, lines: &[&str]) -> Edit {
-    let end = line_break(text);
-    let is_ended = text.is_empty() || text.ends_with('\n');
-    let mut table = if is_ended {
-        String::new()
-    } else {
-        end.to_owned()
-    };
-    for line in [""].iter().chain(lines) {
-        table.push_str(line);
-        table.push_str(end);
-    }
-    Edit {
-        span: Span::at(text.len()),
-        text: table,
-    }
-}
-
-fn line_break(text: &str) -> &'static str {
-    if text.contains("\r\n") { "\r\n" } else { "\n" }
-}
-
-/// An array of keys as it is written.
-struct Written<'t> {
-    text: &'t str,
-    array: Span,
-    keys: Vec<WrittenKey>,
-}
-
-/// A key as it is written.
-struct WrittenKey {
-    frame: u32,
-    span: Span,
-    /// The names of its entries and the places of their values.
-    entries: Vec<(String, Span)>,
-}
-
-impl<'t> Written<'t> {
-    /// Finds the keys of a table.
-    fn of(text: &'t str, table: &Spanned<DeValue<'_>>) -> Result<Self, Unkeyed> {
-        let DeValue::Table(table) = table.get_ref() else {
-            return Err(Unkeyed::NoArray);
-        };
-        let value = table.get("keys").ok_or(Unkeyed::NoArray)?;
-        let DeValue::Array(array) = value.get_ref() else {
-            return Err(Unkeyed::NoArray);
-        };
-        let keys = array.iter().map(|key| WrittenKey::of(text, key));
-        let keys = keys.collect::<Option<Vec<_>>>().ok_or(Unkeyed::NoArray)?;
-        let span = span_of(value);
-        if !span.of(text).starts_with('[') || !span.of(text).ends_with(']') {
-            return Err(Unkeyed::NoArray);
-        }
-        Ok(Self {
-            text,
-            array: span,
-            keys,
-        })
-    }
-
-    /// The edits that key values at a frame: in the key that is there, or in a new one between its
-    /// neighbours.
-    fn edits(&self, frame: u32, values: &[(String, String)], easing: Easing) -> Vec<Edit> {
-        let at = self.keys.partition_point(|key| key.frame < frame);
-        match self.keys.get(at) {
-            Some(key) if key.frame == frame => key.edits(self.text, values),
-            Some(next) => {
-                let gap = self.indentation(next).unwrap_or_else(|| " ".to_owned());
-                let text = format!("{},{gap}", entry(frame, values, easing));
-                vec![insertion(next.span.start(), text)]
-            }
-            None => self.appended(&entry(frame, values, easing)),
-        }
-    }
-
-    /// The edits that append a key.
-    fn appended(&self, entry: &str) -> Vec<Edit> {
-        let Some(last) = self.keys.last() else {
-            return vec![insertion(self.array.start() + 1, entry.to_owned())];
-        };
-        let end = last.span.end();
-        let rest = &self.text[end..self.array.end() - 1];
-        let comma = rest.find(|c: char| !c.is_whitespace());
-        let comma = comma
-            .filter(|&at| rest[at..].starts_with(','))
-            .map(|at| end + at + 1);
-        let after = comma.unwrap_or(end);
-        // A comment behind the last key stays with it.
-        let line = line_end(self.text, after).min(self.array.end() - 1);
-        let behind = self.text[after..line].trim();
-        let is_own_line = behind.is_empty() || behind.starts_with('#');
-        match self.indentation(last).filter(|_| is_own_line) {
-            Some(gap) => {
-                let line = after + self.text[after..line].trim_end().len();
-                let closed = if comma.is_some() { "," } else { "" };
-                let text = format!("{gap}{entry}{closed}");
-                if comma.is_none() && line == end {
-                    return vec![insertion(end, format!(",{text}"))];
-                }
-                let comma = comma.is_none().then(|| insertion(end, ",".to_owned()));
-                comma.into_iter().chain([insertion(line, text)]).collect()
-            }
-            None if comma.is_some() => vec![insertion(after, format!(" {entry},"))],
-            None => vec![insertion(end, format!(", {entry}"))],
-        }
-    }
-
-    /// The line break and the indentation before a key that begins a line.
-    fn indentation(&self, key: &WrittenKey) -> Option<String> {
-        let start = line_start(self.text, key.span.start());
-        let before = &self.text[start..key.span.start()];
-        let begins = self.array.start() < start && before.trim().is_empty();
-        begins.then(|| format!("{}{before}", line_break(self.text)))
-    }
-}
-
-impl WrittenKey {
-    /// `None` if it is no inline table.
-    fn of(text: &str, key: &Spanned<DeValue<'_>>) -> Option<Self> {
-        let DeValue::Table(table) = key.get_ref() else {
-            return None;
-        };
-        let span = span_of(key);
-        let frame = integer(table.get("frame")?, [0, MAX_FRAMES]).ok()?;
-        let entries = table.iter();
-        let entries = entries.map(|(name, value)| (name.get_ref().to_string(), span_of(value)));
-        span.of(text).starts_with('{').then(|| Self {
-            frame,
-            span,
-            entries: entries.collect(),
-        })
-    }
-
-    /// The edits that give it values.
-    fn edits(&self, text: &str, values: &[(String, String)]) -> Vec<Edit> {
-        let mut edits = Vec::new();
-        let mut more = String::new();
-        for (name, value) in values {
-            match self.entries.iter().find(|(own, _)| own == name) {
-                Some(&(_, span)) if span.of(text) == value => {}
-                Some(&(_, span)) => edits.push(Edit {
-                    span,
-                    text: value.clone(),
-                }),
-                None => more.push_str(&format!(", {name} = {value}")),
-            }
-        }
-        if !more.is_empty() {
-            let end = self.entries.iter().map(|(_, span)| span.end()).max();
-            edits.extend(end.map(|end| insertion(end, more)));
-        }
-        edits.sort_by_key(|edit| edit.span);
-        edits
-    }
-}
-
-fn insertion(at: usize, text: String) -> Edit {
-    Edit {
-        span: Span::at(at),
-        text,
-    }
 }

@@ -16,6 +16,7 @@ mod table;
 #[cfg(test)]
 mod tests;
 mod thing;
+mod written;
 
 use std::collections::BTreeSet;
 
@@ -24,9 +25,10 @@ use crate::text::Span;
 pub use bind::{Bound, bind};
 pub use camera::{CameraTrack, Movement, Parameter};
 pub use easing::Easing;
-pub use keying::{BEGUN, Keyed, Unkeyed, key_camera, key_field};
+pub use keying::{BEGUN, Keyed, key_camera, key_field};
 pub use keys::{Key, Keys, Value};
 pub use read::{MAX_FRAMES, RATES, read};
+pub use written::Unkeyed;
 
 /// The content of a track file. Frames are numbered from 0.
 #[derive(Clone, Debug, Default, PartialEq)]

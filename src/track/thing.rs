@@ -7,6 +7,9 @@ use crate::text::{Diagnostic, Span, alternatives, nearest_word};
 /// How many names a message lists.
 const MOST_LISTED: usize = 6;
 
+/// The most characters of a comment that serves as a name.
+const LONGEST_COMMENT: usize = 30;
+
 /// The things that names may mean, best first.
 #[derive(Clone, Debug, Default)]
 struct Meanings {
@@ -45,10 +48,14 @@ pub(super) fn find(source: &Source, names: &[&Named]) -> Vec<Result<Node, Diagno
         .collect()
 }
 
-/// The shortest name by which [`find`] finds a thing.
+/// A name by which [`find`] finds a thing: a short comment, which does not change when things are added,
+/// or the shortest other one.
 pub(super) fn name_of(source: &Source, node: Node) -> String {
     let full = source.name(node);
+    let comment = source.comment(node).unwrap_or_default();
+    let is_short = !comment.is_empty() && comment.chars().count() <= LONGEST_COMMENT;
     let names = [
+        if is_short { comment } else { &full }.to_owned(),
         without_kind(&full).to_owned(),
         full.clone(),
         node.to_string(),
@@ -59,7 +66,7 @@ pub(super) fn name_of(source: &Source, node: Node) -> String {
     });
     let found = find(source, &named.each_ref());
     let first = found.iter().position(|found| *found == Ok(node));
-    names.into_iter().nth(first.unwrap_or(2)).unwrap_or(full)
+    first.map_or(full, |first| names[first].clone())
 }
 
 /// The only thing that a name means.

@@ -26,6 +26,7 @@ use super::recovery::{self, Edits, End, Keeper, Outcome, Request};
 use super::reference::ReferenceSource;
 use super::screen::Screen;
 use super::service::{Ended, Service};
+use super::tracks::TrackReader;
 use super::writing::Writers;
 use crate::render::{Job, Refusal, Renderer, Threads};
 
@@ -46,6 +47,7 @@ pub(crate) struct Runtime {
     keeper: Keeper,
     recent: Recent,
     assets: AssetReader,
+    tracks: TrackReader,
     references: References,
     figures: Figures,
     explainer: Explainer,
@@ -84,6 +86,7 @@ impl Runtime {
             keeper: Keeper::start(keeping(&sender))?,
             recent: remembering(&sender)?,
             assets: AssetReader::start(&options.assets, options.watching(), sending(&sender))?,
+            tracks: TrackReader::start(options.watching(), sending(&sender))?,
             references: References::start(&options.assets, sending(&sender))?,
             figures: Figures::start(sending(&sender))?,
             deriver: Deriver::start(&options.assets, sending(&sender))?,
@@ -226,6 +229,14 @@ impl Runtime {
             Effect::ListRecent => self.recent.list()?,
             Effect::KeepPanels(sizes) => self.recent.keep_panels(sizes)?,
             Effect::Watch(path) => self.reader.watch(path)?,
+            Effect::ReadTrack(path) => self.tracks.read(path, Work::begin(&self.sender))?,
+            Effect::WriteTrack { path, text, guard } => {
+                let started = self.writers.write_track(path, text, guard);
+                let refused = started
+                    .err()
+                    .map(|error| SaveOutcome::Failed(error.to_string()));
+                return Ok(refused.map(Msg::TrackWritten));
+            }
             Effect::Later(time, timer) => {
                 self.timers.retain(|&(_, set)| set != timer);
                 self.timers.push((Instant::now() + time, timer));

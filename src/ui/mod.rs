@@ -45,9 +45,11 @@ mod screen;
 mod script;
 mod service;
 mod session;
+mod sheet;
 mod snapshot;
 pub mod terminal;
 mod theme;
+mod tracks;
 pub mod view;
 mod writing;
 

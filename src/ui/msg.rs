@@ -119,6 +119,12 @@ pub enum Msg {
     ReferenceRead(ReferenceId, Result<ReferenceRead, String>),
     /// The result of [`Effect::Compare`]; `None` for pictures of different sizes.
     Compared(Pair, Option<Arc<Comparison>>),
+    /// The result of [`Effect::ReadTrack`] for this path; no text if there is no such file.
+    TrackRead(PathBuf, Result<Option<String>, ReadError>),
+    /// The track file read last may have changed.
+    TrackChanged,
+    /// The result of [`Effect::WriteTrack`].
+    TrackWritten(SaveOutcome),
     /// The external editor has ended.
     EditorClosed(Result<(), String>),
     /// The result of [`Effect::ListRecent`].
@@ -159,6 +165,8 @@ pub enum Timer {
     Keep,
     /// Files that are being written.
     Writing,
+    /// The time of a frame of a track that plays.
+    Frame,
     /// The time to read a message while another waits.
     Message,
 }
@@ -242,6 +250,18 @@ pub enum Effect {
     ReadReference(ReferenceId, ReferenceSource),
     /// Measures how pictures differ, reported by [`Msg::Compared`].
     Compare(Pair),
+    /// Reads a track file, reported by [`Msg::TrackRead`], and watches it from now on instead of the
+    /// one before, reported by [`Msg::TrackChanged`].
+    ReadTrack(PathBuf),
+    /// Writes a track file, reported by [`Msg::TrackWritten`].
+    WriteTrack {
+        /// Path of the file.
+        path: PathBuf,
+        /// The text to write.
+        text: Arc<String>,
+        /// What may be overwritten.
+        guard: Guard,
+    },
     /// Sends [`Msg::Elapsed`] after a delay. Setting the same timer again restarts it.
     Later(Duration, Timer),
     /// Stores unsaved edits for recovery, reported by [`Msg::Kept`].

@@ -53,6 +53,23 @@ impl Writers {
         )
     }
 
+    /// Writes a track file, reported by [`Msg::TrackWritten`].
+    pub(super) fn write_track(
+        &self,
+        path: PathBuf,
+        text: Arc<String>,
+        guard: Guard,
+    ) -> io::Result<()> {
+        let shown = path.display();
+        let panicked = SaveOutcome::Failed(format!("{shown}: cannot write the track"));
+        self.start(
+            "track",
+            Some(&self.at_work),
+            Msg::TrackWritten(panicked),
+            move || Some(Msg::TrackWritten(save(path, text, &guard))),
+        )
+    }
+
     /// Writes a frame to a picture file, reported by [`Msg::Exported`].
     pub(super) fn export(
         &self,

@@ -31,26 +31,26 @@ fn the_first_key_of_a_field_begins_a_track_of_it() {
     for (track, expected) in [
         (
             "frames = 9\n",
-            "frames = 9\n\n[[track]]\nthing = \"light 1\"\nfield = \"position\"\nkeys = [{ frame = 4, value = [0, 5, 0] }]\n",
+            "frames = 9\n\n[[track]]\nthing = \"the lamp\"\nfield = \"position\"\nkeys = [{ frame = 4, value = [0, 5, 0] }]\n",
         ),
         (
             "frames = 9 # nine",
-            "frames = 9 # nine\n\n[[track]]\nthing = \"light 1\"\nfield = \"position\"\nkeys = [{ frame = 4, value = [0, 5, 0] }]\n",
+            "frames = 9 # nine\n\n[[track]]\nthing = \"the lamp\"\nfield = \"position\"\nkeys = [{ frame = 4, value = [0, 5, 0] }]\n",
         ),
         (
             "frames = 9\r\n",
-            "frames = 9\r\n\r\n[[track]]\r\nthing = \"light 1\"\r\nfield = \"position\"\r\nkeys = [{ frame = 4, value = [0, 5, 0] }]\r\n",
+            "frames = 9\r\n\r\n[[track]]\r\nthing = \"the lamp\"\r\nfield = \"position\"\r\nkeys = [{ frame = 4, value = [0, 5, 0] }]\r\n",
         ),
         // Of a field whose other component has a track, only this component.
         (
             "frames = 9\n[[track]]\nthing = 'the lamp'\nfield = 'position x'\nkeys = [{frame = 0, value = 1}]\n",
             "frames = 9\n[[track]]\nthing = 'the lamp'\nfield = 'position x'\nkeys = [{frame = 0, value = 1}]\n\
-             \n[[track]]\nthing = \"light 1\"\nfield = \"position y\"\nkeys = [{ frame = 4, value = 5 }]\n",
+             \n[[track]]\nthing = \"the lamp\"\nfield = \"position y\"\nkeys = [{ frame = 4, value = 5 }]\n",
         ),
     ] {
         assert_eq!(keyed(track, LAMP, 4).0, expected);
     }
-    assert_eq!(keyed(BEGUN, LAMP, 0).1, "light 1 position");
+    assert_eq!(keyed(BEGUN, LAMP, 0).1, "the lamp position");
 }
 
 /// A track of the lamp's position, or a component, with these keys.

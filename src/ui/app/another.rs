@@ -138,6 +138,7 @@ impl App {
         self.assets = Assets::default();
         self.pictures.renew();
         self.inspection = Inspection::default();
+        self.sequence = super::Sequence::default();
         self.thumbnails.forget();
         self.cursor = Cursor::default();
         self.overlays = Overlays::default();

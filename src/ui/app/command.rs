@@ -50,6 +50,8 @@ enum Command {
     ViewLight,
     /// Return to the text's view.
     ViewReset,
+    /// Play a track.
+    Track(Option<PathBuf>),
     /// Set when the full-size trace is complete, or say when it is.
     Until(Option<Until>),
     /// Trace only a region at full size.
@@ -157,6 +159,7 @@ const TABLE: &[CommandRow] = &[
     row(&["until"], A::Said(" [N spp|TIME|noise E]", until), "end the full-size trace at N spp, after 30 s or 5 min, or below noise 0.01"),
     row(&["region"], A::Said(" [X,Y,W,H|off]", |said| RegionOrder::parse(said).map(C::Region)), "trace only these pixels at full size, or all"),
     row(&["zoom"], A::Said(" [fit|1:1|N]", |said| ScaleOrder::parse(said).map(C::Scale)), "zoom the picture, also the preview"),
+    row(&["track"], A::File(C::Track), "play the track FILE, or that beside the scene"),
     row(&["view save"], A::Name(C::ViewSave), "write the view into the scene, or save it as NAME"),
     row(&["view light"], A::Nothing(C::ViewLight), "look from the selected light"),
     row(&["view reset"], A::Nothing(C::ViewReset), "reset to the scene's view"),
@@ -188,6 +191,7 @@ const KEYS: &[(&str, Action)] = &[
     ("render", Action::Go(Mode::Trace)),
     ("compare", Action::Go(Mode::Compare)),
     ("region", Action::Region),
+    ("track", Action::Go(Mode::Sequence)),
     ("view save", Action::SaveView),
     ("view reset", Action::ResetView),
     ("help", Action::Help),
@@ -448,7 +452,8 @@ impl App {
                 self.warn_of_opening();
                 return Vec::new();
             }
-            _ => {}
+            Command::Track(_) => {}
+            _ => self.leave_sequence(),
         }
         match command {
             Command::Write(file, force) => return self.write(file, force),
@@ -474,6 +479,7 @@ impl App {
             Command::ExportCancel => return self.cancel_export(),
             Command::Render => return self.start_trace(),
             Command::Compare(with) => return self.compare_with(with),
+            Command::Track(file) => return self.open_track(file),
             Command::Until(until) => return self.trace_until(until),
             Command::Region(order) => return self.order_region(order),
             Command::Scale(order) => self.order_scale(order),

@@ -82,7 +82,12 @@ impl App {
                 self.warn_of_transform();
                 Vec::new()
             }
-            Some((action, context)) => self.act_in(action, context),
+            Some((action, context)) => {
+                if !matches!(context, Context::In(Mode::Sequence)) {
+                    self.leave_sequence();
+                }
+                self.act_in(action, context)
+            }
             None => self.command(line),
         }
     }

@@ -3,7 +3,7 @@
 use super::App;
 use crate::language::Node;
 use crate::language::table::Kind;
-use crate::ui::keymap::{Action, Context, Entry, Mode, Tool};
+use crate::ui::keymap::{Action, Context, Entry, Mode, Playback, Tool};
 
 impl App {
     /// The hints for the keys that do something now, the most useful first.
@@ -19,6 +19,7 @@ impl App {
             (Action::SaveView, Context::Quit | Context::Leave) => self.is_view_unwritten(),
             (Action::SaveView | Action::ResetView, Context::In(_)) => self.pictures.view.is_some(),
             (Action::Save, Context::In(_)) => !self.is_saved(),
+            (Action::OnTrack(Playback::Key), _) => self.sequence.open.is_some(),
             (Action::Scroll(..), _) => !self.viewport().is_fit(),
             (Action::Pause | Action::Stop, Context::In(Mode::Trace)) => self.picture().is_awaited(),
             (Action::Sample(_), _) => 1 < self.sample_count(),

@@ -45,6 +45,7 @@ impl App {
 
     /// Leaves the scene; asks first if something would be lost.
     pub(super) fn leave_for(&mut self, next: Next) -> Vec<Effect> {
+        self.leave_sequence();
         if self.losses_before(&next).is_some() {
             self.overlays.dialog = Some(Dialog::Leave(next));
             return Vec::new();
@@ -97,6 +98,7 @@ impl App {
     }
 
     pub(super) fn interrupt(&mut self) -> Vec<Effect> {
+        self.leave_sequence();
         if self.jobs.interrupt || self.losses().is_none() {
             return self.quit_keeping_edits();
         }
@@ -107,6 +109,7 @@ impl App {
 
     /// Quits with unsaved edits kept, written once more in case the journal was removed.
     pub(super) fn quit_keeping_edits(&mut self) -> Vec<Effect> {
+        self.leave_sequence();
         let kept = self.keep_the_rest();
         kept.into_iter().chain([Effect::Quit]).collect()
     }

@@ -13,6 +13,7 @@ use super::jobs::Jobs;
 use super::overlays::Overlays;
 use super::palette::Palette;
 use super::pictures::Pictures;
+use super::sequence::Sequence;
 use super::thumbnails::Thumbnails;
 use crate::document::Document;
 use crate::scene::Scene;
@@ -54,6 +55,8 @@ pub struct App {
     pub compared: Compared,
     /// The pixel that is inspected.
     pub inspection: Inspection,
+    /// The track that SEQUENCE mode plays.
+    pub sequence: Sequence,
     /// Pictures of the texts in the undo history.
     pub thumbnails: Thumbnails,
     /// Dialogs, help, errors, the line being typed, and messages.

@@ -8,7 +8,8 @@ use super::cursor::Names;
 use super::inspection::Inspection;
 use super::palette::Palette;
 use super::{
-    App, Cursor, Disk, FirstReading, Jobs, OnDisk, Overlays, Page, Pictures, Quality, Thumbnails,
+    App, Cursor, Disk, FirstReading, Jobs, OnDisk, Overlays, Page, Pictures, Quality, Sequence,
+    Thumbnails,
 };
 use crate::document::Document;
 use crate::file::ReadError;
@@ -93,6 +94,7 @@ impl App {
             pictures: Pictures::new(opening.quality),
             compared: Compared::default(),
             inspection: Inspection::default(),
+            sequence: Sequence::default(),
             thumbnails: Thumbnails::default(),
             overlays: Overlays::default(),
             jobs: Jobs::default(),

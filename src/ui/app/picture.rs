@@ -71,6 +71,12 @@ impl Picture {
         self.sight = None;
     }
 
+    /// Whether something of the picture requested last has arrived.
+    pub(super) fn shows_wanted(&self) -> bool {
+        let latest = self.latest.as_ref().map(|frame| frame.generation);
+        self.wanted.is_some() && self.wanted == latest
+    }
+
     /// The last frame of all of the picture.
     pub(super) fn whole(&self) -> Option<Arc<Frame>> {
         let latest = self.latest.as_ref().filter(|frame| is_whole(frame));

@@ -196,6 +196,12 @@ impl App {
             self.press_comparison(at);
             return Vec::new();
         }
+        if self.mode == Mode::Sequence {
+            if self.scrub_to(at) || areas.picture.contains(at.into()) {
+                return Vec::new();
+            }
+            self.leave_sequence();
+        }
         if self.context() == Context::Rays
             && let Some(panels) = self.ray_panels()
             && (panels.tree.contains(at.into()) || panels.values.contains(at.into()))
@@ -315,6 +321,10 @@ impl App {
         }
         if self.mode == Mode::Compare {
             return self.press_comparison(at);
+        }
+        if self.mode == Mode::Sequence {
+            self.scrub_to(at);
+            return;
         }
         if self.slide_to(at.0) {
             return;

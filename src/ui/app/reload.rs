@@ -62,6 +62,7 @@ const SAME_NOW: Wording = Wording {
 
 impl App {
     pub(super) fn read_again(&mut self) -> Vec<Effect> {
+        self.suspend_frame();
         self.disk.read_again(self.baseline())
     }
 
@@ -123,6 +124,13 @@ impl App {
             effects.push(Effect::Free(Arc::new(read)));
             return effects;
         }
+        let effects = self.take_read(read);
+        self.resume_frame();
+        effects
+    }
+
+    /// Takes the outcome of reading the file, which was compared with the present state.
+    fn take_read(&mut self, read: Result<Reading, ReadError>) -> Vec<Effect> {
         let settle = self.disk.take_settle();
         if self.disk.state == OnDisk::New && matches!(read, Err(ReadError::NotFound { .. })) {
             if self.disk.take_requester() == Requester::User {
@@ -441,7 +449,9 @@ impl App {
         if let Err(reason) = outcome {
             self.overlays.fail(reason);
         }
-        self.read_again()
+        let mut effects = self.read_again();
+        effects.extend(self.reread_track());
+        effects
     }
 
     /// Watches the scene's file, and reads it once more in case it changed before the watch began.

@@ -1,5 +1,7 @@
 //! The step from one state to the next: dispatches messages.
 
+use std::time::Duration;
+
 use crossterm::event::{KeyCode, KeyEvent, KeyModifiers};
 use tui_input::Input;
 
@@ -10,6 +12,9 @@ use crate::ui::arrange::{Zoom, divided, resized};
 use crate::ui::keymap::{self, Action, Context, Meaning, Mode, Stride, Tool};
 use crate::ui::msg::{Effect, Existing, Msg, Target, Timer};
 use crate::ui::terminal::Mouse;
+
+/// How long keeping edits for recovery waits for the end of SEQUENCE mode, again and again.
+const KEPT_LATER: Duration = Duration::from_secs(1);
 
 impl App {
     /// Processes a message and returns the resulting effects.
@@ -28,7 +33,10 @@ impl App {
         self.follow_histogram();
         effects.extend(self.follow_explained());
         effects.extend(self.follow_steps());
-        effects.extend(self.disk.journal.follow(&self.document));
+        self.follow_sequence();
+        if self.mode != Mode::Sequence {
+            effects.extend(self.disk.journal.follow(&self.document));
+        }
         effects.extend(self.follow_kept());
         let time = self.overlays.time_to_read();
         effects.extend(time.map(|time| Effect::Later(time, Timer::Message)));
@@ -68,6 +76,11 @@ impl App {
             Msg::Elapsed(Timer::Interrupt) => self.jobs.interrupt = false,
             Msg::Elapsed(Timer::Click) => self.cursor.forget_click(),
             Msg::Elapsed(Timer::Message) => self.overlays.turn_message(),
+            // It would keep a frame.
+            Msg::Elapsed(timer @ Timer::Keep) if self.mode == Mode::Sequence => {
+                return vec![Effect::Later(KEPT_LATER, timer)];
+            }
+            Msg::Elapsed(Timer::Frame) => return self.play_on(),
             Msg::Elapsed(Timer::Keep) => return self.keep_edits().into_iter().collect(),
             Msg::Elapsed(Timer::Writing) => return self.tick(),
             Msg::Saved(id, outcome) => return self.was_saved(id, outcome),
@@ -77,6 +90,9 @@ impl App {
             Msg::Taken(id, reason) => return self.is_taken(id, reason),
             Msg::ReferenceRead(id, read) => return self.reference_read(id, read),
             Msg::Compared(pair, found) => self.compared.measured(pair, found),
+            Msg::TrackRead(path, read) => return self.track_read(path, read),
+            Msg::TrackChanged => return self.reread_track().into_iter().collect(),
+            Msg::TrackWritten(outcome) => return self.track_written(outcome),
             Msg::EditorClosed(outcome) => return self.editor_closed(outcome),
             Msg::RecentListed(scenes) => self.show_recent(scenes),
             Msg::Recovered(found) => self.found_kept(found),
@@ -307,15 +323,14 @@ impl App {
             Action::Mine | Action::Theirs | Action::AllMine | Action::AllTheirs => {
                 self.decide(action);
             }
+            Action::OnTrack(action) => return self.act_on_track(action),
             Action::Undo => self.undo(),
             Action::Redo => self.redo(),
             Action::Errors => self.toggle_errors(),
             Action::Steps => self.list_steps(),
             Action::Messages => self.overlays.history = Some(0),
             Action::Help => self.overlays.help = Some(Help::default()),
-            Action::Zoom => self.toggle_zoom(),
-            Action::Resize(step) => self.resize_panels(step),
-            Action::Divide(step) => self.resize_list(step),
+            Action::Zoom | Action::Resize(_) | Action::Divide(_) => self.act_on_panels(action),
             Action::Show(aov) => self.show(aov),
             Action::Share(step) => self.step_share(step),
             Action::Expose(half_stops) => self.expose(half_stops),
@@ -361,6 +376,14 @@ impl App {
         });
     }
 
+    fn act_on_panels(&mut self, action: Action) {
+        match action {
+            Action::Resize(step) => self.resize_panels(step),
+            Action::Divide(step) => self.resize_list(step),
+            _ => self.toggle_zoom(),
+        }
+    }
+
     /// Changes what of the picture is seen, or the region that is drawn.
     fn act_on_window(&mut self, action: Action) {
         match action {
@@ -403,6 +426,11 @@ impl App {
             }
             Mode::Inspect => self.start_inspecting(),
             Mode::Move => self.start_transform(Tool::Move),
+            Mode::Sequence => return self.open_track(None),
+            Mode::Edit if self.mode == Mode::Sequence => {
+                self.keep_frame();
+                self.mode = mode;
+            }
             Mode::Select | Mode::View | Mode::Fly | Mode::Edit => self.mode = mode,
         }
         Vec::new()
@@ -446,6 +474,7 @@ impl App {
             Context::In(Mode::Select) if self.end_filter() => {}
             Context::In(Mode::Select) => self.cursor.marks.clear(),
             Context::In(Mode::Move) => self.cancel_transform(),
+            Context::In(Mode::Sequence) => self.leave_sequence(),
             Context::In(_) => {
                 self.document.end_step();
                 self.mode = Mode::Select;
@@ -468,6 +497,7 @@ impl App {
             Context::In(Mode::Inspect) => self.select_crossed(),
             Context::Rays => self.select_explained(),
             Context::In(Mode::Move) => self.confirm_transform(),
+            Context::In(Mode::Sequence) => self.keep_frame(),
             Context::Colour => self.confirm_colour(),
             Context::Region => return self.confirm_region(),
             Context::In(_) | Context::Help | Context::Messages | Context::Opening => {}

@@ -22,6 +22,8 @@ pub enum Mode {
     Move,
     /// Compares the picture with a reference.
     Compare,
+    /// Plays a track and goes to its frames.
+    Sequence,
 }
 
 impl Mode {
@@ -33,7 +35,7 @@ impl Mode {
 
 impl Mode {
     /// All modes, in the order of the help.
-    pub const ALL: [Self; 8] = [
+    pub const ALL: [Self; 9] = [
         Self::Select,
         Self::Edit,
         Self::Move,
@@ -42,6 +44,7 @@ impl Mode {
         Self::Inspect,
         Self::Trace,
         Self::Compare,
+        Self::Sequence,
     ];
 
     /// The name of the mode, as in the status line.
@@ -55,6 +58,7 @@ impl Mode {
             Self::Trace => "TRACE",
             Self::Inspect => "INSPECT",
             Self::Compare => "COMPARE",
+            Self::Sequence => "SEQUENCE",
         }
     }
 }
@@ -217,6 +221,8 @@ pub enum Action {
     Difference,
     /// Goes to the next or previous of the pixels that differ most.
     Worst(isize),
+    /// Plays a track, goes to its frames, or changes it.
+    OnTrack(Playback),
     /// Explains the pixel under the cross.
     Explain,
     /// Explains the next or previous sample of the pixel.
@@ -313,6 +319,25 @@ pub enum Tool {
     Rotate,
     /// Scales.
     Scale,
+}
+
+/// What is done with a track.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Playback {
+    /// Plays it, or stops.
+    Play,
+    /// Goes this many frames on; the extreme values are the first and the last frame.
+    Frames(i32),
+    /// Goes to the next frame with a key.
+    NextKey,
+    /// Goes to the previous frame with a key.
+    PreviousKey,
+    /// Keys the present value.
+    Key,
+    /// Takes back the key that was written last.
+    TakeBack,
+    /// Opens the user's editor on it.
+    Edit,
 }
 
 /// Size of a nudge.

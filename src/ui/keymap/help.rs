@@ -1,6 +1,6 @@
 //! The key bindings as text: the help page and the line of hints.
 
-use super::action::{Action, Context, Mode, Stride, Tool};
+use super::action::{Action, Context, Mode, Playback, Stride, Tool};
 use super::bindings::{Keymap, Row, names};
 use super::line::{Line, line_hints};
 use super::section::DIALOGS;
@@ -8,7 +8,8 @@ use super::table::Scope;
 use crate::render::Aov;
 
 use Action as A;
-use Mode::{Compare, Edit, Fly, Inspect, Move, Select, Trace, View};
+use Mode::{Compare, Edit, Fly, Inspect, Move, Select, Sequence, Trace, View};
+use Playback::{Frames, Key, NextKey, Play, PreviousKey};
 use Stride::Plain;
 
 /// One line of help.
@@ -112,6 +113,7 @@ impl Keymap {
             Context::In(Move) => MOVE_HINTS,
             Context::In(Trace) => TRACE_HINTS,
             Context::In(Compare) => COMPARE_HINTS,
+            Context::In(Sequence) => SEQUENCE_HINTS,
             Context::Errors => ERROR_HINTS,
             Context::Colour => COLOUR_HINTS,
             Context::Rays => RAY_HINTS,
@@ -222,6 +224,7 @@ const EDIT_HINTS: &[Hint] = &[
     (&[A::Nudge(-1, Plain), A::Nudge(1, Plain)], "nudge"),
     (&[A::Stride(-1), A::Stride(1)], "step"),
     (&[A::Choose], "type"),
+    (&[A::OnTrack(Key)], "key it"),
     (&[A::Colour], "colour"),
     (&[A::Orthonormalise], "orthonormalise"),
     (&[A::Component(1)], "next number"),
@@ -248,6 +251,7 @@ const VIEW_HINTS: &[Hint] = &[
     (&[A::FrameSelected], "frame"),
     (&[A::ResetView], "reset"),
     (&[A::SaveView], "save view"),
+    (&[A::OnTrack(Key)], "key it"),
     (&[A::Go(Fly)], "fly"),
     (&[A::Back], "back"),
 ];
@@ -263,6 +267,7 @@ const FLY_HINTS: &[Hint] = &[
     (&[A::Roll(1), A::Roll(-1)], "roll"),
     (&[A::ResetView], "reset"),
     (&[A::SaveView], "save view"),
+    (&[A::OnTrack(Key)], "key it"),
     (&[A::Go(View)], "orbit"),
     (&[A::Back], "back"),
 ];
@@ -280,6 +285,14 @@ const MOVE_HINTS: &[Hint] = &[
     (&[A::Accept], "confirm"),
     (&[A::Back], "cancel"),
     (&[A::Snap], "grid"),
+];
+const SEQUENCE_HINTS: &[Hint] = &[
+    (&[A::OnTrack(Play)], "play"),
+    (&[A::OnTrack(Frames(-1)), A::OnTrack(Frames(1))], "frame"),
+    (&[A::OnTrack(PreviousKey), A::OnTrack(NextKey)], "key"),
+    (&[A::Go(Edit)], "edit"),
+    (&[A::Accept], "keep"),
+    (&[A::Back], "back"),
 ];
 const INSPECT_HINTS: &[Hint] = &[
     (

@@ -13,7 +13,7 @@ mod rules;
 mod section;
 mod table;
 
-pub use action::{Action, Context, Fold, Mode, Stride, Tool};
+pub use action::{Action, Context, Fold, Mode, Playback, Stride, Tool};
 pub use bindings::{Keymap, Meaning, name};
 pub use chord::Keys;
 pub use help::{Entry, HelpLine, in_columns};

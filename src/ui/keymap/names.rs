@@ -1,6 +1,6 @@
 //! The names of actions and of sections of keys, by which a configuration refers to them.
 
-use super::action::{Action, Context, Fold, Mode, Stride, Tool};
+use super::action::{Action, Context, Fold, Mode, Playback, Stride, Tool};
 use crate::language::Neighbour;
 use crate::render::Aov;
 
@@ -72,6 +72,7 @@ pub(super) const fn of_action(action: Action) -> &'static str {
         A::DeleteView => "delete-view",
         A::Pin => "pin",
         A::Flip | A::Wipe | A::SlideWipe(_) | A::Difference | A::Worst(_) => of_comparison(action),
+        A::OnTrack(action) => of_playback(action),
         A::Stop => "stop",
         A::Pause => "pause",
         A::Magnify(1..) => "zoom-in",
@@ -90,10 +91,7 @@ pub(super) const fn of_action(action: Action) -> &'static str {
         A::Messages => "messages",
         A::Help => "help",
         A::Zoom => "panels",
-        A::Resize(1..) => "larger-panels",
-        A::Resize(_) => "smaller-panels",
-        A::Divide(1..) => "larger-list",
-        A::Divide(_) => "smaller-list",
+        A::Resize(_) | A::Divide(_) => of_panels(action),
         A::Show(aov) => of_view(aov),
         A::Share(1..) => "next-share",
         A::Share(_) => "previous-share",
@@ -166,6 +164,33 @@ const fn of_mode(mode: Mode) -> &'static str {
         Mode::Inspect => "inspect",
         Mode::Compare => "compare",
         Mode::Move => "transform",
+        Mode::Sequence => "track",
+    }
+}
+
+const fn of_panels(action: Action) -> &'static str {
+    match action {
+        A::Resize(1..) => "larger-panels",
+        A::Resize(_) => "smaller-panels",
+        A::Divide(1..) => "larger-list",
+        _ => "smaller-list",
+    }
+}
+
+const fn of_playback(action: Playback) -> &'static str {
+    match action {
+        Playback::Play => "play",
+        Playback::Frames(i32::MIN) => "first-frame",
+        Playback::Frames(i32::MAX) => "last-frame",
+        Playback::Frames(2..) => "frames-forward",
+        Playback::Frames(0..) => "next-frame",
+        Playback::Frames(-1) => "previous-frame",
+        Playback::Frames(_) => "frames-back",
+        Playback::NextKey => "next-key",
+        Playback::PreviousKey => "previous-key",
+        Playback::Key => "key",
+        Playback::TakeBack => "take-key-back",
+        Playback::Edit => "edit-track",
     }
 }
 
@@ -263,6 +288,7 @@ pub(super) const fn of_context(context: Context) -> Option<&'static str> {
         Context::In(Mode::Inspect) => "inspect",
         Context::In(Mode::Compare) => "compare",
         Context::In(Mode::Move) => "move",
+        Context::In(Mode::Sequence) => "sequence",
         Context::Colour => "colour",
         Context::Rays => "rays",
         Context::Region => "region",

@@ -2,14 +2,15 @@
 
 use crossterm::event::KeyCode;
 
-use super::action::{Action, Context, Fold, Mode, Stride, Tool};
+use super::action::{Action, Context, Fold, Mode, Playback, Stride, Tool};
 use super::chord::{ALT, Chord, Keys, SHIFT, alt, c, ctrl, key};
 use crate::language::Neighbour;
 use crate::render::Aov;
 
 use Action as A;
 use KeyCode::{BackTab, Down, End, Enter, Esc, F, Home, Left, PageDown, PageUp, Right, Tab, Up};
-use Mode::{Compare, Edit, Fly, Inspect, Move, Select, Trace, View};
+use Mode::{Compare, Edit, Fly, Inspect, Move, Select, Sequence, Trace, View};
+use Playback::{Frames, Key, NextKey, Play, PreviousKey, TakeBack};
 use Stride::{Coarse, Fine, Plain};
 
 /// A row of the table: within its scope, each of these keys has the same action.
@@ -38,7 +39,7 @@ pub(super) enum Pressed {
 pub(super) enum Scope {
     /// Active only in these contexts.
     These(&'static [Context]),
-    /// All modes but [`Mode::Move`], the list of errors, and the rays behind a pixel.
+    /// All modes but [`Mode::Move`] and [`Mode::Sequence`], the list of errors, and the rays behind a pixel.
     Everywhere,
     /// [`Self::Everywhere`], while something is being transformed, and while a scene is being opened.
     Sceneless,
@@ -51,9 +52,10 @@ impl Scope {
     pub(super) fn holds(self, context: Context) -> bool {
         match self {
             Self::These(contexts) => contexts.contains(&context),
-            // While something is being transformed, nothing else may change the text.
+            // While something is being transformed or a frame is shown, nothing else may change the
+            // text.
             Self::Everywhere => {
-                matches!(context, Context::In(mode) if mode != Move)
+                matches!(context, Context::In(mode) if !matches!(mode, Move | Sequence))
                     || matches!(context, Context::Errors | Context::Rays)
             }
             Self::Sceneless => {
@@ -111,6 +113,7 @@ const PANELS: Scope = Scope::These(&[
     Context::In(Inspect),
     Context::In(Compare),
     Context::Errors,
+    Context::In(Sequence),
 ]);
 const REGION: Scope = Scope::These(&[Context::Region]);
 const TRACE: Scope = Scope::These(&[Context::In(Trace)]);
@@ -122,6 +125,7 @@ const PICTURES: Scope = Scope::These(&[
     Context::In(Trace),
     Context::In(Inspect),
     Context::In(Compare),
+    Context::In(Sequence),
 ]);
 /// Such contexts with the preview on screen.
 const PREVIEWS: Scope = Scope::These(&[
@@ -129,6 +133,7 @@ const PREVIEWS: Scope = Scope::These(&[
     Context::In(View),
     Context::In(Fly),
     Context::In(Inspect),
+    Context::In(Sequence),
 ]);
 /// Where no letter is part of a value, and the cross has another key.
 const INSPECTABLE: Scope = Scope::These(&[
@@ -141,6 +146,16 @@ const INSPECTABLE: Scope = Scope::These(&[
 const INSPECT: Scope = Scope::These(&[Context::In(Inspect)]);
 const RAYS: Scope = Scope::These(&[Context::Rays]);
 const COMPARE: Scope = Scope::These(&[Context::In(Compare)]);
+const SEQUENCE: Scope = Scope::These(&[Context::In(Sequence)]);
+/// Where present values are keyed.
+const KEYED: Scope = Scope::These(&[Context::In(Edit), Context::In(View), Context::In(Fly)]);
+/// Where a track can be played.
+const PLAYED: Scope = Scope::These(&[
+    Context::In(Select),
+    Context::In(Edit),
+    Context::In(View),
+    Context::In(Fly),
+]);
 const HELP: Scope = Scope::These(&[Context::Help]);
 const MESSAGES: Scope = Scope::These(&[Context::Messages]);
 const ERRORS: Scope = Scope::These(&[Context::Errors]);
@@ -219,6 +234,21 @@ pub(super) const TABLE: &[Binding] = &[
     bind(MOVE, &[c('g')], A::Snap, "snap to a grid"),
     bind(MOVE, &[key(Enter)], A::Accept, "confirm"),
     bind(MOVE, &[key(Esc)], A::Back, "cancel"),
+    bind(SEQUENCE, &[c(' ')], A::OnTrack(Play), "play or stop"),
+    bind(SEQUENCE, &[c('l'), key(Right)], A::OnTrack(Frames(1)), "next frame"),
+    bind(SEQUENCE, &[c('h'), key(Left)], A::OnTrack(Frames(-1)), "previous frame"),
+    bind(SEQUENCE, &[c(']')], A::OnTrack(NextKey), "next key"),
+    bind(SEQUENCE, &[c('[')], A::OnTrack(PreviousKey), "previous key"),
+    bind(SEQUENCE, &[c('e')], A::Go(Edit), "keep the frame and edit fields"),
+    bind(SEQUENCE, &[key(Enter)], A::Accept, "keep the frame in the text"),
+    bind(SEQUENCE, &[key(Esc)], A::Back, "back to the scene"),
+    bind(SEQUENCE, &[c('L'), Chord(Right, SHIFT)], A::OnTrack(Frames(10)), "ten frames on"),
+    bind(SEQUENCE, &[c('H'), Chord(Left, SHIFT)], A::OnTrack(Frames(-10)), "ten frames back"),
+    in_turn(SEQUENCE, &[c('g'), c('g')], A::OnTrack(Frames(i32::MIN)), "first frame"),
+    bind(SEQUENCE, &[key(Home)], A::OnTrack(Frames(i32::MIN)), "first frame"),
+    bind(SEQUENCE, &[c('G'), key(End)], A::OnTrack(Frames(i32::MAX)), "last frame"),
+    bind(SEQUENCE, &[c('u')], A::OnTrack(TakeBack), "take the last key back"),
+    bind(SEQUENCE, &[c('E')], A::OnTrack(Playback::Edit), "open the editor on the track"),
     bind(INSPECTABLE, &[c('i')], A::Go(Inspect), "inspect a pixel of the picture"),
     bind(SELECT, &[key(Tab)], A::Cycle(1), "next light or object"),
     bind(SELECT, &[c('h')], A::Visibility, "show or hide the object"),
@@ -405,6 +435,8 @@ pub(super) const TABLE: &[Binding] = &[
     bind(Scope::Everywhere, &[c('!')], A::Errors, "errors and warnings"),
     bind(Scope::Sceneless, &[c('M')], A::Messages, "messages so far"),
     bind(Scope::Everywhere, &[c('E')], A::Editor, "open the editor at the selected item"),
+    bind(PLAYED, &[c('T')], A::Go(Sequence), "play the track"),
+    bind(KEYED, &[c('I')], A::OnTrack(Key), "key the value, or in VIEW the camera, in the track"),
     bind(PANELS, &[c('z')], A::Zoom, "show or hide the panels"),
     bind(Scope::Everywhere, &[c('{')], A::Resize(2), "larger panels"),
     bind(Scope::Everywhere, &[c('}')], A::Resize(-2), "smaller panels"),

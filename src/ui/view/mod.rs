@@ -30,6 +30,7 @@ mod picture;
 mod pixel;
 mod rays;
 mod row;
+mod sequence;
 mod status;
 mod steps;
 mod symbols;
@@ -93,6 +94,7 @@ fn render(app: &App, inks: &mut Inks, area: Rect, buffer: &mut Buffer) -> Option
         list::render(app, areas.list, buffer);
         match app.mode {
             Mode::Inspect => pixel::render(app, areas.fields, buffer),
+            Mode::Sequence => sequence::render(app, areas.fields, buffer),
             _ => fields::render(app, areas.fields, buffer),
         }
     } else if app.mode == Mode::Inspect {

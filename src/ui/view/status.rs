@@ -11,7 +11,7 @@ use super::inks::Glyphs;
 use super::row::Row;
 use crate::render::Progress;
 use crate::text::{counted, percentage};
-use crate::ui::app::{App, Message, OnDisk, Prompt, PromptKind};
+use crate::ui::app::{App, Message, OnDisk, OpenTrack, Prompt, PromptKind};
 use crate::ui::fit::visible;
 use crate::ui::keymap::{self, Mode};
 use crate::ui::theme;
@@ -225,6 +225,9 @@ fn text_segments(app: &App, say: &mut impl FnMut(u8, String, Style)) {
     if app.mode == Mode::Compare {
         comparison_segments(app, say);
     }
+    if let Some(open) = &app.sequence.open {
+        frame_segment(open, app.mode == Mode::Sequence, say);
+    }
     let errors = app.error_count();
     let warnings = app.diagnostics.warnings();
     if 0 < errors {
@@ -232,7 +235,7 @@ fn text_segments(app: &App, say: &mut impl FnMut(u8, String, Style)) {
         say(1, text, theme::chip(theme::ERROR));
     }
     say(5, app.disk.name(), theme::BOLD);
-    if app.document.is_dirty() {
+    if app.has_edits() {
         say(DIRTY, "[+]".to_owned(), theme::BOLD);
     }
     let disk = match &app.disk.state {
@@ -261,6 +264,18 @@ fn text_segments(app: &App, say: &mut impl FnMut(u8, String, Style)) {
     if 0 < warnings {
         say(9, counted(warnings, "warning"), theme::WARNING);
     }
+}
+
+/// Adds the frame of the track that is shown, or that values are keyed at.
+fn frame_segment(open: &OpenTrack, is_shown: bool, say: &mut impl FnMut(u8, String, Style)) {
+    let (frame, last) = (open.frame, open.last());
+    if !is_shown {
+        say(12, format!("frame {frame}"), theme::DIM);
+        return;
+    }
+    let playing = if open.is_playing { "▶ " } else { "" };
+    let text = format!(" {playing}frame {frame}/{last} ");
+    say(1, text, theme::chip(theme::ACCENT));
 }
 
 /// Adds what is seen of the pictures that are compared and, without a panel, how they differ.
@@ -374,7 +389,7 @@ fn time_left(progress: &Progress) -> Option<Duration> {
 fn mode_style(mode: Mode) -> Style {
     match mode {
         Mode::Select | Mode::Inspect => theme::ACCENT,
-        Mode::View | Mode::Fly => theme::GOOD,
+        Mode::View | Mode::Fly | Mode::Sequence => theme::GOOD,
         Mode::Edit | Mode::Move => theme::WARNING,
         Mode::Trace | Mode::Compare => Style::new(),
     }

@@ -123,6 +123,7 @@ fn edits(action: A) -> bool {
         | A::SlideWipe(_)
         | A::Difference
         | A::Worst(_)
+        | A::OnTrack(_)
         | A::Explain
         | A::Sample(_)
         | A::Stop

@@ -22,6 +22,7 @@ mod opening;
 mod palette;
 mod panels;
 pub(in crate::ui) mod pictures;
+mod playing;
 mod rebinding;
 mod recovering;
 mod saving;
@@ -49,6 +50,7 @@ use crate::render::Filter;
 use crate::ui::keymap::{self, Mode};
 use crate::ui::msg::{Effect, ExportId, Exported, Msg};
 use crate::ui::reading::Reading;
+use crate::ui::sheet::Sheet;
 use crate::ui::terminal::Mouse;
 
 /// Two spheres, far apart, without a view comment.

@@ -1,0 +1,162 @@
+//! Keying present values in the text of the open track, which is written at once.
+
+use std::path::PathBuf;
+use std::sync::Arc;
+
+use super::App;
+use super::sequence::complaint;
+use crate::text::apply;
+use crate::track::{self, Keyed, Track};
+use crate::ui::keymap::{Action, Mode, Playback};
+use crate::ui::msg::{Effect, Guard, SaveOutcome};
+
+impl App {
+    /// Keys the present value at the frame looked at last: in EDIT the field's, in VIEW the camera's.
+    pub(super) fn key_value(&mut self) -> Vec<Effect> {
+        let Some(open) = &self.sequence.open else {
+            let track = self.key_for(Action::Go(Mode::Sequence));
+            self.overlays
+                .fail(format!("no track is open: {track} opens or begins one"));
+            return Vec::new();
+        };
+        if self.sequence.writing.is_some() {
+            self.overlays.warn("the key before is still being written");
+            return Vec::new();
+        }
+        let (frame, name, path) = (open.frame, open.name(), open.path.clone());
+        let (held, track) = (open.held.clone(), open.track.clone());
+        if !self.has_sound_scene() {
+            return Vec::new();
+        }
+        let before = held.as_ref().map_or(track::BEGUN, |held| held.as_str());
+        let Some(keyed) = self.keyed(&track, &name, before) else {
+            return Vec::new();
+        };
+        let Keyed { edits, what } = match keyed {
+            Ok(keyed) => keyed,
+            Err(reason) => {
+                self.overlays.fail(reason.to_string());
+                return Vec::new();
+            }
+        };
+        let mut text = before.to_owned();
+        apply(&mut text, &edits);
+        let (track, findings) = track::read(&text);
+        if 0 < findings.errors() {
+            self.overlays.fail(complaint(&name, &text, &findings));
+            return Vec::new();
+        }
+        if self.bound_track(&track, &name, &text).is_none() {
+            return Vec::new();
+        }
+        if edits.is_empty() {
+            self.overlays
+                .say(format!("{what} has this key at frame {frame} already"));
+            return Vec::new();
+        }
+        let words = format!("{what} keyed at frame {frame} in {name}");
+        // A file that has appeared meanwhile is read first.
+        let guard = Guard::Holding(held.unwrap_or_default());
+        self.write_track((path, guard), Arc::new(text), words)
+    }
+
+    /// The key of the present value in the text of a track; `None` if the track has errors, which are
+    /// reported.
+    fn keyed(
+        &mut self,
+        track: &Track,
+        name: &str,
+        text: &str,
+    ) -> Option<Result<Keyed, track::Unkeyed>> {
+        let frame = self.sequence.open.as_ref()?.frame;
+        if self.mode.moves_camera() {
+            let cameras = [&self.own_camera()?, &self.camera()?];
+            return Some(track::key_camera(text, track, cameras, frame));
+        }
+        let bound = self.bound_track(track, name, text)?;
+        let cursor = &self.cursor;
+        let place = (cursor.selected(), cursor.field, cursor.component);
+        Some(track::key_field(
+            text,
+            (track, &bound),
+            self.source(),
+            place,
+            frame,
+        ))
+    }
+
+    /// Takes back the key that was written last.
+    pub(super) fn take_key_back(&mut self) -> Vec<Effect> {
+        let open = self.sequence.open.as_ref();
+        let last = open.and_then(|open| Some((open, open.before.last()?)));
+        let (Some((open, before)), None) = (last, &self.sequence.writing) else {
+            self.overlays.say("there is no key to take back");
+            return Vec::new();
+        };
+        let guard = Guard::Holding(open.held.clone().unwrap_or_default());
+        let words = format!("the last key is taken back in {}", open.name());
+        self.write_track((open.path.clone(), guard), Arc::clone(before), words)
+    }
+
+    fn write_track(
+        &mut self,
+        (path, guard): (PathBuf, Guard),
+        text: Arc<String>,
+        words: String,
+    ) -> Vec<Effect> {
+        self.sequence.writing = Some((Arc::clone(&text), words));
+        vec![Effect::WriteTrack { path, text, guard }]
+    }
+
+    /// Takes the outcome of writing a track file.
+    pub(super) fn track_written(&mut self, outcome: SaveOutcome) -> Vec<Effect> {
+        let Some((text, words)) = self.sequence.writing.take() else {
+            return Vec::new();
+        };
+        let Some(open) = &mut self.sequence.open else {
+            return Vec::new();
+        };
+        match outcome {
+            SaveOutcome::Saved { .. } => {
+                (open.track, _) = track::read(&text);
+                if open.before.last() == Some(&text) {
+                    open.before.pop();
+                } else {
+                    let begun = || Arc::new(track::BEGUN.to_owned());
+                    open.before.push(open.held.take().unwrap_or_else(begun));
+                }
+                open.held = Some(text);
+                self.overlays.say(words);
+                self.suspend_frame();
+                self.resume_frame();
+                Vec::new()
+            }
+            SaveOutcome::ChangedOnDisk => {
+                let (name, path) = (open.name(), open.path.clone());
+                let key = self.key_for(Action::OnTrack(Playback::Key));
+                self.overlays.warn(format!(
+                    "{name} has changed on disk and is read again: then press {key} again"
+                ));
+                vec![Effect::ReadTrack(path)]
+            }
+            SaveOutcome::Failed(reason) => {
+                self.overlays.fail(reason);
+                Vec::new()
+            }
+        }
+    }
+
+    /// Opens the editor on the track file.
+    pub(super) fn edit_track(&mut self) -> Vec<Effect> {
+        let Some(open) = &self.sequence.open else {
+            return Vec::new();
+        };
+        if open.held.is_none() {
+            let words = format!("{} is new: the first key writes it", open.name());
+            self.overlays.warn(words);
+            return Vec::new();
+        }
+        let path = open.path.clone();
+        vec![Effect::OpenEditor { path, line: 1 }]
+    }
+}

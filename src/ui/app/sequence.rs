@@ -1,0 +1,126 @@
+//! A track over the scene, as the interface holds it.
+
+use std::path::PathBuf;
+use std::sync::Arc;
+use std::time::Duration;
+
+use super::next::name_of;
+use super::trial::Trial;
+use crate::text::{Findings, Position};
+use crate::track::{Bound, Track};
+
+/// Frames per second of a track that does not say how many.
+const RATE: u32 = 24;
+
+/// What SEQUENCE mode plays.
+#[derive(Debug, Default)]
+pub struct Sequence {
+    /// The track that is open.
+    pub open: Option<OpenTrack>,
+    /// The track file that is being read in order to be opened.
+    pub(super) asked: Option<PathBuf>,
+    /// The text being written to the track file, and what to say once it is.
+    pub(super) writing: Option<(Arc<String>, String)>,
+}
+
+/// A track, and the frame that is looked at.
+#[derive(Debug)]
+pub struct OpenTrack {
+    /// Path of its file.
+    pub path: PathBuf,
+    /// The text of the file, as read or written last; `None` as long as there is no file.
+    pub(super) held: Option<Arc<String>>,
+    /// What the text says.
+    pub track: Track,
+    /// The number of the frame.
+    pub frame: u32,
+    /// Whether the frames follow each other by themselves.
+    pub is_playing: bool,
+    /// The frame in the text of the scene; `None` outside of SEQUENCE mode, and while the scene's
+    /// file is read.
+    pub(super) shown: Option<ShownFrame>,
+    /// The texts before each key written, the newest last.
+    pub(super) before: Vec<Arc<String>>,
+}
+
+/// A frame in the text of the scene.
+#[derive(Debug)]
+pub(super) struct ShownFrame {
+    /// The track in the text without the frame.
+    pub(super) bound: Bound,
+    /// The change of the text.
+    pub(super) trial: Trial,
+    /// Whether there were unsaved edits before.
+    pub(super) was_dirty: bool,
+}
+
+impl Sequence {
+    /// Whether the text that a frame is shown in had unsaved edits; `None` without such a frame.
+    pub(super) fn was_dirty(&self) -> Option<bool> {
+        let shown = self.open.as_ref()?.shown.as_ref()?;
+        Some(shown.was_dirty)
+    }
+}
+
+impl OpenTrack {
+    /// The name of its file.
+    pub fn name(&self) -> String {
+        name_of(&self.path)
+    }
+
+    /// The number of the last frame.
+    pub fn last(&self) -> u32 {
+        self.track.frames.saturating_sub(1)
+    }
+
+    /// Frames per second.
+    pub fn rate(&self) -> u32 {
+        self.track.rate.unwrap_or(RATE)
+    }
+
+    /// The time of a frame.
+    pub(super) fn period(&self) -> Duration {
+        Duration::from_secs(1) / self.rate()
+    }
+
+    /// The frame some frames on; the last one is followed by the first while it plays, and by none
+    /// otherwise.
+    pub(super) fn frame_after(&self, frames: i32) -> u32 {
+        let next = i64::from(self.frame) + i64::from(frames);
+        if self.is_playing {
+            next.rem_euclid(i64::from(self.last()) + 1) as u32
+        } else {
+            next.clamp(0, i64::from(self.last())) as u32
+        }
+    }
+
+    /// The next or previous frame with a key.
+    pub(super) fn key_after(&self, is_next: bool) -> Option<u32> {
+        let frames = self.track.rows().flat_map(|(_, frames)| frames);
+        let frames = frames.filter(|&frame| frame <= self.last());
+        if is_next {
+            frames.filter(|&frame| self.frame < frame).min()
+        } else {
+            frames.filter(|&frame| frame < self.frame).max()
+        }
+    }
+}
+
+/// The first error in a track file in a line, and how many more there are.
+pub(super) fn complaint(name: &str, text: &str, findings: &Findings) -> String {
+    let Some(error) = findings.first_error() else {
+        return String::new();
+    };
+    let Position { line, column } = Position::of(text, error.span.start());
+    let hint = error.hint.as_ref().map(|hint| format!("; {hint}"));
+    let more = match findings.errors() - 1 {
+        0 => String::new(),
+        more => format!(" (and {more} more)"),
+    };
+    format!(
+        "{name}:{line}:{column}: {}: expected {}{}{more}",
+        error.message,
+        error.expected,
+        hint.unwrap_or_default(),
+    )
+}

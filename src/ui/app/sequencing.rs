@@ -1,0 +1,349 @@
+//! Playing a track: its frames are tried in the text of the scene, one after the other, so that each is
+//! a scene like any other.
+
+use std::path::PathBuf;
+use std::sync::Arc;
+
+use super::App;
+use super::next::name_of;
+use super::sequence::{OpenTrack, ShownFrame, complaint};
+use crate::document::StepName;
+use crate::file::ReadError;
+use crate::text::Severity;
+use crate::track::{self, Bound, Track};
+use crate::ui::keymap::{Action, Mode, Playback};
+use crate::ui::msg::{Effect, Timer};
+use crate::ui::sheet::Sheet;
+
+impl App {
+    /// Reads a track to play: this one, the open one, or that beside the scene.
+    pub(super) fn open_track(&mut self, file: Option<PathBuf>) -> Vec<Effect> {
+        let open = self.sequence.open.as_ref().map(|open| open.path.clone());
+        let beside = || {
+            let scene = self.disk.path.as_ref()?;
+            Some(scene.with_extension("toml"))
+        };
+        let Some(path) = file.or(open).or_else(beside) else {
+            self.overlays
+                .fail("this scene has no file: name a track, as in :track FILE");
+            return Vec::new();
+        };
+        if path.extension().is_none_or(|extension| extension != "toml") {
+            let name = path.display();
+            self.overlays
+                .fail(format!("{name}: the name of a track ends in .toml"));
+            return Vec::new();
+        }
+        if !self.has_sound_scene() {
+            return Vec::new();
+        }
+        self.sequence.asked = Some(path.clone());
+        vec![Effect::ReadTrack(path)]
+    }
+
+    /// Whether there is a scene without errors; says so if there is not.
+    pub(super) fn has_sound_scene(&mut self) -> bool {
+        let is_sound = self.scene.is_some() && self.error_count() == 0;
+        if !is_sound {
+            self.refuse_picture(Severity::Error, &self.no_picture());
+        }
+        is_sound
+    }
+
+    /// Takes the text of a track file, `None` if there is no such file, and plays it if asked.
+    pub(super) fn track_read(
+        &mut self,
+        path: PathBuf,
+        read: Result<Option<String>, ReadError>,
+    ) -> Vec<Effect> {
+        let asked = self.sequence.asked.take_if(|asked| *asked == path);
+        let is_asked = asked.is_some();
+        let open = self.sequence.open.as_ref();
+        let open = open.filter(|open| open.path == path);
+        let text = match read {
+            Ok(text) if is_asked || open.is_some() => text,
+            Ok(_) => return Vec::new(),
+            Err(error) => {
+                self.overlays.fail(error.to_string());
+                return Vec::new();
+            }
+        };
+        let held = open.and_then(|open| open.held.as_deref());
+        if open.is_some() && held == text.as_ref() {
+            return if is_asked {
+                self.enter_sequence()
+            } else {
+                Vec::new()
+            };
+        }
+        let (track, findings) = track::read(text.as_deref().unwrap_or(track::BEGUN));
+        if 0 < findings.errors() {
+            let text = text.unwrap_or_default();
+            self.overlays
+                .fail(complaint(&name_of(&path), &text, &findings));
+            return Vec::new();
+        }
+        self.suspend_frame();
+        let text_of = text.as_deref().unwrap_or_default();
+        if self.error_count() == 0 && self.bound_track(&track, &name_of(&path), text_of).is_none() {
+            self.resume_frame();
+            return Vec::new();
+        }
+        let before = self.sequence.open.take_if(|open| open.path == path);
+        let is_known = before.is_some();
+        self.sequence.open = Some(OpenTrack {
+            path,
+            held: text.map(Arc::new),
+            frame: before.as_ref().map_or(0, |open| open.frame),
+            is_playing: before.is_some_and(|open| open.is_playing),
+            track,
+            shown: None,
+            before: Vec::new(),
+        });
+        if is_asked {
+            return self.enter_sequence();
+        }
+        self.resume_frame();
+        if is_known && self.mode == Mode::Sequence {
+            self.overlays.say("track reloaded");
+        }
+        Vec::new()
+    }
+
+    /// Shows the present frame of the track.
+    fn enter_sequence(&mut self) -> Vec<Effect> {
+        if !self.has_sound_scene() {
+            return Vec::new();
+        }
+        // Frames are never kept for recovery; edits before them are.
+        let kept = self.keep_edits();
+        let before = std::mem::replace(&mut self.mode, Mode::Sequence);
+        self.resume_frame();
+        let Some(open) = self
+            .sequence
+            .open
+            .as_ref()
+            .filter(|open| open.shown.is_some())
+        else {
+            self.mode = before;
+            return kept.into_iter().collect();
+        };
+        let is_new = open.held.is_none();
+        let name = open.name();
+        let moves = open
+            .shown
+            .as_ref()
+            .is_some_and(|shown| shown.bound.moves_camera());
+        if moves && self.pictures.view.is_some() {
+            self.pictures.reset_view();
+        }
+        if is_new {
+            let (edit, key) = (
+                self.key_for(Action::Go(Mode::Edit)),
+                self.key_for(Action::OnTrack(Playback::Key)),
+            );
+            self.overlays.say(format!(
+                "{name} is new: {edit} edits at this frame, then {key} keys the value"
+            ));
+        }
+        kept.into_iter().collect()
+    }
+
+    /// Relates the open track to the present text; reports errors in it.
+    pub(super) fn bound_track(&mut self, track: &Track, name: &str, text: &str) -> Option<Bound> {
+        let camera = self.scene.as_ref()?.camera;
+        let (bound, findings) = track::bind(track, self.source(), &camera);
+        if 0 < findings.errors() {
+            self.overlays.fail(complaint(name, text, &findings));
+            return None;
+        }
+        Some(bound)
+    }
+
+    /// Puts the present frame into the text, in SEQUENCE mode.
+    pub(super) fn resume_frame(&mut self) {
+        if self.mode == Mode::Sequence && self.overlays.dialog.is_none() {
+            let frame = self.sequence.open.as_ref().map_or(0, |open| open.frame);
+            self.show_frame(frame);
+        }
+    }
+
+    /// Puts the text back as it was before the frame.
+    pub(super) fn suspend_frame(&mut self) {
+        let open = self.sequence.open.as_mut();
+        if let Some(shown) = open.and_then(|open| open.shown.take()) {
+            self.end_trial(shown.trial);
+        }
+    }
+
+    /// Puts a frame into the text in place of the one before.
+    fn show_frame(&mut self, frame: u32) {
+        let Some(mut open) = self.sequence.open.take() else {
+            return;
+        };
+        open.frame = frame.min(open.last());
+        let shown = if let Some(shown) = open.shown.take() {
+            (!self.leaves_trial(&shown.trial, "frame")).then_some(shown)
+        } else {
+            let text = open.held.clone().unwrap_or_default();
+            let bound = self.bound_track(&open.track, &open.name(), &text);
+            bound.map(|bound| ShownFrame {
+                bound,
+                trial: self.begin_trial(),
+                was_dirty: self.document.is_dirty(),
+            })
+        };
+        if let Some(ShownFrame {
+            bound,
+            mut trial,
+            was_dirty,
+        }) = shown
+        {
+            let frame = open.frame;
+            let edits = |app: &Self| Ok(bound.edits(app.source(), frame));
+            match self.try_instead(&mut trial, edits) {
+                Ok(()) if trial.is_applied => {
+                    let name = format!("frame {frame} of {}", open.name());
+                    self.document.name_step(StepName::done(name));
+                }
+                Ok(()) => {}
+                Err(reason) => self.overlays.fail(format!("frame {frame}: {reason}")),
+            }
+            open.shown = Some(ShownFrame {
+                bound,
+                trial,
+                was_dirty,
+            });
+        } else {
+            open.is_playing = false;
+            self.mode = Mode::Select;
+        }
+        self.sequence.open = Some(open);
+    }
+
+    /// Plays the track, goes to its frames, or changes it.
+    pub(super) fn act_on_track(&mut self, action: Playback) -> Vec<Effect> {
+        match action {
+            Playback::Play => return self.toggle_playing(),
+            Playback::Frames(frames) => self.step_frames(frames),
+            Playback::NextKey => self.step_keys(true),
+            Playback::PreviousKey => self.step_keys(false),
+            Playback::Key => return self.key_value(),
+            Playback::TakeBack => return self.take_key_back(),
+            Playback::Edit => return self.edit_track(),
+        }
+        Vec::new()
+    }
+
+    /// Goes some frames on.
+    fn step_frames(&mut self, frames: i32) {
+        if let Some(open) = &self.sequence.open {
+            self.show_frame(open.frame_after(frames));
+        }
+    }
+
+    /// Goes to the next or previous frame with a key.
+    fn step_keys(&mut self, is_next: bool) {
+        match self
+            .sequence
+            .open
+            .as_ref()
+            .and_then(|open| open.key_after(is_next))
+        {
+            Some(frame) => self.show_frame(frame),
+            None if is_next => self.overlays.say("there are no later keys"),
+            None => self.overlays.say("there are no earlier keys"),
+        }
+    }
+
+    /// Goes to the frame that is pointed at on the sheet; returns whether there is one.
+    pub(super) fn scrub_to(&mut self, at: (u16, u16)) -> bool {
+        let area = self.areas().fields;
+        let Some(open) = &mut self.sequence.open else {
+            return false;
+        };
+        let sheet = Sheet::new(area, open.last());
+        let frame = sheet.frame(at.0);
+        let is_there = sheet.frames.contains(at.into());
+        if is_there {
+            open.is_playing = false;
+            self.show_frame(frame);
+        }
+        is_there
+    }
+
+    /// Plays the track, or stops.
+    fn toggle_playing(&mut self) -> Vec<Effect> {
+        let Some(open) = &mut self.sequence.open else {
+            return Vec::new();
+        };
+        open.is_playing = !open.is_playing;
+        let timer = Effect::Later(open.period(), Timer::Frame);
+        if open.is_playing {
+            vec![timer]
+        } else {
+            Vec::new()
+        }
+    }
+
+    /// Shows the next frame once something of the one before was seen: a scene that takes longer to
+    /// trace plays more slowly.
+    pub(super) fn play_on(&mut self) -> Vec<Effect> {
+        let open = self.sequence.open.as_ref();
+        let Some(open) = open.filter(|open| open.is_playing && self.mode == Mode::Sequence) else {
+            return Vec::new();
+        };
+        let timer = Effect::Later(open.period(), Timer::Frame);
+        if open.shown.is_some() && self.pictures.preview.shows_wanted() {
+            self.step_frames(1);
+        }
+        vec![timer]
+    }
+
+    /// Leaves SEQUENCE mode with the text as it was before.
+    pub(super) fn leave_sequence(&mut self) {
+        if let Some(open) = &mut self.sequence.open {
+            open.is_playing = false;
+        }
+        self.suspend_frame();
+        if self.mode == Mode::Sequence {
+            self.mode = Mode::Select;
+        }
+    }
+
+    /// Leaves SEQUENCE mode with the values of the frame in the text, as one undo step.
+    pub(super) fn keep_frame(&mut self) {
+        let Some(open) = &mut self.sequence.open else {
+            return;
+        };
+        open.is_playing = false;
+        let shown = open.shown.take();
+        if shown.is_some_and(|shown| shown.trial.is_applied) {
+            let words = format!("the scene is now that of frame {}", open.frame);
+            let undo = self.key_for(Action::Undo);
+            self.overlays.say(format!("{words}; {undo} undoes it"));
+        }
+        self.keep_trial();
+        self.mode = Mode::Select;
+    }
+
+    /// Takes the frame out of the text if SEQUENCE mode was left in another way.
+    pub(super) fn follow_sequence(&mut self) {
+        let open = self.sequence.open.as_ref();
+        if self.mode != Mode::Sequence && open.is_some_and(|open| open.shown.is_some()) {
+            self.leave_sequence();
+        }
+    }
+
+    /// Whether there are unsaved edits, apart from a frame that is shown.
+    pub fn has_edits(&self) -> bool {
+        let was_dirty = self.sequence.was_dirty();
+        was_dirty.unwrap_or_else(|| self.document.is_dirty())
+    }
+
+    /// Reads the open track again, if there is one.
+    pub(super) fn reread_track(&self) -> Option<Effect> {
+        let open = self.sequence.open.as_ref()?;
+        Some(Effect::ReadTrack(open.path.clone()))
+    }
+}
