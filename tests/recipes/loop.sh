@@ -2,7 +2,7 @@
 # Renders a picture in shards, one after the other. Run again after an interruption, it goes on.
 #   loop.sh SCENE PICTURE SHARDS [OPTION of render]...
 set -euo pipefail
-scene=$1 picture=$2 shards=$3
+scene=${1:?SCENE is missing} picture=${2:?PICTURE is missing} shards=${3:?SHARDS is missing}
 shift 3
 
 for ((k = 0; k < shards; k++)); do
