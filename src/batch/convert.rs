@@ -1,13 +1,15 @@
 //! Converts a scene to another language.
 
+use std::fs;
 use std::path::{Path, PathBuf};
 
 use super::output::Output;
-use super::{Error, Loaded, Warnings, load, print_all_findings, print_error, print_message};
+use super::{Error, Loaded, Warnings, load, print_all_findings, print_error};
 use crate::assets;
 use crate::file;
 use crate::language::{self, Converted, Language};
 use crate::memory;
+use crate::text::{Diagnostic, Findings};
 
 /// A scene to convert.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -39,30 +41,46 @@ fn try_convert(work: &Convert) -> Result<(), Error> {
         errors: loaded.findings.errors(),
     })?;
     work.output.check_spares(&work.scene, &loaded.read.files)?;
-    let Converted { text, losses } = language::convert(&loaded.source, scene, work.to)
+    let Converted { text, mut losses } = language::convert(&loaded.source, scene, work.to)
         .map_err(|reason| Error::Refused(reason.to_string()))?;
-    let losses = work.warnings.apply(losses);
+    if let Output::File(path) = &work.output {
+        losses.append(unreachable_files(work, path, &loaded));
+    }
+    let losses = work.warnings.apply(losses.sorted());
     print_all_findings(&work.scene, loaded.source.text(), &losses);
     match losses.errors() {
         0 => {}
         errors => return Err(Error::Unconverted { errors }),
     }
-    work.output.write(|out| out.write_all(text.as_bytes()))?;
-    if let Output::File(path) = &work.output {
-        note_folder(work, path, &loaded);
-    }
-    Ok(())
+    work.output.write(|out| out.write_all(text.as_bytes()))
 }
 
-/// Says that the files a scene names may not be found from another folder.
-fn note_folder(work: &Convert, path: &Path, loaded: &Loaded) {
-    let folders = [&work.scene, path].map(|file| file::directory_of(file).canonicalize().ok());
-    if folders[0] != folders[1] && work.to != Language::Ray && !loaded.read.files.is_empty() {
-        let message = format!(
-            "{} names pictures or meshes as {} does, but is in another folder",
-            path.display(),
-            work.scene.display()
-        );
-        print_message("note", &message);
+fn has_same_bytes(one: &Path, other: &Path) -> bool {
+    let [one, other] = [one, other].map(|path| fs::read(path).ok());
+    one.is_some() && one == other
+}
+
+/// Warnings for the files that a scene names, if they are looked for in another folder.
+fn unreachable_files(work: &Convert, path: &Path, loaded: &Loaded) -> Findings {
+    let mut found = Findings::default();
+    let folders = [&work.scene, path].map(|file| file::directory_of(file));
+    let [old, new] = folders.each_ref().map(|folder| folder.canonicalize().ok());
+    if old == new || work.to == Language::Ray {
+        return found;
     }
+    for named in loaded.source.files() {
+        let [old, new] = folders.each_ref().map(|folder| folder.join(&named.path));
+        if !file::is_same(&old, &new) && !has_same_bytes(&old, &new) {
+            found.warning(|| {
+                let message = format!(
+                    "{}: the new scene looks for it in its own folder",
+                    named.what
+                );
+                let hint = "copy the file there, or write the scene into the folder of the old one";
+                Diagnostic::warning(named.span, message, "a scene in the same folder")
+                    .with_hint(hint)
+            });
+        }
+    }
+    found
 }

@@ -129,10 +129,15 @@ fn files_named_from_another_folder_are_pointed_out() {
          obj sphere ID 0 mat ID 0  0 0 0 1\n",
     );
     place.write("map.ppm", b"P6 1 1 255 abc");
-    let note =
-        "note: new/map.xml names pictures or meshes as map.dat does, but is in another folder";
+    let warning = "the new scene looks for it in its own folder";
+    let (_, said, code) = run(&place, "map.dat -o new/map.xml --strict");
+    assert!(code == Some(65) && said.contains(warning), "{said}");
+    assert!(!place.at("new/map.xml").exists());
     let (_, said, code) = run(&place, "map.dat -o new/map.xml");
-    assert!(code == Some(0) && said.contains(note), "{said}");
-    let (_, said, _) = run(&place, "map.dat -o map.xml");
-    assert!(!said.contains("note: "), "{said}");
+    assert!(code == Some(0) && said.contains(warning), "{said}");
+    place.write("new/map.ppm", b"P6 1 1 255 abc");
+    for there in ["new/map.xml", "map.xml"] {
+        let (_, said, _) = run(&place, &format!("map.dat -o {there}"));
+        assert!(!said.contains(warning), "{said}");
+    }
 }
