@@ -63,7 +63,7 @@ fn has_same_bytes(one: &Path, other: &Path) -> bool {
 /// Warnings for the files that a scene names, if they are looked for in another folder.
 fn unreachable_files(work: &Convert, path: &Path, loaded: &Loaded) -> Findings {
     let mut found = Findings::default();
-    let folders = [&work.scene, path].map(|file| file::directory_of(file));
+    let folders = [work.scene.as_path(), path].map(file::directory_of);
     let [old, new] = folders.each_ref().map(|folder| folder.canonicalize().ok());
     if old == new || work.to == Language::Ray {
         return found;

@@ -299,8 +299,8 @@ fn check_beginning(
     })
 }
 
-/// Lowers a text with the files it references. Returns it with them. The diagnostics include those of the files; files found elsewhere than at the path written
-/// are printed as notes.
+/// Lowers a text with the files it references, and returns both. The diagnostics include those of the
+/// files; files found elsewhere than at the path written are printed as notes.
 fn lower(
     path: &Path,
     source: &mut Source,
@@ -308,6 +308,10 @@ fn lower(
 ) -> Result<(Lowered, assets::Loaded), OutOfMemory> {
     let (lowered, loaded) = Assets::new(folders).lower(path, source)?;
     for (name, found) in &loaded.elsewhere {
+        let found = match found.parent() {
+            Some(parent) if parent.as_os_str().is_empty() => Path::new(".").join(found),
+            _ => found.clone(),
+        };
         print_message("note", &format!("{name} is read from {}", found.display()));
     }
     Ok((lowered, loaded))

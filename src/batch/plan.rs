@@ -154,7 +154,7 @@ impl Measured {
         if let Some(best) = best {
             let _ = writeln!(
                 text,
-                "Shortest with {} tasks; there {} takes most. A sequence divided by frames has no merge: \
+                "Shortest with {} tasks, where {} takes longest. A sequence divided by frames has no merge: \
                  {:.4} s a frame and task.",
                 best.tasks,
                 best.bound(self.prepare),

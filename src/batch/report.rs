@@ -86,7 +86,8 @@ impl Excerpt {
         let end = span.end().clamp(start, line_end);
         let before = last_chars(&text[line_start..start]);
         let marked = first_chars(&text[start..end]);
-        let after = first_chars(text[start + marked.len()..line_end].trim_end());
+        let rest = text[start + marked.len()..line_end].trim_end();
+        let after = first_chars(rest);
 
         let mut line = String::new();
         if before.len() < start - line_start {
@@ -98,6 +99,9 @@ impl Excerpt {
         let marked = Span::new(from, line.len());
         line.push_str(&shown(after));
         line.truncate(line.trim_end().len().max(marked.end()));
+        if after.len() < rest.len() {
+            line.push('…');
+        }
         Self { line, marked }
     }
 }

@@ -49,10 +49,11 @@ impl ConvertArguments {
             Some(language) => language,
             None if self.output == Path::new("-") => {
                 return Err(
-                    "standard output has no extension: name the language by --to".to_owned(),
+                    "standard output has no extension: name the language with --to".to_owned(),
                 );
             }
-            None => Language::of_path(&self.output).map_err(|error| format!("{error}, or --to"))?,
+            None => Language::of_path(&self.output)
+                .map_err(|error| format!("{error}; --to names another language"))?,
         };
         Ok(Convert {
             scene: self.scene,

@@ -19,6 +19,7 @@ use std::path::{Path, PathBuf};
 use clap::error::ErrorKind;
 use clap::{CommandFactory, Parser, Subcommand, ValueEnum};
 use clap_complete::Shell;
+use clap_mangen::roff::{Roff, roman};
 
 use bench::BenchArguments;
 use compare::CompareArguments;
@@ -382,10 +383,41 @@ fn manual() -> Vec<u8> {
         .get_subcommands()
         .filter(|command| command.get_name() != "help");
     for command in [&cli].into_iter().chain(commands) {
+        let notes = command
+            .get_after_long_help()
+            .or_else(|| command.get_after_help());
+        let notes = notes.map(ToString::to_string).unwrap_or_default();
+        let plain = command.clone().after_help("").after_long_help("");
         // Writing to memory cannot fail.
-        let _ = clap_mangen::Man::new(command.clone()).render(&mut page);
+        let _ = clap_mangen::Man::new(plain).render(&mut page);
+        let _ = notes_section(&notes).to_writer(&mut page);
     }
     page
+}
+
+/// What follows the options in the help, as a section in which indented lines stay as they are.
+fn notes_section(notes: &str) -> Roff {
+    let mut section = Roff::default();
+    let mut is_kept = false;
+    if !notes.is_empty() {
+        section.control("SH", ["NOTES"]);
+    }
+    for line in notes.lines() {
+        let keeps = line.starts_with("  ");
+        if keeps != is_kept {
+            section.control(if keeps { "nf" } else { "fi" }, []);
+            is_kept = keeps;
+        }
+        if line.is_empty() {
+            section.control("PP", []);
+        } else {
+            section.text([roman(line)]);
+        }
+    }
+    if is_kept {
+        section.control("fi", []);
+    }
+    section
 }
 
 /// Refuses words that are not the scene to open: misspelt commands and a second scene.

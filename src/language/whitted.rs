@@ -13,7 +13,7 @@ const MOST: f64 = 1e6;
 
 const MODIFIED: Loss = Loss {
     keys: &["specular"],
-    lost: "a phong highlight that is weaker at grazing light",
+    lost: "a phong highlight that is weaker at grazing angles",
     instead: "written as a highlight of the same exponent that is not",
 };
 

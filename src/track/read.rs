@@ -224,7 +224,8 @@ impl Reader {
             }),
             _ if last.saturating_add(1) < frame => self.findings.warning(|| {
                 let frames = counted(last as usize + 1, "frame");
-                let expected = format!("a frame from 0 to {last}, or the next to close a loop");
+                let next = last.saturating_add(1);
+                let expected = format!("a frame from 0 to {last}, or {next} to close a loop");
                 let message = format!("frame {frame} is beyond the end: there are {frames}");
                 Diagnostic::warning(span_of(value), message, expected)
             }),
@@ -260,14 +261,25 @@ fn any(value: Placed<'_, '_>) -> Result<Value, Diagnostic> {
         DeValue::Array(_) => numbers(value, EXPECTED).map(Value::Numbers),
         _ => match number(value) {
             Some(number) => Ok(Value::Numbers(vec![number])),
-            None => Err(wrong(value, "a finite number", EXPECTED)),
+            None => Err(no_number(value, EXPECTED)),
         },
     }
 }
 
+/// The error for what is not a finite number.
+fn no_number(value: Placed<'_, '_>, expected: &str) -> Diagnostic {
+    let is_infinite = matches!(value.get_ref(), DeValue::Float(_) | DeValue::Integer(_));
+    let number = if is_infinite {
+        "a finite number"
+    } else {
+        "a number"
+    };
+    wrong(value, number, expected)
+}
+
 fn numbers(value: Placed<'_, '_>, expected: &str) -> Result<Vec<f64>, Diagnostic> {
     let elements = elements(value, expected)?;
-    let number = |value| number(value).ok_or_else(|| wrong(value, "a finite number", expected));
+    let number = |value| number(value).ok_or_else(|| no_number(value, expected));
     elements.into_iter().map(number).collect()
 }
 

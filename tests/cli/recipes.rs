@@ -34,6 +34,7 @@ fn cook(place: &Place, recipe: &str, arguments: [&str; 3], options: &str) -> boo
 #[cfg(unix)]
 fn assert_cooks(recipe: &str) {
     const OPTIONS: &str = "--size 100x40 --spp 4";
+    const MORE: &str = "--size 100x40 --spp 8";
     let place = Place::new();
     place.stderr(&format!("render ball.ray -o whole.png {OPTIONS}"), 0);
     let whole = place.read("whole.png");
@@ -43,7 +44,6 @@ fn assert_cooks(recipe: &str) {
     fs::remove_file(place.at("out.png")).expect("it is there");
     assert!(cooked(&place, recipe, OPTIONS) == whole);
     // With more samples, it goes on from there; of another scene, nothing is taken over.
-    const MORE: &str = "--size 100x40 --spp 8";
     place.stderr(&format!("render ball.ray -o more.png {MORE}"), 0);
     assert!(cooked(&place, recipe, MORE) == place.read("more.png"));
     place.write("ball.ray", format!("{BALL}// another\n"));

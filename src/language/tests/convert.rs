@@ -94,7 +94,7 @@ obj quadric ID 2 mat ID 2  1 0 0 -3 1 0 0 -0.25 0.5 8  2  0 0 -0.5 0  0 0 0.5 1
 "#,
         &[
             "7:1 object 2 (cone): a cone",
-            "7:39 object 2 (cone): ambient, diffuse and specular colours that are no multiples of one",
+            "7:39 object 2 (cone): ambient, diffuse and specular colours that are not multiples of one another",
         ],
     );
 }
@@ -144,7 +144,7 @@ fn ray_becomes_xml() {
             "6:10 object 1 (sphere): an ambient colour other than the diffuse one",
             "7:1 object 2 (cone): a cone",
             "7:39 object 2 (cone): an ambient colour other than the diffuse one",
-            "7:63 object 2 (cone): a highlight that is as strong at grazing light",
+            "7:63 object 2 (cone): a highlight that is as strong at grazing angles",
             "7:77 object 2 (cone): a mirror on both faces",
         ],
     );
@@ -193,7 +193,7 @@ fn dat_becomes_xml() {
             "5:49 light 7: a spot light",
             "5:51 light 7: light without shadows",
             "6:1 material 3: the squares that the lines of a checkerboard belong to",
-            "6:31 material 3: a highlight that is as strong at grazing light",
+            "6:31 material 3: a highlight that is as strong at grazing angles",
             "9:1 object 6 (CSG): a box",
             "9:14 object 6 (CSG): a combination of solids",
         ],

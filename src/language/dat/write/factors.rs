@@ -10,7 +10,7 @@ use crate::scene::Rgb;
 
 const COLOURS: Loss = Loss {
     keys: &["ka", "kd", "ks", "specular", "diffuse"],
-    lost: "ambient, diffuse and specular colours that are no multiples of one",
+    lost: "ambient, diffuse and specular colours that are not multiples of one another",
     instead: "written as the nearest multiples of the diffuse colour",
 };
 
@@ -61,7 +61,7 @@ impl Factors {
             .into_iter()
             .filter(|base| *base != Rgb::ZERO);
         let base = bases.clone().next().unwrap_or(Rgb::ONE);
-        // Most colours are no multiples, and the search is long.
+        // Most colours are not multiples, and the search is long.
         let may_fit = (0..3).all(|at| !counts[at] || is_about_multiple(base, wanted[at]));
         for colour in bases.filter(|_| may_fit).flat_map(colours) {
             let exact = [0, 1, 2].map(|at| factor(colour, wanted[at]));

@@ -24,8 +24,8 @@ pub(super) fn diagnostic(text: &str, error: &Error, unclosed: Option<Span>) -> D
         .with_hint("a literal & is written &amp;"),
         Error::MalformedEntityReference(_) => Diagnostic::error(
             here,
-            "`&` does not begin a reference",
-            "`&amp;` for a literal &",
+            "`&` does not begin a reference to a character that XML allows",
+            "`&amp;` for a literal &, or the number of a character, such as `&#65;`",
         ),
         Error::InvalidAttributeValue(_) | Error::InvalidChar(b'"' | b'\'', b'<', _) => {
             less_than(here)

@@ -19,7 +19,7 @@ const AMBIENT: Loss = Loss {
 
 const PHONG: Loss = Loss {
     keys: &["ks", "Ks"],
-    lost: "a highlight that is as strong at grazing light",
+    lost: "a highlight that is as strong at grazing angles",
     instead: "written as a phong highlight of the same exponent, which is weaker there",
 };
 

@@ -12,7 +12,7 @@ use crate::scene::Scene;
 const BOX: Loss = Loss {
     keys: &[],
     lost: "a box",
-    instead: "written as six squares, which are no solid: the same but for rounding and for glass",
+    instead: "written as six squares, which enclose no solid: the same except for rounding and glass",
 };
 
 const CYLINDER: Loss = Loss {
