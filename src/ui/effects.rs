@@ -6,18 +6,19 @@ use std::io;
 use std::num::NonZero;
 use std::path::Path;
 use std::sync::Arc;
-use std::sync::mpsc::Sender;
+use std::sync::mpsc::{Receiver, Sender};
 use std::thread;
 use std::time::{Duration, Instant};
 
 use super::assets::AssetReader;
 use super::comparer::{Figures, References};
+use super::continuing::{Keeping, TraceEnd, Traced};
 use super::deriving::Deriver;
 use super::editor;
 use super::event::{Event, Work, sending};
 use super::explaining::Explainer;
 use super::heap;
-use super::msg::{Effect, Msg, SaveOutcome, Target, Timer};
+use super::msg::{Effect, Msg, Origin, SaveOutcome, Target, Timer};
 use super::options::Options;
 use super::past::NoPicture;
 use super::reader::Reader;
@@ -26,8 +27,10 @@ use super::recovery::{self, Edits, End, Keeper, Outcome, Request};
 use super::reference::ReferenceSource;
 use super::screen::Screen;
 use super::service::{Ended, Service};
+use super::traces::Traces;
 use super::writing::Writers;
-use crate::render::{Job, Refusal, Renderer, Threads};
+use crate::render::{Job, Kept, Refusal, Renderer, Threads};
+use crate::scene::Scene;
 
 /// Time for which memory freed by pictures is kept for the next ones.
 const TRIM_TIME: Duration = Duration::from_secs(30);
@@ -55,6 +58,8 @@ pub(crate) struct Runtime {
     editor: Option<String>,
     preview: Option<Numbered>,
     trace: Option<Numbered>,
+    /// What the full-size trace is made from.
+    traced: Option<Traced>,
     export: Option<Numbered>,
     compared: Option<Numbered>,
     reference: Option<Numbered>,
@@ -92,6 +97,7 @@ impl Runtime {
             editor: options.editor.clone(),
             preview: None,
             trace: None,
+            traced: None,
             export: None,
             compared: None,
             reference: None,
@@ -138,14 +144,25 @@ impl Runtime {
     }
 
     /// Restores the terminal and waits for files being written, each within its time limit; returns
-    /// the state of unsaved edits.
-    pub(crate) fn close(self, terminal: Duration, files: Duration) -> End {
+    /// the state of unsaved edits, and that of the full-size trace. `now` is the present scene with
+    /// its origin, unless the text has errors.
+    pub(crate) fn close(
+        self,
+        patience: Patience,
+        now: Option<(Arc<Scene>, Origin)>,
+    ) -> (End, TraceEnd) {
         let begun = Instant::now();
-        self.screen.close(begun + terminal);
-        let end = self.keeper.finish(begun + files);
-        self.writers.finish(begun + files);
-        self.recent.finish(begun + files);
-        end
+        let files = begun + patience.files;
+        let is_kept = self.screen.is_terminal();
+        let traced = self.traced.filter(|_| is_kept);
+        let keeping = traced
+            .zip(self.trace)
+            .map(|(traced, running)| traced.keep(running.renderer, now, begun + patience.trace));
+        self.screen.close(begun + patience.terminal);
+        let end = self.keeper.finish(files);
+        self.writers.finish(files);
+        self.recent.finish(files);
+        (end, keeping.map_or(TraceEnd::Nothing, Keeping::finish))
     }
 
     /// When the next timer is due.
@@ -183,7 +200,13 @@ impl Runtime {
             return Ok(without_others(&effect));
         }
         match effect {
-            Effect::Trace(target, job) => return Ok(Some(self.trace(target, job))),
+            Effect::Trace(target, job) => {
+                if target == Target::Trace {
+                    self.traced = Some(Traced::of(&job));
+                }
+                return Ok(Some(self.trace(target, job, None)));
+            }
+            Effect::Recall(job, origin) => return Ok(Some(self.trace_on(job, origin))),
             Effect::Stop(target) => self.stop(target),
             Effect::Explain(..)
             | Effect::Read(..)
@@ -292,7 +315,23 @@ impl Runtime {
         }
     }
 
-    fn trace(&mut self, target: Target, job: Job) -> Msg {
+    /// Starts the full-size trace from what an earlier run left of it.
+    fn trace_on(&mut self, job: Job, origin: Origin) -> Msg {
+        let is_page = matches!(self.screen, Screen::Page(_));
+        let send = sending(&self.sender);
+        let report = move |recalled| send(Msg::Recalled(recalled));
+        let traces = Traces::of_user().ok();
+        let recall = (!is_page).then(|| Traced::recall(&job, origin, traces, report));
+        let (traced, recalled) = match recall {
+            Some(Ok((traced, recalled))) => (traced, Some(recalled)),
+            // Without a thread it is traced anew.
+            Some(Err(_)) | None => (Traced::of(&job), None),
+        };
+        self.traced = Some(traced);
+        self.trace(Target::Trace, job, recalled)
+    }
+
+    fn trace(&mut self, target: Target, job: Job, recalled: Option<Receiver<Kept>>) -> Msg {
         let cores = || thread::available_parallelism().map_or(1, NonZero::get);
         let threads = match (target, self.threads) {
             (Target::Preview, None) => Threads::Preview,
@@ -322,7 +361,11 @@ impl Runtime {
             Target::Thumbnail => &mut self.thumbnail,
         };
         let running = slot.get_or_insert_with(&mut start);
-        let started = match running.renderer.restart(job.clone()) {
+        let restarted = match recalled {
+            Some(recalled) => running.renderer.restart_from(job.clone(), recalled),
+            None => running.renderer.restart(job.clone()),
+        };
+        let started = match restarted {
             // A worker ended by a panic is replaced: the panic costs only one picture.
             Err(Refusal::Ended) => slot.insert(start()).renderer.restart(job),
             started => started,
@@ -415,6 +458,17 @@ enum Failure {
     Terminal(io::Error),
     #[error("{0}")]
     Editor(String),
+}
+
+/// The longest times to wait at the end.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Patience {
+    /// For restoring the terminal.
+    pub(crate) terminal: Duration,
+    /// For files being written.
+    pub(crate) files: Duration,
+    /// For keeping the full-size trace.
+    pub(crate) trace: Duration,
 }
 
 /// A renderer and its serial number.

@@ -16,6 +16,7 @@ mod assets;
 mod beginning;
 mod comparer;
 mod console;
+mod continuing;
 mod deriving;
 pub mod doctor;
 mod editor;
@@ -48,6 +49,7 @@ mod session;
 mod snapshot;
 pub mod terminal;
 mod theme;
+mod traces;
 pub mod view;
 mod writing;
 
