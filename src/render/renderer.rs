@@ -91,7 +91,7 @@ impl Renderer {
         };
         worker
             .requests
-            .send(Request::Trace(submission))
+            .send(Request::Trace(Box::new(submission)))
             .map_err(|_| Refusal::Ended)?;
         self.accepted = scene;
         Ok(generation)

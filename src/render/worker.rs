@@ -20,7 +20,7 @@ use super::world::World;
 /// What the thread is asked for.
 pub(crate) enum Request {
     /// To trace this instead of what it traces.
-    Trace(Submission),
+    Trace(Box<Submission>),
     /// To send the newest picture, as far as it is traced, before it ends.
     Keep(Sender<Kept>),
 }
@@ -63,9 +63,9 @@ pub(crate) fn run<W: Fn() + Sync>(
     let mut left = None;
     let mut keeper = None;
     while let Ok(first) = requests.recv() {
-        let mut newest: Option<Submission> = None;
-        let mut take = |submission| {
-            left = pool.install(|| trace(submission, shared, wake, left.take()));
+        let mut newest: Option<Box<Submission>> = None;
+        let mut take = |submission: Box<Submission>| {
+            left = pool.install(|| trace(*submission, shared, wake, left.take()));
         };
         for request in iter::once(first).chain(requests.try_iter()) {
             match request {

@@ -1,6 +1,8 @@
 //! Performs effects: owns the terminal, the renderers, the timers, and the handles of the threads
 //! that read, write, watch and store files. Nothing here waits for a file.
 
+mod others;
+
 use std::any::Any;
 use std::io;
 use std::num::NonZero;
@@ -15,6 +17,7 @@ use super::comparer::{Figures, References};
 use super::continuing::{Keeping, TraceEnd, Traced};
 use super::deriving::Deriver;
 use super::editor;
+use super::ending::Patience;
 use super::event::{Event, Work, sending};
 use super::explaining::Explainer;
 use super::heap;
@@ -24,13 +27,13 @@ use super::past::NoPicture;
 use super::reader::Reader;
 use super::recent::Recent;
 use super::recovery::{self, Edits, End, Keeper, Outcome, Request};
-use super::reference::ReferenceSource;
 use super::screen::Screen;
 use super::service::{Ended, Service};
 use super::traces::Traces;
 use super::writing::Writers;
 use crate::render::{Job, Kept, Refusal, Renderer, Threads};
 use crate::scene::Scene;
+use others::{reaches_others, without_others};
 
 /// Time for which memory freed by pictures is kept for the next ones.
 const TRIM_TIME: Duration = Duration::from_secs(30);
@@ -381,28 +384,26 @@ impl Runtime {
     }
 
     fn stop(&mut self, target: Target) {
-        match target {
-            // It stops by itself.
-            Target::Preview => {}
-            Target::Trace => self.trace = None,
-            Target::Export => self.export = None,
-            Target::Compared => self.compared = None,
-            Target::Reference => self.reference = None,
-            Target::Thumbnail => self.thumbnail = None,
+        // The preview stops by itself.
+        if target != Target::Preview {
+            *self.slot(target) = None;
         }
     }
 
     fn with_renderer(&mut self, target: Target, act: impl FnOnce(&mut Renderer)) {
-        let slot = match target {
+        if let Some(running) = self.slot(target) {
+            act(&mut running.renderer);
+        }
+    }
+
+    fn slot(&mut self, target: Target) -> &mut Option<Numbered> {
+        match target {
             Target::Preview => &mut self.preview,
             Target::Trace => &mut self.trace,
             Target::Export => &mut self.export,
             Target::Compared => &mut self.compared,
             Target::Reference => &mut self.reference,
             Target::Thumbnail => &mut self.thumbnail,
-        };
-        if let Some(running) = slot {
-            act(&mut running.renderer);
         }
     }
 
@@ -411,37 +412,6 @@ impl Runtime {
         let ran = self.screen.lend(|| editor::run(configured, path, line));
         ran.map_err(Failure::Terminal)?.map_err(Failure::Editor)
     }
-}
-
-/// The result of an effect on others in a script of keys, which performs none.
-fn without_others(effect: &Effect) -> Option<Msg> {
-    match effect {
-        Effect::WriteRecovery { revision, .. } => Some(Msg::Kept(*revision, Ok(()))),
-        Effect::ListRecent => Some(Msg::RecentListed(Vec::new())),
-        Effect::ReadReference(id, _) => {
-            let reason = "a script of keys does not run git".to_owned();
-            Some(Msg::ReferenceRead(*id, Err(reason)))
-        }
-        _ => None,
-    }
-}
-
-/// Whether an effect depends on earlier runs or other programs. With a page none is performed: it
-/// keeps no edits and watches no files.
-fn reaches_others(effect: &Effect) -> bool {
-    matches!(
-        effect,
-        Effect::WriteRecovery { .. }
-            | Effect::DropRecovery
-            | Effect::LookForKept(_)
-            | Effect::AdoptKept(_)
-            | Effect::DropKept(_)
-            | Effect::Watch(_)
-            | Effect::NoteRecent(_)
-            | Effect::ListRecent
-            | Effect::KeepPanels(_)
-            | Effect::ReadReference(_, ReferenceSource::Revision(..))
-    )
 }
 
 /// Reason why an effect cannot be performed.
@@ -458,17 +428,6 @@ enum Failure {
     Terminal(io::Error),
     #[error("{0}")]
     Editor(String),
-}
-
-/// The longest times to wait at the end.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Patience {
-    /// For restoring the terminal.
-    pub(crate) terminal: Duration,
-    /// For files being written.
-    pub(crate) files: Duration,
-    /// For keeping the full-size trace.
-    pub(crate) trace: Duration,
 }
 
 /// A renderer and its serial number.

@@ -15,7 +15,7 @@ use std::time::{Duration, Instant};
 use super::app::App;
 use super::beginning::Beginning;
 use super::continuing::TraceEnd;
-use super::effects::{Patience, Runtime};
+use super::effects::Runtime;
 use super::ending::{Ending, Error};
 use super::event::{Event, sending};
 use super::keymap::{Action, Mode};
@@ -203,7 +203,7 @@ impl Session {
         let now = self.app.scene.clone().zip(self.app.origin());
         // The end of the process frees a large scene immediately.
         mem::forget(self.app);
-        let (edits, trace) = self.runtime.close(patience(self.ending), now);
+        let (edits, trace) = self.runtime.close(self.ending.patience(), now);
         let edits = match edits {
             End::Nothing => None,
             End::Kept => Some(format!(
@@ -395,23 +395,6 @@ fn argument(path: &Path) -> String {
     // Only NUL cannot be quoted, and paths contain none.
     let quoted = shlex::try_quote(&path).unwrap_or(Cow::Borrowed(&path));
     quoted.into_owned()
-}
-
-/// Time limits. A user who quits may be at the far end of a slow link, but should not wait a second
-/// for a terminal that takes no output; a file being saved gets longer. A terminal that hung up is
-/// not waited for. A trace that is kept took hours, and has up to a gigabyte; who sends signals may
-/// soon end the process in another way.
-fn patience(ending: Ending) -> Patience {
-    let (terminal, files, trace) = match ending {
-        Ending::Quit | Ending::Interrupted => (700, 2000, 8000),
-        Ending::Terminated { .. } => (400, 700, 3000),
-        Ending::HungUp => (100, 700, 8000),
-    };
-    Patience {
-        terminal: Duration::from_millis(terminal),
-        files: Duration::from_millis(files),
-        trace: Duration::from_millis(trace),
-    }
 }
 
 /// The ending that results if this message ends the program.

@@ -86,7 +86,7 @@ impl Traces {
         }
         let write = |out: &mut dyn Write| {
             let mut out = Digested::new(Timed { out, deadline });
-            write!(out, "{head}samples {samples}\n")?;
+            writeln!(out, "{head}samples {samples}")?;
             kept.write(&mut out)?;
             let (mut out, digest) = out.finish();
             out.write_all(&digest)
@@ -118,9 +118,10 @@ impl Traces {
             let (from, digest) = from.finish();
             let mut end = Vec::new();
             from.take(digest.len() as u64 + 1).read_to_end(&mut end)?;
-            match end == digest {
-                true => Ok(kept),
-                false => Err(io::Error::from(ErrorKind::InvalidData)),
+            if end == digest {
+                Ok(kept)
+            } else {
+                Err(io::Error::from(ErrorKind::InvalidData))
             }
         };
         match read() {
@@ -204,7 +205,7 @@ fn samples_in(from: &mut impl Read) -> io::Result<u64> {
         if byte == *b"\n" {
             let samples = line.strip_prefix("samples ");
             let samples = samples.and_then(|samples| samples.parse().ok());
-            return samples.ok_or(ErrorKind::InvalidData.into());
+            return samples.ok_or_else(|| ErrorKind::InvalidData.into());
         }
         line.push(char::from(byte[0]));
     }

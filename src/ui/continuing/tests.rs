@@ -4,7 +4,6 @@ use std::collections::BTreeMap;
 use std::fs;
 
 use super::*;
-use crate::language::Language;
 use crate::ui::traces::tests::{Place, far, job, traced};
 
 /// The origin of a text that the file names.
@@ -50,8 +49,8 @@ impl Test {
         traced.store(&self.place.traces, &kept, now, far())
     }
 
-    fn now(&self, text: &str) -> Option<(Arc<Scene>, Origin)> {
-        Some((Arc::clone(&self.job.scene), origin(&self.files, text)))
+    fn now(&self, text: &str) -> (Arc<Scene>, Origin) {
+        (Arc::clone(&self.job.scene), origin(&self.files, text))
     }
 }
 
@@ -60,36 +59,55 @@ const KEPT: TraceEnd = TraceEnd::Kept {
     goal: Some(4),
 };
 
+/// How a trace began.
+enum Begun {
+    Recalled,
+    /// It goes on after an edit.
+    Restarted,
+}
+
+/// The text at the end.
+enum Now {
+    /// That of the scene that is traced.
+    Traced(&'static str),
+    /// That of another scene.
+    Other(&'static str),
+    Errors,
+}
+
 #[test]
 fn a_trace_is_kept_with_the_text_that_the_next_run_opens() {
-    let other = Language::Ray.template().to_owned();
-    let restarted = |test: &Test| Traced::of(&test.job);
-    let recalled = |test: &Test| test.recall("first").0;
-    // How it began; the text now, if it has no errors, and of which scene; the text it is kept with.
-    type Begun<'t> = &'t dyn Fn(&Test) -> Traced;
-    let cases: [(Begun<'_>, Option<(&str, bool)>, Option<&str>); 6] = [
-        (&recalled, Some(("first", true)), Some("first")),
-        (&recalled, Some(("commented", true)), Some("commented")),
-        (&recalled, Some((&other, false)), Some("first")),
-        (&recalled, None, Some("first")),
-        (&restarted, Some(("edited", true)), Some("edited")),
-        (&restarted, None, None),
-    ];
-    for (number, (begun, now, expected)) in cases.into_iter().enumerate() {
+    for (number, (begun, now, expected)) in [
+        (Begun::Recalled, Now::Traced("first"), Some("first")),
+        (Begun::Recalled, Now::Traced("commented"), Some("commented")),
+        (Begun::Recalled, Now::Other("other"), Some("first")),
+        (Begun::Recalled, Now::Errors, Some("first")),
+        (Begun::Restarted, Now::Traced("edited"), Some("edited")),
+        (Begun::Restarted, Now::Errors, None),
+    ]
+    .into_iter()
+    .enumerate()
+    {
         let test = Test::new();
-        let traced = begun(&test);
-        let now = now.and_then(|(text, is_same)| {
-            let (scene, origin) = test.now(text)?;
-            let other = || Arc::new(Scene::clone(&scene));
-            Some((if is_same { Arc::clone(&scene) } else { other() }, origin))
-        });
+        let traced = match begun {
+            Begun::Recalled => test.recall("first").0,
+            Begun::Restarted => Traced::of(&test.job),
+        };
+        let now = match now {
+            Now::Traced(text) => Some(test.now(text)),
+            Now::Other(text) => {
+                let (scene, origin) = test.now(text);
+                Some((Arc::new(Scene::clone(&scene)), origin))
+            }
+            Now::Errors => None,
+        };
         let end = test.store(traced, now);
         let Some(expected) = expected else {
             assert_eq!(end, Err("the text has errors".to_owned()));
             continue;
         };
         assert_eq!(end, Ok(KEPT), "{number}");
-        for text in ["first", "commented", "edited", &other] {
+        for text in ["first", "commented", "edited", "other"] {
             let (_, reported, is_brought) = test.recall(text);
             let is_expected = text == expected;
             let continued = Some(Recalled::Continued(4)).filter(|_| is_expected);
@@ -104,7 +122,7 @@ fn files_count_as_they_were_when_the_trace_began() {
     let (traced, ..) = test.recall("first");
     let picture = test.files.path().join("a.ppm");
     fs::write(&picture, "P6").expect("it is ours");
-    assert_eq!(test.store(traced, test.now("first")), Ok(KEPT));
+    assert_eq!(test.store(traced, Some(test.now("first"))), Ok(KEPT));
     assert_eq!(test.recall("first").1, None, "the picture is another");
     fs::write(&picture, "P3").expect("it is ours");
     assert_eq!(test.recall("first").1, Some(Recalled::Continued(4)));
@@ -146,6 +164,6 @@ fn a_short_trace_is_not_kept() {
     let test = Test::new();
     let mut renderer = Renderer::new(crate::render::Threads::Exactly(1), || {});
     renderer.restart(test.job.clone()).expect("the worker runs");
-    let keeping = Traced::of(&test.job).keep(renderer, test.now("first"), far());
+    let keeping = Traced::of(&test.job).keep(renderer, Some(test.now("first")), far());
     assert_eq!(keeping.finish(), TraceEnd::Nothing);
 }
