@@ -1,6 +1,6 @@
 //! Tiles as bytes, with integers and floats in little-endian order: sums as 3 f64 a pixel, indices of
 //! objects as u32, levels as u8, the sum of squared errors as f64, samples over budget as u64, and
-//! with [`Memory`] the touched sets as u64, squared errors as f32 and rays as u32.
+//! with [`super::Memory`] the touched sets as u64, squared errors as f32 and rays as u32.
 //!
 //! Grid and level are not stored: a tile that lacks a sample of a pixel takes the grids again.
 
