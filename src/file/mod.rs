@@ -23,7 +23,7 @@ use crate::memory::{self, Need, OutOfMemory};
 use crate::text::{Position, Span};
 
 pub use backup::{backups, interruption};
-pub use digest::Digest;
+pub use digest::{Digest, Digested};
 pub(crate) use lock::{Lock, lock};
 pub use replace::{deliver, replace};
 pub(crate) use target::end_of_links;

@@ -7,6 +7,7 @@ use rayon::prelude::*;
 
 use super::frame::{Aov, Frames, Settings};
 use super::gather::Gather;
+use super::kept::{Effort, Kept};
 use super::noise::Doubling;
 use super::probe::Counts;
 use super::shot::Shot;
@@ -17,16 +18,9 @@ use super::touched::Touched;
 use super::tracer::Tracer;
 use crate::scene::Size;
 
-/// Most pixels of a picture whose dependencies are recorded; for larger pictures that would cost
-/// more memory than the time saved is worth.
-const MOST_REMEMBERED: usize = 1 << 22;
-
 /// Pixels developed between two polls of cancellation, which takes a few milliseconds; at least two
 /// rows of tiles per thread.
 const QUIET: usize = 262_144;
-
-/// Tiles freed at once: about 4 MB, in less than 1 ms.
-const FREED: usize = 512;
 
 /// The tiles of a picture, in rows.
 #[derive(Debug)]
@@ -50,16 +44,6 @@ pub(crate) struct Film {
     over_budget: u64,
     /// Memory for the finished picture, reserved so that long work is not lost for lack of it.
     room: Raster,
-}
-
-/// What the tiles of a picture store.
-fn remembers(settings: &Settings, frames: Frames) -> Remembers {
-    let shown = matches!(settings.aov, Some(Aov::Cost | Aov::Noise));
-    if shown || frames == Frames::Live && settings.traced().size().pixels() <= MOST_REMEMBERED {
-        Remembers::Causes
-    } else {
-        Remembers::Pixels
-    }
 }
 
 /// The picture does not fit into memory.
@@ -111,7 +95,7 @@ impl Film {
     pub(crate) fn bytes(settings: &Settings, frames: Frames) -> u64 {
         let size = settings.traced().size();
         let bytes = |count: usize, each: usize| (count as u64).saturating_mul(each as u64);
-        let remembers = remembers(settings, frames);
+        let remembers = Remembers::of(settings, frames);
         let values = match frames {
             Frames::Live => size_of::<u32>() + size_of::<[f32; 3]>() + size_of::<f32>(),
             Frames::Last => 0,
@@ -127,7 +111,7 @@ impl Film {
         let Settings { spp, aov, .. } = *settings;
         let size = settings.traced().size();
         let shape = TileShape::of(size);
-        let remembers = remembers(settings, frames);
+        let remembers = Remembers::of(settings, frames);
         let count = shape.count(size);
         let film = || {
             let mut tiles = Vec::new();
@@ -168,28 +152,40 @@ impl Film {
         self.tiles.len()
     }
 
-    /// Takes over the contents of a film of the same size, except what depends on `changed`, and
-    /// pixels that cannot be continued to this number of samples. Runs on the current thread pool.
-    pub(crate) fn take_over(&mut self, other: Self, changed: Touched) {
-        self.tiles = other.tiles;
-        self.remembers = other.remembers;
-        let spp = [other.spp, self.spp];
+    /// Takes over a picture of the same size, except what depends on `changed`, and pixels that
+    /// cannot be continued to this number of samples. Returns the effort that counts as its own:
+    /// what was spent on it, unless it changed. Runs on the current thread pool.
+    pub(crate) fn take_over(&mut self, kept: Kept, changed: Touched) -> Effort {
+        self.tiles = kept.tiles;
+        self.remembers = kept.remembers;
+        let spp = [kept.spp, self.spp];
         let reached = self.tiles.par_iter_mut().map(|tile| {
             tile.forget(changed, spp);
             tile.reached()
         });
         self.reached = reached.max().unwrap_or(0);
         self.over_budget = self.tiles.iter().map(|tile| tile.over_budget).sum();
+        if changed == Touched::NOTHING && 0 < self.reached {
+            kept.effort
+        } else {
+            Effort::default()
+        }
     }
 
-    /// Whether another film of the same size stores all that this one shows.
-    pub(crate) fn can_take_over(&self, other: &Self) -> bool {
-        self.remembers == Remembers::Pixels || other.remembers == Remembers::Causes
+    /// Whether a picture of the same size stores all that this one shows.
+    pub(crate) fn can_take_over(&self, kept: &Kept) -> bool {
+        kept.remembers.suffices(self.remembers)
     }
 
-    /// The number of pixels.
-    pub(crate) fn pixels(&self) -> usize {
-        self.size.pixels()
+    /// The picture as far as it is traced, and what it took.
+    pub(crate) fn keep(self, effort: Effort) -> Kept {
+        Kept {
+            size: self.size,
+            spp: self.spp,
+            remembers: self.remembers,
+            tiles: self.tiles,
+            effort,
+        }
     }
 
     /// The highest level of a pixel of the film taken over.
@@ -354,17 +350,6 @@ impl Film {
                         *pixel = develop(tile, tile.known([x, y]));
                     }
                 }
-            }
-        });
-    }
-
-    /// Hands the memory to the current pool to free in small parts: freeing a large picture takes
-    /// 0.1 s, during which no thread of the process can exit.
-    pub(crate) fn free_later(mut self) {
-        rayon::spawn(move || {
-            while !self.tiles.is_empty() {
-                self.tiles.truncate(self.tiles.len().saturating_sub(FREED));
-                self.tiles.shrink_to_fit();
             }
         });
     }

@@ -73,15 +73,21 @@ impl Settings {
         self.aov.filter(|aov| !aov.is_of_light() && !aov.is_share())
     }
 
+    /// The settings that a film depends on, apart from the samples, which are 1: what is known from
+    /// tracing light is shown of the film of light.
+    #[must_use]
+    pub fn of_film(&self) -> Self {
+        Self {
+            aov: self.aov.filter(|aov| !aov.is_of_light()),
+            spp: 1,
+            ..*self
+        }
+    }
+
     /// Whether a film traced with these settings holds what others show, or the first samples of
     /// it.
     pub(crate) fn trace_alike(&self, other: &Self) -> bool {
-        let traced = |settings: &Self| Self {
-            aov: settings.aov.filter(|aov| !aov.is_of_light()),
-            spp: 1,
-            ..*settings
-        };
-        traced(self) == traced(other)
+        self.of_film() == other.of_film()
     }
 }
 

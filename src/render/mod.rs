@@ -33,6 +33,9 @@
 //!
 //! [`display`] says how a finished frame is looked at, and a [`histogram`] how bright it is.
 //!
+//! A picture as far as it is traced can be [`kept`] beyond the renderer, as bytes, and continued by
+//! another.
+//!
 //! [`mod@wireframe`] projects the outlines of objects without tracing.
 //!
 //! Rays are intersected in packets of eight with one object after the other ([`packets`]), or
@@ -54,6 +57,7 @@ mod frame;
 mod gather;
 mod histogram;
 mod intersect;
+mod kept;
 mod level;
 mod lights;
 mod lobes;
@@ -106,6 +110,7 @@ pub use frame::{
     Query, Settings, default_depth,
 };
 pub use histogram::{HISTOGRAM_STOPS, Histogram};
+pub use kept::Kept;
 pub use level::{CAP, CAPS, vectors};
 pub use place::{SurfacePoint, axes, clearance, line_of, pixel_of, pixel_width, surface_under};
 pub use probe::Counts;

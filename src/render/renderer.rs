@@ -1,7 +1,7 @@
 //! The handle to a worker that traces pictures in the background.
 
 use std::mem;
-use std::sync::mpsc::{self, Sender};
+use std::sync::mpsc::{self, Receiver, Sender};
 use std::sync::{Arc, Weak};
 use std::thread::JoinHandle;
 
@@ -9,9 +9,10 @@ use rayon::{ThreadPool, ThreadPoolBuilder};
 
 use super::film::{Film, NoMemory};
 use super::frame::{Frame, Job};
+use super::kept::Kept;
 use super::refusal::{self, Refusal};
 use super::shared::Shared;
-use super::worker::{self, Submission};
+use super::worker::{self, Request, Submission};
 use crate::memory;
 use crate::scene::Scene;
 
@@ -38,7 +39,7 @@ pub struct Renderer {
 
 #[derive(Debug)]
 struct Worker {
-    submissions: Sender<Submission>,
+    requests: Sender<Request>,
     thread: JoinHandle<()>,
 }
 
@@ -61,6 +62,17 @@ impl Renderer {
     /// nothing. It continues the picture of the one before, if they differ only in the materials,
     /// the colours of lights, the number of samples or the limit.
     pub fn restart(&mut self, job: Job) -> Result<u64, Refusal> {
+        self.submit(job, None)
+    }
+
+    /// Like [`Renderer::restart`], but a job that does not continue the picture before waits for one
+    /// that was kept of it, of the same scene, camera and settings: `recalled` brings it, or closes
+    /// if there is none.
+    pub fn restart_from(&mut self, job: Job, recalled: Receiver<Kept>) -> Result<u64, Refusal> {
+        self.submit(job, Some(recalled))
+    }
+
+    fn submit(&mut self, job: Job, recalled: Option<Receiver<Kept>>) -> Result<u64, Refusal> {
         let worker = self.worker.as_ref().map_err(Refusal::clone)?;
         let region = job.settings.traced().within(job.settings.size)?;
         refusal::fits(&job, self.accepted.upgrade().as_ref())?;
@@ -75,10 +87,11 @@ impl Renderer {
             generation,
             job,
             film,
+            recalled,
         };
         worker
-            .submissions
-            .send(submission)
+            .requests
+            .send(Request::Trace(Box::new(submission)))
             .map_err(|_| Refusal::Ended)?;
         self.accepted = scene;
         Ok(generation)
@@ -102,6 +115,19 @@ impl Renderer {
         self.shared.resume();
     }
 
+    /// Ends the work and returns the newest picture as far as it is traced, paused or not; `None` if
+    /// nothing is traced of it, or it is not one to be continued (see [`Frames::Live`]). Takes as
+    /// long as dropping the renderer.
+    ///
+    /// [`Frames::Live`]: super::Frames::Live
+    pub fn keep(self) -> Option<Kept> {
+        let (keeper, kept) = mpsc::channel();
+        let worker = self.worker.as_ref().ok()?;
+        worker.requests.send(Request::Keep(keeper)).ok()?;
+        drop(self);
+        kept.try_recv().ok()
+    }
+
     /// Returns the newest frame since the last call, if any.
     pub fn latest(&self) -> Option<Arc<Frame>> {
         self.shared.take()
@@ -111,12 +137,9 @@ impl Renderer {
 impl Drop for Renderer {
     fn drop(&mut self) {
         self.shared.quit();
-        if let Ok(Worker {
-            submissions,
-            thread,
-        }) = mem::replace(&mut self.worker, Err(Refusal::Ended))
+        if let Ok(Worker { requests, thread }) = mem::replace(&mut self.worker, Err(Refusal::Ended))
         {
-            drop(submissions);
+            drop(requests);
             // The panic hook has already reported any panic.
             let _ = thread.join();
         }
@@ -130,15 +153,12 @@ impl Worker {
         wake: impl Fn() + Send + Sync + 'static,
     ) -> Result<Self, String> {
         let pool = pool(threads).map_err(|error| error.to_string())?;
-        let (submissions, inbox) = mpsc::channel();
+        let (requests, inbox) = mpsc::channel();
         let thread = std::thread::Builder::new()
             .name("renderer".to_owned())
             .spawn(move || worker::run(&inbox, &shared, &wake, &pool))
             .map_err(|error| error.to_string())?;
-        Ok(Self {
-            submissions,
-            thread,
-        })
+        Ok(Self { requests, thread })
     }
 }
 

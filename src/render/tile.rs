@@ -1,7 +1,9 @@
 //! A part of a film: the accumulated samples of its pixels.
 
+mod stored;
+
 use super::first_hit::first_hit;
-use super::frame::{Aov, NO_OBJECT};
+use super::frame::{Aov, Frames, NO_OBJECT, Settings};
 use super::noise::Doubling;
 use super::probe::{Sample, Seen};
 use super::shot::Shot;
@@ -15,6 +17,10 @@ pub(crate) const AREA: u32 = 256;
 
 /// Edge length of most tiles, in pixels; a multiple of the coarsest [`Step::Grid`].
 const TILE: u32 = 16;
+
+/// Most pixels of a picture whose dependencies are recorded; for larger pictures that would cost
+/// more memory than the time saved is worth.
+const MOST_REMEMBERED: usize = 1 << 22;
 
 /// A spacing coarser than any grid.
 const NO_GRID: u32 = 2 * COARSEST;
@@ -152,6 +158,24 @@ pub(crate) enum Remembers {
     Pixels,
     /// Pixels and their dependencies.
     Causes,
+}
+
+impl Remembers {
+    /// What the tiles of a picture store.
+    pub(crate) fn of(settings: &Settings, frames: Frames) -> Self {
+        let shown = matches!(settings.aov, Some(Aov::Cost | Aov::Noise));
+        let is_small = settings.traced().size().pixels() <= MOST_REMEMBERED;
+        if shown || frames == Frames::Live && is_small {
+            Self::Causes
+        } else {
+            Self::Pixels
+        }
+    }
+
+    /// Whether all that `other` needs is stored.
+    pub(crate) fn suffices(self, other: Self) -> bool {
+        self == Self::Causes || other == Self::Pixels
+    }
 }
 
 impl Tile {
@@ -301,6 +325,12 @@ impl Tile {
         }
         self.grid = NO_GRID;
         self.level = 0;
+    }
+
+    /// The sum of the numbers of its pixels' samples, of at most `spp` each.
+    pub(crate) fn samples(&self, spp: u32) -> u64 {
+        let levels = self.levels.into_iter().filter(|&level| level != BEYOND);
+        levels.map(|level| u64::from(samples_at(level, spp))).sum()
     }
 
     /// The highest level of its pixels.

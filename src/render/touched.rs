@@ -33,6 +33,16 @@ impl Touched {
         Self(1 << 63 >> (number as u32 % u64::BITS))
     }
 
+    /// The set as bits, each of which stands for some objects and lights.
+    pub(crate) fn bits(self) -> u64 {
+        self.0
+    }
+
+    /// The set with these bits.
+    pub(crate) fn of_bits(bits: u64) -> Self {
+        Self(bits)
+    }
+
     /// Whether two sets may intersect.
     pub(crate) fn meets(self, other: Self) -> bool {
         self.0 & other.0 != 0

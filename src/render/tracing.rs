@@ -4,6 +4,7 @@ use std::time::{Duration, Instant};
 
 use super::film::{Film, Raster};
 use super::frame::{Frame, Frames, Job, Limit, NO_OBJECT, Progress, Query};
+use super::kept::{Effort, Kept};
 use super::probe::Counts;
 use super::shared::Shared;
 use super::shot::Shot;
@@ -95,14 +96,6 @@ impl<'s> Ticket<'s> {
     }
 }
 
-/// The work that a picture took: of this job, and of those that it continues.
-#[derive(Clone, Copy, Debug, Default)]
-pub(crate) struct Effort {
-    /// Without pauses.
-    time: Duration,
-    counts: Counts,
-}
-
 /// The picture of a job in progress.
 pub(crate) struct Tracing<'s, W> {
     ticket: Ticket<'s>,
@@ -190,13 +183,13 @@ impl<'s, W: Fn() + Sync> Tracing<'s, W> {
         !self.complete
     }
 
-    /// The film, and what it took.
-    pub(crate) fn into_film(self) -> (Film, Effort) {
+    /// The picture as far as it is traced.
+    pub(crate) fn keep(self) -> Kept {
         let effort = Effort {
             time: self.elapsed(),
             counts: self.counts,
         };
-        (self.film, effort)
+        self.film.keep(effort)
     }
 
     fn elapsed(&self) -> Duration {

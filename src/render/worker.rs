@@ -1,63 +1,98 @@
 //! The thread behind a renderer, which traces the newest job and publishes its progress.
 
+use std::iter;
 use std::sync::Arc;
-use std::sync::mpsc::Receiver;
+use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender};
+use std::time::Duration;
 
 use rayon::ThreadPool;
 
 use super::film::Film;
 use super::frame::{Frames, Job, Query};
+use super::kept::{Effort, Kept};
 use super::shared::Shared;
 use super::shot::Shot;
 use super::steps::steps;
 use super::touched::Touched;
-use super::tracing::{Effort, Ticket, Tracing};
+use super::tracing::{Ticket, Tracing};
 use super::world::World;
+
+/// What the thread is asked for.
+pub(crate) enum Request {
+    /// To trace this instead of what it traces.
+    Trace(Box<Submission>),
+    /// To send the newest picture, as far as it is traced, before it ends.
+    Keep(Sender<Kept>),
+}
 
 /// A job with its generation and film.
 pub(crate) struct Submission {
     pub(crate) generation: u64,
     pub(crate) job: Job,
     pub(crate) film: Film,
+    /// Brings a picture that was kept of the job, or closes if there is none.
+    pub(crate) recalled: Option<Receiver<Kept>>,
 }
 
 /// Most pixels of a picture that is kept to be continued: about 1.5 GB.
 const MOST_KEPT: usize = 1 << 25;
 
+/// Interval between polls of whether to end while a picture is being recalled.
+const POLL: Duration = Duration::from_millis(5);
+
 /// State kept for the next job.
 struct Left {
     world: Arc<World>,
-    /// The last job and its film, if they can be continued.
+    /// The last job, if it can be continued.
     traced: Option<Traced>,
 }
 
 /// A job as far as it is traced.
 struct Traced {
     job: Job,
-    film: Film,
-    effort: Effort,
+    kept: Kept,
 }
 
 /// Traces jobs until the renderer is dropped or the thread panics.
 pub(crate) fn run<W: Fn() + Sync>(
-    submissions: &Receiver<Submission>,
+    requests: &Receiver<Request>,
     shared: &Shared,
     wake: &W,
     pool: &ThreadPool,
 ) {
     let mut left = None;
-    while let Ok(newest) = submissions.recv() {
-        let submission = submissions.try_iter().last().unwrap_or(newest);
-        left = pool.install(|| trace(submission, shared, wake, left.take()));
+    let mut keeper = None;
+    while let Ok(first) = requests.recv() {
+        let mut newest: Option<Box<Submission>> = None;
+        let mut take = |submission: Box<Submission>| {
+            left = pool.install(|| trace(*submission, shared, wake, left.take()));
+        };
+        for request in iter::once(first).chain(requests.try_iter()) {
+            match request {
+                Request::Trace(submission) => {
+                    // A newer job may continue what an older one recalls.
+                    let older = newest.replace(submission);
+                    older
+                        .filter(|older| older.recalled.is_some())
+                        .map(&mut take);
+                }
+                Request::Keep(to) => keeper = Some(to),
+            }
+        }
+        newest.map(&mut take);
     }
+    let (world, traced) = left.map_or((None, None), |left| (Some(left.world), left.traced));
+    let kept = traced.map(|traced| traced.kept);
+    let unwanted = match (keeper, kept) {
+        (Some(keeper), Some(kept)) => keeper.send(kept).err().map(|unsent| unsent.0),
+        (_, kept) => kept,
+    };
     // In the background, because freeing the structures of a large scene takes up to 16 ms for a
     // million spheres.
     pool.spawn(move || {
-        if let Some(Left { world, traced }) = left {
-            drop(world);
-            if let Some(traced) = traced {
-                traced.film.free_later();
-            }
+        drop(world);
+        if let Some(unwanted) = unwanted {
+            unwanted.free_later();
         }
     });
 }
@@ -67,40 +102,47 @@ fn trace<W: Fn() + Sync>(
     submission: Submission,
     shared: &Shared,
     wake: &W,
-    mut previous: Option<Left>,
+    previous: Option<Left>,
 ) -> Option<Left> {
     let Submission {
         generation,
         job,
         mut film,
+        recalled,
     } = submission;
     let ticket = Ticket::new(generation, shared);
+    let (known, traced) = previous.map_or((None, None), |left| (Some(left.world), left.traced));
     // A newer job does not cancel the build: it may need the same structures, and while a held key
     // moves objects of a large scene, none would ever be finished.
     let quit = || shared.is_quitting();
-    let known = previous.as_ref().map(|left| &*left.world);
-    let Some(world) = World::build(Arc::clone(&job.scene), &job.images, known, quit) else {
-        return previous;
-    };
-    let world = Arc::new(world);
-    let mut before = Effort::default();
-    if let Some(Left {
-        world: world_before,
-        traced,
-    }) = &mut previous
-        && let Some(old) = traced.take()
-    {
-        let changed = Touched::between((&old.job, world_before), (&job, &world));
-        match changed.filter(|_| film.can_take_over(&old.film)) {
-            Some(changed) => {
-                film.take_over(old.film, changed);
-                if changed == Touched::NOTHING && 0 < film.reached() {
-                    before = old.effort;
-                }
-            }
-            _ => old.film.free_later(),
+    let world = World::build(Arc::clone(&job.scene), &job.images, known.as_deref(), quit);
+    let Some(world) = world.map(Arc::new) else {
+        // The picture before is not the newest any more.
+        if let Some(traced) = traced {
+            traced.kept.free_later();
         }
-    }
+        return known.map(|world| Left {
+            world,
+            traced: None,
+        });
+    };
+    let changed = |old: &Traced| {
+        let before = known.as_deref()?;
+        Touched::between((&old.job, before), (&job, &world))
+    };
+    let before = match traced.map(|old| (changed(&old), old.kept)) {
+        Some((Some(changed), kept)) if film.can_take_over(&kept) => film.take_over(kept, changed),
+        other => {
+            if let Some((_, unfit)) = other {
+                unfit.free_later();
+            }
+            match recalled.and_then(|recalled| await_kept(&recalled, quit)) {
+                Some(kept) if film.can_take_over(&kept) => film.take_over(kept, Touched::NOTHING),
+                _ => Effort::default(),
+            }
+        }
+    };
+    drop(known);
     let shot = Shot::new(&world, &job.camera, job.settings);
     let query = Query::new(&world, &job);
     let mut picture = Tracing::new(ticket.with_world(), &job, (film, before), wake, query);
@@ -109,12 +151,25 @@ fn trace<W: Fn() + Sync>(
             break;
         }
     }
-    let (film, effort) = picture.into_film();
-    let traced = if job.frames == Frames::Live && film.pixels() <= MOST_KEPT {
-        Some(Traced { job, film, effort })
+    let kept = picture.keep();
+    let traced = if job.frames == Frames::Live && kept.pixels() <= MOST_KEPT {
+        Some(Traced { job, kept })
     } else {
-        film.free_later();
+        kept.free_later();
         None
     };
     Some(Left { world, traced })
+}
+
+/// Waits for a picture to be recalled; `None` if there is none, or once `quit` returns true. A newer
+/// job does not end the wait, as it may continue the picture.
+fn await_kept(recalled: &Receiver<Kept>, quit: impl Fn() -> bool) -> Option<Kept> {
+    while !quit() {
+        match recalled.recv_timeout(POLL) {
+            Ok(kept) => return Some(kept),
+            Err(RecvTimeoutError::Disconnected) => return None,
+            Err(RecvTimeoutError::Timeout) => {}
+        }
+    }
+    None
 }

@@ -1,34 +1,40 @@
 //! Performs effects: owns the terminal, the renderers, the timers, and the handles of the threads
 //! that read, write, watch and store files. Nothing here waits for a file.
 
+mod others;
+
 use std::any::Any;
 use std::io;
 use std::num::NonZero;
 use std::path::Path;
 use std::sync::Arc;
-use std::sync::mpsc::Sender;
+use std::sync::mpsc::{Receiver, Sender};
 use std::thread;
 use std::time::{Duration, Instant};
 
 use super::assets::AssetReader;
 use super::comparer::{Figures, References};
+use super::continuing::{Keeping, TraceEnd, Traced};
 use super::deriving::Deriver;
 use super::editor;
+use super::ending::Patience;
 use super::event::{Event, Work, sending};
 use super::explaining::Explainer;
 use super::heap;
-use super::msg::{Effect, Msg, SaveOutcome, Target, Timer};
+use super::msg::{Effect, Msg, Origin, SaveOutcome, Target, Timer};
 use super::options::Options;
 use super::past::NoPicture;
 use super::reader::Reader;
 use super::recent::Recent;
 use super::recovery::{self, Edits, End, Keeper, Outcome, Request};
-use super::reference::ReferenceSource;
 use super::screen::Screen;
 use super::service::{Ended, Service};
+use super::traces::Traces;
 use super::tracks::TrackReader;
 use super::writing::Writers;
-use crate::render::{Job, Refusal, Renderer, Threads};
+use crate::render::{Job, Kept, Refusal, Renderer, Threads};
+use crate::scene::Scene;
+use others::{reaches_others, without_others};
 
 /// Time for which memory freed by pictures is kept for the next ones.
 const TRIM_TIME: Duration = Duration::from_secs(30);
@@ -57,6 +63,8 @@ pub(crate) struct Runtime {
     editor: Option<String>,
     preview: Option<Numbered>,
     trace: Option<Numbered>,
+    /// What the full-size trace is made from.
+    traced: Option<Traced>,
     export: Option<Numbered>,
     compared: Option<Numbered>,
     reference: Option<Numbered>,
@@ -95,6 +103,7 @@ impl Runtime {
             editor: options.editor.clone(),
             preview: None,
             trace: None,
+            traced: None,
             export: None,
             compared: None,
             reference: None,
@@ -141,14 +150,25 @@ impl Runtime {
     }
 
     /// Restores the terminal and waits for files being written, each within its time limit; returns
-    /// the state of unsaved edits.
-    pub(crate) fn close(self, terminal: Duration, files: Duration) -> End {
+    /// the state of unsaved edits, and that of the full-size trace. `now` is the present scene with
+    /// its origin, unless the text has errors.
+    pub(crate) fn close(
+        self,
+        patience: Patience,
+        now: Option<(Arc<Scene>, Origin)>,
+    ) -> (End, TraceEnd) {
         let begun = Instant::now();
-        self.screen.close(begun + terminal);
-        let end = self.keeper.finish(begun + files);
-        self.writers.finish(begun + files);
-        self.recent.finish(begun + files);
-        end
+        let files = begun + patience.files;
+        let is_kept = self.screen.is_terminal();
+        let traced = self.traced.filter(|_| is_kept);
+        let keeping = traced
+            .zip(self.trace)
+            .map(|(traced, running)| traced.keep(running.renderer, now, begun + patience.trace));
+        self.screen.close(begun + patience.terminal);
+        let end = self.keeper.finish(files);
+        self.writers.finish(files);
+        self.recent.finish(files);
+        (end, keeping.map_or(TraceEnd::Nothing, Keeping::finish))
     }
 
     /// When the next timer is due.
@@ -186,7 +206,13 @@ impl Runtime {
             return Ok(without_others(&effect));
         }
         match effect {
-            Effect::Trace(target, job) => return Ok(Some(self.trace(target, job))),
+            Effect::Trace(target, job) => {
+                if target == Target::Trace {
+                    self.traced = Some(Traced::of(&job));
+                }
+                return Ok(Some(self.trace(target, job, None)));
+            }
+            Effect::Recall(job, origin) => return Ok(Some(self.trace_on(job, origin))),
             Effect::Stop(target) => self.stop(target),
             Effect::Explain(..)
             | Effect::Read(..)
@@ -303,7 +329,23 @@ impl Runtime {
         }
     }
 
-    fn trace(&mut self, target: Target, job: Job) -> Msg {
+    /// Starts the full-size trace from what an earlier run left of it.
+    fn trace_on(&mut self, job: Job, origin: Origin) -> Msg {
+        let is_page = matches!(self.screen, Screen::Page(_));
+        let send = sending(&self.sender);
+        let report = move |recalled| send(Msg::Recalled(recalled));
+        let traces = Traces::of_user().ok();
+        let recall = (!is_page).then(|| Traced::recall(&job, origin, traces, report));
+        let (traced, recalled) = match recall {
+            Some(Ok((traced, recalled))) => (traced, Some(recalled)),
+            // Without a thread it is traced anew.
+            Some(Err(_)) | None => (Traced::of(&job), None),
+        };
+        self.traced = Some(traced);
+        self.trace(Target::Trace, job, recalled)
+    }
+
+    fn trace(&mut self, target: Target, job: Job, recalled: Option<Receiver<Kept>>) -> Msg {
         let cores = || thread::available_parallelism().map_or(1, NonZero::get);
         let threads = match (target, self.threads) {
             (Target::Preview, None) => Threads::Preview,
@@ -333,7 +375,11 @@ impl Runtime {
             Target::Thumbnail => &mut self.thumbnail,
         };
         let running = slot.get_or_insert_with(&mut start);
-        let started = match running.renderer.restart(job.clone()) {
+        let restarted = match recalled {
+            Some(recalled) => running.renderer.restart_from(job.clone(), recalled),
+            None => running.renderer.restart(job.clone()),
+        };
+        let started = match restarted {
             // A worker ended by a panic is replaced: the panic costs only one picture.
             Err(Refusal::Ended) => slot.insert(start()).renderer.restart(job),
             started => started,
@@ -349,28 +395,26 @@ impl Runtime {
     }
 
     fn stop(&mut self, target: Target) {
-        match target {
-            // It stops by itself.
-            Target::Preview => {}
-            Target::Trace => self.trace = None,
-            Target::Export => self.export = None,
-            Target::Compared => self.compared = None,
-            Target::Reference => self.reference = None,
-            Target::Thumbnail => self.thumbnail = None,
+        // The preview stops by itself.
+        if target != Target::Preview {
+            *self.slot(target) = None;
         }
     }
 
     fn with_renderer(&mut self, target: Target, act: impl FnOnce(&mut Renderer)) {
-        let slot = match target {
+        if let Some(running) = self.slot(target) {
+            act(&mut running.renderer);
+        }
+    }
+
+    fn slot(&mut self, target: Target) -> &mut Option<Numbered> {
+        match target {
             Target::Preview => &mut self.preview,
             Target::Trace => &mut self.trace,
             Target::Export => &mut self.export,
             Target::Compared => &mut self.compared,
             Target::Reference => &mut self.reference,
             Target::Thumbnail => &mut self.thumbnail,
-        };
-        if let Some(running) = slot {
-            act(&mut running.renderer);
         }
     }
 
@@ -379,37 +423,6 @@ impl Runtime {
         let ran = self.screen.lend(|| editor::run(configured, path, line));
         ran.map_err(Failure::Terminal)?.map_err(Failure::Editor)
     }
-}
-
-/// The result of an effect on others in a script of keys, which performs none.
-fn without_others(effect: &Effect) -> Option<Msg> {
-    match effect {
-        Effect::WriteRecovery { revision, .. } => Some(Msg::Kept(*revision, Ok(()))),
-        Effect::ListRecent => Some(Msg::RecentListed(Vec::new())),
-        Effect::ReadReference(id, _) => {
-            let reason = "a script of keys does not run git".to_owned();
-            Some(Msg::ReferenceRead(*id, Err(reason)))
-        }
-        _ => None,
-    }
-}
-
-/// Whether an effect depends on earlier runs or other programs. With a page none is performed: it
-/// keeps no edits and watches no files.
-fn reaches_others(effect: &Effect) -> bool {
-    matches!(
-        effect,
-        Effect::WriteRecovery { .. }
-            | Effect::DropRecovery
-            | Effect::LookForKept(_)
-            | Effect::AdoptKept(_)
-            | Effect::DropKept(_)
-            | Effect::Watch(_)
-            | Effect::NoteRecent(_)
-            | Effect::ListRecent
-            | Effect::KeepPanels(_)
-            | Effect::ReadReference(_, ReferenceSource::Revision(..))
-    )
 }
 
 /// Reason why an effect cannot be performed.

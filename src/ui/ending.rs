@@ -2,6 +2,7 @@
 
 use std::io;
 use std::path::PathBuf;
+use std::time::Duration;
 
 use crate::assets::NoFolder;
 use crate::file::ReadError;
@@ -23,6 +24,36 @@ pub enum Ending {
     },
     /// The terminal is gone.
     HungUp,
+}
+
+/// The longest times to wait at the end.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Patience {
+    /// For restoring the terminal.
+    pub(super) terminal: Duration,
+    /// For files being written.
+    pub(super) files: Duration,
+    /// For keeping the full-size trace.
+    pub(super) trace: Duration,
+}
+
+impl Ending {
+    /// The longest times to wait. A user who quits may be at the far end of a slow link, but should
+    /// not wait a second for a terminal that takes no output; a file being saved gets longer. A
+    /// terminal that hung up is not waited for. A trace took up to hours and has up to a gigabyte;
+    /// whoever sends a signal may soon end the process in another way.
+    pub(super) fn patience(self) -> Patience {
+        let (terminal, files, trace) = match self {
+            Self::Quit | Self::Interrupted => (700, 2000, 8000),
+            Self::Terminated { .. } => (400, 700, 3000),
+            Self::HungUp => (100, 700, 8000),
+        };
+        Patience {
+            terminal: Duration::from_millis(terminal),
+            files: Duration::from_millis(files),
+            trace: Duration::from_millis(trace),
+        }
+    }
 }
 
 /// Error that ends the interface or prevents it from starting.

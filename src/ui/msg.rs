@@ -89,6 +89,8 @@ pub enum Msg {
     Read(PathBuf, Result<Reading, ReadError>),
     /// The result of [`Effect::Open`] for this path.
     Opened(PathBuf, Result<Opened, ReadError>),
+    /// The result of [`Effect::Recall`], if an earlier run left something.
+    Recalled(Recalled),
     /// The result of [`Effect::Derive`], by its ticket.
     Derived(u64, Result<PastScene, NoPicture>),
     /// The result of [`Effect::ReadAssets`].
@@ -193,6 +195,9 @@ pub enum Effect {
     /// Starts tracing this picture, reported by [`Msg::Started`] and [`Msg::Frame`], or by
     /// [`Msg::Refused`].
     Trace(Target, Job),
+    /// Starts the full-size trace from what an earlier run left of it, reported by
+    /// [`Msg::Recalled`], and otherwise as [`Effect::Trace`].
+    Recall(Job, Origin),
     /// Stops tracing this picture and forgets it.
     Stop(Target),
     /// Explains a sample of a pixel of this frame, reported by [`Msg::Explained`] unless another
@@ -338,6 +343,17 @@ pub struct Origin {
     pub found: BTreeMap<String, PathBuf>,
     /// What the working view replaces.
     pub view: Viewpoint,
+}
+
+/// What an earlier run left of a full-size trace.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Recalled {
+    /// As many samples per pixel, from which it is continued.
+    Continued(u32),
+    /// More samples than it is to have: as many of those that are kept would be needed.
+    More(u32),
+    /// Nothing that can be read; the reason.
+    Unreadable(String),
 }
 
 /// A picture that was written.

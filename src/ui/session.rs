@@ -12,9 +12,11 @@ use std::time::{Duration, Instant};
 
 use super::app::App;
 use super::beginning::Beginning;
+use super::continuing::TraceEnd;
 use super::effects::Runtime;
 use super::ending::{Ending, Error};
 use super::event::{Event, sending};
+use super::keymap::{Action, Mode};
 use super::msg::{Effect, Msg, Target};
 use super::options::Options;
 use super::reader::Reader;
@@ -189,24 +191,37 @@ impl Session {
         }
     }
 
-    /// Restores the terminal and prints there what became of unsaved edits.
+    /// Restores the terminal and prints there what became of unsaved edits and of the full-size
+    /// trace.
     fn close(mut self) -> Result<Ending, Error> {
         let unreadable = self.app.disk.take_failure();
         let path = self.app.disk.path.as_deref();
         let path = path.map_or_else(String::new, |path| {
             format!(" {}", shell_path(&path.to_string_lossy()))
         });
+        let key = self.app.key_for(Action::Go(Mode::Trace));
+        let now = self.app.scene.clone().zip(self.app.origin());
         // The end of the process frees a large scene immediately.
         mem::forget(self.app);
-        let (terminal, files) = patience(self.ending);
-        let words = match self.runtime.close(terminal, files) {
+        let (edits, trace) = self.runtime.close(self.ending.patience(), now);
+        let edits = match edits {
             End::Nothing => None,
             End::Kept => Some(format!(
                 "unsaved edits are kept; run halflight{path} to restore them"
             )),
             End::Lost(reason) => Some(format!("not all unsaved edits are kept: {reason}")),
         };
-        if let Some(words) = words {
+        let trace = match trace {
+            TraceEnd::Nothing => None,
+            TraceEnd::Kept { spp, goal } => {
+                let of = goal.map_or_else(String::new, |goal| format!(" of {goal}"));
+                Some(format!(
+                    "the full-size trace is kept ({spp}{of} spp); {key} continues it"
+                ))
+            }
+            TraceEnd::Lost(reason) => Some(format!("the full-size trace is not kept: {reason}")),
+        };
+        for words in edits.into_iter().chain(trace) {
             terminal::complain(text::visible(&text::without_codes(&words)).into_owned());
         }
         unreadable.map_or(Ok(self.ending), |error| Err(error.into()))
@@ -369,21 +384,6 @@ impl Session {
         }
         Ok(())
     }
-}
-
-/// Time limits for restoring the terminal and for writing files. A user who quits may be at the far
-/// end of a slow link, but should not wait a second for a terminal that takes no output; a file
-/// being saved gets longer. A terminal that hung up is not waited for.
-fn patience(ending: Ending) -> (Duration, Duration) {
-    let (terminal, files) = match ending {
-        Ending::Quit | Ending::Interrupted => (700, 2000),
-        Ending::Terminated { .. } => (400, 700),
-        Ending::HungUp => (100, 700),
-    };
-    (
-        Duration::from_millis(terminal),
-        Duration::from_millis(files),
-    )
 }
 
 /// The ending that results if this message ends the program.

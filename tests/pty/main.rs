@@ -9,6 +9,7 @@ mod journals;
 mod looks;
 mod opening;
 mod pixels;
+mod traces;
 
 use std::fs;
 use std::os::unix::fs::PermissionsExt;

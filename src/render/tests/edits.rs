@@ -5,6 +5,7 @@ use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::Duration;
 
 use super::super::film::Film;
+use super::super::kept::Effort;
 use super::super::probe::Counts;
 use super::super::shot::Shot;
 use super::super::steps::steps;
@@ -15,15 +16,15 @@ use crate::geometry::{Csg, Instance, Node, Operation};
 use crate::scene::{Dielectric, Emitter, Faces, Falloff, Gloss, Highlight, Image, Mirror, Shadows};
 
 /// A job in progress, taken step by step.
-struct Easel {
-    job: Job,
+pub(super) struct Easel {
+    pub(super) job: Job,
     world: World,
-    film: Film,
+    pub(super) film: Film,
     counts: Counts,
 }
 
 impl Easel {
-    fn new(job: Job) -> Self {
+    pub(super) fn new(job: Job) -> Self {
         let world = World::build(Arc::clone(&job.scene), &job.images, None, || false);
         let film = Film::new(&job.settings, job.frames);
         Self {
@@ -41,7 +42,7 @@ impl Easel {
         let world = world.expect("nothing cancels");
         let changed = Touched::between((&self.job, &self.world), (&job, &world));
         let film = Film::new(&job.settings, job.frames).expect("memory is there");
-        let old = std::mem::replace(&mut self.film, film);
+        let old = std::mem::replace(&mut self.film, film).keep(Effort::default());
         self.film
             .take_over(old, changed.expect("materials and colours of lights"));
         (self.job, self.world) = (job, world);
@@ -49,7 +50,7 @@ impl Easel {
     }
 
     /// Traces until cancellation has been polled `patience` times; returns whether it completed.
-    fn trace(&mut self, patience: u64) -> bool {
+    pub(super) fn trace(&mut self, patience: u64) -> bool {
         let asked = AtomicU64::new(0);
         let cancelled = || patience <= asked.fetch_add(1, Ordering::Relaxed);
         let shot = Shot::new(&self.world, &self.job.camera, self.job.settings);
@@ -65,14 +66,15 @@ impl Easel {
     }
 
     /// Everything displayed.
-    fn shows(&self) -> impl PartialEq + std::fmt::Debug + use<> {
+    pub(super) fn shows(&self) -> impl PartialEq + std::fmt::Debug + use<> {
         let spp = self.job.settings.spp;
         let mut pixels = Vec::new();
         self.film
             .develop_rows(0..self.film.rows(), &mut pixels, |tile, at| {
                 let bits = tile.value(at, spp, None).to_array().map(f64::to_bits);
                 let cost = tile.value(at, spp, Some(Aov::Cost)).x;
-                (bits, tile.object(at), cost.to_bits())
+                let error = tile.error(at).to_bits();
+                (bits, tile.object(at), cost.to_bits(), error)
             });
         let noise = self.film.noise().map(f64::to_bits);
         (pixels, noise, self.film.over_budget())

@@ -11,6 +11,7 @@ mod first_hits;
 mod glass;
 mod highlights;
 mod invariance;
+mod keeping;
 mod looks;
 mod meshes;
 mod noise;

@@ -67,7 +67,7 @@ impl App {
                 },
                 scene: self.disk.path.clone(),
                 named: self.assets.files().to_vec(),
-                origin: self.origin(path),
+                origin: self.origin_in(path),
             },
             size,
             spp,
@@ -213,11 +213,16 @@ impl App {
         self.begin_or_queue(pending)
     }
 
-    /// What a picture to be written there is made from. A text with errors has none: the picture is
-    /// of an earlier one.
-    fn origin(&self, path: &Path) -> Option<Origin> {
+    /// What a picture to be written there is made from, if its file says that.
+    fn origin_in(&self, path: &Path) -> Option<Origin> {
         let is_said = ImageFormat::of_path(path).is_some_and(ImageFormat::has_metadata);
-        if !is_said || 0 < self.error_count() {
+        is_said.then(|| self.origin()).flatten()
+    }
+
+    /// What the present picture is made from. A text with errors has none: the picture is of an
+    /// earlier one.
+    pub fn origin(&self) -> Option<Origin> {
+        if 0 < self.error_count() {
             return None;
         }
         let own = self.scene.as_ref()?.camera;

@@ -54,6 +54,8 @@ pub struct Pictures {
     pub(super) drawing: Option<Drawing>,
     /// When the full-size trace is complete, if not with the samples of exports.
     pub(super) until: Option<Until>,
+    /// Whether an earlier run left more samples of the full-size trace than it is to have.
+    pub(super) more_kept: bool,
     /// What is being moved in [`Mode::Move`].
     pub transform: Option<Transform>,
     /// The pointer's cell when the camera or a thing was last dragged.
@@ -119,6 +121,7 @@ impl Pictures {
             region: None,
             drawing: None,
             until: None,
+            more_kept: false,
             transform: None,
             drag: None,
             before_trace: None,

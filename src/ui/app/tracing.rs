@@ -10,7 +10,7 @@ use crate::render::{Filter, Frame, Frames, Job, Region, Settings, default_depth}
 use crate::scene::{Integrator, Scene, Size};
 use crate::text::Severity;
 use crate::ui::keymap::{Action, Mode};
-use crate::ui::msg::{Effect, Target};
+use crate::ui::msg::{Effect, Recalled, Target};
 use crate::ui::past::NoPicture;
 
 /// Samples per pixel at which the preview stops: by then edges are smooth and the noise of paths is
@@ -224,9 +224,36 @@ impl App {
         }
         let under = self.pictures.preview.whole();
         let under = under.filter(|_| job.settings.region.is_some());
-        let trace = &mut self.pictures.trace;
-        trace.get_or_insert_with(|| Picture::over(under));
-        vec![Effect::Trace(Target::Trace, job)]
+        if self.pictures.trace.is_some() {
+            return vec![Effect::Trace(Target::Trace, job)];
+        }
+        self.pictures.trace = Some(Picture::over(under));
+        vec![self.trace_from_kept(job)]
+    }
+
+    /// Starts the full-size trace from what an earlier run left of it, if that can be known: a text
+    /// with errors is not that of its scene.
+    fn trace_from_kept(&self, job: Job) -> Effect {
+        match self.origin() {
+            Some(origin) => Effect::Recall(job, origin),
+            None => Effect::Trace(Target::Trace, job),
+        }
+    }
+
+    /// Says what an earlier run left of the full-size trace.
+    pub(super) fn recalled(&mut self, recalled: Recalled) {
+        match recalled {
+            Recalled::Continued(spp) => self.overlays.say(format!(
+                "continuing the full-size trace that an earlier run left with {spp} spp"
+            )),
+            Recalled::More(spp) => {
+                self.pictures.more_kept = true;
+                self.overlays.say(format!(
+                    "an earlier run left more samples: :until {spp} spp continues from them"
+                ));
+            }
+            Recalled::Unreadable(reason) => self.overlays.warn(reason),
+        }
     }
 
     pub(super) fn enter_trace(&mut self) {
@@ -333,6 +360,13 @@ impl App {
         let until = self.pictures.until();
         self.overlays
             .say(format!("the full-size trace ends {until}"));
-        self.retrace()
+        match self.trace_job() {
+            Ok(job) if self.pictures.is_tracing() && self.pictures.more_kept => {
+                self.pictures.more_kept = false;
+                // Otherwise it would continue from the samples of this run.
+                vec![Effect::Stop(Target::Trace), self.trace_from_kept(job)]
+            }
+            _ => self.retrace(),
+        }
     }
 }

@@ -59,6 +59,7 @@ impl App {
                 self.pictures.want(target, Some(generation));
                 self.compared.want(target, Some(generation));
             }
+            Msg::Recalled(recalled) => self.recalled(recalled),
             Msg::Derived(ticket, derived) => return self.derived(ticket, derived),
             Msg::Frame(target, frame) => return self.frame(target, frame),
             Msg::Refused(target, reason) => return self.ended(target, reason),

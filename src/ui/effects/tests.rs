@@ -82,3 +82,40 @@ fn a_worker_that_panics_announces_its_end() {
         [Event::Ready(_), Event::Ended(Target::Export, 7)]
     ));
 }
+
+/// A script of keys shows the same whatever earlier runs left, and leaves nothing.
+#[test]
+fn a_page_recalls_and_keeps_no_trace() {
+    let (sender, _inbox) = mpsc::channel();
+    let options = Options {
+        rehearsal: Some(Rehearsal {
+            keys: None,
+            screen: (80, 24),
+            frames: Vec::new(),
+        }),
+        ..Options::default()
+    };
+    let reader = Reader::start(options.watching(), sending(&sender)).expect("a thread");
+    let mut runtime = Runtime::new(&options, reader, sender).expect("a page");
+    let job = endless();
+    let origin = Origin {
+        text: Arc::default(),
+        found: std::collections::BTreeMap::new(),
+        view: crate::scene::Viewpoint::default(),
+    };
+    let started = runtime.perform(Effect::Recall(job, origin));
+    assert!(matches!(started, Some(Msg::Started(Target::Trace, _))));
+    assert!(
+        runtime
+            .traced
+            .as_ref()
+            .is_some_and(|traced| !traced.was_looked_for())
+    );
+    let none = Duration::ZERO;
+    let patience = Patience {
+        terminal: none,
+        files: none,
+        trace: none,
+    };
+    assert_eq!(runtime.close(patience, None).1, TraceEnd::Nothing);
+}

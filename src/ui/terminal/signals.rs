@@ -3,9 +3,11 @@
 //! The terminal itself is watched in addition to `SIGHUP`: the signal may be ignored by
 //! inheritance, as under `nohup`, and then only the terminal reports the hang-up.
 
+use std::convert::Infallible;
 use std::io::{self, Read, Write};
 use std::os::fd::OwnedFd;
 use std::os::unix::net::UnixStream;
+use std::sync::mpsc::{self, RecvTimeoutError, Sender};
 use std::thread::{self, JoinHandle};
 use std::time::Duration;
 
@@ -24,7 +26,7 @@ use signal_hook::low_level::{self, pipe};
 use super::panics::Ownership;
 use super::{Event, tty};
 
-/// Time for the interface to end after its terminal is gone.
+/// Time for the interface to give the terminal back after that is gone.
 const GRACE: Duration = Duration::from_millis(500);
 
 /// Exit status that represents death by `SIGHUP`.
@@ -43,7 +45,8 @@ const WATCHED: [i32; 13] = [
 
 /// Reports signals and hang-ups to the interface until dropped.
 ///
-/// After [`Event::HangUp`] the process has 500 ms to end; then it is ended with status 129.
+/// After [`Event::HangUp`] it must be dropped within 500 ms; otherwise, as a write to the terminal may
+/// block for ever, the process is ended with status 129.
 #[derive(Debug)]
 pub struct Signals {
     registered: Vec<SigId>,
@@ -103,12 +106,13 @@ impl Signals {
 
 impl Drop for Signals {
     fn drop(&mut self) {
-        for &registered in &self.registered {
-            low_level::unregister(registered);
-        }
         self.requests = None;
         if let Some(thread) = self.thread.take() {
             let _ = thread.join();
+        }
+        // Last, because it closes the other ends of what the thread would take for arrivals.
+        for &registered in &self.registered {
+            low_level::unregister(registered);
         }
     }
 }
@@ -213,20 +217,23 @@ impl Watch {
     }
 }
 
-#[derive(Clone, Copy, PartialEq, Eq)]
 enum Carrier {
     Up,
-    Down,
+    /// The watchdog ends the process unless this is dropped in time.
+    Down {
+        _watched: Sender<Infallible>,
+    },
 }
 
 fn report(signal: i32, whose: Ownership, line: &mut Carrier, send: &impl Fn(Event)) {
     match signal {
         // Without a terminal, only requests to end are still reported.
-        SIGHUP | SIGWINCH | SIGTSTP | SIGCONT if *line == Carrier::Down => {}
+        SIGHUP | SIGWINCH | SIGTSTP | SIGCONT if matches!(line, Carrier::Down { .. }) => {}
         SIGHUP => {
-            *line = Carrier::Down;
             // Before sending the event: the interface may be blocked in a write to the terminal.
-            end_after_grace();
+            *line = Carrier::Down {
+                _watched: end_after_grace(),
+            };
             send(Event::HangUp);
         }
         // The terminal is taken back when the other program ends in any case.
@@ -248,14 +255,18 @@ fn report(signal: i32, whose: Ownership, line: &mut Carrier, send: &impl Fn(Even
     }
 }
 
-fn end_after_grace() {
+/// Ends the process after [`GRACE`] unless what is returned is dropped before.
+fn end_after_grace() -> Sender<Infallible> {
+    let (watched, end) = mpsc::channel::<Infallible>();
     let watchdog = thread::Builder::new().name("watchdog".to_owned());
-    let started = watchdog.spawn(|| {
-        thread::sleep(GRACE);
-        // Nothing is left to restore, and exit handlers might wait for the terminal.
-        low_level::exit(HUNG_UP);
+    let started = watchdog.spawn(move || {
+        if end.recv_timeout(GRACE) == Err(RecvTimeoutError::Timeout) {
+            // Nothing is left to restore, and exit handlers might wait for the terminal.
+            low_level::exit(HUNG_UP);
+        }
     });
     if started.is_err() {
         low_level::exit(HUNG_UP);
     }
+    watched
 }

@@ -9,10 +9,8 @@ use crate::ui::msg::Target;
 
 /// The job of a picture among the effects.
 fn job(effects: &[Effect], wanted: Target) -> Option<&Job> {
-    effects.iter().find_map(|effect| match effect {
-        Effect::Trace(target, job) if *target == wanted => Some(job),
-        _ => None,
-    })
+    let mut traced = effects.iter().filter_map(traced_by);
+    traced.find_map(|(target, job)| (target == wanted).then_some(job))
 }
 
 /// The complete preview of a job, of a single grey.

@@ -16,13 +16,7 @@ pub(super) const SCENES: [(&str, &str); 3] = [
 
 /// The jobs among the effects.
 fn jobs(effects: &[Effect]) -> Vec<(Target, &Job)> {
-    effects
-        .iter()
-        .filter_map(|effect| match effect {
-            Effect::Trace(target, job) => Some((*target, job)),
-            _ => None,
-        })
-        .collect()
+    effects.iter().filter_map(traced_by).collect()
 }
 
 /// The settings of the only picture that these keys start.

@@ -46,9 +46,9 @@ use crossterm::event::{KeyCode, KeyEvent, KeyModifiers};
 use super::*;
 use crate::file::Version;
 use crate::language::Language;
-use crate::render::Filter;
+use crate::render::{Filter, Job};
 use crate::ui::keymap::{self, Mode};
-use crate::ui::msg::{Effect, ExportId, Exported, Msg};
+use crate::ui::msg::{Effect, ExportId, Exported, Msg, Target};
 use crate::ui::reading::Reading;
 use crate::ui::sheet::Sheet;
 use crate::ui::terminal::Mouse;
@@ -209,6 +209,21 @@ fn read(app: &mut App, path: &str, text: &str) -> Vec<Effect> {
 fn exported(id: ExportId, path: impl Into<PathBuf>, version: Option<Version>) -> Msg {
     let path = path.into();
     Msg::Exported(id, Ok(Exported { path, version }))
+}
+
+/// The picture that an effect starts to trace, and its job.
+fn traced_by(effect: &Effect) -> Option<(Target, &Job)> {
+    match effect {
+        Effect::Trace(target, job) => Some((*target, job)),
+        Effect::Recall(job, _) => Some((Target::Trace, job)),
+        _ => None,
+    }
+}
+
+/// Whether the full-size trace is started.
+fn traces_in_full(effects: &[Effect]) -> bool {
+    let mut traced = effects.iter().filter_map(traced_by);
+    traced.any(|(target, _)| target == Target::Trace)
 }
 
 fn wants(effects: &[Effect], wanted: fn(&Effect) -> bool) -> bool {

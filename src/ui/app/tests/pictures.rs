@@ -6,7 +6,7 @@ use std::time::Duration;
 use super::*;
 use crate::render::{Frame, Progress};
 use crate::scene::Size;
-use crate::ui::msg::{Existing, ExportId, Target, Timer};
+use crate::ui::msg::{Existing, ExportId, Recalled, Target, Timer};
 
 pub(in crate::ui) fn frame(size: Size, objects: Vec<u32>) -> Frame {
     Frame {
@@ -136,7 +136,7 @@ fn an_export_is_traced_written_and_reported() {
 fn the_full_size_trace_continues_in_the_background_until_the_scene_changes() {
     let mut app = open(SCENE);
     let effects = press(&mut app, "<F5>");
-    let [Effect::Trace(Target::Trace, job)] = &effects[..] else {
+    let [Effect::Recall(job, _)] = &effects[..] else {
         panic!("{effects:?}");
     };
     assert_eq!((job.settings.size, job.settings.spp), (app.output(), 4));
@@ -272,10 +272,7 @@ fn a_refused_picture_is_no_longer_awaited() {
     assert_eq!(words(&app), "too large");
     assert!(app.picture().wanted.is_none(), "nothing is on its way");
     let effects = press(&mut app, "<Esc><F5>");
-    assert!(wants(&effects, |effect| matches!(
-        effect,
-        Effect::Trace(Target::Trace, _)
-    )));
+    assert!(traces_in_full(&effects));
 }
 
 #[test]
@@ -307,11 +304,7 @@ fn quitting_asks_about_an_export_and_can_wait_for_it() {
 
 #[test]
 fn a_stopped_trace_continues() {
-    let traces = |effects: &[Effect]| {
-        wants(effects, |effect| {
-            matches!(effect, Effect::Trace(Target::Trace, _))
-        })
-    };
+    let traces = traces_in_full;
     let mut app = open(SCENE);
     assert!(traces(&press(&mut app, "<F5>")));
     app.update(Msg::Started(Target::Trace, 1));
@@ -325,12 +318,71 @@ fn a_stopped_trace_continues() {
 }
 
 #[test]
-fn f5_continues_a_stopped_trace_but_not_a_running_one() {
-    let begun = |effects: &[Effect]| {
-        wants(effects, |effect| {
-            matches!(effect, Effect::Trace(Target::Trace, _))
-        })
+fn a_trace_continues_what_an_earlier_run_left_of_its_text() {
+    let recalled = |effects: &[Effect]| {
+        let origin = effects.iter().find_map(|effect| match effect {
+            Effect::Recall(_, origin) => Some(origin),
+            _ => None,
+        });
+        origin.map(|origin| (origin.text.to_string(), origin.view.to_string()))
     };
+    let mut app = open(SCENE);
+    let text = SCENE.to_owned();
+    assert_eq!(
+        recalled(&press(&mut app, "<F5>")),
+        Some((text.clone(), String::new()))
+    );
+    app.update(Msg::Recalled(Recalled::Continued(37)));
+    assert_eq!(
+        words(&app),
+        "continuing the full-size trace that an earlier run left with 37 spp"
+    );
+    // In this run it continues from its own samples.
+    app.update(Msg::Started(Target::Trace, 1));
+    let effects = press(&mut app, "x<F5>");
+    assert!(traces_in_full(&effects) && recalled(&effects).is_none());
+    let reason = "the disk is broken".to_owned();
+    app.update(Msg::Recalled(Recalled::Unreadable(reason.clone())));
+    assert_eq!(words(&app), reason);
+
+    let mut app = open(SCENE);
+    press(&mut app, "vl");
+    let (_, view) = recalled(&press(&mut app, "<F5>")).expect("it has an origin");
+    assert!(view.contains("eye"), "{view}");
+
+    let mut app = open(SCENE);
+    outside(&mut app, "x");
+    app.update(Msg::Elapsed(Timer::Settled));
+    outside(&mut app, "x");
+    let effects = press(&mut app, "<F5>");
+    assert!(0 < app.error_count() && traces_in_full(&effects));
+    assert_eq!(
+        recalled(&effects),
+        None,
+        "the scene is not that of the text"
+    );
+}
+
+#[test]
+fn more_samples_of_an_earlier_run_are_continued_once_that_many_are_wanted() {
+    let mut app = open(SCENE);
+    press(&mut app, "<F5>");
+    app.update(Msg::Started(Target::Trace, 1));
+    app.update(Msg::Recalled(Recalled::More(512)));
+    let until = ":until 512 spp";
+    assert!(words(&app).contains(until), "{}", words(&app));
+    let effects = press(&mut app, &format!("{until}<Enter>"));
+    assert!(
+        matches!(&effects[..], [Effect::Stop(Target::Trace), Effect::Recall(job, _)] if job.settings.spp == 512),
+        "{effects:?}"
+    );
+    let effects = press(&mut app, ":until 600 spp<Enter>");
+    assert!(matches!(effects[..], [Effect::Trace(Target::Trace, _)]));
+}
+
+#[test]
+fn f5_continues_a_stopped_trace_but_not_a_running_one() {
+    let begun = traces_in_full;
     let mut app = open(SCENE);
     assert!(begun(&press(&mut app, "<F5>")));
     app.update(Msg::Started(Target::Trace, 1));

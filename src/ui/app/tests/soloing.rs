@@ -156,11 +156,10 @@ fn a_light_is_shown_alone_in_the_preview_and_nowhere_else() {
     let (mut app, _) = opened_as("a.ray", RAY);
     app.select(Light(1));
     let colours = |effects: &[Effect]| {
-        let job = effects.iter().find_map(|effect| match effect {
-            Effect::Trace(_, job) => Some(job),
-            _ => None,
-        });
-        let job = job.expect("a picture is traced");
+        let (_, job) = effects
+            .iter()
+            .find_map(traced_by)
+            .expect("a picture is traced");
         let reds: Vec<_> = job
             .scene
             .lights

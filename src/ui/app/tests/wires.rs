@@ -23,10 +23,8 @@ const SCENES: [(&str, &str); 3] = [
 ];
 
 fn traced(effects: &[Effect], target: Target) -> Option<Settings> {
-    effects.iter().find_map(|effect| match effect {
-        Effect::Trace(of, job) if *of == target => Some(job.settings),
-        _ => None,
-    })
+    let mut traced = effects.iter().filter_map(traced_by);
+    traced.find_map(|(of, job)| (of == target).then_some(job.settings))
 }
 
 /// The lines on screen.

@@ -14,10 +14,8 @@ use crate::ui::msg::Target;
 
 /// The job of the last of these effects that traces this picture.
 fn job(effects: &[Effect], target: Target) -> Option<&Job> {
-    effects.iter().rev().find_map(|effect| match effect {
-        Effect::Trace(of, job) if *of == target => Some(job),
-        _ => None,
-    })
+    let mut traced = effects.iter().rev().filter_map(traced_by);
+    traced.find_map(|(of, job)| (of == target).then_some(job))
 }
 
 /// An interface with the full-size trace on screen.

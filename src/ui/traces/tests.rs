@@ -1,0 +1,249 @@
+//! Files of kept traces.
+
+use std::sync::Arc;
+use std::sync::mpsc;
+use std::time::Duration;
+
+use tempfile::TempDir;
+
+use super::*;
+use crate::language::{Language, Source};
+use crate::render::{Filter, Frames, Renderer, Settings, Threads};
+use crate::scene::{Images, Integrator, Meshes, Size, Viewpoint};
+
+/// A small picture with samples, of the template.
+pub(in crate::ui) fn job(spp: u32) -> Job {
+    let text = Arc::new(Language::Ray.template().to_owned());
+    let lowered = Source::new(Language::Ray, text).lower(&Meshes::default());
+    let scene = lowered
+        .expect("there is memory")
+        .scene
+        .expect("it is valid");
+    Job {
+        camera: scene.camera,
+        settings: Settings {
+            size: Size {
+                width: 5,
+                height: 4,
+            },
+            region: None,
+            spp,
+            depth: 4,
+            seed: 0,
+            aov: None,
+            integrator: Integrator::Whitted,
+            filter: Filter::Box,
+            transfer: scene.setting.transfer,
+            exposure: 0.0,
+        },
+        scene: Arc::new(scene),
+        images: Images::default(),
+        limit: None,
+        frames: Frames::Live,
+        numbers: None,
+    }
+}
+
+/// The complete picture of a job.
+pub(in crate::ui) fn traced(job: &Job) -> Kept {
+    let (wake, woken) = mpsc::channel();
+    let wake = move || {
+        let _ = wake.send(());
+    };
+    let mut renderer = Renderer::new(Threads::Exactly(1), wake);
+    renderer.restart(job.clone()).expect("the worker runs");
+    loop {
+        woken.recv().expect("the worker runs");
+        if renderer
+            .latest()
+            .is_some_and(|frame| frame.progress.complete)
+        {
+            return renderer.keep().expect("it is complete");
+        }
+    }
+}
+
+fn picture(job: &Job) -> Provenance {
+    Provenance::of(job, "c0ffee".to_owned())
+}
+
+pub(in crate::ui) fn far() -> Instant {
+    Instant::now() + Duration::from_secs(60)
+}
+
+pub(in crate::ui) struct Place {
+    folder: TempDir,
+    pub(in crate::ui) traces: Traces,
+}
+
+impl Place {
+    pub(in crate::ui) fn new() -> Self {
+        let folder = tempfile::tempdir().expect("a folder");
+        let traces = Traces::of(folder.path());
+        Self { folder, traces }
+    }
+
+    /// The files, sorted.
+    pub(in crate::ui) fn files(&self) -> Vec<PathBuf> {
+        let folder = self.folder.path().join("halflight/traces");
+        let entries = fs::read_dir(folder).into_iter().flatten();
+        let mut files: Vec<_> = entries
+            .map(|entry| entry.expect("an entry").path())
+            .collect();
+        files.sort();
+        files
+    }
+
+    fn write(&self, job: &Job, kept: &Kept) {
+        let written = self.traces.write(&picture(job), kept, far());
+        written.expect("it is written");
+    }
+
+    /// The mean samples of the trace kept of a job.
+    fn read(&self, picture: &Provenance, job: &Job) -> Option<u32> {
+        let read = self.traces.read(picture, job).expect("it can be read");
+        read.map(|kept| kept.spp())
+    }
+}
+
+#[test]
+fn a_trace_is_read_back_for_the_same_picture_only() {
+    let (place, first) = (Place::new(), job(4));
+    assert_eq!(
+        place.read(&picture(&first), &first),
+        None,
+        "there is no folder"
+    );
+    place.write(&first, &traced(&first));
+    for spp in [1, 4, 100] {
+        let same = job(spp);
+        assert_eq!(place.read(&picture(&same), &same), Some(4));
+    }
+    let own = picture(&first);
+    let others = [
+        Provenance {
+            version: "0.0.0".to_owned(),
+            ..own.clone()
+        },
+        Provenance {
+            scene: "c0ffef".to_owned(),
+            ..own.clone()
+        },
+        Provenance {
+            view: Viewpoint::parse("fov 50").expect("a view"),
+            ..own.clone()
+        },
+        Provenance {
+            settings: Settings {
+                depth: 5,
+                ..own.settings
+            },
+            ..own
+        },
+    ];
+    for other in others {
+        assert_eq!(place.read(&other, &first), None, "{other:?}");
+    }
+    #[cfg(unix)]
+    {
+        use std::os::unix::fs::PermissionsExt;
+        let folder = place.folder.path().join("halflight/traces");
+        let mode = fs::metadata(folder).expect("a folder").permissions().mode();
+        assert_eq!(mode & 0o777, 0o700);
+    }
+}
+
+#[test]
+fn a_damaged_file_is_refused_and_removed() {
+    let (place, job) = (Place::new(), job(1));
+    place.write(&job, &traced(&job));
+    let path = place.files().remove(0);
+    let bytes = fs::read(&path).expect("it is there");
+    let is_refused = |bytes: &[u8]| {
+        fs::write(&path, bytes).expect("it is ours");
+        let read = place.traces.read(&picture(&job), &job);
+        matches!(read, Err(Unreadable::Damaged)) && !path.exists()
+    };
+    for at in 0..bytes.len() {
+        let mut damaged = bytes.clone();
+        damaged[at] ^= 1;
+        assert!(is_refused(&damaged), "byte {at}");
+        if at % 50 == 0 {
+            assert!(is_refused(&bytes[..at]), "{at} bytes");
+        }
+    }
+    assert!(is_refused(&[&bytes[..], b"\0"].concat()), "a byte more");
+    assert!(is_refused(b""));
+    fs::write(&path, &bytes).expect("it is ours");
+    assert_eq!(place.read(&picture(&job), &job), Some(1));
+}
+
+#[test]
+fn more_samples_are_not_replaced_by_fewer() {
+    let (place, few, many) = (Place::new(), job(2), job(8));
+    place.write(&few, &traced(&few));
+    place.write(&many, &traced(&many));
+    place.write(&few, &traced(&few));
+    assert_eq!(place.read(&picture(&few), &few), Some(8));
+    assert_eq!(place.files().len(), 1);
+}
+
+#[test]
+fn a_trace_that_takes_too_long_to_write_leaves_what_was_there() {
+    let (place, few, many) = (Place::new(), job(2), job(8));
+    for _ in 0..2 {
+        let late = place
+            .traces
+            .write(&picture(&many), &traced(&many), Instant::now());
+        let error = late.expect_err("the time is over");
+        assert_eq!(error.kind(), ErrorKind::TimedOut);
+        assert!(place.files().len() <= 1);
+        place.write(&few, &traced(&few));
+        assert_eq!(place.read(&picture(&few), &few), Some(2));
+    }
+}
+
+#[test]
+fn the_newest_files_are_kept() {
+    let (place, first) = (Place::new(), job(1));
+    let kept = traced(&first);
+    let with_depth = |depth: u32| {
+        let mut job = first.clone();
+        job.settings.depth = depth;
+        job
+    };
+    let date = |path: &Path, seconds| {
+        let file = fs::File::options().write(true).open(path).expect("a file");
+        let at = SystemTime::UNIX_EPOCH + Duration::from_secs(seconds);
+        file.set_modified(at).expect("it is ours");
+    };
+    for depth in 1..=5 {
+        place.write(&with_depth(depth), &kept);
+        let path = place.traces.place(&head(&picture(&with_depth(depth))));
+        date(&path, u64::from(depth));
+    }
+    let left = |place: &Place| -> Vec<u32> {
+        let is_left = |&depth: &u32| place.read(&picture(&with_depth(depth)), &first).is_some();
+        (1..=7).filter(is_left).collect()
+    };
+    assert_eq!(left(&place), [2, 3, 4, 5]);
+    // The newest but one is very large, and the others are beyond the limit with it.
+    let large = place.traces.place(&head(&picture(&with_depth(5))));
+    let file = fs::File::options()
+        .write(true)
+        .open(&large)
+        .expect("a file");
+    file.set_len(MOST_BYTES - 40_000).expect("it is sparse");
+    date(&large, 5);
+    place.write(&with_depth(6), &kept);
+    let lengths = [6, 5].map(|depth| {
+        let path = place.traces.place(&head(&picture(&with_depth(depth))));
+        path.exists()
+    });
+    assert_eq!(lengths, [true, true]);
+    assert_eq!(place.files().len(), 4);
+    file.set_len(MOST_BYTES).expect("it is sparse");
+    date(&large, 5);
+    place.write(&with_depth(7), &kept);
+    assert_eq!(left(&place), [6, 7]);
+}
