@@ -122,9 +122,12 @@ fn try_render(work: &Sequence) -> Result<(), Error> {
             pictures(work, &mut source, (pattern, *shard), *format, *finished)
         }
         SequenceOutput::Movie { to, format, rate } => {
+            let rate = rate.or(source.rate()).unwrap_or(RATE);
+            if let Some(reason) = format.refuses(rate) {
+                return Err(Error::Refused(reason));
+            }
             source.check_spared(to, &[])?;
             to.check()?;
-            let rate = rate.or(source.rate()).unwrap_or(RATE);
             movie(work, &mut source, to, (*format, rate))
         }
     }

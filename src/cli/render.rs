@@ -54,7 +54,7 @@ pub(super) struct RenderArguments {
     #[command(flatten)]
     assets: AssetArguments,
     /// Also render these AOVs, separated by commas, as layers of an EXR, such as
-    /// depth,normal,object,albedo,samples
+    /// depth,normal,object,albedo,samples; not with --shard, which takes one AOV at a time by --aov
     #[arg(
         long,
         value_name = "AOVS",
@@ -100,7 +100,7 @@ struct SequenceArguments {
     /// Render only these frames of a sequence, numbered from 0 [default: all]
     #[arg(long, value_name = "A-B", value_parser = parse_frames)]
     frames: Option<[u32; 2]>,
-    /// Frames per second of Y4M and GIF, 1 to 100 [default: the track's, or 24]
+    /// Frames per second of Y4M, 1 to 100, and GIF, 1 to 50 [default: the track's, or 24]
     #[arg(long, value_name = "N", value_parser = value_parser!(u32).range(1..=100))]
     fps: Option<u32>,
     /// Render frames again that are already finished

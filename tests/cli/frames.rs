@@ -136,6 +136,10 @@ fn one_file_holds_all_frames() {
         ),
         ("render . -o a%d.png --turntable 0", "--turntable"),
         (
+            "render box.ray -o a.gif --turntable 2 --fps 51",
+            "a .gif has at most 50 frames per second, not 51",
+        ),
+        (
             "render box.ray -o box.ray --format gif --turntable 2",
             "cannot overwrite box.ray: it is a file of the sequence",
         ),
