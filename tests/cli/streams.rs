@@ -182,6 +182,8 @@ fn figures_of_a_render_are_written() {
         ("samples", "4800", "3840"),
         ("size", "\"40x30\"", "\"40x30\""),
         ("seed", "5", "5"),
+        ("view", "\"own\"", "\"own\""),
+        ("layers", "\"none\"", "\"none\""),
         ("spp", "4", "4"),
         ("shadow", "0", "0"),
     ] {
