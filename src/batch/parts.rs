@@ -78,11 +78,8 @@ pub(super) fn trace(
     };
     let part = part.map_err(refused)?;
     if 0 < part.cut() {
-        let cut = counted(part.cut() as usize, "byte");
-        let note = format!(
-            "{}: discarded {cut} at the end, which were damaged",
-            path.display()
-        );
+        let cut = counted(part.cut() as usize, "damaged byte");
+        let note = format!("{}: discarded {cut} at the end", path.display());
         print_message("note", &note);
     }
     let mut continued = Continued {

@@ -178,7 +178,9 @@ fn failure_code(error: &batch::Error) -> u8 {
     use batch::Error;
     match error {
         Error::Read(error) => read_code(error),
-        Error::Assets(_) | Error::Unmerged(Unmerged::Io { .. }) => NO_INPUT,
+        Error::Assets(_) | Error::Unmerged(Unmerged::Io { .. } | Unmerged::NotRegular { .. }) => {
+            NO_INPUT
+        }
         Error::UnknownLanguage(_)
         | Error::Invalid { .. }
         | Error::InvalidTrack { .. }
