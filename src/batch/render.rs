@@ -1,7 +1,7 @@
 //! Renders a scene file to a picture file.
 
 use std::collections::BTreeMap;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use super::output::Output;
@@ -13,6 +13,7 @@ use crate::assets::{self, fingerprint};
 use crate::image_file::{ImageFormat, Picture};
 use crate::language::Source;
 use crate::memory;
+use crate::part;
 use crate::render::{Aov, Frame, Job, Progress, Provenance, memory_for};
 use crate::scene::Size;
 use crate::text::{Diagnostic, Span, counted};
@@ -62,6 +63,7 @@ fn try_render(work: &Render) -> Result<(), Error> {
         output.check_spares(&work.scene, &[])?;
         output.check()?;
     }
+    check_apart(work)?;
     assets::check_folders(&work.assets)?;
     let mut times = Times::started();
     memory::start_threads_or_none();
@@ -169,11 +171,7 @@ fn trace_parts(
     job: &Job,
     (source, found): (Source, BTreeMap<String, PathBuf>),
 ) -> Result<Traced, Error> {
-    let Output::File(path) = &work.output else {
-        return Err(Error::Refused(
-            "--shard and --resume keep a file next to the picture: use -o FILE".to_owned(),
-        ));
-    };
+    let path = beside(&work.output)?;
     let tracing = &work.tracing;
     let digest = fingerprint(source.text(), &found)?;
     drop(source);
@@ -248,6 +246,28 @@ fn finish(work: &Render, frame: &Frame, traced: &Traced) -> Result<(), Error> {
         provenance: Some(&traced.picture),
     };
     work.output.write(|out| work.format.write(picture, out))
+}
+
+/// Refuses outputs that would overwrite one another, and a part file beside no file.
+fn check_apart(work: &Render) -> Result<(), Error> {
+    if let (Some(stats), Output::File(picture)) = (&work.stats, &work.output) {
+        stats.check_is_apart(picture, "it is the picture")?;
+    }
+    let Some(Parts { shard, .. }) = work.parts else {
+        return Ok(());
+    };
+    let part = part::path_beside(beside(&work.output)?, shard);
+    outputs(work).try_for_each(|output| output.check_is_apart(&part, "it is the part file"))
+}
+
+/// The file that a part file is kept beside.
+fn beside(picture: &Output) -> Result<&Path, Error> {
+    match picture {
+        Output::File(path) if !path.exists() || path.is_file() => Ok(path),
+        _ => Err(Error::Refused(
+            "--shard and --resume keep a part file beside the picture: use -o FILE".to_owned(),
+        )),
+    }
 }
 
 /// Where the picture and the statistics go.

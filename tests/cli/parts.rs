@@ -173,6 +173,49 @@ fn parts_need_files_and_fixed_samples() {
     assert_eq!(place.names(), ["ball.ray"]);
 }
 
+/// Statistics and parts that have the place of the picture, or of one another.
+#[test]
+#[cfg(unix)]
+fn outputs_do_not_overwrite_one_another() {
+    use std::os::unix::fs::symlink;
+    let place = Place::new();
+    place.write("s.png", "old");
+    fs::hard_link(place.at("s.png"), place.at("hard.json")).expect("it is new");
+    symlink("s.png", place.at("link.json")).expect("it is new");
+    symlink("none.png", place.at("dangling.json")).expect("it is new");
+    let before = place.names();
+    for (line, reason) in [
+        (
+            "-o s.png --stats s.png",
+            "cannot write s.png: it is the picture",
+        ),
+        ("-o s.png --stats ./s.png", "it is the picture"),
+        ("-o s.png --stats hard.json", "it is the picture"),
+        ("-o s.png --stats link.json", "it is the picture"),
+        ("-o none.png --stats ./none.png", "it is the picture"),
+        ("-o none.png --stats dangling.json", "it is the picture"),
+        ("-o s.png --resume --stats s.part", "it is the part file"),
+        (
+            "-o s.png --shard 1/2 --stats s.1-2.part",
+            "it is the part file",
+        ),
+        (
+            "-o none.part --format png --resume",
+            "cannot write none.part: it is the part file",
+        ),
+        (
+            "-o /dev/null --format png --resume",
+            "keep a part file beside the picture: use -o FILE",
+        ),
+    ] {
+        let said = place.stderr(&format!("render ball.ray {line}"), 2);
+        assert!(said.contains(reason), "{line}: {said}");
+    }
+    assert_eq!(place.names(), before);
+    assert_eq!(place.read("s.png"), b"old");
+    place.stderr("render ball.ray -o s.png --stats s.json --resume", 0);
+}
+
 /// Begins to render, and waits until the part file is longer than `length`, or all is done.
 #[cfg(unix)]
 fn begun(place: &Place, line: &str, part: &Path, length: u64) -> std::process::Child {
