@@ -171,6 +171,11 @@ impl Part {
         self.cut
     }
 
+    /// The blocks of its picture.
+    pub fn blocks(&self) -> Blocks {
+        self.blocks
+    }
+
     /// Samples of each pixel of a block.
     pub fn samples(&self, number: u32) -> u32 {
         self.index.get(&number).map_or(0, |place| place.samples)
