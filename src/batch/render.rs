@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use super::output::Output;
-use super::parts::{self, Parts};
+use super::parts::{self, Existing, Parts};
 use super::stats::{Stats, Times};
 use super::tracing::Tracer;
 use super::{Error, Tracing, Warnings, load, print_error, print_findings, print_message, stdout};
@@ -74,8 +74,14 @@ fn try_render(work: &Render) -> Result<(), Error> {
     for output in outputs(work) {
         output.check_spares(&work.scene, &loaded.read.files)?;
     }
-    if work.parts.is_some() && !loaded.read.is_whole() {
-        return Err(Error::Incomplete);
+    if let Some(Parts { existing, .. }) = work.parts
+        && !loaded.read.is_whole()
+    {
+        let needed_by = match existing {
+            Existing::Continued => "--resume needs",
+            Existing::Refused => "--shard needs",
+        };
+        return Err(Error::Incomplete { needed_by });
     }
     let frames = work.format.frames();
     let job = work.tracing.job(scene, loaded.read.images, frames)?;

@@ -206,7 +206,8 @@ fn failure_code(error: &batch::Error) -> u8 {
         Error::UnknownLanguage(_)
         | Error::Invalid { .. }
         | Error::InvalidTrack { .. }
-        | Error::Incomplete
+        | Error::Incomplete { .. }
+        | Error::NoFrame { .. }
         | Error::Unconverted { .. }
         | Error::Picture { .. }
         | Error::NoProvenance(_) => INVALID,
@@ -216,8 +217,10 @@ fn failure_code(error: &batch::Error) -> u8 {
             part::Refused::Busy => TRY_AGAIN,
             _ => NO_OUTPUT,
         },
-        Error::Kept { signal, .. } if signal.is_interrupt() => INTERRUPTED,
-        Error::Kept { .. } => TRY_AGAIN,
+        Error::Kept { signal, .. } | Error::KeptFrames { signal, .. } if signal.is_interrupt() => {
+            INTERRUPTED
+        }
+        Error::Kept { .. } | Error::KeptFrames { .. } => TRY_AGAIN,
         Error::Write { .. }
         | Error::Untraced(_)
         | Error::Stopped
