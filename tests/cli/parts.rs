@@ -218,7 +218,7 @@ fn outputs_do_not_overwrite_one_another() {
 
 /// Begins to render, and waits until the part file is longer than `length`, or all is done.
 #[cfg(unix)]
-fn begun(place: &Place, line: &str, part: &Path, length: u64) -> std::process::Child {
+pub(super) fn begun(place: &Place, line: &str, part: &Path, length: u64) -> std::process::Child {
     let mut child = place.command(line);
     let mut child = child.stderr(Stdio::piped()).spawn().expect("it starts");
     let is_longer = || fs::metadata(part).is_ok_and(|file| length < file.len());
@@ -229,7 +229,7 @@ fn begun(place: &Place, line: &str, part: &Path, length: u64) -> std::process::C
 }
 
 #[cfg(unix)]
-fn send(signal: &str, child: &std::process::Child) {
+pub(super) fn send(signal: &str, child: &std::process::Child) {
     let mut kill = Command::new("kill");
     kill.args([&format!("-{signal}"), &child.id().to_string()]);
     // It may have ended.
