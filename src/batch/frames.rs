@@ -23,7 +23,7 @@ use crate::image_file::{ImageFormat, MovieFormat, MovieWriter, Picture};
 use crate::language::Language;
 use crate::memory;
 use crate::part::Shard;
-use crate::render::{Frame, Frames, Job, Provenance};
+use crate::render::{Frame, Frames, Job, Provenance, check_memory, memory_for};
 use crate::text::counted;
 
 /// A sequence of pictures to render.
@@ -180,6 +180,8 @@ fn pictures(
         if let Some(reason) = format.refuses(job.settings.traced().size()) {
             return Err(Error::Refused(format!("frame {number}: {reason}")));
         }
+        let layers = work.tracing.memory_for_layers(&job);
+        check_memory(&job, memory_for(&job).saturating_add(layers))?;
         let place = Place {
             frame: number,
             before,

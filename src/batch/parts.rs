@@ -13,7 +13,8 @@ use super::tracing::Tracing;
 use super::{Error, print_message};
 use crate::part::{self, Header, Part, Shard};
 use crate::render::{
-    Block, BlockTracer, Blocks, Counts, Frame, Job, Progress, Provenance, Settings,
+    self, BLOCK, Block, BlockTracer, Blocks, Counts, Frame, Job, Progress, Provenance, Settings,
+    memory_for_blocks,
 };
 use crate::text::counted;
 
@@ -50,6 +51,26 @@ pub(super) struct Traced {
     pub(super) progress: Progress,
     /// The number of pixels traced.
     pub(super) pixels: usize,
+}
+
+/// About how many bytes of memory tracing a job into a part file takes, and merging it if it is whole;
+/// without those of the scene.
+pub(super) fn memory_for(job: &Job, parts: Parts, threads: usize) -> u64 {
+    let blocks = Blocks::of(job.settings.traced().size());
+    let in_flight = (WAITING + 2 * threads) as u64 * u64::from(BLOCK) * u64::from(BLOCK);
+    // Blocks that are continued are read before.
+    let begun = match parts.existing {
+        Existing::Refused => 0,
+        Existing::Continued => {
+            let numbers = parts.shard.blocks(blocks).into_iter();
+            numbers.map(|number| blocks.area(number) as u64).sum()
+        }
+    };
+    let traced = memory_for_blocks(job, begun + in_flight);
+    match parts.shard {
+        Shard::WHOLE => traced.max(render::memory_for(job)),
+        _ => traced,
+    }
 }
 
 /// Traces a job, of this picture, into the part file beside its file.

@@ -14,7 +14,7 @@ use crate::image_file::{ImageFormat, Picture};
 use crate::language::Source;
 use crate::memory;
 use crate::part;
-use crate::render::{Aov, Frame, Job, Progress, Provenance, memory_for};
+use crate::render::{Aov, Frame, Job, Progress, Provenance, check_memory, memory_for};
 use crate::scene::Size;
 use crate::text::{Diagnostic, Span, counted};
 
@@ -91,11 +91,13 @@ fn try_render(work: &Render) -> Result<(), Error> {
         &loaded.source,
         loaded.size,
     )?;
-    let estimate = estimate(&job);
+    let memory = memory_needed(work, &job);
+    let estimate = estimate(memory);
     if work.purpose == Purpose::Estimate {
         let line = format!("{}M\n", estimate.div_ceil(1 << 20));
         return stdout::print(&line).map_err(stdout::error);
     }
+    check_memory(&job, memory)?;
     times.load = times.lap();
     let text = (loaded.source, loaded.read.found);
     let traced = match work.parts {
@@ -223,11 +225,20 @@ fn check_size(
     Err(Error::Invalid { errors: 1 })
 }
 
-/// About how many bytes of memory a job takes in all, now that its scene is loaded: a tenth more than
-/// the larger parts, for all the others, and the threads.
-fn estimate(job: &Job) -> u64 {
+/// About how many bytes of memory a job takes, besides its scene.
+fn memory_needed(work: &Render, job: &Job) -> u64 {
+    let traced = match work.parts {
+        None => memory_for(job),
+        Some(parts) => parts::memory_for(job, parts, work.tracing.threads),
+    };
+    traced.saturating_add(work.tracing.memory_for_layers(job))
+}
+
+/// About how many bytes of memory a job that needs these takes in all, now that its scene is loaded: a
+/// tenth more than the larger parts, for all the others, and the threads.
+fn estimate(needed: u64) -> u64 {
     const THREADS: u64 = 32 << 20;
-    let all = memory::used().unwrap_or(0).saturating_add(memory_for(job));
+    let all = memory::used().unwrap_or(0).saturating_add(needed);
     all.saturating_add(all / 10).saturating_add(THREADS)
 }
 

@@ -7,6 +7,7 @@ use std::time::Duration;
 use super::Error;
 use super::progress::{Place, ProgressStyle, Reporter};
 use super::signals::Signals;
+use crate::image_file::layer_bytes;
 use crate::render::{
     Aov, DEFAULT_SPP, Filter, Frame, Frames, Job, Limit, MAX_SPP, Provenance, Region, Renderer,
     Settings, Threads, default_depth,
@@ -165,6 +166,13 @@ impl Tracing {
             frame,
             _tracer: tracer,
         })
+    }
+
+    /// About how many bytes of memory the layers of a job take until its picture is written.
+    pub(super) fn memory_for_layers(&self, job: &Job) -> u64 {
+        let size = job.settings.traced().size();
+        let layers = self.layers.iter().map(|&aov| layer_bytes(aov, size));
+        layers.fold(0, u64::saturating_add)
     }
 
     /// What the picture of a job is made from, whose scene has this digest.

@@ -29,7 +29,7 @@ impl MovieFormat {
     pub fn refuses(self, rate: u32) -> Option<String> {
         let is_too_fast = self == Self::Gif && MOST_OF_GIF < rate;
         is_too_fast.then(|| {
-            format!("a .gif has at most {MOST_OF_GIF} frames per second, not {rate}: use .y4m")
+            format!("a .gif has at most {MOST_OF_GIF} frames per second, not {rate}: use a smaller --fps, or .y4m")
         })
     }
 }
@@ -207,7 +207,7 @@ mod tests {
         let reason = MovieFormat::Gif.refuses(60).expect("it is too fast");
         assert_eq!(
             reason,
-            "a .gif has at most 50 frames per second, not 60: use .y4m"
+            "a .gif has at most 50 frames per second, not 60: use a smaller --fps, or .y4m"
         );
     }
 
