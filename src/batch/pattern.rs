@@ -48,9 +48,10 @@ impl Pattern {
         let Some((before, rest)) = name.split_once('%') else {
             let folder = path.parent().and_then(Path::file_name);
             let is_there = folder.is_some_and(|folder| Self::of(Path::new(folder)).is_ok());
-            return Err(match is_there {
-                true => NoPattern::InFolder,
-                false => NoPattern::Missing,
+            return Err(if is_there {
+                NoPattern::InFolder
+            } else {
+                NoPattern::Missing
             });
         };
         if rest.contains('%') {
