@@ -118,6 +118,15 @@ fn parts_that_make_no_picture_are_named() {
         assert!(said.starts_with(&expected), "{said}");
     }
     place.merged(&["none.part".to_owned()], "e.bmp", 66);
+    #[cfg(unix)]
+    {
+        let made = Command::new("mkfifo").arg(place.at("pipe.part")).status();
+        assert!(made.expect("it starts").success());
+        let said = place.merged(&["pipe.part".to_owned()], "e.bmp", 66);
+        assert_eq!(said, "error: pipe.part is a pipe: parts must be files\n");
+        let said = place.stderr("render ball.ray -o pipe.bmp --resume", 73);
+        assert!(said.contains("it is not a part file"), "{said}");
+    }
 }
 
 #[test]
