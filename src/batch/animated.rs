@@ -118,7 +118,9 @@ impl<'w> Animated<'w> {
         let scene = lowered.scene.ok_or(Error::Invalid { errors: 1 })?;
         let Files { read, digests, .. } = &self.files;
         if !read.is_whole() {
-            return Err(Error::Incomplete);
+            return Err(Error::Incomplete {
+                needed_by: "a sequence needs",
+            });
         }
         Ok(Still {
             job: tracing.job(scene, read.images.clone(), frames)?,

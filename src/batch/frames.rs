@@ -6,12 +6,14 @@ use std::fs;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
+use std::time::Instant;
 
 use super::animated::{Animated, Origin};
 use super::ledger::Ledger;
 use super::output::Output;
 use super::pattern::Pattern;
-use super::progress::Place;
+use super::progress::{self, Place};
+use super::signals::Signals;
 use super::still::Still;
 use super::tracing::{Tracer, Tracing};
 use super::{Error, Warnings, print_error, print_message};
@@ -21,7 +23,7 @@ use crate::image_file::{ImageFormat, MovieFormat, MovieWriter, Picture};
 use crate::language::Language;
 use crate::memory;
 use crate::part::Shard;
-use crate::render::{Frame, Frames, Job, Provenance};
+use crate::render::{Frame, Frames, Job, Provenance, check_memory, memory_for};
 use crate::text::counted;
 
 /// A sequence of pictures to render.
@@ -122,9 +124,12 @@ fn try_render(work: &Sequence) -> Result<(), Error> {
             pictures(work, &mut source, (pattern, *shard), *format, *finished)
         }
         SequenceOutput::Movie { to, format, rate } => {
+            let rate = rate.or(source.rate()).unwrap_or(RATE);
+            if let Some(reason) = format.refuses(rate) {
+                return Err(Error::Refused(reason));
+            }
             source.check_spared(to, &[])?;
             to.check()?;
-            let rate = rate.or(source.rate()).unwrap_or(RATE);
             movie(work, &mut source, to, (*format, rate))
         }
     }
@@ -138,53 +143,72 @@ fn pictures(
     format: ImageFormat,
     finished: Finished,
 ) -> Result<(), Error> {
-    let path = pattern.ledger(shard);
-    let io = |source| Error::Create {
-        path: path.clone(),
-        source,
-    };
-    let mut ledger = Ledger::read(path.clone()).map_err(io)?;
-    let mut tracer = Tracer::new(&work.tracing);
+    let list = pattern.ledger(shard);
+    let output = Output::File(list.clone());
+    source.check_spared(&output, &[])?;
+    output.check()?;
+    let mut ledger = Ledger::read(list.clone(), &pattern.ledgers())?;
+    // Without them, a signal ends the process, and finished frames are kept all the same.
+    let signals = Signals::noted().unwrap_or_default();
+    let mut tracer = Tracer::new(&work.tracing).stopped_by(signals.clone());
     let (numbers, mut skipped) = (source.numbers.clone(), 0);
+    let begun = Instant::now();
     for (before, &number) in numbers.iter().enumerate() {
+        let stopped = |error| match (error, signals.last()) {
+            (Error::Stopped, Some(signal)) => Error::KeptFrames {
+                signal,
+                frame: number,
+                is_again: finished == Finished::Rendered,
+            },
+            (error, _) => error,
+        };
+        if signals.arrived() {
+            return Err(stopped(Error::Stopped));
+        }
         let picture = pattern.path(number);
         let Still { job, scene, files } = source.still(number, format.frames())?;
         let provenance = work.tracing.provenance(&job, scene);
         let inputs = inputs(&work.tracing, &provenance, format);
-        if finished == Finished::Skipped && ledger.has(number, &inputs, &picture) {
+        if finished == Finished::Skipped && ledger.has(&inputs, &picture) {
             skipped += 1;
             continue;
         }
-        let output = Output::File(picture);
+        let output = Output::File(picture.clone());
         source.check_spared(&output, &files)?;
+        output.check_is_apart(&list, "it is the list of finished frames")?;
         output.check()?;
         if let Some(reason) = format.refuses(job.settings.traced().size()) {
             return Err(Error::Refused(format!("frame {number}: {reason}")));
         }
+        let layers = work.tracing.memory_for_layers(&job);
+        check_memory(&job, memory_for(&job).saturating_add(layers))?;
         let place = Place {
             frame: number,
             before,
             all: numbers.len(),
         };
-        let frame = tracer.trace(job.clone(), Some(place), || {})?;
-        let layers = tracer.layers(&job, frame.progress.spp, &work.tracing.layers)?;
-        let picture = Picture {
+        let frame = tracer.trace(job.clone(), Some(place), || {});
+        let frame = frame.map_err(stopped)?;
+        let layers = tracer.layers(&job, frame.progress.spp, &work.tracing.layers);
+        let layers = layers.map_err(stopped)?;
+        let written = Picture {
             frame: &frame,
             layers: &layers,
             provenance: Some(&provenance.in_frame(&frame)),
         };
         let mut bytes = Vec::new();
         output.write(|out| {
-            format.write(picture, &mut bytes)?;
+            format.write(written, &mut bytes)?;
             out.write_all(&bytes)
         })?;
-        ledger.add(number, &inputs, &bytes).map_err(io)?;
+        ledger.add(&inputs, &picture, &bytes)?;
     }
     if 0 < skipped {
         let was = if skipped == 1 { "was" } else { "were" };
         let note = format!("{} {was} already finished", counted(skipped, "frame"));
         print_message("note", &note);
     }
+    progress::finish_sequence(work.tracing.progress, numbers.len(), begun.elapsed());
     Ok(())
 }
 
@@ -222,6 +246,7 @@ fn write_movie(
     (format, rate): (MovieFormat, u32),
 ) -> Result<(), Failure> {
     let mut tracer = Tracer::new(&work.tracing);
+    let begun = Instant::now();
     let numbers = source.numbers.clone();
     let mut next = |before: usize| {
         let number = numbers[before];
@@ -242,7 +267,9 @@ fn write_movie(
         let frame = next(before).map_err(Failure::Rendering)?;
         movie.add(&frame).map_err(Failure::Writing)?;
     }
-    movie.finish().map_err(Failure::Writing)
+    movie.finish().map_err(Failure::Writing)?;
+    progress::finish_sequence(work.tracing.progress, numbers.len(), begun.elapsed());
+    Ok(())
 }
 
 /// The frames of a sequence.
@@ -314,6 +341,22 @@ impl<'w> Source<'w> {
 
     /// A frame, ready to trace.
     fn still(&mut self, number: u32, frames: Frames) -> Result<Still, Error> {
+        let no_frame = |reason| Error::NoFrame {
+            frame: number,
+            reason,
+        };
+        self.try_still(number, frames).map_err(|error| match error {
+            Error::Invalid { errors } => {
+                no_frame(format!("its scene has {}", counted(errors, "error")))
+            }
+            Error::Incomplete { needed_by } => {
+                no_frame(format!("{needed_by} every file of its scene"))
+            }
+            error => error,
+        })
+    }
+
+    fn try_still(&mut self, number: u32, frames: Frames) -> Result<Still, Error> {
         match &mut self.shows {
             Shows::Scenes => self.work.still(&self.scenes[number as usize], frames),
             Shows::Edits(animated) => animated.still(number, &self.work.tracing, frames),

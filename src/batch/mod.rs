@@ -48,7 +48,7 @@ pub use frames::{Finished, FrameSource, Sequence, SequenceOutput, render_sequenc
 pub use merge::{Merge, MergePurpose, merge};
 pub use output::Output;
 pub use parts::{Existing, Parts};
-pub use pattern::Pattern;
+pub use pattern::{NoPattern, Pattern};
 pub use progress::ProgressStyle;
 pub use render::{Purpose, Render, render};
 pub use show::{Show, show};
@@ -85,8 +85,19 @@ pub enum Error {
         errors: usize,
     },
     /// A file of a scene could not be read, which was printed.
-    #[error("nothing was rendered: shards and sequences need every file of the scene")]
-    Incomplete,
+    #[error("nothing was rendered: {needed_by} every file of the scene")]
+    Incomplete {
+        /// What it is needed by, with its verb.
+        needed_by: &'static str,
+    },
+    /// A frame of a sequence cannot be rendered, for reasons that were printed; those before it are.
+    #[error("frame {frame} was not rendered: {reason}")]
+    NoFrame {
+        /// The number of the frame.
+        frame: u32,
+        /// Why not.
+        reason: String,
+    },
     /// A scene has errors, or loses something in another language, all of which was printed.
     #[error("nothing was written: there {}", if *.errors == 1 { "is 1 error".to_owned() } else { format!("are {errors} errors") })]
     Unconverted {
@@ -146,6 +157,19 @@ pub enum Error {
         signal: Signal,
         /// The fraction of the work done, 0 to 1.
         done: f64,
+    },
+    /// A signal stopped a sequence, whose finished frames are kept.
+    #[error(
+        "stopped by {} at frame {frame}; finished frames are kept: rerun {}to continue",
+        signal.name(), if *is_again { "without --again " } else { "" }
+    )]
+    KeptFrames {
+        /// The signal.
+        signal: Signal,
+        /// The number of the frame that was not finished.
+        frame: u32,
+        /// Whether finished frames were rendered again.
+        is_again: bool,
     },
     /// The machine cannot trace the picture.
     #[error(transparent)]

@@ -59,6 +59,17 @@ impl Output {
         }
     }
 
+    /// Refuses to write where something else is written, for this reason.
+    pub(super) fn check_is_apart(&self, other: &Path, reason: &str) -> Result<(), Error> {
+        match self {
+            Self::File(path) if file::is_same_target(path, other) => Err(Error::Refused(format!(
+                "cannot write {}: {reason}; name another file",
+                path.display()
+            ))),
+            Self::File(_) | Self::Stdout | Self::StdoutTerminal => Ok(()),
+        }
+    }
+
     /// Writes. A reader that closes the pipe early is not an error.
     pub(super) fn write(
         &self,

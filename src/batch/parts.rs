@@ -13,7 +13,8 @@ use super::tracing::Tracing;
 use super::{Error, print_message};
 use crate::part::{self, Header, Part, Shard};
 use crate::render::{
-    Block, BlockTracer, Blocks, Counts, Frame, Job, Progress, Provenance, Settings,
+    self, BLOCK, Block, BlockTracer, Blocks, Counts, Frame, Job, Progress, Provenance, Settings,
+    memory_for_blocks,
 };
 use crate::text::counted;
 
@@ -52,6 +53,26 @@ pub(super) struct Traced {
     pub(super) pixels: usize,
 }
 
+/// About how many bytes of memory tracing a job into a part file takes, and merging it if it is whole;
+/// without those of the scene.
+pub(super) fn memory_for(job: &Job, parts: Parts, threads: usize) -> u64 {
+    let blocks = Blocks::of(job.settings.traced().size());
+    let in_flight = (WAITING + 2 * threads) as u64 * u64::from(BLOCK) * u64::from(BLOCK);
+    // Blocks that are continued are read before.
+    let begun = match parts.existing {
+        Existing::Refused => 0,
+        Existing::Continued => {
+            let numbers = parts.shard.blocks(blocks).into_iter();
+            numbers.map(|number| blocks.area(number) as u64).sum()
+        }
+    };
+    let traced = memory_for_blocks(job, begun + in_flight);
+    match parts.shard {
+        Shard::WHOLE => traced.max(render::memory_for(job)),
+        _ => traced,
+    }
+}
+
 /// Traces a job, of this picture, into the part file beside its file.
 pub(super) fn trace(
     tracing: &Tracing,
@@ -78,11 +99,8 @@ pub(super) fn trace(
     };
     let part = part.map_err(refused)?;
     if 0 < part.cut() {
-        let cut = counted(part.cut() as usize, "byte");
-        let note = format!(
-            "{}: discarded {cut} at the end, which were damaged",
-            path.display()
-        );
+        let cut = counted(part.cut() as usize, "damaged byte");
+        let note = format!("{}: discarded {cut} at the end", path.display());
         print_message("note", &note);
     }
     let mut continued = Continued {
@@ -105,10 +123,12 @@ pub(super) fn trace(
         ..
     } = &continued;
     let elapsed = begun.elapsed();
-    Reporter::new(tracing.progress).finish(&progress(spp, 1.0, elapsed, *counts));
+    let traced = progress(spp, 1.0, elapsed, *counts);
     let progress = progress(spp, 1.0, elapsed, part.counts());
     let pixels = numbers.iter().map(|&number| blocks.area(number)).sum();
+    let reporter = Reporter::new(tracing.progress);
     if parts.shard != Shard::WHOLE {
+        reporter.finish(&traced);
         let blocks = counted(numbers.len(), "block");
         let note = format!(
             "shard {}: {blocks} with {spp} spp in {}",
@@ -124,6 +144,10 @@ pub(super) fn trace(
     }
     let mut frame = part::merge(std::slice::from_ref(path), frames)?.frame;
     frame.progress.elapsed = elapsed;
+    reporter.finish(&Progress {
+        noise: frame.progress.noise,
+        ..traced
+    });
     Ok(Traced {
         progress: frame.progress,
         frame: Some(frame),
@@ -165,7 +189,8 @@ impl Continued {
         let signals = self.signals.clone();
         let tracer = BlockTracer::new(job, threads, || signals.arrived())?;
         let Some(tracer) = tracer else {
-            return Err(self.stopped(0.0));
+            let none_begun = BTreeMap::new();
+            return Err(self.stopped(self.tally(spp, &none_begun).done()));
         };
         let (first, begun) = (whole, Instant::now());
         loop {
@@ -200,11 +225,7 @@ impl Continued {
         let begun = begun.map(|&number| Ok((number, part.block(number)?)));
         let begun: Result<BTreeMap<_, _>, _> = begun.collect();
         let mut begun = begun.map_err(|source| self.unwritten(source))?;
-        let reached = |number| match begun.get(&number) {
-            Some(block) => (number, block.samples, block.counts),
-            None => (number, 0, Counts::default()),
-        };
-        let mut tally = Tally::new(spp, blocks, lacking.iter().copied().map(reached));
+        let mut tally = self.tally(spp, &begun);
         let todo = lacking.into_iter().map(move |number| {
             let block = begun.remove(&number);
             block.unwrap_or_else(|| Block::new(number, blocks))
@@ -225,15 +246,28 @@ impl Continued {
             written
         });
         written.map_err(|source| self.unwritten(source))?;
-        if tally.done() < 1.0 {
+        if tally.taken < tally.all {
             return Err(self.stopped(tally.done()));
         }
         Ok(())
     }
 
+    /// How far all blocks are on their way to `spp` samples, some of which are `begun`.
+    fn tally(&self, spp: u32, begun: &BTreeMap<u32, Block>) -> Tally {
+        let reached = self.numbers.iter().map(|&number| {
+            let counts = begun.get(&number).map(|block| block.counts);
+            (
+                number,
+                self.part.samples(number),
+                counts.unwrap_or_default(),
+            )
+        });
+        Tally::new(spp, self.part.blocks(), reached)
+    }
+
     /// Writes blocks as they come.
     fn write(&mut self, blocks: &Receiver<Block>, tally: &mut Tally) -> std::io::Result<()> {
-        let mut reporter = Reporter::new(self.style);
+        let mut reporter = Reporter::new(self.style).begun(tally.done());
         let mut synced = Instant::now();
         while let Ok(block) = blocks.recv() {
             tally.add(&block);
@@ -244,7 +278,7 @@ impl Continued {
             }
             let counts = self.counts.and(tally.counts);
             let elapsed = self.begun.elapsed();
-            reporter.show(&progress(tally.spp, tally.done(), elapsed, counts));
+            reporter.show(&progress(tally.least(), tally.done(), elapsed, counts));
         }
         self.counts = self.counts.and(tally.counts);
         self.part.sync()
@@ -274,17 +308,19 @@ impl Continued {
     }
 }
 
-/// How far the blocks of a sweep are traced.
+/// How far all blocks of a part are traced.
 struct Tally {
     /// Samples of each pixel to reach.
     spp: u32,
     blocks: Blocks,
-    /// The samples and rays of each block.
+    /// The samples of each block, and the rays of those that are to be continued.
     reached: BTreeMap<u32, (u32, Counts)>,
-    /// Samples to take, and taken.
+    /// How many blocks have reached each number of samples.
+    levels: BTreeMap<u32, usize>,
+    /// Samples of all blocks to take, and taken, before too.
     all: u64,
     taken: u64,
-    /// Rays traced.
+    /// Rays traced since it began.
     counts: Counts,
 }
 
@@ -295,13 +331,17 @@ impl Tally {
             spp,
             blocks,
             reached: BTreeMap::new(),
+            levels: BTreeMap::new(),
             all: 0,
             taken: 0,
             counts: Counts::default(),
         };
         for (number, samples, counts) in begun {
-            tally.all += u64::from(spp - samples) * blocks.area(number) as u64;
+            let (samples, area) = (samples.min(spp), blocks.area(number) as u64);
+            tally.all += u64::from(spp) * area;
+            tally.taken += u64::from(samples) * area;
             tally.reached.insert(number, (samples, counts));
+            *tally.levels.entry(samples).or_default() += 1;
         }
         tally
     }
@@ -312,9 +352,22 @@ impl Tally {
         let taken = u64::from(block.samples - samples);
         self.taken += taken * self.blocks.area(block.number) as u64;
         self.counts = self.counts.and(block.counts.since(counts));
+        if let Some(blocks) = self.levels.get_mut(&samples) {
+            *blocks -= 1;
+            if *blocks == 0 {
+                self.levels.remove(&samples);
+            }
+        }
+        *self.levels.entry(block.samples).or_default() += 1;
     }
 
-    /// The share of the work done, 0 to 1.
+    /// Samples that every pixel has.
+    fn least(&self) -> u32 {
+        let least = self.levels.first_key_value();
+        least.map_or(self.spp, |(&samples, _)| samples)
+    }
+
+    /// The share of all the work that is done, 0 to 1.
     fn done(&self) -> f64 {
         self.taken as f64 / self.all.max(1) as f64
     }
@@ -333,5 +386,48 @@ fn progress(spp: u32, done: f64, elapsed: Duration, counts: Counts) -> Progress 
         over_budget: counts.over_budget,
         noise: None,
         complete: false,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::Size;
+
+    #[test]
+    fn what_was_traced_before_counts_as_done() {
+        let size = Size {
+            width: 96,
+            height: 32,
+        };
+        let blocks = Blocks::of(size);
+        let counts = |rays| Counts {
+            rays,
+            ..Counts::default()
+        };
+        let traced = |number, samples, rays| Block {
+            samples,
+            counts: counts(rays),
+            ..Block::new(number, blocks)
+        };
+        // One block is complete, one is begun.
+        let begun = [
+            (0, 8, Counts::default()),
+            (1, 4, counts(40)),
+            (2, 0, counts(0)),
+        ];
+        let mut tally = Tally::new(8, blocks, begun.into_iter());
+        assert_eq!(
+            (tally.done(), tally.least(), tally.counts.rays),
+            (0.5, 0, 0)
+        );
+        tally.add(&traced(2, 4, 50));
+        assert_eq!((tally.least(), tally.counts.rays), (4, 50));
+        tally.add(&traced(1, 8, 80));
+        tally.add(&traced(2, 8, 90));
+        assert_eq!(
+            (tally.done(), tally.least(), tally.counts.rays),
+            (1.0, 8, 130)
+        );
     }
 }

@@ -1,7 +1,10 @@
 //! The names of the pictures of a sequence.
 
+use std::ffi::OsStr;
+use std::fs;
 use std::path::{Path, PathBuf};
 
+use crate::file::directory_of;
 use crate::part::Shard;
 
 /// A path whose file name has `%d`, or `%05d` for at least five digits, where the number of the frame
@@ -16,25 +19,58 @@ pub struct Pattern {
     digits: usize,
 }
 
+/// The most digits that a number is filled up to.
+const MOST_DIGITS: usize = 9;
+
+/// Why a path is no pattern.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum NoPattern {
+    /// It has no placeholder.
+    #[error(
+        "has no placeholder for the frame number: use a name such as out.%05d.png, or .y4m or .gif"
+    )]
+    Missing,
+    /// The placeholder is in the name of a folder.
+    #[error("has %d in the name of a folder: only the file name can have it, such as out.%05d.png")]
+    InFolder,
+    /// The file name has more than one percent sign.
+    #[error("has more than one %: only one number can stand in the name, such as out.%05d.png")]
+    Several,
+    /// What follows the percent sign is no placeholder.
+    #[error("has a % that begins neither %d nor %01d to %09d, for the least number of digits")]
+    Malformed,
+}
+
 impl Pattern {
-    /// Reads a pattern; `None` if the file name has not exactly one place for the number.
-    pub fn of(path: &Path) -> Option<Self> {
-        let name = path.file_name()?.to_str()?;
-        let (before, rest) = name.split_once('%')?;
-        let (digits, after) = rest.split_once('d')?;
-        let digits = match digits {
-            "" => 0,
-            _ => digits
-                .strip_prefix('0')?
-                .parse()
-                .ok()
-                .filter(|&digits| digits <= 9)?,
+    /// Reads a pattern, whose file name has exactly one place for the number.
+    pub fn of(path: &Path) -> Result<Self, NoPattern> {
+        let name = path.file_name().and_then(OsStr::to_str).unwrap_or_default();
+        let Some((before, rest)) = name.split_once('%') else {
+            let folder = path.parent().and_then(Path::file_name);
+            let is_there = folder.is_some_and(|folder| Self::of(Path::new(folder)).is_ok());
+            return Err(if is_there {
+                NoPattern::InFolder
+            } else {
+                NoPattern::Missing
+            });
         };
-        (!after.contains('%')).then(|| Self {
+        if rest.contains('%') {
+            return Err(NoPattern::Several);
+        }
+        let (digits, after) = rest.split_once('d').ok_or(NoPattern::Malformed)?;
+        let least = match digits {
+            "" => Some(0),
+            _ => digits
+                .strip_prefix('0')
+                .and_then(|least| least.parse().ok()),
+        };
+        Ok(Self {
             folder: path.parent().map(Path::to_owned).unwrap_or_default(),
             before: before.to_owned(),
             after: after.to_owned(),
-            digits,
+            digits: least
+                .filter(|&digits| digits <= MOST_DIGITS)
+                .ok_or(NoPattern::Malformed)?,
         })
     }
 
@@ -52,15 +88,39 @@ impl Pattern {
     /// The path of the list of finished frames, such as `turn.frames` beside `turn.%05d.png`, one for
     /// each shard: processes on several machines do not append to the same file.
     pub(super) fn ledger(&self, shard: Shard) -> PathBuf {
-        let stem = match self.before.trim_end_matches(['.', '-', '_']) {
-            "" => "frames",
-            stem => stem,
-        };
+        let stem = self.stem();
         let Shard { index, count } = shard;
         self.folder.join(match count {
             1 => format!("{stem}.frames"),
             _ => format!("{stem}.{index}-{count}.frames"),
         })
+    }
+
+    /// The paths of the lists that there are, of all shards.
+    pub(super) fn ledgers(&self) -> Vec<PathBuf> {
+        let Ok(entries) = fs::read_dir(directory_of(&self.path(0))) else {
+            return Vec::new();
+        };
+        let names = entries.filter_map(|entry| entry.ok()?.file_name().into_string().ok());
+        let lists = names.filter(|name| {
+            let rest = name.strip_prefix(self.stem());
+            let shard = rest.and_then(|rest| rest.strip_suffix(".frames"));
+            shard.is_some_and(|shard| {
+                let shard = shard
+                    .strip_prefix('.')
+                    .map(|shard| shard.replacen('-', "/", 1));
+                shard.is_none_or(|shard| Shard::parse(&shard).is_some())
+            })
+        });
+        lists.map(|name| self.folder.join(name)).collect()
+    }
+
+    /// What the names of lists begin with.
+    fn stem(&self) -> &str {
+        match self.before.trim_end_matches(['.', '-', '_']) {
+            "" => "frames",
+            stem => stem,
+        }
     }
 }
 
@@ -83,16 +143,17 @@ mod tests {
             let of_shard = ledger.replace(".frames", ".1-4.frames");
             assert_eq!(pattern.ledger(shard), Path::new(&of_shard));
         }
-        for wrong in [
-            "a.png",
-            "%d%d.png",
-            "%5d.png",
-            "%0d.png",
-            "%010d.png",
-            "%s.png",
-            "%d/a.png",
+        for (wrong, reason) in [
+            ("a.png", NoPattern::Missing),
+            ("-", NoPattern::Missing),
+            ("%d%d.png", NoPattern::Several),
+            ("%5d.png", NoPattern::Malformed),
+            ("%0d.png", NoPattern::Malformed),
+            ("%010d.png", NoPattern::Malformed),
+            ("%s.png", NoPattern::Malformed),
+            ("%d/a.png", NoPattern::InFolder),
         ] {
-            assert_eq!(Pattern::of(Path::new(wrong)), None, "{wrong}");
+            assert_eq!(Pattern::of(Path::new(wrong)), Err(reason), "{wrong}");
         }
     }
 }

@@ -20,7 +20,8 @@ pub enum ProgressStyle {
     /// A line that is updated, if standard error is a terminal, and erased at the end.
     #[default]
     Line,
-    /// An object of JSON a line, at least one, the last with the event `done`.
+    /// An object of JSON a line, at least one, the last with the event `done`; one with the event
+    /// `frame` for each frame of a sequence that is traced.
     Json,
     /// Not at all.
     Off,
@@ -32,6 +33,8 @@ pub(super) struct Reporter {
     last: Option<Instant>,
     /// The place in a sequence, such as `frame 3/36`.
     place: Option<Place>,
+    /// The fraction of the work that was done before, 0 to 1.
+    begun: f64,
 }
 
 /// The place of a picture in a sequence.
@@ -55,12 +58,18 @@ impl Reporter {
             style,
             last: None,
             place: None,
+            begun: 0.0,
         }
     }
 
     /// Tells the place of the picture in a sequence.
     pub(super) fn at(self, place: Option<Place>) -> Self {
         Self { place, ..self }
+    }
+
+    /// Tells the fraction of the work that was done before, 0 to 1.
+    pub(super) fn begun(self, begun: f64) -> Self {
+        Self { begun, ..self }
     }
 
     /// Shows the current state, at most once per [`INTERVAL`].
@@ -79,7 +88,11 @@ impl Reporter {
                         place.all
                     )
                 });
-                write!(io::stderr(), "\r{place}{}\x1b[K", line(progress))
+                write!(
+                    io::stderr(),
+                    "\r{place}{}\x1b[K",
+                    line(progress, self.begun)
+                )
             }
             ProgressStyle::Json => writeln!(io::stderr(), "{}", self.object("progress", progress)),
             ProgressStyle::Off => Ok(()),
@@ -87,7 +100,7 @@ impl Reporter {
     }
 
     fn object(&self, event: &str, progress: &Progress) -> Value {
-        let mut object = object(event, progress);
+        let mut object = object(event, progress, self.begun);
         if let Some(Place { frame, before, all }) = self.place {
             object["frame"] = frame.into();
             object["frames_before"] = before.into();
@@ -96,10 +109,11 @@ impl Reporter {
         object
     }
 
-    /// Says that all is traced.
+    /// Says that the picture is traced, which may be a frame of a sequence.
     pub(super) fn finish(&self, progress: &Progress) {
         if self.style == ProgressStyle::Json {
-            let _ = writeln!(io::stderr(), "{}", self.object("done", progress));
+            let event = self.place.map_or("done", |_| "frame");
+            let _ = writeln!(io::stderr(), "{}", self.object(event, progress));
         }
     }
 }
@@ -112,9 +126,20 @@ impl Drop for Reporter {
     }
 }
 
+/// Says as JSON that all frames of a sequence are rendered.
+pub(super) fn finish_sequence(style: ProgressStyle, frames: usize, elapsed: Duration) {
+    if style == ProgressStyle::Json {
+        let elapsed = elapsed.as_secs_f64();
+        let object = json!({
+            "event": "done", "done": 1.0, "frames": frames, "elapsed": elapsed, "left": 0.0,
+        });
+        let _ = writeln!(io::stderr(), "{object}");
+    }
+}
+
 /// Progress as JSON. The keys are part of the interface of the command; times are in seconds, what
 /// is not known yet is null.
-fn object(event: &str, progress: &Progress) -> Value {
+fn object(event: &str, progress: &Progress, begun: f64) -> Value {
     json!({
         "event": event,
         "done": progress.done,
@@ -122,23 +147,23 @@ fn object(event: &str, progress: &Progress) -> Value {
         "passes": progress.passes,
         "spp": progress.spp,
         "elapsed": progress.elapsed.as_secs_f64(),
-        "left": left(progress),
+        "left": left(progress, begun),
         "rays": progress.rays,
         "noise": progress.noise,
     })
 }
 
 /// The seconds that are left; `None` early on, when the rate is too noisy to extrapolate from.
-fn left(progress: &Progress) -> Option<f64> {
+fn left(progress: &Progress, begun: f64) -> Option<f64> {
     let elapsed = progress.elapsed.as_secs_f64();
     match progress.done {
         1.0 => Some(0.0),
-        done => (0.0 < done && 0.5 < elapsed).then(|| elapsed * (1.0 - done) / done),
+        done => (begun < done && 0.5 < elapsed).then(|| elapsed * (1.0 - done) / (done - begun)),
     }
 }
 
 /// `████████░░░░░░░░░░░░ 42 %  pass 3/6  noise 1.3 %  1.2 s, about 1.7 s left  14.0 Mray/s`
-fn line(progress: &Progress) -> String {
+fn line(progress: &Progress, begun: f64) -> String {
     let elapsed = progress.elapsed.as_secs_f64();
     let percent = (progress.done * 100.0).floor();
     let full = (progress.done * BAR as f64) as usize;
@@ -150,7 +175,7 @@ fn line(progress: &Progress) -> String {
         "{bar} {percent} %  pass {}/{}{noise}  {elapsed:.1} s",
         progress.pass, progress.passes
     );
-    let Some(left) = left(progress) else {
+    let Some(left) = left(progress, begun) else {
         return state;
     };
     let rate = progress.rays as f64 / elapsed / 1e6;
@@ -182,14 +207,14 @@ mod tests {
             "event": "progress", "done": 0.25, "pass": 3, "passes": 6, "spp": 2, "elapsed": 2.0,
             "left": 6.0, "rays": 28_000_000, "noise": 0.0134,
         });
-        assert_eq!(object("progress", &progress(0.25, 2.0)), expected);
-        let done = object("done", &progress(1.0, 0.1));
+        assert_eq!(object("progress", &progress(0.25, 2.0), 0.0), expected);
+        let done = object("done", &progress(1.0, 0.1), 0.0);
         assert_eq!(
             (&done["left"], &done["event"]),
             (&json!(0.0), &json!("done"))
         );
         assert_eq!(
-            object("progress", &progress(0.25, 0.1))["left"],
+            object("progress", &progress(0.25, 0.1), 0.0)["left"],
             Value::Null
         );
     }
@@ -197,16 +222,18 @@ mod tests {
     #[test]
     fn the_line_extrapolates_from_the_fraction_done() {
         assert_eq!(
-            line(&progress(0.25, 2.0)),
+            line(&progress(0.25, 2.0), 0.0),
             "█████░░░░░░░░░░░░░░░ 25 %  pass 3/6  noise 1.3 %  2.0 s, about 6.0 s left  14.0 Mray/s"
         );
         assert_eq!(
-            line(&progress(0.0, 9.0)),
+            line(&progress(0.0, 9.0), 0.0),
             "░░░░░░░░░░░░░░░░░░░░ 0 %  pass 3/6  noise 1.3 %  9.0 s"
         );
         assert_eq!(
-            line(&progress(0.999, 0.1)),
+            line(&progress(0.999, 0.1), 0.0),
             "███████████████████░ 99 %  pass 3/6  noise 1.3 %  0.1 s"
         );
+        // What was done before took no time now.
+        assert_eq!(left(&progress(0.75, 2.0), 0.25), Some(1.0));
     }
 }

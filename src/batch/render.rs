@@ -1,11 +1,11 @@
 //! Renders a scene file to a picture file.
 
 use std::collections::BTreeMap;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use super::output::Output;
-use super::parts::{self, Parts};
+use super::parts::{self, Existing, Parts};
 use super::stats::{Stats, Times};
 use super::tracing::Tracer;
 use super::{Error, Tracing, Warnings, load, print_error, print_findings, print_message, stdout};
@@ -13,7 +13,8 @@ use crate::assets::{self, fingerprint};
 use crate::image_file::{ImageFormat, Picture};
 use crate::language::Source;
 use crate::memory;
-use crate::render::{Aov, Frame, Job, Progress, Provenance, memory_for};
+use crate::part;
+use crate::render::{Aov, Frame, Job, Progress, Provenance, check_memory, memory_for};
 use crate::scene::Size;
 use crate::text::{Diagnostic, Span, counted};
 
@@ -62,6 +63,7 @@ fn try_render(work: &Render) -> Result<(), Error> {
         output.check_spares(&work.scene, &[])?;
         output.check()?;
     }
+    check_apart(work)?;
     assets::check_folders(&work.assets)?;
     let mut times = Times::started();
     memory::start_threads_or_none();
@@ -72,8 +74,14 @@ fn try_render(work: &Render) -> Result<(), Error> {
     for output in outputs(work) {
         output.check_spares(&work.scene, &loaded.read.files)?;
     }
-    if work.parts.is_some() && !loaded.read.is_whole() {
-        return Err(Error::Incomplete);
+    if let Some(Parts { existing, .. }) = work.parts
+        && !loaded.read.is_whole()
+    {
+        let needed_by = match existing {
+            Existing::Continued => "--resume needs",
+            Existing::Refused => "--shard needs",
+        };
+        return Err(Error::Incomplete { needed_by });
     }
     let frames = work.format.frames();
     let job = work.tracing.job(scene, loaded.read.images, frames)?;
@@ -83,11 +91,13 @@ fn try_render(work: &Render) -> Result<(), Error> {
         &loaded.source,
         loaded.size,
     )?;
-    let estimate = estimate(&job);
+    let memory = memory_needed(work, &job);
+    let estimate = estimate(memory);
     if work.purpose == Purpose::Estimate {
         let line = format!("{}M\n", estimate.div_ceil(1 << 20));
         return stdout::print(&line).map_err(stdout::error);
     }
+    check_memory(&job, memory)?;
     times.load = times.lap();
     let text = (loaded.source, loaded.read.found);
     let traced = match work.parts {
@@ -169,11 +179,7 @@ fn trace_parts(
     job: &Job,
     (source, found): (Source, BTreeMap<String, PathBuf>),
 ) -> Result<Traced, Error> {
-    let Output::File(path) = &work.output else {
-        return Err(Error::Refused(
-            "--shard and --resume keep a file next to the picture: use -o FILE".to_owned(),
-        ));
-    };
+    let path = beside(&work.output)?;
     let tracing = &work.tracing;
     let digest = fingerprint(source.text(), &found)?;
     drop(source);
@@ -219,11 +225,20 @@ fn check_size(
     Err(Error::Invalid { errors: 1 })
 }
 
-/// About how many bytes of memory a job takes in all, now that its scene is loaded: a tenth more than
-/// the larger parts, for all the others, and the threads.
-fn estimate(job: &Job) -> u64 {
+/// About how many bytes of memory a job takes, besides its scene.
+fn memory_needed(work: &Render, job: &Job) -> u64 {
+    let traced = match work.parts {
+        None => memory_for(job),
+        Some(parts) => parts::memory_for(job, parts, work.tracing.threads),
+    };
+    traced.saturating_add(work.tracing.memory_for_layers(job))
+}
+
+/// About how many bytes of memory a job that needs these takes in all, now that its scene is loaded: a
+/// tenth more than the larger parts, for all the others, and the threads.
+fn estimate(needed: u64) -> u64 {
     const THREADS: u64 = 32 << 20;
-    let all = memory::used().unwrap_or(0).saturating_add(memory_for(job));
+    let all = memory::used().unwrap_or(0).saturating_add(needed);
     all.saturating_add(all / 10).saturating_add(THREADS)
 }
 
@@ -248,6 +263,28 @@ fn finish(work: &Render, frame: &Frame, traced: &Traced) -> Result<(), Error> {
         provenance: Some(&traced.picture),
     };
     work.output.write(|out| work.format.write(picture, out))
+}
+
+/// Refuses outputs that would overwrite one another, and a part file beside no file.
+fn check_apart(work: &Render) -> Result<(), Error> {
+    if let (Some(stats), Output::File(picture)) = (&work.stats, &work.output) {
+        stats.check_is_apart(picture, "it is the picture")?;
+    }
+    let Some(Parts { shard, .. }) = work.parts else {
+        return Ok(());
+    };
+    let part = part::path_beside(beside(&work.output)?, shard);
+    outputs(work).try_for_each(|output| output.check_is_apart(&part, "it is the part file"))
+}
+
+/// The file that a part file is kept beside.
+fn beside(picture: &Output) -> Result<&Path, Error> {
+    match picture {
+        Output::File(path) if !path.exists() || path.is_file() => Ok(path),
+        _ => Err(Error::Refused(
+            "--shard and --resume keep a part file beside the picture: use -o FILE".to_owned(),
+        )),
+    }
 }
 
 /// Where the picture and the statistics go.

@@ -76,7 +76,7 @@ impl Stats<'_> {
             "version": env!("CARGO_PKG_VERSION"),
             "scene": self.scene.to_string_lossy(),
             "digest": self.picture.scene,
-            "settings": settings(&self.picture.settings),
+            "settings": self.settings(),
             "threads": self.threads,
             "pixels": self.pixels,
             "samples": samples,
@@ -98,6 +98,18 @@ impl Stats<'_> {
                 "peak": memory::peak(),
             },
         })
+    }
+}
+
+impl Stats<'_> {
+    /// The settings, with the view and the layers.
+    fn settings(&self) -> Value {
+        let mut settings = settings(&self.picture.settings);
+        let of_picture = self.picture.written().into_iter();
+        for (name, value) in of_picture.filter(|(name, _)| ["view", "layers"].contains(name)) {
+            settings[name] = Value::String(value);
+        }
+        settings
     }
 }
 

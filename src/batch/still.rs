@@ -28,7 +28,9 @@ impl Still {
         let errors = loaded.findings.errors();
         let scene = loaded.scene.ok_or(Error::Invalid { errors })?;
         if !loaded.read.is_whole() {
-            return Err(Error::Incomplete);
+            return Err(Error::Incomplete {
+                needed_by: "a sequence needs",
+            });
         }
         let job = tracing.job(scene, loaded.read.images, frames)?;
         Ok(Self {

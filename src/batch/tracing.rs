@@ -1,16 +1,21 @@
 //! Traces pictures without an interface.
 
 use std::sync::Arc;
-use std::sync::mpsc::{self, Receiver};
+use std::sync::mpsc::{self, Receiver, RecvTimeoutError};
 use std::time::Duration;
 
 use super::Error;
 use super::progress::{Place, ProgressStyle, Reporter};
+use super::signals::Signals;
+use crate::image_file::layer_bytes;
 use crate::render::{
     Aov, DEFAULT_SPP, Filter, Frame, Frames, Job, Limit, MAX_SPP, Provenance, Region, Renderer,
     Settings, Threads, default_depth,
 };
 use crate::scene::{Camera, Images, Integrator, Scene, Size, Transfer, Viewpoint};
+
+/// How long a signal may go unnoticed.
+const PATIENCE: Duration = Duration::from_millis(50);
 
 /// How a scene is traced.
 #[derive(Clone, Debug, PartialEq)]
@@ -60,6 +65,8 @@ pub(super) struct Tracer {
     renderer: Renderer,
     woken: Receiver<()>,
     style: ProgressStyle,
+    /// What stops it.
+    signals: Signals,
 }
 
 impl Tracer {
@@ -74,7 +81,13 @@ impl Tracer {
             renderer,
             woken,
             style: tracing.progress,
+            signals: Signals::default(),
         }
+    }
+
+    /// Fails with [`Error::Stopped`] soon after one of these signals has arrived.
+    pub(super) fn stopped_by(self, signals: Signals) -> Self {
+        Self { signals, ..self }
     }
 
     /// Traces a job, at a place in a sequence, and shows the progress. `started` is called while the
@@ -88,7 +101,7 @@ impl Tracer {
         self.renderer.restart(job)?;
         started();
         let reporter = Reporter::new(self.style).at(place);
-        wait_for_last_frame(&self.renderer, &self.woken, reporter)
+        self.wait(reporter)
     }
 
     /// Traces AOVs of a job whose light was traced with `spp` samples.
@@ -110,10 +123,30 @@ impl Tracer {
                 ..job.clone()
             })?;
             let reporter = Reporter::new(ProgressStyle::Off);
-            let frame = wait_for_last_frame(&self.renderer, &self.woken, reporter)?;
+            let frame = self.wait(reporter)?;
             Ok((aov, frame))
         });
         layers.collect()
+    }
+
+    /// Waits for the last frame of the present job.
+    fn wait(&self, mut reporter: Reporter) -> Result<Arc<Frame>, Error> {
+        while !self.signals.arrived() {
+            match self.woken.recv_timeout(PATIENCE) {
+                Ok(()) => {}
+                Err(RecvTimeoutError::Timeout) => continue,
+                Err(RecvTimeoutError::Disconnected) => break,
+            }
+            let Some(frame) = self.renderer.latest() else {
+                continue;
+            };
+            if frame.progress.complete {
+                reporter.finish(&frame.progress);
+                return Ok(frame);
+            }
+            reporter.show(&frame.progress);
+        }
+        Err(Error::Stopped)
     }
 }
 
@@ -133,6 +166,13 @@ impl Tracing {
             frame,
             _tracer: tracer,
         })
+    }
+
+    /// About how many bytes of memory the layers of a job take until its picture is written.
+    pub(super) fn memory_for_layers(&self, job: &Job) -> u64 {
+        let size = job.settings.traced().size();
+        let layers = self.layers.iter().map(|&aov| layer_bytes(aov, size));
+        layers.fold(0, u64::saturating_add)
     }
 
     /// What the picture of a job is made from, whose scene has this digest.
@@ -177,22 +217,4 @@ impl Tracing {
             numbers: None,
         })
     }
-}
-
-fn wait_for_last_frame(
-    renderer: &Renderer,
-    woken: &Receiver<()>,
-    mut reporter: Reporter,
-) -> Result<Arc<Frame>, Error> {
-    while woken.recv().is_ok() {
-        let Some(frame) = renderer.latest() else {
-            continue;
-        };
-        if frame.progress.complete {
-            reporter.finish(&frame.progress);
-            return Ok(frame);
-        }
-        reporter.show(&frame.progress);
-    }
-    Err(Error::Stopped)
 }

@@ -101,7 +101,7 @@ pub(super) enum ProgressChoice {
     /// A line, if standard error is a terminal.
     #[default]
     Auto,
-    /// An object a line, the last with the event "done".
+    /// An object a line, the last with the event "done", the last of a frame with the event "frame".
     Json,
     /// Not at all.
     None,

@@ -15,8 +15,9 @@ Examples:
   halflight merge scene.*.part -o scene.png               the same bytes as from one
   halflight merge --missing scene.*.part                  the shards to run again: 3,7-9
 
-Exit code 3 means that the parts cannot be merged: some are missing, damaged, incomplete or of \
-another picture. With --missing, the exit code is 0 either way.";
+Exit code 3 means that the parts cannot be merged: some are missing, damaged, incomplete, traced to \
+different numbers of samples or of another picture. With --missing it means that they are of different \
+pictures, or that none is a part; shards that are missing give 0, like none.";
 
 #[derive(Args, Debug)]
 pub(super) struct MergeArguments {

@@ -12,7 +12,8 @@ mod shared;
 mod show;
 mod tracing;
 
-use std::ffi::OsString;
+use std::env;
+use std::ffi::{OsStr, OsString};
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
 
@@ -38,28 +39,29 @@ use crate::batch::{
 use crate::config;
 use crate::file::ReadError;
 use crate::part::{self, Unmerged};
-use crate::text::{nearest_word, visible};
+use crate::render::{CAP, CAPS};
+use crate::text::{alternatives, nearest_word, visible};
 use crate::ui;
 
 /// Parts cannot be merged.
 pub const INCOMPLETE: u8 = 3;
-/// Stopped, but what was traced is kept: try again.
+/// Stopped with what was traced kept, or another process is writing it: try again.
 pub const TRY_AGAIN: u8 = 75;
 /// Success.
 pub const DONE: u8 = 0;
 /// A write or system error.
 pub const FAILED: u8 = 1;
-/// Compared pictures differ.
+/// Compared pictures differ, or a picture is of another scene.
 pub const DIFFERENT: u8 = 1;
 /// Wrong arguments.
 pub const USAGE: u8 = 2;
-/// A scene has errors.
+/// A scene or picture has errors.
 pub const INVALID: u8 = 65;
-/// A scene is missing or unreadable.
+/// A scene, picture, part or folder to read is missing or unreadable.
 pub const NO_INPUT: u8 = 66;
-/// The picture file cannot be created.
+/// The picture or another output cannot be created.
 pub const NO_OUTPUT: u8 = 73;
-/// A write or system error of a comparison, where 1 has another meaning.
+/// A write or system error of `show` or `compare`, where 1 has another meaning.
 pub const NO_IO: u8 = 74;
 
 /// The terminal of the interface is gone; the code shells report for `SIGHUP`.
@@ -105,8 +107,28 @@ pub struct Stop {
     pub code: u8,
 }
 
-/// Parses the arguments, the first of which is the program's name.
+/// Parses the arguments, the first of which is the program's name, and checks the environment of
+/// the command.
 pub fn parse(arguments: impl IntoIterator<Item = OsString>) -> Result<Command, Stop> {
+    let command = parse_arguments(arguments)?;
+    match check_cap(env::var_os(CAP).as_deref()) {
+        Some(reason) => Err(refusal(None, reason)),
+        None => Ok(command),
+    }
+}
+
+/// Why the value of [`CAP`] is refused, if it is.
+fn check_cap(cap: Option<&OsStr>) -> Option<String> {
+    let is_known = |cap: &OsStr| cap.is_empty() || CAPS.iter().any(|known| cap == *known);
+    let unknown = cap.filter(|cap| !is_known(cap))?;
+    Some(format!(
+        "{CAP}={}: expected {}",
+        unknown.display(),
+        alternatives(CAPS)
+    ))
+}
+
+fn parse_arguments(arguments: impl IntoIterator<Item = OsString>) -> Result<Command, Stop> {
     let cli = Cli::try_parse_from(arguments).map_err(|error| Stop::of(&error))?;
     match cli.command {
         Some(Subcommands::Render(render)) => render
@@ -179,11 +201,14 @@ fn failure_code(error: &batch::Error) -> u8 {
     use batch::Error;
     match error {
         Error::Read(error) => read_code(error),
-        Error::Assets(_) | Error::Unmerged(Unmerged::Io { .. }) => NO_INPUT,
+        Error::Assets(_) | Error::Unmerged(Unmerged::Io { .. } | Unmerged::NotRegular { .. }) => {
+            NO_INPUT
+        }
         Error::UnknownLanguage(_)
         | Error::Invalid { .. }
         | Error::InvalidTrack { .. }
-        | Error::Incomplete
+        | Error::Incomplete { .. }
+        | Error::NoFrame { .. }
         | Error::Unconverted { .. }
         | Error::Picture { .. }
         | Error::NoProvenance(..) => INVALID,
@@ -193,8 +218,10 @@ fn failure_code(error: &batch::Error) -> u8 {
             part::Refused::Busy => TRY_AGAIN,
             _ => NO_OUTPUT,
         },
-        Error::Kept { signal, .. } if signal.is_interrupt() => INTERRUPTED,
-        Error::Kept { .. } => TRY_AGAIN,
+        Error::Kept { signal, .. } | Error::KeptFrames { signal, .. } if signal.is_interrupt() => {
+            INTERRUPTED
+        }
+        Error::Kept { .. } | Error::KeptFrames { .. } => TRY_AGAIN,
         Error::Write { .. }
         | Error::Untraced(_)
         | Error::Stopped
@@ -299,10 +326,11 @@ Examples:
 To open a scene named like a command, write ./render, ./check or ./doctor. Scenes are read from \
 files, not from standard input, pipes or devices.
 
-Exit codes: 0 success, 1 write or system error, 2 wrong arguments or configuration, 3 parts \
-cannot be merged, 65 invalid scene, 66 scene not found or unreadable, 73 picture file cannot be \
-created, 75 stopped (--resume continues), 129 terminal gone, \
-130 SIGINT, 143 SIGTERM, 128 + N any other signal N. Ctrl-C quits the interface with 0, like q.";
+Exit codes: 0 success, 1 write or system error (show and compare: different), 2 wrong arguments or \
+configuration, 3 parts cannot be merged, 65 invalid scene or picture, 66 input not found or \
+unreadable, 73 output cannot be created, 74 write or system error of show or compare, 75 stopped or \
+in use: the same command continues it, 129 terminal gone, 130 SIGINT, 143 SIGTERM, 128 + N any other \
+signal N. Ctrl-C quits the interface with 0, like q.";
 
 #[derive(Debug, Subcommand)]
 enum Subcommands {

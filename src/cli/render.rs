@@ -29,7 +29,8 @@ GIF is reduced to 256 colours and JPEG has quality 95. EXR and HDR keep unclampe
 other formats keep every pixel with 8 bits per channel.
 
 SCENE may be a folder of scenes, the frames of a sequence, numbered from 0; %05d in FILE is replaced \
-by the frame number. Frames that are already finished are skipped. Y4M and GIF hold a whole sequence:
+by the frame number. Frames that are already finished are skipped, by whichever shard. Y4M and GIF hold \
+a whole sequence:
   halflight render scene.ray --turntable 36 -o turn.gif
   halflight render scene.ray --turntable 250 -o - --format y4m | ffmpeg -i - turn.mp4
   halflight render scene.ray --track scene.toml -o frame.%05d.png
@@ -42,7 +43,7 @@ pub(super) struct RenderArguments {
     /// Scene file: .ray, .dat or .xml; or a folder of them, the frames of a sequence
     #[arg(value_name = "SCENE")]
     scene: PathBuf,
-    #[arg(short, long, value_name = "FILE", help = output_help())]
+    #[arg(short, long, value_name = "FILE", help = output_or_frames_help())]
     output: PathBuf,
     /// Picture format, regardless of the file's extension [default for -o -: bmp]
     #[arg(long, value_name = "FORMAT", value_parser = picture_or_movie())]
@@ -54,7 +55,7 @@ pub(super) struct RenderArguments {
     #[command(flatten)]
     assets: AssetArguments,
     /// Also render these AOVs, separated by commas, as layers of an EXR, such as
-    /// depth,normal,object,albedo,samples
+    /// depth,normal,object,albedo,samples; not with --shard, which takes one AOV at a time by --aov
     #[arg(
         long,
         value_name = "AOVS",
@@ -69,8 +70,9 @@ pub(super) struct RenderArguments {
     #[command(flatten)]
     sequence: SequenceArguments,
     /// Checkpoint to a part file next to FILE, and continue from one that exists: after SIGTERM,
-    /// SIGUSR1 or a crash, or with a larger --spp
-    #[arg(long)]
+    /// SIGUSR1 or a crash, or with a larger --spp; numbered frames of a sequence are continued with
+    /// or without it, .y4m and .gif cannot be
+    #[arg(long, conflicts_with = "again")]
     resume: bool,
     /// Show progress as a line on a terminal (auto), as lines of JSON on standard error, or not
     #[arg(long, value_name = "STYLE", value_enum, default_value_t)]
@@ -100,10 +102,10 @@ struct SequenceArguments {
     /// Render only these frames of a sequence, numbered from 0 [default: all]
     #[arg(long, value_name = "A-B", value_parser = parse_frames)]
     frames: Option<[u32; 2]>,
-    /// Frames per second of Y4M and GIF, 1 to 100 [default: the track's, or 24]
+    /// Frames per second of Y4M, 1 to 100, and GIF, 1 to 50 [default: the track's, or 24]
     #[arg(long, value_name = "N", value_parser = value_parser!(u32).range(1..=100))]
     fps: Option<u32>,
-    /// Render frames again that are already finished
+    /// Render frames again that are already finished, one file each
     #[arg(long)]
     again: bool,
 }
@@ -118,9 +120,8 @@ pub(super) enum Work {
 
 impl RenderArguments {
     pub(super) fn into_work(self) -> Result<Work, String> {
-        let takes_frames = self.movie().is_some() || Pattern::of(&self.output).is_some();
         let is_moved = self.sequence.turntable.is_some() || self.sequence.track.is_some();
-        if is_moved || takes_frames && self.scene.is_dir() {
+        if is_moved || self.scene.is_dir() {
             self.into_sequence().map(Work::Sequence)
         } else {
             self.into_picture().map(Work::Picture)
@@ -128,18 +129,15 @@ impl RenderArguments {
     }
 
     fn into_picture(self) -> Result<Render, String> {
-        if self.sequence.frames.is_some() || self.sequence.again {
-            return Err(
-                "--frames and --again need --turntable, --track, or a folder of scenes".to_owned(),
-            );
-        }
         let format = match self.format {
-            Some(Format::Movie(_)) => {
-                return Err("y4m needs --turntable, --track, or a folder of scenes".to_owned());
-            }
             Some(Format::Picture(format)) => Some(format),
-            None => None,
+            Some(Format::Movie(_)) | None => None,
         };
+        if let Some(what) = self.of_sequence() {
+            return Err(format!(
+                "{what} needs --turntable, --track, or a folder of scenes"
+            ));
+        }
         let (output, format) = output(self.output, format, self.force)?;
         let to_stdout = |path: &PathBuf| path.as_os_str() == "-";
         if self.stats.as_ref().is_some_and(to_stdout) && !matches!(output, Output::File(_)) {
@@ -184,15 +182,35 @@ impl RenderArguments {
         })
     }
 
+    /// What only a sequence has, if there is any.
+    fn of_sequence(&self) -> Option<String> {
+        let SequenceArguments {
+            frames, fps, again, ..
+        } = &self.sequence;
+        let options = [
+            (frames.is_some(), "--frames"),
+            (fps.is_some(), "--fps"),
+            (*again, "--again"),
+            (self.movie() == Some(MovieFormat::Y4m), "y4m"),
+        ];
+        let option = options.iter().find(|(is_given, _)| *is_given);
+        // Whatever is not there is no folder either.
+        let is_pattern = || Pattern::of(&self.output).is_ok() && self.scene.exists();
+        option.map_or_else(
+            || is_pattern().then(|| self.output.display().to_string()),
+            |(_, name)| Some((*name).to_owned()),
+        )
+    }
+
     /// The format of one file for all frames of a sequence.
     fn movie(&self) -> Option<MovieFormat> {
         let extension = self.output.extension().unwrap_or_default();
         let is = |name: &str| extension.eq_ignore_ascii_case(name);
         match (Pattern::of(&self.output), self.format) {
             (_, Some(Format::Movie(format))) => Some(format),
-            (None, Some(Format::Picture(ImageFormat::Gif))) => Some(MovieFormat::Gif),
-            (None, None) if is("y4m") => Some(MovieFormat::Y4m),
-            (None, None) if is("gif") => Some(MovieFormat::Gif),
+            (Err(_), Some(Format::Picture(ImageFormat::Gif))) => Some(MovieFormat::Gif),
+            (Err(_), None) if is("y4m") => Some(MovieFormat::Y4m),
+            (Err(_), None) if is("gif") => Some(MovieFormat::Gif),
             _ => None,
         }
     }
@@ -200,6 +218,16 @@ impl RenderArguments {
     fn into_sequence(self) -> Result<Sequence, String> {
         if self.stats.is_some() || self.estimate {
             return Err("--stats and --estimate are for single pictures".to_owned());
+        }
+        let SequenceArguments {
+            turntable, track, ..
+        } = &self.sequence;
+        if (turntable.is_some() || track.is_some()) && self.scene.is_dir() {
+            let option = turntable.map_or("--track", |_| "--turntable");
+            return Err(format!(
+                "{option} needs one scene, but {} is a folder",
+                self.scene.display()
+            ));
         }
         let output = match (self.movie(), Pattern::of(&self.output), self.format) {
             (Some(_), ..) if self.shard.is_some() => {
@@ -209,12 +237,22 @@ impl RenderArguments {
                         .to_owned(),
                 );
             }
+            (Some(_), ..) if self.resume || self.sequence.again => {
+                let option = if self.resume { "--resume" } else { "--again" };
+                return Err(format!(
+                    "{option} has no finished frames to go by: a .y4m or .gif is rendered from the \
+                     beginning; write one file per frame, such as out.%05d.png"
+                ));
+            }
             (Some(format), ..) => SequenceOutput::Movie {
                 to: destination(self.output, self.force),
                 format,
                 rate: self.sequence.fps,
             },
-            (None, Some(pattern), format) => SequenceOutput::Pictures {
+            (None, Ok(_), _) if self.sequence.fps.is_some() => {
+                return Err("--fps is for .y4m and .gif: pictures have no rate".to_owned());
+            }
+            (None, Ok(pattern), format) => SequenceOutput::Pictures {
                 format: match format {
                     Some(Format::Picture(format)) => format,
                     _ => picture_format(&self.output)?,
@@ -227,12 +265,17 @@ impl RenderArguments {
                     Finished::Skipped
                 },
             },
-            (None, None, _) => {
-                return Err(format!(
-                    "{} has no placeholder for the frame number: use a name such as out.%05d.png, \
-                     or .y4m or .gif",
-                    self.output.display()
-                ));
+            (None, Err(_), _) if self.output.as_os_str() == "-" => {
+                return Err("-o - takes a sequence with --format y4m or gif".to_owned());
+            }
+            (None, Err(reason), _) => {
+                let of_folder = if self.scene.is_dir() {
+                    format!("{} is a folder, a sequence: ", self.scene.display())
+                } else {
+                    String::new()
+                };
+                let name = self.output.display();
+                return Err(format!("{of_folder}{name} {reason}"));
             }
         };
         let format = match &output {
@@ -280,6 +323,14 @@ fn checked(layers: Vec<AovChoice>, format: ImageFormat) -> Result<Vec<Aov>, Stri
         aovs.push(aov);
     }
     Ok(aovs)
+}
+
+/// The help of `-o` for pictures and sequences.
+fn output_or_frames_help() -> String {
+    format!(
+        "{}. Of a sequence, %05d stands for the number of each frame, or .y4m or .gif holds all",
+        output_help()
+    )
 }
 
 /// A format of one picture, or of several.

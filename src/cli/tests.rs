@@ -284,6 +284,51 @@ fn the_paragraphs_of_help_fill_80_columns() {
 }
 
 #[test]
+fn the_readme_lists_the_exit_codes_of_help() {
+    let readme = include_str!("../../README.md").split_whitespace();
+    let readme = readme.collect::<Vec<_>>().join(" ");
+    let (_, codes) = EXAMPLES.split_once("\n\nExit codes: ").expect("codes");
+    let (codes, _) = codes.split_once(" Ctrl-C ").expect("a sentence after them");
+    assert!(readme.contains(&format!("Exit codes: {codes}")), "{codes}");
+    let listed = |code: u8| {
+        let mut entries = codes.split(", ");
+        entries.any(|entry| entry.starts_with(&format!("{code} ")))
+    };
+    let all = [
+        DONE,
+        FAILED,
+        USAGE,
+        INCOMPLETE,
+        INVALID,
+        NO_INPUT,
+        NO_OUTPUT,
+        NO_IO,
+        TRY_AGAIN,
+        HUNG_UP,
+        INTERRUPTED,
+    ];
+    for code in all {
+        assert!(listed(code), "{code}");
+    }
+}
+
+#[test]
+fn unknown_vector_instructions_are_refused() {
+    for known in ["", "sse2", "sse4.2", "avx2", "avx512"] {
+        assert_eq!(check_cap(Some(known.as_ref())), None);
+    }
+    assert_eq!(check_cap(None), None);
+    for unknown in ["foo", "SSE2", "no cap"] {
+        assert_eq!(
+            check_cap(Some(unknown.as_ref())),
+            Some(format!(
+                "HALFLIGHT_CPU={unknown}: expected sse2, sse4.2, avx2 or avx512"
+            ))
+        );
+    }
+}
+
+#[test]
 fn help_states_the_limits() {
     for (line, limits) in [
         ("halflight -h", vec![MAX_SPP.into()]),

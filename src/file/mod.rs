@@ -27,7 +27,7 @@ pub use digest::{Digest, Digested};
 pub(crate) use lock::{Lock, lock};
 pub use replace::{deliver, replace};
 pub(crate) use target::end_of_links;
-pub use target::{check_replaceable, check_target, directory_of, no_such_folder};
+pub use target::{check_replaceable, check_target, directory_of, is_same_target, no_such_folder};
 pub use version::{FileId, Version};
 
 /// The largest readable file, in bytes: positions in a text are 32-bit.

@@ -1,10 +1,12 @@
 //! Examines the path that a write goes to.
 
+use std::ffi::OsString;
 use std::fs::{self, File, Metadata, OpenOptions};
 use std::io;
 use std::path::{Path, PathBuf};
 
 use super::calls::call;
+use super::version::FileId;
 use super::{kind, without_waiting};
 
 /// The number of symbolic links followed before a chain counts as endless, as on Linux.
@@ -117,6 +119,23 @@ pub(crate) fn end_of_links(path: &Path) -> io::Result<PathBuf> {
         }
     }
     Err(io::Error::other("too many symbolic links"))
+}
+
+/// Whether writes to two paths go to the same file, also through hard or symbolic links, and also
+/// where it does not exist yet.
+pub fn is_same_target(one: &Path, other: &Path) -> bool {
+    match [one, other].map(FileId::of) {
+        [Some(one), Some(other)] => one == other,
+        [None, None] => place(one).is_some_and(|found| place(other) == Some(found)),
+        _ => false,
+    }
+}
+
+/// The folder and the name of a file that does not exist yet.
+fn place(path: &Path) -> Option<(FileId, OsString)> {
+    let end = end_of_links(path).ok()?;
+    let folder = FileId::of(directory_of(&end))?;
+    Some((folder, end.file_name()?.to_owned()))
 }
 
 /// The parent directory of a path; `.` for a bare name.

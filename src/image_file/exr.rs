@@ -12,6 +12,7 @@ use exr::meta::header::LayerAttributes;
 use super::metadata;
 use super::picture::Picture;
 use crate::render::{Aov, Frame};
+use crate::scene::Size;
 
 /// Encodes in memory: the file begins with a table of offsets.
 ///
@@ -41,6 +42,14 @@ pub(super) fn write(picture: Picture<'_>, out: &mut impl Write) -> Result<(), Er
     let mut bytes = Cursor::new(Vec::new());
     Image::from_layer(layer).write().to_buffered(&mut bytes)?;
     out.write_all(bytes.get_ref()).map_err(Error::Io)
+}
+
+/// About how many bytes of memory a layer of this size takes, with those of its frame, until its
+/// picture is written: its channels are copied, and encoded in memory.
+pub fn layer_bytes(aov: Aov, size: Size) -> u64 {
+    let frame = size_of::<[u8; 3]>() + size_of::<[f32; 3]>();
+    let channels = channel_names(aov).len() * size_of::<f32>();
+    (size.pixels() as u64).saturating_mul((frame + 2 * channels) as u64)
 }
 
 /// The names of an AOV's channels, as other programs call them.

@@ -14,6 +14,7 @@ use std::path::Path;
 use crate::render::Frames;
 use crate::scene::Size;
 
+pub use exr::layer_bytes;
 pub use metadata::provenance;
 pub use movie::{MovieFormat, MovieWriter};
 pub use picture::Picture;

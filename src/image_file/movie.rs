@@ -20,11 +20,27 @@ pub enum MovieFormat {
 /// The speed of the search for palettes, 1 to 30. At 10 it takes about as long as a quick picture.
 const GIF_SPEED: i32 = 10;
 
+/// The most pictures per second of a GIF: players slow down delays of less than 2 of its hundredths
+/// of a second.
+const MOST_OF_GIF: u32 = 50;
+
+impl MovieFormat {
+    /// Why the format cannot have a rate of pictures per second, if so.
+    pub fn refuses(self, rate: u32) -> Option<String> {
+        let is_too_fast = self == Self::Gif && MOST_OF_GIF < rate;
+        is_too_fast.then(|| {
+            format!("a .gif has at most {MOST_OF_GIF} frames per second, not {rate}: use a smaller --fps, or .y4m")
+        })
+    }
+}
+
 /// Writes pictures of the same size one after the other.
 pub struct MovieWriter<W: Write> {
     size: Size,
     /// Pictures per second.
     rate: u32,
+    /// The number of pictures added.
+    added: u32,
     out: Encoder<W>,
 }
 
@@ -34,7 +50,8 @@ enum Encoder<W: Write> {
 }
 
 impl<W: Write> MovieWriter<W> {
-    /// Begins a file of pictures of this size, shown at this rate per second.
+    /// Begins a file of pictures of this size, shown at this rate per second, which the format must
+    /// not [refuse](MovieFormat::refuses).
     pub fn new(format: MovieFormat, size: Size, rate: u32, mut out: W) -> io::Result<Self> {
         let out = match format {
             MovieFormat::Y4m => {
@@ -53,7 +70,12 @@ impl<W: Write> MovieWriter<W> {
                 Encoder::Gif(Box::new(encoder))
             }
         };
-        Ok(Self { size, rate, out })
+        Ok(Self {
+            size,
+            rate,
+            added: 0,
+            out,
+        })
     }
 
     /// Adds a picture. Fails if it has another size.
@@ -64,6 +86,8 @@ impl<W: Write> MovieWriter<W> {
             let reason = format!("the picture is {now}, those before are {before}");
             return Err(io::Error::new(io::ErrorKind::InvalidInput, reason));
         }
+        let delay = delay(self.added, self.rate);
+        self.added += 1;
         match &mut self.out {
             Encoder::Y4m(out) => write_y4m(&frame.pixels, out),
             Encoder::Gif(encoder) => {
@@ -72,7 +96,7 @@ impl<W: Write> MovieWriter<W> {
                 let pixels = frame.pixels.iter().flat_map(opaque).collect();
                 let picture = RgbaImage::from_raw(width, height, pixels)
                     .ok_or_else(|| io::Error::other("there are not as many pixels"))?;
-                let delay = Delay::from_numer_denom_ms(1000, self.rate);
+                let delay = Delay::from_numer_denom_ms(10 * delay, 1);
                 let frame = GifFrame::from_parts(picture, 0, 0, delay);
                 encoder.encode_frame(frame).map_err(io::Error::other)
             }
@@ -87,6 +111,13 @@ impl<W: Write> MovieWriter<W> {
             Encoder::Gif(_) => Ok(()),
         }
     }
+}
+
+/// How long a picture of a GIF is shown, in hundredths of a second: what rounding adds to one picture is
+/// taken from another, so that all keep the rate.
+fn delay(number: u32, rate: u32) -> u32 {
+    let end_of = |before: u32| (200 * u64::from(before) + u64::from(rate)) / (2 * u64::from(rate));
+    (end_of(number + 1) - end_of(number)) as u32
 }
 
 /// Writes a picture of Y4M: its planes of luma, blue and red difference.
@@ -159,6 +190,42 @@ mod tests {
             b"FRAME\n\x10\xeb\x80\x80\x80\x80FRAME\n\x51\x29\x5a\xf0\xf0\x6e",
         ];
         assert_eq!(bytes, expected.concat());
+    }
+
+    #[test]
+    fn pictures_of_a_gif_keep_the_rate() {
+        for rate in 1..=MOST_OF_GIF {
+            let delays: Vec<_> = (0..10 * rate).map(|number| delay(number, rate)).collect();
+            assert_eq!(delays.iter().sum::<u32>(), 1000, "{rate}");
+            assert!(delays.iter().all(|delay| 2 <= *delay), "{rate}");
+            let ends = [delays.iter().min(), delays.iter().max()].map(|end| *end.expect("some"));
+            assert!(ends[1] - ends[0] <= 1, "{rate}: {ends:?}");
+        }
+        assert_eq!([0, 1, 2].map(|number| delay(number, 12)), [8, 9, 8]);
+        assert_eq!(MovieFormat::Y4m.refuses(100), None);
+        assert_eq!(MovieFormat::Gif.refuses(50), None);
+        let reason = MovieFormat::Gif.refuses(60).expect("it is too fast");
+        assert_eq!(
+            reason,
+            "a .gif has at most 50 frames per second, not 60: use a smaller --fps, or .y4m"
+        );
+    }
+
+    /// At 30 per second, every third picture is shown longer.
+    #[test]
+    fn delays_are_written() {
+        let mut bytes = Vec::new();
+        let mut movie =
+            MovieWriter::new(MovieFormat::Gif, SIZE, 30, &mut bytes).expect("it is written");
+        for _ in 0..3 {
+            let frame = Frame::drawn(SIZE, vec![[0; 3]; 2]);
+            movie.add(&frame).expect("it is written");
+        }
+        movie.finish().expect("it is written");
+        let decoder = GifDecoder::new(io::Cursor::new(&bytes)).expect("it is a GIF");
+        let frames = decoder.into_frames().collect_frames().expect("they decode");
+        let delays = frames.iter().map(|frame| frame.delay().numer_denom_ms().0);
+        assert_eq!(delays.collect::<Vec<_>>(), [30, 40, 30]);
     }
 
     #[test]

@@ -9,6 +9,7 @@ use super::header::{Difference, Header};
 use super::record::{Damage, Record};
 use super::shard::{Shard, deal};
 use super::writer::blocks;
+use crate::file::{self, ReadError};
 use crate::render::{Assembly, Block, Frame, Frames, Provenance, Refusal};
 
 /// The size of the buffer that parts are read through, in bytes.
@@ -34,14 +35,22 @@ pub enum Unmerged {
         /// The error of the file system.
         source: io::Error,
     },
+    /// A part is a pipe, a device or a folder.
+    #[error("{path} is {kind}: parts must be files", path = path.display())]
+    NotRegular {
+        /// The part.
+        path: PathBuf,
+        /// Its type with an article.
+        kind: &'static str,
+    },
     /// A file is not a part, or its header is damaged.
-    #[error("{path}: is not a part file, or its header is damaged", path = path.display())]
+    #[error("{path} is not a part file, or its header is damaged", path = path.display())]
     NoPart {
         /// The file.
         path: PathBuf,
     },
     /// A part is not as it was written.
-    #[error("{path}: damaged from byte {offset} on; continue it with --resume", path = path.display())]
+    #[error("{path} is damaged from byte {offset} on; continue it with --resume", path = path.display())]
     Damaged {
         /// The part.
         path: PathBuf,
@@ -49,7 +58,7 @@ pub enum Unmerged {
         offset: u64,
     },
     /// A part ends within a record.
-    #[error("{path}: ends early, in the record at byte {offset}; continue it with --resume", path = path.display())]
+    #[error("{path} ends early, in the record at byte {offset}; continue it with --resume", path = path.display())]
     Short {
         /// The part.
         path: PathBuf,
@@ -80,10 +89,30 @@ pub enum Unmerged {
         /// Their shard.
         shard: Shard,
     },
+    /// Parts are traced to different numbers of samples.
+    #[error(
+        "{path} has {samples} spp and {most_path} has {most} spp; rerun {shards} with --spp {most} \
+         --resume",
+        path = path.display(), most_path = most_path.display(), shards = shards_of(shards, *count)
+    )]
+    Uneven {
+        /// The part with the fewest samples.
+        path: PathBuf,
+        /// Its samples of each pixel.
+        samples: u32,
+        /// A part with the most samples.
+        most_path: PathBuf,
+        /// Its samples of each pixel.
+        most: u32,
+        /// The shards that have fewer, in ascending order.
+        shards: Vec<u32>,
+        /// How many shards there are.
+        count: u32,
+    },
     /// Blocks of the picture are not traced to the end.
     #[error(
-        "incomplete: {blocks} of {all} blocks are missing; rerun shards {shards} (of {count}) with \
-         --resume", shards = ranges(shards)
+        "incomplete: {blocks} of {all} blocks {are} missing; rerun {shards} with --resume",
+        are = if *blocks == 1 { "is" } else { "are" }, shards = shards_of(shards, *count)
     )]
     Holes {
         /// How many blocks are missing.
@@ -128,7 +157,7 @@ pub fn merge(parts: &[PathBuf], frames: Frames) -> Result<Merged, Unmerged> {
             source,
         });
     };
-    survey.holes()?;
+    survey.check()?;
     let spp = survey.goal();
     let frame = assembly.finish(spp);
     Ok(Merged {
@@ -186,6 +215,15 @@ pub fn ranges(numbers: &[u32]) -> String {
     ranges.collect::<Vec<_>>().join(",")
 }
 
+/// Some of `count` shards in words: `shard 3 (of 8)`.
+fn shards_of(shards: &[u32], count: u32) -> String {
+    match (shards, count) {
+        (_, 1) => "the render".to_owned(),
+        ([one], _) => format!("shard {one} (of {count})"),
+        _ => format!("shards {} (of {count})", ranges(shards)),
+    }
+}
+
 /// A part that is read.
 struct Reader<'p> {
     path: &'p Path,
@@ -200,7 +238,14 @@ impl<'p> Reader<'p> {
             path: path.to_owned(),
             source,
         };
-        let file = File::open(path).map_err(io)?;
+        let file = file::open(path).map_err(|error| match error {
+            ReadError::NotRegular { path, kind } => Unmerged::NotRegular { path, kind },
+            ReadError::Io { source, .. } => io(source),
+            ReadError::NotFound { .. } => {
+                io(io::Error::new(io::ErrorKind::NotFound, "no such file"))
+            }
+            other => io(io::Error::other(other.to_string())),
+        })?;
         let mut from = BufReader::with_capacity(CHUNK, file);
         let header = Header::read(&mut from).map_err(io)?;
         let (header, crc) = header.ok_or_else(|| Unmerged::NoPart {
@@ -319,7 +364,25 @@ impl Survey {
             .collect()
     }
 
-    fn holes(&self) -> Result<(), Unmerged> {
+    /// Fails unless all blocks are traced to the end.
+    fn check(&self) -> Result<(), Unmerged> {
+        let count = self.header.shard.count;
+        let by_samples = |&(_, &samples): &(&u32, &u32)| samples;
+        let fewest = self.goals.iter().min_by_key(by_samples);
+        let most = self.goals.iter().max_by_key(by_samples);
+        if let Some(((fewest, &samples), (at, &most))) = fewest.zip(most)
+            && samples < most
+        {
+            let fewer = self.goals.iter().filter(|&(_, &samples)| samples < most);
+            return Err(Unmerged::Uneven {
+                path: self.paths[fewest].clone(),
+                samples,
+                most_path: self.paths[at].clone(),
+                most,
+                shards: fewer.map(|(&shard, _)| shard).collect(),
+                count,
+            });
+        }
         let shards = self.lacking();
         if shards.is_empty() {
             return Ok(());
@@ -328,7 +391,7 @@ impl Survey {
             blocks: self.unfinished().count() as u32,
             all: self.samples.len() as u32,
             shards,
-            count: self.header.shard.count,
+            count,
         })
     }
 }

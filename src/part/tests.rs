@@ -123,18 +123,13 @@ fn a_part_is_continued_where_it_ended() {
     let path = part(&folder, "0/1", 3);
     let complete = fs::read(&path).expect("it is there");
     let header = header("0/1");
-    for length in (0..=complete.len()).rev().step_by(97) {
+    let lengths = (0..=complete.len()).rev().step_by(97);
+    for length in lengths.chain([0, 5, header.text().0.len() - 1]) {
         fs::write(&path, &complete[..length]).expect("it is written");
-        let mut part = match Part::open(&path, &header) {
-            Ok(part) => part,
-            Err(Refused::NoPart) => {
-                assert!(length < header.text().0.len());
-                continue;
-            }
-            Err(error) => panic!("{error}"),
-        };
+        let mut part = Part::open(&path, &header).expect("it is continued");
         let kept = fs::metadata(&path).expect("it is there").len();
-        assert!(length == 0 || kept + part.cut() == length as u64);
+        let cut_in_header = length < header.text().0.len();
+        assert!(cut_in_header || kept + part.cut() == length as u64);
         part.aim(3).expect("it is written");
         for number in 0..2 {
             if part.samples(number) == 0 {
@@ -159,7 +154,7 @@ fn later_records_replace_earlier_ones() {
     part.put(block(1, 8)).expect("it is written");
     assert_eq!(
         error(std::slice::from_ref(&path)),
-        "incomplete: 1 of 2 blocks are missing; rerun shards 0 (of 1) with --resume"
+        "incomplete: 1 of 2 blocks is missing; rerun the render with --resume"
     );
     part.put(block(0, 5)).expect("it is written");
     assert_eq!(part.block(0).expect("it is there"), block(0, 5));
@@ -180,13 +175,29 @@ fn a_flipped_byte_is_found_wherever_it_is() {
             bad[byte] ^= 1 << (byte % 8);
             fs::write(path, &bad).expect("it is written");
             let said = error(&paths[at..=at]);
-            let named = ["is not a part", "damaged", "ends early"]
+            let named = ["is not a part", "is damaged", "ends early"]
                 .iter()
-                .any(|what| said.starts_with(&format!("{}: {what}", path.display())));
+                .any(|what| said.starts_with(&format!("{} {what}", path.display())));
             assert!(named, "byte {byte}: {said}");
         }
         fs::write(path, &good).expect("it is written");
     }
+}
+
+#[test]
+fn parts_of_different_samples_name_who_has_fewer() {
+    let folder = folder();
+    let parts =
+        ["0/2", "1/2"].map(|shard| part(&folder, shard, if shard == "0/2" { 4 } else { 8 }));
+    let [fewer, more] = [0, 1].map(|at: usize| parts[at].display());
+    assert_eq!(
+        error(&parts),
+        format!(
+            "{fewer} has 4 spp and {more} has 8 spp; rerun shard 0 (of 2) with --spp 8 --resume"
+        )
+    );
+    let (shards, _) = missing(&parts).expect("they are parts");
+    assert_eq!(ranges(&shards), "0");
 }
 
 #[test]
@@ -284,7 +295,11 @@ fn a_part_has_one_writer_and_is_not_replaced() {
     let writer = Part::open(&path, &header).expect("it is continued");
     assert!(matches!(Part::open(&path, &header), Err(Refused::Busy)));
     drop(writer);
-    fs::write(&path, "no part\n").expect("it is written");
-    assert!(matches!(Part::open(&path, &header), Err(Refused::NoPart)));
-    assert_eq!(fs::read(&path).expect("it is there"), b"no part\n");
+    // Another text, and the beginning of another shard's header.
+    let (other, _) = self::header("0/2").text();
+    for text in ["no part\n", "halflight part 2", &other[..other.len() - 14]] {
+        fs::write(&path, text).expect("it is written");
+        assert!(matches!(Part::open(&path, &header), Err(Refused::NoPart)));
+        assert_eq!(fs::read(&path).expect("it is there"), text.as_bytes());
+    }
 }

@@ -1,8 +1,8 @@
 //! A part file that is written.
 
 use std::collections::BTreeMap;
-use std::fs::{File, OpenOptions};
-use std::io::{self, BufReader, Seek, SeekFrom, Write};
+use std::fs::{self, File, OpenOptions};
+use std::io::{self, BufReader, Read, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
 
 use super::header::{Difference, Header};
@@ -86,27 +86,33 @@ impl Part {
     }
 
     /// Opens a part file to continue it, or creates it. Cuts off what is no whole record at its end,
-    /// and everything from the first damaged record on.
+    /// and everything from the first damaged record on; begins anew where only a beginning of this
+    /// header was written.
     pub fn open(path: &Path, header: &Header) -> Result<Self, Refused> {
-        let file = OpenOptions::new().read(true).write(true).open(path);
-        let file = match file {
+        let found = match fs::metadata(path) {
             Err(error) if error.kind() == io::ErrorKind::NotFound => {
                 return Self::create(path, header);
             }
-            file => file?,
+            found => found?,
         };
+        // Opening a pipe could wait for ever.
+        if !found.is_file() {
+            return Err(Refused::NoPart);
+        }
+        let file = OpenOptions::new().read(true).write(true).open(path)?;
         if lock(&file) == Lock::Busy {
             return Err(Refused::Busy);
         }
-        // A process that was killed at once leaves no header.
-        if file.metadata()?.len() == 0 {
+        if is_begun(&file, header)? {
             return Self::begin(file, header);
         }
         Self::scan(file, header)
     }
 
+    /// Writes the header into a file that holds at most the beginning of it.
     fn begin(mut file: File, header: &Header) -> Result<Self, Refused> {
         let (text, header_crc) = header.text();
+        file.rewind()?;
         file.write_all(text.as_bytes())?;
         Ok(Self {
             file,
@@ -163,6 +169,11 @@ impl Part {
     /// Bytes that were cut off when it was opened.
     pub fn cut(&self) -> u64 {
         self.cut
+    }
+
+    /// The blocks of its picture.
+    pub fn blocks(&self) -> Blocks {
+        self.blocks
     }
 
     /// Samples of each pixel of a block.
@@ -228,6 +239,15 @@ impl Part {
         self.end += bytes.len() as u64;
         Ok(())
     }
+}
+
+/// Whether a process was killed before it had written all of this header.
+fn is_begun(mut file: &File, header: &Header) -> io::Result<bool> {
+    let (text, _) = header.text();
+    let mut found = Vec::new();
+    file.take(text.len() as u64).read_to_end(&mut found)?;
+    file.rewind()?;
+    Ok(found.len() < text.len() && text.as_bytes().starts_with(&found))
 }
 
 /// The blocks of the picture that a part belongs to.

@@ -26,7 +26,8 @@ pub struct BlockTracer {
 
 impl BlockTracer {
     /// Prepares to trace a job, whose limit and frames do not matter. `None` once `stopped` returns
-    /// true.
+    /// true. Refuses a scene whose acceleration structures do not fit into memory; how many blocks are
+    /// held at once is up to the caller.
     pub fn new(
         job: Job,
         threads: usize,
@@ -37,7 +38,7 @@ impl BlockTracer {
             reason: error.to_string(),
         })?;
         job.settings.traced().within(job.settings.size)?;
-        refusal::fits(&job, None)?;
+        refusal::check_memory(&job, refusal::memory_for_blocks(&job, 0))?;
         let build = || World::build(Arc::clone(&job.scene), &job.images, None, &stopped);
         let world = pool.install(build);
         Ok(world.map(|world| Self { world, job, pool }))

@@ -11,7 +11,8 @@ pub const CAP: &str = "HALFLIGHT_CPU";
 /// The values of [`CAP`], from the lowest level to the highest.
 pub const CAPS: [&str; 4] = ["sse2", "sse4.2", "avx2", "avx512"];
 
-/// The best level of this machine that [`CAP`] permits; what is none of [`CAPS`] caps nothing.
+/// The best level of this machine that [`CAP`] permits; what is none of [`CAPS`], which the command
+/// line refuses unless it is empty, caps nothing.
 pub(crate) fn level() -> Level {
     let best = Level::new();
     match env::var(CAP) {

@@ -115,7 +115,7 @@ pub use level::{CAP, CAPS, vectors};
 pub use place::{SurfacePoint, axes, clearance, line_of, pixel_of, pixel_width, surface_under};
 pub use probe::Counts;
 pub use provenance::Provenance;
-pub use refusal::{Refusal, memory_for};
+pub use refusal::{Refusal, check_memory, memory_for, memory_for_blocks};
 pub use region::{NoRegion, Region};
 pub use renderer::{Renderer, Threads};
 pub use shading::Side;

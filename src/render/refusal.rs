@@ -8,10 +8,13 @@ use super::region::NoRegion;
 use super::structures::instances;
 use super::world::FEW;
 use crate::memory::{self, Need, OutOfMemory};
-use crate::scene::{Scene, Size};
+use crate::scene::{Rgb, Scene, Size};
 
 /// Bytes per bounding box while its tree is built: references, nodes twice, positions.
 const BOX: usize = 128;
+
+/// Bytes per pixel of a block: two sums and an error.
+const BLOCK_PIXEL: usize = 2 * size_of::<Rgb>() + size_of::<f32>();
 
 /// Bytes per pixel while the picture is encoded.
 const ENCODED: usize = 4;
@@ -58,6 +61,19 @@ pub fn memory_for(job: &Job) -> u64 {
     film(job).saturating_add(world(&job.scene))
 }
 
+/// About how many bytes of memory tracing a job by blocks takes, without those of its scene, if blocks
+/// of this many pixels in all are held at once.
+pub fn memory_for_blocks(job: &Job, pixels: u64) -> u64 {
+    let blocks = pixels.saturating_mul(BLOCK_PIXEL as u64);
+    blocks.saturating_add(world(&job.scene))
+}
+
+/// Refuses a job unless this many bytes, those of its acceleration structures included, fit into
+/// memory.
+pub fn check_memory(job: &Job, bytes: u64) -> Result<(), Refusal> {
+    check(job, bytes, world(&job.scene))
+}
+
 /// Bytes of the picture while it is traced and encoded.
 fn film(job: &Job) -> u64 {
     let size = job.settings.traced().size();
@@ -68,20 +84,23 @@ fn film(job: &Job) -> u64 {
 /// Refuses a job whose world and film do not fit into memory. For an edit of the scene `before`,
 /// the world exists already or is about to exist.
 pub(super) fn fits(job: &Job, before: Option<&Arc<Scene>>) -> Result<(), Refusal> {
-    let size = job.settings.traced().size();
-    let film = film(job);
-    let objects = job.scene.objects.len();
     let world = match before {
         Some(before) if is_edit_of(before, &job.scene) => 0,
         _ => world(&job.scene),
     };
-    let bytes = film.saturating_add(world);
+    check(job, film(job).saturating_add(world), world)
+}
+
+/// Refuses a job unless `bytes`, of which `world` are for the world, fit into memory.
+fn check(job: &Job, bytes: u64, world: u64) -> Result<(), Refusal> {
+    let size = job.settings.traced().size();
+    let objects = job.scene.objects.len();
     let need = || Need {
         what: format!("{objects} objects"),
         bytes,
     };
     memory::check(bytes, need).map_err(|refused| {
-        if film < world {
+        if bytes - world < world {
             Refusal::OutOfMemory(refused)
         } else {
             Refusal::Memory { size, bytes }

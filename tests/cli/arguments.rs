@@ -32,6 +32,22 @@ fn wrong_arguments_exit_with_2() {
 }
 
 #[test]
+fn unknown_vector_instructions_are_refused_by_every_command() {
+    let place = Place::new();
+    for line in ["", "render ball.ray -o a.png", "bench", "doctor"] {
+        let mut command = place.command(line);
+        let output = command.env("HALFLIGHT_CPU", "SSE2").output();
+        let output = output.expect("it starts");
+        let said = String::from_utf8_lossy(&output.stderr);
+        assert_eq!(output.status.code(), Some(2), "{line}: {said}");
+        assert!(
+            said.contains("expected sse2, sse4.2, avx2 or avx512"),
+            "{said}"
+        );
+    }
+}
+
+#[test]
 fn the_interface_needs_a_terminal() {
     let place = Place::new();
     let stderr = place.stderr("ball.ray", 2);

@@ -58,6 +58,8 @@ fn the_scenes_of_a_folder_are_frames_in_the_order_of_their_names() {
     place.write("shots/a2.ray", "1 1 1\n");
     let said = place.stderr("render shots -o g%d.ppm", 65);
     assert!(said.contains("shots/a2.ray:"), "{said}");
+    let end = "error: frame 1 was not rendered: its scene has 1 error\n";
+    assert!(said.ends_with(end), "{said}");
     assert!(place.at("g0.ppm").exists() && !place.at("g1.ppm").exists());
 }
 
@@ -88,6 +90,128 @@ fn finished_frames_are_skipped_unless_anything_has_changed() {
     );
 }
 
+/// The same frames in another format, or with other digits, have lines of their own in the list.
+#[test]
+fn pictures_with_other_names_are_finished_too() {
+    let place = Place::with_box();
+    let render = |name: &str| {
+        let line = format!("render box.ray --turntable 2 -o {name} --size 8x6 --spp 1");
+        place.stderr(&line, 0)
+    };
+    for name in ["t.%d.png", "t.%d.bmp", "t.%03d.png"] {
+        assert_eq!(render(name), "", "{name}");
+    }
+    for name in ["t.%d.png", "t.%d.bmp", "t.%03d.png"] {
+        assert_eq!(render(name), "note: 2 frames were already finished\n");
+    }
+}
+
+#[test]
+fn only_lists_of_frames_are_appended_to() {
+    let place = Place::with_box();
+    let line = "render box.ray --turntable 2 -o t.%d.bmp --size 8x6 --spp 1";
+    place.stderr(line, 0);
+    let list = place.read("t.frames");
+    // What a killed process leaves: nothing, a part of the first line, a part of a later one.
+    for length in [0, 9, list.len() - 5] {
+        place.write("t.frames", &list[..length]);
+        place.stderr(line, 0);
+        let skipped = place.stderr(line, 0);
+        assert_eq!(
+            skipped, "note: 2 frames were already finished\n",
+            "{length}"
+        );
+    }
+    for content in [&b"my notes\n"[..], b"\xff\xfe", b"halflight part 1\n"] {
+        place.write("t.frames", content);
+        let said = place.stderr(line, 73);
+        assert_eq!(
+            said,
+            "error: t.frames: exists, but is not a list of finished frames; move it away, or name \
+             the pictures otherwise\n"
+        );
+        assert!(place.read("t.frames") == content);
+    }
+    fs::remove_file(place.at("t.frames")).expect("it is there");
+    #[cfg(unix)]
+    {
+        std::os::unix::fs::symlink("box.ray", place.at("t.frames")).expect("it is new");
+        let said = place.stderr(line, 2);
+        assert!(said.contains("it is a file of the sequence"), "{said}");
+        fs::remove_file(place.at("t.frames")).expect("it is there");
+        let made = Command::new("mkfifo").arg(place.at("t.frames")).status();
+        assert!(made.expect("it starts").success());
+        let said = place.stderr(line, 73);
+        assert!(said.contains("is a pipe, where the list"), "{said}");
+    }
+}
+
+/// A tiny frame, and one that takes minutes.
+#[test]
+#[cfg(unix)]
+fn signals_keep_finished_frames() {
+    let place = Place::with_box();
+    fs::create_dir(place.at("shots")).expect("it is new");
+    place.write("shots/a.ray", BALL);
+    place.write("shots/b.ray", BOX.replace("size 40 30", "size 900 900"));
+    let list = place.at("f.frames");
+    for (signal, options, without, code) in [
+        ("TERM", "", "", 75),
+        ("USR1", "--again", "without --again ", 75),
+        ("INT", "--again", "without --again ", 130),
+    ] {
+        let line = format!("render shots -o f%d.bmp --spp 512 {options}");
+        let length = fs::metadata(&list).map_or(0, |list| list.len());
+        let child = parts::begun(&place, &line, &list, length);
+        parts::send(signal, &child);
+        let output = child.wait_with_output().expect("it ends");
+        assert_eq!(output.status.code(), Some(code), "{output:?}");
+        assert_eq!(
+            String::from_utf8_lossy(&output.stderr),
+            format!(
+                "error: stopped by SIG{signal} at frame 1; finished frames are kept: rerun \
+                 {without}to continue\n"
+            )
+        );
+        let said = place.stderr("render shots -o f%d.bmp --spp 512 --frames 0", 0);
+        assert_eq!(said, "note: 1 frame was already finished\n");
+    }
+}
+
+#[test]
+fn progress_tells_frames_and_the_end_apart() {
+    let place = Place::with_box();
+    let events = |options: &str| {
+        let line = format!("render box.ray --size 70x40 --spp 4 --progress json {options}");
+        let said = place.stderr(&line, 0);
+        let lines = said.lines().filter(|line| line.starts_with('{'));
+        let objects = lines.map(|line| serde_json::from_str(line).expect("JSON"));
+        let objects: Vec<serde_json::Value> = objects.collect();
+        let finished = objects
+            .into_iter()
+            .filter(|object| object["event"] != "progress");
+        finished.collect::<Vec<_>>()
+    };
+    for options in ["-o t%d.bmp --turntable 2", "-o t.gif --turntable 2"] {
+        let said = events(options);
+        let frames: Vec<_> = said.iter().map(|object| &object["frame"]).collect();
+        assert_eq!(said.len(), 3, "{said:?}");
+        assert_eq!(frames[..2], [0, 1]);
+        assert!(said[..2].iter().all(|object| object["event"] == "frame"));
+        assert_eq!(
+            (&said[2]["event"], &said[2]["frames"]),
+            (&"done".into(), &2.into())
+        );
+    }
+    // A picture that is kept in a part has the same figures.
+    let [whole, resumed] = ["-o a.bmp", "-o b.bmp --resume"].map(events);
+    assert_eq!((whole.len(), resumed.len()), (1, 1));
+    for key in ["event", "done", "spp", "noise", "rays", "left"] {
+        assert!(!whole[0][key].is_null());
+        assert_eq!(whole[0][key], resumed[0][key], "{key}");
+    }
+}
+
 #[test]
 fn shards_of_a_sequence_have_every_nth_frame() {
     let place = Place::with_box();
@@ -100,6 +224,12 @@ fn shards_of_a_sequence_have_every_nth_frame() {
     assert_eq!(frames(&place), ["t.1.bmp", "t.3.bmp"]);
     place.stderr(&format!("{line} 0/2"), 0);
     assert_eq!(frames(&place).len(), 5);
+    // Whoever finished them.
+    for options in ["0/3", "0/1"] {
+        let said = place.stderr(&format!("{line} {options}"), 0);
+        assert!(said.ends_with("already finished\n"), "{said}");
+    }
+    assert!(!place.at("t.frames").exists());
 }
 
 #[test]
@@ -124,7 +254,55 @@ fn one_file_holds_all_frames() {
             "render box.ray -o a.y4m --turntable 3 --shard 0/2",
             "one file per frame",
         ),
-        ("render box.ray -o a.png --frames 0-1", "need --turntable"),
+        (
+            "render box.ray -o a.png --frames 0-1",
+            "--frames needs --turntable",
+        ),
+        (
+            "render box.ray -o a.png --again",
+            "--again needs --turntable",
+        ),
+        ("render box.ray -o a.gif --fps 5", "--fps needs --turntable"),
+        ("render box.ray -o a.y4m", "y4m needs --turntable"),
+        ("render box.ray -o a%05d.png", "a%05d.png needs --turntable"),
+        (
+            "render box.ray -o a%d.png --turntable 2 --fps 5",
+            "--fps is for .y4m and .gif",
+        ),
+        (
+            "render box.ray -o a.gif --turntable 2 --again",
+            "--again has no finished frames to go by",
+        ),
+        (
+            "render box.ray -o a.y4m --turntable 2 --resume",
+            "--resume has no finished frames to go by",
+        ),
+        (
+            "render box.ray -o a%d.png --turntable 2 --resume --again",
+            "cannot be used with",
+        ),
+        (
+            "render . -o a.png",
+            ". is a folder, a sequence: a.png has no placeholder",
+        ),
+        (
+            "render . -o -",
+            "-o - takes a sequence with --format y4m or gif",
+        ),
+        (
+            "render . -o a%d.png --turntable 2",
+            "--turntable needs one scene, but . is a folder",
+        ),
+        (
+            "render . -o a%d.png --track a.toml",
+            "--track needs one scene, but . is a folder",
+        ),
+        ("render . -o a%02d/x.png", "has %d in the name of a folder"),
+        (
+            "render . -o a%3d.png",
+            "has a % that begins neither %d nor %01d",
+        ),
+        ("render . -o a%05d%05d.png", "has more than one %"),
         ("render box.ray -o a.bmp --format y4m", "needs --turntable"),
         (
             "render box.ray -o a%d.png --turntable 3 --frames 2-1",
@@ -135,6 +313,10 @@ fn one_file_holds_all_frames() {
             "for single pictures",
         ),
         ("render . -o a%d.png --turntable 0", "--turntable"),
+        (
+            "render box.ray -o a.gif --turntable 2 --fps 51",
+            "a .gif has at most 50 frames per second, not 51",
+        ),
         (
             "render box.ray -o box.ray --format gif --turntable 2",
             "cannot overwrite box.ray: it is a file of the sequence",

@@ -89,12 +89,27 @@ fn work_under_any_memory_limit_succeeds_or_is_refused() {
 #[cfg(target_os = "linux")]
 fn a_picture_that_does_not_fit_in_memory_is_an_error() {
     let place = Place::new();
-    let line = "render ball.ray -o a.ppm --size 16384x16384 --threads 1";
-    let output = in_shell(&place, "ulimit -v 2000000", line);
-    let stderr = String::from_utf8_lossy(&output.stderr);
-    assert_eq!(output.status.code(), Some(1), "{stderr}");
-    let expected = "error: cannot trace 16384x16384: not enough memory for the ";
-    assert!(stderr.starts_with(expected), "{stderr}");
-    assert_eq!(stderr.lines().count(), 1, "{stderr}");
-    assert_eq!(place.names(), ["ball.ray"]);
+    let in_2_gb = |options: &str| {
+        let line = format!("render ball.ray --threads 1 --spp 1 {options}");
+        let output = in_shell(&place, "ulimit -v 2000000", &line);
+        let stderr = String::from_utf8_lossy(&output.stderr).into_owned();
+        (output.status.code(), stderr)
+    };
+    let layers = "--size 4000x3000 --layers depth,normal,albedo,uv,cost,emission,indirect";
+    for (size, options) in [
+        ("16384x16384", "-o a.ppm --size 16384x16384"),
+        ("16384x16384", "-o a.ppm --size 16384x16384 --resume"),
+        ("4000x3000", &format!("-o a.exr {layers}")),
+        ("4000x3000", &format!("-o a%d.exr {layers} --turntable 2")),
+    ] {
+        let (code, stderr) = in_2_gb(options);
+        assert_eq!(code, Some(1), "{stderr}");
+        let expected = format!("error: cannot trace {size}: not enough memory for the ");
+        assert!(stderr.starts_with(&expected), "{stderr}");
+        assert_eq!(stderr.lines().count(), 1, "{stderr}");
+        assert_eq!(place.names(), ["ball.ray"]);
+    }
+    // A shard needs the memory of its own blocks only.
+    let (code, stderr) = in_2_gb("-o a.ppm --size 16384x16384 --shard 0/100000");
+    assert_eq!(code, Some(0), "{stderr}");
 }

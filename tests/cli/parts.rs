@@ -74,7 +74,7 @@ fn parts_that_make_no_picture_are_named() {
     let said = place.merged(&parts[1..], "a.bmp", 3);
     assert_eq!(
         said,
-        "error: incomplete: 3 of 12 blocks are missing; rerun shards 0 (of 4) with --resume\n"
+        "error: incomplete: 3 of 12 blocks are missing; rerun shard 0 (of 4) with --resume\n"
     );
     assert!(!place.at("a.bmp").exists());
     // A damaged shard is missing too, and is continued.
@@ -84,10 +84,10 @@ fn parts_that_make_no_picture_are_named() {
     place.write("a.2-4.part", &bad);
     let said = place.merged(&parts, "a.bmp", 3);
     assert!(
-        said.starts_with("error: a.2-4.part: damaged from byte "),
+        said.starts_with("error: a.2-4.part is damaged from byte "),
         "{said}"
     );
-    assert!(missing(&parts).starts_with("2\nnote: a.2-4.part: damaged "));
+    assert!(missing(&parts).starts_with("2\nnote: a.2-4.part is damaged "));
     let line = format!("render {SCENE} -o a.bmp {options} --shard 2/4");
     let said = place.stderr(&line, 73);
     assert!(
@@ -95,7 +95,10 @@ fn parts_that_make_no_picture_are_named() {
         "{said}"
     );
     let said = place.stderr(&format!("{line} --resume"), 0);
-    assert!(said.contains("at the end, which were damaged"), "{said}");
+    assert!(
+        said.contains("note: a.2-4.part: discarded ") && said.contains(" damaged bytes at the end"),
+        "{said}"
+    );
     place.merged(&parts, "a.bmp", 0);
     assert!(place.read("a.bmp") == place.rendered("b.bmp", options));
     // Another scene, other settings.
@@ -115,6 +118,15 @@ fn parts_that_make_no_picture_are_named() {
         assert!(said.starts_with(&expected), "{said}");
     }
     place.merged(&["none.part".to_owned()], "e.bmp", 66);
+    #[cfg(unix)]
+    {
+        let made = Command::new("mkfifo").arg(place.at("pipe.part")).status();
+        assert!(made.expect("it starts").success());
+        let said = place.merged(&["pipe.part".to_owned()], "e.bmp", 66);
+        assert_eq!(said, "error: pipe.part is a pipe: parts must be files\n");
+        let said = place.stderr("render ball.ray -o pipe.bmp --resume", 73);
+        assert!(said.contains("it is not a part file"), "{said}");
+    }
 }
 
 #[test]
@@ -170,9 +182,52 @@ fn parts_need_files_and_fixed_samples() {
     assert_eq!(place.names(), ["ball.ray"]);
 }
 
+/// Statistics and parts that have the place of the picture, or of one another.
+#[test]
+#[cfg(unix)]
+fn outputs_do_not_overwrite_one_another() {
+    use std::os::unix::fs::symlink;
+    let place = Place::new();
+    place.write("s.png", "old");
+    fs::hard_link(place.at("s.png"), place.at("hard.json")).expect("it is new");
+    symlink("s.png", place.at("link.json")).expect("it is new");
+    symlink("none.png", place.at("dangling.json")).expect("it is new");
+    let before = place.names();
+    for (line, reason) in [
+        (
+            "-o s.png --stats s.png",
+            "cannot write s.png: it is the picture",
+        ),
+        ("-o s.png --stats ./s.png", "it is the picture"),
+        ("-o s.png --stats hard.json", "it is the picture"),
+        ("-o s.png --stats link.json", "it is the picture"),
+        ("-o none.png --stats ./none.png", "it is the picture"),
+        ("-o none.png --stats dangling.json", "it is the picture"),
+        ("-o s.png --resume --stats s.part", "it is the part file"),
+        (
+            "-o s.png --shard 1/2 --stats s.1-2.part",
+            "it is the part file",
+        ),
+        (
+            "-o none.part --format png --resume",
+            "cannot write none.part: it is the part file",
+        ),
+        (
+            "-o /dev/null --format png --resume",
+            "keep a part file beside the picture: use -o FILE",
+        ),
+    ] {
+        let said = place.stderr(&format!("render ball.ray {line}"), 2);
+        assert!(said.contains(reason), "{line}: {said}");
+    }
+    assert_eq!(place.names(), before);
+    assert_eq!(place.read("s.png"), b"old");
+    place.stderr("render ball.ray -o s.png --stats s.json --resume", 0);
+}
+
 /// Begins to render, and waits until the part file is longer than `length`, or all is done.
 #[cfg(unix)]
-fn begun(place: &Place, line: &str, part: &Path, length: u64) -> std::process::Child {
+pub(super) fn begun(place: &Place, line: &str, part: &Path, length: u64) -> std::process::Child {
     let mut child = place.command(line);
     let mut child = child.stderr(Stdio::piped()).spawn().expect("it starts");
     let is_longer = || fs::metadata(part).is_ok_and(|file| length < file.len());
@@ -183,7 +238,7 @@ fn begun(place: &Place, line: &str, part: &Path, length: u64) -> std::process::C
 }
 
 #[cfg(unix)]
-fn send(signal: &str, child: &std::process::Child) {
+pub(super) fn send(signal: &str, child: &std::process::Child) {
     let mut kill = Command::new("kill");
     kill.args([&format!("-{signal}"), &child.id().to_string()]);
     // It may have ended.

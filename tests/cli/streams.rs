@@ -182,6 +182,8 @@ fn figures_of_a_render_are_written() {
         ("samples", "4800", "3840"),
         ("size", "\"40x30\"", "\"40x30\""),
         ("seed", "5", "5"),
+        ("view", "\"own\"", "\"own\""),
+        ("layers", "\"none\"", "\"none\""),
         ("spp", "4", "4"),
         ("shadow", "0", "0"),
     ] {
@@ -209,6 +211,16 @@ fn memory_is_estimated_without_rendering() {
         number.parse().expect("a number")
     };
     let (small, large) = (estimate("8x6"), estimate("4000x3000"));
+    // Layers add at least their values, and a shard takes hardly any of the picture.
+    let with = |options: &str| estimate(&format!("4000x3000 {options}"));
+    let (one, two) = (with("--layers depth"), with("--layers depth,normal"));
+    assert!(
+        12 * 12 < one - large && 12 * 12 < two - one,
+        "{large} {one} {two}"
+    );
+    let shard = with("--shard 0/100");
+    assert!(shard < small + 12 * 4, "{small} {shard}");
+    assert!(with("--resume") >= large);
     // At least 24 bytes of sums and 12 of values a pixel.
     assert!(
         12 * 36 < large - small && large - small < 12 * 100,
