@@ -194,7 +194,7 @@ error: a.ray:2:14: object 1 (sphere) radius: must be greater than 0
             check_excerpt(text, line, marked);
         }
         let zeros = "0 ".repeat(30);
-        let cut = format!("…{zeros}x{}", zeros.trim_end());
+        let cut = format!("…{zeros}x{}…", zeros.trim_end());
         check_excerpt(&format!("{long}[x]{}{long}", ""), &cut, "x");
     }
 

@@ -426,7 +426,7 @@ mod tests {
     fn the_keys_of_the_mode_come_first_and_no_key_is_missing() {
         let lines = lines("", View);
         assert_eq!(headings(&lines)[..3], ["VIEW", "anywhere", "SELECT"]);
-        assert_eq!(headings(&lines).len(), 34);
+        assert_eq!(headings(&lines).len(), 35);
         assert!(lines.contains(&entry("gg", "first")));
         for row in Keymap::default().rows {
             let entry = entry(&names(&row.keys), row.words);

@@ -180,6 +180,7 @@ const OTHERS: &[&str] = &[
     "export cancel",
     "render",
     "compare",
+    "track",
     "until",
     "region",
     "zoom",
