@@ -96,11 +96,11 @@ fn wrong_conversions_are_refused() {
             2,
             "cannot overwrite map.xml: the scene uses it",
         ),
-        ("ball.ray -o -", 2, "name the language by --to"),
+        ("ball.ray -o -", 2, "name the language with --to"),
         (
             "ball.ray -o ball.txt",
             2,
-            "scenes end in .ray, .dat or .xml, or --to",
+            "scenes end in .ray, .dat or .xml; --to names another language",
         ),
         (
             "ball.ray -o ball.dat --to pov",
@@ -125,7 +125,8 @@ fn files_named_from_another_folder_are_pointed_out() {
     fs::create_dir(place.at("new")).expect("created");
     place.write(
         "map.dat",
-        "mat ID 0  1 1 1  0 1 0 1  0 0 1\ntexture ID 0 image 1 1 map.ppm\nuse colour ID 0 mat ID 0\n\
+        "camera perspective 0 0 8  0 0 0  0 1 0  1 0 100\nresolution .01 .01\nviewport 100 80\n\
+         mat ID 0  1 1 1  0 1 0 1  0 0 1\ntexture ID 0 image 1 1 map.ppm\nuse colour ID 0 mat ID 0\n\
          obj sphere ID 0 mat ID 0  0 0 0 1\n",
     );
     place.write("map.ppm", b"P6 1 1 255 abc");

@@ -8,11 +8,13 @@ use std::path::{Path, PathBuf};
 use super::*;
 
 const DEFAULT: &str = include_str!("../../scenes/default.ray");
+const TRACK: &str = include_str!("../../scenes/default.toml");
 
 /// The last screen after the keys of a script, and the place where they were pressed.
 fn played(keys: &Path, size: &str) -> (String, Place) {
     let place = Place::new();
     place.write("default.ray", DEFAULT);
+    place.write("default.toml", TRACK);
     let ran = Command::new(BINARY)
         .current_dir(place.at("."))
         .args(["--screen", size, "--dump-frame", "screen.txt", "--keys"])
@@ -50,7 +52,8 @@ fn saved_edits_reach_the_file_and_nothing_else_is_written() {
     let (_, place) = played(&root().join("tests/keys/view.keys"), "80x24");
     let saved = String::from_utf8(place.read("default.ray")).expect("text");
     assert_ne!(saved, DEFAULT);
-    assert_eq!(place.names(), ["ball.ray", "default.ray", "screen.txt"]);
+    let names = ["ball.ray", "default.ray", "default.toml", "screen.txt"];
+    assert_eq!(place.names(), names);
 }
 
 #[test]

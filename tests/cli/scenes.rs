@@ -23,10 +23,16 @@ fn an_unreadable_scene_exits_with_66() {
         ("-", "-: no such file"),
     ];
     for (name, message) in cases {
-        for line in [format!("check {name}"), format!("render {name} -o a.bmp")] {
-            let stderr = place.stderr(&line, 66);
-            assert!(stderr.contains(message), "{stderr}");
-        }
+        let check = place.stderr(&format!("check {name}"), 66);
+        assert!(check.contains(message), "{check}");
+        // A folder is a sequence, which needs more than one picture.
+        let (code, message) = if message.ends_with("is a folder") {
+            (2, "has no placeholder for the frame number")
+        } else {
+            (66, message)
+        };
+        let render = place.stderr(&format!("render {name} -o a.bmp"), code);
+        assert!(render.contains(message), "{render}");
     }
 }
 

@@ -127,7 +127,7 @@ const DEPENDENCIES: &[(&str, &str)] = &[
     ("termprofile", "ui"),
     (
         "thiserror",
-        "assets batch config file geometry image_file language memory part render ui",
+        "assets batch config file geometry image_file language memory part render track ui",
     ),
     ("toml", "config track"),
     ("tui_input", "ui"),
