@@ -61,7 +61,8 @@ impl App {
         let open = self.sequence.open.as_ref();
         let open = open.filter(|open| open.path == path);
         let text = match read {
-            Ok(text) if is_asked || open.is_some() => text,
+            Ok(text) if is_asked || open.is_some() && text.is_some() => text,
+            // Many programs move the old file away before the new one exists.
             Ok(_) => return Vec::new(),
             Err(error) => {
                 self.overlays.fail(error.to_string());
@@ -94,7 +95,9 @@ impl App {
         self.sequence.open = Some(OpenTrack {
             path,
             held: text.map(Arc::new),
-            frame: before.as_ref().map_or(0, |open| open.frame),
+            frame: before
+                .as_ref()
+                .map_or(0, |open| open.frame.min(track.frames.saturating_sub(1))),
             is_playing: before.is_some_and(|open| open.is_playing),
             track,
             shown: None,
