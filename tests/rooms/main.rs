@@ -70,6 +70,7 @@ const ARROWS: &[(&str, &[&str])] = &[
             "render",
             "scene",
             "text",
+            "track",
             "watch",
         ],
     ),
