@@ -428,7 +428,7 @@ impl App {
             Mode::Inspect => self.start_inspecting(),
             Mode::Move => self.start_transform(Tool::Move),
             Mode::Sequence => return self.open_track(None),
-            Mode::Edit if self.mode == Mode::Sequence => {
+            Mode::Edit | Mode::View if self.mode == Mode::Sequence => {
                 self.keep_frame();
                 self.mode = mode;
             }

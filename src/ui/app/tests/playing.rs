@@ -72,7 +72,11 @@ fn frames_are_in_the_text_while_they_are_looked_at() {
 
 #[test]
 fn a_frame_is_kept_as_one_step() {
-    for (end, mode) in [("<Enter>", Mode::Select), ("e", Mode::Edit)] {
+    for (end, mode) in [
+        ("<Enter>", Mode::Select),
+        ("e", Mode::Edit),
+        ("v", Mode::View),
+    ] {
         let mut app = playing();
         press(&mut app, &format!("lll{end}"));
         assert_eq!(
