@@ -240,7 +240,7 @@ pub(super) const TABLE: &[Binding] = &[
     bind(SEQUENCE, &[c(']')], A::OnTrack(NextKey), "next key"),
     bind(SEQUENCE, &[c('[')], A::OnTrack(PreviousKey), "previous key"),
     bind(SEQUENCE, &[c('e')], A::Go(Edit), "keep the frame and edit fields"),
-    bind(SEQUENCE, &[c('v')], A::Go(View), "keep the frame and move the camera"),
+    bind(SEQUENCE, &[c('v')], A::Go(View), "keep the frame and go to VIEW"),
     bind(SEQUENCE, &[key(Enter)], A::Accept, "keep the frame in the text"),
     bind(SEQUENCE, &[key(Esc)], A::Back, "back to the scene"),
     bind(SEQUENCE, &[c('L'), Chord(Right, SHIFT)], A::OnTrack(Frames(10)), "ten frames on"),
