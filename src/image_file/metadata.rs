@@ -23,13 +23,7 @@ const MOST: usize = 16 << 20;
 
 /// A picture's origin as text.
 pub(super) fn text(provenance: &Provenance) -> String {
-    let entries = provenance.written().into_iter();
-    let spp = ("spp", provenance.settings.spp.to_string());
-    let lines = entries.chain([spp]);
-    let lines: Vec<_> = lines
-        .map(|(name, value)| format!("{name} {value}\n"))
-        .collect();
-    lines.concat()
+    format!("{}spp {}\n", provenance.lines(), provenance.settings.spp)
 }
 
 fn of_text(text: &str) -> Option<Provenance> {
@@ -50,7 +44,7 @@ pub fn provenance(file: impl Read + Seek) -> Result<Option<Provenance>, Unreadab
     let read = panic::catch_unwind(AssertUnwindSafe(|| stored_text(file)));
     let text = read.unwrap_or_else(|_| Err(Unreadable::Broken("its decoder failed".to_owned())))?;
     let read = |text: String| {
-        let foreign = || "what it says of itself is damaged, or of another version".to_owned();
+        let foreign = || "its metadata is damaged, or of another version".to_owned();
         of_text(&text).ok_or_else(|| Unreadable::Broken(foreign()))
     };
     text.map(read).transpose()

@@ -37,11 +37,7 @@ pub struct Header {
 impl Header {
     /// The text, which ends with a line break, and its checksum.
     pub(super) fn text(&self) -> (String, u32) {
-        let mut lines = vec![MAGIC.to_owned()];
-        let entries = self.picture.written().into_iter();
-        lines.extend(entries.map(|(name, value)| format!("{name} {value}")));
-        lines.push(format!("shard {}\n", self.shard));
-        let text = lines.join("\n");
+        let text = format!("{MAGIC}\n{}shard {}\n", self.picture.lines(), self.shard);
         let crc = crc32fast::hash(text.as_bytes());
         (format!("{text}crc {crc:08x}\n"), crc)
     }

@@ -57,6 +57,15 @@ impl Provenance {
         entries.into_iter().chain(self.settings.written()).collect()
     }
 
+    /// The entries as text, a line each.
+    pub fn lines(&self) -> String {
+        let entries = self.written().into_iter();
+        let lines: Vec<_> = entries
+            .map(|(name, value)| format!("{name} {value}\n"))
+            .collect();
+        lines.concat()
+    }
+
     /// Reads entries as [`Provenance::written`], in this order, for `spp` samples; entries after them
     /// are left. `None` if they are no such entries.
     pub fn read<'t>(

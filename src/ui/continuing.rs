@@ -10,8 +10,8 @@ use std::time::{Duration, Instant};
 use super::msg::{Origin, Recalled};
 use super::traces::Traces;
 use crate::assets::FileDigests;
-use crate::render::{Job, Kept, Provenance, Renderer, Settings};
-use crate::scene::{Scene, Viewpoint};
+use crate::render::{Job, Kept, Provenance, Renderer};
+use crate::scene::Scene;
 
 /// The least time spent on a trace that is kept.
 const LEAST: Duration = Duration::from_secs(10);
@@ -19,8 +19,8 @@ const LEAST: Duration = Duration::from_secs(10);
 /// What the full-size trace is made from.
 pub(super) struct Traced {
     scene: Weak<Scene>,
-    view: Viewpoint,
-    settings: Settings,
+    /// What all pictures are made from that its film shows, but for the digest of the scene.
+    picture: Provenance,
     /// The samples that each pixel is to have, unless another limit ends the trace.
     goal: Option<u32>,
     /// The digests of its text and files, taken when it began, unless it was restarted since.
@@ -54,8 +54,10 @@ impl Traced {
     pub(super) fn of(job: &Job) -> Self {
         Self {
             scene: Arc::downgrade(&job.scene),
-            view: Viewpoint::between(&job.scene.camera, &job.camera),
-            settings: job.settings,
+            picture: Provenance {
+                settings: job.settings.of_film(),
+                ..Provenance::of(job, String::new())
+            },
             goal: job.limit.is_none().then_some(job.settings.spp),
             digests: None,
         }
@@ -78,8 +80,7 @@ impl Traced {
         let traced = Self::of(job);
         let (send, recalled) = mpsc::channel();
         let (tell, digests) = mpsc::channel();
-        // Until its digest is known.
-        let mut picture = provenance(String::new(), origin.view, &job.settings);
+        let mut picture = traced.picture.clone();
         let (text, found, job) = (origin.text, origin.found, job.clone());
         let look = move || {
             // The picture is traced anyway, and its files may be gone.
@@ -183,18 +184,10 @@ impl Traced {
             (None, Some(digests)) => digests.scene,
             (None, None) => return Err("the text has errors".to_owned()),
         };
-        Ok(provenance(scene, self.view, &self.settings))
-    }
-}
-
-/// The provenance of all pictures that one film shows.
-fn provenance(scene: String, view: Viewpoint, settings: &Settings) -> Provenance {
-    Provenance {
-        version: env!("CARGO_PKG_VERSION").to_owned(),
-        scene,
-        view,
-        layers: Vec::new(),
-        settings: settings.of_film(),
+        Ok(Provenance {
+            scene,
+            ..self.picture
+        })
     }
 }
 

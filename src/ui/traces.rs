@@ -47,7 +47,7 @@ pub(super) struct Traces {
 #[derive(Debug, thiserror::Error)]
 pub(super) enum Unreadable {
     /// Its bytes are not those that were written. It was removed.
-    #[error("the full-size trace of an earlier run was damaged, and is removed")]
+    #[error("the full-size trace of an earlier run was damaged and has been removed")]
     Damaged,
     /// The file system reported an error, or memory is short.
     #[error("the full-size trace of an earlier run cannot be read: {0}")]
@@ -180,10 +180,7 @@ impl Traces {
 
 /// All lines but the last.
 fn head(picture: &Provenance) -> String {
-    let mut lines = vec![MAGIC.to_owned()];
-    let entries = picture.written().into_iter();
-    lines.extend(entries.map(|(name, value)| format!("{name} {value}")));
-    lines.join("\n") + "\n"
+    format!("{MAGIC}\n{}", picture.lines())
 }
 
 /// Reads these lines; fails if there are others.

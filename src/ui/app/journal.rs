@@ -9,7 +9,7 @@ use crate::ui::msg::{Effect, Timer};
 use crate::ui::recovery::{Claim, Found, Offer, Sought};
 
 /// The time until an edit is kept, and the interval of writes while a key is held.
-const KEPT_AFTER: Duration = Duration::from_secs(1);
+pub(super) const KEPT_AFTER: Duration = Duration::from_secs(1);
 
 /// The longest interval between attempts to keep the same edits.
 const PATIENCE: Duration = Duration::from_secs(30);

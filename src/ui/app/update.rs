@@ -1,20 +1,16 @@
 //! The step from one state to the next: dispatches messages.
 
-use std::time::Duration;
-
 use crossterm::event::{KeyCode, KeyEvent, KeyModifiers};
 use tui_input::Input;
 
 use super::camera::{advanced, dollied, faced, panned, rolled, stepped, widened};
+use super::journal::KEPT_AFTER;
 use super::{App, Grid, Help, PageFocus, PromptKind, line};
 use crate::text::Severity;
 use crate::ui::arrange::{Zoom, divided, resized};
 use crate::ui::keymap::{self, Action, Context, Meaning, Mode, Stride, Tool};
 use crate::ui::msg::{Effect, Existing, Msg, Target, Timer};
 use crate::ui::terminal::Mouse;
-
-/// How long keeping edits for recovery waits for the end of SEQUENCE mode, again and again.
-const KEPT_LATER: Duration = Duration::from_secs(1);
 
 impl App {
     /// Processes a message and returns the resulting effects.
@@ -26,6 +22,7 @@ impl App {
             self.overlays.forgive_errors();
         }
         self.overlays.end_step();
+        self.follow_sequence();
         let areas = self.areas();
         self.scroll(&areas);
         self.follow_views();
@@ -33,7 +30,6 @@ impl App {
         self.follow_histogram();
         effects.extend(self.follow_explained());
         effects.extend(self.follow_steps());
-        self.follow_sequence();
         if self.mode != Mode::Sequence {
             effects.extend(self.disk.journal.follow(&self.document));
         }
@@ -79,7 +75,7 @@ impl App {
             Msg::Elapsed(Timer::Message) => self.overlays.turn_message(),
             // It would keep a frame.
             Msg::Elapsed(timer @ Timer::Keep) if self.mode == Mode::Sequence => {
-                return vec![Effect::Later(KEPT_LATER, timer)];
+                return vec![Effect::Later(KEPT_AFTER, timer)];
             }
             Msg::Elapsed(Timer::Frame) => return self.play_on(),
             Msg::Elapsed(Timer::Keep) => return self.keep_edits().into_iter().collect(),

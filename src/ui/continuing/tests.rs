@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 use std::fs;
 
 use super::*;
+use crate::scene::Viewpoint;
 use crate::ui::traces::tests::{Place, far, job, traced};
 
 /// The origin of a text that the file names.

@@ -3,46 +3,23 @@
 use std::sync::mpsc;
 
 use super::*;
-use crate::language::{Language, Source};
-use crate::render::{DEFAULT_DEPTH, Filter, Frames, MAX_SPP, Settings};
-use crate::scene::{Images, Integrator, Meshes, Size};
+use crate::render::MAX_SPP;
+use crate::scene::Size;
 use crate::ui::options::Rehearsal;
+use crate::ui::traces::tests::job;
 
 /// A picture that would take minutes.
 fn endless() -> Job {
-    let text = Arc::new(Language::Ray.template().to_owned());
-    let lowered = Source::new(Language::Ray, text).lower(&Meshes::default());
-    let scene = lowered
-        .expect("there is memory")
-        .scene
-        .expect("it is valid");
-    Job {
-        camera: scene.camera,
-        settings: Settings {
-            size: Size {
-                width: 640,
-                height: 480,
-            },
-            region: None,
-            spp: MAX_SPP,
-            depth: DEFAULT_DEPTH,
-            seed: 0,
-            aov: None,
-            integrator: Integrator::Whitted,
-            filter: Filter::Box,
-            transfer: scene.setting.transfer,
-            exposure: 0.0,
-        },
-        scene: Arc::new(scene),
-        images: Images::default(),
-        limit: None,
-        frames: Frames::Live,
-        numbers: None,
-    }
+    let mut job = job(MAX_SPP);
+    job.settings.size = Size {
+        width: 640,
+        height: 480,
+    };
+    job
 }
 
-#[test]
-fn a_stopped_picture_ends_at_once_and_is_not_missed() {
+/// What performs the effects of a script of keys.
+fn page() -> (Runtime, Receiver<Event>) {
     let (sender, inbox) = mpsc::channel();
     let options = Options {
         rehearsal: Some(Rehearsal {
@@ -53,7 +30,13 @@ fn a_stopped_picture_ends_at_once_and_is_not_missed() {
         ..Options::default()
     };
     let reader = Reader::start(options.watching(), sending(&sender)).expect("a thread");
-    let mut runtime = Runtime::new(&options, reader, sender).expect("a page");
+    let runtime = Runtime::new(&options, reader, sender).expect("a page");
+    (runtime, inbox)
+}
+
+#[test]
+fn a_stopped_picture_ends_at_once_and_is_not_missed() {
+    let (mut runtime, inbox) = page();
     let started = runtime.perform(Effect::Trace(Target::Thumbnail, endless()));
     assert!(matches!(started, Some(Msg::Started(Target::Thumbnail, _))));
     assert!(runtime.perform(Effect::Stop(Target::Thumbnail)).is_none());
@@ -86,17 +69,7 @@ fn a_worker_that_panics_announces_its_end() {
 /// A script of keys shows the same whatever earlier runs left, and leaves nothing.
 #[test]
 fn a_page_recalls_and_keeps_no_trace() {
-    let (sender, _inbox) = mpsc::channel();
-    let options = Options {
-        rehearsal: Some(Rehearsal {
-            keys: None,
-            screen: (80, 24),
-            frames: Vec::new(),
-        }),
-        ..Options::default()
-    };
-    let reader = Reader::start(options.watching(), sending(&sender)).expect("a thread");
-    let mut runtime = Runtime::new(&options, reader, sender).expect("a page");
+    let (mut runtime, _inbox) = page();
     let job = endless();
     let origin = Origin {
         text: Arc::default(),
