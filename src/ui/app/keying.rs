@@ -16,11 +16,12 @@ impl App {
         let Some(open) = &self.sequence.open else {
             let track = self.key_for(Action::Go(Mode::Sequence));
             self.overlays
-                .fail(format!("no track is open: {track} opens or begins one"));
+                .fail(format!("no track is open: {track} opens or starts one"));
             return Vec::new();
         };
         if self.sequence.writing.is_some() {
-            self.overlays.warn("the key before is still being written");
+            self.overlays
+                .warn("the previous key is still being written");
             return Vec::new();
         }
         let (frame, name, path) = (open.frame, open.name(), open.path.clone());
@@ -51,7 +52,7 @@ impl App {
         }
         if edits.is_empty() {
             self.overlays
-                .say(format!("{what} has this key at frame {frame} already"));
+                .say(format!("{what} already has this key at frame {frame}"));
             return Vec::new();
         }
         let words = format!("{what} keyed at frame {frame} in {name}");
@@ -90,11 +91,11 @@ impl App {
         let open = self.sequence.open.as_ref();
         let last = open.and_then(|open| Some((open, open.before.last()?)));
         let (Some((open, before)), None) = (last, &self.sequence.writing) else {
-            self.overlays.say("there is no key to take back");
+            self.overlays.say("there is no key to undo");
             return Vec::new();
         };
         let guard = Guard::Holding(open.held.clone().unwrap_or_default());
-        let words = format!("the last key is taken back in {}", open.name());
+        let words = format!("the last key was undone in {}", open.name());
         self.write_track((open.path.clone(), guard), Arc::clone(before), words)
     }
 
@@ -117,6 +118,8 @@ impl App {
             return Vec::new();
         };
         match outcome {
+            // Another track may have been opened meanwhile.
+            SaveOutcome::Saved { path, .. } if path != open.path => Vec::new(),
             SaveOutcome::Saved { .. } => {
                 (open.track, _) = track::read(&text);
                 if open.before.last() == Some(&text) {
@@ -135,7 +138,7 @@ impl App {
                 let (name, path) = (open.name(), open.path.clone());
                 let key = self.key_for(Action::OnTrack(Playback::Key));
                 self.overlays.warn(format!(
-                    "{name} has changed on disk and is read again: then press {key} again"
+                    "{name} has changed on disk and is being read again; then press {key} again"
                 ));
                 vec![Effect::ReadTrack(path)]
             }
@@ -152,7 +155,10 @@ impl App {
             return Vec::new();
         };
         if open.held.is_none() {
-            let words = format!("{} is new: the first key writes it", open.name());
+            let words = format!(
+                "{} does not exist yet: the first key creates it",
+                open.name()
+            );
             self.overlays.warn(words);
             return Vec::new();
         }

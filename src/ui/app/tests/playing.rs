@@ -167,7 +167,25 @@ fn present_values_are_keyed_at_the_frame_looked_at_last() {
 }
 
 #[test]
-fn the_first_key_writes_a_new_track() {
+fn a_key_written_late_does_not_change_another_track() {
+    let mut app = playing();
+    press(&mut app, "<Esc>ggjj<Enter>I");
+    press(&mut app, ":track other.toml<Enter>");
+    let other = TRACK.replace("13", "21");
+    app.update(Msg::TrackRead(PathBuf::from("other.toml"), Ok(Some(other))));
+    app.update(Msg::TrackWritten(SaveOutcome::Saved {
+        path: PathBuf::from("scene.toml"),
+        text: Arc::default(),
+    }));
+    press(&mut app, "G");
+    assert_eq!(
+        (app.mode, lamp(&app)),
+        (Mode::Sequence, "5 21 5 // the light")
+    );
+}
+
+#[test]
+fn the_first_key_creates_a_new_track() {
     let mut app = open(SCENE);
     press(&mut app, ":track swing.toml<Enter>");
     app.update(Msg::TrackRead(PathBuf::from("swing.toml"), Ok(None)));
@@ -286,7 +304,7 @@ fn what_cannot_be_played_says_why() {
         (
             SCENE,
             "jj<Enter>I",
-            "no track is open: T opens or begins one",
+            "no track is open: T opens or starts one",
         ),
         (
             "1 1",
