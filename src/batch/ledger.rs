@@ -39,7 +39,7 @@ impl Ledger {
         } else if !text.starts_with(HEADER) {
             return Err(unusable(io::Error::other(
                 "exists, but is not a list of finished frames; move it away, or name the pictures \
-                 otherwise",
+                 differently",
             )));
         } else if text.ends_with('\n') {
             ""

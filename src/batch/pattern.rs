@@ -37,7 +37,7 @@ pub enum NoPattern {
     #[error("has more than one %: only one number can stand in the name, such as out.%05d.png")]
     Several,
     /// What follows the percent sign is no placeholder.
-    #[error("has a % that begins neither %d nor %01d to %09d, for the least number of digits")]
+    #[error("has a % that does not begin %d or, with a least number of digits, %01d to %09d")]
     Malformed,
 }
 

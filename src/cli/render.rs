@@ -55,7 +55,7 @@ pub(super) struct RenderArguments {
     #[command(flatten)]
     assets: AssetArguments,
     /// Also render these AOVs, separated by commas, as layers of an EXR, such as
-    /// depth,normal,object,albedo,samples; not with --shard, which takes one AOV at a time by --aov
+    /// depth,normal,object,albedo,samples; not with --shard, which takes one AOV at a time with --aov
     #[arg(
         long,
         value_name = "AOVS",
@@ -270,7 +270,10 @@ impl RenderArguments {
             }
             (None, Err(reason), _) => {
                 let of_folder = if self.scene.is_dir() {
-                    format!("{} is a folder, a sequence: ", self.scene.display())
+                    format!(
+                        "{} is a folder, which makes a sequence, but ",
+                        self.scene.display()
+                    )
                 } else {
                     String::new()
                 };

@@ -128,7 +128,7 @@ fn only_lists_of_frames_are_appended_to() {
         assert_eq!(
             said,
             "error: t.frames: exists, but is not a list of finished frames; move it away, or name \
-             the pictures otherwise\n"
+             the pictures differently\n"
         );
         assert!(place.read("t.frames") == content);
     }
@@ -283,7 +283,7 @@ fn one_file_holds_all_frames() {
         ),
         (
             "render . -o a.png",
-            ". is a folder, a sequence: a.png has no placeholder",
+            ". is a folder, which makes a sequence, but a.png has no placeholder",
         ),
         (
             "render . -o -",
@@ -300,7 +300,7 @@ fn one_file_holds_all_frames() {
         ("render . -o a%02d/x.png", "has %d in the name of a folder"),
         (
             "render . -o a%3d.png",
-            "has a % that begins neither %d nor %01d",
+            "has a % that does not begin %d or, with",
         ),
         ("render . -o a%05d%05d.png", "has more than one %"),
         ("render box.ray -o a.bmp --format y4m", "needs --turntable"),

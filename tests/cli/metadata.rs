@@ -124,7 +124,7 @@ fn forged_origins_control_no_terminal() {
     );
     let said = place.stderr("show b.png", 65);
     assert!(
-        said.contains("b.png is not a valid picture: what it says of itself is damaged"),
+        said.contains("b.png is not a valid picture: its metadata is damaged"),
         "{said}"
     );
 }

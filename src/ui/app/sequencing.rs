@@ -322,9 +322,9 @@ impl App {
         open.is_playing = false;
         let shown = open.shown.take();
         if shown.is_some_and(|shown| shown.trial.is_applied) {
-            let words = format!("the scene is now that of frame {}", open.frame);
+            let words = format!("the scene now has the values of frame {}", open.frame);
             let undo = self.key_for(Action::Undo);
-            self.overlays.say(format!("{words}; {undo} undoes it"));
+            self.overlays.say(format!("{words}; {undo} undoes that"));
         }
         self.keep_trial();
         self.mode = Mode::Select;

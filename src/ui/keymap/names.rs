@@ -189,7 +189,7 @@ const fn of_playback(action: Playback) -> &'static str {
         Playback::NextKey => "next-key",
         Playback::PreviousKey => "previous-key",
         Playback::Key => "key",
-        Playback::TakeBack => "take-key-back",
+        Playback::TakeBack => "undo-key",
         Playback::Edit => "edit-track",
     }
 }

@@ -23,7 +23,7 @@ fn a_bound_key_acts_and_the_one_it_replaces_does_not() {
     let deleted = app.document.text().to_owned();
     press(&mut app, "u");
     assert_eq!(app.document.text(), deleted);
-    let words_of_u = "`u` in SEQUENCE (T): take the last key back; ? lists keys";
+    let words_of_u = "`u` in SEQUENCE (T): undo the last key; ? lists keys";
     assert_eq!(words(&app), words_of_u);
     press(&mut app, "<Ctrl-x>u");
     assert_eq!(app.document.text(), SCENE);
