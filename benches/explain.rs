@@ -12,7 +12,8 @@ use std::time::{Duration, Instant};
 
 use halflight::explain::{Subject, words};
 use halflight::language::{Language, Source};
-use halflight::render::{Filter, Frames, Job, PreparedScene, Settings, default_depth};
+use halflight::render::{Frames, Job, PreparedScene, Settings};
+use halflight::scene::Filter;
 use halflight::scene::{Images, Integrator, Meshes, Scene};
 
 /// Pixels explained of each scene, on a grid.
@@ -74,12 +75,12 @@ fn times(
             size,
             region: None,
             spp: 1,
-            depth: default_depth(integrator),
+            depth: integrator.default_depth(),
             seed: 0,
             aov: None,
             integrator,
             filter: Filter::Box,
-            transfer: scene.setting.transfer,
+            transfer: scene.setting.rendering.transfer.unwrap_or_default(),
             exposure: 0.0,
         },
         limit: None,

@@ -25,7 +25,8 @@ use std::thread;
 use std::time::{Duration, Instant};
 
 use halflight::language::{Language, Source};
-use halflight::render::{DEFAULT_DEPTH, Filter, Frames, Job, Renderer, Settings, Threads};
+use halflight::render::{Frames, Job, Renderer, Settings, Threads};
+use halflight::scene::{DEFAULT_DEPTH, Filter};
 use halflight::scene::{Images, Integrator, Meshes, Scene, Transfer};
 use halflight::ui::arrange::Zoom;
 
@@ -125,7 +126,7 @@ fn keys_over(name: &str, scene: &str) {
     desk.rest();
     let begun = desk.press("\x1b[15~");
     desk.record(begun + SECOND);
-    for key in ["\x1b", "gg"] {
+    for key in ["\x1b", "gg", "j"] {
         let pressed = desk.press(key);
         desk.record(pressed + SECOND / 2);
     }
@@ -345,7 +346,7 @@ fn mesh() {
     let mut desk = open().0;
     desk.record(Instant::now() + 4 * SECOND);
     // The material, and its colour, below its type and name.
-    for key in ["gg", "j", "j", "j", "j", "j", "e", "j", "j"] {
+    for key in ["gg", "j", "j", "j", "j", "j", "j", "e", "j", "j"] {
         desk.press(key);
         desk.record(Instant::now() + Duration::from_millis(50));
     }
@@ -405,7 +406,7 @@ fn own_and_course_scenes() {
 
 /// Moves the cursor to the first number of the first light.
 fn edit_light(desk: &mut Desk) {
-    for key in ["gg", "j", "j", "e"] {
+    for key in ["gg", "j", "j", "j", "e"] {
         desk.press(key);
         desk.record(Instant::now() + Duration::from_millis(50));
     }

@@ -18,11 +18,12 @@ use halflight::accel::Bvh;
 use halflight::geometry::{Aabb, Affine, Instance, Mesh, Shape};
 use halflight::language::{self, FileKind, Language};
 use halflight::obj;
-use halflight::render::{DEFAULT_DEPTH, Filter, Frame, Frames, Job, Renderer, Settings, Threads};
+use halflight::render::{Frame, Frames, Job, Renderer, Settings, Threads};
 use halflight::scene::{
     Camera, Emitter, Focus, Images, Integrator, Lens, Light, Material, Meshes, Object, Rgb, Scene,
     Setting, Size, Transfer,
 };
+use halflight::scene::{DEFAULT_DEPTH, Filter};
 
 /// The number of timed runs; the median is printed.
 const RUNS: usize = 5;

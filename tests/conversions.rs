@@ -7,7 +7,8 @@ use std::sync::{Arc, mpsc};
 
 use halflight::assets::Assets;
 use halflight::language::{self, Converted, Language, Source};
-use halflight::render::{Filter, Frame, Frames, Job, Renderer, Settings, Threads, default_depth};
+use halflight::render::{Frame, Frames, Job, Renderer, Settings, Threads};
+use halflight::scene::Filter;
 use halflight::scene::{Images, Scene, Size};
 use halflight::text::Findings;
 
@@ -142,12 +143,12 @@ fn trace(scene: &Arc<Scene>, images: Images) -> Arc<Frame> {
         },
         region: None,
         spp: 1,
-        depth: default_depth(scene.setting.integrator),
+        depth: scene.setting.rendering.integrator().default_depth(),
         seed: 0,
         aov: None,
-        integrator: scene.setting.integrator,
+        integrator: scene.setting.rendering.integrator(),
         filter: Filter::Box,
-        transfer: scene.setting.transfer,
+        transfer: scene.setting.rendering.transfer.unwrap_or_default(),
         exposure: 0.0,
     };
     let job = Job {

@@ -5,7 +5,8 @@ use std::path::PathBuf;
 use std::sync::{Arc, mpsc};
 
 use halflight::language::{Language, Source};
-use halflight::render::{DEFAULT_DEPTH, Filter, Frame, Frames, Job, Renderer, Settings, Threads};
+use halflight::render::{Frame, Frames, Job, Renderer, Settings, Threads};
+use halflight::scene::{DEFAULT_DEPTH, Filter};
 use halflight::scene::{Image, Images, Integrator, Meshes, Scene, Size, Transfer};
 
 /// A scene with all lengths multiplied by `s`; squares of lengths and values in reciprocal units

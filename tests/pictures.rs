@@ -8,7 +8,8 @@ use halflight::document::Document;
 use halflight::image_file::{ImageFormat, Picture};
 use halflight::language::table::{Field, Kind, Range};
 use halflight::language::{Language, Lowered, NamedFile, Node, Source};
-use halflight::render::{Filter, Frame, Frames, Job, Renderer, Settings, Threads, default_depth};
+use halflight::render::{Frame, Frames, Job, Renderer, Settings, Threads};
+use halflight::scene::Filter;
 use halflight::scene::{Images, Integrator, Meshes, Scene, Size};
 use halflight::text::{Edit, parse_number};
 
@@ -26,7 +27,7 @@ const PATH_SPP: u32 = 64;
 fn the_pictures_beside_the_scenes_match_the_renderer() {
     for own in scenes() {
         let (scene, images) = own.meaning();
-        let spp = match scene.setting.integrator {
+        let spp = match scene.setting.rendering.integrator() {
             Integrator::Whitted => SPP,
             Integrator::Path => PATH_SPP,
         };
@@ -123,7 +124,9 @@ impl Own {
         let source = document.source();
         let is_xml = self.language == Language::Xml;
         // Under path tracing, the intensity of a light scales with its surface area.
-        let integrator = lowered.scene.map(|scene| scene.setting.integrator);
+        let integrator = lowered
+            .scene
+            .map(|scene| scene.setting.rendering.integrator());
         let shines = integrator == Some(Integrator::Path);
         let mut edits = Vec::new();
         for node in source.nodes().iter() {
@@ -212,12 +215,12 @@ fn trace(scene: &Arc<Scene>, images: Images, size: Size, spp: u32) -> Arc<Frame>
         size,
         region: None,
         spp,
-        depth: default_depth(scene.setting.integrator),
+        depth: scene.setting.rendering.integrator().default_depth(),
         seed: 0,
         aov: None,
-        integrator: scene.setting.integrator,
+        integrator: scene.setting.rendering.integrator(),
         filter: Filter::Box,
-        transfer: scene.setting.transfer,
+        transfer: scene.setting.rendering.transfer.unwrap_or_default(),
         exposure: 0.0,
     };
     let job = Job {

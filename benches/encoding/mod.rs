@@ -8,8 +8,9 @@ use std::time::{Duration, Instant};
 
 use crossterm::event::{KeyCode, KeyEvent};
 use halflight::language::Language;
-use halflight::render::{Filter, Frame, Job, Renderer, Threads};
-use halflight::ui::app::{App, Opening, OpeningText, Preferences, Quality};
+use halflight::render::{Frame, Job, Renderer, Threads};
+use halflight::scene::Rendering;
+use halflight::ui::app::{App, Opening, OpeningText, Preferences};
 use halflight::ui::msg::{Effect, Msg, Target};
 use halflight::ui::terminal::{AnsiBackend, ColourDepth, Mouse};
 use halflight::ui::view::{self, Inks};
@@ -55,11 +56,9 @@ pub(crate) fn opened(scene: &str, terminal: (u16, u16)) -> (App, Job) {
         path: Some(PathBuf::from("scene.ray")),
         language: Language::Ray,
         text: OpeningText::Known(scene.to_owned()),
-        quality: Quality {
-            spp: 1,
-            depth: None,
-            integrator: None,
-            filter: Filter::Box,
+        rendering: Rendering {
+            spp: Some(1),
+            ..Rendering::default()
         },
         mouse: Mouse::On,
         preferences: Preferences::default(),

@@ -62,10 +62,10 @@ fn edit(case: &Case) {
     times_row(&format!("{name}: start to picture"), &opened, "-");
     save(&mut desk, case, &text);
     merge(&mut desk, case, &text);
-    down(&mut desk, &["gg"]);
+    down(&mut desk, &["gg", "j"]);
     down(&mut desk, &vec!["j"; case.row]);
     structure::measure(&mut desk, name, case.target, case.settled);
-    down(&mut desk, &["gg"]);
+    down(&mut desk, &["gg", "j"]);
     down(&mut desk, &vec!["j"; case.row]);
     down(&mut desk, &["e"]);
     // From the centre to the radius, and from there to the second colour.
@@ -126,7 +126,7 @@ fn merge(desk: &mut Desk, case: &Case, text: &str) {
     let path = desk.folder.path().join("scene.ray");
     let (head, last) = text.rsplit_once("sphere\n").expect("there are spheres");
     let changed = format!("{head}{}", with_larger_sphere(&format!("sphere\n{last}")));
-    down(desk, &["gg"]);
+    down(desk, &["gg", "j"]);
     down(desk, &vec!["j"; case.row]);
     down(desk, &["e", "j", "L", "\x1b"]);
     let (mut merged, mut answered) = (Vec::new(), Vec::new());

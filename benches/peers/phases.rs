@@ -10,7 +10,8 @@ use std::time::{Duration, Instant};
 use halflight::assets::{Assets, Wanted};
 use halflight::geometry::Shape;
 use halflight::language::{FileKind, Language, Source};
-use halflight::render::{Filter, Frame, Frames, Job, Renderer, Settings, Threads, default_depth};
+use halflight::render::{Frame, Frames, Job, Renderer, Settings, Threads};
+use halflight::scene::Filter;
 use halflight::scene::{Camera, Images, Meshes, Object, Scene, Size};
 
 use crate::cases::Case;
@@ -252,7 +253,7 @@ impl Stage {
         size: Size,
         spp: u32,
     ) -> (Duration, Arc<Frame>) {
-        let integrator = scene.setting.integrator;
+        let integrator = scene.setting.rendering.integrator();
         let job = Job {
             scene: Arc::clone(scene),
             images: images.clone(),
@@ -264,12 +265,12 @@ impl Stage {
                 size,
                 region: None,
                 spp,
-                depth: self.depth.unwrap_or_else(|| default_depth(integrator)),
+                depth: self.depth.unwrap_or_else(|| integrator.default_depth()),
                 seed: 0,
                 aov: None,
                 integrator,
                 filter: Filter::Box,
-                transfer: scene.setting.transfer,
+                transfer: scene.setting.rendering.transfer.unwrap_or_default(),
                 exposure: 0.0,
             },
             limit: None,

@@ -214,8 +214,7 @@ mod tests {
     use super::*;
     use crate::batch::ProgressStyle;
     use crate::geometry::{Mesh, Shape};
-    use crate::render::Filter;
-    use crate::scene::Viewpoint;
+    use crate::scene::{Rendering, Viewpoint};
 
     const SCENE: &str = "\
 <xml><scene><object type=\"obj\" name=\"a.obj\"/><object type=\"sphere\" name=\"ball\"/>
@@ -235,16 +234,14 @@ keys = [{ frame = 0, value = [0, 0, 0] }, { frame = 2, value = [1, 1, 1] }]";
             size: None,
             view: Viewpoint::default(),
             region: None,
-            spp: Some(1),
+            rendering: Rendering {
+                spp: Some(1),
+                ..Rendering::default()
+            },
             time: None,
-            depth: None,
-            integrator: None,
-            filter: Filter::default(),
             seed: 0,
             aov: None,
             layers: Vec::new(),
-            transfer: None,
-            exposure: 0.0,
             threads: 1,
             progress: ProgressStyle::Off,
         }

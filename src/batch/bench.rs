@@ -14,7 +14,7 @@ use crate::assets;
 use crate::language::{Language, Source};
 use crate::memory;
 use crate::render::{Block, BlockTracer, Frames, Job, Renderer, Settings, Threads};
-use crate::scene::{Images, Meshes, Scene, Size};
+use crate::scene::{Images, Meshes, Rendering, Scene, Size};
 
 /// Scenes to measure.
 #[derive(Clone, Debug, PartialEq)]
@@ -60,7 +60,10 @@ fn try_bench(work: &Bench) -> Result<(), Error> {
     memory::start_threads_or_none();
     let tracing = Tracing {
         size: Some(work.tracing.size.unwrap_or(SIZE)),
-        spp: Some(work.tracing.spp.unwrap_or(SPP)),
+        rendering: Rendering {
+            spp: work.tracing.rendering.spp.or(Some(SPP)),
+            ..work.tracing.rendering
+        },
         ..work.tracing.clone()
     };
     let mut rows = Vec::new();

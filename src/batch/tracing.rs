@@ -9,10 +9,9 @@ use super::progress::{Place, ProgressStyle, Reporter};
 use super::signals::Signals;
 use crate::image_file::layer_bytes;
 use crate::render::{
-    Aov, DEFAULT_SPP, Filter, Frame, Frames, Job, Limit, MAX_SPP, Provenance, Region, Renderer,
-    Settings, Threads, default_depth,
+    Aov, Frame, Frames, Job, Limit, Provenance, Region, Renderer, Settings, Threads,
 };
-use crate::scene::{Camera, Images, Integrator, Scene, Size, Transfer, Viewpoint};
+use crate::scene::{Camera, Images, MAX_SPP, Rendering, Scene, Size, Viewpoint};
 
 /// How long a signal may go unnoticed.
 const PATIENCE: Duration = Duration::from_millis(50);
@@ -26,26 +25,17 @@ pub struct Tracing {
     pub view: Viewpoint,
     /// The only part of the picture to render, if not all of it.
     pub region: Option<Region>,
-    /// Samples per pixel: by default [`DEFAULT_SPP`], or as many as the time permits.
-    pub spp: Option<u32>,
-    /// The time after which no pass begins.
+    /// What takes precedence over the scene's render settings.
+    pub rendering: Rendering,
+    /// The time after which no pass begins; without a number of samples, as many are taken as it
+    /// permits.
     pub time: Option<Duration>,
-    /// Maximum number of bounces; the integrator's [`default_depth`] if `None`.
-    pub depth: Option<u32>,
-    /// The integrator; the scene's if `None`.
-    pub integrator: Option<Integrator>,
-    /// The pixel filter.
-    pub filter: Filter,
     /// The random seed.
     pub seed: u32,
     /// What to render instead of light.
     pub aov: Option<Aov>,
     /// What to render beside light.
     pub layers: Vec<Aov>,
-    /// The transfer curve to 8-bit values; the scene's if `None`.
-    pub transfer: Option<Transfer>,
-    /// Exposure in stops.
-    pub exposure: f64,
     /// The number of tracing threads.
     pub threads: usize,
     /// How the progress is shown.
@@ -185,32 +175,32 @@ impl Tracing {
 
     /// The job that traces a scene.
     pub(super) fn job(&self, scene: Scene, images: Images, frames: Frames) -> Result<Job, Error> {
-        let transfer = self.transfer.unwrap_or(scene.setting.transfer);
-        let integrator = self.integrator.unwrap_or(scene.setting.integrator);
         let size = self.size.unwrap_or(scene.camera.size);
         if let Some(Err(reason)) = self.region.map(|region| region.within(size)) {
             return Err(Error::Refused(format!("--region: {reason}")));
         }
         let camera = self.view.of(&scene.camera);
         let camera = camera.map_err(|reason| Error::Refused(format!("--view: {reason}")))?;
-        let most = self.time.map_or(DEFAULT_SPP, |_| MAX_SPP);
-        let spp = self.spp.unwrap_or(most);
+        // A time to spend means more than the samples that a text asks for.
+        let spp = self.rendering.spp.or(self.time.map(|_| MAX_SPP));
+        let asked = Rendering {
+            spp,
+            ..self.rendering
+        };
+        let settings = Settings::new(size, &asked.or(scene.setting.rendering));
         Ok(Job {
             images,
             // The requested size sets the aspect ratio.
             camera: Camera { size, ..camera },
             scene: Arc::new(scene),
             settings: Settings {
-                size,
                 region: self.region,
-                spp: self.aov.map_or(spp, |aov| aov.samples(spp)),
-                depth: self.depth.unwrap_or_else(|| default_depth(integrator)),
+                spp: self
+                    .aov
+                    .map_or(settings.spp, |aov| aov.samples(settings.spp)),
                 seed: self.seed,
                 aov: self.aov,
-                integrator,
-                filter: self.filter,
-                transfer,
-                exposure: self.exposure,
+                ..settings
             },
             limit: self.time.map(Limit::Time),
             frames,

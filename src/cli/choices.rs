@@ -3,7 +3,8 @@
 use clap::ValueEnum;
 
 use crate::batch::ProgressStyle;
-use crate::render::{Aov, Filter};
+use crate::render::Aov;
+use crate::scene::Filter;
 use crate::scene::{Integrator, Transfer};
 use crate::ui::terminal::{Choice, ColourDepth};
 use crate::ui::{Pixels, Theme};
@@ -181,10 +182,9 @@ impl IntegratorChoice {
 }
 
 /// The pixel filter.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub(super) enum FilterChoice {
     /// The pixel's own area.
-    #[default]
     Box,
     /// A Gaussian three pixels wide, with a standard deviation of half a pixel.
     Gaussian,

@@ -7,7 +7,7 @@ use clap::{Args, value_parser};
 use super::shared::{AssetArguments, StrictnessArguments};
 use super::tracing::SampleArguments;
 use crate::batch::{Explain, Report};
-use crate::render::MAX_SPP;
+use crate::scene::MAX_SPP;
 
 pub(super) const EXAMPLES: &str = "\
 Examples:

@@ -5,8 +5,9 @@ use std::time::Duration;
 
 use clap::{ArgGroup, Args, value_parser};
 
-use super::choices::{ColourChoice, FilterChoice, IntegratorChoice, PixelsChoice, ThemeChoice};
-use super::shared::{AssetArguments, depth_range, spp_range, threads_range};
+use super::choices::{ColourChoice, PixelsChoice, ThemeChoice};
+use super::rendering::RenderingArguments;
+use super::shared::{AssetArguments, spp_range, threads_range};
 use crate::config::{self, MAX_BANDWIDTH, POLLS};
 use crate::ui;
 use crate::ui::keymap::Keymap;
@@ -59,18 +60,12 @@ pub(super) struct InterfaceArguments {
     /// Do not capture the mouse
     #[arg(long)]
     no_mouse: bool,
-    /// Samples per pixel of full-size traces and exports, 1 to 65536 [default: 16]
+    /// Samples per pixel of full-size traces and exports, 1 to 65536 [default: the scene's, otherwise
+    /// 16]
     #[arg(long, value_name = "N", value_parser = spp_range())]
     spp: Option<u32>,
-    /// Maximum number of bounces, 0 to 4096 [default: 8, or 64 with path tracing]
-    #[arg(long, value_name = "N", value_parser = depth_range())]
-    depth: Option<u32>,
-    /// Integrator to start with; P switches it [default: whitted, unless the scene sets path]
-    #[arg(long, value_name = "INTEGRATOR", value_enum)]
-    integrator: Option<IntegratorChoice>,
-    /// Pixel filter of full-size traces and exports; the preview always uses box [default: box]
-    #[arg(long, value_name = "FILTER", value_enum)]
-    filter: Option<FilterChoice>,
+    #[command(flatten)]
+    rendering: RenderingArguments,
     /// Number of tracing threads, 1 to 1024 [default: one per core, one fewer for the preview]
     #[arg(long, value_name = "N", value_parser = threads_range())]
     threads: Option<u16>,
@@ -128,10 +123,7 @@ impl InterfaceArguments {
             pixels: self.pixels.map(PixelsChoice::value),
             mouse: self.no_mouse.then_some(Mouse::Off),
             editor: None,
-            spp: self.spp,
-            depth: self.depth,
-            integrator: self.integrator.map(IntegratorChoice::value),
-            filter: self.filter.map(FilterChoice::value),
+            rendering: self.rendering.rendering(self.spp),
             threads: self.threads.map(usize::from),
             assets: self.assets.folders,
             keymap: Keymap::default(),

@@ -8,6 +8,7 @@ mod explain;
 mod interface;
 mod merge;
 mod render;
+mod rendering;
 mod shared;
 mod show;
 mod tracing;

@@ -6,9 +6,9 @@ use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use clap::{Args, value_parser};
 
 use crate::batch::{Output, Warnings};
-use crate::config::{MAX_DEPTH, MAX_THREADS};
+use crate::config::MAX_THREADS;
 use crate::image_file::{FORMATS, ImageFormat, known_extensions};
-use crate::render::MAX_SPP;
+use crate::scene::{MAX_DEPTH, MAX_SPP};
 
 #[derive(Args, Debug)]
 pub(super) struct AssetArguments {

@@ -3,8 +3,8 @@ use std::time::Duration;
 use super::*;
 use crate::batch::{Output, Report, Warnings};
 use crate::image_file::{ImageFormat, MAX_PIXELS};
-use crate::render::{Filter, MAX_SPP, Region};
-use crate::scene::{Integrator, Size};
+use crate::render::Region;
+use crate::scene::{Filter, Integrator, MAX_SPP, Rendering, Size, Transfer};
 use crate::ui::Theme;
 use crate::ui::keymap::Keymap;
 use crate::ui::terminal::{Choice, ColourDepth, Mouse};
@@ -56,10 +56,13 @@ fn options_reach_the_interface() {
             pixels: Some(ui::Pixels::Octant),
             mouse: Some(Mouse::Off),
             editor: None,
-            spp: Some(4),
-            depth: Some(0),
-            integrator: Some(Integrator::Path),
-            filter: Some(Filter::Gaussian),
+            rendering: Rendering {
+                spp: Some(4),
+                depth: Some(0),
+                integrator: Some(Integrator::Path),
+                filter: Some(Filter::Gaussian),
+                ..Rendering::default()
+            },
             threads: Some(3),
             assets: vec!["b".into(), "c".into()],
             keymap: Keymap::default(),
@@ -102,29 +105,28 @@ fn the_extension_sets_the_format_unless_one_is_given() {
 #[test]
 fn render_options_have_defaults() {
     let default = render("halflight render a.ray -o a.bmp");
-    assert_eq!((default.tracing.spp, default.tracing.seed), (None, 0));
-    assert_eq!(
-        (default.tracing.depth, default.tracing.integrator),
-        (None, None)
-    );
-    assert_eq!(default.tracing.filter, Filter::Box);
+    assert_eq!(default.tracing.rendering, Rendering::default());
+    assert_eq!(default.tracing.seed, 0);
     assert_eq!(default.tracing.size, None);
     assert_eq!((default.tracing.region, default.tracing.time), (None, None));
     assert_eq!(default.output, Output::File("a.bmp".into()));
     let given = render(
-        "halflight render a -o - --force --size 3X2 --spp 65536 --seed 7 --integrator whitted --depth 9 --filter blackman-harris",
+        "halflight render a -o - --force --size 3X2 --spp 65536 --seed 7 --integrator whitted --depth 9 --filter blackman-harris --transfer srgb --exposure -1.5",
     );
     let size = Size {
         width: 3,
         height: 2,
     };
-    assert_eq!(
-        (given.tracing.size, given.tracing.spp, given.tracing.seed),
-        (Some(size), Some(65_536), 7)
-    );
-    assert_eq!(given.tracing.integrator, Some(Integrator::Whitted));
-    assert_eq!(given.tracing.depth, Some(9));
-    assert_eq!(given.tracing.filter, Filter::BlackmanHarris);
+    assert_eq!((given.tracing.size, given.tracing.seed), (Some(size), 7));
+    let asked = Rendering {
+        integrator: Some(Integrator::Whitted),
+        depth: Some(9),
+        spp: Some(65_536),
+        filter: Some(Filter::BlackmanHarris),
+        transfer: Some(Transfer::Srgb),
+        exposure: Some(-1.5),
+    };
+    assert_eq!(given.tracing.rendering, asked);
     assert_eq!(given.output, Output::StdoutTerminal);
     let part = render("halflight render a -o - --region 1,2,3,4 --time 2min");
     assert_eq!(part.tracing.region, Region::parse("1,2,3,4"));
@@ -146,7 +148,7 @@ fn what_may_differ_reaches_the_comparison() {
     assert_eq!((given.tolerance, given.max_differing), (255, 9));
     assert_eq!(given.report, Report::Json);
     assert_eq!(given.output, Some(("c.png".into(), ImageFormat::Png)));
-    assert_eq!(given.tracing.spp, Some(1));
+    assert_eq!(given.tracing.rendering.spp, Some(1));
 }
 
 #[test]
@@ -160,7 +162,7 @@ fn the_pixel_and_the_sample_reach_the_explanation() {
     assert_eq!(default.report, Report::Text);
     let given = explain("halflight explain a.ray 7 0 --sample 65535 --json --depth 3 --strict");
     assert_eq!((given.sample, given.report), (65_535, Report::Json));
-    assert_eq!(given.tracing.depth, Some(3));
+    assert_eq!(given.tracing.rendering.depth, Some(3));
     assert_eq!(given.warnings, Warnings::Refused);
 }
 

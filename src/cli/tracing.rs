@@ -7,15 +7,13 @@ use std::time::Duration;
 
 use clap::Args;
 
-use super::choices::{AovChoice, FilterChoice, IntegratorChoice, TransferChoice};
-use super::shared::{depth_range, spp_range, threads_range};
+use super::choices::AovChoice;
+use super::rendering::RenderingArguments;
+use super::shared::{spp_range, threads_range};
 use crate::batch::{ProgressStyle, Tracing};
 use crate::render::Region;
-use crate::scene::{Size, Viewpoint};
+use crate::scene::{Rendering, Size, Viewpoint};
 use crate::text::parse_duration;
-
-/// The largest exposure in stops either way, beyond which single precision overflows soon.
-const MOST_STOPS: f64 = 100.0;
 
 #[derive(Args, Debug)]
 pub(super) struct TracingArguments {
@@ -25,7 +23,8 @@ pub(super) struct TracingArguments {
     /// of the whole picture, but AOVs on a scale take its ends from the part
     #[arg(long, value_name = "X,Y,W,H", value_parser = parse_region)]
     region: Option<Region>,
-    /// Samples per pixel, 1 to 65536 [default: 16, or 65536 with --time]
+    /// Samples per pixel, 1 to 65536 [default: the scene's, otherwise 16; as many as the time
+    /// permits with --time]
     #[arg(long, value_name = "N", value_parser = spp_range())]
     spp: Option<u32>,
     /// Stop after about this time, such as 90s or 5min, with the samples of a whole pass: 1, 2, 4 …
@@ -53,25 +52,11 @@ pub(super) struct SampleArguments {
     /// up X Y Z, fov DEGREES, height H, aspect A, near D, far D, focus D, lens R
     #[arg(long, value_name = "PARTS", value_parser = Viewpoint::parse)]
     view: Option<Viewpoint>,
-    /// Maximum number of bounces, 0 to 4096 [default: 8, or 64 with path tracing]
-    #[arg(long, value_name = "N", value_parser = depth_range())]
-    depth: Option<u32>,
-    /// Integrator [default: whitted, unless the scene sets path]
-    #[arg(long, value_name = "INTEGRATOR", value_enum)]
-    integrator: Option<IntegratorChoice>,
-    /// Pixel filter
-    #[arg(long, value_name = "FILTER", value_enum, default_value_t)]
-    filter: FilterChoice,
+    #[command(flatten)]
+    rendering: RenderingArguments,
     /// Random seed, 0 to 4294967295
     #[arg(long, value_name = "N", default_value_t = 0)]
     seed: u32,
-    /// Transfer curve from colours to 8-bit values [default: linear, unless the scene sets srgb]
-    #[arg(long, value_name = "CURVE", value_enum)]
-    transfer: Option<TransferChoice>,
-    /// Exposure in stops, -100 to 100: light and albedo times 2 to this power before the transfer,
-    /// in EXR and HDR too
-    #[arg(long, value_name = "STOPS", default_value_t = 0.0, allow_negative_numbers = true, value_parser = parse_stops)]
-    exposure: f64,
 }
 
 impl TracingArguments {
@@ -84,7 +69,10 @@ impl TracingArguments {
         let samples = self.samples.into_tracing();
         Tracing {
             region: self.region,
-            spp: self.spp,
+            rendering: Rendering {
+                spp: self.spp,
+                ..samples.rendering
+            },
             time: self.time,
             aov: self.aov.map(AovChoice::value),
             threads: self.threads.map_or(samples.threads, usize::from),
@@ -99,16 +87,11 @@ impl SampleArguments {
             size: self.size,
             view: self.view.unwrap_or_default(),
             region: None,
-            spp: None,
+            rendering: self.rendering.rendering(None),
             time: None,
-            depth: self.depth,
-            integrator: self.integrator.map(IntegratorChoice::value),
-            filter: self.filter.value(),
             seed: self.seed,
             aov: None,
             layers: Vec::new(),
-            transfer: self.transfer.map(TransferChoice::value),
-            exposure: self.exposure,
             threads: default_threads(|name| env::var(name).ok()),
             progress: ProgressStyle::default(),
         }
@@ -124,13 +107,6 @@ fn default_threads(variable: impl Fn(&str) -> Option<String>) -> usize {
     given
         .next()
         .map_or(cores, |given: NonZero<usize>| cores.min(given.get()))
-}
-
-fn parse_stops(text: &str) -> Result<f64, String> {
-    let stops = text.parse().ok();
-    stops
-        .filter(|stops: &f64| stops.abs() <= MOST_STOPS)
-        .ok_or_else(|| format!("expected a number from -{MOST_STOPS} to {MOST_STOPS}"))
 }
 
 fn parse_size(text: &str) -> Result<Size, String> {

@@ -4,8 +4,7 @@ use std::ops::RangeInclusive;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
-use crate::render::{Filter, MAX_SPP};
-use crate::scene::Integrator;
+use crate::scene::{Filter, Integrator, MAX_DEPTH, MAX_SPP};
 use crate::ui::terminal::{Choice, ColourDepth, Mouse};
 use crate::ui::{Options, Pixels, Theme};
 
@@ -13,8 +12,6 @@ use crate::ui::{Options, Pixels, Theme};
 pub const POLLS: RangeInclusive<u64> = 10..=3_600_000;
 /// The highest limit of terminal output, in kilobytes per second.
 pub const MAX_BANDWIDTH: u32 = 4_000_000;
-/// The highest number of bounces; see the renderer's ray budget.
-pub const MAX_DEPTH: u32 = 4096;
 /// The highest number of threads: more than any machine has cores.
 pub const MAX_THREADS: u16 = 1024;
 
@@ -156,8 +153,8 @@ pub(super) const SETTINGS: &[Setting] = &[
         default: "16",
         kind: Kind::Integer {
             range: 1..=MAX_SPP as i64,
-            set: |options, number| options.spp = Some(number as u32),
-            get: |options| options.spp.map(i64::from),
+            set: |options, number| options.rendering.spp = Some(number as u32),
+            get: |options| options.rendering.spp.map(i64::from),
         },
     },
     Setting {
@@ -166,8 +163,8 @@ pub(super) const SETTINGS: &[Setting] = &[
         default: "8",
         kind: Kind::Integer {
             range: 0..=MAX_DEPTH as i64,
-            set: |options, number| options.depth = Some(number as u32),
-            get: |options| options.depth.map(i64::from),
+            set: |options, number| options.rendering.depth = Some(number as u32),
+            get: |options| options.rendering.depth.map(i64::from),
         },
     },
     Setting {
@@ -176,8 +173,8 @@ pub(super) const SETTINGS: &[Setting] = &[
         default: "\"whitted\"",
         kind: Kind::Word {
             words: || INTEGRATORS.map(|(word, _)| word).to_vec(),
-            set: |options, word| options.integrator = meant(&INTEGRATORS, word),
-            get: |options| word_for(&INTEGRATORS, options.integrator),
+            set: |options, word| options.rendering.integrator = meant(&INTEGRATORS, word),
+            get: |options| word_for(&INTEGRATORS, options.rendering.integrator),
         },
     },
     Setting {
@@ -186,8 +183,8 @@ pub(super) const SETTINGS: &[Setting] = &[
         default: "\"box\"",
         kind: Kind::Word {
             words: || FILTERS.map(|(word, _)| word).to_vec(),
-            set: |options, word| options.filter = meant(&FILTERS, word),
-            get: |options| word_for(&FILTERS, options.filter),
+            set: |options, word| options.rendering.filter = meant(&FILTERS, word),
+            get: |options| word_for(&FILTERS, options.rendering.filter),
         },
     },
     Setting {

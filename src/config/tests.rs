@@ -1,8 +1,7 @@
 use std::time::Duration;
 
 use super::*;
-use crate::render::Filter;
-use crate::scene::Integrator;
+use crate::scene::{Filter, Integrator, Rendering};
 use crate::ui::Theme;
 use crate::ui::keymap::{Action, Context, Mode};
 use crate::ui::terminal::{Choice, ColourDepth, Mouse};
@@ -56,10 +55,13 @@ fn every_setting_is_read() {
         editor: Some("hx \"quoted\" \\".to_owned()),
         bandwidth: Some(0),
         poll: Some(Duration::from_secs(1)),
-        spp: Some(16),
-        depth: Some(12),
-        integrator: Some(Integrator::Path),
-        filter: Some(Filter::Gaussian),
+        rendering: Rendering {
+            spp: Some(16),
+            depth: Some(12),
+            integrator: Some(Integrator::Path),
+            filter: Some(Filter::Gaussian),
+            ..Rendering::default()
+        },
         threads: Some(3),
         assets: vec!["/a".into(), "/b c".into()],
         ..rest
@@ -96,18 +98,24 @@ fn the_defaults_in_a_printed_configuration_are_those_in_use() {
     let text: Vec<_> = lines.filter(|line| !line.starts_with("assets")).collect();
     let set = options(&text.join("\n"));
     assert_eq!(set.keymap, Options::default().keymap);
-    assert_eq!(set.spp, Some(crate::render::DEFAULT_SPP));
+    assert_eq!(set.rendering.spp, Some(crate::scene::DEFAULT_SPP));
 }
 
 #[test]
 fn what_is_given_on_the_command_line_takes_precedence() {
     let given = Options {
-        spp: Some(4),
+        rendering: Rendering {
+            spp: Some(4),
+            ..Rendering::default()
+        },
         mouse: Some(Mouse::Off),
         ..Options::default()
     };
     let both = given.or(options("spp = 9\nmouse = true\ndepth = 1"));
-    assert_eq!((both.spp, both.depth), (Some(4), Some(1)));
+    assert_eq!(
+        (both.rendering.spp, both.rendering.depth),
+        (Some(4), Some(1))
+    );
     assert_eq!(both.mouse, Some(Mouse::Off));
 }
 

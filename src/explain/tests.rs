@@ -6,7 +6,8 @@ use std::sync::Arc;
 
 use super::*;
 use crate::language::{Language, Source};
-use crate::render::{Filter, Frames, Job, PreparedScene, Settings, default_depth};
+use crate::render::{Frames, Job, PreparedScene, Settings};
+use crate::scene::Filter;
 use crate::scene::{Images, Integrator, Meshes};
 
 /// How a scene is traced unless its text says otherwise.
@@ -42,8 +43,13 @@ fn explain(language: Language, text: &str, pixel: [u32; 2], how: How) -> Words {
     let lights = source.nodes().iter();
     let lights = lights.filter(|node| matches!(node, Node::Light(_))).count();
     assert_eq!(lights, scene.lights.len(), "lights of text and scene agree");
-    let (size, transfer) = (scene.camera.size, scene.setting.transfer);
-    let integrator = how.integrator.unwrap_or(scene.setting.integrator);
+    let (size, transfer) = (
+        scene.camera.size,
+        scene.setting.rendering.transfer.unwrap_or_default(),
+    );
+    let integrator = how
+        .integrator
+        .unwrap_or(scene.setting.rendering.integrator());
     let job = Job {
         camera: scene.camera,
         scene: Arc::new(scene),
@@ -52,7 +58,7 @@ fn explain(language: Language, text: &str, pixel: [u32; 2], how: How) -> Words {
             size,
             region: None,
             spp: 1,
-            depth: how.depth.unwrap_or_else(|| default_depth(integrator)),
+            depth: how.depth.unwrap_or_else(|| integrator.default_depth()),
             seed: 0,
             aov: None,
             integrator,

@@ -54,7 +54,7 @@ fn has_same_view(scene: &Scene, written: &Scene) -> bool {
         focus: a.focus,
         ..*b
     };
-    let [x, y] = [scene, written].map(|scene| (scene.setting.integrator, scene.setting.transfer));
+    let [x, y] = [scene, written].map(|scene| scene.setting.rendering);
     rest == *a && has_same_depths && has_same_focus && x == y
 }
 

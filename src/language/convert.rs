@@ -1,11 +1,13 @@
 //! Conversion of a scene to another language.
 
+use std::borrow::Cow;
+use std::f64::consts::PI;
 use std::sync::Arc;
 
 use super::losses::Losses;
 use super::{Language, Source, alike, fits};
 use crate::memory::OutOfMemory;
-use crate::scene::{Meshes, Scene};
+use crate::scene::{Integrator, Meshes, Scene};
 use crate::text::{Diagnostic, Findings, Span};
 
 /// A scene in another language.
@@ -31,6 +33,7 @@ pub fn convert(source: &Source, scene: &Scene, to: Language) -> Result<Converted
             losses: Findings::default(),
         });
     }
+    let scene = &without_gamma(scene);
     let mut losses = Losses::new(source, scene, to);
     let text = Arc::new(to.write(scene, &mut losses));
     fits(to, &text, 0)?;
@@ -59,4 +62,20 @@ pub fn convert(source: &Source, scene: &Scene, to: Language) -> Result<Converted
         text: Arc::clone(written.text()),
         losses: findings,
     })
+}
+
+/// The scene with lights as in texts that do not set gamma, where path tracing multiplies them by π.
+/// Its picture by its own integrator is the same, up to rounding.
+pub(super) fn without_gamma(scene: &Scene) -> Cow<'_, Scene> {
+    if scene.lights.iter().all(|light| light.scale == PI) {
+        return Cow::Borrowed(scene);
+    }
+    let mut scene = scene.clone();
+    for light in &mut scene.lights {
+        if scene.setting.rendering.integrator() == Integrator::Path {
+            light.colour *= light.scale / PI;
+        }
+        light.scale = PI;
+    }
+    Cow::Owned(scene)
 }

@@ -21,6 +21,7 @@ mod partition;
 mod placed;
 mod ray;
 mod record;
+mod rendering;
 mod report;
 mod roles;
 mod room;
@@ -58,6 +59,7 @@ pub use convert::{Converted, convert};
 pub use form::{Along, Motion};
 pub use node::{FileKind, NamedFile, Node, Nodes};
 pub use placed::{Placed, Wanted};
+pub use rendering::RenderKey;
 pub use roles::{Role, Roles};
 pub use room::fits;
 pub use saved::{SavedView, view_name};
@@ -339,7 +341,7 @@ pub trait Answers: Editable + Restructure {
         Cow::Borrowed(value)
     }
 
-    /// The nodes of the text: view, ambient light or background and environment, lights, materials,
+    /// The nodes of the text: render settings, view, ambient light or background and environment, lights, materials,
     /// textures, objects.
     fn nodes(&self) -> Nodes;
 
@@ -432,6 +434,10 @@ pub trait Answers: Editable + Restructure {
         let _ = node;
         0
     }
+
+    /// Returns the edits that remove a render setting from the text, and what states them if no other
+    /// is left; none if the text does not state it.
+    fn render_removal(&self, key: &str) -> Vec<Edit>;
 
     /// The fields of the view that belong to the camera, the first of [`Answers::fields`].
     fn view_fields(&self) -> Vec<&'static Field>;

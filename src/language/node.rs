@@ -8,6 +8,8 @@ use crate::text::Span;
 /// A node with fields, in the order of the list in the interface.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Node {
+    /// The render settings.
+    Render,
     /// The camera.
     View,
     /// Ambient light.
@@ -30,6 +32,7 @@ pub enum Node {
 impl fmt::Display for Node {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
+            Self::Render => f.write_str("render"),
             Self::View => f.write_str("view"),
             Self::Ambient => f.write_str("ambient"),
             Self::Background => f.write_str("background"),
@@ -46,6 +49,8 @@ impl fmt::Display for Node {
 /// millions takes no more memory than a short one.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Nodes {
+    /// Whether there can be render settings.
+    pub(super) render: bool,
     /// Whether there is a view.
     pub(super) view: bool,
     /// Whether there is ambient light.
@@ -108,8 +113,9 @@ impl Nodes {
         self.objects
     }
 
-    fn kinds(self) -> [(IndexedNode, usize); 8] {
+    fn kinds(self) -> [(IndexedNode, usize); 9] {
         [
+            (|_| Node::Render, usize::from(self.render)),
             (|_| Node::View, usize::from(self.view)),
             (|_| Node::Ambient, usize::from(self.ambient)),
             (|_| Node::Background, usize::from(self.surroundings)),
@@ -161,6 +167,7 @@ mod tests {
     #[test]
     fn rows_follow_the_order_of_nodes() {
         let nodes = Nodes {
+            render: true,
             view: true,
             ambient: false,
             surroundings: true,
@@ -170,6 +177,7 @@ mod tests {
             objects: 3,
         };
         let listed = [
+            Node::Render,
             Node::View,
             Node::Background,
             Node::Environment,

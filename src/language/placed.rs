@@ -89,6 +89,52 @@ impl Placed {
     }
 }
 
+/// Returns the edits that insert these values where the text omits them, as `markup` spells them.
+/// Insertions at one place are combined.
+pub(super) fn insertions(
+    text: &str,
+    wanted: &[Wanted<'_>],
+    markup: impl Fn(&Implicit, &[(usize, String)]) -> String,
+) -> Vec<Edit> {
+    let mut insertions: Vec<(&Insertion, Vec<String>)> = Vec::new();
+    for (placed, values) in wanted {
+        let mut missing = values.clone();
+        missing.retain(|(component, _)| placed.default_of(*component).is_some());
+        let Some(implicit) = placed.implicit.as_ref().filter(|_| !missing.is_empty()) else {
+            continue;
+        };
+        let inserted = markup(implicit, &missing);
+        match insertions
+            .iter_mut()
+            .find(|(place, _)| **place == implicit.insertion)
+        {
+            Some((_, all)) => all.push(inserted),
+            None => insertions.push((&implicit.insertion, vec![inserted])),
+        }
+    }
+    let edits = insertions.into_iter();
+    edits.map(|(place, all)| place.edit(text, &all)).collect()
+}
+
+impl Insertion {
+    /// The edit that inserts all of these here.
+    fn edit(&self, text: &str, all: &[String]) -> Edit {
+        let copied = |pieces: &[Piece]| -> String {
+            let pieces = pieces.iter().map(|piece| match piece {
+                Piece::Literal(literal) => literal,
+                Piece::Copy(span) => span.of(text),
+            });
+            pieces.collect()
+        };
+        let [before, between, after] =
+            [&self.before, &self.between, &self.after].map(|pieces| copied(pieces));
+        Edit {
+            span: self.span,
+            text: [before, all.join(&between), after].concat(),
+        }
+    }
+}
+
 /// Returns the edits that set these components where the text states them.
 pub(super) fn edits<Source: Answers + ?Sized>(source: &Source, wanted: &[Wanted<'_>]) -> Vec<Edit> {
     let edits = wanted.iter().flat_map(|(placed, values)| {

@@ -4,7 +4,7 @@ use glam::DVec3;
 
 use super::losses::{Loss, Losses, Of};
 use crate::geometry::{Aabb, normalise};
-use crate::scene::{Camera, Falloff, Integrator, Lens, Light, Rgb, Scene, Setting, Transfer};
+use crate::scene::{Camera, Falloff, Lens, Light, Rgb, Scene, Setting};
 
 const PARALLEL: Loss = Loss {
     keys: &["projection"],
@@ -35,12 +35,6 @@ const FOCUS: Loss = Loss {
     keys: &["dof"],
     lost: "depth of field",
     instead: "written without it: everything is in focus",
-};
-
-const GAMMA: Loss = Loss {
-    keys: &["gamma"],
-    lost: "path tracing and the sRGB curve",
-    instead: "written without them; --integrator path and --transfer srgb choose them",
 };
 
 const BACKGROUND: Loss = Loss {
@@ -135,7 +129,7 @@ pub(super) fn is_all_before(scene: &Scene, far: f64) -> bool {
         .all(|object| is_before(object.shape.bounds()))
 }
 
-/// Reports depth of field, and surroundings and settings other than the default.
+/// Reports depth of field, and surroundings other than black.
 pub(super) fn report_plain(scene: &Scene, losses: &mut Losses<'_>) {
     if scene.camera.focus.lens_radius != 0.0 {
         losses.add(Of::View, &FOCUS);
@@ -143,12 +137,8 @@ pub(super) fn report_plain(scene: &Scene, losses: &mut Losses<'_>) {
     let Setting {
         background,
         environment,
-        integrator,
-        transfer,
+        ..
     } = scene.setting;
-    if (integrator, transfer) != (Integrator::Whitted, Transfer::Linear) {
-        losses.add(Of::View, &GAMMA);
-    }
     if background.colour != Rgb::ZERO {
         losses.add(Of::Background, &BACKGROUND);
     }

@@ -119,8 +119,12 @@ pub enum Range {
     Unit,
     /// Between two numbers, exclusive.
     Between(f64, f64),
+    /// Between two numbers, inclusive.
+    Within(f64, f64),
     /// An integer, 1 or more.
     Count,
+    /// An integer between two, inclusive.
+    Whole(u32, u32),
     /// An integer ID.
     Identity,
 }
@@ -135,6 +139,10 @@ impl Range {
                 Self::NotNegative => 0.0 <= value,
                 Self::Unit => (0.0..=1.0).contains(&value),
                 Self::Between(low, high) => low < value && value < high,
+                Self::Within(low, high) => (low..=high).contains(&value),
+                Self::Whole(low, high) => {
+                    (f64::from(low)..=f64::from(high)).contains(&value) && value.fract() == 0.0
+                }
                 Self::Count => 1.0 <= value && value.fract() == 0.0,
                 Self::Identity => value.fract() == 0.0,
             }
@@ -148,7 +156,8 @@ impl Range {
             Self::NotNegative => Some([0.0, f64::MAX]),
             Self::Unit => Some([0.0, 1.0]),
             Self::Between(low, high) => Some([low.next_up(), high.next_down()]),
-            Self::Count | Self::Identity => None,
+            Self::Within(low, high) => Some([low, high]),
+            Self::Count | Self::Whole(..) | Self::Identity => None,
         }
     }
 
@@ -156,7 +165,7 @@ impl Range {
     pub fn words(self) -> String {
         match self {
             Self::Any => "a number".to_owned(),
-            Self::Count | Self::Identity => self.limits(),
+            Self::Count | Self::Whole(..) | Self::Identity => self.limits(),
             _ => format!("a number {}", self.limits()),
         }
     }
@@ -169,7 +178,9 @@ impl Range {
             Self::NotNegative => "0 or more".to_owned(),
             Self::Unit => "from 0 to 1".to_owned(),
             Self::Between(low, high) => format!("greater than {low} and less than {high}"),
+            Self::Within(low, high) => format!("from {low} to {high}"),
             Self::Count => "a whole number, 1 or more".to_owned(),
+            Self::Whole(low, high) => format!("a whole number from {low} to {high}"),
             Self::Identity => "a whole number".to_owned(),
         }
     }
@@ -324,7 +335,7 @@ pub(crate) mod tests {
 
     #[test]
     fn ranges_contain_what_their_words_describe() {
-        let cases: [(Range, &[f64], &[f64], &str); 7] = [
+        let cases: [(Range, &[f64], &[f64], &str); 9] = [
             (Range::Any, &[-1e308, 0.0], &[], "a number"),
             (
                 Range::Positive,
@@ -355,6 +366,18 @@ pub(crate) mod tests {
                 &[1.0, 1e18],
                 &[0.0, 1.5, -1.0],
                 "a whole number, 1 or more",
+            ),
+            (
+                Range::Within(-2.0, 3.0),
+                &[-2.0, 0.5, 3.0],
+                &[-2.1, 3.1],
+                "a number from -2 to 3",
+            ),
+            (
+                Range::Whole(1, 9),
+                &[1.0, 9.0],
+                &[0.0, 1.5, 10.0],
+                "a whole number from 1 to 9",
             ),
             (Range::Identity, &[-1.0, 0.0, 7.0], &[0.5], "a whole number"),
         ];

@@ -4,12 +4,14 @@ mod beginning;
 mod convert;
 mod line_ends;
 mod motion;
+mod rendering;
 mod saved;
 mod structure;
 mod template;
 
 use std::sync::Arc;
 
+use super::convert::without_gamma;
 use super::losses::Losses;
 use super::{Language, Lowered, Source, alike};
 use crate::scene::{Meshes, Scene};
@@ -40,6 +42,7 @@ pub(super) fn shown(text: &str, lowered: &Lowered) -> Vec<String> {
 /// losses.
 pub(super) fn rewritten(source: &Source, scene: &Scene) -> (String, Scene, Findings) {
     let language = source.language();
+    let scene = &without_gamma(scene);
     let mut losses = Losses::new(source, scene, language);
     let text = language.write(scene, &mut losses);
     let (_, lowered) = read_as(language, &text, &Meshes::default());

@@ -7,7 +7,8 @@ use glam::DVec3;
 use tempfile::TempDir;
 
 use super::*;
-use crate::render::{Block, Blocks, Counts, Filter, Frames, Provenance, Settings};
+use crate::render::{Block, Blocks, Counts, Frames, Provenance, Settings};
+use crate::scene::Filter;
 use crate::scene::{Integrator, Size, Transfer, Viewpoint};
 
 const SIZE: Size = Size {

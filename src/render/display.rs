@@ -105,7 +105,8 @@ mod tests {
     use glam::DVec3;
 
     use super::*;
-    use crate::render::{Filter, Query, Settings};
+    use crate::render::{Query, Settings};
+    use crate::scene::Filter;
     use crate::scene::{Camera, Focus, Integrator, Lens, Size};
 
     fn settings(aov: Option<Aov>) -> Settings {

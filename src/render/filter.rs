@@ -4,17 +4,7 @@
 
 use std::f64::consts::{FRAC_1_SQRT_2, PI};
 
-/// The reconstruction filter of a pixel.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Filter {
-    /// The area of the pixel.
-    #[default]
-    Box,
-    /// A Gaussian with a standard deviation of half a pixel, three pixels wide.
-    Gaussian,
-    /// The four-term Blackman-Harris window, three pixels wide.
-    BlackmanHarris,
-}
+use crate::scene::Filter;
 
 /// Radius of the filters wider than a pixel, in pixels.
 const RADIUS: f64 = 1.5;
@@ -31,18 +21,6 @@ const TERMS: [f64; 4] = [0.35875, 0.48829, 0.14128, 0.01168];
 const STEPS: usize = 256;
 
 impl Filter {
-    /// All filters.
-    pub const ALL: [Self; 3] = [Self::Box, Self::Gaussian, Self::BlackmanHarris];
-
-    /// The name, such as `blackman-harris`.
-    pub const fn name(self) -> &'static str {
-        match self {
-            Self::Box => "box",
-            Self::Gaussian => "gaussian",
-            Self::BlackmanHarris => "blackman-harris",
-        }
-    }
-
     /// The fraction of the filter, along one axis, within this distance of the centre, in pixels.
     fn within(self, distance: f64) -> f64 {
         match self {

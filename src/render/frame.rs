@@ -3,30 +3,9 @@
 use std::sync::{Arc, Weak};
 use std::time::Duration;
 
-use super::filter::Filter;
 use super::region::Region;
 use super::world::World;
-use crate::scene::{Camera, Images, Integrator, Scene, Size, Transfer};
-
-/// Default samples per pixel of full-size pictures.
-pub const DEFAULT_SPP: u32 = 16;
-
-/// Default depth of Whitted ray tracing.
-pub const DEFAULT_DEPTH: u32 = 8;
-
-/// Default depth of path tracing; most paths end earlier.
-const DEFAULT_PATH_DEPTH: u32 = 64;
-
-/// The default depth of an integrator.
-pub fn default_depth(integrator: Integrator) -> u32 {
-    match integrator {
-        Integrator::Whitted => DEFAULT_DEPTH,
-        Integrator::Path => DEFAULT_PATH_DEPTH,
-    }
-}
-
-/// Maximum samples per pixel: the length of the sample sequence.
-pub const MAX_SPP: u32 = 65_536;
+use crate::scene::{Camera, Filter, Images, Integrator, Rendering, Scene, Size, Transfer};
 
 /// Marks a pixel without an object in [`Frame::objects`].
 pub const NO_OBJECT: u32 = u32::MAX;
@@ -39,7 +18,7 @@ pub struct Settings {
     /// The only part of the picture to trace, if not all of it. Its pixels are the same as in the
     /// whole picture, except that the 8-bit values of depth span the distances in the region.
     pub region: Option<Region>,
-    /// Samples per pixel, 1 to [`MAX_SPP`].
+    /// Samples per pixel, 1 to [`MAX_SPP`](crate::scene::MAX_SPP).
     pub spp: u32,
     /// Maximum number of bounces; primary rays are bounce 0.
     pub depth: u32,
@@ -58,6 +37,22 @@ pub struct Settings {
 }
 
 impl Settings {
+    /// Those of a whole picture of light, with defaults for what is not asked for.
+    pub fn new(size: Size, asked: &Rendering) -> Self {
+        Self {
+            size,
+            region: None,
+            spp: asked.spp(),
+            depth: asked.depth(),
+            seed: 0,
+            aov: None,
+            integrator: asked.integrator(),
+            filter: asked.filter.unwrap_or_default(),
+            transfer: asked.transfer.unwrap_or_default(),
+            exposure: asked.exposure.unwrap_or_default(),
+        }
+    }
+
     /// What is traced: the region, or the whole picture.
     pub fn traced(&self) -> Region {
         self.region.unwrap_or_else(|| Region::whole(self.size))

@@ -8,10 +8,10 @@
 use std::io::{self, ErrorKind, Read, Write};
 use std::time::Duration;
 
-use super::frame::{Job, MAX_SPP};
+use super::frame::Job;
 use super::probe::Counts;
 use super::tile::{Remembers, Tile, TileShape};
-use crate::scene::Size;
+use crate::scene::{MAX_SPP, Size};
 
 /// Tiles freed at once: about 4 MB, in less than 1 ms.
 const FREED: usize = 512;

@@ -104,11 +104,7 @@ pub use explain::{
     LightHit, LightTerm, PreparedScene, RayEnd, RayKind, Shading, Stop, SurfaceHit, Term,
     TermSource, TracedRay, Unlisted, Verdict,
 };
-pub use filter::Filter;
-pub use frame::{
-    Aov, DEFAULT_DEPTH, DEFAULT_SPP, Frame, Frames, Job, Limit, MAX_SPP, NO_OBJECT, Progress,
-    Query, Settings, default_depth,
-};
+pub use frame::{Aov, Frame, Frames, Job, Limit, NO_OBJECT, Progress, Query, Settings};
 pub use histogram::{HISTOGRAM_STOPS, Histogram};
 pub use kept::Kept;
 pub use level::{CAP, CAPS, vectors};

@@ -33,7 +33,7 @@ impl Sampler {
     /// The node of camera rays.
     pub(crate) const ROOT: u32 = 0;
 
-    /// Creates the sampler for sample `index`, below [`MAX_SPP`](super::MAX_SPP), of pixel (x, y).
+    /// Creates the sampler for sample `index`, below [`MAX_SPP`](crate::scene::MAX_SPP), of pixel (x, y).
     pub(crate) fn new(x: u32, y: u32, index: u32, seed: u32) -> Self {
         Self {
             pixel: [x, y],

@@ -1,9 +1,8 @@
 //! Render settings as text, with the names and values of the command line's options.
 
-use super::filter::Filter;
 use super::frame::{Aov, Settings};
 use super::region::Region;
-use crate::scene::{Integrator, Size, Transfer};
+use crate::scene::{Filter, Integrator, Size, Transfer};
 
 impl Settings {
     /// The name and value of each setting but the number of samples, in a fixed order. Numbers are

@@ -4,6 +4,7 @@ mod light;
 mod material;
 mod mesh;
 pub(crate) mod objects;
+mod rendering;
 mod setting;
 mod texture;
 mod viewpoint;
@@ -18,7 +19,11 @@ pub use material::{
 };
 pub use mesh::{Meshes, NoMesh, beside};
 pub use objects::Objects;
-pub use setting::{Integrator, Setting, Transfer};
+pub use rendering::{
+    DEFAULT_DEPTH, DEFAULT_SPP, EXPOSURES, Filter, Integrator, MAX_DEPTH, MAX_SPP, Rendering,
+    Transfer,
+};
+pub use setting::Setting;
 pub use texture::{Image, Images, Pattern, Side, Texture, Tinted};
 pub use viewpoint::Viewpoint;
 

@@ -315,7 +315,7 @@ fn errors_are_at_the_text_that_causes_them() {
         (Language::Ray, light("[{frame = 1, value = inf}]"), &["5:29 error this is not a finite number | a number, an array of numbers, or a string"]),
         (Language::Ray, light("[{frame = 1, value = 1, easing = 'smoth'}]"), &["5:41 error unknown easing `smoth` | \"linear\", \"smooth\" or \"hold\" | did you mean smooth?"]),
         (Language::Ray, light("[{frame = 1, value = 1, ease = 'hold'}]"), &["5:32 error unknown entry `ease` | frame, easing or value"]),
-        (Language::Ray, value("lihgt 1", "position", "1"), &["3:9 error nothing in the scene is called `lihgt 1` | view, ambient, light 1, object 1 or object 2 | did you mean light 1?"]),
+        (Language::Ray, value("lihgt 1", "position", "1"), &["3:9 error nothing in the scene is called `lihgt 1` | render, view, ambient, light 1, object 1 or object 2 | did you mean light 1?"]),
         (Language::Ray, value("light 1", "postion", "1"), &["4:9 error light 1 has no field called `postion` | position or colour | did you mean position?"]),
         (Language::Ray, value("light 1", "position", "[1, 2]"), &["5:29 error light 1 position: has 2 numbers | 3 numbers: x, y, z"]),
         (Language::Ray, value("light 1", "position y", "[1, 2, 3]"), &["5:29 error light 1 position: has 3 numbers | 1 number"]),

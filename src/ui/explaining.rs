@@ -68,7 +68,8 @@ mod tests {
 
     use super::*;
     use crate::language::{Language, Source};
-    use crate::render::{DEFAULT_DEPTH, Filter, Frames, Job, NO_OBJECT, PreparedScene, Settings};
+    use crate::render::{Frames, Job, NO_OBJECT, PreparedScene, Settings};
+    use crate::scene::{DEFAULT_DEPTH, Filter};
     use crate::scene::{Images, Integrator, Meshes, Size, Transfer};
     use crate::ui::app::tests::pictures;
     use crate::ui::msg::Target;

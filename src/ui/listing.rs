@@ -161,6 +161,7 @@ mod tests {
         assert_eq!(
             lines(nodes, None),
             [
+                "render",
                 "view",
                 "ambient",
                 "1 light",
@@ -171,7 +172,7 @@ mod tests {
             ]
         );
         assert_eq!(
-            lines(nodes, Some(&[1, 4])),
+            lines(nodes, Some(&[2, 5])),
             ["ambient", "1 of 2 objects", "object 2"]
         );
         assert!(lines(nodes, Some(&[])).is_empty());

@@ -63,8 +63,7 @@ use crate::assets::check_folders;
 use crate::file::{self, ReadError};
 use crate::language::Language;
 use crate::memory;
-use crate::render::{DEFAULT_SPP, Filter};
-use app::{App, Opening, OpeningText, Preferences, Quality};
+use app::{App, Opening, OpeningText, Preferences};
 use arrange::PanelSizes;
 pub use ending::{Ending, Error};
 use keymap::Keymap;
@@ -104,12 +103,7 @@ pub fn run(options: &Options) -> Result<Ending, Error> {
         path,
         language,
         text,
-        quality: Quality {
-            spp: options.spp.unwrap_or(DEFAULT_SPP),
-            depth: options.depth,
-            integrator: options.integrator,
-            filter: options.filter.unwrap_or(Filter::Box),
-        },
+        rendering: options.rendering,
         mouse: options.mouse(),
         preferences: Preferences {
             keymap: options.keymap.clone(),

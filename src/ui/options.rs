@@ -7,12 +7,11 @@ use super::keymap::Keymap;
 use super::pixels::Pixels;
 use super::terminal::{Choice, ColourDepth, Mouse};
 use super::theme::Theme;
-use crate::render::Filter;
-use crate::scene::Integrator;
+use crate::scene::Rendering;
 use crate::watch::Method;
 
 /// Options of the interface, from the command line and a configuration; `None` selects the default.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Options {
     /// The scene to open. Default: `default.ray` in the current folder, otherwise the embedded
     /// scene.
@@ -31,14 +30,8 @@ pub struct Options {
     pub mouse: Option<Mouse>,
     /// The command line of the editor, before that of the environment.
     pub editor: Option<String>,
-    /// Samples per pixel of full-size traces and exports.
-    pub spp: Option<u32>,
-    /// Maximum number of bounces.
-    pub depth: Option<u32>,
-    /// The integrator to start with; `None` leaves the choice to the scene.
-    pub integrator: Option<Integrator>,
-    /// Reconstruction filter of full-size traces and exports.
-    pub filter: Option<Filter>,
+    /// What takes precedence over the scene's render settings.
+    pub rendering: Rendering,
     /// Number of rendering threads.
     pub threads: Option<usize>,
     /// Folders from which pictures and meshes may be read in addition to the scene's own.
@@ -73,10 +66,7 @@ impl Options {
             pixels: self.pixels.or(configured.pixels),
             mouse: self.mouse.or(configured.mouse),
             editor: self.editor.or(configured.editor),
-            spp: self.spp.or(configured.spp),
-            depth: self.depth.or(configured.depth),
-            integrator: self.integrator.or(configured.integrator),
-            filter: self.filter.or(configured.filter),
+            rendering: self.rendering.or(configured.rendering),
             threads: self.threads.or(configured.threads),
             assets: [self.assets, configured.assets].concat(),
             // There are no keys on the command line.

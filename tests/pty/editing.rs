@@ -29,7 +29,7 @@ fn a_scene_is_edited_shown_reloaded_and_exported() {
     assert!(!session.has_settings_from_before(), "keys come unbuffered");
     let opened = picture(session.screen());
 
-    session.send(["ggj", ENTER, "2", ENTER].concat());
+    session.send(["ggjj", ENTER, "2", ENTER].concat());
     session.wait_for("default.ray [+]");
     wait_for_change(&mut session, &opened);
     assert_eq!(place.read("default.ray"), DEFAULT);
@@ -138,7 +138,7 @@ fn the_embedded_scene_is_saved_under_a_name() {
     let place = Place::new();
     let mut session = place.start(&[], WIDE);
     wait_for_rest(&mut session);
-    session.send(["ggj", ENTER, "2", ENTER, "w"].concat());
+    session.send(["ggjj", ENTER, "2", ENTER, "w"].concat());
     session.wait_for(":w ");
     session.send("mine.ray\r");
     session.wait_for("wrote mine.ray");

@@ -77,14 +77,19 @@ fn comment(language: Language, side: &str) -> String {
 
 /// The edits of a random change of structure; `None` if it is not possible.
 fn change(source: &Source, random: &mut Random, side: &str) -> Option<Vec<Edit>> {
-    let nodes = source.nodes();
-    let node = nodes.get(random.below(nodes.len()))?;
+    // Render settings have no structure.
+    let nodes: Vec<_> = source
+        .nodes()
+        .iter()
+        .filter(|node| *node != Node::Render)
+        .collect();
+    let node = *nodes.get(random.below(nodes.len()))?;
     let edits = match random.below(8) {
         0 => source.removal(&[node]),
         1 | 2 => {
             let copied = source.copied(&[node]).ok()?;
             let copied = format!("{}{copied}", comment(source.language(), side));
-            let after = nodes.get(random.below(nodes.len()))?;
+            let after = *nodes.get(random.below(nodes.len()))?;
             source.insertion(&copied, after).map(|placed| placed.edits)
         }
         3 => source

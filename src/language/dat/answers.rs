@@ -8,6 +8,8 @@ use super::tree::{is_comment, leaves};
 use super::{Source, lower, room, view, visibility};
 use crate::language::at::words;
 use crate::language::node::{FileKind, object_at, place_of};
+use crate::language::placed::{Wanted, edits};
+use crate::language::rendering::{Around, insertions};
 use crate::language::report::Name;
 use crate::language::table::{Category, Field, Kind};
 use crate::language::view::Numbers;
@@ -30,6 +32,7 @@ impl Answers for Source {
 
     fn nodes(&self) -> Nodes {
         Nodes {
+            render: true,
             view: true,
             lights: self.origins.lights.len(),
             materials: self.origins.materials.len(),
@@ -52,14 +55,18 @@ impl Answers for Source {
                 let kind = object.kind.keyword();
                 Name::Known(Category::Object.word(), object.id, kind)
             }),
-            Node::View | Node::Ambient | Node::Background | Node::Environment => None,
+            Node::View | Node::Render | Node::Ambient | Node::Background | Node::Environment => {
+                None
+            }
         };
         name.map_or_else(|| node.to_string(), |name| name.to_string())
     }
 
     fn fields(&self, node: Node) -> Vec<Placed> {
-        if node == Node::View {
-            return self.origins.view_fields(&self.text, &self.tree);
+        match node {
+            Node::View => return self.origins.view_fields(&self.text, &self.tree),
+            Node::Render => return self.origins.render_fields(&self.text),
+            _ => {}
         }
         let cuts = match node {
             Node::Object(index) => self
@@ -76,6 +83,10 @@ impl Answers for Source {
     }
 
     fn span(&self, node: Node) -> Span {
+        if node == Node::Render {
+            let settings = self.origins.settings.as_ref();
+            return settings.map_or_else(|| Span::at(0), |settings| settings.whole);
+        }
         let first = self.origins.records(node).next();
         first.map_or_else(|| Span::at(0), |(record, _)| self.tree.span_of(record))
     }
@@ -84,12 +95,19 @@ impl Answers for Source {
         let own = self.span(node);
         let before = self.text[..own.start()].trim_end_matches([' ', '\t']);
         let line = line_start(before, before.len().checked_sub(1)?);
-        let line = before[skip_white_space(before.as_bytes(), line)..].trim_end();
+        let start = skip_white_space(before.as_bytes(), line);
+        let line = before[start..].trim_end();
         let content = line.trim_start_matches(['#', '/']).trim();
-        (is_comment(line) && !content.is_empty() && node != Node::View).then_some(content)
+        let is_label = is_comment(line) && !content.is_empty();
+        let has_label = is_label && !self.is_settings(start);
+        (has_label && !matches!(node, Node::View | Node::Render)).then_some(content)
     }
 
     fn node_at(&self, span: Span) -> Option<Node> {
+        let settings = self.origins.settings.as_ref();
+        if settings.is_some_and(|settings| settings.whole.touches(span)) {
+            return Some(Node::Render);
+        }
         self.tree
             .records_at(span)
             .find_map(|at| self.origins.node_of(at))
@@ -101,7 +119,12 @@ impl Answers for Source {
             record.start() < span.end() && span.start() < record.end()
         };
         let records = self.tree.records_at(span).filter(covered);
-        let mut nodes: Vec<_> = records.filter_map(|at| self.origins.node_of(at)).collect();
+        let settings = self.origins.settings.as_ref();
+        let settings = settings.filter(|settings| {
+            settings.whole.start() < span.end() && span.start() < settings.whole.end()
+        });
+        let mut nodes: Vec<_> = settings.map(|_| Node::Render).into_iter().collect();
+        nodes.extend(records.filter_map(|at| self.origins.node_of(at)));
         nodes.dedup();
         nodes
     }
@@ -243,6 +266,19 @@ impl Answers for Source {
         visibility::edits(&self.text, &self.tree, &self.origins, objects, wanted)
     }
 
+    fn edits(&self, wanted: &[Wanted<'_>]) -> Vec<Edit> {
+        let mut edits = edits(self, wanted);
+        edits.extend(insertions(&self.text, wanted));
+        edits.sort_by_key(|edit| edit.span.start());
+        edits
+    }
+
+    fn render_removal(&self, key: &str) -> Vec<Edit> {
+        let settings = self.origins.settings.as_ref();
+        let removed = settings.and_then(|place| place.removal(&self.text, key, Around::Line));
+        removed.into_iter().collect()
+    }
+
     fn view_fields(&self) -> Vec<&'static Field> {
         view::fields().collect()
     }
@@ -257,5 +293,13 @@ impl Answers for Source {
 
     fn view_edits(&self, before: &Camera, camera: &Camera) -> Vec<Edit> {
         view::edits(&self.text, &self.tree, &self.origins, before, camera)
+    }
+}
+
+impl Source {
+    /// Whether the comment that begins at this offset holds the render settings.
+    pub(super) fn is_settings(&self, start: usize) -> bool {
+        let settings = self.origins.settings.as_ref();
+        settings.is_some_and(|settings| settings.whole.start() == start)
     }
 }

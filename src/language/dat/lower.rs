@@ -13,9 +13,10 @@ use std::collections::hash_map::Entry;
 
 use super::origins::{Origins, VIEW};
 use super::table::{Heads, RECORDS, RecordKind, TextureKind, UseKind};
-use super::tree::Tree;
+use super::tree::{Tree, render_comment};
 use crate::geometry::{Operation, Solid};
 use crate::language::Lowered;
+use crate::language::rendering::{given_again, read_comment};
 use crate::language::report::{did_you_mean, quoted};
 use crate::language::table::Category;
 use crate::language::words::Words;
@@ -42,8 +43,10 @@ pub(super) fn lower(text: &str, tree: &Tree) -> (Origins, Lowered) {
     for record in 0..tree.records.len() {
         lowering.record(record);
     }
+    lowering.settings();
     let objects = lowering.drawn();
     let camera = lowering.camera(&objects);
+    let rendering = lowering.origins.settings.map(|place| place.rendering);
     let scene = (lowering.report.errors() == 0).then(|| Scene {
         camera,
         ambient: Rgb::ZERO,
@@ -51,7 +54,10 @@ pub(super) fn lower(text: &str, tree: &Tree) -> (Origins, Lowered) {
         materials: lowering.materials,
         textures: lowering.textures,
         objects: objects.into_iter().collect(),
-        setting: Setting::default(),
+        setting: Setting {
+            rendering: rendering.unwrap_or_default(),
+            ..Setting::default()
+        },
     });
     let lowered = Lowered {
         scene,
@@ -126,6 +132,25 @@ impl<'a> Lowering<'a> {
 }
 
 impl Lowering<'_> {
+    /// Reads the first comment with render settings; warns of those after it.
+    fn settings(&mut self) {
+        for &line in &self.tree.renders {
+            let Some(body) = render_comment(self.text, line) else {
+                continue;
+            };
+            let mut findings = Findings::default();
+            let Some(place) = read_comment(self.text, line, body, &mut findings) else {
+                continue;
+            };
+            if self.origins.settings.is_some() {
+                self.report.warning(|| given_again(line));
+            } else {
+                self.report.append(findings);
+                self.origins.settings = Some(place);
+            }
+        }
+    }
+
     fn record(&mut self, record: usize) {
         let tokens = &self.tree.tokens_of(self.text, record);
         let Some(kind) = self.kind(tokens) else {

@@ -5,7 +5,10 @@ use super::table::{HALF_SPACE, ObjectKind, Part, RecordKind};
 use super::tree::Tree;
 use crate::language::node::Node;
 use crate::language::placed::Placed;
+use crate::language::rendering::{self, RenderPlace};
+use crate::language::view::{beginning, line_ending};
 use crate::language::words::Words;
+use crate::scene::Rendering;
 
 /// The places of everything lowered, as record indices: valid only with the tree they were made
 /// from.
@@ -13,6 +16,8 @@ use crate::language::words::Words;
 pub struct Origins {
     /// The records of the view: camera, resolution, viewport.
     pub(super) view: [Option<usize>; 3],
+    /// The comment of the render settings.
+    pub(super) settings: Option<RenderPlace>,
     pub(super) lights: Vec<Place>,
     pub(super) materials: Vec<Place>,
     pub(super) textures: Vec<Place>,
@@ -78,7 +83,9 @@ impl Origins {
             places.get(index).map(|place| (place.record, place.kind))
         };
         let first = match node {
-            Node::View | Node::Ambient | Node::Background | Node::Environment => None,
+            Node::View | Node::Render | Node::Ambient | Node::Background | Node::Environment => {
+                None
+            }
             Node::Light(index) => own(&self.lights, index),
             Node::Material(index) => own(&self.materials, index),
             Node::Texture(index) => own(&self.textures, index),
@@ -111,6 +118,13 @@ impl Origins {
                     .collect(),
             })
             .collect()
+    }
+
+    pub(super) fn render_fields(&self, text: &str) -> Vec<Placed> {
+        let settings = self.settings.as_ref();
+        let (start, ending) = (beginning(text), line_ending(text));
+        let insertion = rendering::insertion(settings, start, "# render:", ending);
+        rendering::fields(settings, &Rendering::default(), &insertion, None)
     }
 
     pub(super) fn node_of(&self, record: usize) -> Option<Node> {

@@ -402,7 +402,7 @@ impl Source {
     /// The record that defines a node.
     fn record(&self, node: Node) -> Result<usize, StructureError> {
         let own = match node {
-            Node::View => None,
+            Node::View | Node::Render => None,
             _ => self.origins.records(node).next(),
         };
         own.map(|(record, _)| record)
@@ -428,7 +428,9 @@ impl Source {
         let text = &*self.text;
         let comment_above = |start| {
             let line = line_before(text, start).filter(|_| !self.has_heading(record))?;
-            is_comment(line.of(text).trim()).then_some(line.start())
+            let comment = line.of(text).trim();
+            let start = line.start() + line.of(text).find(comment).unwrap_or_default();
+            (is_comment(comment) && !self.is_settings(start)).then_some(line.start())
         };
         Block::Lines(lines(text, self.tree.span_of(record), comment_above))
     }
@@ -448,6 +450,6 @@ fn category(node: Node) -> Option<Category> {
         Node::Material(_) => Some(Category::Material),
         Node::Texture(_) => Some(Category::Texture),
         Node::Object(_) => Some(Category::Object),
-        Node::View | Node::Ambient | Node::Background | Node::Environment => None,
+        Node::View | Node::Render | Node::Ambient | Node::Background | Node::Environment => None,
     }
 }

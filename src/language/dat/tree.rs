@@ -12,6 +12,8 @@ use crate::text::{Span, line_end};
 pub struct Tree {
     /// The text of each record, from its first token to its last.
     pub records: Vec<Span>,
+    /// The comments that begin with `render:`, in order.
+    pub(super) renders: Vec<Span>,
 }
 
 impl Tree {
@@ -45,10 +47,15 @@ impl Parse for Tree {
 /// Splits a text into records. A line ends at each line feed or carriage return, so that CR LF ends
 /// a further, empty line. The no-break space and the byte order mark are white space.
 pub(super) fn parse(text: &str) -> Tree {
-    let records = lines(text).filter(|line| !is_comment(line.of(text)));
-    Tree {
-        records: records.collect(),
+    let mut tree = Tree::default();
+    for line in lines(text) {
+        if !is_comment(line.of(text)) {
+            tree.records.push(line);
+        } else if render_comment(text, line).is_some() {
+            tree.renders.push(line);
+        }
     }
+    tree
 }
 
 /// Tokens and whole comments, in order.
@@ -67,6 +74,14 @@ pub(super) fn leaves(text: &str) -> Vec<Span> {
 /// Whether a line is a comment.
 pub(super) fn is_comment(line: &str) -> bool {
     line.starts_with('#') || line.starts_with("//")
+}
+
+/// The part of a comment after `render:`; `None` for other comments.
+pub(super) fn render_comment(text: &str, line: Span) -> Option<Span> {
+    let bytes = line.of(text).as_bytes();
+    let start = skip_white_space(bytes, bytes.strip_prefix(b"#").map(|_| 1)?);
+    let body = bytes[start..].strip_prefix(b"render:")?;
+    Some(Span::new(line.end() - body.len(), line.end()))
 }
 
 /// The lines of a text that are not blank, without surrounding white space.

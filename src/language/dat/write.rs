@@ -11,6 +11,7 @@ use glam::DVec3;
 
 use crate::geometry::direction_of;
 use crate::language::losses::{Losses, Of};
+use crate::language::rendering::words;
 use crate::language::spelling::{numbers, vector};
 use crate::language::stand_ins::solids;
 use crate::language::surroundings::{SIZE, report_plain};
@@ -21,6 +22,11 @@ use crate::scene::{Emitter, Falloff, Light, Rgb, Scene, Shadows};
 pub(in crate::language) fn write(scene: &Scene, losses: &mut Losses<'_>) -> String {
     report_plain(scene, losses);
     let mut text = String::new();
+    let settings = words(&scene.setting.rendering);
+    if !settings.is_empty() {
+        // Writing to a string cannot fail.
+        let _ = writeln!(text, "# render:{settings}");
+    }
     camera::write(&mut text, scene, losses);
     let whitted = whitted(scene, losses);
     lights(&mut text, scene, &whitted, losses);

@@ -25,7 +25,7 @@ pub(super) fn lower(
 ) -> Option<(Origins, Lowered)> {
     // If as many tokens as before have changed and are plain, all others keep their meaning.
     let is_same =
-        origins.tokens == tree.tokens.len() && origins.view_comments == tree.tokens.views().count();
+        origins.tokens == tree.tokens.len() && origins.keyed == tree.tokens.keyed().count();
     let is_plain = |byte: u8| byte.is_ascii_digit() || b"+-.eE \t\r\n".contains(&byte);
     if !is_same || changed.is_empty() || !changed.of(text).bytes().all(is_plain) {
         return None;
@@ -69,6 +69,7 @@ pub(super) fn lower(
     };
     let origins = Origins {
         view: origins.view.map(|view| moved.view(&view)),
+        render: (origins.render).map(|render| render.moved(|span| moved.span(span))),
         objects: Arc::clone(&origins.objects),
         ..*origins
     };

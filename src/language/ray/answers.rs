@@ -4,6 +4,8 @@ use super::origins::distribute;
 use super::table::{AMBIENT, LIGHT};
 use super::tree::comment_of_line;
 use super::{Source, again, lower, room, view};
+use crate::language::placed::{Wanted, edits};
+use crate::language::rendering::{Around, insertions};
 use crate::language::report::Name;
 use crate::language::table::{self, Field};
 use crate::language::view::Numbers;
@@ -38,6 +40,7 @@ impl Answers for Source {
     fn nodes(&self) -> Nodes {
         let origins = &self.origins;
         Nodes {
+            render: true,
             view: true,
             ambient: origins.ambient == table::numbers(AMBIENT),
             lights: origins.light_count(),
@@ -61,6 +64,7 @@ impl Answers for Source {
         let tokens = &origins.numbers(&self.tree, node);
         match node {
             Node::View => origins.view_fields(),
+            Node::Render => origins.render_fields(&self.text),
             Node::Ambient => distribute(tokens, AMBIENT.iter()),
             Node::Light(_) => distribute(tokens, LIGHT.iter()),
             Node::Object(index) => origins
@@ -77,7 +81,10 @@ impl Answers for Source {
     fn span(&self, node: Node) -> Span {
         let (origins, tree) = (&self.origins, &self.tree);
         let keyword = match node {
-            Node::View => origins.view.map(|view| view.comment),
+            Node::View | Node::Render => {
+                let mut comments = origins.comments();
+                comments.find_map(|(of, comment)| (of == node).then_some(comment))
+            }
             Node::Object(index) => origins
                 .objects
                 .get(index)
@@ -98,10 +105,13 @@ impl Answers for Source {
 
     fn node_at(&self, span: Span) -> Option<Node> {
         let (origins, tree) = (&self.origins, &self.tree);
-        let comment = origins.view.map(|view| view.comment);
+        let comment = |is: &dyn Fn(Span) -> bool| {
+            let mut comments = origins.comments();
+            comments.find_map(|(node, comment)| is(comment).then_some(node))
+        };
         let holds = |comment: Span| comment.start() < span.end() && span.start() < comment.end();
-        if comment.is_some_and(holds) {
-            return Some(Node::View);
+        if let Some(node) = comment(&holds) {
+            return Some(node);
         }
         let from = tree
             .tokens
@@ -113,7 +123,7 @@ impl Answers for Source {
         let mut touched = (from..).take_while(touches);
         touched
             .find_map(|at| origins.node_of_token(at))
-            .or_else(|| comment?.touches(span).then_some(Node::View))
+            .or_else(|| comment(&|comment| comment.touches(span)))
             .or_else(|| {
                 // Between two tokens, it is in a node's text only if both belong to that node.
                 let before = origins.node_of_token(from.checked_sub(1)?)?;
@@ -123,12 +133,25 @@ impl Answers for Source {
 
     fn nodes_in(&self, span: Span) -> Vec<Node> {
         let nodes = self.nodes();
-        // The view comment may be anywhere.
-        let is_view = |node| node == Node::View;
-        let ends_before = |node| is_view(node) || self.span(node).end() <= span.start();
-        let begins_before = |node| is_view(node) || self.span(node).start() < span.end();
+        // Comments may be anywhere.
+        let is_comment = |node| matches!(node, Node::View | Node::Render);
+        let ends_before = |node| is_comment(node) || self.span(node).end() <= span.start();
+        let begins_before = |node| is_comment(node) || self.span(node).start() < span.end();
         let rows = nodes.partition_point(ends_before)..nodes.partition_point(begins_before);
         rows.filter_map(|row| nodes.get(row)).collect()
+    }
+
+    fn edits(&self, wanted: &[Wanted<'_>]) -> Vec<Edit> {
+        let mut edits = edits(self, wanted);
+        edits.extend(insertions(&self.text, wanted));
+        edits.sort_by_key(|edit| edit.span.start());
+        edits
+    }
+
+    fn render_removal(&self, key: &str) -> Vec<Edit> {
+        let render = self.origins.render.as_ref();
+        let removed = render.and_then(|render| render.removal(&self.text, key, Around::Line));
+        removed.into_iter().collect()
     }
 
     fn view_fields(&self) -> Vec<&'static Field> {
@@ -169,7 +192,7 @@ impl Source {
     pub(super) fn label(&self, node: Node) -> Option<Span> {
         let (text, tree) = (&*self.text, &self.tree);
         let own = self.span(node);
-        if node == Node::View || own.is_empty() {
+        if matches!(node, Node::View | Node::Render) || own.is_empty() {
             return None;
         }
         let behind = |from: usize| {
@@ -179,12 +202,9 @@ impl Source {
                 .partition_point(|token| token.end() <= comment.start());
             let token = tree.tokens.get(before.checked_sub(1)?)?;
             let follows = own.start() <= token.start() && token.end() <= own.end();
-            let is_view = self
-                .origins
-                .view
-                .is_some_and(|view| view.comment == comment);
+            let has_meaning = self.origins.comments().any(|(_, of)| of == comment);
             let content = content_of(text, comment);
-            (follows && !content.is_empty() && !is_view).then_some(content)
+            (follows && !content.is_empty() && !has_meaning).then_some(content)
         };
         behind(own.start()).or_else(|| behind(own.end()))
     }

@@ -6,7 +6,7 @@ use super::blocks;
 use super::origins::Origins;
 use super::reader::{Reader, is_word};
 use super::tree::Tree;
-use super::view_comment::{ViewComment, camera, find};
+use super::view_comment::{ViewComment, camera, find, find_rendering};
 use crate::language::Lowered;
 use crate::scene::{Objects, Scene, Setting, bounds};
 use crate::text::{Diagnostic, Findings, Span};
@@ -54,6 +54,7 @@ fn lower_by<'a>(
 ) -> (Origins, Lowered) {
     let mut report = Findings::default();
     let view = find(text, &tree.tokens, &mut report);
+    let render = find_rendering(text, &tree.tokens, &mut report);
     let (mut reader, objects, count) = match blocks(report) {
         Ok(read) => read,
         Err(report) => {
@@ -65,9 +66,10 @@ fn lower_by<'a>(
         }
     };
     reader.origins.view = view.as_ref().map(ViewComment::place);
+    reader.origins.render = render;
     reader.origins.objects = Arc::new(std::mem::take(&mut reader.places));
     reader.origins.tokens = tree.tokens.len();
-    reader.origins.view_comments = tree.tokens.views().count();
+    reader.origins.keyed = tree.tokens.keyed().count();
     // A view with both eye and target can be checked even if not all objects are known.
     let judged =
         reader.report.errors() == 0 || view.as_ref().is_some_and(ViewComment::has_eye_and_target);
@@ -84,7 +86,10 @@ fn lower_by<'a>(
             materials: reader.materials,
             textures: Vec::new(),
             objects,
-            setting: Setting::default(),
+            setting: Setting {
+                rendering: render.map(|render| render.rendering).unwrap_or_default(),
+                ..Setting::default()
+            },
         }),
         diagnostics: reader.report.sorted(),
     };

@@ -9,7 +9,10 @@ use super::table::{LIGHT, ShapeKind, VIEW};
 use super::tree::Tree;
 use crate::language::node::Node;
 use crate::language::placed::Placed;
+use crate::language::rendering::{self, RenderPlace};
 use crate::language::table::{self, Field};
+use crate::language::view::{beginning, line_ending};
+use crate::scene::Rendering;
 use crate::text::Span;
 
 /// The places of everything lowered, as token indices: valid only with the tree they were made
@@ -17,14 +20,15 @@ use crate::text::Span;
 #[derive(Clone, Debug, Default)]
 pub struct Origins {
     pub(super) view: Option<ViewPlace>,
+    pub(super) render: Option<RenderPlace>,
     /// Number of tokens, at the start, that are ambient light's numbers.
     pub(super) ambient: usize,
     /// Index of the first token of the lights, and how many of their numbers follow.
     pub(super) lights: (usize, usize),
     pub(super) objects: Arc<Vec<ObjectPlace>>,
-    /// Number of tokens and of view comments in the text.
+    /// Number of tokens and of comments with a key in the text.
     pub(super) tokens: usize,
-    pub(super) view_comments: usize,
+    pub(super) keyed: usize,
 }
 
 /// The places of the parts of a view comment.
@@ -55,10 +59,11 @@ impl Origins {
         (self.lights.1 + each - first.kind.components()) / each
     }
 
-    /// The tokens of a node's numbers; none for the view, whose numbers are not tokens.
+    /// The tokens of a node's numbers; none for what is stated in comments.
     pub(super) fn numbers(&self, tree: &Tree, node: Node) -> Vec<Span> {
         let (start, len) = match node {
             Node::View
+            | Node::Render
             | Node::Material(_)
             | Node::Texture(_)
             | Node::Background
@@ -75,6 +80,20 @@ impl Origins {
             }),
         };
         tree.tokens.range(start..start.saturating_add(len))
+    }
+
+    /// The comments of the view and of the render settings.
+    pub(super) fn comments(&self) -> impl Iterator<Item = (Node, Span)> + use<> {
+        let view = self.view.map(|view| (Node::View, view.comment));
+        let render = self.render.map(|render| (Node::Render, render.whole));
+        view.into_iter().chain(render)
+    }
+
+    pub(super) fn render_fields(&self, text: &str) -> Vec<Placed> {
+        let render = self.render.as_ref();
+        let (start, ending) = (beginning(text), line_ending(text));
+        let insertion = rendering::insertion(render, start, "// render:", ending);
+        rendering::fields(render, &Rendering::default(), &insertion, None)
     }
 
     pub(super) fn view_fields(&self) -> Vec<Placed> {

@@ -44,16 +44,25 @@ impl Restructure for Source {
         }
         let blocks = nodes.iter().map(|&node| block(self, node));
         let mut edits = deletions(&self.text, blocks);
-        if let Some(view) = self.origins.view {
-            let holds = |edit: &&mut Edit| edit.span.range().contains(&view.comment.start());
-            if let Some(edit) = edits.iter_mut().find(holds) {
-                // What follows on the line must not become part of the comment.
-                let end = edit.span.end();
-                let behind = &self.text[end..line_end(&self.text, end)];
-                let is_last = behind.trim().is_empty() && !edit.span.of(&self.text).ends_with('\n');
-                let ending = if is_last { "" } else { line_ending(&self.text) };
-                edit.text = format!("{}{ending}", view.comment.of(&self.text));
+        for edit in &mut edits {
+            let comments = self.origins.comments().map(|(_, comment)| comment);
+            let held = comments.filter(|comment| edit.span.range().contains(&comment.start()));
+            let mut held: Vec<_> = held.collect();
+            held.sort_unstable();
+            let Some(last) = held.pop() else {
+                continue;
+            };
+            // What follows on the line must not become part of the comment.
+            let end = edit.span.end();
+            let behind = &self.text[end..line_end(&self.text, end)];
+            let is_last = behind.trim().is_empty() && !edit.span.of(&self.text).ends_with('\n');
+            let line_ending = line_ending(&self.text);
+            for comment in held {
+                edit.text.push_str(comment.of(&self.text));
+                edit.text.push_str(line_ending);
             }
+            edit.text.push_str(last.of(&self.text));
+            edit.text.push_str(if is_last { "" } else { line_ending });
         }
         edits.extend(counts);
         edits.sort_by_key(|edit| edit.span);
@@ -65,7 +74,7 @@ impl Restructure for Source {
         for node in ordered(nodes) {
             Counted::of(self, node)?;
             let block = block(self, node).span();
-            copies.push(self.without_view(block));
+            copies.push(self.without_settings(block));
         }
         Ok(copies.join(line_ending(&self.text)))
     }
@@ -142,8 +151,10 @@ impl Restructure for Source {
         if Counted::of(self, node).is_err() {
             return refused(format!("{} has no name", self.name(node)));
         }
-        if name.starts_with("view:") {
-            return refused("a comment that begins with view: would set the view".to_owned());
+        for (key, what) in [(tree::VIEW, "the view"), (tree::RENDER, "render settings")] {
+            if name.starts_with(key) {
+                return refused(format!("a comment that begins with {key} would set {what}"));
+            }
         }
         let edit = |span, text| Ok(vec![Edit { span, text }]);
         let own = self.span(node);
@@ -277,13 +288,15 @@ impl Counted {
 
 impl Source {
     /// The text of a block, without the view comment.
-    fn without_view(&self, block: Span) -> String {
+    fn without_settings(&self, block: Span) -> String {
         let mut copy = block.of(&self.text).to_owned();
-        if let Some(view) = self.origins.view
-            && block.range().contains(&view.comment.start())
-        {
-            let start = view.comment.start() - block.start();
-            copy.replace_range(start..start + view.comment.len(), "");
+        let comments = self.origins.comments().map(|(_, comment)| comment);
+        let held = comments.filter(|comment| block.range().contains(&comment.start()));
+        let mut held: Vec<_> = held.collect();
+        held.sort_unstable();
+        for comment in held.into_iter().rev() {
+            let start = comment.start() - block.start();
+            copy.replace_range(start..start + comment.len(), "");
         }
         copy
     }
@@ -343,16 +356,16 @@ fn has_heading(source: &Source, node: Node) -> bool {
         )
 }
 
-/// The text that moves with a node. The view comment moves with none.
+/// The text that moves with a node. The comments of the view and of the render settings move with none.
 fn block(source: &Source, node: Node) -> Block {
     let text = &*source.text;
     let own = source.span(node);
-    let view = source.origins.view.map(|view| view.comment);
+    let has_meaning = |comment| source.origins.comments().any(|(_, of)| of == comment);
     let comment_above = |start| {
         let line = line_before(text, start).filter(|_| !has_heading(source, node))?;
         let comment = comment_of_line(text, line.start())?;
         let is_alone = text[line.start()..comment.start()].trim().is_empty();
-        (is_alone && Some(comment) != view).then_some(line.start())
+        (is_alone && !has_meaning(comment)).then_some(line.start())
     };
     let before = Span::new(line_from(text, own.start()), own.start());
     let behind = Span::new(own.end(), line_end(text, own.end()));
@@ -360,8 +373,8 @@ fn block(source: &Source, node: Node) -> Block {
     let is_blank = |span: Span| span.of(text).trim().is_empty();
     let is_alone = is_blank(before) && is_blank(Span::new(own.end(), comment));
     let lines = lines(text, own, comment_above);
-    let holds = |view: Span| lines.range().contains(&view.start());
-    if is_alone && !view.is_some_and(holds) {
+    let holds = |(_, comment): (Node, Span)| lines.range().contains(&comment.start());
+    if is_alone && !source.origins.comments().any(holds) {
         Block::Lines(lines)
     } else {
         Block::Part(own)

@@ -14,7 +14,7 @@ pub(super) use window::Window;
 /// The tokens of a text. Comments are found in the text on demand.
 #[derive(Clone, Debug, Default)]
 pub struct Tree {
-    /// Words and numbers, and the places of view comments.
+    /// Words and numbers, and the places of comments with a key.
     pub tokens: Tokens,
 }
 
@@ -53,15 +53,24 @@ pub(super) fn comment_of_line(text: &str, from: usize) -> Option<Span> {
     Some(trim_end(text, Span::new(start, line.end())))
 }
 
-/// The part of a view comment after `view:`; `None` for other comments.
-pub(super) fn view_comment(text: &str, comment: Span) -> Option<Span> {
-    if comment.len() < "//view:".len() {
-        return None;
-    }
+/// What begins the comment of the view.
+pub(super) const VIEW: &str = "view:";
+
+/// What begins the comment of the render settings.
+pub(super) const RENDER: &str = "render:";
+
+/// The part of a comment after its key, [`VIEW`] or [`RENDER`]; `None` for other comments.
+pub(super) fn after_key(text: &str, comment: Span, key: &str) -> Option<Span> {
     let bytes = comment.of(text).as_bytes();
-    let key = skip_white_space(bytes, bytes.strip_prefix(b"//").map(|_| 2)?);
-    let body = bytes[key..].strip_prefix(b"view:")?;
+    let start = skip_white_space(bytes, bytes.strip_prefix(b"//").map(|_| 2)?);
+    let body = bytes[start..].strip_prefix(key.as_bytes())?;
     Some(Span::new(comment.end() - body.len(), comment.end()))
+}
+
+/// Whether a comment begins with a key.
+fn has_key(text: &str, comment: Span) -> bool {
+    let has = |key| after_key(text, comment, key).is_some();
+    "//view:".len() <= comment.len() && (has(VIEW) || has(RENDER))
 }
 
 /// Whether bytes outside a comment begin one.
@@ -122,17 +131,25 @@ mod tests {
     }
 
     #[test]
-    fn view_comments_begin_with_view() {
-        for (comment, body) in [
-            ("// view: eye 1", Some(" eye 1")),
-            ("//\u{A0}\tview:up", Some("up")),
-            ("//view:", Some("")),
-            ("///view:", None),
-            ("// the view:", None),
-            (r"\\ view: eye 1", None),
+    fn comments_may_begin_with_a_key() {
+        for (comment, key, body) in [
+            ("// view: eye 1", VIEW, Some(" eye 1")),
+            ("//\u{A0}\tview:up", VIEW, Some("up")),
+            ("//view:", VIEW, Some("")),
+            ("// render: spp 4", RENDER, Some(" spp 4")),
+            ("// view: eye 1", RENDER, None),
+            ("///view:", VIEW, None),
+            ("// the view:", VIEW, None),
+            (r"\\ view: eye 1", VIEW, None),
         ] {
-            let found = view_comment(comment, Span::new(0, comment.len()));
+            let whole = Span::new(0, comment.len());
+            let found = after_key(comment, whole, key);
             assert_eq!(found.map(|span| span.of(comment)), body, "{comment}");
+            assert_eq!(
+                has_key(comment, whole),
+                body.is_some() || key == RENDER,
+                "{comment}"
+            );
         }
     }
 

@@ -1,16 +1,18 @@
-//! The view comment of a `.ray` text, which other readers of the format skip:
+//! The comments of a `.ray` text that have a meaning, which other readers of the format skip: that of
+//! the render settings, `// render: KEY VALUE …`, and that of the view:
 //! `// view: eye x y z target x y z up x y z fov deg size w h`, any subset, in any order.
 
 use glam::DVec3;
 
 use super::origins::ViewPlace;
 use super::table::VIEW;
-use super::tree::{Tokens, comment_of_line, view_comment};
+use super::tree::{self, Tokens, after_key, comment_of_line};
 use super::view::View;
 use crate::geometry::{Aabb, normalise};
 use crate::language::at::index_of;
 use crate::language::camera::{CameraSpans, check, default_eye_and_target};
 use crate::language::record::what;
+use crate::language::rendering::{RenderPlace, given_again, read_comment};
 use crate::language::report::Name;
 use crate::language::report::{no_number, number, quoted};
 use crate::language::table::{Field, Kind};
@@ -77,12 +79,7 @@ pub(super) fn has_eye_and_target<T>(parts: &[Option<T>; VIEW.len()]) -> bool {
 /// and of well-formed ones after the first.
 pub(super) fn find(text: &str, tokens: &Tokens, report: &mut Findings) -> Option<ViewComment> {
     let mut found = None;
-    for start in tokens.views() {
-        let comment = comment_of_line(text, start);
-        let Some((comment, body)) = comment.and_then(|at| Some((at, view_comment(text, at)?)))
-        else {
-            continue;
-        };
+    for (comment, body) in keyed(text, tokens, tree::VIEW) {
         let mut findings = Findings::default();
         match read(text, comment, body, &mut findings) {
             Err(malformed) => report.warning(|| Diagnostic {
@@ -100,6 +97,40 @@ pub(super) fn find(text: &str, tokens: &Tokens, report: &mut Findings) -> Option
         }
     }
     found
+}
+
+/// Finds the first comment with render settings. Warns of those after it.
+pub(super) fn find_rendering(
+    text: &str,
+    tokens: &Tokens,
+    report: &mut Findings,
+) -> Option<RenderPlace> {
+    let mut found: Option<RenderPlace> = None;
+    for (comment, body) in keyed(text, tokens, tree::RENDER) {
+        let mut findings = Findings::default();
+        let Some(place) = read_comment(text, comment, body, &mut findings) else {
+            continue;
+        };
+        if found.is_some() {
+            report.warning(|| given_again(comment));
+        } else {
+            report.append(findings);
+            found = Some(place);
+        }
+    }
+    found
+}
+
+/// The comments with a key, and what follows it.
+fn keyed<'t>(
+    text: &'t str,
+    tokens: &'t Tokens,
+    key: &'static str,
+) -> impl Iterator<Item = (Span, Span)> + 't {
+    tokens.keyed().filter_map(move |start| {
+        let comment = comment_of_line(text, start)?;
+        Some((comment, after_key(text, comment, key)?))
+    })
 }
 
 /// Reads the parts of a view comment; an error is a warning for the text. Reports what is skipped.

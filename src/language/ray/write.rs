@@ -7,6 +7,7 @@ use glam::DVec3;
 use crate::geometry::{Affine, FrameNumbers, Solid};
 use crate::language::coefficients::Coefficients;
 use crate::language::losses::{Loss, Losses, Of};
+use crate::language::rendering::words;
 use crate::language::spelling::{number, numbers, vector};
 use crate::language::stand_ins::solids;
 use crate::language::surroundings::{
@@ -35,6 +36,11 @@ pub(in crate::language) fn write(scene: &Scene, losses: &mut Losses<'_>) -> Stri
     report_plain(scene, losses);
     let mut text = String::new();
     view(&mut text, &scene.camera, angle(scene, losses));
+    let settings = words(&scene.setting.rendering);
+    if !settings.is_empty() {
+        // Writing to a string cannot fail.
+        let _ = writeln!(text, "// render:{settings}");
+    }
     let whitted = whitted(scene, losses);
     for (index, material) in (0..).zip(&scene.materials) {
         if material.maps.is_some() {

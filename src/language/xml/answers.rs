@@ -10,6 +10,7 @@ use super::tree::{escaped, quote};
 use super::{Source, lower, room, view};
 use crate::language::node::{FileKind, object_at, place_of};
 use crate::language::placed::{Wanted, edits};
+use crate::language::rendering::Around;
 use crate::language::table::{Category, Field};
 use crate::language::view::Numbers;
 use crate::language::{Answers, Lowered, NamedFile, Node, Nodes, Placed, Visibility};
@@ -46,6 +47,7 @@ impl Answers for Source {
 
     fn nodes(&self) -> Nodes {
         Nodes {
+            render: self.origins.root.is_some(),
             view: self.origins.root.is_some(),
             surroundings: self.origins.scene.is_some(),
             lights: self.origins.lights.len(),
@@ -211,6 +213,22 @@ impl Answers for Source {
 
     fn material(&self, object: usize) -> Option<usize> {
         *self.origins.object_materials.get(object)?
+    }
+
+    fn render_removal(&self, key: &str) -> Vec<Edit> {
+        let element = self
+            .origins
+            .render
+            .and_then(|at| self.tree.elements.get(at));
+        let removed = element.and_then(|element| {
+            let around = Around::Lead(if element.lead.is_empty() {
+                Span::at(element.whole.start())
+            } else {
+                element.lead
+            });
+            self.origins.settings.removal(&self.text, key, around)
+        });
+        removed.into_iter().collect()
     }
 
     fn view_fields(&self) -> Vec<&'static Field> {

@@ -77,6 +77,7 @@ impl Lowering<'_> {
         self.find_roles();
         self.origins.root?;
         let camera = self.camera();
+        self.rendering();
         self.surroundings();
         for index in 0..self.origins.lights.len() {
             self.light(index);

@@ -7,6 +7,7 @@ mod insert;
 use super::table::{LightKind, MaterialKind, ObjectKind, Parameter};
 use super::tree::{Attribute, Tree};
 use crate::language::node::Node;
+use crate::language::rendering::RenderPlace;
 use crate::scene::Transfer;
 
 /// The places of everything lowered, as indices of elements and attributes: valid only with the
@@ -22,6 +23,9 @@ pub struct Origins {
     pub(super) root: Option<usize>,
     pub(super) scene: Option<usize>,
     pub(super) camera: Option<usize>,
+    pub(super) render: Option<usize>,
+    /// What that element states.
+    pub(super) settings: RenderPlace,
     pub(super) lights: Vec<Place<LightKind>>,
     pub(super) materials: Vec<Place<MaterialKind>>,
     pub(super) objects: Vec<Place<ObjectKind>>,
@@ -77,6 +81,7 @@ pub(super) enum Role {
     Root,
     Scene,
     Camera,
+    Render,
     /// Index of the light.
     Light(u32),
     /// Index of the material.
@@ -156,6 +161,7 @@ impl Origins {
         use crate::language::xml::table::{BACKGROUND, ENVIRONMENT};
         match node {
             Node::View => self.camera,
+            Node::Render => self.render,
             Node::Background => self.parameter(tree, self.scene?, &BACKGROUND),
             Node::Environment => self.parameter(tree, self.scene?, &ENVIRONMENT),
             Node::Light(index) => Some(self.lights.get(index)?.element as usize),
@@ -170,6 +176,7 @@ impl Origins {
         let owner = *self.owners.get(element)?;
         Some(match self.roles.get(owner as usize)? {
             Role::Camera => Node::View,
+            Role::Render => Node::Render,
             Role::Light(index) => Node::Light(*index as usize),
             Role::Material(index) => Node::Material(*index as usize),
             Role::Object(index) => Node::Object(*index as usize),

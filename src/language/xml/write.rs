@@ -12,9 +12,10 @@ use glam::DVec3;
 
 use super::tree::escaped;
 use crate::language::losses::Losses;
+use crate::language::rendering::spelled;
 use crate::language::spelling;
 use crate::language::surroundings::angle;
-use crate::scene::{Camera, Focus, Rgb, Scene, Setting, Size, Tinted, Transfer};
+use crate::scene::{Camera, Focus, Rgb, Scene, Setting, Size, Tinted};
 
 /// Writes a scene and reports what it loses.
 pub(in crate::language) fn write(scene: &Scene, losses: &mut Losses<'_>) -> String {
@@ -36,15 +37,20 @@ pub(in crate::language) fn write(scene: &Scene, losses: &mut Losses<'_>) -> Stri
     lights::write(&mut text, scene, is_baked, losses);
     text.push_str("  </scene>\n\n");
     camera(&mut text, scene, angle(scene, losses));
+    let settings = spelled(&scene.setting.rendering);
+    if !settings.is_empty() {
+        element(&mut text, 2, "render", |text| {
+            for (key, value) in &settings {
+                word(text, key, value);
+            }
+        });
+    }
     text.push_str("</xml>\n");
     text
 }
 
 fn camera(text: &mut String, scene: &Scene, angle: f64) {
-    text.push_str(match scene.setting.transfer {
-        Transfer::Linear => "  <camera>\n",
-        Transfer::Srgb => "  <camera gamma=\"sRGB\">\n",
-    });
+    text.push_str("  <camera>\n");
     let Camera {
         eye,
         target,

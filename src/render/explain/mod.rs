@@ -18,12 +18,12 @@ use std::sync::Arc;
 use glam::DVec3;
 
 use super::camera::Projection;
-use super::frame::{Job, MAX_SPP, Query, Settings};
+use super::frame::{Job, Query, Settings};
 use super::probe::Sample;
 use super::shot::Shot;
 use super::tone::{Light, Tone};
 use super::world::World;
-use crate::scene::Integrator;
+use crate::scene::{Integrator, MAX_SPP};
 use judge::Case;
 
 pub use kind::RayKind;

@@ -7,7 +7,8 @@ use std::time::Duration;
 use super::progress::still;
 use super::*;
 use crate::render::written::AOVS;
-use crate::render::{Aov, Assembly, Block, BlockTracer, Blocks, Filter, Region};
+use crate::render::{Aov, Assembly, Block, BlockTracer, Blocks, Region};
+use crate::scene::Filter;
 
 const SIZE: (u32, u32) = (75, 40);
 

@@ -54,7 +54,7 @@ fn job_of((scene, images): (Scene, Images), integrator: Integrator) -> Job {
         images,
         settings: Settings {
             integrator,
-            depth: crate::render::default_depth(integrator),
+            depth: integrator.default_depth(),
             ..settings(width, height, 16)
         },
         ..job(&Arc::new(scene), settings(1, 1, 1))

@@ -35,13 +35,13 @@ use super::sampler::Sampler;
 use super::touched::Touched;
 use super::tracer::Tracer;
 use super::world::World;
-use super::{Filter, Frame, Frames, Job, NO_OBJECT, Renderer, Settings, Threads};
+use super::{Frame, Frames, Job, NO_OBJECT, Renderer, Settings, Threads};
 use crate::geometry::{Affine, Cone, Cuboid, Ellipsoid, Node, Ray, Shape, Solid, Sphere};
 use crate::language::coefficients::Coefficients;
 use crate::language::{Language, Source};
 use crate::scene::{
-    Camera, Focus, Images, Integrator, Lens, Light, Maps, Material, Meshes, Object, Pattern, Rgb,
-    Scene, Setting, Side, Size, Texture, Tinted, Transfer,
+    Camera, Filter, Focus, Images, Integrator, Lens, Light, Maps, Material, Meshes, Object,
+    Pattern, Rgb, Scene, Setting, Side, Size, Texture, Tinted, Transfer,
 };
 
 impl<C: Fn() -> bool> Tracer<'_, C> {

@@ -5,14 +5,15 @@ use std::path::{Path, PathBuf};
 
 use super::drawing::RegionOrder;
 use super::jobs::Asking;
+use super::setting::SettingOrder;
 use super::until::Until;
 use super::zooming::ScaleOrder;
 use super::{App, Help, Next, PromptKind};
 use crate::document::StepName;
 use crate::image_file::ImageFormat;
 use crate::language::{Language, extensions};
-use crate::render::{Aov, MAX_SPP, MOST_HALF_STOPS};
-use crate::scene::{Camera, Size, Transfer};
+use crate::render::{Aov, MOST_HALF_STOPS};
+use crate::scene::{Camera, MAX_SPP, Size, Transfer};
 use crate::text::{Severity, nearest_word};
 use crate::ui::keymap::{self, Action, HelpLine, Mode};
 use crate::ui::msg::{Effect, Guard};
@@ -60,6 +61,8 @@ enum Command {
     Scale(ScaleOrder),
     /// Set the size of the output picture.
     Size(Size),
+    /// Write a render setting into the text.
+    Set(SettingOrder),
     /// Add a mesh from a file.
     Mesh(Option<PathBuf>),
     /// Take the mouse or leave it to the terminal.
@@ -164,6 +167,7 @@ const TABLE: &[CommandRow] = &[
     row(&["view light"], A::Nothing(C::ViewLight), "look from the selected light"),
     row(&["view reset"], A::Nothing(C::ViewReset), "reset to the scene's view"),
     row(&["size"], A::Size(C::Size), "set the picture size in the scene"),
+    row(&["set"], A::Said(" KEY [VALUE|default]", |said| SettingOrder::parse(said).map(C::Set)), "write a render setting into the scene, by default the one in use"),
     row(&["mesh"], A::File(C::Mesh), "add the mesh of an .obj FILE, named as from the scene"),
     row(&["show uv"], A::Nothing(C::Show(Aov::Uv)), "show texture coordinates: u red, v green"),
     row(&["show side"], A::Nothing(C::Show(Aov::Side)), "show sides of surfaces: front blue, back orange"),
@@ -488,6 +492,7 @@ impl App {
             Command::ViewLight => self.look_from_light(),
             Command::ViewReset => self.pictures.reset_view(),
             Command::Size(size) => self.set_size(size),
+            Command::Set(order) => self.set_rendering(&order),
             Command::Mesh(file) => self.add_mesh(file.as_deref()),
             Command::Mouse => return self.toggle_mouse(),
             Command::Show(aov) => self.show(Some(aov)),
@@ -575,6 +580,7 @@ mod tests {
                 let argument = match form.arguments {
                     A::Size(_) => " 8x6",
                     A::Said(" STOPS", _) => " -1.5",
+                    A::Said(" KEY [VALUE|default]", _) => " depth",
                     A::Pixels(_) => " half",
                     _ => "",
                 };

@@ -7,8 +7,8 @@ use super::compared::{Origin, Reference, Wipe};
 use super::contrast::Contrast;
 use super::{App, Cross};
 use crate::image_file::ImageFormat;
-use crate::render::{Aov, Frame, Frames, Job, Settings, default_depth};
-use crate::scene::{Camera, Images, Scene, Size};
+use crate::render::{Aov, Frame, Frames, Job, Settings};
+use crate::scene::{Camera, Images, Rendering, Scene, Size};
 use crate::text::Severity;
 use crate::ui::keymap::{Action, Context, Mode};
 use crate::ui::msg::{Effect, Target};
@@ -223,7 +223,6 @@ impl App {
             format!("nothing to compare with: {pin} pins the picture, :compare FILE loads one")
         })?;
         let output = self.output();
-        let quality = &self.pictures.quality;
         let size = match (&reference.origin, &reference.frame) {
             (Origin::Preview(halves, ..), _) => *halves,
             (Origin::Traced(_) | Origin::File, Some(frame)) => frame.size,
@@ -241,7 +240,7 @@ impl App {
                 return Ok((job.ok_or_else(|| self.no_picture())?, None));
             }
             Origin::Traced(spp) => spp,
-            Origin::File | Origin::Scene(..) => quality.spp,
+            Origin::File | Origin::Scene(..) => self.rendering().spp(),
         };
         let live = self.final_job(size, spp)?;
         // As exports of this size are framed.
@@ -260,8 +259,10 @@ impl App {
     /// What to trace of a scene that is compared with the present one: the same, except for what the
     /// scene itself says.
     fn reference_job(&self, scene: &Arc<Scene>, images: &Images, live: &Job) -> Job {
-        let quality = &self.pictures.quality;
-        let integrator = quality.integrator.unwrap_or(scene.setting.integrator);
+        let rendering = Rendering {
+            spp: Some(live.settings.spp),
+            ..self.pictures.rendering(Some(scene))
+        };
         let camera = self.pictures.view.unwrap_or(scene.camera);
         Job {
             scene: Arc::clone(scene),
@@ -271,10 +272,8 @@ impl App {
                 ..camera
             },
             settings: Settings {
-                integrator,
-                depth: quality.depth.unwrap_or_else(|| default_depth(integrator)),
-                transfer: scene.setting.transfer,
-                ..live.settings
+                aov: live.settings.aov,
+                ..Settings::new(live.settings.size, &rendering)
             },
             limit: None,
             frames: Frames::Live,

@@ -14,9 +14,10 @@ use super::overlays::{Dialog, PromptKind};
 use super::page::{List, PageFocus};
 use super::picture::Picture;
 use super::pictures::Outline;
+use super::until::Until;
 use crate::language::table::Field;
 use crate::language::{Node, Nodes, Source};
-use crate::scene::{Camera, Integrator, Rgb, Scene, Size};
+use crate::scene::{Camera, Rendering, Rgb, Scene, Size};
 use crate::text::Diagnostic;
 use crate::ui::arrange::{Areas, Shape, Zoom, arrange};
 use crate::ui::errors::{self, Panel, Wrong};
@@ -143,13 +144,18 @@ impl App {
 
     /// Whether the integrator differs from the scene's choice.
     pub fn is_integrator_changed(&self) -> bool {
-        let own = self.scene.as_ref().map(|scene| scene.setting.integrator);
-        self.integrator() != own.unwrap_or_default()
+        let own = self.scene.as_ref().map(|scene| scene.setting.rendering);
+        self.rendering().integrator() != own.unwrap_or_default().integrator()
     }
 
-    /// The integrator: the user's choice, otherwise the scene's.
-    pub fn integrator(&self) -> Integrator {
-        self.pictures.integrator(self.scene.as_deref())
+    /// The render settings: the user's, completed by the scene's.
+    pub fn rendering(&self) -> Rendering {
+        self.pictures.rendering(self.scene.as_deref())
+    }
+
+    /// When the full-size trace is complete.
+    pub(super) fn until(&self) -> Until {
+        self.pictures.until(self.scene.as_deref())
     }
 
     /// Size of the output picture.

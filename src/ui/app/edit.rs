@@ -139,6 +139,11 @@ impl App {
         if refused.is_none() && self.written_view_parts() < written {
             refused = found.iter().find(touches).or_else(|| found.first());
         }
+        // A warning of a render setting means that it is skipped.
+        if refused.is_none() {
+            let is_setting = |d: &&Diagnostic| self.source().node_at(d.span) == Some(Node::Render);
+            refused = found.iter().filter(touches).find(is_setting);
+        }
         if let Some(refused) = refused.cloned() {
             self.document.reject();
             return Err(refused);

@@ -45,7 +45,7 @@ impl App {
         let size = size.unwrap_or_else(|| self.output());
         let spp = self
             .pictures
-            .samples(spp.unwrap_or(self.pictures.quality.spp));
+            .samples(spp.unwrap_or_else(|| self.rendering().spp()));
         let job = match self.export_job(path, size, spp) {
             Ok(job) => job,
             Err(reason) => {
@@ -251,7 +251,7 @@ impl App {
         let frame = trace.latest.as_ref().filter(|_| trace.is_complete())?;
         let same = frame.size == size
             && size == self.output()
-            && spp == self.pictures.samples(self.pictures.quality.spp);
+            && spp == self.pictures.samples(self.rendering().spp());
         same.then(|| Arc::clone(frame))
     }
 

@@ -8,12 +8,12 @@ use super::cursor::Names;
 use super::inspection::Inspection;
 use super::palette::Palette;
 use super::{
-    App, Cursor, Disk, FirstReading, Jobs, OnDisk, Overlays, Page, Pictures, Quality, Sequence,
-    Thumbnails,
+    App, Cursor, Disk, FirstReading, Jobs, OnDisk, Overlays, Page, Pictures, Sequence, Thumbnails,
 };
 use crate::document::Document;
 use crate::file::ReadError;
 use crate::language::{Language, Lowered, Node};
+use crate::scene::Rendering;
 use crate::text::{Findings, Severity};
 use crate::ui::arrange::{PanelSizes, Zoom};
 use crate::ui::keymap::{Keymap, Mode};
@@ -32,8 +32,8 @@ pub struct Opening {
     pub language: Language,
     /// Its text, unless that is still to be read.
     pub text: OpeningText,
-    /// Quality of the pictures.
-    pub quality: Quality,
+    /// What takes precedence over the scene's render settings.
+    pub rendering: Rendering,
     /// Who receives mouse events.
     pub mouse: Mouse,
     /// What the user has configured.
@@ -91,7 +91,7 @@ impl App {
             assets: Assets::default(),
             disk: Disk::new(opening.path, state, first),
             cursor: Cursor::default(),
-            pictures: Pictures::new(opening.quality),
+            pictures: Pictures::new(opening.rendering),
             compared: Compared::default(),
             inspection: Inspection::default(),
             sequence: Sequence::default(),

@@ -10,8 +10,8 @@ use super::tally::Tally;
 use super::transform::Transform;
 use super::until::Until;
 use super::wires::Wires;
-use crate::render::{Aov, Display, Filter, Frame, Region};
-use crate::scene::{Camera, Integrator, Scene};
+use crate::render::{Aov, Display, Frame, Region};
+use crate::scene::{Camera, Integrator, Rendering, Scene};
 use crate::ui::keymap::Mode;
 use crate::ui::msg::Target;
 
@@ -24,8 +24,8 @@ pub struct Pictures {
     pub trace: Option<Picture>,
     /// The working view, if it differs from the scene's camera.
     pub view: Option<Camera>,
-    /// The user's quality settings.
-    pub quality: Quality,
+    /// The user's render settings, which take precedence over the scene's.
+    pub rendering: Rendering,
     /// Pixels in each cell.
     pub grid: Grid,
     /// What traced pictures show instead of light.
@@ -64,19 +64,6 @@ pub struct Pictures {
     before_trace: Option<Mode>,
 }
 
-/// Quality settings of pictures.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Quality {
-    /// Samples per pixel of the full-size trace and of exports.
-    pub spp: u32,
-    /// Maximum depth; `None` is the integrator's [`default_depth`](crate::render::default_depth).
-    pub depth: Option<u32>,
-    /// The integrator; `None` leaves the choice to the scene.
-    pub integrator: Option<Integrator>,
-    /// The pixel filter of the full-size trace and of exports.
-    pub filter: Filter,
-}
-
 /// Whether the selected object is outlined in the picture.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(super) enum Outline {
@@ -101,12 +88,12 @@ pub(super) enum Symbols {
 
 impl Pictures {
     /// Creates the state without any picture.
-    pub(super) fn new(quality: Quality) -> Self {
+    pub(super) fn new(rendering: Rendering) -> Self {
         Self {
             preview: Picture::default(),
             trace: None,
             view: None,
-            quality,
+            rendering,
             grid: Grid::HALF_BLOCKS,
             aov: None,
             display: Display::default(),
@@ -128,7 +115,8 @@ impl Pictures {
         }
     }
 
-    /// Forgets the scene's pictures and its view; what pictures show, their quality and their grid stay.
+    /// Forgets the scene's pictures and its view; what pictures show, the user's render settings and the
+    /// grid stay.
     pub(super) fn renew(&mut self) {
         *self = Self {
             grid: self.grid,
@@ -139,7 +127,7 @@ impl Pictures {
             outline: self.outline,
             symbols: self.symbols,
             net: self.net,
-            ..Self::new(self.quality)
+            ..Self::new(self.rendering)
         };
     }
 
@@ -190,9 +178,10 @@ impl Pictures {
         }
     }
 
-    /// When the full-size trace is complete.
-    pub(super) fn until(&self) -> Until {
-        self.until.unwrap_or(Until::Samples(self.quality.spp))
+    /// When the full-size trace of a scene is complete.
+    pub(super) fn until(&self, scene: Option<&Scene>) -> Until {
+        let samples = || Until::Samples(self.rendering(scene).spp());
+        self.until.unwrap_or_else(samples)
     }
 
     /// Whether the full-size trace was started and has not been stopped.
@@ -263,22 +252,22 @@ impl Pictures {
         is_new
     }
 
-    /// The integrator for a scene: the user's choice, otherwise the scene's.
-    pub(super) fn integrator(&self, scene: Option<&Scene>) -> Integrator {
-        let own = scene.map_or_else(Integrator::default, |scene| scene.setting.integrator);
-        self.quality.integrator.unwrap_or(own)
+    /// The render settings for a scene: the user's, completed by its own.
+    pub(super) fn rendering(&self, scene: Option<&Scene>) -> Rendering {
+        let own = scene.map(|scene| scene.setting.rendering);
+        self.rendering.or(own.unwrap_or_default())
     }
 
     /// Switches the integrator of all pictures and returns its name. Switching to the scene's own
     /// integrator follows the scene again.
     pub(super) fn toggle_integrator(&mut self, scene: Option<&Scene>) -> &'static str {
-        let (other, words) = match self.integrator(scene) {
+        let (other, words) = match self.rendering(scene).integrator() {
             Integrator::Whitted => (Integrator::Path, "path tracing"),
             Integrator::Path => (Integrator::Whitted, "Whitted ray tracing"),
         };
-        self.quality.integrator = None;
-        if self.integrator(scene) != other {
-            self.quality.integrator = Some(other);
+        self.rendering.integrator = None;
+        if self.rendering(scene).integrator() != other {
+            self.rendering.integrator = Some(other);
         }
         self.due = true;
         words

@@ -27,10 +27,12 @@ impl App {
 
 /// The name of a place in any text.
 pub(super) fn name_of(source: &Source, span: Span) -> Option<String> {
-    // The view comment may be inside the text of another node.
-    let view = source.span(Node::View);
-    if view.start() <= span.start() && span.end() <= view.end() && !view.is_empty() {
-        return Some(name_in(source, Node::View, span));
+    // These comments may be inside the text of another node.
+    for node in [Node::View, Node::Render] {
+        let own = source.span(node);
+        if own.start() <= span.start() && span.end() <= own.end() && !own.is_empty() {
+            return Some(name_in(source, node, span));
+        }
     }
     let touched = source.nodes_in(span);
     match touched.as_slice() {

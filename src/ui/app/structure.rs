@@ -310,11 +310,11 @@ impl App {
         }
     }
 
-    /// The first node, other than the view, whose text is in a span, or what combines it there.
+    /// The first node, other than view and render settings, whose text is in a span, or what combines it there.
     pub(super) fn first_node_in(&self, span: Span) -> Option<Node> {
         let source = self.source();
         let mut nodes = source.nodes_in(span).into_iter();
-        let mut node = nodes.find(|node| *node != Node::View)?;
+        let mut node = nodes.find(|node| !matches!(node, Node::View | Node::Render))?;
         let is_inside = |own: Span| span.start() <= own.start() && own.end() <= span.end();
         while let Node::Object(object) = node
             && let Some(group) = source.group_of(object).map(Node::Object)

@@ -6,8 +6,8 @@ use super::App;
 use super::page::{List, Page};
 use super::steps::Steps;
 use super::thumbnails::{Look, Rank, Slot};
-use crate::render::{Filter, Frames, Job, Settings, default_depth};
-use crate::scene::{Camera, Integrator};
+use crate::render::{Frames, Job, Settings};
+use crate::scene::{Camera, Filter, Integrator, Rendering};
 use crate::ui::filmstrip::Filmstrip;
 use crate::ui::layout::{raster, split_bottom};
 use crate::ui::msg::{Effect, Target};
@@ -106,7 +106,7 @@ impl App {
         }
         self.thumbnails.look(Look {
             view: self.pictures.view,
-            integrator: self.pictures.quality.integrator,
+            integrator: self.pictures.rendering.integrator,
         });
         let wanted = self.wanted_slots();
         match self.thumbnails.next(&wanted) {
@@ -226,21 +226,14 @@ impl App {
                 .fail(NoPicture::Failed("there is no room".to_owned()));
             return None;
         };
-        let integrator = self.pictures.integrator(Some(&past.scene));
-        let depth = self.pictures.quality.depth;
+        let rendering = self.pictures.rendering(Some(&past.scene));
+        let rendering = Rendering {
+            spp: Some(samples(rendering.integrator(), slot.rank)),
+            filter: Some(Filter::Box),
+            ..rendering
+        };
         Some(Job {
-            settings: Settings {
-                size,
-                spp: samples(integrator, slot.rank),
-                depth: depth.unwrap_or_else(|| default_depth(integrator)),
-                seed: 0,
-                aov: None,
-                integrator,
-                filter: Filter::Box,
-                transfer: past.scene.setting.transfer,
-                exposure: 0.0,
-                region: None,
-            },
+            settings: Settings::new(size, &rendering),
             scene: past.scene,
             images: past.images,
             camera,

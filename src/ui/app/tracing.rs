@@ -6,8 +6,8 @@ use super::until::Until;
 use super::viewport::{Detail, Screen};
 use super::{App, Grid, Picture, Wires};
 use crate::image_file::ImageFormat;
-use crate::render::{Filter, Frame, Frames, Job, Region, Settings, default_depth};
-use crate::scene::{Integrator, Scene, Size};
+use crate::render::{Frame, Frames, Job, Region, Settings};
+use crate::scene::{Filter, Integrator, Rendering, Scene, Size};
 use crate::text::Severity;
 use crate::ui::keymap::{Action, Mode};
 use crate::ui::msg::{Effect, Recalled, Target};
@@ -61,7 +61,7 @@ impl App {
     }
 
     fn preview_job(&self, screen: Screen, (size, region): (Size, Option<Region>)) -> Option<Job> {
-        let spp = preview_samples(self.integrator(), screen.grid);
+        let spp = preview_samples(self.rendering().integrator(), screen.grid);
         let mut job = self.shown_job(size, spp)?;
         job.settings.region = region;
         job.settings.aov = self.pictures.preview_aov();
@@ -74,7 +74,7 @@ impl App {
     /// The job of what the preview shows of the scene.
     pub(super) fn shown_job(&self, size: Size, spp: u32) -> Option<Job> {
         let (scene, numbers) = self.preview_scene()?;
-        let job = self.job_of(scene, size, spp, Filter::Box)?;
+        let job = self.job_of(scene, size, spp, Some(Filter::Box))?;
         Some(Job { numbers, ..job })
     }
 
@@ -127,33 +127,27 @@ impl App {
         vec![Effect::Trace(Target::Trace, job)]
     }
 
-    fn job(&self, size: Size, spp: u32, filter: Filter) -> Option<Job> {
-        let scene = Arc::clone(self.scene.as_ref()?);
-        self.job_of(scene, size, spp, filter)
-    }
-
-    fn job_of(&self, scene: Arc<Scene>, size: Size, spp: u32, filter: Filter) -> Option<Job> {
-        let integrator = self.integrator();
-        let transfer = scene.setting.transfer;
+    /// The job that traces a scene, with this pixel filter if another than that asked for.
+    fn job_of(
+        &self,
+        scene: Arc<Scene>,
+        size: Size,
+        spp: u32,
+        filter: Option<Filter>,
+    ) -> Option<Job> {
+        let asked = self.pictures.rendering(Some(&scene));
+        let rendering = Rendering {
+            spp: Some(self.pictures.samples(spp)),
+            filter: filter.or(asked.filter),
+            ..asked
+        };
         Some(Job {
             scene,
             images: self.assets.images.clone(),
             camera: self.camera()?,
             settings: Settings {
-                size,
-                region: None,
-                spp: self.pictures.samples(spp),
-                depth: self
-                    .pictures
-                    .quality
-                    .depth
-                    .unwrap_or_else(|| default_depth(integrator)),
-                seed: 0,
                 aov: self.pictures.aov,
-                integrator,
-                filter,
-                transfer,
-                exposure: 0.0,
+                ..Settings::new(size, &rendering)
             },
             limit: None,
             frames: Frames::Live,
@@ -163,7 +157,8 @@ impl App {
 
     /// The job of a picture in the quality of exports, or the reason why there is none.
     pub(super) fn final_job(&self, size: Size, spp: u32) -> Result<Job, String> {
-        let job = self.job(size, spp, self.pictures.quality.filter);
+        let scene = self.scene.as_ref().map(Arc::clone);
+        let job = scene.and_then(|scene| self.job_of(scene, size, spp, None));
         job.filter(|_| !self.assets.are_awaited())
             .ok_or_else(|| self.no_picture())
     }
@@ -189,7 +184,7 @@ impl App {
     }
 
     fn trace_job(&self) -> Result<Job, String> {
-        let (spp, limit) = self.pictures.until().limits();
+        let (spp, limit) = self.until().limits();
         let mut job = self.final_job(self.output(), spp)?;
         job.limit = limit;
         job.settings.region = self.region();
@@ -357,7 +352,7 @@ impl App {
         if until.is_some() {
             self.pictures.until = until;
         }
-        let until = self.pictures.until();
+        let until = self.until();
         self.overlays
             .say(format!("the full-size trace ends {until}"));
         match self.trace_job() {

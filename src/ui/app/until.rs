@@ -3,7 +3,8 @@
 use std::fmt;
 use std::time::Duration;
 
-use crate::render::{Limit, MAX_SPP};
+use crate::render::Limit;
+use crate::scene::MAX_SPP;
 use crate::text::{parse_duration, rounded};
 
 /// When the full-size trace is complete.

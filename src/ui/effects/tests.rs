@@ -3,7 +3,7 @@
 use std::sync::mpsc;
 
 use super::*;
-use crate::render::MAX_SPP;
+use crate::scene::MAX_SPP;
 use crate::scene::Size;
 use crate::ui::options::Rehearsal;
 use crate::ui::traces::tests::job;

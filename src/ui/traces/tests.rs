@@ -8,7 +8,8 @@ use tempfile::TempDir;
 
 use super::*;
 use crate::language::{Language, Source};
-use crate::render::{Filter, Frames, Renderer, Settings, Threads};
+use crate::render::{Frames, Renderer, Settings, Threads};
+use crate::scene::Filter;
 use crate::scene::{Images, Integrator, Meshes, Size, Viewpoint};
 
 /// A small picture with samples, of the template.
@@ -33,7 +34,7 @@ pub(in crate::ui) fn job(spp: u32) -> Job {
             aov: None,
             integrator: Integrator::Whitted,
             filter: Filter::Box,
-            transfer: scene.setting.transfer,
+            transfer: scene.setting.rendering.transfer.unwrap_or_default(),
             exposure: 0.0,
         },
         scene: Arc::new(scene),

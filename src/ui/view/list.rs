@@ -144,7 +144,7 @@ fn marked(app: &App) -> Vec<(Node, Style)> {
 pub(super) fn swatch(app: &App, node: Node) -> Option<Rgb> {
     let scene = app.scene.as_ref()?;
     match node {
-        Node::View | Node::Texture(_) => None,
+        Node::View | Node::Render | Node::Texture(_) => None,
         Node::Ambient => Some(scene.ambient),
         Node::Background => Some(scene.setting.background.colour),
         Node::Environment => Some(scene.setting.environment.colour),
@@ -172,8 +172,9 @@ mod tests {
             "<xml><scene><object name='all'><object type='sphere' name='ball'/></object>
             </scene><camera><position z='9'/></camera></xml>",
         );
-        let lines = drawn(&app, super::render, 30, 9);
+        let lines = drawn(&app, super::render, 30, 10);
         let listed = [
+            "    render",
             "▸   view",
             "  ● background",
             "  ● environment",
@@ -181,47 +182,48 @@ mod tests {
             "  ▾ all (group)",
             "  ●   ball (sphere)",
         ];
-        assert_eq!(lines[1..7], listed);
+        assert_eq!(lines[1..8], listed);
     }
 
     #[test]
     fn nodes_are_listed_and_the_selected_one_is_marked() {
-        let lines = drawn(&app(), super::render, 26, 8);
-        assert_eq!(lines[0], "scene ──────────────── 1/5");
-        assert_eq!(lines[1], "▸   view");
-        assert_eq!(lines[2], "  ● ambient");
-        assert_eq!(lines[3], "1 light");
-        assert_eq!(lines[4], "  ● light 1");
-        assert_eq!(lines[5], "2 objects");
-        assert_eq!(lines[7], "  ● object 2 (box)");
+        let lines = drawn(&app(), super::render, 26, 9);
+        assert_eq!(lines[0], "scene ──────────────── 2/6");
+        assert_eq!(lines[1], "    render");
+        assert_eq!(lines[2], "▸   view");
+        assert_eq!(lines[3], "  ● ambient");
+        assert_eq!(lines[4], "1 light");
+        assert_eq!(lines[5], "  ● light 1");
+        assert_eq!(lines[6], "2 objects");
+        assert_eq!(lines[8], "  ● object 2 (box)");
     }
 
     #[test]
     fn the_heading_counts_marked_nodes() {
         let mut app = app();
         app.cursor.marks = [Node::Light(0), Node::Object(1)].into();
-        let lines = drawn(&app, super::render, 26, 8);
-        assert_eq!(lines[0], "scene ────── 2 marked  1/5");
-        assert_eq!(lines[4], " ✓● light 1");
+        let lines = drawn(&app, super::render, 26, 9);
+        assert_eq!(lines[0], "scene ────── 2 marked  2/6");
+        assert_eq!(lines[5], " ✓● light 1");
     }
 
     #[test]
     fn a_comment_follows_the_name_if_there_is_room() {
         let mut app = app();
-        let lines = drawn(&app, super::render, 40, 8);
-        assert_eq!(lines[6], "  ● object 1 (sphere)  the first");
+        let lines = drawn(&app, super::render, 40, 9);
+        assert_eq!(lines[7], "  ● object 1 (sphere)  the first");
         retype(&mut app, "0 5 5   1 1 .5\n", "0 5 5 // sun\n1 1 .5\n");
         retype(&mut app, "box", "box // the\u{1b} large one\n");
-        let lines = drawn(&app, super::render, 32, 8);
-        assert_eq!(lines[4], "  ● light 1  sun");
-        assert_eq!(lines[7], "  ● object 2 (box)  the␛ large …");
+        let lines = drawn(&app, super::render, 32, 9);
+        assert_eq!(lines[5], "  ● light 1  sun");
+        assert_eq!(lines[8], "  ● object 2 (box)  the␛ large …");
     }
 
     #[test]
     fn a_node_with_an_error_is_marked() {
         let mut app = app();
         retype(&mut app, " 0.25 //", " -0.25 //");
-        let lines = drawn(&app, super::render, 26, 8);
-        assert_eq!(lines[6], "  ● object 1 (sphere)   !");
+        let lines = drawn(&app, super::render, 26, 9);
+        assert_eq!(lines[7], "  ● object 1 (sphere)   !");
     }
 }

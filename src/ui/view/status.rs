@@ -321,7 +321,7 @@ fn making_segment(app: &App, say: &mut impl FnMut(u8, String, Style)) {
     if view.is_some() {
         return;
     }
-    let name = app.integrator().name();
+    let name = app.rendering().integrator().name();
     if app.is_integrator_changed() {
         say(7, format!("{name}*"), theme::WARNING);
     } else {
@@ -452,7 +452,7 @@ mod tests {
             words
         };
         assert_eq!(said(&app), ["whitted"]);
-        app.pictures.quality.integrator = Some(Integrator::Path);
+        app.pictures.rendering.integrator = Some(Integrator::Path);
         assert_eq!(said(&app), ["path*"]);
         app.pictures.aov = Some(Aov::Depth);
         assert_eq!(said(&app), ["depth"]);

@@ -14,13 +14,12 @@ use super::inks::Glyphs;
 use super::{Drawing, Inks, draw};
 use crate::document::{Document, Merge, Side};
 use crate::language::{Language, Node};
-use crate::render::{Filter, Frame, NO_OBJECT, Progress};
-use crate::scene::Size;
+use crate::render::{Frame, NO_OBJECT, Progress};
+use crate::scene::{Rendering, Size};
 use crate::text::{Edit, Severity, Span};
 use crate::ui::app::{
     App, Cross, Dialog, Export, Help, List, Message, Names, Next, OnDisk, Opening, OpeningText,
-    Outside, Page, PageFocus, Preferences, Prompt, PromptKind, Quality, Sight, Stage, Typing,
-    Wires,
+    Outside, Page, PageFocus, Preferences, Prompt, PromptKind, Sight, Stage, Typing, Wires,
 };
 use crate::ui::arrange::Zoom;
 use crate::ui::keymap::Mode;
@@ -52,12 +51,7 @@ pub(super) fn app_of(language: Language, text: &str) -> App {
         language,
         path: Some(PathBuf::from("somewhere/test").with_extension(language.extension())),
         text: OpeningText::Known(text.to_owned()),
-        quality: Quality {
-            spp: 16,
-            depth: None,
-            integrator: None,
-            filter: Filter::Box,
-        },
+        rendering: Rendering::default(),
         mouse: Mouse::Off,
         preferences: Preferences::default(),
         recent: Vec::new(),

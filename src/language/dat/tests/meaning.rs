@@ -387,6 +387,7 @@ render 1 ID 9",
         .map(|node| source.name(node))
         .collect();
     let expected = [
+        "render",
         "view",
         "light 2",
         "material 12",

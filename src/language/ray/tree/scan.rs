@@ -5,7 +5,7 @@ use std::ops::Range;
 use rayon::prelude::*;
 
 use super::tokens::{TokenBlock, Tokens};
-use super::{Tree, begins_comment, view_comment};
+use super::{Tree, begins_comment, has_key};
 use crate::language::words::white_space;
 use crate::text::{Span, first_byte, is_line_end};
 
@@ -153,8 +153,8 @@ impl<'t> Scanner<'t> {
                 at += width;
             } else if begins_comment(&bytes[at..]) {
                 let end = at + first_byte(&bytes[at..], is_line_end).unwrap_or(range.end - at);
-                if view_comment(self.text, Span::new(at, end)).is_some() {
-                    self.piece.push_view(at - self.start);
+                if has_key(self.text, Span::new(at, end)) {
+                    self.piece.push_keyed(at - self.start);
                 }
                 at = end;
             } else {
@@ -223,7 +223,7 @@ mod tests {
     }
 
     fn all(tokens: &Tokens) -> (Vec<Span>, Vec<usize>) {
-        (tokens.range(0..tokens.len()), tokens.views().collect())
+        (tokens.range(0..tokens.len()), tokens.keyed().collect())
     }
 
     proptest! {

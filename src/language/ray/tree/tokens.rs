@@ -39,8 +39,8 @@ pub(super) struct TokenBlock {
     words: Vec<(u32, u32)>,
     /// Tokens whose gap or length is too large for a step.
     long: Vec<(u32, Span)>,
-    /// Start of each view comment.
-    views: Vec<u32>,
+    /// Start of each comment with a key.
+    keyed: Vec<u32>,
 }
 
 /// The distance from the end of one token to the end of the next.
@@ -65,9 +65,9 @@ impl TokenBlock {
         self.steps.shrink_to_fit();
     }
 
-    /// Adds a view comment that begins at this offset in the piece.
-    pub(super) fn push_view(&mut self, start: usize) {
-        self.views.push(start as u32);
+    /// Adds a comment with a key that begins at this offset in the piece.
+    pub(super) fn push_keyed(&mut self, start: usize) {
+        self.keyed.push(start as u32);
     }
 
     /// Adds a token after the last one, which ends at `end`; both are offsets in the piece.
@@ -232,10 +232,10 @@ impl Tokens {
         pieces.flat_map(move |piece| piece.words(token.saturating_sub(piece.first)))
     }
 
-    /// The start of each view comment of the text.
-    pub fn views(&self) -> impl Iterator<Item = usize> + '_ {
+    /// The start of each comment with a key.
+    pub fn keyed(&self) -> impl Iterator<Item = usize> + '_ {
         let pieces = self.pieces.iter();
-        pieces.flat_map(|piece| piece.views.iter().map(|&at| piece.start + at as usize))
+        pieces.flat_map(|piece| piece.keyed.iter().map(|&at| piece.start + at as usize))
     }
 
     /// The index of the first token for which a condition fails that holds for exactly a prefix.

@@ -2,13 +2,15 @@
 
 use super::Lowering;
 use crate::language::camera::{CameraSpans, check};
+use crate::language::rendering::{Part, RenderPlace};
 use crate::language::report::quoted;
+use crate::language::xml::origins::fields::of_gamma;
 use crate::language::xml::table::{
     BACKGROUND, ENVIRONMENT, Parameter,
     camera::{FOCAL_DISTANCE, FOV, HEIGHT, LENS_RADIUS, POSITION, TARGET, UP, WIDTH},
 };
 use crate::language::xml::view::View;
-use crate::scene::{Camera, Focus, Integrator, Size, Transfer};
+use crate::scene::{Camera, Focus, Size, Transfer};
 use crate::text::{Diagnostic, Span, parse_number, without_suffix};
 
 impl Lowering<'_> {
@@ -84,8 +86,6 @@ impl Lowering<'_> {
         let word = attribute.unescaped(self.text);
         if word.eq_ignore_ascii_case("sRGB") {
             self.origins.transfer = Transfer::Srgb;
-            self.setting.integrator = Integrator::Path;
-            self.setting.transfer = Transfer::Srgb;
         } else if !word.eq_ignore_ascii_case("linear") {
             let message = || format!("camera gamma: unknown value {}", quoted(word));
             self.warn(
@@ -95,6 +95,28 @@ impl Lowering<'_> {
                 "it is treated as linear",
             );
         }
+    }
+
+    /// Reads the render settings: those of their element, completed by what `gamma` asks for.
+    pub(super) fn rendering(&mut self) {
+        let Some(render) = self.origins.render else {
+            self.setting.rendering = of_gamma(self.origins.transfer);
+            return;
+        };
+        let (text, tree) = (self.text, self.tree);
+        let mut settings = RenderPlace::new(tree.elements[render].whole);
+        for attribute in &tree.attributes[tree.elements[render].attributes()] {
+            let value = attribute.value;
+            let part = Part {
+                // With the quote.
+                whole: Span::new(attribute.name.start(), value.end() + 1),
+                value,
+            };
+            let word = attribute.unescaped(text).trim();
+            settings.read(attribute.name.of(text), word, part, &mut self.report);
+        }
+        self.setting.rendering = settings.rendering.or(of_gamma(self.origins.transfer));
+        self.origins.settings = settings;
     }
 
     /// Reads background and environment.

@@ -88,6 +88,7 @@ impl<'a> Lowering<'a> {
                 return self.once(element, Role::Scene);
             }
             Role::Root if is("camera") => return self.once(element, Role::Camera),
+            Role::Root if is("render") => return self.once(element, Role::Render),
             Role::Scene | Role::Object(_) if is("object") => Some(self.object(element)),
             Role::Scene if is("material") => Some(self.material_place(element)),
             Role::Scene if is("light") => self.light_place(element).or(Some(Role::Skipped)),
@@ -103,10 +104,11 @@ impl<'a> Lowering<'a> {
         })
     }
 
-    /// The scene or the camera: the first one counts.
+    /// The scene, the camera or the render settings: the first one counts.
     fn once(&mut self, element: usize, role: Role) -> Role {
         let place = match role {
             Role::Scene => &mut self.origins.scene,
+            Role::Render => &mut self.origins.render,
             _ => &mut self.origins.camera,
         };
         if place.is_none() {
@@ -261,7 +263,7 @@ impl<'a> Lowering<'a> {
         let parameters = self.parameters_in(parent).iter();
         let parameters = parameters.chain(transforms_in(parent));
         let others: &[_] = match parent {
-            Role::Root => &["scene", "camera"],
+            Role::Root => &["scene", "camera", "render"],
             Role::Scene => &["object", "material", "light", "background", "environment"],
             Role::Object(_) => &["object"],
             _ => &[],
@@ -286,7 +288,8 @@ impl<'a> Lowering<'a> {
 
     /// Warns of attributes that are not known here.
     fn check_attributes(&mut self, element: usize, role: Role) {
-        if role == Role::Skipped {
+        // Render settings are checked where they are read.
+        if matches!(role, Role::Skipped | Role::Render) {
             return;
         }
         let known = known_attributes(role);
@@ -364,7 +367,7 @@ fn shown(name: &str) -> Box<str> {
 /// The known attributes of an element.
 fn known_attributes(role: Role) -> Vec<&'static str> {
     match role {
-        Role::Skipped | Role::Root | Role::Scene => Vec::new(),
+        Role::Skipped | Role::Root | Role::Scene | Role::Render => Vec::new(),
         Role::Camera => vec!["gamma"],
         Role::Light(_) | Role::Material(_) => vec!["type", "name"],
         Role::Object(_) => vec!["type", "name", "material"],

@@ -12,8 +12,8 @@ use crate::language::xml::table::materials::{
 };
 use crate::language::xml::table::{LightKind, MaterialKind, lights};
 use crate::scene::{
-    Dielectric, Emitter, Faces, Falloff, Gloss, Highlight, Integrator, Light, Maps, Material,
-    Mirror, Reflectance, Rgb, Shadows,
+    Dielectric, Emitter, Faces, Falloff, Gloss, Highlight, Light, Maps, Material, Mirror,
+    Reflectance, Rgb, Shadows, Transfer,
 };
 
 impl Lowering<'_> {
@@ -119,9 +119,9 @@ impl Lowering<'_> {
             emitter: Emitter::Ambient,
             colour: Rgb::ZERO,
             // Path tracing must not darken a scene that is not made for it.
-            scale: match self.setting.integrator {
-                Integrator::Path => 1.0,
-                Integrator::Whitted => PI,
+            scale: match self.origins.transfer {
+                Transfer::Srgb => 1.0,
+                Transfer::Linear => PI,
             },
             shadows: Shadows::Cast,
         };

@@ -4,12 +4,14 @@ use super::insert;
 use super::{Origins, Role};
 use crate::language::node::Node;
 use crate::language::placed::{Implicit, ImplicitAttribute, Insertion, Placed};
+use crate::language::rendering;
 use crate::language::table::Field;
 use crate::language::xml::table::{
     Attributes, BACKGROUND, CHECKER, ENVIRONMENT, LIGHT_WORDS, MATERIAL_WORDS, OBJECT, Parameter,
     TEXTURE, Texturing, Word, camera,
 };
 use crate::language::xml::tree::Tree;
+use crate::scene::{Integrator, Rendering, Transfer};
 use crate::text::Span;
 
 /// Maximum number of rows of a node; nobody reads more.
@@ -30,6 +32,17 @@ pub(in crate::language::xml) fn of(origins: &Origins, tree: &Tree, node: Node) -
             if let Some(element) = origins.camera {
                 rows.word(element, &camera::GAMMA);
             }
+        }
+        Node::Render => {
+            let place = origins.render.map(|_| &origins.settings);
+            let insertion = match (origins.render, origins.root) {
+                (Some(render), _) => insert::attribute(tree, render),
+                (None, Some(root)) => insert::child(tree, root),
+                (None, None) => return rows.placed,
+            };
+            let element = place.is_none().then_some("render");
+            let defaults = of_gamma(origins.transfer);
+            rows.placed = rendering::fields(place, &defaults, &insertion, element);
         }
         Node::Background => rows.parameter(origins.scene.map(Holder::There), &BACKGROUND),
         Node::Environment => rows.parameter(origins.scene.map(Holder::There), &ENVIRONMENT),
@@ -57,6 +70,18 @@ pub(in crate::language::xml) fn of(origins: &Origins, tree: &Tree, node: Node) -
         Node::Ambient | Node::Texture(_) => {}
     }
     rows.placed
+}
+
+/// The render settings that the camera's `gamma` asks for.
+pub(in crate::language::xml) fn of_gamma(gamma: Transfer) -> Rendering {
+    match gamma {
+        Transfer::Linear => Rendering::default(),
+        Transfer::Srgb => Rendering {
+            integrator: Some(Integrator::Path),
+            transfer: Some(Transfer::Srgb),
+            ..Rendering::default()
+        },
+    }
 }
 
 /// The parent of a parameter.

@@ -63,6 +63,7 @@ fn the_example_is_three_white_spheres() {
         .map(|node| (source.depth(node), source.name(node)))
         .collect();
     let expected = [
+        (0, "render"),
         (0, "view"),
         (0, "background"),
         (0, "environment"),
@@ -262,7 +263,10 @@ fn gamma_selects_path_tracing_and_another_default_index() {
     let text = "<xml><scene><material><refraction/></material></scene><camera gamma='srgb'/></xml>";
     let scene = scene(text);
     assert_eq!(
-        (scene.setting.integrator, scene.setting.transfer),
+        (
+            scene.setting.rendering.integrator(),
+            scene.setting.rendering.transfer.unwrap_or_default()
+        ),
         (Integrator::Path, Transfer::Srgb)
     );
     let glass = scene.materials[0].dielectric;

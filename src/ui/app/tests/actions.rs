@@ -163,7 +163,7 @@ fn edits(action: A) -> bool {
 }
 
 /// Commands that edit the text.
-const EDITING: &[&str] = &["view save", "size", "mesh"];
+const EDITING: &[&str] = &["view save", "size", "set", "mesh"];
 /// Those that leave it as it is.
 const OTHERS: &[&str] = &[
     "w",

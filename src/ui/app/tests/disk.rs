@@ -463,7 +463,7 @@ fn a_value_being_typed_survives_a_reload() {
         rest_first = &rest[..=rest.find("\nsphere").expect("two")]
     );
     for theirs in [SCENE.replace("1.5", "1.7"), longer, with_another] {
-        for dirty in ["", "jjj<Enter>jl<Esc>gg"] {
+        for dirty in ["", "jjj<Enter>jl<Esc>ggj"] {
             let mut app = open(SCENE);
             press(&mut app, dirty);
             press(&mut app, "Ge<Tab>42");

@@ -114,7 +114,7 @@ fn nudges_of_one_number_are_one_step() {
 #[test]
 fn undo_selects_the_changed_node() {
     let mut app = open(SCENE);
-    press(&mut app, "jjjejl<Esc>ggu");
+    press(&mut app, "jjjejl<Esc>ggju");
     assert_eq!(
         (app.cursor.selected(), app.cursor.field),
         (Node::Object(0), 1)

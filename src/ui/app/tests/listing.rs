@@ -70,8 +70,10 @@ fn check(name: &str, text: &str, cases: &[(&str, &str)]) {
 
 #[test]
 fn the_list_is_filtered_while_typing() {
-    let all = "view|ambient|light 1|light 2|object 1 (sphere)|>object 2 (box)|object 3 (sphere)";
-    let first = "view|ambient|light 1|light 2|>object 1 (sphere)|object 2 (box)|object 3 (sphere)";
+    let all =
+        "render|view|ambient|light 1|light 2|object 1 (sphere)|>object 2 (box)|object 3 (sphere)";
+    let first =
+        "render|view|ambient|light 1|light 2|>object 1 (sphere)|object 2 (box)|object 3 (sphere)";
     check(
         "a.ray",
         RAY,
@@ -137,7 +139,7 @@ fn a_filter_follows_the_text() {
     press(&mut app, "d");
     assert_eq!(list(&app), "object 1 (sphere)|>object 3 (sphere)");
     // Another type no longer matches; the next match is selected.
-    press(&mut app, "gg");
+    press(&mut app, "ggj");
     let retyped = RAY.replace("sphere 0 0 0 1", "box 4 0 0  1 0 0  0 1 0  0 0 1  1 1 1");
     read(&mut app, "a.ray", &retyped);
     assert_eq!(list(&app), ">object 3 (sphere)");
@@ -157,7 +159,7 @@ fn selecting_what_the_filter_hides_ends_it() {
 
 #[test]
 fn groups_are_folded_and_unfolded() {
-    let rest = "view|background|environment|";
+    let rest = "render|view|background|environment|";
     let xml = |objects: &str| format!("{rest}{objects}");
     check(
         "a.xml",
@@ -194,7 +196,7 @@ fn groups_are_folded_and_unfolded() {
 
 #[test]
 fn combined_objects_are_folded_unless_they_are_drawn_by_themselves() {
-    let listed = |objects: &str| format!("view|material 1|{objects}");
+    let listed = |objects: &str| format!("render|view|material 1|{objects}");
     check(
         "a.dat",
         DAT,

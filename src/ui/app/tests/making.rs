@@ -3,7 +3,8 @@
 use std::sync::Arc;
 
 use super::*;
-use crate::render::{Aov, Filter, Job, Settings};
+use crate::render::{Aov, Job, Settings};
+use crate::scene::Filter;
 use crate::scene::Integrator;
 use crate::ui::msg::Target;
 
@@ -67,23 +68,103 @@ fn the_scenes_integrator_applies_until_the_user_chooses() {
         (Integrator::Path, 64)
     );
     press(&mut app, "P");
-    assert_eq!(app.integrator(), Integrator::Whitted);
+    assert_eq!(app.rendering().integrator(), Integrator::Whitted);
     assert!(app.is_integrator_changed());
     press(&mut app, "P");
     assert!(!app.is_integrator_changed());
     read(&mut app, "scene.xml", text);
     assert_eq!(app.error_count(), 0);
-    assert_eq!(app.integrator(), Integrator::Whitted);
+    assert_eq!(app.rendering().integrator(), Integrator::Whitted);
 }
 
 #[test]
 fn a_depth_set_by_the_user_applies_to_both_integrators() {
     let mut app = open(SCENE);
-    app.pictures.quality.depth = Some(3);
+    app.pictures.rendering.depth = Some(3);
     for integrator in [Integrator::Path, Integrator::Whitted] {
         let settings = traced(&mut app, "P").1;
         assert_eq!((settings.integrator, settings.depth), (integrator, 3));
     }
+}
+
+#[test]
+fn settings_of_the_text_lie_under_the_users() {
+    let mut app = open(&format!(
+        "// render: integrator path depth 2 spp 8 exposure 1\n{SCENE}"
+    ));
+    let (_, settings) = traced(&mut app, "<F5>");
+    let found = (settings.integrator, settings.depth, settings.exposure);
+    assert_eq!(found, (Integrator::Path, 2, 1.0));
+    // As if given on the command line.
+    assert_eq!(settings.spp, 4);
+    app.pictures.rendering.spp = None;
+    press(&mut app, "P");
+    assert!(app.is_integrator_changed());
+    let (_, settings) = traced(&mut app, "b");
+    let found = (settings.integrator, settings.depth, settings.spp);
+    assert_eq!(found, (Integrator::Whitted, 2, 8));
+}
+
+#[test]
+fn a_setting_in_use_is_written_and_no_longer_lies_over_the_text() {
+    let mut app = open(SCENE);
+    app.pictures.rendering.depth = Some(3);
+    let said = |app: &App| app.document.text().lines().next().map(str::to_owned);
+    press(&mut app, "P:set integrator<Enter>");
+    assert_eq!(said(&app).as_deref(), Some("// render: integrator path"));
+    assert!(!app.is_integrator_changed());
+    let (_, settings) = traced(&mut app, ":set depth 5<Enter>");
+    assert_eq!((settings.integrator, settings.depth), (Integrator::Path, 5));
+    assert_eq!(
+        said(&app).as_deref(),
+        Some("// render: integrator path depth 5")
+    );
+    press(
+        &mut app,
+        ":set integrator default<Enter>:set depth default<Enter>",
+    );
+    assert_eq!(app.document.text(), SCENE);
+    press(&mut app, "u");
+    assert_eq!(said(&app).as_deref(), Some("// render: depth 5"));
+    for (order, reason) in [
+        (":set depth x<Enter>", "render depth: `x` is not a number"),
+        (
+            ":set depth 9999<Enter>",
+            "render depth: must be a whole number from 0 to 4096",
+        ),
+        (
+            ":set gamma 2<Enter>",
+            "set takes integrator, depth, spp, filter, transfer, exposure",
+        ),
+    ] {
+        press(&mut app, order);
+        assert!(words(&app).contains(reason), "{}", words(&app));
+        assert_eq!(said(&app).as_deref(), Some("// render: depth 5"));
+        press(&mut app, "<Esc>");
+    }
+}
+
+#[test]
+fn settings_are_fields_of_a_thing_of_their_own() {
+    let mut app = open(SCENE);
+    press(&mut app, "ggel");
+    assert!(
+        app.document
+            .text()
+            .starts_with("// render: integrator path\n")
+    );
+    press(&mut app, "jl");
+    assert!(
+        app.document
+            .text()
+            .starts_with("// render: integrator path depth 65\n")
+    );
+    press(&mut app, "0<Enter>i4097<Enter>");
+    assert!(
+        app.document
+            .text()
+            .starts_with("// render: integrator path depth 0\n")
+    );
 }
 
 /// Keys, what they show, and the samples taken when many are requested.
@@ -188,7 +269,7 @@ fn a_finished_trace_is_exported_if_it_shows_what_is_requested() {
 #[test]
 fn the_pixel_filter_applies_to_full_size_pictures_only() {
     let mut app = open(SCENE);
-    app.pictures.quality.filter = Filter::Gaussian;
+    app.pictures.rendering.filter = Some(Filter::Gaussian);
     for (said, target, filter) in [
         ("P", Target::Preview, Filter::Box),
         ("<F5>", Target::Trace, Filter::Gaussian),

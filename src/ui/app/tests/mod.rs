@@ -46,7 +46,8 @@ use crossterm::event::{KeyCode, KeyEvent, KeyModifiers};
 use super::*;
 use crate::file::Version;
 use crate::language::Language;
-use crate::render::{Filter, Job};
+use crate::render::Job;
+use crate::scene::Rendering;
 use crate::ui::keymap::{self, Mode};
 use crate::ui::msg::{Effect, ExportId, Exported, Msg, Target};
 use crate::ui::reading::Reading;
@@ -78,7 +79,7 @@ const TO_FIRST_OBJECT: &str = "jjj";
 /// Opens the interface with the cursor on the first row of the list.
 fn open(text: &str) -> App {
     let mut app = opened(text).0;
-    press(&mut app, "gg");
+    press(&mut app, "ggj");
     app
 }
 
@@ -95,11 +96,9 @@ fn opening_as(name: &str, text: String) -> Opening {
         path: Some(PathBuf::from(name)),
         language: Language::of_path(Path::new(name)).expect("a scene's name"),
         text: OpeningText::Known(text),
-        quality: Quality {
-            spp: 4,
-            depth: None,
-            integrator: None,
-            filter: Filter::Box,
+        rendering: Rendering {
+            spp: Some(4),
+            ..Rendering::default()
         },
         mouse: Mouse::On,
         preferences: Preferences::default(),

@@ -114,7 +114,7 @@ fn enter_selects_the_object_under_the_cross() {
         (app.mode, app.cursor.selected()),
         (Mode::Select, Node::Object(1))
     );
-    press(&mut app, "ggi");
+    press(&mut app, "ggji");
     press(&mut app, &"L".repeat(9));
     press(&mut app, "<Enter>");
     assert_eq!(
@@ -164,7 +164,7 @@ fn the_list_is_walked_searched_and_cycled() {
     for (said, selected) in [
         ("j", Node::Ambient),
         ("G", Node::Object(1)),
-        ("Ggg", Node::View),
+        ("Ggg", Node::Render),
         ("Gg", Node::Object(1)),
         ("<Tab>", Node::Light(0)),
         ("<Tab><Tab><Tab><Tab>", Node::Light(0)),
@@ -215,7 +215,7 @@ fn no_key_or_size_panics() {
 #[test]
 fn setting_the_size_does_not_write_the_working_view() {
     let mut app = open(&format!("// view: fov 40\n{SCENE}"));
-    press(&mut app, "vhhh<Esc>ggejjjjl");
+    press(&mut app, "vhhh<Esc>ggjejjjjl");
     assert!(app.pictures.view.is_some());
     let first = app.document.text().lines().next();
     assert_eq!(first, Some("// view: fov 40 size 810 600"));
@@ -242,7 +242,7 @@ fn picking_works_only_for_the_scene_on_screen() {
     let until = SCENE.rfind("sphere").expect("another one");
     let fewer = SCENE.replacen("\n2\n", "\n1\n", 1);
     outside(&mut app, &[&fewer[..from], &fewer[until..]].concat());
-    assert_eq!(app.nodes().len(), 4);
+    assert_eq!(app.nodes().len(), 5);
     app.update(Msg::Started(Target::Preview, 2));
     let selected = app.cursor.selected();
     click(&mut app, cells.x, cells.y);

@@ -93,7 +93,7 @@ fn each_kind_of_action_names_its_step() {
             _ => "scene.ray",
         };
         let mut app = opened_as(name, scene).0;
-        press(&mut app, "gg");
+        press(&mut app, "ggj");
         press(&mut app, said);
         let named = names(&app);
         assert_eq!(named, [expected], "{said}: {}", words(&app));

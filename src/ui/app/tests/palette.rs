@@ -81,7 +81,7 @@ fn tab_and_arrows_choose_and_the_typed_line_is_among_the_choices() {
 fn every_action_of_a_key_runs_by_its_description() {
     let mut app = open(SCENE);
     press(&mut app, ":next light<Tab><Enter>");
-    assert_eq!(app.selected_row(), 2);
+    assert_eq!(app.selected_row(), 3);
     // A unique description need not be chosen.
     press(&mut app, ":move the camera<Enter>");
     assert_eq!(app.mode, Mode::View);

@@ -66,13 +66,13 @@ fn keys_and_mouse_divide_list_and_fields_and_the_sizes_are_kept() {
 fn a_click_selects_the_node_on_its_line_and_headings_take_none() {
     let mut app = open(SCENE);
     let list = app.areas().list;
-    // Below the title: view, ambient, a heading, light 1, a heading, object 1.
+    // Below the title: render, view, ambient, a heading, light 1, a heading, object 1.
     for (line, node) in [
+        (7, Node::Object(0)),
         (6, Node::Object(0)),
-        (5, Node::Object(0)),
+        (5, Node::Light(0)),
         (4, Node::Light(0)),
-        (3, Node::Light(0)),
-        (2, Node::Ambient),
+        (3, Node::Ambient),
         (40, Node::Ambient),
     ] {
         let at = (list.x + 3, list.y + line);

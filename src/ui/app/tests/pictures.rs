@@ -87,7 +87,7 @@ fn impossible_commands_are_refused_with_a_reason() {
         (":export a.bmp fine<Enter>", "`fine` is neither"),
         (":export cancel<Enter>", "nothing is running"),
         (":expoort<Enter>", "did you mean export?"),
-        (":set 8x8<Enter>", "the commands are"),
+        (":put 8x8<Enter>", "the commands are"),
         (":size 0x5<Enter>", "size takes a size such as 800x600"),
         (
             ":size 99999x99999<Enter>",

@@ -133,7 +133,7 @@ fn frames_follow_each_other_as_they_are_seen_and_start_over() {
 #[test]
 fn present_values_are_keyed_at_the_frame_looked_at_last() {
     let mut app = playing();
-    press(&mut app, "llll<Esc>gg");
+    press(&mut app, "llll<Esc>ggj");
     // The lamp, its position, y.
     press(&mut app, "jj<Enter><Tab>");
     press(&mut app, "20<Enter>");
@@ -169,7 +169,7 @@ fn present_values_are_keyed_at_the_frame_looked_at_last() {
 #[test]
 fn a_key_written_late_does_not_change_another_track() {
     let mut app = playing();
-    press(&mut app, "<Esc>ggjj<Enter>I");
+    press(&mut app, "<Esc>ggjjj<Enter>I");
     press(&mut app, ":track other.toml<Enter>");
     let other = TRACK.replace("13", "21");
     app.update(Msg::TrackRead(PathBuf::from("other.toml"), Ok(Some(other))));
@@ -194,7 +194,7 @@ fn the_first_key_creates_a_new_track() {
         "swing.toml is new: e edits at this frame, then I keys the value"
     );
     press(&mut app, "<Esc>");
-    let mut effects = press(&mut app, "ggv+I");
+    let mut effects = press(&mut app, "ggjv+I");
     effects.retain(|effect| !matches!(effect, Effect::Trace(..)));
     let [Effect::WriteTrack { text, guard, .. }] = &effects[..] else {
         panic!("{effects:?}: {}", words(&app));
@@ -241,7 +241,7 @@ fn nothing_is_lost_when_files_change_meanwhile() {
     );
 
     // A key is not written over changes.
-    press(&mut app, "<Esc>ggjj<Enter>I");
+    press(&mut app, "<Esc>ggjjj<Enter>I");
     let effects = app.update(Msg::TrackWritten(SaveOutcome::ChangedOnDisk));
     assert!(wants(&effects, |effect| matches!(
         effect,
@@ -321,7 +321,7 @@ fn what_cannot_be_played_says_why() {
     track(&mut app, Some(&TRACK.replace("the light", "the lihgt")));
     assert_eq!(
         words(&app),
-        "scene.toml:5:9: nothing in the scene is called `the lihgt`: expected view, ambient, light 1, \
+        "scene.toml:5:9: nothing in the scene is called `the lihgt`: expected render, view, ambient, light 1, \
          object 1 or object 2"
     );
     assert_eq!((app.mode, app.document.text()), (Mode::Select, SCENE));

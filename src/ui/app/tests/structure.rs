@@ -353,10 +353,10 @@ fn copied_text_goes_to_the_clipboard_and_pasted_text_becomes_things() {
     assert!(copied.iter().any(is_moon));
     app.select(Object(2));
     app.update(Msg::Paste(MOON.to_owned()));
-    assert_eq!(app.nodes().len(), 8);
+    assert_eq!(app.nodes().len(), 9);
     assert!(app.document.text().ends_with(&format!("{THIRD}{MOON}")));
     app.update(Msg::Paste("1 2 3".to_owned()));
-    assert_eq!(app.nodes().len(), 8);
+    assert_eq!(app.nodes().len(), 9);
 }
 
 #[test]

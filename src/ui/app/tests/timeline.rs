@@ -18,7 +18,7 @@ use crate::ui::past::{NoPicture, PastScene, PastText};
 fn changed() -> App {
     let mut app = opened(SCENE).0;
     app.thumbnails.has_colours = true;
-    press(&mut app, "ggjjjell<Esc>jDk");
+    press(&mut app, "ggjjjjell<Esc>jDk");
     press(&mut app, "d");
     assert_eq!(app.document.present(), 3);
     app
@@ -236,7 +236,7 @@ fn in_a_large_text_only_the_selected_step_has_a_picture() {
     let comment = "x".repeat(17 << 20);
     let mut app = opened(&format!("{SCENE}// {comment}\n")).0;
     app.thumbnails.has_colours = true;
-    press(&mut app, "ggjjjel<Esc>");
+    press(&mut app, "ggjjjjel<Esc>");
     assert_eq!(opens_page(&mut app).derived, [1]);
     let effects = press(&mut app, "k");
     assert_eq!(perform(&mut app, effects).derived, [0]);

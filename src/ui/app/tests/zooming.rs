@@ -7,7 +7,8 @@ use crossterm::event::{MouseButton, MouseEvent, MouseEventKind};
 
 use super::pictures::frame;
 use super::*;
-use crate::render::{Job, Limit, MAX_SPP, Region};
+use crate::render::{Job, Limit, Region};
+use crate::scene::MAX_SPP;
 use crate::scene::Size;
 use crate::ui::keymap::Context;
 use crate::ui::msg::Target;

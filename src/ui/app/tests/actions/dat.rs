@@ -314,6 +314,10 @@ pub(super) const ROWS: &[Row] = &[
         ("400 300\n",
             "320 200\n"),
     ])),
+    row(Command("set"), Object(0), ":set depth 3<Enter>", Becomes(&[
+        ("# view front:",
+            "# render: depth 3\n# view front:"),
+    ])),
     row(Key(A::DeleteView), Object(0), "vVd<Esc>", Becomes(&[
         ("# view front: eye 0 0 5 target 0 0 0 up 0 1 0 fov 60\n",
             ""),

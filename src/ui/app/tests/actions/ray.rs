@@ -243,6 +243,10 @@ pub(super) const ROWS: &[Row] = &[
         ("400 300\n",
             "320 200\n"),
     ])),
+    row(Command("set"), Object(0), ":set depth 3<Enter>", Becomes(&[
+        ("// view: eye",
+            "// render: depth 3\n// view: eye"),
+    ])),
     row(Key(A::DeleteView), Object(0), "vVd<Esc>", Becomes(&[
         ("// view front: eye 0 0 5 target 0 0 0 up 0 1 0 fov 60\n",
             ""),

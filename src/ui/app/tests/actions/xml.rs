@@ -300,6 +300,10 @@ pub(super) const ROWS: &[Row] = &[
         ("    <width value=\"400\"/>\n    <height value=\"300\"/>\n",
             "    <width value=\"320\"/>\n    <height value=\"200\"/>\n"),
     ])),
+    row(Command("set"), Object(0), ":set depth 3<Enter>", Becomes(&[
+        ("  </camera>\n",
+            "  </camera>\n  <render depth=\"3\"/>\n"),
+    ])),
     row(Key(A::DeleteView), Object(0), "vVd<Esc>", Becomes(&[
         ("  <!-- view front: eye 0 0 5 target 0 0 0 up 0 1 0 fov 60 -->\n",
             ""),

@@ -1,0 +1,52 @@
+//! The arguments that take precedence over the render settings of a scene's text.
+
+use clap::Args;
+
+use super::choices::{FilterChoice, IntegratorChoice, TransferChoice};
+use super::shared::depth_range;
+use crate::scene::{EXPOSURES, Rendering};
+
+#[derive(Args, Debug)]
+pub(super) struct RenderingArguments {
+    /// Maximum number of bounces, 0 to 4096 [default: the scene's, otherwise 8, or 64 with path
+    /// tracing]
+    #[arg(long, value_name = "N", value_parser = depth_range())]
+    depth: Option<u32>,
+    /// Integrator [default: the scene's, otherwise whitted]
+    #[arg(long, value_name = "INTEGRATOR", value_enum)]
+    integrator: Option<IntegratorChoice>,
+    /// Pixel filter; previews always use box [default: the scene's, otherwise box]
+    #[arg(long, value_name = "FILTER", value_enum)]
+    filter: Option<FilterChoice>,
+    /// Transfer curve from colours to 8-bit values [default: the scene's, otherwise linear]
+    #[arg(long, value_name = "CURVE", value_enum)]
+    transfer: Option<TransferChoice>,
+    /// Exposure in stops, -100 to 100: light and albedo times 2 to this power before the transfer,
+    /// in EXR and HDR too [default: the scene's, otherwise 0]
+    #[arg(long, value_name = "STOPS", allow_negative_numbers = true, value_parser = parse_stops)]
+    exposure: Option<f64>,
+}
+
+impl RenderingArguments {
+    /// The settings asked for, with this number of samples.
+    pub(super) fn rendering(&self, spp: Option<u32>) -> Rendering {
+        Rendering {
+            integrator: self.integrator.map(IntegratorChoice::value),
+            depth: self.depth,
+            spp,
+            filter: self.filter.map(FilterChoice::value),
+            transfer: self.transfer.map(TransferChoice::value),
+            exposure: self.exposure,
+        }
+    }
+}
+
+fn parse_stops(text: &str) -> Result<f64, String> {
+    let stops = text.parse().ok();
+    stops
+        .filter(|stops| EXPOSURES.contains(stops))
+        .ok_or_else(|| {
+            let (least, most) = (EXPOSURES.start(), EXPOSURES.end());
+            format!("expected a number from {least} to {most}")
+        })
+}

@@ -1,0 +1,149 @@
+//! Render settings, as a text or a user asks for them.
+
+use std::ops::RangeInclusive;
+
+/// Default samples per pixel of full-size pictures.
+pub const DEFAULT_SPP: u32 = 16;
+
+/// Maximum samples per pixel: the length of the sample sequence.
+pub const MAX_SPP: u32 = 65_536;
+
+/// Default depth of Whitted ray tracing.
+pub const DEFAULT_DEPTH: u32 = 8;
+
+/// Default depth of path tracing; most paths end earlier.
+const DEFAULT_PATH_DEPTH: u32 = 64;
+
+/// The highest number of bounces; see the renderer's ray budget.
+pub const MAX_DEPTH: u32 = 4096;
+
+/// The exposures that can be asked for, in stops: beyond, single precision overflows soon.
+pub const EXPOSURES: RangeInclusive<f64> = -100.0..=100.0;
+
+/// Render settings that are asked for; `None` leaves the choice to whoever asks with less
+/// precedence, in the end to the defaults.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Rendering {
+    /// The integrator.
+    pub integrator: Option<Integrator>,
+    /// Maximum number of bounces, 0 to [`MAX_DEPTH`].
+    pub depth: Option<u32>,
+    /// Samples per pixel, 1 to [`MAX_SPP`].
+    pub spp: Option<u32>,
+    /// The pixel reconstruction filter.
+    pub filter: Option<Filter>,
+    /// The transfer function to 8-bit values.
+    pub transfer: Option<Transfer>,
+    /// Exposure in stops, one of [`EXPOSURES`].
+    pub exposure: Option<f64>,
+}
+
+impl Rendering {
+    /// These settings, completed by others.
+    #[must_use]
+    pub fn or(self, others: Self) -> Self {
+        Self {
+            integrator: self.integrator.or(others.integrator),
+            depth: self.depth.or(others.depth),
+            spp: self.spp.or(others.spp),
+            filter: self.filter.or(others.filter),
+            transfer: self.transfer.or(others.transfer),
+            exposure: self.exposure.or(others.exposure),
+        }
+    }
+
+    /// The integrator asked for, or the default.
+    pub fn integrator(&self) -> Integrator {
+        self.integrator.unwrap_or_default()
+    }
+
+    /// The depth asked for, or the integrator's default.
+    pub fn depth(&self) -> u32 {
+        self.depth.unwrap_or(self.integrator().default_depth())
+    }
+
+    /// The samples per pixel asked for, or the default of full-size pictures.
+    pub fn spp(&self) -> u32 {
+        self.spp.unwrap_or(DEFAULT_SPP)
+    }
+}
+
+/// The integrator that computes radiance.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Integrator {
+    /// Whitted ray tracing.
+    #[default]
+    Whitted,
+    /// Path tracing.
+    Path,
+}
+
+impl Integrator {
+    /// All integrators.
+    pub const ALL: [Self; 2] = [Self::Whitted, Self::Path];
+
+    /// The name, such as `path`.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Whitted => "whitted",
+            Self::Path => "path",
+        }
+    }
+
+    /// The maximum number of bounces if no other is asked for.
+    pub const fn default_depth(self) -> u32 {
+        match self {
+            Self::Whitted => DEFAULT_DEPTH,
+            Self::Path => DEFAULT_PATH_DEPTH,
+        }
+    }
+}
+
+/// The transfer function applied before quantisation to bytes.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Transfer {
+    /// Linear.
+    #[default]
+    Linear,
+    /// The sRGB curve.
+    Srgb,
+}
+
+impl Transfer {
+    /// All transfer functions.
+    pub const ALL: [Self; 2] = [Self::Linear, Self::Srgb];
+
+    /// The name, such as `srgb`.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Linear => "linear",
+            Self::Srgb => "srgb",
+        }
+    }
+}
+
+/// The reconstruction filter of a pixel.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Filter {
+    /// The area of the pixel.
+    #[default]
+    Box,
+    /// A Gaussian with a standard deviation of half a pixel, three pixels wide.
+    Gaussian,
+    /// The four-term Blackman-Harris window, three pixels wide.
+    BlackmanHarris,
+}
+
+impl Filter {
+    /// All filters.
+    pub const ALL: [Self; 3] = [Self::Box, Self::Gaussian, Self::BlackmanHarris];
+
+    /// The name, such as `blackman-harris`.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Box => "box",
+            Self::Gaussian => "gaussian",
+            Self::BlackmanHarris => "blackman-harris",
+        }
+    }
+}

@@ -1,0 +1,79 @@
+//! Render settings written into the text, where they lie under those of the command line and of the
+//! interface until these are dropped.
+
+use super::App;
+use crate::document::StepName;
+use crate::language::{Node, RenderKey};
+
+/// What to set a render setting to.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(super) struct SettingOrder {
+    key: RenderKey,
+    to: To,
+}
+
+/// The value of a setting in the text.
+#[derive(Clone, Debug, PartialEq, Eq)]
+enum To {
+    /// The one in use.
+    InUse,
+    /// None: the text no longer states it.
+    Default,
+    /// This one.
+    Value(String),
+}
+
+impl SettingOrder {
+    /// Parses `KEY [VALUE|default]`; the error says what is expected.
+    pub(super) fn parse(said: &str) -> Result<Self, String> {
+        let (word, value) = said.split_once(char::is_whitespace).unwrap_or((said, ""));
+        let key = RenderKey::named(word).ok_or_else(|| {
+            let names: Vec<_> = RenderKey::all().map(RenderKey::name).collect();
+            format!("set takes {}", names.join(", "))
+        })?;
+        let to = match value.trim() {
+            "" => To::InUse,
+            "default" => To::Default,
+            value => To::Value(value.to_owned()),
+        };
+        Ok(Self { key, to })
+    }
+}
+
+impl App {
+    /// Writes a render setting into the text, or removes it there; what lay over it is dropped.
+    pub(super) fn set_rendering(&mut self, order: &SettingOrder) {
+        let key = order.key;
+        let value = match &order.to {
+            To::Value(value) => Some(value.clone()),
+            To::InUse => Some(key.value(&self.rendering())),
+            To::Default => None,
+        };
+        self.document.end_step();
+        let edits = match &value {
+            Some(value) => {
+                let fields = self.source().fields(Node::Render);
+                let placed = fields.iter().find(|placed| placed.field.key == key.name());
+                let own = |values| placed.map(|placed| placed.edits(&**self.source(), values));
+                own(&[(0, value.clone())]).unwrap_or_default()
+            }
+            None => self.source().render_removal(key.name()),
+        };
+        match self.try_edits(&edits) {
+            Ok(()) => {
+                let over = key.cleared(&self.pictures.rendering);
+                self.pictures.due |= over != self.pictures.rendering;
+                self.pictures.rendering = over;
+                let name = key.name();
+                let words = match value {
+                    Some(value) => format!("set {name} {value}"),
+                    None => format!("set {name} to its default"),
+                };
+                self.overlays.say(words.clone());
+                self.document.name_step(StepName::done(words));
+            }
+            Err(refused) => self.overlays.fail(refused.message),
+        }
+        self.document.end_step();
+    }
+}
