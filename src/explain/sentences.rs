@@ -305,6 +305,7 @@ impl Case<'_> {
             TermSource::Ambient { object } | TermSource::Emission { object } => {
                 Some(names.object_node(object))
             }
+            TermSource::Emitter { emitter, .. } => Some(names.object_node(emitter)),
             TermSource::Ray { object, seen, .. } => Some(names.object_node(seen.unwrap_or(object))),
             TermSource::Surroundings => None,
         };
@@ -332,6 +333,10 @@ impl Case<'_> {
             TermSource::Surroundings => "the surroundings of the scene".to_owned(),
             TermSource::Light { light, object } => {
                 format!("{} lit by {}", names.object(*object), names.light(*light))
+            }
+            TermSource::Emitter { emitter, object } => {
+                let (object, emitter) = (names.object(*object), names.object(*emitter));
+                format!("{object} lit by the emission of {emitter}")
             }
             TermSource::Ambient { object } => {
                 format!("{} lit by ambient light", names.object(*object))

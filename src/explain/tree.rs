@@ -6,7 +6,8 @@ use super::Line;
 use super::names::{Names, colour, number, percent, side, vector};
 use crate::language::Node;
 use crate::render::{
-    Chosen, Crossing, Dark, Explanation, LightTerm, RayEnd, RayKind, Shading, Stop, TracedRay,
+    Chosen, Crossing, Dark, Densities, EmitterTerm, Explanation, LightTerm, RayEnd, RayKind,
+    Shading, Stop, TracedRay,
 };
 use crate::scene::Rgb;
 
@@ -78,14 +79,9 @@ impl Writer<'_> {
             }
             RayEnd::Light(hit) => {
                 let t = super::number(hit.t);
-                let weight = hit.densities.map_or(String::new(), |densities| {
-                    format!(
-                        ", MIS weight {} (density {} against {} by the light)",
-                        super::number(densities.weight),
-                        super::number(densities.by_path),
-                        super::number(densities.by_light)
-                    )
-                });
+                let weight = hit
+                    .densities
+                    .map_or(String::new(), |densities| weighed(&densities, "the light"));
                 let name = self.names.light(hit.light);
                 let text = format!(
                     "{begin} hits {name} at t {t}: radiance {}{weight}",
@@ -119,10 +115,14 @@ impl Writer<'_> {
         line.adds = Some(ray.contribution);
         let at = (number, depth + 1);
         self.geometry(shading, at);
-        for (name, part) in [("emission", shading.emission), ("ambient", shading.ambient)] {
-            if part != Rgb::ZERO {
-                self.line(at, format!("{name} {}", colour(part)));
-            }
+        if shading.emission != Rgb::ZERO {
+            let weight = shading.densities.map_or(String::new(), |densities| {
+                weighed(&densities, "asking for it")
+            });
+            self.line(at, format!("emission {}{weight}", colour(shading.emission)));
+        }
+        if shading.ambient != Rgb::ZERO {
+            self.line(at, format!("ambient {}", colour(shading.ambient)));
         }
         for term in &shading.lights {
             self.light(term, hit.point, at);
@@ -131,6 +131,9 @@ impl Writer<'_> {
             let sum = colour(shading.unlisted.radiance);
             let lights = shading.unlisted.lights;
             self.line(at, format!("{lights} more lights: {sum}"));
+        }
+        for term in &shading.emitters {
+            self.emitter(term, hit.point, at);
         }
         self.specular(shading, at);
     }
@@ -177,6 +180,26 @@ impl Writer<'_> {
         line.segment = Some([point, point + distance * term.toward]);
     }
 
+    /// An object that emits light, with its factors, and why it adds nothing.
+    fn emitter(&mut self, term: &EmitterTerm, point: DVec3, at: (usize, usize)) {
+        let name = self.names.object(term.object);
+        let mut factors = vec![format!("N·L {}", number(term.cosine))];
+        factors.push(chances(&term.densities));
+        factors.push(format!("reflected {}", colour(term.reflected)));
+        if let Some(emitted) = term.emitted {
+            factors.push(format!("radiance {}", colour(emitted)));
+        }
+        let begin = match term.dark {
+            Some(dark) => reason(dark).to_owned(),
+            None => colour(term.radiance),
+        };
+        let text = format!("emission of {name}: {begin}: {}", factors.join(", "));
+        let line = self.about(at, text, self.names.object_node(term.object));
+        if term.distance.is_finite() {
+            line.segment = Some([point, point + term.distance * term.toward]);
+        }
+    }
+
     /// The factors of a light, and why it adds nothing.
     fn term(&self, term: &LightTerm) -> String {
         let cosine = format!("N·L {}", number(term.cosine));
@@ -188,12 +211,7 @@ impl Writer<'_> {
             factors.push(format!("cone {}", number(term.spot)));
         }
         if let Some(densities) = term.densities {
-            factors.push(format!(
-                "density {} against {} by the path, MIS weight {}",
-                number(densities.by_light),
-                number(densities.by_path),
-                number(densities.weight)
-            ));
+            factors.push(chances(&densities));
         }
         factors.push(format!("reflected {}", colour(term.reflected)));
         if let Some(transmittance) = term.transmittance {
@@ -252,6 +270,26 @@ impl Writer<'_> {
         };
         self.line(at, end);
     }
+}
+
+/// The weight of what a path found by chance.
+fn weighed(densities: &Densities, other: &str) -> String {
+    format!(
+        ", MIS weight {} (density {} against {} by {other})",
+        number(densities.weight),
+        number(densities.by_path),
+        number(densities.by_light)
+    )
+}
+
+/// The weight of what was asked for.
+fn chances(densities: &Densities) -> String {
+    format!(
+        "density {} against {} by the path, MIS weight {}",
+        number(densities.by_light),
+        number(densities.by_path),
+        number(densities.weight)
+    )
 }
 
 /// What a ray is and what it counts.

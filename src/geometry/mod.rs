@@ -6,7 +6,8 @@
 //! A hit is found in two steps: [`Shape::hit`] returns a distance for every candidate, and
 //! [`Shape::surface`] the point and normal, for the nearest hit only. [`Shape::spans`] returns the
 //! parts of a line inside a solid, more than one if the solid is not convex; squares and meshes are
-//! surfaces without an inside. [`Shape::outline`] returns lines along the surface, for wireframes. There is no epsilon: the point is re-projected onto its surface, and
+//! surfaces without an inside. [`Shape::outline`] returns lines along the surface, for wireframes, and [`Shape::patch`]
+//! parts of it from which points are chosen. There is no epsilon: the point is re-projected onto its surface, and
 //! [`Surface::leave`] starts a secondary ray a few ulps off the surface.
 
 mod aabb;
@@ -23,6 +24,7 @@ mod line;
 mod mesh;
 mod numbers;
 mod outline;
+mod patch;
 mod plane;
 mod quadric;
 mod ray;
@@ -49,6 +51,7 @@ pub use mesh::{
 };
 pub use numbers::{FrameNumbers, direction_of};
 pub use outline::Detail;
+pub use patch::{Ball, Flat, Patch};
 pub use plane::Plane;
 pub use quadric::{Quadric, principal_axes};
 pub use ray::{Packet, Packets, Ray, Rays};

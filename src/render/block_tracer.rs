@@ -39,7 +39,16 @@ impl BlockTracer {
         })?;
         job.settings.traced().within(job.settings.size)?;
         refusal::check_memory(&job, refusal::memory_for_blocks(&job, 0))?;
-        let build = || World::build(Arc::clone(&job.scene), &job.images, None, &stopped);
+        let build = || {
+            let integrator = job.settings.integrator;
+            World::build(
+                Arc::clone(&job.scene),
+                &job.images,
+                integrator,
+                None,
+                &stopped,
+            )
+        };
         let world = pool.install(build);
         Ok(world.map(|world| Self { world, job, pool }))
     }

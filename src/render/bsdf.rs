@@ -37,9 +37,19 @@ pub(crate) struct BsdfSample {
     pub(crate) weight: Rgb,
     /// Absorption per unit of length up to the next hit.
     pub(crate) absorption: Rgb,
-    /// The point on the surface and the probability density of the direction per steradian; `None`
-    /// for mirrors and boundaries.
-    pub(crate) chosen: Option<(DVec3, f64)>,
+    /// How the direction was chosen; `None` for mirrors and boundaries.
+    pub(crate) chosen: Option<Scattering>,
+}
+
+/// The choice of a direction among many.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Scattering {
+    /// The point on the surface.
+    pub(crate) point: DVec3,
+    /// Its shading normal.
+    pub(crate) normal: DVec3,
+    /// The probability density of the direction per steradian.
+    pub(crate) density: f64,
 }
 
 impl<'m> Bsdf<'m> {
@@ -104,7 +114,11 @@ impl<'m> Bsdf<'m> {
                     ray: point.leave(direction),
                     weight: scattered.value / density,
                     absorption: Rgb::ZERO,
-                    chosen: Some((point.surface.point, density)),
+                    chosen: Some(Scattering {
+                        point: point.surface.point,
+                        normal: point.normal,
+                        density,
+                    }),
                 })
             }
             Component::Mirror => {

@@ -49,12 +49,14 @@ mod bsdf;
 mod camera;
 mod direct;
 mod display;
+mod emitters;
 mod explain;
 mod film;
 mod filter;
 mod first_hit;
 mod frame;
 mod gather;
+mod heuristic;
 mod histogram;
 mod intersect;
 mod kept;
@@ -62,6 +64,7 @@ mod level;
 mod lights;
 mod lobes;
 mod microfacet;
+mod next_event;
 mod noise;
 mod optics;
 mod packets;
@@ -100,11 +103,12 @@ pub use block::{BLOCK, Block, Blocks};
 pub use block_tracer::BlockTracer;
 pub use display::{Colours, Display, MOST_HALF_STOPS, exposes};
 pub use explain::{
-    Boundary, Chosen, Crossing, Dark, Densities, DepthLimit, Explanation, Finding, FirstHit,
+    Boundary, Chosen, Crossing, Dark, DepthLimit, EmitterTerm, Explanation, Finding, FirstHit,
     LightHit, LightTerm, PreparedScene, RayEnd, RayKind, Shading, Stop, SurfaceHit, Term,
     TermSource, TracedRay, Unlisted, Verdict,
 };
 pub use frame::{Aov, Frame, Frames, Job, Limit, NO_OBJECT, Progress, Query, Settings};
+pub use heuristic::Densities;
 pub use histogram::{HISTOGRAM_STOPS, Histogram};
 pub use kept::Kept;
 pub use level::{CAP, CAPS, vectors};

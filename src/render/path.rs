@@ -6,9 +6,10 @@
 
 use glam::DVec3;
 
-use super::bsdf::{Bsdf, BsdfSample};
+use super::bsdf::{Bsdf, BsdfSample, Scattering};
 use super::direct::shadow;
 use super::gather::Gather;
+use super::heuristic::power_heuristic;
 use super::intersect::Nearest;
 use super::lights::SphereLight;
 use super::lobes::Scattered;
@@ -30,9 +31,8 @@ pub(super) struct Path {
     pub(super) throughput: Rgb,
     /// Absorption per unit of length up to the next hit.
     pub(super) absorption: Rgb,
-    /// The point of the last scattering and the probability density of the direction per steradian;
-    /// `None` after mirrors and boundaries.
-    pub(super) chosen: Option<(DVec3, f64)>,
+    /// The last scattering; `None` after mirrors and boundaries.
+    pub(super) chosen: Option<Scattering>,
     pub(super) bounce: u32,
 }
 
@@ -123,11 +123,13 @@ impl<C: Fn() -> bool> Probe<'_, C> {
                     if vertex.material.is_lit(vertex.point.side) {
                         let light = self.light_of_all(vertex, path.bounce, sample.sampler);
                         let emission = if self.gather.glow(path.bounce) {
-                            vertex.material.emission
+                            self.emission(&path, vertex)
                         } else {
                             Rgb::ZERO
                         };
-                        seen.radiance += path.throughput * (emission + light);
+                        let asked = self.of_emitters(vertex, path.bounce, sample.sampler);
+                        let asked = asked.map_or(Rgb::ZERO, |asked| asked.radiance);
+                        seen.radiance += path.throughput * (emission + light + asked);
                     }
                     vertex.sample(&path, sample.sampler)
                 }
@@ -210,6 +212,17 @@ impl<C: Fn() -> bool> Probe<'_, C> {
             Gather::Indirect if from_first => false,
             gather => gather.glow(path.bounce),
         }
+    }
+
+    /// The emission of a surface, as far as it counts where a path finds it by chance.
+    #[inline]
+    fn emission(&self, path: &Path, vertex: &Vertex<'_>) -> Rgb {
+        let emission = vertex.material.emission;
+        if emission == Rgb::ZERO {
+            return emission;
+        }
+        let densities = self.densities_at(path, vertex);
+        densities.map_or(emission, |densities| densities.weight * emission)
     }
 
     /// Whether to stop before the light with this index; polled for some only, since a scene may
@@ -336,8 +349,8 @@ impl Path {
 
     /// The multiple importance sampling weight of a light hit by a BSDF sample.
     fn weight_of_chance(&self, light: &SphereLight) -> f64 {
-        self.chosen.map_or(1.0, |(from, density)| {
-            power_heuristic(density, light.density(from))
+        self.chosen.map_or(1.0, |chosen| {
+            power_heuristic(chosen.density, light.density(chosen.point))
         })
     }
 
@@ -370,11 +383,4 @@ impl Path {
 pub(super) fn place_on_light(number: usize, bounce: u32, sampler: Sampler) -> [f64; 2] {
     let [u, v, ..] = sampler.four(bounce, Use::Light(number as u32));
     [u, v]
-}
-
-/// Veach's power heuristic: the weight of a sample with density `own` that another technique would
-/// produce with density `other`.
-pub(super) fn power_heuristic(own: f64, other: f64) -> f64 {
-    let ratio = other / own;
-    1.0 / (1.0 + ratio * ratio)
 }

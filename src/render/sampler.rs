@@ -27,6 +27,8 @@ pub(crate) enum Use {
     Spread,
     /// The point on the light with this index.
     Light(u32),
+    /// The object that emits light, and the point on it.
+    Emitter,
 }
 
 impl Sampler {
@@ -76,6 +78,8 @@ impl Sampler {
             Use::Bounce => 3,
             Use::Spread => 4,
             Use::Light(number) => 5 + number,
+            // Far from the lights' numbers.
+            Use::Emitter => u32::MAX,
         };
         let seed = mix(mix(self.pixel_seed() ^ node).wrapping_add(0x9E37_79B9) ^ purpose);
         sample_4d(self.index, 0, seed).map(f64::from)

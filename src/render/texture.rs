@@ -18,7 +18,10 @@ const LUMINANCE: Rgb = Rgb::new(0.2126, 0.7152, 0.0722);
 
 /// The textures of a scene with their images.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct Textures(Vec<(DAffine2, Texels)>);
+pub(crate) struct Textures(Vec<Ready>);
+
+/// Maps uv to the coordinates of the pattern.
+type Ready = (DAffine2, Texels);
 
 #[derive(Clone, Debug)]
 enum Texels {
@@ -47,6 +50,22 @@ impl Textures {
             (inverse, texels(&texture.pattern))
         };
         Self(textures.iter().map(ready).collect())
+    }
+
+    /// Whether these textures have the same images and patterns as others.
+    pub(crate) fn are_those_of(&self, other: &Self) -> bool {
+        let is_same = |((map, texels), (other_map, other)): (&Ready, &Ready)| {
+            let is_same = match (texels, other) {
+                (Texels::Checker(squares, side), Texels::Checker(others, other_side)) => {
+                    squares == others && side == other_side
+                }
+                (Texels::Image(image), Texels::Image(other)) => Arc::ptr_eq(image, other),
+                (Texels::Missing, Texels::Missing) => true,
+                _ => false,
+            };
+            is_same && map == other_map
+        };
+        self.0.len() == other.0.len() && self.0.iter().zip(&other.0).all(is_same)
     }
 
     /// Applies maps to a material at uv; the result has no maps.

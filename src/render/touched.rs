@@ -3,6 +3,7 @@
 //! Manipulation", 1996, who store whole ray trees).
 
 use std::ops::{BitOr, BitOrAssign};
+use std::sync::Arc;
 
 use super::frame::Job;
 use super::world::World;
@@ -59,6 +60,9 @@ impl Touched {
             && job.images == new_job.images
             && world.has_shapes_of(new_world)
             && world.ambient == new_world.ambient
+            // Every path may have asked for any of them.
+            && (job.settings.integrator == Integrator::Whitted
+                || Arc::ptr_eq(&world.emitters, &new_world.emitters))
             && scene.textures == new_scene.textures
             && scene.setting == new_scene.setting
             && scene.lights.len() == new_scene.lights.len();

@@ -7,6 +7,7 @@ use std::sync::Arc;
 
 use glam::DVec2;
 
+use super::emitters::{Emitters, Known};
 use super::level::level;
 use super::lights::SphereLights;
 use super::spheres::Spheres;
@@ -15,7 +16,7 @@ use super::texture::{Textures, environment_place};
 use crate::accel::Bvh;
 use crate::geometry::Ray;
 use crate::geometry::lanes::Level;
-use crate::scene::{Images, Object, Rgb, Scene};
+use crate::scene::{Images, Integrator, Object, Rgb, Scene};
 
 /// Up to this many objects are intersected without a tree. Measured with single rays: with two
 /// solids this is 1.5 times as fast as a tree; with six to eleven a tree is 1.2 to 1.7 times as
@@ -34,6 +35,8 @@ pub(crate) struct World {
     pub(crate) ambient: Rgb,
     /// The lights with a size.
     pub(crate) sphere_lights: SphereLights,
+    /// The objects that emit light, for paths.
+    pub(crate) emitters: Arc<Emitters>,
     /// The vector instructions to trace with.
     pub(crate) level: Level,
     pub(crate) tree: Option<Arc<Bvh>>,
@@ -45,11 +48,12 @@ pub(crate) struct World {
 }
 
 impl World {
-    /// Prepares a scene. Keeps the tree of `previous` if the shapes are the same, and the
+    /// Prepares a scene for an integrator. Keeps the tree of `previous` if the shapes are the same, and the
     /// structures of its meshes in any case. `None` once `cancelled` returns true.
     pub(crate) fn build(
         scene: Arc<Scene>,
         images: &Images,
+        integrator: Integrator,
         previous: Option<&Self>,
         cancelled: impl Fn() -> bool + Sync,
     ) -> Option<Self> {
@@ -59,12 +63,25 @@ impl World {
         let level = level();
         let opaque = opaque_meshes(&scene);
         let changed = previous.and_then(|world| changed_shapes(&world.scene, &scene));
+        let emitters = match integrator {
+            Integrator::Path => {
+                let known = previous.zip(changed.as_deref());
+                let known = known.map(|(world, changed)| Known {
+                    emitters: &world.emitters,
+                    textures: &world.textures,
+                    changed,
+                });
+                Emitters::build(&scene, &textures, known, &cancelled)?
+            }
+            Integrator::Whitted => Arc::default(),
+        };
         if let Some(previous) = previous.filter(|_| changed.as_deref() == Some(&[])) {
             return Some(Self {
                 scene,
                 textures,
                 ambient,
                 sphere_lights,
+                emitters,
                 level,
                 tree: previous.tree.clone(),
                 spheres: Arc::clone(&previous.spheres),
@@ -98,6 +115,7 @@ impl World {
             textures,
             ambient,
             sphere_lights,
+            emitters,
             level,
             tree,
             spheres,

@@ -8,8 +8,8 @@ use serde_json::{Value, json};
 use crate::explain::{Place, Sentence, Subject, Words};
 use crate::language::Node;
 use crate::render::{
-    Crossing, Dark, Densities, Explanation, LightTerm, RayEnd, RayKind, Shading, Side, Stop,
-    TracedRay,
+    Crossing, Dark, Densities, EmitterTerm, Explanation, LightTerm, RayEnd, RayKind, Shading, Side,
+    Stop, TracedRay,
 };
 
 /// The explanation as an object; numbers that are infinite or undefined are null.
@@ -88,6 +88,8 @@ fn end(end: &RayEnd, subject: &Subject<'_>) -> Value {
 fn surface(shading: &Shading, subject: &Subject<'_>) -> Value {
     let hit = &shading.hit;
     let lights = shading.lights.iter().map(|shown| term(shown, subject));
+    let emitters = shading.emitters.iter();
+    let emitters = emitters.map(|shown| emitter(shown, subject));
     json!({
         "object": object_name(hit.object, subject),
         "material": hit.material,
@@ -104,10 +106,12 @@ fn surface(shading: &Shading, subject: &Subject<'_>) -> Value {
         "lit": shading.lit,
         "missing_texture": shading.missing,
         "emission": vector(shading.emission),
+        "densities": shading.densities.map(densities),
         "ambient": vector(shading.ambient),
         "lights": lights.collect::<Value>(),
         "unlisted_lights": shading.unlisted.lights,
         "unlisted_radiance": vector(shading.unlisted.radiance),
+        "emitters": emitters.collect::<Value>(),
         "radiance": vector(shading.radiance),
         "mirror": vector(shading.mirror),
         "boundary": shading.boundary.map(|boundary| json!({
@@ -147,6 +151,20 @@ fn term(term: &LightTerm, subject: &Subject<'_>) -> Value {
         "densities": term.densities.map(densities),
         "transmittance": term.transmittance,
         "crossed": crossed.collect::<Value>(),
+        "radiance": vector(term.radiance),
+        "dark": term.dark.map(dark),
+    })
+}
+
+fn emitter(term: &EmitterTerm, subject: &Subject<'_>) -> Value {
+    json!({
+        "object": object_name(term.object, subject),
+        "toward": vector(term.toward),
+        "distance": term.distance,
+        "cosine": term.cosine,
+        "emitted": term.emitted.map(vector),
+        "reflected": vector(term.reflected),
+        "densities": densities(term.densities),
         "radiance": vector(term.radiance),
         "dark": term.dark.map(dark),
     })

@@ -55,6 +55,11 @@ impl Instance {
         &self.mesh
     }
 
+    /// From the unit space of the mesh to the world.
+    pub(in crate::geometry) fn frame(&self) -> &Affine {
+        &self.frame
+    }
+
     /// The axis-aligned box around the image of the mesh's own box, tight if that is axis-aligned.
     pub fn bounds(&self) -> Aabb {
         let [x, y, z] = self.frame.axes();

@@ -237,6 +237,11 @@ impl Mesh {
         after.checked_sub(1).map_or(0, |run| self.slots[run].slot)
     }
 
+    /// The vertices of a triangle by its number, in unit space.
+    pub(in crate::geometry) fn vertices(&self, triangle: u32) -> [DVec3; 3] {
+        self.corners(self.triangles[triangle as usize])
+    }
+
     /// The vertices of a triangle, in unit space.
     #[inline]
     fn corners(&self, triangle: [u32; 3]) -> [DVec3; 3] {

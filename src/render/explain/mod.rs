@@ -28,8 +28,8 @@ use judge::Case;
 
 pub use kind::RayKind;
 pub use record::{
-    Boundary, Chosen, Crossing, Dark, Densities, Explanation, LightHit, LightTerm, RayEnd, Shading,
-    Stop, SurfaceHit, TracedRay, Unlisted,
+    Boundary, Chosen, Crossing, Dark, EmitterTerm, Explanation, LightHit, LightTerm, RayEnd,
+    Shading, Stop, SurfaceHit, TracedRay, Unlisted,
 };
 pub use verdict::{DepthLimit, Finding, Term, TermSource, Verdict};
 
@@ -47,7 +47,9 @@ pub struct PreparedScene {
 impl PreparedScene {
     /// Prepares the scene of a job; `None` once `cancelled` returns true.
     pub fn new(job: &Job, cancelled: impl Fn() -> bool + Sync) -> Option<Self> {
-        let world = World::build(Arc::clone(&job.scene), &job.images, None, cancelled)?;
+        let integrator = job.settings.integrator;
+        let scene = Arc::clone(&job.scene);
+        let world = World::build(scene, &job.images, integrator, None, cancelled)?;
         let world = Arc::new(world);
         Some(Self {
             query: Query::new(&world, job),

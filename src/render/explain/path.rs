@@ -4,16 +4,18 @@ use glam::DVec3;
 
 use super::super::bsdf::{BsdfSample, Component};
 use super::super::direct::Facing;
+use super::super::heuristic::Densities;
 use super::super::lights::{Incoming, SphereLight};
+use super::super::next_event::Asked;
 use super::super::optics::transmitted;
-use super::super::path::{Onward, Path, Reached, Vertex, place_on_light, power_heuristic};
+use super::super::path::{Onward, Path, Reached, Vertex, place_on_light};
 use super::super::probe::{Probe, Sample};
 use super::super::sampler::Use;
 use super::super::world::World;
 use super::kind::RayKind;
 use super::lights::Lit;
 use super::record::{
-    Chosen, Dark, Densities, LightHit, LightTerm, RayEnd, Shading, Stop, TracedRay, Unlisted,
+    Chosen, Dark, EmitterTerm, LightHit, LightTerm, RayEnd, Shading, Stop, TracedRay, Unlisted,
 };
 use super::surface::{boundary, missing_around, missing_at, surface_hit};
 use crate::scene::Rgb;
@@ -124,9 +126,9 @@ impl<C: Fn() -> bool> Recorder<'_, C> {
             t,
             transmitted: transmitted(path.absorption, t),
             radiance,
-            densities: path.chosen.map(|(from, by_path)| Densities {
-                by_light: light.density(from),
-                by_path,
+            densities: path.chosen.map(|chosen| Densities {
+                by_light: light.density(chosen.point),
+                by_path: chosen.density,
                 weight,
             }),
         }
@@ -141,16 +143,18 @@ impl<C: Fn() -> bool> Recorder<'_, C> {
             bsdf,
         } = vertex;
         let lit = material.is_lit(point.side);
-        let emission = if lit { material.emission } else { Rgb::ZERO };
+        let (emission, densities) = self.emission(path, vertex);
         let mut shading = Box::new(Shading {
             hit: surface_hit(world, &path.ray, *nearest, point),
             missing: missing_at(world, &path.ray, *nearest),
             lit,
             transmitted: transmitted(path.absorption, nearest.hit.t),
             emission,
+            densities,
             ambient: Rgb::ZERO,
             lights: Vec::new(),
             unlisted: Unlisted::default(),
+            emitters: Vec::new(),
             radiance: Rgb::ZERO,
             mirror: bsdf.mirror,
             boundary: boundary(&path.ray, point, material),
@@ -166,7 +170,11 @@ impl<C: Fn() -> bool> Recorder<'_, C> {
         }
         let mut contribution = Rgb::ZERO;
         if lit {
-            shading.radiance = material.emission + sum;
+            let sampler = self.sample.sampler;
+            let asked = self.probe.of_emitters(vertex, path.bounce, sampler);
+            shading.emitters = asked.iter().map(|asked| asked_for(vertex, asked)).collect();
+            let asked = asked.map_or(Rgb::ZERO, |asked| asked.radiance);
+            shading.radiance = emission + sum + asked;
             contribution = path.throughput * shading.radiance;
         }
         let sampler = self.sample.sampler;
@@ -184,7 +192,7 @@ impl<C: Fn() -> bool> Recorder<'_, C> {
                     kind,
                     Chosen {
                         chance,
-                        density: chosen.map(|(_, density)| density),
+                        density: chosen.map(|chosen| chosen.density),
                         factor: weight,
                         survival,
                     },
@@ -192,6 +200,19 @@ impl<C: Fn() -> bool> Recorder<'_, C> {
             }
             _ => Step::Ended,
         }
+    }
+
+    /// The emission of a surface as far as it counts, with the densities that this depends on.
+    fn emission(&self, path: &Path, vertex: &Vertex<'_>) -> (Rgb, Option<Densities>) {
+        let Vertex {
+            point, material, ..
+        } = vertex;
+        if !material.is_lit(point.side) || material.emission == Rgb::ZERO {
+            return (Rgb::ZERO, None);
+        }
+        let densities = self.probe.densities_at(path, vertex);
+        let weight = densities.map_or(1.0, |densities| densities.weight);
+        (weight * material.emission, densities)
     }
 
     /// Records a light at a vertex and returns what it adds.
@@ -265,11 +286,7 @@ impl<C: Fn() -> bool> Recorder<'_, C> {
         let scattered = bsdf.lobes.scatter(point, chosen.toward.into());
         let by_path = self.probe.density_of(bsdf, scattered, path.bounce);
         let by_light = sphere.density(from);
-        term.densities = Some(Densities {
-            by_light,
-            by_path,
-            weight: power_heuristic(by_light, by_path),
-        });
+        term.densities = Some(Densities::for_light(by_light, by_path));
         if term.dark == Some(Dark::NotReflected) && self.is_hidden(vertex, &sphere, chosen) {
             term.dark = Some(Dark::Hidden);
         }
@@ -305,6 +322,33 @@ impl<C: Fn() -> bool> Recorder<'_, C> {
             }
         };
         Some((kind, bsdf.chance(component)))
+    }
+}
+
+/// Records what was asked for at a vertex.
+fn asked_for(vertex: &Vertex<'_>, asked: &Asked) -> EmitterTerm {
+    let cosine = vertex.point.normal.dot(asked.toward);
+    let dark = if asked.radiance != Rgb::ZERO {
+        None
+    } else if cosine <= 0.0 {
+        Some(Dark::FacesAway)
+    } else if asked.reflected == Rgb::ZERO {
+        Some(Dark::NotReflected)
+    } else if asked.emitted.is_none() {
+        Some(Dark::Blocked)
+    } else {
+        Some(Dark::SwitchedOff)
+    };
+    EmitterTerm {
+        object: asked.object,
+        toward: asked.toward,
+        distance: asked.distance,
+        cosine,
+        emitted: asked.emitted,
+        reflected: asked.reflected,
+        densities: asked.densities,
+        radiance: asked.radiance,
+        dark,
     }
 }
 

@@ -3,6 +3,7 @@
 
 use glam::{DVec2, DVec3};
 
+use super::super::heuristic::Densities;
 use super::super::shading::Side;
 use super::kind::RayKind;
 use super::verdict::Finding;
@@ -108,18 +109,6 @@ pub struct LightHit {
     pub densities: Option<Densities>,
 }
 
-/// The probability densities, per steradian, with which two techniques choose a direction to a light
-/// with a size.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Densities {
-    /// By sampling the light.
-    pub by_light: f64,
-    /// By continuing the path.
-    pub by_path: f64,
-    /// The multiple importance sampling weight of the technique used.
-    pub weight: f64,
-}
-
 /// Where a ray hit a surface.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SurfaceHit {
@@ -156,15 +145,19 @@ pub struct Shading {
     pub lit: bool,
     /// The fraction that absorption leaves along the ray.
     pub transmitted: Rgb,
-    /// Emitted radiance.
+    /// Emitted radiance, times the weight of multiple importance sampling if there are densities.
     pub emission: Rgb,
+    /// The densities of the ray's direction, where paths also ask for this emission.
+    pub densities: Option<Densities>,
     /// Reflected ambient light.
     pub ambient: Rgb,
     /// Each light in file order, apart from ambient light and those that are too many to list.
     pub lights: Vec<LightTerm>,
     /// The lights too many to list.
     pub unlisted: Unlisted,
-    /// Emission, ambient light and all lights together.
+    /// What emits light without being a light, as far as the path asked for it.
+    pub emitters: Vec<EmitterTerm>,
+    /// Emission, ambient light, all lights and emitters together.
     pub radiance: Rgb,
     /// Weight of the ray reflected by a mirror.
     pub mirror: Rgb,
@@ -245,6 +238,29 @@ pub struct LightTerm {
     pub dark: Option<Dark>,
 }
 
+/// The light, at a point of a surface, of an object that emits light and was asked for.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct EmitterTerm {
+    /// The object, as frames call it.
+    pub object: u32,
+    /// Unit vector toward the chosen point.
+    pub toward: DVec3,
+    /// The distance to it, or to what hides it; infinite where the ray hits nothing.
+    pub distance: f64,
+    /// N·L, the cosine between the shading normal and that vector.
+    pub cosine: f64,
+    /// Emitted radiance; `None` if the point is hidden.
+    pub emitted: Option<Rgb>,
+    /// The fraction that the surface reflects from there toward the ray, N·L included; 0 behind.
+    pub reflected: Rgb,
+    /// The densities of the direction.
+    pub densities: Densities,
+    /// Reflected radiance.
+    pub radiance: Rgb,
+    /// Why it is zero, where it is.
+    pub dark: Option<Dark>,
+}
+
 /// An object that a shadow ray crosses.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Crossing {
@@ -297,6 +313,9 @@ impl Explanation {
             let crossed = shading.lights.iter_mut().flat_map(|term| &mut term.crossed);
             for crossing in crossed {
                 crossing.object = name(crossing.object);
+            }
+            for term in &mut shading.emitters {
+                term.object = name(term.object);
             }
         }
         for finding in &mut self.verdicts {

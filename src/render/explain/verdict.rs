@@ -209,6 +209,13 @@ pub enum TermSource {
         /// The object.
         object: u32,
     },
+    /// Light that one object emits and another reflects.
+    Emitter {
+        /// The object that emits it.
+        emitter: u32,
+        /// The object that reflects it.
+        object: u32,
+    },
     /// Ambient light that an object reflects.
     Ambient {
         /// The object.
@@ -274,6 +281,10 @@ impl TermSource {
     fn rename(&mut self, mut rename: impl FnMut(&mut u32)) {
         match self {
             Self::Light { object, .. } | Self::Ambient { object } | Self::Emission { object } => {
+                rename(object);
+            }
+            Self::Emitter { emitter, object } => {
+                rename(emitter);
                 rename(object);
             }
             Self::Ray { object, seen, .. } => {

@@ -15,6 +15,11 @@ use super::*;
 use crate::geometry::{Csg, Instance, Node, Operation};
 use crate::scene::{Dielectric, Emitter, Faces, Falloff, Gloss, Highlight, Image, Mirror, Shadows};
 
+fn built(job: &Job, known: Option<&World>) -> Option<World> {
+    let (scene, integrator) = (Arc::clone(&job.scene), job.settings.integrator);
+    World::build(scene, &job.images, integrator, known, || false)
+}
+
 /// A job in progress, taken step by step.
 pub(super) struct Easel {
     pub(super) job: Job,
@@ -25,7 +30,7 @@ pub(super) struct Easel {
 
 impl Easel {
     pub(super) fn new(job: Job) -> Self {
-        let world = World::build(Arc::clone(&job.scene), &job.images, None, || false);
+        let world = built(&job, None);
         let film = Film::new(&job.settings, job.frames);
         Self {
             job,
@@ -38,15 +43,23 @@ impl Easel {
     /// Continues with another job, reusing what it can.
     fn turn_to(&mut self, job: Job) {
         let before = Some(&self.world);
-        let world = World::build(Arc::clone(&job.scene), &job.images, before, || false);
+        let world = built(&job, before);
         let world = world.expect("nothing cancels");
         let changed = Touched::between((&self.job, &self.world), (&job, &world));
         let film = Film::new(&job.settings, job.frames).expect("memory is there");
         let old = std::mem::replace(&mut self.film, film).keep(Effort::default());
-        self.film
-            .take_over(old, changed.expect("materials and colours of lights"));
+        if Arc::ptr_eq(&self.world.emitters, &world.emitters) || !self.is_by_path() {
+            self.film
+                .take_over(old, changed.expect("materials and colours of lights"));
+        } else {
+            assert_eq!(changed, None, "all paths depend on what emits light");
+        }
         (self.job, self.world) = (job, world);
         self.counts = Counts::default();
+    }
+
+    fn is_by_path(&self) -> bool {
+        self.job.settings.integrator == Integrator::Path
     }
 
     /// Traces until cancellation has been polled `patience` times; returns whether it completed.
@@ -376,7 +389,7 @@ fn other_edits_trace_everything_again() {
     let before = Easel::new(job(&Arc::new(scene.clone()), settings(8, 6, 1)));
     let changed = |job: Job| {
         let known = Some(&before.world);
-        let world = World::build(Arc::clone(&job.scene), &job.images, known, || false);
+        let world = built(&job, known);
         let world = world.expect("nothing cancels");
         Touched::between((&before.job, &before.world), (&job, &world))
     };

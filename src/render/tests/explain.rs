@@ -93,7 +93,9 @@ fn check_parts(explanation: &Explanation, context: &str) {
             continue;
         };
         let lights: Rgb = shading.lights.iter().map(|term| term.radiance).sum();
-        let parts = shading.emission + shading.ambient + lights + shading.unlisted.radiance;
+        let emitters: Rgb = shading.emitters.iter().map(|term| term.radiance).sum();
+        let shown = shading.emission + shading.ambient;
+        let parts = shown + lights + shading.unlisted.radiance + emitters;
         let off = (parts - shading.radiance).abs().max_element();
         let scale = shading.radiance.abs().max_element().max(1e-300);
         assert!(

@@ -4,6 +4,7 @@ mod blocks;
 mod cameras;
 mod continuing;
 mod edits;
+mod emitters;
 mod explain;
 mod falloff;
 mod filters;
@@ -193,8 +194,14 @@ fn white_light(position: [f64; 3]) -> Light {
 }
 
 fn world(scene: Scene) -> World {
-    World::build(Arc::new(scene), &Images::default(), None, || false)
-        .expect("nothing cancels the building")
+    World::build(
+        Arc::new(scene),
+        &Images::default(),
+        Integrator::Path,
+        None,
+        || false,
+    )
+    .expect("nothing cancels the building")
 }
 
 fn ray(origin: [f64; 3], toward: [f64; 3]) -> Ray {

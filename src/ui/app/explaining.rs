@@ -145,6 +145,9 @@ impl App {
         if let Some(light) = line.light(explanation) {
             return Some(Node::Light(light.light as usize));
         }
+        if let Some(emitter) = line.emitter(explanation) {
+            return self.object_named(emitter.object);
+        }
         match &line.ray(explanation).end {
             RayEnd::Surface(shading) => self.object_named(shading.hit.object),
             RayEnd::Light(hit) => Some(Node::Light(hit.light as usize)),

@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 
 use glam::DVec3;
 
-use crate::render::{Explanation, LightTerm, RayEnd, TracedRay};
+use crate::render::{EmitterTerm, Explanation, LightTerm, RayEnd, TracedRay};
 use crate::scene::Rgb;
 
 /// How far rays that hit nothing are drawn, relative to the distance of their start from the eye.
@@ -34,6 +34,8 @@ pub enum RayPart {
     Light(usize),
     /// Lights too many to list.
     Unlisted,
+    /// The reflected light of an object that emits light, by its place in the list.
+    Emitter(usize),
     /// Why no rays go on.
     Stop,
 }
@@ -78,6 +80,7 @@ fn parts(ray: &TracedRay) -> Vec<RayPart> {
     parts.extend((shading.ambient != Rgb::ZERO).then_some(RayPart::Ambient));
     parts.extend((0..shading.lights.len()).map(RayPart::Light));
     parts.extend((0 < shading.unlisted.lights).then_some(RayPart::Unlisted));
+    parts.extend((0..shading.emitters.len()).map(RayPart::Emitter));
     parts.extend(shading.stop.map(|_| RayPart::Stop));
     parts
 }
@@ -102,6 +105,14 @@ impl RayLine {
         }
     }
 
+    /// The emitter of a line that shows one.
+    pub fn emitter<'e>(&self, explanation: &'e Explanation) -> Option<&'e EmitterTerm> {
+        match self.part {
+            RayPart::Emitter(at) => self.ray(explanation).shading()?.emitters.get(at),
+            _ => None,
+        }
+    }
+
     /// What it adds to the sample.
     pub fn adds(&self, explanation: &Explanation) -> Rgb {
         let ray = self.ray(explanation);
@@ -117,6 +128,9 @@ impl RayLine {
                 .get(at)
                 .map_or(Rgb::ZERO, |light| light.radiance),
             RayPart::Unlisted => shading.unlisted.radiance,
+            RayPart::Emitter(_) => self
+                .emitter(explanation)
+                .map_or(Rgb::ZERO, |emitter| emitter.radiance),
         };
         ray.weight * shading.transmitted * radiance
     }
@@ -151,6 +165,15 @@ impl RayLine {
             path.push(Segment {
                 ends: [point, along(point, light.toward, length, eye)],
                 is_dark: light.radiance == Rgb::ZERO,
+            });
+        }
+        if let (Some(emitter), Some(shading)) =
+            (self.emitter(explanation), self.ray(explanation).shading())
+        {
+            let point = shading.hit.point;
+            path.push(Segment {
+                ends: [point, along(point, emitter.toward, emitter.distance, eye)],
+                is_dark: emitter.radiance == Rgb::ZERO,
             });
         }
         path

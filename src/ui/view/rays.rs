@@ -9,7 +9,9 @@ use super::labelled::{self, Value, numbers};
 use super::row::{Row, title};
 use crate::explain::number;
 use crate::language::Node;
-use crate::render::{Dark, Densities, Explanation, LightTerm, RayEnd, RayKind, Shading, Stop};
+use crate::render::{
+    Dark, Densities, EmitterTerm, Explanation, LightTerm, RayEnd, RayKind, Shading, Stop,
+};
 use crate::scene::Rgb;
 use crate::ui::app::{App, RayLine, RayPart};
 use crate::ui::layout::contents;
@@ -122,6 +124,10 @@ fn words(app: &App, explanation: &Explanation, line: &RayLine) -> String {
             Some(dark) => format!("{}: {}", name(), reason(dark)),
             None => name(),
         },
+        RayPart::Emitter(_) => match line.emitter(explanation).and_then(|emitter| emitter.dark) {
+            Some(dark) => format!("emission of {}: {}", name(), reason(dark)),
+            None => format!("emission of {}", name()),
+        },
         RayPart::Unlisted => {
             let count = ray.shading().map_or(0, |shading| shading.unlisted.lights);
             format!("{count} more lights")
@@ -198,6 +204,16 @@ fn values_of(app: &App, explanation: &Explanation, line: &RayLine) -> Vec<Value>
                 values.extend(light_values(app, light));
             }
         }
+        (RayPart::Emitter(_), _) => {
+            values.extend(
+                line.emitter(explanation)
+                    .into_iter()
+                    .flat_map(emitter_values),
+            );
+        }
+        (RayPart::Emission, RayEnd::Surface(shading)) => {
+            values.extend(shading.densities.map(weight));
+        }
         (RayPart::Whole, end) => {
             values.push(Value::new("weight", colour(ray.weight)));
             if let Some(chosen) = ray.chosen {
@@ -256,6 +272,17 @@ fn light_values(app: &App, light: &LightTerm) -> Vec<Value> {
         values.push(Value::new("cone", number(light.spot)));
     }
     values.extend(light.densities.map(weight));
+    values
+}
+
+fn emitter_values(emitter: &EmitterTerm) -> Vec<Value> {
+    let mut values = vec![
+        Value::new("N·L", number(emitter.cosine)),
+        Value::new("reflects", colour(emitter.reflected)),
+        Value::new("distance", number(emitter.distance)),
+    ];
+    values.extend(emitter.emitted.map(|of| Value::new("radiance", colour(of))));
+    values.push(weight(emitter.densities));
     values
 }
 

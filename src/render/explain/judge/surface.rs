@@ -166,13 +166,19 @@ impl Judge<'_> {
             let light = term.light;
             (TermSource::Light { light, object }, term.radiance)
         }));
+        terms.extend(shading.emitters.iter().map(|term| {
+            let emitter = term.object;
+            (TermSource::Emitter { emitter, object }, term.radiance)
+        }));
         let mut ordinary: Vec<_> = terms
             .into_iter()
             .map(|(source, radiance)| (source, weight * radiance))
             .filter(|(_, part)| self.is_visible(*part))
             .collect();
         ordinary.sort_by(|(_, a), (_, b)| luminance(*b).total_cmp(&luminance(*a)));
-        let direct: Rgb = shading.lights.iter().map(|term| term.radiance).sum();
+        let lights = shading.lights.iter().map(|term| term.radiance);
+        let emitters = shading.emitters.iter().map(|term| term.radiance);
+        let direct: Rgb = lights.chain(emitters).sum();
         let direct = self.shown(weight * (direct + shading.unlisted.radiance));
         let lacks = self.lacks(ray, shading, weight);
         let contribution = self.case.rays[ray].contribution;

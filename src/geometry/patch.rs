@@ -1,0 +1,174 @@
+//! Parts of surfaces, in the form in which points of them are chosen.
+
+use glam::DVec3;
+
+use super::transform::{exact_cross, normalise};
+use super::{Aabb, Instance, Shape, Solid};
+
+/// A part of a shape's surface.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Patch {
+    /// A triangle, which is half of the parallelogram.
+    Triangle(Flat),
+    /// A parallelogram.
+    Parallelogram(Flat),
+    /// An ellipsoid.
+    Ball(Ball),
+}
+
+/// A parallelogram.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Flat {
+    /// A corner.
+    pub corner: DVec3,
+    /// The sides that start there.
+    pub sides: [DVec3; 2],
+    /// The outward geometric normal, of unit length.
+    pub normal: DVec3,
+}
+
+/// An affine image of the unit sphere.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Ball {
+    /// The centre.
+    pub centre: DVec3,
+    /// The columns of the unit-to-world matrix.
+    pub axes: [DVec3; 3],
+    /// The rows of the world-to-unit matrix.
+    pub duals: [DVec3; 3],
+}
+
+impl Shape {
+    /// The number of parts that [`Shape::patch`] describes; 0 for shapes without such a form.
+    pub fn patches(&self) -> u32 {
+        match self {
+            Self::Solid(Solid::Sphere(_) | Solid::Ellipsoid(_)) | Self::Plane(_) => 1,
+            Self::Mesh(instance) => instance.mesh().len() as u32,
+            Self::Solid(_) | Self::Csg(_) => 0,
+        }
+    }
+
+    /// A part of the surface, by its number in [`Hit::part`](super::Hit::part); `None` if it has no
+    /// area.
+    pub fn patch(&self, part: u32) -> Option<Patch> {
+        match self {
+            Self::Solid(Solid::Sphere(sphere)) => {
+                let unit = [DVec3::X, DVec3::Y, DVec3::Z];
+                Some(Patch::Ball(Ball {
+                    centre: sphere.centre,
+                    axes: unit.map(|axis| sphere.radius * axis),
+                    duals: unit.map(|axis| axis / sphere.radius),
+                }))
+            }
+            Self::Solid(Solid::Ellipsoid(ellipsoid)) => Some(Patch::Ball(Ball {
+                centre: ellipsoid.0.origin(),
+                axes: ellipsoid.0.axes(),
+                duals: ellipsoid.0.duals(),
+            })),
+            Self::Plane(plane) => {
+                let [x, y, _] = plane.0.axes();
+                Some(Patch::Parallelogram(Flat {
+                    corner: plane.0.origin() - x - y,
+                    sides: [2.0 * x, 2.0 * y],
+                    normal: normalise(plane.0.gradient(DVec3::Z))?,
+                }))
+            }
+            Self::Mesh(instance) => instance.patch(part).map(Patch::Triangle),
+            Self::Solid(_) | Self::Csg(_) => None,
+        }
+    }
+}
+
+impl Instance {
+    /// A triangle; `None` if it has no area.
+    fn patch(&self, triangle: u32) -> Option<Flat> {
+        let [a, b, c] = self.mesh().vertices(triangle);
+        let [x, y, z] = self.frame().axes();
+        let turned = |v: DVec3| v.x * x + v.y * y + v.z * z;
+        let sides = [b - a, c - a];
+        let across = exact_cross(sides[0], sides[1]);
+        Some(Flat {
+            corner: self.frame().origin() + turned(a),
+            sides: sides.map(turned),
+            normal: normalise(self.frame().gradient(normalise(across)?))?,
+        })
+    }
+}
+
+impl Patch {
+    /// The area; for a ball that of its largest cross section, roughly, which is what it shows of
+    /// itself from any direction.
+    pub fn area(&self) -> f64 {
+        match self {
+            Self::Triangle(flat) => 0.5 * flat.area(),
+            Self::Parallelogram(flat) => flat.area(),
+            Self::Ball(ball) => {
+                let [x, y, z] = ball.axes;
+                let sections = [x.cross(y), y.cross(z), z.cross(x)].map(DVec3::length);
+                std::f64::consts::PI * sections.into_iter().fold(0.0, f64::max)
+            }
+        }
+    }
+
+    /// The tight axis-aligned box.
+    pub fn bounds(&self) -> Aabb {
+        let of = |corners: &[DVec3]| {
+            corners
+                .iter()
+                .map(|&corner| Aabb {
+                    min: corner,
+                    max: corner,
+                })
+                .fold(Aabb::EMPTY, Aabb::union)
+        };
+        match self {
+            Self::Triangle(Flat {
+                corner,
+                sides: [x, y],
+                ..
+            }) => of(&[*corner, *corner + *x, *corner + *y]),
+            Self::Parallelogram(Flat {
+                corner,
+                sides: [x, y],
+                ..
+            }) => of(&[*corner, *corner + *x, *corner + *y, *corner + *x + *y]),
+            Self::Ball(Ball {
+                centre,
+                axes: [x, y, z],
+                ..
+            }) => {
+                let half = (*x * *x + *y * *y + *z * *z).map(f64::sqrt);
+                Aabb {
+                    min: *centre - half,
+                    max: *centre + half,
+                }
+            }
+        }
+    }
+}
+
+impl Flat {
+    /// The area of the parallelogram.
+    pub fn area(&self) -> f64 {
+        self.sides[0].cross(self.sides[1]).length()
+    }
+}
+
+impl Ball {
+    /// Maps a vector of the unit sphere's space to the world.
+    pub fn to_world(&self, v: DVec3) -> DVec3 {
+        let [x, y, z] = self.axes;
+        v.x * x + v.y * y + v.z * z
+    }
+
+    /// Maps a vector of the world to the unit sphere's space.
+    pub fn to_unit(&self, v: DVec3) -> DVec3 {
+        DVec3::from_array(self.duals.map(|dual| dual.dot(v)))
+    }
+
+    /// The factor on volumes of the unit sphere's space.
+    pub fn volume(&self) -> f64 {
+        let [x, y, z] = self.axes;
+        x.dot(y.cross(z)).abs()
+    }
+}

@@ -1,0 +1,293 @@
+//! Objects that emit light, to be found on purpose: from a point, one of their parts is chosen
+//! through a [`tree`], and a direction toward it ([`aim`]).
+//!
+//! Parts are triangles, squares and balls. Emission of other solids, of the inside of balls, and
+//! what is too weak or small to be counted is found by chance only, as its density is 0 here.
+
+mod aim;
+mod cone;
+mod split;
+#[cfg(test)]
+mod tests;
+mod tree;
+
+use std::sync::Arc;
+
+use glam::DVec3;
+use rayon::prelude::*;
+
+use super::lobes::strength;
+use super::texture::Textures;
+use crate::geometry::{Hit, Patch, Ray, Shape, Surface};
+use crate::scene::{Faces, Material, Object, Rgb, Scene, Tinted};
+use cone::Cone;
+use tree::{Reach, Tree};
+
+/// Points of an object at which a texture of its emission is looked up; at least one for each part.
+const LOOKED_UP: u32 = 1024;
+
+/// The parts of objects that emit light.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Emitters {
+    /// In ascending order.
+    parts: Vec<Part>,
+    tree: Tree,
+    glows: Vec<Glow>,
+}
+
+/// A part of an object's surface, as in [`Hit::part`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+struct Part {
+    object: u32,
+    part: u32,
+}
+
+/// The emission of an object that emits light.
+#[derive(Clone, Debug, PartialEq)]
+struct Glow {
+    object: u32,
+    /// One for each of its materials.
+    sources: Vec<Source>,
+}
+
+/// The emission of a material.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Source {
+    emission: Tinted,
+    faces: Faces,
+}
+
+/// A direction toward a part of an emitter.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Choice {
+    /// Index of the object.
+    pub(crate) object: u32,
+    /// The part of its surface.
+    pub(crate) part: u32,
+    /// The probability of the part.
+    chance: f64,
+    /// The unit vector toward the chosen point.
+    pub(crate) toward: DVec3,
+    /// The distance within which a ray hits the part, if nothing is in between.
+    pub(crate) reach: f64,
+}
+
+/// What is known from a world before, for whose emitters it may do.
+#[derive(Clone, Copy)]
+pub(crate) struct Known<'k> {
+    pub(crate) emitters: &'k Arc<Emitters>,
+    pub(crate) textures: &'k Textures,
+    /// The objects whose shapes differ.
+    pub(crate) changed: &'k [u32],
+}
+
+impl Emitters {
+    /// Collects the emitters of a scene, or returns those known if they are the same; `None` once
+    /// `cancelled` returns true.
+    pub(crate) fn build(
+        scene: &Scene,
+        textures: &Textures,
+        known: Option<Known<'_>>,
+        cancelled: &(impl Fn() -> bool + Sync),
+    ) -> Option<Arc<Self>> {
+        let glows = glows(scene);
+        if let Some(known) = known
+            && known.emitters.serve(&glows, textures, known)
+        {
+            return Some(Arc::clone(known.emitters));
+        }
+        let mut parts = Vec::new();
+        let mut reaches = Vec::new();
+        for glow in &glows {
+            let object = &scene.objects[glow.object as usize];
+            let found = (0..object.shape.patches())
+                .into_par_iter()
+                .filter_map(|part| Some((part, reach(scene, textures, object, part)?)));
+            let found: Vec<_> = found.collect();
+            if cancelled() {
+                return None;
+            }
+            parts.extend(found.iter().map(|&(part, _)| Part {
+                object: glow.object,
+                part,
+            }));
+            reaches.extend(found.into_iter().map(|(_, reach)| reach));
+        }
+        parts.shrink_to_fit();
+        let tree = Tree::build(&reaches, cancelled)?;
+        Some(Arc::new(Self { parts, tree, glows }))
+    }
+
+    /// Whether there are none.
+    #[inline]
+    pub(crate) fn is_empty(&self) -> bool {
+        self.parts.is_empty()
+    }
+
+    /// Chooses a direction toward an emitter from a surface at a point with a normal, by three numbers
+    /// in 0..1; `None` if none lights it.
+    pub(crate) fn choose(
+        &self,
+        scene: &Scene,
+        (from, normal): (DVec3, DVec3),
+        [number, u, v]: [f64; 3],
+    ) -> Option<Choice> {
+        let (emitter, chance) = self.tree.choose(from, normal, number)?;
+        let Part { object, part } = self.parts[emitter as usize];
+        let patch = scene.objects[object as usize].shape.patch(part)?;
+        let aim = patch.aim(from, [u, v])?;
+        Some(Choice {
+            object,
+            part,
+            chance,
+            toward: aim.toward,
+            reach: aim.reach,
+        })
+    }
+
+    /// The density of [`Emitters::choose`] per steradian where its direction, `toward`, hits the
+    /// chosen part.
+    pub(crate) fn density_of(
+        scene: &Scene,
+        choice: &Choice,
+        from: DVec3,
+        toward: DVec3,
+        surface: &Surface,
+    ) -> f64 {
+        let shape = &scene.objects[choice.object as usize].shape;
+        let patch = shape.patch(choice.part);
+        choice.chance * patch.map_or(0.0, |patch| patch.density(from, toward, surface))
+    }
+
+    /// The density of [`Emitters::choose`] per steradian for a direction in which an object is hit.
+    pub(crate) fn density(
+        &self,
+        scene: &Scene,
+        (from, normal): (DVec3, DVec3),
+        toward: DVec3,
+        (object, part): (u32, u32),
+        surface: &Surface,
+    ) -> f64 {
+        let Ok(emitter) = self.parts.binary_search(&Part { object, part }) else {
+            return 0.0;
+        };
+        let choice = Choice {
+            object,
+            part,
+            chance: self.tree.chance(emitter as u32, from, normal),
+            toward,
+            reach: 0.0,
+        };
+        Self::density_of(scene, &choice, from, toward, surface)
+    }
+
+    /// Whether these emitters are those of a scene with these glows.
+    fn serve(&self, glows: &[Glow], textures: &Textures, known: Known<'_>) -> bool {
+        let is_same = |object: u32| {
+            let found = self.glows.binary_search_by_key(&object, |glow| glow.object);
+            found.is_err()
+        };
+        let has_texture = |glow: &Glow| {
+            let mut sources = glow.sources.iter();
+            sources.any(|source| source.emission.texture.is_some())
+        };
+        self.glows == glows
+            && known.changed.iter().all(|&object| is_same(object))
+            && (!glows.iter().any(has_texture) || textures.are_those_of(known.textures))
+    }
+}
+
+/// The objects that emit light and have parts that can be chosen, in order.
+fn glows(scene: &Scene) -> Vec<Glow> {
+    let emits = |material: &Material| material.emission != Rgb::ZERO;
+    if !scene.materials.par_iter().any(emits) {
+        return Vec::new();
+    }
+    let source = |material: u32| {
+        let material = &scene.materials[material as usize];
+        let maps = material.maps.as_ref();
+        Source {
+            emission: Tinted {
+                colour: material.emission,
+                texture: maps.and_then(|maps| maps.emission),
+            },
+            faces: material.lit,
+        }
+    };
+    let glow = |(number, object): (usize, &Object)| {
+        let sources: Vec<_> = match &object.shape {
+            Shape::Mesh(instance) => instance
+                .tags()
+                .map(|tag| source(tag.unwrap_or(object.material)))
+                .collect(),
+            _ if emits(&scene.materials[object.material as usize]) => {
+                vec![source(object.material)]
+            }
+            _ => return None,
+        };
+        let mut colours = sources.iter().map(|source| source.emission.colour);
+        let is_bright = colours.any(|colour| colour != Rgb::ZERO);
+        (is_bright && 0 < object.shape.patches()).then_some(Glow {
+            object: number as u32,
+            sources,
+        })
+    };
+    scene.objects.par_numbered().filter_map(glow).collect()
+}
+
+/// What a part of an object can light; `None` if nothing.
+fn reach(scene: &Scene, textures: &Textures, object: &Object, part: u32) -> Option<Reach> {
+    let material = object.material_at(Hit { t: 0.0, part });
+    let material = &scene.materials[material as usize];
+    if material.emission == Rgb::ZERO {
+        return None;
+    }
+    let patch = object.shape.patch(part)?;
+    let maps = material.maps.as_ref();
+    let texture = maps.and_then(|maps| maps.emission);
+    let emission = Tinted {
+        colour: material.emission,
+        texture,
+    };
+    let radiance = match texture {
+        None => strength(material.emission),
+        Some(_) => mean(textures, emission, &object.shape, part, &patch),
+    };
+    let strength = radiance * patch.area();
+    let cone = match &patch {
+        Patch::Triangle(flat) | Patch::Parallelogram(flat) => {
+            Cone::around(flat.normal, material.lit == Faces::Both)
+        }
+        Patch::Ball(_) => Cone::ALL,
+    };
+    let bounds = patch.bounds();
+    (0.0 < strength && strength.is_finite() && bounds.is_bounded()).then_some(Reach {
+        bounds,
+        cone,
+        strength,
+    })
+}
+
+/// The mean strength of a texture over a part.
+fn mean(textures: &Textures, emission: Tinted, shape: &Shape, part: u32, patch: &Patch) -> f64 {
+    let count = f64::from(LOOKED_UP / shape.patches())
+        .sqrt()
+        .floor()
+        .max(1.0);
+    let size = patch.bounds().half_diagonal();
+    let middle = |index: usize| (index as f64 + 0.5) / count;
+    let side = count as usize;
+    let mut sum = 0.0;
+    for row in 0..side {
+        for column in 0..side {
+            let (point, normal) = patch.point([middle(column), middle(row)]);
+            let ray = Ray {
+                origin: point + size * normal,
+                direction: -normal,
+            };
+            let uv = shape.chart(&ray, Hit { t: size, part }).uv;
+            sum += strength(textures.colour(emission, uv));
+        }
+    }
+    sum / (count * count)
+}

@@ -1,0 +1,248 @@
+//! The tree and the densities of emitters.
+
+use std::f64::consts::PI;
+
+use super::*;
+use crate::geometry::{Affine, Ball, Flat};
+use cone::Cone;
+
+/// Deterministic numbers in 0..1 (Vigna's splitmix64).
+struct Random(u64);
+
+impl Random {
+    fn next(&mut self) -> f64 {
+        self.0 = self.0.wrapping_add(0x9E37_79B9_7F4A_7C15);
+        let mut bits = self.0;
+        bits = (bits ^ (bits >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
+        bits = (bits ^ (bits >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
+        ((bits ^ (bits >> 31)) >> 11) as f64 / (1u64 << 53) as f64
+    }
+
+    fn point(&mut self) -> DVec3 {
+        2.0 * DVec3::new(self.next(), self.next(), self.next()) - 1.0
+    }
+
+    fn direction(&mut self) -> DVec3 {
+        loop {
+            let point = self.point();
+            if (0.01..1.0).contains(&point.length_squared()) {
+                return point.normalize();
+            }
+        }
+    }
+}
+
+fn reaches(count: usize, random: &mut Random) -> Vec<Reach> {
+    let mut reach = |_| {
+        let corner = 5.0 * random.point();
+        let bounds = Aabb {
+            min: corner,
+            max: corner + 0.3 * (random.point() + 1.0),
+        };
+        let cone = if random.next() < 0.2 {
+            Cone::ALL
+        } else {
+            Cone::around(random.direction(), random.next() < 0.3)
+        };
+        Reach {
+            bounds,
+            cone,
+            strength: random.next(),
+        }
+    };
+    (0..count).map(&mut reach).collect()
+}
+
+use crate::geometry::Aabb;
+
+/// The chances of all emitters sum to the part of 0..1 that leads to one, each is the length of the
+/// interval that leads to it, and those that cannot light the point have none.
+#[test]
+fn chances_are_those_of_choices() {
+    let mut random = Random(1);
+    for count in [1, 2, 3, 17, 300] {
+        let reaches = reaches(count, &mut random);
+        let tree = Tree::build(&reaches, &|| false).expect("nothing cancels");
+        for _ in 0..20 {
+            let (from, normal) = (7.0 * random.point(), random.direction());
+            let chances: Vec<_> = (0..count as u32)
+                .map(|emitter| tree.chance(emitter, from, normal))
+                .collect();
+            let mut found = vec![0.0; count];
+            let fine = 20_000;
+            for at in 0..fine {
+                let number = (f64::from(at) + 0.5) / f64::from(fine);
+                if let Some((emitter, chance)) = tree.choose(from, normal, number) {
+                    let known = chances[emitter as usize];
+                    assert!((chance - known).abs() <= 1e-12 * known);
+                    found[emitter as usize] += 1.0 / f64::from(fine);
+                }
+            }
+            for (chance, found) in chances.iter().zip(&found) {
+                assert!(
+                    (chance - found).abs() < 2.5 / f64::from(fine),
+                    "{chance} {found}"
+                );
+            }
+            let sum: f64 = chances.iter().sum();
+            let lost = 1.0 - found.iter().sum::<f64>();
+            assert!((sum + lost - 1.0).abs() < 1e-3, "{sum} {lost}");
+        }
+    }
+}
+
+/// In an open scene, where all emitters can light the point, nothing is lost.
+#[test]
+fn chances_sum_to_one() {
+    let mut random = Random(2);
+    let mut reaches = reaches(500, &mut random);
+    for reach in &mut reaches {
+        reach.cone = Cone::ALL;
+    }
+    let tree = Tree::build(&reaches, &|| false).expect("nothing cancels");
+    for _ in 0..50 {
+        let from = 3.0 * random.point() - DVec3::new(0.0, 0.0, 30.0);
+        let sum: f64 = (0..500)
+            .map(|emitter| tree.chance(emitter, from, DVec3::Z))
+            .sum();
+        assert!((sum - 1.0).abs() < 1e-12, "{sum}");
+    }
+}
+
+/// An emitter that can light a point, by any point of its box and any normal of its cone, is chosen
+/// with a probability above 0.
+#[test]
+fn nothing_that_lights_a_point_is_left_out() {
+    let mut random = Random(3);
+    let reaches = reaches(60, &mut random);
+    let tree = Tree::build(&reaches, &|| false).expect("nothing cancels");
+    let mut lit = 0;
+    for _ in 0..3000 {
+        let (from, normal) = (6.0 * random.point(), random.direction());
+        let emitter = (random.next() * 60.0) as usize;
+        let Reach { bounds, cone, .. } = reaches[emitter];
+        let at = bounds.min + 0.5 * (random.point() + 1.0) * bounds.size();
+        let toward = (at - from).normalize();
+        let sent = -toward.dot(cone.axis);
+        let sends = cone.cosine == -1.0 || 1e-9 < sent || cone.both && sent < -1e-9;
+        if sends && 1e-9 < toward.dot(normal) {
+            lit += 1;
+            assert!(0.0 < tree.chance(emitter as u32, from, normal));
+        }
+    }
+    assert!(500 < lit, "{lit}");
+}
+
+/// Normals of both cones stay inside of their union.
+#[test]
+fn cones_contain_both() {
+    let mut random = Random(4);
+    let within = |random: &mut Random, cone: &Cone| loop {
+        let direction = random.direction();
+        if cone.cosine <= direction.dot(cone.axis) {
+            return direction;
+        }
+    };
+    for _ in 0..300 {
+        let cones: [Cone; 2] = std::array::from_fn(|_| Cone {
+            cosine: 1.6 * random.next() - 0.6,
+            ..Cone::around(random.direction(), false)
+        });
+        let union = cones[0].union(&cones[1]);
+        for cone in cones {
+            for _ in 0..10 {
+                let direction = within(&mut random, &cone);
+                let cosine = direction.dot(union.axis);
+                assert!(union.cosine <= cosine + 1e-12, "{cones:?} {union:?}");
+            }
+        }
+    }
+    let up = Cone::around(DVec3::Z, true);
+    let down = Cone::around(DVec3::NEG_Z, true);
+    assert_eq!(up.union(&down).cosine, 1.0);
+    let up = Cone::around(DVec3::Z, false);
+    let all_around = up.union(&Cone::around(DVec3::NEG_Z, false)).cosine;
+    assert!(all_around <= 0.0, "{all_around}");
+}
+
+/// 1 / density, averaged over chosen directions, is the solid angle: of a hemisphere's octant for a
+/// triangle seen from its centre, and of ellipsoids by their silhouette.
+#[test]
+fn densities_are_those_of_aims() {
+    let triangle = Patch::Triangle(Flat {
+        corner: DVec3::X,
+        sides: [DVec3::Y - DVec3::X, DVec3::Z - DVec3::X],
+        normal: DVec3::ONE.normalize(),
+    });
+    let square = Patch::Parallelogram(Flat {
+        corner: DVec3::new(-1.0, -1.0, 1.0),
+        sides: [2.0 * DVec3::X, 2.0 * DVec3::Y],
+        normal: DVec3::Z,
+    });
+    let frame = Affine::new(
+        DVec3::new(3.0, 1.0, 0.5),
+        [
+            DVec3::new(1.0, 0.5, 0.0),
+            DVec3::Y,
+            DVec3::new(0.2, 0.0, 1.0),
+        ],
+        DVec3::new(1.0, 2.0, 0.4),
+    );
+    let solid = crate::geometry::Solid::Ellipsoid(Box::new(crate::geometry::Ellipsoid(
+        frame.expect("the axes span a volume"),
+    )));
+    let ellipsoid = Shape::Solid(solid);
+    let patch = ellipsoid.patch(0).expect("an ellipsoid has a form");
+    // The share of directions that hit it.
+    let mut random = Random(5);
+    let mut hits = 0;
+    for _ in 0..100_000 {
+        let ray = Ray {
+            origin: DVec3::ZERO,
+            direction: random.direction(),
+        };
+        hits += u32::from(ellipsoid.hit(&ray, f64::INFINITY).is_some());
+    }
+    let seen = 4.0 * PI * f64::from(hits) / 100_000.0;
+    let ball = Patch::Ball(Ball {
+        centre: DVec3::new(0.0, 0.0, 2.0),
+        axes: [DVec3::X, DVec3::Y, DVec3::Z],
+        duals: [DVec3::X, DVec3::Y, DVec3::Z],
+    });
+    for (patch, expected, tolerance) in [
+        // An octant, and a face of a cube from its centre.
+        (triangle, PI / 2.0, 2e-3),
+        (square, 4.0 * PI / 6.0, 1e-3),
+        (ball, 2.0 * PI * (1.0 - 0.75f64.sqrt()), 1e-12),
+        (patch, seen, 0.04 * seen),
+    ] {
+        let side = 100;
+        let mut sum = 0.0;
+        for i in 0..side * side {
+            let place = [i / side, i % side].map(|i| (f64::from(i) + 0.5) / f64::from(side));
+            let aim = patch.aim(DVec3::ZERO, place).expect("it is seen");
+            let surface = surface_at(&patch, aim.toward);
+            sum += 1.0 / patch.density(DVec3::ZERO, aim.toward, &surface);
+            assert!(surface.point.length() <= aim.reach, "{patch:?}");
+        }
+        let angle = sum / f64::from(side * side);
+        assert!((angle - expected).abs() <= tolerance, "{angle} {expected}");
+    }
+}
+
+/// Where a ray from the origin hits a flat part; the centre of a ball.
+fn surface_at(patch: &Patch, toward: DVec3) -> Surface {
+    let (point, normal) = match patch {
+        Patch::Triangle(flat) | Patch::Parallelogram(flat) => {
+            let distance = flat.corner.dot(flat.normal) / toward.dot(flat.normal);
+            (distance * toward, flat.normal)
+        }
+        Patch::Ball(_) => (DVec3::ZERO, DVec3::Z),
+    };
+    Surface {
+        point,
+        normal,
+        shading: normal,
+        scale: 1.0,
+    }
+}

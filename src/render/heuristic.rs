@@ -1,0 +1,40 @@
+//! Multiple importance sampling of two techniques.
+
+/// The probability densities, per steradian, with which two techniques choose a direction to what
+/// emits light.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Densities {
+    /// By sampling what emits light.
+    pub by_light: f64,
+    /// By continuing the path.
+    pub by_path: f64,
+    /// The multiple importance sampling weight of the technique used.
+    pub weight: f64,
+}
+
+impl Densities {
+    /// For a direction that was chosen by sampling what emits light.
+    pub(super) fn for_light(by_light: f64, by_path: f64) -> Self {
+        Self {
+            by_light,
+            by_path,
+            weight: power_heuristic(by_light, by_path),
+        }
+    }
+
+    /// For a direction in which a path went on.
+    pub(super) fn for_path(by_path: f64, by_light: f64) -> Self {
+        Self {
+            by_light,
+            by_path,
+            weight: power_heuristic(by_path, by_light),
+        }
+    }
+}
+
+/// Veach's power heuristic: the weight of a sample with density `own` that another technique would
+/// produce with density `other`.
+pub(super) fn power_heuristic(own: f64, other: f64) -> f64 {
+    let ratio = other / own;
+    1.0 / (1.0 + ratio * ratio)
+}
