@@ -13,7 +13,7 @@ use std::time::{Duration, Instant};
 use halflight::explain::{Subject, words};
 use halflight::language::{Language, Source};
 use halflight::render::{Frames, Job, PreparedScene, Settings};
-use halflight::scene::Filter;
+use halflight::scene::{FalloffRule, Filter, GlossRule};
 use halflight::scene::{Images, Integrator, Meshes, Scene};
 
 /// Pixels explained of each scene, on a grid.
@@ -82,6 +82,8 @@ fn times(
             filter: Filter::Box,
             transfer: scene.setting.rendering.transfer.unwrap_or_default(),
             exposure: 0.0,
+            falloff: FalloffRule::None,
+            gloss: GlossRule::None,
         },
         limit: None,
         frames: Frames::Last,

@@ -26,7 +26,7 @@ use std::time::{Duration, Instant};
 
 use halflight::language::{Language, Source};
 use halflight::render::{Frames, Job, Renderer, Settings, Threads};
-use halflight::scene::{DEFAULT_DEPTH, Filter};
+use halflight::scene::{DEFAULT_DEPTH, FalloffRule, Filter, GlossRule};
 use halflight::scene::{Images, Integrator, Meshes, Scene, Transfer};
 use halflight::ui::arrange::Zoom;
 
@@ -437,6 +437,8 @@ fn tracing(scene: &Arc<Scene>) -> (Renderer, Receiver<()>) {
         filter: Filter::Box,
         transfer: Transfer::default(),
         exposure: 0.0,
+        falloff: FalloffRule::None,
+        gloss: GlossRule::None,
     };
     let job = Job {
         scene: Arc::clone(scene),

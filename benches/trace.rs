@@ -20,8 +20,8 @@ use halflight::language::{self, FileKind, Language};
 use halflight::obj;
 use halflight::render::{Frame, Frames, Job, Renderer, Settings, Threads};
 use halflight::scene::{
-    Camera, Emitter, Focus, Images, Integrator, Lens, Light, Material, Meshes, Object, Rgb, Scene,
-    Setting, Size, Transfer,
+    Camera, Emitter, FalloffRule, Focus, GlossRule, Images, Integrator, Lens, Light, Material,
+    Meshes, Object, Rgb, Scene, Setting, Size, Transfer,
 };
 use halflight::scene::{DEFAULT_DEPTH, Filter};
 
@@ -259,6 +259,8 @@ fn traced(scene: &Arc<Scene>, threads: usize) -> (Duration, Arc<Frame>) {
             filter: Filter::Box,
             transfer: Transfer::default(),
             exposure: 0.0,
+            falloff: FalloffRule::None,
+            gloss: GlossRule::None,
         };
         let job = Job {
             scene: Arc::clone(scene),

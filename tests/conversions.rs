@@ -8,7 +8,7 @@ use std::sync::{Arc, mpsc};
 use halflight::assets::Assets;
 use halflight::language::{self, Converted, Language, Source};
 use halflight::render::{Frame, Frames, Job, Renderer, Settings, Threads};
-use halflight::scene::Filter;
+use halflight::scene::{FalloffRule, Filter, GlossRule};
 use halflight::scene::{Images, Scene, Size};
 use halflight::text::Findings;
 
@@ -150,6 +150,8 @@ fn trace(scene: &Arc<Scene>, images: Images) -> Arc<Frame> {
         filter: Filter::Box,
         transfer: scene.setting.rendering.transfer.unwrap_or_default(),
         exposure: 0.0,
+        falloff: FalloffRule::None,
+        gloss: GlossRule::None,
     };
     let job = Job {
         scene: Arc::clone(scene),

@@ -6,7 +6,7 @@ use std::sync::{Arc, mpsc};
 
 use halflight::language::{Language, Source};
 use halflight::render::{Frame, Frames, Job, Renderer, Settings, Threads};
-use halflight::scene::{DEFAULT_DEPTH, Filter};
+use halflight::scene::{DEFAULT_DEPTH, FalloffRule, Filter, GlossRule};
 use halflight::scene::{Image, Images, Integrator, Meshes, Scene, Size, Transfer};
 
 /// A scene with all lengths multiplied by `s`; squares of lengths and values in reciprocal units
@@ -131,6 +131,8 @@ fn trace(scene: &Arc<Scene>, threads: usize) -> Arc<Frame> {
                 filter: Filter::Box,
                 transfer: Transfer::default(),
                 exposure: 0.0,
+                falloff: FalloffRule::None,
+                gloss: GlossRule::None,
             },
             limit: None,
             frames: Frames::Last,

@@ -9,7 +9,7 @@ use halflight::image_file::{ImageFormat, Picture};
 use halflight::language::table::{Field, Kind, Range};
 use halflight::language::{Language, Lowered, NamedFile, Node, Source};
 use halflight::render::{Frame, Frames, Job, Renderer, Settings, Threads};
-use halflight::scene::Filter;
+use halflight::scene::{FalloffRule, Filter, GlossRule};
 use halflight::scene::{Images, Integrator, Meshes, Scene, Size};
 use halflight::text::{Edit, parse_number};
 
@@ -222,6 +222,8 @@ fn trace(scene: &Arc<Scene>, images: Images, size: Size, spp: u32) -> Arc<Frame>
         filter: Filter::Box,
         transfer: scene.setting.rendering.transfer.unwrap_or_default(),
         exposure: 0.0,
+        falloff: FalloffRule::None,
+        gloss: GlossRule::None,
     };
     let job = Job {
         scene: Arc::clone(scene),

@@ -9,7 +9,7 @@ use halflight::assets::{Assets, Wanted};
 use halflight::language::table::Kind;
 use halflight::language::{Language, Lowered, Node, Placed, Source};
 use halflight::render::{Frames, Job, Renderer, Settings, Threads};
-use halflight::scene::{DEFAULT_DEPTH, Filter};
+use halflight::scene::{DEFAULT_DEPTH, FalloffRule, Filter, GlossRule};
 use halflight::scene::{Images, Integrator, Meshes, Scene, Transfer};
 use halflight::text::apply;
 use tempfile::TempDir;
@@ -68,6 +68,8 @@ fn the_example_is_white_on_black() {
             filter: Filter::Box,
             transfer: Transfer::default(),
             exposure: 0.0,
+            falloff: FalloffRule::None,
+            gloss: GlossRule::None,
         },
         scene,
         limit: None,

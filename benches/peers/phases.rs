@@ -11,8 +11,8 @@ use halflight::assets::{Assets, Wanted};
 use halflight::geometry::Shape;
 use halflight::language::{FileKind, Language, Source};
 use halflight::render::{Frame, Frames, Job, Renderer, Settings, Threads};
-use halflight::scene::Filter;
 use halflight::scene::{Camera, Images, Meshes, Object, Scene, Size};
+use halflight::scene::{FalloffRule, Filter, GlossRule};
 
 use crate::cases::Case;
 use crate::programs::{kilobytes, median};
@@ -272,6 +272,8 @@ impl Stage {
                 filter: Filter::Box,
                 transfer: scene.setting.rendering.transfer.unwrap_or_default(),
                 exposure: 0.0,
+                falloff: FalloffRule::None,
+                gloss: GlossRule::None,
             },
             limit: None,
             frames: Frames::Last,

@@ -4,8 +4,7 @@ use clap::ValueEnum;
 
 use crate::batch::ProgressStyle;
 use crate::render::Aov;
-use crate::scene::Filter;
-use crate::scene::{Integrator, Transfer};
+use crate::scene::{FalloffRule, Filter, GlossRule, Integrator, Transfer};
 use crate::ui::terminal::{Choice, ColourDepth};
 use crate::ui::{Pixels, Theme};
 
@@ -216,6 +215,42 @@ impl TransferChoice {
         match self {
             Self::Linear => Transfer::Linear,
             Self::Srgb => Transfer::Srgb,
+        }
+    }
+}
+
+/// How point lights fade whose own falloff is constant.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(super) enum FalloffChoice {
+    /// Not at all.
+    None,
+    /// By the square of the distance.
+    Square,
+}
+
+impl FalloffChoice {
+    pub(super) fn value(self) -> FalloffRule {
+        match self {
+            Self::None => FalloffRule::None,
+            Self::Square => FalloffRule::Square,
+        }
+    }
+}
+
+/// What spreads the mirrors and glass of blinn materials.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(super) enum GlossChoice {
+    /// The glossiness of reflection and refraction.
+    None,
+    /// The glossiness of the material.
+    Exponent,
+}
+
+impl GlossChoice {
+    pub(super) fn value(self) -> GlossRule {
+        match self {
+            Self::None => GlossRule::None,
+            Self::Exponent => GlossRule::Exponent,
         }
     }
 }

@@ -2,7 +2,7 @@
 
 use clap::Args;
 
-use super::choices::{FilterChoice, IntegratorChoice, TransferChoice};
+use super::choices::{FalloffChoice, FilterChoice, GlossChoice, IntegratorChoice, TransferChoice};
 use super::shared::depth_range;
 use crate::scene::{EXPOSURES, Rendering};
 
@@ -25,6 +25,12 @@ pub(super) struct RenderingArguments {
     /// in EXR and HDR too [default: the scene's, otherwise 0]
     #[arg(long, value_name = "STOPS", allow_negative_numbers = true, value_parser = parse_stops)]
     exposure: Option<f64>,
+    /// How point lights fade whose own falloff is constant [default: the scene's, otherwise none]
+    #[arg(long, value_name = "FALLOFF", value_enum)]
+    falloff: Option<FalloffChoice>,
+    /// What spreads the mirrors and glass of blinn materials [default: the scene's, otherwise none]
+    #[arg(long, value_name = "GLOSS", value_enum)]
+    gloss: Option<GlossChoice>,
 }
 
 impl RenderingArguments {
@@ -37,6 +43,8 @@ impl RenderingArguments {
             filter: self.filter.map(FilterChoice::value),
             transfer: self.transfer.map(TransferChoice::value),
             exposure: self.exposure,
+            falloff: self.falloff.map(FalloffChoice::value),
+            gloss: self.gloss.map(GlossChoice::value),
         }
     }
 }

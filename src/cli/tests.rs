@@ -4,7 +4,9 @@ use super::*;
 use crate::batch::{Output, Report, Warnings};
 use crate::image_file::{ImageFormat, MAX_PIXELS};
 use crate::render::Region;
-use crate::scene::{Filter, Integrator, MAX_SPP, Rendering, Size, Transfer};
+use crate::scene::{
+    FalloffRule, Filter, GlossRule, Integrator, MAX_SPP, Rendering, Size, Transfer,
+};
 use crate::ui::Theme;
 use crate::ui::keymap::Keymap;
 use crate::ui::terminal::{Choice, ColourDepth, Mouse};
@@ -111,7 +113,7 @@ fn render_options_have_defaults() {
     assert_eq!((default.tracing.region, default.tracing.time), (None, None));
     assert_eq!(default.output, Output::File("a.bmp".into()));
     let given = render(
-        "halflight render a -o - --force --size 3X2 --spp 65536 --seed 7 --integrator whitted --depth 9 --filter blackman-harris --transfer srgb --exposure -1.5",
+        "halflight render a -o - --force --size 3X2 --spp 65536 --seed 7 --integrator whitted --depth 9 --filter blackman-harris --transfer srgb --exposure -1.5 --falloff square --gloss exponent",
     );
     let size = Size {
         width: 3,
@@ -125,6 +127,8 @@ fn render_options_have_defaults() {
         filter: Some(Filter::BlackmanHarris),
         transfer: Some(Transfer::Srgb),
         exposure: Some(-1.5),
+        falloff: Some(FalloffRule::Square),
+        gloss: Some(GlossRule::Exponent),
     };
     assert_eq!(given.tracing.rendering, asked);
     assert_eq!(given.output, Output::StdoutTerminal);

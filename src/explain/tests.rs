@@ -7,7 +7,7 @@ use std::sync::Arc;
 use super::*;
 use crate::language::{Language, Source};
 use crate::render::{Frames, Job, PreparedScene, Settings};
-use crate::scene::Filter;
+use crate::scene::{FalloffRule, Filter, GlossRule};
 use crate::scene::{Images, Integrator, Meshes};
 
 /// How a scene is traced unless its text says otherwise.
@@ -65,6 +65,8 @@ fn explain(language: Language, text: &str, pixel: [u32; 2], how: How) -> Words {
             filter: Filter::Box,
             transfer,
             exposure: 0.0,
+            falloff: FalloffRule::None,
+            gloss: GlossRule::None,
         },
         limit: None,
         frames: Frames::Last,

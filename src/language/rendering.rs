@@ -6,14 +6,16 @@ use super::report::{did_you_mean, no_number, number, quoted};
 use super::table::{Field, Kind, Range};
 use super::view::line_from;
 use super::words::Words;
-use crate::scene::{EXPOSURES, Filter, Integrator, MAX_DEPTH, MAX_SPP, Rendering, Transfer};
+use crate::scene::{
+    EXPOSURES, FalloffRule, Filter, GlossRule, Integrator, MAX_DEPTH, MAX_SPP, Rendering, Transfer,
+};
 use crate::text::{
     Diagnostic, Edit, Findings, Severity, Span, is_integer, line_end, nearest_word, next_line,
     parse_number,
 };
 
 /// The keys, in the order of the interface.
-pub(super) const RENDER: &[Field; 6] = &[
+pub(super) const RENDER: &[Field; 8] = &[
     choice(
         "integrator",
         &[Integrator::Whitted.name(), Integrator::Path.name()],
@@ -54,6 +56,16 @@ pub(super) const RENDER: &[Field; 6] = &[
             "Colours are multiplied by 2 to this power before the transfer curve.",
         )
     },
+    choice(
+        "falloff",
+        &[FalloffRule::None.name(), FalloffRule::Square.name()],
+        "square: point lights whose own falloff is constant fade with the distance squared.",
+    ),
+    choice(
+        "gloss",
+        &[GlossRule::None.name(), GlossRule::Exponent.name()],
+        "exponent: mirrors and glass of blinn materials are spread by their glossiness.",
+    ),
 ];
 
 const fn choice(key: &'static str, words: &'static [&'static str], doc: &'static str) -> Field {
@@ -322,6 +334,8 @@ fn set(rendering: &mut Rendering, key: &str, value: Option<f64>) {
         "spp" => rendering.spp = count,
         "filter" => rendering.filter = chosen(Filter::ALL, value),
         "transfer" => rendering.transfer = chosen(Transfer::ALL, value),
+        "falloff" => rendering.falloff = chosen(FalloffRule::ALL, value),
+        "gloss" => rendering.gloss = chosen(GlossRule::ALL, value),
         _ => rendering.exposure = value,
     }
 }
@@ -335,6 +349,8 @@ pub(super) fn spelled(rendering: &Rendering) -> Vec<(&'static str, String)> {
         filter,
         transfer,
         exposure,
+        falloff,
+        gloss,
     } = *rendering;
     let word = |name: &'static str| name.to_owned();
     let values = [
@@ -344,6 +360,8 @@ pub(super) fn spelled(rendering: &Rendering) -> Vec<(&'static str, String)> {
         filter.map(|filter| word(filter.name())),
         transfer.map(|transfer| word(transfer.name())),
         exposure.map(super::view::spelled),
+        falloff.map(|falloff| word(falloff.name())),
+        gloss.map(|gloss| word(gloss.name())),
     ];
     let keys = RENDER.iter().map(|field| field.key);
     let stated = keys.zip(values);
@@ -406,6 +424,8 @@ fn default_of(key: &str, asked: &Rendering) -> &'static str {
         "spp" => "16",
         "filter" => asked.filter.unwrap_or_default().name(),
         "transfer" => asked.transfer.unwrap_or_default().name(),
+        "falloff" => asked.falloff.unwrap_or_default().name(),
+        "gloss" => asked.gloss.unwrap_or_default().name(),
         _ => "0",
     }
 }
@@ -459,6 +479,8 @@ mod tests {
         assert_eq!(words("integrator"), Integrator::ALL.map(Integrator::name));
         assert_eq!(words("filter"), Filter::ALL.map(Filter::name));
         assert_eq!(words("transfer"), Transfer::ALL.map(Transfer::name));
+        assert_eq!(words("falloff"), FalloffRule::ALL.map(FalloffRule::name));
+        assert_eq!(words("gloss"), GlossRule::ALL.map(GlossRule::name));
     }
 
     #[test]
@@ -489,6 +511,8 @@ mod tests {
             filter: Some(Filter::BlackmanHarris),
             transfer: Some(Transfer::Srgb),
             exposure: Some(-0.1),
+            falloff: Some(FalloffRule::Square),
+            gloss: Some(GlossRule::Exponent),
         };
         let text = words(&settings);
         let body = Span::new(0, text.len());

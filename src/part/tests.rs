@@ -8,7 +8,7 @@ use tempfile::TempDir;
 
 use super::*;
 use crate::render::{Block, Blocks, Counts, Frames, Provenance, Settings};
-use crate::scene::Filter;
+use crate::scene::{FalloffRule, Filter, GlossRule};
 use crate::scene::{Integrator, Size, Transfer, Viewpoint};
 
 const SIZE: Size = Size {
@@ -40,6 +40,8 @@ fn picture() -> Provenance {
             filter: Filter::Box,
             transfer: Transfer::Linear,
             exposure: 0.0,
+            falloff: FalloffRule::None,
+            gloss: GlossRule::None,
         },
     }
 }

@@ -40,14 +40,8 @@ impl BlockTracer {
         job.settings.traced().within(job.settings.size)?;
         refusal::check_memory(&job, refusal::memory_for_blocks(&job, 0))?;
         let build = || {
-            let integrator = job.settings.integrator;
-            World::build(
-                Arc::clone(&job.scene),
-                &job.images,
-                integrator,
-                None,
-                &stopped,
-            )
+            let rules = job.settings.rules();
+            World::build(Arc::clone(&job.scene), &job.images, rules, None, &stopped)
         };
         let world = pool.install(build);
         Ok(world.map(|world| Self { world, job, pool }))
@@ -70,9 +64,11 @@ impl BlockTracer {
         hand_over: impl Fn(Block) + Sync,
     ) {
         let settings = self.job.settings;
+        // As in previews, so that they share the compiled code.
+        let cancelled: &(dyn Fn() -> bool + Sync) = &stopped;
         let shot = Shot::new(&self.world, &self.job.camera, settings);
         let work = || {
-            let tracer = Tracer::new(&self.world, settings.integrator, settings.depth, &stopped);
+            let tracer = Tracer::new(&self.world, settings.integrator, settings.depth, cancelled);
             let tracer = tracer.gathering(Gather::of(settings.aov));
             Work::new(match settings.aov {
                 // Only then are rays told apart by samples.

@@ -1,14 +1,16 @@
 //! Secondary rays of Whitted ray tracing.
 
+use glam::DVec3;
+
 use super::gather::Gather;
-use super::optics::{fresnel, mirror, refract_all, spread};
+use super::optics::{Refraction, facet, folded, fresnel, mirror, reflect, refract_all, spread};
 use super::probe::{Point, Sample, Seen};
 use super::sampler::{Sampler, Use};
 use super::surfaces::Landing;
 use super::wave::{RayState, Wave};
 use crate::geometry::lanes::{Eight, Row, Simd, WIDTH, bits};
 use crate::geometry::{Packet, Ray, Rays};
-use crate::scene::{Material, Reflectance, Rgb};
+use crate::scene::{GlossRule, Material, Reflectance, Rgb};
 
 /// The secondary rays of a packet's points at perfect mirrors and clear boundaries, in each lane.
 struct Specular<S: Simd> {
@@ -61,7 +63,7 @@ impl Wave<'_> {
         &mut self,
         simd: S,
         packet: usize,
-        (depth, gather): (u32, Gather),
+        (depth, gather, gloss): (u32, Gather, GlossRule),
         samples: &[Sample],
         seen: &mut [Seen],
     ) {
@@ -102,7 +104,13 @@ impl Wave<'_> {
             };
             let sampler = samples[state.tree].sampler;
             let numbers = |purpose| sampler.pair(state.node, purpose);
-            specular.branch((packet, landing), lane, material, numbers, push);
+            if let Some(exponent) = material.facets(gloss) {
+                let point = landing.point(packet, lane);
+                let facet = facet(point.normal, point.view, exponent, numbers(Use::Reflection));
+                by_facet((&point, facet), material, push);
+            } else {
+                specular.branch((packet, landing), lane, material, numbers, push);
+            }
         }
     }
 }
@@ -202,6 +210,34 @@ impl<S: Simd> Specular<S> {
             });
         }
     }
+}
+
+/// Pushes the secondary rays of a point at a facet with this normal.
+fn by_facet((point, facet): (&Point, DVec3), material: &Material, mut push: impl FnMut(Branch)) {
+    let losses = material.losses(point.side);
+    let dielectric = &material.dielectric;
+    let leave =
+        |direction, outward| point.leave(folded(direction, outward, (point.view, point.normal)));
+    let mut mirrored = material.mirrored(point.side);
+    if dielectric.tint != Rgb::ZERO {
+        let indices = material.indices(point.side);
+        let refraction = Refraction::new(-point.view, facet, indices, dielectric.reflectance);
+        mirrored += refraction.reflectance * dielectric.tint;
+        if let Some(refracted) = refraction.refracted {
+            push(Branch {
+                kind: Secondary::Refracted,
+                ray: leave(refracted, -point.normal),
+                weight: (1.0 - refraction.reflectance) * dielectric.tint,
+                absorption: losses.refracted,
+            });
+        }
+    }
+    push(Branch {
+        kind: Secondary::Mirrored,
+        ray: leave(reflect(-point.view, facet), point.normal),
+        weight: mirrored,
+        absorption: losses.mirrored,
+    });
 }
 
 /// Spreads a ray in a cone whose half angle has this tangent, on the side of the surface that its

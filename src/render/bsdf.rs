@@ -4,11 +4,11 @@ use glam::DVec3;
 
 use super::lobes::{Lobes, strength};
 use super::microfacet::Microfacets;
-use super::optics::{Refraction, reflect, schlick, spread};
+use super::optics::{Refraction, facet, folded, reflect, schlick, spread};
 use super::probe::Point;
 use super::sampler::{Sampler, Use};
 use crate::geometry::Ray;
-use crate::scene::{Highlight, Material, Rgb};
+use crate::scene::{GlossRule, Highlight, Material, Rgb};
 
 /// A material at a point: lobes, mirror and dielectric boundary.
 pub(crate) struct Bsdf<'m> {
@@ -19,6 +19,8 @@ pub(crate) struct Bsdf<'m> {
     /// Mirror reflectance, not counting the boundary.
     pub(crate) mirror: Rgb,
     mirror_chance: f64,
+    /// The exponent by which mirror and boundary are spread, if it is that of the highlight.
+    facets: Option<f64>,
 }
 
 /// The part of a BSDF by which a path goes on, each with a number in 0..1 for further choices.
@@ -54,7 +56,7 @@ pub(crate) struct Scattering {
 
 impl<'m> Bsdf<'m> {
     #[inline(always)]
-    pub(crate) fn at(point: &Point, material: &'m Material) -> Self {
+    pub(crate) fn at(point: &Point, material: &'m Material, gloss: GlossRule) -> Self {
         let is_lit = material.is_lit(point.side);
         let (lobes, of_lobes) = Lobes::of(point, material);
         let of_lobes = if is_lit { of_lobes } else { 0.0 };
@@ -78,6 +80,7 @@ impl<'m> Bsdf<'m> {
             lobes_chance: chance(of_lobes),
             mirror,
             mirror_chance: chance(strength(mirror)),
+            facets: material.facets(gloss),
         }
     }
 
@@ -102,6 +105,10 @@ impl<'m> Bsdf<'m> {
                 chosen: None,
             })
         };
+        let spreading = |direction, tangent, outward| match self.facets {
+            Some(_) => folded(direction, outward, (point.view, point.normal)),
+            None => spread(direction, tangent, outward, numbers),
+        };
         let component = self.component(choice)?;
         let chance = self.chance(component);
         match component {
@@ -123,9 +130,10 @@ impl<'m> Bsdf<'m> {
             }
             Component::Mirror => {
                 let losses = self.material.losses(point.side);
-                let mirrored = reflect(ray.direction, point.normal);
+                let facet = self.facet(point, sampler, bounce);
+                let mirrored = reflect(ray.direction, facet);
                 let tangent = self.material.mirror.spread;
-                let direction = spread(mirrored, tangent, point.normal, numbers);
+                let direction = spreading(mirrored, tangent, point.normal);
                 specular(direction, self.mirror / chance, losses.mirrored)
             }
             Component::Boundary(choice) => {
@@ -133,12 +141,13 @@ impl<'m> Bsdf<'m> {
                 let dielectric = &self.material.dielectric;
                 let weight = dielectric.tint / chance;
                 let tangent = dielectric.spread;
-                if let Some(refracted) = self.refracted(ray, point, choice) {
-                    let direction = spread(refracted, tangent, -point.normal, numbers);
+                let facet = self.facet(point, sampler, bounce);
+                if let Some(refracted) = self.refracted(ray, (point, facet), choice) {
+                    let direction = spreading(refracted, tangent, -point.normal);
                     return specular(direction, weight, losses.refracted);
                 }
-                let mirrored = reflect(ray.direction, point.normal);
-                let direction = spread(mirrored, tangent, point.normal, numbers);
+                let mirrored = reflect(ray.direction, facet);
+                let direction = spreading(mirrored, tangent, point.normal);
                 specular(direction, weight, losses.mirrored)
             }
         }
@@ -178,11 +187,26 @@ impl<'m> Bsdf<'m> {
         1.0 - self.lobes_chance - self.mirror_chance
     }
 
-    /// The refracted direction if a number in 0..1 lets a path pass the boundary, else `None`.
-    pub(crate) fn refracted(&self, ray: &Ray, point: &Point, choice: f64) -> Option<DVec3> {
+    /// The normal by which mirror and boundary turn a path: that of the surface or of a facet.
+    pub(crate) fn facet(&self, point: &Point, sampler: Sampler, bounce: u32) -> DVec3 {
+        let Some(exponent) = self.facets else {
+            return point.normal;
+        };
+        let [u, v, ..] = sampler.four(bounce, Use::Spread);
+        facet(point.normal, point.view, exponent, Some([u, v]))
+    }
+
+    /// The refracted direction at a facet with this normal if a number in 0..1 lets a path pass the
+    /// boundary, else `None`.
+    pub(crate) fn refracted(
+        &self,
+        ray: &Ray,
+        (point, facet): (&Point, DVec3),
+        choice: f64,
+    ) -> Option<DVec3> {
         let indices = self.material.indices(point.side);
         let model = self.material.dielectric.reflectance;
-        let refraction = Refraction::new(ray.direction, point.normal, indices, model);
+        let refraction = Refraction::new(ray.direction, facet, indices, model);
         let Refraction {
             reflectance,
             refracted,

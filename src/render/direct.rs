@@ -120,16 +120,18 @@ pub(crate) fn sent_back(
 }
 
 impl<C: Fn() -> bool> Probe<'_, C> {
-    /// Returns the light reflected from a light, sampled at its centre if it has a size;
+    /// Returns the light reflected from a light, sampled where `chosen` says if that is not its centre;
     /// `reflected` gives the reflectance for the geometry of the light.
     pub(crate) fn direct(
         &mut self,
         point: &Point,
         light: &Light,
+        chosen: Option<Incoming<f64>>,
         reflected: impl FnOnce(&Facing<f64>) -> Rgb,
     ) -> Rgb {
         let place = point.surface.point;
-        let Some(incoming) = lights::incoming(light, place.into()) else {
+        let centre = || lights::incoming(light, place.into());
+        let Some(incoming) = chosen.or_else(centre) else {
             return Rgb::ZERO;
         };
         let facing = Facing::new(&point.into(), light, incoming);

@@ -107,7 +107,7 @@ mod tests {
     use super::*;
     use crate::render::{Query, Settings};
     use crate::scene::Filter;
-    use crate::scene::{Camera, Focus, Integrator, Lens, Size};
+    use crate::scene::{Camera, FalloffRule, Focus, GlossRule, Integrator, Lens, Size};
 
     fn settings(aov: Option<Aov>) -> Settings {
         Settings {
@@ -124,6 +124,8 @@ mod tests {
             filter: Filter::Box,
             transfer: Transfer::Linear,
             exposure: 0.0,
+            falloff: FalloffRule::None,
+            gloss: GlossRule::None,
         }
     }
 

@@ -211,7 +211,7 @@ impl Film {
         tiles: Range<usize>,
         step: &Step,
         shot: &Shot<'_>,
-        cancelled: impl Fn() -> bool + Sync,
+        cancelled: &(dyn Fn() -> bool + Sync),
     ) -> Counts {
         let (size, shape, remembers) = (self.size, self.shape, self.remembers);
         let new = self.tiles.len()..tiles.end;
@@ -231,7 +231,7 @@ impl Film {
                     let Settings {
                         integrator, depth, ..
                     } = shot.settings;
-                    let tracer = Tracer::new(shot.world, integrator, depth, &cancelled);
+                    let tracer = Tracer::new(shot.world, integrator, depth, cancelled);
                     let tracer = tracer.gathering(Gather::of(shot.settings.aov));
                     Work::new(match remembers {
                         Remembers::Pixels => tracer,

@@ -4,8 +4,10 @@ use std::sync::{Arc, Weak};
 use std::time::Duration;
 
 use super::region::Region;
-use super::world::World;
-use crate::scene::{Camera, Filter, Images, Integrator, Rendering, Scene, Size, Transfer};
+use super::world::{Rules, World};
+use crate::scene::{
+    Camera, FalloffRule, Filter, GlossRule, Images, Integrator, Rendering, Scene, Size, Transfer,
+};
 
 /// Marks a pixel without an object in [`Frame::objects`].
 pub const NO_OBJECT: u32 = u32::MAX;
@@ -34,6 +36,10 @@ pub struct Settings {
     pub transfer: Transfer,
     /// What light and albedo are multiplied by before the transfer, in stops: 2 to this power.
     pub exposure: f64,
+    /// How point lights fade whose own falloff does not say so.
+    pub falloff: FalloffRule,
+    /// What spreads mirrors and glass.
+    pub gloss: GlossRule,
 }
 
 impl Settings {
@@ -50,12 +56,23 @@ impl Settings {
             filter: asked.filter.unwrap_or_default(),
             transfer: asked.transfer.unwrap_or_default(),
             exposure: asked.exposure.unwrap_or_default(),
+            falloff: asked.falloff.unwrap_or_default(),
+            gloss: asked.gloss.unwrap_or_default(),
         }
     }
 
     /// What is traced: the region, or the whole picture.
     pub fn traced(&self) -> Region {
         self.region.unwrap_or_else(|| Region::whole(self.size))
+    }
+
+    /// What the preparation of a scene depends on.
+    pub(crate) fn rules(&self) -> Rules {
+        Rules {
+            integrator: self.integrator,
+            falloff: self.falloff,
+            gloss: self.gloss,
+        }
     }
 
     /// The number of passes to all samples: 1, 1, 2, 4 …

@@ -11,7 +11,7 @@ use super::warp;
 use crate::accel::Bvh;
 use crate::geometry::lanes::{Eight, Lanes, Level, Simd, Vector, dispatch};
 use crate::geometry::{Aabb, Ray};
-use crate::scene::{Emitter, Falloff, Light, Rgb};
+use crate::scene::{Emitter, Falloff, FalloffRule, Light, Rgb};
 
 /// The light arriving at points, in each lane.
 #[derive(Clone, Copy, Debug)]
@@ -66,8 +66,29 @@ impl<S: Simd> Incoming<Eight<S>> {
     }
 }
 
+/// The lights under a rule for those whose own falloff is constant; `None` if it changes none.
+pub(crate) fn faded(lights: &[Light], rule: FalloffRule) -> Option<Vec<Light>> {
+    let is_constant = |light: &Light| match &light.emitter {
+        Emitter::Point { falloff, .. } => falloff.radial[1..] == [0.0; 2],
+        Emitter::Distant(_) | Emitter::Ambient => false,
+    };
+    if rule == FalloffRule::None || !lights.iter().any(is_constant) {
+        return None;
+    }
+    let mut faded = lights.to_vec();
+    for light in faded.iter_mut().filter(|light| is_constant(light)) {
+        if let Emitter::Point { falloff, .. } = &mut light.emitter {
+            let [a0, ..] = falloff.radial;
+            // Without a positive sum, the light is not attenuated.
+            let constant = if 0.0 < a0 { a0 } else { 1.0 };
+            falloff.radial = [0.0, 0.0, constant];
+        }
+    }
+    Some(faded)
+}
+
 impl Light {
-    /// The visible sphere of a light that has a size.
+    /// The sphere of a light that has a size, toward which shadows and highlights sample it.
     pub(crate) fn sphere(&self) -> Option<SphereLight> {
         match self.emitter {
             Emitter::Point {
@@ -79,6 +100,27 @@ impl Light {
                 scale: self.scale,
             }),
             Emitter::Point { .. } | Emitter::Distant(_) | Emitter::Ambient => None,
+        }
+    }
+
+    /// The sphere of a light that has a size, as path tracing sees it: with a radiance that follows
+    /// from its intensity. A light that is no radiometric quantity and does not fade has none: there
+    /// is no radiance with which it would light all distances alike.
+    pub(crate) fn luminous_sphere(&self) -> Option<SphereLight> {
+        let sphere = self.sphere()?;
+        let Emitter::Point { falloff, .. } = &self.emitter else {
+            return None;
+        };
+        let [.., square] = falloff.radial;
+        if self.scale == 1.0 {
+            Some(sphere)
+        } else if 0.0 < square {
+            Some(SphereLight {
+                intensity: sphere.intensity / square,
+                ..sphere
+            })
+        } else {
+            None
         }
     }
 }
@@ -190,7 +232,7 @@ impl SphereLight {
     }
 }
 
-/// All lights of a scene with a size.
+/// All lights of a scene with a size that path tracing sees.
 #[derive(Clone, Debug)]
 pub(crate) struct SphereLights {
     all: Vec<SphereLight>,
@@ -200,8 +242,8 @@ pub(crate) struct SphereLights {
 
 impl SphereLights {
     /// Collects the lights; `None` once `cancelled` returns true.
-    pub(crate) fn new(lights: &[Light], cancelled: impl Fn() -> bool + Sync) -> Option<Self> {
-        let all: Vec<_> = lights.iter().filter_map(Light::sphere).collect();
+    pub(crate) fn new(lights: &[Light], cancelled: &(dyn Fn() -> bool + Sync)) -> Option<Self> {
+        let all: Vec<_> = lights.iter().filter_map(Light::luminous_sphere).collect();
         let boxes: Vec<_> = all.iter().map(SphereLight::bounds).collect();
         let tree = Arc::new(Bvh::build(&boxes, cancelled)?);
         let level = level();

@@ -144,6 +144,32 @@ pub(crate) fn spread(
     }
 }
 
+/// The normal of a facet of a surface with this `normal`: of density (g+1)/2π (N·H)^g for an exponent
+/// g, by two numbers in 0..1. The surface's own without numbers, and for facets that face away from
+/// the viewer.
+pub(crate) fn facet(normal: DVec3, view: DVec3, exponent: f64, numbers: Option<[f64; 2]>) -> DVec3 {
+    let Some(numbers) = numbers else {
+        return normal;
+    };
+    let halfway = warp::by_power_of_cosine(normal, exponent.max(0.0), numbers);
+    if view.dot(halfway) <= 0.0 {
+        normal
+    } else {
+        halfway
+    }
+}
+
+/// A direction that a facet leads to, folded back to the side of the surface that `outward` points
+/// to, unless the viewer sees the surface from behind.
+pub(crate) fn folded(direction: DVec3, outward: DVec3, (view, normal): (DVec3, DVec3)) -> DVec3 {
+    let height = direction.dot(outward);
+    if height < 0.0 && 0.0 <= view.dot(normal) {
+        direction - 2.0 * height * outward
+    } else {
+        direction
+    }
+}
+
 /// The power of a highlight: cosineⁿ, 0 for a negative cosine; 0⁰ = 1, and n < 0 counts as 0.
 /// Integer exponents up to 4096 use repeated squaring, which is exact to a few ulp, equal on all
 /// machines and ten times as fast as the general power.

@@ -170,7 +170,7 @@ impl<C: Fn() -> bool> Probe<'_, C> {
         let (point, material) = world.arrive(&path.ray, nearest, mapped);
         Reached::Surface(Vertex {
             nearest,
-            bsdf: Bsdf::at(&point, material),
+            bsdf: Bsdf::at(&point, material, world.gloss),
             point,
             material,
         })
@@ -206,8 +206,8 @@ impl<C: Fn() -> bool> Probe<'_, C> {
         let from_first = path.bounce == 1 && path.chosen.is_some();
         match self.gather {
             Gather::Direct(number) => {
-                let wanted = self.world.scene.lights.get(number as usize);
-                from_first && wanted.and_then(Light::sphere).as_ref() == Some(light)
+                let wanted = self.world.lights().get(number as usize);
+                from_first && wanted.and_then(Light::luminous_sphere).as_ref() == Some(light)
             }
             Gather::Indirect if from_first => false,
             gather => gather.glow(path.bounce),
@@ -234,7 +234,7 @@ impl<C: Fn() -> bool> Probe<'_, C> {
     /// Sums the reflected light of all lights, in file order.
     fn light_of_all(&mut self, vertex: &Vertex<'_>, bounce: u32, sampler: Sampler) -> Rgb {
         let mut sum = Rgb::ZERO;
-        for number in 0..self.world.scene.lights.len() {
+        for number in 0..self.world.lights().len() {
             if self.is_cancelled_at(number) {
                 break;
             }
@@ -253,18 +253,21 @@ impl<C: Fn() -> bool> Probe<'_, C> {
         bounce: u32,
         sampler: Sampler,
     ) -> Rgb {
-        let light = &self.world.scene.lights[number];
+        let light = &self.world.lights()[number];
         let Vertex { point, bsdf, .. } = vertex;
-        let sent_back = match light.sphere() {
-            None => self.direct(point, light, |facing| {
-                let toward = facing.toward.into();
-                let scattered = bsdf.lobes.scatter(point, toward);
-                scattered.value + bsdf.lobes.highlight(point, toward)
-            }),
-            Some(sphere) => {
-                let place = place_on_light(number, bounce, sampler);
-                self.of_sphere_light(point, bsdf, bounce, light, &sphere, place)
+        let place = || place_on_light(number, bounce, sampler);
+        let sent_back = match light.luminous_sphere() {
+            None => {
+                let from = point.surface.point;
+                let sphere = light.sphere();
+                let chosen = sphere.and_then(|sphere| sphere.choose(from, place()));
+                self.direct(point, light, chosen, |facing| {
+                    let toward = facing.toward.into();
+                    let scattered = bsdf.lobes.scatter(point, toward);
+                    scattered.value + bsdf.lobes.highlight(point, toward)
+                })
             }
+            Some(sphere) => self.of_sphere_light(point, bsdf, bounce, light, &sphere, place()),
         };
         light.scale * sent_back
     }

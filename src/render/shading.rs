@@ -3,7 +3,7 @@
 use glam::DVec3;
 
 use super::optics::{self, normal_reflectance, power};
-use crate::scene::{Faces, Highlight, Material, Rgb};
+use crate::scene::{Faces, GlossRule, Highlight, Material, Rgb};
 
 /// The side of a surface that a ray hits, by the geometric normal.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -37,6 +37,15 @@ impl Material {
             self.emission
         } else {
             self.diffuse()
+        }
+    }
+
+    /// The exponent by which the facets of mirrors and glass are spread; `None` if cones spread them.
+    #[inline]
+    pub(crate) fn facets(&self, rule: GlossRule) -> Option<f64> {
+        match (rule, self.highlight) {
+            (GlossRule::Exponent, Highlight::Blinn(gloss)) => Some(gloss.exponent),
+            _ => None,
         }
     }
 

@@ -33,7 +33,7 @@ impl Structures {
     pub(crate) fn build(
         objects: &Objects,
         known: Option<&Self>,
-        cancelled: &(impl Fn() -> bool + Sync),
+        cancelled: &(dyn Fn() -> bool + Sync),
     ) -> Option<Self> {
         let mut structures = Self::default();
         for (object, instance) in instances(objects) {

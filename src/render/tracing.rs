@@ -163,7 +163,7 @@ impl<'s, W: Fn() + Sync> Tracing<'s, W> {
             let cancelled = || ticket.cancelled(published);
             self.counts = self
                 .counts
-                .and(self.film.advance(next..until, step, shot, cancelled));
+                .and(self.film.advance(next..until, step, shot, &cancelled));
             if cancelled() {
                 return false;
             }

@@ -33,7 +33,7 @@ impl<'w, C: Fn() -> bool> Probe<'w, C> {
         seen.resize(seen.len() + samples.len(), Seen::NOTHING);
         while wave.advance(samples, &mut self.counts) && !(self.cancelled)() {
             self.land(wave, samples, seen);
-            for number in 0..self.world.scene.lights.len() {
+            for number in 0..self.world.lights().len() {
                 // Each light may take as many rays as there are samples.
                 if 0 < number && (self.cancelled)() {
                     break;
@@ -55,7 +55,7 @@ impl<'w, C: Fn() -> bool> Probe<'w, C> {
         world.nearest_each(&wave.rays, &mut wave.nearest);
         world.land_each(&wave.rays, &wave.nearest, &mut wave.landings);
         wave.arrive(world, self.gather, samples, seen);
-        wave.blockers.resize(world.scene.lights.len(), None);
+        wave.blockers.resize(world.lights().len(), None);
     }
 
     /// Adds the light of the light with this index that the hits reflect; lights must be added in
@@ -68,7 +68,7 @@ impl<'w, C: Fn() -> bool> Probe<'w, C> {
         seen: &mut [Seen],
     ) {
         let world = self.world;
-        let light = &world.scene.lights[number];
+        let light = &world.lights()[number];
         wave.asking.clear();
         wave.shadows.clear();
         dispatch!(world.level, simd => {
@@ -107,7 +107,8 @@ impl<'w, C: Fn() -> bool> Probe<'w, C> {
     pub(super) fn branch(&self, wave: &mut Wave<'_>, samples: &[Sample], seen: &mut [Seen]) {
         dispatch!(self.world.level, simd => {
             for packet in 0..wave.rays.len() {
-                wave.go_on(simd, packet, (self.depth, self.gather), samples, seen);
+                let rules = (self.depth, self.gather, self.world.gloss);
+                wave.go_on(simd, packet, rules, samples, seen);
             }
         });
     }

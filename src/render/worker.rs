@@ -115,8 +115,9 @@ fn trace<W: Fn() + Sync>(
     // A newer job does not cancel the build: it may need the same structures, and while a held key
     // moves objects of a large scene, none would ever be finished.
     let quit = || shared.is_quitting();
-    let (scene, integrator) = (Arc::clone(&job.scene), job.settings.integrator);
-    let world = World::build(scene, &job.images, integrator, known.as_deref(), quit);
+    let scene = Arc::clone(&job.scene);
+    let rules = job.settings.rules();
+    let world = World::build(scene, &job.images, rules, known.as_deref(), &quit);
     let Some(world) = world.map(Arc::new) else {
         // The picture before is not the newest any more.
         if let Some(traced) = traced {

@@ -9,14 +9,14 @@ use glam::DVec2;
 
 use super::emitters::{Emitters, Known};
 use super::level::level;
-use super::lights::SphereLights;
+use super::lights::{SphereLights, faded};
 use super::spheres::Spheres;
 use super::structures::{Structures, instances};
 use super::texture::{Textures, environment_place};
 use crate::accel::Bvh;
 use crate::geometry::Ray;
 use crate::geometry::lanes::Level;
-use crate::scene::{Images, Integrator, Object, Rgb, Scene};
+use crate::scene::{FalloffRule, GlossRule, Images, Integrator, Light, Object, Rgb, Scene};
 
 /// Up to this many objects are intersected without a tree. Measured with single rays: with two
 /// solids this is 1.5 times as fast as a tree; with six to eleven a tree is 1.2 to 1.7 times as
@@ -26,6 +26,14 @@ pub(super) const FEW: usize = 4;
 /// The order of objects without a tree.
 const FILE_ORDER: [u32; FEW] = [0, 1, 2, 3];
 
+/// The settings that the preparation of a scene depends on.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Rules {
+    pub(crate) integrator: Integrator,
+    pub(crate) falloff: FalloffRule,
+    pub(crate) gloss: GlossRule,
+}
+
 /// A scene and its acceleration structures.
 #[derive(Clone, Debug)]
 pub(crate) struct World {
@@ -33,6 +41,10 @@ pub(crate) struct World {
     pub(crate) textures: Textures,
     /// The sum of all ambient light.
     pub(crate) ambient: Rgb,
+    /// The lights if a rule makes them fade; otherwise they are the scene's.
+    pub(super) faded: Option<Vec<Light>>,
+    /// What spreads mirrors and glass.
+    pub(crate) gloss: GlossRule,
     /// The lights with a size.
     pub(crate) sphere_lights: SphereLights,
     /// The objects that emit light, for paths.
@@ -48,18 +60,25 @@ pub(crate) struct World {
 }
 
 impl World {
-    /// Prepares a scene for an integrator. Keeps the tree of `previous` if the shapes are the same, and the
+    /// Prepares a scene. Keeps the tree of `previous` if the shapes are the same, and the
     /// structures of its meshes in any case. `None` once `cancelled` returns true.
     pub(crate) fn build(
         scene: Arc<Scene>,
         images: &Images,
-        integrator: Integrator,
+        rules: Rules,
         previous: Option<&Self>,
-        cancelled: impl Fn() -> bool + Sync,
+        cancelled: &(dyn Fn() -> bool + Sync),
     ) -> Option<Self> {
         let textures = Textures::new(&scene.textures, images);
         let ambient = scene.ambient_light();
-        let sphere_lights = SphereLights::new(&scene.lights, &cancelled)?;
+        let Rules {
+            integrator,
+            falloff,
+            gloss,
+        } = rules;
+        let faded = faded(&scene.lights, falloff);
+        let lights = faded.as_deref().unwrap_or(&scene.lights);
+        let sphere_lights = SphereLights::new(lights, cancelled)?;
         let level = level();
         let opaque = opaque_meshes(&scene);
         let changed = previous.and_then(|world| changed_shapes(&world.scene, &scene));
@@ -71,7 +90,7 @@ impl World {
                     textures: &world.textures,
                     changed,
                 });
-                Emitters::build(&scene, &textures, known, &cancelled)?
+                Emitters::build(&scene, &textures, known, cancelled)?
             }
             Integrator::Whitted => Arc::default(),
         };
@@ -80,6 +99,8 @@ impl World {
                 scene,
                 textures,
                 ambient,
+                faded,
+                gloss,
                 sphere_lights,
                 emitters,
                 level,
@@ -90,7 +111,7 @@ impl World {
             });
         }
         let known = previous.map(|world| &world.structures);
-        let structures = Structures::build(&scene.objects, known, &cancelled)?;
+        let structures = Structures::build(&scene.objects, known, cancelled)?;
         let tree = if scene.objects.len() <= FEW {
             None
         } else {
@@ -114,6 +135,8 @@ impl World {
             scene,
             textures,
             ambient,
+            faded,
+            gloss,
             sphere_lights,
             emitters,
             level,
@@ -122,6 +145,12 @@ impl World {
             structures,
             opaque,
         })
+    }
+
+    /// The lights, in file order.
+    #[inline]
+    pub(crate) fn lights(&self) -> &[Light] {
+        self.faded.as_deref().unwrap_or(&self.scene.lights)
     }
 
     /// Whether both worlds have the same shapes, judging by the structures they share.

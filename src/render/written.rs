@@ -2,12 +2,12 @@
 
 use super::frame::{Aov, Settings};
 use super::region::Region;
-use crate::scene::{Filter, Integrator, Size, Transfer};
+use crate::scene::{FalloffRule, Filter, GlossRule, Integrator, Size, Transfer};
 
 impl Settings {
     /// The name and value of each setting but the number of samples, in a fixed order. Numbers are
     /// the shortest that read back as the same bits.
-    pub fn written(&self) -> [(&'static str, String); 9] {
+    pub fn written(&self) -> [(&'static str, String); 11] {
         let Self {
             size: Size { width, height },
             region,
@@ -19,6 +19,8 @@ impl Settings {
             filter,
             transfer,
             exposure,
+            falloff,
+            gloss,
         } = *self;
         let none = || "none".to_owned();
         [
@@ -34,6 +36,8 @@ impl Settings {
             ("filter", filter.name().to_owned()),
             ("transfer", transfer.name().to_owned()),
             ("exposure", exposure.to_string()),
+            ("falloff", falloff.name().to_owned()),
+            ("gloss", gloss.name().to_owned()),
         ]
     }
 
@@ -64,6 +68,8 @@ impl Settings {
             filter: one_of(&Filter::ALL, Filter::name, next("filter")?)?,
             transfer: one_of(&Transfer::ALL, Transfer::name, next("transfer")?)?,
             exposure: next("exposure")?.parse().ok()?,
+            falloff: one_of(&FalloffRule::ALL, FalloffRule::name, next("falloff")?)?,
+            gloss: one_of(&GlossRule::ALL, GlossRule::name, next("gloss")?)?,
         };
         settings.exposure.is_finite().then_some(settings)
     }
@@ -124,6 +130,8 @@ mod tests {
             filter: Filter::Box,
             transfer: Transfer::Linear,
             exposure: 0.0,
+            falloff: FalloffRule::None,
+            gloss: GlossRule::None,
         };
         let region = Region {
             x: 1,

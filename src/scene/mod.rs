@@ -20,8 +20,8 @@ pub use material::{
 pub use mesh::{Meshes, NoMesh, beside};
 pub use objects::Objects;
 pub use rendering::{
-    DEFAULT_DEPTH, DEFAULT_SPP, EXPOSURES, Filter, Integrator, MAX_DEPTH, MAX_SPP, Rendering,
-    Transfer,
+    DEFAULT_DEPTH, DEFAULT_SPP, EXPOSURES, FalloffRule, Filter, GlossRule, Integrator, MAX_DEPTH,
+    MAX_SPP, Rendering, Transfer,
 };
 pub use setting::Setting;
 pub use texture::{Image, Images, Pattern, Side, Texture, Tinted};

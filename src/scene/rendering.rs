@@ -36,6 +36,10 @@ pub struct Rendering {
     pub transfer: Option<Transfer>,
     /// Exposure in stops, one of [`EXPOSURES`].
     pub exposure: Option<f64>,
+    /// How lights fade whose own falloff does not say so.
+    pub falloff: Option<FalloffRule>,
+    /// What spreads mirrors and glass.
+    pub gloss: Option<GlossRule>,
 }
 
 impl Rendering {
@@ -49,6 +53,8 @@ impl Rendering {
             filter: self.filter.or(others.filter),
             transfer: self.transfer.or(others.transfer),
             exposure: self.exposure.or(others.exposure),
+            falloff: self.falloff.or(others.falloff),
+            gloss: self.gloss.or(others.gloss),
         }
     }
 
@@ -144,6 +150,52 @@ impl Filter {
             Self::Box => "box",
             Self::Gaussian => "gaussian",
             Self::BlackmanHarris => "blackman-harris",
+        }
+    }
+}
+
+/// How a point light fades with the distance if its own falloff does not.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum FalloffRule {
+    /// It does not fade.
+    #[default]
+    None,
+    /// By the square of the distance.
+    Square,
+}
+
+impl FalloffRule {
+    /// All rules.
+    pub const ALL: [Self; 2] = [Self::None, Self::Square];
+
+    /// The name, such as `square`.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::None => "none",
+            Self::Square => "square",
+        }
+    }
+}
+
+/// What spreads the rays of mirrors and glass.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum GlossRule {
+    /// Their own cones.
+    #[default]
+    None,
+    /// The exponent of the highlight, if that is [`Highlight::Blinn`](super::Highlight::Blinn).
+    Exponent,
+}
+
+impl GlossRule {
+    /// All rules.
+    pub const ALL: [Self; 2] = [Self::None, Self::Exponent];
+
+    /// The name, such as `exponent`.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::None => "none",
+            Self::Exponent => "exponent",
         }
     }
 }

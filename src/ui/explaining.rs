@@ -70,7 +70,7 @@ mod tests {
     use crate::language::{Language, Source};
     use crate::render::{Frames, Job, NO_OBJECT, PreparedScene, Settings};
     use crate::scene::{DEFAULT_DEPTH, Filter};
-    use crate::scene::{Images, Integrator, Meshes, Size, Transfer};
+    use crate::scene::{FalloffRule, GlossRule, Images, Integrator, Meshes, Size, Transfer};
     use crate::ui::app::tests::pictures;
     use crate::ui::msg::Target;
 
@@ -95,6 +95,8 @@ mod tests {
                 filter: Filter::Box,
                 transfer: Transfer::default(),
                 exposure: 0.0,
+                falloff: FalloffRule::None,
+                gloss: GlossRule::None,
                 region: None,
             },
             scene,

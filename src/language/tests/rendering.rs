@@ -2,7 +2,7 @@
 
 use super::{read_as, shown};
 use crate::language::{Language, Node, RenderKey};
-use crate::scene::{Filter, Integrator, Meshes, Rendering, Transfer};
+use crate::scene::{FalloffRule, Filter, GlossRule, Integrator, Meshes, Rendering, Transfer};
 use crate::text::apply;
 
 /// A scene in each language that states nothing, with the place of settings marked by `@`.
@@ -56,6 +56,8 @@ fn every_key_is_read_in_every_language() {
         ("filter", "blackman-harris"),
         ("transfer", "srgb"),
         ("exposure", "-1.5"),
+        ("falloff", "square"),
+        ("gloss", "exponent"),
     ];
     assert!(
         RenderKey::all()
@@ -69,6 +71,8 @@ fn every_key_is_read_in_every_language() {
         filter: Some(Filter::BlackmanHarris),
         transfer: Some(Transfer::Srgb),
         exposure: Some(-1.5),
+        falloff: Some(FalloffRule::Square),
+        gloss: Some(GlossRule::Exponent),
     };
     for (language, scene) in SCENES {
         let none = read(language, scene, "");

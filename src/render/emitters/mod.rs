@@ -88,7 +88,7 @@ impl Emitters {
         scene: &Scene,
         textures: &Textures,
         known: Option<Known<'_>>,
-        cancelled: &(impl Fn() -> bool + Sync),
+        cancelled: &(dyn Fn() -> bool + Sync),
     ) -> Option<Arc<Self>> {
         let glows = glows(scene);
         if let Some(known) = known

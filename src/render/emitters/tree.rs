@@ -50,7 +50,7 @@ struct Node {
 
 impl Tree {
     /// Builds the tree; `None` once `cancelled` returns true.
-    pub(crate) fn build(emitters: &[Reach], cancelled: &impl Fn() -> bool) -> Option<Self> {
+    pub(crate) fn build(emitters: &[Reach], cancelled: &dyn Fn() -> bool) -> Option<Self> {
         let mut tree = Self {
             nodes: Vec::with_capacity((2 * emitters.len()).saturating_sub(1)),
             leaves: vec![0; emitters.len()],
@@ -68,7 +68,7 @@ impl Tree {
         emitters: &[Reach],
         order: &mut [u32],
         (parent, depth): (u32, u32),
-        cancelled: &impl Fn() -> bool,
+        cancelled: &dyn Fn() -> bool,
     ) -> Option<Reach> {
         if POLLED <= order.len() && cancelled() {
             return None;

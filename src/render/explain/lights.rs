@@ -33,7 +33,7 @@ impl Lit<'_> {
         reflected: impl FnOnce(&Facing<f64>) -> Rgb,
         added: Rgb,
     ) -> Option<LightTerm> {
-        let light = &self.world.scene.lights[number];
+        let light = &self.world.lights()[number];
         let from = self.point.surface.point;
         let centre = incoming(light, from.into())?;
         let incoming = chosen.unwrap_or(centre);

@@ -47,9 +47,8 @@ pub struct PreparedScene {
 impl PreparedScene {
     /// Prepares the scene of a job; `None` once `cancelled` returns true.
     pub fn new(job: &Job, cancelled: impl Fn() -> bool + Sync) -> Option<Self> {
-        let integrator = job.settings.integrator;
         let scene = Arc::clone(&job.scene);
-        let world = World::build(scene, &job.images, integrator, None, cancelled)?;
+        let world = World::build(scene, &job.images, job.settings.rules(), None, &cancelled)?;
         let world = Arc::new(world);
         Some(Self {
             query: Query::new(&world, job),

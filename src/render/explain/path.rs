@@ -119,8 +119,10 @@ impl<C: Fn() -> bool> Recorder<'_, C> {
         light: &SphereLight,
         (t, radiance, weight): (f64, Rgb, f64),
     ) -> LightHit {
-        let lights = &self.probe.world.scene.lights;
-        let number = lights.iter().position(|of| of.sphere() == Some(*light));
+        let lights = self.probe.world.lights();
+        let number = lights
+            .iter()
+            .position(|of| of.luminous_sphere() == Some(*light));
         LightHit {
             light: number.unwrap_or_default() as u32,
             t,
@@ -260,18 +262,18 @@ impl<C: Fn() -> bool> Recorder<'_, C> {
             point,
             material,
         };
-        let light = &world.scene.lights[number];
+        let light = &world.lights()[number];
         let scattered = |toward| {
             let scattered = bsdf.lobes.scatter(point, toward);
             scattered.value + bsdf.lobes.highlight(point, toward)
         };
         let reflected = |facing: &Facing<f64>| light.scale * scattered(facing.toward.into());
-        let Some(sphere) = light.sphere() else {
-            return lit.term(number, None, reflected, added);
-        };
         let from = point.surface.point;
         let place = place_on_light(number, path.bounce, self.sample.sampler);
-        let chosen = sphere.choose(from, place);
+        let chosen = light.sphere().and_then(|sphere| sphere.choose(from, place));
+        let Some(sphere) = light.luminous_sphere() else {
+            return lit.term(number, chosen, reflected, added);
+        };
         let mut term = lit.term(number, chosen, reflected, added)?;
         // Falloff does not apply to lights with a size.
         [term.radial, term.spot] = [1.0; 2];
@@ -312,9 +314,10 @@ impl<C: Fn() -> bool> Recorder<'_, C> {
             Component::Lobes(_) => RayKind::Glossy,
             Component::Mirror => RayKind::Mirror,
             Component::Boundary(choice) => {
-                if bsdf.refracted(&path.ray, point, choice).is_some() {
+                let facet = bsdf.facet(point, self.sample.sampler, path.bounce);
+                if bsdf.refracted(&path.ray, (point, facet), choice).is_some() {
                     RayKind::Refraction
-                } else if bsdf.refracted(&path.ray, point, 1.0).is_some() {
+                } else if bsdf.refracted(&path.ray, (point, facet), 1.0).is_some() {
                     RayKind::Boundary
                 } else {
                     RayKind::TotalReflection

@@ -203,7 +203,7 @@ impl<C: Fn() -> bool> Recorder<'_, C> {
             point: &point,
             material,
         };
-        let sphere = probe.world.scene.lights[number].sphere();
+        let sphere = probe.world.lights()[number].sphere();
         let from = point.surface.point;
         let sampler = samples[0].sampler;
         let chosen = sphere.and_then(|sphere| state.choose((number, &sphere), from, sampler));

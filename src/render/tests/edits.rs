@@ -16,8 +16,8 @@ use crate::geometry::{Csg, Instance, Node, Operation};
 use crate::scene::{Dielectric, Emitter, Faces, Falloff, Gloss, Highlight, Image, Mirror, Shadows};
 
 fn built(job: &Job, known: Option<&World>) -> Option<World> {
-    let (scene, integrator) = (Arc::clone(&job.scene), job.settings.integrator);
-    World::build(scene, &job.images, integrator, known, || false)
+    let scene = Arc::clone(&job.scene);
+    World::build(scene, &job.images, job.settings.rules(), known, &|| false)
 }
 
 /// A job in progress, taken step by step.
@@ -69,7 +69,7 @@ impl Easel {
         let shot = Shot::new(&self.world, &self.job.camera, self.job.settings);
         for step in steps(self.job.settings.spp, self.job.frames) {
             let tiles = 0..self.film.tiles();
-            let counts = self.film.advance(tiles, &step, &shot, cancelled);
+            let counts = self.film.advance(tiles, &step, &shot, &cancelled);
             self.counts = self.counts.and(counts);
             if cancelled() {
                 return false;

@@ -264,7 +264,7 @@ fn glossy_surfaces_show_the_light_that_paths_find_by_chance() {
 fn what_hides_an_emitter_does_so_on_purpose_and_by_chance() {
     let down = ray([0.4, 0.0, 0.3], [0.0; 3]);
     for between in [
-        "<light type='point'><intensity value='.01'/><position z='1'/><size value='.3'/></light>",
+        "<light type='point'><intensity value='.01'/><position z='1'/><size value='.3'/><attenuation value='1'/></light>",
         "<object type='sphere' material='glass'><scale value='.3'/><translate z='1'/></object>
          <material name='glass'><diffuse value='0'/><specular value='0'/>
          <refraction value='.9' index='1.3'/></material>",
@@ -302,7 +302,7 @@ fn emitters_are_kept_as_long_as_they_are_the_same() {
     let built = |scene: Scene| {
         let images = Images::default();
         let scene = Arc::new(scene);
-        let built = World::build(scene, &images, Integrator::Path, Some(&before), || false);
+        let built = World::build(scene, &images, PATHS, Some(&before), &|| false);
         built.expect("nothing cancels").emitters
     };
     let changed = |change: &dyn Fn(&mut Scene)| {
@@ -325,14 +325,5 @@ fn emitters_are_kept_as_long_as_they_are_the_same() {
     assert!(changed(
         &|scene| scene.objects[object].shape = sphere([0.0, 0.0, 1.0], 0.1)
     ));
-    assert!(
-        World::build(
-            Arc::new(scene),
-            &Images::default(),
-            Integrator::Path,
-            None,
-            || true
-        )
-        .is_none()
-    );
+    assert!(World::build(Arc::new(scene), &Images::default(), PATHS, None, &|| true).is_none());
 }

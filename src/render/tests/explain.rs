@@ -197,7 +197,7 @@ fn densities_of_a_path_are_those_of_its_lobes() {
 fn lights_with_a_size_are_weighted_by_both_densities() {
     let scene = xml("<object type=\"plane\" material=\"m\"><scale value=\"9\"/></object>
         <material type=\"blinn\" name=\"m\"><specular value=\"0\"/></material>
-        <light type=\"point\"><intensity value=\"9\"/><position z=\"4\"/><size value=\"2\"/></light>");
+        <light type=\"point\"><intensity value=\"9\"/><position z=\"4\"/><size value=\"2\"/><attenuation value=\"1\"/></light>");
     let mut job = job_of((scene, Images::default()), Integrator::Path);
     job.camera.eye = DVec3::new(0.0, 0.0, 1.0);
     job.camera.target = DVec3::ZERO;

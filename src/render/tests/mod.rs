@@ -35,14 +35,14 @@ use super::probe::{Sample, Seen};
 use super::sampler::Sampler;
 use super::touched::Touched;
 use super::tracer::Tracer;
-use super::world::World;
+use super::world::{Rules, World};
 use super::{Frame, Frames, Job, NO_OBJECT, Renderer, Settings, Threads};
 use crate::geometry::{Affine, Cone, Cuboid, Ellipsoid, Node, Ray, Shape, Solid, Sphere};
 use crate::language::coefficients::Coefficients;
 use crate::language::{Language, Source};
 use crate::scene::{
-    Camera, Filter, Focus, Images, Integrator, Lens, Light, Maps, Material, Meshes, Object,
-    Pattern, Rgb, Scene, Setting, Side, Size, Texture, Tinted, Transfer,
+    Camera, FalloffRule, Filter, Focus, GlossRule, Images, Integrator, Lens, Light, Maps, Material,
+    Meshes, Object, Pattern, Rgb, Scene, Setting, Side, Size, Texture, Tinted, Transfer,
 };
 
 impl<C: Fn() -> bool> Tracer<'_, C> {
@@ -193,15 +193,16 @@ fn white_light(position: [f64; 3]) -> Light {
     Light::point(position.into(), Rgb::ONE)
 }
 
+/// Those of path tracing, without any that a scene would have to ask for.
+const PATHS: Rules = Rules {
+    integrator: Integrator::Path,
+    falloff: FalloffRule::None,
+    gloss: GlossRule::None,
+};
+
 fn world(scene: Scene) -> World {
-    World::build(
-        Arc::new(scene),
-        &Images::default(),
-        Integrator::Path,
-        None,
-        || false,
-    )
-    .expect("nothing cancels the building")
+    World::build(Arc::new(scene), &Images::default(), PATHS, None, &|| false)
+        .expect("nothing cancels the building")
 }
 
 fn ray(origin: [f64; 3], toward: [f64; 3]) -> Ray {
@@ -304,6 +305,8 @@ fn settings(width: u32, height: u32, spp: u32) -> Settings {
         filter: Filter::Box,
         transfer: Transfer::default(),
         exposure: 0.0,
+        falloff: FalloffRule::None,
+        gloss: GlossRule::None,
     }
 }
 

@@ -7,6 +7,7 @@ use super::super::probe::Point;
 use super::super::sampler::Use;
 use super::highlights::GROUND;
 use super::*;
+use crate::scene::Emitter;
 
 /// The means of a ray's radiance over `samples`, one for each of `seeds` seeds.
 fn means(scene: Scene, depth: u32, ray: Ray, samples: u32, seeds: u32) -> Vec<Rgb> {
@@ -92,20 +93,25 @@ fn furnace_around_a_light() {
 }
 
 /// A light of radius r at height h above a white floor: the floor reflects E / π, E = π L (r / h)²,
-/// and L = π I / (π r²), with the factor π of scenes not made for path tracing: I / h² for any r.
+/// and L = π I / (π r² a²), with the factor π of scenes not made for path tracing: I / (a h)² for any
+/// r. With gamma it is L = I / (π r²), whatever the attenuation a.
 #[test]
 fn lights_with_a_size_match_their_intensity() {
     for radius in [0.1, 1.0, 3.9] {
-        for gamma in ["", " gamma='sRGB'"] {
+        for (gamma, attenuation, expected) in [
+            ("", 1.0, 0.5),
+            ("", 2.0, 0.125),
+            (" gamma='sRGB'", 0.0, 0.5 / PI),
+            (" gamma='sRGB'", 2.0, 0.5 / PI),
+        ] {
             let scene = xml_seen_by(
                 &format!("<camera{gamma}/>"),
                 &format!(
                     "{GROUND}<material name='m'><diffuse value='1'/><specular value='0'/></material>
                      <light type='point'><intensity value='8'/><position z='4'/>
-                     <size value='{radius}'/></light>"
+                     <size value='{radius}'/><attenuation value='{attenuation}'/></light>"
                 ),
             );
-            let expected = if gamma.is_empty() { 0.5 } else { 0.5 / PI };
             let down = ray([0.5, 0.0, 0.05], [0.0; 3]);
             // By next event estimation alone, and with multiple importance sampling.
             assert_unbiased(&scene, 0, down, expected, "asked");
@@ -114,11 +120,80 @@ fn lights_with_a_size_match_their_intensity() {
     }
 }
 
+/// A light of radius r at height h that neither fades nor is a radiometric quantity is sampled as in
+/// Whitted ray tracing, and not seen: the floor reflects I times the mean of N·L over the cone that the
+/// light subtends, ½ (1 + cos α), at any depth.
+#[test]
+fn lights_with_a_size_that_do_not_fade_light_as_without_path_tracing() {
+    let lamp =
+        "<light type='point'><intensity value='3'/><position z='4'/><size value='2'/></light>";
+    let scene = xml(&format!(
+        "{GROUND}<material name='m'><diffuse value='1'/><specular value='0'/></material>{lamp}"
+    ));
+    let expected = 3.0 * 0.5 * (1.0 + 0.75f64.sqrt());
+    let down = ray([0.5, 0.0, 0.05], [0.0; 3]);
+    for depth in [0, 1] {
+        assert_unbiased(&scene, depth, down, expected, "asked only");
+    }
+    let up = ray([0.0; 3], [0.0, 0.0, 1.0]);
+    assert_near(mean(xml(lamp), 4, up, 16), 0.0, 0.0);
+}
+
+/// With `falloff square`, a point light of intensity I at distance d reaches a white floor with I / d²,
+/// in both integrators, unless its own terms fade it; those of a size have the radiance that gives the
+/// same.
+#[test]
+fn lights_fade_by_the_square_where_their_own_terms_do_not() {
+    let floor = |light: &str| {
+        xml(&format!(
+            "{GROUND}<material name='m'><diffuse value='1'/><specular value='0'/></material>{light}"
+        ))
+    };
+    let lamp = |terms: &str| {
+        floor(&format!(
+            "<light type='point'><intensity value='8'/><position z='4'/>{terms}</light>"
+        ))
+    };
+    let mut halved = lamp("");
+    if let Emitter::Point { falloff, .. } = &mut halved.lights[0].emitter {
+        falloff.radial = [2.0, 0.0, 0.0];
+    }
+    let distant = "<light type='direct'><intensity value='8'/><direction z='-1'/></light>";
+    for (case, scene, plain, square) in [
+        ("a point", lamp(""), 8.0, 0.5),
+        ("attenuated", lamp("<attenuation value='2'/>"), 0.125, 0.125),
+        ("a constant term", halved, 4.0, 0.25),
+        ("distant", floor(distant), 8.0, 8.0),
+    ] {
+        for (falloff, expected) in [(FalloffRule::None, plain), (FalloffRule::Square, square)] {
+            let rules = Rules { falloff, ..PATHS };
+            let scene = Arc::new(scene.clone());
+            let world = World::build(scene, &Images::default(), rules, None, &|| false);
+            let world = world.expect("nothing cancels the building");
+            let sample = centred(ray([0.5, 0.0, 0.05], [0.0; 3]), f64::INFINITY);
+            for integrator in Integrator::ALL {
+                let mut tracer = Tracer::new(&world, integrator, 0, || false);
+                let seen = tracer.radiance(&sample).radiance.x;
+                assert_near(seen, expected, 1e-12 * expected);
+                assert!(seen.is_finite(), "{case}");
+            }
+        }
+    }
+    for radius in [0.1, 1.0, 3.9] {
+        let scene = lamp(&format!("<size value='{radius}'/>"));
+        let faded = super::super::lights::faded(&scene.lights, FalloffRule::Square);
+        let lights = faded.expect("its falloff is constant");
+        let scene = Scene { lights, ..scene };
+        let down = ray([0.5, 0.0, 0.05], [0.0; 3]);
+        assert_unbiased(&scene, 1, down, 0.5, "a size");
+    }
+}
+
 #[test]
 fn lights_with_a_size_are_visible() {
     let lamp = |z: f64| {
         format!(
-            "<light type='point'><intensity value='12'/><position z='{z}'/><size value='2'/></light>"
+            "<light type='point'><intensity value='12'/><position z='{z}'/><size value='2'/><attenuation value='1'/></light>"
         )
     };
     let up = ray([0.0; 3], [0.0, 0.0, 1.0]);
@@ -224,7 +299,7 @@ fn every_brdf_matches_numerical_integration() {
             (
                 "a ball of light half behind a plane",
                 "<light type='point'><intensity value='4'/><position x='2' y='-2' z='3'/>
-                 <size value='1'/></light>
+                 <size value='1'/><attenuation value='1'/></light>
                  <object type='plane' material='black'><scale value='50'/>
                  <translate x='51' z='1.5'/></object>
                  <material name='black'><diffuse value='0'/><specular value='0'/></material>",
@@ -310,7 +385,7 @@ fn paths_match_whitted_rays_without_scattering() {
         ..BLACK
     };
     let mut lamp = Light::point(DVec3::new(2.0, 3.0, 6.0), Rgb::new(1.0, 0.9, 0.8));
-    lamp.emitter = crate::scene::Emitter::Point {
+    lamp.emitter = Emitter::Point {
         position: DVec3::new(2.0, 3.0, 6.0),
         radius: 0.0,
         falloff: crate::scene::Falloff {
@@ -463,7 +538,7 @@ fn lights_with_a_size_occlude_each_other() {
         let lamp = |x: f64, z: f64, size: f64, intensity: f64| {
             format!(
                 "<light type='point'><intensity value='{intensity}'/>
-                 <position x='{}' z='{z}'/><size value='{size}'/></light>",
+                 <position x='{}' z='{z}'/><size value='{size}'/><attenuation value='1'/></light>",
                 far + x
             )
         };
@@ -494,7 +569,7 @@ fn light_is_absorbed_on_the_way_from_lights() {
         "<object type='sphere' material='m'><scale value='2'/></object>
          <material name='m'><diffuse value='0'/><specular value='0'/>
          <refraction value='1' index='1'/><absorption value='{absorption}'/></material>
-         <light type='point'><intensity value='1'/><size value='.5'/></light>"
+         <light type='point'><intensity value='1'/><size value='.5'/><attenuation value='1'/></light>"
     ));
     let seen = mean(scene, 4, ray([5.0, 0.0, 0.0], [0.0; 3]), 16);
     assert_near(seen, 4.0 * 0.5f64.powf(1.5), 1e-12);
@@ -513,7 +588,7 @@ fn extreme_numbers_give_finite_radiance() {
     ] {
         let scene = xml(&format!(
             "{material}<object type='sphere' material='m'><scale value='2'/></object>
-             <light type='point'><intensity value='1'/><position z='1'/><size value='.1'/></light>
+             <light type='point'><intensity value='1'/><position z='1'/><size value='.1'/><attenuation value='1'/></light>
              <light type='direct'><intensity value='1'/></light><environment value='1'/>"
         ));
         for origin in [[0.1, 0.2, 0.3], [0.0, 0.0, 5.0]] {
@@ -529,7 +604,7 @@ fn tiny_lights_act_like_points() {
     for size in ["1e-9", "1e-150", "1e-300", "5e-324"] {
         let scene = xml(&format!(
             "{GROUND}<material name='m'><diffuse value='1'/><specular value='0'/></material>
-             <light type='point'><intensity value='8'/><position z='4'/><size value='{size}'/></light>"
+             <light type='point'><intensity value='8'/><position z='4'/><size value='{size}'/><attenuation value='1'/></light>"
         ));
         let down = ray([0.0, 0.0, 0.5], [0.0; 3]);
         assert_near(mean(scene, 1, down, 64), 0.5, 1e-12);
@@ -546,7 +621,7 @@ fn paths_do_not_depend_on_the_number_of_threads() {
             "{GROUND}{}<object type='sphere' material='g'><translate z='1'/></object>
              <material name='g'><reflection value='.5' glossiness='.2'/>
              <refraction value='.4' index='1.5' glossiness='.1'/></material>
-             <light type='point'><intensity value='20'/><position x='2' z='4'/><size value='1'/></light>
+             <light type='point'><intensity value='20'/><position x='2' z='4'/><size value='1'/><attenuation value='1'/></light>
              <environment value='.2'/>",
             material("microfacet")
         ),

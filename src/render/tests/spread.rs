@@ -53,6 +53,87 @@ fn spread_rays_fill_their_cone_uniformly() {
     }
 }
 
+/// The mean of a ray's radiance over many samples of one pixel, where exponents spread mirrors and
+/// glass.
+fn mean_by_exponents(scene: &str, ray: Ray, samples: u32, integrator: Integrator) -> f64 {
+    let rules = Rules {
+        gloss: GlossRule::Exponent,
+        ..PATHS
+    };
+    let scene = Arc::new(xml(scene));
+    let world = World::build(scene, &Images::default(), rules, None, &|| false);
+    let world = world.expect("nothing cancels the building");
+    let mut tracer = Tracer::new(&world, integrator, 1, || false);
+    let each = (0..samples).map(|index| {
+        let sample = Sample {
+            sampler: Sampler::new(0, 0, index, 0),
+            ..centred(ray, f64::INFINITY)
+        };
+        tracer.radiance(&sample).radiance.x
+    });
+    each.sum::<f64>() / f64::from(samples)
+}
+
+/// Seen from straight above, a facet at angle θ off the normal N turns the view by 2θ, and P(θ < t) =
+/// 1 − cos^(g+1) t: the fraction of directions that hit a glowing ball of angular radius β about N is
+/// 1 − cos^(g+1)(β / 2). Behind the surface, glass turns the view by θ − asin(sin θ / 1.5), and passes
+/// 1 − F at angle θ.
+#[test]
+fn exponents_spread_mirrors_and_glass_about_their_half_vectors() {
+    let below = |exponent: f64, narrow: f64| {
+        // By the midpoints of equal probabilities.
+        const STEPS: u32 = 100_000;
+        let passes = (0..STEPS).map(|step| {
+            let share = (f64::from(step) + 0.5) / f64::from(STEPS);
+            let cosine = (1.0 - share).powf(1.0 / (exponent + 1.0));
+            let angle = cosine.acos();
+            let turned = angle - (angle.sin() / 1.5).asin();
+            let reflected = 0.04 + 0.96 * (1.0 - cosine).powi(5);
+            if turned < narrow {
+                1.0 - reflected
+            } else {
+                0.0
+            }
+        });
+        passes.sum::<f64>() / f64::from(STEPS)
+    };
+    for (exponent, narrow) in [(8.0, 0.3), (20.0, 0.2), (200.0, 0.1)] {
+        let radius = 5.0 * f64::sin(narrow);
+        let scene = |material: &str, kind: &str, z: f64| {
+            format!(
+                "{GROUND}<material name='m' type='{kind}'><diffuse value='0'/><specular value='0'/>
+                 <glossiness value='{exponent}'/>{material}</material>
+                 <material name='glow'><diffuse value='0'/><specular value='0'/><emission value='1'/>
+                 </material><object type='sphere' material='glow'><scale value='{radius}'/>
+                 <translate z='{z}'/></object>"
+            )
+        };
+        // The cone of the slot is ignored.
+        let mirror = "<reflection value='1' glossiness='.7'/>";
+        let glass = "<refraction value='1' index='1.5'/>";
+        let down = ray([0.0, 0.0, 1.0], [0.0; 3]);
+        let above = 1.0 - f64::cos(narrow / 2.0).powf(exponent + 1.0);
+        for integrator in Integrator::ALL {
+            for (scene, expected) in [
+                (scene(mirror, "blinn", 5.0), above),
+                (scene(glass, "blinn", -5.0), below(exponent, narrow)),
+            ] {
+                let seen = mean_by_exponents(&scene, down, 1 << 14, integrator);
+                assert!(
+                    (seen - expected).abs() < 4e-3,
+                    "{exponent}: {seen} is not {expected}"
+                );
+            }
+            // A phong material is not spread by its exponent.
+            let phong = scene("<reflection value='1'/>", "phong", 5.0);
+            assert_near(mean_by_exponents(&phong, down, 16, integrator), 1.0, 0.0);
+        }
+        // The first sample is at the centre.
+        let centre = mean_by_exponents(&scene(mirror, "blinn", 5.0), down, 1, Integrator::Whitted);
+        assert_near(centre, 1.0, 0.0);
+    }
+}
+
 /// A plane whose edge lies below the centre of a light hides half of it.
 #[test]
 fn shadows_of_a_large_light_are_soft() {

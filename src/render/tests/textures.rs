@@ -34,7 +34,7 @@ fn shown(shape: Shape, texture: Texture, images: &Images) -> World {
     let mut scene = scene(&[(shape, BLACK)], &[]);
     scene.materials = vec![painted(grey(1.0), Some(0))];
     scene.textures = vec![texture];
-    World::build(Arc::new(scene), images, Integrator::Path, None, || false)
+    World::build(Arc::new(scene), images, PATHS, None, &|| false)
         .expect("nothing cancels the building")
 }
 
@@ -325,7 +325,7 @@ fn bumps_tilt_normals_with_every_highlight() {
         }];
         scene.textures = vec![picture([1.0, 1.0])];
         scene.ambient = Rgb::ZERO;
-        let world = World::build(Arc::new(scene), &images, Integrator::Path, None, || false);
+        let world = World::build(Arc::new(scene), &images, PATHS, None, &|| false);
         let world = world.expect("nothing cancels the building");
         let place = DVec3::new(0.7, 0.3, 1.0);
         let seen = colour(&world, place + DVec3::Z, place).x;

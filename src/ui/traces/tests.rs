@@ -9,7 +9,7 @@ use tempfile::TempDir;
 use super::*;
 use crate::language::{Language, Source};
 use crate::render::{Frames, Renderer, Settings, Threads};
-use crate::scene::Filter;
+use crate::scene::{FalloffRule, Filter, GlossRule};
 use crate::scene::{Images, Integrator, Meshes, Size, Viewpoint};
 
 /// A small picture with samples, of the template.
@@ -36,6 +36,8 @@ pub(in crate::ui) fn job(spp: u32) -> Job {
             filter: Filter::Box,
             transfer: scene.setting.rendering.transfer.unwrap_or_default(),
             exposure: 0.0,
+            falloff: FalloffRule::None,
+            gloss: GlossRule::None,
         },
         scene: Arc::new(scene),
         images: Images::default(),

@@ -15,7 +15,6 @@ use crate::scene::beside;
 use crate::scene::{
     Dielectric, Faces, Gloss, Highlight, Maps, Material, Mirror, Pattern, Rgb, Texture,
 };
-use crate::text::Diagnostic;
 
 /// The expected name of such an object, for messages.
 const EXPECTED: &str = "a mesh file: .obj";
@@ -79,7 +78,7 @@ impl<'a> Lowering<'a> {
         None
     }
 
-    /// The named mesh, if it has been read; reports its problems.
+    /// The named mesh, if it has been read; reports its problems. An object without one is left out.
     fn model(&mut self, named: Named<'a>) -> Option<&'a Arc<Model>> {
         match self.meshes.get(named.name)? {
             Ok(model) => {
@@ -92,14 +91,12 @@ impl<'a> Lowering<'a> {
                 let span = self.tree.attributes[named.attribute].value;
                 let object = self.origins.name(Node::Object(named.object));
                 for reason in &fault.reasons {
-                    self.report.error(|| {
-                        let error =
-                            Diagnostic::error(span, format!("{object}: {reason}"), EXPECTED);
-                        match &fault.hint {
-                            Some(hint) => error.with_hint(hint),
-                            None => error,
-                        }
-                    });
+                    let hint = match &fault.hint {
+                        Some(hint) => format!("the object is left out; {hint}"),
+                        None => "the object is left out".to_owned(),
+                    };
+                    let message = || format!("{object}: {reason}");
+                    self.warn(span, message, EXPECTED, &hint);
                 }
                 None
             }

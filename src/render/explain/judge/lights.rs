@@ -23,7 +23,6 @@ impl Judge<'_> {
     /// light in the sample.
     pub(super) fn lacks(&self, ray: usize, shading: &Shading, weight: Rgb) -> Lacks {
         let object = shading.hit.object;
-        let scene = &self.case.world.scene;
         let mut reasons: Vec<Reason> = Vec::new();
         let mut lost = 0.0;
         let none = self.case.world.ambient == Rgb::ZERO;
@@ -46,7 +45,7 @@ impl Judge<'_> {
         let mut off = Vec::new();
         let mut away = Vec::new();
         for term in &shading.lights {
-            let light = &scene.lights[term.light as usize];
+            let light = &self.case.world.lights()[term.light as usize];
             match term.dark {
                 Some(Dark::SwitchedOff) => {
                     off.push((term.light, term.reflected.max_element()));
@@ -59,7 +58,7 @@ impl Judge<'_> {
                             object,
                         },
                     );
-                    let colour = scene.lights[light as usize].colour;
+                    let colour = self.case.world.lights()[light as usize].colour;
                     reasons.push((0.5 * colour.abs().max_element(), verdict));
                 }
                 Some(Dark::FacesAway) => match self.around(term, shading) {
@@ -83,7 +82,13 @@ impl Judge<'_> {
                 }
             }
         }
-        let lights = scene.lights.iter().filter(|light| is_direct(light)).count();
+        let lights = self
+            .case
+            .world
+            .lights()
+            .iter()
+            .filter(|light| is_direct(light))
+            .count();
         if !off.is_empty() {
             let loss = off.iter().map(|(_, loss)| *loss).fold(0.0, f64::max);
             let all = off.len() == lights;
@@ -119,7 +124,7 @@ impl Judge<'_> {
     /// That nothing in the scene can light a surface; not if ambient light does.
     fn no_lights(&self, shading: &Shading) -> Option<Reason> {
         let scene = &self.case.world.scene;
-        if scene.lights.iter().any(is_direct) || shading.ambient != Rgb::ZERO {
+        if self.case.world.lights().iter().any(is_direct) || shading.ambient != Rgb::ZERO {
             return None;
         }
         let others = match self.case.integrator {
@@ -132,7 +137,7 @@ impl Judge<'_> {
 
     /// That a light is inside the object that a surface belongs to and faces away from it.
     fn around(&self, term: &LightTerm, shading: &Shading) -> Option<Reason> {
-        let light = &self.case.world.scene.lights[term.light as usize];
+        let light = &self.case.world.lights()[term.light as usize];
         let object = shading.hit.object;
         let is_around = shading.hit.side == Side::Front && self.encloses(object, light);
         is_around.then(|| {

@@ -230,7 +230,7 @@ impl Judge<'_> {
             return;
         }
         let inside = found(Verdict::Inside { object }, ray);
-        let lights = self.case.world.scene.lights.iter();
+        let lights = self.case.world.lights().iter();
         let is_lit = |light: &Light| light.colour != Rgb::ZERO && self.encloses(object, light);
         let is_room = lights.into_iter().any(is_lit);
         if shading.boundary.is_none() && !is_room && self.is_dim(self.totals[ray]) {

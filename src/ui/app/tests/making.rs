@@ -134,7 +134,7 @@ fn a_setting_in_use_is_written_and_no_longer_lies_over_the_text() {
         ),
         (
             ":set gamma 2<Enter>",
-            "set takes integrator, depth, spp, filter, transfer, exposure",
+            "set takes integrator, depth, spp, filter, transfer, exposure, falloff, gloss",
         ),
     ] {
         press(&mut app, order);
