@@ -56,7 +56,7 @@ impl<'w> Animated<'w> {
     pub(super) fn new(origin: Origin<'w>) -> Result<Self, Error> {
         let text = file::read_text(origin.track)?;
         let (track, mut findings) = track::read(&text);
-        let loaded = load(origin.scene, origin.folders, origin.warnings);
+        let loaded = load(origin.scene, origin.folders, origin.warnings, None);
         let scene = loaded.as_ref().ok().and_then(|loaded| {
             let scene = loaded.scene.as_ref()?;
             Some((&loaded.source, &scene.camera))

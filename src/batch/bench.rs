@@ -97,7 +97,12 @@ struct Read {
 
 /// Reads a scene file and lowers it.
 fn from_file(work: &Bench, path: &Path) -> Result<Read, Error> {
-    let loaded = load(path, &work.assets, work.warnings)?;
+    let loaded = load(
+        path,
+        &work.assets,
+        work.warnings,
+        Some(&work.tracing.rendering),
+    )?;
     let errors = loaded.findings.errors();
     let scene = loaded.scene.ok_or(Error::Invalid { errors })?;
     let files = loaded.read.found.values();

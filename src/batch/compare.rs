@@ -133,7 +133,12 @@ fn read(path: &Path) -> Result<Image, Error> {
 }
 
 fn trace(work: &Compare, path: &Path, size: Option<Size>) -> Result<Image, Error> {
-    let loaded = load(path, &work.assets, work.warnings)?;
+    let loaded = load(
+        path,
+        &work.assets,
+        work.warnings,
+        Some(&work.tracing.rendering),
+    )?;
     let scene = loaded.scene.ok_or_else(|| Error::Invalid {
         errors: loaded.findings.errors(),
     })?;

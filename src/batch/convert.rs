@@ -36,7 +36,7 @@ fn try_convert(work: &Convert) -> Result<(), Error> {
     work.output.check()?;
     assets::check_folders(&work.assets)?;
     memory::start_threads_or_none();
-    let loaded = load(&work.scene, &work.assets, work.warnings)?;
+    let loaded = load(&work.scene, &work.assets, work.warnings, None)?;
     let scene = loaded.scene.as_ref().ok_or_else(|| Error::Unconverted {
         errors: loaded.findings.errors(),
     })?;

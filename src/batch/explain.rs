@@ -40,7 +40,12 @@ pub fn explain(work: &Explain) -> Result<(), Error> {
 fn try_explain(work: &Explain) -> Result<(), Error> {
     assets::check_folders(&work.assets)?;
     memory::start_threads_or_none();
-    let loaded = load(&work.scene, &work.assets, work.warnings)?;
+    let loaded = load(
+        &work.scene,
+        &work.assets,
+        work.warnings,
+        Some(&work.tracing.rendering),
+    )?;
     let scene = loaded.scene.ok_or_else(|| Error::Invalid {
         errors: loaded.findings.errors(),
     })?;

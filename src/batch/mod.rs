@@ -32,12 +32,12 @@ use crate::assets::{self, Assets, NoFolder};
 use crate::file::{self, ReadError};
 use crate::image_file::Unreadable;
 use crate::language::{
-    self, Language, Lowered, Node, Source, UnknownLanguage, errors_of_beginning,
+    self, Language, Lowered, Node, Outlook, Source, UnknownLanguage, errors_of_beginning, outlook,
 };
 use crate::memory::{self, OutOfMemory};
 use crate::part::{self, Unmerged};
 use crate::render::Refusal;
-use crate::scene::Scene;
+use crate::scene::{Rendering, Scene};
 use crate::text::{Diagnostic, Findings, Span, counted, percentage, visible, without_codes};
 
 pub use bench::{Bench, bench};
@@ -224,7 +224,12 @@ pub fn check(work: &Check) -> Result<(), Error> {
     let mut errors = 0;
     let mut warnings = 0;
     for path in &work.scenes {
-        match load(path, &work.assets, work.warnings) {
+        match load(
+            path,
+            &work.assets,
+            work.warnings,
+            Some(&Rendering::default()),
+        ) {
             Ok(loaded) => {
                 errors += loaded.findings.errors();
                 warnings += loaded.findings.warnings();
@@ -270,8 +275,14 @@ struct Loaded {
     findings: Findings,
 }
 
-/// Reads a scene and the files it references, from `folders` too, and prints all findings.
-fn load(path: &Path, folders: &[PathBuf], warnings: Warnings) -> Result<Loaded, Error> {
+/// Reads a scene and the files it references, from `folders` too, and prints all findings; among them
+/// what the text shows of its picture with these render settings over its own, if any are given.
+fn load(
+    path: &Path,
+    folders: &[PathBuf],
+    warnings: Warnings,
+    over: Option<&Rendering>,
+) -> Result<Loaded, Error> {
     let language = Language::of_path(path).map_err(|unknown| {
         // An error in opening the file comes before its extension.
         file::open(path).map_or_else(Error::from, |_| unknown.into())
@@ -290,7 +301,20 @@ fn load(path: &Path, folders: &[PathBuf], warnings: Warnings) -> Result<Loaded, 
     language::fits(language, &text, 0).map_err(no_memory)?;
     let mut source = Source::new(language, Arc::new(text));
     let (lowered, read) = lower(path, &mut source, folders).map_err(no_memory)?;
-    let findings = warnings.apply(lowered.diagnostics);
+    let mut findings = lowered.diagnostics;
+    if let Some((scene, over)) = lowered.scene.as_ref().zip(over) {
+        let asked = over.or(scene.setting.rendering);
+        for Outlook { warning, cure } in outlook(&source, scene, &asked) {
+            findings.warning(|| match cure {
+                Some((key, value)) => warning.with_hint(format!(
+                    "`--{0} {value}`, or the render setting `{0} {value}`",
+                    key.name()
+                )),
+                None => warning,
+            });
+        }
+    }
+    let findings = warnings.apply(findings.sorted());
     print_all_findings(path, source.text(), &findings);
     Ok(Loaded {
         size: size_span(&source),

@@ -67,7 +67,12 @@ fn try_render(work: &Render) -> Result<(), Error> {
     assets::check_folders(&work.assets)?;
     let mut times = Times::started();
     memory::start_threads_or_none();
-    let loaded = load(&work.scene, &work.assets, work.warnings)?;
+    let loaded = load(
+        &work.scene,
+        &work.assets,
+        work.warnings,
+        Some(&work.tracing.rendering),
+    )?;
     let scene = loaded.scene.ok_or_else(|| Error::Invalid {
         errors: loaded.findings.errors(),
     })?;

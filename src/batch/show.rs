@@ -43,7 +43,7 @@ fn try_show(work: &Show) -> Result<Verdict, Error> {
         None => None,
         Some(scene) => {
             memory::start_threads_or_none();
-            let loaded = load(scene, &work.assets, Warnings::Allowed)?;
+            let loaded = load(scene, &work.assets, Warnings::Allowed, None)?;
             let digest = fingerprint(loaded.source.text(), &loaded.read.found)?;
             Some(digest == provenance.scene)
         }

@@ -4,6 +4,7 @@ mod beginning;
 mod convert;
 mod line_ends;
 mod motion;
+mod outlook;
 mod rendering;
 mod saved;
 mod structure;

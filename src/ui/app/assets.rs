@@ -199,14 +199,12 @@ impl Assets {
 
     /// The message that counts the unreadable files, and its severity; `errors` lists the reasons.
     pub(super) fn faults(&self, errors: &str) -> (Option<Severity>, String) {
-        let meshes = self.meshes.unreadable();
-        let count = meshes + self.picture_errors.len();
+        let count = self.meshes.unreadable() + self.picture_errors.len();
         let files = counted(count, "file");
         let words = format!("cannot read {files}: press {errors} to see why");
-        match (count, meshes) {
-            (0, _) => (None, "all files can be read now".to_owned()),
-            (_, 0) => (Some(Severity::Warning), words),
-            _ => (Some(Severity::Error), words),
+        match count {
+            0 => (None, "all files can be read now".to_owned()),
+            _ => (Some(Severity::Warning), words),
         }
     }
 }

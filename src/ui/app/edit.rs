@@ -48,7 +48,7 @@ impl App {
         };
         let before = Before {
             scene,
-            diagnostics: &self.diagnostics,
+            diagnostics: &self.reported,
         };
         let lowered = self
             .document
@@ -69,7 +69,7 @@ impl App {
 
     fn install_with(&mut self, lowered: Lowered, names: Names) {
         let (path, source) = (self.disk.path.as_deref(), self.document.source());
-        self.diagnostics = self.assets.report(path, source, lowered.diagnostics);
+        self.reported = self.assets.report(path, source, lowered.diagnostics);
         self.keep_solo();
         // A scene that lacks a mesh may still have an error.
         if let Some(scene) = lowered.scene.filter(|_| !self.assets.lack_meshes())
@@ -77,6 +77,7 @@ impl App {
         {
             self.scene = Some(scene.into());
         }
+        self.judge_text();
         self.cursor.renew(self.document.source(), names);
         self.keep_mode();
     }
@@ -98,7 +99,7 @@ impl App {
     /// which were taken back.
     pub(super) fn try_edits_anew(&mut self, edits: &[Edit]) -> Result<(), Diagnostic> {
         // The findings would be in the wrong places.
-        if self.diagnostics.is_empty() {
+        if self.reported.is_empty() {
             self.try_edits(edits)
         } else {
             self.attempt(edits, Self::lowered)

@@ -9,7 +9,6 @@ use crate::render::{Aov, Colours, Frame, Histogram, MOST_HALF_STOPS, exposes};
 use crate::scene::{Emitter, Transfer};
 use crate::text::{concise, percentage, rounded};
 use crate::ui::keymap::Action;
-use crate::ui::msg::Target;
 
 impl App {
     /// Shows light or an AOV.
@@ -193,28 +192,10 @@ impl App {
             half_stops,
         );
     }
-
-    /// Says how to see a complete preview of which more than half is clipped; once, until one is
-    /// not.
-    pub(super) fn hint_exposure(&mut self, target: Target, frame: &Frame) {
-        if target != Target::Preview || !frame.progress.complete || !is_light(frame) {
-            return;
-        }
-        let clipped = Histogram::of(&frame.values, self.pictures.display.stops()).clipped;
-        if clipped <= 0.5 {
-            self.pictures.is_bright = false;
-        } else if !self.pictures.is_bright && self.overlays.message.is_none() {
-            self.pictures.is_bright = true;
-            let darker = self.key_for(Action::Expose(-1));
-            self.overlays.say(format!(
-                "more than half of the picture is above 1: {darker} lowers the exposure"
-            ));
-        }
-    }
 }
 
 /// Whether a frame shows light or albedo, with its values.
-fn is_light(frame: &Frame) -> bool {
+pub(super) fn is_light(frame: &Frame) -> bool {
     let settings = frame.settings();
     settings.is_some_and(|settings| exposes(settings.aov)) && !frame.values.is_empty()
 }

@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use crossterm::event::KeyEvent;
 
+use super::Cures;
 use super::assets::Assets;
 use super::compared::Compared;
 use super::cursor::Cursor;
@@ -41,6 +42,10 @@ pub struct App {
     pub document: Document,
     /// The errors and warnings of the current text.
     pub diagnostics: Findings,
+    /// Those of them that were found in reading the text and its files.
+    pub(super) reported: Findings,
+    /// The render settings that are offered against what is wrong with the picture.
+    pub(super) cures: Cures,
     /// The scene of the last text without errors, which the pictures show.
     pub scene: Option<Arc<Scene>>,
     /// The files that the scene names.

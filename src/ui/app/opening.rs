@@ -8,7 +8,8 @@ use super::cursor::Names;
 use super::inspection::Inspection;
 use super::palette::Palette;
 use super::{
-    App, Cursor, Disk, FirstReading, Jobs, OnDisk, Overlays, Page, Pictures, Sequence, Thumbnails,
+    App, Cures, Cursor, Disk, FirstReading, Jobs, OnDisk, Overlays, Page, Pictures, Sequence,
+    Thumbnails,
 };
 use crate::document::Document;
 use crate::file::ReadError;
@@ -87,6 +88,8 @@ impl App {
         let mut app = Self {
             document: Document::new(opening.language, text),
             diagnostics: Findings::default(),
+            reported: Findings::default(),
+            cures: Cures::default(),
             scene: None,
             assets: Assets::default(),
             disk: Disk::new(opening.path, state, first),

@@ -34,8 +34,6 @@ pub struct Pictures {
     pub display: Display,
     /// The histogram, if it is shown.
     pub tally: Option<Tally>,
-    /// Whether the preview was said to be too bright, and is so still.
-    pub(super) is_bright: bool,
     /// The wireframe, if it is shown instead of the preview.
     pub wires: Option<Wires>,
     /// Whether the selected object is outlined in SELECT mode.
@@ -98,7 +96,6 @@ impl Pictures {
             aov: None,
             display: Display::default(),
             tally: None,
-            is_bright: false,
             wires: None,
             outline: Outline::default(),
             symbols: Symbols::default(),

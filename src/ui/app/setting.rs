@@ -41,14 +41,19 @@ impl SettingOrder {
 }
 
 impl App {
-    /// Writes a render setting into the text, or removes it there; what lay over it is dropped.
+    /// Carries out an order.
     pub(super) fn set_rendering(&mut self, order: &SettingOrder) {
-        let key = order.key;
         let value = match &order.to {
             To::Value(value) => Some(value.clone()),
-            To::InUse => Some(key.value(&self.rendering())),
+            To::InUse => Some(order.key.value(&self.rendering())),
             To::Default => None,
         };
+        self.write_setting(order.key, value);
+    }
+
+    /// Writes a value of a render setting into the text, or removes the setting there; what lay over it
+    /// is dropped.
+    pub(super) fn write_setting(&mut self, key: RenderKey, value: Option<String>) {
         self.document.end_step();
         let edits = match &value {
             Some(value) => {

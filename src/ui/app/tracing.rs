@@ -306,7 +306,7 @@ impl App {
         }
         // Without a scene, it is of one that was left.
         if self.scene.is_some() {
-            self.hint_exposure(target, &frame);
+            self.judge_picture(target, &frame);
             self.pictures.take(target, frame);
         }
         Vec::new()

@@ -333,6 +333,7 @@ impl App {
             Action::Expose(half_stops) => self.expose(half_stops),
             Action::Wireframe => self.overlays.say(self.pictures.show_wires()),
             Action::Integrator => self.toggle_integrator(),
+            Action::Cure => self.cure(),
             Action::Pin => return self.pin(),
             Action::Flip
             | Action::Wipe
@@ -407,6 +408,8 @@ impl App {
 
     fn toggle_integrator(&mut self) {
         let words = self.pictures.toggle_integrator(self.scene.as_deref());
+        // It may lack other lights.
+        self.judge_text();
         self.overlays.say(words);
     }
 

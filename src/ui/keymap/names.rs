@@ -99,6 +99,7 @@ pub(super) const fn of_action(action: Action) -> &'static str {
         A::Expose(_) => "darker",
         A::Wireframe => "wireframe",
         A::Integrator => "integrator",
+        A::Cure => "cure",
         A::Repaint => "redraw",
         A::Suspend => "suspend",
         A::Quit => "quit",

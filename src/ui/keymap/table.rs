@@ -446,6 +446,7 @@ pub(super) const TABLE: &[Binding] = &[
     bind(Scope::Everywhere, &[c('<')], A::Expose(-1), "darker display, by half a stop"),
     bind(Scope::Everywhere, &[c('>')], A::Expose(1), "brighter display"),
     bind(Scope::Everywhere, &[c('P')], A::Integrator, "toggle path tracing"),
+    bind(Scope::Everywhere, &[c('C')], A::Cure, "write the setting offered against a black or burnt picture"),
     bind(Scope::Always, &[ctrl('l')], A::Repaint, "redraw the screen"),
     bind(Scope::Always, &[ctrl('z')], A::Suspend, "suspend"),
     bind(Scope::Sceneless, &[c('q')], A::Quit, "quit"),

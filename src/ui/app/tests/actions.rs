@@ -80,7 +80,8 @@ fn edits(action: A) -> bool {
         | A::Orthonormalise
         | A::Nudge(..)
         | A::SaveView
-        | A::DeleteView => true,
+        | A::DeleteView
+        | A::Cure => true,
         A::Move(_)
         | A::Page(_)
         | A::First
@@ -209,7 +210,7 @@ fn every_action_edits_as_its_rows_say_and_is_undone_in_one_step() {
         for row in rows {
             let keys = row.keys;
             let (mut app, _) = opened_as(name, text);
-            assert_eq!(app.diagnostics.len(), 0, "{name}");
+            assert_eq!(app.reported.len(), 0, "{name}");
             app.select(row.node);
             press(&mut app, keys);
             let changed = app.document.text().to_owned();

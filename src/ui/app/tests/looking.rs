@@ -207,7 +207,8 @@ fn legends_say_what_colours_stand_for() {
 #[test]
 fn a_picture_that_is_too_bright_says_so_once() {
     let (mut app, effects) = opened(SCENE);
-    let bright = "more than half of the picture is above 1: < lowers the exposure";
+    let bright =
+        "more than half of the picture is above 1: C sets exposure -1, < darkens the screen only";
     let trace = job(&effects, Target::Preview).expect("a preview").clone();
     press(&mut app, "<Esc>");
     for (keys, grey, told) in [
@@ -225,6 +226,60 @@ fn a_picture_that_is_too_bright_says_so_once() {
         app.update(preview(&trace, grey));
         assert_eq!(shown(&app), told, "{keys} {grey}");
     }
+}
+
+/// Lights of 64 at a distance of 7.8 from the middle are as bright as of 1 if they fade by the square.
+#[test]
+fn a_burnt_picture_is_offered_its_likeliest_cure_first() {
+    let text = SCENE.replace("1 1 1\n2\n", "64 64 64\n2\n");
+    let (mut app, effects) = opened(&text);
+    let trace = job(&effects, Target::Preview).expect("a preview").clone();
+    press(&mut app, "<Esc>");
+    let shows = |app: &mut App, grey| {
+        app.update(preview(&trace, grey));
+        shown(app).to_owned()
+    };
+    let burnt = "more than half of the picture is above 1: C sets";
+    assert!(shows(&mut app, 40.0).starts_with(&format!("{burnt} falloff square")));
+    press(&mut app, "C");
+    assert_eq!(
+        app.document.text(),
+        format!("// render: falloff square\n{text}")
+    );
+    press(&mut app, "<Esc>");
+    assert!(shows(&mut app, 3.0).starts_with(&format!("{burnt} exposure -2,")));
+    press(&mut app, "C");
+    assert_eq!(
+        app.document.text(),
+        format!("// render: falloff square exposure -2\n{text}")
+    );
+    press(&mut app, "uu");
+    assert_eq!(app.document.text(), text);
+}
+
+#[test]
+fn a_black_picture_says_what_helps() {
+    let sky = "<xml><scene><object type=\"sphere\" material=\"m\"/><material name=\"m\"/>\
+               <environment value=\"1\"/></scene><camera><position z=\"9\"/></camera></xml>";
+    let (mut app, effects) = opened_as("scene.xml", sky);
+    let trace = job(&effects, Target::Preview).expect("a preview").clone();
+    assert_eq!(app.diagnostics.len(), 1);
+    app.update(preview(&trace, 0.0));
+    assert_eq!(shown(&app), "the picture is black: C sets integrator path");
+    press(&mut app, "P");
+    assert_eq!(app.diagnostics.len(), 0, "by path it is lit");
+    press(&mut app, "PC");
+    assert!(
+        app.document
+            .text()
+            .contains("<render integrator=\"path\"/>")
+    );
+    assert_eq!(app.diagnostics.len(), 0);
+    press(&mut app, "<Esc>C");
+    assert_eq!(
+        shown(&app),
+        "nothing is wrong that a render setting would help"
+    );
 }
 
 #[test]

@@ -1,0 +1,286 @@
+//! What a text shows of its picture before that is traced: that it can only be black, or grows
+//! brighter with every bounce.
+
+use glam::DVec3;
+
+use super::rendering::RenderKey;
+use super::{Node, Source};
+use crate::geometry::{Ray, Shape, normalise};
+use crate::scene::{
+    Camera, Emitter, Highlight, Integrator, Light, Material, Object, Rendering, Rgb, Scene, Tinted,
+};
+use crate::text::{Diagnostic, Span, concise};
+
+/// The number of objects or materials up to which they are looked at one by one: more are made by a
+/// program.
+const MOST_SEARCHED: usize = 100_000;
+
+/// How much more than it receives a surface may send back by rounding.
+const ROUNDING: f64 = 1e-6;
+
+/// How much brighter a picture may become by surfaces that send back more than they receive.
+const GROWTH: f64 = 2.0;
+
+/// What a text shows of its picture.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Outlook {
+    /// A warning, at the place that causes it.
+    pub warning: Diagnostic,
+    /// The render setting that helps, and its value, if one does.
+    pub cure: Option<(RenderKey, String)>,
+}
+
+/// What a source, as last lowered to `scene`, shows of its picture with these render settings. Takes
+/// time linear in the scene.
+pub fn outlook(source: &Source, scene: &Scene, asked: &Rendering) -> Vec<Outlook> {
+    let view = Judge {
+        source,
+        scene,
+        asked,
+    };
+    let mut found = Vec::new();
+    if scene.objects.is_empty() {
+        found.push(plain(
+            view.nowhere(),
+            "the scene has no object",
+            "an object",
+        ));
+        return found;
+    }
+    found.extend(view.clipped());
+    found.extend(view.unlit().or_else(|| view.enclosed()));
+    if asked.integrator() == Integrator::Path {
+        found.extend(view.gains());
+    }
+    found
+}
+
+struct Judge<'a> {
+    source: &'a Source,
+    scene: &'a Scene,
+    asked: &'a Rendering,
+}
+
+impl Judge<'_> {
+    /// Every object is nearer than the near limit, or beyond the far limit.
+    fn clipped(&self) -> Option<Outlook> {
+        let Camera { eye, target, .. } = self.scene.camera;
+        let [near, far] = self.scene.camera.depths;
+        if near == 0.0 && far == f64::INFINITY {
+            return None;
+        }
+        let forward = normalise(0.5 * target - 0.5 * eye)?;
+        let depths = |object: &Object| {
+            let bounds = object.shape.bounds();
+            let depth = (bounds.centre() - eye).dot(forward);
+            let half = 0.5 * bounds.size().dot(forward.abs());
+            [depth - half, depth + half]
+        };
+        let all = |is: &dyn Fn([f64; 2]) -> bool| {
+            let mut objects = self.scene.objects.iter();
+            objects.all(|object| object.shape.bounds().is_bounded() && is(depths(object)))
+        };
+        let (key, side) = if all(&|[_, end]| end < near) {
+            ("near", "nearer than near")
+        } else if all(&|[start, _]| far < start) {
+            ("far", "beyond far")
+        } else {
+            return None;
+        };
+        let span = self.place(Node::View, key);
+        let message = format!("every object is {side}: the picture is black");
+        Some(plain(span, &message, "a limit that shows an object"))
+    }
+
+    /// No light reaches any surface by the integrator.
+    fn unlit(&self) -> Option<Outlook> {
+        let scene = self.scene;
+        let integrator = self.asked.integrator();
+        let shines = |light: &&Light| light.colour != Rgb::ZERO;
+        let is_lamp = |light: &&Light| light.emitter != Emitter::Ambient;
+        let is_lit = match integrator {
+            Integrator::Whitted => {
+                scene.ambient != Rgb::ZERO || scene.lights.iter().any(|light| shines(&light))
+            }
+            Integrator::Path => scene
+                .lights
+                .iter()
+                .any(|light| is_lamp(&light) && shines(&light)),
+        };
+        if is_lit {
+            return None;
+        }
+        let glows = |material: &Material| material.emission != Rgb::ZERO;
+        let Tinted { colour, .. } = scene.setting.environment;
+        if colour != Rgb::ZERO || scene.materials.iter().any(glows) {
+            // By path that lights; otherwise it is only seen.
+            if integrator == Integrator::Path {
+                return None;
+            }
+            let message =
+                "no light but what glows: only path tracing lets that light other surfaces";
+            let finding = plain(self.nowhere(), message, "`integrator path`, or a light");
+            return Some(Outlook {
+                cure: self.setting("integrator", Integrator::Path.name()),
+                ..finding
+            });
+        }
+        let lamps = || scene.lights.iter().filter(is_lamp);
+        Some(if lamps().next().is_some() {
+            let first = scene.lights.iter().position(|light| is_lamp(&light));
+            let span = self.source.span(Node::Light(first.unwrap_or_default()));
+            let message = "every light is switched off: its colour is zero";
+            plain(span, message, "a light with a colour")
+        } else {
+            let message = match integrator {
+                Integrator::Path if self.has_ambient() => {
+                    "the only light is ambient, which path tracing leaves out: the picture is black"
+                }
+                _ => "the scene has no light: the picture is black",
+            };
+            plain(self.nowhere(), message, "a light")
+        })
+    }
+
+    fn has_ambient(&self) -> bool {
+        self.scene.ambient_light() != Rgb::ZERO
+    }
+
+    /// The camera is inside an opaque solid that no light is in.
+    fn enclosed(&self) -> Option<Outlook> {
+        let scene = self.scene;
+        let Camera { eye, .. } = scene.camera;
+        if MOST_SEARCHED < scene.objects.len() || scene.camera.depths[0] != 0.0 {
+            return None;
+        }
+        let is_within = |place: DVec3, object: &Object| holds(&object.shape, place);
+        let mut objects = scene.objects.iter().enumerate();
+        let (index, object) = objects.find(|(_, object)| is_within(eye, object))?;
+        let material = scene.materials.get(object.material as usize)?;
+        let is_opaque = material.dielectric.tint == Rgb::ZERO && material.emission == Rgb::ZERO;
+        let is_lit = scene.lights.iter().any(|light| match light.emitter {
+            Emitter::Point { position, .. } => is_within(position, object),
+            Emitter::Distant(_) | Emitter::Ambient => false,
+        });
+        if !is_opaque || is_lit {
+            return None;
+        }
+        let node = Node::Object(self.source.object(index as u32));
+        let message = format!(
+            "the camera is inside {}, which is opaque and holds no light",
+            self.source.name(node)
+        );
+        Some(plain(
+            self.nowhere(),
+            &message,
+            "an eye outside, or a light inside",
+        ))
+    }
+
+    /// Materials that send back more than they receive.
+    fn gains(&self) -> Vec<Outlook> {
+        let count = self.scene.materials.len();
+        if MOST_SEARCHED < count {
+            return Vec::new();
+        }
+        let mut users = vec![None; count];
+        for (number, object) in (0_u32..).zip(self.scene.objects.iter()) {
+            if let Some(user) = users.get_mut(object.material as usize) {
+                user.get_or_insert(number);
+            }
+        }
+        let materials = self.scene.materials.iter().zip(users).enumerate();
+        let found = materials.filter_map(|(index, (material, user))| {
+            let (gain, words) = gain(material);
+            let user = user.filter(|_| 1.0 + ROUNDING < gain)?;
+            let listed = index < self.source.nodes().materials;
+            let node = if listed {
+                Node::Material(index)
+            } else {
+                Node::Object(self.source.object(user))
+            };
+            let message = format!(
+                "{}: {words} is {}, so that the picture grows brighter with every bounce",
+                self.source.name(node),
+                concise((1000.0 * gain).round() / 1000.0)
+            );
+            let finding = plain(self.source.span(node), &message, "a sum of at most 1");
+            // The number of bounces in which it grows to twice the brightness.
+            let depth = (libm::log(GROWTH) / libm::log(gain)).clamp(1.0, 64.0) as u32;
+            let helps = depth < self.asked.depth();
+            Some(Outlook {
+                cure: helps
+                    .then(|| self.setting("depth", &depth.to_string()))
+                    .flatten(),
+                ..finding
+            })
+        });
+        found.collect()
+    }
+
+    fn setting(&self, key: &str, value: &str) -> Option<(RenderKey, String)> {
+        Some((RenderKey::named(key)?, value.to_owned()))
+    }
+
+    /// The place of what the text lacks: its view, or its beginning.
+    fn nowhere(&self) -> Span {
+        self.source.span(Node::View)
+    }
+
+    /// The place of a field that the text states, otherwise of its node.
+    fn place(&self, node: Node, key: &str) -> Span {
+        let fields = self.source.fields(node);
+        let field = fields
+            .iter()
+            .find(|placed| placed.field.key == key && placed.is_explicit());
+        let spans = field.and_then(|placed| placed.spans.iter().copied().reduce(Span::to));
+        spans.unwrap_or_else(|| self.source.span(node))
+    }
+}
+
+fn plain(span: Span, message: &str, expected: &str) -> Outlook {
+    Outlook {
+        warning: Diagnostic::warning(span, message, expected),
+        cure: None,
+    }
+}
+
+/// Whether a closed shape holds a point: the first hit of any ray from it is a back face.
+fn holds(shape: &Shape, point: DVec3) -> bool {
+    let bounds = shape.bounds();
+    let is_near = bounds.min.cmple(point).all() && point.cmple(bounds.max).all();
+    if !is_near || matches!(shape, Shape::Mesh(_) | Shape::Plane(_)) {
+        return false;
+    }
+    let ray = Ray {
+        origin: point,
+        // Along no axis, in which solids have edges.
+        direction: DVec3::new(0.48, 0.6, 0.64),
+    };
+    let hit = shape.hit(&ray, f64::INFINITY);
+    hit.is_some_and(|hit| 0.0 < shape.surface(&ray, hit).normal.dot(ray.direction))
+}
+
+/// The largest sum of reflectances by which path tracing goes on at a surface, and its name.
+fn gain(material: &Material) -> (f64, &'static str) {
+    // The albedos of the normalised lobes, as means over directions of incidence by their cosine.
+    let glossy = match material.highlight {
+        Highlight::ModifiedPhong(gloss) => 2.0 / 3.0 * gloss.specular,
+        Highlight::Blinn(gloss) => {
+            let exponent = gloss.exponent.max(0.0);
+            0.5 * (exponent + 2.0) / (exponent + 4.0) * gloss.specular
+        }
+        Highlight::None | Highlight::Phong(_) | Highlight::Microfacet { .. } => Rgb::ZERO,
+    };
+    let mirror = material.mirror.tint;
+    let opaque = (material.diffuse + glossy + mirror).max_element();
+    let clear = (mirror + material.dielectric.tint).max_element();
+    if clear <= opaque {
+        (
+            opaque,
+            "what it reflects, diffuse, specular and as a mirror,",
+        )
+    } else {
+        (clear, "what it reflects as a mirror and transmits")
+    }
+}

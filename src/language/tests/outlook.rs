@@ -1,0 +1,170 @@
+//! What texts show of their pictures: the warnings, with their places, and the cures.
+
+use super::read_as;
+use crate::language::{Language, outlook};
+use crate::scene::{Integrator, Meshes, Rendering};
+use crate::text::Position;
+
+const LIT: &str = "0 0 0 1 0 5 5 1 1 1\n";
+const BALL: &str = "1 sphere 0 0 0 1  .1 .1 .1 .5 .5 .5 0 0 0 1 0 0 1\n";
+
+/// The warnings as `LINE:COLUMN message`, each with its cure.
+fn shown(language: Language, text: &str, integrator: Option<Integrator>) -> Vec<String> {
+    let (source, lowered) = read_as(language, text, &Meshes::default());
+    let scene = lowered.scene.expect("it has no errors");
+    let over = Rendering {
+        integrator,
+        ..Rendering::default()
+    };
+    let asked = over.or(scene.setting.rendering);
+    let found = outlook(&source, &scene, &asked).into_iter().map(|found| {
+        let Position { line, column } = Position::of(text, found.warning.span.start());
+        let cure = found.cure.map_or_else(String::new, |(key, value)| {
+            format!(" | {} {value}", key.name())
+        });
+        format!("{line}:{column} {}{cure}", found.warning.message)
+    });
+    found.collect()
+}
+
+const PATH: Option<Integrator> = Some(Integrator::Path);
+
+#[track_caller]
+fn check(language: Language, text: &str, integrator: Option<Integrator>, expected: &[&str]) {
+    assert_eq!(shown(language, text, integrator), expected, "{text}");
+}
+
+#[test]
+fn scenes_with_light_on_something_are_not_warned_of() {
+    for integrator in [None, PATH] {
+        check(Language::Ray, &format!("{LIT}{BALL}"), integrator, &[]);
+        for language in Language::ALL {
+            check(language, language.template(), integrator, &[]);
+        }
+    }
+}
+
+#[test]
+fn a_scene_without_light_is_black() {
+    let dark = format!("// view: up 0 1 0\n0 0 0 1 0 5 5 0 0 0\n{BALL}");
+    let off = "2:9 every light is switched off: its colour is zero";
+    check(Language::Ray, &dark, None, &[off]);
+    check(Language::Ray, &dark, PATH, &[off]);
+    let ambient = dark.replacen("0 0 0 1 0", "1 1 1 1 0", 1);
+    check(Language::Ray, &ambient, None, &[]);
+    check(Language::Ray, &ambient, PATH, &[off]);
+    let ball = "<object type='sphere' material='m'/><material name='m'/>";
+    let camera = "<camera><position z='9'/></camera>";
+    let xml = |more: &str| format!("<xml><scene>{ball}{more}</scene>\n{camera}</xml>");
+    check(
+        Language::Xml,
+        &xml(""),
+        None,
+        &["2:1 the scene has no light: the picture is black"],
+    );
+    check(
+        Language::Xml,
+        &xml("<light type='ambient'><intensity/></light>"),
+        PATH,
+        &["2:1 the only light is ambient, which path tracing leaves out: the picture is black"],
+    );
+}
+
+#[test]
+fn what_only_paths_see_is_offered_to_them() {
+    let glows = "2:1 no light but what glows: only path tracing lets that light other surfaces \
+                 | integrator path";
+    for more in [
+        "<environment value='.5'/>",
+        "<object type='sphere' material='lamp'/><material name='lamp'><emission value='3'/></material>",
+    ] {
+        let text = format!(
+            "<xml><scene><object type='sphere' material='m'/><material name='m'/>{more}</scene>\n\
+             <camera><position z='9'/></camera></xml>"
+        );
+        check(Language::Xml, &text, None, &[glows]);
+        check(Language::Xml, &text, PATH, &[]);
+        let settled = text.replace("</camera>", "</camera><render integrator='path'/>");
+        check(Language::Xml, &settled, None, &[]);
+    }
+}
+
+#[test]
+fn a_scene_whose_objects_are_all_clipped_is_black() {
+    let text = |near: &str, far: &str| {
+        format!(
+            "light ID 1 inf 0 0 1  0 1 -1  1 1 1  1 0 0  0 shadow_on\n\
+             mat ID 1  1 1 1  0 .5 0 1  0 0 1\nobj sphere ID 1 mat ID 1  0 0 0  1\n\
+             camera perspective 0 -5 0  0 0 0  0 0 1  1 {near} {far}\nresolution .1 .1\nviewport 8 6\n"
+        )
+    };
+    let dat = |near, far, expected: &[&str]| check(Language::Dat, &text(near, far), None, expected);
+    dat("1", "100", &[]);
+    dat("5.9", "100", &[]);
+    dat(
+        "6.1",
+        "100",
+        &["4:44 every object is nearer than near: the picture is black"],
+    );
+    dat("1", "4.1", &[]);
+    dat(
+        "1",
+        "3.9",
+        &["4:46 every object is beyond far: the picture is black"],
+    );
+}
+
+#[test]
+fn a_camera_in_an_opaque_solid_sees_only_its_dark_inside() {
+    let text = |light: &str, transmission: &str| {
+        format!(
+            "// view: eye 0 .5 0 target 0 0 0\n0 0 0 1 {light} 1 1 1\n\
+             1 sphere 0 0 0 1  .1 .1 .1 .5 .5 .5 0 0 0 1 0 {transmission} 1\n"
+        )
+    };
+    let inside = "1:1 the camera is inside object 1 (sphere), which is opaque and holds no light";
+    let ray = |light, transmission, expected: &[&str]| {
+        check(Language::Ray, &text(light, transmission), None, expected);
+    };
+    ray("0 5 5", "0", &[inside]);
+    ray("0 5 5", ".5", &[]);
+    // A room.
+    ray("0 .9 0", "0", &[]);
+}
+
+#[test]
+fn materials_that_send_back_more_than_comes_are_named_with_the_sum() {
+    let text = |material: &str| format!("{LIT}1 sphere 0 0 0 1  0 0 0 {material}\n");
+    for (material, expected) in [
+        (".5 .6 .7  1 1 1 9  .3 0 1", None),
+        (
+            ".5 .6 .75  0 0 0 9  .5 0 1",
+            Some(
+                "2:3 object 1 (sphere): what it reflects, diffuse, specular and as a mirror, is 1.25, \
+                  so that the picture grows brighter with every bounce | depth 3",
+            ),
+        ),
+        (
+            "0 0 0  0 0 0 9  .12 .9 1.5",
+            Some(
+                "2:3 object 1 (sphere): what it reflects as a mirror and transmits is 1.02, \
+                  so that the picture grows brighter with every bounce | depth 35",
+            ),
+        ),
+    ] {
+        check(Language::Ray, &text(material), None, &[]);
+        check(Language::Ray, &text(material), PATH, expected.as_slice());
+    }
+    let blinn = "<xml><scene><object type='sphere' material='m'/>\n\
+        <material name='m'><diffuse value='.7'/><specular value='.8'/><glossiness value='8'/></material>\
+        <light type='direct'><intensity/></light></scene><camera><position z='9'/></camera></xml>";
+    check(
+        Language::Xml,
+        blinn,
+        PATH,
+        &[
+            "2:1 m (blinn): what it reflects, diffuse, specular and as a mirror, is 1.033, \
+           so that the picture grows brighter with every bounce | depth 21",
+        ],
+    );
+}
