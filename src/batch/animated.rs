@@ -245,6 +245,7 @@ keys = [{ frame = 0, value = [0, 0, 0] }, { frame = 2, value = [1, 1, 1] }]";
             layers: Vec::new(),
             transfer: None,
             exposure: 0.0,
+            denoise: false,
             threads: 1,
             progress: ProgressStyle::Off,
         }

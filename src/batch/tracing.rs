@@ -46,6 +46,8 @@ pub struct Tracing {
     pub transfer: Option<Transfer>,
     /// Exposure in stops.
     pub exposure: f64,
+    /// Whether to reduce the noise of light.
+    pub denoise: bool,
     /// The number of tracing threads.
     pub threads: usize,
     /// How the progress is shown.
@@ -214,6 +216,7 @@ impl Tracing {
             },
             limit: self.time.map(Limit::Time),
             frames,
+            denoise: self.denoise,
             numbers: None,
         })
     }

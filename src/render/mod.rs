@@ -47,6 +47,7 @@ mod block_tracer;
 mod branch;
 mod bsdf;
 mod camera;
+mod denoise;
 mod direct;
 mod display;
 mod explain;
@@ -107,7 +108,7 @@ pub use explain::{
 pub use filter::Filter;
 pub use frame::{
     Aov, DEFAULT_DEPTH, DEFAULT_SPP, Frame, Frames, Job, Limit, MAX_SPP, NO_OBJECT, Progress,
-    Query, Settings, default_depth,
+    Query, Settings, default_depth, denoises,
 };
 pub use histogram::{HISTOGRAM_STOPS, Histogram};
 pub use kept::Kept;

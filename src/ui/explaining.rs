@@ -98,6 +98,7 @@ mod tests {
             },
             scene,
             frames: Frames::Live,
+            denoise: false,
             numbers: None,
             limit: None,
         }

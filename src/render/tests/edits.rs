@@ -26,7 +26,7 @@ pub(super) struct Easel {
 impl Easel {
     pub(super) fn new(job: Job) -> Self {
         let world = World::build(Arc::clone(&job.scene), &job.images, None, || false);
-        let film = Film::new(&job.settings, job.frames);
+        let film = Film::new(&job.settings, job.frames, job.denoise);
         Self {
             job,
             world: world.expect("nothing cancels"),
@@ -41,7 +41,7 @@ impl Easel {
         let world = World::build(Arc::clone(&job.scene), &job.images, before, || false);
         let world = world.expect("nothing cancels");
         let changed = Touched::between((&self.job, &self.world), (&job, &world));
-        let film = Film::new(&job.settings, job.frames).expect("memory is there");
+        let film = Film::new(&job.settings, job.frames, job.denoise).expect("memory is there");
         let old = std::mem::replace(&mut self.film, film).keep(Effort::default());
         self.film
             .take_over(old, changed.expect("materials and colours of lights"));

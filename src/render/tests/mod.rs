@@ -3,6 +3,7 @@
 mod blocks;
 mod cameras;
 mod continuing;
+mod denoising;
 mod edits;
 mod explain;
 mod falloff;
@@ -308,6 +309,7 @@ fn job(scene: &Arc<Scene>, settings: Settings) -> Job {
         settings,
         limit: None,
         frames: Frames::Live,
+        denoise: false,
         numbers: None,
     }
 }

@@ -278,6 +278,7 @@ impl App {
             },
             limit: None,
             frames: Frames::Live,
+            denoise: false,
             numbers: None,
         }
     }

@@ -64,6 +64,7 @@ impl App {
         let spp = preview_samples(self.integrator(), screen.grid);
         let mut job = self.shown_job(size, spp)?;
         job.settings.region = region;
+        job.denoise = self.pictures.display.denoised;
         job.settings.aov = self.pictures.preview_aov();
         if let Some(aov) = job.settings.aov {
             job.settings.spp = aov.samples(spp);
@@ -157,6 +158,7 @@ impl App {
             },
             limit: None,
             frames: Frames::Live,
+            denoise: false,
             numbers: None,
         })
     }
@@ -192,6 +194,7 @@ impl App {
         let (spp, limit) = self.pictures.until().limits();
         let mut job = self.final_job(self.output(), spp)?;
         job.limit = limit;
+        job.denoise = self.pictures.display.denoised;
         job.settings.region = self.region();
         Ok(job)
     }

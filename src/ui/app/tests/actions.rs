@@ -148,6 +148,7 @@ fn edits(action: A) -> bool {
         | A::Show(_)
         | A::Share(_)
         | A::Expose(_)
+        | A::Denoise
         | A::Wireframe
         | A::Integrator
         | A::Repaint
@@ -193,6 +194,7 @@ const OTHERS: &[&str] = &[
     "transfer srgb",
     "transfer scene",
     "falsecolour",
+    "denoise",
     "histogram",
     "mouse",
     "theme dark",
