@@ -20,15 +20,22 @@ use rayon::prelude::*;
 use self::features::Features;
 pub(crate) use self::guides::Guides;
 use self::mix::{Kernel, Mixed, mix, slack};
-use self::plane::Plane;
+use self::plane::{Layout, Plane, stride};
 use super::first_hit::Guide;
 use crate::geometry::lanes::Level;
+use crate::scene::Size;
 
 /// The variance of a pixel with a single sample, whose noise only its neighbours tell.
 pub(crate) const UNKNOWN: f32 = -1.0;
 
-/// About how many bytes per pixel denoising takes.
-pub(crate) const BYTES: usize = size_of::<Guide>() + size_of::<[f32; 24]>();
+/// About how many bytes of memory denoising a picture takes.
+pub(crate) fn bytes(size: Size) -> u64 {
+    /// Ten of surfaces, and twice four of light while it is mixed.
+    const PLANES: u64 = 10 + 2 * 4;
+    let plane = stride(size.width as usize) as u64 * u64::from(size.height) * 4;
+    let pixel = size_of::<Guide>() + size_of::<f32>() + size_of::<[f32; 3]>();
+    (PLANES * plane).saturating_add((size.pixels() * pixel) as u64)
+}
 
 /// Weights of a cubic B-spline by distance.
 const SPLINE: &[f32] = &[0.375, 0.25, 0.0625];
@@ -57,14 +64,16 @@ pub(crate) struct Noisy<'p> {
 
 impl Noisy<'_> {
     /// The values with less noise. Meaningless once `cancelled` returns true.
-    pub(crate) fn denoised(self, cancelled: &(impl Fn() -> bool + Sync)) -> Vec<[f32; 3]> {
+    pub(crate) fn denoised(self, cancelled: &(dyn Fn() -> bool + Sync)) -> Vec<[f32; 3]> {
         if self.variances.iter().all(|&variance| variance == 0.0) {
             return self.values.to_vec();
         }
-        let mut features = Features::new(self.width, &self.guides.sums, self.guides.samples);
+        let layout = Layout::new(self.width, self.values.len(), cancelled);
+        let Guides { sums, samples } = self.guides;
+        let mut features = Features::new(layout, sums, *samples);
         let mut mixed = self.divided(&mut features);
         features.slack = slack(&features, self.level);
-        mixed.beside = self.estimated(&mixed, &features, cancelled);
+        mixed.beside = self.estimated(&mixed, &features);
         let noise = mixed.beside.clone();
         for (step, tolerance) in STEPS {
             let kernel = Kernel {
@@ -73,7 +82,7 @@ impl Noisy<'_> {
                 step,
                 tolerance: Some(tolerance),
             };
-            mixed = mix(&mixed, &features, kernel, cancelled);
+            mixed = mix(&mixed, &features, kernel);
         }
         let value = |pixel: usize| {
             let at = features.layout.place(pixel);
@@ -90,7 +99,7 @@ impl Noisy<'_> {
 
     /// The light divided by albedo, and its variance. Pixels with larger numbers than
     /// [`MOST`] are left out.
-    fn divided(self, features: &mut Features) -> Mixed {
+    fn divided(self, features: &mut Features<'_>) -> Mixed {
         let layout = features.layout;
         let is_usual = |pixel: usize| {
             let Guide {
@@ -130,12 +139,7 @@ impl Noisy<'_> {
     }
 
     /// Better variances: those of single pixels tell little.
-    fn estimated(
-        &self,
-        mixed: &Mixed,
-        features: &Features,
-        cancelled: &(impl Fn() -> bool + Sync),
-    ) -> Plane {
+    fn estimated(&self, mixed: &Mixed, features: &Features<'_>) -> Plane {
         let kernel = |taps| Kernel {
             level: self.level,
             taps,
@@ -144,7 +148,7 @@ impl Noisy<'_> {
         };
         let is_known = |variance: &&f32| **variance != UNKNOWN;
         if mixed.beside.iter().all(|variance| is_known(&variance)) {
-            let around = mix(mixed, features, kernel(&[1.0; 3]), cancelled).beside;
+            let around = mix(mixed, features, kernel(&[1.0; 3])).beside;
             let both = around.into_iter().zip(&mixed.beside);
             return both.map(|(around, own)| around.max(*own)).collect();
         }
@@ -158,7 +162,7 @@ impl Noisy<'_> {
             beside: places.clone().map(|at| square(&mixed.light, at)).collect(),
             ..mixed.clone()
         };
-        let mean = mix(&squares, features, kernel(&[1.0; 4]), cancelled);
+        let mean = mix(&squares, features, kernel(&[1.0; 4]));
         let variance = |at: usize| match mixed.beside[at] {
             UNKNOWN => (mean.beside[at] - square(&mean.light, at)).max(0.0),
             known => known,

@@ -111,7 +111,11 @@ impl Film {
         let size = settings.traced().size();
         let bytes = |count: usize, each: usize| (count as u64).saturating_mul(each as u64);
         let remembers = Remembers::of(settings, frames, denoise);
-        let denoising = if denoise { denoise::BYTES } else { 0 };
+        let denoising = if denoise && remembers == Remembers::Causes {
+            denoise::bytes(size)
+        } else {
+            0
+        };
         let values = match developed(frames, denoise) {
             Frames::Live => size_of::<u32>() + size_of::<[f32; 3]>() + size_of::<f32>(),
             Frames::Last => 0,
@@ -119,10 +123,8 @@ impl Film {
         };
         let tile = Tile::bytes(remembers);
         let tiles = bytes(TileShape::of(size).count(size), tile);
-        tiles.saturating_add(bytes(
-            size.pixels(),
-            size_of::<[u8; 3]>() + values + denoising,
-        ))
+        let picture = bytes(size.pixels(), size_of::<[u8; 3]>() + values);
+        tiles.saturating_add(picture).saturating_add(denoising)
     }
 
     /// Creates an empty film; reserves memory for its tiles and the finished picture.

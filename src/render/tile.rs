@@ -164,11 +164,12 @@ pub(crate) enum Remembers {
 }
 
 impl Remembers {
-    /// What the tiles of a picture store.
+    /// What the tiles of a picture store. Live pictures are continued whether or not they are denoised.
     pub(crate) fn of(settings: &Settings, frames: Frames, denoise: bool) -> Self {
-        let shown = denoise || matches!(settings.aov, Some(Aov::Cost | Aov::Noise));
+        let shown = matches!(settings.aov, Some(Aov::Cost | Aov::Noise));
+        let guides = denoise && frames != Frames::Live;
         let is_small = settings.traced().size().pixels() <= MOST_REMEMBERED;
-        if shown || frames == Frames::Live && is_small {
+        if shown || guides || frames == Frames::Live && is_small {
             Self::Causes
         } else {
             Self::Pixels

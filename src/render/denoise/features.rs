@@ -7,9 +7,8 @@ use crate::render::first_hit::Guide;
 const LEAST_ALBEDO: f32 = 0.1;
 
 /// The surfaces of a picture.
-#[derive(Debug)]
-pub(super) struct Features {
-    pub(super) layout: Layout,
+pub(super) struct Features<'c> {
+    pub(super) layout: Layout<'c>,
     /// Mean normals.
     pub(super) normal: [Plane; 3],
     /// Mean albedos.
@@ -22,10 +21,9 @@ pub(super) struct Features {
     pub(super) slack: Plane,
 }
 
-impl Features {
-    /// The features of a picture in rows of this width, given sums of so many samples.
-    pub(super) fn new(width: usize, sums: &[Guide], samples: u32) -> Self {
-        let layout = Layout::new(width, sums.len());
+impl<'c> Features<'c> {
+    /// The features of a picture, given sums of so many samples.
+    pub(super) fn new(layout: Layout<'c>, sums: &[Guide], samples: u32) -> Self {
         let share = 1.0 / samples.max(1) as f32;
         let mean =
             |of: fn(&Guide) -> f32, beyond| layout.filled(beyond, |at| share * of(&sums[at]));
@@ -60,7 +58,7 @@ impl Features {
 
 /// The change of nearness over a stride: of two neighbours that to the flatter one, as the other may
 /// be of another surface.
-fn slope(layout: Layout, nearness: &Plane, stride: usize) -> Plane {
+fn slope(layout: Layout<'_>, nearness: &Plane, stride: usize) -> Plane {
     layout.filled(0.0, |pixel| {
         let at = layout.place(pixel);
         let near = |at: Option<usize>| at.and_then(|at| nearness.get(at)).copied();

@@ -45,13 +45,8 @@ pub(super) struct Kernel<'k> {
     pub(super) tolerance: Option<f32>,
 }
 
-/// Mixes the pixels of a picture. Meaningless once `cancelled` returns true.
-pub(super) fn mix(
-    from: &Mixed,
-    features: &Features,
-    kernel: Kernel<'_>,
-    cancelled: &(impl Fn() -> bool + Sync),
-) -> Mixed {
+/// Mixes the pixels of a picture.
+pub(super) fn mix(from: &Mixed, features: &Features<'_>, kernel: Kernel<'_>) -> Mixed {
     let layout = features.layout;
     let plane = || layout.plane(0.0);
     let mut mixed = Mixed {
@@ -63,7 +58,7 @@ pub(super) fn mix(
     let [red, green, blue, beside] = planes.map(|plane| plane.par_chunks_exact_mut(layout.stride));
     let rows = (red, green, blue, beside).into_par_iter().enumerate();
     rows.for_each(|(y, (red, green, blue, beside))| {
-        if cancelled() {
+        if (layout.cancelled)() {
             return;
         }
         let into = [red, green, blue, beside];
@@ -79,7 +74,7 @@ pub(super) fn mix(
 #[inline(always)]
 fn row<const BY_LIGHT: bool, S: Simd>(
     simd: S,
-    (from, features): (&Mixed, &Features),
+    (from, features): (&Mixed, &Features<'_>),
     kernel: Kernel<'_>,
     y: usize,
     into: [&mut [f32]; 4],
@@ -143,7 +138,7 @@ struct Surfaces<S: Simd> {
 
 impl<S: Simd> Surfaces<S> {
     #[inline(always)]
-    fn load(simd: S, features: &Features, at: usize) -> Self {
+    fn load(simd: S, features: &Features<'_>, at: usize) -> Self {
         let three = |planes: &[Plane; 3]| planes.each_ref().map(|plane| load(simd, plane, at));
         Self {
             normal: three(&features.normal),
@@ -199,18 +194,21 @@ impl<S: Simd> Lights<S> {
 
 /// How far the surfaces of each pixel are in space from the closest beside it: far where a pixel shows
 /// parts of several. Albedos allow none: the brightest part of a pixel matters most.
-pub(super) fn slack(features: &Features, level: Level) -> Plane {
+pub(super) fn slack(features: &Features<'_>, level: Level) -> Plane {
     let layout = features.layout;
     let mut slack = layout.plane(0.0);
     let rows = slack.par_chunks_exact_mut(layout.stride).enumerate();
     rows.for_each(|(y, slack)| {
+        if (layout.cancelled)() {
+            return;
+        }
         dispatch!(level, simd => slack_of_row(simd, features, y, slack));
     });
     slack
 }
 
 #[inline(always)]
-fn slack_of_row<S: Simd>(simd: S, features: &Features, y: usize, slack: &mut [f32]) {
+fn slack_of_row<S: Simd>(simd: S, features: &Features<'_>, y: usize, slack: &mut [f32]) {
     let layout = features.layout;
     let rows = y.saturating_sub(1)..layout.height.min(y + 2);
     for x in (0..layout.width).step_by(WIDTH) {

@@ -10,22 +10,34 @@ pub(super) const MARGIN: usize = 32;
 /// A number of each pixel, laid out as [`Layout`] says.
 pub(super) type Plane = Vec<f32>;
 
-/// How the pixels of a picture are laid out.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Layout {
+/// How the pixels of a picture are laid out, and whether work on them is to stop.
+#[derive(Clone, Copy)]
+pub(super) struct Layout<'c> {
     pub(super) width: usize,
     pub(super) height: usize,
     /// Numbers in a row: whole vectors of pixels, and the room around.
     pub(super) stride: usize,
+    /// Leaves planes unfinished once it returns true.
+    pub(super) cancelled: &'c (dyn Fn() -> bool + Sync),
 }
 
-impl Layout {
+/// The numbers in a row of this many pixels.
+pub(super) fn stride(width: usize) -> usize {
+    width.next_multiple_of(WIDTH) + 2 * MARGIN
+}
+
+impl<'c> Layout<'c> {
     /// The layout of so many pixels in rows of this width.
-    pub(super) fn new(width: usize, pixels: usize) -> Self {
+    pub(super) fn new(
+        width: usize,
+        pixels: usize,
+        cancelled: &'c (dyn Fn() -> bool + Sync),
+    ) -> Self {
         Self {
             width,
             height: pixels / width,
-            stride: width.next_multiple_of(WIDTH) + 2 * MARGIN,
+            stride: stride(width),
+            cancelled,
         }
     }
 
@@ -44,6 +56,9 @@ impl Layout {
         let mut plane = self.plane(beyond);
         let rows = plane.par_chunks_exact_mut(self.stride).enumerate();
         rows.for_each(|(y, row)| {
+            if (self.cancelled)() {
+                return;
+            }
             let pixels = row[MARGIN..][..self.width].iter_mut();
             for (pixel, number) in (y * self.width..).zip(pixels) {
                 *number = of(pixel);

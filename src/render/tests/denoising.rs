@@ -1,5 +1,7 @@
 //! Noise reduction from tracing to the frame.
 
+use super::super::film::Film;
+use super::super::tile::Remembers;
 use super::super::{Aov, Display};
 use super::progress::still;
 use super::*;
@@ -83,6 +85,21 @@ fn switching_traces_no_ray() {
     assert!(0 < rays[0] && rays[1] == rays[0] && rays[2] == rays[0]);
     let denoised = frames.map(|frame| frame.denoised.len());
     assert_eq!(denoised, [0, 1200, 0]);
+}
+
+/// A large trace is not traced again for noise reduction, which it has no memory for.
+#[test]
+fn large_live_pictures_are_continued_as_they_are() {
+    let remembers = |frames, denoise| Remembers::of(&settings(4096, 2048, 1), frames, denoise);
+    assert_eq!(remembers(Frames::Live, true), Remembers::Pixels);
+    assert_eq!(remembers(Frames::Last, false), Remembers::Pixels);
+    assert_eq!(remembers(Frames::Last, true), Remembers::Causes);
+    let bytes =
+        |width, height, denoise| Film::bytes(&settings(width, height, 1), Frames::Last, denoise);
+    assert!(bytes(800, 600, true) < bytes(800, 600, false) + 800 * 600 * 200);
+    // Rows have room around them.
+    let tall = bytes(1, 1 << 20, false) + (1 << 20) * 4000;
+    assert!(tall < bytes(1, 1 << 20, true));
 }
 
 /// By Whitted a single sample is at the centre of every distribution: it has no noise. Nor have AOVs.
