@@ -138,7 +138,13 @@ fn planes_seen_at_an_angle_are_one_surface() {
 /// Squares of 4 pixels in two albedos under even light with noise in proportion to it.
 #[test]
 fn textures_stay_sharp() {
-    let albedo = |x: usize, y: usize| if (x / 4 + y / 4) % 2 == 0 { 0.8 } else { 0.2 };
+    let albedo = |x: usize, y: usize| {
+        if (x / 4 + y / 4).is_multiple_of(2) {
+            0.8
+        } else {
+            0.2
+        }
+    };
     let guide = |x, y| Guide {
         albedo: [albedo(x, y); 3],
         ..WALL
@@ -153,10 +159,10 @@ fn textures_stay_sharp() {
     let before = squared_error(&noisy.1, albedo);
     let left = squared_error(&after, albedo);
     assert!(left < before / 20.0, "{left} of {before}");
-    for at in 0..after.len() {
+    for (at, value) in after.iter().enumerate() {
         let (x, y) = (at % WIDTH, at / WIDTH);
         let expected = albedo(x, y);
-        assert!((after[at][0] - expected).abs() < 0.35 * expected, "{x},{y}");
+        assert!((value[0] - expected).abs() < 0.35 * expected, "{x},{y}");
     }
 }
 
