@@ -87,6 +87,7 @@ fn times(
         },
         limit: None,
         frames: Frames::Last,
+        denoise: false,
         numbers: None,
     };
     let prepared = PreparedScene::new(&job, || false).expect("nothing cancels");

@@ -447,6 +447,7 @@ fn tracing(scene: &Arc<Scene>) -> (Renderer, Receiver<()>) {
         settings,
         limit: None,
         frames: Frames::Live,
+        denoise: false,
         numbers: None,
     };
     renderer.restart(job).expect("the worker runs");

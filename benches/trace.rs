@@ -269,6 +269,7 @@ fn traced(scene: &Arc<Scene>, threads: usize) -> (Duration, Arc<Frame>) {
             settings,
             limit: None,
             frames: Frames::Last,
+            denoise: false,
             numbers: None,
         };
         let generation = renderer.restart(job).expect("the worker runs");

@@ -160,6 +160,7 @@ fn trace(scene: &Arc<Scene>, images: Images) -> Arc<Frame> {
         settings,
         limit: None,
         frames: Frames::Last,
+        denoise: false,
         numbers: None,
     };
     let (wake, woken) = mpsc::channel();

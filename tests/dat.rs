@@ -136,6 +136,7 @@ fn trace(scene: &Arc<Scene>, threads: usize) -> Arc<Frame> {
             },
             limit: None,
             frames: Frames::Last,
+            denoise: false,
             numbers: None,
         })
         .expect("there is memory");

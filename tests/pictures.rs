@@ -232,6 +232,7 @@ fn trace(scene: &Arc<Scene>, images: Images, size: Size, spp: u32) -> Arc<Frame>
         settings,
         limit: None,
         frames: Frames::Last,
+        denoise: false,
         numbers: None,
     };
     renderer.restart(job).expect("the worker runs");

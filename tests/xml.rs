@@ -74,6 +74,7 @@ fn the_example_is_white_on_black() {
         scene,
         limit: None,
         frames: Frames::Last,
+        denoise: false,
         numbers: None,
     };
     renderer.restart(job).expect("the worker runs");

@@ -277,6 +277,7 @@ impl Stage {
             },
             limit: None,
             frames: Frames::Last,
+            denoise: false,
             numbers: None,
         };
         let begun = Instant::now();

@@ -242,6 +242,7 @@ keys = [{ frame = 0, value = [0, 0, 0] }, { frame = 2, value = [1, 1, 1] }]";
             seed: 0,
             aov: None,
             layers: Vec::new(),
+            denoise: false,
             threads: 1,
             progress: ProgressStyle::Off,
         }

@@ -109,6 +109,10 @@ fn command_line(work: &Show, provenance: &Provenance) -> Option<String> {
         if is_default {
             continue;
         }
+        if option == "denoise" {
+            line += " --denoise";
+            continue;
+        }
         // Others are of letters, digits and what means nothing to a shell.
         let value = if value.contains(' ') {
             shell_word(&value)

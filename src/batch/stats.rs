@@ -102,11 +102,13 @@ impl Stats<'_> {
 }
 
 impl Stats<'_> {
-    /// The settings, with the view and the layers.
+    /// The settings, with the view, the layers, and whether noise is reduced.
     fn settings(&self) -> Value {
         let mut settings = settings(&self.picture.settings);
         let of_picture = self.picture.written().into_iter();
-        for (name, value) in of_picture.filter(|(name, _)| ["view", "layers"].contains(name)) {
+        for (name, value) in
+            of_picture.filter(|(name, _)| ["view", "layers", "denoise"].contains(name))
+        {
             settings[name] = Value::String(value);
         }
         settings

@@ -36,6 +36,8 @@ pub struct Tracing {
     pub aov: Option<Aov>,
     /// What to render beside light.
     pub layers: Vec<Aov>,
+    /// Whether to reduce the noise of light.
+    pub denoise: bool,
     /// The number of tracing threads.
     pub threads: usize,
     /// How the progress is shown.
@@ -204,6 +206,7 @@ impl Tracing {
             },
             limit: self.time.map(Limit::Time),
             frames,
+            denoise: self.denoise,
             numbers: None,
         })
     }

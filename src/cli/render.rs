@@ -54,16 +54,8 @@ pub(super) struct RenderArguments {
     strictness: StrictnessArguments,
     #[command(flatten)]
     assets: AssetArguments,
-    /// Also render these AOVs, separated by commas, as layers of an EXR, such as
-    /// depth,normal,object,albedo,samples; not with --shard, which takes one AOV at a time with --aov
-    #[arg(
-        long,
-        value_name = "AOVS",
-        value_enum,
-        value_delimiter = ',',
-        conflicts_with = "aov"
-    )]
-    layers: Vec<AovChoice>,
+    #[command(flatten)]
+    content: ContentArguments,
     /// Trace only shard K of N, numbered from 0, into a part file next to FILE; see merge
     #[arg(long, value_name = "K/N", value_parser = parse_shard)]
     shard: Option<Shard>,
@@ -87,6 +79,26 @@ pub(super) struct RenderArguments {
     /// Write to standard output even if it is a terminal
     #[arg(long)]
     force: bool,
+}
+
+/// What a picture holds besides its light as traced, or instead of it.
+#[derive(Args, Debug)]
+struct ContentArguments {
+    /// Also render these AOVs, separated by commas, as layers of an EXR, such as
+    /// depth,normal,object,albedo,samples; not with --shard, which takes one AOV at a time with --aov
+    #[arg(
+        long,
+        value_name = "AOVS",
+        value_enum,
+        value_delimiter = ',',
+        conflicts_with = "aov"
+    )]
+    layers: Vec<AovChoice>,
+    /// Reduce the noise of light, guided by surfaces and by the noise of each pixel: a picture of few
+    /// samples looks like one of many, but is no longer unbiased; not of a --shard of a picture, nor
+    /// with --resume, which know only parts of it
+    #[arg(long)]
+    denoise: bool,
 }
 
 /// What the frames of a sequence are.
@@ -148,15 +160,23 @@ impl RenderArguments {
                 "--time would give shards different numbers of samples: use --spp".to_owned(),
             );
         }
-        if self.shard.is_some() && !self.layers.is_empty() {
+        if self.content.denoise && (self.shard.is_some() || self.resume) {
+            let option = self.shard.map_or("--resume", |_| "--shard");
+            return Err(format!(
+                "--denoise needs the noise of the whole picture, which parts do not record: leave out \
+                 {option}"
+            ));
+        }
+        if self.shard.is_some() && !self.content.layers.is_empty() {
             return Err("--layers cannot be sharded: shard each with --aov".to_owned());
         }
-        let layers = checked(self.layers, format)?;
+        let tracing = self
+            .tracing
+            .with(checked(self.content.layers, format)?, self.content.denoise)?;
         let progress = self.progress.value();
         let tracing = Tracing {
-            layers,
             progress,
-            ..self.tracing.into_tracing()
+            ..tracing
         };
         Ok(Render {
             scene: self.scene,
@@ -285,12 +305,13 @@ impl RenderArguments {
             SequenceOutput::Pictures { format, .. } => *format,
             SequenceOutput::Movie { .. } => ImageFormat::Gif,
         };
-        let layers = checked(self.layers, format)?;
+        let tracing = self
+            .tracing
+            .with(checked(self.content.layers, format)?, self.content.denoise)?;
         let progress = self.progress.value();
         let tracing = Tracing {
-            layers,
             progress,
-            ..self.tracing.into_tracing()
+            ..tracing
         };
         Ok(Sequence {
             shows: match (self.sequence.turntable, self.sequence.track) {

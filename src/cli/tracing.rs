@@ -11,7 +11,7 @@ use super::choices::AovChoice;
 use super::rendering::RenderingArguments;
 use super::shared::{spp_range, threads_range};
 use crate::batch::{ProgressStyle, Tracing};
-use crate::render::Region;
+use crate::render::{Aov, Region, denoises};
 use crate::scene::{Rendering, Size, Viewpoint};
 use crate::text::parse_duration;
 
@@ -65,6 +65,23 @@ impl TracingArguments {
         self.time.is_some()
     }
 
+    /// With layers and, unless an AOV without noise is rendered, with noise reduced.
+    pub(super) fn with(self, layers: Vec<Aov>, denoise: bool) -> Result<Tracing, String> {
+        let tracing = self.into_tracing();
+        let noiseless = tracing.aov.filter(|aov| denoise && !denoises(Some(*aov)));
+        if let Some(aov) = noiseless {
+            return Err(format!(
+                "--denoise reduces the noise of light: not with --aov {}",
+                aov.name()
+            ));
+        }
+        Ok(Tracing {
+            layers,
+            denoise,
+            ..tracing
+        })
+    }
+
     pub(super) fn into_tracing(self) -> Tracing {
         let samples = self.samples.into_tracing();
         Tracing {
@@ -92,6 +109,7 @@ impl SampleArguments {
             seed: self.seed,
             aov: None,
             layers: Vec::new(),
+            denoise: false,
             threads: default_threads(|name| env::var(name).ok()),
             progress: ProgressStyle::default(),
         }

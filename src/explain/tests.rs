@@ -70,6 +70,7 @@ fn explain(language: Language, text: &str, pixel: [u32; 2], how: How) -> Words {
         },
         limit: None,
         frames: Frames::Last,
+        denoise: false,
         numbers: None,
     };
     let prepared = PreparedScene::new(&job, || false).expect("nothing cancels");

@@ -29,6 +29,7 @@ fn picture() -> Provenance {
         scene: "ab12".to_owned(),
         view: Viewpoint::default(),
         layers: Vec::new(),
+        denoise: false,
         settings: Settings {
             size: SIZE,
             region: None,

@@ -25,6 +25,8 @@ pub struct Display {
     pub half_stops: i8,
     /// The transfer function instead of the picture's own.
     pub transfer: Option<Transfer>,
+    /// Whether noise is reduced, in frames that have [`Frame::denoised`].
+    pub denoised: bool,
     /// What colours stand for.
     pub colours: Colours,
 }
@@ -58,10 +60,23 @@ impl Display {
         if !exposes(settings.aov) || frame.values.len() != frame.pixels.len() {
             return None;
         }
+        let is_denoised = self.denoised && frame.denoised.len() == frame.pixels.len();
+        let undenoised = Self {
+            denoised: false,
+            ..*self
+        };
+        let shown = match (is_denoised, undenoised.is_neutral()) {
+            (true, _) => &frame.denoised,
+            (false, false) => &frame.values,
+            (false, true) => return None,
+        };
         let transfer = self.transfer.unwrap_or(settings.transfer);
         let light = Light::new(self.stops(), transfer);
-        let pixels = frame.values.par_iter().map(|value| {
-            let value = Rgb::from(value.map(f64::from));
+        let pixels = (0..shown.len()).into_par_iter().map(|at| {
+            if undenoised.is_neutral() && shown[at] == frame.values[at] {
+                return frame.pixels[at];
+            }
+            let value = Rgb::from(shown[at].map(f64::from));
             match self.colours {
                 Colours::True => Tone::Colour(light).bytes(value),
                 Colours::False => false_colour(luminance(light.exposed(value))),
@@ -165,7 +180,7 @@ mod tests {
         let display = |half_stops, transfer| Display {
             half_stops,
             transfer,
-            colours: Colours::True,
+            ..Display::default()
         };
         for (shown, expected) in [
             (display(0, None), None),
@@ -183,6 +198,30 @@ mod tests {
                 assert_eq!(levels(shown, Some(other)), None);
             }
         }
+    }
+
+    #[test]
+    fn denoised_values_are_displayed_where_they_are_known_and_differ() {
+        let with = |half_stops| Display {
+            half_stops,
+            denoised: true,
+            ..Display::default()
+        };
+        let noisy = frame(None);
+        assert_eq!(with(0).apply(&noisy), None);
+        assert!(with(2).apply(&noisy).is_some());
+        let denoised = Frame {
+            denoised: [0.0, 0.5, 1.0, 0.125].map(|grey| [grey; 3]).to_vec(),
+            ..noisy
+        };
+        let levels = |display: Display| {
+            let shown = display.apply(&denoised).expect("it is not as traced");
+            shown.iter().map(|pixel| pixel[0]).collect::<Vec<_>>()
+        };
+        // The first pixel stays as traced, although its value is another.
+        assert_eq!(levels(with(0)), [1, 128, 255, 32]);
+        assert_eq!(levels(with(2)), [0, 255, 255, 64]);
+        assert_eq!(Display::default().apply(&denoised), None);
     }
 
     #[test]

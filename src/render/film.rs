@@ -5,6 +5,7 @@ use std::ops::Range;
 
 use rayon::prelude::*;
 
+use super::denoise::{self, UNKNOWN};
 use super::frame::{Aov, Frames, Settings};
 use super::gather::Gather;
 use super::kept::{Effort, Kept};
@@ -16,7 +17,7 @@ use super::tile::{AREA, Remembers, Tile, TileShape, Work};
 use super::tone::{self, Light, Tone};
 use super::touched::Touched;
 use super::tracer::Tracer;
-use crate::scene::Size;
+use crate::scene::{Integrator, Rgb, Size, Transfer};
 
 /// Pixels developed between two polls of cancellation, which takes a few milliseconds; at least two
 /// rows of tiles per thread.
@@ -90,28 +91,52 @@ impl Raster {
     }
 }
 
+impl Raster {
+    /// Replaces values by denoised ones, and the pixels in which they differ.
+    pub(crate) fn replace(&mut self, denoised: Vec<[f32; 3]>, transfer: Transfer) {
+        let tone = Tone::Colour(Light::new(0.0, transfer));
+        let pixels = self.pixels.par_iter_mut().zip(&self.values).zip(&denoised);
+        pixels.for_each(|((pixel, before), after)| {
+            if before != after {
+                *pixel = tone.bytes(Rgb::from(after.map(f64::from)));
+            }
+        });
+        self.values = denoised;
+    }
+}
+
 impl Film {
     /// Bytes needed by a film and its finished picture.
-    pub(crate) fn bytes(settings: &Settings, frames: Frames) -> u64 {
+    pub(crate) fn bytes(settings: &Settings, frames: Frames, denoise: bool) -> u64 {
         let size = settings.traced().size();
         let bytes = |count: usize, each: usize| (count as u64).saturating_mul(each as u64);
-        let remembers = Remembers::of(settings, frames);
-        let values = match frames {
+        let remembers = Remembers::of(settings, frames, denoise);
+        let denoising = if denoise && remembers == Remembers::Causes {
+            denoise::bytes(size)
+        } else {
+            0
+        };
+        let values = match developed(frames, denoise) {
             Frames::Live => size_of::<u32>() + size_of::<[f32; 3]>() + size_of::<f32>(),
             Frames::Last => 0,
             Frames::LastWithValues => size_of::<[f32; 3]>(),
         };
         let tile = Tile::bytes(remembers);
         let tiles = bytes(TileShape::of(size).count(size), tile);
-        tiles.saturating_add(bytes(size.pixels(), size_of::<[u8; 3]>() + values))
+        let picture = bytes(size.pixels(), size_of::<[u8; 3]>() + values);
+        tiles.saturating_add(picture).saturating_add(denoising)
     }
 
     /// Creates an empty film; reserves memory for its tiles and the finished picture.
-    pub(crate) fn new(settings: &Settings, frames: Frames) -> Result<Self, NoMemory> {
+    pub(crate) fn new(
+        settings: &Settings,
+        frames: Frames,
+        denoise: bool,
+    ) -> Result<Self, NoMemory> {
         let Settings { spp, aov, .. } = *settings;
         let size = settings.traced().size();
         let shape = TileShape::of(size);
-        let remembers = Remembers::of(settings, frames);
+        let remembers = Remembers::of(settings, frames, denoise);
         let count = shape.count(size);
         let film = || {
             let mut tiles = Vec::new();
@@ -128,11 +153,11 @@ impl Film {
                 squared_errors: 0.0,
                 noise: None,
                 over_budget: 0,
-                room: Raster::with_room(size.pixels(), frames, remembers)?,
+                room: Raster::with_room(size.pixels(), developed(frames, denoise), remembers)?,
             })
         };
         film().map_err(|_: TryReserveError| NoMemory {
-            bytes: Self::bytes(settings, frames),
+            bytes: Self::bytes(settings, frames, denoise),
         })
     }
 
@@ -291,6 +316,26 @@ impl Film {
         self.develop_in(room, cancelled)
     }
 
+    /// The variances of the linear values of pixels, or [`UNKNOWN`]; `None` where the noise is not
+    /// recorded.
+    pub(crate) fn variances(&self, integrator: Integrator) -> Option<Vec<f32>> {
+        if self.remembers != Remembers::Causes {
+            return None;
+        }
+        let scale = self.light.exposed(Rgb::ONE).x;
+        let scale = (scale * scale) as f32;
+        let mut variances = Vec::new();
+        self.develop_rows(0..self.rows(), &mut variances, |tile, at| {
+            match (tile.variance(at), integrator) {
+                // A single sample is at the centre of all distributions.
+                (UNKNOWN, Integrator::Whitted) => 0.0,
+                (UNKNOWN, Integrator::Path) => UNKNOWN,
+                (variance, _) => scale * variance,
+            }
+        });
+        Some(variances)
+    }
+
     fn develop_in(&self, mut raster: Raster, cancelled: impl Fn() -> bool) -> Option<Raster> {
         raster.range = self.range();
         let tone = Tone::of(self.aov, self.light, raster.range);
@@ -358,5 +403,13 @@ impl Film {
     fn range(&self) -> Option<[f64; 2]> {
         let values = |tile| Tile::values(tile, self.spp, self.aov);
         tone::scale(self.aov, self.tiles.par_iter().flat_map_iter(values))
+    }
+}
+
+/// What a picture is developed to: noise is reduced in values.
+fn developed(frames: Frames, denoise: bool) -> Frames {
+    match frames {
+        Frames::Last if denoise => Frames::LastWithValues,
+        frames => frames,
     }
 }

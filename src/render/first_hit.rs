@@ -3,12 +3,12 @@
 use glam::DVec3;
 
 use super::frame::{Aov, NO_OBJECT};
-use super::probe::Seen;
+use super::probe::{Sample, Seen};
 use super::shading::Side;
 use super::touched::Touched;
 use super::world::World;
 use crate::geometry::Ray;
-use crate::scene::Rgb;
+use crate::scene::{Integrator, Rgb};
 
 /// Computes an AOV at the first surface that a camera ray hits within `reach`; the ray starts
 /// `skipped` away from the eye.
@@ -48,5 +48,57 @@ pub(crate) fn first_hit(world: &World, ray: &Ray, reach: f64, skipped: f64, aov:
         object: nearest.object,
         touched: Touched::object(nearest.object),
         rays: 1,
+    }
+}
+
+/// What tells the surface under a pixel from others: the properties of first surfaces, summed over
+/// samples.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Guide {
+    /// Shading normals, as for [`Aov::Normal`].
+    pub(crate) normal: [f32; 3],
+    /// Albedos, as for [`Aov::Albedo`].
+    pub(crate) albedo: [f32; 3],
+    /// Reciprocals of distances from the eye, which are nearly linear across the picture of a plane;
+    /// 0 without a surface.
+    pub(crate) nearness: f32,
+}
+
+impl Guide {
+    /// Adds another sample.
+    pub(crate) fn add(&mut self, other: Self) {
+        for (sum, more) in self.normal.iter_mut().zip(other.normal) {
+            *sum += more;
+        }
+        for (sum, more) in self.albedo.iter_mut().zip(other.albedo) {
+            *sum += more;
+        }
+        self.nearness += other.nearness;
+    }
+}
+
+/// Computes all that guides at the first surface of a camera sample, whose ray starts `skipped` away
+/// from the eye. By path tracing, lights with a size are surfaces that glow.
+pub(crate) fn guide(world: &World, sample: &Sample, skipped: f64, integrator: Integrator) -> Guide {
+    let nearest = world.nearest(&sample.ray, sample.reach);
+    let distance = nearest.map_or(sample.reach, |nearest| nearest.hit.t);
+    if integrator == Integrator::Path
+        && let Some((light, distance)) = world.sphere_lights.nearest(&sample.ray, distance)
+    {
+        return Guide {
+            normal: [0.0; 3],
+            albedo: light.radiance().as_vec3().to_array(),
+            nearness: (1.0 / (skipped + distance)) as f32,
+        };
+    }
+    let Some(nearest) = nearest else {
+        return Guide::default();
+    };
+    let mut mapped = None;
+    let (point, material) = world.arrive(&sample.ray, nearest, &mut mapped);
+    Guide {
+        normal: point.normal.as_vec3().to_array(),
+        albedo: material.albedo().as_vec3().to_array(),
+        nearness: (1.0 / (skipped + nearest.hit.t)) as f32,
     }
 }

@@ -226,9 +226,24 @@ pub struct Job {
     pub limit: Option<Limit>,
     /// Which frames contain pixels.
     pub frames: Frames,
+    /// Whether to reduce noise of light: in [`Frame::denoised`] of live frames, and otherwise in
+    /// the pixels and values of the last frame themselves.
+    pub denoise: bool,
     /// What frames call the objects of the scene, by index; `None` calls them by their indices. A
     /// scene with a part of another's objects is shown as that one.
     pub numbers: Option<Arc<[u32]>>,
+}
+
+/// Whether the noise of pictures of this can be reduced.
+pub fn denoises(aov: Option<Aov>) -> bool {
+    aov.is_none_or(Aov::is_share)
+}
+
+impl Job {
+    /// Whether its pixels are denoised: AOVs of surfaces have no noise to tell from detail.
+    pub(crate) fn denoises(&self) -> bool {
+        self.denoise && denoises(self.settings.aov)
+    }
 }
 
 /// A picture as far as it is traced.
@@ -249,6 +264,9 @@ pub struct Frame {
     /// Linear radiance after exposure, or AOV, of each pixel, unclamped; only with
     /// [`Frames::Live`] and [`Frames::LastWithValues`].
     pub values: Vec<[f32; 3]>,
+    /// [`Frame::values`] with less noise; only with [`Frames::Live`] if [`Job::denoise`] asks for
+    /// it, of light and its shares for up to 4194304 pixels, and once each pixel has a sample.
+    pub denoised: Vec<[f32; 3]>,
     /// Estimated error of each pixel's displayed light in its worst channel, 0 to 1 (the root of
     /// what [`Progress::noise`] averages). Only with [`Frames::Live`] for up to 4194304 pixels, and
     /// once it is estimated.
@@ -303,6 +321,7 @@ impl Frame {
             pixels,
             objects: Vec::new(),
             values: Vec::new(),
+            denoised: Vec::new(),
             errors: Vec::new(),
             range: None,
             progress: Progress::COMPLETE,

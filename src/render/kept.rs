@@ -115,7 +115,7 @@ impl Kept {
         let size = job.settings.traced().size();
         let shape = TileShape::of(size);
         let is_one = (1..=MAX_SPP).contains(&spp)
-            && remembers.suffices(Remembers::of(&job.settings, job.frames))
+            && remembers.suffices(Remembers::of(&job.settings, job.frames, job.denoise))
             && count <= shape.count(size)
             && nanoseconds < 1_000_000_000;
         if !is_one {

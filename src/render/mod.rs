@@ -13,7 +13,8 @@
 //! [`film`] in [`steps`]. Each sample gets its numbers from [`sampler`], its place around the pixel
 //! from [`filter`], its ray from [`camera`] and its radiance from a [`tracer`], or an AOV from
 //! [`first_hit`]. [`tone`] converts the film to a frame (heat maps by a [`ramp`]), and [`noise`]
-//! estimates the remaining error. A part of a picture, a [`mod@region`], can be traced alone.
+//! estimates the remaining error, which [`denoise`] reduces. A part of a picture, a
+//! [`mod@region`], can be traced alone.
 //!
 //! Pixels of live pictures record their dependencies ([`touched`]): after an edit of a material or
 //! of a light's colour the film is reused, and only dependent pixels are traced again.
@@ -47,6 +48,7 @@ mod block_tracer;
 mod branch;
 mod bsdf;
 mod camera;
+mod denoise;
 mod direct;
 mod display;
 mod emitters;
@@ -107,7 +109,7 @@ pub use explain::{
     LightHit, LightTerm, PreparedScene, RayEnd, RayKind, Shading, Stop, SurfaceHit, Term,
     TermSource, TracedRay, Unlisted, Verdict,
 };
-pub use frame::{Aov, Frame, Frames, Job, Limit, NO_OBJECT, Progress, Query, Settings};
+pub use frame::{Aov, Frame, Frames, Job, Limit, NO_OBJECT, Progress, Query, Settings, denoises};
 pub use heuristic::Densities;
 pub use histogram::{HISTOGRAM_STOPS, Histogram};
 pub use kept::Kept;

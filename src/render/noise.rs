@@ -10,6 +10,9 @@ use super::steps::Step;
 use super::tone::Light;
 use crate::scene::Rgb;
 
+/// The difference of means that rounding may cause, as a share of them.
+const ROUNDING: f64 = 1e-10;
+
 /// Estimates errors of displayed pixels during a pass that doubles their samples.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Doubling {
@@ -37,5 +40,15 @@ impl Doubling {
         let mean = |sum: Rgb| self.light.displayed(sum / self.half);
         let error = 0.5 * (mean(before) - mean(after - before)).abs().max_element();
         error * error
+    }
+
+    /// Returns the variance of a pixel's mean radiance, as the mean of its channels, from its sums
+    /// before and after the pass. What rounding makes of equal halves is 0.
+    pub(crate) fn variance(self, before: Rgb, after: Rgb) -> f64 {
+        let [first, second] = [before, after - before].map(|sum| sum / self.half);
+        let error = 0.5 * (first - second);
+        let variance = error.length_squared() / 3.0;
+        let least = ROUNDING * ROUNDING * (first + second).length_squared();
+        if variance <= least { 0.0 } else { variance }
     }
 }

@@ -1,6 +1,6 @@
 //! What a picture is made from, as text.
 
-use super::frame::{Aov, Frame, Job, Settings};
+use super::frame::{Aov, Frame, Frames, Job, Settings};
 use super::written::{aov_name, aov_of};
 use crate::scene::Viewpoint;
 
@@ -15,6 +15,8 @@ pub struct Provenance {
     pub view: Viewpoint,
     /// The AOVs that its file holds beside it.
     pub layers: Vec<Aov>,
+    /// Whether its noise is reduced.
+    pub denoise: bool,
     /// The settings, with the samples that were taken.
     pub settings: Settings,
 }
@@ -27,6 +29,8 @@ impl Provenance {
             scene,
             view: Viewpoint::between(&job.scene.camera, &job.camera),
             layers: Vec::new(),
+            // Live frames hold denoised values beside their pixels.
+            denoise: job.denoises() && job.frames != Frames::Live,
             settings: job.settings,
         }
     }
@@ -38,7 +42,8 @@ impl Provenance {
         self
     }
 
-    /// The name and value of each entry but the number of samples, in a fixed order.
+    /// The name and value of each entry but the number of samples, in a fixed order; what is new since
+    /// the first version only where it differs from that.
     pub fn written(&self) -> Vec<(&'static str, String)> {
         let or_word = |text: String, word: &str| {
             if text.is_empty() {
@@ -54,7 +59,9 @@ impl Provenance {
             ("view", or_word(self.view.to_string(), "own")),
             ("layers", or_word(layers.join(","), "none")),
         ];
-        entries.into_iter().chain(self.settings.written()).collect()
+        let denoise = self.denoise.then(|| ("denoise", "yes".to_owned()));
+        let entries = entries.into_iter().chain(denoise);
+        entries.chain(self.settings.written()).collect()
     }
 
     /// The entries as text, a line each.
@@ -68,10 +75,8 @@ impl Provenance {
 
     /// Reads entries as [`Provenance::written`], in this order, for `spp` samples; entries after them
     /// are left. `None` if they are no such entries.
-    pub fn read<'t>(
-        mut entries: impl Iterator<Item = (&'t str, &'t str)>,
-        spp: u32,
-    ) -> Option<Self> {
+    pub fn read<'t>(entries: impl Iterator<Item = (&'t str, &'t str)>, spp: u32) -> Option<Self> {
+        let mut entries = entries.peekable();
         let mut next = |name: &str| {
             let (written, value) = entries.next()?;
             (written == name).then_some(value)
@@ -86,11 +91,13 @@ impl Provenance {
             "none" => Vec::new(),
             names => names.split(',').map(aov_of).collect::<Option<_>>()?,
         };
+        let denoise = entries.next_if_eq(&("denoise", "yes")).is_some();
         Some(Self {
             version,
             scene,
             view,
             layers,
+            denoise,
             settings: Settings::read(entries, spp)?,
         })
     }

@@ -78,7 +78,7 @@ pub fn check_memory(job: &Job, bytes: u64) -> Result<(), Refusal> {
 fn film(job: &Job) -> u64 {
     let size = job.settings.traced().size();
     let pixels = (size.pixels() as u64).saturating_mul(ENCODED as u64);
-    Film::bytes(&job.settings, job.frames).saturating_add(pixels)
+    Film::bytes(&job.settings, job.frames, job.denoise).saturating_add(pixels)
 }
 
 /// Refuses a job whose world and film do not fit into memory. For an edit of the scene `before`,

@@ -77,7 +77,7 @@ impl Renderer {
         let region = job.settings.traced().within(job.settings.size)?;
         refusal::fits(&job, self.accepted.upgrade().as_ref())?;
         let scene = Arc::downgrade(&job.scene);
-        let film = Film::new(&job.settings, job.frames);
+        let film = Film::new(&job.settings, job.frames, job.denoise);
         let film = film.map_err(|NoMemory { bytes }| Refusal::Memory {
             size: region.size(),
             bytes,

@@ -2,6 +2,7 @@
 
 mod stored;
 
+use super::denoise::UNKNOWN;
 use super::first_hit::first_hit;
 use super::frame::{Aov, Frames, NO_OBJECT, Settings};
 use super::noise::Doubling;
@@ -147,6 +148,8 @@ struct Memory {
     touched: [Touched; AREA as usize],
     /// Squared error after the last pass that estimated it.
     squared_errors: [f32; AREA as usize],
+    /// The variance of its mean after the last pass that estimated it, negative before.
+    variances: [f32; AREA as usize],
     /// Rays traced for all its samples.
     rays: [u32; AREA as usize],
 }
@@ -161,11 +164,12 @@ pub(crate) enum Remembers {
 }
 
 impl Remembers {
-    /// What the tiles of a picture store.
-    pub(crate) fn of(settings: &Settings, frames: Frames) -> Self {
+    /// What the tiles of a picture store. Live pictures are continued whether or not they are denoised.
+    pub(crate) fn of(settings: &Settings, frames: Frames, denoise: bool) -> Self {
         let shown = matches!(settings.aov, Some(Aov::Cost | Aov::Noise));
+        let guides = denoise && frames != Frames::Live;
         let is_small = settings.traced().size().pixels() <= MOST_REMEMBERED;
-        if shown || frames == Frames::Live && is_small {
+        if shown || guides || frames == Frames::Live && is_small {
             Self::Causes
         } else {
             Self::Pixels
@@ -195,6 +199,7 @@ impl Tile {
             Box::new(Memory {
                 touched: [Touched::default(); AREA as usize],
                 squared_errors: [0.0; AREA as usize],
+                variances: [UNKNOWN; AREA as usize],
                 rays: [0; AREA as usize],
             })
         };
@@ -290,12 +295,15 @@ impl Tile {
     /// Estimates the errors of pixels whose samples were doubled.
     fn estimate(&mut self, doubling: Doubling, before: &[Rgb; AREA as usize], pixels: &[[u32; 2]]) {
         let mut own = [0.0; AREA as usize];
-        let errors = match &mut self.memory {
-            Some(memory) => &mut memory.squared_errors,
-            None => &mut own,
+        let (errors, mut variances) = match &mut self.memory {
+            Some(memory) => (&mut memory.squared_errors, Some(&mut memory.variances)),
+            None => (&mut own, None),
         };
         for &pixel in pixels {
             let at = self.shape.index(self.corner, pixel);
+            if let Some(variances) = &mut variances {
+                variances[at] = doubling.variance(before[at], self.sums[at]) as f32;
+            }
             errors[at] = doubling.squared_error(before[at], self.sums[at]) as f32;
         }
         self.squared_errors = errors.iter().copied().map(f64::from).sum();
@@ -347,6 +355,7 @@ impl Tile {
         }
         if let Some(memory) = &mut self.memory {
             memory.touched[at] = Touched::default();
+            memory.variances[at] = UNKNOWN;
             memory.rays[at] = 0;
         }
     }
@@ -366,6 +375,12 @@ impl Tile {
     pub(crate) fn error(&self, at: usize) -> f32 {
         let memory = self.memory.as_ref();
         memory.map_or(0.0, |memory| memory.squared_errors[at].sqrt())
+    }
+
+    /// The variance of a pixel's mean, as the mean of its channels; negative if it is not known.
+    pub(crate) fn variance(&self, at: usize) -> f32 {
+        let memory = self.memory.as_ref();
+        memory.map_or(UNKNOWN, |memory| memory.variances[at])
     }
 
     /// The rays traced for all samples of a pixel; 0 where they are not recorded.

@@ -2,6 +2,7 @@
 
 use std::time::{Duration, Instant};
 
+use super::denoise::{Guides, Noisy};
 use super::film::{Film, Raster};
 use super::frame::{Frame, Frames, Job, Limit, NO_OBJECT, Progress, Query};
 use super::kept::{Effort, Kept};
@@ -103,6 +104,8 @@ pub(crate) struct Tracing<'s, W> {
     wake: &'s W,
     film: Film,
     query: Query,
+    /// What guides noise reduction, if the job asks for it.
+    guides: Guides,
     /// What was spent on the film before.
     before: Effort,
     counts: Counts,
@@ -134,6 +137,7 @@ impl<'s, W: Fn() + Sync> Tracing<'s, W> {
             wake,
             film,
             query,
+            guides: Guides::default(),
             before,
             counts: before.counts,
             taken: 0.0,
@@ -172,13 +176,13 @@ impl<'s, W: Fn() + Sync> Tracing<'s, W> {
             next = until;
             self.taken = before + step.share() * (next as f64 / tiles as f64);
             if next < tiles && self.is_due() {
-                self.publish();
+                self.publish(shot);
             }
         }
         self.whole_samples = step.whole_after();
         self.complete = self.whole_samples == self.job.settings.spp || self.is_enough(step);
         if self.complete || self.is_due() || self.is_first_due(step) {
-            self.publish();
+            self.publish(shot);
         }
         !self.complete
     }
@@ -258,7 +262,7 @@ impl<'s, W: Fn() + Sync> Tracing<'s, W> {
         }
     }
 
-    fn publish(&mut self) {
+    fn publish(&mut self, shot: &Shot<'_>) {
         let begun = Instant::now();
         let (ticket, published) = (self.ticket, self.published);
         let unwanted = || ticket.unwanted(published);
@@ -267,16 +271,31 @@ impl<'s, W: Fn() + Sync> Tracing<'s, W> {
             Frames::Live => self.film.develop(unwanted),
             Frames::Last | Frames::LastWithValues => Some(Raster::default()),
         };
-        let Some(Raster {
+        let Some(mut raster) = raster else {
+            return;
+        };
+        let denoised = self.denoised(&raster, shot);
+        if unwanted() {
+            return;
+        }
+        let denoised = match (denoised, self.job.frames) {
+            (denoised, Frames::Live) => denoised.unwrap_or_default(),
+            (Some(denoised), _) => {
+                raster.replace(denoised, shot.settings.transfer);
+                Vec::new()
+            }
+            (None, _) => Vec::new(),
+        };
+        if self.job.frames == Frames::Last {
+            raster.values = Vec::new();
+        }
+        let Raster {
             pixels,
             mut objects,
             values,
             errors,
             range,
-        }) = raster
-        else {
-            return;
-        };
+        } = raster;
         if let Some(numbers) = self.job.numbers.as_deref() {
             let number = |index: u32| numbers.get(index as usize).copied().unwrap_or(NO_OBJECT);
             for object in &mut objects {
@@ -292,6 +311,7 @@ impl<'s, W: Fn() + Sync> Tracing<'s, W> {
             pixels,
             objects,
             values,
+            denoised,
             errors,
             range,
             query: Some(self.query.clone()),
@@ -301,6 +321,31 @@ impl<'s, W: Fn() + Sync> Tracing<'s, W> {
             (self.wake)();
         }
         self.published = Some(Instant::now());
+    }
+
+    /// The values of a raster with less noise, if the job asks for it and each pixel has a sample.
+    fn denoised(&mut self, raster: &Raster, shot: &Shot<'_>) -> Option<Vec<[f32; 3]>> {
+        let is_due = self.job.denoises() && 0 < self.whole_samples && !raster.values.is_empty();
+        let (ticket, published) = (self.ticket, self.published);
+        let unwanted = || ticket.unwanted(published);
+        if !is_due {
+            return None;
+        }
+        let variances = self.film.variances(shot.settings.integrator)?;
+        if variances.iter().all(|&variance| variance == 0.0) {
+            return Some(raster.values.clone());
+        }
+        if !self.guides.extend(self.whole_samples, shot, unwanted) {
+            return None;
+        }
+        let noisy = Noisy {
+            level: shot.world.level,
+            width: shot.settings.traced().size().width as usize,
+            values: &raster.values,
+            variances: &variances,
+            guides: &self.guides,
+        };
+        Some(noisy.denoised(&unwanted))
     }
 
     fn progress(&self) -> Progress {

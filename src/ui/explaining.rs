@@ -101,6 +101,7 @@ mod tests {
             },
             scene,
             frames: Frames::Live,
+            denoise: false,
             numbers: None,
             limit: None,
         }

@@ -2,7 +2,7 @@
 //! by their owner only.
 //!
 //! ```text
-//! halflight trace 1
+//! halflight trace 2
 //! version 0.1.0
 //! scene 9f86d081884c7d659a2feaa0c55ad015a3bf4f1b2b0bd3ee0e1f5a3f0b6b9c1d
 //! view own

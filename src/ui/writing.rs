@@ -285,6 +285,7 @@ fn provenance(frame: &Frame, to: &Destination) -> Result<Option<Provenance>, Rea
         scene: fingerprint(&origin.text, &origin.found)?,
         view: origin.view.clone(),
         layers: Vec::new(),
+        denoise: false,
         settings: *settings,
     };
     Ok(Some(provenance.in_frame(frame)))

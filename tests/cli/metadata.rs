@@ -24,6 +24,7 @@ fn a_picture_says_how_to_render_it_again() {
              --filter blackman-harris --layers depth,normal",
         ),
         ("b.exr", "--aov normal --region 3,1,4,5 --spp 2"),
+        ("c.png", "--size 40x30 --spp 4 --integrator path --denoise"),
     ] {
         place.stderr(&format!("render ball.ray -o {picture} {options}"), 0);
         let first = place.read(picture);

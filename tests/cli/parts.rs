@@ -171,6 +171,14 @@ fn parts_need_files_and_fixed_samples() {
             "render ball.ray -o a.bmp --shard 0/2 --time 1s",
             "use --spp",
         ),
+        (
+            "render ball.ray -o a.bmp --shard 0/2 --denoise",
+            "leave out --shard",
+        ),
+        (
+            "render ball.ray -o a.bmp --resume --denoise",
+            "leave out --resume",
+        ),
         ("merge", "required"),
         ("merge a.part", "--output"),
         ("merge a.part -o a.bmp --missing", "cannot be used with"),

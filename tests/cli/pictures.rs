@@ -242,6 +242,33 @@ fn a_time_ends_with_a_whole_pass() {
 }
 
 #[test]
+fn noise_is_reduced_where_there_is_any() {
+    let place = Place::new();
+    let lamp = concat!(env!("CARGO_MANIFEST_DIR"), "/scenes/lamp.xml");
+    let rendered = |options: &str| {
+        let line = format!("render {lamp} --size 24x16 -o a.ppm {options}");
+        place.stderr(&line, 0);
+        place.read("a.ppm")
+    };
+    for noiseless in ["--spp 1", "--spp 1 --exposure 1.3"] {
+        let noiseless = format!("{noiseless} --integrator whitted");
+        assert!(rendered(&noiseless) == rendered(&format!("{noiseless} --denoise")));
+    }
+    let noisy = rendered("--spp 4 --integrator path");
+    let denoised = rendered("--spp 4 --integrator path --denoise --threads 1");
+    assert!(noisy != denoised);
+    assert!(denoised == rendered("--spp 4 --integrator path --denoise --threads 2"));
+    let frames = format!(
+        "render {lamp} --size 24x16 -o b%d.ppm --turntable 2 --spp 4 --integrator path --denoise \
+         --shard 0/2"
+    );
+    place.stderr(&frames, 0);
+    assert!(denoised == place.read("b0.ppm"));
+    let said = place.stderr("render ball.ray -o a.ppm --aov depth --denoise", 2);
+    assert!(said.contains("not with --aov depth"), "{said}");
+}
+
+#[test]
 fn an_exposure_of_0_changes_no_byte_and_one_stop_doubles() {
     let place = Place::new();
     let rendered = |options: &str, output: &str| {

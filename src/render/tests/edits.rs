@@ -31,7 +31,7 @@ pub(super) struct Easel {
 impl Easel {
     pub(super) fn new(job: Job) -> Self {
         let world = built(&job, None);
-        let film = Film::new(&job.settings, job.frames);
+        let film = Film::new(&job.settings, job.frames, job.denoise);
         Self {
             job,
             world: world.expect("nothing cancels"),
@@ -46,7 +46,7 @@ impl Easel {
         let world = built(&job, before);
         let world = world.expect("nothing cancels");
         let changed = Touched::between((&self.job, &self.world), (&job, &world));
-        let film = Film::new(&job.settings, job.frames).expect("memory is there");
+        let film = Film::new(&job.settings, job.frames, job.denoise).expect("memory is there");
         let old = std::mem::replace(&mut self.film, film).keep(Effort::default());
         if Arc::ptr_eq(&self.world.emitters, &world.emitters) || !self.is_by_path() {
             self.film

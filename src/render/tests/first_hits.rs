@@ -35,6 +35,7 @@ fn values(aov: Aov, spp: u32) -> Arc<Frame> {
         },
         limit: None,
         frames: Frames::LastWithValues,
+        denoise: false,
         numbers: None,
     };
     let generation = restart(&mut renderer, job);
@@ -107,6 +108,7 @@ fn radiance_is_returned_unclamped_on_request() {
             settings: settings(41, 31, 1),
             frames,
             limit: None,
+            denoise: false,
             numbers: None,
         };
         let generation = restart(&mut renderer, job);

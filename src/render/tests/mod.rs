@@ -3,6 +3,7 @@
 mod blocks;
 mod cameras;
 mod continuing;
+mod denoising;
 mod edits;
 mod emitters;
 mod explain;
@@ -318,6 +319,7 @@ fn job(scene: &Arc<Scene>, settings: Settings) -> Job {
         settings,
         limit: None,
         frames: Frames::Live,
+        denoise: false,
         numbers: None,
     }
 }

@@ -219,7 +219,7 @@ fn tiles_waste_few_pixels() {
         (9, 1 << 18),
     ] {
         let size = Size { width, height };
-        let film = Film::new(&settings(size.width, size.height, 1), Frames::Live)
+        let film = Film::new(&settings(size.width, size.height, 1), Frames::Live, false)
             .expect("memory that is not touched is there");
         let held = 256 * film.tiles();
         assert!(held < 2 * size.pixels() + 256, "{width}x{height}: {held}");
@@ -317,8 +317,8 @@ fn a_film_touches_memory_while_tracing_and_developing_can_be_cancelled() {
     let world = world(Scene::clone(&still()));
     let traced = settings(size.width, size.height, 1);
     let shot = Shot::new(&world, &world.scene.camera, traced);
-    let mut film =
-        Film::new(&settings(size.width, size.height, 1), Frames::Live).expect("memory is there");
+    let mut film = Film::new(&settings(size.width, size.height, 1), Frames::Live, false)
+        .expect("memory is there");
     assert_eq!((film.tiles(), film.begun()), (125 * 63, 0));
     film.advance(0..7, &Step::Grid(8), &shot, &|| false);
     assert_eq!(film.begun(), 7);

@@ -1,6 +1,7 @@
 //! Tiles as bytes, with integers and floats in little-endian order: sums as 3 f64 a pixel, indices of
 //! objects as u32, levels as u8, the sum of squared errors as f64, samples over budget as u64, and
-//! with [`super::Memory`] the touched sets as u64, squared errors as f32 and rays as u32.
+//! with [`super::Memory`] the touched sets as u64, squared errors and variances as f32 and rays as
+//! u32.
 //!
 //! Grid and level are not stored: a tile that lacks a sample of a pixel takes the grids again.
 
@@ -12,7 +13,7 @@ use crate::scene::Rgb;
 
 /// Bytes of a pixel and of what is remembered of it.
 const PIXEL: usize = 3 * 8 + 4 + 1;
-const MEMORY: usize = 8 + 4 + 4;
+const MEMORY: usize = 8 + 4 + 4 + 4;
 
 impl Tile {
     /// The number of bytes of a stored tile.
@@ -37,6 +38,7 @@ impl Tile {
             let touched = memory.touched.map(|touched| touched.bits().to_le_bytes());
             bytes.extend(touched.as_flattened());
             bytes.extend(memory.squared_errors.map(f32::to_le_bytes).as_flattened());
+            bytes.extend(memory.variances.map(f32::to_le_bytes).as_flattened());
             bytes.extend(memory.rays.map(u32::to_le_bytes).as_flattened());
         }
     }
@@ -74,6 +76,9 @@ impl Tile {
             }
             for error in &mut memory.squared_errors {
                 *error = f32::from_le_bytes(next(&mut bytes)?);
+            }
+            for variance in &mut memory.variances {
+                *variance = f32::from_le_bytes(next(&mut bytes)?);
             }
             for rays in &mut memory.rays {
                 *rays = u32::from_le_bytes(next(&mut bytes)?);

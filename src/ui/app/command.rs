@@ -75,6 +75,8 @@ enum Command {
     Transfer(Option<Transfer>),
     /// Display false colours, or true ones again.
     FalseColour,
+    /// Reduce the noise on screen, or no longer.
+    Denoise,
     /// Show or hide the histogram.
     Histogram,
     /// Use other colours.
@@ -176,6 +178,7 @@ const TABLE: &[CommandRow] = &[
     row(&["transfer srgb"], A::Nothing(C::Transfer(Some(Transfer::Srgb))), "display light by the sRGB curve"),
     row(&["transfer scene"], A::Nothing(C::Transfer(None)), "display light as the scene says"),
     row(&["falsecolour", "falsecolor"], A::Nothing(C::FalseColour), "display luminances as false colours, or no longer"),
+    row(&["denoise"], A::Nothing(C::Denoise), "reduce the noise of light on screen, or no longer"),
     row(&["histogram"], A::Nothing(C::Histogram), "show or hide the histogram of the light"),
     row(&["mouse"], A::Nothing(C::Mouse), "take the mouse or leave it to the terminal"),
     row(&["theme dark"], A::Nothing(C::Theme(Theme::Dark)), "use colours for dark screens"),
@@ -196,6 +199,7 @@ const KEYS: &[(&str, Action)] = &[
     ("compare", Action::Go(Mode::Compare)),
     ("region", Action::Region),
     ("track", Action::Go(Mode::Sequence)),
+    ("denoise", Action::Denoise),
     ("view save", Action::SaveView),
     ("view reset", Action::ResetView),
     ("help", Action::Help),
@@ -499,6 +503,7 @@ impl App {
             Command::Exposure(half_stops) => self.set_exposure(half_stops),
             Command::Transfer(transfer) => self.set_transfer(transfer),
             Command::FalseColour => self.toggle_false_colours(),
+            Command::Denoise => return self.toggle_denoising(),
             Command::Histogram => self.toggle_histogram(),
             Command::Theme(theme) => self.theme = theme,
             Command::Pixels(pixels) => self.pixels = pixels,

@@ -277,6 +277,7 @@ impl App {
             },
             limit: None,
             frames: Frames::Live,
+            denoise: false,
             numbers: None,
         }
     }

@@ -5,10 +5,11 @@ use std::sync::Arc;
 use super::App;
 use super::tally::Tally;
 use crate::language::Node;
-use crate::render::{Aov, Colours, Frame, Histogram, MOST_HALF_STOPS, exposes};
+use crate::render::{Aov, Colours, Frame, Histogram, MOST_HALF_STOPS, denoises, exposes};
 use crate::scene::{Emitter, Transfer};
 use crate::text::{concise, percentage, rounded};
 use crate::ui::keymap::Action;
+use crate::ui::msg::Effect;
 
 impl App {
     /// Shows light or an AOV.
@@ -83,6 +84,39 @@ impl App {
         self.overlays.say(words);
     }
 
+    /// Reduces the noise of the preview and of the full-size trace on screen, or no longer. Both
+    /// continue from the samples they have.
+    pub(super) fn toggle_denoising(&mut self) -> Vec<Effect> {
+        if self.pictures.wires.is_some() || !denoises(self.pictures.aov) {
+            let light = self.key_for(Action::Show(None));
+            let words = format!("only light has noise to reduce; press {light}");
+            self.overlays.say(words);
+            return Vec::new();
+        }
+        let denoised = &mut self.pictures.display.denoised;
+        *denoised = !*denoised;
+        self.overlays.say(if *denoised {
+            "noise is reduced, on screen only"
+        } else {
+            "the picture as traced"
+        });
+        self.pictures.preview.asked = None;
+        self.retrace()
+    }
+
+    /// Whether the noise of the picture on screen is reduced, in a word; `None` if it is not to be.
+    fn denoising_name(&self) -> Option<&'static str> {
+        let is_on = self.pictures.display.denoised && denoises(self.pictures.aov);
+        let latest = self.picture().latest.as_ref();
+        let is_without = latest.is_some_and(|frame| frame.denoised.is_empty());
+        let is_unable = self.picture().is_complete() && is_without;
+        is_on.then_some(if is_unable {
+            "not denoised"
+        } else {
+            "denoised"
+        })
+    }
+
     /// Shows the next or previous share of the light: all, that of each light, emission, indirect
     /// light.
     pub(super) fn step_share(&mut self, step: isize) {
@@ -151,6 +185,7 @@ impl App {
     pub fn display_name(&self) -> Option<String> {
         let display = self.pictures.display;
         let mut parts = Vec::new();
+        parts.extend(self.denoising_name().map(str::to_owned));
         if display.half_stops != 0 {
             parts.push(format!("{:+} EV", display.stops()));
         }

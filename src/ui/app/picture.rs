@@ -282,6 +282,7 @@ mod tests {
             pixels: vec![pixel; size.pixels()],
             objects: vec![7; size.pixels()],
             values: Vec::new(),
+            denoised: Vec::new(),
             errors: Vec::new(),
             range: None,
             progress: Progress {

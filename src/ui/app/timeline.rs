@@ -239,6 +239,7 @@ impl App {
             camera,
             limit: None,
             frames: Frames::Live,
+            denoise: false,
             numbers: None,
         })
     }

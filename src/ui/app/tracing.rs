@@ -64,6 +64,7 @@ impl App {
         let spp = preview_samples(self.rendering().integrator(), screen.grid);
         let mut job = self.shown_job(size, spp)?;
         job.settings.region = region;
+        job.denoise = self.pictures.display.denoised;
         job.settings.aov = self.pictures.preview_aov();
         if let Some(aov) = job.settings.aov {
             job.settings.spp = aov.samples(spp);
@@ -151,6 +152,7 @@ impl App {
             },
             limit: None,
             frames: Frames::Live,
+            denoise: false,
             numbers: None,
         })
     }
@@ -187,6 +189,7 @@ impl App {
         let (spp, limit) = self.until().limits();
         let mut job = self.final_job(self.output(), spp)?;
         job.limit = limit;
+        job.denoise = self.pictures.display.denoised;
         job.settings.region = self.region();
         Ok(job)
     }

@@ -331,6 +331,7 @@ impl App {
             Action::Show(aov) => self.show(aov),
             Action::Share(step) => self.step_share(step),
             Action::Expose(half_stops) => self.expose(half_stops),
+            Action::Denoise => return self.toggle_denoising(),
             Action::Wireframe => self.overlays.say(self.pictures.show_wires()),
             Action::Integrator => self.toggle_integrator(),
             Action::Cure => self.cure(),

@@ -273,6 +273,8 @@ pub enum Action {
     Share(isize),
     /// Changes the exposure of the display, in half stops.
     Expose(i8),
+    /// Reduces the noise of pictures on screen, or no longer.
+    Denoise,
     /// Shows the preview as a wireframe.
     Wireframe,
     /// Switches between Whitted ray tracing and path tracing.

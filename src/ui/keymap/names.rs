@@ -97,6 +97,7 @@ pub(super) const fn of_action(action: Action) -> &'static str {
         A::Share(_) => "previous-share",
         A::Expose(1..) => "brighter",
         A::Expose(_) => "darker",
+        A::Denoise => "denoise",
         A::Wireframe => "wireframe",
         A::Integrator => "integrator",
         A::Cure => "cure",

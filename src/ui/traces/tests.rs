@@ -43,6 +43,7 @@ pub(in crate::ui) fn job(spp: u32) -> Job {
         images: Images::default(),
         limit: None,
         frames: Frames::Live,
+        denoise: false,
         numbers: None,
     }
 }

@@ -128,6 +128,7 @@ fn frame(width: u32, height: u32) -> Arc<Frame> {
         corner: [0; 2],
         pixels: vec![[100; 3]; size.pixels()],
         values: Vec::new(),
+        denoised: Vec::new(),
         errors: Vec::new(),
         range: None,
         objects: (0..width * height)

@@ -149,6 +149,7 @@ fn edits(action: A) -> bool {
         | A::Show(_)
         | A::Share(_)
         | A::Expose(_)
+        | A::Denoise
         | A::Wireframe
         | A::Integrator
         | A::Repaint
@@ -194,6 +195,7 @@ const OTHERS: &[&str] = &[
     "transfer srgb",
     "transfer scene",
     "falsecolour",
+    "denoise",
     "histogram",
     "mouse",
     "theme dark",

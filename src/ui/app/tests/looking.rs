@@ -92,6 +92,51 @@ fn commands_choose_transfer_and_colours_of_the_display() {
     }
 }
 
+#[test]
+fn noise_is_reduced_on_screen_and_in_no_file() {
+    let mut app = open(SCENE);
+    let effects = press(&mut app, "~");
+    let asked = job(&effects, Target::Preview).expect("it is traced again");
+    assert!(asked.denoise);
+    assert_eq!(words(&app), "noise is reduced, on screen only");
+    assert_eq!(app.display_name().as_deref(), Some("denoised"));
+    let sight = app.sight().expect("there is room");
+    assert!(sight.display.denoised);
+    // A complete picture without is too large for it.
+    let arrived = preview(asked, 0.5);
+    app.update(Msg::Started(Target::Preview, 1));
+    app.update(arrived);
+    assert_eq!(app.display_name().as_deref(), Some("not denoised"));
+    let effects = press(&mut app, "<F5>");
+    assert!(job(&effects, Target::Trace).is_some_and(|job| job.denoise));
+    let effects = press(&mut app, "<Esc>b");
+    let export = job(&effects, Target::Export).expect("a trace");
+    assert!(!export.denoise);
+    // The others show no light.
+    let effects = press(&mut app, "2");
+    assert!(job(&effects, Target::Preview).is_some());
+    assert_eq!(app.display_name(), None);
+    press(&mut app, "~");
+    assert_eq!(words(&app), "only light has noise to reduce; press 1");
+    press(&mut app, "1");
+    let effects = press(&mut app, ":denoise<Enter>");
+    assert!(job(&effects, Target::Preview).is_some_and(|job| !job.denoise));
+    assert_eq!(words(&app), "the picture as traced");
+    assert_eq!(app.display_name(), None);
+}
+
+#[test]
+fn a_trace_continues_when_denoising_is_switched() {
+    let mut app = open(SCENE);
+    press(&mut app, "<F5>");
+    app.update(Msg::Started(Target::Trace, 1));
+    let effects = press(&mut app, "~");
+    let [Effect::Trace(Target::Trace, again)] = &effects[..] else {
+        panic!("{effects:?}");
+    };
+    assert!(again.denoise);
+}
+
 /// What is exported is what the scene and the view say, whatever the screen shows.
 #[test]
 fn the_display_never_reaches_a_file() {

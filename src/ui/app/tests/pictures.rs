@@ -16,6 +16,7 @@ pub(in crate::ui) fn frame(size: Size, objects: Vec<u32>) -> Frame {
         pixels: vec![[9; 3]; size.pixels()],
         objects,
         values: Vec::new(),
+        denoised: Vec::new(),
         errors: Vec::new(),
         range: None,
         progress: Progress {

@@ -1,0 +1,175 @@
+//! Noise reduction of finished values: an edge-avoiding à-trous wavelet transform (Dammertz et al.,
+//! "Edge-Avoiding À-Trous Wavelet Transform for fast Global Illumination Filtering", 2010), guided by
+//! the first surfaces and by the variance of the pixels (Schied et al., "Spatiotemporal
+//! Variance-Guided Filtering", 2017, without its temporal part).
+//!
+//! Light is divided by the albedo of its surface before and multiplied after, so that textures stay
+//! sharp. Pixels mix as far as their surfaces are alike and their light differs no more than the
+//! noise explains: the less noise, the closer to the input. Where there is none, every bit stays.
+//!
+//! Everything is computed in `f32`, pixel by pixel in a fixed order: the result does not depend on
+//! the number of threads or the vectors of the machine.
+
+mod features;
+mod guides;
+mod mix;
+mod plane;
+
+use rayon::prelude::*;
+
+use self::features::Features;
+pub(crate) use self::guides::Guides;
+use self::mix::{Kernel, Mixed, mix, slack};
+use self::plane::{Layout, Plane, stride};
+use super::first_hit::Guide;
+use crate::geometry::lanes::Level;
+use crate::scene::Size;
+
+/// The variance of a pixel with a single sample, whose noise only its neighbours tell.
+pub(crate) const UNKNOWN: f32 = -1.0;
+
+/// About how many bytes of memory denoising a picture takes.
+pub(crate) fn bytes(size: Size) -> u64 {
+    /// Ten of surfaces, and twice four of light while it is mixed.
+    const PLANES: u64 = 10 + 2 * 4;
+    let plane = stride(size.width as usize) as u64 * u64::from(size.height) * 4;
+    let pixel = size_of::<Guide>() + size_of::<f32>() + size_of::<[f32; 3]>();
+    (PLANES * plane).saturating_add((size.pixels() * pixel) as u64)
+}
+
+/// Weights of a cubic B-spline by distance.
+const SPLINE: &[f32] = &[0.375, 0.25, 0.0625];
+
+/// Pixels between those that mix, and the standard deviations of their light that count as one, by
+/// iteration.
+const STEPS: [(usize, f32); 5] = [(1, 2.5), (2, 2.1), (4, 1.8), (8, 1.5), (16, 1.3)];
+
+/// Numbers from here on are left out, as are those that are none: their squares may overflow.
+const MOST: f32 = 1e15;
+
+/// A picture with noise.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Noisy<'p> {
+    /// The vector instructions to use.
+    pub(crate) level: Level,
+    /// Its width in pixels.
+    pub(crate) width: usize,
+    /// Linear light of each pixel, in rows.
+    pub(crate) values: &'p [[f32; 3]],
+    /// The variance of each value, as the mean of the channels, or [`UNKNOWN`].
+    pub(crate) variances: &'p [f32],
+    /// Its first surfaces.
+    pub(crate) guides: &'p Guides,
+}
+
+impl Noisy<'_> {
+    /// The values with less noise. Meaningless once `cancelled` returns true.
+    pub(crate) fn denoised(self, cancelled: &(dyn Fn() -> bool + Sync)) -> Vec<[f32; 3]> {
+        if self.variances.iter().all(|&variance| variance == 0.0) {
+            return self.values.to_vec();
+        }
+        let layout = Layout::new(self.width, self.values.len(), cancelled);
+        let Guides { sums, samples } = self.guides;
+        let mut features = Features::new(layout, sums, *samples);
+        let mut mixed = self.divided(&mut features);
+        features.slack = slack(&features, self.level);
+        mixed.beside = self.estimated(&mixed, &features);
+        let noise = mixed.beside.clone();
+        for (step, tolerance) in STEPS {
+            let kernel = Kernel {
+                level: self.level,
+                taps: SPLINE,
+                step,
+                tolerance: Some(tolerance),
+            };
+            mixed = mix(&mixed, &features, kernel);
+        }
+        let value = |pixel: usize| {
+            let at = features.layout.place(pixel);
+            let divisor = features.divisor(at);
+            let value = [0, 1, 2].map(|channel| mixed.light[channel][at] * divisor[channel]);
+            if 0.0 < noise[at] {
+                value
+            } else {
+                self.values[pixel]
+            }
+        };
+        (0..self.values.len()).into_par_iter().map(value).collect()
+    }
+
+    /// The light divided by albedo, and its variance. Pixels with larger numbers than
+    /// [`MOST`] are left out.
+    fn divided(self, features: &mut Features<'_>) -> Mixed {
+        let layout = features.layout;
+        let is_usual = |pixel: usize| {
+            let Guide {
+                normal,
+                albedo,
+                nearness,
+            } = self.guides.sums[pixel];
+            let values = [self.values[pixel], normal, albedo];
+            let numbers = values.as_flattened().iter();
+            let mut numbers = numbers.chain([&self.variances[pixel], &nearness]);
+            numbers.all(|number| number.abs() < MOST)
+        };
+        let light = |channel: usize| {
+            layout.filled(0.0, |pixel| {
+                let value = self.values[pixel][channel];
+                let light = value / features.divisor(layout.place(pixel))[channel];
+                if is_usual(pixel) { light } else { 0.0 }
+            })
+        };
+        let variance = |pixel: usize| {
+            let divisor = features.divisor(layout.place(pixel));
+            let square = divisor.iter().map(|channel| channel * channel).sum::<f32>() / 3.0;
+            match self.variances[pixel] {
+                _ if !is_usual(pixel) => 0.0,
+                UNKNOWN => UNKNOWN,
+                variance => variance / square,
+            }
+        };
+        let mixed = Mixed {
+            light: [0, 1, 2].map(light),
+            beside: layout.filled(0.0, variance),
+        };
+        for pixel in (0..self.values.len()).filter(|&pixel| !is_usual(pixel)) {
+            features.nearness[layout.place(pixel)] = f32::NAN;
+        }
+        mixed
+    }
+
+    /// Better variances: those of single pixels tell little.
+    fn estimated(&self, mixed: &Mixed, features: &Features<'_>) -> Plane {
+        let kernel = |taps| Kernel {
+            level: self.level,
+            taps,
+            step: 1,
+            tolerance: None,
+        };
+        let is_known = |variance: &&f32| **variance != UNKNOWN;
+        if mixed.beside.iter().all(|variance| is_known(&variance)) {
+            let around = mix(mixed, features, kernel(&[1.0; 3])).beside;
+            let both = around.into_iter().zip(&mixed.beside);
+            return both.map(|(around, own)| around.max(*own)).collect();
+        }
+        // The mean of squares less the square of the mean.
+        let square = |light: &[Plane; 3], at: usize| {
+            let squares = light.iter().map(|plane| plane[at] * plane[at]);
+            squares.sum::<f32>() / 3.0
+        };
+        let places = 0..mixed.beside.len();
+        let squares = Mixed {
+            beside: places.clone().map(|at| square(&mixed.light, at)).collect(),
+            ..mixed.clone()
+        };
+        let mean = mix(&squares, features, kernel(&[1.0; 4]));
+        let variance = |at: usize| match mixed.beside[at] {
+            UNKNOWN => (mean.beside[at] - square(&mean.light, at)).max(0.0),
+            known => known,
+        };
+        places.map(variance).collect()
+    }
+}
+
+#[cfg(test)]
+mod tests;
