@@ -14,6 +14,7 @@ mod parts;
 mod pictures;
 mod recipes;
 mod scenes;
+mod settings;
 mod streams;
 mod textures;
 mod tracks;
