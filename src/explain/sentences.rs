@@ -305,7 +305,7 @@ impl Case<'_> {
             TermSource::Ambient { object } | TermSource::Emission { object } => {
                 Some(names.object_node(object))
             }
-            TermSource::Emitter { emitter, .. } => Some(names.object_node(emitter)),
+            TermSource::Emitter { emitter, .. } => emitter.map(|of| names.object_node(of)),
             TermSource::Ray { object, seen, .. } => Some(names.object_node(seen.unwrap_or(object))),
             TermSource::Surroundings => None,
         };
@@ -335,8 +335,14 @@ impl Case<'_> {
                 format!("{} lit by {}", names.object(*object), names.light(*light))
             }
             TermSource::Emitter { emitter, object } => {
-                let (object, emitter) = (names.object(*object), names.object(*emitter));
-                format!("{object} lit by the emission of {emitter}")
+                let object = names.object(*object);
+                match emitter {
+                    Some(emitter) => {
+                        let emitter = names.object(*emitter);
+                        format!("{object} lit by the emission of {emitter}")
+                    }
+                    None => format!("{object} lit by the environment"),
+                }
             }
             TermSource::Ambient { object } => {
                 format!("{} lit by ambient light", names.object(*object))

@@ -65,13 +65,21 @@ impl Writer<'_> {
         let begin = beginning(ray);
         let added = ray.contribution;
         match &ray.end {
-            RayEnd::Missed { radiance, .. } => {
+            RayEnd::Missed {
+                radiance,
+                densities,
+                ..
+            } => {
                 let around = if ray.bounce == 0 {
                     "background"
                 } else {
                     "environment"
                 };
-                let text = format!("{begin} hits nothing: {around} {}", colour(*radiance));
+                let weight = densities.map_or(String::new(), |densities| {
+                    weighed(&densities, "asking for it")
+                });
+                let shown = colour(*radiance);
+                let text = format!("{begin} hits nothing: {around} {shown}{weight}");
                 self.line(at, text).adds = Some(added);
             }
             RayEnd::OverBudget => {
@@ -182,7 +190,10 @@ impl Writer<'_> {
 
     /// An object that emits light, with its factors, and why it adds nothing.
     fn emitter(&mut self, term: &EmitterTerm, point: DVec3, at: (usize, usize)) {
-        let name = self.names.object(term.object);
+        let name = match term.object {
+            Some(object) => format!("emission of {}", self.names.object(object)),
+            None => "environment".to_owned(),
+        };
         let mut factors = vec![format!("N·L {}", number(term.cosine))];
         factors.push(chances(&term.densities));
         factors.push(format!("reflected {}", colour(term.reflected)));
@@ -193,8 +204,11 @@ impl Writer<'_> {
             Some(dark) => reason(dark).to_owned(),
             None => colour(term.radiance),
         };
-        let text = format!("emission of {name}: {begin}: {}", factors.join(", "));
-        let line = self.about(at, text, self.names.object_node(term.object));
+        let text = format!("{name}: {begin}: {}", factors.join(", "));
+        let line = match term.object {
+            Some(object) => self.about(at, text, self.names.object_node(object)),
+            None => self.line(at, text),
+        };
         if term.distance.is_finite() {
             line.segment = Some([point, point + term.distance * term.toward]);
         }

@@ -2,8 +2,7 @@
 
 use glam::DVec3;
 
-use super::transform::{exact_cross, normalise};
-use super::{Aabb, Instance, Shape, Solid};
+use super::{Aabb, Affine, Instance, Shape, Solid};
 
 /// A part of a shape's surface.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -23,7 +22,7 @@ pub struct Flat {
     pub corner: DVec3,
     /// The sides that start there.
     pub sides: [DVec3; 2],
-    /// The outward geometric normal, of unit length.
+    /// The outward geometric normal, as long as its area.
     pub normal: DVec3,
 }
 
@@ -48,8 +47,7 @@ impl Shape {
         }
     }
 
-    /// A part of the surface, by its number in [`Hit::part`](super::Hit::part); `None` if it has no
-    /// area.
+    /// A part of the surface, by its number in [`Hit::part`](super::Hit::part).
     pub fn patch(&self, part: u32) -> Option<Patch> {
         match self {
             Self::Solid(Solid::Sphere(sphere)) => {
@@ -67,31 +65,27 @@ impl Shape {
             })),
             Self::Plane(plane) => {
                 let [x, y, _] = plane.0.axes();
-                Some(Patch::Parallelogram(Flat {
-                    corner: plane.0.origin() - x - y,
-                    sides: [2.0 * x, 2.0 * y],
-                    normal: normalise(plane.0.gradient(DVec3::Z))?,
-                }))
+                let corner = plane.0.origin() - x - y;
+                Some(Patch::Parallelogram(Flat::new(
+                    corner,
+                    [2.0 * x, 2.0 * y],
+                    &plane.0,
+                )))
             }
-            Self::Mesh(instance) => instance.patch(part).map(Patch::Triangle),
+            Self::Mesh(instance) => Some(Patch::Triangle(instance.patch(part))),
             Self::Solid(_) | Self::Csg(_) => None,
         }
     }
 }
 
 impl Instance {
-    /// A triangle; `None` if it has no area.
-    fn patch(&self, triangle: u32) -> Option<Flat> {
+    /// A triangle.
+    fn patch(&self, triangle: u32) -> Flat {
         let [a, b, c] = self.mesh().vertices(triangle);
         let [x, y, z] = self.frame().axes();
         let turned = |v: DVec3| v.x * x + v.y * y + v.z * z;
-        let sides = [b - a, c - a];
-        let across = exact_cross(sides[0], sides[1]);
-        Some(Flat {
-            corner: self.frame().origin() + turned(a),
-            sides: sides.map(turned),
-            normal: normalise(self.frame().gradient(normalise(across)?))?,
-        })
+        let corner = self.frame().origin() + turned(a);
+        Flat::new(corner, [turned(b - a), turned(c - a)], self.frame())
     }
 }
 
@@ -148,9 +142,22 @@ impl Patch {
 }
 
 impl Flat {
+    /// Sides that turn counter-clockwise around the outward normal in the space that a frame maps to the
+    /// world, which may mirror it.
+    fn new(corner: DVec3, sides: [DVec3; 2], frame: &Affine) -> Self {
+        let [x, y, z] = frame.axes();
+        let across = sides[0].cross(sides[1]);
+        let is_mirrored = x.cross(y).dot(z) < 0.0;
+        Self {
+            corner,
+            sides,
+            normal: if is_mirrored { -across } else { across },
+        }
+    }
+
     /// The area of the parallelogram.
     pub fn area(&self) -> f64 {
-        self.sides[0].cross(self.sides[1]).length()
+        self.normal.length()
     }
 }
 

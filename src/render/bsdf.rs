@@ -2,9 +2,9 @@
 
 use glam::DVec3;
 
-use super::lobes::{Lobes, strength};
+use super::lobes::Lobes;
 use super::microfacet::Microfacets;
-use super::optics::{Refraction, facet, folded, reflect, schlick, spread};
+use super::optics::{Refraction, facet, folded, reflect, schlick, spread, strength};
 use super::probe::Point;
 use super::sampler::{Sampler, Use};
 use crate::geometry::Ray;

@@ -108,6 +108,20 @@ impl World {
         dispatch!(self.level, simd => self.nearest_alone(simd, ray, limit))
     }
 
+    /// Whether a ray hits any object.
+    pub(crate) fn is_blocked(&self, ray: &Ray) -> bool {
+        dispatch!(self.level, simd => {
+            let rays = Rays::all(simd, ray);
+            let mut blocked = false;
+            self.visit(simd, ray, f64::INFINITY, |places| {
+                let limit = f64::INFINITY;
+                self.meet(&rays, ray, limit, places, Search::Blocker, |_, _| blocked = true);
+                if blocked { -1.0 } else { limit }
+            });
+            blocked
+        })
+    }
+
     /// The transmittance along the ray up to `distance`: the product of kt over every solid whose
     /// surface is crossed, each once, in file order. `crossed` is scratch space.
     pub(crate) fn transmittance(&self, ray: &Ray, distance: f64, crossed: &mut Crossed) -> f64 {

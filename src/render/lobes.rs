@@ -8,7 +8,7 @@ use std::f64::consts::{PI, TAU};
 use glam::DVec3;
 
 use super::microfacet::Microfacets;
-use super::optics::{power, reflect, schlick};
+use super::optics::{power, reflect, schlick, strength};
 use super::probe::Point;
 use super::warp;
 use crate::scene::{Gloss, Highlight, Material, Rgb};
@@ -186,10 +186,4 @@ impl Lobes {
             }
         }
     }
-}
-
-/// Scalar weight of a colour, used for probabilities.
-pub(crate) fn strength(colour: Rgb) -> f64 {
-    let strength = colour.abs().max_element();
-    if strength.is_finite() { strength } else { 1.0 }
 }

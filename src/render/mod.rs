@@ -82,6 +82,7 @@ mod sampler;
 mod shading;
 mod shared;
 mod shot;
+mod sky;
 mod spheres;
 mod steps;
 mod structures;

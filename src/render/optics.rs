@@ -194,6 +194,12 @@ pub(crate) fn power(cosine: f64, exponent: f64) -> f64 {
     power
 }
 
+/// Scalar weight of a colour, used for probabilities.
+pub(crate) fn strength(colour: Rgb) -> f64 {
+    let strength = colour.abs().max_element();
+    if strength.is_finite() { strength } else { 1.0 }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -99,7 +99,9 @@ impl<C: Fn() -> bool> Probe<'_, C> {
             let next = match &reached {
                 Reached::Nothing(radiance) => {
                     if self.gather.glow(path.bounce) {
-                        seen.radiance += path.throughput * *radiance;
+                        let densities = path.densities_of(&self.world.sky);
+                        let weight = densities.map_or(1.0, |densities| densities.weight);
+                        seen.radiance += path.throughput * *radiance * weight;
                     }
                     None
                 }
@@ -127,9 +129,11 @@ impl<C: Fn() -> bool> Probe<'_, C> {
                         } else {
                             Rgb::ZERO
                         };
-                        let asked = self.of_emitters(vertex, path.bounce, sample.sampler);
-                        let asked = asked.map_or(Rgb::ZERO, |asked| asked.radiance);
-                        seen.radiance += path.throughput * (emission + light + asked);
+                        let mut local = emission + light;
+                        if self.asks(vertex, path.bounce) {
+                            local += self.ask(vertex, path.bounce, sample.sampler, |_| {});
+                        }
+                        seen.radiance += path.throughput * local;
                     }
                     vertex.sample(&path, sample.sampler)
                 }

@@ -29,6 +29,8 @@ pub(crate) enum Use {
     Light(u32),
     /// The object that emits light, and the point on it.
     Emitter,
+    /// The direction to the environment.
+    Sky,
 }
 
 impl Sampler {
@@ -80,6 +82,7 @@ impl Sampler {
             Use::Light(number) => 5 + number,
             // Far from the lights' numbers.
             Use::Emitter => u32::MAX,
+            Use::Sky => u32::MAX - 1,
         };
         let seed = mix(mix(self.pixel_seed() ^ node).wrapping_add(0x9E37_79B9) ^ purpose);
         sample_4d(self.index, 0, seed).map(f64::from)

@@ -93,6 +93,7 @@ impl Sky {
     }
 
     /// The density of [`Sky::choose`] per steradian; 0 where directions are left to chance.
+    #[inline(never)]
     pub(crate) fn density(&self, direction: DVec3) -> f64 {
         let Some(grid) = &self.grid else {
             return 0.0;
@@ -125,7 +126,11 @@ impl Grid {
         };
         let look = |place: DVec2| {
             let luminance = textures.colour(environment, place).dot(LUMINANCE);
-            if luminance.is_finite() { luminance.abs() } else { 0.0 }
+            if luminance.is_finite() {
+                luminance.abs()
+            } else {
+                0.0
+            }
         };
         let cell = 1.0 / DVec2::new(size.width.into(), size.height.into());
         // Of larger images all pixels count, but at most sixteen along an edge of a cell.
@@ -174,11 +179,12 @@ impl Grid {
         };
         let (mut sum, mut square) = (0.0, 0.0);
         let area = 1.0 / size.pixels() as f64;
+        let [across, down] = [size.width, size.height].map(middles);
         for row in 0..size.height {
             let mut in_row = 0.0;
             for column in 0..size.width {
                 let mean = grid.corners(column, row).iter().sum::<f64>() / 4.0;
-                let angle = area * grid.spread(column, row);
+                let angle = area * spread_at(across[column as usize], down[row as usize]);
                 square += mean * mean * angle;
                 in_row += mean * angle;
                 grid.columns.push(in_row);
@@ -197,17 +203,12 @@ impl Grid {
         [at, at + 1, at + wide, at + wide + 1].map(|at| self.corners[at].into())
     }
 
-    /// Steradians per area of uv at the centre of a cell.
-    fn spread(&self, column: u32, row: u32) -> f64 {
-        let size = DVec2::new(self.size.width.into(), self.size.height.into());
-        let centre = (DVec2::new(column.into(), row.into()) + 0.5) / size;
-        direction(centre).map_or(3.0 * PI * PI, spread)
-    }
-
     fn weight(&self, column: u32, row: u32) -> f64 {
         let at = row as usize * self.size.width as usize;
         let sums = &self.columns[at..];
-        let before = column.checked_sub(1).map_or(0.0, |last| sums[last as usize]);
+        let before = column
+            .checked_sub(1)
+            .map_or(0.0, |last| sums[last as usize]);
         sums[column as usize] - before
     }
 
@@ -241,13 +242,50 @@ impl Grid {
     }
 }
 
+/// The middle of each of `count` intervals from −1 to 1, and sin θ / θ at a polar angle of as much of π.
+fn middles(count: u32) -> Vec<[f64; 2]> {
+    let middle = |at: u32| {
+        let aside = (f64::from(2 * at) + 1.0) / f64::from(count) - 1.0;
+        let angle = PI * aside.abs();
+        let ratio = if angle == 0.0 {
+            1.0
+        } else {
+            libm::sin(angle) / angle
+        };
+        [aside, ratio]
+    };
+    (0..count).map(middle).collect()
+}
+
+/// [`spread`] at a place of the square, given by [`middles`] for u and v.
+fn spread_at([u, across]: [f64; 2], [v, down]: [f64; 2]) -> f64 {
+    let (longest, ratio) = if u.abs() < v.abs() {
+        (v, down)
+    } else {
+        (u, across)
+    };
+    let flat = 0.5 * (u * u + v * v) / (longest * longest);
+    // The centre is up or down whatever way it is seen.
+    let flat = if flat.is_finite() { flat } else { 1.0 };
+    2.0 * PI * PI * ratio / flat
+}
+
 /// The interval among increasing sums, from 0, that a number in 0..1 falls in, and where in it.
 fn pick(sums: &[f64], number: f64) -> (usize, f64) {
     let sought = number * sums[sums.len() - 1];
-    let at = sums.partition_point(|&sum| sum <= sought).min(sums.len() - 1);
+    let at = sums
+        .partition_point(|&sum| sum <= sought)
+        .min(sums.len() - 1);
     let before = at.checked_sub(1).map_or(0.0, |last| sums[last]);
     let place = (sought - before) / (sums[at] - before);
-    (at, if place.is_finite() { place.clamp(0.0, 1.0) } else { 0.5 })
+    (
+        at,
+        if place.is_finite() {
+            place.clamp(0.0, 1.0)
+        } else {
+            0.5
+        },
+    )
 }
 
 /// Maps a number in 0..1 to one with a density that grows linearly from one value to another.
@@ -255,7 +293,9 @@ fn along([from, to]: [f64; 2], number: f64) -> f64 {
     if from == to {
         return number;
     }
-    let root = (from * from + number * (to * to - from * from)).max(0.0).sqrt();
+    let root = (from * from + number * (to * to - from * from))
+        .max(0.0)
+        .sqrt();
     (number * (from + to) / (from + root)).clamp(0.0, 1.0)
 }
 
@@ -264,7 +304,10 @@ fn along([from, to]: [f64; 2], number: f64) -> f64 {
 fn direction(place: DVec2) -> Option<DVec3> {
     let aside = 2.0 * (place - 0.5);
     let down = aside.abs().max_element();
-    let [x, y] = [0.5 * (aside.x + aside.y) / down, 0.5 * (aside.y - aside.x) / down];
+    let [x, y] = [
+        0.5 * (aside.x + aside.y) / down,
+        0.5 * (aside.y - aside.x) / down,
+    ];
     let (sine, cosine) = libm::sincos(PI * down);
     let flat = DVec2::new(x, y).try_normalize()?;
     Some((sine * flat).extend(cosine).normalize())
@@ -274,9 +317,132 @@ fn direction(place: DVec2) -> Option<DVec3> {
 /// its sides, on which the angle grows unevenly.
 fn spread(direction: DVec3) -> f64 {
     let DVec3 { x, y, z } = direction;
-    let sine = x.hypot(y);
+    let sine = (x * x + y * y).sqrt();
     let angle = libm::atan2(sine, z);
     let sum = x.abs() + y.abs();
     let flat = sine * sine / (sum * sum);
     2.0 * PI * PI * (sine / angle) / flat
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A dim sky with a bright spot, and dark below.
+    fn grid(width: u32, height: u32) -> Sky {
+        let size = Size { width, height };
+        let corner = |at: u32| {
+            let (column, row) = (at % (width + 1), at / (width + 1));
+            match (column, row) {
+                (3, 2) => 500.0,
+                _ if width < 2 * column && height < 2 * row => 0.0,
+                _ => 0.1 + 0.05 * (column % 3) as f32,
+            }
+        };
+        let corners = (0..(width + 1) * (height + 1)).map(corner).collect();
+        Sky {
+            made_of: Tinted::default(),
+            grid: Grid::of_corners(size, corners),
+        }
+    }
+
+    /// Directions over the sphere, evenly.
+    fn sphere(side: u32) -> impl Iterator<Item = DVec3> {
+        let middle = move |i: u32| (f64::from(i) + 0.5) / f64::from(side);
+        let places = (0..side).flat_map(move |i| (0..side).map(move |j| [middle(i), middle(j)]));
+        places.map(|place| super::super::warp::in_cone(DVec3::X, 2.0, place))
+    }
+
+    #[test]
+    fn directions_and_uv_are_inverse() {
+        for toward in sphere(40) {
+            let back = direction(environment_place(toward)).expect("not straight up or down");
+            assert!((back - toward).length() < 1e-7, "{toward} {back}");
+        }
+    }
+
+    /// The areas of uv, each times its steradians, sum to the sphere.
+    #[test]
+    fn the_square_covers_the_sphere() {
+        let side = 400;
+        let middle = |i: u32| (f64::from(i) + 0.5) / f64::from(side);
+        let places = (0..side * side).map(|i| DVec2::new(middle(i % side), middle(i / side)));
+        let angles = places.filter_map(|place| direction(place).map(spread));
+        let sum = angles.sum::<f64>() / f64::from(side * side);
+        assert!((sum / (4.0 * PI) - 1.0).abs() < 1e-4, "{sum}");
+        let middles = middles(side);
+        let angles = middles
+            .iter()
+            .flat_map(|u| middles.iter().map(|v| spread_at(*u, *v)));
+        let same = angles.sum::<f64>() / f64::from(side * side);
+        assert!((same / sum - 1.0).abs() < 1e-12, "{same}");
+    }
+
+    #[test]
+    fn the_density_integrates_to_one() {
+        for (width, height) in [(8, 8), (16, 5), (7, 12)] {
+            let sky = grid(width, height);
+            assert!(!sky.is_left_to_chance());
+            let side = 1500;
+            let sum: f64 = sphere(side).map(|toward| sky.density(toward)).sum();
+            let integral = sum * 4.0 * PI / f64::from(side * side);
+            assert!(
+                (integral - 1.0).abs() < 2e-3,
+                "{width} {height}: {integral}"
+            );
+        }
+    }
+
+    /// Chosen directions are spread by the density: 1 / density has the mean of the solid angle where
+    /// the density is above 0, in each octant.
+    #[test]
+    fn directions_have_their_density() {
+        let sky = grid(8, 8);
+        let octant = |toward: DVec3| toward.cmplt(DVec3::ZERO).bitmask() as usize;
+        let mut found = [0.0; 8];
+        let mut expected = [0.0; 8];
+        let side = 700u32;
+        for i in 0..side * side {
+            let place = [i % side, i / side].map(|i| (f64::from(i) + 0.5) / f64::from(side));
+            let toward = sky.choose(place).expect("it is not left to chance");
+            found[octant(toward)] += 1.0 / f64::from(side * side);
+        }
+        for toward in sphere(side) {
+            let angle = 4.0 * PI / f64::from(side * side);
+            expected[octant(toward)] += sky.density(toward) * angle;
+        }
+        for (found, expected) in found.iter().zip(expected) {
+            assert!((found - expected).abs() < 4e-3, "{found} {expected}");
+        }
+    }
+
+    #[test]
+    fn even_and_dark_skies_are_left_to_chance() {
+        let size = Size {
+            width: 4,
+            height: 4,
+        };
+        for corners in [vec![0.0; 25], vec![1.0; 25]] {
+            assert!(Grid::of_corners(size, corners).is_none());
+        }
+    }
+
+    #[test]
+    fn picks_follow_the_sums() {
+        let sums = [0.0, 2.0, 2.0, 3.0, 4.0];
+        for (number, at, place) in [
+            (0.0, 1, 0.0),
+            (0.25, 1, 0.5),
+            (0.499, 1, 0.998),
+            (0.5, 3, 0.0),
+            (0.875, 4, 0.5),
+        ] {
+            let (picked, within) = pick(&sums, number);
+            assert_eq!(picked, at);
+            assert!((within - place).abs() < 1e-12);
+        }
+        assert_eq!(along([0.0, 1.0], 0.25), 0.5);
+        assert_eq!(along([1.0, 0.0], 0.75), 0.5);
+        assert_eq!(along([1.0, 1.0], 0.3), 0.3);
+    }
 }

@@ -7,14 +7,14 @@ use glam::{DAffine2, DAffine3, DMat2, DVec2, DVec3};
 
 use crate::geometry::Chart;
 use crate::scene::{
-    Bump, Highlight, Image, Images, Maps, Material, Pattern, Rgb, Side, Texture, Tinted,
+    Bump, Highlight, Image, Images, Maps, Material, Pattern, Rgb, Side, Size, Texture, Tinted,
 };
 
 /// Replaces images that cannot be read.
 const MAGENTA: Rgb = Rgb::new(1.0, 0.0, 1.0);
 
 /// Weights of luminance (Rec. 709).
-const LUMINANCE: Rgb = Rgb::new(0.2126, 0.7152, 0.0722);
+pub(crate) const LUMINANCE: Rgb = Rgb::new(0.2126, 0.7152, 0.0722);
 
 /// The textures of a scene with their images.
 #[derive(Clone, Debug, Default)]
@@ -66,6 +66,15 @@ impl Textures {
             is_same && map == other_map
         };
         self.0.len() == other.0.len() && self.0.iter().zip(&other.0).all(is_same)
+    }
+
+    /// The size of the image that a colour is made of, if that fills the unit square.
+    pub(crate) fn filling_image(&self, tinted: Tinted) -> Option<Size> {
+        let (inverse, texels) = self.0.get(tinted.texture? as usize)?;
+        match texels {
+            Texels::Image(image) if *inverse == DAffine2::IDENTITY => Some(image.size()),
+            _ => None,
+        }
     }
 
     /// Applies maps to a material at uv; the result has no maps.
@@ -261,7 +270,6 @@ pub(crate) fn environment_place(direction: DVec3) -> DVec2 {
 mod tests {
     use super::*;
     use crate::scene::Gloss;
-    use crate::scene::Size;
 
     const RED: Rgb = Rgb::new(1.0, 0.0, 0.0);
     const BLUE: Rgb = Rgb::new(0.0, 0.0, 1.0);

@@ -62,7 +62,8 @@ impl Touched {
             && world.ambient == new_world.ambient
             // Every path may have asked for any of them.
             && (job.settings.integrator == Integrator::Whitted
-                || Arc::ptr_eq(&world.emitters, &new_world.emitters))
+                || Arc::ptr_eq(&world.emitters, &new_world.emitters)
+                    && Arc::ptr_eq(&world.sky, &new_world.sky))
             && scene.textures == new_scene.textures
             && scene.setting == new_scene.setting
             && scene.lights.len() == new_scene.lights.len();

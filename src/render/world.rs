@@ -5,11 +5,12 @@
 
 use std::sync::Arc;
 
-use glam::DVec2;
+use glam::{DVec2, DVec3};
 
 use super::emitters::{Emitters, Known};
 use super::level::level;
 use super::lights::{SphereLights, faded};
+use super::sky::Sky;
 use super::spheres::Spheres;
 use super::structures::{Structures, instances};
 use super::texture::{Textures, environment_place};
@@ -49,6 +50,10 @@ pub(crate) struct World {
     pub(crate) sphere_lights: SphereLights,
     /// The objects that emit light, for paths.
     pub(crate) emitters: Arc<Emitters>,
+    /// The environment, for paths.
+    pub(crate) sky: Arc<Sky>,
+    /// Whether paths ask for emitters or the environment.
+    pub(crate) has_emitters: bool,
     /// The vector instructions to trace with.
     pub(crate) level: Level,
     pub(crate) tree: Option<Arc<Bvh>>,
@@ -82,18 +87,21 @@ impl World {
         let level = level();
         let opaque = opaque_meshes(&scene);
         let changed = previous.and_then(|world| changed_shapes(&world.scene, &scene));
-        let emitters = match integrator {
+        let (emitters, sky) = match integrator {
             Integrator::Path => {
+                let sky = previous.map(|world| (&world.sky, &world.textures));
+                let sky = Sky::build(&scene, &textures, sky, &cancelled)?;
                 let known = previous.zip(changed.as_deref());
                 let known = known.map(|(world, changed)| Known {
                     emitters: &world.emitters,
                     textures: &world.textures,
                     changed,
                 });
-                Emitters::build(&scene, &textures, known, cancelled)?
+                (Emitters::build(&scene, &textures, known, cancelled)?, sky)
             }
-            Integrator::Whitted => Arc::default(),
+            Integrator::Whitted => (Arc::default(), Arc::new(Sky::left_to_chance())),
         };
+        let has_emitters = !emitters.is_empty() || !sky.is_left_to_chance();
         if let Some(previous) = previous.filter(|_| changed.as_deref() == Some(&[])) {
             return Some(Self {
                 scene,
@@ -103,6 +111,8 @@ impl World {
                 gloss,
                 sphere_lights,
                 emitters,
+                sky,
+                has_emitters,
                 level,
                 tree: previous.tree.clone(),
                 spheres: Arc::clone(&previous.spheres),
@@ -139,6 +149,8 @@ impl World {
             gloss,
             sphere_lights,
             emitters,
+            sky,
+            has_emitters,
             level,
             tree,
             spheres,
@@ -165,12 +177,16 @@ impl World {
         if bounce == 0 {
             return self.textures.colour(setting.background, screen);
         }
-        let environment = setting.environment;
+        self.environment(ray.direction)
+    }
+
+    /// The radiance of the environment from a direction.
+    pub(crate) fn environment(&self, toward: DVec3) -> Rgb {
+        let environment = self.scene.setting.environment;
         if environment.texture.is_none() {
             return environment.colour;
         }
-        let place = environment_place(ray.direction);
-        self.textures.colour(environment, place)
+        self.textures.colour(environment, environment_place(toward))
     }
 
     /// Object numbers in the order of traversal.

@@ -72,7 +72,14 @@ fn ray(ray: &TracedRay, subject: &Subject<'_>) -> Value {
 
 fn end(end: &RayEnd, subject: &Subject<'_>) -> Value {
     match end {
-        RayEnd::Missed { radiance, .. } => json!({ "missed": { "radiance": vector(*radiance) } }),
+        RayEnd::Missed {
+            radiance,
+            densities: of,
+            ..
+        } => json!({ "missed": {
+            "radiance": vector(*radiance),
+            "densities": of.map(densities),
+        }}),
         RayEnd::OverBudget => json!("over budget"),
         RayEnd::Light(hit) => json!({ "light": {
             "light": light(hit.light, subject),
@@ -158,7 +165,7 @@ fn term(term: &LightTerm, subject: &Subject<'_>) -> Value {
 
 fn emitter(term: &EmitterTerm, subject: &Subject<'_>) -> Value {
     json!({
-        "object": object_name(term.object, subject),
+        "object": term.object.map(|object| object_name(object, subject)),
         "toward": vector(term.toward),
         "distance": term.distance,
         "cosine": term.cosine,

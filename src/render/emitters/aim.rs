@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 use glam::DVec3;
 
 use super::super::warp;
-use crate::geometry::{Ball, Flat, Patch, Surface};
+use crate::geometry::{Ball, Flat, Patch};
 
 /// A direction toward a part of a surface.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -14,6 +14,10 @@ pub(super) struct Aim {
     pub(super) toward: DVec3,
     /// The distance within which a ray in this direction hits the part, if nothing is in between.
     pub(super) reach: f64,
+    /// See [`Patch::density`].
+    pub(super) density: f64,
+    /// Whether it hits the front of the part.
+    pub(super) is_front: bool,
 }
 
 /// Allows for rounding of a distance.
@@ -24,37 +28,39 @@ impl Patch {
     /// parts uniformly by area, a ball, from outside, uniformly over the directions of its unit
     /// sphere's space.
     pub(super) fn aim(&self, from: DVec3, place: [f64; 2]) -> Option<Aim> {
-        let at = match self {
-            Self::Triangle(flat) => flat.in_triangle(place),
-            Self::Parallelogram(flat) => flat.at(place),
+        let (flat, at) = match self {
+            Self::Triangle(flat) => (flat, flat.in_triangle(place)),
+            Self::Parallelogram(flat) => (flat, flat.at(place)),
             Self::Ball(ball) => return ball.aim(from, place),
         };
         let offset = at - from;
         let distance = offset.length();
         let toward = offset / distance;
-        toward.is_finite().then_some(Aim {
+        toward.is_finite().then(|| Aim {
             toward,
             reach: SLACK * distance,
+            density: self.density(from, toward, at),
+            is_front: toward.dot(flat.normal) < 0.0,
         })
     }
 
-    /// The density of [`Patch::aim`] per steradian in the direction `toward`, in which this surface
-    /// is hit.
-    pub(super) fn density(&self, from: DVec3, toward: DVec3, surface: &Surface) -> f64 {
-        let area = match self {
-            Self::Triangle(flat) => 0.5 * flat.area(),
-            Self::Parallelogram(flat) => flat.area(),
+    /// The density of [`Patch::aim`] per steradian in the direction `toward`, in which the part is hit
+    /// at a point.
+    pub(super) fn density(&self, from: DVec3, toward: DVec3, at: DVec3) -> f64 {
+        let (part, flat) = match self {
+            Self::Triangle(flat) => (0.5, flat),
+            Self::Parallelogram(flat) => (1.0, flat),
             Self::Ball(ball) => return ball.density(from, toward),
         };
-        let square = surface.point.distance_squared(from);
-        finite(square / (surface.normal.dot(toward).abs() * area))
+        let seen = part * flat.normal.dot(toward).abs();
+        finite(at.distance_squared(from) / seen)
     }
 
     /// A point and the normal there, by two numbers in 0..1.
     pub(super) fn point(&self, place: [f64; 2]) -> (DVec3, DVec3) {
         match self {
-            Self::Triangle(flat) => (flat.in_triangle(place), flat.normal),
-            Self::Parallelogram(flat) => (flat.at(place), flat.normal),
+            Self::Triangle(flat) => (flat.in_triangle(place), flat.normal.normalize_or_zero()),
+            Self::Parallelogram(flat) => (flat.at(place), flat.normal.normalize_or_zero()),
             Self::Ball(ball) => {
                 let unit = warp::in_cone(DVec3::Z, 2.0, place);
                 let [x, y, z] = ball.duals;
@@ -92,8 +98,10 @@ impl Ball {
         let turned = self.to_world(warp::in_cone(offset.normalize(), versine, place));
         let speed = turned.length();
         let toward = turned / speed;
-        toward.is_finite().then_some(Aim {
+        toward.is_finite().then(|| Aim {
             toward,
+            density: self.density(from, toward),
+            is_front: true,
             // From the surface itself, the far side is seen.
             reach: SLACK * speed * (1.0 + offset.length()),
         })

@@ -1,10 +1,20 @@
-//! Cones of directions.
+//! Where emitters shine to: cones of directions.
 
 use std::f64::consts::PI;
 
 use glam::DVec3;
 
 use super::super::warp;
+use crate::geometry::Aabb;
+
+/// Where an emitter is, where it shines to and how much.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Reach {
+    pub(crate) bounds: Aabb,
+    pub(crate) cone: Cone,
+    /// Radiant intensity at its brightest, as a weight.
+    pub(crate) strength: f64,
+}
 
 /// A cone that contains the normals of emitters.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -16,12 +16,12 @@ use std::sync::Arc;
 use glam::DVec3;
 use rayon::prelude::*;
 
-use super::lobes::strength;
+use super::optics::strength;
 use super::texture::Textures;
-use crate::geometry::{Hit, Patch, Ray, Shape, Surface};
+use crate::geometry::{Hit, Patch, Ray, Shape};
 use crate::scene::{Faces, Material, Object, Rgb, Scene, Tinted};
-use cone::Cone;
-use tree::{Reach, Tree};
+use cone::{Cone, Reach};
+use tree::Tree;
 
 /// Points of an object at which a texture of its emission is looked up; at least one for each part.
 const LOOKED_UP: u32 = 1024;
@@ -64,12 +64,14 @@ pub(crate) struct Choice {
     pub(crate) object: u32,
     /// The part of its surface.
     pub(crate) part: u32,
-    /// The probability of the part.
-    chance: f64,
     /// The unit vector toward the chosen point.
     pub(crate) toward: DVec3,
     /// The distance within which a ray hits the part, if nothing is in between.
     pub(crate) reach: f64,
+    /// The probability density of the choice per steradian.
+    pub(crate) density: f64,
+    /// Whether it hits the front of the part.
+    pub(crate) is_front: bool,
 }
 
 /// What is known from a world before, for whose emitters it may do.
@@ -139,46 +141,29 @@ impl Emitters {
         Some(Choice {
             object,
             part,
-            chance,
             toward: aim.toward,
             reach: aim.reach,
+            density: chance * aim.density,
+            is_front: aim.is_front,
         })
     }
 
-    /// The density of [`Emitters::choose`] per steradian where its direction, `toward`, hits the
-    /// chosen part.
-    pub(crate) fn density_of(
-        scene: &Scene,
-        choice: &Choice,
-        from: DVec3,
-        toward: DVec3,
-        surface: &Surface,
-    ) -> f64 {
-        let shape = &scene.objects[choice.object as usize].shape;
-        let patch = shape.patch(choice.part);
-        choice.chance * patch.map_or(0.0, |patch| patch.density(from, toward, surface))
-    }
-
-    /// The density of [`Emitters::choose`] per steradian for a direction in which an object is hit.
+    /// The density of [`Emitters::choose`] per steradian for a direction in which a part of an object is
+    /// hit at a point.
     pub(crate) fn density(
         &self,
         scene: &Scene,
         (from, normal): (DVec3, DVec3),
         toward: DVec3,
         (object, part): (u32, u32),
-        surface: &Surface,
+        at: DVec3,
     ) -> f64 {
         let Ok(emitter) = self.parts.binary_search(&Part { object, part }) else {
             return 0.0;
         };
-        let choice = Choice {
-            object,
-            part,
-            chance: self.tree.chance(emitter as u32, from, normal),
-            toward,
-            reach: 0.0,
-        };
-        Self::density_of(scene, &choice, from, toward, surface)
+        let patch = scene.objects[object as usize].shape.patch(part);
+        let density = patch.map_or(0.0, |patch| patch.density(from, toward, at));
+        density * self.tree.chance(emitter as u32, from, normal)
     }
 
     /// Whether these emitters are those of a scene with these glows.
@@ -256,7 +241,7 @@ fn reach(scene: &Scene, textures: &Textures, object: &Object, part: u32) -> Opti
     let strength = radiance * patch.area();
     let cone = match &patch {
         Patch::Triangle(flat) | Patch::Parallelogram(flat) => {
-            Cone::around(flat.normal, material.lit == Faces::Both)
+            Cone::around(flat.normal.normalize_or_zero(), material.lit == Faces::Both)
         }
         Patch::Ball(_) => Cone::ALL,
     };

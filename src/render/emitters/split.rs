@@ -4,7 +4,7 @@ use std::f64::consts::PI;
 
 use glam::DVec3;
 
-use super::tree::Reach;
+use super::cone::Reach;
 use crate::geometry::Aabb;
 
 /// Intervals along each axis between which emitters are split.

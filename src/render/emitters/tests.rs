@@ -172,12 +172,12 @@ fn densities_are_those_of_aims() {
     let triangle = Patch::Triangle(Flat {
         corner: DVec3::X,
         sides: [DVec3::Y - DVec3::X, DVec3::Z - DVec3::X],
-        normal: DVec3::ONE.normalize(),
+        normal: DVec3::ONE,
     });
     let square = Patch::Parallelogram(Flat {
         corner: DVec3::new(-1.0, -1.0, 1.0),
         sides: [2.0 * DVec3::X, 2.0 * DVec3::Y],
-        normal: DVec3::Z,
+        normal: 4.0 * DVec3::Z,
     });
     let frame = Affine::new(
         DVec3::new(3.0, 1.0, 0.5),
@@ -221,28 +221,23 @@ fn densities_are_those_of_aims() {
         for i in 0..side * side {
             let place = [i / side, i % side].map(|i| (f64::from(i) + 0.5) / f64::from(side));
             let aim = patch.aim(DVec3::ZERO, place).expect("it is seen");
-            let surface = surface_at(&patch, aim.toward);
-            sum += 1.0 / patch.density(DVec3::ZERO, aim.toward, &surface);
-            assert!(surface.point.length() <= aim.reach, "{patch:?}");
+            let at = hit_by(&patch, aim.toward);
+            let density = patch.density(DVec3::ZERO, aim.toward, at);
+            assert!((density / aim.density - 1.0).abs() < 1e-12, "{patch:?}");
+            sum += 1.0 / density;
+            assert!(at.length() <= aim.reach, "{patch:?}");
         }
         let angle = sum / f64::from(side * side);
         assert!((angle - expected).abs() <= tolerance, "{angle} {expected}");
     }
 }
 
-/// Where a ray from the origin hits a flat part; the centre of a ball.
-fn surface_at(patch: &Patch, toward: DVec3) -> Surface {
-    let (point, normal) = match patch {
+/// Where a ray from the origin hits a flat part; the origin for a ball.
+fn hit_by(patch: &Patch, toward: DVec3) -> DVec3 {
+    match patch {
         Patch::Triangle(flat) | Patch::Parallelogram(flat) => {
-            let distance = flat.corner.dot(flat.normal) / toward.dot(flat.normal);
-            (distance * toward, flat.normal)
+            flat.corner.dot(flat.normal) / toward.dot(flat.normal) * toward
         }
-        Patch::Ball(_) => (DVec3::ZERO, DVec3::Z),
-    };
-    Surface {
-        point,
-        normal,
-        shading: normal,
-        scale: 1.0,
+        Patch::Ball(_) => DVec3::ZERO,
     }
 }

@@ -5,12 +5,8 @@
 
 use glam::DVec3;
 
-use super::cone::Cone;
+use super::cone::{Cone, Reach};
 use super::split;
-use crate::geometry::Aabb;
-
-/// Marks the root's parent.
-const NONE: u32 = u32::MAX;
 
 /// From this depth on the tree halves the number of emitters at each node.
 const DEEP: u32 = 64;
@@ -18,21 +14,23 @@ const DEEP: u32 = 64;
 /// Cancellation is polled for nodes over at least this many emitters.
 const POLLED: usize = 256;
 
-/// Where an emitter is, where it shines to and how much.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Reach {
-    pub(crate) bounds: Aabb,
-    pub(crate) cone: Cone,
-    /// Radiant intensity at its brightest, as a weight.
-    pub(crate) strength: f64,
-}
+/// Emitters of a node are chosen by strength alone where the square of its radius over its distance is
+/// below this, ...
+const FAR: f64 = 1.0 / 16.0;
+
+/// ... and the cosine of the half angle of its cone above this.
+const NARROW: f64 = 0.7;
 
 /// The tree, in depth-first order: the first child of a node follows it.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Tree {
     nodes: Vec<Node>,
-    /// The leaf of each emitter.
-    leaves: Vec<u32>,
+    /// The emitters in the order of the leaves.
+    order: Vec<u32>,
+    /// The place of each emitter in that order.
+    places: Vec<u32>,
+    /// The sums of their strengths, in that order.
+    sums: Vec<f64>,
 }
 
 #[derive(Clone, Copy, Debug)]
@@ -42,42 +40,54 @@ struct Node {
     square_radius: f64,
     cone: Cone,
     strength: f64,
-    parent: u32,
-    /// The second child, or the emitter of a leaf.
-    link: u32,
-    is_leaf: bool,
+    /// Where its emitters end in the order.
+    end: u32,
+    /// The second child; 0 for a leaf.
+    second: u32,
 }
+
+/// A node with the place of its first emitter.
+type At = (usize, usize);
 
 impl Tree {
     /// Builds the tree; `None` once `cancelled` returns true.
     pub(crate) fn build(emitters: &[Reach], cancelled: &dyn Fn() -> bool) -> Option<Self> {
+        let count = emitters.len();
         let mut tree = Self {
-            nodes: Vec::with_capacity((2 * emitters.len()).saturating_sub(1)),
-            leaves: vec![0; emitters.len()],
+            nodes: Vec::with_capacity((2 * count).saturating_sub(1)),
+            places: vec![0; count],
+            ..Self::default()
         };
-        let mut order: Vec<u32> = (0..emitters.len() as u32).collect();
+        let mut order: Vec<u32> = (0..count as u32).collect();
         if !order.is_empty() {
-            tree.grow(emitters, &mut order, (NONE, 0), cancelled)?;
+            tree.grow(emitters, &mut order, (0, 0), cancelled)?;
         }
+        let mut sum = 0.0;
+        for (place, &emitter) in (0..).zip(&order) {
+            sum += emitters[emitter as usize].strength;
+            tree.sums.push(sum);
+            tree.places[emitter as usize] = place;
+        }
+        tree.order = order;
         Some(tree)
     }
 
-    /// Adds the node over some emitters; returns what it covers.
+    /// Adds the node over some emitters, of which the first has a place; returns what it covers.
     fn grow(
         &mut self,
         emitters: &[Reach],
         order: &mut [u32],
-        (parent, depth): (u32, u32),
+        (place, depth): (usize, u32),
         cancelled: &dyn Fn() -> bool,
     ) -> Option<Reach> {
         if POLLED <= order.len() && cancelled() {
             return None;
         }
-        let own = self.nodes.len() as u32;
+        let own = self.nodes.len();
+        let end = (place + order.len()) as u32;
         if let [emitter] = *order {
             let reach = emitters[emitter as usize];
-            self.leaves[emitter as usize] = own;
-            self.nodes.push(Node::new(&reach, parent, emitter, true));
+            self.nodes.push(Node::new(&reach, end, 0));
             return Some(reach);
         }
         let middle = if depth < DEEP {
@@ -87,92 +97,124 @@ impl Tree {
         };
         let (first, second) = order.split_at_mut(middle);
         // Replaced when the children are known.
-        self.nodes
-            .push(Node::new(&emitters[first[0] as usize], parent, 0, false));
-        let below = (own, depth + 1);
-        let first = self.grow(emitters, first, below, cancelled)?;
-        let link = self.nodes.len() as u32;
-        let second = self.grow(emitters, second, below, cancelled)?;
+        let any = &emitters[first[0] as usize];
+        self.nodes.push(Node::new(any, end, 0));
+        let first = self.grow(emitters, first, (place, depth + 1), cancelled)?;
+        let child = self.nodes.len() as u32;
+        let second = self.grow(emitters, second, (place + middle, depth + 1), cancelled)?;
         let reach = Reach {
             bounds: first.bounds.union(second.bounds),
             cone: first.cone.union(&second.cone),
             strength: first.strength + second.strength,
         };
-        self.nodes[own as usize] = Node::new(&reach, parent, link, false);
+        self.nodes[own] = Node::new(&reach, end, child);
         Some(reach)
     }
 
     /// Chooses an emitter for a surface at a point with a normal, by a number in 0..1; returns it with
     /// its probability. `None` if none of those that the number leads to can light the point.
     pub(crate) fn choose(&self, from: DVec3, normal: DVec3, mut number: f64) -> Option<(u32, f64)> {
-        let mut at = 0;
+        let mut at = (0, 0);
         let mut chance = 1.0;
         loop {
-            let node = self.nodes.get(at)?;
-            if node.is_leaf {
-                return Some((node.link, chance));
-            }
-            let [first, second] = self.shares(at, from, normal)?;
-            if number < first {
-                number /= first;
-                chance *= first;
-                at += 1;
+            let node = self.nodes.get(at.0)?;
+            let Some([first, second]) = self.children(at).filter(|_| !node.is_alike(from)) else {
+                let sums = &self.sums[at.1..node.end as usize];
+                let before = at.1.checked_sub(1).map_or(0.0, |last| self.sums[last]);
+                let sought = before + number * (sums[sums.len() - 1] - before);
+                let place = sums.partition_point(|&sum| sum <= sought);
+                let place = at.1 + place.min(sums.len() - 1);
+                let share = self.share(at, place);
+                return (0.0 < share).then(|| (self.order[place], chance * share));
+            };
+            let share = self.first_share(first.0, second.0, from, normal)?;
+            if number < share {
+                number /= share;
+                chance *= share;
+                at = first;
             } else {
-                // A second child without a share is only reached by rounding.
-                number = (number - first) / second;
-                chance *= second;
-                at = node.link as usize;
-            }
-            if !(0.0 < chance) {
-                return None;
+                number = (number - share) / (1.0 - share);
+                chance *= 1.0 - share;
+                at = second;
             }
         }
     }
 
     /// The probability of [`Tree::choose`] for an emitter.
     pub(crate) fn chance(&self, emitter: u32, from: DVec3, normal: DVec3) -> f64 {
+        let place = self.places[emitter as usize] as usize;
+        let mut at = (0, 0);
         let mut chance = 1.0;
-        let mut at = self.leaves[emitter as usize];
         loop {
-            let parent = self.nodes[at as usize].parent;
-            if parent == NONE {
-                return chance;
-            }
-            let Some([first, second]) = self.shares(parent as usize, from, normal) else {
+            let node = &self.nodes[at.0];
+            let Some([first, second]) = self.children(at).filter(|_| !node.is_alike(from)) else {
+                return chance * self.share(at, place);
+            };
+            let Some(share) = self.first_share(first.0, second.0, from, normal) else {
                 return 0.0;
             };
-            chance *= if at == parent + 1 { first } else { second };
-            at = parent;
+            if place < second.1 {
+                chance *= share;
+                at = first;
+            } else {
+                chance *= 1.0 - share;
+                at = second;
+            }
         }
     }
 
-    /// The probabilities of a node's children; `None` if no light of them can arrive.
-    fn shares(&self, parent: usize, from: DVec3, normal: DVec3) -> Option<[f64; 2]> {
-        let children = [parent + 1, self.nodes[parent].link as usize];
-        let [first, second] = children.map(|child| self.nodes[child].importance(from, normal));
+    /// A node's children; `None` for a leaf.
+    fn children(&self, (node, place): At) -> Option<[At; 2]> {
+        let second = self.nodes[node].second as usize;
+        (second != 0).then(|| {
+            let first = node + 1;
+            [(first, place), (second, self.nodes[first].end as usize)]
+        })
+    }
+
+    /// The share of the emitter at a place among those of a node, by strength.
+    fn share(&self, (node, first): At, place: usize) -> f64 {
+        let before = |place: usize| place.checked_sub(1).map_or(0.0, |last| self.sums[last]);
+        let all = self.sums[self.nodes[node].end as usize - 1] - before(first);
+        if first + 1 == self.nodes[node].end as usize {
+            1.0
+        } else {
+            (self.sums[place] - before(place)) / all
+        }
+    }
+
+    /// The probability of the first of two children; `None` if no light of them can arrive.
+    fn first_share(&self, first: usize, second: usize, from: DVec3, normal: DVec3) -> Option<f64> {
+        let [first, second] =
+            [first, second].map(|child| self.nodes[child].importance(from, normal));
         let sum = first + second;
         if sum == 0.0 {
             None
         } else if sum.is_finite() {
-            Some([first / sum, second / sum])
+            Some(first / sum)
         } else {
-            Some([0.5; 2])
+            Some(0.5)
         }
     }
 }
 
 impl Node {
-    fn new(reach: &Reach, parent: u32, link: u32, is_leaf: bool) -> Self {
+    fn new(reach: &Reach, end: u32, second: u32) -> Self {
         let radius = reach.bounds.half_diagonal();
         Self {
             centre: reach.bounds.centre(),
             square_radius: radius * radius,
             cone: reach.cone,
             strength: reach.strength,
-            parent,
-            link,
-            is_leaf,
+            end,
+            second,
         }
+    }
+
+    /// Whether the emitters look alike from a point but for their strength.
+    fn is_alike(&self, from: DVec3) -> bool {
+        let square = self.centre.distance_squared(from);
+        self.square_radius < FAR * square && NARROW < self.cone.cosine
     }
 
     /// A bound of the light that may arrive at a surface, up to occlusion and distances within the

@@ -93,10 +93,17 @@ impl<C: Fn() -> bool> Recorder<'_, C> {
         let mut mapped = None;
         match self.probe.reach(path, &self.sample, &mut mapped) {
             Reached::Nothing(radiance) => {
+                let densities = path.densities_of(&self.probe.world.sky);
                 let screen = self.sample.screen;
                 let missing = missing_around(self.probe.world, &path.ray, path.bounce, screen);
-                let contribution = path.throughput * radiance;
-                self.end(RayEnd::Missed { radiance, missing }, contribution);
+                let weight = densities.map_or(1.0, |densities| densities.weight);
+                let contribution = path.throughput * radiance * weight;
+                let missed = RayEnd::Missed {
+                    radiance,
+                    densities,
+                    missing,
+                };
+                self.end(missed, contribution);
                 Step::Ended
             }
             Reached::Light {
@@ -173,10 +180,13 @@ impl<C: Fn() -> bool> Recorder<'_, C> {
         let mut contribution = Rgb::ZERO;
         if lit {
             let sampler = self.sample.sampler;
-            let asked = self.probe.of_emitters(vertex, path.bounce, sampler);
-            shading.emitters = asked.iter().map(|asked| asked_for(vertex, asked)).collect();
-            let asked = asked.map_or(Rgb::ZERO, |asked| asked.radiance);
-            shading.radiance = emission + sum + asked;
+            let mut local = emission + sum;
+            if self.probe.asks(vertex, path.bounce) {
+                local += self.probe.ask(vertex, path.bounce, sampler, |asked| {
+                    shading.emitters.push(asked_for(vertex, &asked));
+                });
+            }
+            shading.radiance = local;
             contribution = path.throughput * shading.radiance;
         }
         let sampler = self.sample.sampler;

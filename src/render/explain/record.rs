@@ -82,6 +82,8 @@ pub enum RayEnd {
     Missed {
         /// The background or environment.
         radiance: Rgb,
+        /// The densities of the ray's direction, where paths also ask for the environment.
+        densities: Option<Densities>,
         /// The texture without an image that this comes from, if any.
         missing: Option<u32>,
     },
@@ -238,14 +240,15 @@ pub struct LightTerm {
     pub dark: Option<Dark>,
 }
 
-/// The light, at a point of a surface, of an object that emits light and was asked for.
+/// The light, at a point of a surface, of an object that emits light, or of the environment, which
+/// was asked for.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct EmitterTerm {
-    /// The object, as frames call it.
-    pub object: u32,
+    /// The object, as frames call it; `None` for the environment.
+    pub object: Option<u32>,
     /// Unit vector toward the chosen point.
     pub toward: DVec3,
-    /// The distance to it, or to what hides it; infinite where the ray hits nothing.
+    /// The distance to it, or to what hides an object; else infinite.
     pub distance: f64,
     /// N·L, the cosine between the shading normal and that vector.
     pub cosine: f64,
@@ -315,7 +318,7 @@ impl Explanation {
                 crossing.object = name(crossing.object);
             }
             for term in &mut shading.emitters {
-                term.object = name(term.object);
+                term.object = term.object.map(&name);
             }
         }
         for finding in &mut self.verdicts {

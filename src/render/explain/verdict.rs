@@ -209,10 +209,10 @@ pub enum TermSource {
         /// The object.
         object: u32,
     },
-    /// Light that one object emits and another reflects.
+    /// Light that one object, or the environment, emits and another reflects.
     Emitter {
-        /// The object that emits it.
-        emitter: u32,
+        /// The object that emits it; `None` for the environment.
+        emitter: Option<u32>,
         /// The object that reflects it.
         object: u32,
     },
@@ -284,7 +284,7 @@ impl TermSource {
                 rename(object);
             }
             Self::Emitter { emitter, object } => {
-                rename(emitter);
+                emitter.iter_mut().for_each(&mut rename);
                 rename(object);
             }
             Self::Ray { object, seen, .. } => {

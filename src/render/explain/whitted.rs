@@ -114,6 +114,7 @@ impl<C: Fn() -> bool> Recorder<'_, C> {
         self.end(
             RayEnd::Missed {
                 radiance,
+                densities: None,
                 missing: missing_around(world, &ray, state.bounce, screen),
             },
             state.weight * radiance,

@@ -4,10 +4,11 @@
 use std::f64::consts::PI;
 
 use super::super::emitters::Emitters;
+use super::super::sky::Sky;
 use super::highlights::GROUND;
 use super::*;
 use crate::geometry::{Attribute, Instance, Mesh, MeshParts};
-use crate::scene::{Faces, Highlight};
+use crate::scene::{Faces, Highlight, Image};
 
 /// The means of a ray's radiance over `samples`, one for each of 64 seeds.
 fn means(world: &World, depth: u32, ray: Ray, samples: u32) -> Vec<f64> {
@@ -326,4 +327,64 @@ fn emitters_are_kept_as_long_as_they_are_the_same() {
         &|scene| scene.objects[object].shape = sphere([0.0, 0.0, 1.0], 0.1)
     ));
     assert!(World::build(Arc::new(scene), &Images::default(), PATHS, None, &|| true).is_none());
+}
+
+/// A sky of one bright pixel, in 16 × 16.
+fn sunny(even: u8) -> (Scene, Images) {
+    let size = Size {
+        width: 16,
+        height: 16,
+    };
+    let mut pixels = vec![[even, even, even]; 256];
+    // Elevation 45°: a quarter of the way down is at row and column 6, toward +x 10.
+    pixels[16 * 9 + 10] = [255, 240, 200];
+    let image = Image::new(size, pixels).expect("256 pixels");
+    let images = Images::from_iter([("sky.png".to_owned(), Arc::new(image))]);
+    let mut scene = xml(&format!(
+        "{GROUND}{MATT}<environment value='90'/>
+         <object type='sphere' material='m'><scale value='.4'/><translate x='.9' z='.6'/></object>"
+    ));
+    scene.textures = vec![Texture {
+        inverse: glam::DAffine3::IDENTITY,
+        pattern: Pattern::Image("sky.png".to_owned()),
+    }];
+    scene.setting.environment = Tinted {
+        colour: Rgb::splat(90.0),
+        texture: Some(0),
+    };
+    (scene, images)
+}
+
+/// A sun in the sky is asked for, and gives the light that paths find by chance; an even sky is left
+/// to chance.
+#[test]
+fn a_sun_in_the_sky_gives_the_light_that_paths_find_by_chance() {
+    let built = |even| {
+        let (scene, images) = sunny(even);
+        let built = World::build(Arc::new(scene), &images, PATHS, None, &|| false);
+        built.expect("nothing cancels")
+    };
+    assert!(built(230).sky.is_left_to_chance());
+    let world = built(2);
+    let chance = World {
+        sky: Arc::new(Sky::left_to_chance()),
+        ..world.clone()
+    };
+    let mut dark = 0;
+    for x in [-1.0, 0.0, 0.4, 2.0] {
+        let down = ray([x + 0.01, 0.0, 0.2], [x, 0.0, 0.0]);
+        let [asked, error] = estimate(&means(&world, 2, down, 32));
+        let [met, spread] = estimate(&means(&chance, 2, down, 256));
+        assert!(
+            (asked - met).abs() <= 3.0 * error.hypot(spread),
+            "{x}: {asked} ± {error}, by chance {met} ± {spread}"
+        );
+        // In the shadow of the ball nothing is gained.
+        dark += u32::from(met < 1.0);
+        assert!(
+            met < 1.0 || error < 2.0 * spread,
+            "{x}: {error} against {spread}"
+        );
+    }
+    assert!((1..4).contains(&dark), "{dark}");
 }

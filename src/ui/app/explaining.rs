@@ -146,7 +146,7 @@ impl App {
             return Some(Node::Light(light.light as usize));
         }
         if let Some(emitter) = line.emitter(explanation) {
-            return self.object_named(emitter.object);
+            return self.object_named(emitter.object?);
         }
         match &line.ray(explanation).end {
             RayEnd::Surface(shading) => self.object_named(shading.hit.object),

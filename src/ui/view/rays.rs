@@ -124,10 +124,16 @@ fn words(app: &App, explanation: &Explanation, line: &RayLine) -> String {
             Some(dark) => format!("{}: {}", name(), reason(dark)),
             None => name(),
         },
-        RayPart::Emitter(_) => match line.emitter(explanation).and_then(|emitter| emitter.dark) {
-            Some(dark) => format!("emission of {}: {}", name(), reason(dark)),
-            None => format!("emission of {}", name()),
-        },
+        RayPart::Emitter(_) => line.emitter(explanation).map_or(String::new(), |emitter| {
+            let of = match emitter.object {
+                Some(_) => format!("emission of {}", name()),
+                None => "environment".to_owned(),
+            };
+            match emitter.dark {
+                Some(dark) => format!("{of}: {}", reason(dark)),
+                None => of,
+            }
+        }),
         RayPart::Unlisted => {
             let count = ray.shading().map_or(0, |shading| shading.unlisted.lights);
             format!("{count} more lights")
@@ -230,7 +236,8 @@ fn values_of(app: &App, explanation: &Explanation, line: &RayLine) -> Vec<Value>
                     values.push(Value::new("radiance", colour(hit.radiance)));
                     values.extend(hit.densities.map(weight));
                 }
-                RayEnd::Missed { .. } | RayEnd::OverBudget => {}
+                RayEnd::Missed { densities, .. } => values.extend(densities.map(weight)),
+                RayEnd::OverBudget => {}
             }
         }
         _ => {}
