@@ -110,6 +110,15 @@ impl Judge<'_> {
         if is_lit {
             return None;
         }
+        // What reflects nothing looks the same without light.
+        let mut seen = scene.objects.iter().map(|object| object.material);
+        let is_seen_unlit = |material: u32| {
+            let material = scene.materials.get(material as usize);
+            material.is_some_and(|material| material.is_unlit() && material.emission != Rgb::ZERO)
+        };
+        if seen.all(is_seen_unlit) {
+            return None;
+        }
         let glows = |material: &Material| material.emission != Rgb::ZERO;
         let Tinted { colour, .. } = scene.setting.environment;
         if colour != Rgb::ZERO || scene.materials.iter().any(glows) {
@@ -261,8 +270,11 @@ fn holds(shape: &Shape, point: DVec3) -> bool {
     hit.is_some_and(|hit| 0.0 < shape.surface(&ray, hit).normal.dot(ray.direction))
 }
 
-/// The largest sum of reflectances by which path tracing goes on at a surface, and its name.
+/// The largest sum of reflectances by which path tracing goes on at a surface, and its name. What a
+/// texture darkens by an unknown amount is left out.
 fn gain(material: &Material) -> (f64, &'static str) {
+    let maps = material.maps.as_deref().copied().unwrap_or_default();
+    let plain = |colour: Rgb, map: Option<u32>| map.map_or(colour, |_| Rgb::ZERO);
     // The albedos of the normalised lobes, as means over directions of incidence by their cosine.
     let glossy = match material.highlight {
         Highlight::ModifiedPhong(gloss) => 2.0 / 3.0 * gloss.specular,
@@ -272,9 +284,11 @@ fn gain(material: &Material) -> (f64, &'static str) {
         }
         Highlight::None | Highlight::Phong(_) | Highlight::Microfacet { .. } => Rgb::ZERO,
     };
-    let mirror = material.mirror.tint;
-    let opaque = (material.diffuse + glossy + mirror).max_element();
-    let clear = (mirror + material.dielectric.tint).max_element();
+    let glossy = plain(glossy, maps.specular);
+    let mirror = plain(material.mirror.tint, maps.mirror);
+    let diffuse = plain(material.diffuse, maps.diffuse);
+    let opaque = (diffuse + glossy + mirror).max_element();
+    let clear = (mirror + plain(material.dielectric.tint, maps.dielectric)).max_element();
     if clear <= opaque {
         (
             opaque,

@@ -45,6 +45,24 @@ fn scenes_with_light_on_something_are_not_warned_of() {
 }
 
 #[test]
+fn what_glows_by_itself_needs_no_light() {
+    let text =
+        "<xml><scene><object type='sphere'/></scene><camera><position z='9'/></camera></xml>";
+    check(Language::Xml, text, None, &[]);
+}
+
+/// How much a texture darkens a surface is not known.
+#[test]
+fn textured_slots_are_not_part_of_the_sum() {
+    let text = "<xml><scene><object type='plane' material='m'/><material name='m'>
+        <diffuse texture='checkerboard'><color2 value='.4'/></diffuse><specular value='.2'/></material>
+        <light type='direct'><intensity/></light></scene><camera><position z='9'/></camera></xml>";
+    check(Language::Xml, text, PATH, &[]);
+    let plain = text.replace(" texture='checkerboard'", "");
+    assert_eq!(shown(Language::Xml, &plain, PATH).len(), 1);
+}
+
+#[test]
 fn a_scene_without_light_is_black() {
     let dark = format!("// view: up 0 1 0\n0 0 0 1 0 5 5 0 0 0\n{BALL}");
     let off = "2:9 every light is switched off: its colour is zero";
