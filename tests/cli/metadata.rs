@@ -108,7 +108,8 @@ fn forged(text: &str) -> Vec<u8> {
 fn forged_origins_control_no_terminal() {
     let place = Place::new();
     let origin = "view own\nlayers none\nsize 8x6\nregion none\ndepth 8\nseed 0\naov none\n\
-                  integrator whitted\nfilter box\ntransfer linear\nexposure 0\nspp 1\n";
+                  integrator whitted\nfilter box\ntransfer linear\nexposure 0\n\
+                  falloff none\ngloss none\nspp 1\n";
     place.write(
         "a.png",
         forged(&format!("version 9\x1b[31m\nscene \x1b]0;x\x07\n{origin}")),

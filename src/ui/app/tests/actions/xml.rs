@@ -300,7 +300,10 @@ pub(super) const ROWS: &[Row] = &[
         ("    <width value=\"400\"/>\n    <height value=\"300\"/>\n",
             "    <width value=\"320\"/>\n    <height value=\"200\"/>\n"),
     ])),
-    row(Key(A::Cure), Object(0), "C", Says("nothing is wrong that a render setting would help")),
+    row(Key(A::Cure), Object(0), "C", Becomes(&[
+        ("  </camera>\n",
+            "  </camera>\n  <render integrator=\"path\"/>\n"),
+    ])),
     row(Command("set"), Object(0), ":set depth 3<Enter>", Becomes(&[
         ("  </camera>\n",
             "  </camera>\n  <render depth=\"3\"/>\n"),
