@@ -256,7 +256,7 @@ fn the_pictures_of_a_library_are_read_from_its_folder() {
 }
 
 #[test]
-fn an_unreadable_mesh_is_an_error() {
+fn an_unreadable_mesh_leaves_its_object_out() {
     let place = Place::new("newmtl a\n");
     let bad = MESH.replace("v 0 3 0", "v 0 3");
     for (content, reason) in [
@@ -270,10 +270,19 @@ fn an_unreadable_mesh_is_an_error() {
             Some(content) => place.write("meshes/a.obj", &content),
             None => fs::remove_file(place.at("meshes/a.obj")).expect("it is there"),
         }
-        let first = format!("error: a.xml:2:28: meshes/a.obj (obj): {reason}\n");
+        let first = format!("a.xml:2:28: meshes/a.obj (obj): {reason}\n");
         for line in ["render a.xml -o a.ppm --spp 1", "check a.xml"] {
+            let stderr = place.stderr(line, 0);
+            assert!(stderr.starts_with(&format!("warning: {first}")), "{stderr}");
+        }
+        assert!(place.at("a.ppm").exists());
+        fs::remove_file(place.at("a.ppm")).expect("it is there");
+        for line in [
+            "render a.xml -o a.ppm --spp 1 --strict",
+            "check a.xml --strict",
+        ] {
             let stderr = place.stderr(line, 65);
-            assert!(stderr.starts_with(&first), "{stderr}");
+            assert!(stderr.starts_with(&format!("error: {first}")), "{stderr}");
         }
         assert!(!place.at("a.ppm").exists());
     }

@@ -184,7 +184,7 @@ impl Tracing {
         let camera = self.view.of(&scene.camera);
         let camera = camera.map_err(|reason| Error::Refused(format!("--view: {reason}")))?;
         // A time to spend means more than the samples that a text asks for.
-        let spp = self.rendering.spp.or(self.time.map(|_| MAX_SPP));
+        let spp = self.rendering.spp.or_else(|| self.time.map(|_| MAX_SPP));
         let asked = Rendering {
             spp,
             ..self.rendering

@@ -49,7 +49,7 @@ fn explain(language: Language, text: &str, pixel: [u32; 2], how: How) -> Words {
     );
     let integrator = how
         .integrator
-        .unwrap_or(scene.setting.rendering.integrator());
+        .unwrap_or_else(|| scene.setting.rendering.integrator());
     let job = Job {
         camera: scene.camera,
         scene: Arc::new(scene),

@@ -49,9 +49,7 @@ impl fmt::Display for Node {
 /// millions takes no more memory than a short one.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Nodes {
-    /// Whether there can be render settings.
-    pub(super) render: bool,
-    /// Whether there is a view.
+    /// Whether there are render settings and a view.
     pub(super) view: bool,
     /// Whether there is ambient light.
     pub(super) ambient: bool,
@@ -115,7 +113,7 @@ impl Nodes {
 
     fn kinds(self) -> [(IndexedNode, usize); 9] {
         [
-            (|_| Node::Render, usize::from(self.render)),
+            (|_| Node::Render, usize::from(self.view)),
             (|_| Node::View, usize::from(self.view)),
             (|_| Node::Ambient, usize::from(self.ambient)),
             (|_| Node::Background, usize::from(self.surroundings)),
@@ -167,7 +165,6 @@ mod tests {
     #[test]
     fn rows_follow_the_order_of_nodes() {
         let nodes = Nodes {
-            render: true,
             view: true,
             ambient: false,
             surroundings: true,

@@ -130,7 +130,7 @@ impl Judge<'_> {
                 "no light but what glows: only path tracing lets that light other surfaces";
             let finding = plain(self.nowhere(), message, "`integrator path`, or a light");
             return Some(Outlook {
-                cure: self.setting("integrator", Integrator::Path.name()),
+                cure: setting("integrator", Integrator::Path.name()),
                 ..finding
             });
         }
@@ -219,16 +219,12 @@ impl Judge<'_> {
             let helps = depth < self.asked.depth();
             Some(Outlook {
                 cure: helps
-                    .then(|| self.setting("depth", &depth.to_string()))
+                    .then(|| setting("depth", &depth.to_string()))
                     .flatten(),
                 ..finding
             })
         });
         found.collect()
-    }
-
-    fn setting(&self, key: &str, value: &str) -> Option<(RenderKey, String)> {
-        Some((RenderKey::named(key)?, value.to_owned()))
     }
 
     /// The place of what the text lacks: its view, or its beginning.
@@ -252,6 +248,11 @@ fn plain(span: Span, message: &str, expected: &str) -> Outlook {
         warning: Diagnostic::warning(span, message, expected),
         cure: None,
     }
+}
+
+/// A render setting and its value.
+fn setting(key: &str, value: &str) -> Option<(RenderKey, String)> {
+    Some((RenderKey::named(key)?, value.to_owned()))
 }
 
 /// Whether a closed shape holds a point: the first hit of any ray from it is a back face.

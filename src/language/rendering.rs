@@ -373,9 +373,9 @@ pub(super) fn spelled(rendering: &Rendering) -> Vec<(&'static str, String)> {
 /// The settings as the words of a comment: ` spp 4 exposure 1`.
 pub(super) fn words(rendering: &Rendering) -> String {
     let stated = spelled(rendering).into_iter();
-    stated
-        .map(|(key, value)| format!(" {key} {value}"))
-        .collect()
+    stated.fold(String::new(), |words, (key, value)| {
+        format!("{words} {key} {value}")
+    })
 }
 
 /// The fields of the settings; those that are not stated are inserted there, in this element if there
@@ -389,25 +389,25 @@ pub(super) fn fields(
     let stated = place.map_or_else(Default::default, |place| place.parts);
     let own = place.map(|place| place.rendering).unwrap_or_default();
     let effective = own.or(*defaults);
-    let placed = |(field, part): (&'static Field, Option<Part>)| match part {
-        Some(part) => Placed::explicit(field, vec![part.value]),
-        None => {
-            let default = default_of(field.key, &effective);
-            Placed {
-                field,
-                spans: vec![Span::at(insertion.span.start())],
-                implicit: Some(Box::new(Implicit {
-                    defaults: vec![Some(default)],
-                    attributes: vec![ImplicitAttribute {
-                        component: 0,
-                        name: field.key,
-                        default,
-                        is_required: false,
-                    }],
-                    element,
-                    insertion: insertion.clone(),
-                })),
-            }
+    let placed = |(field, part): (&'static Field, Option<Part>)| {
+        if let Some(part) = part {
+            return Placed::explicit(field, vec![part.value]);
+        }
+        let default = default_of(field.key, &effective);
+        Placed {
+            field,
+            spans: vec![Span::at(insertion.span.start())],
+            implicit: Some(Box::new(Implicit {
+                defaults: vec![Some(default)],
+                attributes: vec![ImplicitAttribute {
+                    component: 0,
+                    name: field.key,
+                    default,
+                    is_required: false,
+                }],
+                element,
+                insertion: insertion.clone(),
+            })),
         }
     };
     RENDER.iter().zip(stated).map(placed).collect()

@@ -65,7 +65,8 @@ impl Rendering {
 
     /// The depth asked for, or the integrator's default.
     pub fn depth(&self) -> u32 {
-        self.depth.unwrap_or(self.integrator().default_depth())
+        self.depth
+            .unwrap_or_else(|| self.integrator().default_depth())
     }
 
     /// The samples per pixel asked for, or the default of full-size pictures.

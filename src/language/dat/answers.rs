@@ -32,7 +32,6 @@ impl Answers for Source {
 
     fn nodes(&self) -> Nodes {
         Nodes {
-            render: true,
             view: true,
             lights: self.origins.lights.len(),
             materials: self.origins.materials.len(),

@@ -40,7 +40,6 @@ impl Answers for Source {
     fn nodes(&self) -> Nodes {
         let origins = &self.origins;
         Nodes {
-            render: true,
             view: true,
             ambient: origins.ambient == table::numbers(AMBIENT),
             lights: origins.light_count(),

@@ -47,7 +47,6 @@ impl Answers for Source {
 
     fn nodes(&self) -> Nodes {
         Nodes {
-            render: self.origins.root.is_some(),
             view: self.origins.root.is_some(),
             surroundings: self.origins.scene.is_some(),
             lights: self.origins.lights.len(),

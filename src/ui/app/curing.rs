@@ -1,6 +1,7 @@
 //! What is wrong with a picture as a whole, and the render settings that are offered to cure it.
 
 use super::App;
+use super::cures::Cure;
 use super::looking::is_light;
 use crate::language::{Outlook, RenderKey, outlook};
 use crate::render::{Frame, Histogram};
@@ -9,22 +10,8 @@ use crate::text::concise;
 use crate::ui::keymap::{Action, Mode};
 use crate::ui::msg::Target;
 
-/// A render setting and its value.
-type Cure = (RenderKey, String);
-
 /// How many stops a picture may miss white by for a cure to be offered first.
 const NEAR: f64 = 2.5;
-
-/// The cures on offer.
-#[derive(Debug, Default)]
-pub struct Cures {
-    /// For what the text shows.
-    of_text: Vec<Cure>,
-    /// For what the preview shows.
-    of_picture: Vec<Cure>,
-    /// Whether the preview was said to be black or too bright, and is so still.
-    is_said: bool,
-}
 
 impl App {
     /// Adds what the text shows of its picture to what was found in reading it.
@@ -93,7 +80,7 @@ impl App {
     }
 
     /// Writes the setting on offer into the text.
-    pub(super) fn cure(&mut self) {
+    fn cure(&mut self) {
         match self.cure_on_offer().cloned() {
             Some((key, value)) => {
                 self.write_setting(key, Some(value));
@@ -104,6 +91,18 @@ impl App {
                 .overlays
                 .say("nothing is wrong that a render setting would help"),
         }
+    }
+
+    /// Switches the integrator, or writes the setting on offer.
+    pub(super) fn change_rendering(&mut self, action: Action) {
+        if action == Action::Cure {
+            self.cure();
+            return;
+        }
+        let words = self.pictures.toggle_integrator(self.scene.as_deref());
+        // It may lack other lights.
+        self.judge_text();
+        self.overlays.say(words);
     }
 
     /// The first cure that is not in use yet.

@@ -19,6 +19,7 @@ mod compared;
 mod comparing;
 mod completing;
 mod contrast;
+mod cures;
 mod curing;
 mod cursor;
 mod derived;
@@ -96,7 +97,7 @@ use std::time::Duration;
 
 pub use compared::{Compared, Reference, Wipe};
 pub use contrast::Contrast;
-pub use curing::Cures;
+pub use cures::Cures;
 pub use cursor::{Cursor, Names, Typing};
 pub use derived::{FieldRow, Provenance};
 pub use disk::{Disk, FirstReading, OnDisk};

@@ -4,9 +4,9 @@ use std::sync::Arc;
 
 use crossterm::event::KeyEvent;
 
-use super::Cures;
 use super::assets::Assets;
 use super::compared::Compared;
+use super::cures::Cures;
 use super::cursor::Cursor;
 use super::disk::Disk;
 use super::inspection::Inspection;

@@ -333,8 +333,7 @@ impl App {
             Action::Expose(half_stops) => self.expose(half_stops),
             Action::Denoise => return self.toggle_denoising(),
             Action::Wireframe => self.overlays.say(self.pictures.show_wires()),
-            Action::Integrator => self.toggle_integrator(),
-            Action::Cure => self.cure(),
+            Action::Integrator | Action::Cure => self.change_rendering(action),
             Action::Pin => return self.pin(),
             Action::Flip
             | Action::Wipe
@@ -405,13 +404,6 @@ impl App {
         } else {
             self.nudge(steps, stride);
         }
-    }
-
-    fn toggle_integrator(&mut self) {
-        let words = self.pictures.toggle_integrator(self.scene.as_deref());
-        // It may lack other lights.
-        self.judge_text();
-        self.overlays.say(words);
     }
 
     pub(super) fn go(&mut self, mode: Mode) -> Vec<Effect> {

@@ -1,0 +1,17 @@
+//! The render settings on offer against what is wrong with a picture.
+
+use crate::language::RenderKey;
+
+/// A render setting and its value.
+pub(super) type Cure = (RenderKey, String);
+
+/// The cures on offer.
+#[derive(Debug, Default)]
+pub struct Cures {
+    /// For what the text shows.
+    pub(super) of_text: Vec<Cure>,
+    /// For what the preview shows.
+    pub(super) of_picture: Vec<Cure>,
+    /// Whether the preview was said to be black or too bright, and is so still.
+    pub(super) is_said: bool,
+}
