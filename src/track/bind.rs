@@ -232,7 +232,10 @@ fn literals(
 
 /// A number in the style of what it replaces.
 fn spelled(source: &Source, placed: &Placed, component: usize, number: f64) -> String {
-    let whole = matches!(placed.field.allowed, Range::Count | Range::Identity);
+    let whole = matches!(
+        placed.field.allowed,
+        Range::Count | Range::Whole(..) | Range::Identity
+    );
     let number = if whole { number.round() } else { number };
     // Adding 0 turns −0 into 0.
     let number = number + 0.0;
