@@ -110,18 +110,20 @@ impl Judge<'_> {
         if is_lit {
             return None;
         }
-        // What reflects nothing looks the same without light.
-        let mut seen = scene.objects.iter().map(|object| object.material);
-        let is_seen_unlit = |material: u32| {
-            let material = scene.materials.get(material as usize);
-            material.is_some_and(|material| material.is_unlit() && material.emission != Rgb::ZERO)
+        let [background, around] = [scene.setting.background, scene.setting.environment]
+            .map(|Tinted { colour, .. }| colour != Rgb::ZERO);
+        // What reflects the light of no light looks the same without any.
+        let is_seen_unlit = |material: &Material| {
+            let glows = material.emission != Rgb::ZERO;
+            let leads_on =
+                material.mirror.tint != Rgb::ZERO || material.dielectric.tint != Rgb::ZERO;
+            reflectance(material) == Rgb::ZERO && (glows || (leads_on && around))
         };
-        if seen.all(is_seen_unlit) {
+        if background || self.used().all(is_seen_unlit) {
             return None;
         }
         let glows = |material: &Material| material.emission != Rgb::ZERO;
-        let Tinted { colour, .. } = scene.setting.environment;
-        if colour != Rgb::ZERO || scene.materials.iter().any(glows) {
+        if around || self.used().any(glows) {
             // By path that lights; otherwise it is only seen.
             if integrator == Integrator::Path {
                 return None;
@@ -151,6 +153,17 @@ impl Judge<'_> {
         })
     }
 
+    /// The materials of objects; all where objects have several.
+    fn used(&self) -> Box<dyn Iterator<Item = &Material> + '_> {
+        let scene = self.scene;
+        let is_mixed = |object: &Object| matches!(object.shape, Shape::Mesh(_) | Shape::Csg(_));
+        if scene.objects.iter().any(is_mixed) {
+            return Box::new(scene.materials.iter());
+        }
+        let materials = scene.objects.iter();
+        Box::new(materials.filter_map(|object| scene.materials.get(object.material as usize)))
+    }
+
     fn has_ambient(&self) -> bool {
         self.scene.ambient_light() != Rgb::ZERO
     }
@@ -159,21 +172,25 @@ impl Judge<'_> {
     fn enclosed(&self) -> Option<Outlook> {
         let scene = self.scene;
         let Camera { eye, .. } = scene.camera;
-        if MOST_SEARCHED < scene.objects.len() || scene.camera.depths[0] != 0.0 {
+        let is_searched = scene.objects.len() <= MOST_SEARCHED && scene.camera.depths[0] == 0.0;
+        let is_ambient = self.asked.integrator() == Integrator::Whitted && self.has_ambient();
+        if !is_searched || is_ambient {
             return None;
         }
         let is_within = |place: DVec3, object: &Object| holds(&object.shape, place);
+        let is_dark = |object: &Object| {
+            let material = scene.materials.get(object.material as usize);
+            let is_opaque = material.is_some_and(|material| {
+                material.dielectric.tint == Rgb::ZERO && material.emission == Rgb::ZERO
+            });
+            let is_lit = scene.lights.iter().any(|light| match light.emitter {
+                Emitter::Point { position, .. } => is_within(position, object),
+                Emitter::Distant(_) | Emitter::Ambient => false,
+            });
+            is_opaque && !is_lit
+        };
         let mut objects = scene.objects.iter().enumerate();
-        let (index, object) = objects.find(|(_, object)| is_within(eye, object))?;
-        let material = scene.materials.get(object.material as usize)?;
-        let is_opaque = material.dielectric.tint == Rgb::ZERO && material.emission == Rgb::ZERO;
-        let is_lit = scene.lights.iter().any(|light| match light.emitter {
-            Emitter::Point { position, .. } => is_within(position, object),
-            Emitter::Distant(_) | Emitter::Ambient => false,
-        });
-        if !is_opaque || is_lit {
-            return None;
-        }
+        let (index, _) = objects.find(|(_, object)| is_within(eye, object) && is_dark(object))?;
         let node = Node::Object(self.source.object(index as u32));
         let message = format!(
             "the camera is inside {}, which is opaque and holds no light",
@@ -269,6 +286,18 @@ fn holds(shape: &Shape, point: DVec3) -> bool {
     };
     let hit = shape.hit(&ray, f64::INFINITY);
     hit.is_some_and(|hit| 0.0 < shape.surface(&ray, hit).normal.dot(ray.direction))
+}
+
+/// What a material reflects of the light of lights.
+fn reflectance(material: &Material) -> Rgb {
+    let glossy = match material.highlight {
+        Highlight::Phong(gloss) | Highlight::ModifiedPhong(gloss) | Highlight::Blinn(gloss) => {
+            gloss.specular
+        }
+        Highlight::None => Rgb::ZERO,
+        Highlight::Microfacet { .. } => Rgb::ONE,
+    };
+    material.diffuse + glossy
 }
 
 /// The largest sum of reflectances by which path tracing goes on at a surface, and its name. What a

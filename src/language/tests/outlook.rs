@@ -51,6 +51,40 @@ fn what_glows_by_itself_needs_no_light() {
     check(Language::Xml, text, None, &[]);
 }
 
+#[test]
+fn only_what_lights_something_counts_as_light() {
+    let xml = |scene: &str| {
+        format!(
+            "<xml><scene><object type='sphere' material='m'/>{scene}</scene>\n\
+                 <camera><position z='9'/></camera></xml>"
+        )
+    };
+    let black = "2:1 the scene has no light: the picture is black";
+    let matt = "<material name='m'/>";
+    // What no object has does not glow.
+    let unused = format!("{matt}<material name='n'><emission value='1'/></material>");
+    check(Language::Xml, &xml(&unused), None, &[black]);
+    check(Language::Xml, &xml(&unused), PATH, &[black]);
+    // The background is seen behind it.
+    check(
+        Language::Xml,
+        &xml(&format!("{matt}<background value='1'/>")),
+        None,
+        &[],
+    );
+    // Mirrors and glass show the environment by either integrator.
+    for part in [
+        "<reflection value='1'/>",
+        "<refraction value='1' index='1.5'/>",
+    ] {
+        let clear = format!(
+            "<material name='m'><diffuse value='0'/><specular value='0'/>{part}</material>\
+             <environment value='1'/>"
+        );
+        check(Language::Xml, &xml(&clear), None, &[]);
+    }
+}
+
 /// How much a texture darkens a surface is not known.
 #[test]
 fn textured_slots_are_not_part_of_the_sum() {
@@ -148,6 +182,22 @@ fn a_camera_in_an_opaque_solid_sees_only_its_dark_inside() {
     ray("0 5 5", ".5", &[]);
     // A room.
     ray("0 .9 0", "0", &[]);
+    let ambient = text("0 5 5", "0").replacen("0 0 0 1", ".3 .3 .3 1", 1);
+    check(Language::Ray, &ambient, None, &[]);
+    check(Language::Ray, &ambient, PATH, &[inside]);
+    // A dark solid around the eye in a lit room.
+    let both = text("0 .9 0", "0").replacen(
+        "\n1 sphere",
+        "\n2 sphere 0 0 0 20  0 0 0 .5 .5 .5 0 0 0 1 0 0 1 sphere",
+        1,
+    );
+    let both = both.replacen("0 .9 0 1 1 1", "0 9 0 1 1 1", 1);
+    check(
+        Language::Ray,
+        &both,
+        None,
+        &[&inside.replace("object 1", "object 2")],
+    );
 }
 
 #[test]

@@ -5,7 +5,7 @@ use super::assets::Notice;
 use super::cursor::Names;
 use crate::assets::{Loaded, Wanted};
 use crate::language::{Before, Lowered, Node, Nodes};
-use crate::text::{Diagnostic, Edit, Span, cover, parse_number};
+use crate::text::{Diagnostic, Edit, Findings, Span, cover, parse_number};
 use crate::ui::keymap::{Action, Mode};
 
 impl App {
@@ -122,6 +122,7 @@ impl App {
     ) -> Result<(), Diagnostic> {
         let written = self.written_view_parts();
         let errors = self.error_count();
+        let skipped = self.skipped_settings(&self.reported);
         let names = self.names_after(edits);
         let step = self.name_of_value(edits);
         match edits {
@@ -140,10 +141,11 @@ impl App {
         if refused.is_none() && self.written_view_parts() < written {
             refused = found.iter().find(touches).or_else(|| found.first());
         }
-        // A warning of a render setting means that it is skipped.
-        if refused.is_none() {
+        // A warning of a render setting means that it is skipped; others may have been before.
+        if refused.is_none() && skipped < self.skipped_settings(found) {
             let is_setting = |d: &&Diagnostic| self.source().node_at(d.span) == Some(Node::Render);
-            refused = found.iter().filter(touches).find(is_setting);
+            let mut settings = found.iter().filter(is_setting);
+            refused = settings.clone().find(touches).or_else(|| settings.next());
         }
         if let Some(refused) = refused.cloned() {
             self.document.reject();
@@ -166,6 +168,12 @@ impl App {
         } else {
             Names::Changed
         }
+    }
+
+    /// The number of warnings of render settings.
+    fn skipped_settings(&self, found: &Findings) -> usize {
+        let nodes = found.iter().map(|d| self.source().node_at(d.span));
+        nodes.filter(|node| *node == Some(Node::Render)).count()
     }
 
     fn written_view_parts(&self) -> usize {

@@ -34,6 +34,9 @@ impl SettingOrder {
         let to = match value.trim() {
             "" => To::InUse,
             "default" => To::Default,
+            value if value.contains(char::is_whitespace) => {
+                return Err(format!("set {word} takes one value"));
+            }
             value => To::Value(value.to_owned()),
         };
         Ok(Self { key, to })
