@@ -16,8 +16,9 @@
 //! those name in turn are treated as if the text named them.
 //!
 //! The only part of a scene outside the text is the working view: orbiting moves it in memory until
-//! the user saves it, which is an edit like any other. Settings such as the integrator and the
-//! displayed channel belong to the session.
+//! the user saves it, which is an edit like any other. Render settings such as the integrator are
+//! part of the text, under those of the command line and of the interface; what is displayed belongs
+//! to the session.
 //!
 //! # The rooms, in reading order
 //!
