@@ -219,7 +219,7 @@ impl TransferChoice {
     }
 }
 
-/// How point lights fade whose own falloff is constant.
+/// Falloff of point lights that have none of their own.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub(super) enum FalloffChoice {
     /// Not at all.
@@ -237,7 +237,7 @@ impl FalloffChoice {
     }
 }
 
-/// What spreads the mirrors and glass of blinn materials.
+/// What spreads the reflection and refraction of blinn materials.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub(super) enum GlossChoice {
     /// The glossiness of reflection and refraction.

@@ -25,10 +25,10 @@ pub(super) struct RenderingArguments {
     /// in EXR and HDR too [default: the scene's, otherwise 0]
     #[arg(long, value_name = "STOPS", allow_negative_numbers = true, value_parser = parse_stops)]
     exposure: Option<f64>,
-    /// How point lights fade whose own falloff is constant [default: the scene's, otherwise none]
+    /// Falloff of point lights that have none of their own [default: the scene's, otherwise none]
     #[arg(long, value_name = "FALLOFF", value_enum)]
     falloff: Option<FalloffChoice>,
-    /// What spreads the mirrors and glass of blinn materials [default: the scene's, otherwise none]
+    /// What spreads the reflection and refraction of blinn materials [default: the scene's, otherwise none]
     #[arg(long, value_name = "GLOSS", value_enum)]
     gloss: Option<GlossChoice>,
 }

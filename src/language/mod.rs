@@ -334,7 +334,10 @@ pub trait Answers: Editable + Restructure {
 
     /// Returns the edits that set these components of fields.
     fn edits(&self, wanted: &[Wanted<'_>]) -> Vec<Edit> {
-        placed::edits(self, wanted)
+        let mut edits = placed::edits(self, wanted);
+        edits.extend(rendering::insertions(self.text(), wanted));
+        edits.sort_by_key(|edit| edit.span.start());
+        edits
     }
 
     /// How to spell a value in this leaf's place.

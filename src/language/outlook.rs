@@ -1,5 +1,5 @@
-//! What a text shows of its picture before that is traced: that it can only be black, or grows
-//! brighter with every bounce.
+//! What a text shows of its picture before it is traced: that it can only be black, or grows brighter
+//! with every bounce.
 
 use glam::DVec3;
 
@@ -128,8 +128,7 @@ impl Judge<'_> {
             if integrator == Integrator::Path {
                 return None;
             }
-            let message =
-                "no light but what glows: only path tracing lets that light other surfaces";
+            let message = "the only light is emission or the environment, which only path tracing takes to other surfaces";
             let finding = plain(self.nowhere(), message, "`integrator path`, or a light");
             return Some(Outlook {
                 cure: setting("integrator", Integrator::Path.name()),
@@ -140,7 +139,7 @@ impl Judge<'_> {
         Some(if lamps().next().is_some() {
             let first = scene.lights.iter().position(|light| is_lamp(&light));
             let span = self.source.span(Node::Light(first.unwrap_or_default()));
-            let message = "every light is switched off: its colour is zero";
+            let message = "all lights are off: their colours are zero";
             plain(span, message, "a light with a colour")
         } else {
             let message = match integrator {
@@ -226,7 +225,7 @@ impl Judge<'_> {
                 Node::Object(self.source.object(user))
             };
             let message = format!(
-                "{}: {words} is {}, so that the picture grows brighter with every bounce",
+                "{}: {words} add up to {}: the picture grows brighter with every bounce",
                 self.source.name(node),
                 concise((1000.0 * gain).round() / 1000.0)
             );
@@ -320,11 +319,8 @@ fn gain(material: &Material) -> (f64, &'static str) {
     let opaque = (diffuse + glossy + mirror).max_element();
     let clear = (mirror + plain(material.dielectric.tint, maps.dielectric)).max_element();
     if clear <= opaque {
-        (
-            opaque,
-            "what it reflects, diffuse, specular and as a mirror,",
-        )
+        (opaque, "diffuse, specular and mirror reflectance")
     } else {
-        (clear, "what it reflects as a mirror and transmits")
+        (clear, "mirror reflectance and transmittance")
     }
 }

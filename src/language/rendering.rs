@@ -19,7 +19,7 @@ pub(super) const RENDER: &[Field; 8] = &[
     choice(
         "integrator",
         &[Integrator::Whitted.name(), Integrator::Path.name()],
-        "How light is traced: whitted, or all paths of light.",
+        "How light is traced: Whitted ray tracing or path tracing.",
     ),
     count(
         "depth",
@@ -59,12 +59,12 @@ pub(super) const RENDER: &[Field; 8] = &[
     choice(
         "falloff",
         &[FalloffRule::None.name(), FalloffRule::Square.name()],
-        "square: point lights whose own falloff is constant fade with the distance squared.",
+        "square: point lights without a falloff of their own fall off with the squared distance.",
     ),
     choice(
         "gloss",
         &[GlossRule::None.name(), GlossRule::Exponent.name()],
-        "exponent: mirrors and glass of blinn materials are spread by their glossiness.",
+        "exponent: the glossiness of blinn materials spreads their reflection and refraction.",
     ),
 ];
 
@@ -123,6 +123,8 @@ pub(super) struct RenderPlace {
     pub(super) whole: Span,
     /// In the order of [`RENDER`].
     pub(super) parts: [Option<Part>; RENDER.len()],
+    /// Whether the comment or element holds anything else.
+    pub(super) holds_more: bool,
     /// The settings.
     pub(super) rendering: Rendering,
 }
@@ -148,10 +150,12 @@ impl RenderPlace {
     /// Reads a setting. What is wrong with it is a warning, and it is skipped.
     pub(super) fn read(&mut self, key: &str, word: &str, part: Part, report: &mut Findings) {
         let Some(at) = index_of(key) else {
+            self.holds_more = true;
             report.warning(|| unknown_key(part.whole, key));
             return;
         };
         if self.parts[at].is_some() {
+            self.holds_more = true;
             report.warning(|| {
                 let message = format!("render {key}: given twice");
                 Diagnostic::warning(part.whole, message, "each key once")
@@ -164,21 +168,24 @@ impl RenderPlace {
                 self.parts[at] = Some(part);
                 set(&mut self.rendering, key, Some(value));
             }
-            Err(bad) => report.warning(|| {
-                let hint = match &bad.hint {
-                    Some(hint) => format!("it is skipped; {hint}"),
-                    None => "it is skipped".to_owned(),
-                };
-                bad.with_hint(hint)
-            }),
+            Err(bad) => {
+                self.holds_more = true;
+                report.warning(|| {
+                    let hint = match &bad.hint {
+                        Some(hint) => format!("it is skipped; {hint}"),
+                        None => "it is skipped".to_owned(),
+                    };
+                    bad.with_hint(hint)
+                });
+            }
         }
     }
 
-    /// Returns the edit that removes a setting, or all of the comment or element if it is the only
-    /// one; `None` if it is not stated.
+    /// Returns the edit that removes a setting, or all of the comment or element if that holds nothing
+    /// else; `None` if it is not stated.
     pub(super) fn removal(&self, text: &str, key: &str, around: Around) -> Option<Edit> {
         let part = self.parts[index_of(key)?]?;
-        let is_only = self.parts.iter().flatten().count() == 1;
+        let is_only = self.parts.iter().flatten().count() == 1 && !self.holds_more;
         let span = if is_only {
             around.of(text, self.whole)
         } else {
@@ -200,7 +207,7 @@ impl RenderPlace {
         Self {
             whole: span(self.whole),
             parts: self.parts.map(|at| at.map(part)),
-            rendering: self.rendering,
+            ..*self
         }
     }
 }
@@ -256,10 +263,12 @@ pub(super) fn read_comment(
             while let Some(next) = words.next_if(|next| index_of(next.of(text)).is_none()) {
                 end = next;
             }
+            place.holds_more = true;
             report.warning(|| unknown_key(key.to(end), word));
             continue;
         }
         let Some(value) = value else {
+            place.holds_more = true;
             report.warning(|| {
                 let field = RENDER.iter().find(|field| field.key == word);
                 let expected = field.map_or_else(String::new, Field::expected);

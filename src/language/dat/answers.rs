@@ -8,8 +8,7 @@ use super::tree::{is_comment, leaves};
 use super::{Source, lower, room, view, visibility};
 use crate::language::at::words;
 use crate::language::node::{FileKind, object_at, place_of};
-use crate::language::placed::{Wanted, edits};
-use crate::language::rendering::{Around, insertions};
+use crate::language::rendering::Around;
 use crate::language::report::Name;
 use crate::language::table::{Category, Field, Kind};
 use crate::language::view::Numbers;
@@ -263,13 +262,6 @@ impl Answers for Source {
         wanted: Visibility,
     ) -> Result<Vec<Edit>, &'static str> {
         visibility::edits(&self.text, &self.tree, &self.origins, objects, wanted)
-    }
-
-    fn edits(&self, wanted: &[Wanted<'_>]) -> Vec<Edit> {
-        let mut edits = edits(self, wanted);
-        edits.extend(insertions(&self.text, wanted));
-        edits.sort_by_key(|edit| edit.span.start());
-        edits
     }
 
     fn render_removal(&self, key: &str) -> Vec<Edit> {

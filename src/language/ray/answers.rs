@@ -4,8 +4,7 @@ use super::origins::distribute;
 use super::table::{AMBIENT, LIGHT};
 use super::tree::comment_of_line;
 use super::{Source, again, lower, room, view};
-use crate::language::placed::{Wanted, edits};
-use crate::language::rendering::{Around, insertions};
+use crate::language::rendering::Around;
 use crate::language::report::Name;
 use crate::language::table::{self, Field};
 use crate::language::view::Numbers;
@@ -138,13 +137,6 @@ impl Answers for Source {
         let begins_before = |node| is_comment(node) || self.span(node).start() < span.end();
         let rows = nodes.partition_point(ends_before)..nodes.partition_point(begins_before);
         rows.filter_map(|row| nodes.get(row)).collect()
-    }
-
-    fn edits(&self, wanted: &[Wanted<'_>]) -> Vec<Edit> {
-        let mut edits = edits(self, wanted);
-        edits.extend(insertions(&self.text, wanted));
-        edits.sort_by_key(|edit| edit.span.start());
-        edits
     }
 
     fn render_removal(&self, key: &str) -> Vec<Edit> {

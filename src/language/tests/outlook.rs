@@ -99,7 +99,7 @@ fn textured_slots_are_not_part_of_the_sum() {
 #[test]
 fn a_scene_without_light_is_black() {
     let dark = format!("// view: up 0 1 0\n0 0 0 1 0 5 5 0 0 0\n{BALL}");
-    let off = "2:9 every light is switched off: its colour is zero";
+    let off = "2:9 all lights are off: their colours are zero";
     check(Language::Ray, &dark, None, &[off]);
     check(Language::Ray, &dark, PATH, &[off]);
     let ambient = dark.replacen("0 0 0 1 0", "1 1 1 1 0", 1);
@@ -124,7 +124,7 @@ fn a_scene_without_light_is_black() {
 
 #[test]
 fn what_only_paths_see_is_offered_to_them() {
-    let glows = "2:1 no light but what glows: only path tracing lets that light other surfaces \
+    let glows = "2:1 the only light is emission or the environment, which only path tracing takes to other surfaces \
                  | integrator path";
     for more in [
         "<environment value='.5'/>",
@@ -208,15 +208,15 @@ fn materials_that_send_back_more_than_comes_are_named_with_the_sum() {
         (
             ".5 .6 .75  0 0 0 9  .5 0 1",
             Some(
-                "2:3 object 1 (sphere): what it reflects, diffuse, specular and as a mirror, is 1.25, \
-                  so that the picture grows brighter with every bounce | depth 3",
+                "2:3 object 1 (sphere): diffuse, specular and mirror reflectance add up to 1.25: \
+                  the picture grows brighter with every bounce | depth 3",
             ),
         ),
         (
             "0 0 0  0 0 0 9  .12 .9 1.5",
             Some(
-                "2:3 object 1 (sphere): what it reflects as a mirror and transmits is 1.02, \
-                  so that the picture grows brighter with every bounce | depth 35",
+                "2:3 object 1 (sphere): mirror reflectance and transmittance add up to 1.02: \
+                  the picture grows brighter with every bounce | depth 35",
             ),
         ),
     ] {
@@ -231,8 +231,8 @@ fn materials_that_send_back_more_than_comes_are_named_with_the_sum() {
         blinn,
         PATH,
         &[
-            "2:1 m (blinn): what it reflects, diffuse, specular and as a mirror, is 1.033, \
-           so that the picture grows brighter with every bounce | depth 21",
+            "2:1 m (blinn): diffuse, specular and mirror reflectance add up to 1.033: \
+           the picture grows brighter with every bounce | depth 21",
         ],
     );
 }

@@ -262,3 +262,28 @@ fn structural_edits_leave_the_settings_where_they_are() {
         );
     }
 }
+
+#[test]
+fn removing_a_setting_keeps_what_else_the_comment_holds() {
+    let scene = SCENES[0].1;
+    for (said, left) in [
+        ("depth 3 spp x", " spp x"),
+        ("depth 3 light 1 2", " light 1 2"),
+        ("depth 3 depth 4", " depth 4"),
+    ] {
+        let mut text = scene.replace('@', &format!("// render: {said}\n"));
+        let (source, _) = read_as(Language::Ray, &text, &Meshes::default());
+        apply(&mut text, &source.render_removal("depth"));
+        assert_eq!(text, scene.replace('@', &format!("// render:{left}\n")));
+    }
+    let element = "  <render depth=\"3\"><!-- why --></render>\n";
+    let mut text = SCENES[2].1.replace('@', element);
+    let (source, _) = read_as(Language::Xml, &text, &Meshes::default());
+    apply(&mut text, &source.render_removal("depth"));
+    assert_eq!(
+        text,
+        SCENES[2]
+            .1
+            .replace('@', "  <render><!-- why --></render>\n")
+    );
+}

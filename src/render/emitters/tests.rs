@@ -4,27 +4,13 @@ use std::f64::consts::PI;
 
 use super::*;
 use crate::geometry::{Affine, Ball, Flat};
+use crate::render::tests::Random;
 use cone::Cone;
 
-/// Deterministic numbers in 0..1 (Vigna's splitmix64).
-struct Random(u64);
-
 impl Random {
-    fn next(&mut self) -> f64 {
-        self.0 = self.0.wrapping_add(0x9E37_79B9_7F4A_7C15);
-        let mut bits = self.0;
-        bits = (bits ^ (bits >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
-        bits = (bits ^ (bits >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
-        ((bits ^ (bits >> 31)) >> 11) as f64 / (1u64 << 53) as f64
-    }
-
-    fn point(&mut self) -> DVec3 {
-        2.0 * DVec3::new(self.next(), self.next(), self.next()) - 1.0
-    }
-
     fn direction(&mut self) -> DVec3 {
         loop {
-            let point = self.point();
+            let point = self.point(1.0);
             if (0.01..1.0).contains(&point.length_squared()) {
                 return point.normalize();
             }
@@ -34,10 +20,10 @@ impl Random {
 
 fn reaches(count: usize, random: &mut Random) -> Vec<Reach> {
     let mut reach = |_| {
-        let corner = 5.0 * random.point();
+        let corner = 5.0 * random.point(1.0);
         let bounds = Aabb {
             min: corner,
-            max: corner + 0.3 * (random.point() + 1.0),
+            max: corner + 0.3 * (random.point(1.0) + 1.0),
         };
         let cone = if random.next() < 0.2 {
             Cone::ALL
@@ -64,7 +50,7 @@ fn chances_are_those_of_choices() {
         let reaches = reaches(count, &mut random);
         let tree = Tree::build(&reaches, &|| false).expect("nothing cancels");
         for _ in 0..20 {
-            let (from, normal) = (7.0 * random.point(), random.direction());
+            let (from, normal) = (7.0 * random.point(1.0), random.direction());
             let chances: Vec<_> = (0..count as u32)
                 .map(|emitter| tree.chance(emitter, from, normal))
                 .collect();
@@ -101,7 +87,7 @@ fn chances_sum_to_one() {
     }
     let tree = Tree::build(&reaches, &|| false).expect("nothing cancels");
     for _ in 0..50 {
-        let from = 3.0 * random.point() - DVec3::new(0.0, 0.0, 30.0);
+        let from = 3.0 * random.point(1.0) - DVec3::new(0.0, 0.0, 30.0);
         let sum: f64 = (0..500)
             .map(|emitter| tree.chance(emitter, from, DVec3::Z))
             .sum();
@@ -118,10 +104,10 @@ fn nothing_that_lights_a_point_is_left_out() {
     let tree = Tree::build(&reaches, &|| false).expect("nothing cancels");
     let mut lit = 0;
     for _ in 0..3000 {
-        let (from, normal) = (6.0 * random.point(), random.direction());
+        let (from, normal) = (6.0 * random.point(1.0), random.direction());
         let emitter = (random.next() * 60.0) as usize;
         let Reach { bounds, cone, .. } = reaches[emitter];
-        let at = bounds.min + 0.5 * (random.point() + 1.0) * bounds.size();
+        let at = bounds.min + 0.5 * (random.point(1.0) + 1.0) * bounds.size();
         let toward = (at - from).normalize();
         let sent = -toward.dot(cone.axis);
         let sends = cone.cosine == -1.0 || 1e-9 < sent || cone.both && sent < -1e-9;

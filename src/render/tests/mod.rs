@@ -14,6 +14,7 @@ mod glass;
 mod highlights;
 mod invariance;
 mod keeping;
+mod lamps;
 mod looks;
 mod meshes;
 mod noise;
@@ -56,10 +57,10 @@ impl<C: Fn() -> bool> Tracer<'_, C> {
 }
 
 /// Deterministic numbers in 0..1 (Vigna's splitmix64).
-struct Random(u64);
+pub(super) struct Random(pub(super) u64);
 
 impl Random {
-    fn next(&mut self) -> f64 {
+    pub(super) fn next(&mut self) -> f64 {
         self.0 = self.0.wrapping_add(0x9E37_79B9_7F4A_7C15);
         let mut bits = self.0;
         bits = (bits ^ (bits >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
@@ -67,7 +68,7 @@ impl Random {
         ((bits ^ (bits >> 31)) >> 11) as f64 / (1u64 << 53) as f64
     }
 
-    fn point(&mut self, size: f64) -> DVec3 {
+    pub(super) fn point(&mut self, size: f64) -> DVec3 {
         size * (2.0 * DVec3::new(self.next(), self.next(), self.next()) - 1.0)
     }
 }

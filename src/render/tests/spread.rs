@@ -5,8 +5,15 @@ use super::*;
 
 /// The mean of a ray's radiance over many samples of one pixel.
 fn mean(scene: &str, ray: Ray, samples: u32) -> f64 {
-    let world = world(xml(scene));
-    let mut tracer = tracer(&world, 1);
+    mean_by((Integrator::Whitted, PATHS), scene, ray, samples)
+}
+
+/// The same by an integrator, with rules.
+fn mean_by((integrator, rules): (Integrator, Rules), scene: &str, ray: Ray, samples: u32) -> f64 {
+    let scene = Arc::new(xml(scene));
+    let world = World::build(scene, &Images::default(), rules, None, &|| false);
+    let world = world.expect("nothing cancels the building");
+    let mut tracer = Tracer::new(&world, integrator, 1, || false);
     let each = (0..samples).map(|index| {
         let sample = Sample {
             sampler: Sampler::new(0, 0, index, 0),
@@ -53,27 +60,6 @@ fn spread_rays_fill_their_cone_uniformly() {
     }
 }
 
-/// The mean of a ray's radiance over many samples of one pixel, where exponents spread mirrors and
-/// glass.
-fn mean_by_exponents(scene: &str, ray: Ray, samples: u32, integrator: Integrator) -> f64 {
-    let rules = Rules {
-        gloss: GlossRule::Exponent,
-        ..PATHS
-    };
-    let scene = Arc::new(xml(scene));
-    let world = World::build(scene, &Images::default(), rules, None, &|| false);
-    let world = world.expect("nothing cancels the building");
-    let mut tracer = Tracer::new(&world, integrator, 1, || false);
-    let each = (0..samples).map(|index| {
-        let sample = Sample {
-            sampler: Sampler::new(0, 0, index, 0),
-            ..centred(ray, f64::INFINITY)
-        };
-        tracer.radiance(&sample).radiance.x
-    });
-    each.sum::<f64>() / f64::from(samples)
-}
-
 /// Seen from straight above, a facet at angle θ off the normal N turns the view by 2θ, and P(θ < t) =
 /// 1 − cos^(g+1) t: the fraction of directions that hit a glowing ball of angular radius β about N is
 /// 1 − cos^(g+1)(β / 2). Behind the surface, glass turns the view by θ − asin(sin θ / 1.5), and passes
@@ -97,6 +83,10 @@ fn exponents_spread_mirrors_and_glass_about_their_half_vectors() {
         });
         passes.sum::<f64>() / f64::from(STEPS)
     };
+    let spread = Rules {
+        gloss: GlossRule::Exponent,
+        ..PATHS
+    };
     for (exponent, narrow) in [(8.0, 0.3), (20.0, 0.2), (200.0, 0.1)] {
         let radius = 5.0 * f64::sin(narrow);
         let scene = |material: &str, kind: &str, z: f64| {
@@ -118,7 +108,7 @@ fn exponents_spread_mirrors_and_glass_about_their_half_vectors() {
                 (scene(mirror, "blinn", 5.0), above),
                 (scene(glass, "blinn", -5.0), below(exponent, narrow)),
             ] {
-                let seen = mean_by_exponents(&scene, down, 1 << 14, integrator);
+                let seen = mean_by((integrator, spread), &scene, down, 1 << 14);
                 assert!(
                     (seen - expected).abs() < 4e-3,
                     "{exponent}: {seen} is not {expected}"
@@ -126,10 +116,15 @@ fn exponents_spread_mirrors_and_glass_about_their_half_vectors() {
             }
             // A phong material is not spread by its exponent.
             let phong = scene("<reflection value='1'/>", "phong", 5.0);
-            assert_near(mean_by_exponents(&phong, down, 16, integrator), 1.0, 0.0);
+            assert_near(mean_by((integrator, spread), &phong, down, 16), 1.0, 0.0);
         }
         // The first sample is at the centre.
-        let centre = mean_by_exponents(&scene(mirror, "blinn", 5.0), down, 1, Integrator::Whitted);
+        let centre = mean_by(
+            (Integrator::Whitted, spread),
+            &scene(mirror, "blinn", 5.0),
+            down,
+            1,
+        );
         assert_near(centre, 1.0, 0.0);
     }
 }

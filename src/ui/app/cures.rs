@@ -1,11 +1,11 @@
-//! The render settings on offer against what is wrong with a picture.
+//! The render settings suggested for a picture.
 
 use crate::language::RenderKey;
 
 /// A render setting and its value.
 pub(super) type Cure = (RenderKey, String);
 
-/// The cures on offer.
+/// The suggested cures.
 #[derive(Debug, Default)]
 pub struct Cures {
     /// For what the text shows.

@@ -1,4 +1,4 @@
-//! What is wrong with a picture as a whole, and the render settings that are offered to cure it.
+//! What is wrong with a picture as a whole, and the render settings suggested for it.
 
 use super::App;
 use super::cures::Cure;
@@ -10,7 +10,7 @@ use crate::text::concise;
 use crate::ui::keymap::{Action, Mode};
 use crate::ui::msg::Target;
 
-/// How many stops a picture may miss white by for a cure to be offered first.
+/// How many stops a picture may miss white by with a cure that is suggested first.
 const NEAR: f64 = 2.5;
 
 impl App {
@@ -56,7 +56,7 @@ impl App {
         if std::mem::replace(&mut self.cures.is_said, true) || self.overlays.message.is_some() {
             return;
         }
-        let cure = self.cure_on_offer().map(|cure| self.cure_in_words(cure));
+        let cure = self.suggested_cure().map(|cure| self.cure_in_words(cure));
         let words = if is_black {
             let errors = self.key_for(Action::Errors);
             match (
@@ -79,21 +79,19 @@ impl App {
         self.overlays.say(words);
     }
 
-    /// Writes the setting on offer into the text.
+    /// Writes the suggested setting into the text.
     fn cure(&mut self) {
-        match self.cure_on_offer().cloned() {
+        match self.suggested_cure().cloned() {
             Some((key, value)) => {
                 self.write_setting(key, Some(value));
                 // What is still wrong is said again.
                 self.cures.is_said = false;
             }
-            None => self
-                .overlays
-                .say("nothing is wrong that a render setting would help"),
+            None => self.overlays.say("there is no render setting to suggest"),
         }
     }
 
-    /// Switches the integrator, or writes the setting on offer.
+    /// Switches the integrator, or writes the suggested setting.
     pub(super) fn change_rendering(&mut self, action: Action) {
         if action == Action::Cure {
             self.cure();
@@ -106,7 +104,7 @@ impl App {
     }
 
     /// The first cure that is not in use yet.
-    fn cure_on_offer(&self) -> Option<&Cure> {
+    fn suggested_cure(&self) -> Option<&Cure> {
         let asked = self.rendering();
         let cures = self.cures.of_text.iter().chain(&self.cures.of_picture);
         let mut new = cures.filter(|(key, value)| key.value(&asked) != *value);

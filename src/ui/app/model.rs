@@ -44,7 +44,7 @@ pub struct App {
     pub diagnostics: Findings,
     /// Those of them that were found in reading the text and its files.
     pub(super) reported: Findings,
-    /// The render settings that are offered against what is wrong with the picture.
+    /// The render settings suggested for the picture.
     pub(super) cures: Cures,
     /// The scene of the last text without errors, which the pictures show.
     pub scene: Option<Arc<Scene>>,

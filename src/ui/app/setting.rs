@@ -1,5 +1,5 @@
-//! Render settings written into the text, where they lie under those of the command line and of the
-//! interface until these are dropped.
+//! Render settings written into the text. What the command line or the interface chose instead is
+//! dropped then, so that the text counts.
 
 use super::App;
 use crate::document::StepName;
@@ -54,8 +54,8 @@ impl App {
         self.write_setting(order.key, value);
     }
 
-    /// Writes a value of a render setting into the text, or removes the setting there; what lay over it
-    /// is dropped.
+    /// Writes a value of a render setting into the text, or removes the setting there, and drops what
+    /// took precedence over it.
     pub(super) fn write_setting(&mut self, key: RenderKey, value: Option<String>) {
         self.document.end_step();
         let edits = match &value {

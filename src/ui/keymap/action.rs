@@ -279,7 +279,7 @@ pub enum Action {
     Wireframe,
     /// Switches between Whitted ray tracing and path tracing.
     Integrator,
-    /// Writes the render setting that is offered against what is wrong with the picture.
+    /// Writes the render setting that is suggested for the picture.
     Cure,
     /// Redraws every cell, in case another program has written over them.
     Repaint,

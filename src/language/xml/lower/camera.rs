@@ -105,6 +105,7 @@ impl Lowering<'_> {
         };
         let (text, tree) = (self.text, self.tree);
         let mut settings = RenderPlace::new(tree.elements[render].whole);
+        settings.holds_more = !tree.elements[render].is_empty_tag();
         for attribute in &tree.attributes[tree.elements[render].attributes()] {
             let value = attribute.value;
             let part = Part {

@@ -321,10 +321,7 @@ fn a_black_picture_says_what_helps() {
     );
     assert_eq!(app.diagnostics.len(), 0);
     press(&mut app, "<Esc>C");
-    assert_eq!(
-        shown(&app),
-        "nothing is wrong that a render setting would help"
-    );
+    assert_eq!(shown(&app), "there is no render setting to suggest");
 }
 
 #[test]

@@ -314,7 +314,7 @@ pub(super) const ROWS: &[Row] = &[
         ("400 300\n",
             "320 200\n"),
     ])),
-    row(Key(A::Cure), Object(0), "C", Says("nothing is wrong that a render setting would help")),
+    row(Key(A::Cure), Object(0), "C", Says("there is no render setting to suggest")),
     row(Command("set"), Object(0), ":set depth 3<Enter>", Becomes(&[
         ("# view front:",
             "# render: depth 3\n# view front:"),
