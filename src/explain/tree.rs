@@ -76,7 +76,7 @@ impl Writer<'_> {
                     "environment"
                 };
                 let weight = densities.map_or(String::new(), |densities| {
-                    weighed(&densities, "asking for it")
+                    weighed(&densities, "emitter sampling")
                 });
                 let shown = colour(*radiance);
                 let text = format!("{begin} hits nothing: {around} {shown}{weight}");
@@ -125,7 +125,7 @@ impl Writer<'_> {
         self.geometry(shading, at);
         if shading.emission != Rgb::ZERO {
             let weight = shading.densities.map_or(String::new(), |densities| {
-                weighed(&densities, "asking for it")
+                weighed(&densities, "emitter sampling")
             });
             self.line(at, format!("emission {}{weight}", colour(shading.emission)));
         }
@@ -286,7 +286,7 @@ impl Writer<'_> {
     }
 }
 
-/// The weight of what a path found by chance.
+/// The weight of what a path hit.
 fn weighed(densities: &Densities, other: &str) -> String {
     format!(
         ", MIS weight {} (density {} against {} by {other})",
@@ -296,7 +296,7 @@ fn weighed(densities: &Densities, other: &str) -> String {
     )
 }
 
-/// The weight of what was asked for.
+/// The weight of a sampled emitter.
 fn chances(densities: &Densities) -> String {
     format!(
         "density {} against {} by the path, MIS weight {}",

@@ -1,7 +1,7 @@
 //! Next event estimation of what emits light but is no light: emission of objects and the
 //! environment. Combined with BSDF sampling by multiple importance sampling, as lights with a size are.
 //!
-//! What a ray asked for meets first is all that counts, so that nothing passes on the way but what a
+//! Only what a shadow ray meets first counts, so that nothing passes on the way but what a
 //! path would pass too.
 
 use glam::DVec3;
@@ -16,10 +16,10 @@ use super::sky::Sky;
 use crate::geometry::Ray;
 use crate::scene::Rgb;
 
-/// The light of an emitter that was asked for at a surface.
+/// The light of an emitter sampled at a surface.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Asked {
-    /// Index of the object that was asked for; `None` for the environment.
+    /// Index of the object sampled; `None` for the environment.
     pub(super) object: Option<u32>,
     /// The unit vector toward the chosen point.
     pub(super) toward: DVec3,
@@ -35,7 +35,7 @@ pub(super) struct Asked {
 }
 
 impl<C: Fn() -> bool> Probe<'_, C> {
-    /// Whether objects that emit light, or the environment, are asked for at a surface. Not at the last
+    /// Whether objects that emit light, or the environment, are sampled at a surface. Not at the last
     /// bounce, since emission counts as the bounce that reaches it.
     #[inline]
     pub(super) fn asks(&self, vertex: &Vertex<'_>, bounce: u32) -> bool {
@@ -47,7 +47,7 @@ impl<C: Fn() -> bool> Probe<'_, C> {
     }
 
     /// Sums the light of objects that emit light and of the environment at a surface that is lit, as
-    /// far as it is asked for, and reports its parts.
+    /// far as it is sampled, and reports its parts.
     #[inline(never)]
     pub(super) fn ask(
         &mut self,
@@ -61,7 +61,7 @@ impl<C: Fn() -> bool> Probe<'_, C> {
         let of_object = (!world.emitters.is_empty())
             .then(|| self.of_object(vertex, bounce, sampler))
             .flatten();
-        let of_sky = (!world.sky.is_left_to_chance())
+        let of_sky = (!world.sky.is_unsampled())
             .then(|| self.of_sky(vertex, bounce, sampler))
             .flatten();
         for asked in of_object.into_iter().chain(of_sky) {
@@ -71,7 +71,7 @@ impl<C: Fn() -> bool> Probe<'_, C> {
         sum
     }
 
-    /// Asks for the emission of an object.
+    /// Samples the emission of an object.
     fn of_object(&mut self, vertex: &Vertex<'_>, bounce: u32, sampler: Sampler) -> Option<Asked> {
         let Vertex { point, bsdf, .. } = vertex;
         let world = self.world;
@@ -127,7 +127,7 @@ impl<C: Fn() -> bool> Probe<'_, C> {
         }
     }
 
-    /// Asks for the environment.
+    /// Samples the environment.
     fn of_sky(&mut self, vertex: &Vertex<'_>, bounce: u32, sampler: Sampler) -> Option<Asked> {
         let Vertex { point, bsdf, .. } = vertex;
         let world = self.world;
@@ -185,7 +185,7 @@ impl Path {
     /// only the path can.
     #[inline]
     pub(super) fn densities_of(&self, sky: &Sky) -> Option<Densities> {
-        if sky.is_left_to_chance() {
+        if sky.is_unsampled() {
             return None;
         }
         let chosen = self.chosen?;

@@ -218,7 +218,7 @@ impl<C: Fn() -> bool> Probe<'_, C> {
         }
     }
 
-    /// The emission of a surface, as far as it counts where a path finds it by chance.
+    /// The emission of a surface, as far as it counts where a BSDF sample hits it.
     #[inline]
     fn emission(&self, path: &Path, vertex: &Vertex<'_>) -> Rgb {
         let emission = vertex.material.emission;

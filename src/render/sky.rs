@@ -1,4 +1,4 @@
-//! The environment, to be found on purpose: directions are chosen with a density about proportional
+//! Importance sampling of the environment: directions are chosen with a density about proportional
 //! to its luminance.
 //!
 //! The density is that of a bilinear interpolation between the corners of a grid over uv, so that
@@ -24,7 +24,7 @@ const COARSE: u32 = 256;
 const FINE: u32 = 4;
 
 /// Skies whose luminance varies less than this, as the mean square over the squared mean, are left to
-/// chance: to ask for them costs more than it gains.
+/// BSDF sampling: sampling them costs more than it gains.
 const EVEN: f64 = 2.0;
 
 /// An environment from which directions are chosen.
@@ -62,7 +62,7 @@ impl Sky {
         {
             return Some(Arc::clone(sky));
         }
-        // An even one is found as well by chance.
+        // BSDF sampling finds an even one as well.
         let grid = match environment.texture {
             Some(_) => Grid::build(environment, textures, cancelled)?,
             None => None,
@@ -73,17 +73,17 @@ impl Sky {
         }))
     }
 
-    /// An environment that is left to chance.
-    pub(crate) fn left_to_chance() -> Self {
+    /// An environment that is left to BSDF sampling.
+    pub(crate) fn unsampled() -> Self {
         Self {
             made_of: Tinted::default(),
             grid: None,
         }
     }
 
-    /// Whether it is found by chance only.
+    /// Whether it is left to BSDF sampling.
     #[inline]
-    pub(crate) fn is_left_to_chance(&self) -> bool {
+    pub(crate) fn is_unsampled(&self) -> bool {
         self.grid.is_none()
     }
 
@@ -92,7 +92,7 @@ impl Sky {
         direction(self.grid.as_ref()?.choose(place))
     }
 
-    /// The density of [`Sky::choose`] per steradian; 0 where directions are left to chance.
+    /// The density of [`Sky::choose`] per steradian; 0 where directions are left to BSDF sampling.
     #[inline(never)]
     pub(crate) fn density(&self, direction: DVec3) -> f64 {
         let Some(grid) = &self.grid else {
@@ -106,7 +106,7 @@ impl Sky {
 
 impl Grid {
     /// The inner `None` is an environment that is dark or even.
-    #[expect(clippy::option_option, reason = "cancelled, and left to chance")]
+    #[expect(clippy::option_option, reason = "cancelled, and not sampled")]
     fn build(
         environment: Tinted,
         textures: &Textures,
@@ -382,7 +382,7 @@ mod tests {
     fn the_density_integrates_to_one() {
         for (width, height) in [(8, 8), (16, 5), (7, 12)] {
             let sky = grid(width, height);
-            assert!(!sky.is_left_to_chance());
+            assert!(!sky.is_unsampled());
             let side = 1500;
             let sum: f64 = sphere(side).map(|toward| sky.density(toward)).sum();
             let integral = sum * 4.0 * PI / f64::from(side * side);
@@ -404,7 +404,7 @@ mod tests {
         let side = 700u32;
         for i in 0..side * side {
             let place = [i % side, i / side].map(|i| (f64::from(i) + 0.5) / f64::from(side));
-            let toward = sky.choose(place).expect("it is not left to chance");
+            let toward = sky.choose(place).expect("it is sampled");
             found[octant(toward)] += 1.0 / f64::from(side * side);
         }
         for toward in sphere(side) {
@@ -417,7 +417,7 @@ mod tests {
     }
 
     #[test]
-    fn even_and_dark_skies_are_left_to_chance() {
+    fn even_and_dark_skies_are_unsampled() {
         let size = Size {
             width: 4,
             height: 4,

@@ -99,9 +99,9 @@ impl World {
                 });
                 (Emitters::build(&scene, &textures, known, cancelled)?, sky)
             }
-            Integrator::Whitted => (Arc::default(), Arc::new(Sky::left_to_chance())),
+            Integrator::Whitted => (Arc::default(), Arc::new(Sky::unsampled())),
         };
-        let has_emitters = !emitters.is_empty() || !sky.is_left_to_chance();
+        let has_emitters = !emitters.is_empty() || !sky.is_unsampled();
         if let Some(previous) = previous.filter(|_| changed.as_deref() == Some(&[])) {
             return Some(Self {
                 scene,

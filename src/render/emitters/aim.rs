@@ -124,7 +124,7 @@ fn versine(offset: DVec3) -> Option<f64> {
     (square < 1.0).then(|| square / (1.0 + (1.0 - square).sqrt()))
 }
 
-/// A density, or 0, which leaves a direction to chance, where it overflows.
+/// A density; where it overflows 0, which leaves a direction to BSDF sampling.
 fn finite(density: f64) -> f64 {
     if density.is_finite() { density } else { 0.0 }
 }

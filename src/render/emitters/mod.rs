@@ -1,8 +1,8 @@
-//! Objects that emit light, to be found on purpose: from a point, one of their parts is chosen
+//! Sampling of objects that emit light: from a point, one of their parts is chosen
 //! through a [`tree`], and a direction toward it ([`aim`]).
 //!
 //! Parts are triangles, squares and balls. Emission of other solids, of the inside of balls, and
-//! what is too weak or small to be counted is found by chance only, as its density is 0 here.
+//! what is too weak or small to count are left to BSDF sampling: their density is 0 here.
 
 mod aim;
 mod cone;

@@ -338,7 +338,7 @@ impl<C: Fn() -> bool> Recorder<'_, C> {
     }
 }
 
-/// Records what was asked for at a vertex.
+/// Records an emitter sampled at a vertex.
 fn asked_for(vertex: &Vertex<'_>, asked: &Asked) -> EmitterTerm {
     let cosine = vertex.point.normal.dot(asked.toward);
     let dark = if asked.radiance != Rgb::ZERO {

@@ -157,7 +157,7 @@ pub struct Shading {
     pub lights: Vec<LightTerm>,
     /// The lights too many to list.
     pub unlisted: Unlisted,
-    /// What emits light without being a light, as far as the path asked for it.
+    /// What emits light without being a light, as far as the path sampled it.
     pub emitters: Vec<EmitterTerm>,
     /// Emission, ambient light, all lights and emitters together.
     pub radiance: Rgb,
@@ -240,8 +240,8 @@ pub struct LightTerm {
     pub dark: Option<Dark>,
 }
 
-/// The light, at a point of a surface, of an object that emits light, or of the environment, which
-/// was asked for.
+/// The light, at a point of a surface, of an object that emits light or of the environment, by
+/// next-event estimation.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct EmitterTerm {
     /// The object, as frames call it; `None` for the environment.

@@ -1,4 +1,4 @@
-//! Emission that paths find on purpose, against closed forms and against paths that find it by
+//! Sampled emission against closed forms, and against paths that only hit it by
 //! chance.
 
 use std::f64::consts::PI;
@@ -43,7 +43,7 @@ fn assert_is(world: &World, depth: u32, ray: Ray, expected: f64, case: &str) {
     assert!(error < 0.01 * expected, "{case}: {error}");
 }
 
-/// The same world without emitters that are known: all are found by chance.
+/// The same world without emitters to sample: all are hit by chance.
 fn by_chance(world: &World) -> World {
     World {
         emitters: Arc::new(Emitters::default()),
@@ -51,7 +51,7 @@ fn by_chance(world: &World) -> World {
     }
 }
 
-/// Asserts that emitters asked for leave the mean as it is, and that the error falls below `share`
+/// Asserts that sampling emitters leaves the mean as it is, and that the error falls below `share`
 /// of what it was.
 fn assert_same_mean(world: &World, depth: u32, ray: Ray, share: f64, case: &str) {
     assert!(!world.emitters.is_empty(), "{case}");
@@ -214,7 +214,7 @@ fn matt() -> Material {
 }
 
 /// Meshes in skewed and mirrored frames, lit on both sides or the front, with and without a texture:
-/// the mean is that of paths that find the light by chance.
+/// the mean is that of paths that hit the light by chance.
 #[test]
 fn meshes_give_the_light_that_paths_find_by_chance() {
     let down = ray([-0.5, 0.2, 0.4], [-0.3, 0.0, 0.0]);
@@ -234,7 +234,7 @@ fn meshes_give_the_light_that_paths_find_by_chance() {
         }
         .boxed();
         let world = world(room(matt(), glow, textures, flip));
-        // Light that comes over the mirror only is not asked for.
+        // Light that comes by way of the mirror only is not sampled.
         let share = if lit == Faces::Both { 0.6 } else { 3.0 };
         assert_same_mean(&world, 2, down, share, case);
     }
@@ -262,7 +262,7 @@ fn glossy_surfaces_show_the_light_that_paths_find_by_chance() {
 /// A light with a size, which paths see, hides an emitter, and glass in between is passed by paths
 /// only.
 #[test]
-fn what_hides_an_emitter_does_so_on_purpose_and_by_chance() {
+fn what_hides_an_emitter_hides_it_from_sampling_and_from_hits() {
     let down = ray([0.4, 0.0, 0.3], [0.0; 3]);
     for between in [
         "<light type='point'><intensity value='.01'/><position z='1'/><size value='.3'/><attenuation value='1'/></light>",
@@ -355,8 +355,8 @@ fn sunny(even: u8) -> (Scene, Images) {
     (scene, images)
 }
 
-/// A sun in the sky is asked for, and gives the light that paths find by chance; an even sky is left
-/// to chance.
+/// A sun in the sky is sampled, and gives the light that paths hit by chance; an even sky is left to
+/// BSDF sampling.
 #[test]
 fn a_sun_in_the_sky_gives_the_light_that_paths_find_by_chance() {
     let built = |even| {
@@ -364,10 +364,10 @@ fn a_sun_in_the_sky_gives_the_light_that_paths_find_by_chance() {
         let built = World::build(Arc::new(scene), &images, PATHS, None, &|| false);
         built.expect("nothing cancels")
     };
-    assert!(built(230).sky.is_left_to_chance());
+    assert!(built(230).sky.is_unsampled());
     let world = built(2);
     let chance = World {
-        sky: Arc::new(Sky::left_to_chance()),
+        sky: Arc::new(Sky::unsampled()),
         ..world.clone()
     };
     let mut dark = 0;
