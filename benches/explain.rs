@@ -84,6 +84,7 @@ fn times(
             exposure: 0.0,
             falloff: FalloffRule::None,
             gloss: GlossRule::None,
+            noise: None,
         },
         limit: None,
         frames: Frames::Last,

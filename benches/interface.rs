@@ -439,6 +439,7 @@ fn tracing(scene: &Arc<Scene>) -> (Renderer, Receiver<()>) {
         exposure: 0.0,
         falloff: FalloffRule::None,
         gloss: GlossRule::None,
+        noise: None,
     };
     let job = Job {
         scene: Arc::clone(scene),

@@ -150,6 +150,7 @@ fn trace(scene: &Arc<Scene>, images: Images) -> Arc<Frame> {
         filter: Filter::Box,
         transfer: scene.setting.rendering.transfer.unwrap_or_default(),
         exposure: 0.0,
+        noise: None,
         falloff: FalloffRule::None,
         gloss: GlossRule::None,
     };

@@ -133,6 +133,7 @@ fn trace(scene: &Arc<Scene>, threads: usize) -> Arc<Frame> {
                 exposure: 0.0,
                 falloff: FalloffRule::None,
                 gloss: GlossRule::None,
+                noise: None,
             },
             limit: None,
             frames: Frames::Last,

@@ -224,6 +224,7 @@ fn trace(scene: &Arc<Scene>, images: Images, size: Size, spp: u32) -> Arc<Frame>
         exposure: 0.0,
         falloff: FalloffRule::None,
         gloss: GlossRule::None,
+        noise: None,
     };
     let job = Job {
         scene: Arc::clone(scene),

@@ -68,6 +68,7 @@ fn the_example_is_white_on_black() {
             filter: Filter::Box,
             transfer: Transfer::default(),
             exposure: 0.0,
+            noise: None,
             falloff: FalloffRule::None,
             gloss: GlossRule::None,
         },

@@ -274,6 +274,7 @@ impl Stage {
                 exposure: 0.0,
                 falloff: FalloffRule::None,
                 gloss: GlossRule::None,
+                noise: None,
             },
             limit: None,
             frames: Frames::Last,

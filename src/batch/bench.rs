@@ -326,7 +326,7 @@ fn table(work: &Bench, tracing: &Tracing, rows: &[Row]) -> String {
 fn common_settings(rows: &[Row]) -> String {
     let written = |row: &Row| row.settings.written();
     let mut common = rows.first().map_or_else(Vec::new, |row| {
-        let mut all = written(row).to_vec();
+        let mut all = written(row);
         all.push(("spp", row.settings.spp.to_string()));
         all
     });

@@ -379,6 +379,7 @@ fn progress(spp: u32, done: f64, elapsed: Duration, counts: Counts) -> Progress 
         pass: 1,
         passes: 1,
         spp,
+        mean_spp: f64::from(spp),
         done,
         elapsed,
         rays: counts.rays,

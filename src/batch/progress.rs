@@ -146,6 +146,7 @@ fn object(event: &str, progress: &Progress, begun: f64) -> Value {
         "pass": progress.pass,
         "passes": progress.passes,
         "spp": progress.spp,
+        "mean_spp": progress.mean_spp,
         "elapsed": progress.elapsed.as_secs_f64(),
         "left": left(progress, begun),
         "rays": progress.rays,
@@ -191,6 +192,7 @@ mod tests {
             pass: 3,
             passes: 6,
             spp: 2,
+            mean_spp: 2.0,
             done,
             elapsed: Duration::from_secs_f64(seconds),
             rays: 28_000_000,
@@ -204,8 +206,8 @@ mod tests {
     #[test]
     fn the_object_has_all_figures() {
         let expected = json!({
-            "event": "progress", "done": 0.25, "pass": 3, "passes": 6, "spp": 2, "elapsed": 2.0,
-            "left": 6.0, "rays": 28_000_000, "noise": 0.0134,
+            "event": "progress", "done": 0.25, "pass": 3, "passes": 6, "spp": 2, "mean_spp": 2.0,
+            "elapsed": 2.0, "left": 6.0, "rays": 28_000_000, "noise": 0.0134,
         });
         assert_eq!(object("progress", &progress(0.25, 2.0), 0.0), expected);
         let done = object("done", &progress(1.0, 0.1), 0.0);

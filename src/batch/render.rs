@@ -96,6 +96,10 @@ fn try_render(work: &Render) -> Result<(), Error> {
         &loaded.source,
         loaded.size,
     )?;
+    if work.parts.is_some() && job.settings.aov == Some(Aov::Cost) && job.settings.noise.is_some() {
+        let refused = "--shard and --resume cannot sample --aov cost adaptively; use --noise 0";
+        return Err(Error::Refused(refused.to_owned()));
+    }
     let memory = memory_needed(work, &job);
     let estimate = estimate(memory);
     if work.purpose == Purpose::Estimate {
@@ -254,6 +258,13 @@ fn finish(work: &Render, frame: &Frame, traced: &Traced) -> Result<(), Error> {
         print_message(
             "note",
             &format!("{samples} ran out of rays and may be too dark; try a lower --depth"),
+        );
+    }
+    if frame.progress.is_adaptive() {
+        let Progress { spp, mean_spp, .. } = frame.progress;
+        print_message(
+            "note",
+            &format!("adaptive sampling: up to {spp} samples per pixel, {mean_spp:.1} on average"),
         );
     }
     if work.tracing.time.is_some() {

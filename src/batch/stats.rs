@@ -60,7 +60,7 @@ impl Stats<'_> {
     /// is not known is null.
     fn object(&self) -> Value {
         let Progress {
-            spp,
+            mean_spp,
             rays,
             shadow_rays,
             over_budget,
@@ -71,7 +71,7 @@ impl Stats<'_> {
             load, trace, write, ..
         } = self.times;
         let seconds = |time: Duration| time.as_secs_f64();
-        let samples = self.pixels as u64 * u64::from(spp);
+        let samples = (self.pixels as f64 * mean_spp).round() as u64;
         json!({
             "version": env!("CARGO_PKG_VERSION"),
             "scene": self.scene.to_string_lossy(),

@@ -31,6 +31,10 @@ pub(super) struct RenderingArguments {
     /// What spreads the reflection and refraction of blinn materials [default: the scene's, otherwise none]
     #[arg(long, value_name = "GLOSS", value_enum)]
     gloss: Option<GlossChoice>,
+    /// Adaptive sampling: pixels below this error, in displayed values from 0 to 1, take no more
+    /// samples; 0 turns it off [default: the scene's, otherwise 0]
+    #[arg(long, value_name = "ERROR", value_parser = parse_noise)]
+    noise: Option<f64>,
 }
 
 impl RenderingArguments {
@@ -45,6 +49,7 @@ impl RenderingArguments {
             exposure: self.exposure,
             falloff: self.falloff.map(FalloffChoice::value),
             gloss: self.gloss.map(GlossChoice::value),
+            noise: self.noise,
         }
     }
 }
@@ -57,4 +62,11 @@ fn parse_stops(text: &str) -> Result<f64, String> {
             let (least, most) = (EXPOSURES.start(), EXPOSURES.end());
             format!("expected a number from {least} to {most}")
         })
+}
+
+fn parse_noise(text: &str) -> Result<f64, String> {
+    let noise = text.parse().ok();
+    noise
+        .filter(|noise| (0.0..1.0).contains(noise))
+        .ok_or_else(|| "expected a number from 0 to less than 1".to_owned())
 }

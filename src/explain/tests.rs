@@ -67,6 +67,7 @@ fn explain(language: Language, text: &str, pixel: [u32; 2], how: How) -> Words {
             exposure: 0.0,
             falloff: FalloffRule::None,
             gloss: GlossRule::None,
+            noise: None,
         },
         limit: None,
         frames: Frames::Last,

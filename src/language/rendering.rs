@@ -15,7 +15,7 @@ use crate::text::{
 };
 
 /// The keys, in the order of the interface.
-pub(super) const RENDER: &[Field; 8] = &[
+pub(super) const RENDER: &[Field; 9] = &[
     choice(
         "integrator",
         &[Integrator::Whitted.name(), Integrator::Path.name()],
@@ -29,7 +29,7 @@ pub(super) const RENDER: &[Field; 8] = &[
     count(
         "spp",
         Range::Whole(1, MAX_SPP),
-        "Samples per pixel of full-size pictures.",
+        "Samples per pixel of full-size pictures, at most where noise is set.",
     ),
     choice(
         "filter",
@@ -66,6 +66,15 @@ pub(super) const RENDER: &[Field; 8] = &[
         &[GlossRule::None.name(), GlossRule::Exponent.name()],
         "exponent: the glossiness of blinn materials spreads their reflection and refraction.",
     ),
+    Field {
+        allowed: Range::Below(1.0),
+        ..Field::number(
+            "noise",
+            Range::Below(1.0),
+            0.005,
+            "Adaptive sampling: pixels below this displayed error take no more samples. 0: off.",
+        )
+    },
 ];
 
 const fn choice(key: &'static str, words: &'static [&'static str], doc: &'static str) -> Field {
@@ -345,6 +354,7 @@ fn set(rendering: &mut Rendering, key: &str, value: Option<f64>) {
         "transfer" => rendering.transfer = chosen(Transfer::ALL, value),
         "falloff" => rendering.falloff = chosen(FalloffRule::ALL, value),
         "gloss" => rendering.gloss = chosen(GlossRule::ALL, value),
+        "noise" => rendering.noise = value,
         _ => rendering.exposure = value,
     }
 }
@@ -360,6 +370,7 @@ pub(super) fn spelled(rendering: &Rendering) -> Vec<(&'static str, String)> {
         exposure,
         falloff,
         gloss,
+        noise,
     } = *rendering;
     let word = |name: &'static str| name.to_owned();
     let values = [
@@ -371,6 +382,7 @@ pub(super) fn spelled(rendering: &Rendering) -> Vec<(&'static str, String)> {
         exposure.map(super::view::spelled),
         falloff.map(|falloff| word(falloff.name())),
         gloss.map(|gloss| word(gloss.name())),
+        noise.map(super::view::spelled),
     ];
     let keys = RENDER.iter().map(|field| field.key);
     let stated = keys.zip(values);
@@ -430,6 +442,7 @@ fn default_of(key: &str, asked: &Rendering) -> &'static str {
             Integrator::Whitted => "8",
             Integrator::Path => "64",
         },
+        "spp" if asked.noise().is_some() => "4096",
         "spp" => "16",
         "filter" => asked.filter.unwrap_or_default().name(),
         "transfer" => asked.transfer.unwrap_or_default().name(),
@@ -504,6 +517,11 @@ mod tests {
         }
         let none = Rendering::default();
         assert_eq!(default_of("spp", &none), DEFAULT_SPP.to_string());
+        let adaptive = Rendering {
+            noise: Some(0.5),
+            ..none
+        };
+        assert_eq!(default_of("spp", &adaptive), adaptive.spp().to_string());
         for field in RENDER {
             let default = default_of(field.key, &none);
             let read = value(field, Span::at(0), default, &mut Findings::default());
@@ -522,6 +540,7 @@ mod tests {
             exposure: Some(-0.1),
             falloff: Some(FalloffRule::Square),
             gloss: Some(GlossRule::Exponent),
+            noise: Some(0.02),
         };
         let text = words(&settings);
         let body = Span::new(0, text.len());

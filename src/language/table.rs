@@ -117,6 +117,8 @@ pub enum Range {
     NotNegative,
     /// From 0 to 1, inclusive.
     Unit,
+    /// From 0, inclusive, to a number, exclusive.
+    Below(f64),
     /// Between two numbers, exclusive.
     Between(f64, f64),
     /// Between two numbers, inclusive.
@@ -138,6 +140,7 @@ impl Range {
                 Self::Positive => 0.0 < value,
                 Self::NotNegative => 0.0 <= value,
                 Self::Unit => (0.0..=1.0).contains(&value),
+                Self::Below(high) => (0.0..high).contains(&value),
                 Self::Between(low, high) => low < value && value < high,
                 Self::Within(low, high) => (low..=high).contains(&value),
                 Self::Whole(low, high) => {
@@ -155,6 +158,7 @@ impl Range {
             Self::Positive => Some([0.0_f64.next_up(), f64::MAX]),
             Self::NotNegative => Some([0.0, f64::MAX]),
             Self::Unit => Some([0.0, 1.0]),
+            Self::Below(high) => Some([0.0, high.next_down()]),
             Self::Between(low, high) => Some([low.next_up(), high.next_down()]),
             Self::Within(low, high) => Some([low, high]),
             Self::Count | Self::Whole(..) | Self::Identity => None,
@@ -177,6 +181,7 @@ impl Range {
             Self::Positive => "greater than 0".to_owned(),
             Self::NotNegative => "0 or more".to_owned(),
             Self::Unit => "from 0 to 1".to_owned(),
+            Self::Below(high) => format!("0 or more and less than {high}"),
             Self::Between(low, high) => format!("greater than {low} and less than {high}"),
             Self::Within(low, high) => format!("from {low} to {high}"),
             Self::Count => "a whole number, 1 or more".to_owned(),

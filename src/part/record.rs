@@ -3,7 +3,7 @@
 //! | record | bytes, integers and floats in little-endian order |
 //! |---|---|
 //! | goal | `G`, samples of each pixel as u32, CRC |
-//! | block | `B`, number and samples as u32, rays, shadow rays and samples over budget as u64, the number of pixels of `half` as u32 (all or none), sums as 3 f64 a pixel, squared errors as f32, sums at half as 3 f64, CRC |
+//! | block | `B`, or `A` if some squares stopped, number and samples as u32, rays, shadow rays and samples over budget as u64, the number of pixels of `half` as u32 (all or none), sums as 3 f64 a pixel, squared errors as f32, sums at half as 3 f64, with `A` the samples of each of 64 squares as u32, CRC |
 //!
 //! Each CRC is the CRC-32 of the bytes of its record, begun with that of the header: records do not
 //! fit into another file. A later record replaces an earlier one of the same kind and number.
@@ -17,9 +17,13 @@ use crate::render::{Block, Blocks, Counts};
 
 const GOAL: u8 = b'G';
 const BLOCK: u8 = b'B';
+const ADAPTIVE: u8 = b'A';
 
 /// Bytes before the pixels of a block.
 const BLOCK_HEAD: usize = 1 + 4 + 4 + 3 * 8 + 4;
+
+/// Squares of a block that stop together, each with its samples.
+const SQUARES: usize = 64;
 
 /// Bytes of a checksum.
 const CRC: usize = 4;
@@ -77,7 +81,7 @@ impl Record {
         }
         let head = match bytes[0] {
             GOAL => 5,
-            BLOCK => BLOCK_HEAD,
+            BLOCK | ADAPTIVE => BLOCK_HEAD,
             _ => return Err(Damage::Corrupt),
         };
         let missing = head - bytes.len();
@@ -85,7 +89,7 @@ impl Record {
             fill(from, bytes, count)?.then_some(()).ok_or(Damage::Short)
         };
         more(&mut bytes, missing)?;
-        if bytes[0] == BLOCK {
+        if bytes[0] != GOAL {
             let (number, half) = (u32_at(&bytes, 1), u32_at(&bytes, 33));
             if blocks.count() <= number {
                 return Err(Damage::Corrupt);
@@ -94,7 +98,8 @@ impl Record {
             if half != 0 && half as usize != area {
                 return Err(Damage::Corrupt);
             }
-            more(&mut bytes, area * (24 + 4) + half as usize * 24)?;
+            let stopped = if bytes[0] == ADAPTIVE { 4 * SQUARES } else { 0 };
+            more(&mut bytes, area * (24 + 4) + half as usize * 24 + stopped)?;
         }
         more(&mut bytes, CRC)?;
         let (said, crc) = bytes.split_at(bytes.len() - CRC);
@@ -121,8 +126,13 @@ fn checksum(header: u32, bytes: &[u8]) -> u32 {
 }
 
 fn put_block(block: &Block, bytes: &mut Vec<u8>) {
-    bytes.reserve(BLOCK_HEAD + block.sums.len() * (24 + 4) + block.half.len() * 24 + CRC);
-    bytes.push(BLOCK);
+    let pixels = block.sums.len() * (24 + 4) + block.half.len() * 24;
+    bytes.reserve(BLOCK_HEAD + pixels + 4 * block.stopped.len() + CRC);
+    bytes.push(if block.stopped.is_empty() {
+        BLOCK
+    } else {
+        ADAPTIVE
+    });
     bytes.extend(block.number.to_le_bytes());
     bytes.extend(block.samples.to_le_bytes());
     let Counts {
@@ -140,6 +150,8 @@ fn put_block(block: &Block, bytes: &mut Vec<u8>) {
     let errors = block.squared_errors.iter();
     bytes.extend(errors.flat_map(|error| error.to_le_bytes()));
     put_sums(&block.half, bytes);
+    let stopped = block.stopped.iter();
+    bytes.extend(stopped.flat_map(|samples| samples.to_le_bytes()));
 }
 
 fn put_sums(sums: &[DVec3], bytes: &mut Vec<u8>) {
@@ -154,7 +166,8 @@ fn block(bytes: &[u8], blocks: Blocks) -> Block {
     let number = u32_at(bytes, 1);
     let area = blocks.area(number);
     let (sums, rest) = bytes[BLOCK_HEAD..].split_at(24 * area);
-    let (errors, half) = rest.split_at(4 * area);
+    let (errors, rest) = rest.split_at(4 * area);
+    let (half, stopped) = rest.split_at(24 * u32_at(bytes, 33) as usize);
     let sums_of = |bytes: &[u8]| {
         let sums = bytes.chunks_exact(24);
         let channel = |sum: &[u8], at| f64::from_le_bytes(array_at(sum, at));
@@ -165,6 +178,10 @@ fn block(bytes: &[u8], blocks: Blocks) -> Block {
     Block {
         number,
         samples: u32_at(bytes, 5),
+        stopped: stopped
+            .chunks_exact(4)
+            .map(|samples| u32_at(samples, 0))
+            .collect(),
         sums: sums_of(sums),
         half: sums_of(half),
         squared_errors: errors

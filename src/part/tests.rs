@@ -43,6 +43,7 @@ fn picture() -> Provenance {
             exposure: 0.0,
             falloff: FalloffRule::None,
             gloss: GlossRule::None,
+            noise: None,
         },
     }
 }
@@ -56,6 +57,11 @@ fn block(number: u32, samples: u32) -> Block {
     let sums: Vec<_> = (0..area).map(sum).collect();
     Block {
         samples,
+        stopped: if number == 1 {
+            (0..64).collect()
+        } else {
+            Vec::new()
+        },
         half: if samples.is_power_of_two() {
             Vec::new()
         } else {

@@ -4,6 +4,7 @@ use std::collections::TryReserveError;
 
 use rayon::prelude::*;
 
+use super::adaptive::square;
 use super::block::{Block, Blocks};
 use super::frame::{Aov, Frame, Frames, Progress, Settings};
 use super::probe::Counts;
@@ -28,6 +29,9 @@ pub struct Assembly {
 #[derive(Clone, Copy, Debug, Default)]
 struct Placed {
     counts: Counts,
+    /// Samples of all its pixels, and of the one with most.
+    taken: u64,
+    highest: u32,
     squared_errors: f64,
 }
 
@@ -62,18 +66,21 @@ impl Assembly {
         for (row, y) in (region.y..region.y + region.height).enumerate() {
             let from = y as usize * size.width as usize + region.x as usize;
             let pixels = self.values[from..][..region.width as usize].iter_mut();
-            for (at, value) in (row * region.width as usize..).zip(pixels) {
-                *value = block.value(at, self.settings.aov);
+            let places = (row * region.width as usize..).zip(region.x..);
+            for ((at, x), value) in places.zip(pixels) {
+                *value = block.value(at, square([x, y]), self.settings.aov);
             }
         }
         let squared_errors = block.squared_errors.iter().copied().map(f64::from);
         self.placed[block.number as usize] = Placed {
             counts: block.counts,
+            taken: block.taken(region).map(u64::from).sum(),
+            highest: block.taken(region).max().unwrap_or(0),
             squared_errors: squared_errors.sum(),
         };
     }
 
-    /// The complete frame, with `spp` samples of each pixel.
+    /// The complete frame, with `spp` samples of each pixel, or fewer if all pixels stopped before.
     pub fn finish(self, spp: u32) -> Frame {
         let Self {
             mut settings,
@@ -82,6 +89,9 @@ impl Assembly {
             placed,
         } = self;
         settings.spp = spp;
+        let passes = settings.passes();
+        let highest = placed.iter().map(|block| block.highest).max();
+        settings.spp = spp.min(highest.unwrap_or(spp));
         let range = tone::scale(settings.aov, values.par_iter().copied());
         let tone = Tone::of(settings.aov, Light::of(&settings), range);
         let pixels = values.par_iter().map(|&value| tone.bytes(value)).collect();
@@ -99,6 +109,7 @@ impl Assembly {
             shadow_rays,
             over_budget,
         } = counts.fold(Counts::default(), Counts::and);
+        let taken: u64 = placed.iter().map(|block| block.taken).sum();
         let squared_errors: f64 = placed.iter().map(|block| block.squared_errors).sum();
         let noise = (squared_errors / traced.size().pixels() as f64).sqrt();
         // Blocks of the cost hold no light.
@@ -110,9 +121,10 @@ impl Assembly {
             values,
             range,
             progress: Progress {
-                pass: settings.passes(),
-                passes: settings.passes(),
+                pass: passes,
+                passes,
                 spp: settings.spp,
+                mean_spp: taken as f64 / traced.size().pixels() as f64,
                 rays,
                 shadow_rays,
                 over_budget,

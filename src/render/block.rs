@@ -2,6 +2,7 @@
 
 use std::time::{Duration, Instant};
 
+use super::adaptive::{LEAST, SQUARES, Squares, go_on, square};
 use super::frame::{Aov, Settings};
 use super::noise::Doubling;
 use super::probe::Counts;
@@ -65,8 +66,11 @@ impl Blocks {
 pub struct Block {
     /// Its number in the picture.
     pub number: u32,
-    /// Samples of each pixel.
+    /// Samples of each pixel, except those that stopped.
     pub samples: u32,
+    /// The samples of the pixels of each square of 4×4 that stopped, see [`Settings::noise`], in rows
+    /// of 8 squares; 0 for those that go on, and empty if all do.
+    pub stopped: Vec<u32>,
     /// The sums of each pixel's radiance or AOV, in rows.
     pub sums: Vec<Rgb>,
     /// The sums after the last power of two of samples, which the next doubling is compared with;
@@ -86,6 +90,7 @@ impl Block {
         Self {
             number,
             samples: 0,
+            stopped: Vec::new(),
             sums: vec![Rgb::ZERO; area],
             half: Vec::new(),
             squared_errors: vec![0.0; area],
@@ -104,10 +109,25 @@ impl Block {
         (interval, keep): (Duration, impl Fn(&Self)),
     ) {
         let region = Blocks::of(shot.settings.traced().size()).region(self.number);
-        let pixels = in_squares(region);
+        let all = in_squares(region);
+        let at = |[x, y]: [u32; 2]| ((y - region.y) * region.width + (x - region.x)) as usize;
+        let mut taking = self.taking();
+        let mut pixels = all.clone();
+        pixels.retain(|&pixel| taking.has(square(pixel)));
         let mut seen = Vec::with_capacity(pixels.len());
         let mut kept = Instant::now();
         for index in self.samples..spp {
+            if let Some(limit) = shot.settings.adaptive()
+                && LEAST <= index
+                && index.is_power_of_two()
+            {
+                let errors =
+                    in_rows(region).map(|pixel| (square(pixel), self.squared_errors[at(pixel)]));
+                let going_on = go_on(limit, taking, errors);
+                self.stop(taking, going_on);
+                taking = going_on;
+                pixels.retain(|&pixel| taking.has(square(pixel)));
+            }
             let before = work.tracer.counts();
             seen.clear();
             for together in pixels.chunks(TOGETHER) {
@@ -122,9 +142,8 @@ impl Block {
             if index.is_power_of_two() && self.half.is_empty() {
                 self.half.clone_from(&self.sums);
             }
-            for (pixel, seen) in pixels.iter().zip(&seen) {
-                let at = (pixel[1] - region.y) * region.width + (pixel[0] - region.x);
-                self.sums[at as usize] += match shot.settings.aov {
+            for (&pixel, seen) in pixels.iter().zip(&seen) {
+                self.sums[at(pixel)] += match shot.settings.aov {
                     Some(Aov::Cost) => Rgb::splat(seen.rays.into()),
                     _ => seen.radiance,
                 };
@@ -133,7 +152,7 @@ impl Block {
             let rays = work.tracer.counts().since(before);
             self.counts = self.counts.and(rays);
             if self.samples.is_power_of_two() {
-                self.estimate(&shot.settings);
+                self.estimate(&shot.settings, pixels.iter().map(|&pixel| at(pixel)));
             }
             if interval <= kept.elapsed() && self.samples < spp {
                 keep(self);
@@ -142,27 +161,66 @@ impl Block {
         }
     }
 
-    /// Estimates the errors after the samples were doubled.
-    fn estimate(&mut self, settings: &Settings) {
+    /// The squares that take samples.
+    fn taking(&self) -> Squares {
+        let stopped = |square| {
+            self.stopped
+                .get(square)
+                .is_some_and(|&samples| samples != 0)
+        };
+        Squares::of(|square| !stopped(square))
+    }
+
+    /// Notes how many samples the squares have that do not go on.
+    fn stop(&mut self, taking: Squares, going_on: Squares) {
+        let stops = |&square: &usize| taking.has(square) && !going_on.has(square);
+        for square in (0..SQUARES).filter(stops) {
+            self.stopped.resize(SQUARES, 0);
+            self.stopped[square] = self.samples;
+        }
+    }
+
+    /// Estimates the errors of pixels after their samples were doubled.
+    fn estimate(&mut self, settings: &Settings, pixels: impl Iterator<Item = usize>) {
         let step = Step::Samples(self.samples / 2..self.samples);
         if let Some(doubling) = Doubling::of(&step, settings).filter(|_| !self.half.is_empty()) {
-            let sums = self.half.iter().zip(&self.sums);
-            for (error, (&half, &sum)) in self.squared_errors.iter_mut().zip(sums) {
-                *error = doubling.squared_error(half, sum) as f32;
+            for at in pixels {
+                let squared_error = doubling.squared_error(self.half[at], self.sums[at]);
+                self.squared_errors[at] = squared_error as f32;
             }
         }
         self.half.clear();
     }
 
-    /// The mean of a pixel's samples, or what an AOV of light shows of them.
-    pub(super) fn value(&self, at: usize, aov: Option<Aov>) -> Rgb {
-        let samples = f64::from(self.samples);
+    /// The samples of the pixels of a square.
+    fn samples_at(&self, square: usize) -> u32 {
+        let stopped = self.stopped.get(square).copied();
+        stopped
+            .filter(|&samples| samples != 0)
+            .unwrap_or(self.samples)
+    }
+
+    /// The samples of each of its pixels.
+    pub(super) fn taken(&self, region: Region) -> impl Iterator<Item = u32> {
+        in_rows(region).map(|pixel| self.samples_at(square(pixel)))
+    }
+
+    /// The mean of a pixel's samples, or what an AOV of light shows of them, given its place in the list
+    /// and its square.
+    pub(super) fn value(&self, at: usize, square: usize, aov: Option<Aov>) -> Rgb {
+        let samples = f64::from(self.samples_at(square));
         match aov {
             Some(Aov::Samples) => Rgb::splat(samples),
             Some(Aov::Noise) => Rgb::splat(self.squared_errors[at].sqrt().into()),
             _ => self.sums[at] / samples.max(1.0),
         }
     }
+}
+
+/// The pixels of a region in rows.
+fn in_rows(region: Region) -> impl Iterator<Item = [u32; 2]> {
+    let rows = region.y..region.y + region.height;
+    rows.flat_map(move |y| (region.x..region.x + region.width).map(move |x| [x, y]))
 }
 
 /// The pixels of a region square by square, in pieces of 4×2, so that adjacent ones are traced

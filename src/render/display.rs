@@ -141,6 +141,7 @@ mod tests {
             exposure: 0.0,
             falloff: FalloffRule::None,
             gloss: GlossRule::None,
+            noise: None,
         }
     }
 

@@ -1,10 +1,12 @@
 //! A picture in progress: the accumulated pixels, in tiles that threads fill in parallel.
 
-use std::collections::TryReserveError;
+use std::collections::{BTreeMap, TryReserveError};
 use std::ops::Range;
 
 use rayon::prelude::*;
 
+use super::adaptive::{LEAST, SQUARES, Selection, Squares, go_on, square};
+use super::block::{BLOCK, Blocks};
 use super::denoise::{self, UNKNOWN};
 use super::frame::{Aov, Frames, Settings};
 use super::gather::Gather;
@@ -30,11 +32,15 @@ pub(crate) struct Film {
     spp: u32,
     aov: Option<Aov>,
     light: Light,
+    /// The noise below which pixels take no more samples.
+    adaptive: Option<f64>,
     shape: TileShape,
     remembers: Remembers,
     /// The tiles begun so far; capacity is reserved for all. First touching a large picture's
     /// memory takes long, so the tracing threads do it tile by tile.
     tiles: Vec<Tile>,
+    /// The pixels that take part in the current step, unless all do.
+    selection: Option<Selection>,
     /// The highest level of a pixel of the film taken over; 0 without one.
     reached: u8,
     /// The sum of the pixels' squared errors, up to the current tile of the pass.
@@ -146,9 +152,11 @@ impl Film {
                 spp,
                 aov,
                 light: Light::of(settings),
+                adaptive: settings.adaptive(),
                 shape,
                 remembers,
                 tiles,
+                selection: None,
                 reached: 0,
                 squared_errors: 0.0,
                 noise: None,
@@ -184,16 +192,43 @@ impl Film {
         self.tiles = kept.tiles;
         self.remembers = kept.remembers;
         let spp = [kept.spp, self.spp];
-        let reached = self.tiles.par_iter_mut().map(|tile| {
-            tile.forget(changed, spp);
-            tile.reached()
-        });
+        let levels: Vec<_> = self.tiles.iter().map(Tile::level).collect();
+        let tiles = self.tiles.par_iter_mut();
+        let stale = tiles.map(|tile| tile.forget(changed, spp)).collect();
+        if self.adaptive.is_some() {
+            self.forget_blocks(&levels, stale);
+        }
+        let reached = self.tiles.par_iter().map(Tile::reached);
         self.reached = reached.max().unwrap_or(0);
         self.over_budget = self.tiles.iter().map(|tile| tile.over_budget).sum();
         if changed == Touched::NOTHING && 0 < self.reached {
             kept.effort
         } else {
             Effort::default()
+        }
+    }
+
+    /// Resets all tiles of the blocks in which some are stale or lack a step that others have taken: the
+    /// state from which their pixels were selected is lost.
+    fn forget_blocks(&mut self, levels: &[u8], stale: Vec<bool>) {
+        let block = |number: usize| {
+            let [x, y] = self.shape.corner(number, self.size);
+            // Tiles of low and narrow pictures extend over several.
+            let is_within = self.shape.width.max(self.shape.height) <= BLOCK;
+            is_within.then_some([x / BLOCK, y / BLOCK])
+        };
+        let mut states = BTreeMap::new();
+        for (number, (level, is_stale)) in levels.iter().zip(stale).enumerate() {
+            let state = states.entry(block(number)).or_insert((*level, false));
+            state.1 |= is_stale || state.0 != *level;
+        }
+        for number in self.tiles.len()..self.tiles() {
+            states.entry(block(number)).or_default().1 = true;
+        }
+        for (number, tile) in self.tiles.iter_mut().enumerate() {
+            if states[&block(number)].1 {
+                *tile = Tile::new(number, self.size, self.shape, self.remembers);
+            }
         }
     }
 
@@ -228,6 +263,63 @@ impl Film {
         lacking.nth(count).unwrap_or_else(|| self.tiles())
     }
 
+    /// Selects the pixels that take part in a step, all of which lack it or none. Returns the share of
+    /// pixels that have its samples afterwards, 0 to 1.
+    pub(crate) fn select(&mut self, step: &Step) -> f64 {
+        self.selection = match (self.adaptive, step) {
+            (Some(limit), Step::Samples(indices)) if LEAST <= indices.start => {
+                let blocks = Blocks::of(self.size);
+                let select = |number| self.select_in(blocks, number, limit, step.level());
+                Some(Selection::new(blocks, select))
+            }
+            _ => None,
+        };
+        self.selection.as_ref().map_or(1.0, |selection| {
+            selection.pixels() as f64 / self.size.pixels() as f64
+        })
+    }
+
+    /// Selects the squares of a block that go on to a level. Returns also the number of pixels that
+    /// have that level afterwards.
+    fn select_in(&self, blocks: Blocks, number: u32, limit: f64, level: u8) -> (Squares, usize) {
+        let region = blocks.region(number);
+        let pixels = || {
+            let rows = region.y..region.y + region.height;
+            rows.flat_map(|y| (region.x..region.x + region.width).map(move |x| [x, y]))
+        };
+        let levels = pixels().map(|pixel| {
+            let (tile, at) = self.pixel(pixel);
+            (square(pixel), tile.pixel_level(at))
+        });
+        let levels: Vec<_> = levels.collect();
+        let highest = levels.iter().map(|&(_, level)| level).max().unwrap_or(0);
+        if level <= highest {
+            let ahead = levels.iter().filter(|&&(_, reached)| level <= reached);
+            return (Squares::default(), ahead.count());
+        }
+        let mut reached = [0; SQUARES];
+        for &(square, level) in &levels {
+            reached[square] = level;
+        }
+        // Those that stopped before have fewer samples.
+        let taking = Squares::of(|square| reached[square] == highest);
+        let errors = pixels().map(|pixel| {
+            let (tile, at) = self.pixel(pixel);
+            (square(pixel), tile.squared_error(at))
+        });
+        let squares = go_on(limit, taking, errors);
+        let selected = levels.iter().filter(|&&(square, _)| squares.has(square));
+        (squares, selected.count())
+    }
+
+    /// The tile of a pixel and its index there.
+    fn pixel(&self, [x, y]: [u32; 2]) -> (&Tile, usize) {
+        let TileShape { width, height } = self.shape;
+        let number = (y / height) as usize * self.shape.across(self.size) + (x / width) as usize;
+        let tile = &self.tiles[number];
+        (tile, tile.index([x, y]))
+    }
+
     /// Takes one step in those of some tiles that lack it, on the current thread pool. Stops once
     /// `cancelled` returns true; unfinished pixels must then be forgotten. The first step begins
     /// the tiles in order.
@@ -239,6 +331,7 @@ impl Film {
         cancelled: &(dyn Fn() -> bool + Sync),
     ) -> Counts {
         let (size, shape, remembers) = (self.size, self.shape, self.remembers);
+        let selection = self.selection.as_ref();
         let new = self.tiles.len()..tiles.end;
         self.tiles.par_extend(
             new.into_par_iter()
@@ -265,7 +358,7 @@ impl Film {
                 },
                 |work, tile| {
                     let before = work.tracer.counts();
-                    tile.advance(size, step, shot, work);
+                    tile.advance(size, (step, selection), shot, work);
                     work.tracer.counts().since(before)
                 },
             )

@@ -20,7 +20,8 @@ pub struct Settings {
     /// The only part of the picture to trace, if not all of it. Its pixels are the same as in the
     /// whole picture, except that the 8-bit values of depth span the distances in the region.
     pub region: Option<Region>,
-    /// Samples per pixel, 1 to [`MAX_SPP`](crate::scene::MAX_SPP).
+    /// Samples per pixel, 1 to [`MAX_SPP`](crate::scene::MAX_SPP); at most, if [`Settings::noise`] is
+    /// given.
     pub spp: u32,
     /// Maximum number of bounces; primary rays are bounce 0.
     pub depth: u32,
@@ -40,6 +41,9 @@ pub struct Settings {
     pub falloff: FalloffRule,
     /// What spreads mirrors and glass.
     pub gloss: GlossRule,
+    /// The noise, in displayed values from 0 to 1, below which pixels take no more samples; `None`
+    /// if all take as many.
+    pub noise: Option<f64>,
 }
 
 impl Settings {
@@ -58,6 +62,7 @@ impl Settings {
             exposure: asked.exposure.unwrap_or_default(),
             falloff: asked.falloff.unwrap_or_default(),
             gloss: asked.gloss.unwrap_or_default(),
+            noise: asked.noise(),
         }
     }
 
@@ -83,6 +88,13 @@ impl Settings {
     /// The AOV of the surfaces to trace instead of light.
     pub(crate) fn surface(&self) -> Option<Aov> {
         self.aov.filter(|aov| !aov.is_of_light() && !aov.is_share())
+    }
+
+    /// The noise below which pixels take no more samples: AOVs of surfaces have none, and shares of the
+    /// light must add up.
+    pub(crate) fn adaptive(&self) -> Option<f64> {
+        let is_light = self.aov.is_none_or(Aov::is_of_light);
+        self.noise.filter(|_| is_light)
     }
 
     /// The settings that a film depends on, apart from the samples, which are 1: what is known from
@@ -331,11 +343,17 @@ impl Frame {
 }
 
 impl Progress {
+    /// Whether pixels have different numbers of samples.
+    pub fn is_adaptive(&self) -> bool {
+        self.mean_spp < f64::from(self.spp)
+    }
+
     /// That of a picture of which nothing is traced.
     const COMPLETE: Self = Self {
         pass: 1,
         passes: 1,
         spp: 1,
+        mean_spp: 1.0,
         done: 1.0,
         elapsed: Duration::ZERO,
         rays: 0,
@@ -353,8 +371,11 @@ pub struct Progress {
     pub pass: u32,
     /// Total number of passes, if no [`Limit`] is met earlier.
     pub passes: u32,
-    /// Samples of every pixel; 0 while the picture is coarse.
+    /// Samples of every pixel, or with adaptive sampling of those that take most; 0 while the picture
+    /// is coarse.
     pub spp: u32,
+    /// Samples taken, divided by the number of pixels.
+    pub mean_spp: f64,
     /// Fraction of the work done, 0 to 1: of all samples, or as estimated of a [`Limit`].
     pub done: f64,
     /// Time since the start of the job, without pauses.

@@ -42,6 +42,7 @@
 //! Rays are intersected in packets of eight with one object after the other ([`packets`]), or
 //! singly with up to eight [`spheres`] at once ([`intersect`]), with bitwise equal results.
 
+mod adaptive;
 mod assembly;
 mod block;
 mod block_tracer;

@@ -2,6 +2,7 @@
 
 mod stored;
 
+use super::adaptive::Selection;
 use super::denoise::UNKNOWN;
 use super::first_hit::first_hit;
 use super::frame::{Aov, Frames, NO_OBJECT, Settings};
@@ -106,6 +107,15 @@ impl TileShape {
         ((y - top) * self.width + (x - left)) as usize
     }
 
+    /// The top left pixel of a tile with this number.
+    pub(crate) fn corner(self, number: usize, size: Size) -> [u32; 2] {
+        let across = self.across(size);
+        [
+            (number % across) as u32 * self.width,
+            (number / across) as u32 * self.height,
+        ]
+    }
+
     /// Tiles in each row of a picture.
     pub(crate) fn across(self, size: Size) -> usize {
         size.width.div_ceil(self.width) as usize
@@ -131,7 +141,7 @@ pub(crate) struct Tile {
     levels: [u8; AREA as usize],
     /// Spacing of the finest complete grid, until every pixel is traced.
     grid: u32,
-    /// Minimum level of all pixels.
+    /// The level that all pixels have after the steps taken, except those that stopped.
     level: u8,
     /// The sum of its pixels' squared errors after the last pass that estimated them.
     pub(crate) squared_errors: f64,
@@ -167,9 +177,10 @@ impl Remembers {
     /// What the tiles of a picture store. Live pictures are continued whether or not they are denoised.
     pub(crate) fn of(settings: &Settings, frames: Frames, denoise: bool) -> Self {
         let shown = matches!(settings.aov, Some(Aov::Cost | Aov::Noise));
+        let decides = settings.adaptive().is_some();
         let guides = denoise && frames != Frames::Live;
         let is_small = settings.traced().size().pixels() <= MOST_REMEMBERED;
-        if shown || guides || frames == Frames::Live && is_small {
+        if shown || guides || decides || frames == Frames::Live && is_small {
             Self::Causes
         } else {
             Self::Pixels
@@ -194,7 +205,6 @@ impl Tile {
 
     /// Creates an empty tile, given its number in the film.
     pub(crate) fn new(number: usize, size: Size, shape: TileShape, remembers: Remembers) -> Self {
-        let across = shape.across(size);
         let memory = || {
             Box::new(Memory {
                 touched: [Touched::default(); AREA as usize],
@@ -204,10 +214,7 @@ impl Tile {
             })
         };
         let mut tile = Self {
-            corner: [
-                (number % across) as u32 * shape.width,
-                (number / across) as u32 * shape.height,
-            ],
+            corner: shape.corner(number, size),
             shape,
             sums: [Rgb::ZERO; AREA as usize],
             objects: [NO_OBJECT; AREA as usize],
@@ -235,11 +242,11 @@ impl Tile {
         }
     }
 
-    /// Takes a step in those pixels that lack it.
+    /// Takes a step in those pixels that lack it, if they are selected.
     pub(crate) fn advance<C: Fn() -> bool>(
         &mut self,
         size: Size,
-        step: &Step,
+        (step, selection): (&Step, Option<&Selection>),
         shot: &Shot<'_>,
         work: &mut Work<'_, C>,
     ) {
@@ -251,7 +258,8 @@ impl Tile {
         work.pixels.clear();
         self.each_pixel(size, step.spacing(), |tile, pixel| {
             let at = tile.index(pixel);
-            if tile.levels[at] < level {
+            let is_selected = selection.is_none_or(|selection| selection.has(pixel));
+            if tile.levels[at] < level && is_selected {
                 tile.levels[at] = 0;
                 work.pixels.push(pixel);
             }
@@ -311,8 +319,8 @@ impl Tile {
 
     /// Resets the pixels that depend on a change, those whose tracing was cancelled, and those with
     /// a number of samples that is no step on the way to the new one, given the maximum before and
-    /// now.
-    pub(crate) fn forget(&mut self, changed: Touched, [before, now]: [u32; 2]) {
+    /// now. Returns whether there are any.
+    pub(crate) fn forget(&mut self, changed: Touched, [before, now]: [u32; 2]) -> bool {
         let memory = self.memory.as_deref();
         let stale: [bool; AREA as usize] = std::array::from_fn(|at| {
             let level = self.levels[at];
@@ -321,7 +329,7 @@ impl Tile {
             level == 0 || !is_step || (changed != Touched::NOTHING && memory.is_none_or(depends))
         });
         if !stale.contains(&true) {
-            return;
+            return false;
         }
         // The pixels that exceeded their budget are not known individually.
         let is_whole = 0 < self.over_budget;
@@ -333,6 +341,23 @@ impl Tile {
         }
         self.grid = NO_GRID;
         self.level = 0;
+        true
+    }
+
+    /// The level of a pixel, see [`Step::level`].
+    pub(crate) fn pixel_level(&self, at: usize) -> u8 {
+        self.levels[at]
+    }
+
+    /// The level after the steps taken.
+    pub(crate) fn level(&self) -> u8 {
+        self.level
+    }
+
+    /// The squared error of a pixel after the last step that estimated it; 0 where it is not recorded.
+    pub(crate) fn squared_error(&self, at: usize) -> f32 {
+        let memory = self.memory.as_ref();
+        memory.map_or(0.0, |memory| memory.squared_errors[at])
     }
 
     /// The sum of the numbers of its pixels' samples, of at most `spp` each.
@@ -373,8 +398,7 @@ impl Tile {
 
     /// The estimated error of a pixel, 0 to 1; 0 where it is not recorded.
     pub(crate) fn error(&self, at: usize) -> f32 {
-        let memory = self.memory.as_ref();
-        memory.map_or(0.0, |memory| memory.squared_errors[at].sqrt())
+        self.squared_error(at).sqrt()
     }
 
     /// The variance of a pixel's mean, as the mean of its channels; negative if it is not known.
@@ -430,7 +454,8 @@ impl Tile {
         }
     }
 
-    fn index(&self, pixel: [u32; 2]) -> usize {
+    /// The index of a pixel.
+    pub(crate) fn index(&self, pixel: [u32; 2]) -> usize {
         self.shape.index(self.corner, pixel)
     }
 }

@@ -111,6 +111,8 @@ pub(crate) struct Tracing<'s, W> {
     counts: Counts,
     /// Samples taken, divided by the number of pixels.
     taken: f64,
+    /// The share of pixels that take part in the current step.
+    unfinished: f64,
     pass: u32,
     whole_samples: u32,
     complete: bool,
@@ -141,6 +143,7 @@ impl<'s, W: Fn() + Sync> Tracing<'s, W> {
             before,
             counts: before.counts,
             taken: 0.0,
+            unfinished: 1.0,
             pass: 1,
             whole_samples: 0,
             complete: false,
@@ -157,6 +160,13 @@ impl<'s, W: Fn() + Sync> Tracing<'s, W> {
         {
             self.pass += 1;
         }
+        let selected = self.film.select(step);
+        if selected == 0.0 {
+            self.complete = true;
+            self.publish(shot);
+            return false;
+        }
+        self.unfinished = selected;
         let before = self.taken;
         let tiles = self.film.tiles();
         let mut next = 0;
@@ -174,7 +184,7 @@ impl<'s, W: Fn() + Sync> Tracing<'s, W> {
             let took = self.ticket.elapsed().saturating_sub(begun);
             self.batch = next_batch(self.batch, took, Batches::of(self.job.frames).time);
             next = until;
-            self.taken = before + step.share() * (next as f64 / tiles as f64);
+            self.taken = before + selected * step.share() * (next as f64 / tiles as f64);
             if next < tiles && self.is_due() {
                 self.publish(shot);
             }
@@ -222,7 +232,7 @@ impl<'s, W: Fn() + Sync> Tracing<'s, W> {
     /// The fraction of the work done. Noise falls with the square root of the number of samples.
     fn done(&self) -> f64 {
         let all = f64::from(self.job.settings.spp);
-        let share = self.taken / all;
+        let share = (self.taken / all).max(1.0 - self.unfinished);
         match (self.job.limit, self.film.noise()) {
             _ if self.complete => 1.0,
             (Some(Limit::Time(limit)), _) => {
@@ -353,6 +363,7 @@ impl<'s, W: Fn() + Sync> Tracing<'s, W> {
             pass: self.pass,
             passes: self.job.settings.passes(),
             spp: self.whole_samples,
+            mean_spp: self.taken,
             done: self.done(),
             elapsed: self.elapsed(),
             rays: self.counts.rays,

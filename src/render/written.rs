@@ -5,9 +5,9 @@ use super::region::Region;
 use crate::scene::{FalloffRule, Filter, GlossRule, Integrator, Size, Transfer};
 
 impl Settings {
-    /// The name and value of each setting but the number of samples, in a fixed order. Numbers are
-    /// the shortest that read back as the same bits.
-    pub fn written(&self) -> [(&'static str, String); 11] {
+    /// The name and value of each setting but the number of samples, in a fixed order, the noise only if
+    /// it is given. Numbers are the shortest that read back as the same bits.
+    pub fn written(&self) -> Vec<(&'static str, String)> {
         let Self {
             size: Size { width, height },
             region,
@@ -21,9 +21,11 @@ impl Settings {
             exposure,
             falloff,
             gloss,
+            noise,
         } = *self;
         let none = || "none".to_owned();
-        [
+        let noise = noise.map(|noise| ("noise", noise.to_string()));
+        let always = [
             ("size", format!("{width}x{height}")),
             (
                 "region",
@@ -37,14 +39,15 @@ impl Settings {
             ("transfer", transfer.name().to_owned()),
             ("exposure", exposure.to_string()),
             ("falloff", falloff.name().to_owned()),
-            ("gloss", gloss.name().to_owned()),
-        ]
+        ];
+        let last = ("gloss", gloss.name().to_owned());
+        always.into_iter().chain(noise).chain([last]).collect()
     }
 
     /// Reads settings as [`Settings::written`], in this order, for `spp` samples. `None` if they are
     /// no such settings.
     pub fn read<'t>(pairs: impl IntoIterator<Item = (&'t str, &'t str)>, spp: u32) -> Option<Self> {
-        let mut pairs = pairs.into_iter();
+        let mut pairs = pairs.into_iter().peekable();
         let mut next = |name: &str| {
             let (written, value) = pairs.next()?;
             (written == name).then_some(value)
@@ -54,7 +57,7 @@ impl Settings {
             "none" => None,
             region => Some(Region::parse(region)?.within(size).ok()?),
         };
-        let settings = Self {
+        let mut settings = Self {
             size,
             region,
             spp,
@@ -69,8 +72,15 @@ impl Settings {
             transfer: one_of(&Transfer::ALL, Transfer::name, next("transfer")?)?,
             exposure: next("exposure")?.parse().ok()?,
             falloff: one_of(&FalloffRule::ALL, FalloffRule::name, next("falloff")?)?,
-            gloss: one_of(&GlossRule::ALL, GlossRule::name, next("gloss")?)?,
+            gloss: GlossRule::None,
+            noise: None,
         };
+        if let Some((_, noise)) = pairs.next_if(|(name, _)| *name == "noise") {
+            let noise = noise.parse().ok();
+            settings.noise = Some(noise.filter(|noise| 0.0 < *noise && *noise < 1.0)?);
+        }
+        let gloss = pairs.next().filter(|(name, _)| *name == "gloss")?.1;
+        settings.gloss = one_of(&GlossRule::ALL, GlossRule::name, gloss)?;
         settings.exposure.is_finite().then_some(settings)
     }
 }
@@ -132,6 +142,7 @@ mod tests {
             exposure: 0.0,
             falloff: FalloffRule::None,
             gloss: GlossRule::None,
+            noise: None,
         };
         let region = Region {
             x: 1,
@@ -147,6 +158,7 @@ mod tests {
             filter: Filter::BlackmanHarris,
             transfer: Transfer::Srgb,
             exposure: -0.1,
+            noise: Some(0.02),
             ..plain
         };
         let with = |&aov: &Aov| Settings {

@@ -5,6 +5,9 @@ use std::ops::RangeInclusive;
 /// Default samples per pixel of full-size pictures.
 pub const DEFAULT_SPP: u32 = 16;
 
+/// Default maximum of samples per pixel with adaptive sampling.
+const DEFAULT_ADAPTIVE_SPP: u32 = 4096;
+
 /// Maximum samples per pixel: the length of the sample sequence.
 pub const MAX_SPP: u32 = 65_536;
 
@@ -40,6 +43,9 @@ pub struct Rendering {
     pub falloff: Option<FalloffRule>,
     /// What spreads mirrors and glass.
     pub gloss: Option<GlossRule>,
+    /// The noise below which pixels take no more samples, in displayed values, 0 to less than 1; 0
+    /// turns adaptive sampling off.
+    pub noise: Option<f64>,
 }
 
 impl Rendering {
@@ -55,6 +61,7 @@ impl Rendering {
             exposure: self.exposure.or(others.exposure),
             falloff: self.falloff.or(others.falloff),
             gloss: self.gloss.or(others.gloss),
+            noise: self.noise.or(others.noise),
         }
     }
 
@@ -69,9 +76,19 @@ impl Rendering {
             .unwrap_or_else(|| self.integrator().default_depth())
     }
 
-    /// The samples per pixel asked for, or the default of full-size pictures.
+    /// The samples per pixel asked for, or the default of full-size pictures; at most, with adaptive
+    /// sampling.
     pub fn spp(&self) -> u32 {
-        self.spp.unwrap_or(DEFAULT_SPP)
+        let default = match self.noise() {
+            None => DEFAULT_SPP,
+            Some(_) => DEFAULT_ADAPTIVE_SPP,
+        };
+        self.spp.unwrap_or(default)
+    }
+
+    /// The noise below which pixels take no more samples, above 0; `None` if all take as many.
+    pub fn noise(&self) -> Option<f64> {
+        self.noise.filter(|&noise| 0.0 < noise)
     }
 }
 

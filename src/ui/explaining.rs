@@ -97,6 +97,7 @@ mod tests {
                 exposure: 0.0,
                 falloff: FalloffRule::None,
                 gloss: GlossRule::None,
+                noise: None,
                 region: None,
             },
             scene,

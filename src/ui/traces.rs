@@ -25,7 +25,7 @@ use crate::file::{self, Digest, Digested, ReadError};
 use crate::render::{Job, Kept, Provenance};
 
 /// The first line, with the version of the format.
-const MAGIC: &str = "halflight trace 1";
+const MAGIC: &str = "halflight trace 2";
 
 /// The most files, and the most bytes of all of them; the newest alone may have more.
 const MOST: usize = 4;

@@ -27,6 +27,7 @@ fn shards_make_the_picture_of_a_single_render() {
         "--size 100x70 --spp 3",
         "--size 70x40 --integrator path --spp 2 --transfer srgb",
         "--size 64x70 --aov depth --region 3,5,40,60",
+        "--size 70x40 --spp 64 --noise 0.02",
     ] {
         let whole = place.rendered("whole.png", options);
         for count in [1, 2, 3, 7, 64] {
@@ -178,6 +179,10 @@ fn parts_need_files_and_fixed_samples() {
         (
             "render ball.ray -o a.bmp --resume --denoise",
             "leave out --resume",
+        ),
+        (
+            "render ball.ray -o a.bmp --shard 0/2 --aov cost --noise 0.1",
+            "use --noise 0",
         ),
         ("merge", "required"),
         ("merge a.part", "--output"),

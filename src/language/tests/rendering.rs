@@ -58,6 +58,7 @@ fn every_key_is_read_in_every_language() {
         ("exposure", "-1.5"),
         ("falloff", "square"),
         ("gloss", "exponent"),
+        ("noise", "0.02"),
     ];
     assert!(
         RenderKey::all()
@@ -73,6 +74,7 @@ fn every_key_is_read_in_every_language() {
         exposure: Some(-1.5),
         falloff: Some(FalloffRule::Square),
         gloss: Some(GlossRule::Exponent),
+        noise: Some(0.02),
     };
     for (language, scene) in SCENES {
         let none = read(language, scene, "");
@@ -88,6 +90,10 @@ fn what_is_wrong_with_a_setting_skips_only_that() {
         (
             ("depth", "4097"),
             "render depth: must be a whole number from 0 to 4096",
+        ),
+        (
+            ("noise", "1"),
+            "render noise: must be 0 or more and less than 1",
         ),
         (("depth", "3f"), "render depth: `3f` is not a number"),
         (

@@ -53,7 +53,7 @@ fn traced(job: &Job, spp: u32, polls: Option<u32>) -> Vec<Block> {
 }
 
 #[track_caller]
-fn assert_same(scene: &Arc<Scene>, settings: Settings, polls: Option<u32>) {
+pub(super) fn assert_same(scene: &Arc<Scene>, settings: Settings, polls: Option<u32>) {
     let job = Job {
         frames: Frames::LastWithValues,
         ..job(scene, settings)

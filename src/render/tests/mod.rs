@@ -1,5 +1,6 @@
 //! Tests of pixels whose values are known analytically.
 
+mod adaptive;
 mod blocks;
 mod cameras;
 mod continuing;
@@ -309,6 +310,7 @@ fn settings(width: u32, height: u32, spp: u32) -> Settings {
         exposure: 0.0,
         falloff: FalloffRule::None,
         gloss: GlossRule::None,
+        noise: None,
     }
 }
 

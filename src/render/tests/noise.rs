@@ -8,7 +8,7 @@ use super::super::steps::Step;
 use super::*;
 
 /// A wall of squares in two greys, with so many per pixel that samples are random.
-fn wall() -> Arc<Scene> {
+pub(super) fn wall() -> Arc<Scene> {
     let wall = cuboid([-20.0, -15.0, -1.0], [40.0, 30.0, 1.0]);
     let mut scene = scene(&[(wall, BLACK)], &[]);
     scene.materials = vec![painted(grey(1.0), Some(0))];

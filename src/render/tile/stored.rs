@@ -1,9 +1,9 @@
 //! Tiles as bytes, with integers and floats in little-endian order: sums as 3 f64 a pixel, indices of
-//! objects as u32, levels as u8, the sum of squared errors as f64, samples over budget as u64, and
-//! with [`super::Memory`] the touched sets as u64, squared errors and variances as f32 and rays as
-//! u32.
+//! objects as u32, levels as u8, the level of the tile as u8, the sum of squared errors as f64, samples
+//! over budget as u64, and with [`super::Memory`] the touched sets as u64, squared errors and variances
+//! as f32 and rays as u32.
 //!
-//! Grid and level are not stored: a tile that lacks a sample of a pixel takes the grids again.
+//! The grid is not stored: a tile that lacks a sample of a pixel takes the grids again.
 
 use super::{AREA, BEYOND, NO_GRID, Remembers, Tile};
 use crate::render::frame::NO_OBJECT;
@@ -22,7 +22,7 @@ impl Tile {
             Remembers::Pixels => 0,
             Remembers::Causes => MEMORY,
         };
-        AREA as usize * (PIXEL + memory) + 8 + 8
+        AREA as usize * (PIXEL + memory) + 1 + 8 + 8
     }
 
     /// Appends its bytes.
@@ -32,6 +32,7 @@ impl Tile {
         }
         bytes.extend(self.objects.map(u32::to_le_bytes).as_flattened());
         bytes.extend(self.levels);
+        bytes.push(self.level);
         bytes.extend(self.squared_errors.to_le_bytes());
         bytes.extend(self.over_budget.to_le_bytes());
         if let Some(memory) = &self.memory {
@@ -57,7 +58,6 @@ impl Tile {
                 return None;
             }
         }
-        self.level = last;
         for level in &mut self.levels {
             let [stored] = next(&mut bytes)?;
             // Pixels beyond the edge are the same in all tiles with this number.
@@ -65,7 +65,10 @@ impl Tile {
                 return None;
             }
             *level = stored;
-            self.level = self.level.min(stored);
+        }
+        [self.level] = next(&mut bytes)?;
+        if last < self.level {
+            return None;
         }
         self.grid = NO_GRID;
         self.squared_errors = f64::from_le_bytes(next(&mut bytes)?);

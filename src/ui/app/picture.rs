@@ -289,6 +289,7 @@ mod tests {
                 pass: 1,
                 passes: 2,
                 spp: 1,
+                mean_spp: 1.0,
                 done: 0.5,
                 elapsed: Duration::ZERO,
                 rays: 1,

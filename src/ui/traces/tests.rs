@@ -38,6 +38,7 @@ pub(in crate::ui) fn job(spp: u32) -> Job {
             exposure: 0.0,
             falloff: FalloffRule::None,
             gloss: GlossRule::None,
+            noise: None,
         },
         scene: Arc::new(scene),
         images: Images::default(),

@@ -327,6 +327,9 @@ fn making_segment(app: &App, say: &mut impl FnMut(u8, String, Style)) {
     } else {
         say(28, name.to_owned(), theme::DIM);
     }
+    if app.rendering().noise().is_some() {
+        say(9, "adaptive, slightly biased".to_owned(), theme::DIM);
+    }
 }
 
 /// Adds the region being drawn, or the scale of the picture and its place in the window.
@@ -351,7 +354,12 @@ fn progress_segments(progress: &Progress, say: &mut impl FnMut(u8, String, Style
         let pass = format!("pass {}/{}", progress.pass, progress.passes);
         say(25, pass, theme::DIM);
     }
-    say(21, format!("{} spp", progress.spp), Style::new());
+    let spp = if progress.is_adaptive() {
+        format!("{:.0} of {} spp", progress.mean_spp, progress.spp)
+    } else {
+        format!("{} spp", progress.spp)
+    };
+    say(21, spp, Style::new());
     if !progress.complete {
         say(20, percent(progress.done), theme::ACCENT);
     }
@@ -414,8 +422,8 @@ fn duration(time: Duration) -> String {
 mod tests {
     use super::*;
     use crate::language::Language;
-    use crate::render::Aov;
-    use crate::scene::Integrator;
+    use crate::render::{Aov, Frame};
+    use crate::scene::{Integrator, Size};
     use crate::ui::app::{Message, Picture, Typing, Wires};
     use crate::ui::view::tests::{app, app_of, drawn, retype};
     use tui_input::Input;
@@ -469,6 +477,7 @@ mod tests {
                 pass: 3,
                 passes: 6,
                 spp: 2,
+                mean_spp: 2.0,
                 done: 0.25,
                 elapsed: Duration::from_millis(1500),
                 rays: 21_000_000,
@@ -488,6 +497,30 @@ mod tests {
             "pass 3/6 · 2 spp · 25 % · noise 1.3 % · 1.5 s · ETA 4.5 s · 14 Mray/s"
         );
         assert_eq!(said(true), "2 spp · noise 1.3 % · 1.5 s · 14 Mray/s");
+    }
+
+    #[test]
+    fn adaptive_sampling_tells_the_mean_and_its_bias() {
+        let progress = Progress {
+            spp: 256,
+            mean_spp: 41.3,
+            ..Frame::drawn(
+                Size {
+                    width: 1,
+                    height: 1,
+                },
+                Vec::new(),
+            )
+            .progress
+        };
+        let mut words = Vec::new();
+        progress_segments(&progress, &mut |_, text, _| words.push(text));
+        assert_eq!(words, ["41 of 256 spp"]);
+        let mut app = app();
+        app.pictures.rendering.noise = Some(0.01);
+        words.clear();
+        making_segment(&app, &mut |_, text, _| words.push(text));
+        assert_eq!(words, ["whitted", "adaptive, slightly biased"]);
     }
 
     #[test]

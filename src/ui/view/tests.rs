@@ -138,6 +138,7 @@ fn frame(width: u32, height: u32) -> Arc<Frame> {
             pass: 1,
             passes: 7,
             spp: 1,
+            mean_spp: 1.0,
             done: 0.5,
             elapsed: std::time::Duration::from_millis(300),
             rays: 1_000_000,

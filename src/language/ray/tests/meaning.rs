@@ -152,7 +152,7 @@ fn nodes_exist_as_far_as_the_text_is_understood() {
     assert_eq!(
         fields,
         [
-            "render: integrator depth spp filter transfer exposure falloff gloss",
+            "render: integrator depth spp filter transfer exposure falloff gloss noise",
             "view: eye target up fov size",
             "ambient: colour",
             "light 1: position colour",

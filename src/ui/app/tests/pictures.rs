@@ -23,6 +23,7 @@ pub(in crate::ui) fn frame(size: Size, objects: Vec<u32>) -> Frame {
             pass: 1,
             passes: 1,
             spp: 1,
+            mean_spp: 1.0,
             done: 1.0,
             elapsed: Duration::ZERO,
             rays: 1,
