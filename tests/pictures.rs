@@ -9,8 +9,7 @@ use halflight::image_file::{ImageFormat, Picture};
 use halflight::language::table::{Field, Kind, Range};
 use halflight::language::{Language, Lowered, NamedFile, Node, Source};
 use halflight::render::{Frame, Frames, Job, Renderer, Settings, Threads};
-use halflight::scene::{FalloffRule, Filter, GlossRule};
-use halflight::scene::{Images, Integrator, Meshes, Scene, Size};
+use halflight::scene::{Images, Integrator, Meshes, Rendering, Scene, Size};
 use halflight::text::{Edit, parse_number};
 
 /// Size of the pictures beside the scenes and their samples per pixel, as in `scenes/README.md`.
@@ -20,18 +19,19 @@ const SIZE: Size = Size {
 };
 const SPP: u32 = 8;
 
-/// Samples per pixel of path-traced pictures.
+/// Samples per pixel of path-traced pictures of scenes that do not state them.
 const PATH_SPP: u32 = 64;
 
 #[test]
 fn the_pictures_beside_the_scenes_match_the_renderer() {
     for own in scenes() {
         let (scene, images) = own.meaning();
-        let spp = match scene.setting.rendering.integrator() {
+        let rendering = scene.setting.rendering;
+        let spp = match rendering.integrator() {
             Integrator::Whitted => SPP,
             Integrator::Path => PATH_SPP,
         };
-        let frame = trace(&scene, images, SIZE, spp);
+        let frame = trace(&scene, images, SIZE, rendering.spp.unwrap_or(spp));
         let mut bytes = Vec::new();
         ImageFormat::Bmp
             .write(Picture::of(&frame), &mut bytes)
@@ -211,21 +211,11 @@ fn trace(scene: &Arc<Scene>, images: Images, size: Size, spp: u32) -> Arc<Frame>
     let mut renderer = Renderer::new(Threads::Exactly(threads), move || {
         let _ = wake.send(());
     });
-    let settings = Settings {
-        size,
-        region: None,
-        spp,
-        depth: scene.setting.rendering.integrator().default_depth(),
-        seed: 0,
-        aov: None,
-        integrator: scene.setting.rendering.integrator(),
-        filter: Filter::Box,
-        transfer: scene.setting.rendering.transfer.unwrap_or_default(),
-        exposure: 0.0,
-        falloff: FalloffRule::None,
-        gloss: GlossRule::None,
-        noise: None,
+    let asked = Rendering {
+        spp: Some(spp),
+        ..scene.setting.rendering
     };
+    let settings = Settings::new(size, &asked);
     let job = Job {
         scene: Arc::clone(scene),
         images,
