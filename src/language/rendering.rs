@@ -156,14 +156,18 @@ impl RenderPlace {
         }
     }
 
-    /// Reads a setting. What is wrong with it is a warning, and it is skipped.
+    /// Reads a setting. What is wrong with it is a warning, and it is skipped, but stays the place to edit
+    /// unless the setting is stated again.
     pub(super) fn read(&mut self, key: &str, word: &str, part: Part, report: &mut Findings) {
         let Some(at) = index_of(key) else {
             self.holds_more = true;
             report.warning(|| unknown_key(part.whole, key));
             return;
         };
-        if self.parts[at].is_some() {
+        if spelled(&self.rendering)
+            .iter()
+            .any(|(stated, _)| *stated == key)
+        {
             self.holds_more = true;
             report.warning(|| {
                 let message = format!("render {key}: given twice");
@@ -179,6 +183,7 @@ impl RenderPlace {
             }
             Err(bad) => {
                 self.holds_more = true;
+                self.parts[at].get_or_insert(part);
                 report.warning(|| {
                     let hint = match &bad.hint {
                         Some(hint) => format!("it is skipped; {hint}"),

@@ -14,7 +14,7 @@ use crate::language::surroundings::{
     DISTANT, FADING, SHADOWLESS, SIZE, SPOT, angle, faded, report_plain,
 };
 use crate::language::whitted::whitted;
-use crate::scene::{Camera, Emitter, Falloff, Light, Rgb, Scene, Shadows, Size};
+use crate::scene::{Camera, Emitter, Falloff, FalloffRule, Light, Rgb, Scene, Shadows, Size};
 
 /// The distance of a point light that stands for one infinitely far away, in radii of the scene.
 const FAR_AWAY: f64 = 1e4;
@@ -128,7 +128,9 @@ fn point(
                 losses.add(of, &SPOT);
             }
             let mut colour = light.colour;
-            if falloff.radial != Falloff::NONE.radial {
+            let is_by_rule = falloff.radial == [0.0, 0.0, 1.0]
+                && scene.setting.rendering.falloff == Some(FalloffRule::Square);
+            if falloff.radial != Falloff::NONE.radial && !is_by_rule {
                 losses.add(of, &FADING);
                 colour = faded(light, *position, falloff, scene.bounds());
             }

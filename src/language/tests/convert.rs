@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use super::read_as;
 use crate::language::{Converted, Language, convert};
-use crate::scene::Meshes;
+use crate::scene::{FalloffRule, Meshes, Rgb};
 use crate::text::Position;
 
 const RAY: &str = r#"// view: eye 0 0 9 target 0 0 0 up 0 1 0 fov 40 size 8 6
@@ -368,4 +368,30 @@ fn thousands_of_objects_are_written() {
         let scene = lowered.scene.expect("it has no errors");
         assert_eq!(scene.objects.len(), 5000);
     }
+}
+
+/// Where a setting gives lights without terms of their own that falloff.
+#[test]
+fn a_falloff_by_the_square_is_kept_by_the_setting_for_it() {
+    let light = "<light type='point' name='lamp'><intensity value='3'/><position z='9'/>\
+                 <attenuation value='1'/></light>";
+    let scene = |setting: &str| {
+        format!("<xml>{setting}<scene>{light}</scene><camera><width value='8'/></camera></xml>")
+    };
+    let fading = |text: &str| {
+        let (_, lost) = converted(Language::Xml, text, Language::Ray);
+        lost.iter()
+            .any(|loss| loss.ends_with("light that fades with distance"))
+    };
+    assert!(fading(&scene("")));
+    assert!(!fading(&scene("<render falloff='square'/>")));
+    let (written, _) = converted(
+        Language::Xml,
+        &scene("<render falloff='square'/>"),
+        Language::Ray,
+    );
+    let (_, lowered) = read_as(Language::Ray, &written, &Meshes::default());
+    let scene = lowered.scene.expect("it has no errors");
+    assert_eq!(scene.lights[0].colour, Rgb::splat(3.0));
+    assert_eq!(scene.setting.rendering.falloff, Some(FalloffRule::Square));
 }

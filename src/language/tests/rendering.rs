@@ -293,3 +293,21 @@ fn removing_a_setting_keeps_what_else_the_comment_holds() {
             .replace('@', "  <render><!-- why --></render>\n")
     );
 }
+
+#[test]
+fn a_bad_value_is_replaced_in_place() {
+    for (language, scene) in SCENES {
+        let mut text = scene.replace('@', &line(language, &[("spp", "4"), ("depth", "many")]));
+        for value in ["7", "9"] {
+            let (source, _) = read_as(language, &text, &Meshes::default());
+            let fields = source.fields(Node::Render);
+            let depth = fields.iter().find(|placed| placed.field.key == "depth");
+            let depth = depth.expect("it is listed");
+            apply(&mut text, &depth.edits(&*source, &[(0, value.to_owned())]));
+            let expected = line(language, &[("spp", "4"), ("depth", value)]);
+            assert_eq!(text, scene.replace('@', &expected));
+        }
+    }
+    let twice = read(SCENES[0].0, SCENES[0].1, "// render: depth many depth 5\n");
+    assert_eq!(twice.0.depth, Some(5));
+}
