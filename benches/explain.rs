@@ -85,6 +85,7 @@ fn times(
             falloff: FalloffRule::None,
             gloss: GlossRule::None,
             noise: None,
+            clamp: None,
         },
         limit: None,
         frames: Frames::Last,

@@ -440,6 +440,7 @@ fn tracing(scene: &Arc<Scene>) -> (Renderer, Receiver<()>) {
         falloff: FalloffRule::None,
         gloss: GlossRule::None,
         noise: None,
+        clamp: None,
     };
     let job = Job {
         scene: Arc::clone(scene),

@@ -262,6 +262,7 @@ fn traced(scene: &Arc<Scene>, threads: usize) -> (Duration, Arc<Frame>) {
             falloff: FalloffRule::None,
             gloss: GlossRule::None,
             noise: None,
+            clamp: None,
         };
         let job = Job {
             scene: Arc::clone(scene),

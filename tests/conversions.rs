@@ -151,6 +151,7 @@ fn trace(scene: &Arc<Scene>, images: Images) -> Arc<Frame> {
         transfer: scene.setting.rendering.transfer.unwrap_or_default(),
         exposure: 0.0,
         noise: None,
+        clamp: None,
         falloff: FalloffRule::None,
         gloss: GlossRule::None,
     };

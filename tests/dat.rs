@@ -134,6 +134,7 @@ fn trace(scene: &Arc<Scene>, threads: usize) -> Arc<Frame> {
                 falloff: FalloffRule::None,
                 gloss: GlossRule::None,
                 noise: None,
+                clamp: None,
             },
             limit: None,
             frames: Frames::Last,

@@ -69,6 +69,7 @@ fn the_example_is_white_on_black() {
             transfer: Transfer::default(),
             exposure: 0.0,
             noise: None,
+            clamp: None,
             falloff: FalloffRule::None,
             gloss: GlossRule::None,
         },

@@ -275,6 +275,7 @@ impl Stage {
                 falloff: FalloffRule::None,
                 gloss: GlossRule::None,
                 noise: None,
+                clamp: None,
             },
             limit: None,
             frames: Frames::Last,

@@ -260,6 +260,12 @@ fn finish(work: &Render, frame: &Frame, traced: &Traced) -> Result<(), Error> {
             &format!("{samples} ran out of rays and may be too dark; try a lower --depth"),
         );
     }
+    if let Some(most) = traced.picture.settings.clamp {
+        print_message(
+            "note",
+            &format!("samples are clamped to {most}: the picture lacks the light above (biased)"),
+        );
+    }
     if frame.progress.is_adaptive() {
         let Progress { spp, mean_spp, .. } = frame.progress;
         print_message(

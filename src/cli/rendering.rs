@@ -35,6 +35,10 @@ pub(super) struct RenderingArguments {
     /// samples; 0 turns it off [default: the scene's, otherwise 0]
     #[arg(long, value_name = "ERROR", value_parser = parse_noise)]
     noise: Option<f64>,
+    /// Scale samples down whose largest channel exceeds this, which removes fireflies at the cost of
+    /// light (biased); 0 does not [default: 0]
+    #[arg(long, value_name = "MAX", value_parser = parse_clamp)]
+    clamp: Option<f64>,
 }
 
 impl RenderingArguments {
@@ -50,6 +54,7 @@ impl RenderingArguments {
             falloff: self.falloff.map(FalloffChoice::value),
             gloss: self.gloss.map(GlossChoice::value),
             noise: self.noise,
+            clamp: self.clamp,
         }
     }
 }
@@ -69,4 +74,10 @@ fn parse_noise(text: &str) -> Result<f64, String> {
     noise
         .filter(|noise| (0.0..1.0).contains(noise))
         .ok_or_else(|| "expected a number from 0 to less than 1".to_owned())
+}
+
+fn parse_clamp(text: &str) -> Result<f64, String> {
+    let most = text.parse().ok();
+    most.filter(|most: &f64| most.is_finite() && 0.0 <= *most)
+        .ok_or_else(|| "expected a number, 0 or more".to_owned())
 }

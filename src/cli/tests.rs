@@ -130,6 +130,7 @@ fn render_options_have_defaults() {
         falloff: Some(FalloffRule::Square),
         gloss: Some(GlossRule::Exponent),
         noise: None,
+        clamp: None,
     };
     assert_eq!(given.tracing.rendering, asked);
     assert_eq!(given.output, Output::StdoutTerminal);

@@ -68,6 +68,7 @@ fn explain(language: Language, text: &str, pixel: [u32; 2], how: How) -> Words {
             falloff: FalloffRule::None,
             gloss: GlossRule::None,
             noise: None,
+            clamp: None,
         },
         limit: None,
         frames: Frames::Last,

@@ -376,6 +376,7 @@ pub(super) fn spelled(rendering: &Rendering) -> Vec<(&'static str, String)> {
         falloff,
         gloss,
         noise,
+        clamp: _,
     } = *rendering;
     let word = |name: &'static str| name.to_owned();
     let values = [
@@ -546,6 +547,7 @@ mod tests {
             falloff: Some(FalloffRule::Square),
             gloss: Some(GlossRule::Exponent),
             noise: Some(0.02),
+            clamp: None,
         };
         let text = words(&settings);
         let body = Span::new(0, text.len());

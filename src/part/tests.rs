@@ -44,6 +44,7 @@ fn picture() -> Provenance {
             falloff: FalloffRule::None,
             gloss: GlossRule::None,
             noise: None,
+            clamp: None,
         },
     }
 }

@@ -142,6 +142,7 @@ mod tests {
             falloff: FalloffRule::None,
             gloss: GlossRule::None,
             noise: None,
+            clamp: None,
         }
     }
 

@@ -44,6 +44,9 @@ pub struct Settings {
     /// The noise, in displayed values from 0 to 1, below which pixels take no more samples; `None`
     /// if all take as many.
     pub noise: Option<f64>,
+    /// What the largest channel of each sample of light is limited to, above 0, against fireflies:
+    /// brighter samples are scaled down. `None` leaves them unbiased.
+    pub clamp: Option<f64>,
 }
 
 impl Settings {
@@ -63,6 +66,7 @@ impl Settings {
             falloff: asked.falloff.unwrap_or_default(),
             gloss: asked.gloss.unwrap_or_default(),
             noise: asked.noise(),
+            clamp: asked.clamp(),
         }
     }
 

@@ -62,7 +62,14 @@ impl<'w, C: Fn() -> bool> Work<'w, C> {
         } = self;
         shot.samples(pixels, index, samples);
         match shot.settings.surface() {
-            None => tracer.trace(samples, seen),
+            None => {
+                tracer.trace(samples, seen);
+                if let Some(most) = shot.settings.clamp {
+                    for seen in seen {
+                        seen.radiance = clamped(seen.radiance, most);
+                    }
+                }
+            }
             Some(aov) => {
                 tracer.count(samples.len());
                 seen.clear();
@@ -72,6 +79,18 @@ impl<'w, C: Fn() -> bool> Work<'w, C> {
                 }));
             }
         }
+    }
+}
+
+/// Radiance scaled down so that its largest channel is at most this.
+fn clamped(radiance: Rgb, most: f64) -> Rgb {
+    let largest = radiance.max_element();
+    if largest <= most {
+        radiance
+    } else if largest.is_finite() {
+        radiance * (most / largest)
+    } else {
+        radiance.min(Rgb::splat(most))
     }
 }
 

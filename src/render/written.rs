@@ -5,8 +5,8 @@ use super::region::Region;
 use crate::scene::{FalloffRule, Filter, GlossRule, Integrator, Size, Transfer};
 
 impl Settings {
-    /// The name and value of each setting but the number of samples, in a fixed order, the noise only if
-    /// it is given. Numbers are the shortest that read back as the same bits.
+    /// The name and value of each setting but the number of samples, in a fixed order, the noise and the
+    /// clamp only if they are given. Numbers are the shortest that read back as the same bits.
     pub fn written(&self) -> Vec<(&'static str, String)> {
         let Self {
             size: Size { width, height },
@@ -22,9 +22,11 @@ impl Settings {
             falloff,
             gloss,
             noise,
+            clamp,
         } = *self;
         let none = || "none".to_owned();
         let noise = noise.map(|noise| ("noise", noise.to_string()));
+        let clamp = clamp.map(|most| ("clamp", most.to_string()));
         let always = [
             ("size", format!("{width}x{height}")),
             (
@@ -41,7 +43,12 @@ impl Settings {
             ("falloff", falloff.name().to_owned()),
         ];
         let last = ("gloss", gloss.name().to_owned());
-        always.into_iter().chain(noise).chain([last]).collect()
+        always
+            .into_iter()
+            .chain(noise)
+            .chain(clamp)
+            .chain([last])
+            .collect()
     }
 
     /// Reads settings as [`Settings::written`], in this order, for `spp` samples. `None` if they are
@@ -74,10 +81,15 @@ impl Settings {
             falloff: one_of(&FalloffRule::ALL, FalloffRule::name, next("falloff")?)?,
             gloss: GlossRule::None,
             noise: None,
+            clamp: None,
         };
         if let Some((_, noise)) = pairs.next_if(|(name, _)| *name == "noise") {
             let noise = noise.parse().ok();
             settings.noise = Some(noise.filter(|noise| 0.0 < *noise && *noise < 1.0)?);
+        }
+        if let Some((_, most)) = pairs.next_if(|(name, _)| *name == "clamp") {
+            let most: Option<f64> = most.parse().ok();
+            settings.clamp = Some(most.filter(|most| 0.0 < *most && most.is_finite())?);
         }
         let gloss = pairs.next().filter(|(name, _)| *name == "gloss")?.1;
         settings.gloss = one_of(&GlossRule::ALL, GlossRule::name, gloss)?;
@@ -143,6 +155,7 @@ mod tests {
             falloff: FalloffRule::None,
             gloss: GlossRule::None,
             noise: None,
+            clamp: None,
         };
         let region = Region {
             x: 1,
@@ -159,6 +172,7 @@ mod tests {
             transfer: Transfer::Srgb,
             exposure: -0.1,
             noise: Some(0.02),
+            clamp: Some(8.5),
             ..plain
         };
         let with = |&aov: &Aov| Settings {

@@ -46,6 +46,9 @@ pub struct Rendering {
     /// The noise below which pixels take no more samples, in displayed values, 0 to less than 1; 0
     /// turns adaptive sampling off.
     pub noise: Option<f64>,
+    /// What the largest channel of each sample is limited to, 0 or more; 0 turns the limit off. No text
+    /// states it.
+    pub clamp: Option<f64>,
 }
 
 impl Rendering {
@@ -62,6 +65,7 @@ impl Rendering {
             falloff: self.falloff.or(others.falloff),
             gloss: self.gloss.or(others.gloss),
             noise: self.noise.or(others.noise),
+            clamp: self.clamp.or(others.clamp),
         }
     }
 
@@ -84,6 +88,11 @@ impl Rendering {
             Some(_) => DEFAULT_ADAPTIVE_SPP,
         };
         self.spp.unwrap_or(default)
+    }
+
+    /// What the largest channel of each sample is limited to, above 0; `None` if it is not.
+    pub fn clamp(&self) -> Option<f64> {
+        self.clamp.filter(|&most| 0.0 < most)
     }
 
     /// The noise below which pixels take no more samples, above 0; `None` if all take as many.

@@ -98,6 +98,7 @@ mod tests {
                 falloff: FalloffRule::None,
                 gloss: GlossRule::None,
                 noise: None,
+                clamp: None,
                 region: None,
             },
             scene,

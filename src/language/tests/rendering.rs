@@ -75,6 +75,7 @@ fn every_key_is_read_in_every_language() {
         falloff: Some(FalloffRule::Square),
         gloss: Some(GlossRule::Exponent),
         noise: Some(0.02),
+        clamp: None,
     };
     for (language, scene) in SCENES {
         let none = read(language, scene, "");

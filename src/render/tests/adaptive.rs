@@ -206,3 +206,20 @@ fn surfaces_and_shares_of_the_light_are_sampled_uniformly() {
         assert_eq!(frame.progress.mean_spp, 32.0);
     }
 }
+
+#[test]
+fn clamped_samples_keep_their_hue() {
+    let mut scene = scene(&[(sphere([0.0; 3], 90.0), BLACK)], &[]);
+    scene.materials[0].ambient = Some(Rgb::new(8.0, 2.0, 0.0));
+    let scene = Arc::new(scene);
+    let shown = |clamp| {
+        let settings = Settings {
+            clamp,
+            ..settings(4, 4, 4)
+        };
+        traced(&scene, settings, 1).values[0]
+    };
+    assert_eq!(shown(None), [8.0, 2.0, 0.0]);
+    assert_eq!(shown(Some(9.0)), [8.0, 2.0, 0.0]);
+    assert_eq!(shown(Some(2.0)), [2.0, 0.5, 0.0]);
+}

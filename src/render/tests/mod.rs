@@ -311,6 +311,7 @@ fn settings(width: u32, height: u32, spp: u32) -> Settings {
         falloff: FalloffRule::None,
         gloss: GlossRule::None,
         noise: None,
+        clamp: None,
     }
 }
 

@@ -39,6 +39,7 @@ pub(in crate::ui) fn job(spp: u32) -> Job {
             falloff: FalloffRule::None,
             gloss: GlossRule::None,
             noise: None,
+            clamp: None,
         },
         scene: Arc::new(scene),
         images: Images::default(),
