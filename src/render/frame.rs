@@ -352,6 +352,15 @@ impl Progress {
         self.mean_spp < f64::from(self.spp)
     }
 
+    /// The samples per pixel: `64 spp`, or the mean of the most, `41 of 64 spp`.
+    pub fn samples(&self) -> String {
+        if self.is_adaptive() {
+            format!("{:.0} of {} spp", self.mean_spp, self.spp)
+        } else {
+            format!("{} spp", self.spp)
+        }
+    }
+
     /// That of a picture of which nothing is traced.
     const COMPLETE: Self = Self {
         pass: 1,

@@ -354,6 +354,8 @@ impl Export {
         let what = self
             .aov
             .map_or_else(String::new, |aov| format!("{}, ", aov.name()));
-        format!(": {what}{width}×{height}, {} spp{took}", self.spp)
+        let progress = self.progress.filter(|progress| progress.complete);
+        let samples = progress.map_or_else(|| format!("{} spp", self.spp), |done| done.samples());
+        format!(": {what}{width}×{height}, {samples}{took}")
     }
 }

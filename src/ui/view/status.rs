@@ -354,12 +354,7 @@ fn progress_segments(progress: &Progress, say: &mut impl FnMut(u8, String, Style
         let pass = format!("pass {}/{}", progress.pass, progress.passes);
         say(25, pass, theme::DIM);
     }
-    let spp = if progress.is_adaptive() {
-        format!("{:.0} of {} spp", progress.mean_spp, progress.spp)
-    } else {
-        format!("{} spp", progress.spp)
-    };
-    say(21, spp, Style::new());
+    say(21, progress.samples(), Style::new());
     if !progress.complete {
         say(20, percent(progress.done), theme::ACCENT);
     }
