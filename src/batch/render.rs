@@ -260,6 +260,7 @@ fn finish(work: &Render, frame: &Frame, traced: &Traced) -> Result<(), Error> {
             &format!("{samples} ran out of rays and may be too dark; try a lower --depth"),
         );
     }
+    judge(frame, &traced.picture);
     if let Some(most) = traced.picture.settings.clamp {
         print_message(
             "note",
@@ -285,6 +286,22 @@ fn finish(work: &Render, frame: &Frame, traced: &Traced) -> Result<(), Error> {
         provenance: Some(&traced.picture),
     };
     work.output.write(|out| work.format.write(picture, out))
+}
+
+/// Says that a picture of light is black, or for the most part clipped, and what may help.
+fn judge(frame: &Frame, picture: &Provenance) {
+    let clipped = frame.pixels.iter().filter(|pixel| pixel.contains(&u8::MAX));
+    let finding = if picture.settings.aov.is_some() {
+        return;
+    } else if frame.pixels.iter().all(|pixel| *pixel == [0; 3]) {
+        "the picture is black; `halflight check` and `halflight explain` may say why"
+    } else if frame.pixels.len() < 2 * clipped.count() {
+        "more than half of the picture is clipped; try a lower --exposure, or --falloff square if \
+         its lights are meant to fade"
+    } else {
+        return;
+    };
+    print_message("note", finding);
 }
 
 /// Refuses outputs that would overwrite one another, and a part file beside no file.

@@ -112,3 +112,33 @@ fn conversion_keeps_the_settings() {
                    exposure=\"-0.5\" falloff=\"square\"/>";
     assert!(text.contains(element), "{text}");
 }
+
+#[test]
+fn black_and_clipped_pictures_are_remarked_on() {
+    let place = Place::new();
+    let ball = |light: &str| {
+        format!(
+            "// view: eye 0 0 2\n0 0 0 1 0 0 9 {light} 1 sphere 0 0 0 1 0 0 0 1 1 1 0 0 0 1 0 0 1\n"
+        )
+    };
+    for (light, options, expected) in [
+        ("1 1 1", "", ""),
+        ("0 0 0", "", "note: the picture is black; "),
+        (
+            "9 9 9",
+            "",
+            "note: more than half of the picture is clipped; try a lower --exposure",
+        ),
+        ("9 9 9", "--exposure -4", ""),
+        ("0 0 0", "--aov albedo", ""),
+    ] {
+        place.write("a.ray", ball(light).as_bytes());
+        let said = place.stderr(&format!("render a.ray -o a.bmp --size 9x9 {options}"), 0);
+        let found = said.lines().find(|line| line.starts_with("note: "));
+        assert!(
+            found.unwrap_or_default().starts_with(expected),
+            "{light}: {said}"
+        );
+        assert_eq!(found.is_some(), !expected.is_empty(), "{light}: {said}");
+    }
+}
