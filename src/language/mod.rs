@@ -336,7 +336,7 @@ pub trait Answers: Editable + Restructure {
     fn edits(&self, wanted: &[Wanted<'_>]) -> Vec<Edit> {
         let mut edits = placed::edits(self, wanted);
         edits.extend(rendering::insertions(self.text(), wanted));
-        edits.sort_by_key(|edit| edit.span.start());
+        Edit::sort(&mut edits);
         edits
     }
 

@@ -148,6 +148,6 @@ pub(super) fn edits<Source: Answers + ?Sized>(source: &Source, wanted: &[Wanted<
         })
     });
     let mut edits: Vec<_> = edits.collect();
-    edits.sort_by_key(|edit| edit.span.start());
+    Edit::sort(&mut edits);
     edits
 }

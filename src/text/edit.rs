@@ -15,6 +15,11 @@ pub struct Edit {
 }
 
 impl Edit {
+    /// Sorts edits by their places; those at one place keep their order.
+    pub fn sort(edits: &mut [Self]) {
+        edits.sort_by_key(|edit| edit.span);
+    }
+
     /// The span of the new text after the edit.
     pub fn placed(&self) -> Span {
         let start = self.span.start();

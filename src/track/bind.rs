@@ -185,7 +185,7 @@ impl Bound {
         }
         let text = source.text();
         edits.retain(|edit| edit.span.of(text) != edit.text);
-        edits.sort_by_key(|edit| edit.span);
+        Edit::sort(&mut edits);
         edits
     }
 

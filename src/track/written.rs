@@ -188,7 +188,7 @@ impl WrittenKey {
             let end = self.entries.iter().map(|(_, span)| span.end()).max();
             edits.extend(end.map(|end| insertion(end, more)));
         }
-        edits.sort_by_key(|edit| edit.span);
+        Edit::sort(&mut edits);
         edits
     }
 }

@@ -143,7 +143,7 @@ impl Copies {
     pub(super) fn text(&self) -> String {
         let mut text = self.text.clone();
         let mut edits = self.edits.clone();
-        edits.sort_by_key(|edit| edit.span);
+        Edit::sort(&mut edits);
         apply(&mut text, &edits);
         text
     }

@@ -70,7 +70,7 @@ impl Restructure for Source {
                 reason: "`render` would list none, which draws all",
             })?);
         }
-        edits.sort_by_key(|edit| edit.span);
+        Edit::sort(&mut edits);
         Ok(edits)
     }
 
@@ -246,7 +246,7 @@ impl Restructure for Source {
             self.moved(node, motion, decimals)
         });
         let mut edits = moved.collect::<Result<Vec<_>, _>>()?.concat();
-        edits.sort_by_key(|edit| edit.span);
+        Edit::sort(&mut edits);
         Ok(edits)
     }
 }
@@ -288,7 +288,7 @@ impl Source {
                     .unwrap_or_default(),
             );
         }
-        edits.sort_by_key(|edit| edit.span);
+        Edit::sort(&mut edits);
         let at = edits.iter().position(|edit| edit.span == Span::at(start));
         Ok(Placement {
             at: at.unwrap_or_default(),

@@ -264,7 +264,7 @@ pub(super) fn edits(
             text: missing,
         });
     }
-    edits.sort_by_key(|edit| edit.span.start());
+    Edit::sort(&mut edits);
     edits
 }
 

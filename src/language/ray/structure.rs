@@ -65,7 +65,7 @@ impl Restructure for Source {
             edit.text.push_str(if is_last { "" } else { line_ending });
         }
         edits.extend(counts);
-        edits.sort_by_key(|edit| edit.span);
+        Edit::sort(&mut edits);
         Ok(edits)
     }
 
@@ -213,7 +213,7 @@ impl Restructure for Source {
             .into_iter()
             .map(|node| self.moved(node, motion, decimals));
         let mut edits = moved.collect::<Result<Vec<_>, _>>()?.concat();
-        edits.sort_by_key(|edit| edit.span);
+        Edit::sort(&mut edits);
         Ok(edits)
     }
 }

@@ -148,7 +148,7 @@ pub(super) fn edits(text: &str, origins: &Origins, before: &Camera, camera: &Cam
             write_part(&mut missing, field, new);
         }
     }
-    edits.sort_by_key(|edit| edit.span.start());
+    Edit::sort(&mut edits);
     if !missing.is_empty() {
         edits.push(match origins.view {
             Some(view) => Edit {

@@ -79,7 +79,7 @@ pub(super) fn addition(
         );
     }
     both.edits.extend(own);
-    both.edits.sort_by_key(|edit| edit.span);
+    Edit::sort(&mut both.edits);
     Ok(both)
 }
 

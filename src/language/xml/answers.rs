@@ -198,7 +198,7 @@ impl Answers for Source {
     fn edits(&self, wanted: &[Wanted<'_>]) -> Vec<Edit> {
         let mut edits = edits(self, wanted);
         edits.extend(insertions(&self.text, wanted));
-        edits.sort_by_key(|edit| edit.span.start());
+        Edit::sort(&mut edits);
         edits
     }
 

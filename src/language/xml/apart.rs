@@ -29,7 +29,7 @@ pub(super) fn set_apart(text: &str, tree: &Tree, base: &str, theirs: &str) -> Ve
         }));
         taken.insert(new);
     }
-    edits.sort_by_key(|edit| edit.span);
+    Edit::sort(&mut edits);
     edits
 }
 

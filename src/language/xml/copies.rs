@@ -98,7 +98,7 @@ impl Copies {
             let renamed = materials.iter().rev().find(|(old, _)| old == name);
             edits.extend(renamed.map(|(_, new)| self.replaced(span, new)));
         }
-        edits.sort_by_key(|edit| edit.span);
+        Edit::sort(&mut edits);
         apply(&mut self.text, &edits);
         self.tree = tree::parse(&self.text);
     }

@@ -447,7 +447,7 @@ fn attributes(names: &[&str], numbers: &[f64], default: f64) -> String {
 }
 
 fn sorted(mut edits: Vec<Edit>) -> Vec<Edit> {
-    edits.sort_by_key(|edit| edit.span);
+    Edit::sort(&mut edits);
     edits
 }
 

@@ -38,7 +38,7 @@ impl Restructure for Source {
                 .into_iter()
                 .filter_map(|user| self.without_material(user)),
         );
-        edits.sort_by_key(|edit| edit.span);
+        Edit::sort(&mut edits);
         Ok(edits)
     }
 
@@ -141,7 +141,7 @@ impl Restructure for Source {
             });
             edits.extend(values.map(|value| self.replaced(value.value, name)));
         }
-        edits.sort_by_key(|edit| edit.span);
+        Edit::sort(&mut edits);
         Ok(edits)
     }
 
@@ -198,7 +198,7 @@ impl Restructure for Source {
         let outer = nodes.iter().filter(|&&node| !is_inner(self.span(node)));
         let moved = outer.map(|&node| self.moved(node, motion, decimals));
         let mut edits = moved.collect::<Result<Vec<_>, _>>()?.concat();
-        edits.sort_by_key(|edit| edit.span);
+        Edit::sort(&mut edits);
         Ok(edits)
     }
 }

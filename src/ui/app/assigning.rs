@@ -91,7 +91,7 @@ impl App {
         let after = self.camera_with(own, &camera)?;
         let mut edits = self.edits_of(&unnumbered(&others));
         edits.extend(own.map_or_else(Vec::new, |own| self.source().view_edits(&own, &after)));
-        edits.sort_by_key(|edit| edit.span.start());
+        Edit::sort(&mut edits);
         Ok(edits)
     }
 

@@ -141,7 +141,7 @@ impl App {
         {
             let created = self.source().creation(category, name, node);
             edits.extend(created.map_err(|refused| refused.to_string())?.edits);
-            edits.sort_by_key(|edit| edit.span);
+            Edit::sort(&mut edits);
         }
         Ok(edits)
     }

@@ -284,7 +284,7 @@ impl App {
         if nodes.len() < transform.nodes.len() {
             let moved = motion.camera(own, decimals);
             edits.extend(self.source().view_edits(own, &moved));
-            edits.sort_by_key(|edit| edit.span);
+            Edit::sort(&mut edits);
         }
         Ok(edits)
     }
