@@ -43,14 +43,11 @@ fn rows(name: &str, language: Language, text: String) {
     let mut source = Source::new(language, Arc::new(text));
     let lowered = source.lower(&Meshes::default()).expect("there is memory");
     let scene = Arc::new(lowered.scene.expect("a scene without errors"));
-    for integrator in [Integrator::Whitted, Integrator::Path] {
+    for integrator in Integrator::ALL {
         let (record, said) = times(&source, &scene, integrator);
         println!(
             "{name:<20} {:<8} {:>8} {:>10} {:>8} {:>10} {:>8}",
-            match integrator {
-                Integrator::Whitted => "whitted",
-                Integrator::Path => "path",
-            },
+            integrator.name(),
             scene.objects.len(),
             milliseconds(record[record.len() / 2]),
             milliseconds(record[record.len() - 1]),

@@ -29,7 +29,7 @@ fn the_pictures_beside_the_scenes_match_the_renderer() {
         let rendering = scene.setting.rendering;
         let spp = match rendering.integrator() {
             Integrator::Whitted => SPP,
-            Integrator::Path => PATH_SPP,
+            Integrator::Path | Integrator::Photon => PATH_SPP,
         };
         let frame = trace(&scene, images, SIZE, rendering.spp.unwrap_or(spp));
         let mut bytes = Vec::new();
@@ -127,7 +127,7 @@ impl Own {
         let integrator = lowered
             .scene
             .map(|scene| scene.setting.rendering.integrator());
-        let shines = integrator == Some(Integrator::Path);
+        let shines = integrator.is_some_and(Integrator::traces_paths);
         let mut edits = Vec::new();
         for node in source.nodes().iter() {
             if is_xml && matches!(node, Node::Object(_)) {

@@ -169,6 +169,8 @@ pub(super) enum IntegratorChoice {
     Whitted,
     /// Path tracing: light on all paths, sampled at random; more samples reduce noise.
     Path,
+    /// Path tracing with photon maps: caustics of lights that fade with the square of the distance.
+    Photon,
 }
 
 impl IntegratorChoice {
@@ -176,6 +178,7 @@ impl IntegratorChoice {
         match self {
             Self::Whitted => Integrator::Whitted,
             Self::Path => Integrator::Path,
+            Self::Photon => Integrator::Photon,
         }
     }
 }

@@ -209,13 +209,13 @@ fn wrong_arguments_are_rejected_with_a_reason() {
         ),
         (
             "halflight render a -o b.bmp --integrator rays",
-            "whitted, path",
+            "whitted, path, photon",
         ),
         (
             "halflight --filter tent a",
             "box, gaussian, blackman-harris",
         ),
-        ("halflight --integrator rays a", "whitted, path"),
+        ("halflight --integrator rays a", "whitted, path, photon"),
         ("halflight chekc a.ray", "did you mean check?"),
         ("halflight rendr", "did you mean render?"),
         (

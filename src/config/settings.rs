@@ -24,9 +24,10 @@ pub const COLOURS: [(&str, Choice); 5] = [
     ("mono", Choice::Fixed(ColourDepth::Mono)),
 ];
 /// The words for integrators.
-pub const INTEGRATORS: [(&str, Integrator); 2] = [
+pub const INTEGRATORS: [(&str, Integrator); 3] = [
     (Integrator::Whitted.name(), Integrator::Whitted),
     (Integrator::Path.name(), Integrator::Path),
+    (Integrator::Photon.name(), Integrator::Photon),
 ];
 /// The words for pixel filters.
 pub const FILTERS: [(&str, Filter); 3] = [
@@ -169,7 +170,7 @@ pub(super) const SETTINGS: &[Setting] = &[
     },
     Setting {
         name: "integrator",
-        words: "Integrator to start with, \"whitted\" or \"path\"; otherwise the scene decides",
+        words: "Integrator to start with, \"whitted\", \"path\" or \"photon\"; otherwise the scene decides",
         default: "\"whitted\"",
         kind: Kind::Word {
             words: || INTEGRATORS.map(|(word, _)| word).to_vec(),

@@ -302,9 +302,9 @@ impl Case<'_> {
             TermSource::Light { light, .. } | TermSource::LightItself { light } => {
                 Some(Names::light_node(light))
             }
-            TermSource::Ambient { object } | TermSource::Emission { object } => {
-                Some(names.object_node(object))
-            }
+            TermSource::Caustics { object }
+            | TermSource::Ambient { object }
+            | TermSource::Emission { object } => Some(names.object_node(object)),
             TermSource::Emitter { emitter, .. } => emitter.map(|of| names.object_node(of)),
             TermSource::Ray { object, seen, .. } => Some(names.object_node(seen.unwrap_or(object))),
             TermSource::Surroundings => None,
@@ -343,6 +343,10 @@ impl Case<'_> {
                     }
                     None => format!("{object} lit by the environment"),
                 }
+            }
+            TermSource::Caustics { object } => {
+                let object = names.object(*object);
+                format!("{object} lit by lights over mirrors or through glass, by photons")
             }
             TermSource::Ambient { object } => {
                 format!("{} lit by ambient light", names.object(*object))

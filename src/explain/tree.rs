@@ -143,6 +143,9 @@ impl Writer<'_> {
         for term in &shading.emitters {
             self.emitter(term, hit.point, at);
         }
+        if shading.caustics != Rgb::ZERO {
+            self.line(at, format!("photons {}", colour(shading.caustics)));
+        }
         self.specular(shading, at);
     }
 

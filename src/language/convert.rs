@@ -7,7 +7,7 @@ use std::sync::Arc;
 use super::losses::Losses;
 use super::{Language, Source, alike, fits};
 use crate::memory::OutOfMemory;
-use crate::scene::{Integrator, Meshes, Scene};
+use crate::scene::{Meshes, Scene};
 use crate::text::{Diagnostic, Findings, Span};
 
 /// A scene in another language.
@@ -72,7 +72,7 @@ pub(super) fn without_gamma(scene: &Scene) -> Cow<'_, Scene> {
     }
     let mut scene = scene.clone();
     for light in &mut scene.lights {
-        if scene.setting.rendering.integrator() == Integrator::Path {
+        if scene.setting.rendering.integrator().traces_paths() {
             light.colour *= light.scale / PI;
         }
         light.scale = PI;

@@ -49,7 +49,7 @@ pub fn outlook(source: &Source, scene: &Scene, asked: &Rendering) -> Vec<Outlook
     }
     found.extend(view.clipped());
     found.extend(view.unlit().or_else(|| view.enclosed()));
-    if asked.integrator() == Integrator::Path {
+    if asked.integrator().traces_paths() {
         found.extend(view.gains());
     }
     found
@@ -102,7 +102,7 @@ impl Judge<'_> {
             Integrator::Whitted => {
                 scene.ambient != Rgb::ZERO || scene.lights.iter().any(|light| shines(&light))
             }
-            Integrator::Path => scene
+            Integrator::Path | Integrator::Photon => scene
                 .lights
                 .iter()
                 .any(|light| is_lamp(&light) && shines(&light)),
@@ -125,7 +125,7 @@ impl Judge<'_> {
         let glows = |material: &Material| material.emission != Rgb::ZERO;
         if around || self.used().any(glows) {
             // By path that lights; otherwise it is only seen.
-            if integrator == Integrator::Path {
+            if integrator.traces_paths() {
                 return None;
             }
             let message = "the only light is emission or the environment, which only path tracing takes to other surfaces";
@@ -143,7 +143,7 @@ impl Judge<'_> {
             plain(span, message, "a light with a colour")
         } else {
             let message = match integrator {
-                Integrator::Path if self.has_ambient() => {
+                Integrator::Path | Integrator::Photon if self.has_ambient() => {
                     "the only light is ambient, which path tracing leaves out: the picture is black"
                 }
                 _ => "the scene has no light: the picture is black",

@@ -18,8 +18,12 @@ use crate::text::{
 pub(super) const RENDER: &[Field; 9] = &[
     choice(
         "integrator",
-        &[Integrator::Whitted.name(), Integrator::Path.name()],
-        "How light is traced: Whitted ray tracing or path tracing.",
+        &[
+            Integrator::Whitted.name(),
+            Integrator::Path.name(),
+            Integrator::Photon.name(),
+        ],
+        "How light is traced: Whitted ray tracing, path tracing, or paths with photons for caustics.",
     ),
     count(
         "depth",
@@ -446,7 +450,7 @@ fn default_of(key: &str, asked: &Rendering) -> &'static str {
         "integrator" => asked.integrator().name(),
         "depth" => match asked.integrator() {
             Integrator::Whitted => "8",
-            Integrator::Path => "64",
+            Integrator::Path | Integrator::Photon => "64",
         },
         "spp" if asked.noise().is_some() => "4096",
         "spp" => "16",

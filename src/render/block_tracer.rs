@@ -1,7 +1,7 @@
 //! Traces blocks of a picture, without a worker.
 
 use std::sync::Arc;
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 use rayon::ThreadPool;
 use rayon::prelude::*;
@@ -9,6 +9,7 @@ use rayon::prelude::*;
 use super::block::{Block, Blocks};
 use super::frame::{Aov, Job};
 use super::gather::Gather;
+use super::photons::{MAPS, Photons};
 use super::refusal::{self, Refusal};
 use super::renderer::{Threads, pool};
 use super::shot::Shot;
@@ -20,6 +21,7 @@ use super::world::World;
 #[derive(Debug)]
 pub struct BlockTracer {
     world: World,
+    photons: Option<Arc<Photons>>,
     job: Job,
     pool: ThreadPool,
 }
@@ -41,10 +43,21 @@ impl BlockTracer {
         refusal::check_memory(&job, refusal::memory_for_blocks(&job, 0))?;
         let build = || {
             let rules = job.settings.rules();
-            World::build(Arc::clone(&job.scene), &job.images, rules, None, &stopped)
+            let scene = Arc::clone(&job.scene);
+            let world = World::build(scene, &job.images, rules, None, &stopped)?;
+            let photons = match job.settings.photon_rules() {
+                Some(rules) => Some(Photons::build(&world, rules, None, &stopped)?),
+                None => None,
+            };
+            Some((world, photons))
         };
-        let world = pool.install(build);
-        Ok(world.map(|world| Self { world, job, pool }))
+        let built = pool.install(build);
+        Ok(built.map(|(world, photons)| Self {
+            world,
+            photons,
+            job,
+            pool,
+        }))
     }
 
     /// The blocks of the traced region.
@@ -63,19 +76,16 @@ impl BlockTracer {
         stopped: impl Fn() -> bool + Sync,
         hand_over: impl Fn(Block) + Sync,
     ) {
-        let settings = self.job.settings;
+        if let Some(photons) = &self.photons {
+            let blocks = blocks.collect();
+            let trace =
+                || self.trace_together(photons, blocks, spp, interval, &stopped, &hand_over);
+            return self.pool.install(trace);
+        }
         // As in previews, so that they share the compiled code.
         let cancelled: &(dyn Fn() -> bool + Sync) = &stopped;
-        let shot = Shot::new(&self.world, &self.job.camera, settings);
-        let work = || {
-            let tracer = Tracer::new(&self.world, settings.integrator, settings.depth, cancelled);
-            let tracer = tracer.gathering(Gather::of(settings.aov));
-            Work::new(match settings.aov {
-                // Only then are rays told apart by samples.
-                Some(Aov::Cost) => tracer.noting(),
-                _ => tracer,
-            })
-        };
+        let shot = Shot::new(&self.world, &self.job.camera, self.job.settings);
+        let work = || work(&shot, cancelled);
         let trace = |work: &mut Work<'_, _>, mut block: Block| {
             if !stopped() {
                 let keep = |block: &Block| hand_over(block.clone());
@@ -86,4 +96,54 @@ impl BlockTracer {
         self.pool
             .install(|| blocks.par_bridge().for_each_init(work, trace));
     }
+
+    /// Continues blocks by a few samples of all of them at a time, whose photon maps are held.
+    fn trace_together(
+        &self,
+        photons: &Photons,
+        mut blocks: Vec<Block>,
+        spp: u32,
+        interval: Duration,
+        stopped: &(dyn Fn() -> bool + Sync),
+        hand_over: &(impl Fn(Block) + Sync),
+    ) {
+        let least = |blocks: &[Block]| blocks.iter().map(|block| block.samples).min();
+        let mut handed_over = Instant::now();
+        while let Some(samples) = least(&blocks).filter(|&samples| samples < spp && !stopped()) {
+            let goal = spp.min(samples.saturating_add(MAPS));
+            let Some(maps) = photons.maps(&self.world, samples..goal, stopped) else {
+                break;
+            };
+            let shot = Shot::new(&self.world, &self.job.camera, self.job.settings);
+            let shot = shot.with_photons(Some(&maps));
+            let trace = |work: &mut Work<'_, _>, block: &mut Block| {
+                block.trace(goal, &shot, work, (Duration::MAX, |_: &Block| {}));
+            };
+            let lacking = blocks.par_iter_mut().filter(|block| block.samples < goal);
+            lacking.for_each_init(|| work(&shot, stopped), trace);
+            if interval <= handed_over.elapsed() && goal < spp {
+                blocks.iter().cloned().for_each(hand_over);
+                handed_over = Instant::now();
+            }
+        }
+        let begun = blocks.into_iter().filter(|block| 0 < block.samples);
+        begun.for_each(hand_over);
+    }
+}
+
+/// What a thread traces blocks with.
+fn work<'w>(
+    shot: &Shot<'w>,
+    cancelled: &'w (dyn Fn() -> bool + Sync),
+) -> Work<'w, &'w (dyn Fn() -> bool + Sync)> {
+    let settings = shot.settings;
+    let tracer = Tracer::new(shot.world, settings.integrator, settings.depth, cancelled);
+    let tracer = tracer
+        .gathering(Gather::of(settings.aov))
+        .with_photons(shot.photons);
+    Work::new(match settings.aov {
+        // Only then are rays told apart by samples.
+        Some(Aov::Cost) => tracer.noting(),
+        _ => tracer,
+    })
 }

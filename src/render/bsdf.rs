@@ -12,7 +12,7 @@ use crate::scene::{GlossRule, Highlight, Material, Rgb};
 
 /// A material at a point: lobes, mirror and dielectric boundary.
 pub(crate) struct Bsdf<'m> {
-    material: &'m Material,
+    pub(crate) material: &'m Material,
     pub(crate) lobes: Lobes,
     /// Probability of continuing by the lobes.
     pub(crate) lobes_chance: f64,
@@ -20,7 +20,7 @@ pub(crate) struct Bsdf<'m> {
     pub(crate) mirror: Rgb,
     mirror_chance: f64,
     /// The exponent by which mirror and boundary are spread, if it is that of the highlight.
-    facets: Option<f64>,
+    pub(crate) facets: Option<f64>,
 }
 
 /// The part of a BSDF by which a path goes on, each with a number in 0..1 for further choices.
@@ -166,6 +166,11 @@ impl<'m> Bsdf<'m> {
         let chance = self.boundary_chance();
         let is_clear = self.material.dielectric.tint != Rgb::ZERO && 0.0 < chance;
         is_clear.then(|| Component::Boundary((choice - self.mirror_chance) / chance))
+    }
+
+    /// Whether light is scattered into many directions, beside mirror and boundary.
+    pub(crate) fn scatters(&self) -> bool {
+        0.0 < self.lobes_chance || self.lobes.has_highlight()
     }
 
     /// Whether there is any component.

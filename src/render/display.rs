@@ -164,6 +164,7 @@ mod tests {
             values: values.to_vec(),
             query: Some(Query {
                 world: Weak::new(),
+                photons: Weak::new(),
                 camera,
                 settings,
                 numbers: None,

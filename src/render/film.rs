@@ -350,7 +350,9 @@ impl Film {
                         integrator, depth, ..
                     } = shot.settings;
                     let tracer = Tracer::new(shot.world, integrator, depth, cancelled);
-                    let tracer = tracer.gathering(Gather::of(shot.settings.aov));
+                    let tracer = tracer
+                        .gathering(Gather::of(shot.settings.aov))
+                        .with_photons(shot.photons);
                     Work::new(match remembers {
                         Remembers::Pixels => tracer,
                         Remembers::Causes => tracer.noting(),
@@ -422,7 +424,7 @@ impl Film {
             match (tile.variance(at), integrator) {
                 // A single sample is at the centre of all distributions.
                 (UNKNOWN, Integrator::Whitted) => 0.0,
-                (UNKNOWN, Integrator::Path) => UNKNOWN,
+                (UNKNOWN, Integrator::Path | Integrator::Photon) => UNKNOWN,
                 (variance, _) => scale * variance,
             }
         });

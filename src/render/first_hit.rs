@@ -82,7 +82,7 @@ impl Guide {
 pub(crate) fn guide(world: &World, sample: &Sample, skipped: f64, integrator: Integrator) -> Guide {
     let nearest = world.nearest(&sample.ray, sample.reach);
     let distance = nearest.map_or(sample.reach, |nearest| nearest.hit.t);
-    if integrator == Integrator::Path
+    if integrator.traces_paths()
         && let Some((light, distance)) = world.sphere_lights.nearest(&sample.ray, distance)
     {
         return Guide {

@@ -3,6 +3,7 @@
 use std::sync::{Arc, Weak};
 use std::time::Duration;
 
+use super::photons::{PhotonRules, Photons};
 use super::region::Region;
 use super::world::{Rules, World};
 use crate::scene::{
@@ -82,6 +83,18 @@ impl Settings {
             falloff: self.falloff,
             gloss: self.gloss,
         }
+    }
+
+    /// What photons depend on; `None` without any.
+    pub(crate) fn photon_rules(&self) -> Option<PhotonRules> {
+        let has_photons = self.integrator == Integrator::Photon && self.surface().is_none();
+        has_photons.then(|| PhotonRules {
+            count: PhotonRules::count(self.size.pixels()),
+            depth: self.depth,
+            seed: self.seed,
+            falloff: self.falloff,
+            gloss: self.gloss,
+        })
     }
 
     /// The number of passes to all samples: 1, 1, 2, 4 …
@@ -303,6 +316,8 @@ pub struct Frame {
 #[derive(Clone, Debug)]
 pub struct Query {
     pub(crate) world: Weak<World>,
+    /// Where photons are traced.
+    pub(crate) photons: Weak<Photons>,
     pub(crate) camera: Camera,
     pub(crate) settings: Settings,
     pub(crate) numbers: Option<Arc<[u32]>>,

@@ -36,7 +36,7 @@ impl Gather {
         match (self, integrator) {
             (Self::All | Self::Indirect, _) => depth,
             // Samples of the surface may hit the light.
-            (Self::Direct(_), Integrator::Path) => depth.min(1),
+            (Self::Direct(_), Integrator::Path | Integrator::Photon) => depth.min(1),
             (Self::Direct(_), Integrator::Whitted) | (Self::Emission, _) => 0,
         }
     }
@@ -62,6 +62,12 @@ impl Gather {
     #[inline]
     pub(crate) fn light_anywhere(self, number: usize) -> bool {
         self.light(number, 0) || self.light(number, 1)
+    }
+
+    /// Whether what surfaces reflect of photons, which came over further surfaces, counts.
+    #[inline]
+    pub(crate) fn caustics(self) -> bool {
+        matches!(self, Self::All | Self::Indirect)
     }
 
     /// Whether what a surface reflects of a light at a bounce counts.

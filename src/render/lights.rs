@@ -125,6 +125,23 @@ impl Light {
     }
 }
 
+impl Light {
+    /// The power per steradian that it sends out along the axis of its spot, or in all directions, as
+    /// path tracing sees it; `None` if it emits no photons.
+    pub(crate) fn radiant_intensity(&self) -> Option<Rgb> {
+        if !self.emits_photons(FalloffRule::None) {
+            return None;
+        }
+        let Emitter::Point { falloff, .. } = &self.emitter else {
+            return None;
+        };
+        Some(match self.luminous_sphere() {
+            Some(sphere) => sphere.scale * sphere.intensity,
+            None => self.scale * self.colour / falloff.radial[2],
+        })
+    }
+}
+
 impl Falloff {
     /// The fraction of the light at a distance, in the direction opposite to `toward`, a unit
     /// vector.

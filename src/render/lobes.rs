@@ -94,6 +94,11 @@ impl Lobes {
         (lobes, total)
     }
 
+    /// Whether there is a highlight that [`Lobes::scatter`] excludes.
+    pub(crate) fn has_highlight(&self) -> bool {
+        self.highlight.is_some()
+    }
+
     /// Returns the highlight of light from the direction `toward` that [`Lobes::scatter`] excludes:
     /// ks (R·V)^g / π for any cosine above 0.
     pub(crate) fn highlight(&self, point: &Point, toward: DVec3) -> Rgb {

@@ -19,7 +19,7 @@ use super::sampler::{Sampler, Use};
 use super::touched::Touched;
 use crate::geometry::Ray;
 use crate::geometry::lanes::Vector;
-use crate::scene::{Light, Material, Rgb};
+use crate::scene::{FalloffRule, Light, Material, Rgb};
 
 /// Paths with a throughput below this are subject to Russian roulette.
 const FAINT: f64 = 1.0 / 16.0;
@@ -33,6 +33,8 @@ pub(super) struct Path {
     pub(super) absorption: Rgb,
     /// The last scattering; `None` after mirrors and boundaries.
     pub(super) chosen: Option<Scattering>,
+    /// Whether it was ever scattered other than by mirrors and boundaries.
+    pub(super) was_scattered: bool,
     pub(super) bounce: u32,
 }
 
@@ -130,6 +132,9 @@ impl<C: Fn() -> bool> Probe<'_, C> {
                             Rgb::ZERO
                         };
                         let mut local = emission + light;
+                        if self.photon_map.is_some() {
+                            local += self.caustics(vertex, path.bounce);
+                        }
                         if self.asks(vertex, path.bounce) {
                             local += self.ask(vertex, path.bounce, sample.sampler, |_| {});
                         }
@@ -162,7 +167,12 @@ impl<C: Fn() -> bool> Probe<'_, C> {
             path.throughput *= transmitted(path.absorption, distance);
             return Reached::Light {
                 radiance: light.scale * light.radiance(),
-                weight: path.weight_of_chance(&light),
+                weight: if self.photon_map.is_some() && path.is_caustic() {
+                    // Photons bring it.
+                    0.0
+                } else {
+                    path.weight_of_chance(&light)
+                },
                 light,
                 distance,
             };
@@ -273,6 +283,10 @@ impl<C: Fn() -> bool> Probe<'_, C> {
             }
             Some(sphere) => self.of_sphere_light(point, bsdf, bounce, light, &sphere, place()),
         };
+        // Photons bring what passes on the way.
+        if self.is_by_photons(light) && !self.crossed.passed.is_empty() {
+            return Rgb::ZERO;
+        }
         light.scale * sent_back
     }
 
@@ -314,6 +328,11 @@ impl<C: Fn() -> bool> Probe<'_, C> {
 }
 
 impl<C> Probe<'_, C> {
+    /// Whether photons bring the light of a light that comes over mirrors and boundaries.
+    pub(super) fn is_by_photons(&self, light: &Light) -> bool {
+        self.photon_map.is_some() && light.emits_photons(FalloffRule::None)
+    }
+
     /// The density with which a path at a bounce goes on in a direction, per steradian; 0 at the last
     /// bounce, after which no BSDF sample can hit a light.
     pub(super) fn density_of(&self, bsdf: &Bsdf<'_>, scattered: Scattered, bounce: u32) -> f64 {
@@ -341,6 +360,7 @@ impl Path {
             throughput: Rgb::ONE,
             absorption: Rgb::ZERO,
             chosen: None,
+            was_scattered: false,
             bounce: 0,
         }
     }
@@ -352,6 +372,11 @@ impl Path {
         } else {
             f64::INFINITY
         }
+    }
+
+    /// Whether it goes on from a mirror or boundary after it was scattered otherwise.
+    fn is_caustic(&self) -> bool {
+        self.was_scattered && self.chosen.is_none()
     }
 
     /// The multiple importance sampling weight of a light hit by a BSDF sample.
@@ -379,6 +404,7 @@ impl Path {
         self.ray = next.ray;
         self.absorption = next.absorption;
         self.chosen = next.chosen;
+        self.was_scattered |= next.chosen.is_some();
         self.bounce += 1;
         Onward::Goes {
             survival: survival.min(1.0),

@@ -7,6 +7,7 @@ use glam::{DVec2, DVec3};
 use super::frame::NO_OBJECT;
 use super::gather::Gather;
 use super::intersect::{Crossed, Nearest};
+use super::photon_map::PhotonMap;
 use super::sampler::Sampler;
 use super::shading::Side;
 use super::touched::Touched;
@@ -30,6 +31,8 @@ pub(crate) struct Probe<'w, C> {
     pub(crate) depth: u32,
     /// The light to gather.
     pub(crate) gather: Gather,
+    /// The photons of the current sample, if there are to be any.
+    pub(crate) photon_map: Option<&'w PhotonMap>,
     /// Scratch space.
     pub(crate) crossed: Crossed,
     /// Dependencies of the current path.
@@ -125,10 +128,16 @@ impl<'w, C: Fn() -> bool> Probe<'w, C> {
             cancelled,
             depth,
             gather: Gather::All,
+            photon_map: None,
             crossed: Crossed::default(),
             touched: Touched::default(),
             counts: Counts::default(),
         }
+    }
+
+    /// Adds the light of photons to paths.
+    pub(crate) fn with_photons(self, photon_map: Option<&'w PhotonMap>) -> Self {
+        Self { photon_map, ..self }
     }
 }
 

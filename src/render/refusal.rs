@@ -58,14 +58,18 @@ pub enum Refusal {
 
 /// About how many bytes of memory tracing a job takes, without those of its scene.
 pub fn memory_for(job: &Job) -> u64 {
-    film(job).saturating_add(world(&job.scene))
+    film(job)
+        .saturating_add(photons(job))
+        .saturating_add(world(&job.scene))
 }
 
 /// About how many bytes of memory tracing a job by blocks takes, without those of its scene, if blocks
 /// of this many pixels in all are held at once.
 pub fn memory_for_blocks(job: &Job, pixels: u64) -> u64 {
     let blocks = pixels.saturating_mul(BLOCK_PIXEL as u64);
-    blocks.saturating_add(world(&job.scene))
+    blocks
+        .saturating_add(photons(job))
+        .saturating_add(world(&job.scene))
 }
 
 /// Refuses a job unless this many bytes, those of its acceleration structures included, fit into
@@ -81,6 +85,12 @@ fn film(job: &Job) -> u64 {
     Film::bytes(&job.settings, job.frames, job.denoise).saturating_add(pixels)
 }
 
+/// Bytes of the photon maps, which are none without photons.
+fn photons(job: &Job) -> u64 {
+    let rules = job.settings.photon_rules();
+    rules.map_or(0, |rules| rules.bytes())
+}
+
 /// Refuses a job whose world and film do not fit into memory. For an edit of the scene `before`,
 /// the world exists already or is about to exist.
 pub(super) fn fits(job: &Job, before: Option<&Arc<Scene>>) -> Result<(), Refusal> {
@@ -88,7 +98,8 @@ pub(super) fn fits(job: &Job, before: Option<&Arc<Scene>>) -> Result<(), Refusal
         Some(before) if is_edit_of(before, &job.scene) => 0,
         _ => world(&job.scene),
     };
-    check(job, film(job).saturating_add(world), world)
+    let picture = film(job).saturating_add(photons(job));
+    check(job, picture.saturating_add(world), world)
 }
 
 /// Refuses a job unless `bytes`, of which `world` are for the world, fit into memory.

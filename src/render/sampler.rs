@@ -31,6 +31,8 @@ pub(crate) enum Use {
     Emitter,
     /// The direction to the environment.
     Sky,
+    /// The light and direction of a photon.
+    Emission,
 }
 
 impl Sampler {
@@ -44,6 +46,11 @@ impl Sampler {
             index,
             seed,
         }
+    }
+
+    /// The index of the sample.
+    pub(crate) fn index(self) -> u32 {
+        self.index
     }
 
     /// The place in the pixel, 0..1 from its top left corner; the centre for sample 0.
@@ -83,6 +90,7 @@ impl Sampler {
             // Far from the lights' numbers.
             Use::Emitter => u32::MAX,
             Use::Sky => u32::MAX - 1,
+            Use::Emission => u32::MAX - 2,
         };
         let seed = mix(mix(self.pixel_seed() ^ node).wrapping_add(0x9E37_79B9) ^ purpose);
         sample_4d(self.index, 0, seed).map(f64::from)

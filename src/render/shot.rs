@@ -5,6 +5,7 @@ use glam::{DVec2, DVec3};
 use super::camera::Projection;
 use super::filter::Spread;
 use super::frame::Settings;
+use super::photons::PhotonMaps;
 use super::probe::Sample;
 use super::sampler::{Sampler, Use};
 use super::world::World;
@@ -24,6 +25,8 @@ pub(crate) struct Shot<'w> {
     pub(crate) settings: Settings,
     /// The pixel filter.
     pub(crate) spread: Spread,
+    /// The photons of the samples, if there are to be any.
+    pub(crate) photons: Option<&'w PhotonMaps>,
 }
 
 impl<'w> Shot<'w> {
@@ -35,7 +38,13 @@ impl<'w> Shot<'w> {
             eye: camera.eye,
             settings,
             spread: Spread::of(settings.filter),
+            photons: None,
         }
+    }
+
+    /// The same with the light of photons, which must be traced for all samples taken.
+    pub(crate) fn with_photons(self, photons: Option<&'w PhotonMaps>) -> Self {
+        Self { photons, ..self }
     }
 }
 
@@ -100,7 +109,7 @@ impl Shot<'_> {
     fn lens(&self, sampler: Sampler) -> Option<[f64; 2]> {
         match (self.settings.integrator, self.settings.surface()) {
             // An unbiased sample must not use the centre.
-            (Integrator::Path, None) => {
+            (Integrator::Path | Integrator::Photon, None) => {
                 let [u, v, ..] = sampler.four(Sampler::ROOT, Use::Lens);
                 Some([u, v])
             }

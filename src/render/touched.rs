@@ -70,6 +70,10 @@ impl Touched {
         if !is_alike {
             return None;
         }
+        // Photons may have come from anywhere.
+        if job.settings.integrator == Integrator::Photon && scene != new_scene {
+            return None;
+        }
         let mut touched = Self::default();
         for (number, (light, new)) in scene.lights.iter().zip(&new_scene.lights).enumerate() {
             if light == new {
@@ -77,7 +81,7 @@ impl Touched {
             }
             let colour = new.colour;
             // BSDF samples may hit any light.
-            if *new != (Light { colour, ..*light }) || job.settings.integrator == Integrator::Path {
+            if *new != (Light { colour, ..*light }) || job.settings.integrator.traces_paths() {
                 return None;
             }
             touched |= Self::light(number);

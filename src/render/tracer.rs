@@ -1,6 +1,7 @@
-//! Radiance along camera rays, computed by either integrator.
+//! Radiance along camera rays, computed by the chosen integrator.
 
 use super::gather::Gather;
+use super::photons::PhotonMaps;
 use super::probe::{Counts, Probe, Sample, Seen};
 use super::touched::Touched;
 use super::wave::Wave;
@@ -13,6 +14,8 @@ use crate::scene::Integrator;
 #[derive(Debug)]
 pub(crate) struct Tracer<'w, C> {
     integrator: Integrator,
+    /// The photons of samples, if there are to be any.
+    photon_maps: Option<&'w PhotonMaps>,
     probe: Probe<'w, C>,
     wave: Wave<'w>,
 }
@@ -22,6 +25,7 @@ impl<'w, C: Fn() -> bool> Tracer<'w, C> {
     pub(crate) fn new(world: &'w World, integrator: Integrator, depth: u32, cancelled: C) -> Self {
         Self {
             integrator,
+            photon_maps: None,
             probe: Probe::new(world, depth, cancelled),
             wave: Wave::default(),
         }
@@ -30,6 +34,12 @@ impl<'w, C: Fn() -> bool> Tracer<'w, C> {
     /// Enables recording of dependencies.
     pub(crate) fn noting(mut self) -> Self {
         self.probe.crossed.notes = true;
+        self
+    }
+
+    /// Adds the light of photons to paths, which must be traced for all samples.
+    pub(crate) fn with_photons(mut self, maps: Option<&'w PhotonMaps>) -> Self {
+        self.photon_maps = maps;
         self
     }
 
@@ -46,11 +56,14 @@ impl<'w, C: Fn() -> bool> Tracer<'w, C> {
         let probe = &mut self.probe;
         match self.integrator {
             Integrator::Whitted => probe.by_whitted(&mut self.wave, samples, seen),
-            Integrator::Path => {
+            Integrator::Path | Integrator::Photon => {
                 for sample in samples {
                     if (probe.cancelled)() {
                         break;
                     }
+                    probe.photon_map = self
+                        .photon_maps
+                        .and_then(|maps| maps.get(sample.sampler.index()));
                     probe.touched = Touched::default();
                     let before = probe.counts.rays;
                     let brought = probe.by_path(sample);

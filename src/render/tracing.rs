@@ -197,6 +197,16 @@ impl<'s, W: Fn() + Sync> Tracing<'s, W> {
         !self.complete
     }
 
+    /// Whether pixels lack a step.
+    pub(crate) fn lacks(&self, step: &Step) -> bool {
+        self.film.stretch(0, 0, step) < self.film.tiles()
+    }
+
+    /// Whether to stop.
+    pub(crate) fn is_cancelled(&self) -> bool {
+        self.ticket.cancelled(self.published)
+    }
+
     /// The picture as far as it is traced.
     pub(crate) fn keep(self) -> Kept {
         let effort = Effort {

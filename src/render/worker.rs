@@ -10,6 +10,7 @@ use rayon::ThreadPool;
 use super::film::Film;
 use super::frame::{Frames, Job, Query};
 use super::kept::{Effort, Kept};
+use super::photons::Photons;
 use super::shared::Shared;
 use super::shot::Shot;
 use super::steps::steps;
@@ -43,6 +44,7 @@ const POLL: Duration = Duration::from_millis(5);
 /// State kept for the next job.
 struct Left {
     world: Arc<World>,
+    photons: Option<Arc<Photons>>,
     /// The last job, if it can be continued.
     traced: Option<Traced>,
 }
@@ -81,7 +83,9 @@ pub(crate) fn run<W: Fn() + Sync>(
         }
         newest.map(&mut take);
     }
-    let (world, traced) = left.map_or((None, None), |left| (Some(left.world), left.traced));
+    let (world, traced) = left.map_or((None, None), |left| {
+        (Some((left.world, left.photons)), left.traced)
+    });
     let kept = traced.map(|traced| traced.kept);
     let unwanted = match (keeper, kept) {
         (Some(keeper), Some(kept)) => keeper.send(kept).err().map(|unsent| unsent.0),
@@ -111,20 +115,32 @@ fn trace<W: Fn() + Sync>(
         recalled,
     } = submission;
     let ticket = Ticket::new(generation, shared);
-    let (known, traced) = previous.map_or((None, None), |left| (Some(left.world), left.traced));
+    let (known, photons, traced) = match previous {
+        Some(left) => (Some(left.world), left.photons, left.traced),
+        None => (None, None, None),
+    };
     // A newer job does not cancel the build: it may need the same structures, and while a held key
     // moves objects of a large scene, none would ever be finished.
     let quit = || shared.is_quitting();
     let scene = Arc::clone(&job.scene);
     let rules = job.settings.rules();
     let world = World::build(scene, &job.images, rules, known.as_deref(), &quit);
-    let Some(world) = world.map(Arc::new) else {
+    let prepared = world.and_then(|world| {
+        let before = known.as_deref().zip(photons.as_ref());
+        let photons = match job.settings.photon_rules() {
+            Some(rules) => Some(Photons::build(&world, rules, before, &quit)?),
+            None => None,
+        };
+        Some((Arc::new(world), photons))
+    });
+    let Some((world, photons)) = prepared else {
         // The picture before is not the newest any more.
         if let Some(traced) = traced {
             traced.kept.free_later();
         }
         return known.map(|world| Left {
             world,
+            photons,
             traced: None,
         });
     };
@@ -145,10 +161,20 @@ fn trace<W: Fn() + Sync>(
         }
     };
     drop(known);
-    let shot = Shot::new(&world, &job.camera, job.settings);
-    let query = Query::new(&world, &job);
+    let query = Query::new(&world, photons.as_ref(), &job);
     let mut picture = Tracing::new(ticket.with_world(), &job, (film, before), wake, query);
     for step in steps(job.settings.spp, job.frames) {
+        // Before its tiles, whose threads must not wait for each other.
+        let lacking = photons.as_ref().filter(|_| picture.lacks(&step));
+        let maps = match lacking {
+            Some(photons) => {
+                let maps = photons.maps(&world, step.indices(), &|| picture.is_cancelled());
+                let Some(maps) = maps else { break };
+                Some(maps)
+            }
+            None => None,
+        };
+        let shot = Shot::new(&world, &job.camera, job.settings).with_photons(maps.as_ref());
         if !picture.take(&step, &shot) {
             break;
         }
@@ -160,7 +186,11 @@ fn trace<W: Fn() + Sync>(
         kept.free_later();
         None
     };
-    Some(Left { world, traced })
+    Some(Left {
+        world,
+        photons,
+        traced,
+    })
 }
 
 /// Waits for a picture to be recalled; `None` if there is none, or once `quit` returns true. A newer

@@ -88,7 +88,7 @@ impl World {
         let opaque = opaque_meshes(&scene);
         let changed = previous.and_then(|world| changed_shapes(&world.scene, &scene));
         let (emitters, sky) = match integrator {
-            Integrator::Path => {
+            Integrator::Path | Integrator::Photon => {
                 let sky = previous.map(|world| (&world.sky, &world.textures));
                 let sky = Sky::build(&scene, &textures, sky, &cancelled)?;
                 let known = previous.zip(changed.as_deref());

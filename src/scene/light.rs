@@ -4,7 +4,7 @@ use std::f64::consts::PI;
 
 use glam::DVec3;
 
-use super::Rgb;
+use super::{FalloffRule, Rgb};
 
 /// A light source.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -33,6 +33,24 @@ impl Light {
             scale: PI,
             shadows: Shadows::Cast,
         }
+    }
+
+    /// Whether it sends out light that photons can carry: fading with the square of the distance, by
+    /// its own terms, by a rule for those without, or by a radiance, and casting shadows.
+    pub fn emits_photons(&self, rule: FalloffRule) -> bool {
+        let Emitter::Point {
+            radius, falloff, ..
+        } = &self.emitter
+        else {
+            return false;
+        };
+        let [constant, linear, square] = falloff.radial;
+        let fades = match rule {
+            FalloffRule::Square if [linear, square] == [0.0; 2] => true,
+            _ => constant == 0.0 && linear == 0.0 && 0.0 < square,
+        };
+        let has_radiance = 0.0 < *radius && (self.scale == 1.0 || 0.0 < square);
+        self.shadows == Shadows::Cast && (fades || has_radiance)
     }
 }
 

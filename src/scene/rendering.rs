@@ -109,17 +109,20 @@ pub enum Integrator {
     Whitted,
     /// Path tracing.
     Path,
+    /// Path tracing with a photon map for caustics.
+    Photon,
 }
 
 impl Integrator {
     /// All integrators.
-    pub const ALL: [Self; 2] = [Self::Whitted, Self::Path];
+    pub const ALL: [Self; 3] = [Self::Whitted, Self::Path, Self::Photon];
 
     /// The name, such as `path`.
     pub const fn name(self) -> &'static str {
         match self {
             Self::Whitted => "whitted",
             Self::Path => "path",
+            Self::Photon => "photon",
         }
     }
 
@@ -127,8 +130,13 @@ impl Integrator {
     pub const fn default_depth(self) -> u32 {
         match self {
             Self::Whitted => DEFAULT_DEPTH,
-            Self::Path => DEFAULT_PATH_DEPTH,
+            Self::Path | Self::Photon => DEFAULT_PATH_DEPTH,
         }
+    }
+
+    /// Whether it traces paths, which scatter at random.
+    pub const fn traces_paths(self) -> bool {
+        matches!(self, Self::Path | Self::Photon)
     }
 }
 

@@ -119,6 +119,7 @@ fn surface(shading: &Shading, subject: &Subject<'_>) -> Value {
         "unlisted_lights": shading.unlisted.lights,
         "unlisted_radiance": vector(shading.unlisted.radiance),
         "emitters": emitters.collect::<Value>(),
+        "photons": vector(shading.caustics),
         "radiance": vector(shading.radiance),
         "mirror": vector(shading.mirror),
         "boundary": shading.boundary.map(|boundary| json!({

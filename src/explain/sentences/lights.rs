@@ -163,7 +163,7 @@ impl Case<'_> {
                 "the scene has no light, and only path tracing is lit by emission and environment",
                 "trace paths, or add a light",
             ),
-            (Integrator::Path, true) => (
+            (Integrator::Path | Integrator::Photon, true) => (
                 "the scene has only ambient light, which path tracing leaves out",
                 "trace with whitted, or add a light",
             ),

@@ -13,12 +13,13 @@ mod surface;
 mod verdict;
 mod whitted;
 
-use std::sync::Arc;
+use std::sync::{Arc, Weak};
 
 use glam::DVec3;
 
 use super::camera::Projection;
 use super::frame::{Job, Query, Settings};
+use super::photons::Photons;
 use super::probe::Sample;
 use super::shot::Shot;
 use super::tone::{Light, Tone};
@@ -42,6 +43,7 @@ pub struct PreparedScene {
     query: Query,
     /// Kept alive for the query.
     _world: Arc<World>,
+    _photons: Option<Arc<Photons>>,
 }
 
 impl PreparedScene {
@@ -49,10 +51,15 @@ impl PreparedScene {
     pub fn new(job: &Job, cancelled: impl Fn() -> bool + Sync) -> Option<Self> {
         let scene = Arc::clone(&job.scene);
         let world = World::build(scene, &job.images, job.settings.rules(), None, &cancelled)?;
+        let photons = match job.settings.photon_rules() {
+            Some(rules) => Some(Photons::build(&world, rules, None, &cancelled)?),
+            None => None,
+        };
         let world = Arc::new(world);
         Some(Self {
-            query: Query::new(&world, job),
+            query: Query::new(&world, photons.as_ref(), job),
             _world: world,
+            _photons: photons,
         })
     }
 
@@ -78,9 +85,10 @@ pub struct FirstHit {
 
 impl Query {
     /// Creates the handle of a job's frames.
-    pub(super) fn new(world: &Arc<World>, job: &Job) -> Self {
+    pub(super) fn new(world: &Arc<World>, photons: Option<&Arc<Photons>>, job: &Job) -> Self {
         Self {
             world: Arc::downgrade(world),
+            photons: photons.map_or_else(Weak::new, Arc::downgrade),
             camera: job.camera,
             // Its pixels are those of the whole picture.
             settings: Settings {
@@ -108,7 +116,12 @@ impl Query {
         let traced = self.sample(&world, pixel, sample)?;
         let (radiance, rays) = match settings.integrator {
             Integrator::Whitted => whitted::record(&world, settings.depth, traced, cancelled)?,
-            Integrator::Path => path::record(&world, settings.depth, traced, cancelled)?,
+            Integrator::Path => path::record(&world, settings.depth, None, traced, cancelled)?,
+            Integrator::Photon => {
+                let photons = self.photons.upgrade()?;
+                let map = photons.map_alone(&world, sample, &cancelled)?;
+                path::record(&world, settings.depth, Some(&map), traced, cancelled)?
+            }
         };
         let case = Case {
             world: &world,

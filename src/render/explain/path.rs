@@ -9,6 +9,7 @@ use super::super::lights::{Incoming, SphereLight};
 use super::super::next_event::Asked;
 use super::super::optics::transmitted;
 use super::super::path::{Onward, Path, Reached, Vertex, place_on_light};
+use super::super::photon_map::PhotonMap;
 use super::super::probe::{Probe, Sample};
 use super::super::sampler::Use;
 use super::super::world::World;
@@ -24,11 +25,12 @@ use crate::scene::Rgb;
 pub(super) fn record(
     world: &World,
     depth: u32,
+    photons: Option<&PhotonMap>,
     sample: Sample,
     cancelled: impl Fn() -> bool,
 ) -> Option<(Rgb, Vec<TracedRay>)> {
     let mut recorder = Recorder {
-        probe: Probe::new(world, depth, cancelled),
+        probe: Probe::new(world, depth, cancelled).with_photons(photons),
         sample,
         radiance: Rgb::ZERO,
         rays: Vec::new(),
@@ -164,6 +166,7 @@ impl<C: Fn() -> bool> Recorder<'_, C> {
             lights: Vec::new(),
             unlisted: Unlisted::default(),
             emitters: Vec::new(),
+            caustics: Rgb::ZERO,
             radiance: Rgb::ZERO,
             mirror: bsdf.mirror,
             boundary: boundary(&path.ray, point, material),
@@ -181,6 +184,10 @@ impl<C: Fn() -> bool> Recorder<'_, C> {
         if lit {
             let sampler = self.sample.sampler;
             let mut local = emission + sum;
+            if self.probe.photon_map.is_some() {
+                shading.caustics = self.probe.caustics(vertex, path.bounce);
+                local += shading.caustics;
+            }
             if self.probe.asks(vertex, path.bounce) {
                 local += self.probe.ask(vertex, path.bounce, sampler, |asked| {
                     shading.emitters.push(asked_for(vertex, &asked));
@@ -281,10 +288,14 @@ impl<C: Fn() -> bool> Recorder<'_, C> {
         let from = point.surface.point;
         let place = place_on_light(number, path.bounce, self.sample.sampler);
         let chosen = light.sphere().and_then(|sphere| sphere.choose(from, place));
-        let Some(sphere) = light.luminous_sphere() else {
-            return lit.term(number, chosen, reflected, added);
-        };
         let mut term = lit.term(number, chosen, reflected, added)?;
+        if self.probe.is_by_photons(light) && term.transmittance.is_some_and(|share| share < 1.0) {
+            term.transmittance = Some(0.0);
+            term.dark = Some(Dark::Blocked);
+        }
+        let Some(sphere) = light.luminous_sphere() else {
+            return Some(term);
+        };
         // Falloff does not apply to lights with a size.
         [term.radial, term.spot] = [1.0; 2];
         term.arriving = sphere.irradiance(from);

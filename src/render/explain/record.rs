@@ -159,7 +159,9 @@ pub struct Shading {
     pub unlisted: Unlisted,
     /// What emits light without being a light, as far as the path sampled it.
     pub emitters: Vec<EmitterTerm>,
-    /// Emission, ambient light, all lights and emitters together.
+    /// What photons bring.
+    pub caustics: Rgb,
+    /// Emission, ambient light, all lights, emitters and photons together.
     pub radiance: Rgb,
     /// Weight of the ray reflected by a mirror.
     pub mirror: Rgb,

@@ -216,6 +216,11 @@ pub enum TermSource {
         /// The object that reflects it.
         object: u32,
     },
+    /// Light of lights that came over mirrors and boundaries, by photons, and that an object reflects.
+    Caustics {
+        /// The object.
+        object: u32,
+    },
     /// Ambient light that an object reflects.
     Ambient {
         /// The object.
@@ -280,7 +285,10 @@ impl Verdict {
 impl TermSource {
     fn rename(&mut self, mut rename: impl FnMut(&mut u32)) {
         match self {
-            Self::Light { object, .. } | Self::Ambient { object } | Self::Emission { object } => {
+            Self::Light { object, .. }
+            | Self::Caustics { object }
+            | Self::Ambient { object }
+            | Self::Emission { object } => {
                 rename(object);
             }
             Self::Emitter { emitter, object } => {

@@ -143,6 +143,7 @@ impl<C: Fn() -> bool> Recorder<'_, C> {
             lights: Vec::new(),
             unlisted: Unlisted::default(),
             emitters: Vec::new(),
+            caustics: Rgb::ZERO,
             radiance: Rgb::ZERO,
             mirror: material.mirrored(point.side),
             boundary: boundary(&ray, &point, &material),

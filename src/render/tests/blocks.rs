@@ -96,7 +96,7 @@ fn a_picture_of_blocks_is_that_of_a_renderer() {
     let scene = still();
     let (width, height) = SIZE;
     for spp in [1, 2, 3, 8, 11] {
-        for integrator in [Integrator::Whitted, Integrator::Path] {
+        for integrator in Integrator::ALL {
             let settings = Settings {
                 integrator,
                 exposure: 0.5,
@@ -145,6 +145,12 @@ fn blocks_that_were_stopped_continue_to_the_same_picture() {
         };
         assert_same(&scene, settings, Some(60));
     }
+    let by_photons = Settings {
+        integrator: Integrator::Photon,
+        falloff: FalloffRule::Square,
+        ..settings(SIZE.0, SIZE.1, 13)
+    };
+    assert_same(&scene, by_photons, Some(20_000));
 }
 
 #[test]

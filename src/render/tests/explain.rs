@@ -95,7 +95,7 @@ fn check_parts(explanation: &Explanation, context: &str) {
         let lights: Rgb = shading.lights.iter().map(|term| term.radiance).sum();
         let emitters: Rgb = shading.emitters.iter().map(|term| term.radiance).sum();
         let shown = shading.emission + shading.ambient;
-        let parts = shown + lights + shading.unlisted.radiance + emitters;
+        let parts = shown + lights + shading.unlisted.radiance + emitters + shading.caustics;
         let off = (parts - shading.radiance).abs().max_element();
         let scale = shading.radiance.abs().max_element().max(1e-300);
         assert!(

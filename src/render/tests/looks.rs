@@ -198,10 +198,11 @@ fn shares_scene() -> Arc<Scene> {
 #[test]
 fn the_shares_of_the_lights_emission_and_indirect_light_add_up() {
     let scene = shares_scene();
-    for integrator in [Integrator::Whitted, Integrator::Path] {
+    for integrator in Integrator::ALL {
         let values = |aov| {
             let settings = Settings {
                 depth: 4,
+                falloff: FalloffRule::Square,
                 ..seen(integrator, 4, aov)
             };
             frame(job(&scene, settings)).values.clone()

@@ -49,6 +49,20 @@ pub(super) fn mesh(parts: MeshParts) -> Arc<Mesh> {
     Arc::new(Mesh::new(parts).expect("the mesh is sound"))
 }
 
+/// A ball of flat triangles that shade as a sphere.
+pub(super) fn smooth_ball(rings: u32, centre: DVec3) -> Shape {
+    let mut parts = ball(rings);
+    for position in &mut parts.positions {
+        *position = position.normalize();
+    }
+    parts.normals = Attribute {
+        values: parts.positions.clone(),
+        corners: Vec::new(),
+    };
+    let axes = [DVec3::X, DVec3::Y, DVec3::Z];
+    as_shape(&placed(&mesh(parts), axes, centre))
+}
+
 fn placed(mesh: &Arc<Mesh>, columns: [DVec3; 3], translation: DVec3) -> Instance {
     let frame = Affine::of_matrix(columns, translation).expect("the columns span a volume");
     Instance::new(Arc::clone(mesh), &frame, Vec::new())

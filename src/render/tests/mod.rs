@@ -21,6 +21,7 @@ mod meshes;
 mod noise;
 mod optics;
 mod paths;
+mod photons;
 mod progress;
 mod regions;
 mod shading;

@@ -97,7 +97,7 @@ impl App {
             self.cure();
             return;
         }
-        let words = self.pictures.toggle_integrator(self.scene.as_deref());
+        let words = self.pictures.next_integrator(self.scene.as_deref());
         // It may lack other lights.
         self.judge_text();
         self.overlays.say(words);

@@ -255,16 +255,17 @@ impl Pictures {
         self.rendering.or(own.unwrap_or_default())
     }
 
-    /// Switches the integrator of all pictures and returns its name. Switching to the scene's own
+    /// Switches all pictures to the next integrator and returns its name. Switching to the scene's own
     /// integrator follows the scene again.
-    pub(super) fn toggle_integrator(&mut self, scene: Option<&Scene>) -> &'static str {
-        let (other, words) = match self.rendering(scene).integrator() {
+    pub(super) fn next_integrator(&mut self, scene: Option<&Scene>) -> &'static str {
+        let (next, words) = match self.rendering(scene).integrator() {
             Integrator::Whitted => (Integrator::Path, "path tracing"),
-            Integrator::Path => (Integrator::Whitted, "Whitted ray tracing"),
+            Integrator::Path => (Integrator::Photon, "path tracing with photons"),
+            Integrator::Photon => (Integrator::Whitted, "Whitted ray tracing"),
         };
         self.rendering.integrator = None;
-        if self.rendering(scene).integrator() != other {
-            self.rendering.integrator = Some(other);
+        if self.rendering(scene).integrator() != next {
+            self.rendering.integrator = Some(next);
         }
         self.due = true;
         words

@@ -30,6 +30,8 @@ pub enum RayPart {
     Emission,
     /// Reflected ambient light.
     Ambient,
+    /// Reflected light of photons.
+    Caustics,
     /// The reflected light of one light, by its place in the list.
     Light(usize),
     /// Lights too many to list.
@@ -81,6 +83,7 @@ fn parts(ray: &TracedRay) -> Vec<RayPart> {
     parts.extend((0..shading.lights.len()).map(RayPart::Light));
     parts.extend((0 < shading.unlisted.lights).then_some(RayPart::Unlisted));
     parts.extend((0..shading.emitters.len()).map(RayPart::Emitter));
+    parts.extend((shading.caustics != Rgb::ZERO).then_some(RayPart::Caustics));
     parts.extend(shading.stop.map(|_| RayPart::Stop));
     parts
 }
@@ -123,6 +126,7 @@ impl RayLine {
             RayPart::Whole | RayPart::Stop => Rgb::ZERO,
             RayPart::Emission => shading.emission,
             RayPart::Ambient => shading.ambient,
+            RayPart::Caustics => shading.caustics,
             RayPart::Light(at) => shading
                 .lights
                 .get(at)

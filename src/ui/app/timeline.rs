@@ -248,7 +248,7 @@ impl App {
 fn samples(integrator: Integrator, rank: Rank) -> u32 {
     let [row, large] = match integrator {
         Integrator::Whitted => WHITTED_SAMPLES,
-        Integrator::Path => PATH_SAMPLES,
+        Integrator::Path | Integrator::Photon => PATH_SAMPLES,
     };
     match rank {
         Rank::Row => row,

@@ -19,7 +19,7 @@ fn preview_samples(integrator: Integrator, grid: Grid) -> u32 {
     let density = u32::from(grid.across) * u32::from(grid.down) / 2;
     let samples = match integrator {
         Integrator::Whitted => 64,
-        Integrator::Path => 1024,
+        Integrator::Path | Integrator::Photon => 1024,
     };
     samples / density.clamp(1, 4)
 }

@@ -348,7 +348,7 @@ const TRACE_HINTS: &[Hint] = &[
     (&[A::Stop], "stop"),
     (&[A::Go(Inspect)], "inspect"),
     (&[A::Back], "back"),
-    (&[A::Integrator], "path tracing"),
+    (&[A::Integrator], "integrator"),
     (
         &[
             A::Show(None),

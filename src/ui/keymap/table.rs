@@ -446,7 +446,7 @@ pub(super) const TABLE: &[Binding] = &[
     bind(Scope::Everywhere, &[c('<')], A::Expose(-1), "darker display, by half a stop"),
     bind(Scope::Everywhere, &[c('>')], A::Expose(1), "brighter display"),
     bind(Scope::Everywhere, &[c('~')], A::Denoise, "reduce noise on screen, or no longer"),
-    bind(Scope::Everywhere, &[c('P')], A::Integrator, "toggle path tracing"),
+    bind(Scope::Everywhere, &[c('P')], A::Integrator, "next integrator: Whitted, paths, photons"),
     bind(Scope::Everywhere, &[c('C')], A::Cure, "apply the suggested render setting"),
     bind(Scope::Always, &[ctrl('l')], A::Repaint, "redraw the screen"),
     bind(Scope::Always, &[ctrl('z')], A::Suspend, "suspend"),

@@ -120,6 +120,7 @@ fn words(app: &App, explanation: &Explanation, line: &RayLine) -> String {
         }
         RayPart::Emission => "emission".to_owned(),
         RayPart::Ambient => "ambient light".to_owned(),
+        RayPart::Caustics => "photons".to_owned(),
         RayPart::Light(_) => match line.light(explanation).and_then(|light| light.dark) {
             Some(dark) => format!("{}: {}", name(), reason(dark)),
             None => name(),

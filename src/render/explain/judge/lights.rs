@@ -129,8 +129,8 @@ impl Judge<'_> {
         }
         let others = match self.case.integrator {
             Integrator::Whitted => shines(scene),
-            Integrator::Path if shines(scene) => return None,
-            Integrator::Path => self.case.world.ambient != Rgb::ZERO,
+            Integrator::Path | Integrator::Photon if shines(scene) => return None,
+            Integrator::Path | Integrator::Photon => self.case.world.ambient != Rgb::ZERO,
         };
         Some((f64::INFINITY, Verdict::NoLights { others }))
     }

@@ -161,6 +161,7 @@ impl Judge<'_> {
         let mut terms = vec![
             (TermSource::Emission { object }, shading.emission),
             (TermSource::Ambient { object }, shading.ambient),
+            (TermSource::Caustics { object }, shading.caustics),
         ];
         terms.extend(shading.lights.iter().map(|term| {
             let light = term.light;
@@ -178,7 +179,7 @@ impl Judge<'_> {
         ordinary.sort_by(|(_, a), (_, b)| luminance(*b).total_cmp(&luminance(*a)));
         let lights = shading.lights.iter().map(|term| term.radiance);
         let emitters = shading.emitters.iter().map(|term| term.radiance);
-        let direct: Rgb = lights.chain(emitters).sum();
+        let direct: Rgb = lights.chain(emitters).chain([shading.caustics]).sum();
         let direct = self.shown(weight * (direct + shading.unlisted.radiance));
         let lacks = self.lacks(ray, shading, weight);
         let contribution = self.case.rays[ray].contribution;

@@ -19,6 +19,7 @@ fn preview(job: &Job, grey: f32) -> Msg {
     let plain = pictures::frame(size, vec![0; size.pixels()]);
     let query = Query {
         world: Weak::new(),
+        photons: Weak::new(),
         camera: job.camera,
         settings: job.settings,
         numbers: None,

@@ -36,9 +36,11 @@ fn switching_the_integrator_affects_every_picture_at_once() {
         let gathered =
             |(target, settings): (Target, Settings)| (target, settings.integrator, settings.depth);
         let (path, whitted) = ((Integrator::Path, 64), (Integrator::Whitted, 8));
+        let photon = (Integrator::Photon, 64);
         for (said, target, (integrator, depth)) in [
             ("P", Target::Preview, path),
             ("<F5>", Target::Trace, path),
+            ("P", Target::Trace, photon),
             ("P", Target::Trace, whitted),
             ("P", Target::Trace, path),
             ("b", Target::Export, path),
@@ -68,6 +70,8 @@ fn the_scenes_integrator_applies_until_the_user_chooses() {
         (Integrator::Path, 64)
     );
     press(&mut app, "P");
+    assert_eq!(app.rendering().integrator(), Integrator::Photon);
+    press(&mut app, "P");
     assert_eq!(app.rendering().integrator(), Integrator::Whitted);
     assert!(app.is_integrator_changed());
     press(&mut app, "P");
@@ -78,10 +82,10 @@ fn the_scenes_integrator_applies_until_the_user_chooses() {
 }
 
 #[test]
-fn a_depth_set_by_the_user_applies_to_both_integrators() {
+fn a_depth_set_by_the_user_applies_to_all_integrators() {
     let mut app = open(SCENE);
     app.pictures.rendering.depth = Some(3);
-    for integrator in [Integrator::Path, Integrator::Whitted] {
+    for integrator in [Integrator::Path, Integrator::Photon, Integrator::Whitted] {
         let settings = traced(&mut app, "P").1;
         assert_eq!((settings.integrator, settings.depth), (integrator, 3));
     }
@@ -98,7 +102,7 @@ fn settings_of_the_text_lie_under_the_users() {
     // As if given on the command line.
     assert_eq!(settings.spp, 4);
     app.pictures.rendering.spp = None;
-    press(&mut app, "P");
+    press(&mut app, "PP");
     assert!(app.is_integrator_changed());
     let (_, settings) = traced(&mut app, "b");
     let found = (settings.integrator, settings.depth, settings.spp);
