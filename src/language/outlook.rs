@@ -7,7 +7,8 @@ use super::rendering::RenderKey;
 use super::{Node, Source};
 use crate::geometry::{Ray, Shape, normalise};
 use crate::scene::{
-    Camera, Emitter, Highlight, Integrator, Light, Material, Object, Rendering, Rgb, Scene, Tinted,
+    Camera, Emitter, FalloffRule, Highlight, Integrator, Light, Material, Object, Rendering, Rgb,
+    Scene, Shadows, Tinted,
 };
 use crate::text::{Diagnostic, Span, concise};
 
@@ -51,6 +52,9 @@ pub fn outlook(source: &Source, scene: &Scene, asked: &Rendering) -> Vec<Outlook
     found.extend(view.unlit().or_else(|| view.enclosed()));
     if asked.integrator().traces_paths() {
         found.extend(view.gains());
+    }
+    if asked.integrator() == Integrator::Photon {
+        found.extend(view.without_photons());
     }
     found
 }
@@ -200,6 +204,40 @@ impl Judge<'_> {
             &message,
             "an eye outside, or a light inside",
         ))
+    }
+
+    /// Lights that emit no photons.
+    fn without_photons(&self) -> Vec<Outlook> {
+        let lights = &self.scene.lights;
+        if MOST_SEARCHED < lights.len() {
+            return Vec::new();
+        }
+        let rule = self.asked.falloff.unwrap_or_default();
+        let lights = lights.iter().enumerate();
+        let others = lights
+            .filter(|(_, light)| light.emitter != Emitter::Ambient && !light.emits_photons(rule));
+        let found = others.map(|(index, light)| {
+            let node = Node::Light(index);
+            let (reason, expected) = if light.shadows == Shadows::Off {
+                ("it casts no shadows", "a light that casts shadows")
+            } else {
+                let expected = match light.emitter {
+                    Emitter::Distant(_) => "a point light",
+                    _ => "`falloff square`, or a light that fades with it",
+                };
+                ("it does not fade with the square of the distance", expected)
+            };
+            let name = self.source.name(node);
+            let message = format!("{name} emits no photons: {reason}");
+            let helps = light.emits_photons(FalloffRule::Square);
+            Outlook {
+                cure: helps
+                    .then(|| setting("falloff", FalloffRule::Square.name()))
+                    .flatten(),
+                ..plain(self.source.span(node), &message, expected)
+            }
+        });
+        found.collect()
     }
 
     /// Materials that send back more than they receive.

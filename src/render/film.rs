@@ -12,6 +12,7 @@ use super::frame::{Aov, Frames, Settings};
 use super::gather::Gather;
 use super::kept::{Effort, Kept};
 use super::noise::Doubling;
+use super::photons::MAPS;
 use super::probe::Counts;
 use super::shot::Shot;
 use super::steps::Step;
@@ -127,7 +128,13 @@ impl Film {
             Frames::Last => 0,
             Frames::LastWithValues => size_of::<[f32; 3]>(),
         };
-        let tile = Tile::bytes(remembers);
+        let is_in_parts = settings.photon_rules().is_some() && 2 * MAPS < settings.spp;
+        let halfway = if is_in_parts {
+            Tile::halfway_bytes()
+        } else {
+            0
+        };
+        let tile = Tile::bytes(remembers) + halfway;
         let tiles = bytes(TileShape::of(size).count(size), tile);
         let picture = bytes(size.pixels(), size_of::<[u8; 3]>() + values);
         tiles.saturating_add(picture).saturating_add(denoising)
@@ -238,7 +245,8 @@ impl Film {
     }
 
     /// The picture as far as it is traced, and what it took.
-    pub(crate) fn keep(self, effort: Effort) -> Kept {
+    pub(crate) fn keep(mut self, effort: Effort) -> Kept {
+        self.tiles.par_iter_mut().for_each(Tile::revert);
         Kept {
             size: self.size,
             spp: self.spp,
@@ -320,13 +328,13 @@ impl Film {
         (tile, tile.index([x, y]))
     }
 
-    /// Takes one step in those of some tiles that lack it, on the current thread pool. Stops once
+    /// Takes one step, or one of its parts after the other, in those of some tiles that lack it, on the current thread pool. Stops once
     /// `cancelled` returns true; unfinished pixels must then be forgotten. The first step begins
     /// the tiles in order.
     pub(crate) fn advance(
         &mut self,
         tiles: Range<usize>,
-        step: &Step,
+        (step, part): (&Step, Range<u32>),
         shot: &Shot<'_>,
         cancelled: &(dyn Fn() -> bool + Sync),
     ) -> Counts {
@@ -360,13 +368,13 @@ impl Film {
                 },
                 |work, tile| {
                     let before = work.tracer.counts();
-                    tile.advance(size, (step, selection), shot, work);
+                    tile.advance(size, (step, part.clone(), selection), shot, work);
                     work.tracer.counts().since(before)
                 },
             )
             .reduce(Counts::default, Counts::and);
         self.over_budget += counts.over_budget;
-        if Doubling::of(step, &shot.settings).is_some() {
+        if part.end == step.indices().end && Doubling::of(step, &shot.settings).is_some() {
             self.gather_errors(tiles);
         }
         counts

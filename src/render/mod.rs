@@ -19,12 +19,13 @@
 //! Pixels of live pictures record their dependencies ([`touched`]): after an edit of a material or
 //! of a light's colour the film is reused, and only dependent pixels are traced again.
 //!
-//! A tracer has two integrators: [`whitted`] traces a [`wave`] of samples at once, whose rays land
+//! A tracer has three integrators: [`whitted`] traces a [`wave`] of samples at once, whose rays land
 //! on [`surfaces`] and [`branch`]; [`path`] traces samples one by one, continuing by a [`bsdf`] and
-//! its [`lobes`]. Both query the world through a [`probe`], which applies a material's maps
-//! ([`texture`]), shade according to [`shading`], and sample [`lights`] for [`direct`] light.
-//! [`optics`], [`microfacet`] and [`warp`] hold the formulas. [`gather`] tells the shares of the
-//! light apart.
+//! its [`lobes`]; the third adds the [`caustics`] of [`photons`] to paths. These are traced before the
+//! tiles of a step, turned at mirrors and glass by a [`deflection`], and found in a [`photon_map`].
+//! All query the world through a [`probe`], which applies a material's maps ([`texture`]), shade
+//! according to [`shading`], and sample [`lights`] for [`direct`] light. [`optics`], [`microfacet`]
+//! and [`warp`] hold the formulas. [`gather`] tells the shares of the light apart.
 //!
 //! [`explain`] records every ray behind a sample, part by part, by driving the same integrators;
 //! a [`Query`] of a frame does so for the frame's pixels.

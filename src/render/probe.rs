@@ -1,4 +1,4 @@
-//! Shared by both integrators: samples, and the points that rays hit.
+//! Shared by all integrators: samples, and the points that rays hit.
 
 use std::borrow::Cow;
 

@@ -13,7 +13,7 @@ use crate::geometry::lanes::{Eight, Lanes, Row, Simd, SimdBase, WIDTH, dispatch}
 use crate::scene::{Camera, Integrator};
 
 /// The inputs of tracing a tile.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub(crate) struct Shot<'w> {
     /// The scene with its structures.
     pub(crate) world: &'w World,
@@ -43,8 +43,14 @@ impl<'w> Shot<'w> {
     }
 
     /// The same with the light of photons, which must be traced for all samples taken.
-    pub(crate) fn with_photons(self, photons: Option<&'w PhotonMaps>) -> Self {
-        Self { photons, ..self }
+    pub(crate) fn with_photons<'p>(&self, photons: Option<&'p PhotonMaps>) -> Shot<'p>
+    where
+        'w: 'p,
+    {
+        Shot {
+            photons,
+            ..self.clone()
+        }
     }
 }
 

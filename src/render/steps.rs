@@ -72,6 +72,18 @@ impl Step {
         }
     }
 
+    /// The step in parts of at most this many samples of each of these pixels.
+    pub(crate) fn parts(&self, most: u32) -> impl Iterator<Item = Range<u32>> {
+        let Range { start, end } = self.indices();
+        let starts = (start..end).step_by(most as usize);
+        starts.map(move |start| start..end.min(start.saturating_add(most)))
+    }
+
+    /// The share of a part in the step, 0 to 1.
+    pub(crate) fn share_of(&self, part: &Range<u32>) -> f64 {
+        part.len() as f64 / self.indices().len() as f64
+    }
+
     /// The level of these pixels after this step, which encodes their number of samples (see
     /// [`samples_at`]): 1 with sample 0, and 1 more per doubling, the last of which may be partial.
     pub(crate) fn level(&self) -> u8 {

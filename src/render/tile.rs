@@ -1,6 +1,9 @@
 //! A part of a film: the accumulated samples of its pixels.
 
+mod halfway;
 mod stored;
+
+use std::ops::Range;
 
 use super::adaptive::Selection;
 use super::denoise::UNKNOWN;
@@ -13,6 +16,7 @@ use super::steps::{COARSEST, Step, samples_at};
 use super::touched::Touched;
 use super::tracer::Tracer;
 use crate::scene::{Rgb, Size};
+use halfway::Halfway;
 
 /// Pixels per tile.
 pub(crate) const AREA: u32 = 256;
@@ -168,6 +172,8 @@ pub(crate) struct Tile {
     pub(crate) over_budget: u64,
     /// Data for tracing a subset of the pixels again.
     memory: Option<Box<Memory>>,
+    /// What it was before a step of which parts are taken.
+    halfway: Option<Box<Halfway>>,
 }
 
 /// Data of each pixel that is not displayed.
@@ -243,6 +249,7 @@ impl Tile {
             squared_errors: 0.0,
             over_budget: 0,
             memory: (remembers == Remembers::Causes).then(memory),
+            halfway: None,
         };
         let [left, top] = tile.corner;
         let across = (size.width - left).min(shape.width) as usize;
@@ -261,11 +268,12 @@ impl Tile {
         }
     }
 
-    /// Takes a step in those pixels that lack it, if they are selected.
+    /// Takes a step, or one of its parts after the other, in those pixels that lack it, if they are
+    /// selected.
     pub(crate) fn advance<C: Fn() -> bool>(
         &mut self,
         size: Size,
-        (step, selection): (&Step, Option<&Selection>),
+        (step, part, selection): (&Step, Range<u32>, Option<&Selection>),
         shot: &Shot<'_>,
         work: &mut Work<'_, C>,
     ) {
@@ -274,29 +282,47 @@ impl Tile {
         }
         let counts = work.tracer.counts();
         let level = step.level();
+        let is_last = part.end == step.indices().end;
         work.pixels.clear();
-        self.each_pixel(size, step.spacing(), |tile, pixel| {
-            let at = tile.index(pixel);
-            let is_selected = selection.is_none_or(|selection| selection.has(pixel));
-            if tile.levels[at] < level && is_selected {
-                tile.levels[at] = 0;
-                work.pixels.push(pixel);
+        if let Some(halfway) = &self.halfway {
+            work.pixels.extend_from_slice(&halfway.pixels);
+        } else {
+            let halfway = (!is_last).then(|| self.halfway());
+            self.each_pixel(size, step.spacing(), |tile, pixel| {
+                let at = tile.index(pixel);
+                let is_selected = selection.is_none_or(|selection| selection.has(pixel));
+                if tile.levels[at] < level && is_selected {
+                    tile.levels[at] = 0;
+                    work.pixels.push(pixel);
+                }
+            });
+            self.halfway = halfway;
+            if let Some(halfway) = &mut self.halfway {
+                halfway.pixels.clone_from(&work.pixels);
             }
+        }
+        let doubling = Doubling::of(step, &shot.settings).filter(|_| is_last);
+        let doubling = doubling.map(|doubling| {
+            let halfway = self.halfway.as_ref();
+            (doubling, halfway.map_or(self.sums, |halfway| halfway.sums))
         });
-        let doubling = Doubling::of(step, &shot.settings).map(|doubling| (doubling, self.sums));
-        for index in step.indices() {
+        for index in part {
             self.sample(index, shot, work);
             if work.tracer.is_cancelled() {
                 return;
             }
         }
+        self.over_budget += work.tracer.counts().since(counts).over_budget;
+        if !is_last {
+            return;
+        }
+        self.halfway = None;
         for &pixel in &work.pixels {
             self.levels[self.index(pixel)] = level;
         }
         if let Some((doubling, before)) = doubling {
             self.estimate(doubling, &before, &work.pixels);
         }
-        self.over_budget += work.tracer.counts().since(counts).over_budget;
         match *step {
             Step::Grid(spacing) if 1 < spacing => self.grid = spacing,
             Step::Grid(_) | Step::Samples(_) => self.level = level,
@@ -406,12 +432,13 @@ impl Tile {
 
     /// The mean of a pixel's samples, or what an AOV of light shows of them.
     pub(crate) fn value(&self, at: usize, spp: u32, aov: Option<Aov>) -> Rgb {
-        let samples = f64::from(samples_at(self.levels[at], spp));
+        let (sum, level, rays) = self.shown(at);
+        let samples = f64::from(samples_at(level, spp));
         match aov {
-            Some(Aov::Cost) => Rgb::splat(self.rays(at) / samples.max(1.0)),
+            Some(Aov::Cost) => Rgb::splat(f64::from(rays) / samples.max(1.0)),
             Some(Aov::Samples) => Rgb::splat(samples),
             Some(Aov::Noise) => Rgb::splat(self.error(at).into()),
-            _ => self.sums[at] / samples.max(1.0),
+            _ => sum / samples.max(1.0),
         }
     }
 
@@ -426,15 +453,9 @@ impl Tile {
         memory.map_or(UNKNOWN, |memory| memory.variances[at])
     }
 
-    /// The rays traced for all samples of a pixel; 0 where they are not recorded.
-    fn rays(&self, at: usize) -> f64 {
-        let memory = self.memory.as_ref();
-        memory.map_or(0.0, |memory| memory.rays[at].into())
-    }
-
     /// The values of the pixels traced so far.
     pub(crate) fn values(&self, spp: u32, aov: Option<Aov>) -> impl Iterator<Item = Rgb> {
-        let traced = |&at: &usize| self.levels[at] != 0 && self.levels[at] != BEYOND;
+        let traced = |&at: &usize| ![0, BEYOND].contains(&self.shown(at).1);
         (0..AREA as usize)
             .filter(traced)
             .map(move |at| self.value(at, spp, aov))
@@ -466,7 +487,7 @@ impl Tile {
     /// point up and to the left.
     pub(crate) fn known(&self, [x, y]: [u32; 2]) -> usize {
         let at = self.index([x, y]);
-        if self.levels[at] == 0 {
+        if self.shown(at).1 == 0 {
             self.index([x - x % self.grid, y - y % self.grid])
         } else {
             at

@@ -1,11 +1,13 @@
 //! A picture being traced: its passes, its publication and when it is complete.
 
+use std::ops::Range;
 use std::time::{Duration, Instant};
 
 use super::denoise::{Guides, Noisy};
 use super::film::{Film, Raster};
 use super::frame::{Frame, Frames, Job, Limit, NO_OBJECT, Progress, Query};
 use super::kept::{Effort, Kept};
+use super::photons::{MAPS, Photons};
 use super::probe::Counts;
 use super::shared::Shared;
 use super::shot::Shot;
@@ -153,8 +155,9 @@ impl<'s, W: Fn() + Sync> Tracing<'s, W> {
         }
     }
 
-    /// Takes a step; returns whether more are wanted: false if cancelled or complete.
-    pub(crate) fn take(&mut self, step: &Step, shot: &Shot<'_>) -> bool {
+    /// Takes a step, by as many samples at a time as photon maps are held, if there are to be any;
+    /// returns whether more are wanted: false if cancelled or complete.
+    pub(crate) fn take(&mut self, step: &Step, shot: &Shot<'_>, photons: Option<&Photons>) -> bool {
         if let Step::Samples(indices) = step
             && 0 < indices.start
         {
@@ -167,26 +170,21 @@ impl<'s, W: Fn() + Sync> Tracing<'s, W> {
             return false;
         }
         self.unfinished = selected;
-        let before = self.taken;
-        let tiles = self.film.tiles();
-        let mut next = 0;
-        while next < tiles {
-            let until = self.film.stretch(next, self.batch, step);
-            let begun = self.ticket.elapsed();
-            let (ticket, published) = (self.ticket, self.published);
-            let cancelled = || ticket.cancelled(published);
-            self.counts = self
-                .counts
-                .and(self.film.advance(next..until, step, shot, &cancelled));
-            if cancelled() {
+        let is_lacking = self.film.stretch(0, 0, step) < self.film.tiles();
+        for part in step.parts(photons.map_or(u32::MAX, |_| MAPS)) {
+            // Before the tiles, whose threads must not wait for each other.
+            let maps = photons.filter(|_| is_lacking).map(|photons| {
+                let (ticket, published) = (self.ticket, self.published);
+                let cancelled = || ticket.cancelled(published);
+                photons.maps(shot.world, part.clone(), &cancelled)
+            });
+            if maps.as_ref().is_some_and(Option::is_none) {
                 return false;
             }
-            let took = self.ticket.elapsed().saturating_sub(begun);
-            self.batch = next_batch(self.batch, took, Batches::of(self.job.frames).time);
-            next = until;
-            self.taken = before + selected * step.share() * (next as f64 / tiles as f64);
-            if next < tiles && self.is_due() {
-                self.publish(shot);
+            let maps = maps.flatten();
+            let share = selected * step.share() * step.share_of(&part);
+            if !self.take_part((step, part), share, &shot.with_photons(maps.as_ref())) {
+                return false;
             }
         }
         self.whole_samples = step.whole_after();
@@ -197,14 +195,36 @@ impl<'s, W: Fn() + Sync> Tracing<'s, W> {
         !self.complete
     }
 
-    /// Whether pixels lack a step.
-    pub(crate) fn lacks(&self, step: &Step) -> bool {
-        self.film.stretch(0, 0, step) < self.film.tiles()
-    }
-
-    /// Whether to stop.
-    pub(crate) fn is_cancelled(&self) -> bool {
-        self.ticket.cancelled(self.published)
+    /// Takes a part of a step that is this share of a sample of all pixels; returns false if cancelled.
+    fn take_part(
+        &mut self,
+        (step, part): (&Step, Range<u32>),
+        share: f64,
+        shot: &Shot<'_>,
+    ) -> bool {
+        let before = self.taken;
+        let tiles = self.film.tiles();
+        let mut next = 0;
+        while next < tiles {
+            let until = self.film.stretch(next, self.batch, step);
+            let begun = self.ticket.elapsed();
+            let (ticket, published) = (self.ticket, self.published);
+            let cancelled = || ticket.cancelled(published);
+            let part = (step, part.clone());
+            let counts = self.film.advance(next..until, part, shot, &cancelled);
+            self.counts = self.counts.and(counts);
+            if cancelled() {
+                return false;
+            }
+            let took = self.ticket.elapsed().saturating_sub(begun);
+            self.batch = next_batch(self.batch, took, Batches::of(self.job.frames).time);
+            next = until;
+            self.taken = before + share * (next as f64 / tiles as f64);
+            if next < tiles && self.is_due() {
+                self.publish(shot);
+            }
+        }
+        true
     }
 
     /// The picture as far as it is traced.

@@ -161,21 +161,11 @@ fn trace<W: Fn() + Sync>(
         }
     };
     drop(known);
+    let shot = Shot::new(&world, &job.camera, job.settings);
     let query = Query::new(&world, photons.as_ref(), &job);
     let mut picture = Tracing::new(ticket.with_world(), &job, (film, before), wake, query);
     for step in steps(job.settings.spp, job.frames) {
-        // Before its tiles, whose threads must not wait for each other.
-        let lacking = photons.as_ref().filter(|_| picture.lacks(&step));
-        let maps = match lacking {
-            Some(photons) => {
-                let maps = photons.maps(&world, step.indices(), &|| picture.is_cancelled());
-                let Some(maps) = maps else { break };
-                Some(maps)
-            }
-            None => None,
-        };
-        let shot = Shot::new(&world, &job.camera, job.settings).with_photons(maps.as_ref());
-        if !picture.take(&step, &shot) {
+        if !picture.take(&step, &shot, photons.as_deref()) {
             break;
         }
     }

@@ -236,3 +236,48 @@ fn materials_that_send_back_more_than_comes_are_named_with_the_sum() {
         ],
     );
 }
+
+/// Each light that emits no photons, with the falloff that lets a point emit them.
+#[test]
+fn lights_without_photons_are_named() {
+    const PHOTON: Option<Integrator> = Some(Integrator::Photon);
+    let steady = "it does not fade with the square of the distance";
+    let ray = format!("{LIT}{BALL}");
+    let expected = format!("1:9 light 1 emits no photons: {steady} | falloff square");
+    check(Language::Ray, &ray, PHOTON, &[&expected]);
+    check(Language::Ray, &ray, PATH, &[]);
+    let fading = format!("// render: integrator photon falloff square\n{ray}");
+    check(Language::Ray, &fading, None, &[]);
+    let dat = "light ID 1 inf 0 0 1  0 1 -1  1 1 1  1 0 0  0 shadow_on\n\
+               light ID 2 pnt 0 0 9  0 0 0  1 1 1  0 0 1  0 shadow_on\n\
+               light ID 3 pnt 0 0 9  0 0 0  1 1 1  0 0 1  0 shadow_off\n\
+               light ID 4 pnt 0 0 9  0 0 0  1 1 1  1 0 1  0 shadow_on\n\
+               light ID 5 amb 0 0 9  0 0 0  1 1 1  1 0 0  0 shadow_on\n\
+               mat ID 1  1 1 1  0 .5 0 1  0 0 1\nobj sphere ID 1 mat ID 1  0 0 0  1\n\
+               camera perspective 0 -5 0  0 0 0  0 0 1  1 0 100\nresolution .1 .1\nviewport 8 6\n";
+    let of_dat = [
+        format!("1:1 light 1 emits no photons: {steady}"),
+        "3:1 light 3 emits no photons: it casts no shadows".to_owned(),
+        format!("4:1 light 4 emits no photons: {steady}"),
+    ];
+    check(
+        Language::Dat,
+        dat,
+        PHOTON,
+        &of_dat.each_ref().map(String::as_str),
+    );
+    let xml = |terms: &str| {
+        format!(
+            "<xml><scene><object type='sphere' material='m'/><material name='m'/>
+             <light type='point'><intensity/>{terms}</light></scene>
+             <camera><position z='9'/></camera></xml>"
+        )
+    };
+    let expected = format!("2:14 light 1 (point) emits no photons: {steady} | falloff square");
+    for terms in ["", "<size value='2'/>"] {
+        check(Language::Xml, &xml(terms), PHOTON, &[&expected]);
+    }
+    check(Language::Xml, &xml("<attenuation value='2'/>"), PHOTON, &[]);
+    let radiant = xml("<size value='2'/>").replace("<camera>", "<camera gamma='sRGB'>");
+    check(Language::Xml, &radiant, PHOTON, &[]);
+}

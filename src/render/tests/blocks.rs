@@ -148,9 +148,9 @@ fn blocks_that_were_stopped_continue_to_the_same_picture() {
     let by_photons = Settings {
         integrator: Integrator::Photon,
         falloff: FalloffRule::Square,
-        ..settings(SIZE.0, SIZE.1, 13)
+        ..settings(SIZE.0, SIZE.1, 32)
     };
-    assert_same(&scene, by_photons, Some(20_000));
+    assert_same(&scene, by_photons, Some(50_000));
 }
 
 #[test]

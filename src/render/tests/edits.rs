@@ -69,7 +69,9 @@ impl Easel {
         let shot = Shot::new(&self.world, &self.job.camera, self.job.settings);
         for step in steps(self.job.settings.spp, self.job.frames) {
             let tiles = 0..self.film.tiles();
-            let counts = self.film.advance(tiles, &step, &shot, &cancelled);
+            let counts = self
+                .film
+                .advance(tiles, (&step, step.indices()), &shot, &cancelled);
             self.counts = self.counts.and(counts);
             if cancelled() {
                 return false;

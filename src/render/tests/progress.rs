@@ -320,9 +320,9 @@ fn a_film_touches_memory_while_tracing_and_developing_can_be_cancelled() {
     let mut film = Film::new(&settings(size.width, size.height, 1), Frames::Live, false)
         .expect("memory is there");
     assert_eq!((film.tiles(), film.begun()), (125 * 63, 0));
-    film.advance(0..7, &Step::Grid(8), &shot, &|| false);
+    film.advance(0..7, (&Step::Grid(8), 0..1), &shot, &|| false);
     assert_eq!(film.begun(), 7);
-    film.advance(7..film.tiles(), &Step::Grid(8), &shot, &|| true);
+    film.advance(7..film.tiles(), (&Step::Grid(8), 0..1), &shot, &|| true);
     let asked = Cell::new(0);
     let stop_at_the_third = || {
         asked.set(asked.get() + 1);
