@@ -38,13 +38,13 @@ pub(crate) fn steps(spp: u32, frames: Frames) -> Vec<Step> {
 }
 
 impl Step {
-    /// Samples added, as a mean per pixel.
-    pub(crate) fn share(&self) -> f64 {
+    /// Samples added by a part of it, as a mean per pixel.
+    pub(crate) fn share(&self, part: &Range<u32>) -> f64 {
         match self {
             Self::Grid(COARSEST) => 1.0 / f64::from(COARSEST * COARSEST),
             // A grid has a quarter of the points of the next finer one, which includes it.
             Self::Grid(spacing) => 0.75 / f64::from(spacing * spacing),
-            Self::Samples(indices) => f64::from(indices.end - indices.start),
+            Self::Samples(_) => part.len() as f64,
         }
     }
 
@@ -77,11 +77,6 @@ impl Step {
         let Range { start, end } = self.indices();
         let starts = (start..end).step_by(most as usize);
         starts.map(move |start| start..end.min(start.saturating_add(most)))
-    }
-
-    /// The share of a part in the step, 0 to 1.
-    pub(crate) fn share_of(&self, part: &Range<u32>) -> f64 {
-        part.len() as f64 / self.indices().len() as f64
     }
 
     /// The level of these pixels after this step, which encodes their number of samples (see

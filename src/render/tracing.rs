@@ -182,7 +182,7 @@ impl<'s, W: Fn() + Sync> Tracing<'s, W> {
                 return false;
             }
             let maps = maps.flatten();
-            let share = selected * step.share() * step.share_of(&part);
+            let share = selected * step.share(&part);
             if !self.take_part((step, part), share, &shot.with_photons(maps.as_ref())) {
                 return false;
             }
