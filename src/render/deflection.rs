@@ -4,7 +4,8 @@
 //! follow shading normals; the factors on a photon's flux make both estimate the same light (Veach,
 //! "Robust Monte Carlo Methods for Light Transport Simulation", 1997, chapter 5). With l the
 //! direction toward where a photon came from, v that in which it leaves, H the normal that turns it
-//! and G the geometric one, they are |l·H| |v·G| / (|l·G| |v·H|), and at a boundary (n_l / n_v)².
+//! and G the geometric one, they are |l·H| |v·G| / (|l·G| |v·H|), and at a boundary the square of the index on
+//! the side of l over that on the side of v.
 //! Directions that facets fold back to the surface are taken as if that were symmetric, which it is
 //! for cones.
 

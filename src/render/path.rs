@@ -284,7 +284,8 @@ impl<C: Fn() -> bool> Probe<'_, C> {
             Some(sphere) => self.of_sphere_light(point, bsdf, bounce, light, &sphere, place()),
         };
         // Photons bring what passes on the way.
-        if self.is_by_photons(light) && !self.crossed.passed.is_empty() {
+        if self.photon_map.is_some() && !self.crossed.passed.is_empty() && self.is_by_photons(light)
+        {
             return Rgb::ZERO;
         }
         light.scale * sent_back
@@ -329,6 +330,7 @@ impl<C: Fn() -> bool> Probe<'_, C> {
 
 impl<C> Probe<'_, C> {
     /// Whether photons bring the light of a light that comes over mirrors and boundaries.
+    #[cold]
     pub(super) fn is_by_photons(&self, light: &Light) -> bool {
         self.photon_map.is_some() && light.emits_photons(FalloffRule::None)
     }

@@ -47,6 +47,7 @@ struct Source {
 }
 
 /// A photon as it leaves a light.
+#[derive(Clone, Copy, Debug)]
 pub(super) struct Emitted {
     pub(super) ray: Ray,
     /// Its power, as a multiple of the mean of all photons.
@@ -116,7 +117,7 @@ impl Emission {
         let at = self
             .sources
             .partition_point(|source| source.until <= chosen);
-        let source = self.sources.get(at).or(self.sources.last())?;
+        let source = self.sources.get(at).or_else(|| self.sources.last())?;
         let direction = source.aim.choose([cell, u, v]);
         // A source is chosen by its strength.
         let power = source.intensity / strength(source.intensity);

@@ -133,7 +133,7 @@ impl Photons {
             first: Arc::new(PhotonMap::new(&[], 1.0, 1.0)),
         };
         let first = photons.trace(world, 0, cancelled)?;
-        let radius = radius(&first).unwrap_or(world.scene.bounds().half_diagonal() / 64.0);
+        let radius = radius(&first).unwrap_or_else(|| world.scene.bounds().half_diagonal() / 64.0);
         if 0.0 < radius && radius.is_finite() {
             photons.radius = radius;
         }
@@ -150,12 +150,12 @@ impl Photons {
         cancelled: &(dyn Fn() -> bool + Sync),
     ) -> Option<PhotonMaps> {
         let first = indices.start;
-        let map = |index| match self.known(index) {
-            Some(map) => Some(map),
-            None => {
-                let photons = self.trace(world, index, cancelled)?;
-                Some(Arc::new(self.map_of(&photons, index)))
+        let map = |index| {
+            if let Some(map) = self.known(index) {
+                return Some(map);
             }
+            let photons = self.trace(world, index, cancelled)?;
+            Some(Arc::new(self.map_of(&photons, index)))
         };
         let maps: Option<_> = indices.map(map).collect();
         Some(PhotonMaps { first, maps: maps? })

@@ -590,11 +590,13 @@ fn photons_are_explained() {
     let rules = job.settings.photon_rules().expect("it has photons");
     let photons = Photons::build(&world, rules, None, &|| false).expect("nothing cancels");
     let maps = photons
-        .maps(&world, 0..3, &|| false)
+        .maps(&world, 0..4, &|| false)
         .expect("nothing cancels");
     let shot = super::super::shot::Shot::new(&world, &job.camera, job.settings);
     let mut brought = 0;
-    for (x, y, index) in (0..40).flat_map(|x| (0..30).map(move |y| (x, y, (x + y) % 3))) {
+    for (x, y, index) in
+        (0..40).flat_map(|x| (0..30).map(move |y| (x, y, if x == 7 { y / 9 } else { 0 })))
+    {
         let explanation = prepared.query().explain([x, y], index, || false);
         let explanation = explanation.expect("it is prepared");
         let mut samples = Vec::new();

@@ -49,15 +49,11 @@ impl Tile {
     /// those before a step that is not finished.
     pub(super) fn shown(&self, at: usize) -> (Rgb, u8, u32) {
         let rays = |memory: &super::Memory| memory.rays[at];
-        match &self.halfway {
-            Some(halfway) => {
-                let rays = halfway.rays.get(at).copied();
-                (halfway.sums[at], halfway.levels[at], rays.unwrap_or(0))
-            }
-            None => {
-                let rays = self.memory.as_deref().map_or(0, rays);
-                (self.sums[at], self.levels[at], rays)
-            }
+        if let Some(halfway) = &self.halfway {
+            let rays = halfway.rays.get(at).copied();
+            return (halfway.sums[at], halfway.levels[at], rays.unwrap_or(0));
         }
+        let rays = self.memory.as_deref().map_or(0, rays);
+        (self.sums[at], self.levels[at], rays)
     }
 }
