@@ -22,7 +22,7 @@
 //! A tracer has three integrators: [`whitted`] traces a [`wave`] of samples at once, whose rays land
 //! on [`surfaces`] and [`branch`]; [`path`] traces samples one by one, continuing by a [`bsdf`] and
 //! its [`lobes`]; the third adds the [`caustics`] of [`photons`] to paths. These are traced before the
-//! tiles of a step, turned at mirrors and glass by a [`deflection`], and found in a [`photon_map`].
+//! tiles of a step ([`photon_paths`]), turned at mirrors and glass by a [`deflection`], and found in a [`photon_map`].
 //! All query the world through a [`probe`], which applies a material's maps ([`texture`]), shade
 //! according to [`shading`], and sample [`lights`] for [`direct`] light. [`optics`], [`microfacet`]
 //! and [`warp`] hold the formulas. [`gather`] tells the shares of the light apart.
@@ -76,6 +76,7 @@ mod optics;
 mod packets;
 mod path;
 mod photon_map;
+mod photon_paths;
 mod photons;
 mod place;
 mod probe;

@@ -26,10 +26,10 @@ const PAIRS: usize = 1 << 22;
 
 /// All that emits photons.
 #[derive(Clone, Debug)]
-pub(super) struct Emission {
+pub(in super::super) struct Emission {
     sources: Vec<Source>,
     /// The sum of the strengths of all sources; 0 if there are none.
-    pub(super) power: f64,
+    pub(in super::super) power: f64,
 }
 
 /// A light that emits photons.
@@ -48,18 +48,21 @@ struct Source {
 
 /// A photon as it leaves a light.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Emitted {
-    pub(super) ray: Ray,
+pub(in super::super) struct Emitted {
+    pub(in super::super) ray: Ray,
     /// Its power, as a multiple of the mean of all photons.
-    pub(super) power: Rgb,
+    pub(in super::super) power: Rgb,
     /// Whether a path meets the light only by another bounce.
-    pub(super) is_seen: bool,
+    pub(in super::super) is_seen: bool,
 }
 
 impl Emission {
     /// Collects the lights of a world that emit photons toward mirrors and boundaries; `None` once
     /// `cancelled` returns true.
-    pub(super) fn of(world: &World, cancelled: &(dyn Fn() -> bool + Sync)) -> Option<Self> {
+    pub(in super::super) fn of(
+        world: &World,
+        cancelled: &(dyn Fn() -> bool + Sync),
+    ) -> Option<Self> {
         let lights = || {
             let lights = world.lights().iter();
             lights.filter_map(|light| Some((light, light.radiant_intensity()?)))
@@ -111,7 +114,7 @@ impl Emission {
     }
 
     /// Emits a photon; `None` if nothing emits any.
-    pub(super) fn emit(&self, sampler: Sampler) -> Option<Emitted> {
+    pub(in super::super) fn emit(&self, sampler: Sampler) -> Option<Emitted> {
         let [number, cell, u, v] = sampler.four(Sampler::ROOT, Use::Emission);
         let chosen = number * self.power;
         let at = self

@@ -19,19 +19,14 @@
 
 mod aim;
 mod emission;
-mod flight;
 
-use std::ops::Range;
 use std::sync::Arc;
 
 use rayon::prelude::*;
 
 use super::photon_map::{Photon, PhotonMap};
-use super::sampler::Sampler;
-use super::world::World;
-use crate::scene::{FalloffRule, GlossRule, MAX_SPP};
-use emission::Emission;
-use flight::follow;
+use crate::scene::{FalloffRule, GlossRule};
+pub(super) use emission::{Emission, Emitted};
 
 /// The range of the number of photons of a map: as many as the picture has pixels.
 const COUNTS: [u32; 2] = [1 << 14, 1 << 17];
@@ -40,7 +35,7 @@ const COUNTS: [u32; 2] = [1 << 14, 1 << 17];
 pub(crate) const MAPS: u32 = 8;
 
 /// Photons traced by one task.
-const CHUNK: u32 = 1024;
+pub(super) const CHUNK: u32 = 1024;
 
 /// The part of the photons within a kernel that shrinking it keeps: α.
 const KEPT: f64 = 2.0 / 3.0;
@@ -52,7 +47,7 @@ const NEIGHBOURS: usize = 16;
 const ASKED: usize = 256;
 
 /// Apart from the random numbers of pixels.
-const SEED: u32 = 0x7068_6F74;
+pub(super) const SEED: u32 = 0x7068_6F74;
 
 /// The settings that photons depend on.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -70,19 +65,19 @@ pub(crate) struct PhotonRules {
 /// What is needed to trace photon maps.
 #[derive(Debug)]
 pub(crate) struct Photons {
-    rules: PhotonRules,
-    emission: Emission,
+    pub(super) rules: PhotonRules,
+    pub(super) emission: Emission,
     /// The radius of the first map.
-    radius: f64,
-    first: Arc<PhotonMap>,
+    pub(super) radius: f64,
+    pub(super) first: Arc<PhotonMap>,
 }
 
 /// The maps for the samples of a step.
 #[derive(Clone, Debug)]
 pub(crate) struct PhotonMaps {
     /// The index of the first.
-    first: u32,
-    maps: Vec<Arc<PhotonMap>>,
+    pub(super) first: u32,
+    pub(super) maps: Vec<Arc<PhotonMap>>,
 }
 
 impl PhotonMaps {
@@ -110,86 +105,14 @@ impl PhotonRules {
 }
 
 impl Photons {
-    /// Traces the first map of a world, on the current thread pool, or returns the photons of another
-    /// if they are the same; `None` once `cancelled` returns true.
-    pub(crate) fn build(
-        world: &World,
-        rules: PhotonRules,
-        known: Option<(&World, &Arc<Self>)>,
-        cancelled: &(dyn Fn() -> bool + Sync),
-    ) -> Option<Arc<Self>> {
-        let serve = |(before, photons): &(&World, &Arc<Self>)| {
-            photons.rules == rules
-                && world.textures.are_those_of(&before.textures)
-                && (Arc::ptr_eq(&world.scene, &before.scene) || world.scene == before.scene)
-        };
-        if let Some((_, photons)) = known.filter(serve) {
-            return Some(Arc::clone(photons));
-        }
-        let mut photons = Self {
-            rules,
-            emission: Emission::of(world, cancelled)?,
-            radius: 1.0,
-            first: Arc::new(PhotonMap::new(&[], 1.0, 1.0)),
-        };
-        let first = photons.trace(world, 0, cancelled)?;
-        let radius = radius(&first).unwrap_or_else(|| world.scene.bounds().half_diagonal() / 64.0);
-        if 0.0 < radius && radius.is_finite() {
-            photons.radius = radius;
-        }
-        photons.first = Arc::new(photons.map_of(&first, 0));
-        Some(Arc::new(photons))
-    }
-
-    /// Returns the maps with these indices, traced on the current thread pool; `None` once
-    /// `cancelled` returns true.
-    pub(crate) fn maps(
-        &self,
-        world: &World,
-        indices: Range<u32>,
-        cancelled: &(dyn Fn() -> bool + Sync),
-    ) -> Option<PhotonMaps> {
-        let first = indices.start;
-        let map = |index| {
-            if let Some(map) = self.known(index) {
-                return Some(map);
-            }
-            let photons = self.trace(world, index, cancelled)?;
-            Some(Arc::new(self.map_of(&photons, index)))
-        };
-        let maps: Option<_> = indices.map(map).collect();
-        Some(PhotonMaps { first, maps: maps? })
-    }
-
-    /// Returns the map with an index, traced on the current thread; `None` once `cancelled` returns
-    /// true.
-    pub(crate) fn map_alone(
-        &self,
-        world: &World,
-        index: u32,
-        cancelled: impl Fn() -> bool,
-    ) -> Option<Arc<PhotonMap>> {
-        if let Some(map) = self.known(index) {
-            return Some(map);
-        }
-        let mut photons = Vec::new();
-        for chunk in 0..self.chunks() {
-            if cancelled() {
-                return None;
-            }
-            photons.extend(self.chunk(world, index, chunk));
-        }
-        Some(Arc::new(self.map_of(&photons, index)))
-    }
-
     /// The map with an index that need not be traced.
-    fn known(&self, index: u32) -> Option<Arc<PhotonMap>> {
+    pub(super) fn known(&self, index: u32) -> Option<Arc<PhotonMap>> {
         let is_known = index == 0 || self.emission.power == 0.0;
         is_known.then(|| Arc::clone(&self.first))
     }
 
     /// Sorts the photons of a map.
-    fn map_of(&self, photons: &[Photon], index: u32) -> PhotonMap {
+    pub(super) fn map_of(&self, photons: &[Photon], index: u32) -> PhotonMap {
         let unit = self.emission.power / f64::from(self.rules.count);
         PhotonMap::new(photons, self.radius_of(index), unit)
     }
@@ -203,48 +126,19 @@ impl Photons {
         self.radius * (1..=index).fold(1.0, shrunk).sqrt()
     }
 
-    /// Traces the photons of a map, in the order of their emission.
-    fn trace(
-        &self,
-        world: &World,
-        index: u32,
-        cancelled: &(dyn Fn() -> bool + Sync),
-    ) -> Option<Vec<Photon>> {
-        let chunks = (0..self.chunks()).into_par_iter();
-        let chunks = chunks.map(|chunk| {
-            let photons = self.chunk(world, index, chunk);
-            (!cancelled()).then_some(photons)
-        });
-        let chunks: Option<Vec<_>> = chunks.collect();
-        Some(chunks?.concat())
-    }
-
-    fn chunks(&self) -> u32 {
+    /// The number of tasks that trace a map.
+    pub(super) fn chunks(&self) -> u32 {
         if self.emission.power == 0.0 {
             0
         } else {
             self.rules.count / CHUNK
         }
     }
-
-    /// Traces some photons of a map.
-    fn chunk(&self, world: &World, index: u32, chunk: u32) -> Vec<Photon> {
-        let mut arrived = Vec::new();
-        for number in chunk * CHUNK..(chunk + 1) * CHUNK {
-            // The sequence of a sampler is no longer.
-            let (part, number) = (number / MAX_SPP, number % MAX_SPP);
-            let sampler = Sampler::new(index, part, number, self.rules.seed ^ SEED);
-            if let Some(emitted) = self.emission.emit(sampler) {
-                follow(world, emitted, self.rules.depth, sampler, &mut arrived);
-            }
-        }
-        arrived
-    }
 }
 
 /// The radius within which half of the photons have enough neighbours, judging by some of them;
 /// `None` if there are none apart from each other.
-fn radius(photons: &[Photon]) -> Option<f64> {
+pub(super) fn radius(photons: &[Photon]) -> Option<f64> {
     let step = photons.len().div_ceil(ASKED).max(1);
     let asked: Vec<_> = photons.iter().step_by(step).collect();
     let reach = |photon: &&Photon| {
