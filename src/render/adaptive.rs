@@ -5,7 +5,7 @@
 
 use rayon::prelude::*;
 
-use super::block::{BLOCK, Blocks};
+use super::blocks::{BLOCK, Blocks};
 
 /// Edge length of a square in pixels.
 const SQUARE: u32 = 4;

@@ -5,7 +5,8 @@ use std::collections::TryReserveError;
 use rayon::prelude::*;
 
 use super::adaptive::square;
-use super::block::{Block, Blocks};
+use super::block::Block;
+use super::blocks::Blocks;
 use super::frame::{Aov, Frame, Frames, Progress, Settings};
 use super::probe::Counts;
 use super::refusal::Refusal;

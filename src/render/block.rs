@@ -3,6 +3,7 @@
 use std::time::{Duration, Instant};
 
 use super::adaptive::{LEAST, SQUARES, Squares, go_on, square};
+use super::blocks::Blocks;
 use super::frame::{Aov, Settings};
 use super::noise::Doubling;
 use super::probe::Counts;
@@ -10,55 +11,10 @@ use super::region::Region;
 use super::shot::Shot;
 use super::steps::Step;
 use super::tile::Work;
-use crate::scene::{Rgb, Size};
-
-/// Edge length of blocks in pixels; blocks at the right and lower edges of a picture are cut.
-pub const BLOCK: u32 = 32;
+use crate::scene::Rgb;
 
 /// Pixels traced together: most of a block's share of the cache.
 const TOGETHER: usize = 256;
-
-/// The division of a picture into blocks, numbered in rows from the top left.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Blocks {
-    size: Size,
-}
-
-impl Blocks {
-    /// Divides a picture of this size.
-    pub fn of(size: Size) -> Self {
-        Self { size }
-    }
-
-    /// The number of blocks in each row.
-    pub fn across(self) -> u32 {
-        self.size.width.div_ceil(BLOCK)
-    }
-
-    /// The number of blocks.
-    pub fn count(self) -> u32 {
-        self.across() * self.size.height.div_ceil(BLOCK)
-    }
-
-    /// The pixels of a block.
-    pub fn region(self, number: u32) -> Region {
-        let (x, y) = (
-            number % self.across() * BLOCK,
-            number / self.across() * BLOCK,
-        );
-        Region {
-            x,
-            y,
-            width: BLOCK.min(self.size.width - x),
-            height: BLOCK.min(self.size.height - y),
-        }
-    }
-
-    /// The number of pixels of a block.
-    pub fn area(self, number: u32) -> usize {
-        self.region(number).size().pixels()
-    }
-}
 
 /// The pixels of a block as far as they are traced. Its samples are those of the whole picture, and
 /// sums are added in the order of the samples, so that it may be continued anywhere at any time.

@@ -6,7 +6,8 @@ use std::time::{Duration, Instant};
 use rayon::ThreadPool;
 use rayon::prelude::*;
 
-use super::block::{Block, Blocks};
+use super::block::Block;
+use super::blocks::Blocks;
 use super::frame::{Aov, Job};
 use super::gather::Gather;
 use super::photons::{MAPS, Photons};

@@ -6,7 +6,7 @@ use std::ops::Range;
 use rayon::prelude::*;
 
 use super::adaptive::{LEAST, SQUARES, Selection, Squares, go_on, square};
-use super::block::{BLOCK, Blocks};
+use super::blocks::{BLOCK, Blocks};
 use super::denoise::{self, UNKNOWN};
 use super::frame::{Aov, Frames, Settings};
 use super::gather::Gather;

@@ -47,6 +47,7 @@ mod adaptive;
 mod assembly;
 mod block;
 mod block_tracer;
+mod blocks;
 mod branch;
 mod bsdf;
 mod camera;
@@ -109,8 +110,9 @@ mod world;
 mod written;
 
 pub use assembly::Assembly;
-pub use block::{BLOCK, Block, Blocks};
+pub use block::Block;
 pub use block_tracer::BlockTracer;
+pub use blocks::{BLOCK, Blocks};
 pub use display::{Colours, Display, MOST_HALF_STOPS, exposes};
 pub use explain::{
     Boundary, Chosen, Crossing, Dark, DepthLimit, EmitterTerm, Explanation, Finding, FirstHit,

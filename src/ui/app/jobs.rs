@@ -354,7 +354,7 @@ impl Export {
         let what = self
             .aov
             .map_or_else(String::new, |aov| format!("{}, ", aov.name()));
-        let progress = self.progress.filter(|progress| progress.complete);
+        let progress = self.progress.filter(Progress::is_adaptive);
         let samples = progress.map_or_else(|| format!("{} spp", self.spp), |done| done.samples());
         format!(": {what}{width}×{height}, {samples}{took}")
     }

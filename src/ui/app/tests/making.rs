@@ -150,7 +150,7 @@ fn a_setting_in_use_is_written_and_no_longer_lies_over_the_text() {
 
 /// What is wrong already stays a warning.
 #[test]
-fn a_setting_is_written_beside_one_that_is_skipped() {
+fn a_setting_replaces_one_that_is_skipped() {
     let mut app = open(&format!("// render: depth x\n{SCENE}"));
     press(&mut app, ":set spp 8<Enter>");
     assert!(
@@ -162,7 +162,7 @@ fn a_setting_is_written_beside_one_that_is_skipped() {
     assert!(
         app.document
             .text()
-            .starts_with("// render: depth x spp 8 depth 2\n")
+            .starts_with("// render: depth 2 spp 8\n")
     );
     press(&mut app, ":set exposure 1 spp 3<Enter>");
     assert_eq!(words(&app), "set exposure takes one value");
