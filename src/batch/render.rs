@@ -290,13 +290,12 @@ fn finish(work: &Render, frame: &Frame, traced: &Traced) -> Result<(), Error> {
 
 /// Says that a picture of light is black, or for the most part clipped, and what may help.
 fn judge(frame: &Frame, picture: &Provenance) {
-    let clipped = frame.pixels.iter().filter(|pixel| pixel.contains(&u8::MAX));
     let finding = if picture.settings.aov.is_some() {
         return;
     } else if frame.pixels.iter().all(|pixel| *pixel == [0; 3]) {
         "the picture is black; `halflight check` and `halflight explain` may say why"
-    } else if frame.pixels.len() < 2 * clipped.count() {
-        "more than half of the picture is clipped; try a lower --exposure, or --falloff square if \
+    } else if 0.5 < frame.clipped {
+        "more than half of the picture is above 1; try a lower --exposure, or --falloff square if \
          its lights are meant to fade"
     } else {
         return;

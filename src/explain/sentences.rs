@@ -346,7 +346,7 @@ impl Case<'_> {
             }
             TermSource::Caustics { object } => {
                 let object = names.object(*object);
-                format!("{object} lit by lights over mirrors or through glass, by photons")
+                format!("{object} lit via mirrors or glass, by photons")
             }
             TermSource::Ambient { object } => {
                 format!("{} lit by ambient light", names.object(*object))

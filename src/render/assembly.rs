@@ -95,6 +95,8 @@ impl Assembly {
         settings.spp = spp.min(highest.unwrap_or(spp));
         let range = tone::scale(settings.aov, values.par_iter().copied());
         let tone = Tone::of(settings.aov, Light::of(&settings), range);
+        let is_clipped = |value: &&Rgb| 1.0 < tone.linear(**value).max_element();
+        let clipped = values.par_iter().filter(is_clipped).count();
         let pixels = values.par_iter().map(|&value| tone.bytes(value)).collect();
         let values = match frames {
             Frames::Last => Vec::new(),
@@ -121,6 +123,7 @@ impl Assembly {
             corner: traced.corner(),
             values,
             range,
+            clipped: clipped as f64 / traced.size().pixels() as f64,
             progress: Progress {
                 pass: passes,
                 passes,

@@ -70,6 +70,8 @@ pub(crate) struct Raster {
     pub(crate) values: Vec<[f32; 3]>,
     /// Estimated errors of the pixels, if recorded and requested.
     pub(crate) errors: Vec<f32>,
+    /// Pixels with a channel above 1, if counted.
+    pub(crate) clipped: usize,
     /// The ends of the scale of [`Raster::pixels`], if it has one.
     pub(crate) range: Option<[f64; 2]>,
 }
@@ -416,7 +418,9 @@ impl Film {
     /// Like [`Film::develop`], but only once, with the memory reserved.
     pub(crate) fn finish(&mut self, cancelled: impl Fn() -> bool) -> Option<Raster> {
         let room = std::mem::take(&mut self.room);
-        self.develop_in(room, cancelled)
+        let mut raster = self.develop_in(room, cancelled)?;
+        raster.clipped = self.clipped();
+        Some(raster)
     }
 
     /// The variances of the linear values of pixels, or [`UNKNOWN`]; `None` where the noise is not
@@ -500,6 +504,16 @@ impl Film {
                 }
             }
         });
+    }
+
+    /// The number of pixels with a channel above 1 after the exposure.
+    fn clipped(&self) -> usize {
+        let clipped = |tile: &Tile| {
+            let values = tile.values(self.spp, self.aov);
+            let exposed = values.map(|value| self.light.exposed(value));
+            exposed.filter(|value| 1.0 < value.max_element()).count()
+        };
+        self.tiles.par_iter().map(clipped).sum()
     }
 
     /// The ends of the scale of AOVs that have one.

@@ -303,6 +303,8 @@ pub struct Frame {
     /// The values that the ends of a scale stand for, with an AOV that has one: depth, cost,
     /// samples and noise.
     pub range: Option<[f64; 2]>,
+    /// The share of pixels with a channel above 1 after the exposure, 0 to 1; only in complete frames.
+    pub clipped: f64,
     /// Progress of the job.
     pub progress: Progress,
     /// Answers what its pixels show; `None` if it was not traced.
@@ -355,6 +357,7 @@ impl Frame {
             denoised: Vec::new(),
             errors: Vec::new(),
             range: None,
+            clipped: 0.0,
             progress: Progress::COMPLETE,
             query: None,
         }

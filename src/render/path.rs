@@ -329,7 +329,7 @@ impl<C: Fn() -> bool> Probe<'_, C> {
 }
 
 impl<C> Probe<'_, C> {
-    /// Whether photons bring the light of a light that comes over mirrors and boundaries.
+    /// Whether photons carry what arrives from a light via mirrors and boundaries.
     #[cold]
     pub(super) fn is_by_photons(&self, light: &Light) -> bool {
         self.photon_map.is_some() && light.emits_photons(FalloffRule::None)

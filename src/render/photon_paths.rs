@@ -1,4 +1,4 @@
-//! The ways of photons from lights over mirrors and boundaries.
+//! The paths of photons from lights via mirrors and boundaries.
 
 use std::ops::Range;
 use std::sync::Arc;
@@ -117,7 +117,7 @@ impl Photons {
     }
 }
 
-/// Follows a photon over mirrors and boundaries and keeps it where it arrives at surfaces that
+/// Follows a photon via mirrors and boundaries and keeps it where it arrives at surfaces that
 /// scatter.
 fn follow(
     world: &World,

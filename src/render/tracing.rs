@@ -334,6 +334,7 @@ impl<'s, W: Fn() + Sync> Tracing<'s, W> {
             mut objects,
             values,
             errors,
+            clipped,
             range,
         } = raster;
         if let Some(numbers) = self.job.numbers.as_deref() {
@@ -354,6 +355,7 @@ impl<'s, W: Fn() + Sync> Tracing<'s, W> {
             denoised,
             errors,
             range,
+            clipped: clipped as f64 / traced.size().pixels() as f64,
             query: Some(self.query.clone()),
             progress: self.progress(),
         });

@@ -127,7 +127,7 @@ fn black_and_clipped_pictures_are_remarked_on() {
         (
             "9 9 9",
             "",
-            "note: more than half of the picture is clipped; try a lower --exposure",
+            "note: more than half of the picture is above 1; try a lower --exposure",
         ),
         ("9 9 9", "--exposure -4", ""),
         ("0 0 0", "--aov albedo", ""),

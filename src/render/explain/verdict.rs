@@ -216,7 +216,7 @@ pub enum TermSource {
         /// The object that reflects it.
         object: u32,
     },
-    /// Light of lights that came over mirrors and boundaries, by photons, and that an object reflects.
+    /// Light that photons carried via mirrors and boundaries, and that an object reflects.
     Caustics {
         /// The object.
         object: u32,

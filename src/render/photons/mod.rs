@@ -1,21 +1,21 @@
-//! Photons: the light that lights send to matte and glossy surfaces over mirrors and boundaries, as
-//! caustics, which paths from the camera meet by chance or never.
+//! Photons carry light from lights via mirrors and boundaries to matte and glossy surfaces: caustics,
+//! which camera paths rarely or never sample.
 //!
-//! Where photons are traced, a path takes from a [`photon map`](super::photon_map) what arrives at a
-//! surface over mirrors and boundaries from lights that emit photons; it no longer counts it where a
-//! scattered path meets such a light over them, and what lies between a surface and such a light
-//! blocks it, transparent or not. Direct light and what mirrors and glass show of a light are the
-//! path's, as are other lights, emission and the environment.
+//! With photons, a path takes light that reached a surface via mirrors and boundaries from a
+//! [`photon map`](super::photon_map), if the light emits photons. It then ignores such a light where
+//! a path that was scattered reaches it via mirrors or boundaries, and anything between a surface and
+//! such a light blocks it, transparent or not. Direct light, lights seen in mirrors and glass, other
+//! lights, emission and the environment are left to the path.
 //!
 //! Maps follow probabilistic progressive photon mapping (Knaus and Zwicker, "Progressive Photon
-//! Mapping: A Probabilistic Approach", 2011): the samples with an index use the map with that index,
-//! which depends on scene and settings alone, and whose kernel shrinks from map to map, so that the
-//! mean of samples converges to the light of paths. Nothing is known of a pixel but its sum, unlike
-//! in stochastic progressive photon mapping, where each has a radius of its own: pictures are
-//! divided, interrupted and continued as those of paths are, with the same bytes.
+//! Mapping: A Probabilistic Approach", 2011): sample i of every pixel uses map i, which depends on
+//! scene and settings alone, and whose kernel shrinks from map to map, so that the mean of the samples
+//! converges to the light of paths. A pixel has no state but its sum, unlike in stochastic progressive
+//! photon mapping, where each has a radius of its own: pictures are divided, interrupted and continued
+//! like those of paths, with the same bytes.
 //!
-//! The first radius is that within which half of the first map's photons have 16 others: it follows
-//! the light, so that the finest caustics are the sharpest.
+//! Within the first radius, half of the photons of the first map have 16 others: it follows the
+//! light, so that fine caustics start out sharp.
 
 mod aim;
 mod emission;

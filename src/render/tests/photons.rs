@@ -266,7 +266,7 @@ fn assert_alike(scene: &Scene, rules: Rules, depth: u32, case: &str) {
 }
 
 /// Glass, mirrors and their spreads between a light with a size and the ground: the whole ground
-/// gets as much light by photons as by paths that meet the light by chance.
+/// gets as much light by photons as by BSDF samples that hit the light.
 #[test]
 fn photons_bring_what_paths_find_of_lights_with_a_size() {
     let cases = [

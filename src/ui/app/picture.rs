@@ -285,6 +285,7 @@ mod tests {
             denoised: Vec::new(),
             errors: Vec::new(),
             range: None,
+            clipped: 0.0,
             progress: Progress {
                 pass: 1,
                 passes: 2,

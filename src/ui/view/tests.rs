@@ -131,6 +131,7 @@ fn frame(width: u32, height: u32) -> Arc<Frame> {
         denoised: Vec::new(),
         errors: Vec::new(),
         range: None,
+        clipped: 0.0,
         objects: (0..width * height)
             .map(|at| if under(at) == 1 { 1 } else { NO_OBJECT })
             .collect(),

@@ -314,7 +314,7 @@ fn a_black_picture_says_what_helps() {
     assert_eq!(shown(&app), "the picture is black: C sets integrator path");
     press(&mut app, "P");
     assert_eq!(app.diagnostics.len(), 0, "by path it is lit");
-    press(&mut app, "PC");
+    press(&mut app, "PPC");
     assert!(
         app.document
             .text()

@@ -19,6 +19,7 @@ pub(in crate::ui) fn frame(size: Size, objects: Vec<u32>) -> Frame {
         denoised: Vec::new(),
         errors: Vec::new(),
         range: None,
+        clipped: 0.0,
         progress: Progress {
             pass: 1,
             passes: 1,
