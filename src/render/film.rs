@@ -330,9 +330,9 @@ impl Film {
         (tile, tile.index([x, y]))
     }
 
-    /// Takes one step, or one of its parts after the other, in those of some tiles that lack it, on the current thread pool. Stops once
-    /// `cancelled` returns true; unfinished pixels must then be forgotten. The first step begins
-    /// the tiles in order.
+    /// Takes one step, or one of its parts after the other, in those of some tiles that lack it, on the
+    /// current thread pool. Stops once `cancelled` returns true; unfinished pixels must then be
+    /// forgotten. The first step begins the tiles in order.
     pub(crate) fn advance(
         &mut self,
         tiles: Range<usize>,
