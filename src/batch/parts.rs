@@ -174,15 +174,17 @@ impl Continued {
     /// Traces all blocks as far as asked. Returns their samples.
     fn run(&mut self, job: Job, threads: usize) -> Result<u32, Error> {
         let Settings { spp, .. } = job.settings;
-        let samples = || self.numbers.iter().map(|&number| self.part.samples(number));
-        if let Some(most) = samples().max().filter(|&most| spp < most) {
+        let numbers = || self.numbers.iter().copied();
+        let most = numbers().map(|number| self.part.most_samples(number)).max();
+        if let Some(most) = most.filter(|&most| spp < most) {
             return Err(Error::Refused(format!(
                 "{} has {most} samples per pixel already: use --spp {most} or more, or delete it",
                 self.path.display()
             )));
         }
-        let mut whole = samples().min().unwrap_or(spp);
-        if whole == spp {
+        let samples = numbers().map(|number| self.part.samples(number));
+        let mut whole = samples.min().unwrap_or(spp);
+        if spp <= whole {
             self.aim(spp)?;
             return Ok(spp);
         }

@@ -15,7 +15,7 @@ use crate::language::Source;
 use crate::memory;
 use crate::part;
 use crate::render::{Aov, Frame, Job, Progress, Provenance, check_memory, memory_for};
-use crate::scene::Size;
+use crate::scene::{FalloffRule, Size};
 use crate::text::{Diagnostic, Span, counted};
 
 /// A picture to render.
@@ -264,7 +264,7 @@ fn finish(work: &Render, frame: &Frame, traced: &Traced) -> Result<(), Error> {
     if let Some(most) = traced.picture.settings.clamp {
         print_message(
             "note",
-            &format!("samples are clamped to {most}: the picture lacks the light above (biased)"),
+            &format!("samples are clamped to {most:?}; light above that is lost (biased)"),
         );
     }
     if frame.progress.is_adaptive() {
@@ -288,15 +288,17 @@ fn finish(work: &Render, frame: &Frame, traced: &Traced) -> Result<(), Error> {
     work.output.write(|out| work.format.write(picture, out))
 }
 
-/// Says that a picture of light is black, or for the most part clipped, and what may help.
+/// Says that a whole picture of light is black, or mostly above 1, and what may help.
 fn judge(frame: &Frame, picture: &Provenance) {
-    let finding = if picture.settings.aov.is_some() {
+    let finding = if picture.settings.aov.is_some() || picture.settings.region.is_some() {
         return;
     } else if frame.pixels.iter().all(|pixel| *pixel == [0; 3]) {
         "the picture is black; `halflight check` and `halflight explain` may say why"
+    } else if 0.5 < frame.clipped && picture.settings.falloff == FalloffRule::Square {
+        "more than half of the picture is above 1; try a lower --exposure"
     } else if 0.5 < frame.clipped {
         "more than half of the picture is above 1; try a lower --exposure, or --falloff square if \
-         its lights are meant to fade"
+         its lights are meant to fall off"
     } else {
         return;
     };

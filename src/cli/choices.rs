@@ -169,7 +169,7 @@ pub(super) enum IntegratorChoice {
     Whitted,
     /// Path tracing: light on all paths, sampled at random; more samples reduce noise.
     Path,
-    /// Path tracing with photon maps: caustics of lights that fade with the square of the distance.
+    /// Path tracing with photon maps: caustics of lights that fall off with the squared distance.
     Photon,
 }
 

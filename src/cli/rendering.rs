@@ -32,12 +32,13 @@ pub(super) struct RenderingArguments {
     #[arg(long, value_name = "GLOSS", value_enum)]
     gloss: Option<GlossChoice>,
     /// Adaptive sampling: pixels below this error, in displayed values from 0 to 1, take no more
-    /// samples; 0 turns it off [default: the scene's, otherwise 0]
-    #[arg(long, value_name = "ERROR", value_parser = parse_noise)]
+    /// samples after 16, and others up to --spp or 4096; 0 turns it off [default: the scene's,
+    /// otherwise 0]
+    #[arg(long, value_name = "ERROR", allow_negative_numbers = true, value_parser = parse_noise)]
     noise: Option<f64>,
     /// Scale samples down whose largest channel exceeds this, which removes fireflies at the cost of
     /// light (biased); 0 does not [default: 0]
-    #[arg(long, value_name = "MAX", value_parser = parse_clamp)]
+    #[arg(long, value_name = "MAX", allow_negative_numbers = true, value_parser = parse_clamp)]
     clamp: Option<f64>,
 }
 

@@ -20,11 +20,11 @@ pub(super) struct TracingArguments {
     #[command(flatten)]
     samples: SampleArguments,
     /// Trace only this part of the picture, in pixels from its top left corner; its pixels are those
-    /// of the whole picture, but AOVs on a scale take its ends from the part
+    /// of the whole picture, but AOVs on a scale take its ends, and --noise decides, from the part
     #[arg(long, value_name = "X,Y,W,H", value_parser = parse_region)]
     region: Option<Region>,
-    /// Samples per pixel, 1 to 65536 [default: the scene's, otherwise 16; as many as the time
-    /// permits with --time]
+    /// Samples per pixel, 1 to 65536 [default: the scene's, otherwise 16, or up to 4096 with
+    /// --noise; as many as the time permits with --time]
     #[arg(long, value_name = "N", value_parser = spp_range())]
     spp: Option<u32>,
     /// Stop after about this time, such as 90s or 5min, with the samples of a whole pass: 1, 2, 4 …

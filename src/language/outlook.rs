@@ -223,9 +223,10 @@ impl Judge<'_> {
             } else {
                 let expected = match light.emitter {
                     Emitter::Distant(_) => "a point light",
-                    _ => "`falloff square`, or a light that fades with it",
+                    _ if light.emits_photons(FalloffRule::Square) => "`falloff square`",
+                    _ => "a falloff by the squared distance alone",
                 };
-                ("it does not fade with the square of the distance", expected)
+                ("it does not fall off with the squared distance", expected)
             };
             let name = self.source.name(node);
             let message = format!("{name} emits no photons: {reason}");

@@ -31,6 +31,7 @@ struct Place {
     /// Where it begins.
     offset: u64,
     samples: u32,
+    most_samples: u32,
     counts: Counts,
 }
 
@@ -39,6 +40,7 @@ impl Place {
         Self {
             offset,
             samples: block.samples,
+            most_samples: block.most_samples(),
             counts: block.counts,
         }
     }
@@ -179,6 +181,12 @@ impl Part {
     /// Samples of each pixel of a block.
     pub fn samples(&self, number: u32) -> u32 {
         self.index.get(&number).map_or(0, |place| place.samples)
+    }
+
+    /// Samples of the pixels of a block that have most: fewer if all of them stopped.
+    pub fn most_samples(&self, number: u32) -> u32 {
+        let place = self.index.get(&number);
+        place.map_or(0, |place| place.most_samples)
     }
 
     /// The rays of all blocks, in this process and before.

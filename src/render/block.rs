@@ -156,6 +156,12 @@ impl Block {
             .unwrap_or(self.samples)
     }
 
+    /// The samples of the pixels that have most.
+    pub fn most_samples(&self) -> u32 {
+        let most = (0..SQUARES).map(|square| self.samples_at(square)).max();
+        most.unwrap_or(self.samples)
+    }
+
     /// The samples of each of its pixels.
     pub(super) fn taken(&self, region: Region) -> impl Iterator<Item = u32> {
         in_rows(region).map(|pixel| self.samples_at(square(pixel)))

@@ -302,3 +302,16 @@ fn an_interrupted_picture_is_continued_to_the_same_bytes() {
     }
     assert!(place.read("a.bmp") == whole);
 }
+
+/// All blocks stop long before the most samples there are.
+#[test]
+fn a_part_that_stopped_early_is_continued_with_fewer_samples_than_were_allowed() {
+    let place = Place::new();
+    let render = |options: &str| {
+        let options = format!("--size 40x30 --noise 0.3 --resume {options}");
+        place.rendered("a.png", &options)
+    };
+    let limited = render("--time 60s");
+    assert!(limited == render("--spp 4096"));
+    assert!(limited == place.rendered("b.png", "--size 40x30 --noise 0.3"));
+}

@@ -241,7 +241,7 @@ fn materials_that_send_back_more_than_comes_are_named_with_the_sum() {
 #[test]
 fn lights_without_photons_are_named() {
     const PHOTON: Option<Integrator> = Some(Integrator::Photon);
-    let steady = "it does not fade with the square of the distance";
+    let steady = "it does not fall off with the squared distance";
     let ray = format!("{LIT}{BALL}");
     let expected = format!("1:9 light 1 emits no photons: {steady} | falloff square");
     check(Language::Ray, &ray, PHOTON, &[&expected]);
