@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 
 use super::output::Output;
+use super::render::print_biases;
 use super::{Error, print_error, print_message, stdout};
 use crate::image_file::{ImageFormat, Picture};
 use crate::part::{self, ranges};
@@ -36,6 +37,7 @@ fn try_merge(work: &Merge) -> Result<(), Error> {
             output.check()?;
             output.check_is_not(&work.parts, "it is one of the parts")?;
             let merged = part::merge(&work.parts, format.frames())?;
+            print_biases(&merged.frame, &merged.picture);
             if let Some(reason) = format.refuses(merged.frame.size) {
                 return Err(Error::Refused(format!("the picture is {reason}")));
             }

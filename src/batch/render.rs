@@ -261,19 +261,7 @@ fn finish(work: &Render, frame: &Frame, traced: &Traced) -> Result<(), Error> {
         );
     }
     judge(frame, &traced.picture);
-    if let Some(most) = traced.picture.settings.clamp {
-        print_message(
-            "note",
-            &format!("samples are clamped to {most:?}; light above that is lost (biased)"),
-        );
-    }
-    if frame.progress.is_adaptive() {
-        let Progress { spp, mean_spp, .. } = frame.progress;
-        print_message(
-            "note",
-            &format!("adaptive sampling: up to {spp} samples per pixel, {mean_spp:.1} on average"),
-        );
-    }
+    print_biases(frame, &traced.picture);
     if work.tracing.time.is_some() {
         let Progress { spp, elapsed, .. } = frame.progress;
         let samples = counted(spp as usize, "sample");
@@ -286,6 +274,23 @@ fn finish(work: &Render, frame: &Frame, traced: &Traced) -> Result<(), Error> {
         provenance: Some(&traced.picture),
     };
     work.output.write(|out| work.format.write(picture, out))
+}
+
+/// Says by what a picture is biased.
+pub(super) fn print_biases(frame: &Frame, picture: &Provenance) {
+    if let Some(most) = picture.settings.clamp {
+        print_message(
+            "note",
+            &format!("samples are clamped to {most:?}; light above that is lost (biased)"),
+        );
+    }
+    if frame.progress.is_adaptive() {
+        let Progress { spp, mean_spp, .. } = frame.progress;
+        print_message(
+            "note",
+            &format!("adaptive sampling: up to {spp} samples per pixel, {mean_spp:.1} on average"),
+        );
+    }
 }
 
 /// Says that a whole picture of light is black, or mostly above 1, and what may help.
