@@ -288,7 +288,10 @@ pub(super) fn print_biases(frame: &Frame, picture: &Provenance) {
         let Progress { spp, mean_spp, .. } = frame.progress;
         print_message(
             "note",
-            &format!("adaptive sampling: up to {spp} samples per pixel, {mean_spp:.1} on average"),
+            &format!(
+                "adaptive sampling (slightly biased): up to {spp} samples per pixel, {mean_spp:.1} on \
+                 average"
+            ),
         );
     }
 }

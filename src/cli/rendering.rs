@@ -37,7 +37,7 @@ pub(super) struct RenderingArguments {
     #[arg(long, value_name = "ERROR", allow_negative_numbers = true, value_parser = parse_noise)]
     noise: Option<f64>,
     /// Scale samples down whose largest channel exceeds this, which removes fireflies at the cost of
-    /// light (biased); 0 does not [default: 0]
+    /// light (biased); 0 turns it off [default: 0]
     #[arg(long, value_name = "MAX", allow_negative_numbers = true, value_parser = parse_clamp)]
     clamp: Option<f64>,
 }

@@ -77,8 +77,9 @@ impl Block {
                 && LEAST <= index
                 && index.is_power_of_two()
             {
-                let errors =
-                    in_rows(region).map(|pixel| (square(pixel), self.squared_errors[at(pixel)]));
+                let errors = region
+                    .pixels()
+                    .map(|pixel| (square(pixel), self.squared_errors[at(pixel)]));
                 let going_on = go_on(limit, taking, errors);
                 self.stop(taking, going_on);
                 taking = going_on;
@@ -164,7 +165,7 @@ impl Block {
 
     /// The samples of each of its pixels.
     pub(super) fn taken(&self, region: Region) -> impl Iterator<Item = u32> {
-        in_rows(region).map(|pixel| self.samples_at(square(pixel)))
+        region.pixels().map(|pixel| self.samples_at(square(pixel)))
     }
 
     /// The mean of a pixel's samples, or what an AOV of light shows of them, given its place in the list
@@ -177,12 +178,6 @@ impl Block {
             _ => self.sums[at] / samples.max(1.0),
         }
     }
-}
-
-/// The pixels of a region in rows.
-fn in_rows(region: Region) -> impl Iterator<Item = [u32; 2]> {
-    let rows = region.y..region.y + region.height;
-    rows.flat_map(move |y| (region.x..region.x + region.width).map(move |x| [x, y]))
 }
 
 /// The pixels of a region square by square, in pieces of 4×2, so that adjacent ones are traced

@@ -11,7 +11,7 @@ use crate::scene::Rgb;
 const SAME: f64 = 0.7;
 
 impl<C: Fn() -> bool> Probe<'_, C> {
-    /// The light that photons bring to a surface at a bounce and that it sends back along the path.
+    /// The light that photons carry to a surface at a bounce, reflected along the path.
     #[inline(never)]
     pub(super) fn caustics(&self, vertex: &Vertex<'_>, bounce: u32) -> Rgb {
         let Vertex { point, bsdf, .. } = vertex;

@@ -293,11 +293,7 @@ impl Film {
     /// have that level afterwards.
     fn select_in(&self, blocks: Blocks, number: u32, limit: f64, level: u8) -> (Squares, usize) {
         let region = blocks.region(number);
-        let pixels = || {
-            let rows = region.y..region.y + region.height;
-            rows.flat_map(|y| (region.x..region.x + region.width).map(move |x| [x, y]))
-        };
-        let levels = pixels().map(|pixel| {
+        let levels = region.pixels().map(|pixel| {
             let (tile, at) = self.pixel(pixel);
             (square(pixel), tile.pixel_level(at))
         });
@@ -313,7 +309,7 @@ impl Film {
         }
         // Those that stopped before have fewer samples.
         let taking = Squares::of(|square| reached[square] == highest);
-        let errors = pixels().map(|pixel| {
+        let errors = region.pixels().map(|pixel| {
             let (tile, at) = self.pixel(pixel);
             (square(pixel), tile.squared_error(at))
         });

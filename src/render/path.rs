@@ -168,7 +168,7 @@ impl<C: Fn() -> bool> Probe<'_, C> {
             return Reached::Light {
                 radiance: light.scale * light.radiance(),
                 weight: if self.photon_map.is_some() && path.is_caustic() {
-                    // Photons bring it.
+                    // Photons carry it.
                     0.0
                 } else {
                     path.weight_of_chance(&light)
@@ -283,7 +283,7 @@ impl<C: Fn() -> bool> Probe<'_, C> {
             }
             Some(sphere) => self.of_sphere_light(point, bsdf, bounce, light, &sphere, place()),
         };
-        // Photons bring what passes on the way.
+        // Photons carry what passes through.
         if self.photon_map.is_some() && !self.crossed.passed.is_empty() && self.is_by_photons(light)
         {
             return Rgb::ZERO;

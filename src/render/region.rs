@@ -29,6 +29,12 @@ impl Region {
         }
     }
 
+    /// Its pixels, in rows.
+    pub(crate) fn pixels(self) -> impl Iterator<Item = [u32; 2]> {
+        let rows = self.y..self.y + self.height;
+        rows.flat_map(move |y| (self.x..self.x + self.width).map(move |x| [x, y]))
+    }
+
     /// Parses `X,Y,W,H`, such as `100,50,64,48`; spaces may stand around the numbers.
     pub fn parse(said: &str) -> Option<Self> {
         let number = |digits: &str| {

@@ -159,7 +159,7 @@ pub struct Shading {
     pub unlisted: Unlisted,
     /// What emits light without being a light, as far as the path sampled it.
     pub emitters: Vec<EmitterTerm>,
-    /// What photons bring.
+    /// What photons carry.
     pub caustics: Rgb,
     /// Emission, ambient light, all lights, emitters and photons together.
     pub radiance: Rgb,

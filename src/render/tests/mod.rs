@@ -21,6 +21,7 @@ mod meshes;
 mod noise;
 mod optics;
 mod paths;
+mod photon_pictures;
 mod photons;
 mod progress;
 mod regions;

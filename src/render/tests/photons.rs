@@ -14,9 +14,9 @@ struct Traced {
 }
 
 /// Those of path tracing with photons.
-const PHOTONS: Rules = PATHS;
+pub(super) const PHOTONS: Rules = PATHS;
 
-fn world_by(scene: &Scene, rules: Rules) -> World {
+pub(super) fn world_by(scene: &Scene, rules: Rules) -> World {
     World::build(
         Arc::new(scene.clone()),
         &Images::default(),
@@ -106,7 +106,7 @@ fn onto_ground(half: f64, count: usize) -> Vec<Ray> {
 }
 
 /// A matte ground at height 0 that reflects everything.
-const WHITE: &str = "<object type='plane' material='white'><scale value='30'/></object>
+pub(super) const WHITE: &str = "<object type='plane' material='white'><scale value='30'/></object>
     <material name='white'><diffuse value='1'/><specular value='0'/></material>";
 
 /// A light at (2, 0, 3) before a mirror x = 0: the ground is lit by it and by its image at (−2, 0, 3):
@@ -403,10 +403,7 @@ fn lights_of_rice_and_bu_reach_the_ground_by_photons() {
         assert_near(traced(0), 0.0, 0.0);
         assert_near(traced(1), 0.0, 0.0);
         let seen = traced(2);
-        assert!(
-            (seen - expected).abs() < 0.02 * expected,
-            "{seen} is not {expected}"
-        );
+        assert_near(seen, expected, 0.02 * expected);
     }
     // A light that does not fade shines through it as by path.
     let scene = scene(&[(ground, white), ball], &[white_light(lamp)]);
@@ -463,10 +460,7 @@ fn highlights_show_the_mirrored_light() {
     }
     .mean(&world, &rays, 0)
     .x;
-    assert!(
-        (seen - expected).abs() < 0.02 * expected,
-        "{seen} is not {expected}"
-    );
+    assert_near(seen, expected, 0.02 * expected);
 }
 
 /// A light with a size is met one bounce later than its photons arrive, and counts no deeper.
@@ -498,118 +492,4 @@ fn photons_count_up_to_the_depth_of_paths() {
         assert!(before < 0.05 * after, "{size}: {before}, {after}");
         assert!(0.1 < after && after <= deeper, "{size}: {after}, {deeper}");
     }
-}
-
-/// A glass ball and a mirror over a ground, lit by a point and a light with a size, as a job.
-fn caustics() -> Job {
-    let scene = Arc::new(xml(&format!(
-        "{WHITE}<object type='sphere' material='glass'><translate z='1.2'/></object>
-         <object type='sphere' material='mirror'><translate x='2' z='1'/></object>
-         <material name='glass'><diffuse value='.1'/><specular value='0'/>
-         <refraction value='.8' index='1.5'/></material>
-         <material name='mirror'><diffuse value='.1'/><specular value='0'/>
-         <reflection value='.8'/></material>
-         <light type='point'><intensity value='9'/><position z='6.2'/><attenuation value='1'/></light>
-         <light type='point'><intensity value='9'/><position x='-3' z='5'/><size value='.5'/>
-         <attenuation value='1'/></light>"
-    )));
-    let camera = Camera {
-        eye: DVec3::new(0.0, -6.0, 4.0),
-        target: DVec3::Z,
-        up: DVec3::Z,
-        ..scene.camera
-    };
-    let settings = Settings {
-        integrator: Integrator::Photon,
-        ..settings(40, 30, 40)
-    };
-    Job {
-        camera,
-        frames: Frames::LastWithValues,
-        ..job(&scene, settings)
-    }
-}
-
-fn frame_by(threads: usize, job: &Job) -> Arc<Frame> {
-    let (mut renderer, woken) = renderer(threads);
-    let generation = restart(&mut renderer, job.clone());
-    finish(&renderer, &woken, generation)
-}
-
-#[test]
-fn pictures_with_photons_are_the_same_for_any_number_of_threads() {
-    let job = caustics();
-    let bits = |threads| {
-        let frame = frame_by(threads, &job);
-        let values = frame.values.iter().flatten();
-        values.map(|value| value.to_bits()).collect::<Vec<_>>()
-    };
-    let one = bits(1);
-    assert!(one == bits(2));
-    assert!(one == bits(8));
-}
-
-/// After edits of the view and of materials, as if nothing had been traced before.
-#[test]
-fn photons_that_are_kept_are_those_of_the_scene() {
-    let first = Job {
-        frames: Frames::Live,
-        ..caustics()
-    };
-    let first = Job {
-        settings: Settings {
-            spp: 2,
-            ..first.settings
-        },
-        ..first
-    };
-    let mut moved = first.clone();
-    moved.camera.eye.x += 1.0;
-    let mut darker = (*first.scene).clone();
-    for material in &mut darker.materials {
-        material.dielectric.tint *= 0.5;
-    }
-    let mut recoloured = moved.clone();
-    recoloured.scene = Arc::new(darker);
-    let mut shallow = recoloured.clone();
-    shallow.settings.depth = 2;
-    let (mut renderer, woken) = renderer(2);
-    for job in [first, moved, recoloured, shallow] {
-        let generation = restart(&mut renderer, job.clone());
-        let kept = finish(&renderer, &woken, generation);
-        assert!(kept.values == frame_by(1, &job).values);
-    }
-}
-
-/// What photons bring is a part of the explanation, and all parts are the sample, bit for bit.
-#[test]
-fn photons_are_explained() {
-    let job = caustics();
-    let prepared = super::super::PreparedScene::new(&job, || false).expect("nothing cancels");
-    let world = world_by(&job.scene, PHOTONS);
-    let rules = job.settings.photon_rules().expect("it has photons");
-    let photons = Photons::build(&world, rules, None, &|| false).expect("nothing cancels");
-    let maps = photons
-        .maps(&world, 0..4, &|| false)
-        .expect("nothing cancels");
-    let shot = super::super::shot::Shot::new(&world, &job.camera, job.settings);
-    let mut brought = 0;
-    for (x, y, index) in
-        (0..40).flat_map(|x| (0..30).map(move |y| (x, y, if x == 7 { y / 9 } else { 0 })))
-    {
-        let explanation = prepared.query().explain([x, y], index, || false);
-        let explanation = explanation.expect("it is prepared");
-        let mut samples = Vec::new();
-        shot.samples(&[[x, y]], index, &mut samples);
-        let tracer = Tracer::new(&world, Integrator::Photon, job.settings.depth, || false);
-        let seen = tracer.with_photons(Some(&maps)).radiance(&samples[0]);
-        assert_eq!(explanation.radiance, seen.radiance, "{x} {y} {index}");
-        let sum = |sum, ray: &super::super::TracedRay| sum + ray.contribution;
-        assert_eq!(explanation.rays.iter().fold(Rgb::ZERO, sum), seen.radiance);
-        let shadings = explanation.rays.iter().filter_map(|ray| ray.shading());
-        brought += shadings
-            .filter(|shading| shading.caustics != Rgb::ZERO)
-            .count();
-    }
-    assert!(20 < brought, "{brought}");
 }
