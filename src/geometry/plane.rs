@@ -2,8 +2,9 @@
 
 use glam::DVec3;
 
-use super::line::Ends;
-use super::{Aabb, Affine, Chart, Hit, Ray, Surface};
+use super::lanes::{Lanes, Vector};
+use super::line::{End, Ends};
+use super::{Aabb, Affine, Chart, Hit, Ray, Rays, Surfaces};
 
 /// An affine image of the square −1 ≤ x, y ≤ 1 at z = 0, with the normal of +z.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -20,23 +21,27 @@ impl Plane {
         }
     }
 
-    /// The hit with 0 < t < `limit`. The square's only part is 0.
-    #[inline]
-    pub fn hit(&self, ray: &Ray, limit: f64) -> Option<Hit> {
-        let line = self.0.line(&ray.into());
+    /// Intersects lines with the square, in each lane; they enter where they leave. Its only part is 0.
+    #[inline(always)]
+    pub(super) fn ends<N: Lanes>(&self, rays: &Rays<N>) -> Option<Ends<N>> {
+        let line = self.0.line(rays);
         let t = -line.origin.z / line.direction.z;
-        let position = DVec3::from(line.origin) + t * DVec3::from(line.direction);
-        let inside = position.x.abs() <= 1.0 && position.y.abs() <= 1.0;
+        let position = line.origin + line.direction.scaled(t);
+        let one = t.all(1.0);
+        let inside = position.x.abs().up_to(one) & position.y.abs().up_to(one);
         let found = Ends::between(t, t, 0, inside).shifted(line.start)?;
-        let found = self.0.clipped(found, &ray.into(), || self.bounds())?;
-        let (end, hit) = found.nearest(limit);
-        hit.then_some(end.into())
+        self.0.clipped(found, rays, || self.bounds())
     }
 
-    /// The surface at a hit.
-    pub fn surface(&self, ray: &Ray, hit: Hit) -> Surface {
-        let position = self.0.position(ray.at(hit.t)).with_z(0.0);
-        self.0.surface(DVec3::Z.into(), |_| position.into()).into()
+    /// The surface at a hit, in each lane.
+    #[inline(always)]
+    pub(super) fn surface<N: Lanes>(&self, rays: &Rays<N>, at: End<N>) -> Surfaces<N> {
+        let position = self.0.positions(rays, at.t).flat();
+        self.0.surface(
+            Vector::all(at.t, DVec3::Z),
+            #[inline(always)]
+            |_| position,
+        )
     }
 
     /// The texture coordinates at a hit: from 0, 0 at the corner (−1, −1) to 1, 1 at (1, 1).

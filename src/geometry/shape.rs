@@ -47,7 +47,10 @@ impl Shape {
         match self {
             Self::Solid(solid) => solid.hit(ray, limit),
             Self::Csg(csg) => csg.hit(ray, limit),
-            Self::Plane(plane) => plane.hit(ray, limit),
+            Self::Plane(plane) => {
+                let (end, hit) = plane.ends(&ray.into())?.nearest(limit);
+                hit.then_some(end.into())
+            }
             Self::Mesh(instance) => instance.hit(ray, limit),
         }
     }
@@ -64,7 +67,8 @@ impl Shape {
         match self {
             Self::Solid(solid) => solid.hits(rays, limits, lanes),
             Self::Csg(csg) => csg.hits(rays, limits, lanes),
-            Self::Plane(_) | Self::Mesh(_) => {
+            Self::Plane(plane) => plane.ends(rays)?.hits(limits, lanes),
+            Self::Mesh(_) => {
                 Hits::one_by_one(lanes, |lane| self.hit(&rays.ray(lane), limits[lane]))
             }
         }
@@ -75,7 +79,7 @@ impl Shape {
         match self {
             Self::Solid(solid) => solid.surface(ray, hit),
             Self::Csg(csg) => csg.surface(ray, hit),
-            Self::Plane(plane) => plane.surface(ray, hit),
+            Self::Plane(plane) => plane.surface(&ray.into(), hit.into()).into(),
             Self::Mesh(instance) => instance.surface(ray, hit),
         }
     }
@@ -90,7 +94,8 @@ impl Shape {
     ) -> Option<Surfaces<Eight<S>>> {
         match self {
             Self::Solid(solid) => solid.surfaces(rays, hits),
-            Self::Csg(_) | Self::Plane(_) | Self::Mesh(_) => None,
+            Self::Plane(plane) => Some(plane.surface(rays, hits.ends(rays.origin.x.simd))),
+            Self::Csg(_) | Self::Mesh(_) => None,
         }
     }
 

@@ -84,15 +84,15 @@ impl<'m> Bsdf<'m> {
         }
     }
 
-    /// Samples a continuation for a path that arrived along `ray`; `None` ends the path.
+    /// Samples a continuation for a path that arrived along `ray`, by its numbers for the bounce; `None`
+    /// ends the path.
     pub(crate) fn sample(
         &self,
         ray: &Ray,
         point: &Point,
-        sampler: Sampler,
-        bounce: u32,
+        [choice, u, v, _]: [f64; 4],
+        (sampler, bounce): (Sampler, u32),
     ) -> Option<BsdfSample> {
-        let [choice, u, v, _] = sampler.four(bounce, Use::Bounce);
         let numbers = || {
             let [u, v, ..] = sampler.four(bounce, Use::Spread);
             Some([u, v])

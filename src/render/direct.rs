@@ -2,6 +2,7 @@
 
 use glam::DVec3;
 
+use super::intersect::Occlusion;
 use super::lights::{self, Incoming};
 use super::probe::{Point, Probe};
 use crate::geometry::lanes::{Lanes, Vector};
@@ -39,6 +40,14 @@ pub(crate) struct Shadow<N> {
     pub(crate) rays: Rays<N>,
     /// Distances up to which occluders count.
     pub(crate) ends: N,
+}
+
+/// The light of a light that a point reflects if nothing is in between.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Unshadowed {
+    pub(crate) light: Rgb,
+    /// `None` if nothing casts a shadow.
+    pub(crate) shadow: Option<Shadow<f64>>,
 }
 
 impl From<&Point> for Points<f64> {
@@ -119,46 +128,62 @@ pub(crate) fn sent_back(
     (attenuation != 0.0).then(|| reflected * (attenuation * light.colour))
 }
 
-impl<C: Fn() -> bool> Probe<'_, C> {
-    /// Returns the light reflected from a light, sampled where `chosen` says if that is not its centre;
-    /// `reflected` gives the reflectance for the geometry of the light.
-    pub(crate) fn direct(
-        &mut self,
+impl Unshadowed {
+    /// Of a light, sampled where `chosen` says if that is not its centre; `reflected` gives the
+    /// reflectance for the geometry of the light. `None` if the point reflects none.
+    pub(crate) fn new(
         point: &Point,
         light: &Light,
         chosen: Option<Incoming<f64>>,
         reflected: impl FnOnce(&Facing<f64>) -> Rgb,
-    ) -> Rgb {
+    ) -> Option<Self> {
         let place = point.surface.point;
         let centre = || lights::incoming(light, place.into());
-        let Some(incoming) = chosen.or_else(centre) else {
-            return Rgb::ZERO;
-        };
+        let incoming = chosen.or_else(centre)?;
         let facing = Facing::new(&point.into(), light, incoming);
         if !facing.is_lit {
-            return Rgb::ZERO;
+            return None;
         }
         let reflected = reflected(&facing);
-        match sent_back(light, place, || facing.toward.into(), reflected) {
-            Some(unblocked) => self.visibility(facing.shadow) * unblocked,
-            None => Rgb::ZERO,
-        }
+        Some(Self {
+            light: sent_back(light, place, || facing.toward.into(), reflected)?,
+            shadow: facing.shadow,
+        })
     }
 
-    /// Transmittance of a shadow ray; 1 without one.
-    #[inline]
-    pub(crate) fn visibility(&mut self, shadow: Option<Shadow<f64>>) -> f64 {
-        let Some(Shadow { rays, ends }) = shadow else {
-            return 1.0;
+    /// The light that is left after a transmittance.
+    pub(crate) fn shadowed(&self, transmittance: f64) -> Rgb {
+        // Occluded light adds nothing, even if infinite.
+        if transmittance == 0.0 {
+            Rgb::ZERO
+        } else {
+            transmittance * self.light
+        }
+    }
+}
+
+impl Shadow<f64> {
+    /// The ray.
+    pub(crate) fn ray(&self) -> Ray {
+        Ray {
+            origin: self.rays.origin.into(),
+            direction: self.rays.direction.into(),
+        }
+    }
+}
+
+impl<C> Probe<'_, C> {
+    /// Traces the shadow ray of a light.
+    pub(crate) fn lit(&mut self, unshadowed: &Unshadowed, occlusion: Occlusion) -> Rgb {
+        let Some(shadow) = &unshadowed.shadow else {
+            return unshadowed.light;
         };
         self.counts.rays += 1;
         self.counts.shadow_rays += 1;
-        let ray = Ray {
-            origin: rays.origin.into(),
-            direction: rays.direction.into(),
-        };
-        let transmittance = self.world.transmittance(&ray, ends, &mut self.crossed);
-        self.touched |= self.crossed.touched.first().copied().unwrap_or_default();
-        transmittance
+        let (ray, end) = (shadow.ray(), shadow.ends);
+        let transmittance = self
+            .world
+            .transmittance(&ray, end, occlusion, &mut self.crossed);
+        unshadowed.shadowed(transmittance)
     }
 }

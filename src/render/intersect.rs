@@ -9,6 +9,15 @@ use super::world::World;
 use crate::geometry::lanes::{Eight, Simd, dispatch};
 use crate::geometry::{Hit, Ray, Rays, Shape, ulp};
 
+/// What shadow rays pass.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Occlusion {
+    /// Surfaces that transmit light, as far as they do.
+    ByMaterial,
+    /// Nothing.
+    Complete,
+}
+
 /// The objects hit by shadow rays.
 #[derive(Debug, Default)]
 pub(crate) struct Crossed {
@@ -108,24 +117,18 @@ impl World {
         dispatch!(self.level, simd => self.nearest_alone(simd, ray, limit))
     }
 
-    /// Whether a ray hits any object.
-    pub(crate) fn is_blocked(&self, ray: &Ray) -> bool {
-        dispatch!(self.level, simd => {
-            let rays = Rays::all(simd, ray);
-            let mut blocked = false;
-            self.visit(simd, ray, f64::INFINITY, |places| {
-                let limit = f64::INFINITY;
-                self.meet(&rays, ray, limit, places, Search::Blocker, |_, _| blocked = true);
-                if blocked { -1.0 } else { limit }
-            });
-            blocked
-        })
-    }
-
     /// The transmittance along the ray up to `distance`: the product of kt over every solid whose
     /// surface is crossed, each once, in file order. `crossed` is scratch space.
-    pub(crate) fn transmittance(&self, ray: &Ray, distance: f64, crossed: &mut Crossed) -> f64 {
-        dispatch!(self.level, simd => self.transmittance_alone(simd, ray, distance, crossed))
+    pub(crate) fn transmittance(
+        &self,
+        ray: &Ray,
+        distance: f64,
+        occlusion: Occlusion,
+        crossed: &mut Crossed,
+    ) -> f64 {
+        dispatch!(self.level, simd => {
+            self.transmittance_alone(simd, ray, distance, occlusion, crossed)
+        })
     }
 
     /// Returns each object that a ray hits before a limit, by its nearest hit, nearest first.
@@ -179,6 +182,7 @@ impl World {
         simd: S,
         ray: &Ray,
         distance: f64,
+        occlusion: Occlusion,
         crossed: &mut Crossed,
     ) -> f64 {
         crossed.touched.clear();
@@ -201,7 +205,7 @@ impl World {
                     |object, hit| {
                         crossed.touch(object, 1);
                         let material = self.scene.objects[object as usize].material_at(hit);
-                        if self.transmission(material) == 0.0 {
+                        if self.blocks(material, occlusion) {
                             blocked = true;
                         } else {
                             crossed.passed.push((0, object, material));
@@ -220,6 +224,12 @@ impl World {
             .iter()
             .map(|&(_, _, material)| self.transmission(material))
             .product()
+    }
+
+    /// Whether a material blocks shadow rays.
+    #[inline]
+    pub(crate) fn blocks(&self, material: u32, occlusion: Occlusion) -> bool {
+        occlusion == Occlusion::Complete || self.transmission(material) == 0.0
     }
 
     /// Returns the nearest hit, with ties settled.

@@ -52,6 +52,11 @@ impl Lobes {
     pub(crate) fn of(point: &Point, material: &Material) -> (Self, f64) {
         let mut highlight = None;
         let (glossy, gloss) = match material.highlight {
+            Highlight::ModifiedPhong(gloss) | Highlight::Blinn(gloss)
+                if gloss.specular == Rgb::ZERO =>
+            {
+                (Glossy::None, 0.0)
+            }
             Highlight::None => (Glossy::None, 0.0),
             Highlight::Phong(gloss) => {
                 highlight = Some(gloss);

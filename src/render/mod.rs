@@ -76,6 +76,7 @@ mod noise;
 mod optics;
 mod packets;
 mod path;
+mod path_wave;
 mod photon_map;
 mod photon_paths;
 mod photons;

@@ -7,7 +7,7 @@
 use glam::DVec3;
 
 use super::heuristic::Densities;
-use super::intersect::Nearest;
+use super::intersect::{Nearest, Occlusion};
 use super::path::{Path, Vertex};
 use super::probe::{Probe, RAY_BUDGET};
 use super::sampler::{Sampler, Use};
@@ -34,6 +34,54 @@ pub(super) struct Asked {
     pub(super) radiance: Rgb,
 }
 
+/// An emitter sampled at a surface, before its shadow ray is traced.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Asking {
+    /// The answer if it is hidden.
+    pub(super) asked: Asked,
+    /// The shadow ray; `None` if no light could arrive along it.
+    pub(super) ray: Option<Ray>,
+    /// Where the ray ends.
+    pub(super) reach: f64,
+    /// The part of the object's surface.
+    part: u32,
+    /// Whether the ray hits the front of the part.
+    is_front: bool,
+}
+
+impl Asking {
+    /// A direction toward an infinitely distant emitter.
+    fn new(vertex: &Vertex<'_>, toward: DVec3, reflected: Rgb, densities: Densities) -> Self {
+        let is_dark = reflected == Rgb::ZERO || densities.by_light == 0.0;
+        Self {
+            asked: Asked {
+                object: None,
+                toward,
+                distance: f64::INFINITY,
+                emitted: None,
+                reflected,
+                densities,
+                radiance: Rgb::ZERO,
+            },
+            ray: (!is_dark).then(|| vertex.point.leave(toward)),
+            reach: f64::INFINITY,
+            part: 0,
+            is_front: true,
+        }
+    }
+}
+
+impl Asked {
+    /// Adds the emission that arrives.
+    fn arrives(&mut self, emitted: Rgb) {
+        let Densities {
+            by_light, weight, ..
+        } = self.densities;
+        self.emitted = Some(emitted);
+        self.radiance = self.reflected * emitted * (weight / by_light);
+    }
+}
+
 impl<C: Fn() -> bool> Probe<'_, C> {
     /// Whether objects that emit light, or the environment, are sampled at a surface. Not at the last
     /// bounce, since emission counts as the bounce that reaches it.
@@ -48,7 +96,6 @@ impl<C: Fn() -> bool> Probe<'_, C> {
 
     /// Sums the light of objects that emit light and of the environment at a surface that is lit, as
     /// far as it is sampled, and reports its parts.
-    #[inline(never)]
     pub(super) fn ask(
         &mut self,
         vertex: &Vertex<'_>,
@@ -59,11 +106,26 @@ impl<C: Fn() -> bool> Probe<'_, C> {
         let mut sum = Rgb::ZERO;
         let world = self.world;
         let of_object = (!world.emitters.is_empty())
-            .then(|| self.of_object(vertex, bounce, sampler))
+            .then(|| self.ask_object(vertex, bounce, sampler.four(bounce, Use::Emitter)))
             .flatten();
+        let of_object = of_object.map(|asking| {
+            let Some(ray) = self.counted(asking.ray) else {
+                return asking.asked;
+            };
+            let nearest = world.nearest(&ray, asking.reach);
+            self.of_object(&asking, &ray, nearest)
+        });
         let of_sky = (!world.sky.is_unsampled())
-            .then(|| self.of_sky(vertex, bounce, sampler))
+            .then(|| self.ask_sky(vertex, bounce, sampler.four(bounce, Use::Sky)))
             .flatten();
+        let of_sky = of_sky.map(|asking| {
+            let Some(ray) = self.counted(asking.ray) else {
+                return asking.asked;
+            };
+            let (reach, occlusion) = (asking.reach, Occlusion::Complete);
+            let transmittance = world.transmittance(&ray, reach, occlusion, &mut self.crossed);
+            self.of_sky(&asking, &ray, transmittance)
+        });
         for asked in of_object.into_iter().chain(of_sky) {
             sum += asked.radiance;
             report(asked);
@@ -71,48 +133,53 @@ impl<C: Fn() -> bool> Probe<'_, C> {
         sum
     }
 
-    /// Samples the emission of an object.
-    fn of_object(&mut self, vertex: &Vertex<'_>, bounce: u32, sampler: Sampler) -> Option<Asked> {
+    /// Counts a shadow ray.
+    fn counted(&mut self, ray: Option<Ray>) -> Option<Ray> {
+        if ray.is_some() {
+            self.counts.rays += 1;
+            self.counts.shadow_rays += 1;
+        }
+        ray
+    }
+
+    /// Samples the emission of an object by numbers in 0..1.
+    pub(super) fn ask_object(
+        &self,
+        vertex: &Vertex<'_>,
+        bounce: u32,
+        numbers: [f64; 4],
+    ) -> Option<Asking> {
         let Vertex { point, bsdf, .. } = vertex;
         let world = self.world;
         let (scene, from) = (&*world.scene, point.surface.point);
-        let [number, u, v, _] = sampler.four(bounce, Use::Emitter);
+        let [number, u, v, _] = numbers;
         let choice = world
             .emitters
             .choose(scene, (from, point.normal), [number, u, v])?;
-        let toward = choice.toward;
-        let scattered = bsdf.lobes.scatter(point, toward);
-        let mut asked = Asked {
-            object: Some(choice.object),
-            toward,
-            distance: f64::INFINITY,
-            emitted: None,
-            reflected: scattered.value,
-            densities: Densities::for_light(
-                choice.density,
-                self.density_of(bsdf, scattered, bounce),
-            ),
-            radiance: Rgb::ZERO,
-        };
-        if scattered.value == Rgb::ZERO || choice.density == 0.0 {
-            return Some(asked);
-        }
-        self.counts.rays += 1;
-        self.counts.shadow_rays += 1;
-        let ray = point.leave(toward);
-        let Some(nearest) = world.nearest(&ray, choice.reach) else {
-            return Some(asked);
+        let scattered = bsdf.lobes.scatter(point, choice.toward);
+        let by_path = self.density_of(bsdf, scattered, bounce);
+        let densities = Densities::for_light(choice.density, by_path);
+        let mut asking = Asking::new(vertex, choice.toward, scattered.value, densities);
+        asking.reach = choice.reach;
+        asking.asked.object = Some(choice.object);
+        asking.part = choice.part;
+        asking.is_front = choice.is_front;
+        Some(asking)
+    }
+
+    /// Completes the sampling of an object, given what its shadow ray hits.
+    pub(super) fn of_object(&self, asking: &Asking, ray: &Ray, nearest: Option<Nearest>) -> Asked {
+        let mut asked = asking.asked;
+        let Some(nearest) = nearest else {
+            return asked;
         };
         asked.distance = nearest.hit.t;
-        let is_met = (nearest.object, nearest.hit.part) == (choice.object, choice.part);
-        if !is_met || world.sphere_lights.nearest(&ray, asked.distance).is_some() {
-            return Some(asked);
+        let is_met = (Some(nearest.object), nearest.hit.part) == (asked.object, asking.part);
+        let sphere_lights = &self.world.sphere_lights;
+        if is_met && sphere_lights.nearest(ray, asked.distance).is_none() {
+            asked.arrives(self.emitted(ray, nearest, asking.is_front));
         }
-        let emitted = self.emitted(&ray, nearest, choice.is_front);
-        asked.emitted = Some(emitted);
-        let weight = asked.densities.weight / choice.density;
-        asked.radiance = scattered.value * emitted * weight;
-        Some(asked)
+        asked
     }
 
     /// The emission of an object toward the start of a ray that hits it.
@@ -127,39 +194,31 @@ impl<C: Fn() -> bool> Probe<'_, C> {
         }
     }
 
-    /// Samples the environment.
-    fn of_sky(&mut self, vertex: &Vertex<'_>, bounce: u32, sampler: Sampler) -> Option<Asked> {
+    /// Samples the environment by numbers in 0..1.
+    pub(super) fn ask_sky(
+        &self,
+        vertex: &Vertex<'_>,
+        bounce: u32,
+        numbers: [f64; 4],
+    ) -> Option<Asking> {
         let Vertex { point, bsdf, .. } = vertex;
         let world = self.world;
-        let [u, v, ..] = sampler.four(bounce, Use::Sky);
+        let [u, v, ..] = numbers;
         let toward = world.sky.choose([u, v])?;
         let scattered = bsdf.lobes.scatter(point, toward);
         let by_path = self.density_of(bsdf, scattered, bounce);
-        let by_light = world.sky.density(toward);
-        let mut asked = Asked {
-            object: None,
-            toward,
-            distance: f64::INFINITY,
-            emitted: None,
-            reflected: scattered.value,
-            densities: Densities::for_light(by_light, by_path),
-            radiance: Rgb::ZERO,
-        };
-        if scattered.value == Rgb::ZERO || by_light == 0.0 {
-            return Some(asked);
+        let densities = Densities::for_light(world.sky.density(toward), by_path);
+        Some(Asking::new(vertex, toward, scattered.value, densities))
+    }
+
+    /// Completes the sampling of the environment, given the transmittance of its shadow ray.
+    pub(super) fn of_sky(&self, asking: &Asking, ray: &Ray, transmittance: f64) -> Asked {
+        let mut asked = asking.asked;
+        let sphere_lights = &self.world.sphere_lights;
+        if transmittance != 0.0 && sphere_lights.nearest(ray, asking.reach).is_none() {
+            asked.arrives(self.world.environment(asked.toward));
         }
-        self.counts.rays += 1;
-        self.counts.shadow_rays += 1;
-        let ray = point.leave(toward);
-        let is_hidden =
-            world.is_blocked(&ray) || world.sphere_lights.nearest(&ray, f64::INFINITY).is_some();
-        if is_hidden {
-            return Some(asked);
-        }
-        let emitted = world.environment(toward);
-        asked.emitted = Some(emitted);
-        asked.radiance = scattered.value * emitted * (asked.densities.weight / by_light);
-        Some(asked)
+        asked
     }
 
     /// The densities by which a path that hits an object could have found its emission; `None` where

@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use super::intersect::{Closest, Crossed, Nearest};
+use super::intersect::{Closest, Crossed, Nearest, Occlusion};
 use super::structures::Search;
 use super::world::World;
 use crate::geometry::lanes::{Eight, Lanes, Simd, SimdBase, Vector, WIDTH, dispatch, mask};
@@ -24,6 +24,7 @@ impl World {
     pub(crate) fn transmittance_each(
         &self,
         packets: &[Packet],
+        occlusion: Occlusion,
         blocker: &mut Option<u32>,
         crossed: &mut Crossed,
         transmittances: &mut Vec<f64>,
@@ -32,7 +33,7 @@ impl World {
         crossed.touched.clear();
         dispatch!(self.level, simd => {
             for packet in packets {
-                self.transmittance_together(simd, packet, blocker, crossed, transmittances);
+                self.transmittance_together(simd, packet, occlusion, blocker, crossed, transmittances);
             }
         });
     }
@@ -42,6 +43,7 @@ impl World {
         &self,
         simd: S,
         packet: &Packet,
+        occlusion: Occlusion,
         blocker: &mut Option<u32>,
         crossed: &mut Crossed,
         transmittances: &mut Vec<f64>,
@@ -54,7 +56,7 @@ impl World {
         if let Some(object) = *blocker
             && let Some(hits) = self.hits(&rays, object, open, &limits, Search::Blocker)
         {
-            let blocked = self.blocked(object, &hits);
+            let blocked = self.blocked(object, &hits, occlusion);
             crossed.touch(object, hits.lanes);
             open &= !blocked;
             close(&mut limits, blocked);
@@ -78,7 +80,7 @@ impl World {
                         |object, hit| {
                             crossed.touch(object, left);
                             let material = self.scene.objects[object as usize].material_at(hit);
-                            if self.transmission(material) == 0.0 {
+                            if self.blocks(material, occlusion) {
                                 self.remember(blocker, object);
                                 open &= !left;
                             } else {
@@ -94,7 +96,7 @@ impl World {
                     let hits = self.hits_at(&rays, place, lanes, &limits, Search::Blocker);
                     let Some(hits) = hits else { continue };
                     let object = self.order()[place];
-                    let blocked = self.blocked(object, &hits);
+                    let blocked = self.blocked(object, &hits, occlusion);
                     crossed.touch(object, hits.lanes);
                     if blocked != 0 {
                         self.remember(blocker, object);
@@ -130,7 +132,7 @@ impl World {
 
     /// Of the lanes that hit an object, returns those that it blocks completely.
     #[inline(always)]
-    fn blocked(&self, object: u32, hits: &Hits) -> u32 {
+    fn blocked(&self, object: u32, hits: &Hits, occlusion: Occlusion) -> u32 {
         let mut blocked = 0;
         let mut lanes = hits.lanes;
         while lanes != 0 {
@@ -138,7 +140,7 @@ impl World {
             lanes &= lanes - 1;
             let hit = hits.hit(lane as usize);
             let material = self.scene.objects[object as usize].material_at(hit);
-            blocked |= u32::from(self.transmission(material) == 0.0) << lane;
+            blocked |= u32::from(self.blocks(material, occlusion)) << lane;
         }
         blocked
     }

@@ -7,16 +7,16 @@
 use glam::DVec3;
 
 use super::bsdf::{Bsdf, BsdfSample, Scattering};
-use super::direct::shadow;
+use super::direct::{Unshadowed, shadow};
 use super::gather::Gather;
 use super::heuristic::power_heuristic;
-use super::intersect::Nearest;
+use super::intersect::{Nearest, Occlusion};
 use super::lights::SphereLight;
 use super::lobes::Scattered;
 use super::optics::transmitted;
-use super::probe::{Point, Probe, RAY_BUDGET, Sample, Seen};
+use super::probe::{Point, Probe, RAY_BUDGET, Sample};
 use super::sampler::{Sampler, Use};
-use super::touched::Touched;
+use super::world::World;
 use crate::geometry::Ray;
 use crate::geometry::lanes::Vector;
 use crate::scene::{FalloffRule, Light, Material, Rgb};
@@ -25,6 +25,7 @@ use crate::scene::{FalloffRule, Light, Material, Rgb};
 const FAINT: f64 = 1.0 / 16.0;
 
 /// The state of a path.
+#[derive(Debug)]
 pub(super) struct Path {
     pub(super) ray: Ray,
     /// Weight of the incoming radiance in the pixel.
@@ -39,11 +40,8 @@ pub(super) struct Path {
 }
 
 /// What the ray of a path leads to.
-#[expect(
-    clippy::large_enum_variant,
-    reason = "a surface is what most rays lead to, and it must not cost an allocation"
-)]
-pub(super) enum Reached<'m> {
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Met {
     /// Nothing but the background or environment, with this radiance.
     Nothing(Rgb),
     /// A light with a size.
@@ -55,7 +53,7 @@ pub(super) enum Reached<'m> {
         weight: f64,
     },
     /// A surface.
-    Surface(Vertex<'m>),
+    Surface(Nearest),
 }
 
 /// A surface that a path reached.
@@ -89,83 +87,14 @@ pub(super) enum Onward {
 }
 
 impl<C: Fn() -> bool> Probe<'_, C> {
-    /// Estimates the radiance along a camera ray.
-    pub(crate) fn by_path(&mut self, sample: &Sample) -> Seen {
-        let mut seen = Seen::NOTHING;
-        let mut path = Path::new(sample);
-        loop {
-            self.counts.rays += 1;
-            let mut mapped = None;
-            let reached = self.reach(&mut path, sample, &mut mapped);
-            // By reference: moving the vertex out would take 3 % of the time.
-            let next = match &reached {
-                Reached::Nothing(radiance) => {
-                    if self.gather.glow(path.bounce) {
-                        let densities = path.densities_of(&self.world.sky);
-                        let weight = densities.map_or(1.0, |densities| densities.weight);
-                        seen.radiance += path.throughput * *radiance * weight;
-                    }
-                    None
-                }
-                Reached::Light {
-                    light,
-                    radiance,
-                    weight,
-                    ..
-                } => {
-                    if self.gathers(light, &path) {
-                        seen.radiance += path.throughput * *radiance * *weight;
-                    }
-                    None
-                }
-                Reached::Surface(vertex) => {
-                    let object = vertex.nearest.object;
-                    if path.bounce == 0 {
-                        seen.object = object;
-                    }
-                    self.touched |= Touched::object(object);
-                    if vertex.material.is_lit(vertex.point.side) {
-                        let light = self.light_of_all(vertex, path.bounce, sample.sampler);
-                        let emission = if self.gather.glow(path.bounce) {
-                            self.emission(&path, vertex)
-                        } else {
-                            Rgb::ZERO
-                        };
-                        let mut local = emission + light;
-                        if self.photon_map.is_some() {
-                            local += self.caustics(vertex, path.bounce);
-                        }
-                        if self.asks(vertex, path.bounce) {
-                            local += self.ask(vertex, path.bounce, sample.sampler, |_| {});
-                        }
-                        seen.radiance += path.throughput * local;
-                    }
-                    vertex.sample(&path, sample.sampler)
-                }
-            };
-            let Onward::Goes { .. } = self.onward(&mut path, next, sample.sampler) else {
-                return seen;
-            };
-        }
-    }
-
-    /// Finds what a path's ray leads to, reducing the throughput by absorption up to there.
-    pub(super) fn reach<'m>(
-        &self,
-        path: &mut Path,
-        sample: &Sample,
-        mapped: &'m mut Option<Material>,
-    ) -> Reached<'m>
-    where
-        Self: 'm,
-    {
+    /// Finds what a path's ray leads to, given the nearest object that it hits, and reduces the
+    /// throughput by absorption up to there.
+    pub(super) fn meet(&self, path: &mut Path, sample: &Sample, nearest: Option<Nearest>) -> Met {
         let world = self.world;
-        let reach = path.reach(sample);
-        let nearest = world.nearest(&path.ray, reach);
-        let distance = nearest.map_or(reach, |nearest| nearest.hit.t);
+        let distance = nearest.map_or_else(|| path.reach(sample), |nearest| nearest.hit.t);
         if let Some((light, distance)) = world.sphere_lights.nearest(&path.ray, distance) {
             path.throughput *= transmitted(path.absorption, distance);
-            return Reached::Light {
+            return Met::Light {
                 radiance: light.scale * light.radiance(),
                 weight: if self.photon_map.is_some() && path.is_caustic() {
                     // Photons carry it.
@@ -178,25 +107,19 @@ impl<C: Fn() -> bool> Probe<'_, C> {
             };
         }
         let Some(nearest) = nearest else {
-            return Reached::Nothing(world.around(&path.ray, path.bounce, sample.screen));
+            return Met::Nothing(world.around(&path.ray, path.bounce, sample.screen));
         };
         path.throughput *= transmitted(path.absorption, nearest.hit.t);
-        let (point, material) = world.arrive(&path.ray, nearest, mapped);
-        Reached::Surface(Vertex {
-            nearest,
-            bsdf: Bsdf::at(&point, material, world.gloss),
-            point,
-            material,
-        })
+        Met::Surface(nearest)
     }
 
     /// Continues a path in a sampled direction, if there is one, the depth and the budget allow it
-    /// and it survives Russian roulette.
+    /// and it survives Russian roulette by its numbers for the bounce.
     pub(super) fn onward(
         &mut self,
         path: &mut Path,
         next: Option<BsdfSample>,
-        sampler: Sampler,
+        [.., chance]: [f64; 4],
     ) -> Onward {
         let Some(next) = next else {
             return Onward::Nowhere;
@@ -211,12 +134,12 @@ impl<C: Fn() -> bool> Probe<'_, C> {
         if path.bounce % 64 == 63 && (self.cancelled)() {
             return Onward::Cancelled;
         }
-        path.go_on(next, sampler)
+        path.go_on(next, chance)
     }
 
     /// Whether a light with a size that a path hits is part of the light gathered. Where it could
     /// have been sampled from the first surface, it is that surface's direct light.
-    fn gathers(&self, light: &SphereLight, path: &Path) -> bool {
+    pub(super) fn gathers(&self, light: &SphereLight, path: &Path) -> bool {
         let from_first = path.bounce == 1 && path.chosen.is_some();
         match self.gather {
             Gather::Direct(number) => {
@@ -230,7 +153,7 @@ impl<C: Fn() -> bool> Probe<'_, C> {
 
     /// The emission of a surface, as far as it counts where a BSDF sample hits it.
     #[inline]
-    fn emission(&self, path: &Path, vertex: &Vertex<'_>) -> Rgb {
+    pub(super) fn emission(&self, path: &Path, vertex: &Vertex<'_>) -> Rgb {
         let emission = vertex.material.emission;
         if emission == Rgb::ZERO {
             return emission;
@@ -239,27 +162,7 @@ impl<C: Fn() -> bool> Probe<'_, C> {
         densities.map_or(emission, |densities| densities.weight * emission)
     }
 
-    /// Whether to stop before the light with this index; polled for some only, since a scene may
-    /// have 100,000 lights.
-    fn is_cancelled_at(&self, light: usize) -> bool {
-        light % 16 == 15 && (self.cancelled)()
-    }
-
-    /// Sums the reflected light of all lights, in file order.
-    fn light_of_all(&mut self, vertex: &Vertex<'_>, bounce: u32, sampler: Sampler) -> Rgb {
-        let mut sum = Rgb::ZERO;
-        for number in 0..self.world.lights().len() {
-            if self.is_cancelled_at(number) {
-                break;
-            }
-            if self.gather.light(number, bounce) {
-                sum += self.light_of(number, vertex, bounce, sampler);
-            }
-        }
-        sum
-    }
-
-    /// Returns the reflected light of the light with this index.
+    /// Returns the light that a surface reflects of the light with this index.
     pub(super) fn light_of(
         &mut self,
         number: usize,
@@ -268,43 +171,49 @@ impl<C: Fn() -> bool> Probe<'_, C> {
         sampler: Sampler,
     ) -> Rgb {
         let light = &self.world.lights()[number];
-        let Vertex { point, bsdf, .. } = vertex;
         let place = || place_on_light(number, bounce, sampler);
-        let sent_back = match light.luminous_sphere() {
-            None => {
-                let from = point.surface.point;
-                let sphere = light.sphere();
-                let chosen = sphere.and_then(|sphere| sphere.choose(from, place()));
-                self.direct(point, light, chosen, |facing| {
-                    let toward = facing.toward.into();
-                    let scattered = bsdf.lobes.scatter(point, toward);
-                    scattered.value + bsdf.lobes.highlight(point, toward)
-                })
-            }
-            Some(sphere) => self.of_sphere_light(point, bsdf, bounce, light, &sphere, place()),
-        };
-        // Photons carry what passes through.
-        if self.photon_map.is_some() && !self.crossed.passed.is_empty() && self.is_by_photons(light)
-        {
-            return Rgb::ZERO;
-        }
-        light.scale * sent_back
+        let unshadowed = self.unshadowed(number, vertex, bounce, place);
+        let occlusion = self.occlusion(light);
+        unshadowed.map_or(Rgb::ZERO, |unshadowed| {
+            light.scale * self.lit(&unshadowed, occlusion)
+        })
     }
 
-    /// Returns the reflected light of a light with a size, sampled at the point that `place` gives.
-    fn of_sphere_light(
-        &mut self,
-        point: &Point,
-        bsdf: &Bsdf<'_>,
+    /// The same without the scale of the light, before its shadow ray is traced; `None` for none. A
+    /// light with a size is sampled at a place in the unit square.
+    pub(super) fn unshadowed(
+        &self,
+        number: usize,
+        vertex: &Vertex<'_>,
         bounce: u32,
-        light: &Light,
-        sphere: &SphereLight,
-        place: [f64; 2],
-    ) -> Rgb {
+        place: impl FnOnce() -> [f64; 2],
+    ) -> Option<Unshadowed> {
+        let light = &self.world.lights()[number];
+        let Vertex { point, bsdf, .. } = vertex;
+        if let Some(sphere) = light.luminous_sphere() {
+            return self.of_sphere_light(vertex, bounce, (light, &sphere), place());
+        }
         let from = point.surface.point;
-        let Some(incoming) = sphere.choose(from, place) else {
-            return Rgb::ZERO;
-        };
+        let sphere = light.sphere();
+        let chosen = sphere.and_then(|sphere| sphere.choose(from, place()));
+        Unshadowed::new(point, light, chosen, |facing| {
+            let toward = facing.toward.into();
+            let scattered = bsdf.lobes.scatter(point, toward);
+            scattered.value + bsdf.lobes.highlight(point, toward)
+        })
+    }
+
+    /// The light reflected of a light with a size, sampled at the given place.
+    fn of_sphere_light(
+        &self,
+        vertex: &Vertex<'_>,
+        bounce: u32,
+        (light, sphere): (&Light, &SphereLight),
+        place: [f64; 2],
+    ) -> Option<Unshadowed> {
+        let Vertex { point, bsdf, .. } = vertex;
+        let from = point.surface.point;
+        let incoming = sphere.choose(from, place)?;
         let toward = incoming.toward.into();
         let scattered = bsdf.lobes.scatter(point, toward);
         let highlight = bsdf.lobes.highlight(point, toward);
@@ -315,16 +224,27 @@ impl<C: Fn() -> bool> Probe<'_, C> {
         };
         let is_dark = scattered.value == Rgb::ZERO && highlight == Rgb::ZERO;
         if is_dark || incoming.source.is_some_and(hides) {
-            return Rgb::ZERO;
+            return None;
         }
         let chance = self.density_of(bsdf, scattered, bounce);
         let weight = power_heuristic(sphere.density(from), chance);
         let irradiance = sphere.irradiance(from);
         let arriving = weight * irradiance;
-        let shadow = shadow(&point.surface.into(), light, incoming);
-        // BSDF samples never include the highlight.
-        let sent_back = scattered.value * arriving + highlight * irradiance;
-        self.visibility(shadow) * sent_back
+        Some(Unshadowed {
+            // BSDF samples never include the highlight.
+            light: scattered.value * arriving + highlight * irradiance,
+            shadow: shadow(&point.surface.into(), light, incoming),
+        })
+    }
+
+    /// What shadow rays to a light pass.
+    pub(super) fn occlusion(&self, light: &Light) -> Occlusion {
+        // Photons carry what passes through.
+        if self.photon_map.is_some() && self.is_by_photons(light) {
+            Occlusion::Complete
+        } else {
+            Occlusion::ByMaterial
+        }
     }
 }
 
@@ -346,11 +266,31 @@ impl<C> Probe<'_, C> {
     }
 }
 
-impl Vertex<'_> {
-    /// Samples the continuation of a path; `None` at its end.
-    pub(super) fn sample(&self, path: &Path, sampler: Sampler) -> Option<BsdfSample> {
+impl<'m> Vertex<'m> {
+    /// Where a ray hit, with the material there.
+    pub(super) fn new(
+        world: &World,
+        nearest: Nearest,
+        point: Point,
+        material: &'m Material,
+    ) -> Self {
+        Self {
+            nearest,
+            bsdf: Bsdf::at(&point, material, world.gloss),
+            point,
+            material,
+        }
+    }
+
+    /// Samples the continuation of a path, by its numbers for the bounce; `None` at its end.
+    pub(super) fn sample(
+        &self,
+        path: &Path,
+        numbers: [f64; 4],
+        sampler: Sampler,
+    ) -> Option<BsdfSample> {
         self.bsdf
-            .sample(&path.ray, &self.point, sampler, path.bounce)
+            .sample(&path.ray, &self.point, numbers, (sampler, path.bounce))
     }
 }
 
@@ -388,16 +328,15 @@ impl Path {
         })
     }
 
-    /// Continues a path, subject to Russian roulette if it is faint (Arvo and Kirk, "Particle
+    /// Continues a path, subject to Russian roulette by a number in 0..1 if it is faint (Arvo and Kirk, "Particle
     /// Transport and Image Synthesis", 1990).
-    fn go_on(&mut self, next: BsdfSample, sampler: Sampler) -> Onward {
+    fn go_on(&mut self, next: BsdfSample, chance: f64) -> Onward {
         self.throughput *= next.weight;
         if !self.throughput.is_finite() {
             return Onward::Overflow;
         }
         let survival = self.throughput.abs().max_element() / FAINT;
         if survival < 1.0 {
-            let [.., chance] = sampler.four(self.bounce, Use::Bounce);
             if survival <= chance {
                 return Onward::Roulette { survival };
             }

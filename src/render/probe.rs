@@ -35,8 +35,6 @@ pub(crate) struct Probe<'w, C> {
     pub(crate) photon_map: Option<&'w PhotonMap>,
     /// Scratch space.
     pub(crate) crossed: Crossed,
-    /// Dependencies of the current path.
-    pub(crate) touched: Touched,
     /// Rays traced so far.
     pub(crate) counts: Counts,
 }
@@ -130,7 +128,6 @@ impl<'w, C: Fn() -> bool> Probe<'w, C> {
             gather: Gather::All,
             photon_map: None,
             crossed: Crossed::default(),
-            touched: Touched::default(),
             counts: Counts::default(),
         }
     }

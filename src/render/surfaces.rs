@@ -1,5 +1,7 @@
 //! The surface points hit by packets of eight rays.
 
+use std::borrow::Cow;
+
 use glam::DVec3;
 
 use super::intersect::Nearest;
@@ -8,6 +10,7 @@ use super::shading::Side;
 use super::world::World;
 use crate::geometry::lanes::{Eight, Lanes, Row, Simd, Vector, WIDTH, bits, dispatch, mask};
 use crate::geometry::{Hits, Packet, Rays, Shape, Solid, Surface, Surfaces, sphere_surfaces};
+use crate::scene::Material;
 
 /// Up to eight surface points, in memory layout; lanes of rays that miss are undefined.
 #[derive(Clone, Copy, Debug)]
@@ -27,6 +30,23 @@ impl Landing {
         } else {
             Side::Back
         }
+    }
+
+    /// Returns the material of a hit in a lane of a packet, and turns the shading normal if it has
+    /// bumps.
+    pub(crate) fn material<'w>(
+        &mut self,
+        world: &'w World,
+        nearest: Nearest,
+        (packet, lane): (&Packet, usize),
+    ) -> Cow<'w, Material> {
+        let side = self.side(lane);
+        let coming = || (packet.ray(lane), side.turn(self.normal.get(lane)));
+        let (material, bumped) = world.material(nearest, coming);
+        if let Some(normal) = bumped {
+            self.normal.set(lane, side.turn(normal));
+        }
+        material
     }
 
     /// Returns the point in a lane of a packet.

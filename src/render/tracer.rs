@@ -1,9 +1,9 @@
 //! Radiance along camera rays, computed by the chosen integrator.
 
 use super::gather::Gather;
+use super::path_wave::PathWave;
 use super::photons::PhotonMaps;
 use super::probe::{Counts, Probe, Sample, Seen};
-use super::touched::Touched;
 use super::wave::Wave;
 use super::world::World;
 use crate::scene::Integrator;
@@ -18,6 +18,7 @@ pub(crate) struct Tracer<'w, C> {
     photon_maps: Option<&'w PhotonMaps>,
     probe: Probe<'w, C>,
     wave: Wave<'w>,
+    path_wave: PathWave,
 }
 
 impl<'w, C: Fn() -> bool> Tracer<'w, C> {
@@ -28,6 +29,7 @@ impl<'w, C: Fn() -> bool> Tracer<'w, C> {
             photon_maps: None,
             probe: Probe::new(world, depth, cancelled),
             wave: Wave::default(),
+            path_wave: PathWave::default(),
         }
     }
 
@@ -50,30 +52,17 @@ impl<'w, C: Fn() -> bool> Tracer<'w, C> {
         self
     }
 
-    /// Computes the results of camera samples, in their order.
+    /// Computes the results of camera samples with the same index, in their order.
     pub(crate) fn trace(&mut self, samples: &[Sample], seen: &mut Vec<Seen>) {
         seen.clear();
         let probe = &mut self.probe;
         match self.integrator {
             Integrator::Whitted => probe.by_whitted(&mut self.wave, samples, seen),
             Integrator::Path | Integrator::Photon => {
-                for sample in samples {
-                    if (probe.cancelled)() {
-                        break;
-                    }
-                    probe.photon_map = self
-                        .photon_maps
-                        .and_then(|maps| maps.get(sample.sampler.index()));
-                    probe.touched = Touched::default();
-                    let before = probe.counts.rays;
-                    let brought = probe.by_path(sample);
-                    seen.push(Seen {
-                        touched: probe.touched,
-                        rays: u32::try_from(probe.counts.rays - before).unwrap_or(u32::MAX),
-                        ..brought
-                    });
-                }
-                seen.resize(samples.len(), Seen::NOTHING);
+                let index = samples.first().map(|sample| sample.sampler.index());
+                let maps = self.photon_maps.zip(index);
+                probe.photon_map = maps.and_then(|(maps, index)| maps.get(index));
+                probe.by_paths(&mut self.path_wave, samples, seen);
             }
         }
     }

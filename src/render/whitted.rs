@@ -6,7 +6,7 @@ use glam::DVec3;
 
 use super::direct::{Facing, Points, Shadow, sent_back};
 use super::gather::Gather;
-use super::intersect::Nearest;
+use super::intersect::{Nearest, Occlusion};
 use super::lights::{self, Incoming, SphereLight};
 use super::optics::transmitted;
 use super::probe::{Probe, Sample, Seen};
@@ -81,6 +81,7 @@ impl<'w, C: Fn() -> bool> Probe<'w, C> {
         self.counts.shadow_rays += asking;
         world.transmittance_each(
             &wave.shadows,
+            Occlusion::ByMaterial,
             &mut wave.blockers[number],
             &mut self.crossed,
             &mut wave.transmittances,
@@ -133,12 +134,8 @@ impl<'w> Wave<'w> {
                     seen.object = nearest.object;
                 }
                 seen.touched |= Touched::object(nearest.object);
+                let material = landing.material(world, nearest, (packet, lane));
                 let side = landing.side(lane);
-                let coming = || (packet.ray(lane), side.turn(landing.normal.get(lane)));
-                let (material, bumped) = world.material(nearest, coming);
-                if let Some(normal) = bumped {
-                    landing.normal.set(lane, side.turn(normal));
-                }
                 arrived.weight = state.through(nearest);
                 if material.is_lit(side) && gather.glow(state.bounce) {
                     arrived.radiance = material.glow(world.ambient);

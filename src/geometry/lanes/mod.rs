@@ -9,7 +9,7 @@ mod vector;
 use std::ops::{Add, BitAnd, BitOr, BitXor, Div, Mul, Neg, Not, Sub};
 
 use fearless_simd::prelude::*;
-use fearless_simd::{f32x8, f64x8};
+use fearless_simd::{f32x8, f64x8, u32x8};
 
 pub use fearless_simd::prelude::{Select, SimdBase};
 pub use fearless_simd::{Level, Simd};
@@ -58,6 +58,9 @@ pub type Eight<S> = f64x8<S>;
 
 /// Eight numbers of single precision side by side.
 pub type Singles<S> = f32x8<S>;
+
+/// Eight integers side by side.
+pub type Words<S> = u32x8<S>;
 
 /// One number, or several side by side.
 pub trait Lanes:

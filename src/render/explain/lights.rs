@@ -3,7 +3,7 @@
 use glam::DVec3;
 
 use super::super::direct::{Facing, Points};
-use super::super::intersect::{Crossed, Nearest};
+use super::super::intersect::{Crossed, Nearest, Occlusion};
 use super::super::lights::{Incoming, incoming};
 use super::super::probe::Point;
 use super::super::world::World;
@@ -78,7 +78,8 @@ impl Lit<'_> {
     /// Records what a shadow ray crosses.
     fn cross(&self, term: &mut LightTerm, ray: &Ray, end: f64) {
         let world = self.world;
-        let transmittance = world.transmittance(ray, end, &mut Crossed::default());
+        let transmittance =
+            world.transmittance(ray, end, Occlusion::ByMaterial, &mut Crossed::default());
         term.transmittance = Some(transmittance);
         let crossing = |nearest: Nearest| {
             let object = &world.scene.objects[nearest.object as usize];

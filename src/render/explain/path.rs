@@ -8,7 +8,7 @@ use super::super::heuristic::Densities;
 use super::super::lights::{Incoming, SphereLight};
 use super::super::next_event::Asked;
 use super::super::optics::transmitted;
-use super::super::path::{Onward, Path, Reached, Vertex, place_on_light};
+use super::super::path::{Met, Onward, Path, Vertex, place_on_light};
 use super::super::photon_map::PhotonMap;
 use super::super::probe::{Probe, Sample};
 use super::super::sampler::Use;
@@ -92,9 +92,10 @@ impl<C: Fn() -> bool> Recorder<'_, C> {
 
     /// Follows a path to its next vertex.
     fn step(&mut self, path: &mut Path) -> Step {
-        let mut mapped = None;
-        match self.probe.reach(path, &self.sample, &mut mapped) {
-            Reached::Nothing(radiance) => {
+        let world = self.probe.world;
+        let nearest = world.nearest(&path.ray, path.reach(&self.sample));
+        match self.probe.meet(path, &self.sample, nearest) {
+            Met::Nothing(radiance) => {
                 let densities = path.densities_of(&self.probe.world.sky);
                 let screen = self.sample.screen;
                 let missing = missing_around(self.probe.world, &path.ray, path.bounce, screen);
@@ -108,7 +109,7 @@ impl<C: Fn() -> bool> Recorder<'_, C> {
                 self.end(missed, contribution);
                 Step::Ended
             }
-            Reached::Light {
+            Met::Light {
                 light,
                 distance,
                 radiance,
@@ -118,7 +119,12 @@ impl<C: Fn() -> bool> Recorder<'_, C> {
                 self.end(RayEnd::Light(hit), path.throughput * radiance * weight);
                 Step::Ended
             }
-            Reached::Surface(vertex) => self.surface(path, &vertex),
+            Met::Surface(nearest) => {
+                let mut mapped = None;
+                let (point, material) = world.arrive(&path.ray, nearest, &mut mapped);
+                let vertex = Vertex::new(world, nearest, point, material);
+                self.surface(path, &vertex)
+            }
         }
     }
 
@@ -197,9 +203,10 @@ impl<C: Fn() -> bool> Recorder<'_, C> {
             contribution = path.throughput * shading.radiance;
         }
         let sampler = self.sample.sampler;
-        let next = vertex.sample(path, sampler);
-        let kind = self.kind(path, vertex);
-        let onward = self.probe.onward(path, next, sampler);
+        let numbers = sampler.four(path.bounce, Use::Bounce);
+        let next = vertex.sample(path, numbers, sampler);
+        let kind = self.kind(path, vertex, numbers);
+        let onward = self.probe.onward(path, next, numbers);
         let can_go_on = bsdf.can_go_on();
         shading.stop = stop(onward).filter(|_| can_go_on);
         self.end(RayEnd::Surface(shading), contribution);
@@ -326,9 +333,13 @@ impl<C: Fn() -> bool> Recorder<'_, C> {
     }
 
     /// What the ray is that a path chooses next, and the probability of its component.
-    fn kind(&self, path: &Path, vertex: &Vertex<'_>) -> Option<(RayKind, f64)> {
+    fn kind(
+        &self,
+        path: &Path,
+        vertex: &Vertex<'_>,
+        [choice, ..]: [f64; 4],
+    ) -> Option<(RayKind, f64)> {
         let Vertex { point, bsdf, .. } = vertex;
-        let [choice, ..] = self.sample.sampler.four(path.bounce, Use::Bounce);
         let component = bsdf.component(choice)?;
         let kind = match component {
             Component::Lobes(choice) if bsdf.lobes.is_diffuse(choice) => RayKind::Diffuse,

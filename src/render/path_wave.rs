@@ -1,0 +1,341 @@
+//! Paths traced together, one bounce of each at a time, so that their rays and shadow rays form
+//! packets. The order of summation within each path does not depend on the others.
+
+use std::borrow::Cow;
+
+use super::direct::Unshadowed;
+use super::intersect::{Nearest, Occlusion};
+use super::next_event::Asking;
+use super::path::{Met, Onward, Path, Vertex};
+use super::probe::{Probe, Sample, Seen};
+use super::sampler::{Sampler, Use};
+use super::surfaces::Landing;
+use super::touched::Touched;
+use super::wave::Found;
+use super::world::World;
+use crate::geometry::Packets;
+use crate::geometry::lanes::WIDTH;
+use crate::scene::Rgb;
+
+/// How many paths are traced together: with four times as many, tracing takes 2 % longer.
+const TOGETHER: usize = 64;
+
+/// Scratch space for paths traced together.
+#[derive(Debug, Default)]
+pub(crate) struct PathWave {
+    paths: Vec<Path>,
+    /// Indices of the unfinished paths.
+    growing: Vec<usize>,
+    /// Their rays, nearest hits and surface points.
+    rays: Packets,
+    nearest: Vec<Option<Nearest>>,
+    landings: Vec<Landing>,
+    questions: Questions,
+}
+
+/// What a bounce asks at all its surfaces, with scratch space.
+#[derive(Debug, Default)]
+struct Questions {
+    bounce: u32,
+    samplers: Vec<Sampler>,
+    /// For each surface, its numbers for a purpose.
+    numbers: Vec<[f64; 4]>,
+    shadows: Packets,
+    /// For each shadow ray to a light, the index of its surface.
+    lit: Vec<(usize, Unshadowed)>,
+    /// For each shadow ray to an emitter, the index of its surface.
+    asking: Vec<(usize, Asking)>,
+    nearest: Vec<Option<Nearest>>,
+    transmittances: Vec<f64>,
+    /// For each light, the last simple object that occluded it; last that of the environment.
+    blockers: Vec<Option<u32>>,
+}
+
+/// A surface that a path met.
+struct Meeting<'m> {
+    /// Index of the path.
+    path: usize,
+    sampler: Sampler,
+    vertex: Vertex<'m>,
+    /// Whether its side emits and reflects light.
+    is_lit: bool,
+    /// The reflected light of lights.
+    light: Rgb,
+    /// The reflected light of emitters.
+    asked: Rgb,
+}
+
+impl<C: Fn() -> bool> Probe<'_, C> {
+    /// Estimates the radiance along camera rays of samples with the same index.
+    pub(crate) fn by_paths(
+        &mut self,
+        wave: &mut PathWave,
+        samples: &[Sample],
+        seen: &mut Vec<Seen>,
+    ) {
+        seen.resize(samples.len(), Seen::NOTHING);
+        let blockers = self.world.lights().len() + 1;
+        wave.questions.blockers.resize(blockers, None);
+        for (samples, seen) in samples.chunks(TOGETHER).zip(seen.chunks_mut(TOGETHER)) {
+            wave.paths.clear();
+            wave.paths.extend(samples.iter().map(Path::new));
+            wave.growing.clear();
+            wave.growing.extend(0..samples.len());
+            wave.questions.bounce = 0;
+            while !wave.growing.is_empty() && !(self.cancelled)() {
+                self.bounce(wave, samples, seen);
+                wave.questions.bounce += 1;
+            }
+        }
+    }
+
+    /// Follows each path to its next surface and on from there.
+    fn bounce(&mut self, wave: &mut PathWave, samples: &[Sample], seen: &mut [Seen]) {
+        let PathWave {
+            paths,
+            growing,
+            rays,
+            nearest,
+            landings,
+            questions,
+        } = wave;
+        let world = self.world;
+        rays.clear();
+        for &number in &*growing {
+            let path = &paths[number];
+            rays.push(&path.ray, path.reach(&samples[number]));
+            seen[number].rays += 1;
+        }
+        self.counts.rays += growing.len() as u64;
+        world.nearest_each(rays, nearest);
+        world.land_each(rays, nearest, landings);
+        let mut mapped = Vec::new();
+        let mut found = Vec::with_capacity(growing.len());
+        for (place, &number) in growing.iter().enumerate() {
+            let (path, seen) = (&mut paths[number], &mut seen[number]);
+            match self.meet(path, &samples[number], nearest[place]) {
+                Met::Nothing(radiance) => seen.radiance += self.of_nothing(path, radiance),
+                Met::Light {
+                    light,
+                    radiance,
+                    weight,
+                    ..
+                } => {
+                    if self.gathers(&light, path) {
+                        seen.radiance += path.throughput * radiance * weight;
+                    }
+                }
+                Met::Surface(nearest) => {
+                    if path.bounce == 0 {
+                        seen.object = nearest.object;
+                    }
+                    seen.touched |= Touched::object(nearest.object);
+                    let (landing, lane) = (&mut landings[place / WIDTH], place % WIDTH);
+                    let material =
+                        match landing.material(world, nearest, (&rays[place / WIDTH], lane)) {
+                            Cow::Borrowed(material) => Found::Plain(material),
+                            Cow::Owned(material) => {
+                                mapped.push(material);
+                                Found::Mapped(mapped.len() - 1)
+                            }
+                        };
+                    found.push((place, nearest, material));
+                }
+            }
+        }
+        let mut meetings = Vec::with_capacity(found.len());
+        for &(place, nearest, material) in &found {
+            let Some(material) = material.material(&mapped) else {
+                continue;
+            };
+            let point = landings[place / WIDTH].point(&rays[place / WIDTH], place % WIDTH);
+            meetings.push(Meeting {
+                path: growing[place],
+                sampler: samples[growing[place]].sampler,
+                vertex: Vertex::new(world, nearest, point, material),
+                is_lit: material.is_lit(point.side),
+                light: Rgb::ZERO,
+                asked: Rgb::ZERO,
+            });
+        }
+        self.add_lights(&mut meetings, questions, seen);
+        self.add_emitters(&mut meetings, questions, seen);
+        questions.draw(world, &meetings, Use::Bounce);
+        growing.clear();
+        for (meeting, &numbers) in meetings.iter().zip(&questions.numbers) {
+            let path = &mut paths[meeting.path];
+            if meeting.is_lit {
+                seen[meeting.path].radiance += path.throughput * self.local(path, meeting);
+            }
+            let next = meeting.vertex.sample(path, numbers, meeting.sampler);
+            if let Onward::Goes { .. } = self.onward(path, next, numbers) {
+                growing.push(meeting.path);
+            }
+        }
+    }
+
+    /// What a path that leads to nothing adds, given the radiance there.
+    fn of_nothing(&self, path: &Path, radiance: Rgb) -> Rgb {
+        if !self.gather.glow(path.bounce) {
+            return Rgb::ZERO;
+        }
+        let densities = path.densities_of(&self.world.sky);
+        let weight = densities.map_or(1.0, |densities| densities.weight);
+        path.throughput * radiance * weight
+    }
+
+    /// The radiance of a surface toward a path.
+    fn local(&self, path: &Path, meeting: &Meeting<'_>) -> Rgb {
+        let emission = if self.gather.glow(path.bounce) {
+            self.emission(path, &meeting.vertex)
+        } else {
+            Rgb::ZERO
+        };
+        let mut local = emission + meeting.light;
+        if self.photon_map.is_some() {
+            local += self.caustics(&meeting.vertex, path.bounce);
+        }
+        local + meeting.asked
+    }
+
+    /// Adds the light of all lights, in file order.
+    fn add_lights(
+        &mut self,
+        meetings: &mut [Meeting<'_>],
+        questions: &mut Questions,
+        seen: &mut [Seen],
+    ) {
+        let bounce = questions.bounce;
+        for (number, light) in self.world.lights().iter().enumerate() {
+            // Each light may take as many rays as there are paths.
+            if 0 < number && (self.cancelled)() {
+                break;
+            }
+            if !self.gather.light(number, bounce) {
+                continue;
+            }
+            if light.sphere().is_some() {
+                questions.draw(self.world, meetings, Use::Light(number as u32));
+            }
+            questions.shadows.clear();
+            questions.lit.clear();
+            for (at, meeting) in meetings.iter_mut().enumerate() {
+                if !meeting.is_lit {
+                    continue;
+                }
+                let place = || {
+                    let [u, v, ..] = questions.numbers[at];
+                    [u, v]
+                };
+                let Some(unshadowed) = self.unshadowed(number, &meeting.vertex, bounce, place)
+                else {
+                    continue;
+                };
+                match &unshadowed.shadow {
+                    None => meeting.light += light.scale * unshadowed.light,
+                    Some(shadow) => {
+                        questions.shadows.push(&shadow.ray(), shadow.ends);
+                        questions.lit.push((at, unshadowed));
+                        seen[meeting.path].rays += 1;
+                    }
+                }
+            }
+            self.trace_shadows(number, self.occlusion(light), questions);
+            let lit = questions.lit.iter().zip(&questions.transmittances);
+            for (&(at, unshadowed), &transmittance) in lit {
+                meetings[at].light += light.scale * unshadowed.shadowed(transmittance);
+            }
+            // Empty unless dependencies are recorded.
+            for (&(at, _), &touched) in questions.lit.iter().zip(&self.crossed.touched) {
+                seen[meetings[at].path].touched |= touched;
+            }
+        }
+    }
+
+    /// Adds the light of objects that emit light, and of the environment, as far as it is sampled.
+    fn add_emitters(
+        &mut self,
+        meetings: &mut [Meeting<'_>],
+        questions: &mut Questions,
+        seen: &mut [Seen],
+    ) {
+        let (world, bounce) = (self.world, questions.bounce);
+        if world.has_emitters && !world.emitters.is_empty() {
+            questions.draw(world, meetings, Use::Emitter);
+            questions.ask(meetings, seen, |vertex, numbers| {
+                let asks = self.asks(vertex, bounce);
+                asks.then(|| self.ask_object(vertex, bounce, numbers))?
+            });
+            self.count_shadows(questions);
+            world.nearest_each(&questions.shadows, &mut questions.nearest);
+            for ((at, asking), &nearest) in questions.asking.iter().zip(&questions.nearest) {
+                if let Some(ray) = &asking.ray {
+                    meetings[*at].asked += self.of_object(asking, ray, nearest).radiance;
+                }
+            }
+        }
+        if world.has_emitters && !world.sky.is_unsampled() {
+            questions.draw(world, meetings, Use::Sky);
+            questions.ask(meetings, seen, |vertex, numbers| {
+                let asks = self.asks(vertex, bounce);
+                asks.then(|| self.ask_sky(vertex, bounce, numbers))?
+            });
+            self.trace_shadows(world.lights().len(), Occlusion::Complete, questions);
+            let asking = questions.asking.iter().zip(&questions.transmittances);
+            for ((at, asking), &transmittance) in asking {
+                if let Some(ray) = &asking.ray {
+                    meetings[*at].asked += self.of_sky(asking, ray, transmittance).radiance;
+                }
+            }
+        }
+    }
+
+    /// Computes the transmittances of all shadow rays to the light with this number.
+    fn trace_shadows(&mut self, number: usize, occlusion: Occlusion, questions: &mut Questions) {
+        self.count_shadows(questions);
+        self.world.transmittance_each(
+            &questions.shadows,
+            occlusion,
+            &mut questions.blockers[number],
+            &mut self.crossed,
+            &mut questions.transmittances,
+        );
+    }
+
+    fn count_shadows(&mut self, questions: &Questions) {
+        self.counts.rays += questions.shadows.count() as u64;
+        self.counts.shadow_rays += questions.shadows.count() as u64;
+    }
+}
+
+impl Questions {
+    /// Draws the numbers of all surfaces for a purpose.
+    fn draw(&mut self, world: &World, meetings: &[Meeting<'_>], purpose: Use) {
+        self.samplers.clear();
+        self.samplers
+            .extend(meetings.iter().map(|meeting| meeting.sampler));
+        let (node, numbers) = (self.bounce, &mut self.numbers);
+        Sampler::four_each(&self.samplers, (node, purpose), world.level, numbers);
+    }
+
+    /// Collects the shadow rays to emitters from all surfaces that are lit.
+    fn ask(
+        &mut self,
+        meetings: &[Meeting<'_>],
+        seen: &mut [Seen],
+        mut ask: impl FnMut(&Vertex<'_>, [f64; 4]) -> Option<Asking>,
+    ) {
+        self.shadows.clear();
+        self.asking.clear();
+        for (at, (meeting, &numbers)) in meetings.iter().zip(&self.numbers).enumerate() {
+            if meeting.is_lit
+                && let Some(asking) = ask(&meeting.vertex, numbers)
+                && let Some(ray) = &asking.ray
+            {
+                self.shadows.push(ray, asking.reach);
+                self.asking.push((at, asking));
+                seen[meeting.path].rays += 1;
+            }
+        }
+    }
+}
