@@ -36,7 +36,7 @@ use glam::DVec3;
 
 use crate::geometry::lanes::{Eight, Simd};
 use crate::geometry::{Aabb, Ray, Rays};
-use node::Node;
+use node::{Child, Node, WIDTH};
 
 /// A bounding volume hierarchy.
 #[derive(Debug)]
@@ -89,6 +89,29 @@ impl Bvh {
     /// The indices of the boxes in the order of the tree; those of a leaf are contiguous.
     pub fn order(&self) -> &[u32] {
         &self.order
+    }
+
+    /// The ranges of [`Bvh::order`] that are visited at once, in ascending order.
+    pub fn runs(&self) -> Vec<Range<usize>> {
+        let mut runs = Vec::new();
+        // The children of a node are in the order of their boxes.
+        let mut pending = Vec::new();
+        pending.extend(self.nodes.first().map(|_| Child::Inner(0)));
+        while let Some(child) = pending.pop() {
+            match child {
+                Child::Inner(number) => {
+                    let node = &self.nodes[number as usize];
+                    pending.extend((0..WIDTH).rev().map(|lane| node.child(lane)));
+                }
+                Child::Leaf { first, count } => {
+                    let first = first as usize;
+                    runs.push(first..first + usize::from(count));
+                }
+            }
+        }
+        runs.retain(|run| !run.is_empty());
+        runs.extend(self.unbounded());
+        runs
     }
 
     /// Calls `visit` with ranges of [`Bvh::order`], at most [`RUN`] long, that include every box

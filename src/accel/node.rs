@@ -183,10 +183,11 @@ impl Node {
     #[inline(always)]
     pub(super) fn planes<S: Simd>(&self, simd: S, axis: usize, side: usize) -> [Singles<S>; 2] {
         let sides = &self.planes[axis];
-        [side & 1, side & 1 ^ 1].map(
-            #[inline(always)]
-            |side| Singles::load_array(simd, sides[side]),
-        )
+        let [first, second] = [side & 1, side & 1 ^ 1];
+        [
+            Singles::load_array(simd, sides[first]),
+            Singles::load_array(simd, sides[second]),
+        ]
     }
 
     /// The low and the high plane across an axis of the box in a lane.
@@ -201,10 +202,7 @@ impl Node {
     #[inline(always)]
     pub(super) fn entries<S: Simd>(&self, ray: &SlabRay<S>, limit: f32) -> ([f32; WIDTH], u32) {
         let simd = ray.slopes[0].inverse.simd;
-        let mut interval = [ray.start, limit].map(
-            #[inline(always)]
-            |end| Singles::splat(simd, end),
-        );
+        let mut interval = [Singles::splat(simd, ray.start), Singles::splat(simd, limit)];
         for (axis, slope) in ray.slopes.iter().enumerate() {
             let [near, far] = self.planes(simd, axis, slope.near_side);
             let near = (near - slope.near_origin) * slope.inverse;

@@ -149,10 +149,9 @@ impl<S: Simd> Slopes<S> {
 /// Converts the rays along an axis from [`Approach::slopes`].
 #[inline(always)]
 fn slopes<S: Simd>(numbers: [Eight<S>; 3]) -> Slopes<S> {
-    let [inverse, against_low, against_high] = numbers.map(
-        #[inline(always)]
-        |numbers| singles(numbers),
-    );
+    let [inverse, against_low, against_high] = numbers;
+    let inverse = singles(inverse);
+    let (against_low, against_high) = (singles(against_low), singles(against_high));
     let simd = inverse.simd;
     // The inverse of a direction of −0 is −∞.
     let rises = inverse.simd_gt(Singles::splat(simd, 0.0));

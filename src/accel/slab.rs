@@ -143,6 +143,12 @@ pub(super) struct Slope<S: Simd> {
 }
 
 impl<S: Simd> SlabRay<S> {
+    /// Converts a ray from [`Approach::slopes`], to be rounded.
+    #[inline(always)]
+    pub(super) fn rounded(simd: S, start: f64, [x, y, z]: [[f64; 3]; 3]) -> Self {
+        Self::of(simd, start as f32, [rounded(x), rounded(y), rounded(z)])
+    }
+
     /// Converts a ray from [`Approach::slopes`], rounded to `f32`.
     #[inline(always)]
     pub(super) fn of(simd: S, start: f32, [x, y, z]: [[f32; 3]; 3]) -> Self {
@@ -151,6 +157,11 @@ impl<S: Simd> SlabRay<S> {
             slopes: [Slope::of(simd, x), Slope::of(simd, y), Slope::of(simd, z)],
         }
     }
+}
+
+#[inline(always)]
+fn rounded([inverse, above, below]: [f64; 3]) -> [f32; 3] {
+    [inverse as f32, above as f32, below as f32]
 }
 
 impl<S: Simd> Slope<S> {

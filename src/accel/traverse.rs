@@ -56,11 +56,7 @@ pub(super) fn traverse<S: Simd>(
     let rays = Rays::from(ray);
     let approach = Approach::new(&rays, bvh);
     let slopes = approach.slopes(rays.direction, bvh.farthest);
-    let slopes = slopes.map(
-        #[inline(always)]
-        |[inverse, above, below]| [inverse as f32, above as f32, below as f32],
-    );
-    let ray = SlabRay::of(simd, approach.start() as f32, slopes);
+    let ray = SlabRay::rounded(simd, approach.start(), slopes);
     let root = Pending {
         entry: ray.start,
         child: Child::Inner(0),

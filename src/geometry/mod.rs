@@ -47,7 +47,8 @@ pub use cylinder::Cylinder;
 pub use ellipsoid::Ellipsoid;
 pub use hit::{Crossings, Hit, Hits, Spans};
 pub use mesh::{
-    ABSENT, Attribute, Instance, Mesh, MeshError, MeshLine, MeshLines, MeshParts, SlotRun,
+    ABSENT, Attribute, Instance, Mesh, MeshError, MeshLine, MeshLines, MeshParts, Pretest,
+    RoughLine, SlotRun,
 };
 pub use numbers::{FrameNumbers, direction_of};
 pub use outline::Detail;

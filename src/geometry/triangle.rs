@@ -9,7 +9,7 @@
 
 use glam::DVec3;
 
-use super::lanes::{Eight, Lanes, Simd, SimdBase, WIDTH, bits};
+use super::lanes::{Eight, Lanes, Simd, SimdBase, Singles, Vector, bits, singles};
 use super::transform::exact_difference;
 
 /// A line prepared for tests against triangles.
@@ -22,6 +22,89 @@ pub(super) struct Sheared {
     shear: [f64; 3],
 }
 
+/// The axes and slopes of [`Sheared`], in each lane.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Shears<N: Lanes> {
+    /// Whether the largest component of the direction is that on the first axis.
+    is_x: N::Mask,
+    /// Whether it is that on the second.
+    is_y: N::Mask,
+    slopes: [N; 3],
+}
+
+impl<N: Lanes> Shears<N> {
+    /// Of directions of any length.
+    #[inline(always)]
+    pub(super) fn new(direction: Vector<N>) -> Self {
+        let size = direction.abs();
+        let is_x = size.y.up_to(size.x) & size.z.up_to(size.x);
+        let is_y = !is_x & size.z.up_to(size.y);
+        let Vector { x, y, z } = direction;
+        let along = N::select(is_x, x, N::select(is_y, y, z));
+        let first = N::select(is_x, y, N::select(is_y, z, x));
+        let second = N::select(is_x, z, N::select(is_y, x, y));
+        Self {
+            is_x,
+            is_y,
+            slopes: [first / along, second / along, along.all(1.0) / along],
+        }
+    }
+}
+
+impl Shears<f64> {
+    /// A line from an origin.
+    #[inline(always)]
+    pub(super) fn sheared(&self, origin: DVec3) -> Sheared {
+        let last = if self.is_x {
+            0
+        } else if self.is_y {
+            1
+        } else {
+            2
+        };
+        Sheared {
+            origin,
+            axes: axes(last),
+            shear: self.slopes,
+        }
+    }
+}
+
+impl<S: Simd> Shears<Eight<S>> {
+    /// The line in a lane, from an origin.
+    #[inline(always)]
+    pub(super) fn lane(&self, origin: DVec3, lane: usize) -> Sheared {
+        let [x, y, z] = self.slopes;
+        let of_lane = Shears {
+            is_x: bits::<S>(self.is_x) >> lane & 1 == 1,
+            is_y: bits::<S>(self.is_y) >> lane & 1 == 1,
+            slopes: [x[lane], y[lane], z[lane]],
+        };
+        of_lane.sheared(origin)
+    }
+
+    /// The axes, if they are the same in all lanes whose bit is 1.
+    #[inline(always)]
+    fn common_axes(&self, lanes: u32) -> Option<[usize; 3]> {
+        let (is_x, is_y) = (bits::<S>(self.is_x) & lanes, bits::<S>(self.is_y) & lanes);
+        if is_x == lanes {
+            Some(axes(0))
+        } else if is_y == lanes {
+            Some(axes(1))
+        } else if is_x | is_y == 0 {
+            Some(axes(2))
+        } else {
+            None
+        }
+    }
+}
+
+/// The axes, the given one last.
+#[inline(always)]
+fn axes(last: usize) -> [usize; 3] {
+    [(last + 1) % 3, (last + 2) % 3, last]
+}
+
 /// The point where a line crosses a triangle.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Crossing {
@@ -32,30 +115,15 @@ pub(super) struct Crossing {
 }
 
 impl Sheared {
-    /// Prepares the line from `origin` along `direction`, of any length.
-    #[inline]
-    pub(super) fn new(origin: DVec3, direction: DVec3) -> Self {
-        let size = direction.abs();
-        let z = if size.y <= size.x && size.z <= size.x {
-            0
-        } else if size.z <= size.y {
-            1
-        } else {
-            2
-        };
-        let axes = [(z + 1) % 3, (z + 2) % 3, z];
-        let [x, y, z] = axes.map(|axis| direction[axis]);
-        Self {
-            origin,
-            axes,
-            shear: [x / z, y / z, z.recip()],
-        }
-    }
-
     /// Intersects the line with a triangle. A line in its plane does not cross it.
     #[inline]
     pub(super) fn crossing(&self, corners: [DVec3; 3]) -> Option<Crossing> {
-        let [a, b, c] = corners.map(|corner| self.transformed(corner));
+        let [a, b, c] = corners;
+        let (a, b, c) = (
+            self.transformed(a),
+            self.transformed(b),
+            self.transformed(c),
+        );
         let (u, v, w) = (edge(c, b), edge(a, c), edge(b, a));
         if (u < 0.0 || v < 0.0 || w < 0.0) && (0.0 < u || 0.0 < v || 0.0 < w) {
             return None;
@@ -77,86 +145,122 @@ impl Sheared {
     #[inline]
     fn transformed(&self, corner: DVec3) -> [f64; 3] {
         let offset = (corner - self.origin).to_array();
-        let [x, y, z] = self.axes.map(|axis| offset[axis]);
+        let [i, j, k] = self.axes;
+        let (x, y, z) = (offset[i], offset[j], offset[k]);
         let [shear_x, shear_y, shear_z] = self.shear;
         [x - shear_x * z, y - shear_y * z, shear_z * z]
     }
 }
 
-/// Lines whose directions have their largest component on the same axis, one per lane, prepared for
-/// tests against triangles.
+/// One line in all lanes, or several whose directions have their largest component on the same axis,
+/// prepared for tests in single precision.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct ShearedLines<S: Simd> {
-    origin: [Eight<S>; 3],
+pub(super) struct Roughly<S: Simd> {
+    origin: [Singles<S>; 3],
     axes: [usize; 3],
-    shear: [Eight<S>; 2],
+    shear: [Singles<S>; 2],
+    /// Above the difference of a transformed coordinate from that in double precision.
+    error: Singles<S>,
 }
 
-impl<S: Simd> ShearedLines<S> {
-    /// Returns `None` if the largest components are on different axes.
+/// The unit roundoff of single precision.
+const ROUNDOFF: f32 = f32::EPSILON / 2.0;
+
+impl<S: Simd> Roughly<S> {
+    /// One line in all lanes.
     #[inline(always)]
-    pub(super) fn new(simd: S, lines: [&Sheared; WIDTH]) -> Option<Self> {
-        let axes = lines[0].axes;
-        let mut numbers = [[0.0; WIDTH]; 5];
-        for (lane, line) in lines.into_iter().enumerate() {
-            if line.axes != axes {
-                return None;
-            }
-            let [x, y, z] = line.axes.map(|axis| line.origin[axis]);
-            let [shear_x, shear_y, _] = line.shear;
-            for (numbers, number) in numbers.iter_mut().zip([x, y, z, shear_x, shear_y]) {
-                numbers[lane] = number;
-            }
-        }
-        let [x, y, z, shear_x, shear_y] = numbers;
-        Some(Self {
-            origin: [
-                Eight::load_array(simd, x),
-                Eight::load_array(simd, y),
-                Eight::load_array(simd, z),
-            ],
-            axes,
-            shear: [
-                Eight::load_array(simd, shear_x),
-                Eight::load_array(simd, shear_y),
-            ],
-        })
+    pub(super) fn all(simd: S, line: &Sheared) -> Self {
+        let splat = |number: f64| Singles::splat(simd, number as f32);
+        let [i, j, k] = line.axes;
+        let (x, y, z) = (line.origin[i], line.origin[j], line.origin[k]);
+        let [shear_x, shear_y, _] = line.shear;
+        Self::new(
+            line.axes,
+            [splat(x), splat(y), splat(z)],
+            [splat(shear_x), splat(shear_y)],
+        )
     }
 
-    /// A mask of the lines that may cross a triangle by [`Sheared::crossing`]: all except those
-    /// that surely miss it, as most do, by the same signs. Equal products count as on the edge.
+    /// A line in each lane whose bit is 1; `None` if their largest components are on different axes.
     #[inline(always)]
-    pub(super) fn may_cross(&self, [a, b, c]: [DVec3; 3]) -> u32 {
+    pub(super) fn each(
+        origin: &Vector<Eight<S>>,
+        shears: &Shears<Eight<S>>,
+        lanes: u32,
+    ) -> Option<Self> {
+        let axes = shears.common_axes(lanes)?;
+        let origin = [origin.x, origin.y, origin.z];
+        let [i, j, k] = axes;
+        let [slope_x, slope_y, _] = shears.slopes;
+        Some(Self::new(
+            axes,
+            [singles(origin[i]), singles(origin[j]), singles(origin[k])],
+            [singles(slope_x), singles(slope_y)],
+        ))
+    }
+
+    /// Vertices are in unit space. With u the roundoff and o the largest coordinate of the origin, a
+    /// vertex and the origin are off by u and o u, their difference by twice that, since it is rounded
+    /// too, and the product with a slope, of at most 1, by four times as much with those of the slope and
+    /// the product; then a transformed coordinate by less than 8 (1 + o) u, and its magnitude is at most
+    /// 2 (1 + o). What is rounded in double precision is far less.
+    #[inline(always)]
+    fn new(axes: [usize; 3], origin: [Singles<S>; 3], shear: [Singles<S>; 2]) -> Self {
+        let [x, y, z] = origin;
+        let reach = x.abs().max(y.abs()).max(z.abs()) + 1.0;
+        Self {
+            origin,
+            axes,
+            shear,
+            error: reach * (10.0 * ROUNDOFF),
+        }
+    }
+
+    /// The token of the vector instructions.
+    #[inline(always)]
+    pub(super) fn simd(&self) -> S {
+        self.error.simd
+    }
+
+    /// A mask of the lanes in which the line may cross the triangle by [`Sheared::crossing`]: all except
+    /// those in which it surely does not.
+    ///
+    /// If no transformed coordinate is above m, nor off by more than e, then a product is off by less
+    /// than 2 m e + e², and by m² u for its own rounding, and an edge function by twice that and by the
+    /// rounding of the difference, of at most 2 m²: by 4 m e + 2 e² + 4 m² u. NaN rejects nothing.
+    #[inline(always)]
+    pub(super) fn may_cross(&self, corners: [[Singles<S>; 3]; 3]) -> u32 {
+        let [a, b, c] = corners;
         let (a, b, c) = (
             self.transformed(a),
             self.transformed(b),
             self.transformed(c),
         );
         let (u, v, w) = (across(c, b), across(a, c), across(b, a));
-        let zero = u.all(0.0);
-        let below = u.below(zero) | v.below(zero) | w.below(zero);
-        let above = zero.below(u) | zero.below(v) | zero.below(w);
-        bits::<S>(!(below & above))
+        let most = |[x, y]: [Singles<S>; 2]| x.abs().max(y.abs());
+        let most = most(a).max(most(b)).max(most(c));
+        let error = self.error;
+        let bound = most * (error * 5.0 + most * (8.0 * ROUNDOFF)) + error * error * 4.0;
+        let below = -bound;
+        let is_below = u.simd_lt(below) | v.simd_lt(below) | w.simd_lt(below);
+        let is_above = u.simd_gt(bound) | v.simd_gt(bound) | w.simd_gt(bound);
+        bits::<S>(!(is_below & is_above))
     }
 
     /// The two coordinates of a vertex across the lines.
     #[inline(always)]
-    fn transformed(&self, corner: DVec3) -> [Eight<S>; 2] {
-        let [x, y, z] = self.origin;
+    fn transformed(&self, corner: [Singles<S>; 3]) -> [Singles<S>; 2] {
         let [i, j, k] = self.axes;
-        let (x, y, z) = (
-            x.all(corner[i]) - x,
-            y.all(corner[j]) - y,
-            z.all(corner[k]) - z,
-        );
+        let [x, y, z] = self.origin;
+        let (x, y, z) = (corner[i] - x, corner[j] - y, corner[k] - z);
         let [shear_x, shear_y] = self.shear;
         [x - shear_x * z, y - shear_y * z]
     }
 }
 
-/// [`edge`] in each lane; 0 if rounding hides the sign.
+/// [`edge`] in each lane, rounded thrice.
 #[inline(always)]
-fn across<S: Simd>(a: [Eight<S>; 2], b: [Eight<S>; 2]) -> Eight<S> {
+fn across<S: Simd>(a: [Singles<S>; 2], b: [Singles<S>; 2]) -> Singles<S> {
     a[0] * b[1] - a[1] * b[0]
 }
 

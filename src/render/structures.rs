@@ -6,7 +6,7 @@ use rayon::prelude::*;
 
 use crate::accel::Bvh;
 use crate::geometry::lanes::{Eight, Lanes, Simd, WIDTH, mask};
-use crate::geometry::{Hit, Hits, Instance, Mesh, Ray, Rays, Shape};
+use crate::geometry::{Hit, Hits, Instance, Mesh, MeshLines, Pretest, Ray, Rays, Shape};
 use crate::scene::Objects;
 
 /// Which hit of a mesh is searched for.
@@ -18,13 +18,33 @@ pub(crate) enum Search {
     Blocker,
 }
 
+/// The tree over a mesh's triangles, and these for tests of what it visits.
+#[derive(Debug)]
+pub(crate) struct MeshTree {
+    bvh: Bvh,
+    pretest: Pretest,
+}
+
 /// The trees of a scene's meshes.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Structures {
     /// Each mesh once, with its tree.
-    trees: Vec<(Arc<Mesh>, Arc<Bvh>)>,
+    trees: Vec<(Arc<Mesh>, Arc<MeshTree>)>,
     /// Index of each object's tree, 0 for other shapes; empty without meshes.
     numbers: Vec<u32>,
+}
+
+/// Up to this many lines of a packet are tested one by one, each against all triangles of a run.
+const FEW: u32 = 2;
+
+impl MeshTree {
+    /// `None` once `cancelled` returns true.
+    fn build(mesh: &Mesh, cancelled: &(dyn Fn() -> bool + Sync)) -> Option<Self> {
+        let bounds = |triangle: u32| mesh.triangle_bounds(triangle);
+        let bvh = Bvh::over(mesh.len(), bounds, cancelled)?;
+        let pretest = Pretest::new(mesh, bvh.order(), &bvh.runs());
+        Some(Self { bvh, pretest })
+    }
 }
 
 impl Structures {
@@ -45,8 +65,7 @@ impl Structures {
                 let tree = if let Some((known, number)) = known {
                     Arc::clone(&known.trees[number].1)
                 } else {
-                    let bounds = |triangle: u32| mesh.triangle_bounds(triangle);
-                    Arc::new(Bvh::over(mesh.len(), bounds, cancelled)?)
+                    Arc::new(MeshTree::build(mesh, cancelled)?)
                 };
                 structures.trees.push((Arc::clone(mesh), tree));
             }
@@ -70,15 +89,18 @@ impl Structures {
         let (_, tree) = &self.trees[self.numbers[object as usize] as usize];
         let line = instance.line(ray)?;
         let limit_on_line = line.limit(limit);
+        let rough = line.roughly(simd);
         let mut nearest = None;
-        tree.traverse(
+        let mut farthest = limit_on_line;
+        tree.bvh.traverse(
             simd,
             line.ray(),
             limit_on_line,
             #[inline(always)]
-            |places| {
-                let mut farthest = limit_on_line;
-                for &triangle in &tree.order()[places] {
+            |run| {
+                let candidates = tree.pretest.of_line(&rough, &run);
+                for place in each_bit(candidates) {
+                    let triangle = tree.bvh.order()[run.start + place];
                     farthest = line.meet(triangle, limit_on_line, &mut nearest);
                     let met = nearest.is_some_and(|nearest| line.hit(nearest, limit).is_some());
                     if met && search == Search::Blocker {
@@ -106,29 +128,39 @@ impl Structures {
         let lines = instance.lines(rays, lanes)?;
         let chosen = mask(limits.simd, lines.lanes);
         let limits_on_lines = Lanes::select(chosen, lines.limits(limits), limits.all(-1.0));
-        let mut nearest = [None; WIDTH];
-        tree.traverse_packet(
+        let mut met = MetTogether {
+            lines: &lines,
+            limits,
+            limits_on_lines,
+            search,
+            nearest: [None; WIDTH],
+        };
+        tree.bvh.traverse_packet(
             lines.rays(),
             lines.lanes,
             limits_on_lines,
             #[inline(always)]
-            |places, lanes, mut farthest| {
-                for &triangle in &tree.order()[places] {
-                    let mut candidates = lines.may_meet(triangle, lanes);
-                    while candidates != 0 {
-                        let lane = candidates.trailing_zeros() as usize % WIDTH;
-                        candidates &= candidates - 1;
-                        let (line, nearest) = (lines.line(lane), &mut nearest[lane]);
-                        farthest[lane] = line.meet(triangle, limits_on_lines[lane], nearest);
-                        let met = nearest.is_some_and(|hit| line.hit(hit, limits[lane]).is_some());
-                        if met && search == Search::Blocker {
-                            farthest[lane] = -1.0;
+            |run, lanes, mut farthest| {
+                let order = tree.bvh.order();
+                if FEW < lanes.count_ones() && lines.are_aligned() {
+                    for place in run.clone() {
+                        let candidates = lines.may_meet(&tree.pretest, &run, place, lanes);
+                        for lane in each_bit(candidates) {
+                            farthest[lane % WIDTH] = met.meet(lane, order[place]);
+                        }
+                    }
+                } else {
+                    for lane in each_bit(lanes) {
+                        let rough = lines.line(lane).roughly(limits.simd);
+                        for place in each_bit(tree.pretest.of_line(&rough, &run)) {
+                            farthest[lane % WIDTH] = met.meet(lane, order[run.start + place]);
                         }
                     }
                 }
                 farthest
             },
         );
+        let nearest = met.nearest;
         Hits::one_by_one(lines.lanes, |lane| {
             lines.line(lane).hit(nearest[lane]?, limits[lane])
         })
@@ -136,7 +168,7 @@ impl Structures {
 
     /// The trees, ordered by the first object of their meshes.
     #[cfg(test)]
-    pub(crate) fn trees(&self) -> impl Iterator<Item = &Arc<Bvh>> {
+    pub(crate) fn trees(&self) -> impl Iterator<Item = &Arc<MeshTree>> {
         self.trees.iter().map(|(_, tree)| tree)
     }
 
@@ -145,6 +177,48 @@ impl Structures {
             .iter()
             .position(|(known, _)| Arc::ptr_eq(known, mesh))
     }
+}
+
+/// The nearest hits of a packet's lines so far.
+struct MetTogether<'a, S: Simd> {
+    lines: &'a MeshLines<'a, S>,
+    limits: &'a Eight<S>,
+    limits_on_lines: Eight<S>,
+    search: Search,
+    nearest: [Option<Hit>; WIDTH],
+}
+
+impl<S: Simd> MetTogether<'_, S> {
+    /// Tests the line in a lane against a triangle; returns the limit for nearer crossings, below 0
+    /// if none is needed.
+    #[inline(always)]
+    fn meet(&mut self, lane: usize, triangle: u32) -> f64 {
+        let lane = lane % WIDTH;
+        let (line, nearest) = (self.lines.line(lane), &mut self.nearest[lane]);
+        let farthest = line.meet(triangle, self.limits_on_lines[lane], nearest);
+        let limit = self.limits[lane];
+        let is_met = nearest.is_some_and(|hit| line.hit(hit, limit).is_some());
+        if is_met && self.search == Search::Blocker {
+            -1.0
+        } else {
+            farthest
+        }
+    }
+}
+
+/// The numbers of the bits that are 1, ascending.
+#[inline(always)]
+fn each_bit(mut bits: u32) -> impl Iterator<Item = usize> {
+    std::iter::from_fn(
+        #[inline(always)]
+        move || {
+            let bit = bits.trailing_zeros() as usize;
+            (bits != 0).then(|| {
+                bits &= bits - 1;
+                bit
+            })
+        },
+    )
 }
 
 /// The mesh instances among objects with their object numbers, in order.

@@ -2,10 +2,13 @@
 
 use std::sync::atomic::{AtomicUsize, Ordering};
 
+use super::super::RUN;
 use super::super::build::LEVELS;
 use super::super::node::{Bounds, Child, WIDTH};
 use super::super::split::{CancelCheck, Extent, Reference, by_count};
 use super::*;
+use crate::geometry::Ray;
+use crate::geometry::lanes::{Level, dispatch};
 
 /// Checks a subtree: children's boxes lie in `outer` and contain their own boxes. Returns the
 /// number of levels.
@@ -167,5 +170,33 @@ fn a_build_checks_often_and_stops_when_cancelled() {
             Bvh::build(&boxes, cancelled).is_none(),
             "after {checks} checks"
         );
+    }
+}
+
+#[test]
+fn runs_are_the_leaves_in_order() {
+    let mut random = Random(9);
+    let infinite = Aabb {
+        min: DVec3::NEG_INFINITY,
+        max: DVec3::INFINITY,
+    };
+    for count in [0, 1, 7, 9, 100, 3000] {
+        let mut boxes = random_boxes(&mut random, count, 1.0, DVec3::ZERO);
+        boxes.extend([infinite; 3]);
+        let bvh = build(&boxes);
+        let runs = bvh.runs();
+        let joined: Vec<usize> = runs.iter().cloned().flatten().collect();
+        let all: Vec<usize> = (0..bvh.order().len()).collect();
+        assert_eq!(joined, all);
+        assert!(runs.iter().all(|run| (1..=RUN).contains(&run.len())));
+        // A ray through everything visits just these.
+        let ray = Ray {
+            origin: DVec3::new(-9.0, 0.0, 0.0),
+            direction: DVec3::X,
+        };
+        dispatch!(Level::new(), simd => bvh.traverse(simd, &ray, f64::INFINITY, |run| {
+            assert!(runs.contains(&run), "{run:?}");
+            f64::INFINITY
+        }));
     }
 }

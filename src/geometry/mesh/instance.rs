@@ -5,9 +5,11 @@ use std::sync::Arc;
 use glam::{DVec2, DVec3};
 
 use super::Mesh;
+use crate::geometry::lanes::{Lanes, Vector};
+use crate::geometry::line::Line;
 use crate::geometry::transform::{exact_cross, normalise};
-use crate::geometry::triangle::Sheared;
-use crate::geometry::{Aabb, Affine, Chart, Hit, Ray, Surface};
+use crate::geometry::triangle::{Sheared, Shears};
+use crate::geometry::{Aabb, Affine, Chart, Hit, Ray, Rays, Surface};
 
 /// The maximum distance of a line's start from the mesh's centre, in unit space. It is within √3.
 const NEAR: f64 = 4.0;
@@ -91,31 +93,49 @@ impl Instance {
     /// front of the whole mesh.
     #[inline]
     pub fn line(&self, ray: &Ray) -> Option<MeshLine<'_>> {
-        let line = self.frame.line(&ray.into());
-        let [mut origin, direction] = [line.origin, line.direction].map(DVec3::from);
-        let mut start = line.start;
-        if start != 0.0 || NEAR * NEAR < origin.length_squared() {
-            let speed = direction.length();
-            let back = NEAR / speed;
-            let closest = -origin.dot(direction) / (speed * speed);
-            if start + closest + back < 0.0 {
-                return None;
-            }
-            // An error in the distance only moves the start along the line.
-            let step = closest - back;
-            origin = DVec3::new(
-                step.mul_add(direction.x, origin.x),
-                step.mul_add(direction.y, origin.y),
-                step.mul_add(direction.z, origin.z),
-            );
-            start += step;
-        }
-        Some(MeshLine {
-            mesh: &self.mesh,
-            line: Ray { origin, direction },
-            sheared: Sheared::new(origin, direction),
-            start,
+        let (line, is_ahead) = self.approach(&ray.into());
+        let Line { origin, start, .. } = line;
+        is_ahead.then(|| {
+            let sheared = Shears::new(line.direction).sheared(origin.into());
+            let line = Ray {
+                origin: origin.into(),
+                direction: line.direction.into(),
+            };
+            MeshLine::from_parts(&self.mesh, line, sheared, start)
         })
+    }
+
+    /// The lines in each lane, and whether the mesh is not behind them.
+    #[inline(always)]
+    pub(super) fn approach<N: Lanes>(&self, rays: &Rays<N>) -> (Line<N>, N::Mask) {
+        let line = self.frame.line(rays);
+        let Line {
+            origin,
+            direction,
+            start,
+        } = line;
+        let (zero, near) = (start.all(0.0), start.all(NEAR * NEAR));
+        let stays = start.equals(zero) & !near.below(origin.length_squared());
+        if !N::any(!stays) {
+            return (line, stays);
+        }
+        let speed = direction.length();
+        let back = start.all(NEAR) / speed;
+        let closest = -origin.dot(direction) / (speed * speed);
+        let is_behind = (start + closest + back).below(zero);
+        // An error in the distance only moves the start along the line.
+        let step = closest - back;
+        let moved = Vector {
+            x: step.mul_add(direction.x, origin.x),
+            y: step.mul_add(direction.y, origin.y),
+            z: step.mul_add(direction.z, origin.z),
+        };
+        let line = Line {
+            origin: Vector::select(stays, origin, moved),
+            direction,
+            start: N::select(stays, start, start + step),
+        };
+        (line, stays | !is_behind)
     }
 
     /// The nearest hit with `0 < t < limit`, found by testing every triangle.
@@ -200,7 +220,17 @@ impl Instance {
     }
 }
 
-impl MeshLine<'_> {
+impl<'m> MeshLine<'m> {
+    #[inline(always)]
+    pub(super) fn from_parts(mesh: &'m Mesh, line: Ray, sheared: Sheared, start: f64) -> Self {
+        Self {
+            mesh,
+            line,
+            sheared,
+            start,
+        }
+    }
+
     /// The line prepared for tests against triangles.
     pub(super) fn sheared(&self) -> &Sheared {
         &self.sheared

@@ -1,17 +1,21 @@
 //! Packets of rays against a mesh.
 
-use super::{Instance, Mesh, MeshLine};
-use crate::geometry::lanes::{Eight, Simd, SimdBase, WIDTH};
-use crate::geometry::triangle::ShearedLines;
-use crate::geometry::{Ray, Rays};
+use std::ops::Range;
+
+use super::{Instance, Mesh, MeshLine, Pretest};
+use crate::geometry::Rays;
+use crate::geometry::lanes::{Eight, Simd, SimdBase, WIDTH, bits};
+use crate::geometry::triangle::{Roughly, Shears};
 
 /// The lines of eight rays in the unit space of a mesh.
 #[derive(Clone, Copy, Debug)]
 pub struct MeshLines<'m, S: Simd> {
     mesh: &'m Mesh,
-    lines: [MeshLine<'m>; WIDTH],
     rays: Rays<Eight<S>>,
-    sheared: Option<ShearedLines<S>>,
+    shears: Shears<Eight<S>>,
+    /// The distances of the lines' starts along the rays.
+    start: Eight<S>,
+    roughly: Option<Roughly<S>>,
     /// A mask of the rays that the mesh is not behind, lowest bit first.
     pub lanes: u32,
 }
@@ -21,25 +25,23 @@ impl Instance {
     /// is behind all of them.
     #[inline(always)]
     pub fn lines<S: Simd>(&self, rays: &Rays<Eight<S>>, lanes: u32) -> Option<MeshLines<'_, S>> {
-        let simd = rays.origin.x.simd;
-        let mut hit_lanes = 0;
-        let mut lines = [None; WIDTH];
-        for (lane, line) in lines.iter_mut().enumerate() {
-            if lanes >> lane & 1 == 1 {
-                *line = self.line(&rays.ray(lane));
-                hit_lanes |= u32::from(line.is_some()) << lane;
-            }
+        let (line, is_ahead) = self.approach(rays);
+        let lanes = bits::<S>(is_ahead) & lanes;
+        if lanes == 0 {
+            return None;
         }
-        // Unused lanes repeat one of the lines.
-        let any = lines.into_iter().flatten().next()?;
-        let lines = lines.map(|line| line.unwrap_or(any));
-        let rays: [Ray; WIDTH] = lines.map(|line| *line.ray());
+        let rays = Rays {
+            origin: line.origin,
+            direction: line.direction,
+        };
+        let shears = Shears::new(rays.direction);
         Some(MeshLines {
             mesh: self.mesh(),
-            rays: Rays::gather(simd, &rays),
-            sheared: ShearedLines::new(simd, lines.each_ref().map(MeshLine::sheared)),
-            lines,
-            lanes: hit_lanes,
+            roughly: Roughly::each(&rays.origin, &shears, lanes),
+            rays,
+            shears,
+            start: line.start,
+            lanes,
         })
     }
 }
@@ -53,28 +55,35 @@ impl<'m, S: Simd> MeshLines<'m, S> {
 
     /// The line of a ray whose bit is set in [`MeshLines::lanes`].
     #[inline(always)]
-    pub fn line(&self, lane: usize) -> &MeshLine<'m> {
-        &self.lines[lane % WIDTH]
+    pub fn line(&self, lane: usize) -> MeshLine<'m> {
+        let lane = lane % WIDTH;
+        let line = self.rays.ray(lane);
+        let sheared = self.shears.lane(line.origin, lane);
+        MeshLine::from_parts(self.mesh, line, sheared, self.start[lane])
     }
 
     /// The maximum distances along [`Self::rays`] of hits nearer than the world rays' limits.
     #[inline(always)]
     pub fn limits(&self, limits: &Eight<S>) -> Eight<S> {
-        let mut on_lines = [0.0; WIDTH];
-        for lane in 0..WIDTH {
-            on_lines[lane] = self.lines[lane].limit(limits[lane]);
+        let mut on_lines = *(*limits - self.start);
+        for limit in &mut on_lines {
+            *limit = limit.next_up();
         }
         Eight::load_array(limits.simd, on_lines)
     }
 
-    /// The given lanes without those whose line surely misses a triangle by [`MeshLine::meet`].
+    /// Whether [`Self::may_meet`] tests all lines together.
     #[inline(always)]
-    pub fn may_meet(&self, triangle: u32, lanes: u32) -> u32 {
-        match &self.sheared {
-            Some(sheared) => {
-                let corners = self.mesh.triangles[triangle as usize];
-                sheared.may_cross(self.mesh.corners(corners)) & lanes
-            }
+    pub fn are_aligned(&self) -> bool {
+        self.roughly.is_some()
+    }
+
+    /// The given lanes without those whose line surely misses the triangle at a place of a run by
+    /// [`MeshLine::meet`].
+    #[inline(always)]
+    pub fn may_meet(&self, pretest: &Pretest, run: &Range<usize>, place: usize, lanes: u32) -> u32 {
+        match &self.roughly {
+            Some(lines) => pretest.of_triangle(lines, run, place) & lanes,
             None => lanes,
         }
     }

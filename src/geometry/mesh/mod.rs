@@ -6,6 +6,7 @@
 
 mod instance;
 mod lines;
+mod pretest;
 
 use glam::{DVec2, DVec3};
 use rayon::prelude::*;
@@ -14,6 +15,7 @@ use super::Aabb;
 
 pub use instance::{Instance, MeshLine};
 pub use lines::MeshLines;
+pub use pretest::{Pretest, RoughLine};
 
 /// The margin of a triangle's box, in the unit space of the mesh: a crossing is computed from
 /// vertices at most 6 away from the line's start, and is off the line by less than half of this.
@@ -244,8 +246,9 @@ impl Mesh {
 
     /// The vertices of a triangle, in unit space.
     #[inline]
-    fn corners(&self, triangle: [u32; 3]) -> [DVec3; 3] {
-        triangle.map(|corner| self.positions[corner as usize])
+    fn corners(&self, [a, b, c]: [u32; 3]) -> [DVec3; 3] {
+        let corner = |number: u32| self.positions[number as usize];
+        [corner(a), corner(b), corner(c)]
     }
 }
 

@@ -6,7 +6,7 @@ use super::csg::{csg, tree};
 use super::random::Random;
 use super::{Frame, KINDS, unit};
 use crate::geometry::lanes::{Eight, Level, SimdBase, WIDTH, dispatch};
-use crate::geometry::{Hit, Hits, Ray, Rays, Shape, Surface, Surfaces, ulp};
+use crate::geometry::{Affine, Hit, Hits, Plane, Ray, Rays, Shape, Surface, Surfaces, ulp};
 
 /// The SIMD levels that this machine supports.
 fn levels() -> Vec<Level> {
@@ -149,4 +149,47 @@ fn packets_and_single_rays_have_the_same_hits_with_csg() {
         }
     }
     assert!(1500 < count, "{count} hits");
+}
+
+#[test]
+fn packets_and_single_rays_have_the_same_hits_and_surfaces_with_planes() {
+    let mut random = Random(6);
+    let mut count = 0;
+    for _ in 0..200 {
+        let directions = random.skewed(0.01);
+        let lengths = DVec3::new(
+            random.magnitude(-3.0, 3.0),
+            random.magnitude(-3.0, 3.0),
+            1.0,
+        );
+        let origin = random.magnitude(-3.0, 3.0) * random.in_cube();
+        let frame = Affine::new(origin, directions, lengths).expect("it is not flat");
+        let shape = Shape::Plane(Box::new(Plane(frame)));
+        let rays = [(); WIDTH].map(|()| {
+            let place = 1.1 * random.in_cube();
+            let aim = origin
+                + place.x * lengths.x * unit(directions[0])
+                + place.y * lengths.y * unit(directions[1]);
+            let direction = random.direction();
+            Ray {
+                origin: aim - random.magnitude(-3.0, 6.0) * direction,
+                direction,
+            }
+        });
+        let alone: Vec<_> = rays
+            .iter()
+            .map(|ray| shape.hit(ray, f64::INFINITY))
+            .collect();
+        for level in levels() {
+            assert_eq!(together(level, &shape, &rays, f64::INFINITY), alone);
+            let hits = Hits::new(|lane| alone[lane]);
+            let found = surfaces(level, &shape, &rays, &hits);
+            for (lane, hit) in alone.iter().enumerate() {
+                let Some(hit) = *hit else { continue };
+                assert_eq!(found[lane], shape.surface(&rays[lane], hit));
+                count += 1;
+            }
+        }
+    }
+    assert!(1000 < count, "{count} hits");
 }

@@ -11,6 +11,7 @@ mod mesh_known;
 mod meshes;
 mod numbers;
 mod planes;
+mod pretest;
 mod properties;
 mod quadric_bounds;
 mod quadric_parallel;

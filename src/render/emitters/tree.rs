@@ -185,8 +185,8 @@ impl Tree {
 
     /// The probability of the first of two children; `None` if no light of them can arrive.
     fn first_share(&self, first: usize, second: usize, from: DVec3, normal: DVec3) -> Option<f64> {
-        let [first, second] =
-            [first, second].map(|child| self.nodes[child].importance(from, normal));
+        let importance = |child: usize| self.nodes[child].importance(from, normal);
+        let (first, second) = (importance(first), importance(second));
         let sum = first + second;
         if sum == 0.0 {
             None
