@@ -75,12 +75,18 @@ impl Hits {
         Eight::load_array(simd, self.distances)
     }
 
+    /// The parts of the surface.
+    #[inline(always)]
+    pub fn parts<S: Simd>(&self, simd: S) -> Eight<S> {
+        Eight::load_array(simd, self.parts)
+    }
+
     /// Distances and parts as SIMD vectors.
     #[inline(always)]
     pub(super) fn ends<S: Simd>(&self, simd: S) -> End<Eight<S>> {
         End {
             t: self.distances(simd),
-            part: Eight::load_array(simd, self.parts),
+            part: self.parts(simd),
         }
     }
 

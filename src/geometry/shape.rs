@@ -110,6 +110,7 @@ impl Shape {
     }
 
     /// The tag of the part that was hit, if parts of the shape have tags.
+    #[inline]
     pub fn tag(&self, hit: Hit) -> Option<u32> {
         match self {
             Self::Csg(csg) => Some(csg.tag(hit)),

@@ -6,8 +6,8 @@ use std::ops::Range;
 use super::structures::Search;
 use super::touched::Touched;
 use super::world::World;
-use crate::geometry::lanes::{Eight, Simd, dispatch};
-use crate::geometry::{Hit, Ray, Rays, Shape, ulp};
+use crate::geometry::lanes::{Eight, Lanes, Simd, dispatch};
+use crate::geometry::{Hit, Ray, Rays, Shape};
 
 /// What shadow rays pass.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -65,48 +65,98 @@ pub(crate) struct Nearest {
     pub(crate) hit: Hit,
 }
 
-/// The nearest of the objects hit so far.
+/// The nearest of the objects hit so far, in each lane.
 ///
 /// Of objects hit within 64 ulp of the least distance, the first in the file counts, so that
 /// touching solids show no speckle. Which of several such hits comes first depends on the traversal
 /// until the least distance is known, so ties, which are rare, are only detected here.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Closest {
-    best: Option<Nearest>,
-    tied: bool,
+pub(crate) struct Closest<N> {
+    /// The least distance, infinite before the first hit, and what is hit there.
+    t: N,
+    object: N,
+    part: N,
+    /// 1 if another object may be hit at the least distance, else 0.
+    tied: N,
     /// Distance along the ray up to which a hit may still count.
-    pub(crate) limit: f64,
+    pub(crate) limit: N,
     /// Distance of the ray's origin from the world's origin.
-    reach: f64,
+    reach: N,
 }
 
-impl Closest {
+impl<N: Lanes> Closest<N> {
     #[inline(always)]
-    pub(crate) fn before(limit: f64, reach: f64) -> Self {
+    pub(crate) fn before(limit: N, reach: N) -> Self {
+        let zero = reach.all(0.0);
         Self {
-            best: None,
-            tied: false,
+            t: reach.all(f64::INFINITY),
+            object: zero,
+            part: zero,
+            tied: zero,
             limit,
             reach,
         }
     }
 
+    /// Takes hits of an object at distances, where the mask is true.
     #[inline(always)]
-    pub(crate) fn offer(&mut self, object: u32, hit: Hit) {
-        if self.limit <= hit.t {
-            return;
+    pub(crate) fn offer(&mut self, object: u32, [t, part]: [N; 2], is_hit: N::Mask) {
+        let one = t.all(1.0);
+        let counts = is_hit & t.below(self.limit);
+        let is_nearer = t.below(self.t);
+        self.tied = N::select(counts & !is_nearer, one, self.tied);
+        let is_nearer = counts & is_nearer;
+        let end = t + t.all(64.0) * self.reach.larger(t).ulp();
+        let is_tied = N::select(self.t.up_to(end), one, t.all(0.0));
+        self.tied = N::select(is_nearer, is_tied, self.tied);
+        self.object = N::select(is_nearer, t.all(object.into()), self.object);
+        self.part = N::select(is_nearer, part, self.part);
+        self.t = N::select(is_nearer, t, self.t);
+        let limit = self.limit.smaller(end + end.ulp());
+        self.limit = N::select(is_nearer, limit, self.limit);
+    }
+}
+
+impl Closest<f64> {
+    /// Takes a hit of an object.
+    #[inline(always)]
+    pub(crate) fn offer_one(&mut self, object: u32, hit: Hit) {
+        self.offer(object, [hit.t, hit.part.into()], true);
+    }
+
+    fn best(&self) -> Option<Nearest> {
+        (self.t != f64::INFINITY).then_some(Nearest {
+            object: self.object as u32,
+            hit: Hit {
+                t: self.t,
+                part: self.part as u32,
+            },
+        })
+    }
+}
+
+impl<S: Simd> Closest<Eight<S>> {
+    /// The nearest object in a lane.
+    #[inline(always)]
+    pub(crate) fn lane(&self, lane: usize) -> Closest<f64> {
+        Closest {
+            t: self.t[lane],
+            object: self.object[lane],
+            part: self.part[lane],
+            tied: self.tied[lane],
+            limit: self.limit[lane],
+            reach: self.reach[lane],
         }
-        let window = 64.0 * ulp(self.reach.max(hit.t));
-        match self.best {
-            Some(before) if before.hit.t <= hit.t => {
-                self.tied = true;
-                return;
-            }
-            Some(before) => self.tied = before.hit.t <= hit.t + window,
-            None => {}
-        }
-        self.best = Some(Nearest { object, hit });
-        self.limit = self.limit.min((hit.t + window).next_up());
+    }
+
+    /// Replaces the nearest object in a lane.
+    #[inline(always)]
+    pub(crate) fn put(&mut self, lane: usize, closest: Closest<f64>) {
+        self.t[lane] = closest.t;
+        self.object[lane] = closest.object;
+        self.part[lane] = closest.part;
+        self.tied[lane] = closest.tied;
+        self.limit[lane] = closest.limit;
     }
 }
 
@@ -166,9 +216,7 @@ impl World {
                     places,
                     Search::Nearest,
                     #[inline(always)]
-                    |object, hit| {
-                        closest.offer(object, hit);
-                    },
+                    |object, hit| closest.offer_one(object, hit),
                 );
                 closest.limit
             },
@@ -238,12 +286,12 @@ impl World {
         &self,
         simd: S,
         ray: impl FnOnce() -> Ray,
-        closest: &Closest,
+        closest: &Closest<f64>,
     ) -> Option<Nearest> {
-        if closest.tied {
-            self.first_in_file(simd, &ray(), closest.limit)
+        if closest.tied == 0.0 {
+            closest.best()
         } else {
-            closest.best
+            self.first_in_file(simd, &ray(), closest.limit)
         }
     }
 

@@ -6,6 +6,7 @@
 
 use glam::DVec3;
 
+use super::emitters::Picked;
 use super::heuristic::Densities;
 use super::intersect::{Nearest, Occlusion};
 use super::path::{Path, Vertex};
@@ -106,7 +107,11 @@ impl<C: Fn() -> bool> Probe<'_, C> {
         let mut sum = Rgb::ZERO;
         let world = self.world;
         let of_object = (!world.emitters.is_empty())
-            .then(|| self.ask_object(vertex, bounce, sampler.four(bounce, Use::Emitter)))
+            .then(|| {
+                let numbers = sampler.four(bounce, Use::Emitter);
+                let picked = world.emitters.pick(vertex.place(), numbers[0])?;
+                self.ask_object(vertex, bounce, picked, numbers)
+            })
             .flatten();
         let of_object = of_object.map(|asking| {
             let Some(ray) = self.counted(asking.ray) else {
@@ -142,20 +147,18 @@ impl<C: Fn() -> bool> Probe<'_, C> {
         ray
     }
 
-    /// Samples the emission of an object by numbers in 0..1.
+    /// Samples the emission of an object that was picked, by numbers in 0..1.
     pub(super) fn ask_object(
         &self,
         vertex: &Vertex<'_>,
         bounce: u32,
-        numbers: [f64; 4],
+        picked: Picked,
+        [_, u, v, _]: [f64; 4],
     ) -> Option<Asking> {
         let Vertex { point, bsdf, .. } = vertex;
         let world = self.world;
-        let (scene, from) = (&*world.scene, point.surface.point);
-        let [number, u, v, _] = numbers;
-        let choice = world
-            .emitters
-            .choose(scene, (from, point.normal), [number, u, v])?;
+        let from = point.surface.point;
+        let choice = world.emitters.choose(&world.scene, from, picked, [u, v])?;
         let scattered = bsdf.lobes.scatter(point, choice.toward);
         let by_path = self.density_of(bsdf, scattered, bounce);
         let densities = Densities::for_light(choice.density, by_path);

@@ -7,6 +7,7 @@ use super::structures::Search;
 use super::world::World;
 use crate::geometry::lanes::{Eight, Lanes, Simd, SimdBase, Vector, WIDTH, dispatch, mask};
 use crate::geometry::{Hit, Hits, Packet, Rays, Shape, sphere_hits};
+use crate::scene::Object;
 
 impl World {
     /// Returns [`World::nearest`] for each ray.
@@ -133,6 +134,11 @@ impl World {
     /// Of the lanes that hit an object, returns those that it blocks completely.
     #[inline(always)]
     fn blocked(&self, object: u32, hits: &Hits, occlusion: Occlusion) -> u32 {
+        let Object { shape, material } = &self.scene.objects[object as usize];
+        if !matches!(shape, Shape::Mesh(_) | Shape::Csg(_)) {
+            let blocks = self.blocks(*material, occlusion);
+            return if blocks { hits.lanes } else { 0 };
+        }
         let mut blocked = 0;
         let mut lanes = hits.lanes;
         while lanes != 0 {
@@ -154,50 +160,44 @@ impl World {
     ) {
         let rays = packet.rays.load(simd);
         let reach = rays.origin.length();
-        let mut closest = [Closest::before(0.0, 0.0); WIDTH];
-        for (lane, closest) in closest.iter_mut().enumerate() {
-            *closest = Closest::before(packet.ends.0[lane], reach[lane]);
-        }
         let closed = Eight::splat(simd, -1.0);
         let limits = Lanes::select(mask(simd, packet.lanes), packet.ends.load(simd), closed);
+        let mut closest = Closest::before(limits, reach);
         self.visit_together(
             &rays,
             packet.lanes,
             limits,
             #[inline(always)]
-            |places, lanes, mut limits| {
+            |places, lanes, _| {
                 if lanes.is_power_of_two() {
                     let lane = lanes.trailing_zeros() as usize % WIDTH;
+                    let mut alone = closest.lane(lane);
                     self.meet_alone(
                         packet,
                         lane,
-                        &limits,
+                        &closest.limit,
                         places,
                         Search::Nearest,
                         #[inline(always)]
-                        |object, hit| closest[lane].offer(object, hit),
+                        |object, hit| alone.offer_one(object, hit),
                     );
-                    limits[lane] = closest[lane].limit;
-                    return limits;
+                    closest.put(lane, alone);
+                    return closest.limit;
                 }
                 for place in places {
-                    let hits = self.hits_at(&rays, place, lanes, &limits, Search::Nearest);
-                    let Some(hits) = hits else { continue };
-                    let object = self.order()[place];
-                    let mut met = hits.lanes;
-                    while met != 0 {
-                        let lane = met.trailing_zeros() as usize % WIDTH;
-                        met &= met - 1;
-                        closest[lane].offer(object, hits.hit(lane));
-                        limits[lane] = closest[lane].limit;
+                    let limits = &closest.limit;
+                    let hits = self.hits_at(&rays, place, lanes, limits, Search::Nearest);
+                    if let Some(hits) = hits {
+                        let ends = [hits.distances(simd), hits.parts(simd)];
+                        closest.offer(self.order()[place], ends, mask(simd, hits.lanes));
                     }
                 }
-                limits
+                closest.limit
             },
         );
         let count = packet.lanes.count_ones() as usize;
-        for (lane, closest) in closest.iter().enumerate().take(count) {
-            nearest.push(self.settle(simd, || packet.ray(lane), closest));
+        for lane in 0..count {
+            nearest.push(self.settle(simd, || packet.ray(lane), &closest.lane(lane)));
         }
     }
 

@@ -268,6 +268,7 @@ impl<C> Probe<'_, C> {
 
 impl<'m> Vertex<'m> {
     /// Where a ray hit, with the material there.
+    #[inline(always)]
     pub(super) fn new(
         world: &World,
         nearest: Nearest,
@@ -280,6 +281,11 @@ impl<'m> Vertex<'m> {
             point,
             material,
         }
+    }
+
+    /// The point and the shading normal.
+    pub(super) fn place(&self) -> (DVec3, DVec3) {
+        (self.point.surface.point, self.point.normal)
     }
 
     /// Samples the continuation of a path, by its numbers for the bounce; `None` at its end.

@@ -2,8 +2,12 @@
 //! packets. The order of summation within each path does not depend on the others.
 
 use std::borrow::Cow;
+use std::mem;
+
+use glam::DVec3;
 
 use super::direct::Unshadowed;
+use super::emitters::Picked;
 use super::intersect::{Nearest, Occlusion};
 use super::next_event::Asking;
 use super::path::{Met, Onward, Path, Vertex};
@@ -40,6 +44,9 @@ struct Questions {
     samplers: Vec<Sampler>,
     /// For each surface, its numbers for a purpose.
     numbers: Vec<[f64; 4]>,
+    /// Their points and shading normals, and the emitter picked for each.
+    surfaces: Vec<(DVec3, DVec3)>,
+    picked: Vec<Option<Picked>>,
     shadows: Packets,
     /// For each shadow ray to a light, the index of its surface.
     lit: Vec<(usize, Unshadowed)>,
@@ -262,10 +269,13 @@ impl<C: Fn() -> bool> Probe<'_, C> {
         let (world, bounce) = (self.world, questions.bounce);
         if world.has_emitters && !world.emitters.is_empty() {
             questions.draw(world, meetings, Use::Emitter);
-            questions.ask(meetings, seen, |vertex, numbers| {
-                let asks = self.asks(vertex, bounce);
-                asks.then(|| self.ask_object(vertex, bounce, numbers))?
+            questions.pick(world, meetings);
+            let picked = mem::take(&mut questions.picked);
+            questions.ask(meetings, seen, |at, vertex, numbers| {
+                let picked = picked[at].filter(|_| self.asks(vertex, bounce))?;
+                self.ask_object(vertex, bounce, picked, numbers)
             });
+            questions.picked = picked;
             self.count_shadows(questions);
             world.nearest_each(&questions.shadows, &mut questions.nearest);
             for ((at, asking), &nearest) in questions.asking.iter().zip(&questions.nearest) {
@@ -276,7 +286,7 @@ impl<C: Fn() -> bool> Probe<'_, C> {
         }
         if world.has_emitters && !world.sky.is_unsampled() {
             questions.draw(world, meetings, Use::Sky);
-            questions.ask(meetings, seen, |vertex, numbers| {
+            questions.ask(meetings, seen, |_, vertex, numbers| {
                 let asks = self.asks(vertex, bounce);
                 asks.then(|| self.ask_sky(vertex, bounce, numbers))?
             });
@@ -318,18 +328,29 @@ impl Questions {
         Sampler::four_each(&self.samplers, (node, purpose), world.level, numbers);
     }
 
+    /// Picks an emitter for each surface.
+    fn pick(&mut self, world: &World, meetings: &[Meeting<'_>]) {
+        self.surfaces.clear();
+        self.surfaces
+            .extend(meetings.iter().map(|meeting| meeting.vertex.place()));
+        let (surfaces, numbers) = (&self.surfaces, &self.numbers);
+        world
+            .emitters
+            .pick_each(surfaces, numbers, world.level, &mut self.picked);
+    }
+
     /// Collects the shadow rays to emitters from all surfaces that are lit.
     fn ask(
         &mut self,
         meetings: &[Meeting<'_>],
         seen: &mut [Seen],
-        mut ask: impl FnMut(&Vertex<'_>, [f64; 4]) -> Option<Asking>,
+        mut ask: impl FnMut(usize, &Vertex<'_>, [f64; 4]) -> Option<Asking>,
     ) {
         self.shadows.clear();
         self.asking.clear();
         for (at, (meeting, &numbers)) in meetings.iter().zip(&self.numbers).enumerate() {
             if meeting.is_lit
-                && let Some(asking) = ask(&meeting.vertex, numbers)
+                && let Some(asking) = ask(at, &meeting.vertex, numbers)
                 && let Some(ray) = &asking.ray
             {
                 self.shadows.push(ray, asking.reach);

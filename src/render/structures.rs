@@ -5,7 +5,7 @@ use std::sync::Arc;
 use rayon::prelude::*;
 
 use crate::accel::Bvh;
-use crate::geometry::lanes::{Eight, Lanes, Simd, WIDTH, mask};
+use crate::geometry::lanes::{Eight, Lanes, Simd, WIDTH, each_bit, mask};
 use crate::geometry::{Hit, Hits, Instance, Mesh, MeshLines, Pretest, Ray, Rays, Shape};
 use crate::scene::Objects;
 
@@ -204,21 +204,6 @@ impl<S: Simd> MetTogether<'_, S> {
             farthest
         }
     }
-}
-
-/// The numbers of the bits that are 1, ascending.
-#[inline(always)]
-fn each_bit(mut bits: u32) -> impl Iterator<Item = usize> {
-    std::iter::from_fn(
-        #[inline(always)]
-        move || {
-            let bit = bits.trailing_zeros() as usize;
-            (bits != 0).then(|| {
-                bits &= bits - 1;
-                bit
-            })
-        },
-    )
 }
 
 /// The mesh instances among objects with their object numbers, in order.

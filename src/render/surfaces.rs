@@ -50,6 +50,7 @@ impl Landing {
     }
 
     /// Returns the point in a lane of a packet.
+    #[inline(always)]
     pub(crate) fn point(&self, packet: &Packet, lane: usize) -> Point {
         Point {
             surface: Surface {

@@ -6,6 +6,7 @@
 
 mod vector;
 
+use std::iter;
 use std::ops::{Add, BitAnd, BitOr, BitXor, Div, Mul, Neg, Not, Sub};
 
 use fearless_simd::prelude::*;
@@ -262,6 +263,21 @@ pub fn mask<S: Simd>(simd: S, bits: u32) -> <Eight<S> as Lanes>::Mask {
 #[inline(always)]
 pub fn bits<S: Simd>(mask: impl SimdMask<S>) -> u32 {
     mask.to_bitmask() as u32
+}
+
+/// The numbers of the bits that are 1, ascending.
+#[inline(always)]
+pub fn each_bit(mut bits: u32) -> impl Iterator<Item = usize> {
+    iter::from_fn(
+        #[inline(always)]
+        move || {
+            let bit = bits.trailing_zeros() as usize;
+            (bits != 0).then(|| {
+                bits &= bits - 1;
+                bit
+            })
+        },
+    )
 }
 
 /// Those numbers, rounded to single precision.

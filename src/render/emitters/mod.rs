@@ -18,6 +18,7 @@ use rayon::prelude::*;
 
 use super::optics::strength;
 use super::texture::Textures;
+use crate::geometry::lanes::{Level, WIDTH, dispatch};
 use crate::geometry::{Hit, Patch, Ray, Shape};
 use crate::scene::{Faces, Material, Object, Rgb, Scene, Tinted};
 use cone::{Cone, Reach};
@@ -56,6 +57,10 @@ struct Source {
     emission: Tinted,
     faces: Faces,
 }
+
+/// An emitter, with the probability of its choice.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Picked((u32, f64));
 
 /// A direction toward a part of an emitter.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -126,15 +131,39 @@ impl Emitters {
         self.parts.is_empty()
     }
 
-    /// Chooses a direction toward an emitter from a surface at a point with a normal, by three numbers
-    /// in 0..1; `None` if none lights it.
+    /// Chooses one of the emitters for a surface at a point with a normal, by a number in 0..1; `None`
+    /// if none lights it.
+    pub(crate) fn pick(&self, (from, normal): (DVec3, DVec3), number: f64) -> Option<Picked> {
+        self.tree.choose(from, normal, number).map(Picked)
+    }
+
+    /// The same for several surfaces, by the first of their numbers.
+    pub(crate) fn pick_each(
+        &self,
+        surfaces: &[(DVec3, DVec3)],
+        numbers: &[[f64; 4]],
+        level: Level,
+        picked: &mut Vec<Option<Picked>>,
+    ) {
+        picked.clear();
+        dispatch!(level, simd => {
+            for (surfaces, numbers) in surfaces.chunks(WIDTH).zip(numbers.chunks(WIDTH)) {
+                let chosen = self.tree.choose_together(simd, surfaces, numbers);
+                let chosen = chosen.into_iter().take(surfaces.len());
+                picked.extend(chosen.map(|chosen| chosen.map(Picked)));
+            }
+        });
+    }
+
+    /// Chooses a direction from a point toward an emitter that was picked there, by two numbers in
+    /// 0..1; `None` if there is none.
     pub(crate) fn choose(
         &self,
         scene: &Scene,
-        (from, normal): (DVec3, DVec3),
-        [number, u, v]: [f64; 3],
+        from: DVec3,
+        Picked((emitter, chance)): Picked,
+        [u, v]: [f64; 2],
     ) -> Option<Choice> {
-        let (emitter, chance) = self.tree.choose(from, normal, number)?;
         let Part { object, part } = self.parts[emitter as usize];
         let patch = scene.objects[object as usize].shape.patch(part)?;
         let aim = patch.aim(from, [u, v])?;

@@ -77,6 +77,29 @@ fn chances_are_those_of_choices() {
     }
 }
 
+#[test]
+fn lanes_choose_the_same() {
+    let mut random = Random(3);
+    for count in [0, 1, 2, 17, 300] {
+        let reaches = reaches(count, &mut random);
+        let tree = Tree::build(&reaches, &|| false).expect("nothing cancels");
+        for together in [1, 3, 8] {
+            let place = |_| (7.0 * random.point(1.0), random.direction());
+            let surfaces: Vec<_> = (0..together).map(place).collect();
+            let numbers: Vec<_> = surfaces.iter().map(|_| [random.next(); 4]).collect();
+            let alone = surfaces.iter().zip(&numbers);
+            let alone =
+                alone.map(|(&(from, normal), [number, ..])| tree.choose(from, normal, *number));
+            let alone: Vec<_> = alone.collect();
+            for level in [Level::baseline(), Level::new()] {
+                let chosen =
+                    dispatch!(level, simd => tree.choose_together(simd, &surfaces, &numbers));
+                assert_eq!(chosen[..together], alone);
+            }
+        }
+    }
+}
+
 /// In an open scene, where all emitters can light the point, nothing is lost.
 #[test]
 fn chances_sum_to_one() {

@@ -7,6 +7,7 @@ use glam::DVec3;
 
 use super::cone::{Cone, Reach};
 use super::split;
+use crate::geometry::lanes::{Eight, Lanes, Row, Simd, Vector, WIDTH, each_bit};
 
 /// From this depth on the tree halves the number of emitters at each node.
 const DEEP: u32 = 64;
@@ -113,31 +114,91 @@ impl Tree {
 
     /// Chooses an emitter for a surface at a point with a normal, by a number in 0..1; returns it with
     /// its probability. `None` if none of those that the number leads to can light the point.
-    pub(crate) fn choose(&self, from: DVec3, normal: DVec3, mut number: f64) -> Option<(u32, f64)> {
-        let mut at = (0, 0);
-        let mut chance = 1.0;
-        loop {
-            let node = self.nodes.get(at.0)?;
-            let Some([first, second]) = self.children(at).filter(|_| !node.is_alike(from)) else {
-                let sums = &self.sums[at.1..node.end as usize];
-                let before = at.1.checked_sub(1).map_or(0.0, |last| self.sums[last]);
-                let sought = before + number * (sums[sums.len() - 1] - before);
-                let place = sums.partition_point(|&sum| sum <= sought);
-                let place = at.1 + place.min(sums.len() - 1);
-                let share = self.share(at, place);
-                return (0.0 < share).then(|| (self.order[place], chance * share));
+    pub(crate) fn choose(&self, from: DVec3, normal: DVec3, number: f64) -> Option<(u32, f64)> {
+        let mut search = Search::new(number);
+        if self.nodes.is_empty() {
+            return None;
+        }
+        while let Some([first, second]) = self.children(&search, from) {
+            let importance = |child: At| {
+                let node = Spot::from(&self.nodes[child.0]);
+                node.importance(from.into(), normal.into())
             };
-            let share = self.first_share(first.0, second.0, from, normal)?;
-            if number < share {
-                number /= share;
-                chance *= share;
-                at = first;
-            } else {
-                number = (number - share) / (1.0 - share);
-                chance *= 1.0 - share;
-                at = second;
+            let share = share_of(importance(first), importance(second))?;
+            search.descend([first, second], share);
+        }
+        self.among_alike(&search)
+    }
+
+    /// The same for up to eight surfaces at once.
+    #[inline(always)]
+    pub(crate) fn choose_together<S: Simd>(
+        &self,
+        simd: S,
+        surfaces: &[(DVec3, DVec3)],
+        numbers: &[[f64; 4]],
+    ) -> [Option<(u32, f64)>; WIDTH] {
+        let mut chosen = [None; WIDTH];
+        let mut searches = [Search::new(0.0); WIDTH];
+        let mut at = [Vector::repeat(DVec3::ZERO); 2];
+        let count = surfaces.len().min(WIDTH);
+        for lane in 0..count {
+            searches[lane] = Search::new(numbers[lane][0]);
+            let (from, normal) = surfaces[lane];
+            at[0].set(lane, from);
+            at[1].set(lane, normal);
+        }
+        let [from, normal] = at;
+        let (from, normal) = (from.load(simd), normal.load(simd));
+        let mut active = if self.nodes.is_empty() {
+            0
+        } else {
+            (1_u32 << count) - 1
+        };
+        let mut children = [[(0, 0); 2]; WIDTH];
+        while active != 0 {
+            let mut spots = [SpotRows::default(); 2];
+            for lane in each_bit(active) {
+                if let Some(pair) = self.children(&searches[lane], surfaces[lane].0) {
+                    children[lane] = pair;
+                    for (rows, (node, _)) in spots.iter_mut().zip(pair) {
+                        rows.put(lane, &self.nodes[node]);
+                    }
+                } else {
+                    chosen[lane] = self.among_alike(&searches[lane]);
+                    active &= !(1 << lane);
+                }
+            }
+            let [first, second] = spots;
+            let first = first.load(simd).importance(from, normal);
+            let second = second.load(simd).importance(from, normal);
+            for lane in each_bit(active) {
+                match share_of(first[lane], second[lane]) {
+                    Some(share) => searches[lane].descend(children[lane], share),
+                    None => active &= !(1 << lane),
+                }
             }
         }
+        chosen
+    }
+
+    /// The children of the node that a search has reached; `None` if its emitters look alike from the
+    /// point but for their strength.
+    fn children(&self, search: &Search, from: DVec3) -> Option<[At; 2]> {
+        let node = &self.nodes[search.at.0];
+        self.children_of(search.at).filter(|_| !node.is_alike(from))
+    }
+
+    /// Chooses among the emitters of the node that a search has reached, by strength.
+    fn among_alike(&self, search: &Search) -> Option<(u32, f64)> {
+        let at = search.at;
+        let sums = &self.sums[at.1..self.nodes[at.0].end as usize];
+        let before = at.1.checked_sub(1).map_or(0.0, |last| self.sums[last]);
+        let sought = before + search.number * (sums[sums.len() - 1] - before);
+        let place = sums.partition_point(|&sum| sum <= sought);
+        let place = at.1 + place.min(sums.len() - 1);
+        let share = self.share(at, place);
+        (0.0 < share).then(|| (self.order[place], search.chance * share))
     }
 
     /// The probability of [`Tree::choose`] for an emitter.
@@ -147,10 +208,15 @@ impl Tree {
         let mut chance = 1.0;
         loop {
             let node = &self.nodes[at.0];
-            let Some([first, second]) = self.children(at).filter(|_| !node.is_alike(from)) else {
+            let Some([first, second]) = self.children_of(at).filter(|_| !node.is_alike(from))
+            else {
                 return chance * self.share(at, place);
             };
-            let Some(share) = self.first_share(first.0, second.0, from, normal) else {
+            let importance = |child: At| {
+                let node = Spot::from(&self.nodes[child.0]);
+                node.importance(from.into(), normal.into())
+            };
+            let Some(share) = share_of(importance(first), importance(second)) else {
                 return 0.0;
             };
             if place < second.1 {
@@ -164,7 +230,7 @@ impl Tree {
     }
 
     /// A node's children; `None` for a leaf.
-    fn children(&self, (node, place): At) -> Option<[At; 2]> {
+    fn children_of(&self, (node, place): At) -> Option<[At; 2]> {
         let second = self.nodes[node].second as usize;
         (second != 0).then(|| {
             let first = node + 1;
@@ -182,18 +248,49 @@ impl Tree {
             (self.sums[place] - before(place)) / all
         }
     }
+}
 
-    /// The probability of the first of two children; `None` if no light of them can arrive.
-    fn first_share(&self, first: usize, second: usize, from: DVec3, normal: DVec3) -> Option<f64> {
-        let importance = |child: usize| self.nodes[child].importance(from, normal);
-        let (first, second) = (importance(first), importance(second));
-        let sum = first + second;
-        if sum == 0.0 {
-            None
-        } else if sum.is_finite() {
-            Some(first / sum)
+/// The probability of the first of two children, by importance; `None` if no light of them can arrive.
+fn share_of(first: f64, second: f64) -> Option<f64> {
+    let sum = first + second;
+    if sum == 0.0 {
+        None
+    } else if sum.is_finite() {
+        Some(first / sum)
+    } else {
+        Some(0.5)
+    }
+}
+
+/// How far a choice has come.
+#[derive(Clone, Copy)]
+struct Search {
+    at: At,
+    /// The probability of coming there.
+    chance: f64,
+    /// What is left of the number, in 0..1.
+    number: f64,
+}
+
+impl Search {
+    fn new(number: f64) -> Self {
+        Self {
+            at: (0, 0),
+            chance: 1.0,
+            number,
+        }
+    }
+
+    /// Goes on to one of two children, of which the first has a probability.
+    fn descend(&mut self, [first, second]: [At; 2], share: f64) {
+        if self.number < share {
+            self.number /= share;
+            self.chance *= share;
+            self.at = first;
         } else {
-            Some(0.5)
+            self.number = (self.number - share) / (1.0 - share);
+            self.chance *= 1.0 - share;
+            self.at = second;
         }
     }
 }
@@ -216,62 +313,136 @@ impl Node {
         let square = self.centre.distance_squared(from);
         self.square_radius < FAR * square && NARROW < self.cone.cosine
     }
+}
 
+/// What the importance of a node depends on, in each lane.
+#[derive(Clone, Copy)]
+struct Spot<N> {
+    centre: Vector<N>,
+    square_radius: N,
+    axis: Vector<N>,
+    /// The cosine of the half angle of the cone.
+    cosine: N,
+    /// 1 if the emitters shine to both sides, else 0.
+    both: N,
+    strength: N,
+}
+
+impl From<&Node> for Spot<f64> {
+    fn from(node: &Node) -> Self {
+        Self {
+            centre: node.centre.into(),
+            square_radius: node.square_radius,
+            axis: node.cone.axis.into(),
+            cosine: node.cone.cosine,
+            both: f64::from(node.cone.both),
+            strength: node.strength,
+        }
+    }
+}
+
+impl<N: Lanes> Spot<N> {
     /// A bound of the light that may arrive at a surface, up to occlusion and distances within the
     /// node: strength × cosines / distance².
-    fn importance(&self, from: DVec3, normal: DVec3) -> f64 {
+    #[inline(always)]
+    fn importance(&self, from: Vector<N>, normal: Vector<N>) -> N {
+        let (zero, one) = (self.strength.all(0.0), self.strength.all(1.0));
         let offset = self.centre - from;
         let square = offset.length_squared();
-        if square <= self.square_radius {
-            return self.strength / self.square_radius;
-        }
-        let toward = offset / square.sqrt();
+        let is_inside = square.up_to(self.square_radius);
+        let toward = offset.over(square.sqrt());
         // The angle that the sphere subtends.
         let square_sine = self.square_radius / square;
         let wide = Angle {
             sine: square_sine.sqrt(),
-            cosine: (1.0 - square_sine).max(0.0).sqrt(),
+            cosine: positive(one - square_sine).sqrt(),
         };
         let received = Angle::of_cosine(normal.dot(toward)).less(wide).cosine;
-        if received <= 0.0 {
-            return 0.0;
-        }
-        let along = -self.cone.axis.dot(toward);
-        let along = if self.cone.both { along.abs() } else { along };
+        let along = -self.axis.dot(toward);
+        let along = N::select(self.both.equals(one), along.abs(), along);
         let sent = Angle::of_cosine(along)
-            .less(Angle::of_cosine(self.cone.cosine))
+            .less(Angle::of_cosine(self.cosine))
             .less(wide)
             .cosine;
-        self.strength * sent.max(0.0) * received / square
+        let outside = self.strength * positive(sent) * received / square;
+        let outside = N::select(received.up_to(zero), zero, outside);
+        N::select(is_inside, self.strength / self.square_radius, outside)
     }
 }
 
-/// An angle from 0 to π.
+/// The nodes of eight lanes.
 #[derive(Clone, Copy)]
-struct Angle {
-    sine: f64,
-    cosine: f64,
+struct SpotRows {
+    vectors: [Vector<Row>; 2],
+    numbers: [Row; 4],
 }
 
-impl Angle {
-    fn of_cosine(cosine: f64) -> Self {
+impl Default for SpotRows {
+    fn default() -> Self {
         Self {
-            sine: (1.0 - cosine * cosine).max(0.0).sqrt(),
+            vectors: [Vector::repeat(DVec3::ZERO); 2],
+            numbers: [Row::all(0.0); 4],
+        }
+    }
+}
+
+impl SpotRows {
+    #[inline(always)]
+    fn put(&mut self, lane: usize, node: &Node) {
+        self.vectors[0].set(lane, node.centre);
+        self.vectors[1].set(lane, node.cone.axis);
+        self.numbers[0].0[lane] = node.square_radius;
+        self.numbers[1].0[lane] = node.cone.cosine;
+        self.numbers[2].0[lane] = f64::from(node.cone.both);
+        self.numbers[3].0[lane] = node.strength;
+    }
+
+    #[inline(always)]
+    fn load<S: Simd>(&self, simd: S) -> Spot<Eight<S>> {
+        Spot {
+            centre: self.vectors[0].load(simd),
+            square_radius: self.numbers[0].load(simd),
+            axis: self.vectors[1].load(simd),
+            cosine: self.numbers[1].load(simd),
+            both: self.numbers[2].load(simd),
+            strength: self.numbers[3].load(simd),
+        }
+    }
+}
+
+/// An angle from 0 to π, in each lane.
+#[derive(Clone, Copy)]
+struct Angle<N> {
+    sine: N,
+    cosine: N,
+}
+
+impl<N: Lanes> Angle<N> {
+    #[inline(always)]
+    fn of_cosine(cosine: N) -> Self {
+        Self {
+            sine: positive(cosine.all(1.0) - cosine * cosine).sqrt(),
             cosine,
         }
     }
 
     /// The difference of two angles, 0 if negative.
+    #[inline(always)]
     fn less(self, other: Self) -> Self {
-        if other.cosine < self.cosine {
-            return Self {
-                sine: 0.0,
-                cosine: 1.0,
-            };
-        }
+        let (zero, one) = (self.sine.all(0.0), self.sine.all(1.0));
+        let is_negative = other.cosine.below(self.cosine);
+        let sine = self.sine * other.cosine - self.cosine * other.sine;
+        let cosine = self.cosine * other.cosine + self.sine * other.sine;
         Self {
-            sine: self.sine * other.cosine - self.cosine * other.sine,
-            cosine: self.cosine * other.cosine + self.sine * other.sine,
+            sine: N::select(is_negative, zero, sine),
+            cosine: N::select(is_negative, one, cosine),
         }
     }
+}
+
+/// A number, or 0 if it is below.
+#[inline(always)]
+fn positive<N: Lanes>(number: N) -> N {
+    let zero = number.all(0.0);
+    N::select(zero.below(number), number, zero)
 }
