@@ -185,6 +185,7 @@ pub struct Object {
 
 impl Object {
     /// Returns the index of the material at a hit.
+    #[inline]
     pub fn material_at(&self, hit: Hit) -> u32 {
         self.shape.tag(hit).unwrap_or(self.material)
     }

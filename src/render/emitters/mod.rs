@@ -49,6 +49,8 @@ struct Glow {
     object: u32,
     /// One for each of its materials.
     sources: Vec<Source>,
+    /// Its only part; `None` if it is a mesh.
+    patch: Option<Patch>,
 }
 
 /// The emission of a material.
@@ -165,8 +167,12 @@ impl Emitters {
         [u, v]: [f64; 2],
     ) -> Option<Choice> {
         let Part { object, part } = self.parts[emitter as usize];
-        let patch = scene.objects[object as usize].shape.patch(part)?;
-        let aim = patch.aim(from, [u, v])?;
+        let shape = &scene.objects[object as usize].shape;
+        let aim = if let Some(patch) = self.known_patch(object) {
+            patch.aim(from, [u, v])?
+        } else {
+            shape.patch(part)?.aim(from, [u, v])?
+        };
         Some(Choice {
             object,
             part,
@@ -193,6 +199,12 @@ impl Emitters {
         let patch = scene.objects[object as usize].shape.patch(part);
         let density = patch.map_or(0.0, |patch| patch.density(from, toward, at));
         density * self.tree.chance(emitter as u32, from, normal)
+    }
+
+    /// The part of an object that is no mesh.
+    fn known_patch(&self, object: u32) -> Option<&Patch> {
+        let found = self.glows.binary_search_by_key(&object, |glow| glow.object);
+        self.glows[found.ok()?].patch.as_ref()
     }
 
     /// Whether these emitters are those of a scene with these glows.
@@ -241,9 +253,11 @@ fn glows(scene: &Scene) -> Vec<Glow> {
         };
         let mut colours = sources.iter().map(|source| source.emission.colour);
         let is_bright = colours.any(|colour| colour != Rgb::ZERO);
-        (is_bright && 0 < object.shape.patches()).then_some(Glow {
+        let is_mesh = matches!(object.shape, Shape::Mesh(_));
+        (is_bright && 0 < object.shape.patches()).then(|| Glow {
             object: number as u32,
             sources,
+            patch: if is_mesh { None } else { object.shape.patch(0) },
         })
     };
     scene.objects.par_numbered().filter_map(glow).collect()

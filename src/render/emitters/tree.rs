@@ -156,7 +156,7 @@ impl Tree {
             (1_u32 << count) - 1
         };
         let mut children = [[(0, 0); 2]; WIDTH];
-        while active != 0 {
+        loop {
             let mut spots = [SpotRows::default(); 2];
             for lane in each_bit(active) {
                 if let Some(pair) = self.children(&searches[lane], surfaces[lane].0) {
@@ -168,6 +168,9 @@ impl Tree {
                     chosen[lane] = self.among_alike(&searches[lane]);
                     active &= !(1 << lane);
                 }
+            }
+            if active == 0 {
+                break;
             }
             let [first, second] = spots;
             let first = first.load(simd).importance(from, normal);
