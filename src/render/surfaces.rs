@@ -34,6 +34,7 @@ impl Landing {
 
     /// Returns the material of a hit in a lane of a packet, and turns the shading normal if it has
     /// bumps.
+    #[inline]
     pub(crate) fn material<'w>(
         &mut self,
         world: &'w World,
