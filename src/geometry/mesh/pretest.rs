@@ -1,5 +1,5 @@
-//! Tells of most triangles of a mesh that a line misses them, from vertices in single precision: eight
-//! triangles at once for a single line, or eight lines for a triangle.
+//! Rejects most of the triangles that a line misses, by vertices in single precision: eight triangles
+//! at once for a single line, or eight lines at once for a triangle.
 
 use std::ops::Range;
 
@@ -24,9 +24,14 @@ const CHUNK: usize = 1 << 12;
 pub struct Pretest(Vec<f32>);
 
 impl Pretest {
-    /// Stores the triangles with these numbers. The runs are disjoint parts of that order of at most
-    /// eight each, ascending; others are left out.
-    pub fn new(mesh: &Mesh, order: &[u32], runs: &[Range<usize>]) -> Self {
+    /// Stores the triangles with these numbers. The runs are consecutive parts of that order, of at
+    /// most eight triangles each. `None` once `cancelled` returns true.
+    pub fn new(
+        mesh: &Mesh,
+        order: &[u32],
+        runs: &[Range<usize>],
+        cancelled: &(dyn Fn() -> bool + Sync),
+    ) -> Option<Self> {
         let mut numbers = vec![0.0; NUMBERS * order.len() + WIDTH];
         let mut rest = &mut numbers[..];
         let mut start = 0;
@@ -37,7 +42,7 @@ impl Pretest {
             chunks.push((own, start, runs));
             (rest, start) = (after, end);
         }
-        chunks.into_par_iter().for_each(|(numbers, start, runs)| {
+        let filled = chunks.into_par_iter().map(|(numbers, start, runs)| {
             for run in runs {
                 let rows = &mut numbers[NUMBERS * (run.start - start)..NUMBERS * (run.end - start)];
                 for (place, &triangle) in order[run.clone()].iter().enumerate() {
@@ -48,12 +53,14 @@ impl Pretest {
                     }
                 }
             }
+            (!cancelled()).then_some(())
         });
-        Self(numbers)
+        filled.collect::<Option<()>>()?;
+        Some(Self(numbers))
     }
 
-    /// A mask of the triangles of a run that a line may meet by [`MeshLine::meet`]: all except those
-    /// that it surely misses, as most.
+    /// A mask of the triangles of a run that a line may meet by [`MeshLine::meet`]: all but those that
+    /// it surely misses.
     #[inline(always)]
     pub fn of_line<S: Simd>(&self, line: &RoughLine<S>, run: &Range<usize>) -> u32 {
         let rows = Rows {

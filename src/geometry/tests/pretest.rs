@@ -59,7 +59,7 @@ fn tested(least: [f64; 2]) -> [u32; 3] {
         let mesh = soup(&mut random, least);
         let order: Vec<u32> = (0..COUNT).rev().collect();
         let runs: Vec<Range<usize>> = [0..8, 8..11, 11..12, 12..20, 20..27, 27..33, 33..40].into();
-        let pretest = Pretest::new(&mesh, &order, &runs);
+        let pretest = Pretest::new(&mesh, &order, &runs, &|| false).expect("nothing cancels");
         let instance = Instance::new(Arc::clone(&mesh), &frame, Vec::new());
         for _ in 0..100 {
             let target = (random.bits() % u64::from(COUNT)) as u32;

@@ -115,10 +115,10 @@ impl Tree {
     /// Chooses an emitter for a surface at a point with a normal, by a number in 0..1; returns it with
     /// its probability. `None` if none of those that the number leads to can light the point.
     pub(crate) fn choose(&self, from: DVec3, normal: DVec3, number: f64) -> Option<(u32, f64)> {
-        let mut search = Search::new(number);
         if self.nodes.is_empty() {
             return None;
         }
+        let mut search = Search::new(number);
         while let Some([first, second]) = self.children(&search, from) {
             let importance = |child: At| {
                 let node = Spot::from(&self.nodes[child.0]);
