@@ -15,7 +15,7 @@ use std::time::{Duration, Instant};
 
 use glam::DVec3;
 use halflight::accel::Bvh;
-use halflight::geometry::{Aabb, Affine, Instance, Mesh, Shape};
+use halflight::geometry::{Aabb, Affine, Instance, Mesh, Pretest, Shape};
 use halflight::language::{self, FileKind, Language};
 use halflight::obj;
 use halflight::render::{Frame, Frames, Job, Renderer, Settings, Threads};
@@ -175,19 +175,21 @@ fn mesh(name: &str, cores: usize) {
         let boxes: Vec<_> = triangles
             .map(|number| mesh.triangle_bounds(number))
             .collect();
-        Bvh::build(&boxes, || false).expect("nothing cancels")
+        let bvh = Bvh::build(&boxes, || false).expect("nothing cancels");
+        let pretest = Pretest::new(mesh, bvh.order(), &bvh.runs(), &|| false);
+        (bvh, pretest.expect("nothing cancels"))
     };
     // First, as freed memory may later stay resident.
     let before = resident();
     let mesh = read().mesh;
-    let bvh = structure(&mesh);
+    let structures = structure(&mesh);
     let bytes = resident().saturating_sub(before) / mesh.len();
-    drop(bvh);
+    drop(structures);
     let (read, _) = median(read);
     let (build, _) = median(|| structure(&mesh));
     println!(
-        "\n{name}: .obj of {} MB read in {} ms, bvh built in {} ms, \
-        {bytes} bytes per triangle with the bvh",
+        "\n{name}: .obj of {} MB read in {} ms, bvh and pretest built in {} ms, \
+        {bytes} bytes per triangle with them",
         text.len() / 1_000_000,
         milliseconds(read),
         milliseconds(build),

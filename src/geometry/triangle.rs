@@ -159,7 +159,7 @@ pub(super) struct Roughly<S: Simd> {
     origin: [Singles<S>; 3],
     axes: [usize; 3],
     shear: [Singles<S>; 2],
-    /// Above the difference of a transformed coordinate from that in double precision.
+    /// A bound of the error of a transformed coordinate.
     error: Singles<S>,
 }
 
@@ -199,11 +199,12 @@ impl<S: Simd> Roughly<S> {
         ))
     }
 
-    /// Vertices are in unit space. With u the roundoff and o the largest coordinate of the origin, a
-    /// vertex and the origin are off by u and o u, their difference by twice that, since it is rounded
-    /// too, and the product with a slope, of at most 1, by four times as much with those of the slope and
-    /// the product; then a transformed coordinate by less than 8 (1 + o) u, and its magnitude is at most
-    /// 2 (1 + o). What is rounded in double precision is far less.
+    /// The error of a transformed coordinate, for vertices in unit space, none of whose coordinates is
+    /// above 1: with u the unit roundoff and o the largest coordinate of the origin, those of a vertex and
+    /// of the origin are off by u and o u. Their difference, at most 1 + o, is rounded too, and off by
+    /// 2 (1 + o) u. Its product with a slope of at most 1 is off by 4 (1 + o) u, with the roundings of the
+    /// slope and of the product. The result, at most 2 (1 + o), is off by their sum and by its own
+    /// rounding: by 8 (1 + o) u, up to terms in u². Roundings in double precision are far smaller.
     #[inline(always)]
     fn new(axes: [usize; 3], origin: [Singles<S>; 3], shear: [Singles<S>; 2]) -> Self {
         let [x, y, z] = origin;
@@ -222,12 +223,13 @@ impl<S: Simd> Roughly<S> {
         self.error.simd
     }
 
-    /// A mask of the lanes in which the line may cross the triangle by [`Sheared::crossing`]: all except
+    /// A mask of the lanes in which the line may cross the triangle by [`Sheared::crossing`]: all but
     /// those in which it surely does not.
     ///
-    /// If no transformed coordinate is above m, nor off by more than e, then a product is off by less
-    /// than 2 m e + e², and by m² u for its own rounding, and an edge function by twice that and by the
-    /// rounding of the difference, of at most 2 m²: by 4 m e + 2 e² + 4 m² u. NaN rejects nothing.
+    /// If no transformed coordinate is above m or off by more than e, then a product is off by at most
+    /// 2 m e + e² and by m² u for its own rounding, and an edge function by twice that and by the rounding
+    /// of the difference, which is at most 2 m²: by 4 m e + 2 e² + 4 m² u in all. The factors below are
+    /// larger to cover the rounding of the bound itself. NaN rejects nothing.
     #[inline(always)]
     pub(super) fn may_cross(&self, corners: [[Singles<S>; 3]; 3]) -> u32 {
         let [a, b, c] = corners;
@@ -258,7 +260,7 @@ impl<S: Simd> Roughly<S> {
     }
 }
 
-/// [`edge`] in each lane, rounded thrice.
+/// [`edge`] in each lane, with three roundings; its sign may be wrong.
 #[inline(always)]
 fn across<S: Simd>(a: [Singles<S>; 2], b: [Singles<S>; 2]) -> Singles<S> {
     a[0] * b[1] - a[1] * b[0]

@@ -9,7 +9,7 @@ use super::world::World;
 use crate::geometry::lanes::{Eight, Lanes, Simd, dispatch};
 use crate::geometry::{Hit, Ray, Rays, Shape};
 
-/// What shadow rays pass.
+/// What shadow rays pass through.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Occlusion {
     /// Surfaces that transmit light, as far as they do.
@@ -76,7 +76,8 @@ pub(crate) struct Closest<N> {
     t: N,
     object: N,
     part: N,
-    /// 1 if another object may be hit at the least distance, else 0.
+    /// 1 if another object may be hit at the least distance, else 0: a number, so that lanes can be
+    /// taken out and put back.
     tied: N,
     /// Distance along the ray up to which a hit may still count.
     pub(crate) limit: N,

@@ -109,7 +109,7 @@ impl<C: Fn() -> bool> Probe<'_, C> {
         let of_object = (!world.emitters.is_empty())
             .then(|| {
                 let numbers = sampler.four(bounce, Use::Emitter);
-                let picked = world.emitters.pick(vertex.place(), numbers[0])?;
+                let picked = world.emitters.pick(vertex.point_and_normal(), numbers[0])?;
                 self.ask_object(vertex, bounce, picked, numbers)
             })
             .flatten();

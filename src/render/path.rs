@@ -179,8 +179,8 @@ impl<C: Fn() -> bool> Probe<'_, C> {
         })
     }
 
-    /// The same without the scale of the light, before its shadow ray is traced; `None` for none. A
-    /// light with a size is sampled at a place in the unit square.
+    /// Like [`Self::light_of`], but unscaled and before the shadow ray is traced; `None` if nothing is
+    /// reflected. `place`, in the unit square, is where a light with a size is sampled.
     pub(super) fn unshadowed(
         &self,
         number: usize,
@@ -237,7 +237,7 @@ impl<C: Fn() -> bool> Probe<'_, C> {
         })
     }
 
-    /// What shadow rays to a light pass.
+    /// What shadow rays to a light pass through.
     pub(super) fn occlusion(&self, light: &Light) -> Occlusion {
         // Photons carry what passes through.
         if self.photon_map.is_some() && self.is_by_photons(light) {
@@ -284,7 +284,7 @@ impl<'m> Vertex<'m> {
     }
 
     /// The point and the shading normal.
-    pub(super) fn place(&self) -> (DVec3, DVec3) {
+    pub(super) fn point_and_normal(&self) -> (DVec3, DVec3) {
         (self.point.surface.point, self.point.normal)
     }
 
@@ -334,8 +334,8 @@ impl Path {
         })
     }
 
-    /// Continues a path, subject to Russian roulette by a number in 0..1 if it is faint (Arvo and Kirk, "Particle
-    /// Transport and Image Synthesis", 1990).
+    /// Continues a path; if it is faint, `chance`, a number in 0..1, decides by Russian roulette (Arvo
+    /// and Kirk, "Particle Transport and Image Synthesis", 1990).
     fn go_on(&mut self, next: BsdfSample, chance: f64) -> Onward {
         self.throughput *= next.weight;
         if !self.throughput.is_finite() {

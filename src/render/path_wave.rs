@@ -80,6 +80,12 @@ impl<C: Fn() -> bool> Probe<'_, C> {
         samples: &[Sample],
         seen: &mut Vec<Seen>,
     ) {
+        let index = |sample: &Sample| sample.sampler.index();
+        debug_assert!(
+            samples
+                .windows(2)
+                .all(|pair| index(&pair[0]) == index(&pair[1]))
+        );
         seen.resize(samples.len(), Seen::NOTHING);
         let blockers = self.world.lights().len() + 1;
         wave.questions.blockers.resize(blockers, None);
@@ -267,7 +273,11 @@ impl<C: Fn() -> bool> Probe<'_, C> {
         seen: &mut [Seen],
     ) {
         let (world, bounce) = (self.world, questions.bounce);
-        if world.has_emitters && !world.emitters.is_empty() {
+        let asks = |meeting: &Meeting<'_>| meeting.is_lit && self.asks(&meeting.vertex, bounce);
+        if !meetings.iter().any(asks) {
+            return;
+        }
+        if !world.emitters.is_empty() {
             questions.draw(world, meetings, Use::Emitter);
             questions.pick(world, meetings);
             let picked = mem::take(&mut questions.picked);
@@ -284,7 +294,7 @@ impl<C: Fn() -> bool> Probe<'_, C> {
                 }
             }
         }
-        if world.has_emitters && !world.sky.is_unsampled() {
+        if !world.sky.is_unsampled() {
             questions.draw(world, meetings, Use::Sky);
             questions.ask(meetings, seen, |_, vertex, numbers| {
                 let asks = self.asks(vertex, bounce);
@@ -331,8 +341,11 @@ impl Questions {
     /// Picks an emitter for each surface.
     fn pick(&mut self, world: &World, meetings: &[Meeting<'_>]) {
         self.surfaces.clear();
-        self.surfaces
-            .extend(meetings.iter().map(|meeting| meeting.vertex.place()));
+        self.surfaces.extend(
+            meetings
+                .iter()
+                .map(|meeting| meeting.vertex.point_and_normal()),
+        );
         let (surfaces, numbers) = (&self.surfaces, &self.numbers);
         world
             .emitters

@@ -10,7 +10,8 @@ use super::world::FEW;
 use crate::memory::{self, Need, OutOfMemory};
 use crate::scene::{Rgb, Scene, Size};
 
-/// Bytes per bounding box while its tree is built: references, nodes twice, positions.
+/// Bytes per bounding box while its tree is built: references, nodes twice, positions. What is kept of
+/// the vertices of triangles afterwards takes less than what is freed by then.
 const BOX: usize = 128;
 
 /// Bytes per pixel of a block: two sums and an error.

@@ -18,7 +18,7 @@ pub(crate) enum Search {
     Blocker,
 }
 
-/// The tree over a mesh's triangles, and these for tests of what it visits.
+/// The tree over a mesh's triangles, and their vertices for quick tests of the runs it visits.
 #[derive(Debug)]
 pub(crate) struct MeshTree {
     bvh: Bvh,
@@ -35,7 +35,7 @@ pub(crate) struct Structures {
 }
 
 /// Up to this many lines of a packet are tested one by one, each against all triangles of a run.
-const FEW: u32 = 2;
+const FEW_LINES: u32 = 2;
 
 impl MeshTree {
     /// `None` once `cancelled` returns true.
@@ -142,7 +142,7 @@ impl Structures {
             #[inline(always)]
             |run, lanes, mut farthest| {
                 let order = tree.bvh.order();
-                if FEW < lanes.count_ones() && lines.are_aligned() {
+                if FEW_LINES < lanes.count_ones() && lines.are_aligned() {
                     for place in run.clone() {
                         let candidates = lines.may_meet(&tree.pretest, &run, place, lanes);
                         for lane in each_bit(candidates) {

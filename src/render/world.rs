@@ -24,8 +24,8 @@ use crate::scene::{FalloffRule, GlossRule, Images, Integrator, Light, Object, Rg
 /// fast. With packets of eight and eleven solids a tree is 1.1 times as fast.
 pub(super) const FEW: usize = 4;
 
-/// The same for paths, whose packets spread after the first bounce: with eight objects, and with
-/// twelve, they take a tenth less time without a tree.
+/// The same for paths, whose packets spread after the first bounce: without a tree, eight objects take
+/// 8 % less time and twelve 6 % less. More were not measured.
 const FEW_FOR_PATHS: usize = 16;
 
 /// The order of objects without a tree.

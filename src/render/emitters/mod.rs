@@ -62,7 +62,10 @@ struct Source {
 
 /// An emitter, with the probability of its choice.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Picked((u32, f64));
+pub(crate) struct Picked {
+    emitter: u32,
+    chance: f64,
+}
 
 /// A direction toward a part of an emitter.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -88,6 +91,12 @@ pub(crate) struct Known<'k> {
     pub(crate) textures: &'k Textures,
     /// The objects whose shapes differ.
     pub(crate) changed: &'k [u32],
+}
+
+impl From<(u32, f64)> for Picked {
+    fn from((emitter, chance): (u32, f64)) -> Self {
+        Self { emitter, chance }
+    }
 }
 
 impl Emitters {
@@ -136,7 +145,7 @@ impl Emitters {
     /// Chooses one of the emitters for a surface at a point with a normal, by a number in 0..1; `None`
     /// if none lights it.
     pub(crate) fn pick(&self, (from, normal): (DVec3, DVec3), number: f64) -> Option<Picked> {
-        self.tree.choose(from, normal, number).map(Picked)
+        self.tree.choose(from, normal, number).map(Picked::from)
     }
 
     /// The same for several surfaces, by the first of their numbers.
@@ -152,7 +161,7 @@ impl Emitters {
             for (surfaces, numbers) in surfaces.chunks(WIDTH).zip(numbers.chunks(WIDTH)) {
                 let chosen = self.tree.choose_together(simd, surfaces, numbers);
                 let chosen = chosen.into_iter().take(surfaces.len());
-                picked.extend(chosen.map(|chosen| chosen.map(Picked)));
+                picked.extend(chosen.map(|chosen| chosen.map(Picked::from)));
             }
         });
     }
@@ -163,16 +172,15 @@ impl Emitters {
         &self,
         scene: &Scene,
         from: DVec3,
-        Picked((emitter, chance)): Picked,
+        Picked { emitter, chance }: Picked,
         [u, v]: [f64; 2],
     ) -> Option<Choice> {
         let Part { object, part } = self.parts[emitter as usize];
-        let shape = &scene.objects[object as usize].shape;
-        let aim = if let Some(patch) = self.known_patch(object) {
-            patch.aim(from, [u, v])?
-        } else {
-            shape.patch(part)?.aim(from, [u, v])?
+        let patch = match self.known_patch(object) {
+            Some(patch) => *patch,
+            None => scene.objects[object as usize].shape.patch(part)?,
         };
+        let aim = patch.aim(from, [u, v])?;
         Some(Choice {
             object,
             part,

@@ -47,6 +47,26 @@ pub(super) fn assert_unbiased(scene: &Scene, depth: u32, ray: Ray, expected: f64
     assert!(error < 0.01 * expected, "{case}: {error}");
 }
 
+#[test]
+fn occluded_light_adds_nothing_even_if_infinite() {
+    let scene = |objects: &str| {
+        let mut scene = xml(&format!(
+            "{objects}<object type='plane' material='m'><scale value='9'/></object>
+             <material name='m'><diffuse value='1'/></material>
+             <light type='point' name='l'><intensity value='1'/><position z='9'/></light>"
+        ));
+        scene.lights[0].colour = Rgb::splat(f64::INFINITY);
+        scene
+    };
+    let ray = Ray {
+        origin: DVec3::new(0.0, -3.0, 1.0),
+        direction: DVec3::new(0.0, 3.0, -1.0).normalize(),
+    };
+    let ball = "<object type='sphere' material='m'><translate z='3'/></object>";
+    assert_eq!(mean(scene(""), 0, ray, 4), f64::INFINITY);
+    assert_eq!(mean(scene(ball), 0, ray, 4), 0.0);
+}
+
 /// SPEC §9: e (1 − ρ^(D+1)) / (1 − ρ).
 #[test]
 fn white_furnace() {
