@@ -20,9 +20,10 @@
 //! of a light's colour the film is reused, and only dependent pixels are traced again.
 //!
 //! A tracer has three integrators: [`whitted`] traces a [`wave`] of samples at once, whose rays land
-//! on [`surfaces`] and [`branch`]; [`path`] traces samples one by one, continuing by a [`bsdf`] and
-//! its [`lobes`]; the third adds the [`caustics`] of [`photons`] to paths. These are traced before the
-//! tiles of a step ([`photon_paths`]), turned at mirrors and glass by a [`deflection`], and found in a [`photon_map`].
+//! on [`surfaces`] and [`branch`]; [`path_wave`] follows a [`path`] for each sample, all of them bounce
+//! by bounce, continuing by a [`bsdf`] and its [`lobes`] and asking what emits light ([`next_event`]);
+//! the third adds the [`caustics`] of [`photons`] to paths. These are traced before the tiles of a step
+//! ([`photon_paths`]), turned at mirrors and glass by a [`deflection`], and found in a [`photon_map`].
 //! All query the world through a [`probe`], which applies a material's maps ([`texture`]), shade
 //! according to [`shading`], and sample [`lights`] for [`direct`] light. [`optics`], [`microfacet`]
 //! and [`warp`] hold the formulas. [`gather`] tells the shares of the light apart.

@@ -2,7 +2,8 @@
 //!
 //! A [`Mesh`] is shared: each [`Instance`] places it in the world by an affine frame. Rays are
 //! transformed to the space of the mesh once per instance. The caller finds the candidate
-//! triangles, usually by a bvh over [`Mesh::triangle_bounds`], and tests them with a [`MeshLine`].
+//! triangles, usually by a bvh over [`Mesh::triangle_bounds`], rejects most of them by a [`Pretest`]
+//! and tests the rest with a [`MeshLine`].
 
 mod instance;
 mod lines;
