@@ -143,7 +143,7 @@ pub(super) struct Slope<S: Simd> {
 }
 
 impl<S: Simd> SlabRay<S> {
-    /// Converts a ray from [`Approach::slopes`], to be rounded.
+    /// Rounds and converts a ray from [`Approach::slopes`].
     #[inline(always)]
     pub(super) fn rounded(simd: S, start: f64, [x, y, z]: [[f64; 3]; 3]) -> Self {
         Self::of(simd, start as f32, [rounded(x), rounded(y), rounded(z)])

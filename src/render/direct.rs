@@ -42,11 +42,11 @@ pub(crate) struct Shadow<N> {
     pub(crate) ends: N,
 }
 
-/// The light of a light that a point reflects if nothing is in between.
+/// What a point reflects of a light if nothing is in between.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Unshadowed {
     pub(crate) light: Rgb,
-    /// `None` if nothing casts a shadow.
+    /// `None` if the light casts no shadows.
     pub(crate) shadow: Option<Shadow<f64>>,
 }
 
@@ -129,8 +129,8 @@ pub(crate) fn sent_back(
 }
 
 impl Unshadowed {
-    /// Of a light, sampled where `chosen` says if that is not its centre; `reflected` gives the
-    /// reflectance for the geometry of the light. `None` if the point reflects none.
+    /// The light is sampled where `chosen` says, by default at its centre; `reflected` gives the
+    /// reflectance for its geometry. `None` if the point reflects none.
     pub(crate) fn new(
         point: &Point,
         light: &Light,
@@ -151,7 +151,7 @@ impl Unshadowed {
         })
     }
 
-    /// The light that is left after a transmittance.
+    /// The light that remains, given the transmittance of the shadow ray.
     pub(crate) fn shadowed(&self, transmittance: f64) -> Rgb {
         // Occluded light adds nothing, even if infinite.
         if transmittance == 0.0 {

@@ -12,7 +12,7 @@ use crate::geometry::{Hit, Ray, Rays, Shape};
 /// What shadow rays pass through.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Occlusion {
-    /// Surfaces that transmit light, as far as they do.
+    /// Surfaces whose materials transmit light, attenuated by them.
     ByMaterial,
     /// Nothing.
     Complete,

@@ -203,7 +203,7 @@ impl<C: Fn() -> bool> Probe<'_, C> {
         })
     }
 
-    /// The light reflected of a light with a size, sampled at the given place.
+    /// The light reflected from a light with a size, sampled at the given place.
     fn of_sphere_light(
         &self,
         vertex: &Vertex<'_>,

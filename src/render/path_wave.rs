@@ -37,7 +37,7 @@ pub(crate) struct PathWave {
     questions: Questions,
 }
 
-/// What a bounce asks at all its surfaces, with scratch space.
+/// The light samples of a bounce at all its surfaces, and scratch space.
 #[derive(Debug, Default)]
 struct Questions {
     bounce: u32,
@@ -54,7 +54,7 @@ struct Questions {
     asking: Vec<(usize, Asking)>,
     nearest: Vec<Option<Nearest>>,
     transmittances: Vec<f64>,
-    /// For each light, the last simple object that occluded it; last that of the environment.
+    /// For each light, the last simple object that occluded it; the environment's comes last.
     blockers: Vec<Option<u32>>,
 }
 

@@ -95,7 +95,7 @@ fn an_abort_mentions_stored_edits() {
 fn running_out_of_memory_restores_the_terminal() {
     use rustix::process::{Resource, Rlimit, prlimit};
     let place = Place::new();
-    // The limit leaves usable what glibc has reserved: 64 MB for each arena but the main one.
+    // Addresses that glibc has reserved stay usable: 64 MB for each arena but the main one.
     let environment = [("MALLOC_ARENA_MAX", "1")];
     let mut session = Session::start(place.directory.path(), &["balls.ray"], WIDE, &environment);
     wait_for_rest(&mut session);

@@ -189,7 +189,7 @@ fn runs_are_the_leaves_in_order() {
         let all: Vec<usize> = (0..bvh.order().len()).collect();
         assert_eq!(joined, all);
         assert!(runs.iter().all(|run| (1..=RUN).contains(&run.len())));
-        // A ray through everything visits just these.
+        // Rays visit no other ranges.
         let ray = Ray {
             origin: DVec3::new(-9.0, 0.0, 0.0),
             direction: DVec3::X,

@@ -12,7 +12,7 @@ use crate::geometry::{Affine, Instance, Mesh, MeshParts, Pretest, Ray, Rays};
 
 const COUNT: u32 = 40;
 
-/// Triangles of which the smallest has this logarithm of its size, and the thinnest of its width.
+/// Random triangles, given the decimal logarithms of the least size and the least relative width.
 fn soup(random: &mut Random, [size, width]: [f64; 2]) -> Arc<Mesh> {
     let mut positions = Vec::new();
     for _ in 0..COUNT {

@@ -49,7 +49,7 @@ struct Glow {
     object: u32,
     /// One for each of its materials.
     sources: Vec<Source>,
-    /// Its only part; `None` if it is a mesh.
+    /// Its only part; `None` for a mesh.
     patch: Option<Patch>,
 }
 
@@ -209,7 +209,7 @@ impl Emitters {
         density * self.tree.chance(emitter as u32, from, normal)
     }
 
-    /// The part of an object that is no mesh.
+    /// The only part of an object, if it is not a mesh.
     fn known_patch(&self, object: u32) -> Option<&Patch> {
         let found = self.glows.binary_search_by_key(&object, |glow| glow.object);
         self.glows[found.ok()?].patch.as_ref()

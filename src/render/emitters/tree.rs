@@ -185,8 +185,8 @@ impl Tree {
         chosen
     }
 
-    /// The children of the node that a search has reached; `None` if its emitters look alike from the
-    /// point but for their strength.
+    /// The children of the node that a search has reached; `None` if its emitters, seen from the point,
+    /// differ only in strength.
     fn children(&self, search: &Search, from: DVec3) -> Option<[At; 2]> {
         let node = &self.nodes[search.at.0];
         self.children_of(search.at).filter(|_| !node.is_alike(from))
@@ -265,11 +265,11 @@ fn share_of(first: f64, second: f64) -> Option<f64> {
     }
 }
 
-/// How far a choice has come.
+/// A descent through the tree so far.
 #[derive(Clone, Copy)]
 struct Search {
     at: At,
-    /// The probability of coming there.
+    /// The probability of getting there.
     chance: f64,
     /// What is left of the number, in 0..1.
     number: f64,
@@ -284,7 +284,7 @@ impl Search {
         }
     }
 
-    /// Goes on to one of two children, of which the first has a probability.
+    /// Descends to one of two children; `share` is the probability of the first.
     fn descend(&mut self, [first, second]: [At; 2], share: f64) {
         if self.number < share {
             self.number /= share;
