@@ -15,7 +15,7 @@ use std::time::{Duration, Instant};
 
 use glam::DVec3;
 use halflight::accel::Bvh;
-use halflight::geometry::{Aabb, Affine, Instance, Mesh, Pretest, Shape};
+use halflight::geometry::{Aabb, Affine, Instance, Mesh, Shape, TriangleRuns};
 use halflight::language::{self, FileKind, Language};
 use halflight::obj;
 use halflight::render::{Frame, Frames, Job, Renderer, Settings, Threads};
@@ -176,8 +176,8 @@ fn mesh(name: &str, cores: usize) {
             .map(|number| mesh.triangle_bounds(number))
             .collect();
         let bvh = Bvh::build(&boxes, || false).expect("nothing cancels");
-        let pretest = Pretest::new(mesh, bvh.order(), &bvh.runs(), &|| false);
-        (bvh, pretest.expect("nothing cancels"))
+        let runs = TriangleRuns::new(mesh, bvh.order(), &bvh.runs(), &|| false);
+        (bvh, runs.expect("nothing cancels"))
     };
     // First, as freed memory may later stay resident.
     let before = resident();
@@ -188,7 +188,7 @@ fn mesh(name: &str, cores: usize) {
     let (read, _) = median(read);
     let (build, _) = median(|| structure(&mesh));
     println!(
-        "\n{name}: .obj of {} MB read in {} ms, bvh and pretest built in {} ms, \
+        "\n{name}: .obj of {} MB read in {} ms, bvh and runs built in {} ms, \
         {bytes} bytes per triangle with them",
         text.len() / 1_000_000,
         milliseconds(read),

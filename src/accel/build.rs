@@ -25,6 +25,10 @@ const LEAF: usize = RUN;
 /// The minimum number of references for building the children of a node in parallel.
 const PARALLEL: usize = 2048;
 
+/// The maximum number of boxes. Every node of more than eight boxes has eight children, so there is at most
+/// one node for seven boxes: a node's number and a lane fit into 32 bits.
+const MOST: usize = 1 << 31;
+
 /// The number of boxes between two cancellation checks: about 1 ms.
 const BATCH: usize = 65_536;
 
@@ -39,7 +43,7 @@ pub(super) fn build(
 ) -> Result<Bvh, Cancelled> {
     let cancel = CancelCheck(cancelled);
     cancel.check()?;
-    let count = u32::try_from(count).unwrap_or(u32::MAX);
+    let count = count.min(MOST) as u32;
     let (reference, spread) = median_centre(count, aabb);
     let (mut references, unbounded) = collect_references(count, aabb, reference, &cancel)?;
     let mut nodes = Vec::new();

@@ -66,7 +66,7 @@ impl Bvh {
     /// Returns `None` if `cancelled` returns true; it is called at least every few milliseconds.
     ///
     /// An empty box is never visited. A box that is infinite or NaN, or too far from most others
-    /// for `f32`, is visited by every ray. Boxes beyond the first 2³² − 1 are ignored.
+    /// for `f32`, is visited by every ray. Boxes beyond the first 2³¹ are ignored.
     pub fn build(boxes: &[Aabb], cancelled: impl Fn() -> bool + Sync) -> Option<Self> {
         Self::over(boxes.len(), |index| boxes[index as usize], cancelled)
     }
@@ -84,6 +84,17 @@ impl Bvh {
     /// changes, for few boxes, or if a box becomes or ceases to be empty or unbounded.
     pub fn refitted(&self, changed: &[u32], aabb: impl Fn(u32) -> Aabb) -> Option<Self> {
         refit::refit(self, changed, aabb)
+    }
+
+    /// Whether a packet is traced faster together than ray by ray.
+    ///
+    /// Rays into different octants soon part. In a small tree, all of which is in the cache, they are
+    /// still worth a packet: on 7,000 spheres it takes a tenth less time, on a million spheres half as
+    /// much again, on a million triangles a fifth more.
+    #[inline(always)]
+    pub fn takes_together<S: Simd>(&self, rays: &Rays<Eight<S>>) -> bool {
+        const SMALL: usize = 1 << 16;
+        self.order.len() < SMALL || rays.share_octant()
     }
 
     /// The indices of the boxes in the order of the tree; those of a leaf are contiguous.

@@ -4,7 +4,7 @@ use std::array;
 
 use glam::DVec3;
 
-use super::slab::{SlabRay, clip, is_open_in_lanes};
+use super::slab::{SlabRay, Slope, is_open_in_lanes};
 use crate::geometry::Aabb;
 use crate::geometry::lanes::{Simd, SimdBase, Singles, bits};
 
@@ -100,21 +100,54 @@ pub(super) enum Child {
 pub(super) struct Node {
     /// Indexed by axis, then low or high, then child. A missing child has an empty box.
     planes: [[[f32; WIDTH]; 2]; 3],
-    /// The node index of an inner child, or the start of a leaf's run.
-    first: [u32; WIDTH],
-    /// The length of a leaf's run, or [`INNER`].
-    count: [u8; WIDTH],
+    children: [Link; WIDTH],
 }
 
-/// The count that marks an inner child.
-const INNER: u8 = u8::MAX;
+/// A [`Child`] in one word: the node index of an inner child or the start of a leaf's run, and above
+/// it the length of the run, or [`INNER`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct Link(u64);
+
+/// The length that marks an inner child.
+const INNER: u64 = 1 << 31;
+
+impl From<Child> for Link {
+    #[inline(always)]
+    fn from(child: Child) -> Self {
+        match child {
+            Child::Inner(node) => Self(INNER << 32 | u64::from(node)),
+            Child::Leaf { first, count } => Self(u64::from(count) << 32 | u64::from(first)),
+        }
+    }
+}
+
+impl From<Link> for Child {
+    #[inline(always)]
+    fn from(Link(link): Link) -> Self {
+        let first = link as u32;
+        match link >> 32 {
+            INNER => Self::Inner(first),
+            count => Self::Leaf {
+                first,
+                count: count as u8,
+            },
+        }
+    }
+}
+
+impl Link {
+    /// A leaf without boxes.
+    const EMPTY: Self = Self(0);
+
+    /// The root of a tree.
+    pub(super) const ROOT: Self = Self(INNER << 32);
+}
 
 impl Node {
     /// A node without children: all lanes are empty leaves in empty boxes.
     pub(super) const EMPTY: Self = Self {
         planes: [[[f32::INFINITY; WIDTH], [f32::NEG_INFINITY; WIDTH]]; 3],
-        first: [0; WIDTH],
-        count: [0; WIDTH],
+        children: [Link::EMPTY; WIDTH],
     };
 
     /// Sets the child in a lane.
@@ -123,17 +156,14 @@ impl Node {
             low[lane] = bounds.low[axis];
             high[lane] = bounds.high[axis];
         }
-        (self.first[lane], self.count[lane]) = match child {
-            Child::Inner(node) => (node, INNER),
-            Child::Leaf { first, count } => (first, count),
-        };
+        self.children[lane] = child.into();
     }
 
     /// Adds `offset` to the node indices of the children.
     pub(super) fn shift(&mut self, offset: u32) {
-        for (first, &count) in self.first.iter_mut().zip(&self.count) {
-            if count == INNER {
-                *first += offset;
+        for link in &mut self.children {
+            if let Child::Inner(node) = (*link).into() {
+                *link = Child::Inner(node + offset).into();
             }
         }
     }
@@ -141,13 +171,13 @@ impl Node {
     /// The child in a lane.
     #[inline]
     pub(super) fn child(&self, lane: usize) -> Child {
-        match self.count[lane] {
-            INNER => Child::Inner(self.first[lane]),
-            count => Child::Leaf {
-                first: self.first[lane],
-                count,
-            },
-        }
+        self.link(lane).into()
+    }
+
+    /// The same, in one word.
+    #[inline(always)]
+    pub(super) fn link(&self, lane: usize) -> Link {
+        self.children[lane]
     }
 
     /// The box of the child in a lane.
@@ -166,8 +196,8 @@ impl Node {
     #[inline]
     pub(super) fn filled(&self) -> u32 {
         let mut filled = 0;
-        for (lane, &count) in self.count.iter().enumerate() {
-            filled |= u32::from(count != 0) << lane;
+        for (lane, &link) in self.children.iter().enumerate() {
+            filled |= u32::from(link != Link::EMPTY) << lane;
         }
         filled
     }
@@ -202,13 +232,32 @@ impl Node {
     #[inline(always)]
     pub(super) fn entries<S: Simd>(&self, ray: &SlabRay<S>, limit: f32) -> ([f32; WIDTH], u32) {
         let simd = ray.slopes[0].inverse.simd;
-        let mut interval = [Singles::splat(simd, ray.start), Singles::splat(simd, limit)];
-        for (axis, slope) in ray.slopes.iter().enumerate() {
-            let [near, far] = self.planes(simd, axis, slope.near_side);
-            let near = (near - slope.near_origin) * slope.inverse;
-            let far = (far - slope.far_origin) * slope.inverse;
-            interval = clip(interval, near, far);
-        }
-        (*interval[0], bits::<S>(is_open_in_lanes(interval)))
+        let [x, y, z] = &ray.slopes;
+        let [(x_near, x_far), (y_near, y_far), (z_near, z_far)] = [
+            self.crossings(simd, 0, x),
+            self.crossings(simd, 1, y),
+            self.crossings(simd, 2, z),
+        ];
+        // Whatever a maximum with NaN is, from 0 · ∞ for a ray in a face, it clips no more than it should.
+        let near = x_near.max(y_near).max(z_near);
+        let far = x_far.min(y_far).min(z_far);
+        let entry = Singles::splat(simd, ray.start).max_precise(near);
+        let exit = Singles::splat(simd, limit).min_precise(far);
+        (*entry, bits::<S>(is_open_in_lanes([entry, exit])))
+    }
+
+    /// The distances at which the ray crosses the children's planes across an axis, the nearer first.
+    #[inline(always)]
+    fn crossings<S: Simd>(
+        &self,
+        simd: S,
+        axis: usize,
+        slope: &Slope<S>,
+    ) -> (Singles<S>, Singles<S>) {
+        let [near, far] = self.planes(simd, axis, slope.near_side);
+        (
+            (near - slope.near_origin) * slope.inverse,
+            (far - slope.far_origin) * slope.inverse,
+        )
     }
 }

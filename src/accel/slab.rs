@@ -193,10 +193,10 @@ pub(super) fn clip<S: Simd>(
     [entry.max_precise(near), exit.min_precise(far)]
 }
 
-/// Whether a box with this computed entry may be hit up to a limit.
+/// The largest computed entry of a box that may be hit up to a limit.
 #[inline(always)]
-pub(super) fn is_open(entry: f32, limit: f32) -> bool {
-    entry <= limit + limit.abs() * MARGIN + f32::MIN_POSITIVE
+pub(super) fn last_entry(limit: f32) -> f32 {
+    limit + limit.abs() * MARGIN + f32::MIN_POSITIVE
 }
 
 /// The lanes whose interval may be nonempty.

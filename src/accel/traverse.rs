@@ -1,4 +1,6 @@
 //! Traversal of the tree by a single ray, near children first.
+//!
+//! Rejected: preparing the ray along its three axes at once in lanes (no less time).
 
 use std::ops::Range;
 
@@ -8,21 +10,50 @@ use crate::geometry::lanes::Simd;
 use crate::geometry::{Ray, Rays};
 
 use super::build::LEVELS;
-use super::node::{Child, WIDTH};
-use super::slab::{Approach, SlabRay, is_open};
+use super::node::{Child, Link, Node, WIDTH};
+use super::slab::{Approach, SlabRay, last_entry};
 use super::{Bvh, RUN};
 
 /// The capacity of the stack: a node pops one entry and pushes at most [`WIDTH`], once per level.
 pub(super) const STACK: usize = 1 + LEVELS * (WIDTH - 1);
 
-/// A child on the stack.
-#[derive(Clone, Copy)]
-pub(super) struct Pending<L> {
-    /// The distance at which the first of its rays enters its box.
-    pub(super) entry: f32,
-    pub(super) child: Child,
-    /// The rays that hit it; `()` for a single ray.
-    pub(super) lanes: L,
+/// A child to be visited, in one word so that children are sorted without branches: the distance at
+/// which the ray enters its box, and below it the node's number and the child's lane.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+struct Waiting(u64);
+
+impl Waiting {
+    #[inline(always)]
+    fn new(entry: f32, node: u32, lane: usize) -> Self {
+        Self(u64::from(ordered(entry)) << 32 | u64::from(node << 3 | lane as u32))
+    }
+
+    /// The distance as by [`ordered`].
+    #[inline(always)]
+    fn entry(self) -> u32 {
+        (self.0 >> 32) as u32
+    }
+
+    /// The node and the child's lane.
+    #[inline(always)]
+    fn place(self, bvh: &Bvh) -> (&Node, usize) {
+        let place = self.0 as u32;
+        (&bvh.nodes[(place >> 3) as usize], place as usize % WIDTH)
+    }
+
+    /// The child.
+    #[inline(always)]
+    fn link(self, bvh: &Bvh) -> Link {
+        let (node, lane) = self.place(bvh);
+        node.link(lane)
+    }
+}
+
+/// An integer for each number, in the same order, −0 before 0.
+#[inline(always)]
+fn ordered(number: f32) -> u32 {
+    let bits = number.to_bits();
+    bits ^ ((bits.cast_signed() >> 31).cast_unsigned() | 1 << 31)
 }
 
 impl Bvh {
@@ -57,33 +88,34 @@ pub(super) fn traverse<S: Simd>(
     let approach = Approach::new(&rays, bvh);
     let slopes = approach.slopes(rays.direction, bvh.farthest);
     let ray = SlabRay::rounded(simd, approach.start(), slopes);
-    let root = Pending {
-        entry: ray.start,
-        child: Child::Inner(0),
-        lanes: (),
-    };
+    let mut reach = approach.limits(limit) as f32;
     // A traversal takes less time than filling an array of this size.
-    let mut stack = ArrayVec::<_, STACK>::new();
-    stack.push(root);
-    while let Some(Pending { entry, child, .. }) = stack.pop() {
-        let reach = approach.limits(limit) as f32;
-        if !is_open(entry, reach) {
-            continue;
-        }
-        match child {
+    let mut stack = ArrayVec::<Waiting, STACK>::new();
+    let mut next = Link::ROOT;
+    loop {
+        match next.into() {
             Child::Inner(number) => {
                 let node = &bvh.nodes[number as usize];
                 let (entries, mut hits) = node.entries(&ray, reach);
-                let base = stack.len();
-                while hits != 0 {
+                if hits != 0 {
+                    let base = stack.len();
                     let lane = hits.trailing_zeros() as usize % WIDTH;
                     hits &= hits - 1;
-                    let pending = Pending {
-                        entry: entries[lane],
-                        child: node.child(lane),
-                        lanes: (),
-                    };
-                    insert(&mut stack, base, pending);
+                    if hits == 0 {
+                        next = node.link(lane);
+                        continue;
+                    }
+                    // The nearest child is next; the others wait on the stack.
+                    let mut nearest = Waiting::new(entries[lane], number, lane);
+                    while hits != 0 {
+                        let lane = hits.trailing_zeros() as usize % WIDTH;
+                        hits &= hits - 1;
+                        let other = Waiting::new(entries[lane], number, lane);
+                        insert(&mut stack, base, nearest.max(other));
+                        nearest = nearest.min(other);
+                    }
+                    next = nearest.link(bvh);
+                    continue;
                 }
             }
             Child::Leaf { first, count } => {
@@ -92,23 +124,28 @@ pub(super) fn traverse<S: Simd>(
                 if limit < 0.0 {
                     return;
                 }
+                reach = approach.limits(limit) as f32;
             }
         }
+        let last = ordered(last_entry(reach));
+        next = loop {
+            match stack.pop() {
+                Some(waiting) if waiting.entry() <= last => break waiting.link(bvh),
+                Some(_) => {}
+                None => return,
+            }
+        };
     }
 }
 
 /// Inserts a child among those from `base` on, which stay sorted with the nearest on top.
 #[inline(always)]
-pub(super) fn insert<L: Copy>(
-    stack: &mut ArrayVec<Pending<L>, STACK>,
-    base: usize,
-    pending: Pending<L>,
-) {
+fn insert(stack: &mut ArrayVec<Waiting, STACK>, base: usize, child: Waiting) {
     let mut position = stack.len();
-    stack.push(pending);
-    while base < position && stack[position - 1].entry < pending.entry {
+    stack.push(child);
+    while base < position && stack[position - 1] < child {
         stack[position] = stack[position - 1];
         position -= 1;
     }
-    stack[position] = pending;
+    stack[position] = child;
 }

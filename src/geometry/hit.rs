@@ -2,7 +2,7 @@
 
 use smallvec::SmallVec;
 
-use super::lanes::{Eight, Simd, SimdBase, WIDTH, bits};
+use super::lanes::{Eight, Simd, SimdBase, WIDTH, bits, each_bit};
 use super::line::{End, Ends};
 
 /// A crossing of a ray and a surface.
@@ -42,19 +42,20 @@ impl Hits {
     }
 
     /// Collects the hits of the given lanes, one by one; `None` if none of them hits.
-    #[inline]
+    #[inline(always)]
     pub fn one_by_one(lanes: u32, hit: impl FnMut(usize) -> Option<Hit>) -> Option<Self> {
         Self::NONE.and(lanes, hit)
     }
 
     /// Adds the hits of further lanes, one by one; `None` if no lane hits at all.
-    #[inline]
+    #[inline(always)]
     pub(super) fn and(
         mut self,
         lanes: u32,
         mut hit: impl FnMut(usize) -> Option<Hit>,
     ) -> Option<Self> {
-        for lane in (0..WIDTH).filter(|lane| lanes >> lane & 1 == 1) {
+        for lane in each_bit(lanes) {
+            let lane = lane % WIDTH;
             self.put(lane, hit(lane));
         }
         (self.lanes != 0).then_some(self)

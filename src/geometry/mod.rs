@@ -47,8 +47,8 @@ pub use cylinder::Cylinder;
 pub use ellipsoid::Ellipsoid;
 pub use hit::{Crossings, Hit, Hits, Spans};
 pub use mesh::{
-    ABSENT, Attribute, Instance, Mesh, MeshError, MeshLine, MeshLines, MeshParts, Pretest,
-    RoughLine, SlotRun,
+    ABSENT, Attribute, Instance, Mesh, MeshError, MeshLine, MeshLines, MeshParts, NearestOnLines,
+    RoughLine, SlotRun, TriangleRun, TriangleRuns,
 };
 pub use numbers::{FrameNumbers, direction_of};
 pub use outline::Detail;
@@ -58,6 +58,6 @@ pub use quadric::{Quadric, principal_axes};
 pub use ray::{Packet, Packets, Ray, Rays};
 pub use shape::Shape;
 pub use solid::Solid;
-pub use sphere::{Sphere, sphere_hits, sphere_surfaces};
+pub use sphere::{Sphere, may_meet, sphere_hits, sphere_surfaces};
 pub use surface::{Surface, Surfaces, ulp};
 pub use transform::{Affine, FLATTEST, normalise};

@@ -71,6 +71,13 @@ impl<S: Simd> Rays<Eight<S>> {
         packet.rays.load(simd)
     }
 
+    /// Whether all directions are in one octant.
+    #[inline(always)]
+    pub fn share_octant(&self) -> bool {
+        let Vector { x, y, z } = self.direction;
+        same_sign(x) && same_sign(y) && same_sign(z)
+    }
+
     /// Returns the ray in a lane.
     #[inline(always)]
     pub fn ray(&self, lane: usize) -> Ray {
@@ -79,6 +86,13 @@ impl<S: Simd> Rays<Eight<S>> {
             direction: self.direction.lane(lane),
         }
     }
+}
+
+/// Whether no number is below 0, or none above.
+#[inline(always)]
+fn same_sign<S: Simd>(numbers: Eight<S>) -> bool {
+    let zero = numbers.all(0.0);
+    !Eight::any(numbers.below(zero)) || !Eight::any(zero.below(numbers))
 }
 
 /// 1 to 8 rays in memory, each with a maximum distance.

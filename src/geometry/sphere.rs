@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-use super::lanes::{Eight, Lanes, Simd, Vector};
+use super::lanes::{Eight, Lanes, Simd, Vector, bits};
 use super::line::{End, Ends, approach, ball};
 use super::transform::normalised;
 use super::{Aabb, Chart, Hit, Hits, Ray, Rays, Surfaces};
@@ -23,6 +23,13 @@ impl Sphere {
             min: self.centre - self.radius,
             max: self.centre + self.radius,
         }
+    }
+
+    /// The nearest hit with `0 < t < limit`, entering or leaving.
+    #[inline(always)]
+    pub fn hit(&self, ray: &Ray, limit: f64) -> Option<Hit> {
+        let (end, hit) = self.ends(&ray.into())?.nearest(limit);
+        hit.then_some(end.into())
     }
 
     /// Intersects lines with the sphere, in each lane. Its only part is 0.
@@ -56,7 +63,28 @@ pub fn sphere_hits<S: Simd>(
     limits: Eight<S>,
     lanes: u32,
 ) -> Option<Hits> {
+    if bits::<S>(may_meet(centre, radius, rays)) & lanes == 0 {
+        return None;
+    }
     ends(centre, radius, rays)?.hits(limits, lanes)
+}
+
+/// Whether rays' lines may meet spheres, in each lane: all that do by [`Sphere::hit`] and few others.
+/// NaN rejects nothing but spheres with such a radius.
+///
+/// For a centre at c from the ray's start, a line of direction d passes it at |c × d| / |d|. A component
+/// of the product is off by less than 3u |c| |d|, with u the unit roundoff, so the product by less than
+/// 6u |c| |d|. What [`ball`] computes is off by less: |c| is at most 64 radii there, or the line was
+/// first advanced.
+#[inline(always)]
+pub fn may_meet<N: Lanes>(centre: Vector<N>, radius: N, rays: &Rays<N>) -> N::Mask {
+    const ROUNDING: f64 = 32.0 * f64::EPSILON;
+    let direction = rays.direction;
+    let offset = centre - rays.origin;
+    let distance_squared = offset.cross(direction).length_squared();
+    let most = radius + radius.all(1e-9) * radius + radius.all(ROUNDING) * offset.abs().sum();
+    let bound = most * most * direction.length_squared() + radius.all(f64::MIN_POSITIVE);
+    !bound.below(distance_squared) & radius.equals(radius)
 }
 
 /// The surfaces of spheres where rays hit them at distances `t`, in each lane.

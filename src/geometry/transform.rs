@@ -287,7 +287,8 @@ pub(super) fn exact_cross(u: DVec3, v: DVec3) -> DVec3 {
 /// The difference of two products, as if rounded once or twice, by Kahan's algorithm: the error of
 /// one product is recovered by a fused multiply-add. C.-P. Jeannerod, N. Louvet, J.-M. Muller,
 /// "Further analysis of Kahan's algorithm", Mathematics of Computation 82 (2013).
-pub(super) fn exact_difference([a, b]: [f64; 2], [c, d]: [f64; 2]) -> f64 {
+#[inline(always)]
+pub(super) fn exact_difference<N: Lanes>([a, b]: [N; 2], [c, d]: [N; 2]) -> N {
     let product = c * d;
     let error = (-c).mul_add(d, product);
     a.mul_add(b, -product) + error

@@ -12,14 +12,16 @@ use glam::DVec3;
 use super::lanes::{Eight, Lanes, Simd, SimdBase, Singles, Vector, bits, singles};
 use super::transform::exact_difference;
 
-/// A line prepared for tests against triangles.
+/// Lines prepared for tests against triangles, whose directions have their largest components on the
+/// same axis.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Sheared {
-    origin: DVec3,
-    /// The axes, the one of the largest component of the direction last.
-    axes: [usize; 3],
+pub(super) struct Sheared<N> {
+    /// The axes, that of the largest component of the direction last. Coordinates are in their order,
+    /// those of triangles too.
+    pub(super) axes: [usize; 3],
+    origin: [N; 3],
     /// The slopes of the other two along that axis, and 1 over the component along it.
-    shear: [f64; 3],
+    shear: [N; 3],
 }
 
 /// The axes and slopes of [`Sheared`], in each lane.
@@ -54,7 +56,7 @@ impl<N: Lanes> Shears<N> {
 impl Shears<f64> {
     /// A line from an origin.
     #[inline(always)]
-    pub(super) fn sheared(&self, origin: DVec3) -> Sheared {
+    pub(super) fn sheared(&self, origin: DVec3) -> Sheared<f64> {
         let last = if self.is_x {
             0
         } else if self.is_y {
@@ -62,9 +64,10 @@ impl Shears<f64> {
         } else {
             2
         };
+        let axes = axes(last);
         Sheared {
-            origin,
-            axes: axes(last),
+            axes,
+            origin: permuted(origin.to_array(), axes),
             shear: self.slopes,
         }
     }
@@ -73,7 +76,7 @@ impl Shears<f64> {
 impl<S: Simd> Shears<Eight<S>> {
     /// The line in a lane, from an origin.
     #[inline(always)]
-    pub(super) fn lane(&self, origin: DVec3, lane: usize) -> Sheared {
+    pub(super) fn lane(&self, origin: DVec3, lane: usize) -> Sheared<f64> {
         let [x, y, z] = self.slopes;
         let of_lane = Shears {
             is_x: bits::<S>(self.is_x) >> lane & 1 == 1,
@@ -83,20 +86,34 @@ impl<S: Simd> Shears<Eight<S>> {
         of_lane.sheared(origin)
     }
 
-    /// The axes, if they are the same in all lanes whose bit is 1.
+    /// The lines from origins; `None` if their largest components are on different axes in the lanes
+    /// whose bit is 1.
     #[inline(always)]
-    fn common_axes(&self, lanes: u32) -> Option<[usize; 3]> {
+    pub(super) fn sheared_together(
+        &self,
+        origin: Vector<Eight<S>>,
+        lanes: u32,
+    ) -> Option<Sheared<Eight<S>>> {
         let (is_x, is_y) = (bits::<S>(self.is_x) & lanes, bits::<S>(self.is_y) & lanes);
-        if is_x == lanes {
-            Some(axes(0))
-        } else if is_y == lanes {
-            Some(axes(1))
-        } else if is_x | is_y == 0 {
-            Some(axes(2))
-        } else {
-            None
-        }
+        let last = match (is_x, is_y) {
+            _ if is_x == lanes => 0,
+            _ if is_y == lanes => 1,
+            (0, 0) => 2,
+            _ => return None,
+        };
+        let axes = axes(last);
+        Some(Sheared {
+            axes,
+            origin: permuted([origin.x, origin.y, origin.z], axes),
+            shear: self.slopes,
+        })
     }
+}
+
+/// Numbers in the order of axes.
+#[inline(always)]
+fn permuted<N: Copy>(numbers: [N; 3], [i, j, k]: [usize; 3]) -> [N; 3] {
+    [numbers[i], numbers[j], numbers[k]]
 }
 
 /// The axes, the given one last.
@@ -105,59 +122,93 @@ fn axes(last: usize) -> [usize; 3] {
     [(last + 1) % 3, (last + 2) % 3, last]
 }
 
-/// The point where a line crosses a triangle.
+/// The point where a line crosses a triangle, in each lane.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Crossing {
+pub(super) struct Crossing<N> {
     /// The distance, in units of the line's direction.
-    pub(super) t: f64,
+    pub(super) t: N,
     /// The barycentric coordinates, none below 0, with sum 1.
-    pub(super) weights: [f64; 3],
+    pub(super) weights: [N; 3],
 }
 
-impl Sheared {
-    /// Intersects the line with a triangle. A line in its plane does not cross it.
-    #[inline]
-    pub(super) fn crossing(&self, corners: [DVec3; 3]) -> Option<Crossing> {
-        let [a, b, c] = corners;
-        let (a, b, c) = (
-            self.transformed(a),
-            self.transformed(b),
-            self.transformed(c),
-        );
-        let (u, v, w) = (edge(c, b), edge(a, c), edge(b, a));
-        if (u < 0.0 || v < 0.0 || w < 0.0) && (0.0 < u || 0.0 < v || 0.0 < w) {
+impl Sheared<f64> {
+    /// Vertices with their coordinates in the order of the line's axes.
+    #[inline(always)]
+    pub(super) fn corners(&self, [a, b, c]: [DVec3; 3]) -> [[f64; 3]; 3] {
+        let axes = self.axes;
+        [
+            permuted(a.to_array(), axes),
+            permuted(b.to_array(), axes),
+            permuted(c.to_array(), axes),
+        ]
+    }
+}
+
+impl<S: Simd> Sheared<Eight<S>> {
+    /// Vertices in all lanes, with their coordinates in the order of the lines' axes.
+    #[inline(always)]
+    pub(super) fn splat(&self, [a, b, c]: [DVec3; 3]) -> [[Eight<S>; 3]; 3] {
+        [self.splat_one(a), self.splat_one(b), self.splat_one(c)]
+    }
+
+    #[inline(always)]
+    fn splat_one(&self, corner: DVec3) -> [Eight<S>; 3] {
+        let simd = self.origin[0].simd;
+        let [x, y, z] = permuted(corner.to_array(), self.axes);
+        [
+            SimdBase::splat(simd, x),
+            SimdBase::splat(simd, y),
+            SimdBase::splat(simd, z),
+        ]
+    }
+}
+
+impl<N: Lanes> Sheared<N> {
+    /// Intersects lines with triangles: valid where the mask is true; `None` if it is nowhere. A line
+    /// in the plane of a triangle does not cross it.
+    #[inline(always)]
+    pub(super) fn crossing(&self, corners: [[N; 3]; 3]) -> Option<(Crossing<N>, N::Mask)> {
+        let [a, b, c] = self.transformed(corners);
+        let misses = is_outside([edge(c, b), edge(a, c), edge(b, a)]);
+        if !N::any(!misses) {
             return None;
         }
         // In a needle-shaped triangle the products of an edge function nearly cancel: signs are
         // right, but a distance needs more precision. Few triangles come this far.
-        let (u, v, w) = (exact_edge(c, b), exact_edge(a, c), exact_edge(b, a));
+        let [u, v, w] = [exact_edge(c, b), exact_edge(a, c), exact_edge(b, a)];
         let area = u + v + w;
-        if area == 0.0 {
-            return None;
-        }
-        Some(Crossing {
+        let crosses = !misses & !area.equals(area.all(0.0));
+        let crossing = Crossing {
             t: (u * a[2] + v * b[2] + w * c[2]) / area,
             weights: [u / area, v / area, w / area],
-        })
+        };
+        N::any(crosses).then_some((crossing, crosses))
     }
 
-    /// A vertex relative to the line: two coordinates across it, one along it.
-    #[inline]
-    fn transformed(&self, corner: DVec3) -> [f64; 3] {
-        let offset = (corner - self.origin).to_array();
-        let [i, j, k] = self.axes;
-        let (x, y, z) = (offset[i], offset[j], offset[k]);
+    /// The vertices relative to the lines: two coordinates across them, one along them.
+    #[inline(always)]
+    fn transformed(&self, [a, b, c]: [[N; 3]; 3]) -> [[N; 3]; 3] {
+        [self.relative(a), self.relative(b), self.relative(c)]
+    }
+
+    #[inline(always)]
+    fn relative(&self, corner: [N; 3]) -> [N; 3] {
+        let (x, y, z) = (
+            corner[0] - self.origin[0],
+            corner[1] - self.origin[1],
+            corner[2] - self.origin[2],
+        );
         let [shear_x, shear_y, shear_z] = self.shear;
         [x - shear_x * z, y - shear_y * z, shear_z * z]
     }
 }
 
-/// One line in all lanes, or several whose directions have their largest component on the same axis,
-/// prepared for tests in single precision.
+/// Lines as in [`Sheared`], one in each lane or one in all, prepared for tests in single precision.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Roughly<S: Simd> {
+    /// As in [`Sheared`].
+    pub(super) axes: [usize; 3],
     origin: [Singles<S>; 3],
-    axes: [usize; 3],
     shear: [Singles<S>; 2],
     /// A bound of the error of a transformed coordinate.
     error: Singles<S>,
@@ -169,34 +220,26 @@ const ROUNDOFF: f32 = f32::EPSILON / 2.0;
 impl<S: Simd> Roughly<S> {
     /// One line in all lanes.
     #[inline(always)]
-    pub(super) fn all(simd: S, line: &Sheared) -> Self {
-        let splat = |number: f64| Singles::splat(simd, number as f32);
-        let [i, j, k] = line.axes;
-        let (x, y, z) = (line.origin[i], line.origin[j], line.origin[k]);
+    pub(super) fn all(simd: S, line: &Sheared<f64>) -> Self {
+        let [x, y, z] = line.origin;
         let [shear_x, shear_y, _] = line.shear;
         Self::new(
             line.axes,
-            [splat(x), splat(y), splat(z)],
-            [splat(shear_x), splat(shear_y)],
+            [splat(simd, x), splat(simd, y), splat(simd, z)],
+            [splat(simd, shear_x), splat(simd, shear_y)],
         )
     }
 
-    /// A line in each lane whose bit is 1; `None` if their largest components are on different axes.
+    /// Those lines.
     #[inline(always)]
-    pub(super) fn each(
-        origin: &Vector<Eight<S>>,
-        shears: &Shears<Eight<S>>,
-        lanes: u32,
-    ) -> Option<Self> {
-        let axes = shears.common_axes(lanes)?;
-        let origin = [origin.x, origin.y, origin.z];
-        let [i, j, k] = axes;
-        let [slope_x, slope_y, _] = shears.slopes;
-        Some(Self::new(
-            axes,
-            [singles(origin[i]), singles(origin[j]), singles(origin[k])],
-            [singles(slope_x), singles(slope_y)],
-        ))
+    pub(super) fn each(lines: &Sheared<Eight<S>>) -> Self {
+        let [x, y, z] = lines.origin;
+        let [shear_x, shear_y, _] = lines.shear;
+        Self::new(
+            lines.axes,
+            [singles(x), singles(y), singles(z)],
+            [singles(shear_x), singles(shear_y)],
+        )
     }
 
     /// The error of a transformed coordinate, for vertices in unit space, none of whose coordinates is
@@ -210,8 +253,8 @@ impl<S: Simd> Roughly<S> {
         let [x, y, z] = origin;
         let reach = x.abs().max(y.abs()).max(z.abs()) + 1.0;
         Self {
-            origin,
             axes,
+            origin,
             shear,
             error: reach * (10.0 * ROUNDOFF),
         }
@@ -239,8 +282,7 @@ impl<S: Simd> Roughly<S> {
             self.transformed(c),
         );
         let (u, v, w) = (across(c, b), across(a, c), across(b, a));
-        let most = |[x, y]: [Singles<S>; 2]| x.abs().max(y.abs());
-        let most = most(a).max(most(b)).max(most(c));
+        let most = largest(a).max(largest(b)).max(largest(c));
         let error = self.error;
         let bound = most * (error * 5.0 + most * (8.0 * ROUNDOFF)) + error * error * 4.0;
         let below = -bound;
@@ -252,12 +294,23 @@ impl<S: Simd> Roughly<S> {
     /// The two coordinates of a vertex across the lines.
     #[inline(always)]
     fn transformed(&self, corner: [Singles<S>; 3]) -> [Singles<S>; 2] {
-        let [i, j, k] = self.axes;
         let [x, y, z] = self.origin;
-        let (x, y, z) = (corner[i] - x, corner[j] - y, corner[k] - z);
+        let (x, y, z) = (corner[0] - x, corner[1] - y, corner[2] - z);
         let [shear_x, shear_y] = self.shear;
         [x - shear_x * z, y - shear_y * z]
     }
+}
+
+/// A number rounded to single precision, in all lanes.
+#[inline(always)]
+fn splat<S: Simd>(simd: S, number: f64) -> Singles<S> {
+    SimdBase::splat(simd, number as f32)
+}
+
+/// The larger magnitude.
+#[inline(always)]
+fn largest<S: Simd>([x, y]: [Singles<S>; 2]) -> Singles<S> {
+    x.abs().max(y.abs())
 }
 
 /// [`edge`] in each lane, with three roundings; its sign may be wrong.
@@ -266,20 +319,30 @@ fn across<S: Simd>(a: [Singles<S>; 2], b: [Singles<S>; 2]) -> Singles<S> {
     a[0] * b[1] - a[1] * b[0]
 }
 
-/// Twice the signed area of the triangle of an edge and the origin. The sign is exact: rounded
-/// products compare correctly unless they are equal.
-#[inline]
-fn edge(a: [f64; 3], b: [f64; 3]) -> f64 {
-    let (first, second) = (a[0] * b[1], a[1] * b[0]);
-    if first == second {
-        exact_edge(a, b)
-    } else {
-        first - second
-    }
+/// Whether edge functions have different signs.
+#[inline(always)]
+fn is_outside<N: Lanes>([u, v, w]: [N; 3]) -> N::Mask {
+    let zero = u.all(0.0);
+    let is_below = u.below(zero) | v.below(zero) | w.below(zero);
+    let is_above = zero.below(u) | zero.below(v) | zero.below(w);
+    is_below & is_above
 }
 
-/// The same, as if rounded once or twice.
-#[inline]
-fn exact_edge([ax, ay, _]: [f64; 3], [bx, by, _]: [f64; 3]) -> f64 {
+/// Twice the signed area of the triangle of an edge and the origin. The sign is exact: rounded
+/// products compare correctly unless they are equal.
+#[inline(always)]
+fn edge<N: Lanes>(a: [N; 3], b: [N; 3]) -> N {
+    let (first, second) = (a[0] * b[1], a[1] * b[0]);
+    let are_equal = first.equals(second);
+    let difference = first - second;
+    if !N::any(are_equal) {
+        return difference;
+    }
+    N::select(are_equal, exact_edge(a, b), difference)
+}
+
+/// The same area, as if rounded once or twice.
+#[inline(always)]
+fn exact_edge<N: Lanes>([ax, ay, _]: [N; 3], [bx, by, _]: [N; 3]) -> N {
     exact_difference([ax, by], [ay, bx])
 }

@@ -3,11 +3,12 @@
 use std::cmp::Ordering;
 use std::ops::Range;
 
+use super::spheres::MayMeet;
 use super::structures::Search;
 use super::touched::Touched;
-use super::world::World;
-use crate::geometry::lanes::{Eight, Lanes, Simd, dispatch};
-use crate::geometry::{Hit, Ray, Rays, Shape};
+use super::world::{World, runs_in_file_order};
+use crate::geometry::lanes::{Eight, Lanes, Simd, dispatch, each_bit};
+use crate::geometry::{Hit, Ray, Shape};
 
 /// What shadow rays pass through.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -186,9 +187,8 @@ impl World {
     pub(crate) fn crossings(&self, ray: &Ray, limit: f64) -> Vec<Nearest> {
         let mut crossed = Vec::new();
         dispatch!(self.level, simd => {
-            let rays = Rays::all(simd, ray);
             self.visit(simd, ray, limit, |places| {
-                self.meet(&rays, ray, limit, places, Search::Nearest, |object, hit| {
+                self.meet(simd, ray, limit, places, Search::Nearest, |object, hit| {
                     crossed.push(Nearest { object, hit });
                 });
                 limit
@@ -200,8 +200,7 @@ impl World {
     }
 
     #[inline(always)]
-    fn nearest_alone<S: Simd>(&self, simd: S, ray: &Ray, limit: f64) -> Option<Nearest> {
-        let rays = Rays::all(simd, ray);
+    pub(super) fn nearest_alone<S: Simd>(&self, simd: S, ray: &Ray, limit: f64) -> Option<Nearest> {
         let mut closest = Closest::before(limit, ray.origin.length());
         self.visit(
             simd,
@@ -211,7 +210,7 @@ impl World {
             |places| {
                 let limit = closest.limit;
                 self.meet(
-                    &rays,
+                    simd,
                     ray,
                     limit,
                     places,
@@ -236,7 +235,6 @@ impl World {
     ) -> f64 {
         crossed.touched.clear();
         crossed.begin(1);
-        let rays = Rays::all(simd, ray);
         let mut blocked = false;
         self.visit(
             simd,
@@ -245,7 +243,7 @@ impl World {
             #[inline(always)]
             |places| {
                 self.meet(
-                    &rays,
+                    simd,
                     ray,
                     distance,
                     places,
@@ -319,12 +317,11 @@ impl World {
         first
     }
 
-    /// Reports the objects at some positions of the order that the ray, which also fills all lanes
-    /// of `rays`, hits before a limit.
+    /// Reports the objects of a run that the ray hits before a limit.
     #[inline(always)]
     pub(crate) fn meet<S: Simd>(
         &self,
-        rays: &Rays<Eight<S>>,
+        simd: S,
         ray: &Ray,
         limit: f64,
         places: Range<usize>,
@@ -332,20 +329,16 @@ impl World {
         mut met: impl FnMut(u32, Hit),
     ) {
         let order = &self.order()[places.clone()];
-        let (hits, mut others) = self.spheres.hits(rays, limit, &places);
-        if let Some(hits) = hits {
-            let mut lanes = hits.lanes;
-            while lanes != 0 {
-                let lane = lanes.trailing_zeros() as usize;
-                lanes &= lanes - 1;
-                met(order[lane], hits.hit(lane));
+        let run = self.spheres.run(&places);
+        let MayMeet { spheres, others } = run.may_meet(simd, ray);
+        for at in each_bit(spheres) {
+            if let Some(hit) = run.at(at).and_then(|sphere| sphere.hit(ray, limit)) {
+                met(order[at], hit);
             }
         }
-        while others != 0 {
-            let object = order[others.trailing_zeros() as usize];
-            others &= others - 1;
-            if let Some(hit) = self.hit(rays.origin.x.simd, object, ray, limit, search) {
-                met(object, hit);
+        for at in each_bit(others) {
+            if let Some(hit) = self.hit(simd, order[at], ray, limit, search) {
+                met(order[at], hit);
             }
         }
     }
@@ -381,7 +374,7 @@ impl World {
         }
     }
 
-    /// Visits ranges of [`World::order`] that include at least all objects the ray may hit.
+    /// Visits runs of [`World::order`] that include at least all objects the ray may hit.
     #[inline(always)]
     fn visit<S: Simd>(
         &self,
@@ -393,7 +386,11 @@ impl World {
         match &self.tree {
             Some(tree) => tree.traverse(simd, ray, limit, visit),
             None => {
-                visit(0..self.scene.objects.len());
+                for run in runs_in_file_order(self.scene.objects.len()) {
+                    if visit(run) < 0.0 {
+                        return;
+                    }
+                }
             }
         }
     }

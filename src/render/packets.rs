@@ -4,9 +4,11 @@ use std::ops::Range;
 
 use super::intersect::{Closest, Crossed, Nearest, Occlusion};
 use super::structures::Search;
-use super::world::World;
-use crate::geometry::lanes::{Eight, Lanes, Simd, SimdBase, Vector, WIDTH, dispatch, mask};
-use crate::geometry::{Hit, Hits, Packet, Rays, Shape, sphere_hits};
+use super::world::{World, runs_in_file_order};
+use crate::geometry::lanes::{
+    Eight, Lanes, Simd, SimdBase, Vector, WIDTH, dispatch, each_bit, mask,
+};
+use crate::geometry::{Hit, Hits, Packet, Rays, Shape, Sphere, sphere_hits};
 use crate::scene::Object;
 
 impl World {
@@ -92,9 +94,11 @@ impl World {
                     close(&mut limits, left & !open);
                     return limits;
                 }
-                for place in places {
+                let spheres = self.spheres.run(&places);
+                for (at, place) in places.enumerate() {
                     let lanes = lanes & open;
-                    let hits = self.hits_at(&rays, place, lanes, &limits, Search::Blocker);
+                    let at = (spheres.at(at), self.order()[place]);
+                    let hits = self.hits_at(&rays, at, lanes, &limits, Search::Blocker);
                     let Some(hits) = hits else { continue };
                     let object = self.order()[place];
                     let blocked = self.blocked(object, &hits, occlusion);
@@ -159,6 +163,15 @@ impl World {
         nearest: &mut Vec<Option<Nearest>>,
     ) {
         let rays = packet.rays.load(simd);
+        if let Some(tree) = &self.tree
+            && !tree.takes_together(&rays)
+        {
+            for lane in each_bit(packet.lanes) {
+                let (ray, end) = (packet.ray(lane), packet.ends.0[lane % WIDTH]);
+                nearest.push(self.nearest_alone(simd, &ray, end));
+            }
+            return;
+        }
         let reach = rays.origin.length();
         let closed = Eight::splat(simd, -1.0);
         let limits = Lanes::select(mask(simd, packet.lanes), packet.ends.load(simd), closed);
@@ -184,12 +197,14 @@ impl World {
                     closest.put(lane, alone);
                     return closest.limit;
                 }
-                for place in places {
-                    let limits = &closest.limit;
-                    let hits = self.hits_at(&rays, place, lanes, limits, Search::Nearest);
+                let spheres = self.spheres.run(&places);
+                for (at, place) in places.enumerate() {
+                    let (limits, object) = (&closest.limit, self.order()[place]);
+                    let at = (spheres.at(at), object);
+                    let hits = self.hits_at(&rays, at, lanes, limits, Search::Nearest);
                     if let Some(hits) = hits {
                         let ends = [hits.distances(simd), hits.parts(simd)];
-                        closest.offer(self.order()[place], ends, mask(simd, hits.lanes));
+                        closest.offer(object, ends, mask(simd, hits.lanes));
                     }
                 }
                 closest.limit
@@ -213,25 +228,22 @@ impl World {
         met: impl FnMut(u32, Hit),
     ) {
         let ray = packet.ray(lane);
-        let rays = Rays::all(limits.simd, &ray);
-        self.meet(&rays, &ray, limits[lane], places, search, met);
+        self.meet(limits.simd, &ray, limits[lane], places, search, met);
     }
 
-    /// Runs [`World::hits`] for the object at a position in [`World::order`].
-    ///
-    /// Objects close in space are close in that order, so that the next of a million spheres is
-    /// usually in the cache.
+    /// Runs [`World::hits`] for an object, given its sphere if it is one: copies of spheres close in
+    /// space are close in memory.
     #[inline(always)]
     fn hits_at<S: Simd>(
         &self,
         rays: &Rays<Eight<S>>,
-        place: usize,
+        (sphere, object): (Option<Sphere>, u32),
         lanes: u32,
         limits: &Eight<S>,
         search: Search,
     ) -> Option<Hits> {
-        let Some((centre, radius)) = self.spheres.at(place) else {
-            return self.hits(rays, self.order()[place], lanes, limits, search);
+        let Some(Sphere { centre, radius }) = sphere else {
+            return self.hits(rays, object, lanes, limits, search);
         };
         let like = limits;
         sphere_hits(
@@ -287,11 +299,13 @@ impl World {
         limits: Eight<S>,
         mut visit: impl FnMut(Range<usize>, u32, Eight<S>) -> Eight<S>,
     ) {
-        match &self.tree {
-            Some(tree) => tree.traverse_packet(rays, lanes, limits, visit),
-            None => {
-                visit(0..self.scene.objects.len(), lanes, limits);
-            }
+        if let Some(tree) = &self.tree {
+            tree.traverse_packet(rays, lanes, limits, visit);
+            return;
+        }
+        let mut limits = limits;
+        for run in runs_in_file_order(self.scene.objects.len()) {
+            limits = visit(run, lanes, limits);
         }
     }
 }

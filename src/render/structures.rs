@@ -1,12 +1,15 @@
 //! Acceleration structures of meshes: one tree over the triangles of each, shared by all instances.
 
+use std::ops::Range;
 use std::sync::Arc;
 
 use rayon::prelude::*;
 
 use crate::accel::Bvh;
-use crate::geometry::lanes::{Eight, Lanes, Simd, WIDTH, each_bit, mask};
-use crate::geometry::{Hit, Hits, Instance, Mesh, MeshLines, Pretest, Ray, Rays, Shape};
+use crate::geometry::lanes::{Eight, Lanes, Simd, WIDTH, mask};
+use crate::geometry::{
+    Hit, Hits, Instance, Mesh, MeshLine, Ray, Rays, Shape, TriangleRun, TriangleRuns,
+};
 use crate::scene::Objects;
 
 /// Which hit of a mesh is searched for.
@@ -18,11 +21,11 @@ pub(crate) enum Search {
     Blocker,
 }
 
-/// The tree over a mesh's triangles, and their vertices for quick tests of the runs it visits.
+/// The tree over a mesh's triangles, and the runs of them that it visits.
 #[derive(Debug)]
 pub(crate) struct MeshTree {
     bvh: Bvh,
-    pretest: Pretest,
+    runs: TriangleRuns,
 }
 
 /// The trees of a scene's meshes.
@@ -34,16 +37,49 @@ pub(crate) struct Structures {
     numbers: Vec<u32>,
 }
 
-/// Up to this many lines of a packet are tested one by one, each against all triangles of a run.
-const FEW_LINES: u32 = 2;
-
 impl MeshTree {
     /// `None` once `cancelled` returns true.
     fn build(mesh: &Mesh, cancelled: &(dyn Fn() -> bool + Sync)) -> Option<Self> {
         let bounds = |triangle: u32| mesh.triangle_bounds(triangle);
         let bvh = Bvh::over(mesh.len(), bounds, cancelled)?;
-        let pretest = Pretest::new(mesh, bvh.order(), &bvh.runs(), cancelled)?;
-        Some(Self { bvh, pretest })
+        let runs = TriangleRuns::new(mesh, bvh.order(), &bvh.runs(), cancelled)?;
+        Some(Self { bvh, runs })
+    }
+
+    /// Returns a hit of a line's ray with `0 < t < limit`.
+    #[inline(always)]
+    fn hit<S: Simd>(
+        &self,
+        simd: S,
+        line: &MeshLine<'_>,
+        limit: f64,
+        search: Search,
+    ) -> Option<Hit> {
+        let limit_on_line = line.limit(limit);
+        let roughly = line.roughly(simd);
+        let mut nearest = None;
+        self.bvh.traverse(
+            simd,
+            line.ray(),
+            limit_on_line,
+            #[inline(always)]
+            |places| {
+                let run = self.run(places);
+                let farthest = line.meet_run(&roughly, &run, limit_on_line, &mut nearest);
+                let is_met = || nearest.is_some_and(|hit| line.hit(hit, limit).is_some());
+                if search == Search::Blocker && is_met() {
+                    return -1.0;
+                }
+                farthest
+            },
+        );
+        line.hit(nearest?, limit)
+    }
+
+    /// The triangles at some places visited at once.
+    #[inline(always)]
+    fn run(&self, places: Range<usize>) -> TriangleRun<'_> {
+        self.runs.run(self.bvh.order(), places)
     }
 }
 
@@ -88,29 +124,7 @@ impl Structures {
     ) -> Option<Hit> {
         let (_, tree) = &self.trees[self.numbers[object as usize] as usize];
         let line = instance.line(ray)?;
-        let limit_on_line = line.limit(limit);
-        let rough = line.roughly(simd);
-        let mut nearest = None;
-        let mut farthest = limit_on_line;
-        tree.bvh.traverse(
-            simd,
-            line.ray(),
-            limit_on_line,
-            #[inline(always)]
-            |run| {
-                let candidates = tree.pretest.of_line(&rough, &run);
-                for place in each_bit(candidates) {
-                    let triangle = tree.bvh.order()[run.start + place];
-                    farthest = line.meet(triangle, limit_on_line, &mut nearest);
-                    let met = nearest.is_some_and(|nearest| line.hit(nearest, limit).is_some());
-                    if met && search == Search::Blocker {
-                        return -1.0;
-                    }
-                }
-                farthest
-            },
-        );
-        line.hit(nearest?, limit)
+        tree.hit(simd, &line, limit, search)
     }
 
     /// Returns hits of a packet's rays whose bit in `lanes` is 1.
@@ -127,43 +141,35 @@ impl Structures {
         let (_, tree) = &self.trees[self.numbers[object as usize] as usize];
         let lines = instance.lines(rays, lanes)?;
         let chosen = mask(limits.simd, lines.lanes);
-        let limits_on_lines = Lanes::select(chosen, lines.limits(limits), limits.all(-1.0));
-        let mut met = MetTogether {
-            lines: &lines,
-            limits,
-            limits_on_lines,
-            search,
-            nearest: [None; WIDTH],
-        };
+        let closed = limits.all(-1.0);
+        let limits_on_lines = Lanes::select(chosen, lines.limits(limits), closed);
+        if !tree.bvh.takes_together(lines.rays()) {
+            return Hits::one_by_one(
+                lines.lanes,
+                #[inline(always)]
+                |lane| {
+                    let limit = limits[lane % WIDTH];
+                    tree.hit(limits.simd, &lines.line(lane), limit, search)
+                },
+            );
+        }
+        let mut nearest = lines.none_before(limits_on_lines);
         tree.bvh.traverse_packet(
             lines.rays(),
             lines.lanes,
             limits_on_lines,
             #[inline(always)]
-            |run, lanes, mut farthest| {
-                let order = tree.bvh.order();
-                if FEW_LINES < lanes.count_ones() && lines.are_aligned() {
-                    for place in run.clone() {
-                        let candidates = lines.may_meet(&tree.pretest, &run, place, lanes);
-                        for lane in each_bit(candidates) {
-                            farthest[lane % WIDTH] = met.meet(lane, order[place]);
-                        }
-                    }
-                } else {
-                    for lane in each_bit(lanes) {
-                        let rough = lines.line(lane).roughly(limits.simd);
-                        for place in each_bit(tree.pretest.of_line(&rough, &run)) {
-                            farthest[lane % WIDTH] = met.meet(lane, order[run.start + place]);
-                        }
-                    }
+            |places, lanes, _| {
+                lines.meet_run(&tree.run(places), lanes, &mut nearest);
+                if search == Search::Blocker
+                    && let Some(hits) = lines.hits(&nearest, *limits)
+                {
+                    return Lanes::select(mask(limits.simd, hits.lanes), closed, nearest.t);
                 }
-                farthest
+                nearest.t
             },
         );
-        let nearest = met.nearest;
-        Hits::one_by_one(lines.lanes, |lane| {
-            lines.line(lane).hit(nearest[lane]?, limits[lane])
-        })
+        lines.hits(&nearest, *limits)
     }
 
     /// The trees, ordered by the first object of their meshes.
@@ -176,33 +182,6 @@ impl Structures {
         self.trees
             .iter()
             .position(|(known, _)| Arc::ptr_eq(known, mesh))
-    }
-}
-
-/// The nearest hits of a packet's lines so far.
-struct MetTogether<'a, S: Simd> {
-    lines: &'a MeshLines<'a, S>,
-    limits: &'a Eight<S>,
-    limits_on_lines: Eight<S>,
-    search: Search,
-    nearest: [Option<Hit>; WIDTH],
-}
-
-impl<S: Simd> MetTogether<'_, S> {
-    /// Tests the line in a lane against a triangle; returns the limit for nearer crossings, below 0
-    /// if none is needed.
-    #[inline(always)]
-    fn meet(&mut self, lane: usize, triangle: u32) -> f64 {
-        let lane = lane % WIDTH;
-        let (line, nearest) = (self.lines.line(lane), &mut self.nearest[lane]);
-        let farthest = line.meet(triangle, self.limits_on_lines[lane], nearest);
-        let limit = self.limits[lane];
-        let is_met = nearest.is_some_and(|hit| line.hit(hit, limit).is_some());
-        if is_met && self.search == Search::Blocker {
-            -1.0
-        } else {
-            farthest
-        }
     }
 }
 

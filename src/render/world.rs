@@ -3,6 +3,7 @@
 //! It has a tree over the objects, and one over the triangles of each mesh, shared by its instances
 //! and kept as long as the mesh is in the scene.
 
+use std::ops::Range;
 use std::sync::Arc;
 
 use glam::{DVec2, DVec3};
@@ -14,7 +15,7 @@ use super::sky::Sky;
 use super::spheres::Spheres;
 use super::structures::{Structures, instances};
 use super::texture::{Textures, environment_place};
-use crate::accel::Bvh;
+use crate::accel::{Bvh, RUN};
 use crate::geometry::Ray;
 use crate::geometry::lanes::Level;
 use crate::scene::{FalloffRule, GlossRule, Images, Integrator, Light, Object, Rgb, Scene};
@@ -30,6 +31,12 @@ const FEW_FOR_PATHS: usize = 16;
 
 /// The order of objects without a tree.
 const FILE_ORDER: [u32; FEW_FOR_PATHS] = [0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15];
+
+/// The runs in which objects without a tree are visited.
+pub(super) fn runs_in_file_order(count: usize) -> impl Iterator<Item = Range<usize>> {
+    let starts = (0..count).step_by(RUN);
+    starts.map(move |start| start..count.min(start + RUN))
+}
 
 /// Up to how many objects are intersected without a tree.
 fn few(integrator: Integrator) -> usize {
@@ -156,7 +163,11 @@ impl World {
             Some(tree) => tree.order(),
             None => &FILE_ORDER[..scene.objects.len()],
         };
-        let spheres = Arc::new(Spheres::new(&scene.objects, order));
+        let runs = match &tree {
+            Some(tree) => tree.runs(),
+            None => runs_in_file_order(scene.objects.len()).collect(),
+        };
+        let spheres = Arc::new(Spheres::new(&scene.objects, order, &runs, cancelled)?);
         Some(Self {
             scene,
             textures,

@@ -4,16 +4,18 @@
 //! whatever vectors the machine has: no operation here depends on its neighbours, and products are
 //! fused only where [`Lanes::mul_add`] says so.
 
+mod rows;
 mod vector;
 
 use std::iter;
 use std::ops::{Add, BitAnd, BitOr, BitXor, Div, Mul, Neg, Not, Sub};
 
 use fearless_simd::prelude::*;
-use fearless_simd::{f32x8, f64x8, u32x8};
+use fearless_simd::{f32x8, f64x4, f64x8, u32x8};
 
-pub use fearless_simd::prelude::{Select, SimdBase};
+pub use fearless_simd::prelude::{Select, SimdBase, SimdMask};
 pub use fearless_simd::{Level, Simd};
+pub use rows::{Rows, Run};
 pub use vector::Vector;
 
 #[cfg(not(target_arch = "x86_64"))]
@@ -56,6 +58,9 @@ pub const WIDTH: usize = 8;
 
 /// Eight numbers side by side.
 pub type Eight<S> = f64x8<S>;
+
+/// Four numbers side by side.
+pub type Four<S> = f64x4<S>;
 
 /// Eight numbers of single precision side by side.
 pub type Singles<S> = f32x8<S>;
@@ -187,69 +192,113 @@ impl Lanes for f64 {
     }
 }
 
-impl<S: Simd> Lanes for f64x8<S> {
-    type Mask = <Self as SimdBase<S>>::Mask;
+/// Numbers side by side in a vector.
+pub trait Several<S: Simd>: Copy {
+    /// A number.
+    type Number: Copy + Default + Send + Sync;
+    /// How many there are.
+    const COUNT: usize;
 
-    #[inline(always)]
-    fn all(self, value: f64) -> Self {
-        Self::splat(self.simd, value)
-    }
-
-    #[inline(always)]
-    fn sqrt(self) -> Self {
-        SimdFloat::sqrt(self)
-    }
-
-    #[inline(always)]
-    fn abs(self) -> Self {
-        SimdBase::abs(self)
-    }
-
-    #[inline(always)]
-    fn copysign(self, sign: Self) -> Self {
-        SimdFloat::copysign(self, sign)
-    }
-
-    #[inline(always)]
-    fn mul_add(self, factor: Self, term: Self) -> Self {
-        #[cfg(target_arch = "x86_64")]
-        if let Level::Sse2(_) = self.simd.level() {
-            return Self::load_array(self.simd, fused(&self, &factor, &term));
-        }
-        self.mul_add_precise(factor, term)
-    }
-
-    #[inline(always)]
-    fn below(self, other: Self) -> Self::Mask {
-        self.simd_lt(other)
-    }
-
-    #[inline(always)]
-    fn up_to(self, other: Self) -> Self::Mask {
-        self.simd_le(other)
-    }
-
-    #[inline(always)]
-    fn equals(self, other: Self) -> Self::Mask {
-        self.simd_eq(other)
-    }
-
-    #[inline(always)]
-    fn select(mask: Self::Mask, yes: Self, no: Self) -> Self {
-        mask.select(yes, no)
-    }
-
-    #[inline(always)]
-    fn any(mask: Self::Mask) -> bool {
-        mask.any_true()
-    }
+    /// The first numbers of a slice that holds at least as many.
+    fn load(simd: S, numbers: &[Self::Number]) -> Self;
+    /// The same number in each lane.
+    fn splat(simd: S, number: Self::Number) -> Self;
 }
 
-/// The fused products and sums of eight lanes, where the processor need not have an instruction for
-/// them. Eight calls at every place would be a third of the library's code.
+macro_rules! several {
+    ($vector:ident, $number:ident, $count:literal) => {
+        impl<S: Simd> Several<S> for $vector<S> {
+            type Number = $number;
+            const COUNT: usize = $count;
+
+            #[inline(always)]
+            fn load(simd: S, numbers: &[$number]) -> Self {
+                let numbers = numbers.first_chunk().expect("the slice is long enough");
+                Self::load_array(simd, *numbers)
+            }
+
+            #[inline(always)]
+            fn splat(simd: S, number: $number) -> Self {
+                <Self as SimdBase<S>>::splat(simd, number)
+            }
+        }
+    };
+}
+
+several!(f64x8, f64, 8);
+several!(f64x4, f64, 4);
+several!(f32x8, f32, 8);
+
+macro_rules! lanes {
+    ($vector:ident) => {
+        impl<S: Simd> Lanes for $vector<S> {
+            type Mask = <Self as SimdBase<S>>::Mask;
+
+            #[inline(always)]
+            fn all(self, value: f64) -> Self {
+                <Self as SimdBase<S>>::splat(self.simd, value)
+            }
+
+            #[inline(always)]
+            fn sqrt(self) -> Self {
+                SimdFloat::sqrt(self)
+            }
+
+            #[inline(always)]
+            fn abs(self) -> Self {
+                SimdBase::abs(self)
+            }
+
+            #[inline(always)]
+            fn copysign(self, sign: Self) -> Self {
+                SimdFloat::copysign(self, sign)
+            }
+
+            #[inline(always)]
+            fn mul_add(self, factor: Self, term: Self) -> Self {
+                #[cfg(target_arch = "x86_64")]
+                if let Level::Sse2(_) = self.simd.level() {
+                    return Self::load_array(self.simd, fused(&self, &factor, &term));
+                }
+                self.mul_add_precise(factor, term)
+            }
+
+            #[inline(always)]
+            fn below(self, other: Self) -> Self::Mask {
+                self.simd_lt(other)
+            }
+
+            #[inline(always)]
+            fn up_to(self, other: Self) -> Self::Mask {
+                self.simd_le(other)
+            }
+
+            #[inline(always)]
+            fn equals(self, other: Self) -> Self::Mask {
+                self.simd_eq(other)
+            }
+
+            #[inline(always)]
+            fn select(mask: Self::Mask, yes: Self, no: Self) -> Self {
+                mask.select(yes, no)
+            }
+
+            #[inline(always)]
+            fn any(mask: Self::Mask) -> bool {
+                mask.any_true()
+            }
+        }
+    };
+}
+
+lanes!(f64x8);
+lanes!(f64x4);
+
+/// Fused products and sums in each lane, where the processor need not have an instruction for them.
+/// Calls at every place would be a third of the library's code.
 #[cfg(target_arch = "x86_64")]
 #[inline(never)]
-fn fused(numbers: &[f64; WIDTH], factors: &[f64; WIDTH], terms: &[f64; WIDTH]) -> [f64; WIDTH] {
+fn fused<const N: usize>(numbers: &[f64; N], factors: &[f64; N], terms: &[f64; N]) -> [f64; N] {
     std::array::from_fn(|lane| numbers[lane].mul_add(factors[lane], terms[lane]))
 }
 

@@ -30,7 +30,7 @@ pub struct Instance {
 pub struct MeshLine<'m> {
     mesh: &'m Mesh,
     line: Ray,
-    sheared: Sheared,
+    sheared: Sheared<f64>,
     /// The distance of the line's start along the ray.
     start: f64,
 }
@@ -215,14 +215,14 @@ impl Instance {
     fn weights(&self, ray: &Ray, hit: Hit) -> [f64; 3] {
         let corners = self.mesh.corners(self.mesh.triangles[hit.part as usize]);
         let line = self.line(ray);
-        let crossing = line.and_then(|line| line.sheared.crossing(corners));
-        crossing.map_or([1.0 / 3.0; 3], |crossing| crossing.weights)
+        let crossing = line.and_then(|line| line.sheared.crossing(line.sheared.corners(corners)));
+        crossing.map_or([1.0 / 3.0; 3], |(crossing, _)| crossing.weights)
     }
 }
 
 impl<'m> MeshLine<'m> {
     #[inline(always)]
-    pub(super) fn from_parts(mesh: &'m Mesh, line: Ray, sheared: Sheared, start: f64) -> Self {
+    pub(super) fn from_parts(mesh: &'m Mesh, line: Ray, sheared: Sheared<f64>, start: f64) -> Self {
         Self {
             mesh,
             line,
@@ -232,7 +232,8 @@ impl<'m> MeshLine<'m> {
     }
 
     /// The line prepared for tests against triangles.
-    pub(super) fn sheared(&self) -> &Sheared {
+    #[inline(always)]
+    pub(super) fn sheared(&self) -> &Sheared<f64> {
         &self.sheared
     }
 
@@ -251,9 +252,21 @@ impl<'m> MeshLine<'m> {
     /// counts. Returns the limit for nearer crossings.
     #[inline]
     pub fn meet(&self, triangle: u32, limit: f64, nearest: &mut Option<Hit>) -> f64 {
-        let corners = self.mesh.corners(self.mesh.triangles[triangle as usize]);
+        let corners = self.sheared.corners(self.mesh.vertices(triangle));
+        self.meet_at(triangle, corners, limit, nearest)
+    }
+
+    /// The same, given the triangle's vertices as the line expects them.
+    #[inline(always)]
+    pub(super) fn meet_at(
+        &self,
+        triangle: u32,
+        corners: [[f64; 3]; 3],
+        limit: f64,
+        nearest: &mut Option<Hit>,
+    ) -> f64 {
         let best = nearest.map_or((limit, u32::MAX), |hit| (hit.t, hit.part));
-        if let Some(crossing) = self.sheared.crossing(corners)
+        if let Some((crossing, _)) = self.sheared.crossing(corners)
             && (crossing.t, triangle) < best
             && 0.0 < self.start + crossing.t
         {

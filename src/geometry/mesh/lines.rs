@@ -1,11 +1,13 @@
 //! Packets of rays against a mesh.
 
-use std::ops::Range;
+use super::{Instance, Mesh, MeshLine, TriangleRun};
+use crate::geometry::lanes::{Eight, Lanes, Simd, SimdBase, WIDTH, bits, each_bit, mask};
+use crate::geometry::line::End;
+use crate::geometry::triangle::{Roughly, Sheared, Shears};
+use crate::geometry::{Hit, Hits, Rays};
 
-use super::{Instance, Mesh, MeshLine, Pretest};
-use crate::geometry::Rays;
-use crate::geometry::lanes::{Eight, Simd, SimdBase, WIDTH, bits};
-use crate::geometry::triangle::{Roughly, Shears};
+/// Up to this many lines of a packet are tested one by one, each against all triangles of a run.
+const FEW: u32 = 2;
 
 /// The lines of eight rays in the unit space of a mesh.
 #[derive(Clone, Copy, Debug)]
@@ -15,10 +17,23 @@ pub struct MeshLines<'m, S: Simd> {
     shears: Shears<Eight<S>>,
     /// The distances of the lines' starts along the rays.
     start: Eight<S>,
-    roughly: Option<Roughly<S>>,
+    /// Those lines together, if their largest components are on the same axis.
+    together: Option<(Sheared<Eight<S>>, Roughly<S>)>,
     /// A mask of the rays that the mesh is not behind, lowest bit first.
     pub lanes: u32,
 }
+
+/// The nearest triangles met so far, in each lane.
+#[derive(Clone, Copy, Debug)]
+pub struct NearestOnLines<S: Simd> {
+    /// The distance along the line, or the limit if none is met.
+    pub t: Eight<S>,
+    /// The triangle's number, or [`NONE`].
+    part: Eight<S>,
+}
+
+/// Above the number of each triangle.
+const NONE: f64 = u32::MAX as f64;
 
 impl Instance {
     /// Transforms the rays whose bit in `lanes` is 1 to the space of the mesh; `None` if the mesh
@@ -37,7 +52,9 @@ impl Instance {
         let shears = Shears::new(rays.direction);
         Some(MeshLines {
             mesh: self.mesh(),
-            roughly: Roughly::each(&rays.origin, &shears, lanes),
+            together: shears
+                .sheared_together(rays.origin, lanes)
+                .map(|lines| (lines, Roughly::each(&lines))),
             rays,
             shears,
             start: line.start,
@@ -72,19 +89,73 @@ impl<'m, S: Simd> MeshLines<'m, S> {
         Eight::load_array(limits.simd, on_lines)
     }
 
-    /// Whether [`Self::may_meet`] tests all lines together.
+    /// No triangle met up to limits along [`Self::rays`].
     #[inline(always)]
-    pub fn are_aligned(&self) -> bool {
-        self.roughly.is_some()
+    pub fn none_before(&self, limits: Eight<S>) -> NearestOnLines<S> {
+        let part = Eight::splat(limits.simd, NONE);
+        NearestOnLines { t: limits, part }
     }
 
-    /// The given lanes without those whose line surely misses the triangle at a place of a run by
-    /// [`MeshLine::meet`].
+    /// Runs [`MeshLine::meet`] for the lines in the given lanes and the triangles of a run.
     #[inline(always)]
-    pub fn may_meet(&self, pretest: &Pretest, run: &Range<usize>, place: usize, lanes: u32) -> u32 {
-        match &self.roughly {
-            Some(lines) => pretest.of_triangle(lines, run, place) & lanes,
-            None => lanes,
+    pub fn meet_run(&self, run: &TriangleRun<'_>, lanes: u32, nearest: &mut NearestOnLines<S>) {
+        let simd = nearest.t.simd;
+        match &self.together {
+            Some((lines, roughly)) if FEW < lanes.count_ones() => {
+                let zero = Eight::splat(simd, 0.0);
+                for (at, &triangle) in run.triangles.iter().enumerate() {
+                    let lanes = run.lines_at(roughly, at) & lanes;
+                    if lanes == 0 {
+                        continue;
+                    }
+                    let corners = lines.splat(self.mesh.vertices(triangle));
+                    let Some((crossing, crosses)) = lines.crossing(corners) else {
+                        continue;
+                    };
+                    let (t, part) = (crossing.t, Eight::splat(simd, triangle.into()));
+                    let is_nearer =
+                        t.below(nearest.t) | t.equals(nearest.t) & part.below(nearest.part);
+                    let is_ahead = zero.below(self.start + t);
+                    let counts = crosses & is_nearer & is_ahead & mask(simd, lanes);
+                    nearest.t = Lanes::select(counts, t, nearest.t);
+                    nearest.part = Lanes::select(counts, part, nearest.part);
+                }
+            }
+            _ => {
+                for lane in each_bit(lanes) {
+                    let lane = lane % WIDTH;
+                    let mut alone = nearest.hit(lane);
+                    let limit = nearest.t[lane];
+                    let line = self.line(lane);
+                    let roughly = line.roughly(simd);
+                    nearest.t[lane] = line.meet_run(&roughly, run, limit, &mut alone);
+                    nearest.part[lane] = alone.map_or(NONE, |hit| hit.part.into());
+                }
+            }
         }
+    }
+
+    /// The nearest triangles as hits of the world's rays, where t is less than their limits.
+    #[inline(always)]
+    pub fn hits(&self, nearest: &NearestOnLines<S>, limits: Eight<S>) -> Option<Hits> {
+        let end = End {
+            t: self.start + nearest.t,
+            part: nearest.part,
+        };
+        let is_met = end.part.below(limits.all(NONE)) & end.t.below(limits);
+        let lanes = bits::<S>(is_met) & self.lanes;
+        (lanes != 0).then(|| end.hits(lanes))
+    }
+}
+
+impl<S: Simd> NearestOnLines<S> {
+    /// The nearest triangle in a lane, with its distance along the line.
+    #[inline(always)]
+    fn hit(&self, lane: usize) -> Option<Hit> {
+        let (t, part) = (self.t[lane], self.part[lane]);
+        (part < NONE).then_some(Hit {
+            t,
+            part: part as u32,
+        })
     }
 }

@@ -2,12 +2,12 @@
 //!
 //! A [`Mesh`] is shared: each [`Instance`] places it in the world by an affine frame. Rays are
 //! transformed to the space of the mesh once per instance. The caller finds the candidate
-//! triangles, usually by a bvh over [`Mesh::triangle_bounds`], rejects most of them by a [`Pretest`]
-//! and tests the rest with a [`MeshLine`].
+//! triangles, usually by a bvh over [`Mesh::triangle_bounds`], and tests them in runs ([`TriangleRuns`]),
+//! with a single [`MeshLine`] or the [`MeshLines`] of a packet.
 
 mod instance;
 mod lines;
-mod pretest;
+mod runs;
 
 use glam::{DVec2, DVec3};
 use rayon::prelude::*;
@@ -15,8 +15,8 @@ use rayon::prelude::*;
 use super::Aabb;
 
 pub use instance::{Instance, MeshLine};
-pub use lines::MeshLines;
-pub use pretest::{Pretest, RoughLine};
+pub use lines::{MeshLines, NearestOnLines};
+pub use runs::{RoughLine, TriangleRun, TriangleRuns};
 
 /// The margin of a triangle's box, in the unit space of the mesh: a crossing is computed from
 /// vertices at most 6 away from the line's start, and is off the line by less than half of this.

@@ -11,12 +11,12 @@ mod mesh_known;
 mod meshes;
 mod numbers;
 mod planes;
-mod pretest;
 mod properties;
 mod quadric_bounds;
 mod quadric_parallel;
 mod quadrics;
 mod random;
+mod runs;
 mod scale;
 mod silhouettes;
 

@@ -4,8 +4,8 @@ use glam::DVec3;
 
 use super::exact::Exact;
 use super::random::Random;
-use super::{Frame, Kind, Ray, only_span, ray};
-use crate::geometry::ulp;
+use super::{Frame, Kind, Ray, only_span, ray, unit};
+use crate::geometry::{Rays, Sphere, may_meet, ulp};
 
 const SIDE: u32 = 256;
 
@@ -173,4 +173,31 @@ fn grazing_rays_are_decided_as_in_twice_the_precision() {
         );
     }
     assert!(80_000 < decided, "{decided} decided");
+}
+
+/// Rays past or through spheres of random sizes at random distances, many of them near the silhouette.
+/// The squares of the smallest radii underflow.
+#[test]
+fn the_quick_test_passes_spheres_that_are_hit_and_rejects_most_others() {
+    let mut random = Random(2);
+    let [mut hits, mut misses] = [0; 2];
+    for _ in 0..200_000 {
+        let radius = random.magnitude(-180.0, 100.0);
+        let distance = radius * random.magnitude(-8.0, 8.0);
+        let offset = 1.0 + random.between(-1.0, 1.0) * random.magnitude(-17.0, 0.0);
+        let (toward, aside) = (random.direction(), random.direction());
+        let aside = unit(aside - aside.dot(toward) * toward);
+        let centre = random.in_cube() * distance * random.magnitude(-20.0, 3.0);
+        let ray = Ray {
+            origin: centre + offset * radius * aside - distance * toward,
+            direction: toward,
+        };
+        let is_hit = Sphere { centre, radius }.hit(&ray, f64::INFINITY).is_some();
+        let passes = may_meet(centre.into(), radius, &Rays::from(&ray));
+        assert!(passes || !is_hit, "{centre} {radius} {ray:?}");
+        assert!(!passes || offset < 1.001, "{centre} {radius} {ray:?}");
+        hits += u32::from(is_hit);
+        misses += u32::from(!passes);
+    }
+    assert!(40_000 < hits.min(misses), "{hits} {misses}");
 }

@@ -1,4 +1,5 @@
-//! What single precision rejects, double precision misses.
+//! Runs of triangles: what is rejected in single precision is missed, and what is met is what is met
+//! one by one.
 
 use std::ops::Range;
 use std::sync::Arc;
@@ -7,8 +8,8 @@ use glam::DVec3;
 
 use super::random::Random;
 use super::unit;
-use crate::geometry::lanes::{Level, dispatch};
-use crate::geometry::{Affine, Instance, Mesh, MeshParts, Pretest, Ray, Rays};
+use crate::geometry::lanes::{Eight, Level, SimdBase, dispatch};
+use crate::geometry::{Affine, Hit, Instance, Mesh, MeshParts, Ray, Rays, TriangleRuns};
 
 const COUNT: u32 = 40;
 
@@ -50,6 +51,11 @@ fn ray_at(random: &mut Random, [a, b, c]: [DVec3; 3]) -> Ray {
     }
 }
 
+/// The bits of a hit.
+fn bits(hit: Option<Hit>) -> Option<(u64, u32)> {
+    hit.map(|hit| (hit.t.to_bits(), hit.part))
+}
+
 /// How many triangles are tested, pass, and are met.
 fn tested(least: [f64; 2]) -> [u32; 3] {
     let mut random = Random(1);
@@ -59,7 +65,7 @@ fn tested(least: [f64; 2]) -> [u32; 3] {
         let mesh = soup(&mut random, least);
         let order: Vec<u32> = (0..COUNT).rev().collect();
         let runs: Vec<Range<usize>> = [0..8, 8..11, 11..12, 12..20, 20..27, 27..33, 33..40].into();
-        let pretest = Pretest::new(&mesh, &order, &runs, &|| false).expect("nothing cancels");
+        let stored = TriangleRuns::new(&mesh, &order, &runs, &|| false).expect("nothing cancels");
         let instance = Instance::new(Arc::clone(&mesh), &frame, Vec::new());
         for _ in 0..100 {
             let target = (random.bits() % u64::from(COUNT)) as u32;
@@ -75,19 +81,33 @@ fn tested(least: [f64; 2]) -> [u32; 3] {
             dispatch!(Level::new(), simd => {
                 let together = instance.lines(&Rays::gather(simd, &rays), 0xFF);
                 let together = together.expect("the mesh is not behind all");
-                for run in &runs {
+                let unlimited = Eight::splat(simd, f64::INFINITY);
+                for places in &runs {
+                    let run = stored.run(&order, places.clone());
+                    let mut nearest_together = together.none_before(unlimited);
+                    together.meet_run(&run, 0xFF, &mut nearest_together);
+                    let hits = together.hits(&nearest_together, unlimited);
                     for (lane, line) in lines.iter().enumerate() {
-                        let alone = pretest.of_line(&line.roughly(simd), run);
-                        for place in run.clone() {
-                            let mut nearest = None;
+                        let roughly = line.roughly(simd);
+                        let mut nearest = None;
+                        for place in places.clone() {
+                            let mut own = None;
+                            line.meet(order[place], f64::INFINITY, &mut own);
                             line.meet(order[place], f64::INFINITY, &mut nearest);
-                            let both = together.may_meet(&pretest, run, place, 0xFF);
-                            let may_meet = [alone >> (place - run.start) & 1, both >> lane & 1];
-                            assert!(nearest.is_none() || may_meet == [1, 1], "{line:?}");
-                            met += u32::from(nearest.is_some());
-                            passed += alone >> (place - run.start) & 1;
+                            let at = place - places.start;
+                            let may_cross = run.crossed_by(&roughly) >> at & 1;
+                            assert!(own.is_none() || may_cross == 1, "{line:?}");
+                            met += u32::from(own.is_some());
+                            passed += may_cross;
                             tested += 1;
                         }
+                        let mut alone = None;
+                        line.meet_run(&roughly, &run, f64::INFINITY, &mut alone);
+                        assert_eq!(bits(alone), bits(nearest), "{line:?}");
+                        let hit = hits.filter(|hits| hits.lanes >> lane & 1 == 1);
+                        let hit = hit.map(|hits| hits.hit(lane));
+                        let nearest = nearest.and_then(|hit| line.hit(hit, f64::INFINITY));
+                        assert_eq!(bits(hit), bits(nearest), "{line:?}");
                     }
                 }
             });
