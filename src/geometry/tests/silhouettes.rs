@@ -195,7 +195,11 @@ fn the_quick_test_passes_spheres_that_are_hit_and_rejects_most_others() {
         let is_hit = Sphere { centre, radius }.hit(&ray, f64::INFINITY).is_some();
         let passes = may_meet(centre.into(), radius, &Rays::from(&ray));
         assert!(passes || !is_hit, "{centre} {radius} {ray:?}");
-        assert!(!passes || offset < 1.001, "{centre} {radius} {ray:?}");
+        let is_tiny = radius < 1e-100;
+        assert!(
+            !passes || offset < 1.001 || is_tiny,
+            "{centre} {radius} {ray:?}"
+        );
         hits += u32::from(is_hit);
         misses += u32::from(!passes);
     }
