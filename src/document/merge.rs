@@ -7,9 +7,10 @@
 use std::sync::Arc;
 
 use super::Document;
+use super::changes::{Change, LIMITS, changes};
 use super::hunks::{Chunks, Leaves, hunks};
 use super::regions::{Region, regions};
-use super::windows::{self, Change, Window, widening, windows};
+use super::windows::{self, Window, widening, windows};
 use crate::language::{Language, Source};
 use crate::text;
 use crate::text::{Edit, Span};
@@ -92,9 +93,9 @@ impl Merge {
         mine: &Arc<String>,
         theirs: &Arc<String>,
     ) -> Self {
-        let changes = [mine, theirs].map(|other| Change::between(base, other));
+        let changes = [mine, theirs].map(|other| changes(base, other, LIMITS));
         let (pieces, conflicts) = widening(language, |margin| {
-            resolve(language, [base, mine, theirs], changes, margin)
+            resolve(language, [base, mine, theirs], &changes, margin)
         });
         Self {
             conflicts,
@@ -108,8 +109,8 @@ impl Merge {
 
     /// A merge that leaves everything from the first change to the last to one decision.
     pub(super) fn undivided(base: &Arc<String>, mine: &Arc<String>, theirs: &Arc<String>) -> Self {
-        let changes = [mine, theirs].map(|other| Change::between(base, other));
-        let window = windows::undivided(base, changes[0], changes[1]);
+        let changes = [mine, theirs].map(|other| changes(base, other, LIMITS));
+        let window = windows::undivided(base, &changes[0], &changes[1]);
         let conflict = |window: Window| Conflict {
             span: window.mine,
             base: window.base.of(base).to_owned(),
@@ -202,17 +203,19 @@ impl Merge {
 fn resolve(
     language: Language,
     [base, mine, theirs]: [&str; 3],
-    changes: [Option<Change>; 2],
+    [of_mine, of_theirs]: &[Vec<Change>; 2],
     margin: usize,
 ) -> Option<(Vec<Piece>, Vec<Conflict>)> {
     let (mut pieces, mut conflicts) = (Vec::new(), Vec::new());
-    for window in windows(base, changes[0], changes[1], margin) {
+    let windows = windows(base, of_mine, of_theirs, margin);
+    let is_alone = windows.len() == 1;
+    for window in windows {
         let sides = Sides {
             base: Chunks::of(language, window.base.of(base), window.at_ends),
             mine: Chunks::of(language, window.mine.of(mine), window.at_ends),
             theirs: Chunks::of(language, window.theirs.of(theirs), window.at_ends),
         };
-        let (merged, open) = sides.merge(language, window)?;
+        let (merged, open) = sides.merge(language, window, is_alone)?;
         let later = |piece| match piece {
             Piece::Theirs(edit) => Piece::Theirs(Edit {
                 span: edit.span.shifted(window.mine.start()),
@@ -259,8 +262,14 @@ struct Sides<'t> {
 }
 
 impl Sides<'_> {
-    /// The changes to mine and the conflicts; `None` if the window is too narrow to be certain.
-    fn merge(&self, language: Language, window: Window) -> Option<(Vec<Piece>, Vec<Conflict>)> {
+    /// The changes to mine and the conflicts; `None` if the window is too narrow to be certain. If there
+    /// are others, what both texts changed alike may be half of a move to one of them.
+    fn merge(
+        &self,
+        language: Language,
+        window: Window,
+        is_alone: bool,
+    ) -> Option<(Vec<Piece>, Vec<Conflict>)> {
         let mine = hunks(&self.base, &self.mine);
         let theirs = hunks(&self.base, &self.theirs);
         if [&mine, &theirs]
@@ -270,6 +279,9 @@ impl Sides<'_> {
             return None;
         }
         let regions = regions(&mine.all, &theirs.all);
+        if !is_alone && regions.iter().any(|region| self.is_alike(region)) {
+            return None;
+        }
         let (pieces, conflicts) = self.resolve(&regions);
         // Adjacent changes can run together, for example if one text opens a comment where the
         // other removes the next line break. Then the merged text no longer has their leaves.
@@ -319,14 +331,17 @@ impl Sides<'_> {
         (pieces, conflicts)
     }
 
+    /// Whether both sides made the same change.
+    fn is_alike(&self, region: &Region) -> bool {
+        let mine = self.mine.slice(&region.mine);
+        mine == self.theirs.slice(&region.theirs) && mine != self.base.slice(&region.base)
+    }
+
     /// Whether one side has moved what the other has deleted, moved elsewhere or copied. Half of a
     /// move is then a change that both made alike, and only the other half would be merged.
     fn divides_a_move(&self, regions: &[Region]) -> bool {
-        let is_alike = |region: &&Region| {
-            let mine = self.mine.slice(&region.mine);
-            mine == self.theirs.slice(&region.theirs) && mine != self.base.slice(&region.base)
-        };
-        let (alike, others): (Vec<_>, Vec<_>) = regions.iter().partition(is_alike);
+        let (alike, others): (Vec<_>, Vec<_>) =
+            regions.iter().partition(|region| self.is_alike(region));
         let others: Vec<_> = others
             .into_iter()
             .flat_map(|region| {

@@ -2,6 +2,7 @@
 //!
 //! A document receives texts and edits. It knows no files, and passes lowered scenes on unread.
 
+mod changes;
 mod history;
 mod hunks;
 mod merge;

@@ -1,6 +1,7 @@
 //! The lines around differences between texts. Only these are split into leaves, since a scene of a
 //! million objects has tens of millions of leaves.
 
+use super::changes::{Change, LIMITS, changes};
 use super::hunks::{Chunks, Hunks, hunks};
 use crate::language::Language;
 use crate::text;
@@ -41,37 +42,18 @@ impl Window {
     }
 }
 
-/// The spans from the first to the last difference between two texts.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Change {
-    /// The span in the base that is replaced.
-    base: Span,
-    /// The span in the other text that replaces it.
-    other: Span,
-}
-
-impl Change {
-    /// The change from `base` to `other`; `None` if they are equal.
-    pub(super) fn between(base: &str, other: &str) -> Option<Self> {
-        let [base, other] = text::difference(base, other)?;
-        Some(Self { base, other })
-    }
-
-    /// Maps a span of the base, which contains all of the change or none of it, to the new text.
-    fn moved(&self, span: Span) -> Span {
-        let behind = |at: usize| at - self.base.end() + self.other.end();
-        let start = if span.start() <= self.base.start() {
-            span.start()
-        } else {
-            behind(span.start())
-        };
-        let end = if self.base.end() <= span.end() {
-            behind(span.end())
-        } else {
-            span.end()
-        };
-        Span::new(start, end)
-    }
+/// Maps a span of the base, which contains all of each change or none of it, to the changed text.
+fn moved(changes: &[Change], span: Span) -> Span {
+    let before_start = changes.partition_point(|change| change.base.start() < span.start());
+    let before_end = changes.partition_point(|change| change.base.end() <= span.end());
+    let behind = |at: usize, before: usize| {
+        let last = before.checked_sub(1).map(|last| changes[last]);
+        last.map_or(at, |last| at - last.base.end() + last.other.end())
+    };
+    Span::new(
+        behind(span.start(), before_start),
+        behind(span.end(), before_end),
+    )
 }
 
 /// Calls `work` with growing margins until it returns a result.
@@ -89,22 +71,25 @@ pub(super) fn widening<T>(language: Language, work: impl Fn(usize) -> Option<T>)
     }
 }
 
-/// The lines around the changes of two texts, in order; one window if they are close together.
+/// The lines around the changes of two texts, in order; one window for those that are close together.
 pub(super) fn windows(
     base: &str,
-    mine: Option<Change>,
-    theirs: Option<Change>,
+    mine: &[Change],
+    theirs: &[Change],
     margin: usize,
 ) -> Vec<Window> {
-    let spans = [mine, theirs].into_iter().flatten();
-    let mut spans: Vec<_> = spans.map(|c| lines_around(base, c.base, margin)).collect();
-    spans.sort_unstable();
-    if let [first, second] = spans[..]
-        && second.start() <= first.end()
-    {
-        spans = vec![first.to(second)];
+    let changes = mine.iter().chain(theirs);
+    let mut around: Vec<_> = changes
+        .map(|change| lines_around(base, change.base, margin))
+        .collect();
+    around.sort_unstable();
+    let mut spans: Vec<Span> = Vec::with_capacity(around.len());
+    for span in around {
+        match spans.last_mut() {
+            Some(last) if span.start() <= last.end() => *last = last.to(span),
+            _ => spans.push(span),
+        }
     }
-    let moved = |change: Option<Change>, span| change.map_or(span, |change| change.moved(span));
     let window = |span: Span| Window {
         base: span,
         mine: moved(mine, span),
@@ -115,11 +100,7 @@ pub(super) fn windows(
 }
 
 /// The lines from the first change of two texts to the last; `None` if neither differs from the base.
-pub(super) fn undivided(
-    base: &str,
-    mine: Option<Change>,
-    theirs: Option<Change>,
-) -> Option<Window> {
+pub(super) fn undivided(base: &str, mine: &[Change], theirs: &[Change]) -> Option<Window> {
     let whole = windows(base, mine, theirs, 0).into_iter();
     whole.reduce(|first, last| Window {
         base: first.base.to(last.base),
@@ -138,10 +119,10 @@ fn lines_around(text: &str, span: Span, margin: usize) -> Span {
 
 /// The number of places, leaves or runs of leaves, at which `other` differs from `text`.
 pub fn differences(language: Language, text: &str, other: &str) -> usize {
-    let change = Change::between(text, other);
+    let changes = changes(text, other, LIMITS);
     widening(language, |margin| {
         let mut count = 0;
-        for window in windows(text, None, change, margin) {
+        for window in windows(text, &[], &changes, margin) {
             let base = Chunks::of(language, window.base.of(text), window.at_ends);
             let hunks = hunks(
                 &base,
@@ -166,8 +147,8 @@ mod tests {
     fn windows_are_the_lines_around_changes() {
         let base = "aa\nbb\ncc\ndd\nee\n";
         let windows = |mine: &str, theirs: &str, margin| {
-            let changes = [mine, theirs].map(|other| Change::between(base, other));
-            let found = windows(base, changes[0], changes[1], margin);
+            let changes = [mine, theirs].map(|other| changes(base, other, LIMITS));
+            let found = windows(base, &changes[0], &changes[1], margin);
             let show = |w: &Window| {
                 let texts = [(w.base, base), (w.mine, mine), (w.theirs, theirs)];
                 texts.map(|(span, text)| span.of(text).to_owned()).join("|")
@@ -191,7 +172,7 @@ mod tests {
         for end in ["\r", "\r\n", "\r\r\n"] {
             let text = |middle: &str| ["aa", middle, "cc", ""].join(end);
             let (base, other) = (text("bb"), text("b"));
-            let found = windows(&base, Change::between(&base, &other), None, 0);
+            let found = windows(&base, &changes(&base, &other, LIMITS), &[], 0);
             let found: Vec<_> = found.iter().map(|window| window.base.of(&base)).collect();
             assert_eq!(found, [format!("bb{end}")]);
         }
@@ -215,8 +196,8 @@ mod tests {
             let text = |middle: &[&str]| [&head[..], middle, &tail[..]].concat().join("\n");
             let (base, other) = (text(&old), text(&new));
             let found = |margin| {
-                let change = Change::between(&base, &other);
-                let windows = windows(&base, None, change, margin);
+                let changes = changes(&base, &other, LIMITS);
+                let windows = windows(&base, &[], &changes, margin);
                 let [window] = windows[..] else { return Some(Vec::new()) };
                 let chunks = Chunks::of(Language::Ray, window.base.of(&base), window.at_ends);
                 let others = Chunks::of(Language::Ray, window.theirs.of(&other), window.at_ends);

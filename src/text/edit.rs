@@ -74,10 +74,7 @@ pub fn difference(old: &str, new: &str) -> Option<[Span; 2]> {
     if old == new {
         return None;
     }
-    let mut head = common_prefix(old.as_bytes(), new.as_bytes());
-    while !old.is_char_boundary(head) || !new.is_char_boundary(head) {
-        head -= 1;
-    }
+    let head = common_prefix(old, new);
     let (old_rest, new_rest) = (&old[head..], &new[head..]);
     let mut tail = common_suffix(old_rest.as_bytes(), new_rest.as_bytes());
     while !old_rest.is_char_boundary(old_rest.len() - tail)
@@ -88,8 +85,17 @@ pub fn difference(old: &str, new: &str) -> Option<[Span; 2]> {
     Some([old.len(), new.len()].map(|len| Span::new(head, len - tail)))
 }
 
-/// The length of the common prefix, in bytes.
-fn common_prefix(old: &[u8], new: &[u8]) -> usize {
+/// The length of the common prefix in bytes, cut at a character boundary.
+pub fn common_prefix(old: &str, new: &str) -> usize {
+    let mut head = common_bytes(old.as_bytes(), new.as_bytes());
+    while !old.is_char_boundary(head) || !new.is_char_boundary(head) {
+        head -= 1;
+    }
+    head
+}
+
+/// The number of equal bytes at the start.
+fn common_bytes(old: &[u8], new: &[u8]) -> usize {
     let blocks = old.chunks_exact(BLOCK).zip(new.chunks_exact(BLOCK));
     let whole = BLOCK * blocks.take_while(|(old, new)| old == new).count();
     let rest = old[whole..].iter().zip(&new[whole..]);

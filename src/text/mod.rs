@@ -19,7 +19,7 @@ pub use codes::without_codes;
 pub use counted::{alternatives, counted};
 pub use diagnostic::{Diagnostic, Severity};
 pub use duration::parse_duration;
-pub use edit::{Edit, apply, cover, difference, smallest_edit};
+pub use edit::{Edit, apply, common_prefix, cover, difference, smallest_edit};
 pub use findings::Findings;
 pub use lines::{is_line_end, is_one_line_end, line_end, line_start, next_line};
 pub use nearest::nearest_word;

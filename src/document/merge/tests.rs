@@ -250,10 +250,10 @@ fn rows(most: usize) -> impl Strategy<Value = Vec<&'static str>> {
 #[track_caller]
 fn check_windows(language: Language, texts: [&str; 3], margin: usize) {
     let [base, mine, theirs] = texts;
-    let changes = [mine, theirs].map(|other| Change::between(base, other));
-    let whole = resolve(language, texts, changes, usize::MAX);
+    let changes = [mine, theirs].map(|other| changes(base, other, LIMITS));
+    let whole = resolve(language, texts, &changes, usize::MAX);
     assert!(whole.is_some());
-    let part = resolve(language, texts, changes, margin);
+    let part = resolve(language, texts, &changes, margin);
     assert!(
         part.is_none() || part == whole,
         "{part:?}, not {whole:?}, of {texts:?}"
@@ -265,6 +265,72 @@ fn a_window_of_few_lines_is_wide_enough_or_not_used() {
     let base = "0 0\r\n0 0\r\n0 0\r\nsphere\r\nsphere\r\nsphere";
     let theirs = "0 0\r\n0 0\r\n0\r\nsphere\r\nsphere\r\nsphere\r\nsphere";
     check_windows(Language::Ray, [base, base, theirs], 2);
+}
+
+/// A scene of many different spheres, their rows changed by `change`.
+fn spheres(change: impl Fn(&mut Vec<String>)) -> String {
+    let row = |number: usize| {
+        format!("sphere\n{number} 0 1 .5\n.8 .5 .{number}\n.2 .2 .2\n0 0 0\n20 0 0 1\n")
+    };
+    let mut rows: Vec<_> = (0..2000).map(row).collect();
+    change(&mut rows);
+    rows.concat()
+}
+
+fn grow(rows: &mut [String], number: usize) {
+    rows[number] = rows[number].replace(" .5\n.8", " .75\n.8");
+}
+
+#[test]
+fn changes_far_apart_merge_as_if_they_were_near() {
+    let base = spheres(|_| {});
+    let mine = spheres(|rows| {
+        grow(rows, 1);
+        grow(rows, 1000);
+    });
+    let theirs = spheres(|rows| {
+        grow(rows, 0);
+        rows[1000] = rows[1000].replace("20 0 0 1", "20 1 0 1");
+        rows.remove(1500);
+        grow(rows, 1998);
+    });
+    let both = spheres(|rows| {
+        grow(rows, 0);
+        grow(rows, 1);
+        grow(rows, 1000);
+        rows[1000] = rows[1000].replace("20 0 0 1", "20 1 0 1");
+        rows.remove(1500);
+        grow(rows, 1998);
+    });
+    assert_eq!(marked(&merge(&base, &mine, &theirs)), both);
+    let changes = [&mine, &theirs].map(|other| changes(&base, other, LIMITS));
+    assert_eq!([2, 4], [changes[0].len(), changes[1].len()]);
+    let near = resolve(Language::Ray, [&base, &mine, &theirs], &changes, 1024);
+    assert!(near.is_some());
+}
+
+#[test]
+fn what_was_moved_far_away_and_edited_is_asked_about() {
+    let base = spheres(|_| {});
+    let edited = spheres(|rows| grow(rows, 0));
+    let moved = spheres(|rows| {
+        let first = rows.remove(0);
+        rows.push(first);
+    });
+    for [mine, theirs] in [[&edited, &moved], [&moved, &edited]] {
+        assert_eq!(merge(&base, mine, theirs).conflicts.len(), 1);
+    }
+    // Half of a move is no change that both made alike.
+    let removed = spheres(|rows| {
+        rows.remove(0);
+        grow(rows, 1000);
+    });
+    for [mine, theirs] in [[&removed, &moved], [&moved, &removed]] {
+        let merge = merge(&base, mine, theirs);
+        let changes = [mine, theirs].map(|other| changes(&base, other, LIMITS));
+        let near = resolve(Language::Ray, [&base, mine, theirs], &changes, 1024);
+        assert!(near.is_none() && !merge.conflicts.is_empty());
+    }
 }
 
 proptest! {
@@ -288,10 +354,10 @@ proptest! {
         let mine = text(&first[1], &second[0]);
         let theirs = text(&first[2], &second[1]);
         let texts = [&base[..], &mine, &theirs];
-        let changes = [&mine, &theirs].map(|other| Change::between(&base, other));
-        let whole = resolve(language, texts, changes, usize::MAX);
+        let changes = [&mine, &theirs].map(|other| changes(&base, other, LIMITS));
+        let whole = resolve(language, texts, &changes, usize::MAX);
         prop_assert!(whole.is_some());
-        let part = resolve(language, texts, changes, margin);
+        let part = resolve(language, texts, &changes, margin);
         prop_assert!(part.is_none() || part == whole, "{part:?}, not {whole:?}, of {texts:?}");
     }
 
