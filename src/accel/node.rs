@@ -238,7 +238,8 @@ impl Node {
             self.crossings(simd, 1, y),
             self.crossings(simd, 2, z),
         ];
-        // Whatever a maximum with NaN is, from 0 · ∞ for a ray in a face, it clips no more than it should.
+        // A maximum with NaN, which 0 · ∞ is for a ray in a face, may be either number: it clips no more
+        // than it should.
         let near = x_near.max(y_near).max(z_near);
         let far = x_far.min(y_far).min(z_far);
         let entry = Singles::splat(simd, ray.start).max_precise(near);

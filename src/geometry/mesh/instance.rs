@@ -250,21 +250,9 @@ impl<'m> MeshLine<'m> {
     /// Updates `nearest`, a distance along [`Self::ray`], if the line crosses a triangle at up to
     /// `limit` and before the nearest crossing so far; among equal distances the first triangle
     /// counts. Returns the limit for nearer crossings.
-    #[inline]
+    #[inline(always)]
     pub fn meet(&self, triangle: u32, limit: f64, nearest: &mut Option<Hit>) -> f64 {
         let corners = self.sheared.corners(self.mesh.vertices(triangle));
-        self.meet_at(triangle, corners, limit, nearest)
-    }
-
-    /// The same, given the triangle's vertices as the line expects them.
-    #[inline(always)]
-    pub(super) fn meet_at(
-        &self,
-        triangle: u32,
-        corners: [[f64; 3]; 3],
-        limit: f64,
-        nearest: &mut Option<Hit>,
-    ) -> f64 {
         let best = nearest.map_or((limit, u32::MAX), |hit| (hit.t, hit.part));
         if let Some((crossing, _)) = self.sheared.crossing(corners)
             && (crossing.t, triangle) < best
