@@ -21,7 +21,7 @@ use crate::geometry::lanes::{Eight, Select, Simd, SimdBase, Singles, bits, singl
 use super::Bvh;
 use super::node::{Child, Link, Node, WIDTH};
 use super::slab::{Approach, SlabRay, clip, is_open_in_lanes};
-use super::traverse::STACK;
+use super::traverse::{STACK, insert};
 
 /// Up to this number of active rays, each is tested against all children of a node at once;
 /// otherwise all rays are tested against each child.
@@ -111,7 +111,13 @@ pub(super) fn traverse<S: Simd>(
                             link: node.link(lane),
                             lanes: hits.lanes[lane],
                         };
-                        insert(&mut stack, base, pending);
+                        insert(
+                            &mut stack,
+                            base,
+                            pending,
+                            #[inline(always)]
+                            |pending| pending.entry,
+                        );
                     }
                     continue;
                 }
@@ -126,7 +132,13 @@ pub(super) fn traverse<S: Simd>(
                             link: node.link(lane),
                             lanes,
                         };
-                        insert(&mut stack, base, pending);
+                        insert(
+                            &mut stack,
+                            base,
+                            pending,
+                            #[inline(always)]
+                            |pending| pending.entry,
+                        );
                     }
                 }
             }
@@ -282,16 +294,4 @@ fn hit_few<S: Simd>(
         }
     }
     few
-}
-
-/// Inserts a child among those from `base` on, which stay sorted with the nearest on top.
-#[inline(always)]
-fn insert(stack: &mut ArrayVec<Pending, STACK>, base: usize, pending: Pending) {
-    let mut position = stack.len();
-    stack.push(pending);
-    while base < position && stack[position - 1].entry < pending.entry {
-        stack[position] = stack[position - 1];
-        position -= 1;
-    }
-    stack[position] = pending;
 }

@@ -111,7 +111,13 @@ pub(super) fn traverse<S: Simd>(
                         let lane = hits.trailing_zeros() as usize % WIDTH;
                         hits &= hits - 1;
                         let other = Waiting::new(entries[lane], number, lane);
-                        insert(&mut stack, base, nearest.max(other));
+                        insert(
+                            &mut stack,
+                            base,
+                            nearest.max(other),
+                            #[inline(always)]
+                            |child| child,
+                        );
                         nearest = nearest.min(other);
                     }
                     next = nearest.link(bvh);
@@ -138,12 +144,17 @@ pub(super) fn traverse<S: Simd>(
     }
 }
 
-/// Inserts a child among those from `base` on, which stay sorted with the nearest on top.
+/// Inserts a child among those from `base` on, which stay sorted by a key, the least on top.
 #[inline(always)]
-fn insert(stack: &mut ArrayVec<Waiting, STACK>, base: usize, child: Waiting) {
+pub(super) fn insert<T: Copy, K: PartialOrd>(
+    stack: &mut ArrayVec<T, STACK>,
+    base: usize,
+    child: T,
+    key: impl Fn(T) -> K,
+) {
     let mut position = stack.len();
     stack.push(child);
-    while base < position && stack[position - 1] < child {
+    while base < position && key(stack[position - 1]) < key(child) {
         stack[position] = stack[position - 1];
         position -= 1;
     }
