@@ -90,7 +90,7 @@ impl<'m> Bsdf<'m> {
         &self,
         ray: &Ray,
         point: &Point,
-        [choice, u, v, _]: [f64; 4],
+        [u, v, choice, _]: [f64; 4],
         (sampler, bounce): (Sampler, u32),
     ) -> Option<BsdfSample> {
         let numbers = || {

@@ -109,7 +109,7 @@ impl<C: Fn() -> bool> Probe<'_, C> {
         let of_object = (!world.emitters.is_empty())
             .then(|| {
                 let numbers = sampler.four(bounce, Use::Emitter);
-                let picked = world.emitters.pick(vertex.point_and_normal(), numbers[0])?;
+                let picked = world.emitters.pick(vertex.point_and_normal(), numbers)?;
                 self.ask_object(vertex, bounce, picked, numbers)
             })
             .flatten();
@@ -153,7 +153,7 @@ impl<C: Fn() -> bool> Probe<'_, C> {
         vertex: &Vertex<'_>,
         bounce: u32,
         picked: Picked,
-        [_, u, v, _]: [f64; 4],
+        [u, v, ..]: [f64; 4],
     ) -> Option<Asking> {
         let Vertex { point, bsdf, .. } = vertex;
         let world = self.world;

@@ -73,6 +73,8 @@ pub(crate) struct World {
     pub(crate) sky: Arc<Sky>,
     /// Whether paths ask for emitters or the environment.
     pub(crate) has_emitters: bool,
+    /// Whether paths sample light at random: of emitters, the environment or lights with a size.
+    pub(crate) samples_lights: bool,
     /// The vector instructions to trace with.
     pub(crate) level: Level,
     pub(crate) tree: Option<Arc<Bvh>>,
@@ -121,6 +123,7 @@ impl World {
             Integrator::Whitted => (Arc::default(), Arc::new(Sky::unsampled())),
         };
         let has_emitters = !emitters.is_empty() || !sky.is_unsampled();
+        let samples_lights = has_emitters || lights.iter().any(|light| light.sphere().is_some());
         let needs_tree = few(integrator) < scene.objects.len();
         let is_known = |previous: &&Self| {
             changed.as_deref() == Some(&[]) && previous.tree.is_some() == needs_tree
@@ -136,6 +139,7 @@ impl World {
                 emitters,
                 sky,
                 has_emitters,
+                samples_lights,
                 level,
                 tree: previous.tree.clone(),
                 spheres: Arc::clone(&previous.spheres),
@@ -178,6 +182,7 @@ impl World {
             emitters,
             sky,
             has_emitters,
+            samples_lights,
             level,
             tree,
             spheres,

@@ -142,13 +142,17 @@ impl Emitters {
         self.parts.is_empty()
     }
 
-    /// Chooses one of the emitters for a surface at a point with a normal, by a number in 0..1; `None`
-    /// if none lights it.
-    pub(crate) fn pick(&self, (from, normal): (DVec3, DVec3), number: f64) -> Option<Picked> {
+    /// Chooses one of the emitters for a surface at a point with a normal, by the third of its numbers
+    /// in 0..1; `None` if none lights it.
+    pub(crate) fn pick(
+        &self,
+        (from, normal): (DVec3, DVec3),
+        [_, _, number, _]: [f64; 4],
+    ) -> Option<Picked> {
         self.tree.choose(from, normal, number).map(Picked::from)
     }
 
-    /// The same for several surfaces, by the first of their numbers.
+    /// The same for several surfaces.
     pub(crate) fn pick_each(
         &self,
         surfaces: &[(DVec3, DVec3)],

@@ -130,7 +130,7 @@ impl Tree {
         self.among_alike(&search)
     }
 
-    /// The same for up to eight surfaces at once.
+    /// The same for up to eight surfaces at once, by the third of the numbers of each.
     #[inline(always)]
     pub(crate) fn choose_together<S: Simd>(
         &self,
@@ -143,7 +143,7 @@ impl Tree {
         let mut at = [Vector::repeat(DVec3::ZERO); 2];
         let count = surfaces.len().min(WIDTH);
         for lane in 0..count {
-            searches[lane] = Search::new(numbers[lane][0]);
+            searches[lane] = Search::new(numbers[lane][2]);
             let (from, normal) = surfaces[lane];
             at[0].set(lane, from);
             at[1].set(lane, normal);

@@ -337,7 +337,7 @@ impl<C: Fn() -> bool> Recorder<'_, C> {
         &self,
         path: &Path,
         vertex: &Vertex<'_>,
-        [choice, ..]: [f64; 4],
+        [_, _, choice, _]: [f64; 4],
     ) -> Option<(RayKind, f64)> {
         let Vertex { point, bsdf, .. } = vertex;
         let component = bsdf.component(choice)?;

@@ -7,6 +7,7 @@ use super::*;
 use crate::assets::{Assets, Loaded, Wanted};
 use crate::render::shot::Shot;
 use crate::render::{Explanation, PreparedScene, Query, RayEnd, RayKind, Stop};
+use crate::scene::Emitter;
 
 /// Samples explained per scene and integrator.
 const PER_SCENE: usize = 40;
@@ -189,6 +190,31 @@ fn densities_of_a_path_are_those_of_its_lobes() {
         );
     }
     assert!(40 <= scattered, "{scattered}");
+}
+
+/// Roulette begins at a throughput of 1/16, where light is sampled at random at 1/4.
+#[test]
+fn roulette_begins_earlier_where_light_is_sampled_at_random() {
+    for (size, faint) in [(0.0, 1.0 / 16.0), (0.5, 1.0 / 4.0)] {
+        let mut scene = ball();
+        let Emitter::Point { radius, .. } = &mut scene.lights[0].emitter else {
+            panic!("a point light");
+        };
+        *radius = size;
+        let job = job_of((scene, Images::default()), Integrator::Path);
+        let prepared = PreparedScene::new(&job, || false).expect("nothing cancels");
+        let mut survivals = Vec::new();
+        for index in 0..400 {
+            let explained = prepared.query().explain([20, 15], index, || false);
+            for pair in explained.expect("it is prepared").rays.windows(2) {
+                let survival = pair[1].chosen.expect("it is scattered").survival;
+                let throughput = 0.5 * pair[0].weight.x;
+                assert_near(survival, (throughput / faint).min(1.0), 1e-12);
+                survivals.push(survival);
+            }
+        }
+        assert!(survivals.contains(&0.5), "{survivals:?}");
+    }
 }
 
 /// A light with a size is found by sampling it and by chance; the weights of both are those of the

@@ -380,7 +380,7 @@ fn sampled(lobes: &Lobes, point: &Point, count: u32) -> (f64, f64) {
     let (mut sent, mut above) = (0.0, 0.0);
     for index in 0..count {
         let sampler = Sampler::new(1, 2, index, 3);
-        let [lobe, u, v, _] = sampler.four(0, Use::Bounce);
+        let [u, v, lobe, _] = sampler.four(0, Use::Bounce);
         let direction = lobes.choose(point, lobe, [u, v]);
         let scattered = lobes.scatter(point, direction);
         if 0.0 < scattered.density {
