@@ -6,7 +6,9 @@ mod changes;
 mod history;
 mod hunks;
 mod merge;
+mod pieces;
 mod regions;
+mod sides;
 mod snapshot;
 mod steps;
 #[cfg(test)]
@@ -14,7 +16,8 @@ mod tests;
 mod timeline;
 mod windows;
 
-pub use merge::{Conflict, Merge, Side};
+pub use merge::Merge;
+pub use pieces::{Conflict, Side};
 pub use snapshot::{Merged, Snapshot};
 pub use steps::{State, StateId, StepName};
 pub use timeline::Timeline;
