@@ -3,6 +3,7 @@
 //! A document receives texts and edits. It knows no files, and passes lowered scenes on unread.
 
 mod changes;
+mod difference;
 mod history;
 mod hunks;
 mod merge;
@@ -16,6 +17,7 @@ mod tests;
 mod timeline;
 mod windows;
 
+pub use difference::Difference;
 pub use merge::Merge;
 pub use pieces::{Conflict, Side};
 pub use snapshot::{Merged, Snapshot};
