@@ -100,7 +100,7 @@ impl Merge {
 
     /// The edits that correct the counts of the merged text: both sides may have added or deleted
     /// something, and then state the same count. None if the counts of a side were already wrong.
-    pub(super) fn counts(&self, merged: &Source) -> Vec<Edit> {
+    fn counts(&self, merged: &Source) -> Vec<Edit> {
         let is_exact = |text: &Arc<String>| {
             let source = Source::new(merged.language(), Arc::clone(text));
             source.recount().is_empty()
