@@ -14,6 +14,7 @@ use std::time::{Duration, Instant};
 use similar::DiffOp;
 use similar::algorithms::{Capture, Compact, Replace, myers};
 
+use super::changes::Change;
 use crate::language::{Language, Role, Roles, Source};
 use crate::text::Span;
 
@@ -23,6 +24,13 @@ const PATIENCE: Duration = Duration::from_millis(if cfg!(test) { 3_600_000 } els
 
 /// More unchanged leaves in a row than this are never taken for a coincidence.
 const COINCIDENCE: usize = 4;
+
+/// So many equal chunks before and behind a change are aligned with it: parts of it may as well be
+/// among them.
+const ROOM: usize = 64;
+
+/// Hunks that are so many chunks away from the edges of two windows are never joined.
+pub(super) const APART: usize = COINCIDENCE + 2;
 
 /// The length of a leaf's role.
 const ROLE: usize = size_of::<Role>();
@@ -77,6 +85,15 @@ impl<'t> Chunks<'t> {
     /// The number of chunks.
     pub(super) fn len(&self) -> usize {
         self.bounds.len() - 1
+    }
+
+    /// The last leaf that ends before an offset, and does not touch it.
+    fn leaf_before(&self, offset: usize) -> Option<usize> {
+        let before = self
+            .bounds
+            .partition_point(|&bound| (bound as usize) < offset);
+        let chunk = before.checked_sub(2)?;
+        (chunk + chunk % 2).checked_sub(1)
     }
 
     /// The whole text, of which the chunks are parts.
@@ -153,11 +170,14 @@ pub(super) struct Hunks {
     pub(super) is_certain: bool,
 }
 
-/// The differences between `base` and `other`. Leaves replaced one by one are separate hunks. An
-/// insertion or deletion that could equally have happened a few chunks away covers all those
-/// positions.
-pub(super) fn hunks(base: &Chunks, other: &Chunks) -> Hunks {
-    let raw = fuse(differences(base, other));
+/// The differences between `base` and `other`, whose texts differ by `changes`. Leaves replaced one
+/// by one are separate hunks. An insertion or deletion that could equally have happened a few chunks
+/// away covers all those positions.
+///
+/// Each change is aligned on its own. Among shortest edit scripts of both texts, the choice at one
+/// place would depend on changes far away.
+pub(super) fn hunks(base: &Chunks, other: &Chunks, changes: &[Change]) -> Hunks {
+    let raw = fuse(differences(base, other, changes));
     let mut hunks: Vec<Hunk> = Vec::with_capacity(raw.len());
     for (index, hunk) in raw.iter().enumerate() {
         if hunk.is_structural() {
@@ -194,30 +214,75 @@ pub(super) fn hunks(base: &Chunks, other: &Chunks) -> Hunks {
 }
 
 /// The differences found by the diff, separated by equal chunks.
-fn differences(base: &Chunks, other: &Chunks) -> Vec<Hunk> {
+fn differences(base: &Chunks, other: &Chunks, changes: &[Change]) -> Vec<Hunk> {
     let deadline = Instant::now().checked_add(PATIENCE);
-    let (old, new) = (0..base.len(), 0..other.len());
-    // `capture_diff_deadline` would do the same, and compile all other algorithms too.
-    let mut capture = Compact::new(Replace::new(Capture::new()), base, other);
-    let Ok(()) = myers::diff_deadline(&mut capture, base, old, other, new, deadline);
     let mut hunks: Vec<Hunk> = Vec::new();
-    for op in capture.into_inner().into_inner().into_ops() {
-        if matches!(op, DiffOp::Equal { .. }) {
-            continue;
-        }
-        let (old, new) = (op.old_range(), op.new_range());
-        match hunks.last_mut() {
-            Some(last) if last.base.end == old.start && last.other.end == new.start => {
-                last.base.end = old.end;
-                last.other.end = new.end;
+    for part in parts(base, other, changes) {
+        // `capture_diff_deadline` would do the same, and compile all other algorithms too.
+        let mut capture = Compact::new(Replace::new(Capture::new()), base, other);
+        let Ok(()) =
+            myers::diff_deadline(&mut capture, base, part.base, other, part.other, deadline);
+        for op in capture.into_inner().into_inner().into_ops() {
+            if matches!(op, DiffOp::Equal { .. }) {
+                continue;
             }
-            _ => hunks.push(Hunk {
-                base: old,
-                other: new,
-            }),
+            let (old, new) = (op.old_range(), op.new_range());
+            match hunks.last_mut() {
+                Some(last) if last.base.end == old.start && last.other.end == new.start => {
+                    last.base.end = old.end;
+                    last.other.end = new.end;
+                }
+                _ => hunks.push(Hunk {
+                    base: old,
+                    other: new,
+                }),
+            }
         }
     }
     hunks
+}
+
+/// The chunks around each of the changes; around several if no leaf is between them.
+fn parts(base: &Chunks, other: &Chunks, changes: &[Change]) -> Vec<Hunk> {
+    let cuts = changes.windows(2).filter_map(|pair| {
+        let [end, start] = [pair[0].base.end(), pair[1].base.start()];
+        let middle = end.midpoint(start);
+        let leaf = base.leaf_before(middle)?;
+        let other_leaf = other.leaf_before(pair[1].other.start() - (start - middle))?;
+        let behind = |chunks: &Chunks, leaf: usize, end: usize| {
+            let span = chunks.span(&(leaf..leaf + 1));
+            Some([span.start().checked_sub(end)?, span.end() - end])
+        };
+        let place = behind(base, leaf, end)?;
+        let is_same = behind(other, other_leaf, pair[0].other.end()) == Some(place);
+        is_same.then_some([leaf + 1, other_leaf + 1])
+    });
+    let ends = std::iter::once([base.len(), other.len()]);
+    let mut at = [0, 0];
+    let mut parts = Vec::with_capacity(changes.len());
+    for next in cuts.chain(ends) {
+        parts.push(around(base, at[0]..next[0], other, at[1]..next[1]));
+        at = next;
+    }
+    parts
+}
+
+/// The part of two ranges of chunks that has all their differences, and some equal chunks around
+/// these.
+fn around(base: &Chunks, mut old: Range<usize>, other: &Chunks, mut new: Range<usize>) -> Hunk {
+    let is_same = |&(old, new): &(usize, usize)| base[old] == other[new];
+    let head = old.clone().zip(new.clone()).take_while(is_same).count();
+    let rests = [old.start + head..old.end, new.start + head..new.end];
+    let [rest, other_rest] = rests.map(Iterator::rev);
+    let tail = rest.zip(other_rest).take_while(is_same).count();
+    for range in [&mut old, &mut new] {
+        range.start += head.saturating_sub(ROOM);
+        range.end -= tail.saturating_sub(ROOM);
+    }
+    Hunk {
+        base: old,
+        other: new,
+    }
 }
 
 /// Joins hunks separated by so few unchanged leaves that these may be equal by coincidence: `0 1 2`

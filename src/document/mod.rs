@@ -3,10 +3,13 @@
 //! A document receives texts and edits. It knows no files, and passes lowered scenes on unread.
 
 mod changes;
+mod difference;
 mod history;
 mod hunks;
 mod merge;
+mod pieces;
 mod regions;
+mod sides;
 mod snapshot;
 mod steps;
 #[cfg(test)]
@@ -14,7 +17,9 @@ mod tests;
 mod timeline;
 mod windows;
 
-pub use merge::{Conflict, Merge, Side};
+pub use difference::Difference;
+pub use merge::Merge;
+pub use pieces::{Conflict, Side};
 pub use snapshot::{Merged, Snapshot};
 pub use steps::{State, StateId, StepName};
 pub use timeline::Timeline;

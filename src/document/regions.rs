@@ -12,17 +12,6 @@ pub(super) struct Region {
     pub(super) theirs: Range<usize>,
 }
 
-impl Region {
-    /// The region from this one to a later one.
-    pub(super) fn to(&self, later: &Self) -> Self {
-        Self {
-            base: self.base.start..later.base.end,
-            mine: self.mine.start..later.mine.end,
-            theirs: self.theirs.start..later.theirs.end,
-        }
-    }
-}
-
 /// Aligns the changes of two texts: those that clash share a region.
 pub(super) fn regions(mine: &[Hunk], theirs: &[Hunk]) -> Vec<Region> {
     let (mut mine, mut theirs) = (Walk::new(mine), Walk::new(theirs));

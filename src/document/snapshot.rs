@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
+use super::changes::{Change, LIMITS, Limits, changes};
 use super::{Document, Merge};
 use crate::language;
 use crate::language::{Language, Lowered, Source};
@@ -10,6 +11,9 @@ use crate::memory::OutOfMemory;
 use crate::scene::Meshes;
 use crate::text;
 use crate::text::{Edit, Findings, smallest_edit};
+
+/// Each edit of a text costs as much as parsing a fraction of it.
+const FEW: usize = 4;
 
 /// What a merge with a text from outside needs of a document, at one moment.
 #[derive(Clone, Debug)]
@@ -63,14 +67,15 @@ impl Snapshot {
         if !merge.conflicts.is_empty() {
             return Ok(Err(merge));
         }
-        let (merged, lowered) = self.merged(theirs, &merge, meshes)?;
+        let is_exact = theirs.source.recount().is_empty();
+        let (merged, lowered) = self.merged(theirs, &merge, is_exact, meshes)?;
         if self.agrees(&lowered.diagnostics, &outside, meshes)? {
             return Ok(Ok((merged, lowered)));
         }
         if let Some(apart) = self.set_apart(&outside) {
             let merge = Merge::new(self.language, base, &apart, &outside);
             if merge.conflicts.is_empty() {
-                let (merged, lowered) = self.merged(merged.document, &merge, meshes)?;
+                let (merged, lowered) = self.merged(merged.document, &merge, is_exact, meshes)?;
                 if self.agrees(&lowered.diagnostics, &outside, meshes)? {
                     return Ok(Ok((merged, lowered)));
                 }
@@ -80,19 +85,22 @@ impl Snapshot {
     }
 
     /// The result of a merge without conflicts, made from a document whose saved text is the one
-    /// from outside.
+    /// from outside; `is_exact` tells whether that has the right counts.
     fn merged(
         &self,
         mut document: Document,
         merge: &Merge,
+        is_exact: bool,
         meshes: &Meshes,
     ) -> Result<(Merged, Lowered), OutOfMemory> {
         let mut text = String::clone(&merge.mine);
         let mut back = text::apply(&mut text, &merge.edits());
-        if let Some(edit) = smallest_edit(document.text(), &text) {
-            document.change(&[edit]);
+        lead_to(&mut document, &text);
+        // As in `Merge::counted_edits`.
+        let mut counts = document.source.recount();
+        if !counts.is_empty() && !(is_exact && is_exact_as(&mut document, &merge.mine)) {
+            counts.clear();
         }
-        let counts = merge.counts(&document.source);
         if !counts.is_empty() {
             document.change(&counts);
         }
@@ -137,6 +145,33 @@ impl Snapshot {
         source.change(&edits);
         (!edits.is_empty()).then(|| Arc::clone(source.text()))
     }
+}
+
+/// Gives a document another text, by several edits if they are few: what lies between them is then
+/// not parsed again. Returns the edits that lead back, to be applied one after another.
+fn lead_to(document: &mut Document, text: &str) -> Vec<Edit> {
+    let few = Limits {
+        most: FEW,
+        ..LIMITS
+    };
+    let changes = changes(document.text(), text, few).into_iter().rev();
+    let back = changes.flat_map(|Change { base, other }| {
+        let text = other.of(text).to_owned();
+        document.change(&[Edit { span: base, text }])
+    });
+    let mut back: Vec<_> = back.collect();
+    back.reverse();
+    back
+}
+
+/// Whether a document would have the right counts if it had another text.
+fn is_exact_as(document: &mut Document, text: &str) -> bool {
+    let back = lead_to(document, text);
+    let is_exact = document.source.recount().is_empty();
+    for edit in back {
+        document.change(&[edit]);
+    }
+    is_exact
 }
 
 /// The number of findings of each kind: messages without their numbers, since nodes are counted.

@@ -2,7 +2,7 @@
 //! million objects has tens of millions of leaves.
 
 use super::changes::{Change, LIMITS, changes};
-use super::hunks::{Chunks, Hunks, hunks};
+use super::hunks::{APART, Chunks, Hunks, hunks};
 use crate::language::Language;
 use crate::text;
 use crate::text::Span;
@@ -36,10 +36,22 @@ impl Window {
             is_certain,
         } = found;
         let [is_start, is_end] = self.at_ends;
-        // The first and last chunks are white space that may continue outside.
-        let narrow = (!is_start && reach.start <= 1) || (!is_end && base.len() <= reach.end + 1);
+        let narrow =
+            (!is_start && reach.start < APART) || (!is_end && base.len() < reach.end + APART);
         (narrow || !is_certain) && !all.is_empty()
     }
+}
+
+/// The changes within corresponding spans of the base and of the changed text, relative to these.
+pub(super) fn within(changes: &[Change], base: Span, other: Span) -> Vec<Change> {
+    let first = changes.partition_point(|change| change.base.start() < base.start());
+    let end = changes.partition_point(|change| change.base.end() <= base.end());
+    let from = |start: usize, span: Span| Span::new(span.start() - start, span.end() - start);
+    let relative = |change: &Change| Change {
+        base: from(base.start(), change.base),
+        other: from(other.start(), change.other),
+    };
+    changes[first..end].iter().map(relative).collect()
 }
 
 /// Maps a span of the base, which contains all of each change or none of it, to the changed text.
@@ -124,10 +136,9 @@ pub fn differences(language: Language, text: &str, other: &str) -> usize {
         let mut count = 0;
         for window in windows(text, &[], &changes, margin) {
             let base = Chunks::of(language, window.base.of(text), window.at_ends);
-            let hunks = hunks(
-                &base,
-                &Chunks::of(language, window.theirs.of(other), window.at_ends),
-            );
+            let other = Chunks::of(language, window.theirs.of(other), window.at_ends);
+            let within = within(&changes, window.base, window.theirs);
+            let hunks = hunks(&base, &other, &within);
             if window.is_narrow(&base, &hunks) {
                 return None;
             }
@@ -201,7 +212,8 @@ mod tests {
                 let [window] = windows[..] else { return Some(Vec::new()) };
                 let chunks = Chunks::of(Language::Ray, window.base.of(&base), window.at_ends);
                 let others = Chunks::of(Language::Ray, window.theirs.of(&other), window.at_ends);
-                let hunks = hunks(&chunks, &others);
+                let within = within(&changes, window.base, window.theirs);
+                let hunks = hunks(&chunks, &others, &within);
                 let bytes = |hunk: &Hunk| [
                     chunks.span(&hunk.base).shifted(window.base.start()),
                     others.span(&hunk.other).shifted(window.theirs.start()),

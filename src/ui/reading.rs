@@ -3,13 +3,13 @@
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use crate::document::{Document, Merge, Merged, Snapshot};
+use crate::document::{Difference, Document, Merge, Merged, Snapshot};
 use crate::file;
 use crate::file::FileId;
 use crate::language::{self, Lowered};
 use crate::memory::OutOfMemory;
 use crate::scene::Meshes;
-use crate::text::{Edit, Findings, smallest_edit};
+use crate::text::Findings;
 
 /// State that a text read from disk is compared with.
 #[derive(Clone, Debug)]
@@ -83,8 +83,8 @@ pub enum News {
 pub struct Meaning {
     /// The result of lowering.
     pub lowered: Lowered,
-    /// The edit that turns the text under edit into this one.
-    pub edit: Option<Edit>,
+    /// How the text differs from the one under edit, if it does.
+    pub difference: Option<Difference>,
 }
 
 impl Reading {
@@ -112,10 +112,13 @@ impl News {
         language::fits(before.language, &text, text.len())?;
         let mut document = Document::new(before.language, text);
         let lowered = document.lower(&baseline.meshes)?;
-        let edit = |text: &str| smallest_edit(before.text(), text);
+        let meaning = |lowered: Lowered, text: &str| Meaning {
+            lowered,
+            difference: Difference::of(before.text(), text),
+        };
         if before.edited.is_none() {
-            let edit = edit(document.text());
-            return Ok(Self::Text(document, Meaning { lowered, edit }));
+            let meaning = meaning(lowered, document.text());
+            return Ok(Self::Text(document, meaning));
         }
         if lowered.scene.is_none() {
             return Ok(Self::Broken(document.shared_text(), lowered.diagnostics));
@@ -124,8 +127,8 @@ impl News {
             Ok(merged) => merged,
             Err(merge) => return Ok(Self::Conflict(merge)),
         };
-        let edit = edit(merged.document.text());
-        Ok(Self::Merged(merged, Meaning { lowered, edit }))
+        let meaning = meaning(lowered, merged.document.text());
+        Ok(Self::Merged(merged, meaning))
     }
 
     /// Whether the text that was read has errors.

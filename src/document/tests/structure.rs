@@ -439,6 +439,34 @@ fn materials_that_both_sides_add_under_one_name_are_given_two() {
 }
 
 #[test]
+fn a_change_stays_with_what_the_other_side_swapped_with_its_neighbour() {
+    let material = |name: &str, kind: &str, value: &str| {
+        let diffuse = format!("<diffuse value=\"{value}\"/>");
+        format!("    <material type=\"{kind}\" name=\"{name}\">{diffuse}</material>\n")
+    };
+    let [a, b] = [("a", ".1"), ("b", ".2")].map(|(name, value)| material(name, "blinn", value));
+    let both = format!("{a}{b}");
+    let base = XML.replace("    <light", &format!("{both}    <light"));
+    let swap = (&*both, &*format!("{b}{a}"));
+    let change_a = (&*a, &*material("a", "phong", ".1"));
+    let change_b = (&*b, &*material("b", "phong", ".2"));
+    let mut asked = 0;
+    for (change, expected) in [
+        (change_a, format!("{b}{}", change_a.1)),
+        (change_b, format!("{}{a}", change_b.1)),
+    ] {
+        for sides in [[swap, change], [change, swap]] {
+            match merged(Language::Xml, &base, sides) {
+                Ok(merged) => assert_eq!(merged, base.replace(&both, &expected)),
+                Err(conflicts) => asked += conflicts.len(),
+            }
+        }
+    }
+    // One of the two is the one that was moved.
+    assert_eq!(asked, 2);
+}
+
+#[test]
 fn sides_that_are_sound_only_alone_are_asked_about() {
     let mat = "mat ID 2 1 0 0 .1 .5 .4 9 0 0 1\n";
     let base = DAT.replace("\n# last material", &format!("{mat}\n# last material"));

@@ -8,6 +8,7 @@ mod insertions;
 mod lower;
 mod motion;
 mod origins;
+mod roles;
 mod room;
 mod structure;
 mod table;

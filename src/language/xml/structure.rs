@@ -6,8 +6,9 @@ use std::collections::HashSet;
 use super::copies::Copies;
 use super::table::ObjectKind;
 use super::tree::{escaped, quote};
-use super::{Source, add, apart};
+use super::{Source, add, apart, roles};
 use crate::language::frame::frameless;
+use crate::language::roles::Roles;
 use crate::language::structure::{Block, deletions, follows, line_before, lines, uncreatable};
 use crate::language::table::Category;
 use crate::language::view::{line_ending, line_from};
@@ -91,6 +92,10 @@ impl Restructure for Source {
             Neighbour::Previous => ([other, own], [spans[1], spans[0]]),
         };
         Ok(structure::exchange(&self.text, blocks, parts, neighbour))
+    }
+
+    fn roles(&self, leaves: &[Span], _: [bool; 2]) -> Roles {
+        roles::roles(&self.text, &self.tree, leaves)
     }
 
     fn set_apart(&self, base: &str, theirs: &str) -> Vec<Edit> {

@@ -20,7 +20,7 @@ impl App {
         let text = self.document.text();
         let (place, values) = match edits {
             [edit] if is_value(edit.span.of(text)) && is_value(&edit.text) => {
-                let place = name_of(self.source(), edit.span)?;
+                let place = name_of(self.source(), &[edit.span])?;
                 (place, [edit.span.of(text), &edit.text].map(shortened))
             }
             [_] => return None,
@@ -42,7 +42,7 @@ impl App {
             spans if MOST_READ < spans.len() => {
                 format!("changed {}", counted(spans.len(), "place"))
             }
-            [span] => match name_of(self.source(), *span) {
+            [span] => match name_of(self.source(), &[*span]) {
                 Some(place) => format!("changed {place}"),
                 None => return StepName::default(),
             },

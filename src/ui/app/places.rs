@@ -1,5 +1,7 @@
 //! Names of places in the text.
 
+use std::collections::BTreeMap;
+
 use super::App;
 use crate::language::{Node, Source};
 use crate::text::{Position, Span};
@@ -11,7 +13,7 @@ impl App {
     /// The name of a place in the text, such as `object 4 (sphere) centre x`, or of the nodes that
     /// it covers; `None` if there are none.
     pub fn place_name(&self, span: Span) -> Option<String> {
-        name_of(self.source(), span)
+        name_of(self.source(), &[span])
     }
 
     /// Describes how many errors the text has and where the first one is.
@@ -25,44 +27,51 @@ impl App {
     }
 }
 
-/// The name of a place in any text.
-pub(super) fn name_of(source: &Source, span: Span) -> Option<String> {
+/// The name of places in any text; `None` if no node is there.
+pub(super) fn name_of(source: &Source, spans: &[Span]) -> Option<String> {
+    let mut touched: BTreeMap<Node, Vec<Span>> = BTreeMap::new();
+    for span in spans {
+        for node in nodes_at(source, *span) {
+            touched.entry(node).or_default().push(*span);
+        }
+    }
+    if touched.len() <= NAMED {
+        let names = touched
+            .iter()
+            .map(|(&node, spans)| name_in(source, node, spans));
+        return names.reduce(|names, name| format!("{names}, {name}"));
+    }
+    let (first, last) = (touched.first_key_value()?, touched.last_key_value()?);
+    let [first, last] = [first, last].map(|(&node, _)| source.name(node));
+    Some(format!("{} items, {first} to {last}", touched.len()))
+}
+
+/// The nodes that a place covers, or is in.
+fn nodes_at(source: &Source, span: Span) -> Vec<Node> {
     // These comments may be inside the text of another node.
     for node in [Node::View, Node::Render] {
         let own = source.span(node);
         if own.start() <= span.start() && span.end() <= own.end() && !own.is_empty() {
-            return Some(name_in(source, node, span));
+            return vec![node];
         }
     }
     let touched = source.nodes_in(span);
-    match touched.as_slice() {
-        [] => {
-            let node = source.node_at(span)?;
-            Some(name_in(source, node, span))
-        }
-        [node] => Some(name_in(source, *node, span)),
-        [first, .., last] if NAMED < touched.len() => Some(format!(
-            "{} items, {} to {}",
-            touched.len(),
-            source.name(*first),
-            source.name(*last)
-        )),
-        several => {
-            let names: Vec<_> = several.iter().map(|&node| source.name(node)).collect();
-            Some(names.join(", "))
-        }
+    if touched.is_empty() {
+        return source.node_at(span).into_iter().collect();
     }
+    touched
 }
 
-/// A node's name, with the field and component if the span overlaps only one.
-fn name_in(source: &Source, node: Node, span: Span) -> String {
-    let overlaps = |place: &Span| {
+/// A node's name, with the field and component if the spans overlap only one.
+fn name_in(source: &Source, node: Node, spans: &[Span]) -> String {
+    let overlap = |place: &Span, span: &Span| {
         if span.is_empty() {
-            place.touches(span)
+            place.touches(*span)
         } else {
             place.start() < span.end() && span.start() < place.end()
         }
     };
+    let overlaps = |place: &Span| spans.iter().any(|span| overlap(place, span));
     let name = source.name(node);
     let fields = source.fields(node);
     let mut touched = fields
@@ -120,8 +129,28 @@ sphere 2 0 0 1 0 0 0 0 0 0 0 0 0 1 0 0 1
             (0, text.len(), "5 items, ambient to object 3 (sphere)"),
         ] {
             let span = Span::new(from, until);
-            let found = name_of(&source, span);
+            let found = name_of(&source, &[span]);
             assert_eq!(found.as_deref(), Some(name), "{from}..{until}");
+        }
+        let [radius, centre, other] = [("0 0 0 1", 6), ("1 0 0 1", 0), ("2 0 0 1", 0)]
+            .map(|(part, number)| Span::at(at(&format!("sphere {part}")) + 7 + number));
+        let named = |spans: &[Span]| name_of(&source, spans);
+        for (spans, name) in [
+            (&[][..], None),
+            (
+                &[radius, other],
+                Some("object 1 (sphere) radius, object 3 (sphere) centre x"),
+            ),
+            (
+                &[centre, other],
+                Some("object 2 (sphere) centre x, object 3 (sphere) centre x"),
+            ),
+            (
+                &[radius, centre, other],
+                Some("3 items, object 1 (sphere) to object 3 (sphere)"),
+            ),
+        ] {
+            assert_eq!(named(spans).as_deref(), name);
         }
     }
 }

@@ -7,12 +7,13 @@ use std::time::Duration;
 
 use super::cursor::SavedCursor;
 use super::disk::{Faulty, Requester, Settle};
+use super::places::name_of;
 use super::{App, Dialog, OnDisk, Outside, PromptKind};
-use crate::document::{Adopted, StepName};
+use crate::document::{Adopted, Difference, StepName};
 use crate::file;
 use crate::file::ReadError;
 use crate::language::Lowered;
-use crate::text::{Edit, Findings, Position, counted, smallest_edit};
+use crate::text::{Findings, Position, counted};
 use crate::ui::keymap::Action;
 use crate::ui::msg::{Effect, Guard};
 use crate::ui::reading::{Baseline, News, Reading};
@@ -234,7 +235,7 @@ impl App {
             }
         };
         let former = (document, self.scene.clone());
-        self.show_reload(&held, meaning.edit.as_ref(), meaning.lowered, &words);
+        self.show_reload(&held, meaning.difference.as_ref(), meaning.lowered, &words);
         vec![Effect::Free(Arc::new(former))]
     }
 
@@ -251,11 +252,11 @@ impl App {
     }
 
     /// Installs the new meaning of the text, keeps the cursor in place and reports the change;
-    /// `edit` leads from the previous text to this one.
+    /// `difference` is from the previous text to this one.
     fn show_reload(
         &mut self,
         held: &SavedCursor,
-        edit: Option<&Edit>,
+        difference: Option<&Difference>,
         lowered: Lowered,
         words: &Wording,
     ) {
@@ -264,6 +265,7 @@ impl App {
         }
         let (scene, sound) = (self.scene.clone(), self.error_count() == 0);
         self.install(lowered);
+        let edit = difference.map(|difference| &difference.edit);
         let lost = self.cursor.follow(held, edit, self.document.source());
         self.keep_mode();
         if 0 < self.error_count() {
@@ -276,11 +278,11 @@ impl App {
             ));
         } else {
             let sound = self.disk.sound.take();
-            let from_sound = sound.map(|sound| smallest_edit(&sound, self.document.text()));
+            let from_sound = sound.map(|sound| Difference::of(&sound, self.document.text()));
             let place = from_sound
                 .as_ref()
-                .map_or(edit, Option::as_ref)
-                .and_then(|edit| self.place_name(edit.placed()));
+                .map_or(difference, Option::as_ref)
+                .and_then(|difference| name_of(self.source(), &difference.places));
             let is_same = match (&scene, &self.scene) {
                 (Some(before), Some(after)) => Arc::ptr_eq(before, after),
                 _ => false,
@@ -399,9 +401,9 @@ impl App {
             }
             Adopted::Taken => {
                 self.disk.state = OnDisk::Known;
-                let edit = smallest_edit(&held.text, self.document.text());
+                let difference = Difference::of(&held.text, self.document.text());
                 let lowered = self.lowered();
-                self.show_reload(&held, edit.as_ref(), lowered, &ADOPTED);
+                self.show_reload(&held, difference.as_ref(), lowered, &ADOPTED);
             }
             Adopted::OutOfDate => self
                 .overlays

@@ -1,0 +1,151 @@
+//! How a text differs from another, for the reader: one edit, and the places that it changes.
+
+use similar::algorithms::{Capture, Replace, myers};
+
+use super::changes::{Change, LIMITS, Limits, changes};
+use crate::text;
+use crate::text::{Edit, Span};
+
+/// Changes are told apart more finely than for merging, and sooner given up: of each, only the next
+/// few objects are read.
+const FINE: Limits = Limits {
+    near: 0,
+    reach: 1 << 10,
+    most: 1 << 12,
+    ..LIMITS
+};
+
+/// A change of more bytes than this is one place.
+const LONG: usize = 1 << 14;
+
+/// A difference between two texts.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Difference {
+    /// The smallest edit that turns one text into the other.
+    pub edit: Edit,
+    /// The spans of the other text in which it differs, in order; empty where something is missing.
+    /// One from the first to the last if they are thousands.
+    pub places: Vec<Span>,
+}
+
+impl Difference {
+    /// How `other` differs from `text`; `None` if they are equal.
+    pub fn of(text: &str, other: &str) -> Option<Self> {
+        let changes = changes(text, other, FINE);
+        let (first, last) = (changes.first()?, changes.last()?);
+        let edit = Edit {
+            span: first.base.to(last.base),
+            text: first.other.to(last.other).of(other).to_owned(),
+        };
+        let mut places = Vec::with_capacity(changes.len());
+        for change in changes {
+            if change.base.len().max(change.other.len()) <= LONG {
+                places.extend(places_of([text, other], change));
+            } else {
+                places.push(change.other);
+            }
+        }
+        Some(Self { edit, places })
+    }
+}
+
+/// The places of a change, line by line: lines replaced one by one are places of their own.
+fn places_of([text, other]: [&str; 2], change: Change) -> Vec<Span> {
+    let ends = [(text, change.base.end()), (other, change.other.end())];
+    let is_whole = ends
+        .iter()
+        .all(|&(text, end)| text::line_start(text, end) == end);
+    let [old, new] = [(text, change.base), (other, change.other)].map(|(text, span)| {
+        let start = text::line_start(text, span.start());
+        let end = if is_whole {
+            span.end()
+        } else {
+            text::next_line(text, span.end())
+        };
+        bounds(text, Span::new(start, end))
+    });
+    let lines = [(text, &old), (other, &new)].map(|(text, bounds)| {
+        let lines = bounds.windows(2).map(|line| &text[line[0]..line[1]]);
+        lines.collect::<Vec<_>>()
+    });
+    let mut capture = Replace::new(Capture::new());
+    let (from, to) = (0..lines[0].len(), 0..lines[1].len());
+    let Ok(()) = myers::diff(&mut capture, &lines[0], from, &lines[1], to);
+    let mut places = Vec::new();
+    for op in capture.into_inner().into_ops() {
+        let (lines, others) = (op.old_range(), op.new_range());
+        let pairs: Vec<_> = if lines.len() == others.len() {
+            lines
+                .zip(others)
+                .map(|(line, of_other)| [line..line + 1, of_other..of_other + 1])
+                .collect()
+        } else {
+            vec![[lines, others]]
+        };
+        places.extend(pairs.into_iter().filter_map(|[lines, others]| {
+            let start = new[others.start];
+            let [_, changed] = text::difference(
+                &text[old[lines.start]..old[lines.end]],
+                &other[start..new[others.end]],
+            )?;
+            Some(changed.shifted(start))
+        }));
+    }
+    places
+}
+
+/// The starts of the lines of a span, then its end.
+fn bounds(text: &str, span: Span) -> Vec<usize> {
+    let next = |&start: &usize| (start < span.end()).then(|| text::next_line(text, start));
+    std::iter::successors(Some(span.start()), next).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    /// The changed places of the other text.
+    fn places<'t>(text: &str, other: &'t str) -> Vec<&'t str> {
+        let found = Difference::of(text, other);
+        let places = found.map_or_else(Vec::new, |found| found.places);
+        places.into_iter().map(|place| place.of(other)).collect()
+    }
+
+    #[test]
+    fn places_are_what_changed_in_each_line() {
+        let text = "a 1\nb 2\nc 3\nd 4\n";
+        assert!(places(text, text).is_empty());
+        assert_eq!(places(text, "a 5\nb 2\nc 3\nd 6\n"), ["5", "6"]);
+        assert_eq!(places(text, "a 1\nb 2\nx\nc 3\nd 6\n"), ["x\n", "6"]);
+        assert_eq!(places(text, "a 1\nc 30\nd 4"), ["c 30\nd 4"]);
+        assert_eq!(places("a 1", "a 1\n2 3"), ["\n2 3"]);
+    }
+
+    #[test]
+    fn two_changes_of_a_long_text_are_two_places() {
+        let text: String = (0..100_000)
+            .map(|number| format!("row {number}\n"))
+            .collect();
+        let other = text
+            .replace("row 7\n", "row x\n")
+            .replace("row 99990", "row y");
+        assert_eq!(places(&text, &other), ["x", "y"]);
+    }
+
+    proptest! {
+        #![proptest_config(crate::repeatable())]
+
+        #[test]
+        fn the_edit_covers_the_places(text in "[aé \n\r]{0,30}", other in "[aé \n\r]{0,30}") {
+            let found = Difference::of(&text, &other);
+            let edit = found.as_ref().map(|found| found.edit.clone());
+            prop_assert_eq!(&edit, &text::smallest_edit(&text, &other));
+            for Difference { edit, places } in found {
+                prop_assert!(!places.is_empty());
+                prop_assert!(places.is_sorted_by_key(|place| place.start()));
+                let _ = edit;
+            }
+        }
+    }
+}
