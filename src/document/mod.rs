@@ -7,6 +7,7 @@ mod difference;
 mod history;
 mod hunks;
 mod merge;
+mod numbers;
 mod pieces;
 mod regions;
 mod sides;
@@ -19,6 +20,7 @@ mod windows;
 
 pub use difference::Difference;
 pub use merge::Merge;
+pub use numbers::Numbers;
 pub use pieces::{Conflict, Side};
 pub use snapshot::{Merged, Snapshot};
 pub use steps::{State, StateId, StepName};

@@ -68,8 +68,8 @@ pub use saved::{SavedView, view_name};
 pub use structure::{Addition, Neighbour, Placement, Pose, Restructure, StructureError, Wish};
 
 /// Declares the languages, one per line, by folder name, which is also the file extension. A folder
-/// provides `Source`, `errors_of_beginning`, `tree_bytes`, `write`, `LEAVES_KEEP_TO_LINES`, `TEMPLATE`
-/// and `SKELETON`.
+/// provides `Source`, `errors_of_beginning`, `tree_bytes`, `write`, `LEAVES_KEEP_TO_LINES`,
+/// `LOWERS_NUMBERS`, `TEMPLATE` and `SKELETON`.
 macro_rules! languages {
     ($($(#[$doc:meta])* $name:ident in $folder:ident,)+) => {
         /// The supported scene languages.
@@ -107,6 +107,13 @@ macro_rules! languages {
             pub const fn leaves_keep_to_lines(self) -> bool {
                 match self {
                     $(Self::$name => $folder::LEAVES_KEEP_TO_LINES,)+
+                }
+            }
+
+            /// Whether [`Answers::lower_numbers`] may succeed.
+            pub const fn lowers_numbers(self) -> bool {
+                match self {
+                    $(Self::$name => $folder::LOWERS_NUMBERS,)+
                 }
             }
 
@@ -289,6 +296,10 @@ pub trait Editable: Debug {
     /// version.
     fn change(&mut self, edits: &[Edit]) -> Vec<Edit>;
 
+    /// Replaces the text by the one that an edit turns it into, and returns it; see
+    /// [`Editable::change`].
+    fn substitute(&mut self, text: Arc<String>, edit: &Edit) -> Arc<String>;
+
     /// Applies the inverse of the last change, and restores the places of the text before that, even
     /// if the changed text was lowered.
     fn revert(&mut self, inverse: &[Edit]);
@@ -306,9 +317,16 @@ pub trait Answers: Editable + Restructure {
     /// Fails if the scene does not fit into memory; then no node has a place.
     fn lower(&mut self, meshes: &Meshes) -> Result<Lowered, OutOfMemory>;
 
-    /// As [`Answers::lower`] after an edit that replaced the bytes `old` by `changed`, but faster
-    /// for numbers of one object among very many. `before` is the result that belongs to the current
-    /// places; without findings, it may also be that of another such edit of the same object.
+    /// As [`Answers::lower`] after an edit that replaced the bytes `old` by `changed`, in the time
+    /// that one object takes, if they are numbers of one object; `None`, without any effect, if more
+    /// may have changed. `before` is the result that belongs to the current places; without findings,
+    /// it may also be that of another such edit of the same object.
+    fn lower_numbers(&mut self, before: Before<'_>, [old, changed]: [Span; 2]) -> Option<Lowered> {
+        let _ = (before, old, changed);
+        None
+    }
+
+    /// As [`Answers::lower`] after an edit, but faster where [`Answers::lower_numbers`] is possible.
     ///
     /// # Errors
     ///
@@ -317,10 +335,12 @@ pub trait Answers: Editable + Restructure {
         &mut self,
         meshes: &Meshes,
         before: Before<'_>,
-        [old, changed]: [Span; 2],
+        spans: [Span; 2],
     ) -> Result<Lowered, OutOfMemory> {
-        let _ = (before, old, changed);
-        self.lower(meshes)
+        match self.lower_numbers(before, spans) {
+            Some(lowered) => Ok(lowered),
+            None => self.lower(meshes),
+        }
     }
 
     /// The meaningful parts of the text, in order: tokens, and whole comments. Between them is only

@@ -1,6 +1,7 @@
 //! The state that every language keeps of a text.
 
 use std::fmt::Debug;
+use std::mem;
 use std::sync::Arc;
 
 use super::{Editable, Lowered};
@@ -48,7 +49,7 @@ impl<Tree, Origins: Default> Written<Tree, Origins> {
 
     /// Stores the places found by a lowering.
     pub(super) fn place(&mut self, origins: Origins) {
-        let before = std::mem::replace(&mut self.origins, origins);
+        let before = mem::replace(&mut self.origins, origins);
         // Of several lowerings of one text, the first replaced the places of the text before.
         self.former.get_or_insert(before);
     }
@@ -79,6 +80,13 @@ impl<Tree: Debug + Parse, Origins: Debug + Default> Editable for Written<Tree, O
         self.tree.follow(&self.text, [old, changed]);
         self.former = None;
         inverse
+    }
+
+    fn substitute(&mut self, text: Arc<String>, edit: &Edit) -> Arc<String> {
+        let before = mem::replace(&mut self.text, text);
+        self.tree.follow(&self.text, [edit.span, edit.placed()]);
+        self.former = None;
+        before
     }
 
     fn revert(&mut self, inverse: &[Edit]) {

@@ -158,6 +158,7 @@ fn nothing(language: Language) -> Baseline {
         scene: Document::new(language, String::new()).snapshot(),
         saving: None,
         meshes: Meshes::default(),
+        is_sound: false,
     }
 }
 

@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use crate::document::{Difference, Document, Merge, Merged, Snapshot};
+use crate::document::{Difference, Document, Merge, Merged, Numbers, Snapshot};
 use crate::file;
 use crate::file::FileId;
 use crate::language::{self, Lowered};
@@ -20,6 +20,8 @@ pub struct Baseline {
     pub saving: Option<Arc<String>>,
     /// The meshes read so far.
     pub meshes: Meshes,
+    /// Whether the text under edit has no errors, so that numbers can be lowered alone.
+    pub is_sound: bool,
 }
 
 /// The contents of a file.
@@ -68,6 +70,8 @@ impl SceneFolder {
 /// A text that differs from the one last saved.
 #[derive(Debug)]
 pub enum News {
+    /// There are no unsaved edits, and only numbers differ.
+    Numbers(Numbers),
     /// There are no unsaved edits.
     Text(Document, Meaning),
     /// The text was merged with unsaved edits.
@@ -95,7 +99,7 @@ impl Reading {
         {
             None
         } else {
-            Some(Box::new(News::new(text, &baseline)?))
+            Some(Box::new(News::of(text, &baseline)?))
         };
         Ok(Self {
             baseline,
@@ -106,7 +110,18 @@ impl Reading {
 }
 
 impl News {
-    fn new(text: String, baseline: &Baseline) -> Result<Self, OutOfMemory> {
+    fn of(text: String, baseline: &Baseline) -> Result<Self, OutOfMemory> {
+        if !baseline.is_sound {
+            return Self::of_whole(text, baseline);
+        }
+        match baseline.scene.numbers(text) {
+            Ok(numbers) => Ok(Self::Numbers(numbers)),
+            Err(text) => Self::of_whole(text, baseline),
+        }
+    }
+
+    /// Parses and lowers a text as a whole.
+    fn of_whole(text: String, baseline: &Baseline) -> Result<Self, OutOfMemory> {
         let before = &baseline.scene;
         // A document keeps the saved text beside the one under edit.
         language::fits(before.language, &text, text.len())?;
@@ -136,7 +151,7 @@ impl News {
         match self {
             Self::Text(_, meaning) => meaning.lowered.scene.is_none(),
             Self::Broken(..) => true,
-            Self::Merged(..) | Self::Conflict(_) => false,
+            Self::Numbers(_) | Self::Merged(..) | Self::Conflict(_) => false,
         }
     }
 }

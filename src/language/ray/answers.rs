@@ -20,16 +20,11 @@ impl Answers for Source {
         self.store(found)
     }
 
-    fn lower_again(
-        &mut self,
-        meshes: &Meshes,
-        before: Before<'_>,
-        spans: [Span; 2],
-    ) -> Result<Lowered, OutOfMemory> {
-        match again::lower(&self.text, &self.tree, &self.origins, &before, spans) {
-            Some(found) => self.store(Ok(found)),
-            None => self.lower(meshes),
-        }
+    fn lower_numbers(&mut self, before: Before<'_>, spans: [Span; 2]) -> Option<Lowered> {
+        let found = again::lower(&self.text, &self.tree, &self.origins, &before, spans);
+        let (origins, lowered) = found?;
+        self.place(origins);
+        Some(lowered)
     }
 
     fn leaves(&self) -> Vec<Span> {

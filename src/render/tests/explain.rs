@@ -195,8 +195,13 @@ fn densities_of_a_path_are_those_of_its_lobes() {
 /// Roulette begins at a throughput of 1/16, where light is sampled at random at 1/4.
 #[test]
 fn roulette_begins_earlier_where_light_is_sampled_at_random() {
+    let dark = Coefficients {
+        diffuse: Rgb::splat(0.1),
+        ..BLACK
+    };
+    let room = cuboid([-9.0; 3], [18.0; 3]);
     for (size, faint) in [(0.0, 1.0 / 16.0), (0.5, 1.0 / 4.0)] {
-        let mut scene = ball();
+        let mut scene = scene(&[(room.clone(), dark)], &[white_light([3.0, 4.0, 5.0])]);
         let Emitter::Point { radius, .. } = &mut scene.lights[0].emitter else {
             panic!("a point light");
         };
@@ -208,12 +213,12 @@ fn roulette_begins_earlier_where_light_is_sampled_at_random() {
             let explained = prepared.query().explain([20, 15], index, || false);
             for pair in explained.expect("it is prepared").rays.windows(2) {
                 let survival = pair[1].chosen.expect("it is scattered").survival;
-                let throughput = 0.5 * pair[0].weight.x;
+                let throughput = 0.1 * pair[0].weight.x;
                 assert_near(survival, (throughput / faint).min(1.0), 1e-12);
                 survivals.push(survival);
             }
         }
-        assert!(survivals.contains(&0.5), "{survivals:?}");
+        assert!(survivals.iter().any(|survival| *survival < 1.0));
     }
 }
 

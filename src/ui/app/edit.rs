@@ -1,10 +1,13 @@
 //! Changing fields: every change is an edit of the text, and edits that cause errors are refused.
 
+use std::sync::Arc;
+
 use super::App;
 use super::assets::Notice;
 use super::cursor::Names;
 use crate::assets::{Loaded, Wanted};
 use crate::language::{Before, Lowered, Node, Nodes};
+use crate::scene::Scene;
 use crate::text::{Diagnostic, Edit, Findings, Span, cover, parse_number};
 use crate::ui::keymap::{Action, Mode};
 
@@ -42,18 +45,22 @@ impl App {
     /// Lowers the text after an edit that replaced the bytes `old` by `changed`, reusing what is
     /// known from before the edit.
     fn lowered_again(&mut self, old: Span, changed: Span) -> Lowered {
-        let sound = self.error_count() == 0;
-        let Some(scene) = self.scene.as_ref().filter(|_| sound) else {
+        let Some(scene) = self.sound_scene() else {
             return self.lowered();
         };
         let before = Before {
-            scene,
+            scene: &scene,
             diagnostics: &self.reported,
         };
         let lowered = self
             .document
             .lower_again(&self.assets.meshes, before, [old, changed]);
         lowered.unwrap_or_else(|refused| Lowered::refused(&refused))
+    }
+
+    /// The scene if the text has no errors.
+    pub(super) fn sound_scene(&self) -> Option<Arc<Scene>> {
+        self.scene.clone().filter(|_| self.error_count() == 0)
     }
 
     /// Lowers the text. If there is not enough memory, the result is only an error.

@@ -144,7 +144,7 @@ impl App {
                 meaning.lowered
             }
             // Without edits there is nothing to merge, and only an empty file changes nothing.
-            Some(News::Merged(..) | News::Conflict(_) | News::Broken(..)) | None => self.lowered(),
+            _ => self.lowered(),
         };
         self.begin(lowered)
     }

@@ -9,10 +9,10 @@ use super::cursor::SavedCursor;
 use super::disk::{Faulty, Requester, Settle};
 use super::places::name_of;
 use super::{App, Dialog, OnDisk, Outside, PromptKind};
-use crate::document::{Adopted, Difference, StepName};
+use crate::document::{Adopted, Difference, Numbers, StepName};
 use crate::file;
 use crate::file::ReadError;
-use crate::language::Lowered;
+use crate::language::{Before, Lowered};
 use crate::text::{Findings, Position, counted};
 use crate::ui::keymap::Action;
 use crate::ui::msg::{Effect, Guard};
@@ -91,6 +91,7 @@ impl App {
             scene: self.document.snapshot(),
             saving: self.text_being_saved().cloned(),
             meshes: self.assets.meshes.clone(),
+            is_sound: self.sound_scene().is_some(),
         }
     }
 
@@ -126,7 +127,10 @@ impl App {
             return effects;
         }
         let effects = self.take_read(read);
-        self.resume_frame();
+        let reads = |effect: &Effect| matches!(effect, Effect::Read(..));
+        if !effects.iter().any(reads) {
+            self.resume_frame();
+        }
         effects
     }
 
@@ -213,8 +217,18 @@ impl App {
             return effects;
         }
         let held = self.cursor.hold(self.document.shared_text());
-        self.disk.state = OnDisk::Known;
+        let state = std::mem::replace(&mut self.disk.state, OnDisk::Known);
         let (document, meaning, words) = match *news {
+            News::Numbers(numbers) => {
+                return self.take_numbers(numbers, &held).unwrap_or_else(|| {
+                    self.disk.state = state;
+                    let baseline = self.baseline();
+                    self.disk.read(Baseline {
+                        is_sound: false,
+                        ..baseline
+                    })
+                });
+            }
             News::Text(document, meaning) => (self.document.load(document), meaning, RELOADED),
             News::Merged(merged, meaning) => {
                 let words = if merged.document.is_dirty() {
@@ -237,6 +251,19 @@ impl App {
         let former = (document, self.scene.clone());
         self.show_reload(&held, meaning.difference.as_ref(), meaning.lowered, &words);
         vec![Effect::Free(Arc::new(former))]
+    }
+
+    /// Takes a text in which numbers differ; `None` if they are not of one object.
+    fn take_numbers(&mut self, numbers: Numbers, held: &SavedCursor) -> Option<Vec<Effect>> {
+        let difference = numbers.difference();
+        let scene = self.sound_scene()?;
+        let before = Before {
+            scene: &scene,
+            diagnostics: &self.reported,
+        };
+        let (texts, lowered) = self.document.take_numbers(numbers, before)?;
+        self.show_reload(held, Some(&difference), lowered, &RELOADED);
+        Some(vec![Effect::Free(Arc::new((texts, scene)))])
     }
 
     /// Keeps a text with errors apart from unsaved edits.

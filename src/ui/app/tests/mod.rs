@@ -25,6 +25,7 @@ pub(in crate::ui) mod pictures;
 mod playing;
 mod rebinding;
 mod recovering;
+mod reloading;
 mod saving;
 mod sequences;
 mod soloing;

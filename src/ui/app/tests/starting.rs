@@ -24,6 +24,7 @@ fn found(name: &str, text: &str) -> Opened {
         scene: Document::new(language, String::new()).snapshot(),
         saving: None,
         meshes: Meshes::default(),
+        is_sound: false,
     };
     Opened::Read(Reading::new(text.to_owned(), nothing).expect("it fits"))
 }

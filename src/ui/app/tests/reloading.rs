@@ -1,0 +1,124 @@
+//! Numbers that another program changes in a long text.
+
+use std::fmt::Write as _;
+use std::sync::Arc;
+
+use super::*;
+use crate::language::{Language, Node, Source};
+use crate::scene::Meshes;
+use crate::ui::reading::News;
+
+/// Objects of a text that is long enough not to be parsed as a whole.
+const OBJECTS: usize = 12_000;
+
+fn long() -> String {
+    let mut text = format!(
+        "// view: eye 0 0 9 target 0 0 0\n.1 .1 .1\n1\n5 5 5\n1 1 1\n{OBJECTS} // objects\n"
+    );
+    for number in 0..OBJECTS {
+        let material = ".1 .1 .1  .45 .45 .45  .5 .5 .5  5 .5 0 1";
+        writeln!(
+            text,
+            "sphere {number} 0 0 0.75  {material} // a comment of some length"
+        )
+        .expect("texts grow");
+    }
+    text
+}
+
+/// Delivers a text, again where the application asks for it; returns how often.
+fn deliver(app: &mut App, text: &str) -> usize {
+    let mut baseline = app.baseline();
+    for times in 1..4 {
+        let reading = Reading::new(text.to_owned(), baseline).expect("it fits into memory");
+        let effects = app.update(Msg::Read(PathBuf::from("scene.ray"), Ok(reading)));
+        let again = effects.into_iter().find_map(|effect| match effect {
+            Effect::Read(_, baseline) => Some(baseline),
+            _ => None,
+        });
+        let Some(again) = again else { return times };
+        baseline = again;
+    }
+    panic!("it asks again and again");
+}
+
+/// Whether the state is that of a text just opened.
+fn assert_opened(app: &App, text: &str) {
+    assert_eq!(app.document.text(), text);
+    assert_eq!(**app.document.saved(), text);
+    assert!(!app.document.is_dirty());
+    assert_eq!(app.document.undoable(), None);
+    let mut source = Source::new(Language::Ray, Arc::new(text.to_owned()));
+    let lowered = source
+        .lower(&Meshes::default())
+        .expect("it fits into memory");
+    assert_eq!(app.scene.as_deref(), lowered.scene.as_ref());
+    let last = Node::Object(OBJECTS - 1);
+    assert_eq!(app.source().fields(last), source.fields(last));
+}
+
+#[test]
+fn numbers_of_one_object_are_taken_without_parsing_the_rest() {
+    let mut text = long();
+    let mut app = open(&text);
+    for (old, new, place) in [
+        (
+            "sphere 7 0 0 0.75",
+            "sphere 7 0 0 0.5",
+            "object 8 (sphere) radius",
+        ),
+        (
+            "sphere 7 0 0 0.5",
+            "sphere -1e1 0 0 0.25",
+            "object 8 (sphere)",
+        ),
+        (
+            "sphere 11999 0",
+            "sphere 1199 0",
+            "object 12000 (sphere) centre x",
+        ),
+    ] {
+        text = text.replacen(old, new, 1);
+        let reading = Reading::new(text.clone(), app.baseline()).expect("it fits into memory");
+        let news = reading.news.as_deref();
+        assert!(matches!(news, Some(News::Numbers(_))), "{new}");
+        assert_eq!(deliver(&mut app, &text), 1, "{new}");
+        assert_eq!(words(&app), format!("reloaded: {place}"));
+        assert_opened(&app, &text);
+    }
+    let reading = Reading::new(text, app.baseline()).expect("it fits into memory");
+    assert!(reading.news.is_none(), "nothing is new");
+}
+
+#[test]
+fn changes_of_more_than_numbers_of_one_object_are_parsed() {
+    let mut text = long();
+    let mut app = open(&text);
+    let between = "length\nsphere 5 0 0 0.75";
+    for (old, new, readings) in [
+        // These may be numbers of one object.
+        (".1 .1 .1\n", ".1 .1 .2\n", 2),
+        ("eye 0 0 9", "eye 0 0 8", 2),
+        (between, &format!("{between} "), 2),
+        // And these may not.
+        ("// objects", "// 12000 objects", 1),
+        ("sphere 9 0", "Sphere 9 0", 1),
+    ] {
+        text = text.replacen(old, new, 1);
+        assert_eq!(deliver(&mut app, &text), readings, "{new}");
+        assert_eq!(app.document.text(), text);
+    }
+    assert_opened(&app, &text);
+}
+
+#[test]
+fn numbers_are_merged_with_unsaved_edits() {
+    let text = long();
+    let mut app = open(&text);
+    press(&mut app, "jjjel");
+    let theirs = text.replacen("sphere 7 0 0 0.75", "sphere 7 0 0 0.5", 1);
+    assert_eq!(deliver(&mut app, &theirs), 1);
+    assert!(words(&app).starts_with("merged"), "{}", words(&app));
+    assert!(app.document.text().contains("sphere 7 0 0 0.5"));
+    assert!(app.document.is_dirty());
+}
