@@ -160,7 +160,11 @@ impl Pictures {
         match target {
             Target::Preview => Some(&mut self.preview),
             Target::Trace => self.trace.as_mut(),
-            Target::Export | Target::Thumbnail | Target::Compared | Target::Reference => None,
+            Target::Export
+            | Target::Thumbnail
+            | Target::Trial
+            | Target::Compared
+            | Target::Reference => None,
         }
     }
 
