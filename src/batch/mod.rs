@@ -6,6 +6,7 @@ mod bench;
 mod compare;
 mod convert;
 mod explain;
+mod finding;
 mod frames;
 mod ledger;
 mod machine;

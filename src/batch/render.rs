@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
+use super::finding::{is_burnt, print_finding};
 use super::output::Output;
 use super::parts::{self, Existing, Parts};
 use super::stats::{Stats, Times};
@@ -15,7 +16,7 @@ use crate::language::Source;
 use crate::memory;
 use crate::part;
 use crate::render::{Aov, Frame, Job, Progress, Provenance, check_memory, memory_for};
-use crate::scene::{FalloffRule, Size};
+use crate::scene::Size;
 use crate::text::{Diagnostic, Span, counted};
 
 /// A picture to render.
@@ -118,6 +119,10 @@ fn try_render(work: &Render) -> Result<(), Error> {
         finish(work, frame, &traced)?;
     }
     times.write = times.lap();
+    if let Some(frame) = &traced.frame {
+        let tracer = || traced.tracer.unwrap_or_else(|| Tracer::new(&work.tracing));
+        print_finding(frame, &traced.picture, traced.burnt, tracer);
+    }
     let Some(output) = &work.stats else {
         return Ok(());
     };
@@ -143,8 +148,10 @@ struct Traced {
     progress: Progress,
     /// The number of pixels traced.
     pixels: usize,
+    /// The job, if its picture is too bright.
+    burnt: Option<Job>,
     /// Kept to the end, so that its threads free memory while the picture is written.
-    _tracer: Option<Tracer>,
+    tracer: Option<Tracer>,
 }
 
 fn trace_whole(
@@ -154,8 +161,7 @@ fn trace_whole(
 ) -> Result<Traced, Error> {
     let tracing = &work.tracing;
     let mut picture = tracing.provenance(&job, String::new());
-    // Another reference would keep the scene in memory until the end.
-    let again = (!tracing.layers.is_empty()).then(|| job.clone());
+    let again = job.clone();
     let is_digest_said = work.format.has_metadata() || work.stats.is_some();
     let mut digest = None;
     let mut tracer = Tracer::new(tracing);
@@ -168,17 +174,16 @@ fn trace_whole(
     if let Some(digest) = digest {
         picture.scene = digest?;
     }
-    let layers = match again {
-        Some(job) => tracer.layers(&job, frame.progress.spp, &tracing.layers)?,
-        None => Vec::new(),
-    };
+    let layers = tracer.layers(&again, frame.progress.spp, &tracing.layers)?;
     Ok(Traced {
         picture: picture.in_frame(&frame),
         progress: frame.progress,
         pixels: frame.size.pixels(),
+        // Another reference would keep the scene in memory until the end.
+        burnt: Some(again).filter(|_| is_burnt(&frame)),
         frame: Some(frame),
         layers,
-        _tracer: Some(tracer),
+        tracer: Some(tracer),
     })
 }
 
@@ -202,12 +207,17 @@ fn trace_parts(
     }
     picture.settings.spp = traced.progress.spp;
     Ok(Traced {
+        burnt: traced
+            .frame
+            .as_ref()
+            .filter(|frame| is_burnt(frame))
+            .map(|_| job.clone()),
         frame: traced.frame.map(Arc::new),
         layers,
         picture,
         progress: traced.progress,
         pixels: traced.pixels,
-        _tracer: None,
+        tracer: None,
     })
 }
 
@@ -260,7 +270,6 @@ fn finish(work: &Render, frame: &Frame, traced: &Traced) -> Result<(), Error> {
             &format!("{samples} ran out of rays and may be too dark; try a lower --depth"),
         );
     }
-    judge(frame, &traced.picture);
     print_biases(frame, &traced.picture);
     if work.tracing.time.is_some() {
         let Progress { spp, elapsed, .. } = frame.progress;
@@ -294,23 +303,6 @@ pub(super) fn print_biases(frame: &Frame, picture: &Provenance) {
             ),
         );
     }
-}
-
-/// Says that a whole picture of light is black, or mostly above 1, and what may help.
-fn judge(frame: &Frame, picture: &Provenance) {
-    let finding = if picture.settings.aov.is_some() || picture.settings.region.is_some() {
-        return;
-    } else if frame.pixels.iter().all(|pixel| *pixel == [0; 3]) {
-        "the picture is black; `halflight check` and `halflight explain` may say why"
-    } else if 0.5 < frame.clipped && picture.settings.falloff == FalloffRule::Square {
-        "more than half of the picture is above 1; try a lower --exposure"
-    } else if 0.5 < frame.clipped {
-        "more than half of the picture is above 1; try a lower --exposure, or --falloff square if \
-         its lights are meant to fall off"
-    } else {
-        return;
-    };
-    print_message("note", finding);
 }
 
 /// Refuses outputs that would overwrite one another, and a part file beside no file.

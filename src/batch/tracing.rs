@@ -1,5 +1,6 @@
 //! Traces pictures without an interface.
 
+use std::ops::ControlFlow;
 use std::sync::Arc;
 use std::sync::mpsc::{self, Receiver, RecvTimeoutError};
 use std::time::Duration;
@@ -9,7 +10,7 @@ use super::progress::{Place, ProgressStyle, Reporter};
 use super::signals::Signals;
 use crate::image_file::layer_bytes;
 use crate::render::{
-    Aov, Frame, Frames, Job, Limit, Provenance, Region, Renderer, Settings, Threads,
+    Aov, DepthSearch, Frame, Frames, Job, Limit, Provenance, Region, Renderer, Settings, Threads,
 };
 use crate::scene::{Camera, Images, MAX_SPP, Rendering, Scene, Size, Viewpoint};
 
@@ -119,6 +120,27 @@ impl Tracer {
             Ok((aov, frame))
         });
         layers.collect()
+    }
+
+    /// The depth by which the picture of a job, which is too bright, would not be, as small pictures
+    /// of it show; `None` if there is none, or if they cannot be traced.
+    pub(super) fn search_depth(&mut self, job: &Job) -> Option<u32> {
+        let mut search = DepthSearch::new(&job.settings)?;
+        loop {
+            let job = Job {
+                settings: search.settings(),
+                limit: None,
+                frames: Frames::Last,
+                denoise: false,
+                ..job.clone()
+            };
+            self.renderer.restart(job).ok()?;
+            let frame = self.wait(Reporter::new(ProgressStyle::Off)).ok()?;
+            match search.after(frame.overexposure) {
+                ControlFlow::Continue(next) => search = next,
+                ControlFlow::Break(found) => return found,
+            }
+        }
     }
 
     /// Waits for the last frame of the present job.

@@ -196,6 +196,11 @@ impl History {
         self.undo.push(turned(step, inverse));
     }
 
+    /// The present text.
+    pub(super) fn state(&self) -> StateId {
+        self.undo.last().map_or(self.first, |step| step.state)
+    }
+
     /// The number of steps that can be undone.
     pub(super) fn undoable(&self) -> usize {
         self.undo.len()

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use super::Document;
 use super::history::Step;
-use super::steps::{State, StepName};
+use super::steps::{State, StateId, StepName};
 use crate::language::Language;
 use crate::text;
 
@@ -48,6 +48,11 @@ impl Document {
     /// return to by undo, the present one, and those to return to by redo.
     pub fn states(&self) -> impl Iterator<Item = State<'_>> {
         self.history.states()
+    }
+
+    /// Identifies the present text.
+    pub fn state(&self) -> StateId {
+        self.history.state()
     }
 
     /// The number of steps that can be undone, which is the index of the present text among

@@ -4,10 +4,10 @@ use std::borrow::Cow;
 use std::f64::consts::PI;
 use std::sync::Arc;
 
-use super::losses::Losses;
+use super::losses::{Loss, Losses, Of};
 use super::{Language, Source, alike, fits};
 use crate::memory::OutOfMemory;
-use crate::scene::{Meshes, Scene};
+use crate::scene::{Emitter, Meshes, Rgb, Scene};
 use crate::text::{Diagnostic, Findings, Span};
 
 /// A scene in another language.
@@ -33,8 +33,12 @@ pub fn convert(source: &Source, scene: &Scene, to: Language) -> Result<Converted
             losses: Findings::default(),
         });
     }
-    let scene = &without_gamma(scene);
+    let own = scene;
+    let scene = &without_gamma(own);
     let mut losses = Losses::new(source, scene, to);
+    if let Some(loss) = gamma_loss(own) {
+        losses.add(Of::Gamma, loss);
+    }
     let text = Arc::new(to.write(scene, &mut losses));
     fits(to, &text, 0)?;
     let mut written = Source::new(to, text);
@@ -64,15 +68,37 @@ pub fn convert(source: &Source, scene: &Scene, to: Language) -> Result<Converted
     })
 }
 
+const PATHS_KEPT: Loss = Loss {
+    keys: &["gamma"],
+    lost: "light that path tracing does not multiply by π",
+    instead: "written divided by π: by path tracing it is the same, by Whitted ray tracing darker",
+};
+
+const WHITTED_KEPT: Loss = Loss {
+    instead: "written as it is: by Whitted ray tracing it is the same, by path tracing brighter by π",
+    ..PATHS_KEPT
+};
+
+/// What is lost with `gamma` of the lights of a scene.
+fn gamma_loss(scene: &Scene) -> Option<&'static Loss> {
+    let mut lights = scene.lights.iter();
+    let is_scaled = lights.any(|light| {
+        light.scale != PI && light.emitter != Emitter::Ambient && light.colour != Rgb::ZERO
+    });
+    let is_path = scene.setting.rendering.integrator().traces_paths();
+    is_scaled.then_some(if is_path { &PATHS_KEPT } else { &WHITTED_KEPT })
+}
+
 /// The scene with lights as in texts that do not set gamma, where path tracing multiplies them by π.
-/// Its picture by its own integrator is the same, up to rounding.
+/// Its picture by its own integrator is the same, up to rounding. Paths do not see ambient light.
 pub(super) fn without_gamma(scene: &Scene) -> Cow<'_, Scene> {
     if scene.lights.iter().all(|light| light.scale == PI) {
         return Cow::Borrowed(scene);
     }
     let mut scene = scene.clone();
+    let is_path = scene.setting.rendering.integrator().traces_paths();
     for light in &mut scene.lights {
-        if scene.setting.rendering.integrator().traces_paths() {
+        if is_path && light.emitter != Emitter::Ambient {
             light.colour *= light.scale / PI;
         }
         light.scale = PI;

@@ -24,6 +24,8 @@ pub(super) struct Loss {
 pub(super) enum Of {
     /// The camera.
     View,
+    /// How brightly lights shine by path tracing.
+    Gamma,
     /// The background of camera rays.
     Background,
     /// The surroundings of other rays.
@@ -147,7 +149,7 @@ impl<'a> Losses<'a> {
     fn node(&self, of: Of) -> Node {
         let object = |object: u32| Node::Object(self.source.object(object));
         match of {
-            Of::View => Node::View,
+            Of::View | Of::Gamma => Node::View,
             Of::Background => Node::Background,
             Of::Environment => Node::Environment,
             Of::Ambient => Node::Ambient,

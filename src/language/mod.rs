@@ -10,6 +10,7 @@ mod at;
 mod camera;
 pub(crate) mod coefficients;
 mod convert;
+mod darkening;
 mod dat;
 mod first;
 mod form;
@@ -57,6 +58,7 @@ use table::{Category, Field};
 use view::Numbers;
 
 pub use convert::{Converted, convert};
+pub use darkening::darkening;
 pub use form::{Along, Motion};
 pub use node::{FileKind, NamedFile, Node, Nodes};
 pub use outlook::{Outlook, outlook};

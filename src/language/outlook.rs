@@ -306,7 +306,7 @@ fn plain(span: Span, message: &str, expected: &str) -> Outlook {
 }
 
 /// A render setting and its value.
-fn setting(key: &str, value: &str) -> Option<(RenderKey, String)> {
+pub(super) fn setting(key: &str, value: &str) -> Option<(RenderKey, String)> {
     Some((RenderKey::named(key)?, value.to_owned()))
 }
 

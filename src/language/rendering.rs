@@ -121,6 +121,17 @@ impl RenderKey {
         stated.map_or_else(|| default_of(self.0, asked).to_owned(), |(_, value)| value)
     }
 
+    /// This one of these settings alone.
+    #[must_use]
+    pub fn alone(self, asked: &Rendering) -> Rendering {
+        let others = Self::all().filter(|key| *key != self);
+        let alone = others.fold(*asked, |asked, key| key.cleared(&asked));
+        Rendering {
+            clamp: None,
+            ..alone
+        }
+    }
+
     /// These settings without this one.
     pub fn cleared(self, asked: &Rendering) -> Rendering {
         let mut asked = *asked;

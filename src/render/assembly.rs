@@ -8,6 +8,7 @@ use super::adaptive::square;
 use super::block::Block;
 use super::blocks::Blocks;
 use super::frame::{Aov, Frame, Frames, Progress, Settings};
+use super::overexposure::Overexposure;
 use super::probe::Counts;
 use super::refusal::Refusal;
 use super::tone::{self, Light, Tone};
@@ -95,8 +96,7 @@ impl Assembly {
         settings.spp = spp.min(highest.unwrap_or(spp));
         let range = tone::scale(settings.aov, values.par_iter().copied());
         let tone = Tone::of(settings.aov, Light::of(&settings), range);
-        let is_clipped = |value: &&Rgb| 1.0 < tone.linear(**value).max_element();
-        let clipped = values.par_iter().filter(is_clipped).count();
+        let overexposure = Overexposure::of_all(&values, |&value| tone.linear(value));
         let pixels = values.par_iter().map(|&value| tone.bytes(value)).collect();
         let values = match frames {
             Frames::Last => Vec::new(),
@@ -123,7 +123,7 @@ impl Assembly {
             corner: traced.corner(),
             values,
             range,
-            clipped: clipped as f64 / traced.size().pixels() as f64,
+            overexposure,
             progress: Progress {
                 pass: passes,
                 passes,

@@ -12,6 +12,7 @@ use super::frame::{Aov, Frames, Settings};
 use super::gather::Gather;
 use super::kept::{Effort, Kept};
 use super::noise::Doubling;
+use super::overexposure::{Excess, Overexposure};
 use super::photons::MAPS;
 use super::probe::Counts;
 use super::shot::Shot;
@@ -70,8 +71,8 @@ pub(crate) struct Raster {
     pub(crate) values: Vec<[f32; 3]>,
     /// Estimated errors of the pixels, if recorded and requested.
     pub(crate) errors: Vec<f32>,
-    /// Pixels with a channel above 1, if counted.
-    pub(crate) clipped: usize,
+    /// How much of it exceeds 1, if counted.
+    pub(crate) overexposure: Overexposure,
     /// The ends of the scale of [`Raster::pixels`], if it has one.
     pub(crate) range: Option<[f64; 2]>,
 }
@@ -415,7 +416,7 @@ impl Film {
     pub(crate) fn finish(&mut self, cancelled: impl Fn() -> bool) -> Option<Raster> {
         let room = std::mem::take(&mut self.room);
         let mut raster = self.develop_in(room, cancelled)?;
-        raster.clipped = self.clipped();
+        raster.overexposure = self.overexposure();
         Some(raster)
     }
 
@@ -502,14 +503,13 @@ impl Film {
         });
     }
 
-    /// The number of pixels with a channel above 1 after the exposure.
-    fn clipped(&self) -> usize {
-        let clipped = |tile: &Tile| {
+    /// How much of the picture exceeds 1 after the exposure.
+    fn overexposure(&self) -> Overexposure {
+        let excess = |tile: &Tile| {
             let values = tile.values(self.spp, self.aov);
-            let exposed = values.map(|value| self.light.exposed(value));
-            exposed.filter(|value| 1.0 < value.max_element()).count()
+            Excess::of(values.map(|value| self.light.exposed(value)))
         };
-        self.tiles.par_iter().map(clipped).sum()
+        Excess::sum(self.tiles.par_iter().map(excess)).over(self.size.pixels())
     }
 
     /// The ends of the scale of AOVs that have one.

@@ -3,6 +3,7 @@
 use std::sync::{Arc, Weak};
 use std::time::Duration;
 
+use super::overexposure::Overexposure;
 use super::photons::{PhotonRules, Photons};
 use super::region::Region;
 use super::world::{Rules, World};
@@ -303,8 +304,8 @@ pub struct Frame {
     /// The values that the ends of a scale stand for, with an AOV that has one: depth, cost,
     /// samples and noise.
     pub range: Option<[f64; 2]>,
-    /// The share of pixels with a channel above 1 after the exposure, 0 to 1; only in complete frames.
-    pub clipped: f64,
+    /// How much of it exceeds 1 after the exposure; only in complete frames.
+    pub overexposure: Overexposure,
     /// Progress of the job.
     pub progress: Progress,
     /// Answers what its pixels show; `None` if it was not traced.
@@ -357,7 +358,7 @@ impl Frame {
             denoised: Vec::new(),
             errors: Vec::new(),
             range: None,
-            clipped: 0.0,
+            overexposure: Overexposure::default(),
             progress: Progress::COMPLETE,
             query: None,
         }

@@ -334,7 +334,7 @@ impl<'s, W: Fn() + Sync> Tracing<'s, W> {
             mut objects,
             values,
             errors,
-            clipped,
+            overexposure,
             range,
         } = raster;
         if let Some(numbers) = self.job.numbers.as_deref() {
@@ -355,7 +355,7 @@ impl<'s, W: Fn() + Sync> Tracing<'s, W> {
             denoised,
             errors,
             range,
-            clipped: clipped as f64 / traced.size().pixels() as f64,
+            overexposure,
             query: Some(self.query.clone()),
             progress: self.progress(),
         });

@@ -69,6 +69,7 @@ pub(crate) struct Runtime {
     compared: Option<Numbered>,
     reference: Option<Numbered>,
     thumbnail: Option<Numbered>,
+    trial: Option<Numbered>,
     /// Number of renderers started so far.
     renderers: u64,
     timers: Vec<(Instant, Timer)>,
@@ -108,6 +109,7 @@ impl Runtime {
             compared: None,
             reference: None,
             thumbnail: None,
+            trial: None,
             renderers: 0,
             timers: Vec::new(),
             trim_at: None,
@@ -326,6 +328,7 @@ impl Runtime {
             Target::Compared => self.compared.as_ref(),
             Target::Reference => self.reference.as_ref(),
             Target::Thumbnail => self.thumbnail.as_ref(),
+            Target::Trial => self.trial.as_ref(),
         }
     }
 
@@ -350,7 +353,7 @@ impl Runtime {
         let threads = match (target, self.threads) {
             (Target::Preview, None) => Threads::Preview,
             (Target::Preview, Some(count)) => Threads::Exactly(count),
-            (Target::Thumbnail, _) => Threads::Background(1),
+            (Target::Thumbnail | Target::Trial, _) => Threads::Background(1),
             (_, count) => Threads::Background(count.unwrap_or_else(cores)),
         };
         let (sender, renderers) = (&self.sender, &mut self.renderers);
@@ -373,6 +376,7 @@ impl Runtime {
             Target::Compared => &mut self.compared,
             Target::Reference => &mut self.reference,
             Target::Thumbnail => &mut self.thumbnail,
+            Target::Trial => &mut self.trial,
         };
         let running = slot.get_or_insert_with(&mut start);
         let restarted = match recalled {
@@ -415,6 +419,7 @@ impl Runtime {
             Target::Compared => &mut self.compared,
             Target::Reference => &mut self.reference,
             Target::Thumbnail => &mut self.thumbnail,
+            Target::Trial => &mut self.trial,
         }
     }
 

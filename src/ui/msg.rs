@@ -38,6 +38,8 @@ pub enum Target {
     Reference,
     /// A picture on the page of the undo history, traced in the background.
     Thumbnail,
+    /// A small picture by which a cure of the preview is tried, traced in the background.
+    Trial,
 }
 
 /// What is to be explained.

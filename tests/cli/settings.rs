@@ -114,7 +114,7 @@ fn conversion_keeps_the_settings() {
 }
 
 #[test]
-fn black_and_clipped_pictures_are_remarked_on() {
+fn black_and_clipped_pictures_are_remarked_on_with_what_helps() {
     let place = Place::new();
     let ball = |light: &str| {
         format!(
@@ -123,22 +123,65 @@ fn black_and_clipped_pictures_are_remarked_on() {
     };
     for (light, options, expected) in [
         ("1 1 1", "", ""),
-        ("0 0 0", "", "note: the picture is black; "),
+        (
+            "0 0 0",
+            "",
+            "note: the picture is black; `halflight check` and `halflight explain` may say why",
+        ),
         (
             "9 9 9",
             "",
-            "note: more than half of the picture is above 1; try a lower --exposure",
+            "note: more than half of the picture is above 1; try `--exposure -3.5`",
         ),
-        ("9 9 9", "--exposure -4", ""),
+        ("9 9 9", "--exposure -3.5", ""),
+        (
+            "9 9 9",
+            "--exposure -0.5",
+            "note: more than half of the picture is above 1; try `--exposure -3.5`",
+        ),
+        // At a distance of 8, that is a light of 1 that falls off.
+        (
+            "64 64 64",
+            "",
+            "note: more than half of the picture is above 1; try `--falloff square` or `--exposure -6`",
+        ),
+        ("64 64 64", "--falloff square", ""),
+        ("64 64 64", "--exposure -6", ""),
+        (
+            "640 640 640",
+            "--falloff square",
+            "note: more than half of the picture is above 1; try `--exposure -3.5`",
+        ),
         ("0 0 0", "--aov albedo", ""),
     ] {
         place.write("a.ray", ball(light).as_bytes());
         let said = place.stderr(&format!("render a.ray -o a.bmp --size 9x9 {options}"), 0);
         let found = said.lines().find(|line| line.starts_with("note: "));
-        assert!(
-            found.unwrap_or_default().starts_with(expected),
-            "{light}: {said}"
-        );
-        assert_eq!(found.is_some(), !expected.is_empty(), "{light}: {said}");
+        assert_eq!(found.unwrap_or_default(), expected, "{light}: {said}");
     }
+}
+
+/// Inside a white ball each bounce adds as much light as arrives directly: 0.3.
+#[test]
+fn a_picture_burnt_by_its_bounces_names_a_smaller_depth() {
+    let place = Place::new();
+    let room = "// view: eye 0 0 0.5\n// render: integrator path spp 4\n\
+                0 0 0 1 0 0 0 .3 .3 .3 1 sphere 0 0 0 1 0 0 0 1 1 1 0 0 0 1 0 0 1\n";
+    place.write("a.ray", room);
+    let said = |options: &str| {
+        let said = place.stderr(&format!("render a.ray -o a.bmp --size 9x9 {options}"), 0);
+        let found = said.lines().find(|line| line.starts_with("note: "));
+        found.unwrap_or_default().to_owned()
+    };
+    let tries = "note: more than half of the picture is above 1; try";
+    assert_eq!(
+        said(""),
+        format!("{tries} `--depth 2` or `--exposure -4.5`")
+    );
+    assert_eq!(said("--depth 2"), "");
+    assert_eq!(said("--exposure -4.5"), "");
+    // No bounce less helps.
+    let whitted = "--integrator whitted --exposure 3";
+    assert_eq!(said(whitted), format!("{tries} `--exposure 1.5`"));
+    assert_eq!(said("--resume"), said(""));
 }

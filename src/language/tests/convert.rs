@@ -1,5 +1,6 @@
 //! Scenes in other languages: the text to the letter, and what is lost with its place.
 
+use std::f64::consts::PI;
 use std::fmt::Write;
 use std::sync::Arc;
 
@@ -394,4 +395,48 @@ fn a_falloff_by_the_square_is_kept_by_the_setting_for_it() {
     let scene = lowered.scene.expect("it has no errors");
     assert_eq!(scene.lights[0].colour, Rgb::splat(3.0));
     assert_eq!(scene.setting.rendering.falloff, Some(FalloffRule::Square));
+}
+
+/// Without it, path tracing multiplies the intensities of lights by π.
+#[test]
+fn what_gamma_says_of_lights_is_lost_at_its_place() {
+    let path =
+        "written divided by π: by path tracing it is the same, by Whitted ray tracing darker";
+    let whitted =
+        "written as it is: by Whitted ray tracing it is the same, by path tracing brighter by π";
+    for (settings, light, kept, colour) in [
+        ("", "point", Some(path), 3.0 / PI),
+        (
+            "<render integrator='photon'/>",
+            "direct",
+            Some(path),
+            3.0 / PI,
+        ),
+        (
+            "<render integrator='whitted'/>",
+            "point",
+            Some(whitted),
+            3.0,
+        ),
+        ("", "ambient", None, 3.0),
+    ] {
+        let text = format!(
+            "<xml>\n<camera gamma='sRGB'/>{settings}<scene><light type='{light}'>\
+             <intensity value='3'/></light></scene></xml>"
+        );
+        let (source, lowered) = read_as(Language::Xml, &text, &Meshes::default());
+        let scene = lowered.scene.expect("it has no errors");
+        let found = convert(&source, &scene, Language::Dat).expect("there is memory");
+        let lost = ": light that path tracing does not multiply by π";
+        let loss = found
+            .losses
+            .iter()
+            .find(|loss| loss.message.ends_with(lost));
+        assert_eq!(loss.and_then(|loss| loss.hint.as_deref()), kept, "{text}");
+        let place = loss.map(|loss| loss.span.of(&text));
+        assert_eq!(place, kept.map(|_| "sRGB"));
+        let (_, lowered) = read_as(Language::Dat, &found.text, &Meshes::default());
+        let written = lowered.scene.expect("it has no errors");
+        assert_eq!(written.lights[0].colour, Rgb::splat(colour), "{text}");
+    }
 }

@@ -72,8 +72,13 @@ pub(super) fn assert_same(scene: &Arc<Scene>, settings: Settings, polls: Option<
     };
     assert!(bits(&ours.values) == bits(&theirs.values), "{settings:?}");
     assert_eq!(
-        (ours.size, ours.corner, ours.range, ours.clipped),
-        (theirs.size, theirs.corner, theirs.range, theirs.clipped)
+        (ours.size, ours.corner, ours.range, ours.overexposure),
+        (
+            theirs.size,
+            theirs.corner,
+            theirs.range,
+            theirs.overexposure
+        )
     );
     let (ours, theirs) = (ours.progress, theirs.progress);
     assert_eq!((ours.spp, ours.passes), (theirs.spp, theirs.passes));

@@ -137,6 +137,9 @@ impl App {
         self.disk.replace(path, state);
         self.assets = Assets::default();
         self.pictures.renew();
+        if std::mem::take(&mut self.cures).are_awaited() {
+            effects.push(Effect::Stop(Target::Trial));
+        }
         self.inspection = Inspection::default();
         self.sequence = super::Sequence::default();
         self.thumbnails.forget();

@@ -1,6 +1,8 @@
 //! The render settings suggested for a picture.
 
 use crate::language::RenderKey;
+use crate::render::DepthSearch;
+use crate::scene::Rendering;
 
 /// A render setting and its value.
 pub(super) type Cure = (RenderKey, String);
@@ -12,6 +14,34 @@ pub struct Cures {
     pub(super) of_text: Vec<Cure>,
     /// For what the preview shows.
     pub(super) of_picture: Vec<Cure>,
-    /// Whether the preview was said to be black or too bright, and is so still.
-    pub(super) is_said: bool,
+    /// What was said of a preview that is black or too bright, while it is so.
+    pub(super) said: Option<String>,
+    /// What is found out before the preview is said to be too bright.
+    pub(super) search: Option<Search>,
+}
+
+/// A search for the depth by which a preview would not be too bright.
+#[derive(Debug)]
+pub(super) struct Search {
+    pub(super) next: DepthSearch,
+    /// The generation of the picture under way, once it is traced.
+    pub(super) generation: Option<u64>,
+    /// By how many stops the 99th percentile of the preview is above 1.
+    pub(super) over: f64,
+    /// What the preview is of: the text's revision, and the render settings.
+    pub(super) of: (u64, Rendering),
+}
+
+impl Cures {
+    /// Notes the generation of the picture by which a cure is tried.
+    pub(super) fn started(&mut self, generation: u64) {
+        if let Some(search) = &mut self.search {
+            search.generation = Some(generation);
+        }
+    }
+
+    /// Whether a cure is being tried.
+    pub fn are_awaited(&self) -> bool {
+        self.search.is_some()
+    }
 }

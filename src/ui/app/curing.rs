@@ -1,17 +1,14 @@
 //! What is wrong with a picture as a whole, and the render settings suggested for it.
 
-use super::App;
-use super::cures::Cure;
-use super::looking::is_light;
-use crate::language::{Outlook, RenderKey, outlook};
-use crate::render::{Frame, Histogram};
-use crate::scene::{EXPOSURES, Emitter, FalloffRule, Rgb, Scene};
-use crate::text::concise;
-use crate::ui::keymap::{Action, Mode};
-use crate::ui::msg::Target;
+use std::ops::ControlFlow;
 
-/// How many stops a picture may miss white by with a cure that is suggested first.
-const NEAR: f64 = 2.5;
+use super::App;
+use super::cures::{Cure, Search};
+use super::looking::is_light;
+use crate::language::{Outlook, darkening, outlook};
+use crate::render::{DepthSearch, Frame, Frames, Histogram, Job, Overexposure};
+use crate::ui::keymap::{Action, Mode};
+use crate::ui::msg::{Effect, Target};
 
 impl App {
     /// Adds what the text shows of its picture to what was found in reading it.
@@ -36,47 +33,126 @@ impl App {
 
     /// Says what is wrong with a complete preview that is black, or of which more than half is above 1,
     /// and what helps; once, until one is not.
-    pub(super) fn judge_picture(&mut self, target: Target, frame: &Frame) {
+    pub(super) fn judge_picture(&mut self, target: Target, frame: &Frame) -> Vec<Effect> {
         if target != Target::Preview || !frame.progress.complete || !is_light(frame) {
-            return;
+            return Vec::new();
         }
-        let is_of_light = frame
-            .settings()
-            .is_some_and(|settings| settings.aov.is_none());
-        let is_black = is_of_light && frame.values.iter().all(|value| *value == [0.0; 3]);
+        let settings = frame.settings().filter(|settings| settings.aov.is_none());
+        let is_black = settings.is_some() && frame.values.iter().all(|value| *value == [0.0; 3]);
         let clipped = Histogram::of(&frame.values, self.pictures.display.stops()).clipped;
         self.cures.of_picture.clear();
-        if clipped <= 0.5 && !is_black {
-            self.cures.is_said = false;
-            return;
-        }
-        if !is_black && is_of_light {
-            self.cures.of_picture = self.darkening(frame);
-        }
-        if std::mem::replace(&mut self.cures.is_said, true) || self.overlays.message.is_some() {
-            return;
-        }
-        let cure = self.suggested_cure().map(|cure| self.cure_in_words(cure));
-        let words = if is_black {
-            let errors = self.key_for(Action::Errors);
-            match (
-                cure,
-                self.cures.of_text.is_empty() && self.diagnostics.is_empty(),
-            ) {
-                (Some(cure), _) => format!("the picture is black: {cure}"),
-                (None, false) => format!("the picture is black: {errors} may say why"),
-                (None, true) => {
-                    let inspect = self.key_for(Action::Go(Mode::Inspect));
-                    format!("the picture is black: {inspect} explains a pixel")
-                }
-            }
-        } else {
-            let darker = self.key_for(Action::Expose(-1));
-            let darker = format!("{darker} darkens the screen only");
-            let helps = cure.map_or_else(|| darker.clone(), |cure| format!("{cure}, {darker}"));
-            format!("more than half of the picture is above 1: {helps}")
+        let under_way = self.cures.search.take();
+        let stop = || {
+            under_way
+                .map(|_| Effect::Stop(Target::Trial))
+                .into_iter()
+                .collect()
         };
-        self.overlays.say(words);
+        if is_black {
+            self.say_black();
+        } else if 0.5 < clipped {
+            let over = Overexposure::of(&frame.values).stops;
+            let search = settings
+                .filter(|_| !self.is_large())
+                .and_then(DepthSearch::new);
+            if let Some(trial) = search.and_then(|search| self.search_depth(search, over)) {
+                return vec![trial];
+            }
+            if settings.is_some() {
+                self.cures.of_picture = self.darkening(over, None);
+            }
+            self.say_burnt();
+        } else if let Some(said) = self.cures.said.take() {
+            self.overlays.withdraw(&said);
+        }
+        stop()
+    }
+
+    /// Goes on to look for a depth by which the preview is not too bright: with the next small picture.
+    fn search_depth(&mut self, next: DepthSearch, over: f64) -> Option<Effect> {
+        let settings = next.settings();
+        let job = self.shown_job(settings.size, settings.spp)?;
+        self.cures.search = Some(Search {
+            next,
+            generation: None,
+            over,
+            of: (self.document.revision(), self.rendering()),
+        });
+        let job = Job {
+            settings,
+            frames: Frames::Last,
+            ..job
+        };
+        Some(Effect::Trace(Target::Trial, job))
+    }
+
+    /// Takes a frame of a small picture by which a depth is tried.
+    pub(super) fn depth_tried(&mut self, frame: &Frame) -> Vec<Effect> {
+        let is_it = |search: &mut Search| search.generation == Some(frame.generation);
+        let Some(search) = self
+            .cures
+            .search
+            .take_if(|search| frame.progress.complete && is_it(search))
+        else {
+            return Vec::new();
+        };
+        match search.next.after(frame.overexposure) {
+            _ if search.of != (self.document.revision(), self.rendering()) => {
+                // The preview of what came since is judged anew.
+                vec![Effect::Stop(Target::Trial)]
+            }
+            ControlFlow::Continue(next) => {
+                self.search_depth(next, search.over).into_iter().collect()
+            }
+            ControlFlow::Break(depth) => {
+                self.cures.search = Some(search);
+                self.end_search(depth)
+            }
+        }
+    }
+
+    /// Ends the search for a depth, and says that the preview is too bright.
+    pub(super) fn end_search(&mut self, depth: Option<u32>) -> Vec<Effect> {
+        let Some(search) = self.cures.search.take() else {
+            return Vec::new();
+        };
+        self.cures.of_picture = self.darkening(search.over, depth);
+        self.say_burnt();
+        vec![Effect::Stop(Target::Trial)]
+    }
+
+    fn darkening(&self, over: f64, depth: Option<u32>) -> Vec<Cure> {
+        darkening(self.scene.as_deref(), &self.rendering(), over, depth)
+    }
+
+    fn say_black(&mut self) {
+        let cure = self.suggested_cure().map(|cure| self.cure_in_words(cure));
+        let nothing_known = self.cures.of_text.is_empty() && self.diagnostics.is_empty();
+        let helps = match (cure, nothing_known) {
+            (Some(cure), _) => cure,
+            (None, false) => format!("{} may say why", self.key_for(Action::Errors)),
+            (None, true) => {
+                let inspect = self.key_for(Action::Go(Mode::Inspect));
+                format!("{inspect} explains a pixel")
+            }
+        };
+        self.say_once(format!("the picture is black: {helps}"));
+    }
+
+    fn say_burnt(&mut self) {
+        let cure = self.suggested_cure().map(|cure| self.cure_in_words(cure));
+        let darker = self.key_for(Action::Expose(-1));
+        let darker = format!("{darker} darkens the screen only");
+        let helps = cure.map_or_else(|| darker.clone(), |cure| format!("{cure}, {darker}"));
+        self.say_once(format!("more than half of the picture is above 1: {helps}"));
+    }
+
+    /// Says what is wrong with the preview, unless that was said.
+    fn say_once(&mut self, words: String) {
+        if self.cures.said.is_none() {
+            self.overlays.say(words.clone());
+            self.cures.said = Some(words);
+        }
     }
 
     /// Writes the suggested setting into the text.
@@ -85,7 +161,7 @@ impl App {
             Some((key, value)) => {
                 self.write_setting(key, Some(value));
                 // What is still wrong is said again.
-                self.cures.is_said = false;
+                self.cures.said = None;
             }
             None => self.overlays.say("there is no render setting to suggest"),
         }
@@ -114,51 +190,4 @@ impl App {
     fn cure_in_words(&self, (key, value): &Cure) -> String {
         format!("{} sets {} {value}", self.key_for(Action::Cure), key.name())
     }
-
-    /// What would bring the 99th percentile of a picture that is too bright to 1: the most likely first.
-    fn darkening(&self, frame: &Frame) -> Vec<Cure> {
-        let asked = self.rendering();
-        let mut values: Vec<_> = frame.values.iter().map(|value| largest(*value)).collect();
-        let at = values.len() * 99 / 100;
-        let Some((_, brightest, _)) =
-            (at < values.len()).then(|| values.select_nth_unstable_by(at, f32::total_cmp))
-        else {
-            return Vec::new();
-        };
-        let over = libm::log2(f64::from(*brightest));
-        let own = asked.exposure.unwrap_or_default();
-        let stops = (2.0 * (own - over)).floor() / 2.0;
-        let stops = stops.clamp(*EXPOSURES.start(), *EXPOSURES.end());
-        let cure = |key: &str, value: &str| Some((RenderKey::named(key)?, value.to_owned()));
-        let exposure = cure("exposure", &concise(stops));
-        let fading = self.scene.as_deref().and_then(fading);
-        let falloff = fading.filter(|_| asked.falloff != Some(FalloffRule::Square));
-        let falloff = falloff.filter(|stops| (over + stops).abs() < NEAR);
-        let falloff = falloff.and_then(|_| cure("falloff", FalloffRule::Square.name()));
-        falloff.into_iter().chain(exposure).collect()
-    }
-}
-
-fn largest(value: [f32; 3]) -> f32 {
-    value.into_iter().fold(0.0, f32::max)
-}
-
-/// By about how many stops the middle of a scene darkens if its point lights fade by the square of the
-/// distance; `None` without any that do not fade yet.
-fn fading(scene: &Scene) -> Option<f64> {
-    let bounds = scene.bounds();
-    let middle = (!bounds.is_empty()).then(|| bounds.centre())?;
-    let steady = scene
-        .lights
-        .iter()
-        .filter_map(|light| match &light.emitter {
-            Emitter::Point {
-                position, falloff, ..
-            } if falloff.radial[1..] == [0.0; 2] && light.colour != Rgb::ZERO => {
-                Some(position.distance(middle))
-            }
-            _ => None,
-        });
-    let distance = steady.reduce(f64::min)?;
-    Some(-2.0 * libm::log2(distance))
 }

@@ -204,7 +204,7 @@ impl App {
     pub(super) fn step_back(&mut self) -> Option<String> {
         let (before, step) = (self.before_change(), self.document.undoable());
         let done = step.map(|step| format!("undone: {step}"));
-        let changed = self.document.undo();
+        let changed = self.undo_text();
         self.show_change(&before, changed);
         done
     }
@@ -213,7 +213,7 @@ impl App {
     pub(super) fn step_forward(&mut self) -> Option<String> {
         let (before, step) = (self.before_change(), self.document.redoable());
         let done = step.map(|step| format!("redone: {step}"));
-        let changed = self.document.redo();
+        let changed = self.redo_text();
         self.show_change(&before, changed);
         done
     }

@@ -91,6 +91,7 @@ mod update;
 mod viewing;
 mod viewport;
 mod wires;
+mod written;
 mod zooming;
 
 use std::time::Duration;

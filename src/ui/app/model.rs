@@ -45,7 +45,7 @@ pub struct App {
     /// Those of them that were found in reading the text and its files.
     pub(super) reported: Findings,
     /// The render settings suggested for the picture.
-    pub(super) cures: Cures,
+    pub cures: Cures,
     /// The scene of the last text without errors, which the pictures show.
     pub scene: Option<Arc<Scene>>,
     /// The files that the scene names.

@@ -266,6 +266,7 @@ mod tests {
     use std::time::Duration;
 
     use super::*;
+    use crate::render::Overexposure;
 
     const GREY: [u8; 3] = [100; 3];
 
@@ -285,7 +286,7 @@ mod tests {
             denoised: Vec::new(),
             errors: Vec::new(),
             range: None,
-            clipped: 0.0,
+            overexposure: Overexposure::default(),
             progress: Progress {
                 pass: 1,
                 passes: 2,

@@ -10,6 +10,8 @@ use super::tally::Tally;
 use super::transform::Transform;
 use super::until::Until;
 use super::wires::Wires;
+use super::written::Written;
+use crate::document::StateId;
 use crate::render::{Aov, Display, Frame, Region};
 use crate::scene::{Camera, Integrator, Rendering, Scene};
 use crate::ui::keymap::Mode;
@@ -26,6 +28,8 @@ pub struct Pictures {
     pub view: Option<Camera>,
     /// The user's render settings, which take precedence over the scene's.
     pub rendering: Rendering,
+    /// The settings that were written into the text.
+    pub(super) written: Vec<Written>,
     /// Pixels in each cell.
     pub grid: Grid,
     /// What traced pictures show instead of light.
@@ -92,6 +96,7 @@ impl Pictures {
             trace: None,
             view: None,
             rendering,
+            written: Vec::new(),
             grid: Grid::HALF_BLOCKS,
             aov: None,
             display: Display::default(),
@@ -155,7 +160,11 @@ impl Pictures {
         match target {
             Target::Preview => Some(&mut self.preview),
             Target::Trace => self.trace.as_mut(),
-            Target::Export | Target::Thumbnail | Target::Compared | Target::Reference => None,
+            Target::Export
+            | Target::Thumbnail
+            | Target::Trial
+            | Target::Compared
+            | Target::Reference => None,
         }
     }
 
@@ -253,6 +262,17 @@ impl Pictures {
     pub(super) fn rendering(&self, scene: Option<&Scene>) -> Rendering {
         let own = scene.map(|scene| scene.setting.rendering);
         self.rendering.or(own.unwrap_or_default())
+    }
+
+    /// Exchanges what takes precedence over the setting that the step to a text wrote, if it wrote one, for
+    /// what did on the other side of the step.
+    pub(super) fn cross(&mut self, state: StateId) {
+        let mut written = self.written.iter_mut();
+        if let Some(written) = written.find(|written| written.state == state) {
+            let rendering = written.cross(&self.rendering);
+            self.due |= rendering != self.rendering;
+            self.rendering = rendering;
+        }
     }
 
     /// Switches all pictures to the next integrator and returns its name. Switching to the scene's own

@@ -1,9 +1,12 @@
 //! Render settings written into the text. What the command line or the interface chose instead is
-//! dropped then, so that the text counts.
+//! dropped then, so that the text counts, and brought back by undo.
 
 use super::App;
+use super::written::Written;
 use crate::document::StepName;
 use crate::language::{Node, RenderKey};
+use crate::scene::Rendering;
+use crate::text::Span;
 
 /// What to set a render setting to.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -58,6 +61,7 @@ impl App {
     /// took precedence over it.
     pub(super) fn write_setting(&mut self, key: RenderKey, value: Option<String>) {
         self.document.end_step();
+        let before = self.document.state();
         let edits = match &value {
             Some(value) => {
                 let fields = self.source().fields(Node::Render);
@@ -69,9 +73,13 @@ impl App {
         };
         match self.try_edits(&edits) {
             Ok(()) => {
-                let over = key.cleared(&self.pictures.rendering);
-                self.pictures.due |= over != self.pictures.rendering;
-                self.pictures.rendering = over;
+                let over = key.alone(&self.pictures.rendering);
+                self.pictures.due |= over != Rendering::default();
+                self.pictures.rendering = key.cleared(&self.pictures.rendering);
+                let state = self.document.state();
+                if state != before {
+                    self.pictures.written.push(Written { state, key, over });
+                }
                 let name = key.name();
                 let words = match value {
                     Some(value) => format!("set {name} {value}"),
@@ -83,5 +91,24 @@ impl App {
             Err(refused) => self.overlays.fail(refused.message),
         }
         self.document.end_step();
+    }
+
+    /// Undoes a step of the text. What took precedence over a setting before that wrote it does again.
+    pub(super) fn undo_text(&mut self) -> Option<Span> {
+        let left = self.document.state();
+        let changed = self.document.undo();
+        if changed.is_some() {
+            self.pictures.cross(left);
+        }
+        changed
+    }
+
+    /// Redoes a step of the text. What took precedence over a setting when that was undone does again.
+    pub(super) fn redo_text(&mut self) -> Option<Span> {
+        let changed = self.document.redo();
+        if changed.is_some() {
+            self.pictures.cross(self.document.state());
+        }
+        changed
     }
 }

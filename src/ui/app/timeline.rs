@@ -49,9 +49,9 @@ impl App {
         let is_back = at < present;
         for _ in 1..steps {
             if is_back {
-                self.document.undo();
+                self.undo_text();
             } else {
-                self.document.redo();
+                self.redo_text();
             }
         }
         if 1 < steps {

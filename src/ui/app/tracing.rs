@@ -301,6 +301,7 @@ impl App {
                 self.thumbnails.take(&frame);
                 return Vec::new();
             }
+            Target::Trial => return self.depth_tried(&frame),
             Target::Compared | Target::Reference => {
                 self.compared.take(target, frame);
                 return Vec::new();
@@ -309,8 +310,9 @@ impl App {
         }
         // Without a scene, it is of one that was left.
         if self.scene.is_some() {
-            self.judge_picture(target, &frame);
+            let effects = self.judge_picture(target, &frame);
             self.pictures.take(target, frame);
+            return effects;
         }
         Vec::new()
     }
@@ -323,6 +325,7 @@ impl App {
                 self.thumbnails.fail(NoPicture::Failed(reason.into()));
                 return Vec::new();
             }
+            Target::Trial => return self.end_search(None),
             Target::Preview | Target::Trace | Target::Compared | Target::Reference => {}
         }
         self.pictures.want(target, None);

@@ -14,7 +14,7 @@ use super::inks::Glyphs;
 use super::{Drawing, Inks, draw};
 use crate::document::{Document, Merge, Side};
 use crate::language::{Language, Node};
-use crate::render::{Frame, NO_OBJECT, Progress};
+use crate::render::{Frame, NO_OBJECT, Overexposure, Progress};
 use crate::scene::{Rendering, Size};
 use crate::text::{Edit, Severity, Span};
 use crate::ui::app::{
@@ -131,7 +131,7 @@ fn frame(width: u32, height: u32) -> Arc<Frame> {
         denoised: Vec::new(),
         errors: Vec::new(),
         range: None,
-        clipped: 0.0,
+        overexposure: Overexposure::default(),
         objects: (0..width * height)
             .map(|at| if under(at) == 1 { 1 } else { NO_OBJECT })
             .collect(),

@@ -3,8 +3,8 @@
 use std::sync::{Arc, Weak};
 
 use super::*;
-use crate::render::{Aov, Colours, Frame, Job, Query};
-use crate::scene::Transfer;
+use crate::render::{Aov, Colours, Frame, Frames, Job, Overexposure, Query};
+use crate::scene::{Size, Transfer};
 use crate::ui::msg::Target;
 
 /// The job of a picture among the effects.
@@ -274,6 +274,23 @@ fn a_picture_that_is_too_bright_says_so_once() {
     }
 }
 
+#[test]
+fn what_is_wrong_with_a_picture_is_said_after_other_messages_while_it_is_so() {
+    let (mut app, effects) = opened(SCENE);
+    let trace = job(&effects, Target::Preview).expect("a preview").clone();
+    press(&mut app, "<Esc>");
+    for (last, told) in [(1.5, "more than half of the picture is above 1"), (0.9, "")] {
+        app.overlays.say("something else");
+        app.update(preview(&trace, 1.5));
+        app.update(preview(&trace, last));
+        assert_eq!(shown(&app), "something else");
+        press(&mut app, "<Esc>");
+        assert_eq!(shown(&app).split(':').next(), Some(told));
+        press(&mut app, "<Esc>");
+        app.update(preview(&trace, 0.9));
+    }
+}
+
 /// Lights of 64 at a distance of 7.8 from the middle are as bright as of 1 if they fade by the square.
 #[test]
 fn a_burnt_picture_is_offered_its_likeliest_cure_first() {
@@ -301,6 +318,79 @@ fn a_burnt_picture_is_offered_its_likeliest_cure_first() {
     );
     press(&mut app, "uu");
     assert_eq!(app.document.text(), text);
+}
+
+/// A small picture by which a depth is tried, whose 99th percentile is so many stops above 1; returns what
+/// follows.
+fn tried(app: &mut App, generation: u64, stops: f64) -> Vec<Effect> {
+    let size = Size {
+        width: 1,
+        height: 1,
+    };
+    app.update(Msg::Started(Target::Trial, generation));
+    let frame = Frame {
+        generation,
+        overexposure: Overexposure { share: 1.0, stops },
+        ..Frame::drawn(size, vec![[255; 3]])
+    };
+    app.update(Msg::Frame(Target::Trial, Arc::new(frame)))
+}
+
+#[test]
+fn a_picture_burnt_by_its_bounces_is_offered_a_smaller_depth() {
+    let text = format!("// render: integrator path\n{SCENE}");
+    let (mut app, effects) = opened(&text);
+    let trace = job(&effects, Target::Preview).expect("a preview").clone();
+    press(&mut app, "<Esc>");
+    let trial = |effects: &[Effect]| {
+        job(effects, Target::Trial).map(|job| (job.settings.depth, job.settings.spp, job.frames))
+    };
+    let ends = |effects: &[Effect]| matches!(effects, [Effect::Stop(Target::Trial)]);
+    let effects = app.update(preview(&trace, 3.0));
+    assert_eq!(trial(&effects), Some((1, 16, Frames::Last)));
+    assert_eq!(
+        shown(&app),
+        "",
+        "nothing is said before it is known what helps"
+    );
+    let effects = tried(&mut app, 1, 0.0);
+    assert_eq!(trial(&effects), Some((2, 16, Frames::Last)));
+    let effects = tried(&mut app, 2, 1.0);
+    assert!(ends(&effects), "{effects:?}");
+    let burnt = "more than half of the picture is above 1: C sets";
+    assert!(
+        shown(&app).starts_with(&format!("{burnt} depth 1,")),
+        "{}",
+        shown(&app)
+    );
+    press(&mut app, "C");
+    assert!(
+        app.document
+            .text()
+            .starts_with("// render: integrator path depth 1\n")
+    );
+    // Where no depth helps, or nothing can be tried, an exposure does.
+    press(&mut app, "u<Esc>");
+    app.update(preview(&trace, 0.5));
+    for ended in [
+        |app: &mut App| tried(app, 3, 1.0),
+        |app: &mut App| app.update(Msg::Refused(Target::Trial, "no memory".to_owned())),
+    ] {
+        assert!(trial(&app.update(preview(&trace, 3.0))).is_some());
+        assert!(ends(&ended(&mut app)));
+        assert!(
+            shown(&app).starts_with(&format!("{burnt} exposure -2,")),
+            "{}",
+            shown(&app)
+        );
+        press(&mut app, "<Esc>");
+        app.update(preview(&trace, 0.5));
+    }
+    // What is found out of a picture that was left is not said.
+    app.update(preview(&trace, 3.0));
+    press(&mut app, "P<Esc>");
+    assert!(ends(&tried(&mut app, 4, 0.0)));
+    assert_eq!(shown(&app), "");
 }
 
 #[test]

@@ -148,6 +148,41 @@ fn a_setting_in_use_is_written_and_no_longer_lies_over_the_text() {
     }
 }
 
+/// The text and what takes precedence over it are as they were, also over several steps.
+#[test]
+fn undo_of_a_written_setting_brings_back_what_it_replaced() {
+    let mut app = open(SCENE);
+    press(&mut app, "P:set integrator<Enter>");
+    let written = app.document.text().to_owned();
+    assert_eq!(written, format!("// render: integrator path\n{SCENE}"));
+    let seen = |app: &mut App, keys: &str| {
+        press(app, keys);
+        let integrator = app.rendering().integrator();
+        (
+            integrator,
+            app.is_integrator_changed(),
+            app.document.text() == written,
+        )
+    };
+    let [whitted, path, photon] = Integrator::ALL;
+    assert_eq!(seen(&mut app, "u"), (path, true, false));
+    assert_eq!(seen(&mut app, "<Ctrl-r>"), (path, false, true));
+    // What is chosen since belongs to the text then.
+    assert_eq!(seen(&mut app, "P"), (photon, true, true));
+    assert_eq!(seen(&mut app, "u"), (path, true, false));
+    assert_eq!(seen(&mut app, "PP"), (whitted, false, false));
+    assert_eq!(seen(&mut app, "<Ctrl-r>"), (photon, true, true));
+    assert_eq!(seen(&mut app, "uPP<Ctrl-r>"), (photon, true, true));
+    // Another setting, and several steps at once.
+    assert_eq!(seen(&mut app, ":set depth 3<Enter>u"), (photon, true, true));
+    press(&mut app, ":set integrator<Enter>P:set depth 2<Enter>");
+    let (last, rendering) = (app.document.present(), app.rendering());
+    app.go_to_state(last - 2);
+    assert_eq!(seen(&mut app, ""), (photon, true, true));
+    app.go_to_state(last);
+    assert_eq!(app.rendering(), rendering);
+}
+
 /// What is wrong already stays a warning.
 #[test]
 fn a_setting_replaces_one_that_is_skipped() {

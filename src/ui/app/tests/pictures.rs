@@ -4,7 +4,7 @@ use std::sync::Arc;
 use std::time::Duration;
 
 use super::*;
-use crate::render::{Frame, Progress};
+use crate::render::{Frame, Overexposure, Progress};
 use crate::scene::Size;
 use crate::ui::msg::{Existing, ExportId, Recalled, Target, Timer};
 
@@ -19,7 +19,7 @@ pub(in crate::ui) fn frame(size: Size, objects: Vec<u32>) -> Frame {
         denoised: Vec::new(),
         errors: Vec::new(),
         range: None,
-        clipped: 0.0,
+        overexposure: Overexposure::default(),
         progress: Progress {
             pass: 1,
             passes: 1,

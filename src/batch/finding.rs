@@ -1,0 +1,46 @@
+//! What is wrong with a picture as a whole, and the options that help.
+
+use super::print_message;
+use super::tracing::Tracer;
+use crate::language::darkening;
+use crate::render::{Frame, Job, Provenance};
+use crate::scene::Rendering;
+use crate::text::alternatives;
+
+/// Whether more than half of a picture is above 1.
+pub(super) fn is_burnt(frame: &Frame) -> bool {
+    0.5 < frame.overexposure.share
+}
+
+/// Says that a whole picture of light is black or, with its job, that it is burnt, and what helps. Traces
+/// small pictures to know that.
+pub(super) fn print_finding(
+    frame: &Frame,
+    picture: &Provenance,
+    burnt: Option<Job>,
+    tracer: impl FnOnce() -> Tracer,
+) {
+    if picture.settings.aov.is_some() || picture.settings.region.is_some() {
+        return;
+    }
+    if frame.pixels.iter().all(|pixel| *pixel == [0; 3]) {
+        let black = "the picture is black; `halflight check` and `halflight explain` may say why";
+        print_message("note", black);
+        return;
+    }
+    let Some(job) = burnt else {
+        return;
+    };
+    let asked = Rendering {
+        exposure: Some(job.settings.exposure),
+        falloff: Some(job.settings.falloff),
+        ..Rendering::default()
+    };
+    let depth = tracer().search_depth(&job);
+    let cures = darkening(Some(&job.scene), &asked, frame.overexposure.stops, depth);
+    let options = cures.iter();
+    let options = options.map(|(key, value)| format!("`--{} {value}`", key.name()));
+    let options = alternatives(options);
+    let finding = format!("more than half of the picture is above 1; try {options}");
+    print_message("note", &finding);
+}

@@ -1,0 +1,24 @@
+//! Render settings that were written into the text, and what took precedence over them.
+
+use crate::document::StateId;
+use crate::language::RenderKey;
+use crate::scene::Rendering;
+
+/// A setting that was written into the text.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Written {
+    /// The text after that.
+    pub(super) state: StateId,
+    pub(super) key: RenderKey,
+    /// What takes precedence over it on the other side of that step, at first before it.
+    pub(super) over: Rendering,
+}
+
+impl Written {
+    /// The user's render settings on the other side of the step; remembers those on this one.
+    pub(super) fn cross(&mut self, rendering: &Rendering) -> Rendering {
+        let own = self.key.alone(rendering);
+        let others = self.key.cleared(rendering);
+        others.or(std::mem::replace(&mut self.over, own))
+    }
+}
