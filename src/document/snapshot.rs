@@ -97,14 +97,13 @@ impl Snapshot {
         let mut back = text::apply(&mut text, &merge.edits());
         lead_to(&mut document, &text);
         // As in `Merge::counted_edits`.
-        let mut counts = document.source.recount();
-        if !counts.is_empty() && !(is_exact && is_exact_as(&mut document, &merge.mine)) {
-            counts.clear();
-        }
-        if !counts.is_empty() {
+        let counts = document.source.recount();
+        let is_recounted =
+            !counts.is_empty() && is_exact && is_exact_as(&mut document, &merge.mine);
+        if is_recounted {
             document.change(&counts);
         }
-        if !counts.is_empty() || merge.mine != *self.text() {
+        if is_recounted || merge.mine != *self.text() {
             back = smallest_edit(document.text(), self.text())
                 .into_iter()
                 .collect();
