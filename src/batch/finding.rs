@@ -3,7 +3,7 @@
 use super::print_message;
 use super::tracing::Tracer;
 use crate::language::darkening;
-use crate::render::{Frame, Job, Provenance};
+use crate::render::{Frame, Job, Limit, Provenance};
 use crate::scene::Rendering;
 use crate::text::alternatives;
 
@@ -36,7 +36,13 @@ pub(super) fn print_finding(
         falloff: Some(job.settings.falloff),
         ..Rendering::default()
     };
-    let depth = tracer().search_depth(&job);
+    // A limited time is over.
+    let is_timed = matches!(job.limit, Some(Limit::Time(_)));
+    let depth = if is_timed {
+        None
+    } else {
+        tracer().search_depth(&job)
+    };
     let cures = darkening(Some(&job.scene), &asked, frame.overexposure.stops, depth);
     let options = cures.iter();
     let options = options.map(|(key, value)| format!("`--{} {value}`", key.name()));

@@ -6,7 +6,7 @@ use std::sync::Arc;
 use super::history::History;
 use super::{Difference, Document, Snapshot};
 use crate::language::{Before, Lowered};
-use crate::text::{Edit, Span, difference};
+use crate::text::{Edit, Span, are_plain_numbers, difference};
 
 /// Shorter texts are parsed in a few milliseconds.
 const LONG: usize = 1 << 20;
@@ -40,11 +40,10 @@ impl Snapshot {
             return Err(text);
         };
         let [span, changed] = words([saved, &text], changed);
-        let is_plain = |byte: u8| byte.is_ascii_digit() || b"+-.eE \t\r\n".contains(&byte);
-        let is_number = |span: Span, text: &str| {
-            (1..=LONGEST).contains(&span.len()) && span.of(text).bytes().all(is_plain)
+        let are_numbers = |span: Span, text: &str| {
+            (1..=LONGEST).contains(&span.len()) && are_plain_numbers(span.of(text))
         };
-        if !is_number(span, saved) || !is_number(changed, &text) {
+        if !are_numbers(span, saved) || !are_numbers(changed, &text) {
             return Err(text);
         }
         Ok(Numbers {

@@ -145,13 +145,16 @@ impl Judge<'_> {
             let span = self.source.span(Node::Light(first.unwrap_or_default()));
             let message = "all lights are off: their colours are zero";
             plain(span, message, "a light with a colour")
+        } else if integrator.traces_paths() && self.has_ambient() {
+            let message =
+                "the only light is ambient, which path tracing leaves out: the picture is black";
+            let finding = plain(self.nowhere(), message, "a light, or `integrator whitted`");
+            Outlook {
+                cure: setting("integrator", Integrator::Whitted.name()),
+                ..finding
+            }
         } else {
-            let message = match integrator {
-                Integrator::Path | Integrator::Photon if self.has_ambient() => {
-                    "the only light is ambient, which path tracing leaves out: the picture is black"
-                }
-                _ => "the scene has no light: the picture is black",
-            };
+            let message = "the scene has no light: the picture is black";
             plain(self.nowhere(), message, "a light")
         })
     }

@@ -9,6 +9,12 @@ pub enum NumberError {
     Overflow,
 }
 
+/// Whether a text has only characters of decimal numbers, and white space.
+pub fn are_plain_numbers(text: &str) -> bool {
+    let is_plain = |byte: u8| byte.is_ascii_digit() || b"+-.eE \t\r\n".contains(&byte);
+    text.bytes().all(is_plain)
+}
+
 /// Parses a number: optional sign, decimal digits with optional fraction, optional exponent.
 /// Rejects hexadecimal numbers, `inf` and `nan`. The result is correctly rounded.
 pub fn parse_number(token: &str) -> Result<f64, NumberError> {

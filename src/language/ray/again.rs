@@ -13,7 +13,7 @@ use crate::language::node::Node;
 use crate::language::{Before, Lowered};
 use crate::scene::objects::BLOCK;
 use crate::scene::{Object, Objects, Scene};
-use crate::text::{Diagnostic, Findings, Span};
+use crate::text::{Diagnostic, Findings, Span, are_plain_numbers};
 
 /// Lowers a text after an edit that replaced the bytes `old` by `changed`.
 pub(super) fn lower(
@@ -26,8 +26,7 @@ pub(super) fn lower(
     // If as many tokens as before have changed and are plain, all others keep their meaning.
     let is_same =
         origins.tokens == tree.tokens.len() && origins.keyed == tree.tokens.keyed().count();
-    let is_plain = |byte: u8| byte.is_ascii_digit() || b"+-.eE \t\r\n".contains(&byte);
-    if !is_same || changed.is_empty() || !changed.of(text).bytes().all(is_plain) {
+    if !is_same || changed.is_empty() || !are_plain_numbers(changed.of(text)) {
         return None;
     }
     let before_end = |end: usize| {

@@ -118,7 +118,10 @@ fn a_scene_without_light_is_black() {
         Language::Xml,
         &xml("<light type='ambient'><intensity/></light>"),
         PATH,
-        &["2:1 the only light is ambient, which path tracing leaves out: the picture is black"],
+        &[
+            "2:1 the only light is ambient, which path tracing leaves out: the picture is black \
+           | integrator whitted",
+        ],
     );
 }
 

@@ -96,15 +96,18 @@ fn changes_of_more_than_numbers_of_one_object_are_parsed() {
     let mut app = open(&text);
     let between = "length\nsphere 5 0 0 0.75";
     for (old, new, readings) in [
-        // These may be numbers of one object.
+        // Numbers, but not only of one object: they are read again.
         (".1 .1 .1\n", ".1 .1 .2\n", 2),
         ("eye 0 0 9", "eye 0 0 8", 2),
         (between, &format!("{between} "), 2),
-        // And these may not.
+        // Other text.
         ("// objects", "// 12000 objects", 1),
         ("sphere 9 0", "Sphere 9 0", 1),
     ] {
         text = text.replacen(old, new, 1);
+        let reading = Reading::new(text.clone(), app.baseline()).expect("it fits into memory");
+        let are_numbers = matches!(reading.news.as_deref(), Some(News::Numbers(_)));
+        assert_eq!(are_numbers, readings == 2, "{new}");
         assert_eq!(deliver(&mut app, &text), readings, "{new}");
         assert_eq!(app.document.text(), text);
     }
