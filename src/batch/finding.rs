@@ -12,8 +12,8 @@ pub(super) fn is_burnt(frame: &Frame) -> bool {
     0.5 < frame.overexposure.share
 }
 
-/// Says that a whole picture of light is black or, with its job, that it is burnt, and what helps. Traces
-/// small pictures to know that.
+/// Prints what is wrong with a whole picture of light: that it is black or, if `burnt` holds its job,
+/// too bright; and the options that help. May trace small pictures to find them.
 pub(super) fn print_finding(
     frame: &Frame,
     picture: &Provenance,
@@ -36,7 +36,7 @@ pub(super) fn print_finding(
         falloff: Some(job.settings.falloff),
         ..Rendering::default()
     };
-    // A limited time is over.
+    // No time is left for small pictures.
     let is_timed = matches!(job.limit, Some(Limit::Time(_)));
     let depth = if is_timed {
         None

@@ -11,7 +11,7 @@ use crate::text::{Edit, Span, are_plain_numbers, difference};
 /// Shorter texts are parsed in a few milliseconds.
 const LONG: usize = 1 << 20;
 
-/// Longer changes are not only numbers of one object.
+/// The numbers of one object are never longer, in bytes.
 const LONGEST: usize = 1024;
 
 /// A text from outside that differs from the one last saved in plain numbers, for
@@ -69,8 +69,8 @@ impl Numbers {
 
 impl Document {
     /// As [`Document::load`] if only numbers of one object have changed, given the result of lowering
-    /// the present text; returns the texts before, which may take long to free. `None`, and no effect,
-    /// if more may have changed.
+    /// the present text; returns the previous texts, which may take long to free. `None` if more may
+    /// have changed: then the document is as before.
     pub fn take_numbers(
         &mut self,
         numbers: Numbers,

@@ -23,8 +23,8 @@ use crate::scene::{FalloffRule, Light, Material, Rgb};
 
 /// Paths with a throughput below this are subject to Russian roulette. Squared error × time with
 /// 1/4, relative to 1/16, is .78 in a room lit by a panel, .82 in `lamp.xml`, .96 in `neon.xml`, .95 in
-/// `still-life.dat`. 1/3 gains up to .05 more in closed rooms and loses in open scenes; at equal
-/// samples it adds twice as much noise.
+/// `still-life.dat`. 1/3 gains up to .05 more in closed rooms and loses in open scenes; with equal
+/// numbers of samples it adds twice as much noise.
 const FAINT: f64 = 1.0 / 4.0;
 
 /// The same where no light is sampled at random, so that roulette would add most of the noise:
