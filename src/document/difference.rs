@@ -6,8 +6,7 @@ use super::changes::{Change, LIMITS, Limits, changes};
 use crate::text;
 use crate::text::{Edit, Span};
 
-/// Changes are told apart more finely than for merging, and sooner given up: of each, only the next
-/// few objects are read.
+/// Finer than for merging, and given up sooner: places are only named.
 const FINE: Limits = Limits {
     near: 0,
     reach: 1 << 10,

@@ -25,11 +25,11 @@ const PATIENCE: Duration = Duration::from_millis(if cfg!(test) { 3_600_000 } els
 /// More unchanged leaves in a row than this are never taken for a coincidence.
 const COINCIDENCE: usize = 4;
 
-/// So many equal chunks before and behind a change are aligned with it: parts of it may as well be
-/// among them.
+/// This many equal chunks on either side of a change are aligned along with it, since its parts may
+/// match them just as well.
 const ROOM: usize = 64;
 
-/// Hunks that are so many chunks away from the edges of two windows are never joined.
+/// Hunks at least this many chunks from the edges of two windows are never joined.
 pub(super) const APART: usize = COINCIDENCE + 2;
 
 /// The length of a leaf's role.

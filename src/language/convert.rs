@@ -75,7 +75,7 @@ const PATHS_KEPT: Loss = Loss {
 };
 
 const WHITTED_KEPT: Loss = Loss {
-    instead: "written as it is: by Whitted ray tracing it is the same, by path tracing brighter by π",
+    instead: "written as it is: by Whitted ray tracing it is the same, by path tracing brighter by a factor of π",
     ..PATHS_KEPT
 };
 

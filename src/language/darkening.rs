@@ -5,10 +5,10 @@ use super::rendering::RenderKey;
 use crate::scene::{EXPOSURES, Emitter, FalloffRule, Rendering, Rgb, Scene};
 use crate::text::concise;
 
-/// How many stops a picture may miss white by with a falloff, to be suggested.
+/// A falloff is suggested if, by the estimate, it brings the 99th percentile within this many stops of 1.
 const NEAR: f64 = 2.5;
 
-/// How many stops too bright the estimate for a falloff may be, to be suggested first.
+/// It is suggested last if the estimate is more than this many stops above 1.
 const ROUGHLY: f64 = 1.0;
 
 /// The render settings, with their values, that bring the 99th percentile of a picture to about 1, the
@@ -55,4 +55,37 @@ fn fading(scene: &Scene) -> Option<f64> {
         });
     let distance = steady.reduce(f64::min)?;
     Some(-2.0 * libm::log2(distance))
+}
+
+#[cfg(test)]
+mod tests {
+    use std::sync::Arc;
+
+    use super::*;
+    use crate::language::{Language, Source};
+    use crate::scene::Meshes;
+
+    /// A ball in a light at a distance of 4, which would darken it by four stops.
+    const BALL: &str = "0 0 0  1  4 0 0  1 1 1  1\n\
+                        sphere 0 0 0 1  0 0 0  .5 .5 .5  0 0 0  1 0 0 1";
+
+    #[test]
+    fn a_falloff_that_leaves_too_much_light_comes_last() {
+        let mut source = Source::new(Language::Ray, Arc::new(BALL.to_owned()));
+        let lowered = source.lower(&Meshes::default()).expect("it fits");
+        let scene = lowered.scene.expect("it has no errors");
+        let cures = |over: f64| {
+            let cures = darkening(Some(&scene), &Rendering::default(), over, Some(2));
+            let cures = cures.iter();
+            let cures: Vec<_> = cures
+                .map(|(key, value)| format!("{} {value}", key.name()))
+                .collect();
+            cures.join(", ")
+        };
+        assert_eq!(cures(4.0), "falloff square, depth 2, exposure -4");
+        assert_eq!(cures(5.0), "falloff square, depth 2, exposure -5");
+        assert_eq!(cures(5.5), "depth 2, exposure -5.5, falloff square");
+        assert_eq!(cures(6.5), "depth 2, exposure -6.5");
+        assert_eq!(cures(1.5), "depth 2, exposure -1.5");
+    }
 }

@@ -12,7 +12,7 @@ const SIDE: u32 = 64;
 /// Its samples per pixel.
 const SAMPLES: u32 = 16;
 
-/// How many stops its 99th percentile may be above 1: its noise alone makes up about as much.
+/// How many stops its 99th percentile may be above 1: noise alone accounts for about that.
 const ROUGHLY: f64 = 0.5;
 
 /// A search for the largest of the depths 1, 2, 4 … by which the 99th percentile of a picture is about 1.

@@ -29,7 +29,7 @@ const FAINT: f64 = 1.0 / 4.0;
 
 /// The same where no light is sampled at random, so that roulette would add most of the noise:
 /// `mirrors.ray` takes 1.10 with 1/32 and 1.26 with 1/4, `glass.ray` 1.08 and 1.10.
-const FAINT_IN_STILL_LIGHT: f64 = 1.0 / 16.0;
+const FAINT_BY_POINT_LIGHTS: f64 = 1.0 / 16.0;
 
 /// The state of a path.
 #[derive(Debug)]
@@ -144,7 +144,7 @@ impl<C: Fn() -> bool> Probe<'_, C> {
         let faint = if self.world.samples_lights {
             FAINT
         } else {
-            FAINT_IN_STILL_LIGHT
+            FAINT_BY_POINT_LIGHTS
         };
         path.go_on(next, faint, chance)
     }

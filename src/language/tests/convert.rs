@@ -402,8 +402,7 @@ fn a_falloff_by_the_square_is_kept_by_the_setting_for_it() {
 fn what_gamma_says_of_lights_is_lost_at_its_place() {
     let path =
         "written divided by π: by path tracing it is the same, by Whitted ray tracing darker";
-    let whitted =
-        "written as it is: by Whitted ray tracing it is the same, by path tracing brighter by π";
+    let whitted = "written as it is: by Whitted ray tracing it is the same, by path tracing brighter by a factor of π";
     for (settings, light, kept, colour) in [
         ("", "point", Some(path), 3.0 / PI),
         (

@@ -16,7 +16,7 @@ pub struct Cures {
     pub(super) of_picture: Vec<Cure>,
     /// What was said of a preview that is black or too bright, while it is so.
     pub(super) said: Option<String>,
-    /// What is found out before the preview is said to be too bright.
+    /// The search for a depth under way, before the preview is said to be too bright.
     pub(super) search: Option<Search>,
 }
 

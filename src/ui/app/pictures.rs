@@ -264,7 +264,7 @@ impl Pictures {
         self.rendering.or(own.unwrap_or_default())
     }
 
-    /// Exchanges what takes precedence over the setting that the step to a text wrote, if it wrote one, for
+    /// Crosses the step to a text: if it wrote a setting, swaps what takes precedence over that setting for
     /// what did on the other side of the step.
     pub(super) fn cross(&mut self, state: StateId) {
         let mut written = self.written.iter_mut();

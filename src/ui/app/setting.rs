@@ -93,7 +93,8 @@ impl App {
         self.document.end_step();
     }
 
-    /// Undoes a step of the text. What took precedence over a setting before that wrote it does again.
+    /// Undoes a step of the text; if it wrote a setting, what took precedence over that setting before
+    /// does again.
     pub(super) fn undo_text(&mut self) -> Option<Span> {
         let left = self.document.state();
         let changed = self.document.undo();
@@ -103,7 +104,8 @@ impl App {
         changed
     }
 
-    /// Redoes a step of the text. What took precedence over a setting when that was undone does again.
+    /// Redoes a step of the text; if it wrote a setting, what took precedence over that setting when it
+    /// was undone does again.
     pub(super) fn redo_text(&mut self) -> Option<Span> {
         let changed = self.document.redo();
         if changed.is_some() {
