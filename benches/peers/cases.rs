@@ -14,8 +14,6 @@ pub(crate) enum Target {
     Nothing,
     /// At most this fraction of the best peer's time.
     Ratio(f64),
-    /// At most this time.
-    Milliseconds(f64),
 }
 
 /// A scene, how it is traced, and its targets.
@@ -97,12 +95,12 @@ pub(crate) fn all(folder: Option<&Path>) -> Vec<Case> {
 /// The scenes of the folder with the peers' files, with targets relative to the best peer.
 fn of_folder(folder: &Path) -> Vec<Case> {
     let cases = [
-        ("S1", "s1", "ray", 1, 5, Target::Ratio(0.5)),
-        ("S1, 16 spp", "s1", "ray", 16, 5, Target::Ratio(0.5)),
-        ("S2", "s2", "ray", 1, 4, Target::Ratio(0.8)),
-        ("S2b", "s2b", "ray", 1, 4, Target::Ratio(0.8)),
-        ("S3", "s3", "ray", 1, 0, Target::Ratio(0.6)),
-        ("S4", "s4", "xml", 1, 0, Target::Milliseconds(600.0)),
+        ("S1", "s1", "ray", 1, 5, Target::Ratio(0.45)),
+        ("S1, 16 spp", "s1", "ray", 16, 5, Target::Ratio(0.4)),
+        ("S2", "s2", "ray", 1, 4, Target::Ratio(0.65)),
+        ("S2b", "s2b", "ray", 1, 4, Target::Ratio(0.75)),
+        ("S3", "s3", "ray", 1, 0, Target::Ratio(0.45)),
+        ("S4", "s4", "xml", 1, 0, Target::Ratio(1.0)),
         ("S5", "s5", "bu.dat", 1, 3, Target::Ratio(0.1)),
     ];
     let cases = cases.map(|(name, stem, extension, spp, depth, target)| Case {
@@ -110,14 +108,15 @@ fn of_folder(folder: &Path) -> Vec<Case> {
         spp,
         depth: Some(depth),
         target,
-        // The reference reads the mesh from a binary file: only the tracing can be compared.
+        // The reference reads the mesh from a binary file.
         frame_target: match name {
             "S4" => Target::Ratio(1.0),
             _ => Target::Nothing,
         },
         first_target: match name {
-            "S1" => Target::Milliseconds(12.0),
-            "S2" => Target::Milliseconds(15.0),
+            "S1" => Target::Ratio(0.5),
+            "S2" => Target::Ratio(0.6),
+            "S3" => Target::Ratio(0.35),
             _ => Target::Nothing,
         },
         ..Case::plain(name, folder.join(format!("{stem}.{extension}")))

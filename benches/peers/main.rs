@@ -6,10 +6,14 @@
 //! peers are not measured. `cargo bench --bench peers -- growth` prints and plots the growth of
 //! time and memory with objects and lights instead.
 //!
+//! The table is also written as JSON, and its ratios are printed beside those kept in `peers.json`;
+//! `-- --keep` replaces these.
+//!
 //! Programs are run in turn, so that other load on the machine affects all of them alike.
 
 mod cases;
 mod growth;
+mod kept;
 #[path = "../meshes/mod.rs"]
 mod meshes;
 mod phases;
@@ -24,6 +28,7 @@ use std::path::Path;
 
 use cases::{Case, Picture, Target};
 use halflight::scene::Size;
+use kept::Kept;
 use programs::{Program, Timed};
 use setting::{LONG, RUNS, SCRATCH, THREADS, WHOLE};
 use table::Row;
@@ -68,25 +73,36 @@ fn main() {
     }
     table::heading();
     let bare = programs::peak_of(&cases::bare());
+    let mut kept = Kept::read();
     for case in cases::all(folder) {
         if selected.is_empty()
             || selected
                 .iter()
                 .any(|part| case.name.contains(part.as_str()))
         {
-            measure(&case, &programs, bare);
+            measure(&case, &programs, bare, &mut kept);
         }
     }
     println!("load {}", load());
+    kept.write(arguments.iter().any(|argument| argument == "--keep"));
 }
 
 /// Measures a scene and prints its rows. `bare` is the peak memory of a minimal render.
-fn measure(case: &Case, programs: &[Program], bare: usize) {
+fn measure(case: &Case, programs: &[Program], bare: usize, kept: &mut Kept) {
     let phases = phases::measure(case);
     let whole = in_turn(case, &case.picture(WHOLE), programs);
     let small = in_turn(case, &FIRST, programs);
     let peak = programs::peak_of(case).saturating_sub(bare);
-    table::print(&Row {
+    let mut print = |row: Row<'_>| {
+        // Rows below that of the scene are indented.
+        let name = match row.name.strip_prefix("  ") {
+            Some(of_scene) => format!("{}, {of_scene}", case.name),
+            None => row.name.to_owned(),
+        };
+        table::print(&row, kept.ratio(&name));
+        kept.add(name, &row);
+    };
+    print(Row {
         name: &case.name,
         phases: Some(&phases),
         peak: Some(peak.saturating_sub(phases.text)),
@@ -95,8 +111,8 @@ fn measure(case: &Case, programs: &[Program], bare: usize) {
         first: Some(small[0].wall),
         target: case.target,
     });
-    let plain = |name, timed, ours, target| {
-        table::print(&Row {
+    let mut plain = |name, timed, ours, target| {
+        print(Row {
             name,
             phases: None,
             peak: None,

@@ -9,7 +9,7 @@ use crate::programs::{Program, Timed};
 use crate::setting::THREADS;
 
 /// The peers, in the order of their columns.
-const PEERS: [Program; 3] = [Program::Povray, Program::Tachyon, Program::Embree];
+pub(crate) const PEERS: [Program; 3] = [Program::Povray, Program::Tachyon, Program::Embree];
 
 /// Bytes per object are omitted for fewer objects, where the size of a page dominates.
 const MANY: usize = 1000;
@@ -30,8 +30,22 @@ pub(crate) struct Row<'a> {
     pub(crate) target: Target,
 }
 
+impl Row<'_> {
+    /// The time of a peer.
+    pub(crate) fn of(&self, peer: Program) -> Option<&Timed> {
+        self.timed.iter().find(|timed| timed.program == peer)
+    }
+
+    /// Our time over that of the fastest peer.
+    pub(crate) fn ratio(&self) -> Option<f64> {
+        let peers = PEERS.into_iter().filter_map(|peer| self.of(peer));
+        let best = peers.map(|timed| timed.wall).min()?;
+        Some(self.ours.as_secs_f64() / best.as_secs_f64())
+    }
+}
+
 /// The two lines of headings; blanks set a column's width.
-const HEADINGS: [[&str; 2]; 20] = [
+const HEADINGS: [[&str; 2]; 21] = [
     ["", "scene            "],
     ["", "  objects"],
     ["", "  parse"],
@@ -51,6 +65,7 @@ const HEADINGS: [[&str; 2]; 20] = [
     ["", "tachyon"],
     ["", " embree"],
     ["vs best", "ratio"],
+    ["", " kept"],
     ["", "target"],
 ];
 
@@ -61,16 +76,9 @@ pub(crate) fn heading() {
     }
 }
 
-/// Prints a row.
-pub(crate) fn print(row: &Row<'_>) {
+/// Prints a row, with the ratio kept for it.
+pub(crate) fn print(row: &Row<'_>, kept: Option<f64>) {
     let of_phases = |show: &dyn Fn(&Phases) -> String| row.phases.map_or_else(String::new, show);
-    let peer = |program| row.timed.iter().find(|timed| timed.program == program);
-    let best = PEERS
-        .into_iter()
-        .filter_map(peer)
-        .map(|timed| timed.wall)
-        .min();
-    let ratio = best.map(|best| row.ours.as_secs_f64() / best.as_secs_f64());
     let each = |bytes: usize| {
         let objects = row.phases.map_or(0, |phases| phases.objects);
         if objects < MANY {
@@ -82,7 +90,7 @@ pub(crate) fn print(row: &Row<'_>) {
     let megarays = |rays: u64| format!("{:.2}", rays as f64 / 1e6);
     let in_milliseconds = |time: Option<Duration>| time.map_or_else(String::new, milliseconds);
     let [povray, tachyon, embree] =
-        PEERS.map(|program| in_milliseconds(peer(program).map(|timed| timed.wall)));
+        PEERS.map(|peer| in_milliseconds(row.of(peer).map(|timed| timed.wall)));
     print_cells(&[
         row.name.to_owned(),
         of_phases(&|phases| phases.objects.to_string()),
@@ -105,11 +113,11 @@ pub(crate) fn print(row: &Row<'_>) {
         povray,
         tachyon,
         embree,
-        ratio.map_or_else(String::new, |ratio| format!("{ratio:.2}")),
+        to_hundredths(row.ratio()),
+        to_hundredths(kept),
         match row.target {
             Target::Nothing => String::new(),
             Target::Ratio(ratio) => format!("<= {ratio}"),
-            Target::Milliseconds(most) => format!("<= {most} ms"),
         },
     ]);
 }
@@ -126,6 +134,10 @@ fn print_cells(cells: &[String; HEADINGS.len()]) {
         }
     }
     println!("{}", line.trim_end());
+}
+
+fn to_hundredths(ratio: Option<f64>) -> String {
+    ratio.map_or_else(String::new, |ratio| format!("{ratio:.2}"))
 }
 
 fn milliseconds(time: Duration) -> String {

@@ -4,16 +4,18 @@
 //! each operand cuts a line into spans, and the operation is applied to the spans. Operations are
 //! regularised: results have no parts of zero thickness.
 //!
-//! Most lines cross no two surfaces at nearly the same point. They are evaluated in packets, on
-//! unordered lists ([`apart`]); the others one by one, with coincident boundaries resolved
-//! ([`exact`]).
+//! Most lines cross no two surfaces at nearly the same point. They are evaluated side by side, on
+//! unordered lists ([`apart`]), by a flat [`program`]; the others one by one, with coincident
+//! boundaries resolved ([`exact`]).
 
 mod apart;
-mod evaluate;
 mod exact;
 mod merge;
+mod program;
+mod slopes;
 mod uncut;
 
+use self::program::Program;
 use super::lanes::{Eight, Simd, bits, mask};
 use super::{Aabb, Chart, Crossings, Hit, Hits, Ray, Rays, Solid, Spans, Surface, ulp};
 
@@ -57,8 +59,9 @@ pub struct Csg {
     leaves: Vec<Leaf>,
     /// The number of steps that are operands more than once.
     shared: u32,
-    /// Whether no step is shared and all leaves are simple solids, hit in at most one span.
-    is_simple: bool,
+    /// The steps as instructions, if none is shared and all leaves are simple solids, hit in at most
+    /// one span.
+    program: Option<Program>,
     bounds: Aabb,
     /// The largest magnitude of the leaves.
     magnitude: f64,
@@ -107,7 +110,7 @@ impl Csg {
             steps: Vec::with_capacity(nodes.len()),
             leaves: Vec::new(),
             shared: 0,
-            is_simple: true,
+            program: None,
             bounds: Aabb::EMPTY,
             magnitude: 0.0,
         };
@@ -125,7 +128,6 @@ impl Csg {
                     };
                     parts += leaf.solid.parts();
                     csg.magnitude = csg.magnitude.max(leaf.magnitude);
-                    csg.is_simple &= leaf.solid.is_simple();
                     csg.leaves.push(leaf);
                     (PreparedKind::Leaf(csg.leaves.len() as u32 - 1), bounds)
                 }
@@ -153,8 +155,10 @@ impl Csg {
                 shared,
             });
         }
-        csg.is_simple &= csg.shared == 0;
         csg.drop_redundant_boxes(&boxes);
+        if csg.shared == 0 && csg.solids().all(Solid::is_simple) {
+            csg.program = Some(Program::new(&csg.steps));
+        }
         csg
     }
 
@@ -201,8 +205,8 @@ impl Csg {
 
     /// The nearest boundary with `0 < t < limit`.
     pub fn hit(&self, ray: &Ray, limit: f64) -> Option<Hit> {
-        if self.is_simple {
-            let nearest = self.nearest(&ray.into(), limit, true);
+        if let Some(program) = &self.program {
+            let nearest = self.nearest(program, &ray.into(), limit, true);
             if !nearest.close {
                 return nearest.hit.then(|| nearest.end.into());
             }
@@ -221,12 +225,12 @@ impl Csg {
         let simd = limits.simd;
         let mut hits = Hits::NONE;
         let mut rest = lanes;
-        if self.is_simple {
+        if let Some(program) = &self.program {
             // Not inlined: every shape would reserve stack space for the boundaries.
             simd.vectorize(
                 #[inline(always)]
                 || {
-                    let nearest = self.nearest(rays, limits, mask(simd, lanes));
+                    let nearest = self.nearest(program, rays, limits, mask(simd, lanes));
                     rest = bits::<S>(nearest.close);
                     hits = nearest.end.hits(bits::<S>(nearest.hit) & !rest);
                 },
