@@ -58,6 +58,15 @@ pub struct Bvh {
     moved: usize,
 }
 
+/// The rough order in which boxes are visited.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Order {
+    /// For nearest hits.
+    NearFirst,
+    /// For any hits.
+    LargeFirst,
+}
+
 /// The maximum number of boxes in a leaf, and in any run visited at once.
 pub const RUN: usize = 8;
 
@@ -153,8 +162,9 @@ impl Bvh {
         rays: &Rays<Eight<S>>,
         lanes: u32,
         limits: Eight<S>,
+        order: Order,
         visit: impl FnMut(Range<usize>, u32, Eight<S>) -> Eight<S>,
     ) {
-        packet::traverse(self, rays, lanes, limits, visit);
+        packet::traverse(self, rays, lanes, limits, order, visit);
     }
 }

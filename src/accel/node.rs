@@ -227,6 +227,20 @@ impl Node {
         [low[lane], high[lane]]
     }
 
+    /// Half the surface area of the box in a lane; in single precision, infinite or no number where it
+    /// overflows.
+    #[inline(always)]
+    pub(super) fn half_area(&self, lane: usize) -> f32 {
+        let [x, y, z] = [0, 1, 2].map(
+            #[inline(always)]
+            |axis| {
+                let [low, high] = self.box_planes(lane, axis);
+                high - low
+            },
+        );
+        x * y + y * z + z * x
+    }
+
     /// Returns the distances at which the ray enters the children's boxes, or starts inside, and a
     /// mask of the children whose box it may enter at a distance up to `limit`.
     #[inline(always)]

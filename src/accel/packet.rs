@@ -10,6 +10,12 @@
 //! Rejected: one list of children for both tests (a tenth more time); testing the rays against a child
 //! when it is visited, by when fewer may be left (no less time for coherent rays, a third more for
 //! others).
+//!
+//! Where any hit is as good as the nearest, children with larger boxes are visited first: they are more
+//! likely to hold one (the surface area as an estimate, after Nah and Manocha, "SATO: Surface Area
+//! Traversal Order for Shadow Ray Tracing", Computer Graphics Forum 33, 2014). Frames take 2 to 4 % less
+//! time than with near ones first. Rejected: far ones, at the light's side, first (0 to 2 % less); those
+//! that most rays hit first (2 % less), and areas times numbers of rays (1 to 2 % less); no order (none).
 
 use std::ops::Range;
 
@@ -18,10 +24,10 @@ use arrayvec::ArrayVec;
 use crate::geometry::Rays;
 use crate::geometry::lanes::{Eight, Select, Simd, SimdBase, Singles, bits, singles};
 
-use super::Bvh;
 use super::node::{Child, Link, Node, WIDTH};
 use super::slab::{Approach, SlabRay, clip, is_open_in_lanes};
 use super::traverse::{STACK, insert};
+use super::{Bvh, Order};
 
 /// Up to this number of active rays, each is tested against all children of a node at once;
 /// otherwise all rays are tested against each child.
@@ -32,6 +38,8 @@ const FEW: u32 = 2;
 struct Pending {
     /// The distance at which the first of its rays enters its box.
     entry: f32,
+    /// The child with the least key is visited first.
+    key: f32,
     link: Link,
     /// The rays that hit it.
     lanes: u32,
@@ -71,6 +79,7 @@ pub(super) fn traverse<S: Simd>(
     rays: &Rays<Eight<S>>,
     lanes: u32,
     mut limits: Eight<S>,
+    order: Order,
     mut visit: impl FnMut(Range<usize>, u32, Eight<S>) -> Eight<S>,
 ) {
     for run in bvh.unbounded() {
@@ -88,10 +97,14 @@ pub(super) fn traverse<S: Simd>(
     let mut stack = ArrayVec::<_, STACK>::new();
     stack.push(Pending {
         entry: f32::NEG_INFINITY,
+        key: 0.0,
         link: Link::ROOT,
         lanes,
     });
-    while let Some(Pending { entry, link, lanes }) = stack.pop() {
+    while let Some(Pending {
+        entry, link, lanes, ..
+    }) = stack.pop()
+    {
         let reached = is_open_in_lanes([Singles::splat(reach.simd, entry), reach]);
         let lanes = bits::<S>(reached) & lanes;
         if lanes == 0 {
@@ -106,8 +119,10 @@ pub(super) fn traverse<S: Simd>(
                     while hits.children != 0 {
                         let lane = hits.children.trailing_zeros() as usize % WIDTH;
                         hits.children &= hits.children - 1;
+                        let entry = hits.entries[lane];
                         let pending = Pending {
-                            entry: hits.entries[lane],
+                            entry,
+                            key: key(order, entry, node, lane),
                             link: node.link(lane),
                             lanes: hits.lanes[lane],
                         };
@@ -116,7 +131,7 @@ pub(super) fn traverse<S: Simd>(
                             base,
                             pending,
                             #[inline(always)]
-                            |pending| pending.entry,
+                            |pending| pending.key,
                         );
                     }
                     continue;
@@ -129,6 +144,7 @@ pub(super) fn traverse<S: Simd>(
                     if lanes != 0 {
                         let pending = Pending {
                             entry,
+                            key: key(order, entry, node, lane),
                             link: node.link(lane),
                             lanes,
                         };
@@ -137,7 +153,7 @@ pub(super) fn traverse<S: Simd>(
                             base,
                             pending,
                             #[inline(always)]
-                            |pending| pending.entry,
+                            |pending| pending.key,
                         );
                     }
                 }
@@ -149,6 +165,15 @@ pub(super) fn traverse<S: Simd>(
                 bounds = bounds_of([start, reach]);
             }
         }
+    }
+}
+
+/// The key of a child, given the distance at which the first ray enters its box.
+#[inline(always)]
+fn key(order: Order, entry: f32, node: &Node, lane: usize) -> f32 {
+    match order {
+        Order::NearFirst => entry,
+        Order::LargeFirst => -node.half_area(lane),
     }
 }
 

@@ -56,8 +56,8 @@ struct Branch {
 }
 
 impl Wave<'_> {
-    /// Adds the radiance of a packet's points to `seen` and pushes their secondary rays onto the
-    /// pending ones, the mirrored ray last because it is traced first.
+    /// Adds the radiance of a packet's points to `seen` and pushes their secondary rays, the mirrored
+    /// ray last because it is traced first. The next ray of each tree moves to the next front.
     #[inline(always)]
     pub(super) fn go_on<S: Simd>(
         &mut self,
@@ -69,48 +69,52 @@ impl Wave<'_> {
     ) {
         let landing = &self.landings[packet];
         let first = packet * WIDTH;
-        let packet = &self.rays[packet];
+        let packet = &self.front.rays[packet];
         let last = self.arrived.len().min(first + WIDTH);
         let all = &self.arrived[first..last];
-        let states = &self.states[first..last];
+        let states = &self.front.states[first..last];
         let mut specular = None;
         for (lane, (arrived, state)) in all.iter().zip(states).enumerate() {
-            let Some(material) = arrived.found.material(&self.mapped) else {
-                continue;
-            };
-            if gather.surface(state.bounce) {
+            let tree = &mut self.trees[state.tree];
+            let material = arrived.found.material(&self.mapped);
+            if material.is_some() && gather.surface(state.bounce) {
                 seen[state.tree].radiance += arrived.weight * arrived.radiance;
             }
-            if state.bounce == depth {
-                continue;
-            }
-            let mirrored = material.mirrored(landing.side(lane));
-            if mirrored == Rgb::ZERO && material.dielectric.tint == Rgb::ZERO {
-                continue;
-            }
-            let found = || {
-                all.iter()
-                    .map(|arrived| arrived.found.material(&self.mapped))
-            };
-            let specular = match &specular {
-                Some(specular) => specular,
-                None => &*specular.insert(Specular::new(simd, packet, landing, found())),
-            };
-            let pending = &mut self.trees[state.tree].pending;
-            let push = |branch: Branch| {
-                if branch.weight != Rgb::ZERO {
-                    pending.push((branch.ray, branch.state(state, arrived.weight)));
+            let branching = material.filter(|material| {
+                let mirrored = material.mirrored(landing.side(lane));
+                let branches = mirrored != Rgb::ZERO || material.dielectric.tint != Rgb::ZERO;
+                state.bounce != depth && branches
+            });
+            let mut last = None;
+            if let Some(material) = branching {
+                let found = || {
+                    all.iter()
+                        .map(|arrived| arrived.found.material(&self.mapped))
+                };
+                let specular = match &specular {
+                    Some(specular) => specular,
+                    None => &*specular.insert(Specular::new(simd, packet, landing, found())),
+                };
+                let push = |branch: Branch| {
+                    if branch.weight == Rgb::ZERO {
+                        return;
+                    }
+                    let pushed = (branch.ray, branch.state(state, arrived.weight));
+                    if let Some(before) = last.replace(pushed) {
+                        tree.pending.push(before);
+                    }
+                };
+                let sampler = samples[state.tree].sampler;
+                let numbers = |purpose| sampler.pair(state.node, purpose);
+                if let Some(exponent) = material.facets(gloss) {
+                    let point = landing.point(packet, lane);
+                    let facet = facet(point.normal, point.view, exponent, numbers(Use::Reflection));
+                    by_facet((&point, facet), material, push);
+                } else {
+                    specular.branch((packet, landing), lane, material, numbers, push);
                 }
-            };
-            let sampler = samples[state.tree].sampler;
-            let numbers = |purpose| sampler.pair(state.node, purpose);
-            if let Some(exponent) = material.facets(gloss) {
-                let point = landing.point(packet, lane);
-                let facet = facet(point.normal, point.view, exponent, numbers(Use::Reflection));
-                by_facet((&point, facet), material, push);
-            } else {
-                specular.branch((packet, landing), lane, material, numbers, push);
             }
+            tree.go_on(last, &mut self.next);
         }
     }
 }

@@ -5,6 +5,7 @@ use std::ops::Range;
 use super::intersect::{Closest, Crossed, Nearest, Occlusion};
 use super::structures::Search;
 use super::world::{World, runs_in_file_order};
+use crate::accel::Order;
 use crate::geometry::lanes::{
     Eight, Lanes, Simd, SimdBase, Vector, WIDTH, dispatch, each_bit, mask,
 };
@@ -68,6 +69,7 @@ impl World {
             &rays,
             open,
             limits,
+            Order::LargeFirst,
             #[inline(always)]
             |places, lanes, mut limits| {
                 let left = lanes & open;
@@ -180,6 +182,7 @@ impl World {
             &rays,
             packet.lanes,
             limits,
+            Order::NearFirst,
             #[inline(always)]
             |places, lanes, _| {
                 if lanes.is_power_of_two() {
@@ -297,10 +300,11 @@ impl World {
         rays: &Rays<Eight<S>>,
         lanes: u32,
         limits: Eight<S>,
+        order: Order,
         mut visit: impl FnMut(Range<usize>, u32, Eight<S>) -> Eight<S>,
     ) {
         if let Some(tree) = &self.tree {
-            tree.traverse_packet(rays, lanes, limits, visit);
+            tree.traverse_packet(rays, lanes, limits, order, visit);
             return;
         }
         let mut limits = limits;

@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use rayon::prelude::*;
 
-use crate::accel::Bvh;
+use crate::accel::{Bvh, Order};
 use crate::geometry::lanes::{Eight, Lanes, Simd, WIDTH, mask};
 use crate::geometry::{
     Hit, Hits, Instance, Mesh, MeshLine, Ray, Rays, Shape, TriangleRun, TriangleRuns,
@@ -158,6 +158,10 @@ impl Structures {
             lines.rays(),
             lines.lanes,
             limits_on_lines,
+            match search {
+                Search::Nearest => Order::NearFirst,
+                Search::Blocker => Order::LargeFirst,
+            },
             #[inline(always)]
             |places, lanes, _| {
                 lines.meet_run(&tree.run(places), lanes, &mut nearest);

@@ -1,5 +1,7 @@
 //! Camera samples traced together, one ray of each at a time.
 
+use std::mem;
+
 use super::intersect::Nearest;
 use super::probe::{Counts, RAY_BUDGET, Sample};
 use super::sampler::Sampler;
@@ -24,10 +26,52 @@ pub(super) struct RayState {
 /// The rays of a camera sample.
 #[derive(Debug, Default)]
 pub(super) struct RayTree {
-    /// Rays yet to be traced, last in first out.
+    /// Rays to be traced after the one in the next front, last in first out.
     pub(super) pending: Vec<(Ray, RayState)>,
     /// The number of rays traced so far, apart from shadow rays.
     pub(super) traced: u32,
+}
+
+impl RayTree {
+    /// Moves a ray to the next front, given the last pushed of those that the tree's ray ended with, or
+    /// the last pending one if there is none. A ray beyond the budget stays.
+    #[inline(always)]
+    pub(super) fn go_on(&mut self, pushed: Option<(Ray, RayState)>, next: &mut Front) {
+        let Some((ray, state)) = pushed.or_else(|| self.pending.pop()) else {
+            return;
+        };
+        if self.traced == RAY_BUDGET {
+            self.pending.push((ray, state));
+            next.refused += 1;
+        } else {
+            self.traced += 1;
+            next.push(&ray, f64::INFINITY, state);
+        }
+    }
+}
+
+/// At most one ray of each tree, in the order of the trees.
+#[derive(Debug, Default)]
+pub(super) struct Front {
+    pub(super) rays: Packets,
+    pub(super) states: Vec<RayState>,
+    /// The number of trees that end here because their rays exceed the budget.
+    refused: u64,
+}
+
+impl Front {
+    fn clear(&mut self) {
+        self.rays.clear();
+        self.states.clear();
+        self.refused = 0;
+    }
+
+    /// Adds a ray, which ends at a distance.
+    #[inline(always)]
+    fn push(&mut self, ray: &Ray, end: f64, state: RayState) {
+        self.rays.push(ray, end);
+        self.states.push(state);
+    }
 }
 
 /// The shaded hit of a ray.
@@ -70,11 +114,9 @@ impl<'w> Found<'w> {
 #[derive(Debug, Default)]
 pub(crate) struct Wave<'w> {
     pub(super) trees: Vec<RayTree>,
-    /// Indices of the unfinished trees.
-    growing: Vec<usize>,
-    /// The rays of the front and their states.
-    pub(super) rays: Packets,
-    pub(super) states: Vec<RayState>,
+    pub(super) front: Front,
+    /// The front after this one.
+    pub(super) next: Front,
     /// Nearest hits of the front.
     pub(super) nearest: Vec<Option<Nearest>>,
     /// Surface points of the front.
@@ -96,9 +138,10 @@ impl Wave<'_> {
     /// Starts a tree for each sample.
     pub(super) fn start(&mut self, samples: &[Sample]) {
         self.trees.resize_with(samples.len(), RayTree::default);
-        self.growing.clear();
-        self.growing.extend(0..samples.len());
+        self.next.clear();
         for (number, (tree, sample)) in self.trees.iter_mut().zip(samples).enumerate() {
+            tree.traced = 1;
+            tree.pending.clear();
             let state = RayState {
                 tree: number,
                 weight: Rgb::ONE,
@@ -106,42 +149,16 @@ impl Wave<'_> {
                 bounce: 0,
                 node: Sampler::ROOT,
             };
-            tree.traced = 0;
-            tree.pending.clear();
-            tree.pending.push((sample.ray, state));
+            self.next.push(&sample.ray, sample.reach, state);
         }
     }
 
-    /// Moves the next ray of each tree to the front; returns whether there are any.
-    pub(super) fn advance(&mut self, samples: &[Sample], counts: &mut Counts) -> bool {
-        self.rays.clear();
-        self.states.clear();
-        let Self {
-            trees,
-            growing,
-            rays,
-            states,
-            ..
-        } = self;
-        growing.retain(|&number| {
-            let tree = &mut trees[number];
-            let Some((ray, state)) = tree.pending.pop() else {
-                return false;
-            };
-            if tree.traced == RAY_BUDGET {
-                counts.over_budget += 1;
-                return false;
-            }
-            tree.traced += 1;
-            let end = match state.bounce {
-                0 => samples[number].reach,
-                _ => f64::INFINITY,
-            };
-            rays.push(&ray, end);
-            states.push(state);
-            true
-        });
-        counts.rays += states.len() as u64;
-        !states.is_empty()
+    /// Makes the next front the current one; returns whether it has any rays.
+    pub(super) fn advance(&mut self, counts: &mut Counts) -> bool {
+        mem::swap(&mut self.front, &mut self.next);
+        self.next.clear();
+        counts.over_budget += self.front.refused;
+        counts.rays += self.front.states.len() as u64;
+        !self.front.states.is_empty()
     }
 }

@@ -31,7 +31,7 @@ impl<'w, C: Fn() -> bool> Probe<'w, C> {
     ) {
         wave.start(samples);
         seen.resize(seen.len() + samples.len(), Seen::NOTHING);
-        while wave.advance(samples, &mut self.counts) && !(self.cancelled)() {
+        while wave.advance(&mut self.counts) && !(self.cancelled)() {
             self.land(wave, samples, seen);
             for number in 0..self.world.lights().len() {
                 // Each light may take as many rays as there are samples.
@@ -52,8 +52,8 @@ impl<'w, C: Fn() -> bool> Probe<'w, C> {
     /// Finds the hits of the front's rays and shades them without lights.
     pub(super) fn land(&self, wave: &mut Wave<'w>, samples: &[Sample], seen: &mut [Seen]) {
         let world = self.world;
-        world.nearest_each(&wave.rays, &mut wave.nearest);
-        world.land_each(&wave.rays, &wave.nearest, &mut wave.landings);
+        world.nearest_each(&wave.front.rays, &mut wave.nearest);
+        world.land_each(&wave.front.rays, &wave.nearest, &mut wave.landings);
         wave.arrive(world, self.gather, samples, seen);
         wave.blockers.resize(world.lights().len(), None);
     }
@@ -72,7 +72,7 @@ impl<'w, C: Fn() -> bool> Probe<'w, C> {
         wave.asking.clear();
         wave.shadows.clear();
         dispatch!(world.level, simd => {
-            for packet in 0..wave.rays.len() {
+            for packet in 0..wave.front.rays.len() {
                 wave.ask(simd, packet, (number, light), samples, seen);
             }
         });
@@ -95,7 +95,7 @@ impl<'w, C: Fn() -> bool> Probe<'w, C> {
         }
         // Empty unless dependencies are recorded.
         for ((&(ray, _), &transmittance), &touched) in asking.zip(&self.crossed.touched) {
-            let seen = &mut seen[wave.states[ray].tree];
+            let seen = &mut seen[wave.front.states[ray].tree];
             seen.rays += 1;
             seen.touched |= touched;
             if transmittance != 0.0 {
@@ -104,10 +104,10 @@ impl<'w, C: Fn() -> bool> Probe<'w, C> {
         }
     }
 
-    /// Adds the radiance of the hits to `seen` and makes their secondary rays pending.
+    /// Adds the radiance of the hits to `seen` and prepares the next front.
     pub(super) fn branch(&self, wave: &mut Wave<'_>, samples: &[Sample], seen: &mut [Seen]) {
         dispatch!(self.world.level, simd => {
-            for packet in 0..wave.rays.len() {
+            for packet in 0..wave.front.rays.len() {
                 let rules = (self.depth, self.gather, self.world.gloss);
                 wave.go_on(simd, packet, rules, samples, seen);
             }
@@ -120,9 +120,9 @@ impl<'w> Wave<'w> {
     fn arrive(&mut self, world: &'w World, gather: Gather, samples: &[Sample], seen: &mut [Seen]) {
         self.arrived.clear();
         self.mapped.clear();
-        for (number, (nearest, state)) in self.nearest.iter().zip(&self.states).enumerate() {
+        for (number, (nearest, state)) in self.nearest.iter().zip(&self.front.states).enumerate() {
             let seen = &mut seen[state.tree];
-            let (packet, lane) = (&self.rays[number / WIDTH], number % WIDTH);
+            let (packet, lane) = (&self.front.rays[number / WIDTH], number % WIDTH);
             let landing = &mut self.landings[number / WIDTH];
             let mut arrived = Arrived {
                 found: Found::Nothing,
@@ -167,7 +167,7 @@ impl<'w> Wave<'w> {
         seen: &mut [Seen],
     ) {
         let landing = &self.landings[packet];
-        let rays = &self.rays[packet].rays;
+        let rays = &self.front.rays[packet].rays;
         let first = packet * WIDTH;
         let points = Points {
             surface: landing.surface.load(simd),
@@ -180,7 +180,9 @@ impl<'w> Wave<'w> {
         let last = self.arrived.len().min(first + WIDTH);
         let arrived = &mut self.arrived[first..last];
         if let Some(sphere) = light.sphere() {
-            for (lane, (arrived, state)) in arrived.iter().zip(&self.states[first..]).enumerate() {
+            for (lane, (arrived, state)) in
+                arrived.iter().zip(&self.front.states[first..]).enumerate()
+            {
                 if let Found::Nothing = arrived.found {
                     continue;
                 }
@@ -192,7 +194,7 @@ impl<'w> Wave<'w> {
             }
         }
         let facing = Facing::new(&points, light, incoming);
-        let mut lit = bits::<S>(facing.is_lit) & self.rays[packet].lanes;
+        let mut lit = bits::<S>(facing.is_lit) & self.front.rays[packet].lanes;
         while lit != 0 {
             let lane = lit.trailing_zeros() as usize % WIDTH;
             lit &= lit - 1;
@@ -214,7 +216,7 @@ impl<'w> Wave<'w> {
             };
             match &facing.shadow {
                 None => {
-                    seen[self.states[first + lane].tree].touched |= Touched::light(number);
+                    seen[self.front.states[first + lane].tree].touched |= Touched::light(number);
                     arrived.radiance += unblocked;
                 }
                 Some(Shadow { rays, ends }) => {

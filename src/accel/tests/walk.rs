@@ -1,5 +1,6 @@
 //! Tests of the boxes that rays visit.
 
+use super::super::Order;
 use super::super::node::{Bounds, Child, Node};
 use super::*;
 use crate::geometry::lanes::{Eight, Level, SimdBase, dispatch};
@@ -67,14 +68,26 @@ fn visits(bvh: &Bvh, ray: &Ray, limit: f64) -> Vec<u32> {
     visits_at(Level::new(), bvh, ray, limit)
 }
 
-/// The boxes that each ray of a packet visits, unordered.
+/// The boxes that each ray of a packet visits, sorted, whichever come first.
 fn visits_together(bvh: &Bvh, rays: &[Ray], limit: f64) -> Vec<Vec<u32>> {
+    let mut seen =
+        [Order::NearFirst, Order::LargeFirst].map(|order| visits_in_order(bvh, rays, limit, order));
+    for seen in seen.iter_mut().flatten() {
+        seen.sort_unstable();
+    }
+    let [near_first, large_first] = seen;
+    assert_eq!(near_first, large_first);
+    near_first
+}
+
+/// The boxes that each ray of a packet visits, in order.
+fn visits_in_order(bvh: &Bvh, rays: &[Ray], limit: f64, order: Order) -> Vec<Vec<u32>> {
     let mut seen = vec![Vec::new(); rays.len()];
     let all = (1 << rays.len()) - 1;
     dispatch!(Level::new(), simd => {
         let packet = Rays::gather(simd, rays);
         let limits = Eight::splat(simd, limit);
-        bvh.traverse_packet(&packet, all, limits, |range, lanes, limits| {
+        bvh.traverse_packet(&packet, all, limits, order, |range, lanes, limits| {
             for (lane, seen) in seen.iter_mut().enumerate() {
                 if lanes >> lane & 1 == 1 {
                     seen.extend_from_slice(&bvh.order()[range.clone()]);
@@ -84,6 +97,24 @@ fn visits_together(bvh: &Bvh, rays: &[Ray], limit: f64) -> Vec<Vec<u32>> {
         });
     });
     seen
+}
+
+#[test]
+fn near_or_large_boxes_are_visited_first() {
+    let at = |x: f64, half: f64| cube(DVec3::new(x, 0.0, 0.0), DVec3::splat(half));
+    let small = (0..8).map(|i| at(f64::from(i), 0.1));
+    let large = (0..8).map(|i| at(1000.0 + f64::from(i), 50.0));
+    let bvh = build(&small.chain(large).collect::<Vec<_>>());
+    let ray = Ray {
+        origin: DVec3::new(-1.0, 0.0, 0.0),
+        direction: DVec3::X,
+    };
+    for count in [1, 8] {
+        for (order, expected) in [(Order::NearFirst, 0..8), (Order::LargeFirst, 8..16)] {
+            let seen = visits_in_order(&bvh, &[ray].repeat(count), f64::INFINITY, order);
+            assert!(expected.contains(&seen[0][0]), "{order:?}: {seen:?}");
+        }
+    }
 }
 
 #[test]

@@ -69,19 +69,17 @@ impl<C: Fn() -> bool> Recorder<'_, C> {
             seen,
             ..
         } = self;
-        let next = wave.trees[0].pending.last().copied();
-        if !wave.advance(samples, &mut probe.counts) {
-            self.give_up(next);
+        if !wave.advance(&mut probe.counts) {
+            self.give_up();
             return Some(false);
         }
+        let next = (wave.front.rays[0].ray(0), wave.front.states[0]);
         let before = seen[0].radiance;
         probe.land(wave, samples, seen);
         let waiting = self.waiting.pop();
-        let (ray, state) = next.zip(waiting).map(|(next, waiting)| {
-            let ray = traced(next, waiting, wave.rays[0].ends.0[0]);
-            (ray, next.1)
-        })?;
-        self.rays.push(ray);
+        let state = next.1;
+        self.rays
+            .push(traced(next, waiting?, wave.front.rays[0].ends.0[0]));
         match self.wave.nearest[0] {
             None => self.miss(&state),
             Some(_) => self.shade(&state)?,
@@ -97,10 +95,9 @@ impl<C: Fn() -> bool> Recorder<'_, C> {
         Some(true)
     }
 
-    /// Records the rays that exceed the budget: the one refused and all that wait.
-    fn give_up(&mut self, refused: Option<(Ray, RayState)>) {
-        let rest = self.wave.trees[0].pending.iter().rev().copied();
-        let unseen = refused.into_iter().chain(rest);
+    /// Records the rays that exceed the budget.
+    fn give_up(&mut self) {
+        let unseen = self.wave.trees[0].pending.iter().rev().copied();
         for (next, waiting) in unseen.zip(self.waiting.drain(..).rev()) {
             self.rays.push(traced(next, waiting, f64::INFINITY));
         }
@@ -108,7 +105,7 @@ impl<C: Fn() -> bool> Recorder<'_, C> {
 
     fn miss(&mut self, state: &RayState) {
         let world = self.probe.world;
-        let ray = self.wave.rays[0].ray(0);
+        let ray = self.wave.front.rays[0].ray(0);
         let screen = self.samples[0].screen;
         let radiance = world.around(&ray, state.bounce, screen);
         self.end(
@@ -128,8 +125,8 @@ impl<C: Fn() -> bool> Recorder<'_, C> {
         let world = probe.world;
         let nearest = wave.nearest[0]?;
         let material = wave.arrived[0].found.material(&wave.mapped)?.clone();
-        let ray = wave.rays[0].ray(0);
-        let point = wave.landings[0].point(&wave.rays[0], 0);
+        let ray = wave.front.rays[0].ray(0);
+        let point = wave.landings[0].point(&wave.front.rays[0], 0);
         let lit = material.is_lit(point.side);
         let shown = if lit { Rgb::ONE } else { Rgb::ZERO };
         let mut shading = Box::new(Shading {
@@ -172,8 +169,13 @@ impl<C: Fn() -> bool> Recorder<'_, C> {
             shading.stop = Some(Stop::Depth);
         }
         let parent = Some(self.rays.len() - 1);
-        let pushed = &wave.trees[0].pending[before..];
-        self.waiting.extend(pushed.iter().map(|(_, child)| Waiting {
+        // The last one pushed is in the next front; without one it is a ray that was pending before.
+        let pending = wave.trees[0].pending.get(before..);
+        let pushed = pending.into_iter().flat_map(|pending| {
+            let waiting = pending.iter().map(|(_, child)| child);
+            waiting.chain(&wave.next.states)
+        });
+        self.waiting.extend(pushed.map(|child| Waiting {
             parent,
             kind: kind(child.node, state.node, &shading),
         }));
@@ -198,7 +200,7 @@ impl<C: Fn() -> bool> Recorder<'_, C> {
             shading.unlisted.radiance += after - before;
             return;
         }
-        let point = wave.landings[0].point(&wave.rays[0], 0);
+        let point = wave.landings[0].point(&wave.front.rays[0], 0);
         let material = &shading.material;
         let lit = Lit {
             world: probe.world,
