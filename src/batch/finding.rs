@@ -3,7 +3,7 @@
 use super::print_message;
 use super::tracing::Tracer;
 use crate::language::darkening;
-use crate::render::{Frame, Job, Limit, Provenance};
+use crate::render::{Frame, Job, Limit, Provenance, Shown};
 use crate::scene::Rendering;
 use crate::text::alternatives;
 
@@ -33,17 +33,17 @@ pub(super) fn print_finding(
     };
     let asked = Rendering {
         exposure: Some(job.settings.exposure),
-        falloff: Some(job.settings.falloff),
         ..Rendering::default()
     };
     // No time is left for small pictures.
     let is_timed = matches!(job.limit, Some(Limit::Time(_)));
-    let depth = if is_timed {
-        None
+    let shown = if is_timed {
+        Shown::default()
     } else {
-        tracer().search_depth(&job)
+        tracer().try_darker(&job)
     };
-    let cures = darkening(Some(&job.scene), &asked, frame.overexposure.stops, depth);
+    let over = frame.overexposure.stops;
+    let cures = darkening(&asked, over, shown.falloff, shown.depth);
     let options = cures.iter();
     let options = options.map(|(key, value)| format!("`--{} {value}`", key.name()));
     let options = alternatives(options);

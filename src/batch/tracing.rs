@@ -10,7 +10,7 @@ use super::progress::{Place, ProgressStyle, Reporter};
 use super::signals::Signals;
 use crate::image_file::layer_bytes;
 use crate::render::{
-    Aov, DepthSearch, Frame, Frames, Job, Limit, Provenance, Region, Renderer, Settings, Threads,
+    Aov, Frame, Frames, Job, Limit, Provenance, Region, Renderer, Settings, Shown, Threads, Trials,
 };
 use crate::scene::{Camera, Images, MAX_SPP, Rendering, Scene, Size, Viewpoint};
 
@@ -66,7 +66,7 @@ impl Tracer {
     pub(super) fn new(tracing: &Tracing) -> Self {
         let (wake, woken) = mpsc::channel();
         // Starting its threads before reading the scene was no faster.
-        let renderer = Renderer::new(Threads::Exactly(tracing.threads), move || {
+        let renderer = Renderer::new(Threads::of_program(tracing.threads), move || {
             // This fails only while the renderer is being dropped.
             let _ = wake.send(());
         });
@@ -122,25 +122,30 @@ impl Tracer {
         layers.collect()
     }
 
-    /// The depth by which the picture of a job, which is too bright, would not be, as small pictures
-    /// of it show; `None` if there is none, or if they cannot be traced.
-    pub(super) fn search_depth(&mut self, job: &Job) -> Option<u32> {
-        let mut search = DepthSearch::new(&job.settings)?;
-        loop {
+    /// What small pictures of a job, whose picture is too bright, show of settings that darken it.
+    pub(super) fn try_darker(&mut self, job: &Job) -> Shown {
+        let mut next = Trials::new(&job.settings, &job.scene.lights);
+        let mut shown = Shown::default();
+        while let Some(trials) = next {
+            shown = trials.shown();
             let job = Job {
-                settings: search.settings(),
+                settings: trials.settings(),
                 limit: None,
-                frames: Frames::Last,
+                frames: Frames::LastWithValues,
                 denoise: false,
                 ..job.clone()
             };
-            self.renderer.restart(job).ok()?;
-            let frame = self.wait(Reporter::new(ProgressStyle::Off)).ok()?;
-            match search.after(frame.overexposure) {
-                ControlFlow::Continue(next) => search = next,
-                ControlFlow::Break(found) => return found,
+            let started = self.renderer.restart(job);
+            let traced = started.map(|_| self.wait(Reporter::new(ProgressStyle::Off)));
+            let Ok(Ok(picture)) = traced else {
+                break;
+            };
+            match trials.after(&picture) {
+                ControlFlow::Continue(trials) => next = Some(trials),
+                ControlFlow::Break(all) => return all,
             }
         }
+        shown
     }
 
     /// Waits for the last frame of the present job.

@@ -3,7 +3,6 @@
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
-use rayon::ThreadPool;
 use rayon::prelude::*;
 
 use super::block::Block;
@@ -12,7 +11,7 @@ use super::frame::{Aov, Job};
 use super::gather::Gather;
 use super::photons::{MAPS, Photons};
 use super::refusal::{self, Refusal};
-use super::renderer::{Threads, pool};
+use super::renderer::{Pool, Threads};
 use super::shot::Shot;
 use super::tile::Work;
 use super::tracer::Tracer;
@@ -24,7 +23,7 @@ pub struct BlockTracer {
     world: World,
     photons: Option<Arc<Photons>>,
     job: Job,
-    pool: ThreadPool,
+    pool: Pool,
 }
 
 impl BlockTracer {
@@ -36,7 +35,7 @@ impl BlockTracer {
         threads: usize,
         stopped: impl Fn() -> bool + Sync,
     ) -> Result<Option<Self>, Refusal> {
-        let pool = pool(Threads::Exactly(threads)).map_err(|error| Refusal::Threads {
+        let pool = Pool::new(Threads::of_program(threads)).map_err(|error| Refusal::Threads {
             count: threads,
             reason: error.to_string(),
         })?;

@@ -55,7 +55,6 @@ mod camera;
 mod caustics;
 mod deflection;
 mod denoise;
-mod depth_search;
 mod direct;
 mod display;
 mod emitters;
@@ -105,6 +104,7 @@ mod tone;
 mod touched;
 mod tracer;
 mod tracing;
+mod trials;
 mod warp;
 mod wave;
 mod whitted;
@@ -117,7 +117,6 @@ pub use assembly::Assembly;
 pub use block::Block;
 pub use block_tracer::BlockTracer;
 pub use blocks::{BLOCK, Blocks};
-pub use depth_search::DepthSearch;
 pub use display::{Colours, Display, MOST_HALF_STOPS, exposes};
 pub use explain::{
     Boundary, Chosen, Crossing, Dark, DepthLimit, EmitterTerm, Explanation, Finding, FirstHit,
@@ -137,6 +136,7 @@ pub use refusal::{Refusal, check_memory, memory_for, memory_for_blocks};
 pub use region::{NoRegion, Region};
 pub use renderer::{Renderer, Threads};
 pub use shading::Side;
+pub use trials::{Shown, Trials};
 pub use wireframe::{WireLine, Wireframe, wireframe};
 
 #[cfg(test)]

@@ -1,7 +1,7 @@
 //! The render settings suggested for a picture.
 
 use crate::language::RenderKey;
-use crate::render::DepthSearch;
+use crate::render::Trials;
 use crate::scene::Rendering;
 
 /// A render setting and its value.
@@ -16,14 +16,14 @@ pub struct Cures {
     pub(super) of_picture: Vec<Cure>,
     /// What was said of a preview that is black or too bright, while it is so.
     pub(super) said: Option<String>,
-    /// The search for a depth under way, before the preview is said to be too bright.
-    pub(super) search: Option<Search>,
+    /// The trials under way, before the preview is said to be too bright.
+    pub(super) trials: Option<UnderWay>,
 }
 
-/// A search for the depth by which a preview would not be too bright.
+/// Trials of what darkens a preview that is too bright.
 #[derive(Debug)]
-pub(super) struct Search {
-    pub(super) next: DepthSearch,
+pub(super) struct UnderWay {
+    pub(super) next: Trials,
     /// The generation of the picture under way, once it is traced.
     pub(super) generation: Option<u64>,
     /// By how many stops the 99th percentile of the preview is above 1.
@@ -35,13 +35,13 @@ pub(super) struct Search {
 impl Cures {
     /// Notes the generation of the picture by which a cure is tried.
     pub(super) fn started(&mut self, generation: u64) {
-        if let Some(search) = &mut self.search {
-            search.generation = Some(generation);
+        if let Some(trials) = &mut self.trials {
+            trials.generation = Some(generation);
         }
     }
 
     /// Whether a cure is being tried.
     pub fn are_awaited(&self) -> bool {
-        self.search.is_some()
+        self.trials.is_some()
     }
 }

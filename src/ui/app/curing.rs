@@ -3,10 +3,10 @@
 use std::ops::ControlFlow;
 
 use super::App;
-use super::cures::{Cure, Search};
+use super::cures::{Cure, UnderWay};
 use super::looking::is_light;
 use crate::language::{Outlook, darkening, outlook};
-use crate::render::{DepthSearch, Frame, Frames, Histogram, Job, Overexposure};
+use crate::render::{Frame, Frames, Histogram, Job, Overexposure, Shown, Trials};
 use crate::ui::keymap::{Action, Mode};
 use crate::ui::msg::{Effect, Target};
 
@@ -41,7 +41,7 @@ impl App {
         let is_black = settings.is_some() && frame.values.iter().all(|value| *value == [0.0; 3]);
         let clipped = Histogram::of(&frame.values, self.pictures.display.stops()).clipped;
         self.cures.of_picture.clear();
-        let under_way = self.cures.search.take();
+        let under_way = self.cures.trials.take();
         let stop = || {
             under_way
                 .map(|_| Effect::Stop(Target::Trial))
@@ -52,14 +52,15 @@ impl App {
             self.say_black();
         } else if 0.5 < clipped {
             let over = Overexposure::of(&frame.values).stops;
-            let search = settings
+            let settings_and_scene = settings.zip(self.scene.as_ref());
+            let trials = settings_and_scene
                 .filter(|_| !self.is_large())
-                .and_then(DepthSearch::new);
-            if let Some(trial) = search.and_then(|search| self.search_depth(search, over)) {
+                .and_then(|(settings, scene)| Trials::new(settings, &scene.lights));
+            if let Some(trial) = trials.and_then(|trials| self.try_darker(trials, over)) {
                 return vec![trial];
             }
             if settings.is_some() {
-                self.cures.of_picture = self.darkening(over, None);
+                self.cures.of_picture = self.darkening(over, Shown::default());
             }
             self.say_burnt();
         } else if let Some(said) = self.cures.said.take() {
@@ -68,11 +69,11 @@ impl App {
         stop()
     }
 
-    /// Goes on to look for a depth by which the preview is not too bright: with the next small picture.
-    fn search_depth(&mut self, next: DepthSearch, over: f64) -> Option<Effect> {
+    /// Goes on to try what darkens the preview: with the next small picture.
+    fn try_darker(&mut self, next: Trials, over: f64) -> Option<Effect> {
         let settings = next.settings();
         let job = self.shown_job(settings.size, settings.spp)?;
-        self.cures.search = Some(Search {
+        self.cures.trials = Some(UnderWay {
             next,
             generation: None,
             over,
@@ -80,49 +81,49 @@ impl App {
         });
         let job = Job {
             settings,
-            frames: Frames::Last,
+            frames: Frames::LastWithValues,
             ..job
         };
         Some(Effect::Trace(Target::Trial, job))
     }
 
-    /// Takes a frame of a small picture by which a depth is tried.
-    pub(super) fn depth_tried(&mut self, frame: &Frame) -> Vec<Effect> {
-        let is_it = |search: &mut Search| search.generation == Some(frame.generation);
-        let Some(search) = self
+    /// Takes a frame of a small picture.
+    pub(super) fn tried(&mut self, frame: &Frame) -> Vec<Effect> {
+        let is_it = |trials: &mut UnderWay| trials.generation == Some(frame.generation);
+        let Some(trials) = self
             .cures
-            .search
-            .take_if(|search| frame.progress.complete && is_it(search))
+            .trials
+            .take_if(|trials| frame.progress.complete && is_it(trials))
         else {
             return Vec::new();
         };
-        match search.next.after(frame.overexposure) {
-            _ if search.of != (self.document.revision(), self.rendering()) => {
+        match trials.next.after(frame) {
+            _ if trials.of != (self.document.revision(), self.rendering()) => {
                 // The preview of what came since is judged anew.
                 vec![Effect::Stop(Target::Trial)]
             }
-            ControlFlow::Continue(next) => {
-                self.search_depth(next, search.over).into_iter().collect()
-            }
-            ControlFlow::Break(depth) => {
-                self.cures.search = Some(search);
-                self.end_search(depth)
-            }
+            ControlFlow::Continue(next) => self.try_darker(next, trials.over).into_iter().collect(),
+            ControlFlow::Break(shown) => self.burnt(trials.over, shown),
         }
     }
 
-    /// Ends the search for a depth, and says that the preview is too bright.
-    pub(super) fn end_search(&mut self, depth: Option<u32>) -> Vec<Effect> {
-        let Some(search) = self.cures.search.take() else {
-            return Vec::new();
-        };
-        self.cures.of_picture = self.darkening(search.over, depth);
+    /// Ends the trials, and says that the preview is too bright.
+    pub(super) fn end_trials(&mut self) -> Vec<Effect> {
+        let trials = self.cures.trials.take();
+        trials.map_or_else(Vec::new, |trials| {
+            self.burnt(trials.over, trials.next.shown())
+        })
+    }
+
+    /// Says that the preview is too bright, and what helps, as trials have shown.
+    fn burnt(&mut self, over: f64, shown: Shown) -> Vec<Effect> {
+        self.cures.of_picture = self.darkening(over, shown);
         self.say_burnt();
         vec![Effect::Stop(Target::Trial)]
     }
 
-    fn darkening(&self, over: f64, depth: Option<u32>) -> Vec<Cure> {
-        darkening(self.scene.as_deref(), &self.rendering(), over, depth)
+    fn darkening(&self, over: f64, shown: Shown) -> Vec<Cure> {
+        darkening(&self.rendering(), over, shown.falloff, shown.depth)
     }
 
     fn say_black(&mut self) {

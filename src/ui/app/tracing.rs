@@ -301,7 +301,7 @@ impl App {
                 self.thumbnails.take(&frame);
                 return Vec::new();
             }
-            Target::Trial => return self.depth_tried(&frame),
+            Target::Trial => return self.tried(&frame),
             Target::Compared | Target::Reference => {
                 self.compared.take(target, frame);
                 return Vec::new();
@@ -325,7 +325,7 @@ impl App {
                 self.thumbnails.fail(NoPicture::Failed(reason.into()));
                 return Vec::new();
             }
-            Target::Trial => return self.end_search(None),
+            Target::Trial => return self.end_trials(),
             Target::Preview | Target::Trace | Target::Compared | Target::Reference => {}
         }
         self.pictures.want(target, None);

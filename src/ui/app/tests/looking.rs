@@ -3,8 +3,8 @@
 use std::sync::{Arc, Weak};
 
 use super::*;
-use crate::render::{Aov, Colours, Frame, Frames, Job, Overexposure, Query};
-use crate::scene::{Size, Transfer};
+use crate::render::{Aov, Colours, Frame, Frames, Job, Query};
+use crate::scene::{FalloffRule, Size, Transfer};
 use crate::ui::msg::Target;
 
 /// The job of a picture among the effects.
@@ -250,9 +250,14 @@ fn legends_say_what_colours_stand_for() {
     assert_eq!(app.pictures.display.transfer, None::<Transfer>);
 }
 
+/// A scene of which nothing is tried that would darken it.
+fn faded() -> String {
+    format!("// render: falloff square\n{SCENE}")
+}
+
 #[test]
 fn a_picture_that_is_too_bright_says_so_once() {
-    let (mut app, effects) = opened(SCENE);
+    let (mut app, effects) = opened(&faded());
     let bright =
         "more than half of the picture is above 1: C sets exposure -1, < darkens the screen only";
     let trace = job(&effects, Target::Preview).expect("a preview").clone();
@@ -276,7 +281,7 @@ fn a_picture_that_is_too_bright_says_so_once() {
 
 #[test]
 fn what_is_wrong_with_a_picture_is_said_after_other_messages_while_it_is_so() {
-    let (mut app, effects) = opened(SCENE);
+    let (mut app, effects) = opened(&faded());
     let trace = job(&effects, Target::Preview).expect("a preview").clone();
     press(&mut app, "<Esc>");
     for (last, told) in [(1.5, "more than half of the picture is above 1"), (0.9, "")] {
@@ -291,36 +296,34 @@ fn what_is_wrong_with_a_picture_is_said_after_other_messages_while_it_is_so() {
     }
 }
 
-/// Lights of 64 at a distance of 7.8 from the middle are as bright as of 1 if they fade by the square.
 #[test]
 fn a_burnt_picture_is_offered_its_likeliest_cure_first() {
-    let text = SCENE.replace("1 1 1\n2\n", "64 64 64\n2\n");
-    let (mut app, effects) = opened(&text);
+    let (mut app, effects) = opened(SCENE);
     let trace = job(&effects, Target::Preview).expect("a preview").clone();
     press(&mut app, "<Esc>");
-    let shows = |app: &mut App, grey| {
-        app.update(preview(&trace, grey));
-        shown(app).to_owned()
-    };
     let burnt = "more than half of the picture is above 1: C sets";
-    assert!(shows(&mut app, 40.0).starts_with(&format!("{burnt} falloff square")));
+    // By the falloff alone the picture is near 1, and then again far above it.
+    let effects = app.update(preview(&trace, 40.0));
+    let trial = job(&effects, Target::Trial).expect("a trial");
+    assert_eq!(trial.settings.falloff, FalloffRule::Square);
+    tried(&mut app, 1, 0.5);
+    assert!(shown(&app).starts_with(&format!("{burnt} falloff square,")));
     press(&mut app, "C");
-    assert_eq!(
-        app.document.text(),
-        format!("// render: falloff square\n{text}")
-    );
+    assert_eq!(app.document.text(), faded());
     press(&mut app, "<Esc>");
-    assert!(shows(&mut app, 3.0).starts_with(&format!("{burnt} exposure -2,")));
+    app.update(preview(&trace, 3.0));
+    tried(&mut app, 2, 3.0);
+    assert!(shown(&app).starts_with(&format!("{burnt} exposure -2,")));
     press(&mut app, "C");
     assert_eq!(
         app.document.text(),
-        format!("// render: falloff square exposure -2\n{text}")
+        format!("// render: falloff square exposure -2\n{SCENE}")
     );
     press(&mut app, "uu");
-    assert_eq!(app.document.text(), text);
+    assert_eq!(app.document.text(), SCENE);
 }
 
-/// A small picture by which a depth is tried, whose 99th percentile is so many stops above 1; returns what
+/// A small picture by which a setting is tried, whose 99th percentile is so many stops above 1; returns what
 /// follows.
 fn tried(app: &mut App, generation: u64, stops: f64) -> Vec<Effect> {
     let size = Size {
@@ -330,7 +333,7 @@ fn tried(app: &mut App, generation: u64, stops: f64) -> Vec<Effect> {
     app.update(Msg::Started(Target::Trial, generation));
     let frame = Frame {
         generation,
-        overexposure: Overexposure { share: 1.0, stops },
+        values: vec![[stops.exp2() as f32; 3]],
         ..Frame::drawn(size, vec![[255; 3]])
     };
     app.update(Msg::Frame(Target::Trial, Arc::new(frame)))
@@ -338,7 +341,7 @@ fn tried(app: &mut App, generation: u64, stops: f64) -> Vec<Effect> {
 
 #[test]
 fn a_picture_burnt_by_its_bounces_is_offered_a_smaller_depth() {
-    let text = format!("// render: integrator path\n{SCENE}");
+    let text = format!("// render: integrator path falloff square\n{SCENE}");
     let (mut app, effects) = opened(&text);
     let trace = job(&effects, Target::Preview).expect("a preview").clone();
     press(&mut app, "<Esc>");
@@ -347,14 +350,14 @@ fn a_picture_burnt_by_its_bounces_is_offered_a_smaller_depth() {
     };
     let ends = |effects: &[Effect]| matches!(effects, [Effect::Stop(Target::Trial)]);
     let effects = app.update(preview(&trace, 3.0));
-    assert_eq!(trial(&effects), Some((1, 16, Frames::Last)));
+    assert_eq!(trial(&effects), Some((1, 16, Frames::LastWithValues)));
     assert_eq!(
         shown(&app),
         "",
         "nothing is said before it is known what helps"
     );
     let effects = tried(&mut app, 1, 0.0);
-    assert_eq!(trial(&effects), Some((2, 16, Frames::Last)));
+    assert_eq!(trial(&effects), Some((2, 16, Frames::LastWithValues)));
     let effects = tried(&mut app, 2, 1.0);
     assert!(ends(&effects), "{effects:?}");
     let burnt = "more than half of the picture is above 1: C sets";
@@ -367,7 +370,7 @@ fn a_picture_burnt_by_its_bounces_is_offered_a_smaller_depth() {
     assert!(
         app.document
             .text()
-            .starts_with("// render: integrator path depth 1\n")
+            .starts_with("// render: integrator path falloff square depth 1\n")
     );
     // Where no depth helps, or nothing can be tried, an exposure does.
     press(&mut app, "u<Esc>");
