@@ -6,8 +6,12 @@ use std::process::ExitCode;
 use std::sync::Arc;
 
 use halflight::cli::{self, Command, Purpose, Stop};
+use halflight::memory::Allocator;
 use halflight::text::{Diagnostic, visible, without_codes};
 use halflight::{batch, config, ui};
+
+#[global_allocator]
+static ALLOCATOR: Allocator = Allocator;
 
 fn main() -> ExitCode {
     #[cfg(unix)]

@@ -113,7 +113,9 @@ impl Bvh {
 
     /// The ranges of [`Bvh::order`] that are visited at once, in ascending order.
     pub fn runs(&self) -> Vec<Range<usize>> {
-        let mut runs = Vec::new();
+        let children = |node: &Node| node.filled().count_ones() as usize;
+        let leaves = 1 + self.nodes.iter().map(children).sum::<usize>() - self.nodes.len();
+        let mut runs = Vec::with_capacity(leaves + self.unbounded().count());
         // The children of a node are in the order of their boxes.
         let mut pending = Vec::new();
         pending.extend(self.nodes.first().map(|_| Child::Inner(0)));
@@ -123,13 +125,14 @@ impl Bvh {
                     let node = &self.nodes[number as usize];
                     pending.extend((0..WIDTH).rev().map(|lane| node.child(lane)));
                 }
+                // A missing child.
+                Child::Leaf { count: 0, .. } => {}
                 Child::Leaf { first, count } => {
                     let first = first as usize;
                     runs.push(first..first + usize::from(count));
                 }
             }
         }
-        runs.retain(|run| !run.is_empty());
         runs.extend(self.unbounded());
         runs
     }

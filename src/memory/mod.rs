@@ -8,6 +8,7 @@
 mod available;
 #[cfg(target_os = "linux")]
 mod cgroup;
+mod pages;
 #[cfg(target_os = "linux")]
 mod proc;
 mod threads;
@@ -15,6 +16,7 @@ mod threads;
 use std::fmt;
 
 pub use available::{available, installed, limits, peak, used};
+pub use pages::Allocator;
 pub use threads::{NoThreads, start_threads, start_threads_or_none, threads};
 
 /// Work that needs fewer bytes is not checked: asking the system takes longer, and any other

@@ -47,7 +47,9 @@ pub(super) fn parts(bytes: &[u8], size: usize) -> Vec<Chunk> {
             range,
             lines: last + lines(&bytes[text.len()..]),
             last: (!text.is_empty()).then_some(last),
-            plain: std::str::from_utf8(bytes).ok().and_then(read),
+            plain: std::str::from_utf8(bytes)
+                .ok()
+                .and_then(|text| read(text, last)),
         }
     };
     match &cut(bytes, size)[..] {
@@ -87,8 +89,11 @@ fn cut(bytes: &[u8], part: usize) -> Vec<Range<usize>> {
     parts
 }
 
-/// Reads a text. Returns `None` unless all of it is plain.
-fn read(text: &str) -> Option<Plain> {
+/// Reads a text of about so many lines. Returns `None` unless all of it is plain.
+///
+/// Most parts have lines of one kind, so that room for all of them is reserved at its first: growing
+/// took a tenth of the time, most of it in page faults.
+fn read(text: &str, lines: usize) -> Option<Plain> {
     let mut plain = Plain::default();
     let mut corners = Vec::new();
     for (number, line) in text.split('\n').enumerate() {
@@ -102,6 +107,7 @@ fn read(text: &str) -> Option<Plain> {
             None | Some(b"g" | b"o" | b"s") => {}
             Some(b"v") => {
                 let position = words.numbers()?;
+                reserve(&mut plain.positions, lines);
                 plain.positions.push(DVec3::from_array(position));
                 // A weight or a colour may follow.
                 if 4 < words.count() {
@@ -110,6 +116,7 @@ fn read(text: &str) -> Option<Plain> {
             }
             Some(b"vt") => {
                 let [u] = words.numbers()?;
+                reserve(&mut plain.uvs, lines);
                 let v = words.next().map_or(Some(0.0), |v| parse_number(v).ok())?;
                 plain.uvs.push(DVec2::new(u, v));
                 if 1 < words.count() {
@@ -118,6 +125,7 @@ fn read(text: &str) -> Option<Plain> {
             }
             Some(b"vn") => {
                 let normal = words.numbers()?;
+                reserve(&mut plain.normals, lines);
                 plain.normals.push(DVec3::from_array(normal));
                 if words.next().is_some() {
                     return None;
@@ -135,12 +143,21 @@ fn read(text: &str) -> Option<Plain> {
                     }
                     corners.push(corner);
                 }
+                reserve(&mut plain.triangles, lines);
                 plain.face(&corners)?;
             }
             Some(_) => return None,
         }
     }
     Some(plain)
+}
+
+/// Reserves room for the items of so many lines, before the first.
+#[inline]
+fn reserve<T>(items: &mut Vec<T>, lines: usize) {
+    if items.is_empty() {
+        items.reserve(1 + lines);
+    }
 }
 
 impl Plain {

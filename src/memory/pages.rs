@@ -1,0 +1,116 @@
+//! Large allocations in huge pages.
+
+use std::alloc::{GlobalAlloc, Layout, System};
+
+/// Bytes of a huge page, at least: on most machines exactly.
+const HUGE: usize = 2 << 20;
+
+/// The system's allocator. On Linux it asks for huge pages where an allocation has room for them: a
+/// million objects and their picture otherwise take 68,000 page faults, an eighth of the time.
+#[derive(Clone, Copy, Debug)]
+pub struct Allocator;
+
+#[expect(unsafe_code, reason = "an allocator is unsafe")]
+// SAFETY: all is done by `System`; advice on pages changes neither their contents nor who owns them.
+unsafe impl GlobalAlloc for Allocator {
+    unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
+        // SAFETY: the caller's promises are those that `System` asks for.
+        advised(unsafe { System.alloc(layout) }, layout.size())
+    }
+
+    unsafe fn alloc_zeroed(&self, layout: Layout) -> *mut u8 {
+        // SAFETY: as above.
+        advised(unsafe { System.alloc_zeroed(layout) }, layout.size())
+    }
+
+    unsafe fn realloc(&self, start: *mut u8, layout: Layout, size: usize) -> *mut u8 {
+        // SAFETY: as above.
+        advised(unsafe { System.realloc(start, layout, size) }, size)
+    }
+
+    unsafe fn dealloc(&self, start: *mut u8, layout: Layout) {
+        // SAFETY: as above.
+        unsafe { System.dealloc(start, layout) }
+    }
+}
+
+/// Asks for huge pages for the part of an allocation that whole ones cover.
+#[inline]
+fn advised(start: *mut u8, size: usize) -> *mut u8 {
+    if HUGE <= size && !start.is_null() {
+        advise(start, size);
+    }
+    start
+}
+
+#[cfg(target_os = "linux")]
+#[cold]
+#[expect(unsafe_code, reason = "pages are given by their address")]
+fn advise(start: *mut u8, size: usize) {
+    use rustix::mm::{Advice, madvise};
+
+    let before = start.addr().next_multiple_of(HUGE) - start.addr();
+    let whole = size.saturating_sub(before) / HUGE * HUGE;
+    if whole == 0 {
+        return;
+    }
+    let first = start.wrapping_add(before).cast();
+    // SAFETY: the pages are within an allocation that nobody uses yet, and stay mapped. A system
+    // without huge pages refuses, and nothing has changed.
+    let _ = unsafe { madvise(first, whole, Advice::LinuxHugepage) };
+}
+
+#[cfg(not(target_os = "linux"))]
+fn advise(_: *mut u8, _: usize) {}
+
+#[cfg(all(test, target_os = "linux"))]
+mod tests {
+    use super::*;
+
+    /// Whether huge pages were asked for at an address, as the system tells of its mapping.
+    fn is_huge(address: usize) -> bool {
+        let maps = std::fs::read_to_string("/proc/self/smaps").expect("Linux has it");
+        let mut within = false;
+        for line in maps.lines() {
+            let range = line
+                .split(' ')
+                .next()
+                .and_then(|range| range.split_once('-'));
+            if let Some((from, to)) = range
+                && let Ok(from) = usize::from_str_radix(from, 16)
+                && let Ok(to) = usize::from_str_radix(to, 16)
+            {
+                within = (from..to).contains(&address);
+            }
+            if within && let Some(flags) = line.strip_prefix("VmFlags:") {
+                return flags.split(' ').any(|flag| flag == "hg");
+            }
+        }
+        false
+    }
+
+    #[test]
+    #[expect(unsafe_code, reason = "the allocator's own calls are unsafe")]
+    fn large_allocations_ask_for_huge_pages() {
+        if !std::fs::exists("/sys/kernel/mm/transparent_hugepage").unwrap_or(false) {
+            return;
+        }
+        for (size, grown, huge) in [(64 << 10, 128 << 10, false), (8 << 20, 80 << 20, true)] {
+            let layout = Layout::from_size_align(size, 8).expect("a size");
+            let larger = Layout::from_size_align(grown, 8).expect("a size");
+            // SAFETY: the size is not 0, and memory is freed with the layout it has last.
+            let asked = unsafe {
+                let start = Allocator.alloc(layout);
+                let first = is_huge(start.addr() + size / 2);
+                let start = Allocator.realloc(start, layout, grown);
+                let second = is_huge(start.addr() + grown / 2);
+                Allocator.dealloc(start, larger);
+                let start = Allocator.alloc_zeroed(layout);
+                let third = is_huge(start.addr() + size / 2);
+                Allocator.dealloc(start, layout);
+                [first, second, third]
+            };
+            assert_eq!(asked, [huge; 3], "{size}");
+        }
+    }
+}
