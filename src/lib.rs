@@ -24,7 +24,7 @@
 //!
 //! | room | purpose | must not know |
 //! |---|---|---|
-//! | [`memory`] | memory available to the process, and whether work fits | what the memory is for |
+//! | [`memory`] | memory available to the process, whether work fits, and the program's allocator | what the memory is for |
 //! | [`text`] | spans, edits, numbers and diagnostics | any language |
 //! | [`geometry`] | ray–shape intersection in `f64`, one module per shape | lights, materials, text |
 //! | [`obj`] | parses `.obj` and `.mtl` into meshes | files, scenes |

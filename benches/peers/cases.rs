@@ -108,7 +108,6 @@ fn of_folder(folder: &Path) -> Vec<Case> {
         spp,
         depth: Some(depth),
         target,
-        // The reference reads the mesh from a binary file.
         frame_target: match name {
             "S4" => Target::Ratio(1.0),
             _ => Target::Nothing,

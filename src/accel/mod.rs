@@ -4,7 +4,7 @@
 //! `build` sorts boxes into a tree of [`node::WIDTH`]-wide nodes by the surface area heuristic.
 //! `node` is such a node, `slab` a ray prepared for tests against all its children's boxes at once.
 //! `refit` adapts the tree to moved boxes, and `traverse` and `packet` traverse it, near children
-//! first.
+//! first; `packet`, for any hits, large ones first.
 //!
 //! # Why no box is missed
 //!
@@ -58,12 +58,12 @@ pub struct Bvh {
     moved: usize,
 }
 
-/// The rough order in which boxes are visited.
+/// The order in which the children of a node are visited.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Order {
-    /// For nearest hits.
+    /// Those entered first come first: for nearest hits.
     NearFirst,
-    /// For any hits.
+    /// Those with the largest boxes come first: for any hits.
     LargeFirst,
 }
 

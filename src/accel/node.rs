@@ -227,8 +227,7 @@ impl Node {
         [low[lane], high[lane]]
     }
 
-    /// Half the surface area of the box in a lane; in single precision, infinite or no number where it
-    /// overflows.
+    /// Half the surface area of the box in a lane; infinite or NaN where it overflows.
     #[inline(always)]
     pub(super) fn half_area(&self, lane: usize) -> f32 {
         let [x, y, z] = [0, 1, 2].map(

@@ -237,7 +237,7 @@ fn measure(
 /// The time until a renderer shows something.
 fn first_picture(job: Job, threads: usize) -> Result<Duration, Error> {
     let (wake, woken) = mpsc::channel();
-    let mut renderer = Renderer::new(Threads::of_program(threads), move || {
+    let mut renderer = Renderer::new(Threads::Exactly(threads), move || {
         // This fails only while the renderer is being dropped.
         let _ = wake.send(());
     });

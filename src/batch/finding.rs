@@ -3,7 +3,7 @@
 use super::print_message;
 use super::tracing::Tracer;
 use crate::language::darkening;
-use crate::render::{Frame, Job, Limit, Provenance, Shown};
+use crate::render::{Frame, Job, Limit, Provenance, TrialResults};
 use crate::scene::Rendering;
 use crate::text::alternatives;
 
@@ -35,10 +35,10 @@ pub(super) fn print_finding(
         exposure: Some(job.settings.exposure),
         ..Rendering::default()
     };
-    // No time is left for small pictures.
+    // No time is left for small pictures: only an exposure is known to help.
     let is_timed = matches!(job.limit, Some(Limit::Time(_)));
     let shown = if is_timed {
-        Shown::default()
+        TrialResults::default()
     } else {
         tracer().try_darker(&job)
     };

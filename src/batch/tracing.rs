@@ -10,7 +10,8 @@ use super::progress::{Place, ProgressStyle, Reporter};
 use super::signals::Signals;
 use crate::image_file::layer_bytes;
 use crate::render::{
-    Aov, Frame, Frames, Job, Limit, Provenance, Region, Renderer, Settings, Shown, Threads, Trials,
+    Aov, Frame, Frames, Job, Limit, Provenance, Region, Renderer, Settings, Threads, TrialResults,
+    Trials,
 };
 use crate::scene::{Camera, Images, MAX_SPP, Rendering, Scene, Size, Viewpoint};
 
@@ -66,7 +67,7 @@ impl Tracer {
     pub(super) fn new(tracing: &Tracing) -> Self {
         let (wake, woken) = mpsc::channel();
         // Starting its threads before reading the scene was no faster.
-        let renderer = Renderer::new(Threads::of_program(tracing.threads), move || {
+        let renderer = Renderer::new(Threads::Exactly(tracing.threads), move || {
             // This fails only while the renderer is being dropped.
             let _ = wake.send(());
         });
@@ -123,9 +124,9 @@ impl Tracer {
     }
 
     /// What small pictures of a job, whose picture is too bright, show of settings that darken it.
-    pub(super) fn try_darker(&mut self, job: &Job) -> Shown {
+    pub(super) fn try_darker(&mut self, job: &Job) -> TrialResults {
         let mut next = Trials::new(&job.settings, &job.scene.lights);
-        let mut shown = Shown::default();
+        let mut shown = TrialResults::default();
         while let Some(trials) = next {
             shown = trials.shown();
             let job = Job {

@@ -12,8 +12,8 @@ const NEAR: f64 = 2.5;
 const ROUGHLY: f64 = 1.0;
 
 /// The render settings, with their values, that bring the 99th percentile of a picture to about 1, the
-/// most likely first: `falloff square`, if the 99th percentile was seen to be near 1 by it, so many stops
-/// above, a `depth` by which it was seen to be about 1, and an exposure. A falloff that leaves the picture
+/// most likely first: `falloff square` if a trial with it left the 99th percentile near 1, `falloff` stops
+/// above; a `depth` at which a trial was about 1; and an exposure. A falloff that still leaves the picture
 /// too bright comes last. The picture was traced with `asked`, and its 99th percentile is `over` stops
 /// above 1.
 pub fn darkening(
@@ -25,7 +25,7 @@ pub fn darkening(
     let own = asked.exposure.unwrap_or_default();
     let stops = (2.0 * (own - over)).floor() / 2.0;
     let stops = stops.clamp(*EXPOSURES.start(), *EXPOSURES.end());
-    // Lights nearer than 1 become brighter by it, and others hardly darker.
+    // It brightens what is nearer than 1 to a light, and hardly darkens what is little farther.
     let left = falloff.filter(|left| left.abs() < NEAR && *left <= 0.5 * over);
     let falloff = left.and_then(|_| setting("falloff", FalloffRule::Square.name()));
     let exposure = setting("exposure", &concise(stops));

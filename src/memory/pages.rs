@@ -5,8 +5,9 @@ use std::alloc::{GlobalAlloc, Layout, System};
 /// Bytes of a huge page, at least: on most machines exactly.
 const HUGE: usize = 2 << 20;
 
-/// The system's allocator. On Linux it asks for huge pages where an allocation has room for them: a
-/// million objects and their picture otherwise take 68,000 page faults, an eighth of the time.
+/// The system's allocator. On Linux it asks for huge pages where an allocation has room for them:
+/// 20,000 page faults instead of 68,000 for a million triangles and their picture, and a tenth less
+/// time.
 #[derive(Clone, Copy, Debug)]
 pub struct Allocator;
 
@@ -55,8 +56,8 @@ fn advise(start: *mut u8, size: usize) {
         return;
     }
     let first = start.wrapping_add(before).cast();
-    // SAFETY: the pages are within an allocation that nobody uses yet, and stay mapped. A system
-    // without huge pages refuses, and nothing has changed.
+    // SAFETY: the pages are within an allocation that only the caller owns. The advice changes neither
+    // their contents nor their mapping; a system without huge pages refuses it.
     let _ = unsafe { madvise(first, whole, Advice::LinuxHugepage) };
 }
 

@@ -3,6 +3,7 @@
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
+use rayon::ThreadPool;
 use rayon::prelude::*;
 
 use super::block::Block;
@@ -11,7 +12,7 @@ use super::frame::{Aov, Job};
 use super::gather::Gather;
 use super::photons::{MAPS, Photons};
 use super::refusal::{self, Refusal};
-use super::renderer::{Pool, Threads};
+use super::renderer::{Threads, pool};
 use super::shot::Shot;
 use super::tile::Work;
 use super::tracer::Tracer;
@@ -23,7 +24,7 @@ pub struct BlockTracer {
     world: World,
     photons: Option<Arc<Photons>>,
     job: Job,
-    pool: Pool,
+    pool: ThreadPool,
 }
 
 impl BlockTracer {
@@ -35,7 +36,7 @@ impl BlockTracer {
         threads: usize,
         stopped: impl Fn() -> bool + Sync,
     ) -> Result<Option<Self>, Refusal> {
-        let pool = Pool::new(Threads::of_program(threads)).map_err(|error| Refusal::Threads {
+        let pool = pool(Threads::Exactly(threads)).map_err(|error| Refusal::Threads {
             count: threads,
             reason: error.to_string(),
         })?;

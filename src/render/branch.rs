@@ -85,7 +85,7 @@ impl Wave<'_> {
                 let branches = mirrored != Rgb::ZERO || material.dielectric.tint != Rgb::ZERO;
                 state.bounce != depth && branches
             });
-            let mut last = None;
+            let mut pushed = None;
             if let Some(material) = branching {
                 let found = || {
                     all.iter()
@@ -99,8 +99,8 @@ impl Wave<'_> {
                     if branch.weight == Rgb::ZERO {
                         return;
                     }
-                    let pushed = (branch.ray, branch.state(state, arrived.weight));
-                    if let Some(before) = last.replace(pushed) {
+                    let ray = (branch.ray, branch.state(state, arrived.weight));
+                    if let Some(before) = pushed.replace(ray) {
                         tree.pending.push(before);
                     }
                 };
@@ -114,7 +114,7 @@ impl Wave<'_> {
                     specular.branch((packet, landing), lane, material, numbers, push);
                 }
             }
-            tree.go_on(last, &mut self.next);
+            tree.move_on(pushed, &mut self.next);
         }
     }
 }

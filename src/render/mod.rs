@@ -136,7 +136,7 @@ pub use refusal::{Refusal, check_memory, memory_for, memory_for_blocks};
 pub use region::{NoRegion, Region};
 pub use renderer::{Renderer, Threads};
 pub use shading::Side;
-pub use trials::{Shown, Trials};
+pub use trials::{TrialResults, Trials};
 pub use wireframe::{WireLine, Wireframe, wireframe};
 
 #[cfg(test)]

@@ -5,7 +5,7 @@ use std::sync::mpsc::{self, Receiver, Sender};
 use std::sync::{Arc, Weak};
 use std::thread::JoinHandle;
 
-use rayon::{ThreadPool, ThreadPoolBuildError, ThreadPoolBuilder};
+use rayon::{ThreadPool, ThreadPoolBuilder};
 
 use super::film::{Film, NoMemory};
 use super::frame::{Frame, Job};
@@ -25,26 +25,6 @@ pub enum Threads {
     Background(usize),
     /// This many, at normal priority.
     Exactly(usize),
-    /// Those of rayon's global pool, for a program that does nothing else meanwhile.
-    Global,
-}
-
-impl Threads {
-    /// This many at normal priority: those of the global pool, if it has as many.
-    pub fn of_program(count: usize) -> Self {
-        if count == rayon::current_num_threads() {
-            Self::Global
-        } else {
-            Self::Exactly(count)
-        }
-    }
-}
-
-/// The threads that trace.
-#[derive(Debug)]
-pub(super) enum Pool {
-    Own(ThreadPool),
-    Global,
 }
 
 /// A worker that traces the newest job. Dropping it cancels the work and joins the thread.
@@ -172,7 +152,7 @@ impl Worker {
         shared: Arc<Shared>,
         wake: impl Fn() + Send + Sync + 'static,
     ) -> Result<Self, String> {
-        let pool = Pool::new(threads).map_err(|error| error.to_string())?;
+        let pool = pool(threads).map_err(|error| error.to_string())?;
         let (requests, inbox) = mpsc::channel();
         let thread = std::thread::Builder::new()
             .name("renderer".to_owned())
@@ -188,36 +168,16 @@ impl Threads {
         match self {
             Self::Preview => cores().saturating_sub(1).max(1),
             Self::Background(count) | Self::Exactly(count) => count.max(1),
-            Self::Global => rayon::current_num_threads(),
         }
     }
 }
 
-impl Pool {
-    pub(super) fn new(threads: Threads) -> Result<Self, ThreadPoolBuildError> {
-        let builder = ThreadPoolBuilder::new().num_threads(memory::threads(threads.count()));
-        match threads {
-            Threads::Background(_) => builder.start_handler(|_| lower_priority()).build(),
-            Threads::Preview | Threads::Exactly(_) => builder.build(),
-            Threads::Global => return Ok(Self::Global),
-        }
-        .map(Self::Own)
-    }
-
-    /// Runs `work` on one of the threads, where parallel work is divided among them.
-    pub(super) fn install<R: Send>(&self, work: impl FnOnce() -> R + Send) -> R {
-        match self {
-            Self::Own(pool) => pool.install(work),
-            Self::Global => rayon::scope(|_| work()),
-        }
-    }
-
-    /// Has `work` done on one of the threads, in the background.
-    pub(super) fn spawn(&self, work: impl FnOnce() + Send + 'static) {
-        match self {
-            Self::Own(pool) => pool.spawn(work),
-            Self::Global => rayon::spawn(work),
-        }
+/// The threads that trace.
+pub(super) fn pool(threads: Threads) -> Result<ThreadPool, rayon::ThreadPoolBuildError> {
+    let builder = ThreadPoolBuilder::new().num_threads(memory::threads(threads.count()));
+    match threads {
+        Threads::Background(_) => builder.start_handler(|_| lower_priority()).build(),
+        Threads::Preview | Threads::Exactly(_) => builder.build(),
     }
 }
 

@@ -1,4 +1,4 @@
-//! Small pictures that show what brings a picture that is too bright to about 1.
+//! Small trial pictures that show which settings bring an overexposed picture down to about 1.
 
 use std::ops::ControlFlow;
 
@@ -24,11 +24,11 @@ enum Trial {
 
 /// What the small pictures showed.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Shown {
-    /// By how many stops the 99th percentile is above 1 by `falloff square`, below if negative; `None`
-    /// if that changes nothing.
+pub struct TrialResults {
+    /// The stops by which the 99th percentile exceeds 1 with `falloff square`, negative if it is below;
+    /// `None` if that was not tried.
     pub falloff: Option<f64>,
-    /// The largest of the depths 1, 2, 4 … by which the 99th percentile is at most about 1.
+    /// The largest of the depths 1, 2, 4 … at which the 99th percentile is at most about 1.
     pub depth: Option<u32>,
 }
 
@@ -38,12 +38,12 @@ pub struct Trials {
     /// The settings of the picture.
     settings: Settings,
     next: Trial,
-    shown: Shown,
+    shown: TrialResults,
 }
 
 impl Trials {
-    /// Begins with a picture of light that is too bright, of these settings and lights; `None` if there
-    /// is nothing to try.
+    /// Starts the trials for an overexposed picture with these settings and lights; `None` if there is
+    /// nothing to try.
     pub fn new(settings: &Settings, lights: &[Light]) -> Option<Self> {
         let fades =
             settings.falloff == FalloffRule::None && faded(lights, FalloffRule::Square).is_some();
@@ -55,12 +55,12 @@ impl Trials {
         first.map(|next| Self {
             settings: *settings,
             next,
-            shown: Shown::default(),
+            shown: TrialResults::default(),
         })
     }
 
     /// What the pictures so far have shown.
-    pub fn shown(&self) -> Shown {
+    pub fn shown(&self) -> TrialResults {
         self.shown
     }
 
@@ -93,7 +93,7 @@ impl Trials {
     }
 
     /// Goes on after that picture, or ends with what was shown.
-    pub fn after(mut self, picture: &Frame) -> ControlFlow<Shown, Self> {
+    pub fn after(mut self, picture: &Frame) -> ControlFlow<TrialResults, Self> {
         let stops = stops_above_1(&picture.values);
         let depth = match self.next {
             Trial::Falloff => {
@@ -154,7 +154,7 @@ mod tests {
         }
     }
 
-    /// A picture of so many pixels each of whose 99th percentile is so many stops above 1.
+    /// A picture whose 99th percentile is this many stops above 1.
     fn picture(stops: f64) -> Frame {
         let bright = libm::exp2(stops) as f32;
         let size = Size {
@@ -175,7 +175,7 @@ mod tests {
         (integrator, depth): (Integrator, u32),
         radial: [f64; 3],
         most: u32,
-    ) -> (Vec<u32>, Shown) {
+    ) -> (Vec<u32>, TrialResults) {
         let asked = Rendering {
             integrator: Some(integrator),
             depth: Some(depth),
@@ -207,7 +207,7 @@ mod tests {
                 ControlFlow::Break(shown) => return (tried, shown),
             }
         }
-        (tried, Shown::default())
+        (tried, TrialResults::default())
     }
 
     #[test]
@@ -233,7 +233,7 @@ mod tests {
             ((path, 1), steady, 9, vec![0], falloff, None),
             ((path, 3), steady, 1, vec![0, 1, 2], falloff, Some(1)),
         ] {
-            let shown = Shown { falloff, depth };
+            let shown = TrialResults { falloff, depth };
             assert_eq!(trials(by, lamp, most), (tried, shown), "{by:?}");
         }
     }

@@ -33,10 +33,10 @@ pub(super) struct RayTree {
 }
 
 impl RayTree {
-    /// Moves a ray to the next front, given the last pushed of those that the tree's ray ended with, or
-    /// the last pending one if there is none. A ray beyond the budget stays.
+    /// Moves the tree's next ray to the next front: `pushed`, the last secondary ray of the current one,
+    /// or else the last pending one. A ray beyond the budget stays pending and ends the tree.
     #[inline(always)]
-    pub(super) fn go_on(&mut self, pushed: Option<(Ray, RayState)>, next: &mut Front) {
+    pub(super) fn move_on(&mut self, pushed: Option<(Ray, RayState)>, next: &mut Front) {
         let Some((ray, state)) = pushed.or_else(|| self.pending.pop()) else {
             return;
         };

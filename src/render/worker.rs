@@ -5,11 +5,12 @@ use std::sync::Arc;
 use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender};
 use std::time::Duration;
 
+use rayon::ThreadPool;
+
 use super::film::Film;
 use super::frame::{Frames, Job, Query};
 use super::kept::{Effort, Kept};
 use super::photons::Photons;
-use super::renderer::Pool;
 use super::shared::Shared;
 use super::shot::Shot;
 use super::steps::steps;
@@ -59,7 +60,7 @@ pub(crate) fn run<W: Fn() + Sync>(
     requests: &Receiver<Request>,
     shared: &Shared,
     wake: &W,
-    pool: &Pool,
+    pool: &ThreadPool,
 ) {
     let mut left = None;
     let mut keeper = None;

@@ -37,7 +37,8 @@ pub(super) struct Nearest<N: Lanes> {
 impl Csg {
     /// The nearest boundary with `0 < t < limit` on each of the given lines, by the program.
     ///
-    /// All lists are in place, one after the other: moving them took a quarter of a picture's time.
+    /// All lists stay in place, one after the other: moving them, and a stack of tasks instead of the
+    /// program, took a sixth of a picture's time.
     #[inline(always)]
     pub(super) fn nearest<N: Lanes>(
         &self,

@@ -9,16 +9,16 @@ pub(super) struct Program(pub(super) Vec<Instruction>);
 
 #[derive(Clone, Debug, PartialEq)]
 pub(super) enum Instruction {
-    /// Goes on with the lines that may hit a box; if none does, at `end`, with an empty list.
+    /// Continues with the lines that may hit a box; if none does, jumps to `end` and lists nothing.
     Enter { bounds: Aabb, end: u32 },
-    /// Goes on with the lines before the matching [`Instruction::Enter`].
+    /// Restores the lines from before the matching [`Instruction::Enter`].
     Leave,
     /// Lists the boundaries of a leaf; `inverted` if its inside is subtracted.
     Leaf { leaf: u32, inverted: bool },
     /// Begins the list of a first operand.
     First,
-    /// Begins the list of a second operand; unless it is one of a union, goes on at `end` if that
-    /// of the first is empty.
+    /// Begins the list of a second operand; unless it is one of a union, jumps to `end` if that of
+    /// the first is empty.
     Second { is_union: bool, end: u32 },
     /// Merges the lists of both operands.
     Merge(Operation),
@@ -89,6 +89,7 @@ impl Program {
                 }
             }
         }
+        code.shrink_to_fit();
         Self(code)
     }
 }

@@ -52,7 +52,8 @@ struct Recorder<'w, C> {
     wave: Wave<'w>,
     samples: [Sample; 1],
     seen: [Seen; 1],
-    /// What the wave's pending rays are.
+    /// What the rays are that the wave has yet to trace: the pending ones, then the one in the next
+    /// front.
     waiting: Vec<Waiting>,
     rays: Vec<TracedRay>,
     /// Lights that may still be listed.

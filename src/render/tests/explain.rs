@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use super::*;
 use crate::assets::{Assets, Loaded, Wanted};
 use crate::render::shot::Shot;
-use crate::render::{Explanation, PreparedScene, Query, RayEnd, RayKind, Stop};
+use crate::render::{Explanation, PreparedScene, Query, RayEnd, RayKind, Stop, TracedRay};
 use crate::scene::Emitter;
 
 /// Samples explained per scene and integrator.
@@ -219,6 +219,46 @@ fn roulette_begins_earlier_where_light_is_sampled_at_random() {
             }
         }
         assert!(survivals.iter().any(|survival| *survival < 1.0));
+    }
+}
+
+/// Nested reflective glass, whose rays double until they exceed the budget of 4096: all that were traced
+/// are recorded with what they hit, the others as over budget, each one bounce after its parent.
+#[test]
+fn rays_over_the_budget_are_recorded() {
+    let splitting = Coefficients {
+        reflection: 1.0,
+        transmission: 1.0,
+        index: 1.0,
+        ..grey(1.0)
+    };
+    let nested: Vec<_> = (1..=6)
+        .map(|k| (sphere([0.0; 3], f64::from(k)), splitting))
+        .collect();
+    let mut job = job_of(
+        (scene(&nested, &[]), Images::default()),
+        Integrator::Whitted,
+    );
+    job.settings.depth = 30;
+    let prepared = PreparedScene::new(&job, || false).expect("nothing cancels");
+    let world = prepared.query().world.upgrade().expect("it is prepared");
+    let Size { width, height } = job.settings.size;
+    let pixel = [width / 2 + 1, height / 2 + 1];
+    let explained = prepared.query().explain(pixel, 0, || false);
+    let explained = explained.expect("it is prepared");
+    assert_eq!(bits(sum(&explained)), bits(traced(&job, &world, pixel, 0)));
+    let is_over = |ray: &&TracedRay| matches!(ray.end, RayEnd::OverBudget);
+    let over = explained.rays.iter().filter(is_over).count();
+    assert_eq!(explained.rays.len() - over, 4096);
+    assert!(0 < over);
+    for ray in &explained.rays[1..] {
+        let parent = &explained.rays[ray.parent.expect("only the camera's ray has none")];
+        assert_eq!(ray.bounce, parent.bounce + 1);
+        let RayEnd::Surface(shading) = &parent.end else {
+            panic!("{:?} has a child", parent.end);
+        };
+        let at = ray.origin.distance(shading.hit.point);
+        assert!(at < 1e-9, "it starts where its parent ends");
     }
 }
 

@@ -17,12 +17,12 @@ pub struct Cures {
     /// What was said of a preview that is black or too bright, while it is so.
     pub(super) said: Option<String>,
     /// The trials under way, before the preview is said to be too bright.
-    pub(super) trials: Option<UnderWay>,
+    pub(super) trials: Option<RunningTrials>,
 }
 
 /// Trials of what darkens a preview that is too bright.
 #[derive(Debug)]
-pub(super) struct UnderWay {
+pub(super) struct RunningTrials {
     pub(super) next: Trials,
     /// The generation of the picture under way, once it is traced.
     pub(super) generation: Option<u64>,

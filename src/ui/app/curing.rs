@@ -3,10 +3,10 @@
 use std::ops::ControlFlow;
 
 use super::App;
-use super::cures::{Cure, UnderWay};
+use super::cures::{Cure, RunningTrials};
 use super::looking::is_light;
 use crate::language::{Outlook, darkening, outlook};
-use crate::render::{Frame, Frames, Histogram, Job, Overexposure, Shown, Trials};
+use crate::render::{Frame, Frames, Histogram, Job, Overexposure, TrialResults, Trials};
 use crate::ui::keymap::{Action, Mode};
 use crate::ui::msg::{Effect, Target};
 
@@ -60,7 +60,7 @@ impl App {
                 return vec![trial];
             }
             if settings.is_some() {
-                self.cures.of_picture = self.darkening(over, Shown::default());
+                self.cures.of_picture = self.darkening(over, TrialResults::default());
             }
             self.say_burnt();
         } else if let Some(said) = self.cures.said.take() {
@@ -69,11 +69,11 @@ impl App {
         stop()
     }
 
-    /// Goes on to try what darkens the preview: with the next small picture.
+    /// Traces the next trial picture.
     fn try_darker(&mut self, next: Trials, over: f64) -> Option<Effect> {
         let settings = next.settings();
         let job = self.shown_job(settings.size, settings.spp)?;
-        self.cures.trials = Some(UnderWay {
+        self.cures.trials = Some(RunningTrials {
             next,
             generation: None,
             over,
@@ -89,7 +89,7 @@ impl App {
 
     /// Takes a frame of a small picture.
     pub(super) fn tried(&mut self, frame: &Frame) -> Vec<Effect> {
-        let is_it = |trials: &mut UnderWay| trials.generation == Some(frame.generation);
+        let is_it = |trials: &mut RunningTrials| trials.generation == Some(frame.generation);
         let Some(trials) = self
             .cures
             .trials
@@ -103,7 +103,7 @@ impl App {
                 vec![Effect::Stop(Target::Trial)]
             }
             ControlFlow::Continue(next) => self.try_darker(next, trials.over).into_iter().collect(),
-            ControlFlow::Break(shown) => self.burnt(trials.over, shown),
+            ControlFlow::Break(shown) => self.end_burnt(trials.over, shown),
         }
     }
 
@@ -111,18 +111,18 @@ impl App {
     pub(super) fn end_trials(&mut self) -> Vec<Effect> {
         let trials = self.cures.trials.take();
         trials.map_or_else(Vec::new, |trials| {
-            self.burnt(trials.over, trials.next.shown())
+            self.end_burnt(trials.over, trials.next.shown())
         })
     }
 
     /// Says that the preview is too bright, and what helps, as trials have shown.
-    fn burnt(&mut self, over: f64, shown: Shown) -> Vec<Effect> {
+    fn end_burnt(&mut self, over: f64, shown: TrialResults) -> Vec<Effect> {
         self.cures.of_picture = self.darkening(over, shown);
         self.say_burnt();
         vec![Effect::Stop(Target::Trial)]
     }
 
-    fn darkening(&self, over: f64, shown: Shown) -> Vec<Cure> {
+    fn darkening(&self, over: f64, shown: TrialResults) -> Vec<Cure> {
         darkening(&self.rendering(), over, shown.falloff, shown.depth)
     }
 

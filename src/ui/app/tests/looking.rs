@@ -302,17 +302,18 @@ fn a_burnt_picture_is_offered_its_likeliest_cure_first() {
     let trace = job(&effects, Target::Preview).expect("a preview").clone();
     press(&mut app, "<Esc>");
     let burnt = "more than half of the picture is above 1: C sets";
-    // By the falloff alone the picture is near 1, and then again far above it.
     let effects = app.update(preview(&trace, 40.0));
     let trial = job(&effects, Target::Trial).expect("a trial");
     assert_eq!(trial.settings.falloff, FalloffRule::Square);
     tried(&mut app, 1, 0.5);
     assert!(shown(&app).starts_with(&format!("{burnt} falloff square,")));
-    press(&mut app, "C");
+    let effects = press(&mut app, "C");
     assert_eq!(app.document.text(), faded());
+    // Nothing is left to try.
+    let trace = job(&effects, Target::Preview).expect("a preview").clone();
     press(&mut app, "<Esc>");
-    app.update(preview(&trace, 3.0));
-    tried(&mut app, 2, 3.0);
+    let effects = app.update(preview(&trace, 3.0));
+    assert!(job(&effects, Target::Trial).is_none());
     assert!(shown(&app).starts_with(&format!("{burnt} exposure -2,")));
     press(&mut app, "C");
     assert_eq!(
@@ -337,6 +338,23 @@ fn tried(app: &mut App, generation: u64, stops: f64) -> Vec<Effect> {
         ..Frame::drawn(size, vec![[255; 3]])
     };
     app.update(Msg::Frame(Target::Trial, Arc::new(frame)))
+}
+
+#[test]
+fn a_falloff_that_does_not_help_is_not_offered() {
+    let (mut app, effects) = opened(SCENE);
+    let trace = job(&effects, Target::Preview).expect("a preview").clone();
+    press(&mut app, "<Esc>");
+    app.update(preview(&trace, 3.0));
+    tried(&mut app, 1, 2.0);
+    let burnt = "more than half of the picture is above 1: C sets";
+    assert!(shown(&app).starts_with(&format!("{burnt} exposure -2,")));
+    press(&mut app, "<Esc>C");
+    press(&mut app, "<Esc>");
+    assert_eq!(
+        app.document.text(),
+        format!("// render: exposure -2\n{SCENE}")
+    );
 }
 
 #[test]
