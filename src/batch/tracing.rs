@@ -123,7 +123,8 @@ impl Tracer {
         layers.collect()
     }
 
-    /// What small pictures of a job, whose picture is too bright, show of settings that darken it.
+    /// Traces small pictures of a job whose picture is too bright, and returns what they show of settings
+    /// that darken it.
     pub(super) fn try_darker(&mut self, job: &Job) -> TrialResults {
         let mut next = Trials::new(&job.settings, &job.scene.lights);
         let mut shown = TrialResults::default();

@@ -25,7 +25,7 @@ pub fn darkening(
     let own = asked.exposure.unwrap_or_default();
     let stops = (2.0 * (own - over)).floor() / 2.0;
     let stops = stops.clamp(*EXPOSURES.start(), *EXPOSURES.end());
-    // It brightens what is nearer than 1 to a light, and hardly darkens what is little farther.
+    // It brightens whatever is within a distance of 1 of a light, and hardly darkens what is just beyond.
     let left = falloff.filter(|left| left.abs() < NEAR && *left <= 0.5 * over);
     let falloff = left.and_then(|_| setting("falloff", FalloffRule::Square.name()));
     let exposure = setting("exposure", &concise(stops));

@@ -2,7 +2,7 @@
 
 use std::alloc::{GlobalAlloc, Layout, System};
 
-/// Bytes of a huge page, at least: on most machines exactly.
+/// The size of a huge page in bytes, on most machines.
 const HUGE: usize = 2 << 20;
 
 /// The system's allocator. On Linux it asks for huge pages where an allocation has room for them:
@@ -68,7 +68,7 @@ fn advise(_: *mut u8, _: usize) {}
 mod tests {
     use super::*;
 
-    /// Whether huge pages were asked for at an address, as the system tells of its mapping.
+    /// Whether huge pages were asked for at an address, according to `/proc/self/smaps`.
     fn is_huge(address: usize) -> bool {
         let maps = std::fs::read_to_string("/proc/self/smaps").expect("Linux has it");
         let mut within = false;

@@ -140,7 +140,7 @@ mod tests {
     use super::*;
     use crate::scene::{Emitter, Falloff, Integrator, Rendering, Rgb, Shadows};
 
-    /// A lamp whose light falls off or not.
+    /// A lamp with these falloff coefficients.
     fn lamp(radial: [f64; 3]) -> Light {
         Light {
             emitter: Emitter::Point {

@@ -36,7 +36,7 @@ impl Program {
     /// Translates a tree, whose root is the last step.
     pub(super) fn new(steps: &[Prepared]) -> Self {
         let mut code = Vec::new();
-        // The last are the second operands that are not yet complete.
+        // The instructions whose `end` is not known yet, innermost last.
         let mut seconds = Vec::new();
         let mut tasks = vec![Task::Step {
             index: steps.len() as u32 - 1,
