@@ -50,12 +50,10 @@ pub(super) fn build(
     if !references.is_empty() {
         let extent = Extent::of(&references, &cancel)?;
         let whole = Subset::new(extent, 0, references.len());
-        let mut spare: Vec<_> = references.par_iter().copied().collect();
+        let mut spare = in_batches(references.len(), &cancel, |at| references[at])?;
         let pieces = pieces(&mut references, &mut spare, &whole, 0, &cancel)?;
-        cancel.check()?;
-        nodes = joined(&pieces);
+        nodes = joined(&pieces, &cancel)?;
     }
-    nodes.shrink_to_fit();
     let mut order = Vec::with_capacity(references.len() + unbounded.len());
     order.par_extend(references.par_iter().map(|reference| reference.index));
     order.extend(unbounded);
@@ -129,6 +127,22 @@ fn collect_references(
 /// Whether a box is empty; a box with NaN may contain anything.
 fn is_empty(aabb: &Aabb) -> bool {
     aabb.max.cmplt(aabb.min).any()
+}
+
+/// Computes items in parallel, from their numbers.
+fn in_batches<T: Send>(
+    count: usize,
+    cancel: &CancelCheck<'_>,
+    item: impl Fn(usize) -> T + Sync,
+) -> Result<Vec<T>, Cancelled> {
+    let mut items = Vec::with_capacity(count);
+    let batch = BATCH * size_of::<Reference>() / size_of::<T>();
+    for first in (0..count).step_by(batch) {
+        cancel.check()?;
+        let part = first..count.min(first + batch);
+        items.par_extend(part.into_par_iter().map(&item));
+    }
+    Ok(items)
 }
 
 /// A run of references.
@@ -207,7 +221,7 @@ fn pieces(
 }
 
 /// The nodes of all pieces.
-fn joined(pieces: &[Piece]) -> Vec<Node> {
+fn joined(pieces: &[Piece], cancel: &CancelCheck<'_>) -> Result<Vec<Node>, Cancelled> {
     let end = pieces
         .last()
         .map_or(0, |piece| piece.first + piece.nodes.len());
@@ -218,7 +232,7 @@ fn joined(pieces: &[Piece]) -> Vec<Node> {
         node.shift(*first as u32);
         node
     };
-    (0..end).into_par_iter().map(node).collect()
+    in_batches(end, cancel, node)
 }
 
 /// Appends the subtree of `part`, as [`pieces`].

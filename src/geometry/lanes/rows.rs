@@ -1,7 +1,9 @@
 //! Numbers laid out for tests of several things at once.
 
+use std::mem;
 use std::ops::Range;
 
+use rayon::iter::repeat_n;
 use rayon::prelude::*;
 
 use super::{Several, Simd, WIDTH};
@@ -9,12 +11,21 @@ use super::{Several, Simd, WIDTH};
 /// Things filled in by one thread at a time.
 const CHUNK: usize = 1 << 12;
 
+/// Things filled in between two polls of cancellation, which takes a few milliseconds. In batches a quarter
+/// the size, threads touch the same huge pages first, which takes as long again.
+const BATCH: usize = 1 << 18;
+
 /// `N` numbers of each of many things, in an order in which they are tested in runs.
 ///
 /// A run of n things is stored as `N` rows of n: the first number of each, the second one, and so on.
 /// Rows are loaded whole, with what follows them.
 #[derive(Clone, Debug)]
 pub struct Rows<T, const N: usize>(Vec<T>);
+
+/// The number of places in some runs.
+fn places(runs: &[Range<usize>]) -> usize {
+    runs.iter().map(ExactSizeIterator::len).sum()
+}
 
 /// The rows of a run.
 #[derive(Clone, Copy, Debug)]
@@ -33,30 +44,39 @@ impl<T: Copy + Default + Send, const N: usize> Rows<T, N> {
         cancelled: &(dyn Fn() -> bool + Sync),
     ) -> Option<Self> {
         let count = runs.last().map_or(0, |run| run.end);
-        let mut rows = vec![T::default(); N * count + WIDTH];
-        let mut rest = &mut rows[..];
-        let mut chunks = Vec::new();
-        for runs in runs.chunks(CHUNK / WIDTH) {
-            let count: usize = runs.iter().map(ExactSizeIterator::len).sum();
-            let (own, after) = rest.split_at_mut(N * count);
-            chunks.push((own, runs));
-            rest = after;
-        }
-        let filled = chunks.into_par_iter().map(|(mut rest, runs)| {
-            for run in runs {
-                let (own, after) = rest.split_at_mut(N * run.len());
-                for (at, place) in run.clone().enumerate() {
-                    let numbers = numbers(place);
-                    for (row, number) in own.chunks_mut(run.len()).zip(numbers) {
-                        row[at] = number;
-                    }
-                }
-                rest = after;
+        let mut rows = Vec::with_capacity(N * count + WIDTH);
+        for runs in runs.chunks(BATCH / WIDTH) {
+            if cancelled() {
+                return None;
             }
-            (!cancelled()).then_some(())
-        });
-        filled.collect::<Option<()>>()?;
+            let start = rows.len();
+            rows.par_extend(repeat_n(T::default(), N * places(runs)));
+            let mut rest = &mut rows[start..];
+            let chunks = runs.chunks(CHUNK / WIDTH).map(|runs| {
+                let (own, after) = mem::take(&mut rest).split_at_mut(N * places(runs));
+                rest = after;
+                (own, runs)
+            });
+            let chunks: Vec<_> = chunks.collect();
+            let fill = |(rows, runs)| Self::fill(rows, runs, &numbers);
+            chunks.into_par_iter().for_each(fill);
+        }
+        rows.extend([T::default(); WIDTH]);
         Some(Self(rows))
+    }
+
+    /// Fills the rows of some runs.
+    fn fill(mut rows: &mut [T], runs: &[Range<usize>], numbers: impl Fn(usize) -> [T; N]) {
+        for run in runs {
+            let (own, after) = rows.split_at_mut(N * run.len());
+            for (at, place) in run.clone().enumerate() {
+                let numbers = numbers(place);
+                for (row, number) in own.chunks_mut(run.len()).zip(numbers) {
+                    row[at] = number;
+                }
+            }
+            rows = after;
+        }
     }
 
     /// The run with these places, one of those given to [`Rows::new`].
