@@ -73,6 +73,12 @@ impl Wave<'_> {
         let last = self.arrived.len().min(first + WIDTH);
         let all = &self.arrived[first..last];
         let states = &self.front.states[first..last];
+        if landing.hits == 0 {
+            for state in states {
+                self.trees[state.tree].move_on(None, &mut self.next);
+            }
+            return;
+        }
         let mut specular = None;
         for (lane, (arrived, state)) in all.iter().zip(states).enumerate() {
             let tree = &mut self.trees[state.tree];

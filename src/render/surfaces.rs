@@ -20,9 +20,23 @@ pub(crate) struct Landing {
     pub(crate) normal: Vector<Row>,
     /// A bit for each ray that hit a front face.
     pub(crate) front: u32,
+    /// A bit for each ray that hit anything.
+    pub(crate) hits: u32,
 }
 
 impl Landing {
+    /// That of a packet that misses everything.
+    const NONE: Self = Self {
+        surface: Surfaces {
+            point: Vector::ZERO,
+            normal: Vector::ZERO,
+            scale: Row::ZERO,
+        },
+        normal: Vector::ZERO,
+        front: 0,
+        hits: 0,
+    };
+
     /// The side hit by the ray in a lane.
     pub(crate) fn side(&self, lane: usize) -> Side {
         if self.front >> lane & 1 == 1 {
@@ -94,6 +108,9 @@ impl World {
             #[inline(always)]
             |lane| nearest.get(lane)?.map(|nearest| nearest.hit),
         );
+        if hits.lanes == 0 {
+            return Landing::NONE;
+        }
         let rays = packet.rays.load(simd);
         let zero = Vector::all(rays.origin.x, DVec3::ZERO);
         let mut surface = Surfaces {
@@ -133,6 +150,7 @@ impl World {
             surface: surface.store(),
             normal: Vector::select(front, shading, -shading).store(),
             front: bits::<S>(front),
+            hits: hits.lanes,
         }
     }
 

@@ -183,11 +183,11 @@ fn srgb(linear: f64) -> f64 {
 }
 
 /// Quantises each channel: ⌊255 · clamp(c, 0, 1) + ½⌋.
+#[inline]
 pub(crate) fn to_bytes(colour: Rgb) -> [u8; 3] {
     // The cast truncates and maps NaN to 0.
-    colour
-        .to_array()
-        .map(|channel| (255.0 * channel.clamp(0.0, 1.0) + 0.5) as u8)
+    let byte = |channel: f64| (255.0 * channel.clamp(0.0, 1.0) + 0.5) as u8;
+    [byte(colour.x), byte(colour.y), byte(colour.z)]
 }
 
 #[cfg(test)]

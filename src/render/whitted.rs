@@ -167,6 +167,9 @@ impl<'w> Wave<'w> {
         seen: &mut [Seen],
     ) {
         let landing = &self.landings[packet];
+        if landing.hits == 0 {
+            return;
+        }
         let rays = &self.front.rays[packet].rays;
         let first = packet * WIDTH;
         let points = Points {

@@ -204,21 +204,27 @@ impl World {
 
     /// Returns the radiance of a ray that hits nothing: the background at `screen`, in the unit
     /// square, for camera rays, and otherwise the environment.
+    #[inline]
     pub(crate) fn around(&self, ray: &Ray, bounce: u32, screen: DVec2) -> Rgb {
-        let setting = &self.scene.setting;
-        if bounce == 0 {
-            return self.textures.colour(setting.background, screen);
+        if bounce != 0 {
+            return self.environment(ray.direction);
         }
-        self.environment(ray.direction)
+        let background = &self.scene.setting.background;
+        if background.texture.is_none() {
+            return background.colour;
+        }
+        self.textures.colour(*background, screen)
     }
 
     /// The radiance of the environment from a direction.
+    #[inline]
     pub(crate) fn environment(&self, toward: DVec3) -> Rgb {
-        let environment = self.scene.setting.environment;
+        let environment = &self.scene.setting.environment;
         if environment.texture.is_none() {
             return environment.colour;
         }
-        self.textures.colour(environment, environment_place(toward))
+        self.textures
+            .colour(*environment, environment_place(toward))
     }
 
     /// Object numbers in the order of traversal.

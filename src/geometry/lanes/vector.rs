@@ -194,6 +194,13 @@ impl<S: Simd> Vector<Eight<S>> {
 }
 
 impl Vector<Row> {
+    /// Zeros.
+    pub const ZERO: Self = Self {
+        x: Row::ZERO,
+        y: Row::ZERO,
+        z: Row::ZERO,
+    };
+
     /// Repeats a vector in all lanes.
     pub fn repeat(vector: DVec3) -> Self {
         Self {
