@@ -129,13 +129,14 @@ fn is_empty(aabb: &Aabb) -> bool {
     aabb.max.cmplt(aabb.min).any()
 }
 
-/// Computes items in parallel, from their numbers.
+/// Computes items from their numbers, in parallel.
 fn in_batches<T: Send>(
     count: usize,
     cancel: &CancelCheck<'_>,
     item: impl Fn(usize) -> T + Sync,
 ) -> Result<Vec<T>, Cancelled> {
     let mut items = Vec::with_capacity(count);
+    // As many bytes as a batch of boxes.
     let batch = BATCH * size_of::<Reference>() / size_of::<T>();
     for first in (0..count).step_by(batch) {
         cancel.check()?;
