@@ -54,8 +54,7 @@ pub(super) fn build(
         let pieces = pieces(&mut references, &mut spare, &whole, 0, &cancel)?;
         nodes = joined(&pieces, &cancel)?;
     }
-    let mut order = Vec::with_capacity(references.len() + unbounded.len());
-    order.par_extend(references.par_iter().map(|reference| reference.index));
+    let mut order = in_batches(references.len(), &cancel, |at| references[at].index)?;
     order.extend(unbounded);
     Ok(Bvh {
         reference,
@@ -129,14 +128,14 @@ fn is_empty(aabb: &Aabb) -> bool {
     aabb.max.cmplt(aabb.min).any()
 }
 
-/// Computes items from their numbers, in parallel.
+/// Computes items from their indices, in parallel batches with a cancellation check before each.
 fn in_batches<T: Send>(
     count: usize,
     cancel: &CancelCheck<'_>,
     item: impl Fn(usize) -> T + Sync,
 ) -> Result<Vec<T>, Cancelled> {
     let mut items = Vec::with_capacity(count);
-    // As many bytes as a batch of boxes.
+    // As many bytes as a batch of references.
     let batch = BATCH * size_of::<Reference>() / size_of::<T>();
     for first in (0..count).step_by(batch) {
         cancel.check()?;

@@ -73,7 +73,7 @@ impl Wave<'_> {
         let last = self.arrived.len().min(first + WIDTH);
         let all = &self.arrived[first..last];
         let states = &self.front.states[first..last];
-        if landing.hits == 0 {
+        if landing.is_empty() {
             for state in states {
                 self.trees[state.tree].move_on(None, &mut self.next);
             }

@@ -20,22 +20,28 @@ pub(crate) struct Landing {
     pub(crate) normal: Vector<Row>,
     /// A bit for each ray that hit a front face.
     pub(crate) front: u32,
-    /// A bit for each ray that hit anything.
-    pub(crate) hits: u32,
+    /// A mask of the rays that hit, lowest bit first.
+    hits: u32,
 }
 
 impl Landing {
-    /// That of a packet that misses everything.
+    /// The landing of a packet whose rays all miss.
     const NONE: Self = Self {
         surface: Surfaces {
-            point: Vector::ZERO,
-            normal: Vector::ZERO,
-            scale: Row::ZERO,
+            point: Vector::repeat(DVec3::ZERO),
+            normal: Vector::repeat(DVec3::ZERO),
+            scale: Row::all(0.0),
         },
-        normal: Vector::ZERO,
+        normal: Vector::repeat(DVec3::ZERO),
         front: 0,
         hits: 0,
     };
+
+    /// Whether all rays of the packet miss.
+    #[inline]
+    pub(crate) fn is_empty(&self) -> bool {
+        self.hits == 0
+    }
 
     /// The side hit by the ray in a lane.
     pub(crate) fn side(&self, lane: usize) -> Side {

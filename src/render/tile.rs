@@ -438,6 +438,7 @@ impl Tile {
             Some(Aov::Cost) => Rgb::splat(f64::from(rays) / samples.max(1.0)),
             Some(Aov::Samples) => Rgb::splat(samples),
             Some(Aov::Noise) => Rgb::splat(self.error(at).into()),
+            // Most pixels have one sample; without any, the sum is 0.
             _ if samples <= 1.0 => sum,
             _ => sum / samples,
         }

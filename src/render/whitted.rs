@@ -167,7 +167,7 @@ impl<'w> Wave<'w> {
         seen: &mut [Seen],
     ) {
         let landing = &self.landings[packet];
-        if landing.hits == 0 {
+        if landing.is_empty() {
             return;
         }
         let rays = &self.front.rays[packet].rays;

@@ -345,11 +345,8 @@ pub fn singles<S: Simd>(eight: Eight<S>) -> Singles<S> {
 pub struct Row(pub [f64; WIDTH]);
 
 impl Row {
-    /// Zeros.
-    pub const ZERO: Self = Self([0.0; WIDTH]);
-
     /// The same number eight times.
-    pub fn all(value: f64) -> Self {
+    pub const fn all(value: f64) -> Self {
         Self([value; WIDTH])
     }
 

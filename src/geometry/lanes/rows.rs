@@ -11,8 +11,8 @@ use super::{Several, Simd, WIDTH};
 /// Things filled in by one thread at a time.
 const CHUNK: usize = 1 << 12;
 
-/// Things filled in between two polls of cancellation: a few milliseconds. With batches a quarter of this
-/// size, a scene of a million spheres takes 3 % longer.
+/// The maximum number of things filled in between two cancellation checks: a few milliseconds. With a
+/// quarter as many, loading and rendering a million spheres takes 3 % longer.
 const BATCH: usize = 1 << 18;
 
 /// `N` numbers of each of many things, in an order in which they are tested in runs.

@@ -194,15 +194,8 @@ impl<S: Simd> Vector<Eight<S>> {
 }
 
 impl Vector<Row> {
-    /// Zeros.
-    pub const ZERO: Self = Self {
-        x: Row::ZERO,
-        y: Row::ZERO,
-        z: Row::ZERO,
-    };
-
     /// Repeats a vector in all lanes.
-    pub fn repeat(vector: DVec3) -> Self {
+    pub const fn repeat(vector: DVec3) -> Self {
         Self {
             x: Row::all(vector.x),
             y: Row::all(vector.y),

@@ -16,6 +16,7 @@ mod quadric_bounds;
 mod quadric_parallel;
 mod quadrics;
 mod random;
+mod rows;
 mod runs;
 mod scale;
 mod silhouettes;
