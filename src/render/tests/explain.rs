@@ -226,19 +226,7 @@ fn roulette_begins_earlier_where_light_is_sampled_at_random() {
 /// are recorded with what they hit, the others as over budget, each one bounce after its parent.
 #[test]
 fn rays_over_the_budget_are_recorded() {
-    let splitting = Coefficients {
-        reflection: 1.0,
-        transmission: 1.0,
-        index: 1.0,
-        ..grey(1.0)
-    };
-    let nested: Vec<_> = (1..=6)
-        .map(|k| (sphere([0.0; 3], f64::from(k)), splitting))
-        .collect();
-    let mut job = job_of(
-        (scene(&nested, &[]), Images::default()),
-        Integrator::Whitted,
-    );
+    let mut job = job_of((splitting_glass(), Images::default()), Integrator::Whitted);
     job.settings.depth = 30;
     let prepared = PreparedScene::new(&job, || false).expect("nothing cancels");
     let world = prepared.query().world.upgrade().expect("it is prepared");

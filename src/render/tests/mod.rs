@@ -95,6 +95,18 @@ fn grey(level: f64) -> Coefficients {
     }
 }
 
+/// Six nested balls of grey 1 with r = t = 1: rays double at each surface.
+fn splitting_glass() -> Scene {
+    let glass = Coefficients {
+        reflection: 1.0,
+        transmission: 1.0,
+        index: 1.0,
+        ..grey(1.0)
+    };
+    let ball = |radius| (sphere([0.0; 3], f64::from(radius)), glass);
+    scene(&(1..=6).map(ball).collect::<Vec<_>>(), &[])
+}
+
 /// A material with one texture in all slots of its own colours.
 fn painted(material: impl Into<Material>, texture: Option<u32>) -> Material {
     let maps = Maps {

@@ -153,35 +153,19 @@ fn an_index_of_0_or_less_does_not_refract() {
     }
 }
 
-/// r = t = 1 at depth 30 would be a tree of 2³¹ rays. Each ray sees at least the ball's own grey
-/// 1e-3, so the sum counts the rays that hit: at most the budget of 4096.
+/// At depth 30 this would be a tree of 2³¹ rays. Each ray sees at most the balls' own grey of 1, so
+/// the sum counts those that hit: at most the budget of 4096.
 #[test]
 fn a_ray_tree_ends_with_its_budget() {
-    let glass = Coefficients {
-        reflection: 1.0,
-        transmission: 1.0,
-        index: 1.0,
-        ..grey(1.0)
-    };
-    let nested: Vec<_> = (1..=6)
-        .map(|k| (sphere([0.0; 3], f64::from(k)), glass))
-        .collect();
-    let (seen, over_budget) = look(
-        scene(&nested, &[]),
-        30,
-        ray([0.0, 0.0, 9.0], [0.1, 0.2, 0.0]),
-    );
+    let ray = || ray([0.0, 0.0, 9.0], [0.1, 0.2, 0.0]);
+    let (seen, over_budget) = look(splitting_glass(), 30, ray());
     assert_eq!(over_budget, 1);
     assert!(
         1000.0 < seen.radiance.x && seen.radiance.x <= 4096.0,
         "{}",
         seen.radiance.x
     );
-    let (_, over_budget) = look(
-        scene(&nested, &[]),
-        8,
-        ray([0.0, 0.0, 9.0], [0.1, 0.2, 0.0]),
-    );
+    let (_, over_budget) = look(splitting_glass(), 8, ray());
     assert_eq!(over_budget, 0);
 }
 
