@@ -6,10 +6,13 @@
 //! writes the rest.
 
 use std::io;
-use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
 use std::thread;
 use std::time::{Duration, Instant};
+
+#[cfg(unix)]
+use rustix::event::Timespec;
 
 use super::tty::{Taken, TtyWriter};
 
@@ -18,6 +21,15 @@ const PIECE: usize = 1 << 16;
 
 /// Time for the thread to write the last bytes after room was made for them.
 const LAST_PATIENCE: Duration = Duration::from_millis(100);
+
+/// Interval and maximum number of polls for the end of a write that has begun: 100 ms.
+#[cfg(unix)]
+const SILENCE_POLL: Timespec = Timespec {
+    tv_sec: 0,
+    tv_nsec: 1_000_000,
+};
+#[cfg(unix)]
+const SILENCE_POLLS: u32 = 100;
 
 /// The terminal's output, shared by the interface and the panic hook.
 #[derive(Debug)]
@@ -30,9 +42,15 @@ struct OutputState {
     line: TtyWriter,
     queue: Mutex<Queue>,
     changed: Condvar,
-    /// Whether the thread must stop writing.
+    /// Whether nothing more may be written.
     is_silent: AtomicBool,
+    /// Number of [`Permit`]s.
+    permits: AtomicUsize,
 }
+
+/// Permission to call `write` once, until dropped.
+#[derive(Debug)]
+struct Permit<'a>(&'a AtomicUsize);
 
 #[derive(Debug, Default)]
 struct Queue {
@@ -57,6 +75,7 @@ impl Output {
             queue: Mutex::default(),
             changed: Condvar::new(),
             is_silent: AtomicBool::new(false),
+            permits: AtomicUsize::new(0),
         });
         let theirs = Arc::clone(&shared);
         thread::Builder::new()
@@ -79,6 +98,9 @@ impl Output {
         }
         let mut rest = bytes;
         while queue.is_clear() && !rest.is_empty() {
+            let Some(_permit) = self.shared.permit() else {
+                break;
+            };
             match self.shared.line.write_at_once(rest) {
                 Ok(Taken::Bytes(count)) => rest = &rest[count..],
                 Ok(Taken::Nothing) => break,
@@ -97,10 +119,19 @@ impl Output {
         self.shared.is_clear()
     }
 
-    /// Stops the thread from writing, for a signal handler, which writes the last bytes itself.
+    /// Stops all threads from writing, for a signal handler, which writes the last bytes itself.
+    ///
+    /// Waits for a write that has begun, but not for ever: the handler may have interrupted it, and
+    /// a write to a shared file may block.
     #[cfg(unix)]
     pub(super) fn fall_silent(&self) {
         self.shared.is_silent.store(true, Ordering::SeqCst);
+        for _ in 0..SILENCE_POLLS {
+            if self.shared.permits.load(Ordering::SeqCst) == 0 {
+                return;
+            }
+            let _ = rustix::event::poll(&mut [], Some(&SILENCE_POLL));
+        }
     }
 
     /// Replaces the pending bytes by `bytes` and waits for the terminal to accept them, until
@@ -156,6 +187,15 @@ impl OutputState {
         self.lock().is_clear()
     }
 
+    /// Permission to write, unless the output has fallen silent.
+    fn permit(&self) -> Option<Permit<'_>> {
+        // Counted before the check, so that either the check sees the silence or the handler sees
+        // the permit.
+        self.permits.fetch_add(1, Ordering::SeqCst);
+        let permit = Permit(&self.permits);
+        (!self.is_silent.load(Ordering::SeqCst)).then_some(permit)
+    }
+
     /// Waits for bytes and writes some of them; returns whether to continue.
     fn write_next(&self) -> bool {
         let mut queue = self.lock();
@@ -172,10 +212,10 @@ impl OutputState {
         let edition = queue.edition;
         queue.writing = true;
         drop(queue);
-        let is_silent = || self.is_silent.load(Ordering::SeqCst);
-        let is_wanted = || !is_silent() && self.lock().edition == edition;
-        let written = self.line.write(&piece, is_wanted);
-        if is_silent() {
+        let is_current = || self.lock().edition == edition;
+        let permit = || is_current().then(|| self.permit()).flatten();
+        let written = self.line.write(&piece, permit);
+        if self.is_silent.load(Ordering::SeqCst) {
             return false;
         }
         let mut queue = self.lock();
@@ -190,6 +230,12 @@ impl OutputState {
         }
         self.changed.notify_all();
         true
+    }
+}
+
+impl Drop for Permit<'_> {
+    fn drop(&mut self) {
+        self.0.fetch_sub(1, Ordering::SeqCst);
     }
 }
 

@@ -117,9 +117,13 @@ impl TtyWriter {
         }
     }
 
-    /// Waits until some of the bytes can be written, and writes them if they are still wanted;
-    /// returns the number of bytes written.
-    pub(super) fn write(&self, bytes: &[u8], is_wanted: impl Fn() -> bool) -> io::Result<usize> {
+    /// Waits until some of the bytes can be written, and writes them if `permit` returns a permit
+    /// then, which is held during the write; returns the number of bytes written.
+    pub(super) fn write<P>(
+        &self,
+        bytes: &[u8],
+        permit: impl Fn() -> Option<P>,
+    ) -> io::Result<usize> {
         use rustix::event::{PollFd, PollFlags, poll};
         use rustix::io::Errno;
 
@@ -132,9 +136,9 @@ impl TtyWriter {
                 Ok(_) | Err(Errno::INTR) => {}
                 Err(error) => return Err(error.into()),
             }
-            if !is_wanted() {
+            let Some(_permit) = permit() else {
                 return Ok(0);
-            }
+            };
             match rustix::io::write(&self.file, bytes) {
                 Ok(0) => return Err(io::ErrorKind::WriteZero.into()),
                 Ok(count) => return Ok(count),
@@ -179,7 +183,7 @@ impl TtyWriter {
 
     pub(super) fn discard(&self) {}
 
-    pub(super) fn write(&self, bytes: &[u8], _: impl Fn() -> bool) -> io::Result<usize> {
+    pub(super) fn write<P>(&self, bytes: &[u8], _: impl Fn() -> Option<P>) -> io::Result<usize> {
         let mut output = io::stdout().lock();
         output.write_all(bytes)?;
         output.flush()?;

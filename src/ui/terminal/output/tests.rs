@@ -77,6 +77,25 @@ fn the_last_bytes_wait_only_until_the_deadline() {
 }
 
 #[test]
+fn nothing_follows_the_last_bytes_of_a_signal_handler() {
+    let (output, mut reader, _) = output();
+    output.send(b"frame").expect("it takes bytes");
+    output.fall_silent();
+    output.send(b"another").expect("it waits for ever");
+    assert!(!output.is_clear());
+    drop(output);
+    let mut read = [0; 16];
+    let count = reader.read(&mut read).expect("it is readable");
+    assert_eq!(&read[..count], b"frame");
+    reader.set_nonblocking(true).expect("it can be");
+    let rest = reader.read(&mut read).map_err(|error| error.kind());
+    assert!(
+        matches!(rest, Ok(0) | Err(ErrorKind::WouldBlock)),
+        "{rest:?}"
+    );
+}
+
+#[test]
 fn a_closed_end_is_an_error() {
     let (output, reader, notices) = output();
     output.send(&frame(b'a', MUCH)).expect("it waits");
