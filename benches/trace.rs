@@ -236,7 +236,7 @@ fn portrait(shape: Shape, lights: &[Light]) -> Scene {
         },
         ambient: Rgb::ONE,
         lights: lights.to_vec(),
-        materials: vec![material],
+        materials: vec![material].into(),
         textures: Vec::new(),
         objects: [Object { shape, material: 0 }].into_iter().collect(),
         setting: Setting::default(),

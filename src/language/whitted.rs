@@ -84,7 +84,7 @@ pub(super) fn whitted(scene: &Scene, losses: &mut Losses<'_>) -> Whitted {
     };
     let glows = scene.materials.iter().enumerate().any(emits);
     let mut materials = Vec::with_capacity(scene.materials.len());
-    for (index, material) in (0..).zip(&scene.materials) {
+    for (index, material) in (0..).zip(scene.materials.iter()) {
         let mut reduced = coefficients(Of::Material(index), material, losses);
         if glows {
             let reflected = ambient * material.ambient.unwrap_or(reduced.diffuse);

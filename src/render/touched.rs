@@ -5,10 +5,13 @@
 use std::ops::{BitOr, BitOrAssign};
 use std::sync::Arc;
 
+use rayon::prelude::*;
+
 use super::frame::Job;
 use super::world::World;
 use crate::geometry::Shape;
-use crate::scene::{Integrator, Light, Object, Scene};
+use crate::scene::blocks::BLOCK;
+use crate::scene::{Integrator, Light, Material, Object, Scene};
 
 /// A conservative set of objects and lights, in which several share a bit.
 ///
@@ -86,15 +89,41 @@ impl Touched {
             }
             touched |= Self::light(number);
         }
-        let objects = scene.objects.iter().zip(new_scene.objects.iter());
-        for (number, (object, new)) in (0..).zip(objects) {
-            if looks_other((object, scene), (new, new_scene)) {
-                touched |= Self::object(number);
-            }
-        }
-        Some(touched)
+        Some(touched | repainted(scene, new_scene))
     }
 }
+
+/// The objects, with the same shapes in two scenes, that have different materials. Equal materials
+/// may have different numbers.
+fn repainted(scene: &Scene, new_scene: &Scene) -> Touched {
+    let [materials, new_materials] = [&scene.materials, &new_scene.materials];
+    let changed: Vec<_> = materials.differences(new_materials, Material::ne).collect();
+    let has_changed = |number, _| changed.binary_search(&(number as usize)).is_ok();
+    let differ = |number, new| materials[number as usize] != new_materials[new as usize];
+    let of_block = |number: u32, block: &[Object], new: &[Object], differ: &Differ| {
+        let pairs = (number * BLOCK as u32..).zip(block.iter().zip(new));
+        let repainted = pairs.filter(|(_, (object, new))| looks_other(object, new, differ));
+        repainted.fold(Touched::default(), |touched, (number, _)| {
+            touched | Touched::object(number)
+        })
+    };
+    let blocks = scene.objects.blocks().par_iter();
+    let blocks = blocks.zip(new_scene.objects.blocks()).enumerate();
+    let blocks = blocks.map(|(number, pair)| (number as u32, pair));
+    let touched = blocks.map(|(number, (block, new))| {
+        if !Arc::ptr_eq(block, new) {
+            of_block(number, block, new, &differ)
+        } else if changed.is_empty() {
+            Touched::default()
+        } else {
+            of_block(number, block, new, &has_changed)
+        }
+    });
+    touched.reduce(Touched::default, Touched::bitor)
+}
+
+/// Whether a material of a scene differs from one of a new scene, by their numbers.
+type Differ<'a> = dyn Fn(u32, u32) -> bool + 'a;
 
 impl BitOr for Touched {
     type Output = Self;
@@ -112,12 +141,8 @@ impl BitOrAssign for Touched {
     }
 }
 
-/// Whether an object, whose shape is the same in two scenes, has a different material. Equal
-/// materials may have different numbers.
-fn looks_other((object, scene): (&Object, &Scene), (new, new_scene): (&Object, &Scene)) -> bool {
-    let differ = |material: u32, new_material: u32| {
-        scene.materials[material as usize] != new_scene.materials[new_material as usize]
-    };
+/// Whether the materials of two objects of the same shape differ.
+fn looks_other(object: &Object, new: &Object, differ: &Differ) -> bool {
     match &object.shape {
         Shape::Csg(csg) => csg.tags().any(|tag| differ(tag, tag)),
         Shape::Mesh(instance) => instance.tags().any(|tag| match tag {

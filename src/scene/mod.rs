@@ -1,9 +1,9 @@
 //! The scene: plain comparable data, independent of any scene language.
 
+pub(crate) mod blocks;
 mod light;
 mod material;
 mod mesh;
-pub(crate) mod objects;
 mod rendering;
 mod setting;
 mod texture;
@@ -13,12 +13,13 @@ use glam::DVec3;
 
 use crate::geometry::{Aabb, Hit, Shape};
 
+pub use blocks::Blocks;
 pub use light::{Emitter, Falloff, Light, Shadows};
 pub use material::{
     Bump, Dielectric, Faces, Gloss, Highlight, Maps, Material, Mirror, Reflectance, Shadow,
 };
 pub use mesh::{Meshes, NoMesh, beside};
-pub use objects::Objects;
+
 pub use rendering::{
     DEFAULT_DEPTH, DEFAULT_SPP, EXPOSURES, FalloffRule, Filter, GlossRule, Integrator, MAX_DEPTH,
     MAX_SPP, Rendering, Transfer,
@@ -26,6 +27,12 @@ pub use rendering::{
 pub use setting::Setting;
 pub use texture::{Image, Images, Pattern, Side, Texture, Tinted};
 pub use viewpoint::Viewpoint;
+
+/// The objects of a scene.
+pub type Objects = Blocks<Object>;
+
+/// The materials of a scene.
+pub type Materials = Blocks<Material>;
 
 /// A linear colour: red, green and blue, unclamped.
 pub type Rgb = DVec3;
@@ -40,7 +47,7 @@ pub struct Scene {
     /// Lights, in file order.
     pub lights: Vec<Light>,
     /// Materials, which objects refer to by index.
-    pub materials: Vec<Material>,
+    pub materials: Materials,
     /// Textures, which materials, the setting and other textures refer to by index.
     pub textures: Vec<Texture>,
     /// Objects, in file order.

@@ -51,7 +51,7 @@ pub(super) fn lower(text: &str, tree: &Tree) -> (Origins, Lowered) {
         camera,
         ambient: Rgb::ZERO,
         lights: lowering.lights,
-        materials: lowering.materials,
+        materials: lowering.materials.into(),
         textures: lowering.textures,
         objects: objects.into_iter().collect(),
         setting: Setting {

@@ -11,7 +11,7 @@ use super::tree::Tree;
 use super::view_comment::has_eye_and_target;
 use crate::language::node::Node;
 use crate::language::{Before, Lowered};
-use crate::scene::objects::BLOCK;
+use crate::scene::blocks::BLOCK;
 use crate::scene::{Object, Objects, Scene};
 use crate::text::{Diagnostic, Findings, Span, are_plain_numbers};
 
@@ -161,6 +161,6 @@ fn scene(
         objects: Objects::of_blocks(blocks),
         setting: before.setting.clone(),
     };
-    scene.materials.splice(base as usize..end, materials);
+    scene.materials.replace(base as usize..end, materials);
     scene
 }

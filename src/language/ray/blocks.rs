@@ -10,7 +10,7 @@ use super::origins::ObjectPlace;
 use super::reader::{LEAST_NUMBERS, Reader};
 use super::table::ShapeKind;
 use super::tree::Tokens;
-use crate::scene::objects::BLOCK;
+use crate::scene::blocks::BLOCK;
 use crate::scene::{Material, Object, Objects};
 use crate::text::{Findings, Span};
 

@@ -83,7 +83,7 @@ fn lower_by<'a>(
             camera,
             ambient: reader.ambient,
             lights: reader.lights,
-            materials: reader.materials,
+            materials: reader.materials.into(),
             textures: Vec::new(),
             objects,
             setting: Setting {

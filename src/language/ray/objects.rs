@@ -9,7 +9,7 @@ use crate::language::coefficients::Coefficients;
 use crate::language::record::Record;
 use crate::language::report::{Name, did_you_mean, quoted};
 use crate::language::table;
-use crate::scene::objects::BLOCK;
+use crate::scene::blocks::BLOCK;
 use crate::scene::{Material, Object};
 use crate::text::{Diagnostic, Span, alternatives, counted};
 

@@ -10,7 +10,7 @@ use super::tree::Tree;
 use crate::geometry::Affine;
 use crate::language::room::{Counts, each};
 use crate::memory::{self, Need, OutOfMemory, megabytes};
-use crate::scene::objects::BLOCK;
+use crate::scene::blocks::BLOCK;
 use crate::scene::{Material, Object};
 use crate::text::{Span, counted};
 

@@ -42,7 +42,7 @@ pub(in crate::language) fn write(scene: &Scene, losses: &mut Losses<'_>) -> Stri
         let _ = writeln!(text, "// render:{settings}");
     }
     let whitted = whitted(scene, losses);
-    for (index, material) in (0..).zip(&scene.materials) {
+    for (index, material) in (0..).zip(scene.materials.iter()) {
         if material.maps.is_some() {
             losses.add(Of::Material(index), &TEXTURED);
         }

@@ -90,7 +90,7 @@ impl Lowering<'_> {
             camera,
             ambient: Rgb::ZERO,
             lights: std::mem::take(&mut self.lights),
-            materials: std::mem::take(&mut self.materials),
+            materials: std::mem::take(&mut self.materials).into(),
             textures: std::mem::take(&mut self.textures),
             objects: std::mem::take(&mut self.objects).into_iter().collect(),
             setting: std::mem::take(&mut self.setting),

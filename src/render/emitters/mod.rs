@@ -238,7 +238,7 @@ impl Emitters {
 /// The objects that emit light and have parts that can be chosen, in order.
 fn glows(scene: &Scene) -> Vec<Glow> {
     let emits = |material: &Material| material.emission != Rgb::ZERO;
-    if !scene.materials.par_iter().any(emits) {
+    if !(scene.materials.par_numbered()).any(|(_, material)| emits(material)) {
         return Vec::new();
     }
     let source = |material: u32| {

@@ -246,7 +246,7 @@ fn still(count: usize, random: &mut Random) -> Scene {
     };
     let lights: Vec<_> = (0..3).map(|_| light(random)).collect();
     Scene {
-        materials,
+        materials: materials.into(),
         objects: objects.into_iter().collect(),
         textures: vec![checker(DVec2::splat(8.0), [Rgb::ZERO, Rgb::ONE])],
         ambient: Rgb::splat(0.5),
@@ -450,7 +450,9 @@ fn other_edits_trace_everything_again() {
     // Renumbering the floor's material changes nothing.
     let renumbered = |scene: &mut Scene| {
         scene.objects[0].material = scene.materials.len() as u32;
-        scene.materials.push(scene.materials[0].clone());
+        scene
+            .materials
+            .edit(|materials| materials.extend_from_within(..1));
     };
     assert_eq!(of_scene(&renumbered), Some(Touched::default()));
     let other = |scene: &mut Scene| scene.materials[0] = Material::unlit(Rgb::new(0.1, 0.2, 0.3));

@@ -172,8 +172,9 @@ fn room(floor: Material, glow: Material, textures: Vec<Texture>, flip: bool) -> 
          <material name='mirror'><diffuse value='.1'/><specular value='0'/><reflection value='.8'/>
          </material>"
     ));
-    scene.materials.push(floor);
-    scene.materials.push(glow);
+    scene
+        .materials
+        .edit(|materials| materials.extend([floor, glow]));
     let floor = scene.materials.len() as u32 - 2;
     let mut objects: Vec<_> = scene.objects.iter().cloned().collect();
     objects[0].material = floor;

@@ -11,7 +11,7 @@ use super::*;
 pub(super) fn wall() -> Arc<Scene> {
     let wall = cuboid([-20.0, -15.0, -1.0], [40.0, 30.0, 1.0]);
     let mut scene = scene(&[(wall, BLACK)], &[]);
-    scene.materials = vec![painted(grey(1.0), Some(0))];
+    scene.materials = [painted(grey(1.0), Some(0))].into_iter().collect();
     let repeat = DVec2::new(40.0 * 161.803_398_9, 30.0 * 141.421_356_2);
     scene.textures = vec![checker(repeat, [Rgb::splat(0.2), Rgb::splat(0.8)])];
     scene.camera.lens = Lens::Orthographic(30.0);

@@ -72,9 +72,11 @@ fn photons_that_are_kept_are_those_of_the_scene() {
     let mut moved = first.clone();
     moved.camera.eye.x += 1.0;
     let mut darker = (*first.scene).clone();
-    for material in &mut darker.materials {
-        material.dielectric.tint *= 0.5;
-    }
+    darker.materials.edit(|materials| {
+        for material in materials {
+            material.dielectric.tint *= 0.5;
+        }
+    });
     let mut recoloured = moved.clone();
     recoloured.scene = Arc::new(darker);
     let mut shallow = recoloured.clone();

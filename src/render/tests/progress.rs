@@ -275,7 +275,7 @@ fn an_edited_colour_appears_in_the_next_picture() {
 #[test]
 fn a_panicked_worker_refuses_jobs() {
     let mut broken = Scene::clone(&still());
-    broken.materials.clear();
+    broken.materials.edit(Vec::clear);
     let (mut renderer, woken) = renderer(1);
     restart(&mut renderer, job(&Arc::new(broken), settings(4, 3, 1)));
     assert_eq!(woken.recv(), Err(mpsc::RecvError));

@@ -57,7 +57,9 @@ fn behind_glass(glass: Option<Shape>) -> Scene {
     }
     let mut scene = scene(&objects, &[white_light([0.2, 0.1, 9.0])]);
     // The leaves of a CSG solid refer to material 0.
-    scene.materials.rotate_left(index);
+    scene
+        .materials
+        .edit(|materials| materials.rotate_left(index));
     for number in 0..scene.objects.len() {
         let object = &mut scene.objects[number];
         object.material = (object.material + 1) % scene.materials.len() as u32;

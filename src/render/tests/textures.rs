@@ -6,7 +6,7 @@ use super::highlights::{assert_colour, brings};
 use super::*;
 use crate::geometry::{Cylinder, Hit};
 use crate::render::texture::Textures;
-use crate::scene::{Bump, Dielectric, Emitter, Gloss, Highlight, Image, Mirror};
+use crate::scene::{Bump, Dielectric, Emitter, Gloss, Highlight, Image, Materials, Mirror};
 
 const RED: Rgb = Rgb::new(1.0, 0.0, 0.0);
 const BLUE: Rgb = Rgb::new(0.0, 0.0, 1.0);
@@ -32,7 +32,7 @@ fn images(width: u32, height: u32, pixel: impl Fn(u32, u32) -> [u8; 3]) -> Image
 /// The world of a solid that shows its texture unlit.
 fn shown(shape: Shape, texture: Texture, images: &Images) -> World {
     let mut scene = scene(&[(shape, BLACK)], &[]);
-    scene.materials = vec![painted(grey(1.0), Some(0))];
+    scene.materials = [painted(grey(1.0), Some(0))].into_iter().collect();
     scene.textures = vec![texture];
     World::build(Arc::new(scene), images, PATHS, None, &|| false)
         .expect("nothing cancels the building")
@@ -317,12 +317,12 @@ fn bumps_tilt_normals_with_every_highlight() {
             bump: Some(bump),
             ..Maps::default()
         };
-        scene.materials = vec![Material {
+        scene.materials = Materials::from_iter([Material {
             diffuse: Rgb::ONE,
             highlight,
             maps: maps.boxed(),
             ..Material::BLACK
-        }];
+        }]);
         scene.textures = vec![picture([1.0, 1.0])];
         scene.ambient = Rgb::ZERO;
         let world = World::build(Arc::new(scene), &images, PATHS, None, &|| false);

@@ -9,8 +9,8 @@ use crate::geometry::{Shape, Solid};
 use crate::language::coefficients::Coefficients;
 use crate::language::node::Node;
 use crate::scene::{
-    Bump, Camera, Emitter, Falloff, Focus, Lens, Light, Maps, Pattern, Rgb, Scene, Shadows, Side,
-    Size, Texture, Tinted,
+    Bump, Camera, Emitter, Falloff, Focus, Lens, Light, Maps, Materials, Pattern, Rgb, Scene,
+    Shadows, Side, Size, Texture, Tinted,
 };
 
 /// The scene of records after a view, a material 0 and a sphere of radius 1.
@@ -175,7 +175,7 @@ fn materials() {
         transmission: 0.75,
         index: 1.5,
     };
-    assert_eq!(scene.materials, [expected.into()]);
+    assert_eq!(scene.materials, Materials::from_iter([expected.into()]));
 }
 
 #[test]

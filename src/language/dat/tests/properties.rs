@@ -297,7 +297,7 @@ fn check_any(text: &str) {
         assert_eq!(source.drawn(own), Some(index as u32));
         assert!((object.material as usize) < scene.materials.len());
     }
-    for material in &scene.materials {
+    for material in scene.materials.iter() {
         let Some(maps) = &material.maps else {
             continue;
         };

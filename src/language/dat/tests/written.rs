@@ -3,14 +3,16 @@
 use super::properties::records;
 use super::read;
 use crate::language::tests::{Random, rewritten};
-use crate::scene::{Rgb, Scene};
+use crate::scene::{Material, Rgb, Scene};
 
 /// A scene without what no picture shows: ambient reflectance where there is no ambient light.
 fn shown(mut scene: Scene) -> Scene {
     if scene.ambient_light() == Rgb::ZERO {
-        for material in &mut scene.materials {
-            material.ambient = None;
-        }
+        let dark = |material: &Material| Material {
+            ambient: None,
+            ..material.clone()
+        };
+        scene.materials = scene.materials.iter().map(dark).collect();
     }
     scene
 }

@@ -43,7 +43,7 @@ const LINES: Loss = Loss {
 /// Writes the textures that materials use.
 pub(super) fn write(text: &mut String, scene: &Scene, losses: &mut Losses<'_>) {
     let mut id = 0;
-    for (index, material) in (0..).zip(&scene.materials) {
+    for (index, material) in (0..).zip(scene.materials.iter()) {
         let Some(maps) = &material.maps else {
             continue;
         };

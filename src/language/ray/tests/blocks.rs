@@ -7,7 +7,7 @@ use proptest::prelude::*;
 use crate::language::ray::lower::lower_in_order;
 use crate::language::ray::{self, again};
 use crate::language::{Answers, Before, Editable, Lowered};
-use crate::scene::objects::BLOCK;
+use crate::scene::blocks::BLOCK;
 use crate::scene::{Meshes, Scene};
 use crate::text::{Edit, Span};
 

@@ -7,7 +7,7 @@ use crate::geometry::{Affine, Cone, Cuboid, Cylinder, Ellipsoid, Shape, Solid, S
 use crate::language::coefficients::Coefficients;
 use crate::language::node::Node;
 use crate::language::tests::shown;
-use crate::scene::{Light, Material, Object};
+use crate::scene::{Light, Material, Materials, Object};
 use crate::text::Span;
 
 const EXAMPLE: &str = include_str!("../../../../scenes/example.ray");
@@ -30,7 +30,7 @@ fn the_example_of_the_format() {
         index,
     };
     let materials = [material(1.6), material(1.1)].map(Material::from);
-    assert_eq!(scene.materials, materials);
+    assert_eq!(scene.materials, Materials::from_iter(materials));
     let sphere = Shape::Solid(Solid::Sphere(Sphere {
         centre: DVec3::ZERO,
         radius: 1.5,
@@ -93,7 +93,7 @@ fn unusual_values_are_used_as_given() {
         transmission: 6.0,
         index: -7.0,
     };
-    assert_eq!(scene.materials, [material.into()]);
+    assert_eq!(scene.materials, Materials::from_iter([material.into()]));
 }
 
 #[test]

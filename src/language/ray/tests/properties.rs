@@ -11,7 +11,9 @@ use crate::language::ray::table::ShapeKind;
 use crate::language::ray::table::{AMBIENT, LIGHT, VIEW};
 use crate::language::table::{Field, Kind, Range};
 use crate::language::tests::{Random, damage};
-use crate::scene::{Camera, Lens, Light, Material, Object, Objects, Scene, Setting, Size};
+use crate::scene::{
+    Camera, Lens, Light, Material, Materials, Object, Objects, Scene, Setting, Size,
+};
 use crate::text::{Edit, Span, apply};
 
 impl Random {
@@ -130,7 +132,7 @@ impl Model {
             camera,
             ambient: DVec3::ZERO,
             lights: vec![],
-            materials: vec![],
+            materials: Materials::default(),
             textures: vec![],
             objects: Objects::default(),
             setting: Setting::default(),
@@ -154,7 +156,7 @@ impl Model {
                     let known = scene.materials.iter().position(|known| *known == material);
                     let index = known.unwrap_or(scene.materials.len());
                     if known.is_none() {
-                        scene.materials.push(material);
+                        scene.materials.edit(|materials| materials.push(material));
                     }
                     objects.push(Object {
                         shape: shape(said, kind.expect("objects have a kind")),

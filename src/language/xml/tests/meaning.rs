@@ -7,7 +7,7 @@ use crate::geometry::{Aabb, Ray, Shape, Solid, Sphere};
 use crate::language::node::Node;
 use crate::scene::{
     Camera, Dielectric, Emitter, Faces, Falloff, Focus, Gloss, Highlight, Integrator, Lens, Light,
-    Material, Mirror, Pattern, Rgb, Scene, Shadows, Side, Size, Tinted, Transfer,
+    Material, Materials, Mirror, Pattern, Rgb, Scene, Shadows, Side, Size, Tinted, Transfer,
 };
 
 fn sphere(centre: [f64; 3], radius: f64) -> Shape {
@@ -40,7 +40,10 @@ fn the_example_is_three_white_spheres() {
         sphere([0.0, 50.0, 11.1], 1.0),
     ];
     assert_eq!(shapes, expected);
-    assert_eq!(scene.materials, [Material::unlit(Rgb::ONE)]);
+    assert_eq!(
+        scene.materials,
+        Materials::from_iter([Material::unlit(Rgb::ONE)])
+    );
     let camera = Camera {
         eye: DVec3::ZERO,
         target: DVec3::new(0.0, 20.0, 0.0),
@@ -202,9 +205,8 @@ fn materials_are_read_completely() {
             .collect::<Vec<_>>(),
         [1, 0]
     );
-    let [a, b, c] = &scene.materials[..] else {
-        panic!("{:?}", scene.materials);
-    };
+    assert_eq!(scene.materials.len(), 3);
+    let [a, b, c] = [0, 1, 2].map(|index| &scene.materials[index]);
     let front = Mirror {
         faces: Faces::Front,
         ..Mirror::default()

@@ -10,8 +10,8 @@ use crate::language::FileKind;
 use crate::language::node::Node;
 use crate::obj;
 use crate::scene::{
-    Dielectric, Faces, Gloss, Highlight, Maps, Material, Meshes, Mirror, NoMesh, Object, Pattern,
-    Rgb, Scene, Texture,
+    Dielectric, Faces, Gloss, Highlight, Maps, Material, Materials, Meshes, Mirror, NoMesh, Object,
+    Pattern, Rgb, Scene, Texture,
 };
 
 const CORNERS: &str = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
@@ -124,7 +124,7 @@ fn materials_come_from_the_library() {
     ] {
         let meshes = two_faces(&format!("newmtl a\n{said}\n"));
         let scene = scene(&around("<object type='obj' name='a.obj'/>"), &meshes);
-        let expected = [Material::unlit(Rgb::ONE), expected];
+        let expected = Materials::from_iter([Material::unlit(Rgb::ONE), expected]);
         assert_eq!(scene.materials, expected, "{said}");
         assert_eq!(tags(&scene.objects[0]), [Some(0), Some(1)]);
     }
@@ -288,7 +288,8 @@ fn warnings_about_a_file_are_reported_at_its_first_name() {
     // An unused library is not checked.
     assert_eq!(said(dressed), [line]);
     let scene = scene(&around(object), &meshes);
-    assert_eq!(scene.materials, [Material::unlit(Rgb::ONE)]);
+    let white = Materials::from_iter([Material::unlit(Rgb::ONE)]);
+    assert_eq!(scene.materials, white);
 }
 
 /// The triangle lies in the plane x + z = 0, which scaled by 2 along x becomes x + 2z = 0; its

@@ -86,7 +86,7 @@ fn check(text: &str) {
             assert!(inner.into_iter().all(|at| index < at && at < textures));
         }
     }
-    for material in &scene.materials {
+    for material in scene.materials.iter() {
         assert!(!matches!(material.highlight, Highlight::Phong(_)));
         assert!(material.colour().is_finite());
     }

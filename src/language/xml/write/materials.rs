@@ -51,7 +51,7 @@ const LINES: Loss = Loss {
 pub(super) fn is_baked(scene: &Scene, losses: &mut Losses<'_>) -> bool {
     let mut is_baked = false;
     let is_lit = scene.ambient_light() != Rgb::ZERO;
-    for (index, material) in (0..).zip(&scene.materials) {
+    for (index, material) in (0..).zip(scene.materials.iter()) {
         let has_own = material
             .ambient
             .is_some_and(|ambient| ambient != material.diffuse);
@@ -88,7 +88,7 @@ pub(super) fn write(
     losses: &mut Losses<'_>,
 ) {
     let ambient = scene.ambient_light();
-    for ((index, material), name) in (0..).zip(&scene.materials).zip(names) {
+    for ((index, material), name) in (0..).zip(scene.materials.iter()).zip(names) {
         report(Of::Material(index), material, scene, losses);
         let mut emission = Tinted {
             colour: material.emission,
