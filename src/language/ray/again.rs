@@ -1,14 +1,16 @@
-//! Incremental lowering of a long `.ray` text after numbers of one object have changed: only the
-//! block of that object is read again. Gives up wherever anything else may have changed.
+//! Incremental lowering of a long `.ray` text after numbers of one object have changed, when only
+//! the block of that object is read again, or the header or a comment, when no object is. Gives up
+//! wherever anything else may have changed.
 
 use std::sync::Arc;
 
 use rayon::prelude::*;
 
-use super::blocks::{Block, block};
+use super::blocks::{self, Block, block};
+use super::lower;
 use super::origins::{Origins, ViewPlace};
-use super::tree::Tree;
-use super::view_comment::has_eye_and_target;
+use super::tree::{Tree, comment_of_line};
+use super::view_comment::{find, find_rendering, has_eye_and_target};
 use crate::language::node::Node;
 use crate::language::{Before, Lowered};
 use crate::scene::blocks::BLOCK;
@@ -23,10 +25,17 @@ pub(super) fn lower(
     before: &Before<'_>,
     [old, changed]: [Span; 2],
 ) -> Option<(Origins, Lowered)> {
-    // If as many tokens as before have changed and are plain, all others keep their meaning.
     let is_same =
         origins.tokens == tree.tokens.len() && origins.keyed == tree.tokens.keyed().count();
-    if !is_same || changed.is_empty() || !are_plain_numbers(changed.of(text)) {
+    if !is_same {
+        return None;
+    }
+    let moved = Moved { old, changed };
+    if is_within_comment(text, tree, origins, &moved) {
+        return without_objects(text, tree, origins, before, &moved);
+    }
+    // If as many tokens as before have changed and are plain, all others keep their meaning.
+    if changed.is_empty() || !are_plain_numbers(changed.of(text)) {
         return None;
     }
     let before_end = |end: usize| {
@@ -38,12 +47,17 @@ pub(super) fn lower(
     if ends != changed.range() {
         return None;
     }
-    let Some(Node::Object(object)) = origins.node_of_token(first) else {
-        return None;
-    };
-    if origins.node_of_token(last) != Some(Node::Object(object)) {
+    let node = origins.node_of_token(first)?;
+    if origins.node_of_token(last) != Some(node) {
         return None;
     }
+    let object = match node {
+        Node::Ambient | Node::Light(_) => {
+            return without_objects(text, tree, origins, before, &moved);
+        }
+        Node::Object(object) => object,
+        _ => return None,
+    };
     // A view without eye or target depends on all objects.
     if !origins
         .view
@@ -61,9 +75,15 @@ pub(super) fn lower(
         report,
     } = block(text, &tree.tokens, range.clone(), first)?;
     let spans = tree.tokens.range(range);
-    let moved = Moved { old, changed };
+    // Findings about objects of a block are reported at one of its tokens.
+    let of_block = |place: usize| {
+        let of_token = spans.binary_search_by_key(&place, |token| token.start());
+        of_token.is_ok()
+    };
+    let mut kept = kept_findings(before.diagnostics, &moved, |place| !of_block(place))?;
+    kept.append(report);
     let lowered = Lowered {
-        diagnostics: findings(before.diagnostics, &moved, &spans, report)?,
+        diagnostics: (kept.len() == kept.warnings()).then(|| kept.sorted())?,
         scene: Some(scene(before.scene, first, objects, materials)),
     };
     let origins = Origins {
@@ -73,6 +93,52 @@ pub(super) fn lower(
         ..*origins
     };
     Some((origins, lowered))
+}
+
+/// Whether an edit has changed nothing but the view's comment or that of the render settings.
+fn is_within_comment(text: &str, tree: &Tree, origins: &Origins, moved: &Moved) -> bool {
+    let holds = |comment: Span, edit: Span| {
+        comment.start() + "//".len() <= edit.start() && edit.end() <= comment.end()
+    };
+    let mut comments = origins.comments().map(|(_, comment)| comment);
+    let Some(before) = comments.find(|comment| holds(*comment, moved.old)) else {
+        return false;
+    };
+    let mut keyed = tree.tokens.keyed();
+    keyed.any(|start| start == before.start())
+        && comment_of_line(text, before.start()).is_some_and(|now| holds(now, moved.changed))
+}
+
+/// Reads all but the objects, which an edit has not changed.
+fn without_objects(
+    text: &str,
+    tree: &Tree,
+    origins: &Origins,
+    before: &Before<'_>,
+    moved: &Moved,
+) -> Option<(Origins, Lowered)> {
+    let mut report = Findings::default();
+    let view = find(text, &tree.tokens, &mut report);
+    let render = find_rendering(text, &tree.tokens, &mut report);
+    let (mut reader, count) = blocks::header(text, &tree.tokens, &origins.objects)?;
+    report.append(std::mem::take(&mut reader.report));
+    // Findings about objects are reported at one of their tokens.
+    let first = origins.objects.first()?.token as usize;
+    let of_object = |place: usize| {
+        let token = tree.tokens.partition_point(|token| token.start() < place);
+        let token = (first <= token).then(|| tree.tokens.get(token)).flatten();
+        token.is_some_and(|token| token.start() == place)
+    };
+    report.append(kept_findings(before.diagnostics, moved, of_object)?);
+    reader.report = report;
+    let known = lower::Objects {
+        places: Arc::clone(&origins.objects),
+        objects: before.scene.objects.clone(),
+        materials: before.scene.materials.clone(),
+    };
+    let (origins, lowered) = lower::joined(tree, (view, render), (reader, count), known);
+    let found = &lowered.diagnostics;
+    (found.len() == found.warnings()).then_some((origins, lowered))
 }
 
 /// Maps places in the old text to the new one.
@@ -104,25 +170,27 @@ impl Moved {
     }
 }
 
-/// The findings after an edit; `None` if some were omitted or would be.
-fn findings(before: &Findings, moved: &Moved, block: &[Span], found: Findings) -> Option<Findings> {
+/// The findings before an edit that are kept, by their places in the new text; `None` if some were
+/// omitted.
+fn kept_findings(
+    before: &Findings,
+    moved: &Moved,
+    is_kept: impl Fn(usize) -> bool,
+) -> Option<Findings> {
     if before.errors() != 0 || before.len() != before.warnings() {
         return None;
     }
     let mut report = Findings::default();
     for diagnostic in before.iter() {
         let span = moved.span(diagnostic.span);
-        // Findings about objects of a block are reported at one of its tokens.
-        let of_block = block.binary_search_by_key(&span.start(), |token| token.start());
-        if of_block.is_err() {
+        if is_kept(span.start()) {
             report.warning(|| Diagnostic {
                 span,
                 ..diagnostic.clone()
             });
         }
     }
-    report.append(found);
-    (report.len() == report.warnings()).then(|| report.sorted())
+    Some(report)
 }
 
 /// The scene with one block of objects replaced.

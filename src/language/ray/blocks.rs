@@ -88,12 +88,12 @@ fn places(text: &str, tokens: &Tokens) -> Vec<ObjectPlace> {
 }
 
 /// Reads the text before the first object; `None` if it is not regular or miscounts the objects.
-fn header<'a>(
+pub(super) fn header<'a>(
     text: &'a str,
     tokens: &'a Tokens,
     places: &[ObjectPlace],
 ) -> Option<(Reader<'a>, Span)> {
-    let first = places[0].token as usize;
+    let first = places.first()?.token as usize;
     // Whether a word begins an object depends on the numbers after it.
     let known = 0..first + 1 + LEAST_NUMBERS;
     let mut reader = Reader::new(text, tokens, known, Findings::default());

@@ -3,12 +3,13 @@
 use std::sync::Arc;
 
 use super::blocks;
-use super::origins::Origins;
+use super::origins::{ObjectPlace, Origins};
 use super::reader::{Reader, is_word};
 use super::tree::Tree;
 use super::view_comment::{ViewComment, camera, find, find_rendering};
 use crate::language::Lowered;
-use crate::scene::{Objects, Scene, Setting, bounds};
+use crate::language::rendering::RenderPlace;
+use crate::scene::{self, Materials, Scene, Setting, bounds};
 use crate::text::{Diagnostic, Findings, Span};
 
 /// Lowers a text.
@@ -50,7 +51,7 @@ pub(super) fn errors_of_beginning(text: &str, tree: &Tree) -> Findings {
 fn lower_by<'a>(
     text: &'a str,
     tree: &'a Tree,
-    blocks: impl FnOnce(Findings) -> Result<(Reader<'a>, Objects, Span), Findings>,
+    blocks: impl FnOnce(Findings) -> Result<(Reader<'a>, scene::Objects, Span), Findings>,
 ) -> (Origins, Lowered) {
     let mut report = Findings::default();
     let view = find(text, &tree.tokens, &mut report);
@@ -65,9 +66,37 @@ fn lower_by<'a>(
             (reader, objects.into_iter().collect(), count)
         }
     };
+    let read = Objects {
+        places: Arc::new(std::mem::take(&mut reader.places)),
+        objects,
+        materials: std::mem::take(&mut reader.materials).into(),
+    };
+    joined(tree, (view, render), (reader, count), read)
+}
+
+/// The objects of a text.
+pub(super) struct Objects {
+    pub(super) places: Arc<Vec<ObjectPlace>>,
+    pub(super) objects: scene::Objects,
+    pub(super) materials: Materials,
+}
+
+/// Joins what the comments, the header with the place of the number of objects, and the objects of a
+/// text mean.
+pub(super) fn joined(
+    tree: &Tree,
+    (view, render): (Option<ViewComment>, Option<RenderPlace>),
+    (mut reader, count): (Reader<'_>, Span),
+    read: Objects,
+) -> (Origins, Lowered) {
+    let Objects {
+        places,
+        objects,
+        materials,
+    } = read;
     reader.origins.view = view.as_ref().map(ViewComment::place);
     reader.origins.render = render;
-    reader.origins.objects = Arc::new(std::mem::take(&mut reader.places));
+    reader.origins.objects = places;
     reader.origins.tokens = tree.tokens.len();
     reader.origins.keyed = tree.tokens.keyed().count();
     // A view with both eye and target can be checked even if not all objects are known.
@@ -83,7 +112,7 @@ fn lower_by<'a>(
             camera,
             ambient: reader.ambient,
             lights: reader.lights,
-            materials: reader.materials.into(),
+            materials,
             textures: Vec::new(),
             objects,
             setting: Setting {

@@ -78,6 +78,51 @@ fn a_changed_number_reads_only_its_block_again() {
 }
 
 #[test]
+fn a_changed_header_or_comment_reads_no_object_again() {
+    let edits = [
+        ("1 1 1  1  0 5 5", "1 1 1", "0.5 0.25 0", true),
+        ("0 5 5", "5 5", "5 6.125", true),
+        ("  1 1 1  ", "1 1 1", "0.75 1 2", true),
+        ("target 0 0 0", "0 0 0", "1 2 3", true),
+        ("spp 4", "4", "9 depth 3", true),
+        ("spp 9", "9", "x", true),
+        // Of another view comment, which is ignored.
+        ("fov 5", "5", "7", false),
+        // Now the first view comment is malformed, and the other one counts.
+        ("target", "target", "target 4", true),
+        ("target 4", " 4", "", false),
+    ];
+    let comments = "// view: eye 0 0 9 target 0 0 0\n// render: spp 4\n// view: fov 5\n";
+    for (count, eye) in [
+        (BLOCK + 9, "eye 0 0 9"),
+        (40, "eye 0 0 9"),
+        (40, "up 0 0 1"),
+    ] {
+        let text = text(count, count, count / 5);
+        let said = format!("{comments}{text}").replacen("eye 0 0 9", eye, 1);
+        let (mut source, mut lowered) = read(&said);
+        for (context, old, new, is_incremental) in edits {
+            let at = source.text.find(context).expect("it is there");
+            let at = at + context.find(old).expect("it is part of it");
+            let known = before(&lowered).expect("a scene without errors");
+            let spans = put(&mut source, Span::new(at, at + old.len()), new);
+            let again = again::lower(&source.text, &source.tree, &source.origins, &known, spans);
+            assert_eq!(again.is_some(), is_incremental, "{old} to {new}");
+            let (fresh, expected) = read(&source.text);
+            let (origins, again) = again.unwrap_or_else(|| (fresh.origins.clone(), expected));
+            source.place(origins);
+            let (fresh, expected) = read(&source.text);
+            assert_eq!(
+                parts(&source, &again),
+                parts(&fresh, &expected),
+                "{old} to {new}"
+            );
+            lowered = again;
+        }
+    }
+}
+
+#[test]
 fn an_edit_of_a_shape_copies_only_its_block() {
     let text = text(3 * BLOCK, 3 * BLOCK, 400);
     let (mut source, lowered) = read(&format!("// view: eye 0 0 9 target 0 0 0\n{text}"));
@@ -96,6 +141,28 @@ fn an_edit_of_a_shape_copies_only_its_block() {
     let shared: Vec<_> = blocks.map(|(one, other)| Arc::ptr_eq(one, other)).collect();
     assert_eq!(shared, [true, false, true]);
     let other = before.differences(&after, |one, other| one != other);
+    assert_eq!(other.collect::<Vec<_>>(), [BLOCK + 6]);
+}
+
+#[test]
+fn an_edit_of_a_colour_copies_only_the_block_of_its_material() {
+    let count = 3 * BLOCK;
+    let mut text = format!("// view: eye 0 0 9 target 0 0 0\n1 1 1  1  0 5 5  1 1 1  {count}\n");
+    for number in 0..count {
+        text += &format!("sphere {number} 2 3 0.5  0.{number:04} 0 0  0 1 0  0 0 1  20 0 0 1\n");
+    }
+    let (mut source, lowered) = read(&text);
+    let colour = format!("0.{:04} 0 0", BLOCK + 6);
+    let at = source.text.find(&colour).expect("it is there");
+    let spans = put(&mut source, Span::new(at, at + colour.len()), "0.5 0.25 1");
+    let known = before(&lowered).expect("a scene without errors");
+    let again = source.lower_again(&Meshes::default(), known, spans);
+    let scene = again.expect("there is memory").scene.expect("no errors");
+    let before = &known.scene.materials;
+    let blocks = before.blocks().iter().zip(scene.materials.blocks());
+    let shared: Vec<_> = blocks.map(|(one, other)| Arc::ptr_eq(one, other)).collect();
+    assert_eq!(shared, [true, false, true]);
+    let other = before.differences(&scene.materials, |one, other| one != other);
     assert_eq!(other.collect::<Vec<_>>(), [BLOCK + 6]);
 }
 
