@@ -221,6 +221,9 @@ impl Writer<'_> {
     fn term(&self, term: &LightTerm) -> String {
         let cosine = format!("N·L {}", number(term.cosine));
         let mut factors = vec![cosine];
+        if term.chance != 1.0 {
+            factors.insert(0, format!("chosen with {}", percent(term.chance)));
+        }
         if term.radial != 1.0 {
             factors.push(format!("falloff {}", number(term.radial)));
         }

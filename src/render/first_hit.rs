@@ -83,7 +83,7 @@ pub(crate) fn guide(world: &World, sample: &Sample, skipped: f64, integrator: In
     let nearest = world.nearest(&sample.ray, sample.reach);
     let distance = nearest.map_or(sample.reach, |nearest| nearest.hit.t);
     if integrator.traces_paths()
-        && let Some((light, distance)) = world.sphere_lights.nearest(&sample.ray, distance)
+        && let Some((_, light, distance)) = world.sphere_lights.nearest(&sample.ray, distance)
     {
         return Guide {
             normal: [0.0; 3],

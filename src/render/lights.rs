@@ -253,6 +253,8 @@ impl SphereLight {
 #[derive(Clone, Debug)]
 pub(crate) struct SphereLights {
     all: Vec<SphereLight>,
+    /// Their indices among all lights.
+    numbers: Vec<u32>,
     tree: Arc<Bvh>,
     level: Level,
 }
@@ -260,16 +262,23 @@ pub(crate) struct SphereLights {
 impl SphereLights {
     /// Collects the lights; `None` once `cancelled` returns true.
     pub(crate) fn new(lights: &[Light], cancelled: &(dyn Fn() -> bool + Sync)) -> Option<Self> {
-        let all: Vec<_> = lights.iter().filter_map(Light::luminous_sphere).collect();
+        let spheres = (0..).zip(lights.iter().map(Light::luminous_sphere));
+        let spheres = spheres.filter_map(|(number, sphere)| Some((number, sphere?)));
+        let (numbers, all): (Vec<_>, Vec<_>) = spheres.unzip();
         let boxes: Vec<_> = all.iter().map(SphereLight::bounds).collect();
         let tree = Arc::new(Bvh::build(&boxes, cancelled)?);
         let level = level();
-        Some(Self { all, tree, level })
+        Some(Self {
+            all,
+            numbers,
+            tree,
+            level,
+        })
     }
 
-    /// Returns the nearest light that a ray hits before a distance, and where; of several at the
-    /// same distance, the first in the file.
-    pub(crate) fn nearest(&self, ray: &Ray, distance: f64) -> Option<(SphereLight, f64)> {
+    /// Returns the nearest light that a ray hits before a distance, with its index among all lights,
+    /// and where; of several at the same distance, the first in the file.
+    pub(crate) fn nearest(&self, ray: &Ray, distance: f64) -> Option<(u32, SphereLight, f64)> {
         let mut nearest: Option<(f64, u32)> = None;
         self.visit(ray, distance, |number| {
             if let Some(hit) = self.all[number as usize].hit(ray)
@@ -280,7 +289,10 @@ impl SphereLights {
             }
             nearest.map_or(distance, |(hit, _)| hit)
         });
-        nearest.map(|(hit, number)| (self.all[number as usize], hit))
+        nearest.map(|(hit, number)| {
+            let number = number as usize;
+            (self.numbers[number], self.all[number], hit)
+        })
     }
 
     /// Whether a ray hits a light other than its target before a distance.

@@ -53,6 +53,8 @@ pub(super) enum Met {
     Nothing(Rgb),
     /// A light with a size.
     Light {
+        /// Its index.
+        number: u32,
         light: SphereLight,
         distance: f64,
         radiance: Rgb,
@@ -99,7 +101,7 @@ impl<C: Fn() -> bool> Probe<'_, C> {
     pub(super) fn meet(&self, path: &mut Path, sample: &Sample, nearest: Option<Nearest>) -> Met {
         let world = self.world;
         let distance = nearest.map_or_else(|| path.reach(sample), |nearest| nearest.hit.t);
-        if let Some((light, distance)) = world.sphere_lights.nearest(&path.ray, distance) {
+        if let Some((number, light, distance)) = world.sphere_lights.nearest(&path.ray, distance) {
             path.throughput *= transmitted(path.absorption, distance);
             return Met::Light {
                 radiance: light.scale * light.radiance(),
@@ -107,8 +109,9 @@ impl<C: Fn() -> bool> Probe<'_, C> {
                     // Photons carry it.
                     0.0
                 } else {
-                    path.weight_of_chance(&light)
+                    path.weight_of_chance(world, (number, &light))
                 },
+                number,
                 light,
                 distance,
             };
@@ -174,17 +177,17 @@ impl<C: Fn() -> bool> Probe<'_, C> {
         densities.map_or(emission, |densities| densities.weight * emission)
     }
 
-    /// Returns the light that a surface reflects of the light with this index.
+    /// Returns the light that a surface reflects of the light with this index, which was chosen with
+    /// this probability. `place`, in the unit square, is where a light with a size is sampled.
     pub(super) fn light_of(
         &mut self,
-        number: usize,
+        (number, chance): (usize, f64),
         vertex: &Vertex<'_>,
         bounce: u32,
-        sampler: Sampler,
+        place: [f64; 2],
     ) -> Rgb {
         let light = &self.world.lights()[number];
-        let place = || place_on_light(number, bounce, sampler);
-        let unshadowed = self.unshadowed(number, vertex, bounce, place);
+        let unshadowed = self.unshadowed((number, chance), vertex, bounce, || place);
         let occlusion = self.occlusion(light);
         unshadowed.map_or(Rgb::ZERO, |unshadowed| {
             light.scale * self.lit(&unshadowed, occlusion)
@@ -192,35 +195,41 @@ impl<C: Fn() -> bool> Probe<'_, C> {
     }
 
     /// Like [`Self::light_of`], but unscaled and before the shadow ray is traced; `None` if nothing is
-    /// reflected. `place`, in the unit square, is where a light with a size is sampled.
+    /// reflected.
     pub(super) fn unshadowed(
         &self,
-        number: usize,
+        (number, chance): (usize, f64),
         vertex: &Vertex<'_>,
         bounce: u32,
         place: impl FnOnce() -> [f64; 2],
     ) -> Option<Unshadowed> {
         let light = &self.world.lights()[number];
         let Vertex { point, bsdf, .. } = vertex;
-        if let Some(sphere) = light.luminous_sphere() {
-            return self.of_sphere_light(vertex, bounce, (light, &sphere), place());
-        }
-        let from = point.surface.point;
-        let sphere = light.sphere();
-        let chosen = sphere.and_then(|sphere| sphere.choose(from, place()));
-        Unshadowed::new(point, light, chosen, |facing| {
-            let toward = facing.toward.into();
-            let scattered = bsdf.lobes.scatter(point, toward);
-            scattered.value + bsdf.lobes.highlight(point, toward)
+        let unshadowed = if let Some(sphere) = light.luminous_sphere() {
+            self.of_sphere_light((vertex, bounce), (light, &sphere), chance, place())?
+        } else {
+            let from = point.surface.point;
+            let sphere = light.sphere();
+            let chosen = sphere.and_then(|sphere| sphere.choose(from, place()));
+            Unshadowed::new(point, light, chosen, |facing| {
+                let toward = facing.toward.into();
+                let scattered = bsdf.lobes.scatter(point, toward);
+                scattered.value + bsdf.lobes.highlight(point, toward)
+            })?
+        };
+        Some(Unshadowed {
+            light: unshadowed.light / chance,
+            ..unshadowed
         })
     }
 
-    /// The light reflected from a light with a size, sampled at the given place.
+    /// The light reflected from a light with a size, chosen with a probability and sampled at the given
+    /// place.
     fn of_sphere_light(
         &self,
-        vertex: &Vertex<'_>,
-        bounce: u32,
+        (vertex, bounce): (&Vertex<'_>, u32),
         (light, sphere): (&Light, &SphereLight),
+        chance: f64,
         place: [f64; 2],
     ) -> Option<Unshadowed> {
         let Vertex { point, bsdf, .. } = vertex;
@@ -238,8 +247,8 @@ impl<C: Fn() -> bool> Probe<'_, C> {
         if is_dark || incoming.source.is_some_and(hides) {
             return None;
         }
-        let chance = self.density_of(bsdf, scattered, bounce);
-        let weight = power_heuristic(sphere.density(from), chance);
+        let by_path = self.density_of(bsdf, scattered, bounce);
+        let weight = power_heuristic(chance * sphere.density(from), by_path);
         let irradiance = sphere.irradiance(from);
         let arriving = weight * irradiance;
         Some(Unshadowed {
@@ -340,9 +349,10 @@ impl Path {
     }
 
     /// The multiple importance sampling weight of a light hit by a BSDF sample.
-    fn weight_of_chance(&self, light: &SphereLight) -> f64 {
+    fn weight_of_chance(&self, world: &World, (number, light): (u32, &SphereLight)) -> f64 {
         self.chosen.map_or(1.0, |chosen| {
-            power_heuristic(chosen.density, light.density(chosen.point))
+            let by_light = chosen.density_of(world, (number, light));
+            power_heuristic(chosen.density, by_light)
         })
     }
 
@@ -367,6 +377,20 @@ impl Path {
         self.bounce += 1;
         Onward::Goes {
             survival: survival.min(1.0),
+        }
+    }
+}
+
+impl Scattering {
+    /// The density by which the light with this index, which has a size, would have been sampled in the
+    /// direction of its sphere, per steradian.
+    pub(super) fn density_of(&self, world: &World, (number, light): (u32, &SphereLight)) -> f64 {
+        let density = light.density(self.point);
+        if world.many_lights.is_empty() {
+            density
+        } else {
+            let at = (self.point, self.normal);
+            world.many_lights.chance(number, at) * density
         }
     }
 }

@@ -44,17 +44,18 @@ struct Questions {
     samplers: Vec<Sampler>,
     /// For each surface, its numbers for a purpose.
     numbers: Vec<[f64; 4]>,
-    /// Their points and shading normals, and the emitter picked for each.
+    /// Their points and shading normals, and the emitter or light picked for each.
     surfaces: Vec<(DVec3, DVec3)>,
     picked: Vec<Option<Picked>>,
     shadows: Packets,
-    /// For each shadow ray to a light, the index of its surface.
-    lit: Vec<(usize, Unshadowed)>,
+    /// For each shadow ray to a light, the indices of its surface and of the light.
+    lit: Vec<(usize, usize, Unshadowed)>,
     /// For each shadow ray to an emitter, the index of its surface.
     asking: Vec<(usize, Asking)>,
     nearest: Vec<Option<Nearest>>,
     transmittances: Vec<f64>,
-    /// For each light, the last simple object that occluded it; the environment's comes last.
+    /// For each light, the last simple object that occluded it; then for the environment, and for one of
+    /// many lights.
     blockers: Vec<Option<u32>>,
 }
 
@@ -87,7 +88,7 @@ impl<C: Fn() -> bool> Probe<'_, C> {
                 .all(|pair| index(&pair[0]) == index(&pair[1]))
         );
         seen.resize(samples.len(), Seen::NOTHING);
-        let blockers = self.world.lights().len() + 1;
+        let blockers = self.world.lights().len() + 2;
         wave.questions.blockers.resize(blockers, None);
         for (samples, seen) in samples.chunks(TOGETHER).zip(seen.chunks_mut(TOGETHER)) {
             wave.paths.clear();
@@ -211,57 +212,95 @@ impl<C: Fn() -> bool> Probe<'_, C> {
         local + meeting.asked
     }
 
-    /// Adds the light of all lights, in file order.
+    /// Adds the light of all lights, in file order; if they are many, of one of them at each surface.
     fn add_lights(
         &mut self,
         meetings: &mut [Meeting<'_>],
         questions: &mut Questions,
         seen: &mut [Seen],
     ) {
-        let bounce = questions.bounce;
-        for (number, light) in self.world.lights().iter().enumerate() {
+        let (world, bounce) = (self.world, questions.bounce);
+        let (many, lights) = (&world.many_lights, world.lights());
+        for (number, light) in lights.iter().enumerate() {
             // Each light may take as many rays as there are paths.
             if 0 < number && (self.cancelled)() {
-                break;
+                return;
             }
-            if !self.gather.light(number, bounce) {
+            if many.holds(number) || !self.gather.light(number, bounce) {
                 continue;
             }
             if light.sphere().is_some() {
-                questions.draw(self.world, meetings, Use::Light(number as u32));
+                questions.draw(world, meetings, Use::Light(number as u32));
             }
-            questions.shadows.clear();
-            questions.lit.clear();
-            for (at, meeting) in meetings.iter_mut().enumerate() {
-                if !meeting.is_lit {
-                    continue;
+            let occlusion = self.occlusion(light);
+            self.add_light(meetings, questions, seen, (number, occlusion), |_| {
+                Some((number, 1.0))
+            });
+        }
+        if !many.is_empty() {
+            questions.draw(world, meetings, Use::ManyLights);
+            questions.place(meetings);
+            let (surfaces, numbers) = (&questions.surfaces, &questions.numbers);
+            many.pick_each(surfaces, numbers, world.level, &mut questions.picked);
+            let picked = mem::take(&mut questions.picked);
+            let gather = self.gather;
+            // All of them emit photons, or none.
+            let occlusion = self.occlusion(&lights[many.first()]);
+            let slot = lights.len() + 1;
+            self.add_light(meetings, questions, seen, (slot, occlusion), |at| {
+                let (number, chance) = many.light(picked[at]?);
+                gather.light(number, bounce).then_some((number, chance))
+            });
+            questions.picked = picked;
+        }
+    }
+
+    /// Adds the light of one light at each surface, which `chosen` returns with the probability of its
+    /// choice. The place of the last blocker and the kind of occlusion are the same for all of them.
+    #[inline]
+    fn add_light(
+        &mut self,
+        meetings: &mut [Meeting<'_>],
+        questions: &mut Questions,
+        seen: &mut [Seen],
+        (slot, occlusion): (usize, Occlusion),
+        chosen: impl Fn(usize) -> Option<(usize, f64)>,
+    ) {
+        let (lights, bounce) = (self.world.lights(), questions.bounce);
+        questions.shadows.clear();
+        questions.lit.clear();
+        for (at, meeting) in meetings.iter_mut().enumerate() {
+            if !meeting.is_lit {
+                continue;
+            }
+            let Some((number, chance)) = chosen(at) else {
+                continue;
+            };
+            let place = || {
+                let [u, v, ..] = questions.numbers[at];
+                [u, v]
+            };
+            let unshadowed = self.unshadowed((number, chance), &meeting.vertex, bounce, place);
+            let Some(unshadowed) = unshadowed else {
+                continue;
+            };
+            match &unshadowed.shadow {
+                None => meeting.light += lights[number].scale * unshadowed.light,
+                Some(shadow) => {
+                    questions.shadows.push(&shadow.ray(), shadow.ends);
+                    questions.lit.push((at, number, unshadowed));
+                    seen[meeting.path].rays += 1;
                 }
-                let place = || {
-                    let [u, v, ..] = questions.numbers[at];
-                    [u, v]
-                };
-                let Some(unshadowed) = self.unshadowed(number, &meeting.vertex, bounce, place)
-                else {
-                    continue;
-                };
-                match &unshadowed.shadow {
-                    None => meeting.light += light.scale * unshadowed.light,
-                    Some(shadow) => {
-                        questions.shadows.push(&shadow.ray(), shadow.ends);
-                        questions.lit.push((at, unshadowed));
-                        seen[meeting.path].rays += 1;
-                    }
-                }
             }
-            self.trace_shadows(number, self.occlusion(light), questions);
-            let lit = questions.lit.iter().zip(&questions.transmittances);
-            for (&(at, unshadowed), &transmittance) in lit {
-                meetings[at].light += light.scale * unshadowed.shadowed(transmittance);
-            }
-            // Empty unless dependencies are recorded.
-            for (&(at, _), &touched) in questions.lit.iter().zip(&self.crossed.touched) {
-                seen[meetings[at].path].touched |= touched;
-            }
+        }
+        self.trace_shadows(slot, occlusion, questions);
+        let lit = questions.lit.iter().zip(&questions.transmittances);
+        for (&(at, number, unshadowed), &transmittance) in lit {
+            meetings[at].light += lights[number].scale * unshadowed.shadowed(transmittance);
+        }
+        // Empty unless dependencies are recorded.
+        for (&(at, ..), &touched) in questions.lit.iter().zip(&self.crossed.touched) {
+            seen[meetings[at].path].touched |= touched;
         }
     }
 
@@ -310,13 +349,13 @@ impl<C: Fn() -> bool> Probe<'_, C> {
         }
     }
 
-    /// Computes the transmittances of all shadow rays to the light with this number.
-    fn trace_shadows(&mut self, number: usize, occlusion: Occlusion, questions: &mut Questions) {
+    /// Computes the transmittances of all shadow rays, given the place of their last blocker.
+    fn trace_shadows(&mut self, slot: usize, occlusion: Occlusion, questions: &mut Questions) {
         self.count_shadows(questions);
         self.world.transmittance_each(
             &questions.shadows,
             occlusion,
-            &mut questions.blockers[number],
+            &mut questions.blockers[slot],
             &mut self.crossed,
             &mut questions.transmittances,
         );
@@ -338,14 +377,17 @@ impl Questions {
         Sampler::four_each(&self.samplers, (node, purpose), world.level, numbers);
     }
 
+    /// Collects the points and shading normals of all surfaces.
+    fn place(&mut self, meetings: &[Meeting<'_>]) {
+        let places = meetings.iter();
+        let places = places.map(|meeting| meeting.vertex.point_and_normal());
+        self.surfaces.clear();
+        self.surfaces.extend(places);
+    }
+
     /// Picks an emitter for each surface.
     fn pick(&mut self, world: &World, meetings: &[Meeting<'_>]) {
-        self.surfaces.clear();
-        self.surfaces.extend(
-            meetings
-                .iter()
-                .map(|meeting| meeting.vertex.point_and_normal()),
-        );
+        self.place(meetings);
         let (surfaces, numbers) = (&self.surfaces, &self.numbers);
         world
             .emitters

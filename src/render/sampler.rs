@@ -36,6 +36,8 @@ pub(crate) enum Use {
     Light(u32),
     /// The point on an object that emits light, then the object.
     Emitter,
+    /// The point on one of many lights, then the light.
+    ManyLights,
     /// The direction to the environment.
     Sky,
     /// The light and direction of a photon.
@@ -55,6 +57,7 @@ impl Use {
             Self::Emitter => u32::MAX,
             Self::Sky => u32::MAX - 1,
             Self::Emission => u32::MAX - 2,
+            Self::ManyLights => u32::MAX - 3,
         }
     }
 }

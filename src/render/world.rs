@@ -8,7 +8,7 @@ use std::sync::Arc;
 
 use glam::{DVec2, DVec3};
 
-use super::emitters::{Emitters, Known};
+use super::emitters::{Emitters, Known, ManyLights};
 use super::level::level;
 use super::lights::{SphereLights, faded};
 use super::sky::Sky;
@@ -67,6 +67,8 @@ pub(crate) struct World {
     pub(crate) gloss: GlossRule,
     /// The lights with a size.
     pub(crate) sphere_lights: SphereLights,
+    /// The lights of which paths choose one at each surface.
+    pub(crate) many_lights: Arc<ManyLights>,
     /// The objects that emit light, for paths.
     pub(crate) emitters: Arc<Emitters>,
     /// The environment, for paths.
@@ -108,7 +110,7 @@ impl World {
         let level = level();
         let opaque = opaque_meshes(&scene);
         let changed = previous.and_then(|world| changed_shapes(&world.scene, &scene));
-        let (emitters, sky) = match integrator {
+        let (many_lights, emitters, sky) = match integrator {
             Integrator::Path | Integrator::Photon => {
                 let sky = previous.map(|world| (&world.sky, &world.textures));
                 let sky = Sky::build(&scene, &textures, sky, &cancelled)?;
@@ -118,12 +120,16 @@ impl World {
                     textures: &world.textures,
                     changed,
                 });
-                (Emitters::build(&scene, &textures, known, cancelled)?, sky)
+                let emitters = Emitters::build(&scene, &textures, known, cancelled)?;
+                let known = previous.map(|world| &world.many_lights);
+                (ManyLights::build(lights, known, &cancelled)?, emitters, sky)
             }
-            Integrator::Whitted => (Arc::default(), Arc::new(Sky::unsampled())),
+            Integrator::Whitted => (Arc::default(), Arc::default(), Arc::new(Sky::unsampled())),
         };
         let has_emitters = !emitters.is_empty() || !sky.is_unsampled();
-        let samples_lights = has_emitters || lights.iter().any(|light| light.sphere().is_some());
+        let samples_lights = has_emitters
+            || !many_lights.is_empty()
+            || lights.iter().any(|light| light.sphere().is_some());
         let needs_tree = few(integrator) < scene.objects.len();
         let is_known = |previous: &&Self| {
             changed.as_deref() == Some(&[]) && previous.tree.is_some() == needs_tree
@@ -136,6 +142,7 @@ impl World {
                 faded,
                 gloss,
                 sphere_lights,
+                many_lights,
                 emitters,
                 sky,
                 has_emitters,
@@ -179,6 +186,7 @@ impl World {
             faded,
             gloss,
             sphere_lights,
+            many_lights,
             emitters,
             sky,
             has_emitters,

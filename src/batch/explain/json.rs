@@ -149,6 +149,7 @@ fn term(term: &LightTerm, subject: &Subject<'_>) -> Value {
     });
     json!({
         "light": light(term.light, subject),
+        "chance": term.chance,
         "toward": vector(term.toward),
         "distance": term.distance,
         "cosine": term.cosine,

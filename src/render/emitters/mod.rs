@@ -6,6 +6,7 @@
 
 mod aim;
 mod cone;
+mod many;
 mod split;
 #[cfg(test)]
 mod tests;
@@ -18,10 +19,11 @@ use rayon::prelude::*;
 
 use super::optics::strength;
 use super::texture::Textures;
-use crate::geometry::lanes::{Level, WIDTH, dispatch};
+use crate::geometry::lanes::Level;
 use crate::geometry::{Hit, Patch, Ray, Shape};
 use crate::scene::{Faces, Material, Object, Rgb, Scene, Tinted};
 use cone::{Cone, Reach};
+pub(crate) use many::ManyLights;
 use tree::Tree;
 
 /// Points of an object at which a texture of its emission is looked up; at least one for each part.
@@ -160,14 +162,7 @@ impl Emitters {
         level: Level,
         picked: &mut Vec<Option<Picked>>,
     ) {
-        picked.clear();
-        dispatch!(level, simd => {
-            for (surfaces, numbers) in surfaces.chunks(WIDTH).zip(numbers.chunks(WIDTH)) {
-                let chosen = self.tree.choose_together(simd, surfaces, numbers);
-                let chosen = chosen.into_iter().take(surfaces.len());
-                picked.extend(chosen.map(|chosen| chosen.map(Picked::from)));
-            }
-        });
+        self.tree.choose_each(surfaces, numbers, level, picked);
     }
 
     /// Chooses a direction from a point toward an emitter that was picked there, by two numbers in

@@ -3,6 +3,7 @@
 use std::f64::consts::PI;
 
 use super::*;
+use crate::geometry::lanes::dispatch;
 use crate::geometry::{Affine, Ball, Flat};
 use crate::render::tests::Random;
 use cone::Cone;

@@ -6,8 +6,8 @@
 use glam::DVec3;
 
 use super::cone::{Cone, Reach};
-use super::split;
-use crate::geometry::lanes::{Eight, Lanes, Row, Simd, Vector, WIDTH, each_bit};
+use super::{Picked, split};
+use crate::geometry::lanes::{Eight, Lanes, Level, Row, Simd, Vector, WIDTH, dispatch, each_bit};
 
 /// From this depth on the tree halves the number of emitters at each node.
 const DEEP: u32 = 64;
@@ -130,7 +130,25 @@ impl Tree {
         self.among_alike(&search)
     }
 
-    /// The same for up to eight surfaces at once, by the third of the numbers of each.
+    /// The same for several surfaces, by the third of the numbers of each.
+    pub(super) fn choose_each(
+        &self,
+        surfaces: &[(DVec3, DVec3)],
+        numbers: &[[f64; 4]],
+        level: Level,
+        picked: &mut Vec<Option<Picked>>,
+    ) {
+        picked.clear();
+        dispatch!(level, simd => {
+            for (surfaces, numbers) in surfaces.chunks(WIDTH).zip(numbers.chunks(WIDTH)) {
+                let chosen = self.choose_together(simd, surfaces, numbers);
+                let chosen = chosen.into_iter().take(surfaces.len());
+                picked.extend(chosen.map(|chosen| chosen.map(Picked::from)));
+            }
+        });
+    }
+
+    /// The same for up to eight surfaces at once.
     #[inline(always)]
     pub(crate) fn choose_together<S: Simd>(
         &self,

@@ -49,6 +49,7 @@ impl Lit<'_> {
         let arriving = radial * spot * light.colour;
         let mut term = LightTerm {
             light: number as u32,
+            chance: 1.0,
             toward,
             distance: source.map_or(f64::INFINITY, |source| source.distance(from)),
             cosine: facing.cosine,

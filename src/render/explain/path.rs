@@ -110,12 +110,13 @@ impl<C: Fn() -> bool> Recorder<'_, C> {
                 Step::Ended
             }
             Met::Light {
+                number,
                 light,
                 distance,
                 radiance,
                 weight,
             } => {
-                let hit = self.light_hit(path, &light, (distance, radiance, weight));
+                let hit = self.light_hit(path, (number, &light), (distance, radiance, weight));
                 self.end(RayEnd::Light(hit), path.throughput * radiance * weight);
                 Step::Ended
             }
@@ -131,20 +132,17 @@ impl<C: Fn() -> bool> Recorder<'_, C> {
     fn light_hit(
         &self,
         path: &Path,
-        light: &SphereLight,
+        light: (u32, &SphereLight),
         (t, radiance, weight): (f64, Rgb, f64),
     ) -> LightHit {
-        let lights = self.probe.world.lights();
-        let number = lights
-            .iter()
-            .position(|of| of.luminous_sphere() == Some(*light));
+        let world = self.probe.world;
         LightHit {
-            light: number.unwrap_or_default() as u32,
+            light: light.0,
             t,
             transmitted: transmitted(path.absorption, t),
             radiance,
             densities: path.chosen.map(|chosen| Densities {
-                by_light: light.density(chosen.point),
+                by_light: chosen.density_of(world, light),
                 by_path: chosen.density,
                 weight,
             }),
@@ -184,7 +182,18 @@ impl<C: Fn() -> bool> Recorder<'_, C> {
             if number % 16 == 15 && (self.probe.cancelled)() {
                 return Step::Cancelled;
             }
-            sum += self.light(number, path, vertex, &mut shading);
+            if !world.many_lights.holds(number) {
+                let place = place_on_light(number, path.bounce, self.sample.sampler);
+                sum += self.light((number, 1.0, place), path, vertex, &mut shading);
+            }
+        }
+        if !world.many_lights.is_empty() {
+            let numbers = self.sample.sampler.four(path.bounce, Use::ManyLights);
+            let [u, v, ..] = numbers;
+            let chosen = world.many_lights.choose(vertex.point_and_normal(), numbers);
+            if let Some((number, chance)) = chosen {
+                sum += self.light((number, chance, [u, v]), path, vertex, &mut shading);
+            }
         }
         let mut contribution = Rgb::ZERO;
         if lit {
@@ -241,17 +250,19 @@ impl<C: Fn() -> bool> Recorder<'_, C> {
         (weight * material.emission, densities)
     }
 
-    /// Records a light at a vertex and returns what it adds.
+    /// Records a light at a vertex, the probability of its choice and the place at which it is sampled,
+    /// and returns what it adds.
     fn light(
         &mut self,
-        number: usize,
+        asked: (usize, f64, [f64; 2]),
         path: &Path,
         vertex: &Vertex<'_>,
         shading: &mut Shading,
     ) -> Rgb {
-        let sampler = self.sample.sampler;
+        let (number, chance, place) = asked;
         let added = if shading.lit {
-            self.probe.light_of(number, vertex, path.bounce, sampler)
+            let chosen = (number, chance);
+            self.probe.light_of(chosen, vertex, path.bounce, place)
         } else {
             Rgb::ZERO
         };
@@ -260,7 +271,7 @@ impl<C: Fn() -> bool> Recorder<'_, C> {
             shading.unlisted.radiance += added;
             return added;
         }
-        if let Some(term) = self.term(number, path, vertex, added) {
+        if let Some(term) = self.term(asked, path, vertex, added) {
             shading.lights.push(term);
             self.room -= 1;
         }
@@ -269,7 +280,7 @@ impl<C: Fn() -> bool> Recorder<'_, C> {
 
     fn term(
         &self,
-        number: usize,
+        (number, chance, place): (usize, f64, [f64; 2]),
         path: &Path,
         vertex: &Vertex<'_>,
         added: Rgb,
@@ -293,9 +304,9 @@ impl<C: Fn() -> bool> Recorder<'_, C> {
         };
         let reflected = |facing: &Facing<f64>| light.scale * scattered(facing.toward.into());
         let from = point.surface.point;
-        let place = place_on_light(number, path.bounce, self.sample.sampler);
         let chosen = light.sphere().and_then(|sphere| sphere.choose(from, place));
         let mut term = lit.term(number, chosen, reflected, added)?;
+        term.chance = chance;
         if self.probe.is_by_photons(light) && term.transmittance.is_some_and(|share| share < 1.0) {
             term.transmittance = Some(0.0);
             term.dark = Some(Dark::Blocked);
@@ -315,7 +326,7 @@ impl<C: Fn() -> bool> Recorder<'_, C> {
         };
         let scattered = bsdf.lobes.scatter(point, chosen.toward.into());
         let by_path = self.probe.density_of(bsdf, scattered, path.bounce);
-        let by_light = sphere.density(from);
+        let by_light = chance * sphere.density(from);
         term.densities = Some(Densities::for_light(by_light, by_path));
         if term.dark == Some(Dark::NotReflected) && self.is_hidden(vertex, &sphere, chosen) {
             term.dark = Some(Dark::Hidden);

@@ -216,6 +216,8 @@ pub enum Stop {
 pub struct LightTerm {
     /// Index of the light in the scene.
     pub light: u32,
+    /// The probability with which it was chosen among many lights, above 0; 1 if each is sampled.
+    pub chance: f64,
     /// Unit vector toward the light, or the sampled point on it; NaN at the light itself.
     pub toward: DVec3,
     /// The distance to the light or the sampled point on it; infinite for directional light.

@@ -11,7 +11,7 @@ use crate::geometry::{Attribute, Instance, Mesh, MeshParts};
 use crate::scene::{Faces, Highlight, Image};
 
 /// The means of a ray's radiance over `samples`, one for each of 64 seeds.
-fn means(world: &World, depth: u32, ray: Ray, samples: u32) -> Vec<f64> {
+pub(super) fn means(world: &World, depth: u32, ray: Ray, samples: u32) -> Vec<f64> {
     let mut tracer = Tracer::new(world, Integrator::Path, depth, || false);
     let mut mean = |seed| {
         let each = (0..samples).map(|index| {
@@ -27,7 +27,7 @@ fn means(world: &World, depth: u32, ray: Ray, samples: u32) -> Vec<f64> {
 }
 
 /// Their mean and its standard error.
-fn estimate(means: &[f64]) -> [f64; 2] {
+pub(super) fn estimate(means: &[f64]) -> [f64; 2] {
     let count = means.len() as f64;
     let mean = means.iter().sum::<f64>() / count;
     let square: f64 = means.iter().map(|each| (each - mean).powi(2)).sum();

@@ -3,6 +3,7 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
+use super::many_lights::lamps;
 use super::*;
 use crate::assets::{Assets, Loaded, Wanted};
 use crate::render::shot::Shot;
@@ -110,9 +111,15 @@ fn check_parts(explanation: &Explanation, context: &str) {
 }
 
 fn check_scene(path: &Path, integrator: Integrator) {
-    let Some(read) = read(path) else { return };
-    let job = job_of(read, integrator);
-    let prepared = PreparedScene::new(&job, || false).expect("nothing cancels");
+    if let Some(read) = read(path) {
+        let name = path.display().to_string();
+        check_samples(&job_of(read, integrator), &name);
+    }
+}
+
+fn check_samples(job: &Job, name: &str) {
+    let integrator = job.settings.integrator;
+    let prepared = PreparedScene::new(job, || false).expect("nothing cancels");
     let query: &Query = prepared.query();
     let world = query.world.upgrade().expect("it is prepared");
     let Size { width, height } = job.settings.size;
@@ -124,11 +131,11 @@ fn check_scene(path: &Path, integrator: Integrator) {
         ];
         let pixel = pixel.map(|at| at as u32);
         let index = [0, 1, 2, 7, 15][number % 5];
-        let context = format!("{} {pixel:?} {index} {integrator:?}", path.display());
+        let context = format!("{name} {pixel:?} {index} {integrator:?}");
         let explanation = query
             .explain(pixel, index, || false)
             .expect("it is prepared");
-        let expected = traced(&job, &world, pixel, index);
+        let expected = traced(job, &world, pixel, index);
         assert_eq!(bits(explanation.radiance), bits(expected), "{context}");
         assert_eq!(bits(sum(&explanation)), bits(expected), "{context}");
         check_parts(&explanation, &context);
@@ -143,6 +150,30 @@ fn the_root_of_every_explanation_is_its_sample() {
         for integrator in [Integrator::Whitted, Integrator::Path] {
             check_scene(&path, integrator);
         }
+    }
+}
+
+#[test]
+fn explanations_choose_the_light_that_the_picture_chose() {
+    for size in [0.0, 0.3] {
+        let mut scene = lamps(40, size);
+        scene.camera.size = Size {
+            width: 40,
+            height: 30,
+        };
+        let job = job_of((scene, Images::default()), Integrator::Path);
+        check_samples(&job, "lamps");
+        let prepared = PreparedScene::new(&job, || false).expect("nothing cancels");
+        let explained = prepared.query().explain([20, 15], 0, || false);
+        let rays = explained.expect("it is prepared").rays;
+        let lights = &rays[0].shading().expect("it hits the ball").lights;
+        let chances: Vec<_> = lights.iter().map(|term| term.chance).collect();
+        // Two lights do not fade.
+        let [one, other, chosen] = chances[..] else {
+            panic!("{lights:?}");
+        };
+        assert_eq!([one, other], [1.0; 2]);
+        assert!(0.0 < chosen && chosen < 1.0, "{chosen}");
     }
 }
 

@@ -199,31 +199,44 @@ fn shares_scene() -> Arc<Scene> {
 fn the_shares_of_the_lights_emission_and_indirect_light_add_up() {
     let scene = shares_scene();
     for integrator in Integrator::ALL {
-        let values = |aov| {
-            let settings = Settings {
-                depth: 4,
-                falloff: FalloffRule::Square,
-                ..seen(integrator, 4, aov)
-            };
-            frame(job(&scene, settings)).values.clone()
+        shares_add_up(&scene, integrator);
+    }
+    let mut many = Scene::clone(&scene);
+    many.lights = many.lights.repeat(9);
+    for (number, light) in many.lights.iter_mut().enumerate() {
+        if let Emitter::Point { position, .. } = &mut light.emitter {
+            position.x += 0.5 * number as f64;
+        }
+    }
+    shares_add_up(&Arc::new(many), Integrator::Path);
+}
+
+fn shares_add_up(scene: &Arc<Scene>, integrator: Integrator) {
+    let values = |aov| {
+        let settings = Settings {
+            depth: 4,
+            falloff: FalloffRule::Square,
+            ..seen(integrator, 4, aov)
         };
-        let whole = values(None);
-        let shares = [Aov::Direct(0), Aov::Direct(1), Aov::Emission, Aov::Indirect];
-        let shares = shares.map(|share| values(Some(share)));
-        for (at, whole) in whole.iter().enumerate() {
-            for channel in 0..3 {
-                let sum: f32 = shares.iter().map(|share| share[at][channel]).sum();
-                let off = (sum - whole[channel]).abs();
-                assert!(
-                    off <= 1e-5 * whole[channel].max(1.0),
-                    "{integrator:?} {at}: {sum}"
-                );
-            }
+        frame(job(scene, settings)).values.clone()
+    };
+    let whole = values(None);
+    let direct = (0..scene.lights.len() as u32).map(Aov::Direct);
+    let shares = direct.chain([Aov::Emission, Aov::Indirect]);
+    let shares: Vec<_> = shares.map(|share| values(Some(share))).collect();
+    for (at, whole) in whole.iter().enumerate() {
+        for channel in 0..3 {
+            let sum: f32 = shares.iter().map(|share| share[at][channel]).sum();
+            let off = (sum - whole[channel]).abs();
+            assert!(
+                off <= 1e-5 * whole[channel].max(1.0),
+                "{integrator:?} {at}: {sum}"
+            );
         }
-        for share in shares {
-            assert!(share.iter().any(|value| value[0] != 0.0 || value[1] != 0.0));
-            assert_ne!(share, whole);
-        }
+    }
+    for share in shares {
+        assert!(share.iter().any(|value| value[0] != 0.0 || value[1] != 0.0));
+        assert_ne!(share, whole);
     }
 }
 

@@ -17,6 +17,7 @@ mod invariance;
 mod keeping;
 mod lamps;
 mod looks;
+mod many_lights;
 mod meshes;
 mod noise;
 mod optics;

@@ -276,6 +276,9 @@ fn light_values(app: &App, light: &LightTerm) -> Vec<Value> {
         Value::new("distance", number(light.distance)),
         Value::new("falloff", number(light.radial)),
     ];
+    if light.chance != 1.0 {
+        values.push(Value::new("chosen with", percent(light.chance)));
+    }
     if light.spot != 1.0 {
         values.push(Value::new("cone", number(light.spot)));
     }

@@ -1,0 +1,125 @@
+//! Lights too many to sample each of them at every surface: one of them is chosen through a tree.
+
+use std::sync::Arc;
+
+use glam::DVec3;
+
+use super::cone::{Cone, Reach};
+use super::tree::Tree;
+use super::{Picked, strength};
+use crate::geometry::Aabb;
+use crate::geometry::lanes::Level;
+use crate::scene::{Emitter, Light};
+
+/// Up to this many lights that fade with the square of the distance, each is sampled at every surface.
+const FEW: usize = 16;
+
+/// The lights that fade with the square of the distance, if they are many. No distance tells how
+/// much of the others arrives, so that each of them is sampled at every surface.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct ManyLights {
+    /// Their indices in the scene, in ascending order.
+    numbers: Vec<u32>,
+    reaches: Vec<Reach>,
+    tree: Tree,
+}
+
+impl ManyLights {
+    /// Collects the lights, or returns those known if they are the same; `None` once `cancelled`
+    /// returns true.
+    pub(crate) fn build(
+        lights: &[Light],
+        known: Option<&Arc<Self>>,
+        cancelled: &dyn Fn() -> bool,
+    ) -> Option<Arc<Self>> {
+        let numbered = (0_u32..).zip(lights);
+        let found = numbered.filter_map(|(number, light)| Some((number, reach(light)?)));
+        let (numbers, reaches): (Vec<_>, Vec<_>) = found.unzip();
+        if numbers.len() <= FEW {
+            return Some(Arc::default());
+        }
+        if let Some(known) =
+            known.filter(|known| (&known.numbers, &known.reaches) == (&numbers, &reaches))
+        {
+            return Some(Arc::clone(known));
+        }
+        let tree = Tree::build(&reaches, cancelled)?;
+        Some(Arc::new(Self {
+            numbers,
+            reaches,
+            tree,
+        }))
+    }
+
+    /// Whether there are none.
+    #[inline]
+    pub(crate) fn is_empty(&self) -> bool {
+        self.numbers.is_empty()
+    }
+
+    /// The index of the first of them.
+    pub(crate) fn first(&self) -> usize {
+        self.numbers[0] as usize
+    }
+
+    /// Whether the light with this index is among them.
+    pub(crate) fn holds(&self, number: usize) -> bool {
+        self.numbers.binary_search(&(number as u32)).is_ok()
+    }
+
+    /// Chooses one of the lights for a surface at a point with a normal, by the third of its numbers in
+    /// 0..1; returns its index and the probability. `None` if none lights it.
+    pub(crate) fn choose(
+        &self,
+        (from, normal): (DVec3, DVec3),
+        [_, _, number, _]: [f64; 4],
+    ) -> Option<(usize, f64)> {
+        let chosen = self.tree.choose(from, normal, number);
+        chosen.map(|chosen| self.light(chosen.into()))
+    }
+
+    /// The same for several surfaces, as [`Picked`] for [`ManyLights::light`].
+    pub(crate) fn pick_each(
+        &self,
+        surfaces: &[(DVec3, DVec3)],
+        numbers: &[[f64; 4]],
+        level: Level,
+        picked: &mut Vec<Option<Picked>>,
+    ) {
+        self.tree.choose_each(surfaces, numbers, level, picked);
+    }
+
+    /// The index of a light that was picked, and the probability.
+    pub(crate) fn light(&self, Picked { emitter, chance }: Picked) -> (usize, f64) {
+        (self.numbers[emitter as usize] as usize, chance)
+    }
+
+    /// The probability with which the light with this index is sampled at a surface at a point with a
+    /// normal.
+    pub(crate) fn chance(&self, number: u32, (from, normal): (DVec3, DVec3)) -> f64 {
+        let found = self.numbers.binary_search(&number);
+        found.map_or(1.0, |emitter| {
+            self.tree.chance(emitter as u32, from, normal)
+        })
+    }
+}
+
+/// What a light may light; `None` if it does not fade with the square of the distance, or is dark.
+fn reach(light: &Light) -> Option<Reach> {
+    let Emitter::Point {
+        position, radius, ..
+    } = light.emitter
+    else {
+        return None;
+    };
+    let strength = strength(light.radiant_intensity()?);
+    let is_useful = 0.0 < strength && strength.is_finite();
+    is_useful.then_some(Reach {
+        bounds: Aabb {
+            min: position - radius,
+            max: position + radius,
+        },
+        cone: Cone::ALL,
+        strength,
+    })
+}
