@@ -221,14 +221,15 @@ impl<C: Fn() -> bool> Probe<'_, C> {
     ) {
         let (world, bounce) = (self.world, questions.bounce);
         let (many, lights) = (&world.many_lights, world.lights());
-        for (number, light) in lights.iter().enumerate() {
+        for (place, number) in many.others().enumerate() {
             // Each light may take as many rays as there are paths.
-            if 0 < number && (self.cancelled)() {
+            if 0 < place && (self.cancelled)() {
                 return;
             }
-            if many.holds(number) || !self.gather.light(number, bounce) {
+            if !self.gather.light(number, bounce) {
                 continue;
             }
+            let light = &lights[number];
             if light.sphere().is_some() {
                 questions.draw(world, meetings, Use::Light(number as u32));
             }

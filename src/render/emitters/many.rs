@@ -20,6 +20,8 @@ const FEW: usize = 16;
 pub(crate) struct ManyLights {
     /// Their indices in the scene, in ascending order.
     numbers: Vec<u32>,
+    /// The indices of all other lights.
+    others: Vec<u32>,
     reaches: Vec<Reach>,
     tree: Tree,
 }
@@ -36,7 +38,7 @@ impl ManyLights {
         let found = numbered.filter_map(|(number, light)| Some((number, reach(light)?)));
         let (numbers, reaches): (Vec<_>, Vec<_>) = found.unzip();
         if numbers.len() <= FEW {
-            return Some(Arc::default());
+            return Some(Arc::new(Self::none(lights)));
         }
         if let Some(known) =
             known.filter(|known| (&known.numbers, &known.reaches) == (&numbers, &reaches))
@@ -44,11 +46,21 @@ impl ManyLights {
             return Some(Arc::clone(known));
         }
         let tree = Tree::build(&reaches, cancelled)?;
+        let is_other = |number: &u32| numbers.binary_search(number).is_err();
         Some(Arc::new(Self {
+            others: (0..lights.len() as u32).filter(is_other).collect(),
             numbers,
             reaches,
             tree,
         }))
+    }
+
+    /// None: each light is sampled at every surface.
+    pub(crate) fn none(lights: &[Light]) -> Self {
+        Self {
+            others: (0..lights.len() as u32).collect(),
+            ..Self::default()
+        }
     }
 
     /// Whether there are none.
@@ -62,9 +74,9 @@ impl ManyLights {
         self.numbers[0] as usize
     }
 
-    /// Whether the light with this index is among them.
-    pub(crate) fn holds(&self, number: usize) -> bool {
-        self.numbers.binary_search(&(number as u32)).is_ok()
+    /// The indices of all other lights in the scene, each of which is sampled at every surface.
+    pub(crate) fn others(&self) -> impl Iterator<Item = usize> {
+        self.others.iter().map(|&number| number as usize)
     }
 
     /// Chooses one of the lights for a surface at a point with a normal, by the third of its numbers in

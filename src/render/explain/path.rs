@@ -178,14 +178,12 @@ impl<C: Fn() -> bool> Recorder<'_, C> {
             material: (*material).clone(),
         });
         let mut sum = Rgb::ZERO;
-        for number in 0..world.scene.lights.len() {
-            if number % 16 == 15 && (self.probe.cancelled)() {
+        for (listed, number) in world.many_lights.others().enumerate() {
+            if listed % 16 == 15 && (self.probe.cancelled)() {
                 return Step::Cancelled;
             }
-            if !world.many_lights.holds(number) {
-                let place = place_on_light(number, path.bounce, self.sample.sampler);
-                sum += self.light((number, 1.0, place), path, vertex, &mut shading);
-            }
+            let place = place_on_light(number, path.bounce, self.sample.sampler);
+            sum += self.light((number, 1.0, place), path, vertex, &mut shading);
         }
         if !world.many_lights.is_empty() {
             let numbers = self.sample.sampler.four(path.bounce, Use::ManyLights);

@@ -42,7 +42,7 @@ pub(super) fn lamps(count: usize, size: f64) -> Scene {
 /// The same world in which every light is sampled at every surface.
 fn one_by_one(world: &World) -> World {
     World {
-        many_lights: Arc::default(),
+        many_lights: Arc::new(ManyLights::none(&world.scene.lights)),
         ..world.clone()
     }
 }
@@ -87,9 +87,9 @@ fn chances_of_lights_are_those_of_their_choice() {
     let sum: f64 = (1..=40).map(|light| many.chance(light, at)).sum();
     assert_near(sum, 1.0, 1e-12);
     // Those that do not fade are sampled in any case.
+    assert!(many.others().eq([0, 41]));
     for light in [0, 41] {
-        assert!(!many.holds(light));
-        assert_eq!(many.chance(light as u32, at), 1.0);
+        assert_eq!(many.chance(light, at), 1.0);
     }
 }
 
@@ -99,6 +99,8 @@ fn few_lights_are_sampled_one_by_one() {
         let lights = lamps(count, 0.0).lights;
         let many = ManyLights::build(&lights, None, &|| false).expect("nothing cancels");
         assert_eq!(many.is_empty(), is_empty, "{count}");
+        let others = if is_empty { lights.len() } else { 2 };
+        assert_eq!(many.others().count(), others, "{count}");
     }
     // Those that cast no shadows, and dark ones, do not count.
     let mut lights = lamps(18, 0.0).lights;
