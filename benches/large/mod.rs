@@ -1,5 +1,5 @@
 //! Edits of one object among very many: of its colour and shape, and by another program;
-//! and changes of structure.
+//! of what is beside them; and changes of structure.
 
 mod structure;
 
@@ -27,6 +27,7 @@ pub(crate) fn measure() {
     // Makes the first one large enough to be visible.
     let (head, rest) = spheres.split_once("sphere\n").expect("there are spheres");
     let (_, rest) = rest.split_once('\n').expect("its material follows");
+    let million = format!("{head}sphere\n0 0 0 .7\n{rest}");
     for case in [
         Case {
             name: "66,431",
@@ -38,7 +39,7 @@ pub(crate) fn measure() {
         },
         Case {
             name: "1,000,000",
-            text: format!("{head}sphere\n0 0 0 .7\n{rest}"),
+            text: million.clone(),
             row: 3,
             target: "p95 <= 250",
             settled: 2 * SECOND,
@@ -47,12 +48,44 @@ pub(crate) fn measure() {
     ] {
         edit(&case);
     }
+    own_materials(&million);
+}
+
+/// Edits of one of a million materials.
+fn own_materials(text: &str) {
+    let mut objects = text.split("sphere\n");
+    let mut own = objects.next().expect("the lights").to_owned();
+    for (number, object) in objects.enumerate() {
+        let (shape, rest) = object.split_once('\n').expect("its material follows");
+        let (_, rest) = rest.split_once('\n').expect("of several lines");
+        own += &format!("sphere\n{shape}\n.{number:06} .5 .5\n{rest}");
+    }
+    let case = Case {
+        name: "1,000,000 materials",
+        text: own,
+        row: 3,
+        target: "p95 <= 250",
+        settled: 2 * SECOND,
+        from_disk: "-",
+    };
+    let (mut desk, begun) = open(&case);
+    desk.record(begun + 8 * SECOND);
+    desk.rest();
+    desk.look();
+    down(&mut desk, &["gg", "j"]);
+    down(&mut desk, &vec!["j"; case.row]);
+    down(&mut desk, &["e", "j", "j", "j"]);
+    nudge(&mut desk, &case, "colour");
+}
+
+fn open(case: &Case) -> (Desk, Instant) {
+    let text = case.text.replace("size 1280 720", "size 400 300");
+    Desk::open_files(&[("scene.ray", &text)], &[], &[])
 }
 
 fn edit(case: &Case) {
     let name = case.name;
-    let text = case.text.replace("size 1280 720", "size 400 300");
-    let (mut desk, begun) = Desk::open_files(&[("scene.ray", &text)], &[], &[]);
+    let (mut desk, begun) = open(case);
     desk.record(begun + 8 * SECOND);
     desk.rest();
     let drawn = desk.look();
@@ -60,6 +93,7 @@ fn edit(case: &Case) {
         .into_iter()
         .collect();
     times_row(&format!("{name}: start to picture"), &opened, "-");
+    let text = case.text.replace("size 1280 720", "size 400 300");
     save(&mut desk, case, &text);
     merge(&mut desk, case, &text);
     down(&mut desk, &["gg", "j"]);
@@ -69,22 +103,29 @@ fn edit(case: &Case) {
     down(&mut desk, &vec!["j"; case.row]);
     down(&mut desk, &["e"]);
     // From the centre to the radius, and from there to the second colour.
-    for (what, keys) in [("shape", vec!["j"; 1]), ("colour", vec!["j"; 2])] {
-        down(&mut desk, &keys);
-        let (mut answered, mut pictured) = (Vec::new(), Vec::new());
-        for key in ["L", "H"].repeat(7) {
-            let pressed = desk.press(key);
-            let drawn = desk.settle();
-            answered.extend(first(&drawn, pressed, |drawn| drawn.fields));
-            pictured.extend(first(&drawn, pressed, Drawn::is_new_picture));
-        }
-        times_row(&format!("{name}: nudge to field"), &answered, "-");
-        times_row(
-            &format!("{name}: {what} to picture"),
-            &pictured,
-            case.target,
-        );
+    for (what, fields) in [("shape", 1), ("colour", 2)] {
+        down(&mut desk, &vec!["j"; fields]);
+        nudge(&mut desk, case, what);
     }
+    // The last light is listed before the first sphere, the view at the top.
+    down(&mut desk, &["\x1b", "k", "e"]);
+    nudge(&mut desk, case, "light");
+    down(&mut desk, &["\x1b", "gg", "e"]);
+    nudge(&mut desk, case, "view");
+}
+
+/// Nudges a field back and forth.
+fn nudge(desk: &mut Desk, case: &Case, what: &str) {
+    let (mut answered, mut pictured) = (Vec::new(), Vec::new());
+    for key in ["L", "H"].repeat(7) {
+        let pressed = desk.press(key);
+        let drawn = desk.settle();
+        answered.extend(first(&drawn, pressed, |drawn| drawn.fields));
+        pictured.extend(first(&drawn, pressed, Drawn::is_new_picture));
+    }
+    let (name, target) = (case.name, case.target);
+    times_row(&format!("{name}: {what} to field"), &answered, "-");
+    times_row(&format!("{name}: {what} to picture"), &pictured, target);
 }
 
 /// Another program makes the first sphere alternately larger and smaller, first without and then
