@@ -320,9 +320,8 @@ pub trait Answers: Editable + Restructure {
     fn lower(&mut self, meshes: &Meshes) -> Result<Lowered, OutOfMemory>;
 
     /// As [`Answers::lower`] after an edit that replaced the bytes `old` by `changed`, in the time
-    /// that one object takes, if they are numbers of one object; `None`, without any effect, if more
-    /// may have changed. `before` is the result that belongs to the current places; without findings,
-    /// it may also be that of another such edit of the same object.
+    /// that one object takes, if they are numbers of one object or belong to no object; `None`, without
+    /// any effect, if more may have changed. `before` is the result that belongs to the current places.
     fn lower_numbers(&mut self, before: Before<'_>, [old, changed]: [Span; 2]) -> Option<Lowered> {
         let _ = (before, old, changed);
         None

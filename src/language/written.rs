@@ -18,6 +18,8 @@ pub struct Written<Tree, Origins> {
     pub(super) origins: Origins,
     /// The places replaced by the last lowering; `None` once the text has changed.
     former: Option<Origins>,
+    /// Whether text that may have begun a comment was removed since the last lowering.
+    pub(super) has_lost_slash: bool,
 }
 
 impl<Tree, Origins: Default> Written<Tree, Origins> {
@@ -31,6 +33,7 @@ impl<Tree, Origins: Default> Written<Tree, Origins> {
             text,
             origins: Origins::default(),
             former: None,
+            has_lost_slash: false,
         }
     }
 
@@ -52,6 +55,7 @@ impl<Tree, Origins: Default> Written<Tree, Origins> {
         let before = mem::replace(&mut self.origins, origins);
         // Of several lowerings of one text, the first replaced the places of the text before.
         self.former.get_or_insert(before);
+        self.has_lost_slash = false;
     }
 }
 
@@ -74,6 +78,8 @@ impl<Tree: Debug + Parse, Origins: Debug + Default> Editable for Written<Tree, O
     }
 
     fn change(&mut self, edits: &[Edit]) -> Vec<Edit> {
+        let mut removed = edits.iter().map(|edit| edit.span.of(&self.text));
+        self.has_lost_slash |= removed.any(|removed| removed.contains('/'));
         let inverse = text::apply(Arc::make_mut(&mut self.text), edits);
         let old = cover(edits).unwrap_or_default();
         let changed = cover(&inverse).unwrap_or_default();
@@ -84,6 +90,7 @@ impl<Tree: Debug + Parse, Origins: Debug + Default> Editable for Written<Tree, O
 
     fn substitute(&mut self, text: Arc<String>, edit: &Edit) -> Arc<String> {
         let before = mem::replace(&mut self.text, text);
+        self.has_lost_slash |= edit.span.of(&before).contains('/');
         self.tree.follow(&self.text, [edit.span, edit.placed()]);
         self.former = None;
         before
@@ -94,6 +101,7 @@ impl<Tree: Debug + Parse, Origins: Debug + Default> Editable for Written<Tree, O
         self.change(inverse);
         if let Some(former) = former {
             self.origins = former;
+            self.has_lost_slash = false;
         }
     }
 }

@@ -1,7 +1,7 @@
 //! Path tracing (Kajiya, "The Rendering Equation", 1986): an unbiased estimate of radiance over up
 //! to `depth` bounces, without ambient light. Next event estimation samples all lights at each
-//! bounce; for a light with a size it is combined with BSDF sampling by multiple importance
-//! sampling (Veach and Guibas, "Optimally Combining Sampling Techniques for Monte Carlo Rendering",
+//! bounce, of [many](super::emitters::ManyLights) that fade one; for a light with a size it is
+//! combined with BSDF sampling by multiple importance sampling (Veach and Guibas, "Optimally Combining Sampling Techniques for Monte Carlo Rendering",
 //! 1995).
 
 use glam::DVec3;
@@ -152,15 +152,13 @@ impl<C: Fn() -> bool> Probe<'_, C> {
         path.go_on(next, faint, chance)
     }
 
-    /// Whether a light with a size that a path hits is part of the light gathered. Where it could
-    /// have been sampled from the first surface, it is that surface's direct light.
-    pub(super) fn gathers(&self, light: &SphereLight, path: &Path) -> bool {
+    /// Whether the light with this index, which has a size and which a path hits, is part of the light
+    /// gathered. Where it could have been sampled from the first surface, it is that surface's direct
+    /// light.
+    pub(super) fn gathers(&self, number: u32, path: &Path) -> bool {
         let from_first = path.bounce == 1 && path.chosen.is_some();
         match self.gather {
-            Gather::Direct(number) => {
-                let wanted = self.world.lights().get(number as usize);
-                from_first && wanted.and_then(Light::luminous_sphere).as_ref() == Some(light)
-            }
+            Gather::Direct(wanted) => from_first && wanted == number,
             Gather::Indirect if from_first => false,
             gather => gather.glow(path.bounce),
         }

@@ -130,12 +130,12 @@ impl<C: Fn() -> bool> Probe<'_, C> {
             match self.meet(path, &samples[number], nearest[place]) {
                 Met::Nothing(radiance) => seen.radiance += self.of_nothing(path, radiance),
                 Met::Light {
-                    light,
+                    number,
                     radiance,
                     weight,
                     ..
                 } => {
-                    if self.gathers(&light, path) {
+                    if self.gathers(number, path) {
                         seen.radiance += path.throughput * radiance * weight;
                     }
                 }
@@ -238,9 +238,10 @@ impl<C: Fn() -> bool> Probe<'_, C> {
                 Some((number, 1.0))
             });
         }
-        if !many.is_empty() {
+        let is_lit = |meeting: &Meeting<'_>| meeting.is_lit;
+        if !many.is_empty() && meetings.iter().any(is_lit) {
             questions.draw(world, meetings, Use::ManyLights);
-            questions.place(meetings);
+            questions.locate(meetings);
             let (surfaces, numbers) = (&questions.surfaces, &questions.numbers);
             many.pick_each(surfaces, numbers, world.level, &mut questions.picked);
             let picked = mem::take(&mut questions.picked);
@@ -256,8 +257,8 @@ impl<C: Fn() -> bool> Probe<'_, C> {
         }
     }
 
-    /// Adds the light of one light at each surface, which `chosen` returns with the probability of its
-    /// choice. The place of the last blocker and the kind of occlusion are the same for all of them.
+    /// Adds, at each surface, the light that `chosen` names together with the probability of its choice.
+    /// All of them share a slot for the last blocker, and the kind of occlusion.
     #[inline]
     fn add_light(
         &mut self,
@@ -379,7 +380,7 @@ impl Questions {
     }
 
     /// Collects the points and shading normals of all surfaces.
-    fn place(&mut self, meetings: &[Meeting<'_>]) {
+    fn locate(&mut self, meetings: &[Meeting<'_>]) {
         let places = meetings.iter();
         let places = places.map(|meeting| meeting.vertex.point_and_normal());
         self.surfaces.clear();
@@ -388,7 +389,7 @@ impl Questions {
 
     /// Picks an emitter for each surface.
     fn pick(&mut self, world: &World, meetings: &[Meeting<'_>]) {
-        self.place(meetings);
+        self.locate(meetings);
         let (surfaces, numbers) = (&self.surfaces, &self.numbers);
         world
             .emitters

@@ -75,7 +75,8 @@ pub(crate) struct World {
     pub(crate) sky: Arc<Sky>,
     /// Whether paths ask for emitters or the environment.
     pub(crate) has_emitters: bool,
-    /// Whether paths sample light at random: of emitters, the environment or lights with a size.
+    /// Whether paths sample light at random: of emitters, the environment, lights with a size or one of
+    /// many lights.
     pub(crate) samples_lights: bool,
     /// The vector instructions to trace with.
     pub(crate) level: Level,
@@ -124,7 +125,11 @@ impl World {
                 let known = previous.map(|world| &world.many_lights);
                 (ManyLights::build(lights, known, &cancelled)?, emitters, sky)
             }
-            Integrator::Whitted => (Arc::default(), Arc::default(), Arc::new(Sky::unsampled())),
+            Integrator::Whitted => (
+                Arc::new(ManyLights::none(lights)),
+                Arc::default(),
+                Arc::new(Sky::unsampled()),
+            ),
         };
         let has_emitters = !emitters.is_empty() || !sky.is_unsampled();
         let samples_lights = has_emitters

@@ -6,8 +6,7 @@ use std::sync::Arc;
 
 use rayon::prelude::*;
 
-/// Items per block. A text may be parsed block by block without knowledge of earlier blocks, so
-/// equal materials are merged only within a block of objects.
+/// Items per block.
 pub(crate) const BLOCK: usize = 1024;
 
 /// A list. Clones share blocks until they are changed.
@@ -111,8 +110,8 @@ impl<T: Clone> Blocks<T> {
         let old = || behind.iter().flat_map(|block| block.iter());
         let before = old().take(range.start - first * BLOCK).cloned();
         let after = old().skip(range.end - first * BLOCK).cloned();
-        self.blocks
-            .extend(Self::from_iter(before.chain(items).chain(after)).blocks);
+        let replaced: Self = before.chain(items).chain(after).collect();
+        self.blocks.extend(replaced.blocks);
     }
 }
 

@@ -9,13 +9,13 @@ use rayon::prelude::*;
 use super::blocks::{self, Block, block};
 use super::lower;
 use super::origins::{Origins, ViewPlace};
-use super::tree::{Tree, comment_of_line};
+use super::tree::Tree;
 use super::view_comment::{find, find_rendering, has_eye_and_target};
 use crate::language::node::Node;
 use crate::language::{Before, Lowered};
 use crate::scene::blocks::BLOCK;
 use crate::scene::{Object, Objects, Scene};
-use crate::text::{Diagnostic, Findings, Span, are_plain_numbers};
+use crate::text::{Diagnostic, Findings, Span, are_plain_numbers, line_end};
 
 /// Lowers a text after an edit that replaced the bytes `old` by `changed`.
 pub(super) fn lower(
@@ -106,7 +106,10 @@ fn is_within_comment(text: &str, tree: &Tree, origins: &Origins, moved: &Moved) 
     };
     let mut keyed = tree.tokens.keyed();
     keyed.any(|start| start == before.start())
-        && comment_of_line(text, before.start()).is_some_and(|now| holds(now, moved.changed))
+        && holds(
+            Span::new(before.start(), line_end(text, before.start())),
+            moved.changed,
+        )
 }
 
 /// Reads all but the objects, which an edit has not changed.
@@ -131,7 +134,7 @@ fn without_objects(
     };
     report.append(kept_findings(before.diagnostics, moved, of_object)?);
     reader.report = report;
-    let known = lower::Objects {
+    let known = lower::ObjectsRead {
         places: Arc::clone(&origins.objects),
         objects: before.scene.objects.clone(),
         materials: before.scene.materials.clone(),

@@ -21,6 +21,10 @@ impl Answers for Source {
     }
 
     fn lower_numbers(&mut self, before: Before<'_>, spans: [Span; 2]) -> Option<Lowered> {
+        // What such a comment hid may count now, in place of as many tokens.
+        if self.has_lost_slash {
+            return None;
+        }
         let found = again::lower(&self.text, &self.tree, &self.origins, &before, spans);
         let (origins, lowered) = found?;
         self.place(origins);

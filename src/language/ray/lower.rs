@@ -9,7 +9,7 @@ use super::tree::Tree;
 use super::view_comment::{ViewComment, camera, find, find_rendering};
 use crate::language::Lowered;
 use crate::language::rendering::RenderPlace;
-use crate::scene::{self, Materials, Scene, Setting, bounds};
+use crate::scene::{Materials, Objects, Scene, Setting, bounds};
 use crate::text::{Diagnostic, Findings, Span};
 
 /// Lowers a text.
@@ -51,7 +51,7 @@ pub(super) fn errors_of_beginning(text: &str, tree: &Tree) -> Findings {
 fn lower_by<'a>(
     text: &'a str,
     tree: &'a Tree,
-    blocks: impl FnOnce(Findings) -> Result<(Reader<'a>, scene::Objects, Span), Findings>,
+    blocks: impl FnOnce(Findings) -> Result<(Reader<'a>, Objects, Span), Findings>,
 ) -> (Origins, Lowered) {
     let mut report = Findings::default();
     let view = find(text, &tree.tokens, &mut report);
@@ -66,7 +66,7 @@ fn lower_by<'a>(
             (reader, objects.into_iter().collect(), count)
         }
     };
-    let read = Objects {
+    let read = ObjectsRead {
         places: Arc::new(std::mem::take(&mut reader.places)),
         objects,
         materials: std::mem::take(&mut reader.materials).into(),
@@ -75,9 +75,9 @@ fn lower_by<'a>(
 }
 
 /// The objects of a text.
-pub(super) struct Objects {
+pub(super) struct ObjectsRead {
     pub(super) places: Arc<Vec<ObjectPlace>>,
-    pub(super) objects: scene::Objects,
+    pub(super) objects: Objects,
     pub(super) materials: Materials,
 }
 
@@ -87,9 +87,9 @@ pub(super) fn joined(
     tree: &Tree,
     (view, render): (Option<ViewComment>, Option<RenderPlace>),
     (mut reader, count): (Reader<'_>, Span),
-    read: Objects,
+    read: ObjectsRead,
 ) -> (Origins, Lowered) {
-    let Objects {
+    let ObjectsRead {
         places,
         objects,
         materials,

@@ -40,16 +40,18 @@ impl ManyLights {
         if numbers.len() <= FEW {
             return Some(Arc::new(Self::none(lights)));
         }
-        if let Some(known) =
-            known.filter(|known| (&known.numbers, &known.reaches) == (&numbers, &reaches))
-        {
+        let is_other = |number: &u32| numbers.binary_search(number).is_err();
+        let others: Vec<_> = (0..lights.len() as u32).filter(is_other).collect();
+        let is_known = |known: &&Arc<Self>| {
+            (&known.numbers, &known.others, &known.reaches) == (&numbers, &others, &reaches)
+        };
+        if let Some(known) = known.filter(is_known) {
             return Some(Arc::clone(known));
         }
         let tree = Tree::build(&reaches, cancelled)?;
-        let is_other = |number: &u32| numbers.binary_search(number).is_err();
         Some(Arc::new(Self {
-            others: (0..lights.len() as u32).filter(is_other).collect(),
             numbers,
+            others,
             reaches,
             tree,
         }))
@@ -125,8 +127,7 @@ fn reach(light: &Light) -> Option<Reach> {
         return None;
     };
     let strength = strength(light.radiant_intensity()?);
-    let is_useful = 0.0 < strength && strength.is_finite();
-    is_useful.then_some(Reach {
+    (0.0 < strength).then_some(Reach {
         bounds: Aabb {
             min: position - radius,
             max: position + radius,

@@ -1,5 +1,6 @@
 //! Sampling of objects that emit light: from a point, one of their parts is chosen
-//! through a [`tree`], and a direction toward it ([`aim`]).
+//! through a [`tree`], and a direction toward it ([`aim`]). Of many lights, one is chosen likewise
+//! ([`many`]).
 //!
 //! Parts are triangles, squares and balls. Emission of other solids, of the inside of balls, and
 //! what is too weak or small to count are left to BSDF sampling: their density is 0 here.

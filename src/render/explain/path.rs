@@ -132,17 +132,17 @@ impl<C: Fn() -> bool> Recorder<'_, C> {
     fn light_hit(
         &self,
         path: &Path,
-        light: (u32, &SphereLight),
+        (number, light): (u32, &SphereLight),
         (t, radiance, weight): (f64, Rgb, f64),
     ) -> LightHit {
         let world = self.probe.world;
         LightHit {
-            light: light.0,
+            light: number,
             t,
             transmitted: transmitted(path.absorption, t),
             radiance,
             densities: path.chosen.map(|chosen| Densities {
-                by_light: chosen.density_of(world, light),
+                by_light: chosen.density_of(world, (number, light)),
                 by_path: chosen.density,
                 weight,
             }),

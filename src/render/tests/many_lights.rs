@@ -118,6 +118,11 @@ fn the_choice_is_kept_while_the_lights_are_the_same() {
     };
     let first = build(&lights, None);
     assert!(Arc::ptr_eq(&first, &build(&lights, Some(&first))));
+    // The last one does not fade.
+    let fewer = build(&lights[..41], Some(&first));
+    assert!(fewer.others().eq([0]));
+    let more = build(&lights, Some(&fewer));
+    assert!(more.others().eq([0, 41]));
     lights[5].colour *= 2.0;
     assert!(!Arc::ptr_eq(&first, &build(&lights, Some(&first))));
 }

@@ -5,6 +5,7 @@ use std::sync::Arc;
 use super::App;
 use super::assets::Notice;
 use super::cursor::Names;
+use super::trial::Meaning;
 use crate::assets::{Loaded, Wanted};
 use crate::language::{Before, Lowered, Node, Nodes};
 use crate::scene::Scene;
@@ -44,18 +45,17 @@ impl App {
 
     /// Lowers the text after an edit that replaced the bytes `old` by `changed`, reusing what is
     /// known from before the edit.
-    fn lowered_again(&mut self, old: Span, changed: Span) -> Lowered {
-        let Some(scene) = self.sound_scene() else {
-            return self.lowered();
-        };
-        let before = Before {
-            scene: &scene,
-            diagnostics: &self.reported,
-        };
-        let lowered = self
-            .document
-            .lower_again(&self.assets.meshes, before, [old, changed]);
+    fn lowered_again(&mut self, before: Before<'_>, spans: [Span; 2]) -> Lowered {
+        let meshes = &self.assets.meshes;
+        let lowered = self.document.lower_again(meshes, before, spans);
         lowered.unwrap_or_else(|refused| Lowered::refused(&refused))
+    }
+
+    /// What the text means, if it has no errors.
+    pub(super) fn meaning(&self) -> Option<Meaning> {
+        let scene = self.sound_scene()?;
+        let findings = self.reported.clone();
+        Some(Meaning { scene, findings })
     }
 
     /// The scene if the text has no errors.
@@ -99,25 +99,27 @@ impl App {
     /// Makes edits. If they add errors, or an error touches one of them, returns that error and
     /// leaves the text as before.
     pub(super) fn try_edits(&mut self, edits: &[Edit]) -> Result<(), Diagnostic> {
-        self.attempt(edits, |app| app.lowered_after(edits))
+        let before = self.meaning();
+        self.try_edits_after(before.as_ref(), edits)
     }
 
-    /// As [`App::try_edits`] if the scene is that of the text after other edits of the same things,
-    /// which were taken back.
-    pub(super) fn try_edits_anew(&mut self, edits: &[Edit]) -> Result<(), Diagnostic> {
-        // The findings would be in the wrong places.
-        if self.reported.is_empty() {
-            self.try_edits(edits)
-        } else {
-            self.attempt(edits, Self::lowered)
-        }
+    /// As [`App::try_edits`], given what the text before the edits means; the scene may be that of other
+    /// edits, which were taken back.
+    pub(super) fn try_edits_after(
+        &mut self,
+        before: Option<&Meaning>,
+        edits: &[Edit],
+    ) -> Result<(), Diagnostic> {
+        self.attempt(edits, |app| app.lowered_after(before, edits))
     }
 
     /// Lowers the text after edits.
-    fn lowered_after(&mut self, edits: &[Edit]) -> Lowered {
+    fn lowered_after(&mut self, before: Option<&Meaning>, edits: &[Edit]) -> Lowered {
         let after = spans_after(edits);
-        match (cover(edits), after.first(), after.last()) {
-            (Some(old), Some(first), Some(last)) => self.lowered_again(old, first.to(*last)),
+        match (before, cover(edits), after.first(), after.last()) {
+            (Some(before), Some(old), Some(first), Some(last)) => {
+                self.lowered_again(before.before(), [old, first.to(*last)])
+            }
             _ => self.lowered(),
         }
     }
@@ -234,7 +236,10 @@ impl App {
         // The text after the change is as long as before.
         let behind = self.document.text().len() - span.end();
         let old = Span::new(span.start(), before.length - behind);
-        let lowered = self.lowered_again(old, span);
+        let lowered = match self.meaning() {
+            Some(meaning) => self.lowered_again(meaning.before(), [old, span]),
+            None => self.lowered(),
+        };
         self.install(lowered);
         let node_at = |at: usize| self.source().node_at(Span::at(at));
         if before.nodes != self.nodes() || node_at(span.start()) != node_at(span.end()) {

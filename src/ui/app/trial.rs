@@ -1,9 +1,11 @@
 //! The state of changes of the text that are tried out.
 
 use std::collections::BTreeSet;
+use std::sync::Arc;
 
-use crate::language::Node;
-use crate::text::Edit;
+use crate::language::{Before, Node};
+use crate::scene::Scene;
+use crate::text::{Edit, Findings};
 
 /// A change of the text that is being tried out: each attempt replaces the one before, so that the
 /// whole is one undo step.
@@ -15,8 +17,27 @@ pub(super) struct Trial {
     pub(super) is_applied: bool,
     /// The marked nodes, whose marks go if an attempt adds a node.
     pub(super) marks: BTreeSet<Node>,
+    /// What the text before the trial means, if it has no errors.
+    pub(super) base: Option<Meaning>,
     /// What takes the last attempt back after a merge.
     pub(super) back: Option<TakenBack>,
+}
+
+/// What a text without errors means.
+#[derive(Clone, Debug)]
+pub(super) struct Meaning {
+    pub(super) scene: Arc<Scene>,
+    pub(super) findings: Findings,
+}
+
+impl Meaning {
+    /// The meaning of the text before an edit.
+    pub(super) fn before(&self) -> Before<'_> {
+        Before {
+            scene: &self.scene,
+            diagnostics: &self.findings,
+        }
+    }
 }
 
 /// Edits that take an attempt back in a text that was merged meanwhile.

@@ -14,6 +14,7 @@ impl App {
             revision: self.document.revision(),
             is_applied: false,
             marks: self.cursor.marks.clone(),
+            base: self.meaning(),
             back: None,
         }
     }
@@ -46,7 +47,7 @@ impl App {
         let outcome = edits(self).and_then(|edits| {
             trial.is_applied = !edits.is_empty();
             let made = if trial.is_applied {
-                self.try_edits_anew(&edits)
+                self.try_edits_after(trial.base.as_ref(), &edits)
             } else {
                 Ok(())
             };

@@ -150,7 +150,12 @@ impl Output {
             if error.kind() != io::ErrorKind::TimedOut {
                 return Err(error);
             }
+            // A signal handler may have written its own last bytes.
+            let Some(permit) = self.shared.permit() else {
+                return Err(error);
+            };
             self.shared.line.discard();
+            drop(permit);
             self.wait(Instant::now() + LAST_PATIENCE)
         })
     }

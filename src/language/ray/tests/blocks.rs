@@ -89,6 +89,7 @@ fn a_changed_header_or_comment_reads_no_object_again() {
         // Of another view comment, which is ignored.
         ("fov 5", "5", "7", false),
         // Now the first view comment is malformed, and the other one counts.
+        ("target 1 2 3", "3", "3 ", true),
         ("target", "target", "target 4", true),
         ("target 4", " 4", "", false),
     ];
@@ -122,6 +123,29 @@ fn a_changed_header_or_comment_reads_no_object_again() {
     }
 }
 
+/// The replaced text ends with the marker of a comment, so that an object in it counts now.
+#[test]
+fn numbers_in_place_of_a_comment_are_read_again_with_all_objects() {
+    let text = "// view: eye 0 0 9 target 0 0 0
+        1 1 1  1  0 5 5  1 1 1 1 sphere 0 0 9 // 1 sphere 4 0 9
+        1  1 0 0  0 1 0  0 0 1  20 0 0 1\n";
+    let (mut source, lowered) = read(text);
+    let old = "1 1 sphere 0 0 9 //";
+    let at = text.find(old).expect("it is there");
+    let spans = put(&mut source, Span::new(at, at + old.len()), "2");
+    let again = source.lower_again(
+        &Meshes::default(),
+        before(&lowered).expect("a scene"),
+        spans,
+    );
+    let (fresh, expected) = read(&source.text);
+    assert_eq!(
+        parts(&source, &again.expect("there is memory")),
+        parts(&fresh, &expected)
+    );
+    assert_ne!(lowered.scene, expected.scene);
+}
+
 #[test]
 fn an_edit_of_a_shape_copies_only_its_block() {
     let text = text(3 * BLOCK, 3 * BLOCK, 400);
@@ -149,7 +173,9 @@ fn an_edit_of_a_colour_copies_only_the_block_of_its_material() {
     let count = 3 * BLOCK;
     let mut text = format!("// view: eye 0 0 9 target 0 0 0\n1 1 1  1  0 5 5  1 1 1  {count}\n");
     for number in 0..count {
-        text += &format!("sphere {number} 2 3 0.5  0.{number:04} 0 0  0 1 0  0 0 1  20 0 0 1\n");
+        let object =
+            format!("sphere {number} 2 3 0.5  0.{number:04} 0 0  0 1 0  0 0 1  20 0 0 1\n");
+        text.push_str(&object);
     }
     let (mut source, lowered) = read(&text);
     let colour = format!("0.{:04} 0 0", BLOCK + 6);

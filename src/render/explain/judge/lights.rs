@@ -76,7 +76,7 @@ impl Judge<'_> {
                             | Verdict::Enclosed { .. }
                             | Verdict::OutsideCone { .. }
                     ) {
-                        lost += self.shown(weight * loss);
+                        lost += self.shown(weight * (loss / term.chance));
                     }
                     reasons.push((loss, verdict));
                 }

@@ -2,6 +2,7 @@
 
 use super::*;
 use crate::language::Node;
+use crate::text::{Edit, Span};
 
 /// Tries something out on the first object, lets another program change the file, and cancels; then
 /// only the change of the file is there.
@@ -40,4 +41,40 @@ fn what_cannot_be_cancelled_after_a_merge_says_so() {
     press(&mut app, "<Esc>");
     assert_eq!(app.document.text(), text);
     assert!(words(&app).contains("is kept"), "{}", words(&app));
+}
+
+/// Every attempt begins with the meaning of the text before the first one.
+#[test]
+fn an_attempt_keeps_nothing_of_the_one_before() {
+    let text = "// view: eye 0 0 9 target 0 0 0\n.1 .1 .1  1  0 5 5  1 1 1  2\n\
+        sphere 1 0 0 1  1 0 0  0 1 0  0 0 1  20 0 0 1\n\
+        sphere 4 0 0 1  1 0 0  0 1 0  0 0 1  20 0 0 1\n";
+    let put = |old: &str, new: &str| {
+        let at = text.find(old).expect("it is there");
+        Edit {
+            span: Span::new(at, at + old.len()),
+            text: new.to_owned(),
+        }
+    };
+    let eye = || put("0 0 9", "0 0 8.5");
+    let light = || put("0 5 5", "0 5.25 5");
+    let [first, second] = [put("1 0 0 1", "2 0 0 1"), put("4 0 0 1", "5 0 0 1")];
+    let mut app = open(text);
+    let mut trial = app.begin_trial();
+    for edits in [
+        vec![eye(), first.clone()],
+        vec![eye()],
+        vec![light(), second.clone()],
+        vec![light()],
+        vec![first],
+        vec![second],
+        vec![eye()],
+    ] {
+        let tried = app.try_instead(&mut trial, |_| Ok(edits.clone()));
+        assert_eq!(tried, Ok(()));
+        let fresh = open(app.document.text());
+        assert_eq!(app.scene, fresh.scene, "{edits:?}");
+    }
+    app.end_trial(trial);
+    assert_eq!(app.scene, open(text).scene);
 }
