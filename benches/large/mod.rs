@@ -58,7 +58,8 @@ fn own_materials(text: &str) {
     for (number, object) in objects.enumerate() {
         let (shape, rest) = object.split_once('\n').expect("its material follows");
         let (_, rest) = rest.split_once('\n').expect("of several lines");
-        own += &format!("sphere\n{shape}\n.{number:06} .5 .5\n{rest}");
+        let object = format!("sphere\n{shape}\n.{number:06} .5 .5\n{rest}");
+        own.push_str(&object);
     }
     let case = Case {
         name: "1,000,000 materials",

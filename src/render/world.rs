@@ -46,6 +46,30 @@ fn few(integrator: Integrator) -> usize {
     }
 }
 
+/// What paths sample of the light of a scene: lights, objects and the environment.
+type Sampled = (Arc<ManyLights>, Arc<Emitters>, Arc<Sky>);
+
+/// Prepares what paths sample of the light of a scene, or keeps what is the same in a previous world,
+/// of which `known` gives the objects with other shapes. `None` once `cancelled` returns true.
+fn sampled(
+    (scene, lights, textures): (&Scene, &[Light], &Textures),
+    previous: Option<&World>,
+    known: Option<(&World, &[u32])>,
+    cancelled: &(dyn Fn() -> bool + Sync),
+) -> Option<Sampled> {
+    let sky = previous.map(|world| (&world.sky, &world.textures));
+    let sky = Sky::build(scene, textures, sky, &cancelled)?;
+    let known = known.map(|(world, changed)| Known {
+        emitters: &world.emitters,
+        textures: &world.textures,
+        changed,
+    });
+    let emitters = Emitters::build(scene, textures, known, cancelled)?;
+    let known = previous.map(|world| &world.many_lights);
+    let many_lights = ManyLights::build(lights, known, &cancelled)?;
+    Some((many_lights, emitters, sky))
+}
+
 /// The settings that the preparation of a scene depends on.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Rules {
@@ -111,25 +135,12 @@ impl World {
         let level = level();
         let opaque = opaque_meshes(&scene);
         let changed = previous.and_then(|world| changed_shapes(&world.scene, &scene));
-        let (many_lights, emitters, sky) = match integrator {
-            Integrator::Path | Integrator::Photon => {
-                let sky = previous.map(|world| (&world.sky, &world.textures));
-                let sky = Sky::build(&scene, &textures, sky, &cancelled)?;
-                let known = previous.zip(changed.as_deref());
-                let known = known.map(|(world, changed)| Known {
-                    emitters: &world.emitters,
-                    textures: &world.textures,
-                    changed,
-                });
-                let emitters = Emitters::build(&scene, &textures, known, cancelled)?;
-                let known = previous.map(|world| &world.many_lights);
-                (ManyLights::build(lights, known, &cancelled)?, emitters, sky)
-            }
-            Integrator::Whitted => (
-                Arc::new(ManyLights::none(lights)),
-                Arc::default(),
-                Arc::new(Sky::unsampled()),
-            ),
+        let known = previous.zip(changed.as_deref());
+        let (many_lights, emitters, sky) = if integrator == Integrator::Whitted {
+            let each = ManyLights::none(lights);
+            (Arc::new(each), Arc::default(), Arc::new(Sky::unsampled()))
+        } else {
+            sampled((&scene, lights, &textures), previous, known, cancelled)?
         };
         let has_emitters = !emitters.is_empty() || !sky.is_unsampled();
         let samples_lights = has_emitters
