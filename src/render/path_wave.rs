@@ -212,7 +212,7 @@ impl<C: Fn() -> bool> Probe<'_, C> {
         local + meeting.asked
     }
 
-    /// Adds the light of all lights, in file order; if they are many, of one of them at each surface.
+    /// Adds the light of all lights, in file order; of many lights, that of one at each surface.
     fn add_lights(
         &mut self,
         meetings: &mut [Meeting<'_>],

@@ -1,5 +1,5 @@
-//! Incremental lowering of a long `.ray` text after numbers of one object have changed, when only
-//! the block of that object is read again, or the header or a comment, when no object is. Gives up
+//! Incremental lowering of a long `.ray` text. After an edit of one object's numbers, only the block
+//! of that object is read again; after an edit of the header or a comment, no object is. Gives up
 //! wherever anything else may have changed.
 
 use std::sync::Arc;

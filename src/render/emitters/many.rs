@@ -1,4 +1,4 @@
-//! Lights too many to sample each of them at every surface: one of them is chosen through a tree.
+//! Lights that are too many for each to be sampled at every surface: one is chosen through a tree.
 
 use std::sync::Arc;
 
@@ -11,11 +11,12 @@ use crate::geometry::Aabb;
 use crate::geometry::lanes::Level;
 use crate::scene::{Emitter, Light};
 
-/// Up to this many lights that fade with the square of the distance, each is sampled at every surface.
+/// Up to this number of lights that fade with the square of the distance, each is sampled at every
+/// surface.
 const FEW: usize = 16;
 
-/// The lights that fade with the square of the distance, if they are many. No distance tells how
-/// much of the others arrives, so that each of them is sampled at every surface.
+/// The lights that fade with the square of the distance, if there are many. Each of the others is
+/// sampled at every surface: their distance does not tell how much light arrives.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct ManyLights {
     /// Their indices in the scene, in ascending order.
@@ -118,7 +119,7 @@ impl ManyLights {
     }
 }
 
-/// What a light may light; `None` if it does not fade with the square of the distance, or is dark.
+/// What a light may reach; `None` if it does not fade with the square of the distance, or is dark.
 fn reach(light: &Light) -> Option<Reach> {
     let Emitter::Point {
         position, radius, ..

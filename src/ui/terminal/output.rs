@@ -121,7 +121,7 @@ impl Output {
 
     /// Stops all threads from writing, for a signal handler, which writes the last bytes itself.
     ///
-    /// Waits for a write that has begun, but not for ever: the handler may have interrupted it, and
+    /// Waits for a write that has begun, but not indefinitely: the handler may have interrupted it, and
     /// a write to a shared file may block.
     #[cfg(unix)]
     pub(super) fn fall_silent(&self) {
