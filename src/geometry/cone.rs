@@ -48,7 +48,7 @@ impl Cone {
         let position = self.0.positions(rays, at.t);
         let flat = position.flat();
         let on_base = at.part.equals(at.part.all(BASE.into()));
-        let radial = normalised(flat, DVec3::X);
+        let radial = normalised(flat, Vector::all(flat.x, DVec3::X));
         let outward = Vector {
             x: N::select(on_base, zero, radial.x),
             y: N::select(on_base, zero, radial.y),

@@ -48,7 +48,7 @@ impl Cylinder {
         let on_base = at.part.equals(one);
         let on_top = at.part.equals(at.part.all(TOP.into()));
         let on_cap = on_base | on_top;
-        let radial = normalised(flat, DVec3::X);
+        let radial = normalised(flat, Vector::all(flat.x, DVec3::X));
         let outward = Vector {
             x: N::select(on_cap, zero, radial.x),
             y: N::select(on_cap, zero, radial.y),

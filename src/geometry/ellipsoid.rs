@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-use super::lanes::Lanes;
+use super::lanes::{Lanes, Vector};
 use super::line::{End, Ends, ball};
 use super::transform::normalised;
 use super::{Aabb, Affine, Chart, Hit, Ray, Rays, Surfaces};
@@ -33,7 +33,7 @@ impl Ellipsoid {
     /// The surface at a hit, in each lane.
     #[inline(always)]
     pub(super) fn surface<N: Lanes>(&self, rays: &Rays<N>, at: End<N>) -> Surfaces<N> {
-        let position = normalised(self.0.positions(rays, at.t), DVec3::Z);
+        let position = normalised(self.0.positions(rays, at.t), Vector::all(at.t, DVec3::Z));
         self.0.surface(
             position,
             #[inline(always)]

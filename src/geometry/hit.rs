@@ -41,6 +41,16 @@ impl Hits {
         hits
     }
 
+    /// The hits in some lanes only.
+    #[must_use]
+    #[inline(always)]
+    pub fn within(self, lanes: u32) -> Self {
+        Self {
+            lanes: self.lanes & lanes,
+            ..self
+        }
+    }
+
     /// Collects the hits of the given lanes, one by one; `None` if none of them hits.
     #[inline(always)]
     pub fn one_by_one(lanes: u32, hit: impl FnMut(usize) -> Option<Hit>) -> Option<Self> {

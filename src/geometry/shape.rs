@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use super::hit::{Hit, Hits, Spans};
-use super::lanes::{Eight, Simd};
+use super::lanes::{Eight, Simd, Vector};
 use super::ray::{Ray, Rays};
 use super::{Aabb, Chart, Csg, Instance, Plane, Solid, Surface, Surfaces};
 
@@ -84,19 +84,21 @@ impl Shape {
         }
     }
 
-    /// The same for a packet of eight rays; lanes without a hit are undefined. `None` if the shape
-    /// supports single rays only.
+    /// The surfaces and the shading normals at the hits of a packet of eight rays; lanes without a hit
+    /// are undefined. `None` if the shape supports single rays only.
     #[inline(always)]
     pub fn surfaces<S: Simd>(
         &self,
         rays: &Rays<Eight<S>>,
         hits: &Hits,
-    ) -> Option<Surfaces<Eight<S>>> {
-        match self {
-            Self::Solid(solid) => solid.surfaces(rays, hits),
-            Self::Plane(plane) => Some(plane.surface(rays, hits.ends(rays.origin.x.simd))),
-            Self::Csg(_) | Self::Mesh(_) => None,
-        }
+    ) -> Option<(Surfaces<Eight<S>>, Vector<Eight<S>>)> {
+        let surfaces = match self {
+            Self::Solid(solid) => solid.surfaces(rays, hits)?,
+            Self::Csg(csg) => csg.surfaces(rays, hits)?,
+            Self::Plane(plane) => plane.surface(rays, hits.ends(rays.origin.x.simd)),
+            Self::Mesh(instance) => return Some(instance.surfaces(rays, hits)),
+        };
+        Some((surfaces, surfaces.normal))
     }
 
     /// The texture coordinates at a hit of this shape, in its own frame.

@@ -95,7 +95,7 @@ pub fn sphere_surfaces<N: Lanes>(
     rays: &Rays<N>,
     t: N,
 ) -> Surfaces<N> {
-    let normal = normalised(rays.at(t) - centre, DVec3::Z);
+    let normal = normalised(rays.at(t) - centre, Vector::all(t, DVec3::Z));
     Surfaces {
         point: centre + normal.scaled(radius),
         normal,

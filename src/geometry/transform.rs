@@ -188,8 +188,8 @@ impl Affine {
         project: impl FnOnce(Vector<N>) -> Vector<N>,
     ) -> Surfaces<N> {
         let like = outward.x;
-        let duals @ [u, v, w] = all(like, self.duals);
-        let gradient = outward.combine(duals);
+        let [u, v, w] = all(like, self.duals);
+        let gradient = self.gradients(outward);
         let terms =
             u.scaled(outward.x).abs() + v.scaled(outward.y).abs() + w.scaled(outward.z).abs();
         let cancellation = terms.largest() / gradient.abs().largest();
@@ -198,7 +198,7 @@ impl Affine {
         let position = project(margin.smaller(Vector::all(like, DVec3::splat(0.25))));
         Surfaces {
             point: Vector::all(like, self.origin) + position.combine(all(like, self.axes)),
-            normal: normalised(gradient, DVec3::Z),
+            normal: normalised(gradient, Vector::all(like, DVec3::Z)),
             scale,
         }
     }
@@ -212,8 +212,13 @@ impl Affine {
 
     /// Transforms a gradient, such as a normal, to the world by the inverse transpose.
     pub(super) fn gradient(&self, gradient: DVec3) -> DVec3 {
-        let [u, v, w] = self.duals;
-        gradient.x * u + gradient.y * v + gradient.z * w
+        self.gradients(gradient.into()).into()
+    }
+
+    /// The same in each lane.
+    #[inline(always)]
+    pub(super) fn gradients<N: Lanes>(&self, gradients: Vector<N>) -> Vector<N> {
+        gradients.combine(all(gradients.x, self.duals))
     }
 
     #[inline]
@@ -246,7 +251,7 @@ fn products<N: Lanes>([x, y, z]: [Vector<N>; 3], v: Vector<N>) -> Vector<N> {
 /// Returns `v` scaled to unit length, or `None` if `v` is zero or not finite.
 pub fn normalise(v: DVec3) -> Option<DVec3> {
     let largest = v.abs().max_element();
-    (0.0 < largest && largest.is_finite()).then(|| normalised(v.into(), v).into())
+    (0.0 < largest && largest.is_finite()).then(|| normalised(v.into(), v.into()).into())
 }
 
 /// Scales `v` to unit length in each lane, or returns `otherwise` where `v` is zero or not finite.
@@ -254,14 +259,14 @@ pub fn normalise(v: DVec3) -> Option<DVec3> {
 /// It is divided by a power of two first, which changes no bits of the result, so that no component
 /// is too large or too small to be squared.
 #[inline(always)]
-pub(super) fn normalised<N: Lanes>(v: Vector<N>, otherwise: DVec3) -> Vector<N> {
+pub(super) fn normalised<N: Lanes>(v: Vector<N>, otherwise: Vector<N>) -> Vector<N> {
     let largest = v.abs().largest();
     let has_direction = largest.all(0.0).below(largest) & largest.below(largest.all(f64::INFINITY));
     // Of half the largest, which always has a next larger number.
     let power = (largest.all(0.5) * largest).ulp() * largest.all(2.0 / f64::EPSILON);
     let v = v.over(power);
     let unit = v.over(v.length());
-    Vector::select(has_direction, unit, Vector::all(largest, otherwise))
+    Vector::select(has_direction, unit, otherwise)
 }
 
 /// The length of a vector whose components may be too large or too small to be squared.
@@ -277,11 +282,17 @@ pub(super) fn power_of_two(x: f64) -> f64 {
 
 /// The cross product, each component by [`exact_difference`].
 pub(super) fn exact_cross(u: DVec3, v: DVec3) -> DVec3 {
-    DVec3::new(
-        exact_difference([u.y, v.z], [u.z, v.y]),
-        exact_difference([u.z, v.x], [u.x, v.z]),
-        exact_difference([u.x, v.y], [u.y, v.x]),
-    )
+    exact_cross_each(u.into(), v.into()).into()
+}
+
+/// The same in each lane.
+#[inline(always)]
+pub(super) fn exact_cross_each<N: Lanes>(u: Vector<N>, v: Vector<N>) -> Vector<N> {
+    Vector {
+        x: exact_difference([u.y, v.z], [u.z, v.y]),
+        y: exact_difference([u.z, v.x], [u.x, v.z]),
+        z: exact_difference([u.x, v.y], [u.y, v.x]),
+    }
 }
 
 /// The difference of two products, as if rounded once or twice, by Kahan's algorithm: the error of

@@ -41,16 +41,44 @@ impl<N: Lanes> Shears<N> {
         let size = direction.abs();
         let is_x = size.y.up_to(size.x) & size.z.up_to(size.x);
         let is_y = !is_x & size.z.up_to(size.y);
-        let Vector { x, y, z } = direction;
-        let along = N::select(is_x, x, N::select(is_y, y, z));
-        let first = N::select(is_x, y, N::select(is_y, z, x));
-        let second = N::select(is_x, z, N::select(is_y, x, y));
+        let [first, second, along] = ordered(direction, is_x, is_y);
         Self {
             is_x,
             is_y,
             slopes: [first / along, second / along, along.all(1.0) / along],
         }
     }
+
+    /// Intersects lines from origins with triangles: see [`Sheared::crossing`].
+    #[inline(always)]
+    pub(super) fn crossing(
+        &self,
+        origin: Vector<N>,
+        [a, b, c]: [Vector<N>; 3],
+    ) -> Option<(Crossing<N>, N::Mask)> {
+        let lines = Sheared {
+            // Of coordinates that are already in order.
+            axes: [0, 1, 2],
+            origin: ordered(origin, self.is_x, self.is_y),
+            shear: self.slopes,
+        };
+        lines.crossing([
+            ordered(a, self.is_x, self.is_y),
+            ordered(b, self.is_x, self.is_y),
+            ordered(c, self.is_x, self.is_y),
+        ])
+    }
+}
+
+/// The coordinates in the order of [`axes`], in each lane: the last is that on the first axis where
+/// `is_x`, on the second where `is_y`, otherwise on the third.
+#[inline(always)]
+fn ordered<N: Lanes>(Vector { x, y, z }: Vector<N>, is_x: N::Mask, is_y: N::Mask) -> [N; 3] {
+    [
+        N::select(is_x, y, N::select(is_y, z, x)),
+        N::select(is_x, z, N::select(is_y, x, y)),
+        N::select(is_x, x, N::select(is_y, y, z)),
+    ]
 }
 
 impl Shears<f64> {

@@ -131,15 +131,20 @@ impl World {
             let Some(met) = nearest[first] else { break };
             let shape = &self.scene.objects[met.object as usize].shape;
             let found = match shape {
-                Shape::Solid(Solid::Sphere(_)) => Some(self.of_spheres(&rays, nearest, &hits)),
-                _ => shape
-                    .surfaces(&rays, &hits)
-                    .map(|found| (lanes_of(nearest, met.object), found)),
+                Shape::Solid(Solid::Sphere(_)) => {
+                    let (lanes, found) = self.of_spheres(&rays, nearest, &hits);
+                    Some((lanes, (found, found.normal)))
+                }
+                _ => {
+                    let lanes = lanes_of(nearest, met.object);
+                    let found = shape.surfaces(&rays, &hits.within(lanes));
+                    found.map(|found| (lanes, found))
+                }
             };
-            if let Some((lanes, found)) = found {
+            if let Some((lanes, (found, normal))) = found {
                 let chosen = mask(simd, lanes);
                 surface = Surfaces::select(chosen, found, surface);
-                shading = Vector::select(chosen, found.normal, shading);
+                shading = Vector::select(chosen, normal, shading);
                 rest &= !lanes;
             } else {
                 let found = shape.surface(&packet.ray(first), met.hit);

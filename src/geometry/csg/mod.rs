@@ -15,9 +15,11 @@ mod program;
 mod slopes;
 mod uncut;
 
+use std::ptr;
+
 use self::program::Program;
-use super::lanes::{Eight, Simd, bits, mask};
-use super::{Aabb, Chart, Crossings, Hit, Hits, Ray, Rays, Solid, Spans, Surface, ulp};
+use super::lanes::{Eight, Simd, Vector, bits, mask};
+use super::{Aabb, Chart, Crossings, Hit, Hits, Ray, Rays, Solid, Spans, Surface, Surfaces, ulp};
 
 /// A set operation on two closed solids.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -255,6 +257,39 @@ impl Csg {
             surface.shading = -surface.shading;
         }
         surface
+    }
+
+    /// The same for a packet of eight rays; lanes without a hit are undefined. `None` if a leaf that was
+    /// hit supports single rays only.
+    #[inline(always)]
+    pub fn surfaces<S: Simd>(
+        &self,
+        rays: &Rays<Eight<S>>,
+        hits: &Hits,
+    ) -> Option<Surfaces<Eight<S>>> {
+        let simd = rays.origin.x.simd;
+        let mut surfaces = None;
+        let (mut rest, mut inverted) = (hits.lanes, 0);
+        while rest != 0 {
+            let (leaf, _) = self.leaf(hits.hit(rest.trailing_zeros() as usize));
+            let own = Hits::new(
+                #[inline(always)]
+                |lane| {
+                    let hit = hits.hit(lane);
+                    inverted |= u32::from(is_inverted(hit)) << lane;
+                    let (of, own) = self.leaf(hit);
+                    (rest >> lane & 1 == 1 && ptr::eq(leaf, of)).then_some(own)
+                },
+            );
+            let found = leaf.solid.surfaces(rays, &own)?;
+            let others = surfaces.unwrap_or(found);
+            surfaces = Some(Surfaces::select(mask(simd, own.lanes), found, others));
+            rest &= !own.lanes;
+        }
+        let mut surfaces = surfaces?;
+        let normal = surfaces.normal;
+        surfaces.normal = Vector::select(mask(simd, inverted), -normal, normal);
+        Some(surfaces)
     }
 
     /// The texture coordinates of the leaf at a hit.

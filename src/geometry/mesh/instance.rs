@@ -2,14 +2,13 @@
 
 use std::sync::Arc;
 
-use glam::{DVec2, DVec3};
+use glam::DVec3;
 
 use super::Mesh;
 use crate::geometry::lanes::{Lanes, Vector};
 use crate::geometry::line::Line;
-use crate::geometry::transform::{exact_cross, normalise};
 use crate::geometry::triangle::{Sheared, Shears};
-use crate::geometry::{Aabb, Affine, Chart, Hit, Ray, Rays, Surface};
+use crate::geometry::{Aabb, Affine, Hit, Ray, Rays};
 
 /// The maximum distance of a line's start from the mesh's centre, in unit space. It is within √3.
 const NEAR: f64 = 4.0;
@@ -53,11 +52,13 @@ impl Instance {
     }
 
     /// The mesh.
+    #[inline(always)]
     pub fn mesh(&self) -> &Arc<Mesh> {
         &self.mesh
     }
 
     /// From the unit space of the mesh to the world.
+    #[inline(always)]
     pub(in crate::geometry) fn frame(&self) -> &Affine {
         &self.frame
     }
@@ -148,58 +149,6 @@ impl Instance {
         line.hit(nearest?, limit)
     }
 
-    /// The surface at a hit.
-    pub fn surface(&self, ray: &Ray, hit: Hit) -> Surface {
-        let triangle = self.mesh.triangles[hit.part as usize];
-        let corners = self.mesh.corners(triangle);
-        let weights = self.weights(ray, hit);
-        let sides = opposite(corners);
-        let across = exact_cross(sides[2], -sides[1]);
-        // Collinear vertices do not determine the plane: it faces the ray.
-        let outward = if across == DVec3::ZERO {
-            -normalise(self.frame.line(&ray.into()).direction.into()).unwrap_or(DVec3::NEG_Z)
-        } else {
-            across
-        };
-        let surface = self.frame.surface(outward.into(), |margin| {
-            // A barycentric coordinate is the distance from the opposite side over the height.
-            let margin = margin.largest() / across.length();
-            let least = sides.map(|side| (margin * side.length()).min(0.25));
-            weighted(inside(weights, least), corners).into()
-        });
-        let mut surface = Surface::from(surface);
-        if let [Some(a), Some(b), Some(c)] = self.mesh.normals.at(hit.part, triangle) {
-            let normal = self.frame.gradient(weighted(weights, [a, b, c]));
-            surface.shading = normalise(normal).unwrap_or(surface.normal);
-        }
-        surface
-    }
-
-    /// The texture coordinates at a hit, interpolated from the vertices.
-    pub fn chart(&self, ray: &Ray, hit: Hit) -> Chart {
-        let triangle = self.mesh.triangles[hit.part as usize];
-        let values = self.mesh.uvs.at(hit.part, triangle);
-        let values = values.map(|uv| uv.unwrap_or(DVec2::ZERO));
-        let [a, b, c] = self.weights(ray, hit);
-        let sides = opposite(self.mesh.corners(triangle));
-        let across = exact_cross(sides[2], -sides[1]);
-        // The gradients of the barycentric coordinates, within the plane.
-        let slopes = sides.map(|side| {
-            let slope = across.cross(side) / across.length_squared();
-            if slope.is_finite() {
-                slope
-            } else {
-                DVec3::ZERO
-            }
-        });
-        let gradient = |of: fn(DVec2) -> f64| weighted(values.map(of), slopes);
-        Chart {
-            uv: a * values[0] + b * values[1] + c * values[2],
-            gradients: [gradient(|uv| uv.x), gradient(|uv| uv.y)],
-        }
-        .with_gradients(|gradient| self.frame.gradient(gradient))
-    }
-
     /// The tag of the material at a hit.
     pub fn tag(&self, hit: Hit) -> Option<u32> {
         self.tags.get(self.mesh.slot(hit.part) as usize).copied()
@@ -209,14 +158,6 @@ impl Instance {
     pub fn tags(&self) -> impl Iterator<Item = Option<u32>> {
         let tag = |slot: u32| self.tags.get(slot as usize).copied();
         self.mesh.slots().map(tag)
-    }
-
-    /// The barycentric coordinates at a hit.
-    fn weights(&self, ray: &Ray, hit: Hit) -> [f64; 3] {
-        let corners = self.mesh.corners(self.mesh.triangles[hit.part as usize]);
-        let line = self.line(ray);
-        let crossing = line.and_then(|line| line.sheared.crossing(line.sheared.corners(corners)));
-        crossing.map_or([1.0 / 3.0; 3], |(crossing, _)| crossing.weights)
     }
 }
 
@@ -272,20 +213,4 @@ impl<'m> MeshLine<'m> {
         let t = self.start + nearest.t;
         (t < limit).then_some(Hit { t, ..nearest })
     }
-}
-
-/// The sides of a triangle, each opposite the vertex of the same index.
-fn opposite([a, b, c]: [DVec3; 3]) -> [DVec3; 3] {
-    [c - b, a - c, b - a]
-}
-
-/// Raises each weight to its minimum and scales the sum to 1.
-fn inside(weights: [f64; 3], least: [f64; 3]) -> [f64; 3] {
-    let raised: [f64; 3] = std::array::from_fn(|i| weights[i].max(least[i]));
-    let sum: f64 = raised.iter().sum();
-    raised.map(|weight| weight / sum)
-}
-
-fn weighted([u, v, w]: [f64; 3], [a, b, c]: [DVec3; 3]) -> DVec3 {
-    u * a + v * b + w * c
 }

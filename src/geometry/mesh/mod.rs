@@ -8,6 +8,7 @@
 mod instance;
 mod lines;
 mod runs;
+mod surface;
 
 use glam::{DVec2, DVec3};
 use rayon::prelude::*;
@@ -241,6 +242,7 @@ impl Mesh {
     }
 
     /// The vertices of a triangle by its number, in unit space.
+    #[inline]
     pub(in crate::geometry) fn vertices(&self, triangle: u32) -> [DVec3; 3] {
         self.corners(self.triangles[triangle as usize])
     }

@@ -1,12 +1,17 @@
 //! Packets of eight rays give the same bits as single rays, at every SIMD level.
 
+use std::sync::Arc;
+
 use glam::DVec3;
 
 use super::csg::{csg, tree};
 use super::random::Random;
 use super::{Frame, KINDS, unit};
 use crate::geometry::lanes::{Eight, Level, SimdBase, WIDTH, dispatch};
-use crate::geometry::{Affine, Hit, Hits, Plane, Ray, Rays, Shape, Surface, Surfaces, ulp};
+use crate::geometry::{
+    ABSENT, Affine, Attribute, Hit, Hits, Instance, Mesh, MeshParts, Plane, Ray, Rays, Shape,
+    Surface, ulp,
+};
 
 /// The SIMD levels that this machine supports.
 fn levels() -> Vec<Level> {
@@ -36,14 +41,28 @@ fn together(level: Level, shape: &Shape, rays: &[Ray; WIDTH], limit: f64) -> Vec
 fn surfaces(level: Level, shape: &Shape, rays: &[Ray; WIDTH], hits: &Hits) -> Vec<Surface> {
     dispatch!(level, simd => {
         let packet = Rays::gather(simd, rays);
-        let surfaces = shape.surfaces(&packet, hits).map(Surfaces::store);
-        surfaces.into_iter().flat_map(|found| (0..WIDTH).map(move |lane| Surface {
+        let found = shape.surfaces(&packet, hits);
+        let found = found.map(|(surfaces, shading)| (surfaces.store(), shading.store()));
+        found.into_iter().flat_map(|(found, shading)| (0..WIDTH).map(move |lane| Surface {
             point: found.point.get(lane),
             normal: found.normal.get(lane),
-            shading: found.normal.get(lane),
+            shading: shading.get(lane),
             scale: found.scale.0[lane],
         })).collect()
     })
+}
+
+/// Asserts that they are those of single rays.
+fn same_surfaces(level: Level, shape: &Shape, rays: &[Ray; WIDTH], hits: &Hits) {
+    let together = surfaces(level, shape, rays, hits);
+    for lane in (0..WIDTH).filter(|lane| hits.lanes >> lane & 1 == 1) {
+        let alone = shape.surface(&rays[lane], hits.hit(lane));
+        assert_eq!(
+            together[lane], alone,
+            "{level:?} {shape:?} {:?}",
+            rays[lane]
+        );
+    }
 }
 
 /// A ray from inside, near or far, toward a point in the solid or past it, often along an axis.
@@ -98,11 +117,7 @@ fn packets_and_single_rays_have_the_same_surfaces() {
             let rays = [(); WIDTH].map(|()| ray_at(&mut random, &frame));
             let hits = Hits::new(|lane| shape.hit(&rays[lane], f64::INFINITY));
             for level in levels() {
-                let together = surfaces(level, &shape, &rays, &hits);
-                for lane in (0..WIDTH).filter(|lane| hits.lanes >> lane & 1 == 1) {
-                    let alone = shape.surface(&rays[lane], hits.hit(lane));
-                    assert_eq!(together[lane], alone, "{kind:?} {level:?} {rays:?}");
-                }
+                same_surfaces(level, &shape, &rays, &hits);
             }
         }
     }
@@ -143,12 +158,68 @@ fn packets_and_single_rays_have_the_same_hits_with_csg() {
         count += exact.iter().flatten().count();
         let alone = rays.each_ref().map(|ray| shape.hit(ray, limit));
         assert_eq!(alone, exact, "{rays:?}");
+        let hits = Hits::new(|lane| exact[lane]);
         for level in levels() {
-            let hits = together(level, &shape, &rays, limit);
-            assert_eq!(hits, exact, "{level:?} {rays:?}");
+            let found = together(level, &shape, &rays, limit);
+            assert_eq!(found, exact, "{level:?} {rays:?}");
+            same_surfaces(level, &shape, &rays, &hits);
         }
     }
     assert!(1500 < count, "{count} hits");
+}
+
+/// Triangles of any form, some without an area, some with normals at all vertices.
+#[test]
+fn packets_and_single_rays_have_the_same_surfaces_with_meshes() {
+    const TRIANGLES: u32 = 20;
+    let mut random = Random(34);
+    let mut count = 0;
+    for round in 0..200 {
+        let mut positions: Vec<_> = [(); 3 * TRIANGLES as usize]
+            .map(|()| random.in_cube())
+            .into();
+        positions[1] = 0.5 * (positions[0] + positions[2]);
+        positions[4] = positions[3];
+        let triangles: Vec<_> = (0..TRIANGLES)
+            .map(|i| [3 * i, 3 * i + 1, 3 * i + 2])
+            .collect();
+        let mut normals = Attribute::default();
+        if round % 4 != 0 {
+            normals.values = [(); 5].map(|()| random.direction()).into();
+            let mut corner = || match random.bits() % 20 {
+                0 => ABSENT,
+                bits => bits as u32 % 5,
+            };
+            normals.corners = triangles
+                .iter()
+                .map(|_| [(); 3].map(|()| corner()))
+                .collect();
+        }
+        let parts = MeshParts {
+            positions,
+            triangles,
+            normals,
+            ..MeshParts::default()
+        };
+        let mesh = Arc::new(Mesh::new(parts).expect("the mesh is valid"));
+        let frame = random.frame();
+        let affine = frame.affine().expect("the frame spans a volume");
+        let shape = Shape::Mesh(Box::new(Instance::new(mesh, &affine, Vec::new())));
+        let rays = [(); WIDTH].map(|()| ray_at(&mut random, &frame));
+        // A hit on the first two triangles is a rounding error, but must not be worse than that.
+        let hits = Hits::new(|lane| match lane {
+            0 | 1 => Some(Hit {
+                t: 1.0,
+                part: lane as u32,
+            }),
+            _ => shape.hit(&rays[lane], f64::INFINITY),
+        });
+        count += hits.lanes.count_ones();
+        for level in levels() {
+            same_surfaces(level, &shape, &rays, &hits);
+        }
+    }
+    assert!(700 < count, "{count} hits");
 }
 
 #[test]
@@ -183,12 +254,8 @@ fn packets_and_single_rays_have_the_same_hits_and_surfaces_with_planes() {
         for level in levels() {
             assert_eq!(together(level, &shape, &rays, f64::INFINITY), alone);
             let hits = Hits::new(|lane| alone[lane]);
-            let found = surfaces(level, &shape, &rays, &hits);
-            for (lane, hit) in alone.iter().enumerate() {
-                let Some(hit) = *hit else { continue };
-                assert_eq!(found[lane], shape.surface(&rays[lane], hit));
-                count += 1;
-            }
+            same_surfaces(level, &shape, &rays, &hits);
+            count += hits.lanes.count_ones();
         }
     }
     assert!(1000 < count, "{count} hits");
