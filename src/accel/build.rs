@@ -7,7 +7,7 @@ use rayon::prelude::*;
 use crate::geometry::Aabb;
 
 use super::node::{Bounds, Child, Node, WIDTH};
-use super::split::{CancelCheck, Cancelled, Extent, Reference, by_area, by_count};
+use super::split::{CancelCheck, Cancelled, Extent, Halves, Reference, by_area, by_count};
 use super::{Bvh, RUN};
 
 /// The number of levels divided by area, more than good trees of 2³² boxes have. Nodes below them
@@ -54,7 +54,7 @@ pub(super) fn build(
         let pieces = pieces(&mut references, &mut spare, &whole, 0, &cancel)?;
         nodes = joined(&pieces, &cancel)?;
     }
-    let mut order = in_batches(references.len(), &cancel, |at| references[at].index)?;
+    let mut order = in_batches(references.len(), &cancel, |at| references[at].index())?;
     order.extend(unbounded);
     Ok(Bvh {
         reference,
@@ -106,7 +106,7 @@ fn collect_references(
             } else {
                 Bounds::around(aabb, reference)
             };
-            Reference { bounds, index }
+            Reference::new(bounds, index)
         }));
         let is_bounded = |reference: &Reference| reference.bounds.is_finite();
         if references[start..].par_iter().all(is_bounded) {
@@ -115,8 +115,8 @@ fn collect_references(
         for reference in references.split_off(start) {
             if is_bounded(&reference) {
                 references.push(reference);
-            } else if !is_empty(&aabb(reference.index)) {
-                unbounded.push(reference.index);
+            } else if !is_empty(&aabb(reference.index())) {
+                unbounded.push(reference.index());
             }
         }
     }
@@ -322,15 +322,15 @@ fn divide(
         } = parts[at];
         let start = first - whole.first;
         let own = &mut references[start..start + count];
-        let half = if level < AREA_LEVELS {
+        let halves = if level < AREA_LEVELS {
             by_area(own, &mut spare[start..start + count], &extent, cancel)?
         } else {
-            by_count(own, &extent)
+            let half = by_count(own, &extent);
+            Halves::of(own, half, cancel)?
         };
-        let (left, right) = own.split_at(half);
-        parts[at] = Subset::new(Extent::of(left, cancel)?, first, half);
-        let right = Subset::new(Extent::of(right, cancel)?, first + half, count - half);
-        parts.insert(at + 1, right);
+        let (half, [left, right]) = (halves.first, halves.extents);
+        parts[at] = Subset::new(left, first, half);
+        parts.insert(at + 1, Subset::new(right, first + half, count - half));
     }
     Ok(parts)
 }

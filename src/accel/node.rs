@@ -11,8 +11,8 @@ use crate::geometry::lanes::{Simd, SimdBase, Singles, bits};
 /// The maximum number of children of a node.
 pub(super) const WIDTH: usize = 8;
 
-/// A closed box in `f32`, relative to the reference point of its tree. The fourth lane, zero, lets
-/// unions use whole vectors.
+/// A closed box in `f32`, relative to the reference point of its tree. The fourth lane lets unions use
+/// whole vectors.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Bounds {
     pub(super) low: [f32; 4],
@@ -39,7 +39,8 @@ impl Bounds {
 
     /// Whether all planes are finite.
     pub(super) fn is_finite(&self) -> bool {
-        self.low.iter().chain(&self.high).all(|x| x.is_finite())
+        let [low, high] = [&self.low[..3], &self.high[..3]];
+        low.iter().chain(high).all(|x| x.is_finite())
     }
 
     /// The smallest box that contains both.

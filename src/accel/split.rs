@@ -7,11 +7,27 @@ use rayon::prelude::*;
 
 use super::node::Bounds;
 
-/// A box to be inserted into the tree.
+/// A box to be inserted into the tree, with its index: half a cache line.
 #[derive(Clone, Copy, Debug)]
+#[repr(align(32))]
 pub(super) struct Reference {
+    /// Its fourth lane, of which unions make nothing meaningful, holds the bits of the index.
     pub(super) bounds: Bounds,
-    pub(super) index: u32,
+}
+
+impl Reference {
+    /// Changes the bits of an index below 2³⁰ to those of a normal number: subnormal numbers take long
+    /// to multiply.
+    const NORMAL: u32 = 1 << 30;
+
+    pub(super) fn new(mut bounds: Bounds, index: u32) -> Self {
+        bounds.low[3] = f32::from_bits(index ^ Self::NORMAL);
+        Self { bounds }
+    }
+
+    pub(super) fn index(&self) -> u32 {
+        self.bounds.low[3].to_bits() ^ Self::NORMAL
+    }
 }
 
 /// The error of a cancelled build.
@@ -58,25 +74,39 @@ impl Extent {
         references: &[Reference],
         cancel: &CancelCheck<'_>,
     ) -> Result<Self, Cancelled> {
-        gather(references, cancel, Self::EMPTY, Self::measure, |a, b| {
-            Self {
-                bounds: a.bounds.union(&b.bounds),
-                centres: a.centres.union(&b.centres),
-            }
-        })
+        if references.len() <= CHUNK {
+            return Ok(Self::measure(references));
+        }
+        let chunks = in_chunks(references, cancel, Self::measure)?;
+        Ok(chunks.iter().fold(Self::EMPTY, |all, one| all.union(one)))
     }
 
     fn measure(chunk: &[Reference]) -> Self {
         let mut extent = Self::EMPTY;
         for reference in chunk {
-            let centre = reference.bounds.centre();
-            extent.bounds = extent.bounds.union(&reference.bounds);
-            extent.centres = extent.centres.union(&Bounds {
-                low: centre,
-                high: centre,
-            });
+            extent.add(&reference.bounds);
         }
         extent
+    }
+
+    /// Adds a box.
+    #[inline]
+    fn add(&mut self, bounds: &Bounds) {
+        let centre = bounds.centre();
+        self.bounds = self.bounds.union(bounds);
+        self.centres = self.centres.union(&Bounds {
+            low: centre,
+            high: centre,
+        });
+    }
+
+    /// The extent of the boxes of both.
+    #[inline]
+    fn union(&self, other: &Self) -> Self {
+        Self {
+            bounds: self.bounds.union(&other.bounds),
+            centres: self.centres.union(&other.centres),
+        }
     }
 
     /// The axis of the widest spread of centres.
@@ -87,25 +117,48 @@ impl Extent {
     }
 }
 
+/// References divided in two nonempty parts.
+pub(super) struct Halves {
+    /// The length of the first part.
+    pub(super) first: usize,
+    pub(super) extents: [Extent; 2],
+}
+
+impl Halves {
+    /// Computes the extents of parts.
+    pub(super) fn of(
+        references: &[Reference],
+        first: usize,
+        cancel: &CancelCheck<'_>,
+    ) -> Result<Self, Cancelled> {
+        let (left, right) = references.split_at(first);
+        let extents = [Extent::of(left, cancel)?, Extent::of(right, cancel)?];
+        Ok(Self { first, extents })
+    }
+}
+
 /// Divides the references into two nonempty parts at the least cost by the heuristic, or in halves
-/// if all centres coincide, and returns the length of the first. `spare` is scratch space of the
-/// same length.
+/// if all centres coincide. `spare` is scratch space of the same length.
 pub(super) fn by_area(
     references: &mut [Reference],
     spare: &mut [Reference],
     extent: &Extent,
     cancel: &CancelCheck<'_>,
-) -> Result<usize, Cancelled> {
+) -> Result<Halves, Cancelled> {
     let division = match references.len() {
         0..MANY => cheapest::<3, { BINS / 2 }>([0, 1, 2], references, extent, cancel),
         MANY..FEW => cheapest::<1, { BINS / 2 }>([extent.widest()], references, extent, cancel),
         _ => cheapest::<1, BINS>([extent.widest()], references, extent, cancel),
     };
     match division? {
-        Some(Division { axis, grid, bin }) => partition(references, spare, cancel, |reference| {
-            grid.is_before(reference.bounds.middle(axis), bin)
-        }),
-        None => Ok(references.len() / 2),
+        Some(division) => {
+            let first = partition(references, spare, cancel, &division)?;
+            match division.extents {
+                Some(extents) => Ok(Halves { first, extents }),
+                None => Halves::of(references, first, cancel),
+            }
+        }
+        None => Halves::of(references, references.len() / 2, cancel),
     }
 }
 
@@ -116,7 +169,9 @@ pub(super) fn by_count(references: &mut [Reference], extent: &Extent) -> usize {
     let half = references.len() / 2;
     references.select_nth_unstable_by(half, |a, b| {
         let [a_centre, b_centre] = [a, b].map(|reference| reference.bounds.middle(axis));
-        a_centre.total_cmp(&b_centre).then(a.index.cmp(&b.index))
+        a_centre
+            .total_cmp(&b_centre)
+            .then(a.index().cmp(&b.index()))
     });
     half
 }
@@ -132,6 +187,19 @@ struct Division {
     axis: usize,
     grid: Grid,
     bin: usize,
+    /// The extents of the parts, if they are known.
+    extents: Option<[Extent; 2]>,
+    /// The number of boxes in the first part of each chunk, if there are several.
+    counts: Vec<usize>,
+}
+
+impl Division {
+    /// Whether a reference belongs to the first part.
+    #[inline]
+    fn is_first(&self, reference: &Reference) -> bool {
+        let centre = reference.bounds.middle(self.axis);
+        self.grid.is_before(centre, self.bin)
+    }
 }
 
 /// The cheapest division along one of the given axes; `None` if all centres share a bin on each.
@@ -142,27 +210,35 @@ fn cheapest<const AXES: usize, const COUNT: usize>(
     cancel: &CancelCheck<'_>,
 ) -> Result<Option<Division>, Cancelled> {
     let grids = axes.map(|axis| Grid::new(&extent.centres, axis, COUNT));
-    let rows = gather(
-        references,
-        cancel,
-        [const { Bins::<COUNT>::EMPTY }; AXES],
-        |chunk| {
-            let mut rows = [const { Bins::EMPTY }; AXES];
-            for reference in chunk {
-                for (at, row) in rows.iter_mut().enumerate() {
-                    let bin = grids[at].bin(reference.bounds.middle(axes[at]));
-                    row.put(bin, &reference.bounds);
+    let put = |rows: &mut [Bins<COUNT>; AXES], chunk: &[Reference]| {
+        for Reference { bounds } in chunk {
+            for (at, row) in rows.iter_mut().enumerate() {
+                let bin = grids[at].bin(bounds.middle(axes[at]));
+                // Along several axes the extents would be computed as often.
+                if AXES == 1 {
+                    row.put(bin, bounds);
+                } else {
+                    row.put_bounds(bin, bounds);
                 }
             }
+        }
+    };
+    let mut rows = [const { Bins::EMPTY }; AXES];
+    let mut chunks = Vec::new();
+    if references.len() <= CHUNK {
+        put(&mut rows, references);
+    } else {
+        chunks = in_chunks(references, cancel, |chunk| {
+            let mut rows = [const { Bins::EMPTY }; AXES];
+            put(&mut rows, chunk);
             rows
-        },
-        |mut rows, others| {
-            for (row, other) in rows.iter_mut().zip(&others) {
+        })?;
+        for others in &chunks {
+            for (row, other) in rows.iter_mut().zip(others) {
                 row.merge(other);
             }
-            rows
-        },
-    )?;
+        }
+    }
     let mut least = f64::INFINITY;
     let mut best = None;
     for (at, row) in rows.iter().enumerate() {
@@ -176,6 +252,8 @@ fn cheapest<const AXES: usize, const COUNT: usize>(
         axis: axes[at],
         grid: grids[at],
         bin,
+        extents: (AXES == 1).then(|| rows[at].extents(bin)),
+        counts: chunks.iter().map(|rows| rows[at].count(bin)).collect(),
     }))
 }
 
@@ -219,30 +297,49 @@ impl Grid {
     }
 }
 
-/// The bounds and the number of boxes in each bin along an axis.
+/// The extent and the number of boxes in each bin along an axis.
 struct Bins<const COUNT: usize> {
-    bounds: [Bounds; COUNT],
+    extents: [Extent; COUNT],
     counts: [u32; COUNT],
 }
 
 impl<const COUNT: usize> Bins<COUNT> {
     const EMPTY: Self = Self {
-        bounds: [Bounds::EMPTY; COUNT],
+        extents: [Extent::EMPTY; COUNT],
         counts: [0; COUNT],
     };
 
     #[inline]
     fn put(&mut self, bin: usize, bounds: &Bounds) {
         let bin = bin % COUNT;
-        self.bounds[bin] = self.bounds[bin].union(bounds);
+        self.extents[bin].add(bounds);
+        self.counts[bin] += 1;
+    }
+
+    /// The same without the centre.
+    #[inline]
+    fn put_bounds(&mut self, bin: usize, bounds: &Bounds) {
+        let bin = bin % COUNT;
+        self.extents[bin].bounds = self.extents[bin].bounds.union(bounds);
         self.counts[bin] += 1;
     }
 
     fn merge(&mut self, other: &Self) {
         for bin in 0..COUNT {
-            self.bounds[bin] = self.bounds[bin].union(&other.bounds[bin]);
+            self.extents[bin] = self.extents[bin].union(&other.extents[bin]);
             self.counts[bin] += other.counts[bin];
         }
+    }
+
+    /// The extents of the boxes in the bins before one, and of the others.
+    fn extents(&self, bin: usize) -> [Extent; 2] {
+        let (first, second) = self.extents.split_at(bin);
+        [first, second].map(|bins| bins.iter().fold(Extent::EMPTY, |all, one| all.union(one)))
+    }
+
+    /// The number of boxes in the bins before one.
+    fn count(&self, bin: usize) -> usize {
+        self.counts[..bin].iter().map(|&count| count as usize).sum()
     }
 
     /// The least cost of a division (infinite if all are in one bin), and its second part's first
@@ -251,14 +348,14 @@ impl<const COUNT: usize> Bins<COUNT> {
         let mut after = [f64::INFINITY; COUNT];
         let (mut bounds, mut count) = (Bounds::EMPTY, 0);
         for bin in (1..COUNT).rev() {
-            bounds = bounds.union(&self.bounds[bin]);
+            bounds = bounds.union(&self.extents[bin].bounds);
             count += self.counts[bin];
             after[bin] = cost(&bounds, count);
         }
         let mut best = (f64::INFINITY, 0);
         (bounds, count) = (Bounds::EMPTY, 0);
         for (bin, after) in after.into_iter().enumerate().skip(1) {
-            bounds = bounds.union(&self.bounds[bin - 1]);
+            bounds = bounds.union(&self.extents[bin - 1].bounds);
             count += self.counts[bin - 1];
             let both = cost(&bounds, count) + after;
             if both < best.0 {
@@ -279,44 +376,34 @@ fn cost(bounds: &Bounds, count: u32) -> f64 {
     }
 }
 
-/// Reduces chunks of references, in parallel if there are several, with a check before each.
-fn gather<T: Send>(
+/// Measures chunks of references in parallel, with a check before each.
+fn in_chunks<T: Send>(
     references: &[Reference],
     cancel: &CancelCheck<'_>,
-    empty: T,
     measure: impl Fn(&[Reference]) -> T + Sync,
-    merge: impl Fn(T, T) -> T + Sync,
-) -> Result<T, Cancelled> {
-    if references.len() <= CHUNK {
-        return Ok(measure(references));
-    }
+) -> Result<Vec<T>, Cancelled> {
     let chunks = references.par_chunks(CHUNK).map(|chunk| {
         cancel.check()?;
         Ok(measure(chunk))
     });
-    let merged = chunks.try_reduce_with(|a, b| Ok(merge(a, b)));
-    merged.unwrap_or(Ok(empty))
+    chunks.collect()
 }
 
-/// Stably moves the references that belong first to the front, and returns their number.
+/// Stably moves the references of the first part to the front, and returns their number.
 fn partition(
     references: &mut [Reference],
     spare: &mut [Reference],
     cancel: &CancelCheck<'_>,
-    belongs_first: impl Fn(&Reference) -> bool + Sync,
+    division: &Division,
 ) -> Result<usize, Cancelled> {
+    let is_first = |reference: &Reference| division.is_first(reference);
     if references.len() <= SHARED {
-        return Ok(partition_alone(references, spare, belongs_first));
+        return Ok(partition_alone(references, spare, is_first));
     }
-    let chunks = references.par_chunks(CHUNK);
-    let counts: Vec<usize> = chunks
-        .map(|chunk| chunk.iter().filter(|&one| belongs_first(one)).count())
-        .collect();
-    cancel.check()?;
-    let count = counts.iter().sum();
+    let count = division.counts.iter().sum();
     let mut rest = spare.split_at_mut(count);
-    let mut parts = Vec::with_capacity(counts.len());
-    for (chunk, count) in references.chunks(CHUNK).zip(counts) {
+    let mut parts = Vec::with_capacity(division.counts.len());
+    for (chunk, &count) in references.chunks(CHUNK).zip(&division.counts) {
         let (front, fronts) = rest.0.split_at_mut(count);
         let (back, backs) = rest.1.split_at_mut(chunk.len() - count);
         rest = (fronts, backs);
@@ -325,11 +412,7 @@ fn partition(
     parts.into_par_iter().for_each(|(chunk, front, back)| {
         let (mut front, mut back) = (front.iter_mut(), back.iter_mut());
         for one in chunk {
-            let side = if belongs_first(one) {
-                &mut front
-            } else {
-                &mut back
-            };
+            let side = if is_first(one) { &mut front } else { &mut back };
             if let Some(slot) = side.next() {
                 *slot = *one;
             }

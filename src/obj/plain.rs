@@ -7,7 +7,7 @@ use glam::{DVec2, DVec3};
 use rayon::prelude::*;
 
 use crate::geometry::ABSENT;
-use crate::text::parse_number;
+use crate::text::{leading_number, parse_number};
 
 /// The length in bytes of the parts that are read in parallel.
 pub(super) const PART: usize = 1 << 18;
@@ -98,12 +98,12 @@ fn read(text: &str, lines: usize) -> Option<Plain> {
     let mut corners = Vec::new();
     // Statements of most kinds have eight bytes at least, such as `v 0 0 0`; blank lines have one.
     let lines = lines.min(text.len() / 8);
-    for (number, line) in text.split('\n').enumerate() {
-        let line = line.trim_ascii_end();
-        if line.ends_with('\\') {
-            return None;
-        }
-        let mut words = Words { line, at: 0 };
+    let mut words = Words {
+        text,
+        line: 0,
+        at: 0,
+    };
+    for number in 0.. {
         match words.next().map(str::as_bytes) {
             // Groups and smoothing do not affect triangles.
             None | Some(b"g" | b"o" | b"s") => {}
@@ -119,7 +119,11 @@ fn read(text: &str, lines: usize) -> Option<Plain> {
             Some(b"vt") => {
                 let [u] = words.numbers()?;
                 reserve(&mut plain.uvs, lines);
-                let v = words.next().map_or(Some(0.0), |v| parse_number(v).ok())?;
+                let v = if words.has_next() {
+                    words.number()?
+                } else {
+                    0.0
+                };
                 plain.uvs.push(DVec2::new(u, v));
                 if 1 < words.count() {
                     return None;
@@ -129,15 +133,15 @@ fn read(text: &str, lines: usize) -> Option<Plain> {
                 let normal = words.numbers()?;
                 reserve(&mut plain.normals, lines);
                 plain.normals.push(DVec3::from_array(normal));
-                if words.next().is_some() {
+                if words.has_next() {
                     return None;
                 }
             }
             Some(b"f") => {
                 corners.clear();
-                while let Some(word) = words.next() {
-                    let corner = corner(word)?;
-                    let column = 1 + words.at - word.len();
+                while words.has_next() {
+                    let column = 1 + words.at - words.line;
+                    let corner = words.corner()?;
                     for (greatest, index) in plain.greatest.iter_mut().zip(corner) {
                         if index != ABSENT && greatest.0 <= index {
                             *greatest = (index + 1, number, column);
@@ -149,6 +153,9 @@ fn read(text: &str, lines: usize) -> Option<Plain> {
                 plain.face(&corners)?;
             }
             Some(_) => return None,
+        }
+        if words.end_line()? == End::Text {
+            break;
         }
     }
     Some(plain)
@@ -183,86 +190,132 @@ impl Plain {
     }
 }
 
-/// The words of a line, up to a comment.
+/// What ends at the end of a line.
+#[derive(PartialEq, Eq)]
+enum End {
+    Line,
+    Text,
+}
+
+/// The words of the lines of a text, up to comments. Each byte is looked at once, if it is a digit.
 struct Words<'t> {
-    line: &'t str,
+    text: &'t str,
+    /// Where the line starts.
+    line: usize,
     /// The offset after the last word returned.
     at: usize,
 }
 
 impl<'t> Words<'t> {
+    /// The byte at the offset; a line end after the last one.
+    #[inline(always)]
+    fn byte(&self) -> u8 {
+        self.text.as_bytes().get(self.at).copied().unwrap_or(b'\n')
+    }
+
+    /// Skips blanks; whether the line has another word.
+    #[inline(always)]
+    fn has_next(&mut self) -> bool {
+        while self.byte().is_ascii_whitespace() && self.byte() != b'\n' {
+            self.at += 1;
+        }
+        !matches!(self.byte(), b'\n' | b'#')
+    }
+
+    /// The next word of the line.
+    #[inline(always)]
+    fn next(&mut self) -> Option<&'t str> {
+        if !self.has_next() {
+            return None;
+        }
+        let start = self.at;
+        while !self.byte().is_ascii_whitespace() {
+            self.at += 1;
+        }
+        Some(&self.text[start..self.at])
+    }
+
+    /// Skips the remaining words of the line, and returns their number.
+    fn count(&mut self) -> usize {
+        std::iter::from_fn(|| self.next()).count()
+    }
+
     fn numbers<const N: usize>(&mut self) -> Option<[f64; N]> {
         let mut numbers = [0.0; N];
         for number in &mut numbers {
-            *number = parse_number(self.next()?).ok()?;
+            *number = self.number()?;
         }
         Some(numbers)
     }
 
-    fn next(&mut self) -> Option<&'t str> {
-        let bytes = self.line.as_bytes();
-        let blanks = bytes[self.at..]
-            .iter()
-            .take_while(|byte| byte.is_ascii_whitespace());
-        let start = self.at + blanks.count();
-        let word = bytes[start..]
-            .iter()
-            .take_while(|byte| !byte.is_ascii_whitespace());
-        let end = start + word.count();
-        if start == end || bytes[start] == b'#' {
+    #[inline(always)]
+    fn number(&mut self) -> Option<f64> {
+        if !self.has_next() {
             return None;
         }
-        self.at = end;
-        Some(&self.line[start..end])
+        let start = self.at;
+        if let Some((value, length)) = leading_number(&self.text.as_bytes()[start..]) {
+            self.at += length;
+            if self.byte().is_ascii_whitespace() {
+                return Some(value);
+            }
+            self.at = start;
+        }
+        parse_number(self.next()?).ok()
     }
 
-    /// The number of remaining words.
-    fn count(mut self) -> usize {
-        std::iter::from_fn(|| self.next()).count()
+    /// The indices of the corner that is the next word, converted to start at 0.
+    #[inline(always)]
+    fn corner(&mut self) -> Option<[u32; 3]> {
+        let mut corner = [ABSENT; 3];
+        for (place, index) in corner.iter_mut().enumerate() {
+            *index = match self.digits()? {
+                // Nothing between two slashes: no index.
+                None if 0 < place => ABSENT,
+                number => number?.checked_sub(1)?,
+            };
+            match self.byte() {
+                b'/' => self.at += 1,
+                byte if byte.is_ascii_whitespace() => return Some(corner),
+                _ => return None,
+            }
+        }
+        None
     }
-}
 
-/// Parses the indices of a corner, converted to start at 0.
-fn corner(word: &str) -> Option<[u32; 3]> {
-    let mut corner = [ABSENT; 3];
-    let mut rest = word.as_bytes();
-    for (place, index) in corner.iter_mut().enumerate() {
-        let (named, after) = number(rest);
-        *index = match named {
-            // Nothing between two slashes: no index.
-            None if 0 < place => ABSENT,
-            named => named?,
-        };
-        rest = match after {
-            [] => return Some(corner),
-            [b'/', rest @ ..] => rest,
-            _ => return None,
-        };
+    /// The number written by the next digits, if there are any; `None` if it may not fit.
+    #[inline(always)]
+    fn digits(&mut self) -> Option<Option<u32>> {
+        /// All numbers with this many digits fit.
+        const DIGITS: usize = 9;
+        let (start, mut value) = (self.at, 0_u32);
+        while self.byte().is_ascii_digit() {
+            value = value
+                .wrapping_mul(10)
+                .wrapping_add(u32::from(self.byte() - b'0'));
+            self.at += 1;
+        }
+        match self.at - start {
+            0 => Some(None),
+            1..=DIGITS => Some(Some(value)),
+            _ => None,
+        }
     }
-    None
-}
 
-/// Parses an index, converted to start at 0. Also returns the rest, which does not begin with a
-/// slash if the digits are not a valid index.
-fn number(bytes: &[u8]) -> (Option<u32>, &[u8]) {
-    /// All numbers with this many digits fit.
-    const DIGITS: usize = 9;
-    let digits = bytes
-        .iter()
-        .take_while(|byte| byte.is_ascii_digit())
-        .count();
-    let (digits, rest) = bytes.split_at(digits);
-    let value = |digits: &[u8]| {
-        let add = |sum: u32, digit: &u8| 10 * sum + u32::from(digit - b'0');
-        digits.iter().fold(0, add)
-    };
-    match digits.len() {
-        0 => (None, rest),
-        1..=DIGITS => match value(digits).checked_sub(1) {
-            Some(index) => (Some(index), rest),
-            None => (None, b"?"),
-        },
-        _ => (None, b"?"),
+    /// Goes on to the next line; `None` if it continues this one.
+    #[inline(always)]
+    fn end_line(&mut self) -> Option<End> {
+        let bytes = self.text.as_bytes();
+        while self.byte() != b'\n' {
+            self.at += 1;
+        }
+        if bytes[self.line..self.at].trim_ascii_end().ends_with(b"\\") {
+            return None;
+        }
+        let is_last = self.at == bytes.len();
+        self.at += 1;
+        self.line = self.at;
+        Some(if is_last { End::Text } else { End::Line })
     }
 }
 

@@ -24,8 +24,8 @@ pub use findings::Findings;
 pub use lines::{is_line_end, is_one_line_end, line_end, line_start, next_line};
 pub use nearest::nearest_word;
 pub use number::{
-    NumberError, are_plain_numbers, concise, decimals, is_integer, parse_number, rounded,
-    spell_like, without_suffix,
+    NumberError, are_plain_numbers, concise, decimals, is_integer, leading_number, parse_number,
+    rounded, spell_like, without_suffix,
 };
 pub use percentage::percentage;
 pub use seek::first_byte;

@@ -31,42 +31,56 @@ pub fn without_suffix(token: &str) -> Option<&str> {
     (parse_number(number) != Err(NumberError::NotANumber)).then_some(number)
 }
 
-/// Parses a number without exponent of at most fifteen digits, as most are; `None` for any other.
+/// Parses a token as by [`leading_number`].
+#[inline]
+fn short_number(token: &[u8]) -> Option<f64> {
+    let (value, length) = leading_number(token)?;
+    (length == token.len()).then_some(value)
+}
+
+/// Parses the number without exponent, of at most fifteen digits, at the start of a text, as most are;
+/// `None` for any other. Also returns its length; what follows may belong to it.
+///
 /// Its digits as an integer and the power of ten to divide by are both exact, so that only the
 /// division rounds (W. Clinger, "How to read floating point numbers accurately", 1990). Takes a
 /// third of the time of the standard parser.
-#[inline]
-fn short_number(token: &[u8]) -> Option<f64> {
+#[inline(always)]
+pub fn leading_number(text: &[u8]) -> Option<(f64, usize)> {
     const DIGITS: usize = 15;
     const POWERS: [f64; DIGITS + 1] = [
         1e0, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8, 1e9, 1e10, 1e11, 1e12, 1e13, 1e14, 1e15,
     ];
-    let (is_negative, unsigned) = match token {
+    let (is_negative, unsigned) = match text {
         [b'-', unsigned @ ..] => (true, unsigned),
         [b'+', unsigned @ ..] | unsigned => (false, unsigned),
     };
-    if DIGITS + 1 < unsigned.len() {
+    let (mut value, mut length) = (0_u64, 0);
+    let whole = add_digits(unsigned, &mut length, &mut value);
+    let decimals = if unsigned.get(length) == Some(&b'.') {
+        length += 1;
+        add_digits(unsigned, &mut length, &mut value)
+    } else {
+        0
+    };
+    if !(1..=DIGITS).contains(&(whole + decimals)) {
         return None;
     }
-    let mut value = 0;
-    let mut point = None;
-    for (at, byte) in unsigned.iter().enumerate() {
-        let digit = byte.wrapping_sub(b'0');
-        if digit < 10 {
-            value = 10 * value + u64::from(digit);
-        } else if *byte == b'.' && point.is_none() {
-            point = Some(at);
-        } else {
-            return None;
-        }
-    }
-    let digits = unsigned.len() - usize::from(point.is_some());
-    if digits == 0 || DIGITS < digits {
-        return None;
-    }
-    let decimals = point.map_or(0, |at| digits - at);
     let value = value as f64 / POWERS[decimals];
-    Some(if is_negative { -value } else { value })
+    let length = text.len() - unsigned.len() + length;
+    Some((if is_negative { -value } else { value }, length))
+}
+
+/// Appends the digits at an offset of a text to a number, modulo 2⁶⁴; returns how many they are.
+#[inline(always)]
+fn add_digits(text: &[u8], at: &mut usize, number: &mut u64) -> usize {
+    let start = *at;
+    while let Some(digit) = text.get(*at).map(|byte| byte.wrapping_sub(b'0'))
+        && digit < 10
+    {
+        *number = number.wrapping_mul(10).wrapping_add(u64::from(digit));
+        *at += 1;
+    }
+    *at - start
 }
 
 fn parse_any_number(token: &str) -> Result<f64, NumberError> {

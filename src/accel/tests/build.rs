@@ -87,9 +87,9 @@ fn division_by_count_halves_along_the_widest_axis() {
     let mut random = Random(7);
     let stretch = DVec3::new(1.0, 2.0, 9.0);
     let mut references: Vec<_> = (0..1001)
-        .map(|index| Reference {
-            bounds: Bounds::around(cube(stretch * random.point(), DVec3::ONE), DVec3::ZERO),
-            index,
+        .map(|index| {
+            let cube = cube(stretch * random.point(), DVec3::ONE);
+            Reference::new(Bounds::around(cube, DVec3::ZERO), index)
         })
         .collect();
     let extent = Extent::of(&references, &CancelCheck(&|| false)).expect("never cancelled");
