@@ -46,15 +46,17 @@ pub(super) fn build(
     let count = count.min(MOST) as u32;
     let (reference, spread) = median_centre(count, aabb);
     let (mut references, unbounded) = collect_references(count, aabb, reference, &cancel)?;
+    let bounded = references.len();
     let mut nodes = Vec::new();
     if !references.is_empty() {
         let extent = Extent::of(&references, &cancel)?;
-        let whole = Subset::new(extent, 0, references.len());
-        let mut spare = in_batches(references.len(), &cancel, |at| references[at])?;
-        let pieces = pieces(&mut references, &mut spare, &whole, 0, &cancel)?;
+        let whole = Subset::new(extent, 0, bounded);
+        add_spare(&mut references, &cancel)?;
+        let (references, spare) = references.split_at_mut(bounded);
+        let pieces = pieces(references, spare, &whole, 0, &cancel)?;
         nodes = joined(&pieces, &cancel)?;
     }
-    let mut order = in_batches(references.len(), &cancel, |at| references[at].index())?;
+    let mut order = in_batches(bounded, &cancel, |at| references[at].index())?;
     order.extend(unbounded);
     Ok(Bvh {
         reference,
@@ -62,7 +64,7 @@ pub(super) fn build(
         farthest: nodes.first().map_or(0.0, Node::farthest),
         nodes,
         order,
-        bounded: references.len(),
+        bounded,
         moved: 0,
     })
 }
@@ -93,7 +95,8 @@ fn collect_references(
     reference: DVec3,
     cancel: &CancelCheck<'_>,
 ) -> Result<(Vec<Reference>, Vec<u32>), Cancelled> {
-    let mut references = Vec::with_capacity(count as usize);
+    // With room for scratch, see `add_spare`.
+    let mut references = Vec::with_capacity(2 * count as usize);
     let mut unbounded = Vec::new();
     for first in (0..count).step_by(BATCH) {
         cancel.check()?;
@@ -121,6 +124,18 @@ fn collect_references(
         }
     }
     Ok((references, unbounded))
+}
+
+/// Adds as many references again, as scratch. In one allocation both are large enough, for a million
+/// boxes, that glibc returns their memory to the system at once.
+fn add_spare(references: &mut Vec<Reference>, cancel: &CancelCheck<'_>) -> Result<(), Cancelled> {
+    let (count, any) = (references.len(), references[0]);
+    for first in (0..count).step_by(BATCH) {
+        cancel.check()?;
+        let size = BATCH.min(count - first);
+        references.par_extend(rayon::iter::repeat_n(any, size));
+    }
+    Ok(())
 }
 
 /// Whether a box is empty; a box with NaN may contain anything.
