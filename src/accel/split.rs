@@ -63,12 +63,72 @@ pub(super) struct Extent {
     pub(super) centres: Bounds,
 }
 
-impl Extent {
+/// What is known of some boxes.
+trait Gathered: Copy + Send {
+    /// Of no boxes.
+    const EMPTY: Self;
+
+    /// Adds a box.
+    fn add(&mut self, bounds: &Bounds);
+
+    /// The same of the boxes of both.
+    #[must_use]
+    fn union(&self, other: &Self) -> Self;
+
+    /// The smallest box that contains all.
+    fn bounds(&self) -> &Bounds;
+}
+
+impl Gathered for Bounds {
+    const EMPTY: Self = Self::EMPTY;
+
+    #[inline]
+    fn add(&mut self, bounds: &Bounds) {
+        *self = self.union(bounds);
+    }
+
+    #[inline]
+    fn union(&self, other: &Self) -> Self {
+        self.union(other)
+    }
+
+    #[inline]
+    fn bounds(&self) -> &Bounds {
+        self
+    }
+}
+
+impl Gathered for Extent {
     const EMPTY: Self = Self {
         bounds: Bounds::EMPTY,
         centres: Bounds::EMPTY,
     };
 
+    #[inline]
+    fn add(&mut self, bounds: &Bounds) {
+        let centre = bounds.centre();
+        self.bounds = self.bounds.union(bounds);
+        self.centres = self.centres.union(&Bounds {
+            low: centre,
+            high: centre,
+        });
+    }
+
+    #[inline]
+    fn union(&self, other: &Self) -> Self {
+        Self {
+            bounds: self.bounds.union(&other.bounds),
+            centres: self.centres.union(&other.centres),
+        }
+    }
+
+    #[inline]
+    fn bounds(&self) -> &Bounds {
+        &self.bounds
+    }
+}
+
+impl Extent {
     /// Computes the extent of references.
     pub(super) fn of(
         references: &[Reference],
@@ -87,26 +147,6 @@ impl Extent {
             extent.add(&reference.bounds);
         }
         extent
-    }
-
-    /// Adds a box.
-    #[inline]
-    fn add(&mut self, bounds: &Bounds) {
-        let centre = bounds.centre();
-        self.bounds = self.bounds.union(bounds);
-        self.centres = self.centres.union(&Bounds {
-            low: centre,
-            high: centre,
-        });
-    }
-
-    /// The extent of the boxes of both.
-    #[inline]
-    fn union(&self, other: &Self) -> Self {
-        Self {
-            bounds: self.bounds.union(&other.bounds),
-            centres: self.centres.union(&other.centres),
-        }
     }
 
     /// The axis of the widest spread of centres.
@@ -145,20 +185,30 @@ pub(super) fn by_area(
     extent: &Extent,
     cancel: &CancelCheck<'_>,
 ) -> Result<Halves, Cancelled> {
-    let division = match references.len() {
-        0..MANY => cheapest::<3, { BINS / 2 }>([0, 1, 2], references, extent, cancel),
-        MANY..FEW => cheapest::<1, { BINS / 2 }>([extent.widest()], references, extent, cancel),
-        _ => cheapest::<1, BINS>([extent.widest()], references, extent, cancel),
-    };
-    match division? {
-        Some(division) => {
-            let first = partition(references, spare, cancel, &division)?;
-            match division.extents {
-                Some(extents) => Ok(Halves { first, extents }),
-                None => Halves::of(references, first, cancel),
-            }
+    let count = references.len();
+    let widest = [extent.widest()];
+    let division = match count {
+        // There is only one way.
+        2 => return Halves::of(references, 1, cancel),
+        0..MANY => {
+            let division =
+                cheapest::<Bounds, 3, { BINS / 2 }>([0, 1, 2], references, extent, cancel)?;
+            let first = match division {
+                Some(division) => partition(references, spare, cancel, &division)?,
+                None => count / 2,
+            };
+            // Along three axes they would have been computed three times.
+            return Halves::of(references, first, cancel);
         }
-        None => Halves::of(references, references.len() / 2, cancel),
+        MANY..FEW => cheapest::<Extent, 1, { BINS / 2 }>(widest, references, extent, cancel)?,
+        _ => cheapest::<Extent, 1, BINS>(widest, references, extent, cancel)?,
+    };
+    match division {
+        Some(division) => Ok(Halves {
+            first: partition(references, spare, cancel, &division)?,
+            extents: division.parts,
+        }),
+        None => Halves::of(references, count / 2, cancel),
     }
 }
 
@@ -183,17 +233,16 @@ const BINS: usize = 16;
 const FEW: usize = 64;
 
 /// A division: boxes with centres in the bins before `bin` go to the first part.
-struct Division {
+struct Division<G> {
     axis: usize,
     grid: Grid,
     bin: usize,
-    /// The extents of the parts, if they are known.
-    extents: Option<[Extent; 2]>,
+    parts: [G; 2],
     /// The number of boxes in the first part of each chunk, if there are several.
     counts: Vec<usize>,
 }
 
-impl Division {
+impl<G> Division<G> {
     /// Whether a reference belongs to the first part.
     #[inline]
     fn is_first(&self, reference: &Reference) -> bool {
@@ -203,23 +252,17 @@ impl Division {
 }
 
 /// The cheapest division along one of the given axes; `None` if all centres share a bin on each.
-fn cheapest<const AXES: usize, const COUNT: usize>(
+fn cheapest<G: Gathered, const AXES: usize, const COUNT: usize>(
     axes: [usize; AXES],
     references: &[Reference],
     extent: &Extent,
     cancel: &CancelCheck<'_>,
-) -> Result<Option<Division>, Cancelled> {
+) -> Result<Option<Division<G>>, Cancelled> {
     let grids = axes.map(|axis| Grid::new(&extent.centres, axis, COUNT));
-    let put = |rows: &mut [Bins<COUNT>; AXES], chunk: &[Reference]| {
+    let put = |rows: &mut [Bins<G, COUNT>; AXES], chunk: &[Reference]| {
         for Reference { bounds } in chunk {
             for (at, row) in rows.iter_mut().enumerate() {
-                let bin = grids[at].bin(bounds.middle(axes[at]));
-                // Along several axes the extents would be computed as often.
-                if AXES == 1 {
-                    row.put(bin, bounds);
-                } else {
-                    row.put_bounds(bin, bounds);
-                }
+                row.put(grids[at].bin(bounds.middle(axes[at])), bounds);
             }
         }
     };
@@ -252,7 +295,7 @@ fn cheapest<const AXES: usize, const COUNT: usize>(
         axis: axes[at],
         grid: grids[at],
         bin,
-        extents: (AXES == 1).then(|| rows[at].extents(bin)),
+        parts: rows[at].parts(bin),
         counts: chunks.iter().map(|rows| rows[at].count(bin)).collect(),
     }))
 }
@@ -297,44 +340,36 @@ impl Grid {
     }
 }
 
-/// The extent and the number of boxes in each bin along an axis.
-struct Bins<const COUNT: usize> {
-    extents: [Extent; COUNT],
+/// The boxes in each bin along an axis, and their number.
+struct Bins<G, const COUNT: usize> {
+    gathered: [G; COUNT],
     counts: [u32; COUNT],
 }
 
-impl<const COUNT: usize> Bins<COUNT> {
+impl<G: Gathered, const COUNT: usize> Bins<G, COUNT> {
     const EMPTY: Self = Self {
-        extents: [Extent::EMPTY; COUNT],
+        gathered: [G::EMPTY; COUNT],
         counts: [0; COUNT],
     };
 
     #[inline]
     fn put(&mut self, bin: usize, bounds: &Bounds) {
         let bin = bin % COUNT;
-        self.extents[bin].add(bounds);
-        self.counts[bin] += 1;
-    }
-
-    /// The same without the centre.
-    #[inline]
-    fn put_bounds(&mut self, bin: usize, bounds: &Bounds) {
-        let bin = bin % COUNT;
-        self.extents[bin].bounds = self.extents[bin].bounds.union(bounds);
+        self.gathered[bin].add(bounds);
         self.counts[bin] += 1;
     }
 
     fn merge(&mut self, other: &Self) {
         for bin in 0..COUNT {
-            self.extents[bin] = self.extents[bin].union(&other.extents[bin]);
+            self.gathered[bin] = self.gathered[bin].union(&other.gathered[bin]);
             self.counts[bin] += other.counts[bin];
         }
     }
 
-    /// The extents of the boxes in the bins before one, and of the others.
-    fn extents(&self, bin: usize) -> [Extent; 2] {
-        let (first, second) = self.extents.split_at(bin);
-        [first, second].map(|bins| bins.iter().fold(Extent::EMPTY, |all, one| all.union(one)))
+    /// The boxes in the bins before one, and the others.
+    fn parts(&self, bin: usize) -> [G; 2] {
+        let (first, second) = self.gathered.split_at(bin);
+        [first, second].map(|bins| bins.iter().fold(G::EMPTY, |all, one| all.union(one)))
     }
 
     /// The number of boxes in the bins before one.
@@ -348,14 +383,14 @@ impl<const COUNT: usize> Bins<COUNT> {
         let mut after = [f64::INFINITY; COUNT];
         let (mut bounds, mut count) = (Bounds::EMPTY, 0);
         for bin in (1..COUNT).rev() {
-            bounds = bounds.union(&self.extents[bin].bounds);
+            bounds = bounds.union(self.gathered[bin].bounds());
             count += self.counts[bin];
             after[bin] = cost(&bounds, count);
         }
         let mut best = (f64::INFINITY, 0);
         (bounds, count) = (Bounds::EMPTY, 0);
         for (bin, after) in after.into_iter().enumerate().skip(1) {
-            bounds = bounds.union(&self.extents[bin - 1].bounds);
+            bounds = bounds.union(self.gathered[bin - 1].bounds());
             count += self.counts[bin - 1];
             let both = cost(&bounds, count) + after;
             if both < best.0 {
@@ -390,11 +425,11 @@ fn in_chunks<T: Send>(
 }
 
 /// Stably moves the references of the first part to the front, and returns their number.
-fn partition(
+fn partition<G: Sync>(
     references: &mut [Reference],
     spare: &mut [Reference],
     cancel: &CancelCheck<'_>,
-    division: &Division,
+    division: &Division<G>,
 ) -> Result<usize, Cancelled> {
     let is_first = |reference: &Reference| division.is_first(reference);
     if references.len() <= SHARED {
