@@ -59,5 +59,5 @@ pub use ray::{Packet, Packets, Ray, Rays};
 pub use shape::Shape;
 pub use solid::Solid;
 pub use sphere::{Sphere, may_meet, sphere_hits, sphere_surfaces};
-pub use surface::{Surface, Surfaces, ulp};
+pub use surface::{Shaded, Surface, Surfaces, ulp};
 pub use transform::{Affine, FLATTEST, normalise};

@@ -3,9 +3,9 @@
 use std::sync::Arc;
 
 use super::hit::{Hit, Hits, Spans};
-use super::lanes::{Eight, Simd, Vector};
+use super::lanes::{Eight, Simd};
 use super::ray::{Ray, Rays};
-use super::{Aabb, Chart, Csg, Instance, Plane, Solid, Surface, Surfaces};
+use super::{Aabb, Chart, Csg, Instance, Plane, Shaded, Solid, Surface};
 
 /// A solid, or a surface that need not bound one.
 #[derive(Clone, Debug, PartialEq)]
@@ -84,21 +84,23 @@ impl Shape {
         }
     }
 
-    /// The surfaces and the shading normals at the hits of a packet of eight rays; lanes without a hit
-    /// are undefined. `None` if the shape supports single rays only.
+    /// The same for a packet of eight rays; lanes without a hit are undefined. `None` if the shape
+    /// supports single rays only.
     #[inline(always)]
     pub fn surfaces<S: Simd>(
         &self,
         rays: &Rays<Eight<S>>,
         hits: &Hits,
-    ) -> Option<(Surfaces<Eight<S>>, Vector<Eight<S>>)> {
-        let surfaces = match self {
-            Self::Solid(solid) => solid.surfaces(rays, hits)?,
-            Self::Csg(csg) => csg.surfaces(rays, hits)?,
-            Self::Plane(plane) => plane.surface(rays, hits.ends(rays.origin.x.simd)),
-            Self::Mesh(instance) => return Some(instance.surfaces(rays, hits)),
-        };
-        Some((surfaces, surfaces.normal))
+    ) -> Option<Shaded<Eight<S>>> {
+        match self {
+            Self::Solid(solid) => solid.surfaces(rays, hits).map(Shaded::from),
+            Self::Csg(csg) => csg.surfaces(rays, hits).map(Shaded::from),
+            Self::Plane(plane) => {
+                let surfaces = plane.surface(rays, hits.ends(rays.origin.x.simd));
+                Some(surfaces.into())
+            }
+            Self::Mesh(instance) => Some(instance.surfaces(rays, hits)),
+        }
     }
 
     /// The texture coordinates at a hit of this shape, in its own frame.

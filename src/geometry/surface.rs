@@ -52,6 +52,35 @@ pub struct Surfaces<N> {
     pub scale: N,
 }
 
+/// Points on surfaces with their shading normals, in each lane.
+#[derive(Clone, Copy, Debug)]
+pub struct Shaded<N> {
+    /// The points.
+    pub surface: Surfaces<N>,
+    /// See [`Surface::shading`].
+    pub shading: Vector<N>,
+}
+
+impl<N: Copy> From<Surfaces<N>> for Shaded<N> {
+    #[inline(always)]
+    fn from(surface: Surfaces<N>) -> Self {
+        Self {
+            shading: surface.normal,
+            surface,
+        }
+    }
+}
+
+impl From<Shaded<f64>> for Surface {
+    #[inline(always)]
+    fn from(Shaded { surface, shading }: Shaded<f64>) -> Self {
+        Self {
+            shading: shading.into(),
+            ..surface.into()
+        }
+    }
+}
+
 impl<N: Lanes> Surfaces<N> {
     /// The starts of leaving rays: see [`Surface::leave`].
     #[inline(always)]

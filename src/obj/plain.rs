@@ -267,12 +267,15 @@ impl<'t> Words<'t> {
     /// The indices of the corner that is the next word, converted to start at 0.
     #[inline(always)]
     fn corner(&mut self) -> Option<[u32; 3]> {
+        /// All numbers with this many digits fit.
+        const DIGITS: usize = 9;
         let mut corner = [ABSENT; 3];
         for (place, index) in corner.iter_mut().enumerate() {
-            *index = match self.digits()? {
+            *index = match self.digits() {
                 // Nothing between two slashes: no index.
-                None if 0 < place => ABSENT,
-                number => number?.checked_sub(1)?,
+                (0, _) if 0 < place => ABSENT,
+                (1..=DIGITS, number) => number.checked_sub(1)?,
+                _ => return None,
             };
             match self.byte() {
                 b'/' => self.at += 1,
@@ -283,11 +286,9 @@ impl<'t> Words<'t> {
         None
     }
 
-    /// The number written by the next digits, if there are any; `None` if it may not fit.
+    /// Skips digits; returns how many they are, and their number modulo 2³².
     #[inline(always)]
-    fn digits(&mut self) -> Option<Option<u32>> {
-        /// All numbers with this many digits fit.
-        const DIGITS: usize = 9;
+    fn digits(&mut self) -> (usize, u32) {
         let (start, mut value) = (self.at, 0_u32);
         while self.byte().is_ascii_digit() {
             value = value
@@ -295,11 +296,7 @@ impl<'t> Words<'t> {
                 .wrapping_add(u32::from(self.byte() - b'0'));
             self.at += 1;
         }
-        match self.at - start {
-            0 => Some(None),
-            1..=DIGITS => Some(Some(value)),
-            _ => None,
-        }
+        (self.at - start, value)
     }
 
     /// Goes on to the next line; `None` if it continues this one.

@@ -130,21 +130,18 @@ impl World {
             let first = rest.trailing_zeros() as usize % WIDTH;
             let Some(met) = nearest[first] else { break };
             let shape = &self.scene.objects[met.object as usize].shape;
-            let found = match shape {
-                Shape::Solid(Solid::Sphere(_)) => {
-                    let (lanes, found) = self.of_spheres(&rays, nearest, &hits);
-                    Some((lanes, (found, found.normal)))
-                }
-                _ => {
-                    let lanes = lanes_of(nearest, met.object);
-                    let found = shape.surfaces(&rays, &hits.within(lanes));
-                    found.map(|found| (lanes, found))
-                }
+            let found = if let Shape::Solid(Solid::Sphere(_)) = shape {
+                let (lanes, found) = self.of_spheres(&rays, nearest, &hits);
+                Some((lanes, found.into()))
+            } else {
+                let lanes = lanes_of(nearest, met.object);
+                let found = shape.surfaces(&rays, &hits.within(lanes));
+                found.map(|found| (lanes, found))
             };
-            if let Some((lanes, (found, normal))) = found {
+            if let Some((lanes, found)) = found {
                 let chosen = mask(simd, lanes);
-                surface = Surfaces::select(chosen, found, surface);
-                shading = Vector::select(chosen, normal, shading);
+                surface = Surfaces::select(chosen, found.surface, surface);
+                shading = Vector::select(chosen, found.shading, shading);
                 rest &= !lanes;
             } else {
                 let found = shape.surface(&packet.ray(first), met.hit);

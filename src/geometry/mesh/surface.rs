@@ -6,28 +6,20 @@ use super::Instance;
 use crate::geometry::lanes::{Eight, Lanes, Row, Simd, Vector, each_bit};
 use crate::geometry::transform::{exact_cross_each, normalised};
 use crate::geometry::triangle::Shears;
-use crate::geometry::{Chart, Hit, Hits, Ray, Rays, Surface, Surfaces};
+use crate::geometry::{Chart, Hit, Hits, Ray, Rays, Shaded, Surface};
 
 impl Instance {
     /// The surface at a hit.
     pub fn surface(&self, ray: &Ray, hit: Hit) -> Surface {
         let corners = self.mesh().vertices(hit.part).map(Vector::from);
         let normals = self.normals(hit.part).map(Vector::from);
-        let (surface, shading) = self.on_triangles(&ray.into(), corners, Some(normals));
-        Surface {
-            shading: shading.into(),
-            ..surface.into()
-        }
+        self.on_triangles(&ray.into(), corners, Some(normals))
+            .into()
     }
 
-    /// The surfaces and the shading normals at the hits of a packet of eight rays; lanes without a hit
-    /// are undefined.
+    /// The same for a packet of eight rays; lanes without a hit are undefined.
     #[inline(always)]
-    pub fn surfaces<S: Simd>(
-        &self,
-        rays: &Rays<Eight<S>>,
-        hits: &Hits,
-    ) -> (Surfaces<Eight<S>>, Vector<Eight<S>>) {
+    pub fn surfaces<S: Simd>(&self, rays: &Rays<Eight<S>>, hits: &Hits) -> Shaded<Eight<S>> {
         let simd = rays.origin.x.simd;
         let corners = gathered(simd, hits, |part| self.mesh().vertices(part));
         let has_normals = !self.mesh().normals.values.is_empty();
@@ -35,15 +27,15 @@ impl Instance {
         self.on_triangles(rays, corners, normals)
     }
 
-    /// The surfaces and the shading normals where rays meet triangles, from the vertices in unit space
-    /// and the normals there; normals that are zero do not count.
+    /// The surfaces where rays meet triangles, from the vertices in unit space and the normals there;
+    /// normals that are zero do not count.
     #[inline(always)]
     fn on_triangles<N: Lanes>(
         &self,
         rays: &Rays<N>,
         corners: [Vector<N>; 3],
         normals: Option<[Vector<N>; 3]>,
-    ) -> (Surfaces<N>, Vector<N>) {
+    ) -> Shaded<N> {
         let weights = self.weights(rays, corners);
         let sides = opposite(corners);
         let across = exact_cross_each(sides[2], -sides[1]);
@@ -79,7 +71,7 @@ impl Instance {
             }
             None => surface.normal,
         };
-        (surface, shading)
+        Shaded { surface, shading }
     }
 
     /// The barycentric coordinates where rays meet triangles, from the vertices in unit space.

@@ -42,7 +42,7 @@ fn surfaces(level: Level, shape: &Shape, rays: &[Ray; WIDTH], hits: &Hits) -> Ve
     dispatch!(level, simd => {
         let packet = Rays::gather(simd, rays);
         let found = shape.surfaces(&packet, hits);
-        let found = found.map(|(surfaces, shading)| (surfaces.store(), shading.store()));
+        let found = found.map(|found| (found.surface.store(), found.shading.store()));
         found.into_iter().flat_map(|(found, shading)| (0..WIDTH).map(move |lane| Surface {
             point: found.point.get(lane),
             normal: found.normal.get(lane),
