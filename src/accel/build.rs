@@ -343,7 +343,8 @@ fn divide(
             let half = by_count(own, &extent);
             Halves::of(own, half, cancel)?
         };
-        let (half, [left, right]) = (halves.first, halves.extents);
+        let half = halves.first;
+        let [left, right] = halves.extents;
         parts[at] = Subset::new(left, first, half);
         parts.insert(at + 1, Subset::new(right, first + half, count - half));
     }

@@ -11,20 +11,22 @@ use super::node::Bounds;
 #[derive(Clone, Copy, Debug)]
 #[repr(align(32))]
 pub(super) struct Reference {
-    /// Its fourth lane, of which unions make nothing meaningful, holds the bits of the index.
+    /// The fourth lane of `low`, meaningless in unions, holds the bits of the index.
     pub(super) bounds: Bounds,
 }
 
 impl Reference {
-    /// Changes the bits of an index below 2³⁰ to those of a normal number: subnormal numbers take long
-    /// to multiply.
+    /// Changes the bits of an index below a billion to those of a normal number: subnormal numbers take
+    /// long to multiply.
     const NORMAL: u32 = 1 << 30;
 
+    /// A box with its index among all.
     pub(super) fn new(mut bounds: Bounds, index: u32) -> Self {
         bounds.low[3] = f32::from_bits(index ^ Self::NORMAL);
         Self { bounds }
     }
 
+    /// The index of the box.
     pub(super) fn index(&self) -> u32 {
         self.bounds.low[3].to_bits() ^ Self::NORMAL
     }
@@ -197,7 +199,7 @@ pub(super) fn by_area(
                 Some(division) => partition(references, spare, cancel, &division)?,
                 None => count / 2,
             };
-            // Along three axes they would have been computed three times.
+            // Gathering extents along three axes would compute them three times.
             return Halves::of(references, first, cancel);
         }
         MANY..FEW => cheapest::<Extent, 1, { BINS / 2 }>(widest, references, extent, cancel)?,
@@ -431,6 +433,7 @@ fn partition<G: Sync>(
     cancel: &CancelCheck<'_>,
     division: &Division<G>,
 ) -> Result<usize, Cancelled> {
+    const { assert!(CHUNK <= SHARED, "larger sets are counted in chunks") };
     let is_first = |reference: &Reference| division.is_first(reference);
     if references.len() <= SHARED {
         return Ok(partition_alone(references, spare, is_first));
@@ -444,7 +447,8 @@ fn partition<G: Sync>(
         rest = (fronts, backs);
         parts.push((chunk, front, back));
     }
-    parts.into_par_iter().for_each(|(chunk, front, back)| {
+    parts.into_par_iter().try_for_each(|(chunk, front, back)| {
+        cancel.check()?;
         let (mut front, mut back) = (front.iter_mut(), back.iter_mut());
         for one in chunk {
             let side = if is_first(one) { &mut front } else { &mut back };
@@ -452,13 +456,17 @@ fn partition<G: Sync>(
                 *slot = *one;
             }
         }
-    });
-    cancel.check()?;
-    let back = spare.par_chunks(CHUNK);
-    references
-        .par_chunks_mut(CHUNK)
-        .zip(back)
-        .for_each(|(to, from)| to.copy_from_slice(from));
+        // Bins and sides agree, see `Grid::is_before`.
+        debug_assert!(front.len() == 0 && back.len() == 0);
+        Ok(())
+    })?;
+    let moved = spare.par_chunks(CHUNK);
+    let pairs = references.par_chunks_mut(CHUNK).zip(moved);
+    pairs.try_for_each(|(to, from)| {
+        cancel.check()?;
+        to.copy_from_slice(from);
+        Ok(())
+    })?;
     Ok(count)
 }
 

@@ -41,7 +41,7 @@ pub fn ulp(x: f64) -> f64 {
     Lanes::ulp(x)
 }
 
-/// A point on a surface in each lane: see [`Surface`]. The shading normal is the geometric one.
+/// A point on a surface in each lane, without a shading normal: see [`Surface`].
 #[derive(Clone, Copy, Debug)]
 pub struct Surfaces<N> {
     /// The points.

@@ -74,11 +74,15 @@ fn cut(bytes: &[u8], part: usize) -> Vec<Range<usize>> {
     let mut start = 0;
     while start < bytes.len() || parts.is_empty() {
         let mut end = bytes.len().min(start + part);
+        let before = bytes[start..end].iter().rposition(|&byte| byte == b'\n');
+        let mut line_start = before.map_or(start, |before| start + before + 1);
         while end < bytes.len() {
             let line = bytes[end..].iter().position(|&byte| byte == b'\n');
             let line_end = line.map_or(bytes.len(), |line| end + line);
-            let continues = bytes[start..line_end].trim_ascii_end().ends_with(b"\\");
+            let line = &bytes[line_start..line_end];
+            let continues = line.trim_ascii_end().ends_with(b"\\");
             end = bytes.len().min(line_end + 1);
+            line_start = end;
             if !continues {
                 break;
             }
@@ -197,12 +201,12 @@ enum End {
     Text,
 }
 
-/// The words of the lines of a text, up to comments. Each byte is looked at once, if it is a digit.
+/// The words of the lines of a text, up to comments. The digits of most numbers are read once.
 struct Words<'t> {
     text: &'t str,
     /// Where the line starts.
     line: usize,
-    /// The offset after the last word returned.
+    /// The offset of the next byte.
     at: usize,
 }
 
@@ -240,6 +244,7 @@ impl<'t> Words<'t> {
         std::iter::from_fn(|| self.next()).count()
     }
 
+    /// The numbers that are the next words.
     fn numbers<const N: usize>(&mut self) -> Option<[f64; N]> {
         let mut numbers = [0.0; N];
         for number in &mut numbers {
@@ -248,6 +253,7 @@ impl<'t> Words<'t> {
         Some(numbers)
     }
 
+    /// The number that is the next word.
     #[inline(always)]
     fn number(&mut self) -> Option<f64> {
         if !self.has_next() {
@@ -342,5 +348,11 @@ mod tests {
         assert_eq!(cuts(2), [4, 13, 17, text.len()]);
         assert_eq!(cuts(5), [13, text.len()]);
         assert_eq!(cut(b"", 5).len(), 1);
+        // A blank line ends a statement.
+        let ends = cut(b"v 1 \\\n\n\nv 2", 2);
+        assert_eq!(
+            ends.iter().map(|part| part.end).collect::<Vec<_>>(),
+            [7, 11]
+        );
     }
 }

@@ -398,12 +398,14 @@ proptest! {
     #[test]
     fn parts_are_read_like_the_whole(
         mixed in prop_oneof![Just(""), Just("mtllib l\n"), Just("v 1 2\n"), Just("\n \n")],
-        lines in prop::collection::vec("(v -?[0-9.]{1,4} 1 [0-9]|v 1 2 3 4|vt [0-9]( 1)?|vn 0 0 1|usemtl [ab]|g a|# f|v 1 2 3 \\\\|f 1 [1-3] 3( 4)?|f [1-5]/[1-3]/[1-2] 2/1/[1-4] 1//2|f -1 2 3|f 0 1 2|f 1/ 2 3/|fo 1 2 3|x| |)( #c| {0,2}\r?)\n", 0..40),
+        lines in prop::collection::vec("(v -?[0-9.]{1,4} 1 [0-9]|v \\+1e-1 \\.0{16}[1-9] 5\\.|v 1#x 2 3|\x0c v 1 2 3|v 1 2 3 4|vt [0-9]( 1)?|vn 0 0 1|usemtl [ab]|g a|# f|v 1 2 3 \\\\|f 1 [1-3] 3( 4)?|f [1-5]/[1-3]/[1-2] 2/1/[1-4] 1//2|f -1 2 3|f 0 1 2|f 1234567890 1 2|f 1/ 2 3/|fo 1 2 3|x| |)( #c| {0,2}\r?)\n", 0..40),
         size in 1usize..80,
         most in 3usize..60,
+        ends in any::<bool>(),
     ) {
         let corners = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0 0 1\nvt 0 0\nvt 1 0\nvt 1 1\nvn 0 0 1\nvn 0 1 0\n";
         let text = format!("{mixed}{corners}{}", lines.concat());
+        let text = if ends { &text[..] } else { text.trim_end_matches('\n') };
         let parts = plain::parts(text.as_bytes(), size);
         let in_order = |size| {
             let parts = plain::parts(text.as_bytes(), size).into_iter();

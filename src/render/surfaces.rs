@@ -134,7 +134,7 @@ impl World {
                 let (lanes, found) = self.of_spheres(&rays, nearest, &hits);
                 Some((lanes, found.into()))
             } else {
-                let lanes = lanes_of(nearest, met.object);
+                let lanes = lanes_of(nearest, met.object) & rest;
                 let found = shape.surfaces(&rays, &hits.within(lanes));
                 found.map(|found| (lanes, found))
             };

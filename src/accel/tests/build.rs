@@ -5,7 +5,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use super::super::RUN;
 use super::super::build::LEVELS;
 use super::super::node::{Bounds, Child, WIDTH};
-use super::super::split::{CancelCheck, Extent, Reference, by_count};
+use super::super::split::{CancelCheck, Extent, Halves, Reference, by_area, by_count};
 use super::*;
 use crate::geometry::Ray;
 use crate::geometry::lanes::{Level, dispatch};
@@ -105,6 +105,36 @@ fn division_by_count_halves_along_the_widest_axis() {
 }
 
 #[test]
+fn parts_have_the_extents_of_their_boxes() {
+    let mut random = Random(8);
+    let cancel = CancelCheck(&|| false);
+    for count in [2, 3, 15, 16, 63, 64, 1000, 100_000] {
+        let mut references: Vec<_> = (0..count)
+            .map(|index| {
+                let cube = cube(random.point(), DVec3::splat(0.1));
+                Reference::new(Bounds::around(cube, DVec3::ZERO), index)
+            })
+            .collect();
+        let mut spare = references.clone();
+        let extent = Extent::of(&references, &cancel).expect("never cancelled");
+        let halves = by_area(&mut references, &mut spare, &extent, &cancel);
+        let halves = halves.expect("never cancelled");
+        let again = Halves::of(&references, halves.first, &cancel).expect("never cancelled");
+        for (extent, again) in halves.extents.iter().zip(&again.extents) {
+            let corners = |extent: &Extent| {
+                let Extent { bounds, centres } = extent;
+                let all = [bounds.low, bounds.high, centres.low, centres.high];
+                all.map(|[x, y, z, _]| [x, y, z])
+            };
+            assert_eq!(corners(extent), corners(again), "{count}");
+        }
+        let mut indices: Vec<_> = references.iter().map(Reference::index).collect();
+        indices.sort_unstable();
+        assert!(indices.into_iter().eq(0..count), "{count}");
+    }
+}
+
+#[test]
 fn coincident_boxes_make_a_shallow_tree() {
     let boxes = vec![cube(DVec3::ONE, DVec3::ONE); 1_000_000];
     let bvh = build(&boxes);
@@ -157,7 +187,7 @@ fn a_build_checks_often_and_stops_when_cancelled() {
         false
     });
     assert!(whole.is_some());
-    // At least five binary levels process every chunk of 8192 boxes.
+    // Each chunk of 8192 boxes is checked several times.
     let calls = calls.into_inner();
     assert!(5 * 12 < calls, "{calls} calls");
     for checks in [1, 10, calls / 2, calls - 1] {

@@ -18,7 +18,7 @@ mod uncut;
 use std::ptr;
 
 use self::program::Program;
-use super::lanes::{Eight, Simd, Vector, bits, mask};
+use super::lanes::{Eight, Simd, Vector, WIDTH, bits, mask};
 use super::{Aabb, Chart, Crossings, Hit, Hits, Ray, Rays, Solid, Spans, Surface, Surfaces, ulp};
 
 /// A set operation on two closed solids.
@@ -268,23 +268,31 @@ impl Csg {
         hits: &Hits,
     ) -> Option<Surfaces<Eight<S>>> {
         let simd = rays.origin.x.simd;
+        let (mut leaves, mut inverted) = ([&self.leaves[0]; WIDTH], 0);
+        let own = Hits::one_by_one(
+            hits.lanes,
+            #[inline(always)]
+            |lane| {
+                let hit = hits.hit(lane);
+                inverted |= u32::from(is_inverted(hit)) << lane;
+                let (leaf, own) = self.leaf(hit);
+                leaves[lane % WIDTH] = leaf;
+                Some(own)
+            },
+        )?;
         let mut surfaces = None;
-        let (mut rest, mut inverted) = (hits.lanes, 0);
+        let mut rest = hits.lanes;
         while rest != 0 {
-            let (leaf, _) = self.leaf(hits.hit(rest.trailing_zeros() as usize));
-            let own = Hits::new(
-                #[inline(always)]
-                |lane| {
-                    let hit = hits.hit(lane);
-                    inverted |= u32::from(is_inverted(hit)) << lane;
-                    let (of, own) = self.leaf(hit);
-                    (rest >> lane & 1 == 1 && ptr::eq(leaf, of)).then_some(own)
-                },
-            );
-            let found = leaf.solid.surfaces(rays, &own)?;
+            let leaf = leaves[rest.trailing_zeros() as usize % WIDTH];
+            let mut lanes = 0;
+            for (lane, other) in leaves.into_iter().enumerate() {
+                lanes |= u32::from(ptr::eq(leaf, other)) << lane;
+            }
+            let lanes = lanes & rest;
+            let found = leaf.solid.surfaces(rays, &own.within(lanes))?;
             let others = surfaces.unwrap_or(found);
-            surfaces = Some(Surfaces::select(mask(simd, own.lanes), found, others));
-            rest &= !own.lanes;
+            surfaces = Some(Surfaces::select(mask(simd, lanes), found, others));
+            rest &= !lanes;
         }
         let mut surfaces = surfaces?;
         let normal = surfaces.normal;

@@ -12,9 +12,10 @@ impl Instance {
     /// The surface at a hit.
     pub fn surface(&self, ray: &Ray, hit: Hit) -> Surface {
         let corners = self.mesh().vertices(hit.part).map(Vector::from);
-        let normals = self.normals(hit.part).map(Vector::from);
-        self.on_triangles(&ray.into(), corners, Some(normals))
-            .into()
+        let normals = self
+            .has_normals()
+            .then(|| self.normals(hit.part).map(Vector::from));
+        self.on_triangles(&ray.into(), corners, normals).into()
     }
 
     /// The same for a packet of eight rays; lanes without a hit are undefined.
@@ -22,8 +23,9 @@ impl Instance {
     pub fn surfaces<S: Simd>(&self, rays: &Rays<Eight<S>>, hits: &Hits) -> Shaded<Eight<S>> {
         let simd = rays.origin.x.simd;
         let corners = gathered(simd, hits, |part| self.mesh().vertices(part));
-        let has_normals = !self.mesh().normals.values.is_empty();
-        let normals = has_normals.then(|| gathered(simd, hits, |part| self.normals(part)));
+        let normals = self
+            .has_normals()
+            .then(|| gathered(simd, hits, |part| self.normals(part)));
         self.on_triangles(rays, corners, normals)
     }
 
@@ -89,6 +91,11 @@ impl Instance {
         }
     }
 
+    /// Whether some vertices have normals.
+    fn has_normals(&self) -> bool {
+        !self.mesh().normals.values.is_empty()
+    }
+
     /// The normals at the vertices of a triangle, zero unless it has all three.
     fn normals(&self, triangle: u32) -> [DVec3; 3] {
         let mesh = self.mesh();
@@ -130,15 +137,15 @@ impl Instance {
     }
 }
 
-/// Three vectors of each triangle that was hit, zero in lanes without a hit.
+/// Three vectors of each triangle that was hit; lanes without a hit repeat the first.
 #[inline(always)]
 fn gathered<S: Simd>(
     simd: S,
     hits: &Hits,
     of: impl Fn(u32) -> [DVec3; 3],
 ) -> [Vector<Eight<S>>; 3] {
-    let zero = Vector::<Row>::repeat(DVec3::ZERO);
-    let mut gathered = [zero; 3];
+    let first = hits.lanes.trailing_zeros() as usize;
+    let mut gathered = of(hits.hit(first).part).map(Vector::<Row>::repeat);
     for lane in each_bit(hits.lanes) {
         let [a, b, c] = of(hits.hit(lane).part);
         gathered[0].set(lane, a);
