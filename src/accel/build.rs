@@ -126,8 +126,8 @@ fn collect_references(
     Ok((references, unbounded))
 }
 
-/// Adds as many references again, as scratch. In one allocation both are large enough, for a million
-/// boxes, that glibc returns their memory to the system at once.
+/// Adds as many references again, as scratch. One allocation for both is large enough, for a million
+/// boxes, for glibc to return it to the system at once.
 fn add_spare(references: &mut Vec<Reference>, cancel: &CancelCheck<'_>) -> Result<(), Cancelled> {
     let (count, any) = (references.len(), references[0]);
     for first in (0..count).step_by(BATCH) {

@@ -57,7 +57,7 @@ impl<N: Lanes> Shears<N> {
         [a, b, c]: [Vector<N>; 3],
     ) -> Option<(Crossing<N>, N::Mask)> {
         let lines = Sheared {
-            // Of coordinates that are already in order.
+            // The coordinates are already in order.
             axes: [0, 1, 2],
             origin: ordered(origin, self.is_x, self.is_y),
             shear: self.slopes,

@@ -211,7 +211,7 @@ struct Words<'t> {
 }
 
 impl<'t> Words<'t> {
-    /// The byte at the offset; a line end after the last one.
+    /// The byte at the offset; past the end, a line end.
     #[inline(always)]
     fn byte(&self) -> u8 {
         self.text.as_bytes().get(self.at).copied().unwrap_or(b'\n')
