@@ -37,13 +37,12 @@ pub fn edits(input: &[u8]) {
     let mut document = Document::new(language, original.clone());
     let mut lowered = document.lower(&Meshes::default()).expect("there is memory");
     for step in steps.chunks_exact(3).take(64) {
-        let before = document.text().to_owned();
         perform(&mut document, &lowered, [step[0], step[1], step[2]]);
         lowered = if step[0] % 8 == 2 {
             // The old positions are back, but `lowered` belongs to the rejected text.
             document.lower(&Meshes::default()).expect("there is memory")
         } else {
-            followed(&mut document, &before, &lowered)
+            followed(&mut document, &lowered)
         };
     }
     while document.redo().is_some() {}
@@ -101,7 +100,7 @@ fn perform(document: &mut Document, lowered: &Lowered, [what, which, value]: [u8
 }
 
 /// Lowers a document after a step, from scratch and incrementally, and compares the results.
-fn followed(document: &mut Document, before: &str, was: &Lowered) -> Lowered {
+fn followed(document: &mut Document, was: &Lowered) -> Lowered {
     let meshes = Meshes::default();
     let fresh = Source::new(document.language(), document.shared_text());
     let (source, text) = (document.source(), document.text());
@@ -110,16 +109,15 @@ fn followed(document: &mut Document, before: &str, was: &Lowered) -> Lowered {
         "the tree follows the text"
     );
     let (_, lowered) = read(document.language(), text);
-    let edit = smallest_edit(before, text);
-    let again = match (&was.scene, edit) {
-        (Some(scene), Some(edit)) => {
+    let again = match &was.scene {
+        Some(scene) => {
             let known = Before {
                 scene,
                 diagnostics: &was.diagnostics,
             };
-            document.lower_again(&meshes, known, [edit.span, edit.placed()])
+            document.lower_again(&meshes, known)
         }
-        _ => document.lower(&meshes),
+        None => document.lower(&meshes),
     };
     let again = again.expect("there is memory");
     check(document.source(), &again);

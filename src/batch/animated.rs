@@ -10,7 +10,7 @@ use crate::file::{self, ReadError};
 use crate::language::{Before, Lowered, Source};
 use crate::render::Frames;
 use crate::scene::Scene;
-use crate::text::{Diagnostic, Edit, Findings, cover};
+use crate::text::{Diagnostic, Findings};
 use crate::track::{self, Bound};
 
 /// Where an animated scene comes from, and how it is read.
@@ -100,7 +100,7 @@ impl<'w> Animated<'w> {
     ) -> Result<Still, Error> {
         let edits = self.track.edits(&self.source, number);
         let inverse = self.source.change(&edits);
-        let still = self.still_of_text(number, [&edits, &inverse], tracing, frames);
+        let still = self.still_of_text(number, tracing, frames);
         self.source.revert(&inverse);
         still
     }
@@ -109,11 +109,10 @@ impl<'w> Animated<'w> {
     fn still_of_text(
         &mut self,
         number: u32,
-        edits: [&[Edit]; 2],
         tracing: &Tracing,
         frames: Frames,
     ) -> Result<Still, Error> {
-        let lowered = self.lower(edits)?;
+        let lowered = self.lower()?;
         self.print_findings(number, lowered.diagnostics)?;
         let scene = lowered.scene.ok_or(Error::Invalid { errors: 1 })?;
         let Files { read, digests, .. } = &self.files;
@@ -130,7 +129,7 @@ impl<'w> Animated<'w> {
     }
 
     /// Lowers the edited text, and reads files only if it names others than before.
-    fn lower(&mut self, [edits, inverse]: [&[Edit]; 2]) -> Result<Lowered, Error> {
+    fn lower(&mut self) -> Result<Lowered, Error> {
         let scene = self.origin.scene;
         let no_memory = |reason| ReadError::NoMemory {
             path: scene.to_owned(),
@@ -141,11 +140,7 @@ impl<'w> Animated<'w> {
             diagnostics: &self.findings,
         };
         let (source, meshes) = (&mut self.source, &self.files.read.meshes);
-        let lowered = match cover(edits).zip(cover(inverse)) {
-            Some((old, changed)) => source.lower_again(meshes, before, [old, changed]),
-            None => source.lower(meshes),
-        };
-        let mut lowered = lowered.map_err(no_memory)?;
+        let mut lowered = source.lower_again(meshes, before).map_err(no_memory)?;
         let files = source.files();
         if Wanted::new(scene, &files).is_among(&self.files.wanted) {
             let errors = &self.files.read.picture_errors;

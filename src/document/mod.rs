@@ -95,9 +95,8 @@ impl Document {
         &mut self,
         meshes: &Meshes,
         before: Before<'_>,
-        spans: [Span; 2],
     ) -> Result<Lowered, OutOfMemory> {
-        self.source.lower_again(meshes, before, spans)
+        self.source.lower_again(meshes, before)
     }
 
     /// The current text, with unsaved edits.

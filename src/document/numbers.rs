@@ -32,7 +32,7 @@ impl Snapshot {
     ///
     /// The text, if it is to be parsed as a whole.
     pub fn numbers(&self, text: String) -> Result<Numbers, String> {
-        if text.len() < LONG || self.edited.is_some() || !self.language.lowers_numbers() {
+        if text.len() < LONG || self.edited.is_some() || !self.language.lowers_changes() {
             return Err(text);
         }
         let saved = &*self.saved;
@@ -77,13 +77,12 @@ impl Document {
         before: Before<'_>,
     ) -> Option<([Arc<String>; 2], Lowered)> {
         let Numbers { text, saved, edit } = numbers;
-        let spans = [edit.span, edit.placed()];
         let inverse = Edit {
             text: edit.span.of(self.text()).to_owned(),
             span: edit.placed(),
         };
         let former = self.source.substitute(text, &edit);
-        let Some(lowered) = self.source.lower_numbers(before, spans) else {
+        let Some(lowered) = self.source.lower_change(before) else {
             self.source.substitute(former, &inverse);
             return None;
         };

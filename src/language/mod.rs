@@ -71,7 +71,7 @@ pub use structure::{Addition, Neighbour, Placement, Pose, Restructure, Structure
 
 /// Declares the languages, one per line, by folder name, which is also the file extension. A folder
 /// provides `Source`, `errors_of_beginning`, `tree_bytes`, `write`, `LEAVES_KEEP_TO_LINES`,
-/// `LOWERS_NUMBERS`, `TEMPLATE` and `SKELETON`.
+/// `LOWERS_CHANGES`, `TEMPLATE` and `SKELETON`.
 macro_rules! languages {
     ($($(#[$doc:meta])* $name:ident in $folder:ident,)+) => {
         /// The supported scene languages.
@@ -112,10 +112,10 @@ macro_rules! languages {
                 }
             }
 
-            /// Whether [`Answers::lower_numbers`] may succeed.
-            pub const fn lowers_numbers(self) -> bool {
+            /// Whether [`Answers::lower_change`] may succeed.
+            pub const fn lowers_changes(self) -> bool {
                 match self {
-                    $(Self::$name => $folder::LOWERS_NUMBERS,)+
+                    $(Self::$name => $folder::LOWERS_CHANGES,)+
                 }
             }
 
@@ -319,26 +319,21 @@ pub trait Answers: Editable + Restructure {
     /// Fails if the scene does not fit into memory; then no node has a place.
     fn lower(&mut self, meshes: &Meshes) -> Result<Lowered, OutOfMemory>;
 
-    /// As [`Answers::lower`] after an edit that replaced the bytes `old` by `changed`, in the time
-    /// that one object takes, if they are numbers of one object or belong to no object; `None`, without
-    /// any effect, if more may have changed. `before` is the result that belongs to the current places.
-    fn lower_numbers(&mut self, before: Before<'_>, [old, changed]: [Span; 2]) -> Option<Lowered> {
-        let _ = (before, old, changed);
+    /// As [`Answers::lower`] after the text was changed once, without reading the objects again that
+    /// are as before; `None`, without any effect, if that is not possible. `before` is the result that
+    /// belongs to the current places.
+    fn lower_change(&mut self, before: Before<'_>) -> Option<Lowered> {
+        let _ = before;
         None
     }
 
-    /// As [`Answers::lower`] after an edit, but faster where [`Answers::lower_numbers`] is possible.
+    /// As [`Answers::lower`] after an edit, but faster where [`Answers::lower_change`] is possible.
     ///
     /// # Errors
     ///
     /// As [`Answers::lower`].
-    fn lower_again(
-        &mut self,
-        meshes: &Meshes,
-        before: Before<'_>,
-        spans: [Span; 2],
-    ) -> Result<Lowered, OutOfMemory> {
-        match self.lower_numbers(before, spans) {
+    fn lower_again(&mut self, meshes: &Meshes, before: Before<'_>) -> Result<Lowered, OutOfMemory> {
+        match self.lower_change(before) {
             Some(lowered) => Ok(lowered),
             None => self.lower(meshes),
         }

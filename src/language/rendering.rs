@@ -226,19 +226,6 @@ impl RenderPlace {
             text: String::new(),
         })
     }
-
-    /// The place after some bytes are moved.
-    pub(super) fn moved(&self, span: impl Fn(Span) -> Span) -> Self {
-        let part = |part: Part| Part {
-            whole: span(part.whole),
-            value: span(part.value),
-        };
-        Self {
-            whole: span(self.whole),
-            parts: self.parts.map(|at| at.map(part)),
-            ..*self
-        }
-    }
 }
 
 /// What is removed with a comment or element.

@@ -6,7 +6,7 @@ use std::sync::Arc;
 
 use super::{Editable, Lowered};
 use crate::memory::OutOfMemory;
-use crate::text::{self, Edit, Span, cover};
+use crate::text::{self, Edit, Span, are_plain_numbers};
 
 /// A text, its tree, and the places of its nodes.
 #[derive(Clone, Debug)]
@@ -18,8 +18,50 @@ pub struct Written<Tree, Origins> {
     pub(super) origins: Origins,
     /// The places replaced by the last lowering; `None` once the text has changed.
     former: Option<Origins>,
-    /// Whether text that may have begun a comment was removed since the last lowering.
-    pub(super) has_lost_slash: bool,
+    /// How the text has changed since the last lowering.
+    pub(super) since: Since,
+}
+
+/// How a text has changed since its last lowering.
+#[derive(Clone, Debug, Default)]
+pub(super) enum Since {
+    /// The places are those of the text.
+    Unchanged,
+    /// By edits made together, in text order.
+    Edited(Vec<Replaced>),
+    /// By several changes, or it was never lowered.
+    #[default]
+    Unknown,
+}
+
+/// A part of a text that an edit replaced.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Replaced {
+    /// In the text before all edits.
+    pub(super) old: Span,
+    /// In the text after all edits.
+    pub(super) new: Span,
+    /// How many numbers the old part consisted of, from the first byte to the last; 0 if it held
+    /// anything else.
+    pub(super) numbers: usize,
+}
+
+impl Replaced {
+    fn new(old: Span, new: Span, removed: &str) -> Self {
+        Self {
+            old,
+            new,
+            numbers: numbers(removed),
+        }
+    }
+}
+
+/// How many numbers a text consists of, from the first byte to the last; 0 if it holds anything else.
+pub(super) fn numbers(text: &str) -> usize {
+    if text.trim().len() < text.len() || !are_plain_numbers(text) {
+        return 0;
+    }
+    text.split_ascii_whitespace().count()
 }
 
 impl<Tree, Origins: Default> Written<Tree, Origins> {
@@ -33,7 +75,7 @@ impl<Tree, Origins: Default> Written<Tree, Origins> {
             text,
             origins: Origins::default(),
             former: None,
-            has_lost_slash: false,
+            since: Since::Unknown,
         }
     }
 
@@ -47,6 +89,9 @@ impl<Tree, Origins: Default> Written<Tree, Origins> {
             Err(refused) => (Origins::default(), Err(refused)),
         };
         self.place(origins);
+        if lowered.is_err() {
+            self.since = Since::Unknown;
+        }
         lowered
     }
 
@@ -55,7 +100,23 @@ impl<Tree, Origins: Default> Written<Tree, Origins> {
         let before = mem::replace(&mut self.origins, origins);
         // Of several lowerings of one text, the first replaced the places of the text before.
         self.former.get_or_insert(before);
-        self.has_lost_slash = false;
+        self.since = Since::Unchanged;
+    }
+
+    /// Updates what depends on the text after edits.
+    fn follow(&mut self, edits: Vec<Replaced>)
+    where
+        Tree: Parse,
+    {
+        if edits.is_empty() {
+            return;
+        }
+        self.tree.follow(&self.text, &edits);
+        self.former = None;
+        self.since = match self.since {
+            Since::Unchanged => Since::Edited(edits),
+            Since::Edited(_) | Since::Unknown => Since::Unknown,
+        };
     }
 }
 
@@ -64,10 +125,9 @@ pub(super) trait Parse: Sized {
     /// Parses a text. Never fails: every part of it has a place in the tree.
     fn parse(text: &str) -> Self;
 
-    /// Updates the tree after an edit that replaced the first span by the second; `text` is the new
-    /// text.
-    fn follow(&mut self, text: &str, edit: [Span; 2]) {
-        let _ = edit;
+    /// Updates the tree after edits, at least one; `text` is the new text.
+    fn follow(&mut self, text: &str, edits: &[Replaced]) {
+        let _ = edits;
         *self = Self::parse(text);
     }
 }
@@ -78,30 +138,27 @@ impl<Tree: Debug + Parse, Origins: Debug + Default> Editable for Written<Tree, O
     }
 
     fn change(&mut self, edits: &[Edit]) -> Vec<Edit> {
-        let mut removed = edits.iter().map(|edit| edit.span.of(&self.text));
-        self.has_lost_slash |= removed.any(|removed| removed.contains('/'));
         let inverse = text::apply(Arc::make_mut(&mut self.text), edits);
-        let old = cover(edits).unwrap_or_default();
-        let changed = cover(&inverse).unwrap_or_default();
-        self.tree.follow(&self.text, [old, changed]);
-        self.former = None;
+        let pairs = edits.iter().zip(&inverse);
+        let replaced = pairs.map(|(edit, back)| Replaced::new(edit.span, back.span, &back.text));
+        self.follow(replaced.collect());
         inverse
     }
 
     fn substitute(&mut self, text: Arc<String>, edit: &Edit) -> Arc<String> {
         let before = mem::replace(&mut self.text, text);
-        self.has_lost_slash |= edit.span.of(&before).contains('/');
-        self.tree.follow(&self.text, [edit.span, edit.placed()]);
-        self.former = None;
+        let removed = edit.span.of(&before);
+        self.follow(vec![Replaced::new(edit.span, edit.placed(), removed)]);
         before
     }
 
     fn revert(&mut self, inverse: &[Edit]) {
         let former = self.former.take();
+        let has_places = former.is_some() || matches!(self.since, Since::Edited(_));
         self.change(inverse);
-        if let Some(former) = former {
-            self.origins = former;
-            self.has_lost_slash = false;
+        self.origins = former.unwrap_or_else(|| mem::take(&mut self.origins));
+        if has_places {
+            self.since = Since::Unchanged;
         }
     }
 }

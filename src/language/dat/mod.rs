@@ -33,7 +33,7 @@ pub(super) type Source = Written<Tree, Origins>;
 pub(super) const LEAVES_KEEP_TO_LINES: bool = true;
 
 /// Whether numbers of one object can be lowered alone.
-pub(super) const LOWERS_NUMBERS: bool = false;
+pub(super) const LOWERS_CHANGES: bool = false;
 
 /// A small valid scene to begin with.
 pub(super) const TEMPLATE: &str = include_str!("template.dat");

@@ -1,237 +1,296 @@
-//! Incremental lowering of a long `.ray` text. After an edit of one object's numbers, only the block
-//! of that object is read again; after an edit of the header or a comment, no object is. Gives up
-//! wherever anything else may have changed.
+//! Incremental lowering of a `.ray` text: after an edit, only the objects in its lines are read
+//! again, and only the blocks of objects that differ are made anew. Gives up wherever anything else
+//! may have changed.
 
+use std::ops::Range;
 use std::sync::Arc;
 
 use rayon::prelude::*;
 
-use super::blocks::{self, Block, block};
-use super::lower;
-use super::origins::{Origins, ViewPlace};
+use super::blocks::{self, Block, MANY};
+use super::lower::{self, ObjectsRead};
+use super::origins::{ObjectPlace, Origins};
 use super::tree::Tree;
-use super::view_comment::{find, find_rendering, has_eye_and_target};
-use crate::language::node::Node;
+use super::view_comment::{find, find_rendering};
+use crate::language::written::{Replaced, numbers};
 use crate::language::{Before, Lowered};
 use crate::scene::blocks::BLOCK;
-use crate::scene::{Object, Objects, Scene};
-use crate::text::{Diagnostic, Findings, Span, are_plain_numbers, line_end};
+use crate::scene::{Materials, Object, Objects, Scene};
+use crate::text::{Diagnostic, Findings, Span, line_end, next_line};
 
-/// Lowers a text after an edit that replaced the bytes `old` by `changed`.
+/// The most tokens read again, on one thread; a text with more is read as a whole, on all.
+const MOST: usize = 1 << 16;
+
+/// Lowers a text after edits.
 pub(super) fn lower(
     text: &str,
     tree: &Tree,
     origins: &Origins,
     before: &Before<'_>,
-    [old, changed]: [Span; 2],
+    edits: &[Replaced],
 ) -> Option<(Origins, Lowered)> {
-    let is_same =
-        origins.tokens == tree.tokens.len() && origins.keyed == tree.tokens.keyed().count();
-    if !is_same {
+    let is_sound = before.diagnostics.errors() == 0
+        && before.diagnostics.len() == before.diagnostics.warnings()
+        && before.scene.objects.len() == origins.objects.len();
+    if !is_sound {
         return None;
     }
-    let moved = Moved { old, changed };
-    if is_within_comment(text, tree, origins, &moved) {
-        return without_objects(text, tree, origins, before, &moved);
-    }
-    // If as many tokens as before have changed and are plain, all others keep their meaning.
-    if changed.is_empty() || !are_plain_numbers(changed.of(text)) {
-        return None;
-    }
-    let before_end = |end: usize| {
-        let tokens = &tree.tokens;
-        tokens.partition_point(|token| token.end() < end)
+    let change = if is_within_comment(text, tree, origins, edits) {
+        Change::none(origins, edits)
+    } else {
+        Change::of(text, tree, origins, edits)?
     };
-    let (first, last) = (before_end(changed.start() + 1), before_end(changed.end()));
-    let ends = tree.tokens.get(first)?.start()..tree.tokens.get(last)?.end();
-    if ends != changed.range() {
-        return None;
-    }
-    let node = origins.node_of_token(first)?;
-    if origins.node_of_token(last) != Some(node) {
-        return None;
-    }
-    let object = match node {
-        Node::Ambient | Node::Light(_) => {
-            return without_objects(text, tree, origins, before, &moved);
+    let places = change.places(origins);
+    let mut report = Findings::default();
+    let view = find(text, &tree.tokens, &mut report);
+    let render = find_rendering(text, &tree.tokens, &mut report);
+    let (mut reader, count) = blocks::header(text, &tree.tokens, &places)?;
+    report.append(std::mem::take(&mut reader.report));
+    report.append(change.kept_findings(tree, &places, before.diagnostics)?);
+    let known = before.scene;
+    let (objects, materials) = if change.region.is_none() {
+        (known.objects.clone(), known.materials.clone())
+    } else {
+        let tokens = change.tokens(tree, &places);
+        if MOST < tokens.len() {
+            return None;
         }
-        Node::Object(object) => object,
-        _ => return None,
+        let read = blocks::block(text, &tree.tokens, tokens, change.old.start)?;
+        let replaced = replaced(known, change.old.clone(), &read);
+        report.append(read.report);
+        replaced
     };
-    // A view without eye or target depends on all objects.
-    if !origins
-        .view
-        .is_some_and(|view| has_eye_and_target(&view.parts))
-    {
-        return None;
-    }
-    let first = object - object % BLOCK;
-    let of_block = |at: usize| origins.objects.get(at).map(|place| place.token as usize);
-    let end = of_block(first + BLOCK).unwrap_or(tree.tokens.len());
-    let range = of_block(first)?..end;
-    let Block {
-        materials,
+    reader.report = report;
+    let read = ObjectsRead {
+        places,
         objects,
-        report,
-    } = block(text, &tree.tokens, range.clone(), first)?;
-    let spans = tree.tokens.range(range);
-    // Findings about objects of a block are reported at one of its tokens.
-    let of_block = |place: usize| {
-        let of_token = spans.binary_search_by_key(&place, |token| token.start());
-        of_token.is_ok()
+        materials,
     };
-    let mut kept = kept_findings(before.diagnostics, &moved, |place| !of_block(place))?;
-    kept.append(report);
-    let lowered = Lowered {
-        diagnostics: (kept.len() == kept.warnings()).then(|| kept.sorted())?,
-        scene: Some(scene(before.scene, first, objects, materials)),
-    };
-    let origins = Origins {
-        view: origins.view.map(|view| moved.view(&view)),
-        render: (origins.render).map(|render| render.moved(|span| moved.span(span))),
-        objects: Arc::clone(&origins.objects),
-        ..*origins
-    };
-    Some((origins, lowered))
+    let (origins, lowered) = lower::joined(tree, (view, render), (reader, count), read);
+    let found = &lowered.diagnostics;
+    (found.len() == found.warnings()).then_some((origins, lowered))
 }
 
 /// Whether an edit has changed nothing but the view's comment or that of the render settings.
-fn is_within_comment(text: &str, tree: &Tree, origins: &Origins, moved: &Moved) -> bool {
+fn is_within_comment(text: &str, tree: &Tree, origins: &Origins, edits: &[Replaced]) -> bool {
+    let [Replaced { old, new, .. }] = *edits else {
+        return false;
+    };
     let holds = |comment: Span, edit: Span| {
         comment.start() + "//".len() <= edit.start() && edit.end() <= comment.end()
     };
     let mut comments = origins.comments().map(|(_, comment)| comment);
-    let Some(before) = comments.find(|comment| holds(*comment, moved.old)) else {
+    let Some(before) = comments.find(|comment| holds(*comment, old)) else {
         return false;
     };
     let mut keyed = tree.tokens.keyed();
     keyed.any(|start| start == before.start())
         && holds(
             Span::new(before.start(), line_end(text, before.start())),
-            moved.changed,
+            new,
         )
 }
 
-/// Reads all but the objects, which an edit has not changed.
-fn without_objects(
-    text: &str,
-    tree: &Tree,
-    origins: &Origins,
-    before: &Before<'_>,
-    moved: &Moved,
-) -> Option<(Origins, Lowered)> {
-    let mut report = Findings::default();
-    let view = find(text, &tree.tokens, &mut report);
-    let render = find_rendering(text, &tree.tokens, &mut report);
-    let (mut reader, count) = blocks::header(text, &tree.tokens, &origins.objects)?;
-    report.append(std::mem::take(&mut reader.report));
-    // Findings about objects are reported at one of their tokens.
-    let first = origins.objects.first()?.token as usize;
-    let of_object = |place: usize| {
-        let token = tree.tokens.partition_point(|token| token.start() < place);
-        let token = (first <= token).then(|| tree.tokens.get(token)).flatten();
-        token.is_some_and(|token| token.start() == place)
-    };
-    report.append(kept_findings(before.diagnostics, moved, of_object)?);
-    reader.report = report;
-    let known = lower::ObjectsRead {
-        places: Arc::clone(&origins.objects),
-        objects: before.scene.objects.clone(),
-        materials: before.scene.materials.clone(),
-    };
-    let (origins, lowered) = lower::joined(tree, (view, render), (reader, count), known);
-    let found = &lowered.diagnostics;
-    (found.len() == found.warnings()).then_some((origins, lowered))
+/// What edits may have changed of the objects.
+struct Change<'e> {
+    edits: &'e [Replaced],
+    /// The bytes of the text before in which objects may have changed; `None` if none has.
+    region: Option<Span>,
+    /// The objects before the edits that are read again.
+    old: Range<usize>,
+    /// The places of those that take their place.
+    read: Vec<ObjectPlace>,
+    /// How many more tokens precede the objects behind.
+    grown: isize,
 }
 
-/// Maps places in the old text to the new one.
-struct Moved {
-    old: Span,
-    changed: Span,
-}
-
-impl Moved {
-    fn place(&self, place: usize) -> usize {
-        if place < self.old.end() {
-            place
-        } else {
-            place - self.old.end() + self.changed.end()
+impl<'e> Change<'e> {
+    /// Edits that change no object.
+    fn none(origins: &Origins, edits: &'e [Replaced]) -> Self {
+        let objects = origins.objects.len();
+        Self {
+            edits,
+            region: None,
+            old: objects..objects,
+            read: Vec::new(),
+            grown: 0,
         }
     }
 
-    fn span(&self, span: Span) -> Span {
-        Span::new(self.place(span.start()), self.place(span.end()))
+    /// Finds the objects in the lines of the edits. Tokens before the edits, and in lines behind them,
+    /// are as before. `None` if the tree cannot be one after these edits.
+    fn of(text: &str, tree: &Tree, origins: &Origins, edits: &'e [Replaced]) -> Option<Self> {
+        let (tokens, objects) = (&tree.tokens, &origins.objects);
+        let first = objects.first()?.token as usize;
+        let in_header = edits.iter().take_while(|edit| {
+            let token = numbers_in_place(text, tree, edit);
+            token.is_some_and(|last| last < first)
+        });
+        let of_objects = &edits[in_header.count()..];
+        let Some((one, last)) = of_objects.first().zip(of_objects.last()) else {
+            return Some(Self::none(origins, edits));
+        };
+        let grown = tokens.len() as isize - origins.tokens as isize;
+        let before = tokens.partition_point(|token| token.start() < one.new.start());
+        let before = objects.partition_point(|object| (object.token as usize) < before);
+        let line = next_line(text, last.new.end());
+        let behind = tokens.partition_point(|token| token.start() < line) as isize - grown;
+        let end = objects.partition_point(|object| (object.token as isize) < behind);
+        // The edits may touch the last object before them.
+        let old = before.saturating_sub(1)..end;
+        let from = match before {
+            0 => 0,
+            _ => objects[old.start].token as usize,
+        };
+        let end = match objects.get(end) {
+            Some(object) => (object.token as isize + grown) as usize,
+            None => tokens.len(),
+        };
+        let words = tokens.words_from(from);
+        let words = words.take_while(|&(token, _)| token < end);
+        let read = words.filter_map(|(token, word)| blocks::place(text, token, word));
+        (old.start <= old.end).then(|| Self {
+            edits,
+            region: Some(one.old.to(last.old)),
+            read: read.collect(),
+            old,
+            grown,
+        })
     }
 
-    fn view(&self, view: &ViewPlace) -> ViewPlace {
-        ViewPlace {
-            comment: self.span(view.comment),
-            parts: view
-                .parts
-                .map(|part| part.map(|spans| spans.map(|span| self.span(span)))),
+    /// The places of all objects.
+    fn places(&self, origins: &Origins) -> Arc<Vec<ObjectPlace>> {
+        let objects = &origins.objects;
+        if self.grown == 0 && objects[self.old.clone()] == self.read {
+            return Arc::clone(objects);
         }
+        let mut places = Vec::with_capacity(objects.len() - self.old.len() + self.read.len());
+        places.extend_from_slice(&objects[..self.old.start]);
+        places.extend_from_slice(&self.read);
+        places.extend(objects[self.old.end..].iter().map(|place| ObjectPlace {
+            token: place.token.wrapping_add_signed(self.grown as i32),
+            ..*place
+        }));
+        Arc::new(places)
     }
-}
 
-/// The findings before an edit that are kept, by their places in the new text; `None` if some were
-/// omitted.
-fn kept_findings(
-    before: &Findings,
-    moved: &Moved,
-    is_kept: impl Fn(usize) -> bool,
-) -> Option<Findings> {
-    if before.errors() != 0 || before.len() != before.warnings() {
-        return None;
+    /// The tokens that are read again, given the places of all objects.
+    fn tokens(&self, tree: &Tree, places: &[ObjectPlace]) -> Range<usize> {
+        let token = |object: usize| {
+            let place = places.get(object);
+            place.map_or(tree.tokens.len(), |place| place.token as usize)
+        };
+        token(self.old.start)..token(self.old.start + self.read.len())
     }
-    let mut report = Findings::default();
-    for diagnostic in before.iter() {
-        let span = moved.span(diagnostic.span);
-        if is_kept(span.start()) {
-            report.warning(|| Diagnostic {
+
+    /// The findings about objects that are not read again; `None` if they name objects that now have
+    /// other numbers.
+    fn kept_findings(
+        &self,
+        tree: &Tree,
+        places: &[ObjectPlace],
+        before: &Findings,
+    ) -> Option<Findings> {
+        let first = places.first()?.token as usize;
+        let read = self.tokens(tree, places);
+        let mut kept = Findings::default();
+        for found in before.iter() {
+            let start = found.span.start();
+            if self.region.is_some_and(|old| old.range().contains(&start)) {
+                continue;
+            }
+            let span = Span::new(self.moved(start), self.moved(found.span.end()));
+            // Findings about objects are reported at one of their tokens.
+            let token = (tree.tokens).partition_point(|token| token.start() < span.start());
+            let place = tree.tokens.get(token);
+            let is_token = place.is_some_and(|place| place.start() == span.start());
+            if !is_token || token < first || read.contains(&token) {
+                continue;
+            }
+            if read.end <= token && self.old.len() != self.read.len() {
+                return None;
+            }
+            kept.warning(|| Diagnostic {
                 span,
-                ..diagnostic.clone()
+                ..found.clone()
             });
         }
+        Some(kept)
     }
-    Some(report)
+
+    /// Maps a place in the old text, outside the region, to the new one.
+    fn moved(&self, place: usize) -> usize {
+        let before = self.edits.iter().take_while(|edit| edit.old.end() <= place);
+        before
+            .last()
+            .map_or(place, |edit| place - edit.old.end() + edit.new.end())
+    }
 }
 
-/// The scene with one block of objects replaced.
-fn scene(
-    before: &Scene,
-    first: usize,
-    objects: Vec<Object>,
-    materials: Vec<crate::scene::Material>,
-) -> Scene {
-    let index = |object: usize| before.objects.get(object).map(|object| object.material);
-    let base = index(first).unwrap_or_default();
-    let next = first + objects.len();
-    let end = index(next).map_or(before.materials.len(), |index| index as usize);
-    let more = materials.len() as i32 - (end as i32 - base as i32);
-    let mut blocks = before.objects.blocks().to_vec();
-    let based = objects.into_iter().map(|object| Object {
-        material: base + object.material,
-        ..object
-    });
-    blocks[first / BLOCK] = based.collect();
-    let after = &mut blocks[first / BLOCK + 1..];
-    // Threads do not pay off for small scenes.
-    if more != 0 && !after.is_empty() {
-        after.par_iter_mut().for_each(|block| {
-            for object in Arc::make_mut(block) {
-                object.material = object.material.wrapping_add_signed(more);
-            }
-        });
+/// If an edit replaced numbers by as many, between white space, the last one's token.
+fn numbers_in_place(text: &str, tree: &Tree, edit: &Replaced) -> Option<usize> {
+    let Replaced {
+        new,
+        numbers: count,
+        ..
+    } = *edit;
+    if count == 0 || numbers(new.of(text)) != count {
+        return None;
     }
-    let mut scene = Scene {
-        camera: before.camera,
-        ambient: before.ambient,
-        lights: before.lights.clone(),
-        materials: before.materials.clone(),
-        textures: before.textures.clone(),
-        objects: Objects::of_blocks(blocks),
-        setting: before.setting.clone(),
+    let first = (tree.tokens).partition_point(|token| token.start() < new.start());
+    let last = first + count - 1;
+    let is_start = tree.tokens.get(first)?.start() == new.start();
+    let is_end = tree.tokens.get(last)?.end() == new.end();
+    (is_start && is_end).then_some(last)
+}
+
+/// The objects and materials of a scene in which others take the place of some objects: those that
+/// reading them all would give.
+fn replaced(scene: &Scene, old: Range<usize>, by: &Block) -> (Objects, Materials) {
+    let known = &scene.objects;
+    let count = known.len() - old.len() + by.objects.len();
+    let object = |at: usize| match at.checked_sub(old.start) {
+        Some(new) if new < by.objects.len() => {
+            let Object { shape, material } = &by.objects[new];
+            (shape, &by.materials[*material as usize])
+        }
+        moved => {
+            let at = moved.map_or(at, |new| old.end + new - by.objects.len());
+            let Object { shape, material } = &known[at];
+            (shape, &scene.materials[*material as usize])
+        }
     };
-    scene.materials.replace(base as usize..end, materials);
-    scene
+    let block = |number: usize| {
+        let end = count.min((number + 1) * BLOCK);
+        Block::of((number * BLOCK..end).map(object))
+    };
+    let first = old.start / BLOCK;
+    // If the objects behind keep their numbers, so do their blocks.
+    let [end, new_end] = if by.objects.len() == old.len() {
+        [old.end.div_ceil(BLOCK); 2]
+    } else {
+        [known.blocks().len(), count.div_ceil(BLOCK)]
+    };
+    let made: Vec<_> = if new_end - first < MANY {
+        (first..new_end).map(block).collect()
+    } else {
+        (first..new_end).into_par_iter().map(block).collect()
+    };
+    let base = |block: usize| {
+        let first = known.get(block * BLOCK);
+        first.map_or(scene.materials.len(), |object| object.material as usize)
+    };
+    let range = base(first)..base(end);
+    let (objects, made) = blocks::joined(made, range.start);
+    let more = (made.len() as u32).wrapping_sub(range.len() as u32);
+    let (before, behind) = (&known.blocks()[..first], known.blocks()[end..].to_vec());
+    let behind = if more == 0 {
+        behind
+    } else {
+        blocks::renumbered(behind.into_iter().map(|block| (block, more)).collect())
+    };
+    let mut materials = scene.materials.clone();
+    materials.replace(range, made);
+    let all = before.iter().cloned().chain(objects).chain(behind);
+    (Objects::of_blocks(all.collect()), materials)
 }

@@ -8,6 +8,7 @@ use crate::language::rendering::Around;
 use crate::language::report::Name;
 use crate::language::table::{self, Field};
 use crate::language::view::Numbers;
+use crate::language::written::Since;
 use crate::language::{Answers, Before, Lowered, Node, Nodes, Placed, Visibility};
 use crate::memory::OutOfMemory;
 use crate::scene::{Camera, Meshes};
@@ -20,12 +21,13 @@ impl Answers for Source {
         self.store(found)
     }
 
-    fn lower_numbers(&mut self, before: Before<'_>, spans: [Span; 2]) -> Option<Lowered> {
-        // What such a comment hid may count now, in place of as many tokens.
-        if self.has_lost_slash {
-            return None;
-        }
-        let found = again::lower(&self.text, &self.tree, &self.origins, &before, spans);
+    fn lower_change(&mut self, before: Before<'_>) -> Option<Lowered> {
+        let edits = match &self.since {
+            Since::Unchanged => &[],
+            Since::Edited(edits) => &edits[..],
+            Since::Unknown => return None,
+        };
+        let found = again::lower(&self.text, &self.tree, &self.origins, &before, edits);
         let (origins, lowered) = found?;
         self.place(origins);
         Some(lowered)

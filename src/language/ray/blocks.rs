@@ -6,19 +6,75 @@ use std::sync::Arc;
 
 use rayon::prelude::*;
 
+use super::objects::known_material;
 use super::origins::ObjectPlace;
 use super::reader::{LEAST_NUMBERS, Reader};
 use super::table::ShapeKind;
 use super::tree::Tokens;
+use crate::geometry::Shape;
 use crate::scene::blocks::BLOCK;
 use crate::scene::{Material, Object, Objects};
 use crate::text::{Findings, Span};
 
+/// Blocks from which processing them is worth other threads.
+pub(super) const MANY: usize = 4;
+
 /// A block of objects; its material indices count from 0.
 pub(super) struct Block {
     pub(super) materials: Vec<Material>,
-    pub(super) objects: Vec<Object>,
+    pub(super) objects: Arc<[Object]>,
     pub(super) report: Findings,
+}
+
+impl Block {
+    /// The block that reading these objects would give, with their materials.
+    pub(super) fn of<'o>(objects: impl Iterator<Item = (&'o Shape, &'o Material)>) -> Self {
+        let mut materials = Vec::new();
+        let objects = objects.map(|(shape, material)| {
+            let known = known_material(&materials, 0, material);
+            let material = known.unwrap_or_else(|| {
+                materials.push(material.clone());
+                materials.len() - 1
+            });
+            Object {
+                shape: shape.clone(),
+                material: material as u32,
+            }
+        });
+        Self {
+            objects: objects.collect(),
+            materials,
+            report: Findings::default(),
+        }
+    }
+}
+
+/// The objects of blocks, whose materials count from `base`, and all their materials.
+pub(super) fn joined(blocks: Vec<Block>, base: usize) -> (Vec<Arc<[Object]>>, Vec<Material>) {
+    let mut materials = Vec::new();
+    let based = blocks.into_iter().map(|mut block| {
+        let first = (base + materials.len()) as u32;
+        materials.append(&mut block.materials);
+        (block.objects, first)
+    });
+    let based = based.collect();
+    (renumbered(based), materials)
+}
+
+/// Blocks of objects, with a number added to the indices of each block's materials.
+pub(super) fn renumbered(mut blocks: Vec<(Arc<[Object]>, u32)>) -> Vec<Arc<[Object]>> {
+    let numbers = |(block, more): &mut (Arc<[Object]>, u32)| {
+        for object in Arc::make_mut(block) {
+            object.material = object.material.wrapping_add(*more);
+        }
+    };
+    // Threads do not pay off for a few.
+    if blocks.len() < MANY {
+        blocks.iter_mut().for_each(numbers);
+    } else {
+        blocks.par_iter_mut().for_each(numbers);
+    }
+    blocks.into_iter().map(|(block, _)| block).collect()
 }
 
 /// Reads a text of several blocks. Returns a reader, the objects and the place of their count, or
@@ -46,29 +102,19 @@ pub(super) fn read<'a>(
         let end = places.get(first + BLOCK);
         let end = end.map_or(tokens.len(), |next| next.token as usize);
         let range = places[first].token as usize..end;
-        let read = block(text, tokens, range, first)?;
-        Some((read.materials, Arc::from(read.objects), read.report))
+        block(text, tokens, range, first)
     });
-    let Some(blocks) = blocks.collect::<Option<Vec<(_, Arc<[Object]>, _)>>>() else {
+    let Some(mut blocks) = blocks.collect::<Option<Vec<_>>>() else {
         return Err(report);
     };
     let found = std::mem::replace(&mut reader.report, report);
     reader.report.append(found);
-    let mut bases = Vec::with_capacity(blocks.len());
-    let mut objects = Vec::with_capacity(blocks.len());
-    for (mut materials, block, report) in blocks {
-        bases.push(reader.materials.len() as u32);
-        reader.materials.append(&mut materials);
-        objects.push(block);
-        reader.report.append(report);
+    for block in &mut blocks {
+        reader.report.append(std::mem::take(&mut block.report));
     }
-    let based = objects.par_iter_mut().zip(bases);
-    based.for_each(|(block, base)| {
-        for object in Arc::make_mut(block) {
-            object.material += base;
-        }
-    });
+    let (objects, materials) = joined(blocks, 0);
     let objects = Objects::of_blocks(objects);
+    reader.materials = materials;
     debug_assert_eq!(objects.len(), places.len(), "each keyword is an object");
     reader.places = places;
     Ok((reader, objects, count))
@@ -76,15 +122,19 @@ pub(super) fn read<'a>(
 
 /// The places of all keywords, with the number of numbers of a complete object.
 fn places(text: &str, tokens: &Tokens) -> Vec<ObjectPlace> {
-    let places = tokens.words().filter_map(|(token, word)| {
-        let kind = ShapeKind::of_word(word.of(text))?;
-        Some(ObjectPlace {
-            token: token as u32,
-            kind,
-            numbers: kind.numbers() as u8,
-        })
-    });
+    let words = tokens.words();
+    let places = words.filter_map(|(token, word)| place(text, token, word));
     places.collect()
+}
+
+/// The place of a complete object, if its keyword is this token.
+pub(super) fn place(text: &str, token: usize, word: Span) -> Option<ObjectPlace> {
+    let kind = ShapeKind::of_word(word.of(text))?;
+    Some(ObjectPlace {
+        token: token as u32,
+        kind,
+        numbers: kind.numbers() as u8,
+    })
 }
 
 /// Reads the text before the first object; `None` if it is not regular or miscounts the objects.
@@ -127,7 +177,7 @@ pub(super) fn block(
     } = reader;
     (report.errors() == 0).then_some(Block {
         materials,
-        objects,
+        objects: objects.into(),
         report,
     })
 }

@@ -35,8 +35,8 @@ pub(super) type Source = Written<Tree, Origins>;
 /// Whether no leaf crosses a line end.
 pub(super) const LEAVES_KEEP_TO_LINES: bool = true;
 
-/// Whether numbers of one object can be lowered alone.
-pub(super) const LOWERS_NUMBERS: bool = true;
+/// Whether changed objects can be lowered alone.
+pub(super) const LOWERS_CHANGES: bool = true;
 
 /// A small valid scene to begin with.
 pub(super) const TEMPLATE: &str = include_str!("template.ray");

@@ -41,7 +41,7 @@ pub(super) struct ViewPlace {
 }
 
 /// The place of an object.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct ObjectPlace {
     /// Index of the keyword's token.
     pub(super) token: u32,

@@ -5,7 +5,7 @@ mod tokens;
 mod window;
 
 use crate::language::words::{skip_white_space, trim_end};
-use crate::language::written::Parse;
+use crate::language::written::{Parse, Replaced};
 use crate::text::{Span, line_end, next_line};
 
 pub(super) use tokens::Tokens;
@@ -38,9 +38,10 @@ impl Parse for Tree {
         parse(text)
     }
 
-    /// Only the lines around the edit are read again.
-    fn follow(&mut self, text: &str, [old, changed]: [Span; 2]) {
-        scan::follow(self, text, old, changed, scan::PIECE);
+    /// Only the lines around the edits are read again.
+    fn follow(&mut self, text: &str, edits: &[Replaced]) {
+        let spans: Vec<_> = edits.iter().map(|edit| [edit.old, edit.new]).collect();
+        scan::follow(self, text, &spans, scan::PIECE);
     }
 }
 

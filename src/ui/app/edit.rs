@@ -7,9 +7,9 @@ use super::assets::Notice;
 use super::cursor::Names;
 use super::trial::Meaning;
 use crate::assets::{Loaded, Wanted};
-use crate::language::{Before, Lowered, Node, Nodes};
+use crate::language::{Lowered, Node, Nodes};
 use crate::scene::Scene;
-use crate::text::{Diagnostic, Edit, Findings, Span, cover, parse_number};
+use crate::text::{Diagnostic, Edit, Findings, Span, parse_number};
 use crate::ui::keymap::{Action, Mode};
 
 impl App {
@@ -43,11 +43,13 @@ impl App {
         self.install(lowered);
     }
 
-    /// Lowers the text after an edit that replaced the bytes `old` by `changed`, reusing what is
-    /// known from before the edit.
-    fn lowered_again(&mut self, before: Before<'_>, spans: [Span; 2]) -> Lowered {
+    /// Lowers the text after an edit, reusing what is known of the text before.
+    pub(super) fn lowered_after(&mut self, before: Option<&Meaning>) -> Lowered {
+        let Some(before) = before else {
+            return self.lowered();
+        };
         let meshes = &self.assets.meshes;
-        let lowered = self.document.lower_again(meshes, before, spans);
+        let lowered = self.document.lower_again(meshes, before.before());
         lowered.unwrap_or_else(|refused| Lowered::refused(&refused))
     }
 
@@ -110,18 +112,7 @@ impl App {
         before: Option<&Meaning>,
         edits: &[Edit],
     ) -> Result<(), Diagnostic> {
-        self.attempt(edits, |app| app.lowered_after(before, edits))
-    }
-
-    /// Lowers the text after edits.
-    fn lowered_after(&mut self, before: Option<&Meaning>, edits: &[Edit]) -> Lowered {
-        let after = spans_after(edits);
-        match (before, cover(edits), after.first(), after.last()) {
-            (Some(before), Some(old), Some(first), Some(last)) => {
-                self.lowered_again(before.before(), [old, first.to(*last)])
-            }
-            _ => self.lowered(),
-        }
+        self.attempt(edits, |app| app.lowered_after(before))
     }
 
     fn attempt(
@@ -204,7 +195,7 @@ impl App {
 
     /// Undoes a step and selects what it changed; returns what to say, or `None` without a step.
     pub(super) fn step_back(&mut self) -> Option<String> {
-        let (before, step) = (self.before_change(), self.document.undoable());
+        let (before, step) = (self.nodes(), self.document.undoable());
         let done = step.map(|step| format!("undone: {step}"));
         let changed = self.undo_text();
         self.show_change(&before, changed);
@@ -213,36 +204,23 @@ impl App {
 
     /// Redoes a step and selects what it changed; returns what to say, or `None` without a step.
     pub(super) fn step_forward(&mut self) -> Option<String> {
-        let (before, step) = (self.before_change(), self.document.redoable());
+        let (before, step) = (self.nodes(), self.document.redoable());
         let done = step.map(|step| format!("redone: {step}"));
         let changed = self.redo_text();
         self.show_change(&before, changed);
         done
     }
 
-    /// What to remember of the text before an undo or redo.
-    fn before_change(&self) -> BeforeChange {
-        BeforeChange {
-            length: self.document.text().len(),
-            nodes: self.nodes(),
-        }
-    }
-
-    /// Lowers the text after an undo or redo, and selects the changed node.
-    fn show_change(&mut self, before: &BeforeChange, changed: Option<Span>) {
+    /// Lowers the text after an undo or redo, and selects the changed node, given the nodes before.
+    fn show_change(&mut self, before: &Nodes, changed: Option<Span>) {
         let Some(span) = changed else {
             return;
         };
-        // The text after the change is as long as before.
-        let behind = self.document.text().len() - span.end();
-        let old = Span::new(span.start(), before.length - behind);
-        let lowered = match self.meaning() {
-            Some(meaning) => self.lowered_again(meaning.before(), [old, span]),
-            None => self.lowered(),
-        };
+        let meaning = self.meaning();
+        let lowered = self.lowered_after(meaning.as_ref());
         self.install(lowered);
         let node_at = |at: usize| self.source().node_at(Span::at(at));
-        if before.nodes != self.nodes() || node_at(span.start()) != node_at(span.end()) {
+        if *before != self.nodes() || node_at(span.start()) != node_at(span.end()) {
             self.select_restructured();
             return;
         }
@@ -264,14 +242,6 @@ impl App {
             self.select(node);
         }
     }
-}
-
-/// The text before an undo or redo.
-struct BeforeChange {
-    /// Its length.
-    length: usize,
-    /// Its nodes.
-    nodes: Nodes,
 }
 
 /// The spans of edits in the text after they are made.

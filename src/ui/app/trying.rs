@@ -55,7 +55,8 @@ impl App {
         });
         trial.is_applied &= outcome.is_ok();
         if was_applied && !trial.is_applied {
-            self.relower();
+            let lowered = self.lowered_after(trial.base.as_ref());
+            self.install(lowered);
         }
         trial.revision = self.document.revision();
         outcome

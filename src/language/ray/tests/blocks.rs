@@ -4,12 +4,17 @@ use std::sync::Arc;
 
 use proptest::prelude::*;
 
+use crate::language::ray;
 use crate::language::ray::lower::lower_in_order;
-use crate::language::ray::{self, again};
-use crate::language::{Answers, Before, Editable, Lowered};
+use crate::language::{
+    Answers, Before, Editable, Lowered, Neighbour, Node, Restructure, StructureError,
+};
 use crate::scene::blocks::BLOCK;
 use crate::scene::{Meshes, Scene};
 use crate::text::{Edit, Span};
+
+/// For a text without warnings: no remainder is 3.
+const NONE: usize = 1;
 
 /// A text of `objects` objects in repeating colours, with a warning for every `warned`th.
 fn text(objects: usize, declared: usize, warned: usize) -> String {
@@ -35,15 +40,20 @@ pub(super) fn read(text: &str) -> (ray::Source, Lowered) {
     (source, lowered)
 }
 
-/// Replaces the bytes `old`; returns their span and the new one.
-fn put(source: &mut ray::Source, old: Span, literal: &str) -> [Span; 2] {
-    let edit = Edit {
+/// Replaces the bytes `old`.
+fn put(source: &mut ray::Source, old: Span, literal: &str) {
+    source.change(&[Edit {
         span: old,
         text: literal.to_owned(),
-    };
-    let changed = edit.placed();
-    source.change(&[edit]);
-    [old, changed]
+    }]);
+}
+
+/// A text without what follows `//` on its lines.
+fn without_comments(text: &str) -> String {
+    let lines = text
+        .lines()
+        .map(|line| line.split("//").next().unwrap_or_default());
+    lines.collect::<Vec<_>>().join("\n")
 }
 
 fn before(lowered: &Lowered) -> Option<Before<'_>> {
@@ -66,11 +76,11 @@ fn a_changed_number_reads_only_its_block_again() {
         let is_number = |token: &Span| token.of(&source.text).starts_with('0');
         let spans = source.tree.tokens.range(number..number + 40);
         let old = spans.into_iter().find(is_number).expect("a number");
-        let spans = put(&mut source, old, literal);
+        put(&mut source, old, literal);
         let known = before(&lowered).expect("a scene without errors");
-        let again = again::lower(&source.text, &source.tree, &source.origins, &known, spans);
-        let (origins, again) = again.expect("nothing else has changed");
-        source.place(origins);
+        let again = source
+            .lower_change(known)
+            .expect("nothing else has changed");
         let (fresh, expected) = read(&source.text);
         assert_eq!(parts(&source, &again), parts(&fresh, &expected));
         lowered = again;
@@ -80,18 +90,18 @@ fn a_changed_number_reads_only_its_block_again() {
 #[test]
 fn a_changed_header_or_comment_reads_no_object_again() {
     let edits = [
-        ("1 1 1  1  0 5 5", "1 1 1", "0.5 0.25 0", true),
-        ("0 5 5", "5 5", "5 6.125", true),
-        ("  1 1 1  ", "1 1 1", "0.75 1 2", true),
-        ("target 0 0 0", "0 0 0", "1 2 3", true),
-        ("spp 4", "4", "9 depth 3", true),
-        ("spp 9", "9", "x", true),
+        ("1 1 1  1  0 5 5", "1 1 1", "0.5 0.25 0"),
+        ("0 5 5", "5 5", "5 6.125"),
+        ("  1 1 1  ", "1 1 1", "0.75 1 2"),
+        ("target 0 0 0", "0 0 0", "1 2 3"),
+        ("spp 4", "4", "9 depth 3"),
+        ("spp 9", "9", "x"),
         // Of another view comment, which is ignored.
-        ("fov 5", "5", "7", false),
+        ("fov 5", "5", "7"),
         // Now the first view comment is malformed, and the other one counts.
-        ("target 1 2 3", "3", "3 ", true),
-        ("target", "target", "target 4", true),
-        ("target 4", " 4", "", false),
+        ("target 1 2 3", "3", "3 "),
+        ("target", "target", "target 4"),
+        ("target 4", " 4", ""),
     ];
     let comments = "// view: eye 0 0 9 target 0 0 0\n// render: spp 4\n// view: fov 5\n";
     for (count, eye) in [
@@ -102,16 +112,13 @@ fn a_changed_header_or_comment_reads_no_object_again() {
         let text = text(count, count, count / 5);
         let said = format!("{comments}{text}").replacen("eye 0 0 9", eye, 1);
         let (mut source, mut lowered) = read(&said);
-        for (context, old, new, is_incremental) in edits {
+        for (context, old, new) in edits {
             let at = source.text.find(context).expect("it is there");
             let at = at + context.find(old).expect("it is part of it");
             let known = before(&lowered).expect("a scene without errors");
-            let spans = put(&mut source, Span::new(at, at + old.len()), new);
-            let again = again::lower(&source.text, &source.tree, &source.origins, &known, spans);
-            assert_eq!(again.is_some(), is_incremental, "{old} to {new}");
-            let (fresh, expected) = read(&source.text);
-            let (origins, again) = again.unwrap_or_else(|| (fresh.origins.clone(), expected));
-            source.place(origins);
+            put(&mut source, Span::new(at, at + old.len()), new);
+            let again = source.lower_change(known);
+            let again = again.expect("no object is read again");
             let (fresh, expected) = read(&source.text);
             assert_eq!(
                 parts(&source, &again),
@@ -132,12 +139,9 @@ fn numbers_in_place_of_a_comment_are_read_again_with_all_objects() {
     let (mut source, lowered) = read(text);
     let old = "1 1 sphere 0 0 9 //";
     let at = text.find(old).expect("it is there");
-    let spans = put(&mut source, Span::new(at, at + old.len()), "2");
-    let again = source.lower_again(
-        &Meshes::default(),
-        before(&lowered).expect("a scene"),
-        spans,
-    );
+    put(&mut source, Span::new(at, at + old.len()), "2");
+    let known = before(&lowered).expect("a scene");
+    let again = source.lower_again(&Meshes::default(), known);
     let (fresh, expected) = read(&source.text);
     assert_eq!(
         parts(&source, &again.expect("there is memory")),
@@ -152,9 +156,9 @@ fn an_edit_of_a_shape_copies_only_its_block() {
     let (mut source, lowered) = read(&format!("// view: eye 0 0 9 target 0 0 0\n{text}"));
     let sphere = format!("sphere {} 2 3 0.5", BLOCK + 6);
     let at = source.text.find(&sphere).expect("it is there") + sphere.len();
-    let spans = put(&mut source, Span::new(at - 7, at), "4 -1 0.75");
+    put(&mut source, Span::new(at - 7, at), "4 -1 0.75");
     let known = before(&lowered).expect("a scene without errors");
-    let again = source.lower_again(&Meshes::default(), known, spans);
+    let again = source.lower_again(&Meshes::default(), known);
     let before = known.scene.objects.clone();
     let after = again
         .expect("there is memory")
@@ -180,9 +184,9 @@ fn an_edit_of_a_colour_copies_only_the_block_of_its_material() {
     let (mut source, lowered) = read(&text);
     let colour = format!("0.{:04} 0 0", BLOCK + 6);
     let at = source.text.find(&colour).expect("it is there");
-    let spans = put(&mut source, Span::new(at, at + colour.len()), "0.5 0.25 1");
+    put(&mut source, Span::new(at, at + colour.len()), "0.5 0.25 1");
     let known = before(&lowered).expect("a scene without errors");
-    let again = source.lower_again(&Meshes::default(), known, spans);
+    let again = source.lower_again(&Meshes::default(), known);
     let scene = again.expect("there is memory").scene.expect("no errors");
     let before = &known.scene.materials;
     let blocks = before.blocks().iter().zip(scene.materials.blocks());
@@ -190,6 +194,75 @@ fn an_edit_of_a_colour_copies_only_the_block_of_its_material() {
     assert_eq!(shared, [true, false, true]);
     let other = before.differences(&scene.materials, |one, other| one != other);
     assert_eq!(other.collect::<Vec<_>>(), [BLOCK + 6]);
+}
+
+/// Makes edits and reads the text again; fails if that reads the objects that are as before.
+fn restructured(
+    source: &mut ray::Source,
+    before_edits: &Lowered,
+    edits: Result<Vec<Edit>, StructureError>,
+) -> Lowered {
+    source.change(&edits.expect("it can be done"));
+    let known = before(before_edits).expect("a scene without errors");
+    let again = source.lower_change(known).expect("the rest is as before");
+    let (fresh, expected) = read(&source.text);
+    assert_eq!(parts(source, &again), parts(&fresh, &expected));
+    again
+}
+
+#[test]
+fn a_changed_list_reads_only_the_changed_objects_again() {
+    let count = 2 * BLOCK;
+    for view in ["eye 0 0 9 target 0 0 0", "up 0 0 1"] {
+        let text = format!("// view: {view}\n{}", text(count, count, NONE));
+        let (mut source, mut lowered) = read(&text);
+        let mut make = |edits: &dyn Fn(&ray::Source) -> Result<Vec<Edit>, StructureError>| {
+            let edits = edits(&source);
+            lowered = restructured(&mut source, &lowered, edits);
+            lowered.scene.as_ref().map(|scene| scene.objects.len())
+        };
+        let sphere = "sphere 0 0 0 1  .5 0 0  0 0 0  0 0 0  1 0 0 1 // new\n";
+        for object in [0, 1, BLOCK - 1, BLOCK, count - 1].map(Node::Object) {
+            assert_eq!(make(&|source| source.removal(&[object])), Some(count - 1));
+            let after = Node::Object(BLOCK);
+            let inserted = |source: &ray::Source| Ok(source.insertion(sphere, after)?.edits);
+            assert_eq!(make(&inserted), Some(count));
+        }
+        for (object, neighbour) in [
+            (0, Neighbour::Next),
+            (BLOCK, Neighbour::Previous),
+            (count - 1, Neighbour::Previous),
+        ] {
+            let exchanged =
+                |source: &ray::Source| Ok(source.exchange(Node::Object(object), neighbour)?.edits);
+            assert_eq!(make(&exchanged), Some(count));
+        }
+        let light = "0 9 0  1 1 1\n";
+        let lit = |source: &ray::Source| Ok(source.insertion(light, Node::Light(0))?.edits);
+        assert_eq!(make(&lit), Some(count));
+        assert_eq!(
+            make(&|source| source.removal(&[Node::Light(0)])),
+            Some(count)
+        );
+    }
+}
+
+#[test]
+fn an_object_behind_a_deleted_one_is_renamed_in_its_warning() {
+    let count = BLOCK + 9;
+    let (mut source, lowered) = read(&text(count, count, 400));
+    let removed = source
+        .removal(&[Node::Object(9)])
+        .expect("there are others");
+    source.change(&removed);
+    let known = before(&lowered).expect("a scene without errors");
+    let again = source.lower_again(&Meshes::default(), known);
+    let (_, expected) = read(&source.text);
+    assert_eq!(
+        again.expect("there is memory").diagnostics,
+        expected.diagnostics
+    );
+    assert_ne!(lowered.diagnostics, expected.diagnostics);
 }
 
 proptest! {
@@ -221,13 +294,53 @@ proptest! {
             let last = tokens.get(tokens.len().min(token + more + 1) - 1);
             let old = tokens.get(token).expect("a token").to(last.expect("a token"));
             let literal = vec![literal; more + 1].join("\n");
-            let spans = put(&mut source, old, &literal);
+            put(&mut source, old, &literal);
             let (fresh, expected) = read(&source.text);
             lowered = match before(&lowered) {
-                Some(known) => source.lower_again(&Meshes::default(), known, spans),
+                Some(known) => source.lower_again(&Meshes::default(), known),
                 None => source.lower(&Meshes::default()),
             }
             .expect("there is memory");
+            prop_assert_eq!(parts(&source, &lowered), parts(&fresh, &expected));
+        }
+    }
+
+    #[test]
+    fn changed_lists_mean_the_same_as_new_ones(
+        count in prop_oneof![2..30_usize, BLOCK - 2..BLOCK + 3, 2 * BLOCK - 3..2 * BLOCK + 3],
+        warned in prop_oneof![3 => Just(NONE), 1 => Just(400)],
+        separator in prop_oneof![3 => Just("\n"), 1 => Just(" "), 1 => Just("\r")],
+        changes in prop::collection::vec(
+            (0..6, any::<prop::sample::Index>(), any::<prop::sample::Index>()), 1..9,
+        ),
+    ) {
+        let text = match separator {
+            "\n" => text(count, count, warned),
+            _ => without_comments(&text(count, count, warned)).replace('\n', separator),
+        };
+        let (mut source, mut lowered) = read(&format!("// view: up 0 0 1\n{text}"));
+        for (what, one, other) in changes {
+            let objects = source.nodes().objects;
+            let [one, other] = [one, other].map(|at| Node::Object(at.index(objects)));
+            let edits = match what {
+                0 => source.removal(&[one]),
+                1 => source.removal(&[one.min(other), one.max(other)]),
+                2 => source.exchange(one, Neighbour::Next).map(|placed| placed.edits),
+                3 => source.insertion("0 9 0 1 1 1", Node::Light(0)).map(|placed| placed.edits),
+                4 => source.removal(&[Node::Light(0)]),
+                _ => {
+                    let copied = source.copied(&[one]);
+                    copied.and_then(|copied| Ok(source.insertion(&copied, other)?.edits))
+                }
+            };
+            let Ok(edits) = edits else {
+                continue;
+            };
+            source.change(&edits);
+            let known = before(&lowered).expect("a list without errors stays so");
+            let again = source.lower_again(&Meshes::default(), known);
+            let (fresh, expected) = read(&source.text);
+            lowered = again.expect("there is memory");
             prop_assert_eq!(parts(&source, &lowered), parts(&fresh, &expected));
         }
     }

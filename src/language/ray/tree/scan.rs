@@ -22,17 +22,41 @@ pub(super) fn scan(text: &str, piece: usize) -> Tree {
     }
 }
 
-/// Updates the tree after an edit that replaced the bytes `old` by `changed`.
-pub(super) fn follow(tree: &mut Tree, text: &str, old: Span, changed: Span, piece: usize) {
-    let grown = changed.len() as isize - old.len() as isize;
-    let len = text.len().wrapping_add_signed(-grown);
-    let is_line = |start: usize| {
-        let before = start.wrapping_add_signed(grown).checked_sub(1);
-        before.is_none_or(|before| is_line_end(text.as_bytes()[before]))
-    };
-    let (touched, lines) = tree.tokens.touched(old, len, is_line);
-    let now = lines.start..lines.end.wrapping_add_signed(grown);
-    tree.tokens.replace(touched, read(text, now, piece), grown);
+/// Updates the tree after edits in text order, each of which replaced the first span, of the text
+/// before all of them, by the second, of the text after all of them.
+pub(super) fn follow(tree: &mut Tree, text: &str, edits: &[[Span; 2]], piece: usize) {
+    let growth = |[old, changed]: [Span; 2]| changed.len() as isize - old.len() as isize;
+    // What follows is given in the text after the edits so far, which up to the next one is `text`.
+    let mut len = edits.iter().map(|&edit| growth(edit)).sum::<isize>();
+    len = text.len() as isize - len;
+    let mut edits = edits.iter().copied();
+    let mut next = edits.next();
+    while let Some(first) = next {
+        let mut changed = first[1];
+        let mut grown = growth(first);
+        loop {
+            next = edits.next();
+            let old = Span::new(changed.start(), changed.end().wrapping_add_signed(-grown));
+            let is_line = |start: usize| {
+                let before = start.wrapping_add_signed(grown).checked_sub(1);
+                let byte = |before: usize| text.as_bytes().get(before);
+                before.is_none_or(|before| byte(before).copied().is_some_and(is_line_end))
+            };
+            let (touched, lines) = tree.tokens.touched(old, len as usize, is_line);
+            let now = lines.start..lines.end.wrapping_add_signed(grown);
+            // Edits of the same lines are followed together.
+            if let Some(edit) = next
+                && edit[1].start() <= now.end
+            {
+                changed = changed.to(edit[1]);
+                grown += growth(edit);
+                continue;
+            }
+            tree.tokens.replace(touched, read(text, now, piece), grown);
+            len += grown;
+            break;
+        }
+    }
 }
 
 /// Reads whole lines of a text in pieces of about `piece` bytes.
@@ -213,6 +237,7 @@ fn token_end(bytes: &[u8], start: usize) -> usize {
 mod tests {
     use super::*;
     use crate::language::ray::tree::Window;
+    use crate::text::Edit;
     use proptest::prelude::*;
 
     /// The tokens and the starts of view comments of a text, read byte by byte.
@@ -249,9 +274,32 @@ mod tests {
                 }
                 text.replace_range(old.range(), &put);
                 let changed = Span::new(old.start(), old.start() + put.len());
-                follow(&mut tree, &text, old, changed, piece);
+                follow(&mut tree, &text, &[[old, changed]], piece);
                 prop_assert_eq!(all(&tree.tokens), read_plainly(&text), "{:?}", text);
             }
+        }
+
+        #[test]
+        fn a_tree_follows_edits_made_together(
+            text in "([-0-9.]{0,3}[ \n\r\t]{0,2}|//|/|// ?view:|\\\\\\\\|é|\u{A0}){0,60}",
+            places in prop::collection::vec(any::<prop::sample::Index>(), 2..12),
+            puts in prop::collection::vec("[/\n\r 1a]{0,4}", 6),
+            piece in 1usize..20,
+        ) {
+            let ends: Vec<_> = (0..=text.len()).filter(|&at| text.is_char_boundary(at)).collect();
+            let mut places: Vec<_> = places.iter().map(|place| *place.get(&ends)).collect();
+            places.sort_unstable();
+            let edits: Vec<_> = places.chunks_exact(2).zip(puts).map(|(ends, text)| Edit {
+                span: Span::new(ends[0], ends[1].min(ends[0] + 9)),
+                text,
+            }).collect();
+            prop_assume!(edits.iter().all(|edit| text.is_char_boundary(edit.span.end())));
+            let mut tree = scan(&text, piece);
+            let mut text = text;
+            let inverse = crate::text::apply(&mut text, &edits);
+            let spans: Vec<_> = edits.iter().zip(&inverse).map(|(edit, back)| [edit.span, back.span]).collect();
+            follow(&mut tree, &text, &spans, piece);
+            prop_assert_eq!(all(&tree.tokens), read_plainly(&text), "{:?}", text);
         }
 
         #[test]
