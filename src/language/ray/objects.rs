@@ -311,7 +311,7 @@ pub(super) fn known_material(
 }
 
 /// The first material of a block to compare a new one with.
-fn first_compared(materials: &[Material], of_block: usize) -> usize {
+pub(super) fn first_compared(materials: &[Material], of_block: usize) -> usize {
     let last = materials.len().saturating_sub(MOST_COMPARED);
     of_block.max(last)
 }
