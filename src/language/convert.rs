@@ -7,7 +7,7 @@ use std::sync::Arc;
 use super::losses::{Loss, Losses, Of};
 use super::{Language, Source, alike, fits};
 use crate::memory::OutOfMemory;
-use crate::scene::{Emitter, Meshes, Rgb, Scene};
+use crate::scene::{Emitter, Meshes, Object, Rgb, Scene};
 use crate::text::{Diagnostic, Findings, Span};
 
 /// A scene in another language.
@@ -34,7 +34,7 @@ pub fn convert(source: &Source, scene: &Scene, to: Language) -> Result<Converted
         });
     }
     let own = scene;
-    let scene = &without_gamma(own);
+    let scene = &numbered(without_gamma(own));
     let mut losses = Losses::new(source, scene, to);
     if let Some(loss) = gamma_loss(own) {
         losses.add(Of::Gamma, loss);
@@ -87,6 +87,28 @@ fn gamma_loss(scene: &Scene) -> Option<&'static Loss> {
     });
     let is_path = scene.setting.rendering.integrator().traces_paths();
     is_scaled.then_some(if is_path { &PATHS_KEPT } else { &WHITTED_KEPT })
+}
+
+/// The scene with materials whose numbers have no gaps; those that have belong to single solids.
+fn numbered(scene: Cow<'_, Scene>) -> Cow<'_, Scene> {
+    let materials = &scene.materials;
+    if materials.iter().count() == materials.len() {
+        return scene;
+    }
+    let mut numbers = vec![0; materials.len()];
+    for (new, (old, _)) in (0..).zip(materials.numbered()) {
+        numbers[old] = new;
+    }
+    let objects = scene.objects.iter().map(|object| Object {
+        material: numbers[object.material as usize],
+        ..object.clone()
+    });
+    let (objects, materials) = (objects.collect(), materials.iter().cloned().collect());
+    Cow::Owned(Scene {
+        objects,
+        materials,
+        ..scene.into_owned()
+    })
 }
 
 /// The scene with lights as in texts that do not set gamma, where path tracing multiplies them by π.

@@ -246,20 +246,19 @@ impl Judge<'_> {
 
     /// Materials that send back more than they receive.
     fn gains(&self) -> Vec<Outlook> {
-        let count = self.scene.materials.len();
-        if MOST_SEARCHED < count {
+        let materials = &self.scene.materials;
+        if MOST_SEARCHED < materials.iter().count() {
             return Vec::new();
         }
-        let mut users = vec![None; count];
+        let mut users = vec![None; materials.len()];
         for (number, object) in (0_u32..).zip(self.scene.objects.iter()) {
             if let Some(user) = users.get_mut(object.material as usize) {
                 user.get_or_insert(number);
             }
         }
-        let materials = self.scene.materials.iter().zip(users).enumerate();
-        let found = materials.filter_map(|(index, (material, user))| {
+        let found = materials.numbered().filter_map(|(index, material)| {
             let (gain, words) = gain(material);
-            let user = user.filter(|_| 1.0 + ROUNDING < gain)?;
+            let user = users[index].filter(|_| 1.0 + ROUNDING < gain)?;
             let listed = index < self.source.nodes().materials;
             let node = if listed {
                 Node::Material(index)

@@ -1,7 +1,7 @@
 //! Long lists of a scene, in blocks shared between scenes: changing one object of a million, or its
 //! material, copies only a block.
 
-use std::ops::{Index, Range};
+use std::ops::Index;
 use std::sync::Arc;
 
 use rayon::prelude::*;
@@ -9,25 +9,22 @@ use rayon::prelude::*;
 /// Items per block.
 pub(crate) const BLOCK: usize = 1024;
 
-/// A list. Clones share blocks until they are changed.
+/// A list. Clones share blocks until they are changed. Items are found by their numbers, which may
+/// have gaps: a block's first item has the block's number times the size of a full one.
 #[derive(Clone, Debug)]
 pub struct Blocks<T> {
-    /// All full except the last, which is never empty.
+    /// None is empty.
     blocks: Vec<Arc<[T]>>,
 }
 
 impl<T> Blocks<T> {
-    /// Creates a list from blocks, all full except the last, which is not empty.
+    /// Creates a list from blocks, none of which is empty; behind those that are not full, numbers
+    /// are left out.
     pub(crate) fn of_blocks(blocks: Vec<Arc<[T]>>) -> Self {
         debug_assert!(
             blocks
                 .iter()
-                .rev()
-                .skip(1)
-                .all(|block| block.len() == BLOCK)
-                && blocks
-                    .last()
-                    .is_none_or(|block| (1..=BLOCK).contains(&block.len())),
+                .all(|block| (1..=BLOCK).contains(&block.len())),
             "an item is found by its number"
         );
         Self { blocks }
@@ -38,12 +35,12 @@ impl<T> Blocks<T> {
         &self.blocks
     }
 
-    /// The number of items.
+    /// One more than the last number: the number of items if none is left out.
     pub fn len(&self) -> usize {
-        let Some((last, full)) = self.blocks.split_last() else {
+        let Some((last, before)) = self.blocks.split_last() else {
             return 0;
         };
-        full.len() * BLOCK + last.len()
+        before.len() * BLOCK + last.len()
     }
 
     /// Whether the list is empty.
@@ -51,7 +48,7 @@ impl<T> Blocks<T> {
         self.blocks.is_empty()
     }
 
-    /// Returns the item at an index.
+    /// Returns the item with a number.
     pub fn get(&self, number: usize) -> Option<&T> {
         self.blocks.get(number / BLOCK)?.get(number % BLOCK)
     }
@@ -61,8 +58,14 @@ impl<T> Blocks<T> {
         self.blocks.iter().flat_map(|block| block.iter())
     }
 
-    /// Indices at which two lists differ according to `is_other`, in ascending order, up to the
-    /// length of the shorter list. Shared blocks are skipped.
+    /// Iterates over all items in order with their numbers.
+    pub fn numbered(&self) -> impl Iterator<Item = (usize, &T)> {
+        let blocks = self.blocks.iter().enumerate();
+        blocks.flat_map(|(number, block)| (number * BLOCK..).zip(block.iter()))
+    }
+
+    /// Numbers at which two lists differ according to `is_other`, in ascending order, of those that
+    /// both have. Shared blocks are skipped.
     pub fn differences<'a>(
         &'a self,
         other: &'a Self,
@@ -78,40 +81,12 @@ impl<T> Blocks<T> {
 }
 
 impl<T: Sync + Send> Blocks<T> {
-    /// Iterates in parallel over all items and their indices, in order.
+    /// Iterates in parallel over all items and their numbers, in order.
     pub(crate) fn par_numbered(&self) -> impl ParallelIterator<Item = (usize, &T)> {
         /// Blocks per task of a parallel walk over all items.
         const TASK: usize = 8;
         let blocks = self.blocks.par_iter().with_min_len(TASK).enumerate();
         blocks.flat_map_iter(|(number, block)| (number * BLOCK..).zip(block.iter()))
-    }
-}
-
-impl<T: Clone> Blocks<T> {
-    /// Replaces a range of items, which must be one of the list. Copies only the blocks of the
-    /// range if as many items take its place, otherwise also all those behind it.
-    pub(crate) fn replace(&mut self, range: Range<usize>, items: Vec<T>) {
-        if range.len() == items.len() {
-            let mut items = items.into_iter();
-            let mut at = range.start;
-            while at < range.end {
-                let within = at % BLOCK..(at % BLOCK + range.end - at).min(BLOCK);
-                at += within.len();
-                let block = Arc::make_mut(&mut self.blocks[(at - 1) / BLOCK]);
-                let places = block[within].iter_mut();
-                places
-                    .zip(&mut items)
-                    .for_each(|(place, item)| *place = item);
-            }
-            return;
-        }
-        let first = range.start / BLOCK;
-        let behind = self.blocks.split_off(first);
-        let old = || behind.iter().flat_map(|block| block.iter());
-        let before = old().take(range.start - first * BLOCK).cloned();
-        let after = old().skip(range.end - first * BLOCK).cloned();
-        let replaced: Self = before.chain(items).chain(after).collect();
-        self.blocks.extend(replaced.blocks);
     }
 }
 
@@ -149,7 +124,9 @@ impl<T: Clone> std::ops::IndexMut<usize> for Blocks<T> {
 
 impl<T: PartialEq> PartialEq for Blocks<T> {
     fn eq(&self, other: &Self) -> bool {
-        self.len() == other.len() && self.differences(other, T::ne).next().is_none()
+        let mut pairs = self.blocks.iter().zip(&other.blocks);
+        self.blocks.len() == other.blocks.len()
+            && pairs.all(|(one, other)| Arc::ptr_eq(one, other) || one == other)
     }
 }
 
@@ -172,8 +149,6 @@ impl<T> From<Vec<T>> for Blocks<T> {
 
 #[cfg(test)]
 mod tests {
-    use proptest::prelude::*;
-
     use super::*;
 
     fn numbers(count: usize) -> Vec<usize> {
@@ -209,29 +184,17 @@ mod tests {
     }
 
     #[test]
-    fn replacing_as_many_items_copies_only_their_blocks() {
-        let list = Blocks::from(numbers(4 * BLOCK));
-        let mut copy = list.clone();
-        copy.replace(2 * BLOCK - 1..2 * BLOCK + 1, vec![0, 0]);
-        let shared = list.blocks().iter().zip(copy.blocks());
-        let shared: Vec<_> = shared.map(|(one, other)| Arc::ptr_eq(one, other)).collect();
-        assert_eq!(shared, [true, false, false, true]);
-    }
-
-    proptest! {
-        #[test]
-        fn replacing_a_range_is_what_it_is_for_a_vector(
-            count in 0..3 * BLOCK,
-            [one, other] in [0..=3 * BLOCK, 0..=3 * BLOCK],
-            more in prop_oneof![Just(None), (0..2 * BLOCK).prop_map(Some)],
-        ) {
-            let (start, end) = (one.min(other).min(count), one.max(other).min(count));
-            let items = vec![usize::MAX; more.unwrap_or(end - start)];
-            let mut plain = numbers(count);
-            let mut list = Blocks::from(plain.clone());
-            plain.splice(start..end, items.clone());
-            list.replace(start..end, items);
-            prop_assert!(list == Blocks::from(plain));
-        }
+    fn items_behind_a_gap_are_found_by_their_numbers() {
+        let blocks = |last: &[u8]| Blocks::of_blocks(vec![[3, 5].into(), last.into()]);
+        let list = blocks(&[8]);
+        let numbered = [(0, &3), (1, &5), (BLOCK, &8)];
+        assert!(list.numbered().eq(numbered) && list.iter().eq(&[3, 5, 8]));
+        assert_eq!(list.par_numbered().collect::<Vec<_>>(), numbered);
+        assert_eq!(list.len(), BLOCK + 1);
+        let found = [1, 2, BLOCK, BLOCK + 1].map(|number| list.get(number).copied());
+        assert_eq!(found, [Some(5), None, Some(8), None]);
+        assert!(list == blocks(&[8]) && list != blocks(&[9]) && list != blocks(&[8, 9]));
+        let other = Blocks::of_blocks(vec![[3].into(), [8].into()]);
+        assert!(list != other && list.differences(&other, u8::ne).next().is_none());
     }
 }

@@ -7,7 +7,7 @@ use std::sync::Arc;
 
 use rayon::prelude::*;
 
-use super::blocks::{self, Block, MANY};
+use super::blocks::{self, Block, Read};
 use super::lower::{self, ObjectsRead};
 use super::origins::{ObjectPlace, Origins};
 use super::tree::Tree;
@@ -20,6 +20,9 @@ use crate::text::{Diagnostic, Findings, Span, line_end, next_line};
 
 /// The most tokens read again, on one thread; a text with more is read as a whole, on all.
 const MOST: usize = 1 << 16;
+
+/// Blocks from which making them anew is worth other threads.
+const MANY: usize = 4;
 
 /// Lowers a text after edits.
 pub(super) fn lower(
@@ -55,7 +58,7 @@ pub(super) fn lower(
         if MOST < tokens.len() {
             return None;
         }
-        let read = blocks::block(text, &tree.tokens, tokens, change.old.start)?;
+        let read = blocks::objects(text, &tree.tokens, tokens, change.old.start, 0)?;
         let replaced = replaced(known, change.old.clone(), &read);
         report.append(read.report);
         replaced
@@ -246,13 +249,16 @@ fn numbers_in_place(text: &str, tree: &Tree, edit: &Replaced) -> Option<usize> {
 
 /// The objects and materials of a scene in which others take the place of some objects: those that
 /// reading them all would give.
-fn replaced(scene: &Scene, old: Range<usize>, by: &Block) -> (Objects, Materials) {
+fn replaced(scene: &Scene, old: Range<usize>, by: &Read) -> (Objects, Materials) {
     let known = &scene.objects;
     let count = known.len() - old.len() + by.objects.len();
     let object = |at: usize| match at.checked_sub(old.start) {
         Some(new) if new < by.objects.len() => {
             let Object { shape, material } = &by.objects[new];
-            (shape, &by.materials[*material as usize])
+            (
+                shape,
+                &by.materials[*material as usize / BLOCK][*material as usize % BLOCK],
+            )
         }
         moved => {
             let at = moved.map_or(at, |new| old.end + new - by.objects.len());
@@ -262,7 +268,7 @@ fn replaced(scene: &Scene, old: Range<usize>, by: &Block) -> (Objects, Materials
     };
     let block = |number: usize| {
         let end = count.min((number + 1) * BLOCK);
-        Block::of((number * BLOCK..end).map(object))
+        Block::of(number, (number * BLOCK..end).map(object))
     };
     let first = old.start / BLOCK;
     // If the objects behind keep their numbers, so do their blocks.
@@ -276,21 +282,17 @@ fn replaced(scene: &Scene, old: Range<usize>, by: &Block) -> (Objects, Materials
     } else {
         (first..new_end).into_par_iter().map(block).collect()
     };
-    let base = |block: usize| {
-        let first = known.get(block * BLOCK);
-        first.map_or(scene.materials.len(), |object| object.material as usize)
+    let known = |range: Range<usize>| {
+        let lists = (
+            &known.blocks()[range.clone()],
+            &scene.materials.blocks()[range],
+        );
+        let pairs = lists.0.iter().zip(lists.1);
+        pairs.map(|(objects, materials)| Block {
+            objects: Arc::clone(objects),
+            materials: Arc::clone(materials),
+        })
     };
-    let range = base(first)..base(end);
-    let (objects, made) = blocks::joined(made, range.start);
-    let more = (made.len() as u32).wrapping_sub(range.len() as u32);
-    let (before, behind) = (&known.blocks()[..first], known.blocks()[end..].to_vec());
-    let behind = if more == 0 {
-        behind
-    } else {
-        blocks::renumbered(behind.into_iter().map(|block| (block, more)).collect())
-    };
-    let mut materials = scene.materials.clone();
-    materials.replace(range, made);
-    let all = before.iter().cloned().chain(objects).chain(behind);
-    (Objects::of_blocks(all.collect()), materials)
+    let blocks = known(0..first).chain(made);
+    blocks::joined(blocks.chain(known(end..scene.objects.blocks().len())))
 }

@@ -14,91 +14,77 @@ use super::table::ShapeKind;
 use super::tree::Tokens;
 use crate::geometry::Shape;
 use crate::scene::blocks::BLOCK;
-use crate::scene::{Material, Object, Objects};
+use crate::scene::{Material, Materials, Object, Objects};
 use crate::text::{Findings, Span};
 
-/// Blocks from which processing them is worth other threads.
-pub(super) const MANY: usize = 4;
-
-/// A block of objects; its material indices count from 0.
+/// A block of objects with its materials, which have the numbers of the block.
 pub(super) struct Block {
-    pub(super) materials: Vec<Material>,
+    pub(super) materials: Arc<[Material]>,
     pub(super) objects: Arc<[Object]>,
+}
+
+/// Objects that were read, and the materials of each block of them.
+pub(super) struct Read {
+    pub(super) materials: Vec<Vec<Material>>,
+    pub(super) objects: Vec<Object>,
     pub(super) report: Findings,
 }
 
 impl Block {
-    /// The block that reading these objects would give, with their materials.
-    pub(super) fn of<'o>(objects: impl Iterator<Item = (&'o Shape, &'o Material)>) -> Self {
+    /// The block with a number that reading these objects would give, with their materials.
+    pub(super) fn of<'o>(
+        number: usize,
+        objects: impl Iterator<Item = (&'o Shape, &'o Material)>,
+    ) -> Self {
         /// Number of materials found by address, which is several times faster than by their numbers.
         const SEEN: usize = 16;
         let mut materials = Vec::new();
         let mut seen: Vec<(&Material, usize)> = Vec::with_capacity(SEEN);
         let objects = objects.map(|(shape, material)| {
             let same = |&&(of, _): &&(&Material, usize)| ptr::eq(of, material);
-            let number = match seen.iter().rev().find(same) {
-                Some(&(_, known)) if first_compared(&materials, 0) <= known => known,
+            let at = match seen.iter().rev().find(same) {
+                Some(&(_, known)) if first_compared(&materials) <= known => known,
                 _ => {
-                    let known = known_material(&materials, 0, material);
-                    let number = known.unwrap_or_else(|| {
+                    let known = known_material(&materials, material);
+                    let at = known.unwrap_or_else(|| {
                         materials.push(material.clone());
                         materials.len() - 1
                     });
                     if seen.len() == SEEN {
                         seen.remove(0);
                     }
-                    seen.push((material, number));
-                    number
+                    seen.push((material, at));
+                    at
                 }
             };
             Object {
                 shape: shape.clone(),
-                material: number as u32,
+                material: (number * BLOCK + at) as u32,
             }
         });
         Self {
             objects: objects.collect(),
-            materials,
-            report: Findings::default(),
+            materials: materials.into(),
         }
     }
 }
 
-/// The objects of blocks, whose materials count from `base`, and all their materials.
-pub(super) fn joined(blocks: Vec<Block>, base: usize) -> (Vec<Arc<[Object]>>, Vec<Material>) {
-    let mut materials = Vec::new();
-    let based = blocks.into_iter().map(|mut block| {
-        let first = (base + materials.len()) as u32;
-        materials.append(&mut block.materials);
-        (block.objects, first)
-    });
-    let based = based.collect();
-    (renumbered(based), materials)
+/// Joins blocks in order.
+pub(super) fn joined(blocks: impl IntoIterator<Item = Block>) -> (Objects, Materials) {
+    let lists = blocks
+        .into_iter()
+        .map(|block| (block.objects, block.materials));
+    let (objects, materials) = lists.unzip();
+    (Objects::of_blocks(objects), Materials::of_blocks(materials))
 }
 
-/// Blocks of objects, with a number added to the indices of each block's materials.
-pub(super) fn renumbered(mut blocks: Vec<(Arc<[Object]>, u32)>) -> Vec<Arc<[Object]>> {
-    let numbers = |(block, more): &mut (Arc<[Object]>, u32)| {
-        for object in Arc::make_mut(block) {
-            object.material = object.material.wrapping_add(*more);
-        }
-    };
-    // Threads do not pay off for a few.
-    if blocks.len() < MANY {
-        blocks.iter_mut().for_each(numbers);
-    } else {
-        blocks.par_iter_mut().for_each(numbers);
-    }
-    blocks.into_iter().map(|(block, _)| block).collect()
-}
-
-/// Reads a text of several blocks. Returns a reader, the objects and the place of their count, or
+/// Reads a text of several blocks. Returns a reader, the objects with their materials, and the place of their count, or
 /// the findings so far if the text must be read in order.
 pub(super) fn read<'a>(
     text: &'a str,
     tokens: &'a Tokens,
     report: Findings,
-) -> Result<(Reader<'a>, Objects, Span), Findings> {
+) -> Result<(Reader<'a>, (Objects, Materials), Span), Findings> {
     // Threads do not pay off for small scenes.
     if tokens.len() <= BLOCK * (1 + LEAST_NUMBERS) {
         return Err(report);
@@ -117,22 +103,26 @@ pub(super) fn read<'a>(
         let end = places.get(first + BLOCK);
         let end = end.map_or(tokens.len(), |next| next.token as usize);
         let range = places[first].token as usize..end;
-        block(text, tokens, range, first)
+        let read = objects(text, tokens, range, first, number)?;
+        let block = Block {
+            materials: read.materials.into_iter().next()?.into(),
+            objects: read.objects.into(),
+        };
+        Some((block, read.report))
     });
-    let Some(mut blocks) = blocks.collect::<Option<Vec<_>>>() else {
+    let Some(blocks) = blocks.collect::<Option<Vec<_>>>() else {
         return Err(report);
     };
     let found = std::mem::replace(&mut reader.report, report);
     reader.report.append(found);
-    for block in &mut blocks {
-        reader.report.append(std::mem::take(&mut block.report));
-    }
-    let (objects, materials) = joined(blocks, 0);
-    let objects = Objects::of_blocks(objects);
-    reader.materials = materials;
+    let blocks = blocks.into_iter().map(|(block, report)| {
+        reader.report.append(report);
+        block
+    });
+    let (objects, materials) = joined(blocks);
     debug_assert_eq!(objects.len(), places.len(), "each keyword is an object");
     reader.places = places;
-    Ok((reader, objects, count))
+    Ok((reader, (objects, materials), count))
 }
 
 /// The places of all keywords, with the number of numbers of a complete object.
@@ -168,15 +158,17 @@ pub(super) fn header<'a>(
     is_regular.then_some((reader, count.token))
 }
 
-/// Reads a block of these tokens, with `first` objects before it; `None` if it is not regular.
-pub(super) fn block(
+/// Reads objects of these tokens, with `before` objects before them, whose first block has the number
+/// `block`; `None` if they are not regular.
+pub(super) fn objects(
     text: &str,
     tokens: &Tokens,
     range: Range<usize>,
-    first: usize,
-) -> Option<Block> {
+    before: usize,
+    block: usize,
+) -> Option<Read> {
     let mut reader = Reader::new(text, tokens, range, Findings::default());
-    reader.before = first;
+    (reader.before, reader.blocks_before) = (before, block);
     reader.objects.reserve(BLOCK);
     while let Some(token) = reader.token() {
         let kind = ShapeKind::of_word(token.of(text))?;
@@ -190,9 +182,9 @@ pub(super) fn block(
         report,
         ..
     } = reader;
-    (report.errors() == 0).then_some(Block {
+    (report.errors() == 0).then_some(Read {
         materials,
-        objects: objects.into(),
+        objects,
         report,
     })
 }

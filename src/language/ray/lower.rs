@@ -51,25 +51,29 @@ pub(super) fn errors_of_beginning(text: &str, tree: &Tree) -> Findings {
 fn lower_by<'a>(
     text: &'a str,
     tree: &'a Tree,
-    blocks: impl FnOnce(Findings) -> Result<(Reader<'a>, Objects, Span), Findings>,
+    blocks: impl FnOnce(Findings) -> Result<(Reader<'a>, (Objects, Materials), Span), Findings>,
 ) -> (Origins, Lowered) {
     let mut report = Findings::default();
     let view = find(text, &tree.tokens, &mut report);
     let render = find_rendering(text, &tree.tokens, &mut report);
-    let (mut reader, objects, count) = match blocks(report) {
+    let (mut reader, (objects, materials), count) = match blocks(report) {
         Ok(read) => read,
         Err(report) => {
             let all = 0..tree.tokens.len();
             let mut reader = Reader::new(text, &tree.tokens, all, report);
             let count = reader.read();
-            let objects = std::mem::take(&mut reader.objects);
-            (reader, objects.into_iter().collect(), count)
+            let objects = std::mem::take(&mut reader.objects).into();
+            let materials = std::mem::take(&mut reader.materials);
+            // After an error a block may be without any.
+            let materials = materials.into_iter().filter(|block| !block.is_empty());
+            let materials = materials.map(Arc::from).collect();
+            (reader, (objects, Materials::of_blocks(materials)), count)
         }
     };
     let read = ObjectsRead {
         places: Arc::new(std::mem::take(&mut reader.places)),
         objects,
-        materials: std::mem::take(&mut reader.materials).into(),
+        materials,
     };
     joined(tree, (view, render), (reader, count), read)
 }

@@ -102,8 +102,9 @@ impl<'a> Reader<'a> {
             });
         }
         self.at += 1;
-        if self.objects.len().is_multiple_of(BLOCK) {
-            self.of_block = self.materials.len();
+        if self.materials.len() * BLOCK == self.objects.len() {
+            self.materials.push(Vec::new());
+            self.spellings.clear();
         }
         let name = Name::Object(self.before + self.places.len(), kind.keyword());
         let findings = self.findings();
@@ -162,10 +163,10 @@ impl<'a> Reader<'a> {
     /// Returns the material with this text, if it is among the last ones of its block: the same
     /// text has the same meaning. This halves the time for a million objects with few materials.
     fn known(&self, spelling: &str) -> Option<u32> {
-        let first = first_compared(&self.materials, self.of_block);
+        let first = first_compared(self.materials.last()?);
         let mut known = self.spellings.iter().rev();
         let known = known.find(|&&(known, _)| known == spelling)?.1;
-        (first <= known as usize).then_some(known)
+        (first <= known as usize % BLOCK).then_some(known)
     }
 
     /// Remembers the text of a material without findings.
@@ -194,14 +195,17 @@ impl<'a> Reader<'a> {
         self.objects.push(Object { shape, material });
     }
 
-    /// Adds a material unless an equal one is among the last ones of its block; returns the index.
+    /// Adds a material unless an equal one is among the last ones of its block; returns its number.
     fn material(&mut self, material: Material) -> u32 {
-        let known = known_material(&self.materials, self.of_block, &material);
-        let at = known.unwrap_or_else(|| {
-            self.materials.push(material);
-            self.materials.len() - 1
+        let before = self.blocks_before + self.materials.len().saturating_sub(1);
+        let at = self.materials.last_mut().map_or(0, |materials| {
+            let known = known_material(materials, &material);
+            known.unwrap_or_else(|| {
+                materials.push(material);
+                materials.len() - 1
+            })
         });
-        at as u32
+        (before * BLOCK + at) as u32
     }
 
     /// Reports an object cut short by the end of the text.
@@ -296,14 +300,9 @@ impl<'a> Reader<'a> {
     }
 }
 
-/// The index of an equal material among the last ones of a block, whose first material has the index
-/// `of_block`.
-pub(super) fn known_material(
-    materials: &[Material],
-    of_block: usize,
-    material: &Material,
-) -> Option<usize> {
-    let first = first_compared(materials, of_block);
+/// The index of an equal material among the last ones of a block.
+pub(super) fn known_material(materials: &[Material], material: &Material) -> Option<usize> {
+    let first = first_compared(materials);
     let known = materials[first..]
         .iter()
         .rposition(|known| known == material);
@@ -311,9 +310,8 @@ pub(super) fn known_material(
 }
 
 /// The first material of a block to compare a new one with.
-pub(super) fn first_compared(materials: &[Material], of_block: usize) -> usize {
-    let last = materials.len().saturating_sub(MOST_COMPARED);
-    of_block.max(last)
+pub(super) fn first_compared(materials: &[Material]) -> usize {
+    materials.len().saturating_sub(MOST_COMPARED)
 }
 
 /// The name of an object.

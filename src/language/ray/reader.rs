@@ -71,10 +71,11 @@ pub(super) struct Reader<'a> {
     pub(super) before: usize,
     pub(super) ambient: Rgb,
     pub(super) lights: Vec<Light>,
-    pub(super) materials: Vec<Material>,
-    /// The first material of the current block of objects.
-    pub(super) of_block: usize,
-    /// The texts of the last few materials without findings, and their indices.
+    /// Number of blocks of objects before these tokens.
+    pub(super) blocks_before: usize,
+    /// The materials of each block of objects.
+    pub(super) materials: Vec<Vec<Material>>,
+    /// The texts of the last few materials of the block without findings, and their numbers.
     pub(super) spellings: Vec<(&'a str, u32)>,
     /// Complete up to the first error.
     pub(super) objects: Vec<Object>,
@@ -99,8 +100,8 @@ impl<'a> Reader<'a> {
             before: 0,
             ambient: Rgb::ZERO,
             lights: Vec::new(),
+            blocks_before: 0,
             materials: Vec::new(),
-            of_block: 0,
             spellings: Vec::new(),
             objects: Vec::new(),
         }

@@ -75,8 +75,8 @@ fn materials(text: &str, tree: &Tree, count: usize) -> Option<usize> {
         let begins = |span: &Span| ShapeKind::of_word(span.of(text)).is_some();
         let first = spans.iter().position(begins)?;
         let end = spans.iter().rposition(begins)?;
-        let block = blocks::block(text, &tree.tokens, from + first..from + end, 0)?;
-        found += block.materials.len();
+        let block = blocks::objects(text, &tree.tokens, from + first..from + end, 0, 0)?;
+        found += block.materials.iter().map(Vec::len).sum::<usize>();
         objects += block.objects.len();
     }
     Some(count.checked_mul(found)?.div_ceil(objects.max(1)))

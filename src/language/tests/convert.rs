@@ -6,7 +6,7 @@ use std::sync::Arc;
 
 use super::read_as;
 use crate::language::{Converted, Language, convert};
-use crate::scene::{FalloffRule, Meshes, Rgb};
+use crate::scene::{FalloffRule, Meshes, Object, Rgb};
 use crate::text::Position;
 
 const RAY: &str = r#"// view: eye 0 0 9 target 0 0 0 up 0 1 0 fov 40 size 8 6
@@ -372,6 +372,30 @@ fn thousands_of_objects_are_written() {
 }
 
 /// Where a setting gives lights without terms of their own that falloff.
+#[test]
+fn each_of_many_objects_keeps_its_own_material() {
+    const COUNT: usize = 2100;
+    let mut text = format!("1 1 1  1  0 5 5  1 1 1  {COUNT}\n");
+    for number in 0..COUNT {
+        let red = [number / 700, number][number / 700 % 2] % 250;
+        let colours = format!("0 0 0  0.{red:03} 0 0  0 0 0  1 0 0 1");
+        writeln!(text, "sphere {number} 0 0 1  {colours}").expect("a string");
+    }
+    let colours = |language, text: &str| {
+        let (_, lowered) = read_as(language, text, &Meshes::default());
+        let scene = lowered.scene.expect("it has no errors");
+        let objects = scene.objects.iter();
+        let colour = |object: &Object| scene.materials[object.material as usize].diffuse;
+        objects.map(colour).collect::<Vec<_>>()
+    };
+    let own = colours(Language::Ray, &text);
+    assert_eq!(own.len(), COUNT);
+    for to in [Language::Dat, Language::Xml] {
+        let (written, _) = converted(Language::Ray, &text, to);
+        assert_eq!(colours(to, &written), own, "{to:?}");
+    }
+}
+
 #[test]
 fn a_falloff_by_the_square_is_kept_by_the_setting_for_it() {
     let light = "<light type='point' name='lamp'><intensity value='3'/><position z='9'/>\

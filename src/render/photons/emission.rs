@@ -155,10 +155,13 @@ impl Emission {
 /// Boxes around the objects that may have a mirror or a boundary.
 fn targets(world: &World, most: usize) -> Vec<Aabb> {
     let scene = &*world.scene;
-    let turns: Vec<_> = scene.materials.iter().map(turns).collect();
+    let mut turning = vec![false; scene.materials.len()];
+    for (number, material) in scene.materials.numbered() {
+        turning[number] = turns(material);
+    }
     let objects = world.order().iter();
     let objects = objects.map(|&number| &scene.objects[number as usize]);
-    let objects = objects.filter(|object| any(object, &turns));
+    let objects = objects.filter(|object| any(object, &turning));
     let boxes: Vec<_> = objects.map(|object| object.shape.bounds()).collect();
     let together = boxes.len().div_ceil(most).max(1);
     let union = |boxes: &[Aabb]| boxes.iter().copied().fold(Aabb::EMPTY, Aabb::union);
