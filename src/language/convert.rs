@@ -103,10 +103,10 @@ fn numbered(scene: Cow<'_, Scene>) -> Cow<'_, Scene> {
         material: numbers[object.material as usize],
         ..object.clone()
     });
-    let (objects, materials) = (objects.collect(), materials.iter().cloned().collect());
+    let (materials, objects) = (materials.iter().cloned().collect(), objects.collect());
     Cow::Owned(Scene {
-        objects,
         materials,
+        objects,
         ..scene.into_owned()
     })
 }

@@ -49,7 +49,7 @@ impl Writers {
             "save",
             Some(&self.at_work),
             Msg::Saved(id, panicked),
-            move || Some(Msg::Saved(id, save(path, text, &guard))),
+            move || Some(Msg::Saved(id, save(path, &text, &guard))),
         )
     }
 
@@ -66,7 +66,7 @@ impl Writers {
             "track",
             Some(&self.at_work),
             Msg::TrackWritten(panicked),
-            move || Some(Msg::TrackWritten(save(path, text, &guard))),
+            move || Some(Msg::TrackWritten(save(path, &text, &guard))),
         )
     }
 
@@ -197,7 +197,7 @@ fn names_in(folder: &Path) -> Vec<String> {
 }
 
 /// Writes a scene unless that would overwrite another program's changes.
-fn save(path: PathBuf, text: Arc<String>, guard: &Guard) -> SaveOutcome {
+fn save(path: PathBuf, text: &str, guard: &Guard) -> SaveOutcome {
     let folder = file::directory_of(&path);
     if let Ok(false) = folder.try_exists() {
         let reason = file::no_such_folder(folder);
@@ -206,10 +206,14 @@ fn save(path: PathBuf, text: Arc<String>, guard: &Guard) -> SaveOutcome {
     let saved = file::replace(
         &path,
         |out| out.write_all(text.as_bytes()),
-        || may_replace(&path, &text, guard),
+        || may_replace(&path, text, guard),
     );
     match saved {
-        Ok(()) => SaveOutcome::Saved { path, text },
+        Ok(()) => SaveOutcome::Saved {
+            path,
+            // If the text being edited were also the saved one, the next edit would have to copy it.
+            text: Arc::new(text.to_owned()),
+        },
         Err(WriteError::Changed) => SaveOutcome::ChangedOnDisk,
         Err(WriteError::Other(reason)) => SaveOutcome::Failed(reason),
         Err(WriteError::Io(error)) => SaveOutcome::Failed(format!("{}: {error}", path.display())),
@@ -406,7 +410,7 @@ mod tests {
                 "~none: no such folder; only shells expand ~",
             ),
         ] {
-            let outcome = save(path, Arc::default(), &Guard::Absent);
+            let outcome = save(path, "", &Guard::Absent);
             assert!(matches!(outcome, SaveOutcome::Failed(said) if said.ends_with(reason)));
         }
     }
@@ -422,8 +426,7 @@ mod tests {
             std::fs::write(&path, "old").expect("the folder is new");
             let guard = Guard::Holding(Arc::new("old".to_owned()));
             let fault = Fault::Once(Errno::NOSPC);
-            let (outcome, calls) =
-                during(fault, at, || save(path.clone(), Arc::clone(&text), &guard));
+            let (outcome, calls) = during(fault, at, || save(path.clone(), &text, &guard));
             let held = std::fs::read_to_string(&path).expect("a file");
             match outcome {
                 SaveOutcome::Saved { .. } => assert_eq!(held, "new", "{calls:?}"),

@@ -10,6 +10,7 @@ use super::identity::Identity;
 use super::record;
 use crate::document::Snapshot;
 use crate::language::Language;
+use crate::text::Edit;
 
 /// Outdated edits may take this many bytes, or as many as the text if it is longer.
 const WASTE: u64 = 1 << 20;
@@ -21,6 +22,34 @@ pub(crate) struct Edits {
     pub(crate) scene: Option<PathBuf>,
     /// The text that the edits are based on, and the edited text.
     pub(crate) known: Snapshot,
+}
+
+/// An edited text as one edit of the text that it is based on.
+struct Change {
+    scene: Option<PathBuf>,
+    language: Language,
+    saved: Arc<String>,
+    edit: Edit,
+}
+
+impl From<Edits> for Change {
+    /// Lets go of the edited text: while others hold it, the interface has to copy it for its next
+    /// edit.
+    fn from(Edits { scene, known }: Edits) -> Self {
+        Self {
+            scene,
+            language: known.language,
+            edit: record::difference(&known.saved, known.text()),
+            saved: known.saved,
+        }
+    }
+}
+
+impl Change {
+    /// The length of the edited text in bytes.
+    fn len(&self) -> usize {
+        self.saved.len() - self.edit.span.len() + self.edit.text.len()
+    }
 }
 
 /// This run's journal, created once there is something to keep.
@@ -53,14 +82,15 @@ impl Journal {
     }
 
     /// Keeps a text instead of the last one. If that fails, the last one remains.
-    pub(super) fn write(&mut self, edits: &Edits) -> io::Result<()> {
+    pub(super) fn write(&mut self, edits: Edits) -> io::Result<()> {
+        let change = Change::from(edits);
         let fits = |held: &&mut OpenJournal| {
-            held.scene == edits.scene && held.language == edits.known.language && held.is_found()
+            held.scene == change.scene && held.language == change.language && held.is_found()
         };
         if let Some(held) = self.held.as_mut().filter(fits) {
-            return held.write(edits);
+            return held.write(&change);
         }
-        let held = OpenJournal::new(&self.state, edits)?;
+        let held = OpenJournal::new(&self.state, &change)?;
         match self.held.replace(held) {
             Some(before) => before.claim.remove(),
             None => Ok(()),
@@ -79,14 +109,14 @@ impl Journal {
 }
 
 impl OpenJournal {
-    fn new(state: &Path, edits: &Edits) -> io::Result<Self> {
+    fn new(state: &Path, change: &Change) -> io::Result<Self> {
         let folder = Arc::new(Folder::make(state)?);
-        let identity = Identity::of(edits.scene.as_deref(), edits.known.language);
+        let identity = Identity::of(change.scene.as_deref(), change.language);
         let Beginning {
             content,
             first,
             seal,
-        } = Beginning::new(&identity, edits);
+        } = Beginning::new(&identity, change);
         let claim = Claim::new(&folder, &identity)?;
         if let Err(error) = claim.fill(&content) {
             let _ = claim.remove();
@@ -95,10 +125,10 @@ impl OpenJournal {
         Ok(Self {
             folder,
             claim,
-            scene: edits.scene.clone(),
-            language: edits.known.language,
+            scene: change.scene.clone(),
+            language: change.language,
             identity,
-            base: Arc::clone(&edits.known.saved),
+            base: Arc::clone(&change.saved),
             seal,
             first,
             end: Some(content.len() as u64),
@@ -116,19 +146,18 @@ impl OpenJournal {
         self.is_found() && self.end.is_some_and(is_as_left)
     }
 
-    fn write(&mut self, edits: &Edits) -> io::Result<()> {
-        let Snapshot { saved, .. } = &edits.known;
-        let is_base = Arc::ptr_eq(&self.base, saved) || self.base == *saved;
-        let room = self.first + WASTE.max(edits.known.text().len() as u64);
+    fn write(&mut self, change: &Change) -> io::Result<()> {
+        let is_base = self.base == change.saved;
+        let room = self.first + WASTE.max(change.len() as u64);
         let end = self.end.take();
         match end.filter(|&end| is_base && end < room && self.claim.is_as_left(end)) {
-            Some(end) => self.append(end, edits),
-            None => self.replace(edits),
+            Some(end) => self.append(end, &change.edit),
+            None => self.replace(change),
         }
     }
 
-    fn append(&mut self, end: u64, edits: &Edits) -> io::Result<()> {
-        let edit = record::edit(self.seal, &self.base, edits.known.text());
+    fn append(&mut self, end: u64, edit: &Edit) -> io::Result<()> {
+        let edit = record::edit(self.seal, edit);
         let mut file = self.claim.file();
         file.seek(SeekFrom::Start(end))?;
         file.write_all(&edit)?;
@@ -137,14 +166,14 @@ impl OpenJournal {
         Ok(())
     }
 
-    fn replace(&mut self, edits: &Edits) -> io::Result<()> {
+    fn replace(&mut self, change: &Change) -> io::Result<()> {
         let Beginning {
             content,
             first,
             seal,
-        } = Beginning::new(&self.identity, edits);
+        } = Beginning::new(&self.identity, change);
         self.claim.replace(&content)?;
-        self.base = Arc::clone(&edits.known.saved);
+        self.base = Arc::clone(&change.saved);
         (self.seal, self.first) = (seal, first);
         self.end = Some(content.len() as u64);
         Ok(())
@@ -161,15 +190,35 @@ struct Beginning {
 }
 
 impl Beginning {
-    fn new(scene: &Identity, edits: &Edits) -> Self {
-        let (base, text) = (&edits.known.saved, edits.known.text());
-        let (mut content, seal) = record::head(scene, base);
+    fn new(scene: &Identity, change: &Change) -> Self {
+        let (mut content, seal) = record::head(scene, &change.saved);
         let first = content.len() as u64;
-        content.extend(record::edit(seal, base, text));
+        content.extend(record::edit(seal, &change.edit));
         Self {
             content,
             first,
             seal,
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::document::Document;
+    use crate::text::Span;
+
+    #[test]
+    fn a_text_is_not_held_while_its_edits_are_written() {
+        let mut document = Document::new(Language::Ray, "1 ".repeat(1 << 12));
+        let edit = Edit {
+            span: Span::new(2, 3),
+            text: "25".to_owned(),
+        };
+        document.edit(std::slice::from_ref(&edit));
+        let known = document.snapshot();
+        let change = Change::from(Edits { scene: None, known });
+        assert_eq!(Arc::strong_count(document.source().text()), 1);
+        assert_eq!((&change.edit, change.len()), (&edit, document.text().len()));
     }
 }

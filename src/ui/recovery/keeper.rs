@@ -103,11 +103,9 @@ fn follow(inbox: &Receiver<Request>, report: impl Fn(Outcome)) -> End {
         let removed = match request {
             Request::Keep(revision, edits) => {
                 let done = match &mut journal {
-                    Ok(journal) => journal.write(&edits).map_err(|error| error.to_string()),
+                    Ok(journal) => journal.write(edits).map_err(|error| error.to_string()),
                     Err(error) => Err(error.to_string()),
                 };
-                // While others hold a text, the interface has to copy it for its next edit.
-                drop(edits);
                 trouble = done.as_ref().err().cloned();
                 report(Outcome::Kept(revision, done));
                 if trouble.is_some() {

@@ -66,18 +66,21 @@ pub(super) fn head(scene: &Identity, base: &str) -> (Vec<u8>, u64) {
     (bytes, seal)
 }
 
-/// Encodes the edit that leads from the base to another text.
-pub(super) fn edit(seal: u64, base: &str, text: &str) -> Vec<u8> {
-    let whole = || Edit {
-        span: Span::new(0, base.len()),
-        text: text.to_owned(),
-    };
+/// The edit to keep that leads from the base to another text.
+pub(super) fn difference(base: &str, text: &str) -> Edit {
     let edit = Some(text).filter(|text| SHORT < text.len());
     let edit = edit.and_then(|text| smallest_edit(base, text));
-    let Edit { span, text } = edit.unwrap_or_else(whole);
+    edit.unwrap_or_else(|| Edit {
+        span: Span::new(0, base.len()),
+        text: text.to_owned(),
+    })
+}
+
+/// Encodes an edit of the base.
+pub(super) fn edit(seal: u64, Edit { span, text }: &Edit) -> Vec<u8> {
     let line = format!("{EDIT} {} {} {}", span.start(), span.len(), text.len());
     let mut bytes = Vec::with_capacity(text.len() + LONGEST);
-    put_block(&mut bytes, &line, &seal.to_be_bytes(), &text);
+    put_block(&mut bytes, &line, &seal.to_be_bytes(), text);
     bytes
 }
 

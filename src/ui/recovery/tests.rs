@@ -99,7 +99,7 @@ impl Place {
 
     fn keep(&self, journal: &mut Journal, text: &str) {
         let edits = self.edits(&Arc::new(BASE.to_owned()), text);
-        journal.write(&edits).expect("it can be written");
+        journal.write(edits).expect("it can be written");
     }
 
     fn look(&self, text: &str) -> Found {
@@ -160,7 +160,7 @@ fn edits_of_a_running_process_are_not_offered() {
     assert_eq!(place.offered(), None);
     let other = Arc::new("1 2 4".to_owned());
     let edits = place.edits(&other, "1 2 5");
-    first.write(&edits).expect("it can be written");
+    first.write(edits).expect("it can be written");
     assert_eq!(place.offered(), None, "the lock is on what replaced it too");
     drop(second);
     assert_eq!(place.offered().as_deref(), Some("9 2 3"));
@@ -225,7 +225,7 @@ fn edits_are_appended_until_they_outgrow_the_text() {
     for number in 2..42 {
         let text = base.replacen('1', &number.to_string(), 1 + number % 2 * 150_000);
         let edits = place.edits(&base, &text);
-        journal.write(&edits).expect("it can be written");
+        journal.write(edits).expect("it can be written");
         lengths.push(fs::metadata(place.journal(0)).expect("it is there").len());
     }
     let most = 2 * base.len() + (3 << 20);
@@ -282,7 +282,7 @@ fn a_scene_saved_under_another_name_leaves_no_journal_behind() {
     let known = known(&Arc::default(), "1 2 5");
     let scene = Some(place.directory.path().join("b.ray"));
     let other = Edits { scene, known };
-    journal.write(&other).expect("it can be written");
+    journal.write(other).expect("it can be written");
     assert_eq!(place.offered(), None);
     let names = place.names();
     assert!(names.len() == 1 && names[0].starts_with("b-"), "{names:?}");
@@ -341,7 +341,7 @@ fn edits_of_a_missing_file_are_found() {
 /// A journal in parts: the head with the base, and edits.
 pub(super) fn parts(scene: &Identity, base: &str, texts: &[&str]) -> Vec<Vec<u8>> {
     let (head, seal) = record::head(scene, base);
-    let edits = texts.iter().map(|text| record::edit(seal, base, text));
+    let edits = (texts.iter()).map(|text| record::edit(seal, &record::difference(base, text)));
     iter::once(head).chain(edits).collect()
 }
 

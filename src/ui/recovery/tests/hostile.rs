@@ -95,7 +95,7 @@ fn unsafe_folders_are_refused() {
         assert_eq!(found.complaints.len(), usize::from(is_said), "{name}");
         let edits = place.edits(&Arc::new(BASE.to_owned()), "1 2 5");
         let mut journal = place.run();
-        let error = journal.write(&edits).expect_err(name).to_string();
+        let error = journal.write(edits).expect_err(name).to_string();
         assert!(error.contains(words), "{name}: {error}");
         assert!(!journal.is_kept(), "{name}");
     }
@@ -119,7 +119,7 @@ fn a_folder_of_another_user_is_refused() {
     // Only root can give a folder away.
     if chown(place.recovery(), Some(Uid::from_raw(1)), None).is_ok() {
         let edits = place.edits(&Arc::default(), "1");
-        let error = place.run().write(&edits).expect_err("it is not ours");
+        let error = place.run().write(edits).expect_err("it is not ours");
         assert!(error.to_string().contains("another user"), "{error}");
     }
 }
@@ -251,7 +251,7 @@ fn replacing_a_journal_follows_no_link() {
     let new = place.journal(0).with_extension("ray.new");
     symlink(&place.victim, new).expect("free");
     let edits = place.edits(&Arc::new("1".to_owned()), "1 2 5");
-    journal.write(&edits).expect("it can be written");
+    journal.write(edits).expect("it can be written");
     assert_eq!(
         fs::read_to_string(&place.victim).expect("a text"),
         "untouched"
@@ -269,7 +269,7 @@ fn a_folder_that_replaces_the_held_one_is_not_written_to() {
     symlink(place.victim.parent().expect("a folder"), place.recovery()).expect("free");
     for (base, text) in [(BASE, "1 2 5"), ("1", "1 2 6")] {
         let edits = place.edits(&Arc::new(base.to_owned()), text);
-        let error = journal.write(&edits).expect_err("nobody would find it");
+        let error = journal.write(edits).expect_err("nobody would find it");
         assert!(error.to_string().contains("symbolic link"), "{error}");
         assert!(!journal.is_kept());
     }
