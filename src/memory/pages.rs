@@ -35,7 +35,7 @@ unsafe impl GlobalAlloc for Allocator {
     }
 }
 
-/// Asks for huge pages for the part of an allocation that whole ones cover.
+/// Asks for huge pages where an allocation has room for them.
 #[inline]
 fn advised(start: *mut u8, size: usize) -> *mut u8 {
     if HUGE <= size && !start.is_null() {
@@ -50,15 +50,24 @@ fn advised(start: *mut u8, size: usize) -> *mut u8 {
 fn advise(start: *mut u8, size: usize) {
     use rustix::mm::{Advice, madvise};
 
-    let before = start.addr().next_multiple_of(HUGE) - start.addr();
-    let whole = size.saturating_sub(before) / HUGE * HUGE;
-    if whole == 0 {
+    let end = start.addr() + size;
+    if end < start.addr().next_multiple_of(HUGE) + HUGE {
         return;
     }
-    let first = start.wrapping_add(before).cast();
-    // SAFETY: the pages are within an allocation that only the caller owns. The advice changes neither
-    // their contents nor their mapping; a system without huge pages refuses it.
-    let _ = unsafe { madvise(first, whole, Advice::LinuxHugepage) };
+    // All its pages: different advice for some would divide the mapping, which `realloc` then could
+    // only copy instead of moving it.
+    let page = rustix::param::page_size();
+    let before = start.addr() % page;
+    let pages = (before + size).next_multiple_of(page);
+    // SAFETY: the pages are mapped, as each holds a byte of the allocation. The advice changes neither
+    // their contents nor where they are; a system without huge pages refuses it.
+    let _ = unsafe {
+        madvise(
+            start.wrapping_sub(before).cast(),
+            pages,
+            Advice::LinuxHugepage,
+        )
+    };
 }
 
 #[cfg(not(target_os = "linux"))]
@@ -68,8 +77,9 @@ fn advise(_: *mut u8, _: usize) {}
 mod tests {
     use super::*;
 
-    /// Whether huge pages were asked for at an address, according to `/proc/self/smaps`.
-    fn is_huge(address: usize) -> bool {
+    /// Whether huge pages were asked for in the mapping that holds all these addresses, according to
+    /// `/proc/self/smaps`.
+    fn is_huge(start: usize, size: usize) -> bool {
         let maps = std::fs::read_to_string("/proc/self/smaps").expect("Linux has it");
         let mut within = false;
         for line in maps.lines() {
@@ -81,7 +91,7 @@ mod tests {
                 && let Ok(from) = usize::from_str_radix(from, 16)
                 && let Ok(to) = usize::from_str_radix(to, 16)
             {
-                within = (from..to).contains(&address);
+                within = from <= start && start + size <= to;
             }
             if within && let Some(flags) = line.strip_prefix("VmFlags:") {
                 return flags.split(' ').any(|flag| flag == "hg");
@@ -102,12 +112,12 @@ mod tests {
             // SAFETY: the size is not 0, and memory is freed with the layout it has last.
             let asked = unsafe {
                 let start = Allocator.alloc(layout);
-                let first = is_huge(start.addr() + size / 2);
+                let first = is_huge(start.addr(), size);
                 let start = Allocator.realloc(start, layout, grown);
-                let second = is_huge(start.addr() + grown / 2);
+                let second = is_huge(start.addr(), grown);
                 Allocator.dealloc(start, larger);
                 let start = Allocator.alloc_zeroed(layout);
-                let third = is_huge(start.addr() + size / 2);
+                let third = is_huge(start.addr(), size);
                 Allocator.dealloc(start, layout);
                 [first, second, third]
             };
