@@ -11,7 +11,7 @@ use crate::text::{Edit, Span, are_plain_numbers, difference};
 /// Shorter texts are parsed in a few milliseconds.
 const LONG: usize = 1 << 20;
 
-/// The numbers of one object are never longer, in bytes.
+/// The most bytes of changed numbers: more than those of any object.
 const LONGEST: usize = 1024;
 
 /// A text from outside that differs from the one last saved in plain numbers, for
@@ -68,9 +68,9 @@ impl Numbers {
 }
 
 impl Document {
-    /// As [`Document::load`] if only numbers of one object have changed, given the result of lowering
-    /// the present text; returns the previous texts, which may take long to free. `None` if more may
-    /// have changed: then the document is as before.
+    /// As [`Document::load`] if all objects but the changed ones can be kept, given the result of lowering
+    /// the present text; returns the previous texts, which may take long to free. `None` if not: then
+    /// the document is as before.
     pub fn take_numbers(
         &mut self,
         numbers: Numbers,

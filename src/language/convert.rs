@@ -89,7 +89,7 @@ fn gamma_loss(scene: &Scene) -> Option<&'static Loss> {
     is_scaled.then_some(if is_path { &PATHS_KEPT } else { &WHITTED_KEPT })
 }
 
-/// The scene with materials whose numbers have no gaps; those that have belong to single solids.
+/// The scene with the materials numbered without gaps. Only scenes of single solids have any.
 fn numbered(scene: Cow<'_, Scene>) -> Cow<'_, Scene> {
     let materials = &scene.materials;
     if materials.iter().count() == materials.len() {

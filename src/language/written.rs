@@ -16,8 +16,9 @@ pub struct Written<Tree, Origins> {
     pub(super) tree: Tree,
     /// The places found by the last lowering.
     pub(super) origins: Origins,
-    /// The places replaced by the last lowering; `None` once the text has changed.
-    former: Option<Origins>,
+    /// The places replaced by the last lowering, and whether only the last change was made since they
+    /// were found; `None` once the text has changed.
+    former: Option<(Origins, bool)>,
     /// How the text has changed since the last lowering.
     pub(super) since: Since,
 }
@@ -99,7 +100,8 @@ impl<Tree, Origins: Default> Written<Tree, Origins> {
     pub(super) fn place(&mut self, origins: Origins) {
         let before = mem::replace(&mut self.origins, origins);
         // Of several lowerings of one text, the first replaced the places of the text before.
-        self.former.get_or_insert(before);
+        let is_last = matches!(self.since, Since::Edited(_));
+        self.former.get_or_insert((before, is_last));
         self.since = Since::Unchanged;
     }
 
@@ -108,11 +110,11 @@ impl<Tree, Origins: Default> Written<Tree, Origins> {
     where
         Tree: Parse,
     {
+        self.former = None;
         if edits.is_empty() {
             return;
         }
         self.tree.follow(&self.text, &edits);
-        self.former = None;
         self.since = match self.since {
             Since::Unchanged => Since::Edited(edits),
             Since::Edited(_) | Since::Unknown => Since::Unknown,
@@ -153,12 +155,19 @@ impl<Tree: Debug + Parse, Origins: Debug + Default> Editable for Written<Tree, O
     }
 
     fn revert(&mut self, inverse: &[Edit]) {
-        let former = self.former.take();
-        let has_places = former.is_some() || matches!(self.since, Since::Edited(_));
-        self.change(inverse);
-        self.origins = former.unwrap_or_else(|| mem::take(&mut self.origins));
-        if has_places {
-            self.since = Since::Unchanged;
+        if inverse.is_empty() {
+            return;
         }
+        let former = self.former.take();
+        let mut is_last = matches!(self.since, Since::Edited(_));
+        self.change(inverse);
+        if let Some((places, of_last)) = former {
+            (self.origins, is_last) = (places, of_last);
+        }
+        self.since = if is_last {
+            Since::Unchanged
+        } else {
+            Since::Unknown
+        };
     }
 }

@@ -9,8 +9,8 @@ use rayon::prelude::*;
 /// Items per block.
 pub(crate) const BLOCK: usize = 1024;
 
-/// A list. Clones share blocks until they are changed. Items are found by their numbers, which may
-/// have gaps: a block's first item has the block's number times the size of a full one.
+/// A list. Clones share blocks until they are changed. Items are found by their numbers: block `k`
+/// holds those from `k` × [`BLOCK`] on. Numbers have gaps behind blocks that are not full.
 #[derive(Clone, Debug)]
 pub struct Blocks<T> {
     /// None is empty.

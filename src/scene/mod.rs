@@ -31,8 +31,8 @@ pub use viewpoint::Viewpoint;
 /// The objects of a scene.
 pub type Objects = Blocks<Object>;
 
-/// The materials of a scene. Languages whose objects state their own keep those of a block of objects
-/// in a block, so that a changed one leaves the numbers of the others as they are.
+/// The materials of a scene. Where each object states its own, block `k` holds the materials of the
+/// objects in block `k`: a new material leaves the numbers in other blocks as they are.
 pub type Materials = Blocks<Material>;
 
 /// A linear colour: red, green and blue, unclamped.

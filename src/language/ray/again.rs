@@ -16,9 +16,9 @@ use crate::language::written::{Replaced, numbers};
 use crate::language::{Before, Lowered};
 use crate::scene::blocks::BLOCK;
 use crate::scene::{Materials, Object, Objects, Scene};
-use crate::text::{Diagnostic, Findings, Span, line_end, next_line};
+use crate::text::{Diagnostic, Findings, Span, line_start, next_line};
 
-/// The most tokens read again, on one thread; a text with more is read as a whole, on all.
+/// The most tokens read again, on one thread; if there are more, the whole text is read, on all.
 const MOST: usize = 1 << 16;
 
 /// Blocks from which making them anew is worth other threads.
@@ -38,11 +38,7 @@ pub(super) fn lower(
     if !is_sound {
         return None;
     }
-    let change = if is_within_comment(text, tree, origins, edits) {
-        Change::none(origins, edits)
-    } else {
-        Change::of(text, tree, origins, edits)?
-    };
+    let change = Change::of(text, tree, origins, edits)?;
     let places = change.places(origins);
     let mut report = Findings::default();
     let view = find(text, &tree.tokens, &mut report);
@@ -59,9 +55,9 @@ pub(super) fn lower(
             return None;
         }
         let read = blocks::objects(text, &tree.tokens, tokens, change.old.start, 0)?;
-        let replaced = replaced(known, change.old.clone(), &read);
+        let made = replaced(known, change.old.clone(), &read);
         report.append(read.report);
-        replaced
+        made
     };
     reader.report = report;
     let read = ObjectsRead {
@@ -74,26 +70,6 @@ pub(super) fn lower(
     (found.len() == found.warnings()).then_some((origins, lowered))
 }
 
-/// Whether an edit has changed nothing but the view's comment or that of the render settings.
-fn is_within_comment(text: &str, tree: &Tree, origins: &Origins, edits: &[Replaced]) -> bool {
-    let [Replaced { old, new, .. }] = *edits else {
-        return false;
-    };
-    let holds = |comment: Span, edit: Span| {
-        comment.start() + "//".len() <= edit.start() && edit.end() <= comment.end()
-    };
-    let mut comments = origins.comments().map(|(_, comment)| comment);
-    let Some(before) = comments.find(|comment| holds(*comment, old)) else {
-        return false;
-    };
-    let mut keyed = tree.tokens.keyed();
-    keyed.any(|start| start == before.start())
-        && holds(
-            Span::new(before.start(), line_end(text, before.start())),
-            new,
-        )
-}
-
 /// What edits may have changed of the objects.
 struct Change<'e> {
     edits: &'e [Replaced],
@@ -101,27 +77,17 @@ struct Change<'e> {
     region: Option<Span>,
     /// The objects before the edits that are read again.
     old: Range<usize>,
-    /// The places of those that take their place.
+    /// The first token that is read again, if that is an object's.
+    from: Option<usize>,
+    /// The places of the objects that take their place.
     read: Vec<ObjectPlace>,
     /// How many more tokens precede the objects behind.
     grown: isize,
 }
 
 impl<'e> Change<'e> {
-    /// Edits that change no object.
-    fn none(origins: &Origins, edits: &'e [Replaced]) -> Self {
-        let objects = origins.objects.len();
-        Self {
-            edits,
-            region: None,
-            old: objects..objects,
-            read: Vec::new(),
-            grown: 0,
-        }
-    }
-
-    /// Finds the objects in the lines of the edits. Tokens before the edits, and in lines behind them,
-    /// are as before. `None` if the tree cannot be one after these edits.
+    /// Finds the objects in the lines of the edits. Tokens in lines before and behind them are as
+    /// before.
     fn of(text: &str, tree: &Tree, origins: &Origins, edits: &'e [Replaced]) -> Option<Self> {
         let (tokens, objects) = (&tree.tokens, &origins.objects);
         let first = objects.first()?.token as usize;
@@ -131,25 +97,30 @@ impl<'e> Change<'e> {
         });
         let of_objects = &edits[in_header.count()..];
         let Some((one, last)) = of_objects.first().zip(of_objects.last()) else {
-            return Some(Self::none(origins, edits));
+            return Some(Self {
+                edits,
+                region: None,
+                old: objects.len()..objects.len(),
+                from: None,
+                read: Vec::new(),
+                grown: 0,
+            });
         };
         let grown = tokens.len() as isize - origins.tokens as isize;
-        let before = tokens.partition_point(|token| token.start() < one.new.start());
+        let line = line_start(text, one.new.start());
+        let before = tokens.partition_point(|token| token.start() < line);
         let before = objects.partition_point(|object| (object.token as usize) < before);
         let line = next_line(text, last.new.end());
         let behind = tokens.partition_point(|token| token.start() < line) as isize - grown;
         let end = objects.partition_point(|object| (object.token as isize) < behind);
-        // The edits may touch the last object before them.
+        // The last object that begins before these lines may end in them.
         let old = before.saturating_sub(1)..end;
-        let from = match before {
-            0 => 0,
-            _ => objects[old.start].token as usize,
-        };
+        let from = (0 < before).then(|| objects[old.start].token as usize);
         let end = match objects.get(end) {
             Some(object) => (object.token as isize + grown) as usize,
             None => tokens.len(),
         };
-        let words = tokens.words_from(from);
+        let words = tokens.words_from(from.unwrap_or(0));
         let words = words.take_while(|&(token, _)| token < end);
         let read = words.filter_map(|(token, word)| blocks::place(text, token, word));
         (old.start <= old.end).then(|| Self {
@@ -157,6 +128,7 @@ impl<'e> Change<'e> {
             region: Some(one.old.to(last.old)),
             read: read.collect(),
             old,
+            from,
             grown,
         })
     }
@@ -183,7 +155,8 @@ impl<'e> Change<'e> {
             let place = places.get(object);
             place.map_or(tree.tokens.len(), |place| place.token as usize)
         };
-        token(self.old.start)..token(self.old.start + self.read.len())
+        let from = self.from.unwrap_or_else(|| token(self.old.start));
+        from..token(self.old.start + self.read.len())
     }
 
     /// The findings about objects that are not read again; `None` if they name objects that now have
@@ -199,7 +172,8 @@ impl<'e> Change<'e> {
         let mut kept = Findings::default();
         for found in before.iter() {
             let start = found.span.start();
-            if self.region.is_some_and(|old| old.range().contains(&start)) {
+            let is_in = |old: Span| old.range().contains(&start);
+            if self.region.is_some_and(is_in) || self.edits.iter().any(|edit| is_in(edit.old)) {
                 continue;
             }
             let span = Span::new(self.moved(start), self.moved(found.span.end()));

@@ -36,7 +36,7 @@ impl Block {
         number: usize,
         objects: impl Iterator<Item = (&'o Shape, &'o Material)>,
     ) -> Self {
-        /// Number of materials found by address, which is several times faster than by their numbers.
+        /// Number of materials found by address, which is faster than by comparing coefficients.
         const SEEN: usize = 16;
         let mut materials = Vec::new();
         let mut seen: Vec<(&Material, usize)> = Vec::with_capacity(SEEN);
@@ -78,7 +78,8 @@ pub(super) fn joined(blocks: impl IntoIterator<Item = Block>) -> (Objects, Mater
     (Objects::of_blocks(objects), Materials::of_blocks(materials))
 }
 
-/// Reads a text of several blocks. Returns a reader, the objects with their materials, and the place of their count, or
+/// Reads a text of several blocks. Returns a reader, the objects with their materials, and the place
+/// of their count, or
 /// the findings so far if the text must be read in order.
 pub(super) fn read<'a>(
     text: &'a str,

@@ -102,7 +102,6 @@ pub(super) fn joined(
     reader.origins.render = render;
     reader.origins.objects = places;
     reader.origins.tokens = tree.tokens.len();
-    reader.origins.keyed = tree.tokens.keyed().count();
     // A view with both eye and target can be checked even if not all objects are known.
     let judged =
         reader.report.errors() == 0 || view.as_ref().is_some_and(ViewComment::has_eye_and_target);

@@ -26,9 +26,8 @@ pub struct Origins {
     /// Index of the first token of the lights, and how many of their numbers follow.
     pub(super) lights: (usize, usize),
     pub(super) objects: Arc<Vec<ObjectPlace>>,
-    /// Number of tokens and of comments with a key in the text.
+    /// Number of tokens in the text.
     pub(super) tokens: usize,
-    pub(super) keyed: usize,
 }
 
 /// The places of the parts of a view comment.

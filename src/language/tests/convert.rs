@@ -371,13 +371,17 @@ fn thousands_of_objects_are_written() {
     }
 }
 
-/// Where a setting gives lights without terms of their own that falloff.
 #[test]
 fn each_of_many_objects_keeps_its_own_material() {
     const COUNT: usize = 2100;
     let mut text = format!("1 1 1  1  0 5 5  1 1 1  {COUNT}\n");
     for number in 0..COUNT {
-        let red = [number / 700, number][number / 700 % 2] % 250;
+        // Many objects of one colour, then each its own.
+        let red = if number < 1100 {
+            number / 500
+        } else {
+            number % 250
+        };
         let colours = format!("0 0 0  0.{red:03} 0 0  0 0 0  1 0 0 1");
         writeln!(text, "sphere {number} 0 0 1  {colours}").expect("a string");
     }
@@ -396,6 +400,7 @@ fn each_of_many_objects_keeps_its_own_material() {
     }
 }
 
+/// Where a setting gives lights without terms of their own that falloff.
 #[test]
 fn a_falloff_by_the_square_is_kept_by_the_setting_for_it() {
     let light = "<light type='point' name='lamp'><intensity value='3'/><position z='9'/>\

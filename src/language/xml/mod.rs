@@ -32,7 +32,7 @@ pub(super) type Source = Written<Tree, Origins>;
 /// Whether no leaf crosses a line end.
 pub(super) const LEAVES_KEEP_TO_LINES: bool = false;
 
-/// Whether numbers of one object can be lowered alone.
+/// Whether changed objects can be lowered alone.
 pub(super) const LOWERS_CHANGES: bool = false;
 
 /// A small valid scene to begin with.

@@ -253,7 +253,7 @@ impl App {
         vec![Effect::Free(Arc::new(former))]
     }
 
-    /// Takes a text in which numbers differ; `None` if they are not of one object.
+    /// Takes a text in which numbers differ; `None` if it has to be read as a whole.
     fn take_numbers(&mut self, numbers: Numbers, held: &SavedCursor) -> Option<Vec<Effect>> {
         let difference = numbers.difference();
         let scene = self.sound_scene()?;

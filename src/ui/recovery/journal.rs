@@ -210,7 +210,7 @@ mod tests {
 
     #[test]
     fn a_text_is_not_held_while_its_edits_are_written() {
-        let mut document = Document::new(Language::Ray, "1 ".repeat(1 << 12));
+        let mut document = Document::new(Language::Ray, "1 ".repeat(1 << 18));
         let edit = Edit {
             span: Span::new(2, 3),
             text: "25".to_owned(),

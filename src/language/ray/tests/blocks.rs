@@ -13,7 +13,7 @@ use crate::scene::blocks::BLOCK;
 use crate::scene::{Meshes, Scene};
 use crate::text::{Edit, Span};
 
-/// For a text without warnings: no remainder is 3.
+/// For a text without warnings.
 const NONE: usize = 1;
 
 /// A text of `objects` objects in repeating colours, with a warning for every `warned`th.
@@ -248,6 +248,51 @@ fn a_changed_list_reads_only_the_changed_objects_again() {
 }
 
 #[test]
+fn a_word_that_a_keyword_becomes_is_read_again() {
+    for (old, new) in [
+        ("here 1 ", " sphere 1 "),
+        ("//x", "/ax"),
+        ("ere 2 ", "erex 2 "),
+    ] {
+        let material = "0 0 0  0 0 0  0 0 0  1 0 0 1";
+        let text = format!(
+            "1 1 1  1  0 5 5  1 1 1  3\nsphere 1 0 0 1 {material}\n//x\nsphere 2 0 0 1 {material}\nsphere 3 0 0 1 {material}\n"
+        );
+        let (mut source, lowered) = read(&text);
+        let at = source.text.find(old).expect("it is there");
+        put(&mut source, Span::new(at, at + old.len()), new);
+        let known = before(&lowered).expect("a scene without errors");
+        let again = source
+            .lower_again(&Meshes::default(), known)
+            .expect("there is memory");
+        let (fresh, expected) = read(&source.text);
+        assert_eq!(parts(&source, &again), parts(&fresh, &expected));
+        assert!(again.scene.is_none(), "{new}");
+    }
+}
+
+#[test]
+fn a_setting_removed_with_its_warning_leaves_none() {
+    let text = format!("// render: spp 4 depth x\n{}", text(3, 3, NONE));
+    let (mut source, lowered) = read(&text);
+    let at = source.text.find(" depth x").expect("it is there");
+    put(&mut source, Span::new(at, at + " depth x".len()), "");
+    let known = before(&lowered).expect("a scene without errors");
+    let again = source.lower_change(known).expect("no object has changed");
+    let found = [&lowered, &again].map(|lowered| lowered.diagnostics.len());
+    assert_eq!(found, [1, 0]);
+}
+
+#[test]
+fn a_change_without_edits_keeps_the_places_when_it_is_reverted() {
+    let (mut source, lowered) = read(&text(3, 3, NONE));
+    let (fresh, _) = read(&source.text);
+    let inverse = source.change(&[]);
+    source.revert(&inverse);
+    assert_eq!(parts(&source, &lowered), parts(&fresh, &lowered));
+}
+
+#[test]
 fn an_object_behind_a_deleted_one_is_renamed_in_its_warning() {
     let count = BLOCK + 9;
     let (mut source, lowered) = read(&text(count, count, 400));
@@ -302,6 +347,54 @@ proptest! {
             }
             .expect("there is memory");
             prop_assert_eq!(parts(&source, &lowered), parts(&fresh, &expected));
+        }
+    }
+
+    #[test]
+    fn texts_edited_in_several_places_mean_the_same_as_new_ones(
+        count in prop_oneof![3 => 2..9_usize, 1 => Just(BLOCK + 5)],
+        warned in prop_oneof![Just(NONE), Just(4)],
+        behind in prop_oneof![3 => Just(""), 1 => Just("left over 1 2")],
+        changes in prop::collection::vec(
+            prop::collection::vec(
+                (
+                    any::<prop::sample::Index>(),
+                    0..4_usize,
+                    prop_oneof![
+                        "[0-9]", "[ 1/x\\\\\n\r]{0,4}", " sp", "\nsphere",
+                        "// view: eye 0 0 9 target 0 0 1f\n", "//",
+                    ],
+                ),
+                1..4,
+            ),
+            1..6,
+        ),
+    ) {
+        let comments = "// render: spp 4 depth x\n// view: up 0 0 1\n";
+        let (mut source, mut lowered) =
+            read(&format!("{comments}{}{behind}", text(count, count, warned)));
+        for change in changes {
+            // Most edits near the beginning, where few objects follow.
+            let len = source.text.len().min(700);
+            let mut places: Vec<_> = change.iter().map(|(at, ..)| at.index(len + 1)).collect();
+            places.sort_unstable();
+            let mut edits = Vec::new();
+            for (at, (_, more, put)) in places.into_iter().zip(change) {
+                let end = (at + more).min(source.text.len());
+                let is_free = edits.last().is_none_or(|edit: &Edit| edit.span.end() <= at);
+                let is_whole = source.text.is_char_boundary(at) && source.text.is_char_boundary(end);
+                if is_free && is_whole {
+                    edits.push(Edit { span: Span::new(at, end), text: put });
+                }
+            }
+            source.change(&edits);
+            let (fresh, expected) = read(&source.text);
+            lowered = match before(&lowered) {
+                Some(known) => source.lower_again(&Meshes::default(), known),
+                None => source.lower(&Meshes::default()),
+            }
+            .expect("there is memory");
+            prop_assert_eq!(parts(&source, &lowered), parts(&fresh, &expected), "{:?}", source.text);
         }
     }
 
