@@ -54,8 +54,8 @@ fn advise(start: *mut u8, size: usize) {
     if end < start.addr().next_multiple_of(HUGE) + HUGE {
         return;
     }
-    // All its pages: different advice for some would divide the mapping, which `realloc` then could
-    // only copy instead of moving it.
+    // All its pages: advice for only some would split the mapping, and `realloc` could no longer move
+    // it, only copy it.
     let page = rustix::param::page_size();
     let before = start.addr() % page;
     let pages = (before + size).next_multiple_of(page);

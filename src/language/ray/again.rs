@@ -1,6 +1,6 @@
 //! Incremental lowering of a `.ray` text: after an edit, only the objects in its lines are read
-//! again, and only the blocks of objects that differ are made anew. Gives up wherever anything else
-//! may have changed.
+//! again, and only the blocks of objects that differ are rebuilt. Gives up wherever anything else may
+//! have changed.
 
 use std::ops::Range;
 use std::sync::Arc;
@@ -18,10 +18,10 @@ use crate::scene::blocks::BLOCK;
 use crate::scene::{Materials, Object, Objects, Scene};
 use crate::text::{Diagnostic, Findings, Span, line_start, next_line};
 
-/// The most tokens read again, on one thread; if there are more, the whole text is read, on all.
+/// The most tokens read again, on a single thread; with more, the whole text is read in parallel.
 const MOST: usize = 1 << 16;
 
-/// Blocks from which making them anew is worth other threads.
+/// The number of blocks from which rebuilding them in parallel pays off.
 const MANY: usize = 4;
 
 /// Lowers a text after edits.
@@ -221,8 +221,8 @@ fn numbers_in_place(text: &str, tree: &Tree, edit: &Replaced) -> Option<usize> {
     (is_start && is_end).then_some(last)
 }
 
-/// The objects and materials of a scene in which others take the place of some objects: those that
-/// reading them all would give.
+/// The objects and materials of a scene after some objects are replaced: the same as reading them
+/// all would give.
 fn replaced(scene: &Scene, old: Range<usize>, by: &Read) -> (Objects, Materials) {
     let known = &scene.objects;
     let count = known.len() - old.len() + by.objects.len();

@@ -33,8 +33,7 @@ struct Change {
 }
 
 impl From<Edits> for Change {
-    /// Lets go of the edited text: while others hold it, the interface has to copy it for its next
-    /// edit.
+    /// Drops the edited text: while it is shared, the interface has to copy it for its next edit.
     fn from(Edits { scene, known }: Edits) -> Self {
         Self {
             scene,
