@@ -316,6 +316,10 @@ fn inner_parts<'p>(
 
 /// Divides a part into up to [`WIDTH`] parts, in order. Empty lanes cost a ray nothing, so parts
 /// are divided, largest area first, until all lanes are used or all parts are single boxes.
+///
+/// Rejected: keeping eight boxes or fewer together unless both parts have less area than the whole (a
+/// third fewer leaves among a million triangles, and camera and shadow rays take 4 % less time, but
+/// whole frames do not).
 fn divide(
     references: &mut [Reference],
     spare: &mut [Reference],
