@@ -43,7 +43,7 @@ pub(crate) fn measure() {
             row: 3,
             target: "p95 <= 250",
             settled: 2 * SECOND,
-            from_disk: "p95 <= 1000",
+            from_disk: "p95 <= 500",
         },
     ] {
         edit(&case);
