@@ -111,8 +111,9 @@ fn numbered(scene: Cow<'_, Scene>) -> Cow<'_, Scene> {
     })
 }
 
-/// The scene with lights as in texts that do not set gamma, where path tracing multiplies them by π.
-/// Its picture by its own integrator is the same, up to rounding. Paths do not see ambient light.
+/// The scene with lights as in texts that do not set gamma, where path tracing multiplies them by π, and
+/// where lights with a size have a radiance only if they fall off. Its picture by its own integrator is
+/// the same, up to rounding. Paths do not see ambient light.
 pub(super) fn without_gamma(scene: &Scene) -> Cow<'_, Scene> {
     if scene.lights.iter().all(|light| light.scale == PI) {
         return Cow::Borrowed(scene);
@@ -122,6 +123,14 @@ pub(super) fn without_gamma(scene: &Scene) -> Cow<'_, Scene> {
     for light in &mut scene.lights {
         if is_path && light.emitter != Emitter::Ambient {
             light.colour *= light.scale / PI;
+            if let Emitter::Point {
+                radius, falloff, ..
+            } = &mut light.emitter
+                && 0.0 < *radius
+                && light.scale == 1.0
+            {
+                falloff.radial = [0.0, 0.0, 1.0];
+            }
         }
         light.scale = PI;
     }

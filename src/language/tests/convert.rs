@@ -6,7 +6,7 @@ use std::sync::Arc;
 
 use super::read_as;
 use crate::language::{Converted, Language, convert};
-use crate::scene::{FalloffRule, Meshes, Object, Rgb};
+use crate::scene::{Emitter, FalloffRule, Meshes, Object, Rgb};
 use crate::text::Position;
 
 const RAY: &str = r#"// view: eye 0 0 9 target 0 0 0 up 0 1 0 fov 40 size 8 6
@@ -466,5 +466,26 @@ fn what_gamma_says_of_lights_is_lost_at_its_place() {
         let (_, lowered) = read_as(Language::Dat, &found.text, &Meshes::default());
         let written = lowered.scene.expect("it has no errors");
         assert_eq!(written.lights[0].colour, Rgb::splat(colour), "{text}");
+    }
+}
+
+/// There a light with a size has the radiance of its intensity, and so falls off by the square.
+#[test]
+fn a_light_with_a_size_under_gamma_is_written_with_a_falloff() {
+    for (settings, radial) in [
+        ("", [0.0, 0.0, 1.0]),
+        ("<render integrator='whitted'/>", [1.0, 0.0, 0.0]),
+    ] {
+        let text = format!(
+            "<xml>\n<camera gamma='sRGB'/>{settings}<scene><light type='point'>\
+             <intensity value='30'/><size value='.2'/></light></scene></xml>"
+        );
+        let (written, _) = converted(Language::Xml, &text, Language::Dat);
+        let (_, lowered) = read_as(Language::Dat, &written, &Meshes::default());
+        let scene = lowered.scene.expect("it has no errors");
+        let Emitter::Point { falloff, .. } = scene.lights[0].emitter else {
+            panic!("it is a point light");
+        };
+        assert_eq!(falloff.radial, radial, "{settings}");
     }
 }
