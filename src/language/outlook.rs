@@ -7,8 +7,8 @@ use super::rendering::RenderKey;
 use super::{Node, Source};
 use crate::geometry::{Ray, Shape, normalise};
 use crate::scene::{
-    Camera, Emitter, FalloffRule, Highlight, Integrator, Light, Material, Object, Rendering, Rgb,
-    Scene, Shadows, Tinted,
+    Camera, Emitter, FalloffRule, Highlight, Integrator, Lens, Light, Material, Object, Rendering,
+    Rgb, Scene, Shadows, Size, Tinted,
 };
 use crate::text::{Diagnostic, Span, concise};
 
@@ -93,7 +93,11 @@ impl Judge<'_> {
         };
         let span = self.place(Node::View, key);
         let message = format!("every object is {side}: the picture is black");
-        Some(plain(span, &message, "a limit that shows an object"))
+        Some(plain(
+            span,
+            &message,
+            "a range of depths that includes an object",
+        ))
     }
 
     /// No light reaches any surface by the integrator.
@@ -178,16 +182,18 @@ impl Judge<'_> {
     fn enclosed(&self) -> Option<Outlook> {
         let scene = self.scene;
         let Camera { eye, .. } = scene.camera;
-        let is_searched = scene.objects.len() <= MOST_SEARCHED && scene.camera.depths[0] == 0.0;
-        let is_ambient = self.asked.integrator() == Integrator::Whitted && self.has_ambient();
-        if !is_searched || is_ambient {
+        if MOST_SEARCHED < scene.objects.len() {
             return None;
         }
+        let starts = starts(&scene.camera)?;
+        let is_ambient = self.asked.integrator() == Integrator::Whitted && self.has_ambient();
         let is_within = |place: DVec3, object: &Object| holds(&object.shape, place);
         let is_dark = |object: &Object| {
             let material = scene.materials.get(object.material as usize);
             let is_opaque = material.is_some_and(|material| {
-                material.dielectric.tint == Rgb::ZERO && material.emission == Rgb::ZERO
+                let glows = material.emission != Rgb::ZERO
+                    || is_ambient && material.ambient.unwrap_or(material.diffuse) != Rgb::ZERO;
+                material.dielectric.tint == Rgb::ZERO && !glows
             });
             let is_lit = scene.lights.iter().any(|light| match light.emitter {
                 Emitter::Point { position, .. } => is_within(position, object),
@@ -196,7 +202,10 @@ impl Judge<'_> {
             is_opaque && !is_lit
         };
         let mut objects = scene.objects.iter().enumerate();
-        let (index, _) = objects.find(|(_, object)| is_within(eye, object) && is_dark(object))?;
+        let (index, _) = objects.find(|(_, object)| {
+            let is_around = |start: &DVec3| is_within(*start, object);
+            is_within(eye, object) && starts.iter().all(is_around) && is_dark(object)
+        })?;
         let node = Node::Object(self.source.object(index as u32));
         let message = format!(
             "the camera is inside {}, which is opaque and holds no light",
@@ -298,6 +307,30 @@ impl Judge<'_> {
         let spans = field.and_then(|placed| placed.spans.iter().copied().reduce(Span::to));
         spans.unwrap_or_else(|| self.source.span(node))
     }
+}
+
+/// The corners of what the camera sees at its near limit, where its rays start; the eye without a limit.
+/// A convex solid that holds them holds all rays' starts.
+fn starts(camera: &Camera) -> Option<Vec<DVec3>> {
+    let [near, _] = camera.depths;
+    if near == 0.0 {
+        return Some(vec![camera.eye]);
+    }
+    let forward = normalise(0.5 * camera.target - 0.5 * camera.eye)?;
+    let right = normalise(forward.cross(camera.up))?;
+    let up = right.cross(forward);
+    let half = match camera.lens {
+        Lens::Perspective(angle) => near * libm::tan(0.5 * angle.to_radians()),
+        Lens::Orthographic(height) => 0.5 * height,
+    };
+    let Size { width, height } = camera.size;
+    let aspect = camera.pixel_aspect * f64::from(width) / f64::from(height);
+    let corner = |x: f64, y: f64| {
+        let aside = x * half * aspect * right + y * half * up;
+        camera.eye + near * forward + aside
+    };
+    let corners = [(1.0, 1.0), (1.0, -1.0), (-1.0, 1.0), (-1.0, -1.0)];
+    Some(corners.map(|(x, y)| corner(x, y)).to_vec())
 }
 
 fn plain(span: Span, message: &str, expected: &str) -> Outlook {

@@ -188,6 +188,9 @@ fn a_camera_in_an_opaque_solid_sees_only_its_dark_inside() {
     let ambient = text("0 5 5", "0").replacen("0 0 0 1", ".3 .3 .3 1", 1);
     check(Language::Ray, &ambient, None, &[]);
     check(Language::Ray, &ambient, PATH, &[inside]);
+    // What reflects no ambient light.
+    let unlit = ambient.replacen(".1 .1 .1", "0 0 0", 1);
+    check(Language::Ray, &unlit, None, &[inside]);
     // A dark solid around the eye in a lit room.
     let both = text("0 .9 0", "0").replacen(
         "\n1 sphere",
@@ -201,6 +204,28 @@ fn a_camera_in_an_opaque_solid_sees_only_its_dark_inside() {
         None,
         &[&inside.replace("object 1", "object 2")],
     );
+}
+
+#[test]
+fn rays_that_start_at_near_may_start_inside_too() {
+    let text = |near: &str| {
+        format!(
+            "light ID 1 inf 0 0 1  0 1 -1  1 1 1  1 0 0  0 shadow_on\n\
+             mat ID 1  1 1 1  0 .5 0 1  0 0 1\nobj sphere ID 1 mat ID 1  0 0 0  1\n\
+             camera perspective 0 -.5 0  0 0 0  0 0 1  1 {near} 100\nresolution .1 .1\nviewport 8 6\n"
+        )
+    };
+    let inside = "4:1 the camera is inside object 1 (sphere), which is opaque and holds no light";
+    for (near, expected) in [
+        ("0", &[inside][..]),
+        (".1", &[inside]),
+        // At y = 0.4.
+        (".9", &[inside]),
+        // At y = 0.95, where the corners are outside.
+        ("1.45", &[]),
+    ] {
+        check(Language::Dat, &text(near), None, expected);
+    }
 }
 
 #[test]
