@@ -2,7 +2,7 @@
 
 use super::print_message;
 use super::tracing::Tracer;
-use crate::language::darkening;
+use crate::language::{brightening, darkening};
 use crate::render::{Frame, Job, Limit, Provenance, TrialResults};
 use crate::scene::Rendering;
 use crate::text::alternatives;
@@ -23,9 +23,16 @@ pub(super) fn print_finding(
     if picture.settings.aov.is_some() || picture.settings.region.is_some() {
         return;
     }
-    if frame.pixels.iter().all(|pixel| *pixel == [0; 3]) {
-        let black = "the picture is black; `halflight check` and `halflight explain` may say why";
-        print_message("note", black);
+    if frame.is_black() {
+        let asked = Rendering {
+            exposure: Some(picture.settings.exposure),
+            ..Rendering::default()
+        };
+        let helps = match brightening(&asked, frame.overexposure.brightest) {
+            Some((key, value)) => format!("try `--{} {value}`", key.name()),
+            None => "`halflight check` and `halflight explain` may say why".to_owned(),
+        };
+        print_message("note", &format!("the picture is black; {helps}"));
         return;
     }
     let Some(job) = burnt else {

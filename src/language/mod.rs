@@ -7,10 +7,10 @@
 
 mod alike;
 mod at;
+mod brightness;
 mod camera;
 pub(crate) mod coefficients;
 mod convert;
-mod darkening;
 mod dat;
 mod first;
 mod form;
@@ -57,8 +57,8 @@ use room::Counts;
 use table::{Category, Field};
 use view::Numbers;
 
+pub use brightness::{brightening, darkening};
 pub use convert::{Converted, convert};
-pub use darkening::darkening;
 pub use form::{Along, Motion};
 pub use node::{FileKind, NamedFile, Node, Nodes};
 pub use outlook::{Outlook, outlook};

@@ -129,6 +129,12 @@ fn black_and_clipped_pictures_are_remarked_on_with_what_helps() {
             "note: the picture is black; `halflight check` and `halflight explain` may say why",
         ),
         (
+            ".001 .001 .001",
+            "",
+            "note: the picture is black; try `--exposure 9.5`",
+        ),
+        (".001 .001 .001", "--exposure 9.5", ""),
+        (
             "9 9 9",
             "",
             "note: more than half of the picture is above 1; try `--exposure -3.5`",

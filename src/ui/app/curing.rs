@@ -5,7 +5,7 @@ use std::ops::ControlFlow;
 use super::App;
 use super::cures::{Cure, RunningTrials};
 use super::looking::is_light;
-use crate::language::{Outlook, darkening, outlook};
+use crate::language::{Outlook, brightening, darkening, outlook};
 use crate::render::{Frame, Frames, Histogram, Job, Overexposure, TrialResults, Trials};
 use crate::ui::keymap::{Action, Mode};
 use crate::ui::msg::{Effect, Target};
@@ -38,7 +38,7 @@ impl App {
             return Vec::new();
         }
         let settings = frame.settings().filter(|settings| settings.aov.is_none());
-        let is_black = settings.is_some() && frame.values.iter().all(|value| *value == [0.0; 3]);
+        let is_black = settings.is_some() && frame.is_black();
         let clipped = Histogram::of(&frame.values, self.pictures.display.stops()).clipped;
         self.cures.of_picture.clear();
         let under_way = self.cures.trials.take();
@@ -49,6 +49,9 @@ impl App {
                 .collect()
         };
         if is_black {
+            let brightest = Overexposure::of(&frame.values).brightest;
+            let cure = brightening(&self.rendering(), brightest);
+            self.cures.of_picture.extend(cure);
             self.say_black();
         } else if 0.5 < clipped {
             let over = Overexposure::of(&frame.values).stops;

@@ -98,7 +98,7 @@ impl App {
         self.overlays.say(if *denoised {
             "noise is reduced, on screen only"
         } else {
-            "the picture as traced"
+            "noise is no longer reduced"
         });
         self.pictures.preview.asked = None;
         self.retrace()

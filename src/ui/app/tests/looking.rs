@@ -122,7 +122,7 @@ fn noise_is_reduced_on_screen_and_in_no_file() {
     press(&mut app, "1");
     let effects = press(&mut app, ":denoise<Enter>");
     assert!(job(&effects, Target::Preview).is_some_and(|job| !job.denoise));
-    assert_eq!(words(&app), "the picture as traced");
+    assert_eq!(words(&app), "noise is no longer reduced");
     assert_eq!(app.display_name(), None);
 }
 
@@ -411,6 +411,16 @@ fn a_picture_burnt_by_its_bounces_is_offered_a_smaller_depth() {
     app.update(preview(&trace, 3.0));
     press(&mut app, "P<Esc>");
     assert!(ends(&tried(&mut app, 4, 0.0)));
+    assert_eq!(shown(&app), "");
+}
+
+#[test]
+fn a_picture_too_dark_to_be_exported_says_which_exposure_helps() {
+    let (mut app, effects) = opened_as("scene.ray", SCENE);
+    let trace = job(&effects, Target::Preview).expect("a preview").clone();
+    app.update(preview(&trace, 1e-4));
+    assert_eq!(shown(&app), "the picture is black: C sets exposure 13");
+    app.update(preview(&trace, 0.01));
     assert_eq!(shown(&app), "");
 }
 

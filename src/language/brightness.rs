@@ -1,4 +1,4 @@
-//! Render settings that darken a picture most of which is above 1.
+//! Render settings that darken a picture most of which is above 1, or brighten a black one.
 
 use super::outlook::setting;
 use super::rendering::RenderKey;
@@ -37,6 +37,18 @@ pub fn darkening(
     cures.into_iter().flatten().collect()
 }
 
+/// The exposure that brings the brightest channel of a black picture to about 1, with its value; `None`
+/// if there is no light in it. The picture was traced with `asked`.
+pub fn brightening(asked: &Rendering, brightest: f64) -> Option<(RenderKey, String)> {
+    let own = asked.exposure.unwrap_or_default();
+    let stops = (2.0 * (own - libm::log2(brightest))).floor() / 2.0;
+    let stops = stops.clamp(*EXPOSURES.start(), *EXPOSURES.end());
+    let helps = 0.0 < brightest && own < stops;
+    helps
+        .then(|| setting("exposure", &concise(stops)))
+        .flatten()
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -58,6 +70,31 @@ mod tests {
                 .map(|(key, value)| format!("{} {value}", key.name()))
                 .collect();
             assert_eq!(cures.join(", "), expected, "{over} {falloff:?}");
+        }
+    }
+
+    #[test]
+    fn a_black_picture_is_brightened_until_its_brightest_channel_is_about_1() {
+        for (own, brightest, expected) in [
+            (None, 1e-3, Some("9.5")),
+            (Some(-12.0), 0.000_976_562_5, Some("-2")),
+            (None, f64::from(f32::MIN_POSITIVE), Some("100")),
+            (Some(100.0), 1e-3, None),
+            (None, 0.0, None),
+        ] {
+            let asked = Rendering {
+                exposure: own,
+                ..Rendering::default()
+            };
+            let cure = brightening(&asked, brightest);
+            let value = cure
+                .as_ref()
+                .map(|(key, value)| (key.name(), value.as_str()));
+            assert_eq!(
+                value,
+                expected.map(|value| ("exposure", value)),
+                "{brightest}"
+            );
         }
     }
 }
