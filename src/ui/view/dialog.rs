@@ -118,7 +118,9 @@ fn conflict(app: &App, merge: &Merge, at: usize, from: &Outside, area: Rect, buf
     };
     let inner = frame(title, (width, height), area, buffer);
     let (list, _) = layout::split_bottom(inner, keys.len() as u16);
-    let head = format!("Both the {theirs} and unsaved edits changed these. Which should stay?");
+    let head = format!(
+        "The {theirs} and your unsaved edits both changed these. Which do you want to keep?"
+    );
     let head = &head;
     Row::new(buffer, list, 0).skip(1).put(head, Style::new());
 
@@ -134,7 +136,9 @@ fn conflict(app: &App, merge: &Merge, at: usize, from: &Outside, area: Rect, buf
             Style::new()
         };
         row.put(if index == at { "▸ " } else { "  " }, here);
-        let place = app.place_name(conflict.span);
+        // Where something was deleted, what is there now is something else.
+        let is_deleted = conflict.mine.trim().is_empty();
+        let place = app.place_name(conflict.span).filter(|_| !is_deleted);
         let place = place.map_or_else(
             || format!("line {line}"),
             |name| format!("{name} (line {line})"),
@@ -280,6 +284,26 @@ mod tests {
         let line = lines.iter().find(|line| line.contains('▸'));
         let line = line.expect("a cursor");
         for part in ["object 2 (box)", "○ mine box", "○ file (deleted)"] {
+            assert!(line.contains(part), "{part:?} in {line}");
+        }
+    }
+
+    #[test]
+    fn what_was_deleted_here_is_not_named_after_what_precedes_it() {
+        let mut app = app();
+        let from = SCENE.find("box").expect("a box");
+        retype(&mut app, &SCENE[from..], "");
+        retype(&mut app, "\n2\n", "\n1\n");
+        let merge = conflict(&app, &SCENE.replacen("box 0 0 0", "box 0 0 7", 1));
+        app.overlays.dialog = Some(Dialog::Conflict {
+            merge,
+            at: 0,
+            from: Outside::File,
+        });
+        let lines = drawn(&app, super::render, 100, 24);
+        let line = lines.iter().find(|line| line.contains('▸'));
+        let line = line.expect("a cursor");
+        for part in ["▸ line ", "○ mine (deleted)", "○ file box"] {
             assert!(line.contains(part), "{part:?} in {line}");
         }
     }
