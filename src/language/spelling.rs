@@ -34,6 +34,17 @@ pub(super) fn vector(out: &mut String, vector: DVec3) {
     numbers(out, vector.to_array());
 }
 
+/// Returns the number as a person would write it: one of fifteen digits, if that is equal up to the
+/// rounding of a few operations.
+pub(super) fn rounded_off(number: f64) -> f64 {
+    let short = format!("{number:.14e}").parse().unwrap_or(number);
+    if (short - number).abs() <= 8.0 * f64::EPSILON * number.abs() {
+        short
+    } else {
+        number
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -6,6 +6,7 @@ use super::Source;
 use super::form::{form, put};
 use super::table::{ObjectKind, RecordKind, UseKind};
 use crate::language::form::Form;
+use crate::language::spelling::rounded_off;
 use crate::language::structure::{Wish, number};
 use crate::language::table::Category;
 use crate::language::view::spelled;
@@ -126,7 +127,7 @@ pub(super) fn respelled(
     let shapeless =
         || StructureError::Inexpressible("it has no size that another type could use".to_owned());
     let (_, spans, _) = source.object_numbers(index).ok_or_else(shapeless)?;
-    let literals = literals(new, form, &spelled)?;
+    let literals = literals(new, form, &|number| spelled(rounded_off(number)))?;
     let record = source.span(Node::Object(index));
     let mut tokens = source
         .tree

@@ -6,6 +6,7 @@ use super::origins::{Origins, VIEW};
 use super::table::{PROJECTIONS, RecordKind};
 use super::tree::Tree;
 use crate::language::at::At;
+use crate::language::spelling::rounded_off;
 use crate::language::table::{Field, Kind};
 use crate::language::view::{Numbers, beginning, line_ending, literal, take};
 use crate::scene::{Camera, Focus, Lens, Size};
@@ -93,14 +94,14 @@ impl View {
             Lens::Perspective(angle) => {
                 let up = origins.resolution[1];
                 let focal = 0.5 * rows * up / libm::tan(0.5 * angle.to_radians());
-                (plain(focal), up)
+                (rounded_off(focal), up)
             }
-            Lens::Orthographic(height) => (origins.focal, plain(height / rows)),
+            Lens::Orthographic(height) => (origins.focal, rounded_off(height / rows)),
         };
         let across = if camera.pixel_aspect == 1.0 {
             up
         } else {
-            plain(up * camera.pixel_aspect)
+            rounded_off(up * camera.pixel_aspect)
         };
         let [near, far] = camera.depths;
         Self {
@@ -167,17 +168,6 @@ pub(super) fn size([width, height]: [f64; 2]) -> Size {
 /// The numbers of a camera, in the order of [`fields`].
 pub(super) fn numbers(camera: &Camera, origins: &Origins) -> Numbers {
     View::of(camera, origins).numbers()
-}
-
-/// Returns the number as a person would write it: one of fifteen digits, if that is equal up to the
-/// rounding of the few operations from a camera's numbers to the text's and back.
-fn plain(number: f64) -> f64 {
-    let short = format!("{number:.14e}").parse().unwrap_or(number);
-    if (short - number).abs() <= 8.0 * f64::EPSILON * number.abs() {
-        short
-    } else {
-        number
-    }
 }
 
 /// The camera described by these numbers; `base` is a camera of the same text. Parts whose numbers

@@ -7,6 +7,7 @@ use super::form::{new_object, retyped};
 use super::table::{LIGHT, MATERIAL, ShapeKind};
 use super::tree::comment_of_line;
 use crate::language::form::Form;
+use crate::language::spelling::rounded_off;
 use crate::language::structure::Wish;
 use crate::language::table::{self, Field, Kind};
 use crate::language::view::{line_ending, line_from, spelled};
@@ -76,7 +77,7 @@ pub(super) fn retyping(
     let geometry = |kind: ShapeKind| table::numbers(kind.geometry());
     let literals: Vec<_> = numbers[..geometry(new)]
         .iter()
-        .map(|&number| spelled(number))
+        .map(|&number| spelled(rounded_off(number)))
         .collect();
     // The material stays as it is written.
     let own = source.span(node);

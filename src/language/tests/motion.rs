@@ -194,6 +194,19 @@ fn sizes_of_one_form_survive_a_change_of_kind_exactly() {
     }
 }
 
+#[test]
+fn a_change_of_kind_writes_no_rounding_errors() {
+    // -1.08 - 0.7 is -1.7799999999999998 in binary fractions.
+    let ball = "1 1 1 1 0 5 5 1 1 1 1\nsphere -3.6 2.9 -1.08 0.7 0 0 0 .5 .5 .5 0 0 0 1 0 0 1\n";
+    let (source, _) = read_as(Language::Ray, ball, &Meshes::default());
+    let edits = source
+        .retyping(Node::Object(0), "box")
+        .expect("it can be changed");
+    let (source, _) = changed(Language::Ray, ball, &edits);
+    let line = source.text().lines().nth(1).expect("an object");
+    assert!(line.starts_with("box  -4.3 2.2 -1.78  "), "{line}");
+}
+
 /// The bounds of what a node draws, by its number in the scene.
 fn bounds(scene: &Scene, source: &Source, node: Node) -> Option<Aabb> {
     let Node::Object(index) = node else {
