@@ -15,7 +15,7 @@ use crate::image_file::{ImageFormat, Picture};
 use crate::language::Source;
 use crate::memory;
 use crate::part;
-use crate::render::{Aov, Frame, Job, Progress, Provenance, check_memory, memory_for};
+use crate::render::{Aov, Frame, Job, Progress, Provenance, check_memory, exposes, memory_for};
 use crate::scene::Size;
 use crate::text::{Diagnostic, Span, counted};
 
@@ -287,7 +287,9 @@ fn finish(work: &Render, frame: &Frame, traced: &Traced) -> Result<(), Error> {
 
 /// Says by what a picture is biased.
 pub(super) fn print_biases(frame: &Frame, picture: &Provenance) {
-    if let Some(most) = picture.settings.clamp {
+    if let Some(most) = picture.settings.clamp
+        && exposes(picture.settings.aov)
+    {
         print_message(
             "note",
             &format!("samples are clamped to {most:?}; light above that is lost (biased)"),

@@ -225,7 +225,7 @@ impl TransferChoice {
 /// Falloff of point lights that have none of their own.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub(super) enum FalloffChoice {
-    /// Not at all.
+    /// No falloff.
     None,
     /// By the square of the distance.
     Square,

@@ -62,12 +62,12 @@ pub(super) struct InterfaceArguments {
     no_mouse: bool,
     /// Samples per pixel of full-size traces and exports, 1 to 65536 [default: the scene's, otherwise
     /// 16]
-    #[arg(long, value_name = "N", value_parser = spp_range())]
+    #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = spp_range())]
     spp: Option<u32>,
     #[command(flatten)]
     rendering: RenderingArguments,
     /// Number of tracing threads, 1 to 1024 [default: one per core, one fewer for the preview]
-    #[arg(long, value_name = "N", value_parser = threads_range())]
+    #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = threads_range())]
     threads: Option<u16>,
     /// Configuration file [default: halflight/config.toml in ~/.config; none with --keys
     /// and --dump-frame]

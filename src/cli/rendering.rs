@@ -10,7 +10,7 @@ use crate::scene::{EXPOSURES, Rendering};
 pub(super) struct RenderingArguments {
     /// Maximum number of bounces, 0 to 4096 [default: the scene's, otherwise 8, or 64 with path
     /// tracing]
-    #[arg(long, value_name = "N", value_parser = depth_range())]
+    #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = depth_range())]
     depth: Option<u32>,
     /// Integrator [default: the scene's, otherwise whitted]
     #[arg(long, value_name = "INTEGRATOR", value_enum)]

@@ -25,9 +25,9 @@ pub(super) struct TracingArguments {
     region: Option<Region>,
     /// Samples per pixel, 1 to 65536 [default: the scene's, otherwise 16, or up to 4096 with
     /// --noise; as many as the time permits with --time]
-    #[arg(long, value_name = "N", value_parser = spp_range())]
+    #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = spp_range())]
     spp: Option<u32>,
-    /// Stop after about this time, such as 90s or 5min, with the samples of a whole pass: 1, 2, 4 …
+    /// Stop within this time, such as 90s or 5min, with the samples of a whole pass: 1, 2, 4 …
     /// The picture is the one with that --spp
     #[arg(long, value_name = "TIME", value_parser = parse_time)]
     time: Option<Duration>,
@@ -37,7 +37,7 @@ pub(super) struct TracingArguments {
     aov: Option<AovChoice>,
     /// Number of tracing threads, 1 to 1024 [default: one per core that the process may use; in a
     /// Slurm job, as many as its task has]
-    #[arg(long, value_name = "N", value_parser = threads_range())]
+    #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = threads_range())]
     threads: Option<u16>,
 }
 

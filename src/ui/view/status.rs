@@ -330,6 +330,9 @@ fn making_segment(app: &App, say: &mut impl FnMut(u8, String, Style)) {
     if app.rendering().noise().is_some() {
         say(9, "adaptive, slightly biased".to_owned(), theme::DIM);
     }
+    if app.rendering().clamp.is_some_and(|most| 0.0 < most) {
+        say(9, "clamped, biased".to_owned(), theme::DIM);
+    }
 }
 
 /// Adds the region being drawn, or the scale of the picture and its place in the window.
@@ -418,7 +421,7 @@ mod tests {
     use super::*;
     use crate::language::Language;
     use crate::render::{Aov, Frame};
-    use crate::scene::{Integrator, Size};
+    use crate::scene::{Integrator, Rendering, Size};
     use crate::ui::app::{Message, Picture, Typing, Wires};
     use crate::ui::view::tests::{app, app_of, drawn, retype};
     use tui_input::Input;
@@ -516,6 +519,17 @@ mod tests {
         words.clear();
         making_segment(&app, &mut |_, text, _| words.push(text));
         assert_eq!(words, ["whitted", "adaptive, slightly biased"]);
+        app.pictures.rendering = Rendering {
+            clamp: Some(2.0),
+            ..Rendering::default()
+        };
+        words.clear();
+        making_segment(&app, &mut |_, text, _| words.push(text));
+        assert_eq!(words, ["whitted", "clamped, biased"]);
+        app.pictures.rendering.clamp = Some(0.0);
+        words.clear();
+        making_segment(&app, &mut |_, text, _| words.push(text));
+        assert_eq!(words, ["whitted"], "0 turns it off");
     }
 
     #[test]
