@@ -64,18 +64,18 @@ impl<T> Blocks<T> {
         blocks.flat_map(|(number, block)| (number * BLOCK..).zip(block.iter()))
     }
 
-    /// Numbers at which two lists differ according to `is_other`, in ascending order, of those that
+    /// Numbers at which two lists differ according to `differs`, in ascending order, of those that
     /// both have. Shared blocks are skipped.
     pub fn differences<'a>(
         &'a self,
         other: &'a Self,
-        is_other: impl Fn(&T, &T) -> bool + Copy + 'a,
+        differs: impl Fn(&T, &T) -> bool + Copy + 'a,
     ) -> impl Iterator<Item = usize> + 'a {
         let blocks = self.blocks.iter().zip(&other.blocks).enumerate();
         let unshared = blocks.filter(|(_, (one, other))| !Arc::ptr_eq(one, other));
         unshared.flat_map(move |(number, (one, other))| {
             let pairs = (number * BLOCK..).zip(one.iter().zip(other.iter()));
-            pairs.filter_map(move |(number, (one, other))| is_other(one, other).then_some(number))
+            pairs.filter_map(move |(number, (one, other))| differs(one, other).then_some(number))
         })
     }
 }

@@ -46,7 +46,7 @@ fn reason(said: &str, revision: &str, name: &str) -> String {
     let line = line.strip_prefix("fatal: ").unwrap_or(line);
     let says = |words: &[&str]| words.iter().any(|words| line.contains(words));
     if says(&["not a git repository"]) {
-        format!("{name} is in no git repository")
+        format!("{name} is not in a git repository")
     } else if says(&["exists on disk, but not in", "does not exist in"]) {
         format!("{name} is not in {revision}: git does not track it there")
     } else if says(&["invalid object name", "Not a valid object name"]) {
@@ -71,7 +71,7 @@ mod tests {
             (
                 "fatal: not a git repository (or any of the parent directories): .git\n",
                 "HEAD",
-                "a.ray is in no git repository",
+                "a.ray is not in a git repository",
             ),
             (
                 "fatal: path 'a.ray' exists on disk, but not in 'HEAD'\n",

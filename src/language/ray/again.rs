@@ -79,8 +79,8 @@ struct Change<'e> {
     old: Range<usize>,
     /// The first token that is read again, if that is an object's.
     from: Option<usize>,
-    /// The places of the objects that take their place.
-    read: Vec<ObjectPlace>,
+    /// Where the objects that replace them are.
+    new: Vec<ObjectPlace>,
     /// How many more tokens precede the objects behind.
     grown: isize,
 }
@@ -102,7 +102,7 @@ impl<'e> Change<'e> {
                 region: None,
                 old: objects.len()..objects.len(),
                 from: None,
-                read: Vec::new(),
+                new: Vec::new(),
                 grown: 0,
             });
         };
@@ -126,7 +126,7 @@ impl<'e> Change<'e> {
         (old.start <= old.end).then(|| Self {
             edits,
             region: Some(one.old.to(last.old)),
-            read: read.collect(),
+            new: read.collect(),
             old,
             from,
             grown,
@@ -136,12 +136,12 @@ impl<'e> Change<'e> {
     /// The places of all objects.
     fn places(&self, origins: &Origins) -> Arc<Vec<ObjectPlace>> {
         let objects = &origins.objects;
-        if self.grown == 0 && objects[self.old.clone()] == self.read {
+        if self.grown == 0 && objects[self.old.clone()] == self.new {
             return Arc::clone(objects);
         }
-        let mut places = Vec::with_capacity(objects.len() - self.old.len() + self.read.len());
+        let mut places = Vec::with_capacity(objects.len() - self.old.len() + self.new.len());
         places.extend_from_slice(&objects[..self.old.start]);
-        places.extend_from_slice(&self.read);
+        places.extend_from_slice(&self.new);
         places.extend(objects[self.old.end..].iter().map(|place| ObjectPlace {
             token: place.token.wrapping_add_signed(self.grown as i32),
             ..*place
@@ -156,7 +156,7 @@ impl<'e> Change<'e> {
             place.map_or(tree.tokens.len(), |place| place.token as usize)
         };
         let from = self.from.unwrap_or_else(|| token(self.old.start));
-        from..token(self.old.start + self.read.len())
+        from..token(self.old.start + self.new.len())
     }
 
     /// The findings about objects that are not read again; `None` if they name objects that now have
@@ -184,7 +184,7 @@ impl<'e> Change<'e> {
             if !is_token || token < first || read.contains(&token) {
                 continue;
             }
-            if read.end <= token && self.old.len() != self.read.len() {
+            if read.end <= token && self.old.len() != self.new.len() {
                 return None;
             }
             kept.warning(|| Diagnostic {

@@ -17,7 +17,7 @@ use crate::scene::blocks::BLOCK;
 use crate::scene::{Material, Materials, Object, Objects};
 use crate::text::{Findings, Span};
 
-/// A block of objects with its materials, which have the numbers of the block.
+/// A block of objects with its materials, whose numbers start at that of its first object.
 pub(super) struct Block {
     pub(super) materials: Arc<[Material]>,
     pub(super) objects: Arc<[Object]>,
@@ -79,8 +79,7 @@ pub(super) fn joined(blocks: impl IntoIterator<Item = Block>) -> (Objects, Mater
 }
 
 /// Reads a text of several blocks. Returns a reader, the objects with their materials, and the place
-/// of their count, or
-/// the findings so far if the text must be read in order.
+/// of their count, or the findings so far if the text must be read in order.
 pub(super) fn read<'a>(
     text: &'a str,
     tokens: &'a Tokens,

@@ -20,7 +20,7 @@ use crate::scene::{Camera, Emitter, Falloff, FalloffRule, Light, Rgb, Scene, Sha
 const FAR_AWAY: f64 = 1e4;
 
 const TEXTURED: Loss = Loss {
-    keys: &["diffuse", "color", "specular", "reflection", "emission"],
+    keys: &[],
     lost: "textures",
     instead: "written in its plain colour",
 };

@@ -51,7 +51,7 @@ impl App {
             RegionOrder::Off => {
                 self.pictures.region = None;
                 self.overlays
-                    .say("the full-size trace is of all of the picture");
+                    .say("the full-size trace covers the whole picture");
                 self.retrace()
             }
             RegionOrder::Trace(region) => self.trace_region(region),
@@ -137,7 +137,7 @@ impl App {
         }
         self.pictures.region = Some(region);
         self.overlays.say(format!(
-            "tracing the region {region} only; :region off for all of the picture"
+            "tracing only the region {region}; :region off traces the whole picture"
         ));
         if self.pictures.is_tracing() {
             let effects = self.retrace();

@@ -32,13 +32,13 @@ impl SettingOrder {
         let (word, value) = said.split_once(char::is_whitespace).unwrap_or((said, ""));
         let key = RenderKey::named(word).ok_or_else(|| {
             let names: Vec<_> = RenderKey::all().map(RenderKey::name).collect();
-            format!("set takes {}", names.join(", "))
+            format!(":set takes {}", names.join(", "))
         })?;
         let to = match value.trim() {
             "" => To::InUse,
             "default" => To::Default,
             value if value.contains(char::is_whitespace) => {
-                return Err(format!("set {word} takes one value"));
+                return Err(format!(":set {word} takes one value"));
             }
             value => To::Value(value.to_owned()),
         };

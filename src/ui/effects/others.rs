@@ -9,7 +9,7 @@ pub(super) fn without_others(effect: &Effect) -> Option<Msg> {
         Effect::WriteRecovery { revision, .. } => Some(Msg::Kept(*revision, Ok(()))),
         Effect::ListRecent => Some(Msg::RecentListed(Vec::new())),
         Effect::ReadReference(id, _) => {
-            let reason = "a script of keys does not run git".to_owned();
+            let reason = "a script of keys cannot run git".to_owned();
             Some(Msg::ReferenceRead(*id, Err(reason)))
         }
         _ => None,

@@ -355,7 +355,7 @@ pub(super) const TABLE: &[Binding] = &[
     bind(QUIT, &[c('n'), key(Esc)], A::Back, "stay"),
     bind(DELETE, &[c('y'), c('d')], A::Accept, "delete"),
     bind(DELETE, &[c('n'), key(Esc)], A::Back, "keep"),
-    bind(LEAVE, &[c('y')], A::Accept, "discard what is unsaved"),
+    bind(LEAVE, &[c('y')], A::Accept, "discard unsaved changes"),
     bind(LEAVE, &[c('w')], A::Save, "save first"),
     bind(LEAVE, &[c('S')], A::SaveView, "write the moved view and save first"),
     bind(LEAVE, &[c('n'), key(Esc)], A::Back, "stay"),

@@ -15,7 +15,7 @@ use crate::text::Edit;
 /// Outdated edits may take this many bytes, or as many as the text if it is longer.
 const WASTE: u64 = 1 << 20;
 
-/// A text to keep.
+/// The unsaved edits of a text.
 #[derive(Clone, Debug)]
 pub(crate) struct Edits {
     /// The scene's path; `None` for the scene without a file.

@@ -197,7 +197,7 @@ fn blocker(app: &App, light: &LightTerm) -> Option<Node> {
 fn values_of(app: &App, explanation: &Explanation, line: &RayLine) -> Vec<Value> {
     let ray = line.ray(explanation);
     let name = match line.part {
-        RayPart::Whole => "in all",
+        RayPart::Whole => "total",
         _ => "adds",
     };
     let mut values = vec![Value::new(name, colour(line.adds(explanation)))];

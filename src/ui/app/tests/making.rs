@@ -138,7 +138,7 @@ fn a_setting_in_use_is_written_and_no_longer_lies_over_the_text() {
         ),
         (
             ":set gamma 2<Enter>",
-            "set takes integrator, depth, spp, filter, transfer, exposure, falloff, gloss",
+            ":set takes integrator, depth, spp, filter, transfer, exposure, falloff, gloss",
         ),
     ] {
         press(&mut app, order);
@@ -200,7 +200,7 @@ fn a_setting_replaces_one_that_is_skipped() {
             .starts_with("// render: depth 2 spp 8\n")
     );
     press(&mut app, ":set exposure 1 spp 3<Enter>");
-    assert_eq!(words(&app), "set exposure takes one value");
+    assert_eq!(words(&app), ":set exposure takes one value");
 }
 
 #[test]
