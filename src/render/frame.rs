@@ -6,11 +6,9 @@ use std::time::Duration;
 use super::overexposure::Overexposure;
 use super::photons::{PhotonRules, Photons};
 use super::region::Region;
-use super::tone::{Light, Tone};
 use super::world::{Rules, World};
 use crate::scene::{
-    Camera, FalloffRule, Filter, GlossRule, Images, Integrator, Rendering, Rgb, Scene, Size,
-    Transfer,
+    Camera, FalloffRule, Filter, GlossRule, Images, Integrator, Rendering, Scene, Size, Transfer,
 };
 
 /// Marks a pixel without an object in [`Frame::objects`].
@@ -332,18 +330,6 @@ impl Frame {
     /// The settings it was traced with; `None` if it was not traced.
     pub fn settings(&self) -> Option<&Settings> {
         self.query.as_ref().map(|query| &query.settings)
-    }
-
-    /// Whether every pixel of this picture of light is black as exported.
-    pub fn is_black(&self) -> bool {
-        if self.values.is_empty() {
-            return self.pixels.iter().all(|pixel| *pixel == [0; 3]);
-        }
-        let transfer = self.settings().map(|settings| settings.transfer);
-        // The exposure is in the values.
-        let tone = Tone::Colour(Light::new(0.0, transfer.unwrap_or_default()));
-        let bytes = |value: &[f32; 3]| tone.bytes(Rgb::from(value.map(f64::from)));
-        self.values.iter().all(|value| bytes(value) == [0; 3])
     }
 
     /// The size of the whole picture, of which the frame may be a region.

@@ -2,7 +2,7 @@
 
 use rayon::prelude::*;
 
-use super::frame::{Aov, Settings};
+use super::frame::{Aov, Frame, Settings};
 use super::ramp::heat;
 use crate::scene::{Rgb, Transfer};
 
@@ -129,6 +129,20 @@ impl Tone {
             }
             Self::Part { most } => to_bytes(heat(share(value.x, most))),
         }
+    }
+}
+
+impl Frame {
+    /// Whether every pixel of this picture of light is black as exported.
+    pub fn is_black(&self) -> bool {
+        if self.values.is_empty() {
+            return self.pixels.iter().all(|pixel| *pixel == [0; 3]);
+        }
+        let transfer = self.settings().map(|settings| settings.transfer);
+        // The exposure is in the values.
+        let tone = Tone::Colour(Light::new(0.0, transfer.unwrap_or_default()));
+        let bytes = |value: &[f32; 3]| tone.bytes(Rgb::from(value.map(f64::from)));
+        self.values.iter().all(|value| bytes(value) == [0; 3])
     }
 }
 
