@@ -160,7 +160,9 @@ impl App {
                 self.disk.state = state;
                 self.overlays.errors = None;
                 self.jobs.next = None;
-                self.overlays.fail(format!("{error}{hint}"));
+                let words = format!("{error}{hint}");
+                self.disk.complaint = Some(words.clone());
+                self.overlays.fail(words);
                 Vec::new()
             }
         }

@@ -5,6 +5,7 @@ use ratatui::layout::Rect;
 use ratatui::style::Style;
 use ratatui::text::Line;
 use ratatui::widgets::{Block, BorderType, Clear, Widget};
+use unicode_width::UnicodeWidthStr;
 
 use super::row::Row;
 use crate::text::counted;
@@ -79,7 +80,10 @@ fn help_line(line: &HelpLine, mut row: Row) {
         }
         HelpLine::Entry { keys, words } => {
             let width = row.room();
-            let keys_width = width * 2 / 5;
+            // Long words begin farther left, as far as the keys leave room.
+            let least = (keys.width() + 3).min(width * 2 / 5);
+            let most = width.saturating_sub(words.width() + 1);
+            let keys_width = most.clamp(least, width * 2 / 5);
             row.skip(2)
                 .put_in(keys, keys_width.saturating_sub(3), theme::ACCENT);
             let used = width - row.room();
@@ -91,8 +95,10 @@ fn help_line(line: &HelpLine, mut row: Row) {
 
 #[cfg(test)]
 mod tests {
+    use super::*;
     use crate::ui::app::Help;
     use crate::ui::view::tests::{app, drawn};
+    use ratatui::buffer::Cell;
     use tui_input::Input;
 
     #[test]
@@ -105,6 +111,20 @@ mod tests {
         assert_eq!(headings, 1, "{}", wide[1]);
         let narrow = drawn(&app, super::render, 80, 30);
         assert!(!narrow[1].contains("anywhere"));
+    }
+
+    #[test]
+    fn long_words_begin_beside_short_keys() {
+        let area = Rect::new(0, 0, 40, 1);
+        let mut buffer = Buffer::empty(area);
+        let words = "explain the pixel pointed at";
+        let line = HelpLine::Entry {
+            keys: "i".into(),
+            words,
+        };
+        help_line(&line, Row::new(&mut buffer, area, 0));
+        let shown: String = buffer.content().iter().map(Cell::symbol).collect();
+        assert!(shown.contains(words), "{shown}");
     }
 
     #[test]

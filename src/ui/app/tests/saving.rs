@@ -1,6 +1,7 @@
 //! Slow and failing saves.
 
 use super::*;
+use crate::file::ReadError;
 use crate::ui::msg::{Guard, SaveId, SaveOutcome, Timer};
 use std::sync::Arc;
 
@@ -274,4 +275,21 @@ fn the_backup_of_an_interrupted_save_is_named() {
         "a save of scene.ray was interrupted: the previous content is in \
          .halflight-backup-1-2-scene.ray; delete that file if you do not need it"
     );
+}
+
+#[test]
+fn a_save_outdates_what_was_said_of_the_missing_file() {
+    let mut app = open(SCENE);
+    app.overlays.say("an earlier message");
+    let missing = || {
+        let path = PathBuf::from("scene.ray");
+        Msg::Read(path.clone(), Err(ReadError::NotFound { path }))
+    };
+    app.update(missing());
+    app.update(Msg::Elapsed(Timer::Settled));
+    app.update(missing());
+    let effects = press(&mut app, "w");
+    let text = app.document.shared_text();
+    saved(&mut app, saves(&effects)[0].0, "scene.ray", &text);
+    assert_eq!(words(&app), "wrote scene.ray");
 }
