@@ -3,8 +3,8 @@
 //!
 //! `build` sorts boxes into a tree of [`node::WIDTH`]-wide nodes by the surface area heuristic.
 //! `node` is such a node, `slab` a ray prepared for tests against all its children's boxes at once.
-//! `refit` adapts the tree to moved boxes, and `traverse` and `packet` traverse it, near children
-//! first; `packet`, for any hits, large ones first.
+//! `refit` adapts the tree to moved boxes, `splice` to removed and inserted ones, and `traverse` and
+//! `packet` traverse it, near children first; `packet`, for any hits, large ones first.
 //!
 //! # Why no box is missed
 //!
@@ -24,6 +24,7 @@ mod node;
 mod packet;
 mod refit;
 mod slab;
+mod splice;
 mod split;
 mod traverse;
 
@@ -93,6 +94,18 @@ impl Bvh {
     /// changes, for few boxes, or if a box becomes or ceases to be empty or unbounded.
     pub fn refitted(&self, changed: &[u32], aabb: impl Fn(u32) -> Aabb) -> Option<Self> {
         refit::refit(self, changed, aabb)
+    }
+
+    /// Adapts the tree to `inserted` boxes in place of those in `removed`: those behind have other indices
+    /// now. `aabb` returns the new boxes. Returns `None` if a new tree is better: after many changes, for
+    /// few boxes, or if one of the boxes is empty, unbounded or in a part that is full.
+    pub fn spliced(
+        &self,
+        removed: Range<u32>,
+        inserted: u32,
+        aabb: impl Fn(u32) -> Aabb,
+    ) -> Option<Self> {
+        splice::splice(self, removed, inserted, aabb)
     }
 
     /// Whether a packet is traced faster together than ray by ray.

@@ -13,8 +13,7 @@ const BOXES_PER_MOVE: usize = 1024;
 
 /// See [`Bvh::refitted`].
 pub(super) fn refit(bvh: &Bvh, changed: &[u32], aabb: impl Fn(u32) -> Aabb) -> Option<Bvh> {
-    let moved = bvh.moved + changed.len();
-    if MAX_MOVED < changed.len() || bvh.order.len() / BOXES_PER_MOVE < moved {
+    if !may_change(bvh, changed.len()) {
         return None;
     }
     let bounds = |index: u32| Bounds::around(aabb(index), bvh.reference);
@@ -25,23 +24,20 @@ pub(super) fn refit(bvh: &Bvh, changed: &[u32], aabb: impl Fn(u32) -> Aabb) -> O
     let bounded = &bvh.order[..bvh.bounded];
     let find = |index: &u32| bounded.iter().position(|other| other == index);
     let positions: Vec<usize> = changed.iter().map(find).collect::<Option<_>>()?;
-    let mut parents = vec![(0, 0); bvh.nodes.len()];
     let mut leaves = Vec::new();
     for (number, node) in bvh.nodes.iter().enumerate() {
         for lane in 0..WIDTH {
-            match node.child(lane) {
-                Child::Inner(child) => parents[child as usize] = (number, lane),
-                Child::Leaf { first, count } => {
-                    let run = first as usize..first as usize + usize::from(count);
-                    if positions.iter().any(|position| run.contains(position)) {
-                        leaves.push((number, lane));
-                    }
+            if let Child::Leaf { first, count } = node.child(lane) {
+                let run = first as usize..first as usize + usize::from(count);
+                if positions.iter().any(|position| run.contains(position)) {
+                    leaves.push((number, lane));
                 }
             }
         }
     }
     let mut nodes = bvh.nodes.clone();
-    for (mut number, mut lane) in leaves {
+    let parents = Parents::of(&nodes);
+    for (number, lane) in leaves {
         let child = nodes[number].child(lane);
         let Child::Leaf { first, count } = child else {
             continue;
@@ -50,13 +46,7 @@ pub(super) fn refit(bvh: &Bvh, changed: &[u32], aabb: impl Fn(u32) -> Aabb) -> O
         let around = |sum: Bounds, &index: &u32| sum.union(&bounds(index));
         let own = indices.iter().fold(Bounds::EMPTY, around);
         nodes[number].put(lane, &own, child);
-        // The root has no parent.
-        while number != 0 {
-            let whole = whole(&nodes[number]);
-            (number, lane) = parents[number];
-            let child = nodes[number].child(lane);
-            nodes[number].put(lane, &whole, child);
-        }
+        parents.enclose(&mut nodes, number);
     }
     Some(Bvh {
         reference: bvh.reference,
@@ -65,8 +55,42 @@ pub(super) fn refit(bvh: &Bvh, changed: &[u32], aabb: impl Fn(u32) -> Aabb) -> O
         nodes,
         order: bvh.order.clone(),
         bounded: bvh.bounded,
-        moved,
+        moved: bvh.moved + changed.len(),
     })
+}
+
+/// Whether so many more boxes may change before a new tree is better.
+pub(super) fn may_change(bvh: &Bvh, count: usize) -> bool {
+    count <= MAX_MOVED && bvh.moved + count <= bvh.order.len() / BOXES_PER_MOVE
+}
+
+/// The place of each node but the root: the number of the node above it, and the lane there.
+pub(super) struct Parents(Vec<(usize, usize)>);
+
+impl Parents {
+    pub(super) fn of(nodes: &[Node]) -> Self {
+        let mut places = vec![(0, 0); nodes.len()];
+        for (number, node) in nodes.iter().enumerate() {
+            for lane in 0..WIDTH {
+                if let Child::Inner(child) = node.child(lane) {
+                    places[child as usize] = (number, lane);
+                }
+            }
+        }
+        Self(places)
+    }
+
+    /// Adapts the boxes of a node whose children have changed, and of those above it.
+    pub(super) fn enclose(&self, nodes: &mut [Node], mut number: usize) {
+        // The root has no parent.
+        while number != 0 {
+            let whole = whole(&nodes[number]);
+            let (above, lane) = self.0[number];
+            let child = nodes[above].child(lane);
+            nodes[above].put(lane, &whole, child);
+            number = above;
+        }
+    }
 }
 
 /// The union of the children's boxes; a missing child's is empty.

@@ -7,6 +7,7 @@ use std::ops::Range;
 use std::sync::Arc;
 
 use glam::{DVec2, DVec3};
+use rayon::prelude::*;
 
 use super::emitters::{Emitters, Known, ManyLights};
 use super::level::level;
@@ -18,7 +19,9 @@ use super::texture::{Textures, environment_place};
 use crate::accel::{Bvh, RUN};
 use crate::geometry::Ray;
 use crate::geometry::lanes::Level;
-use crate::scene::{FalloffRule, GlossRule, Images, Integrator, Light, Object, Rgb, Scene};
+use crate::scene::{
+    FalloffRule, GlossRule, Images, Integrator, Light, Object, Objects, Rgb, Scene,
+};
 
 /// Up to this many objects are intersected without a tree. Measured with single rays: with two
 /// solids this is 1.5 times as fast as a tree; with six to eleven a tree is 1.2 to 1.7 times as
@@ -176,9 +179,14 @@ impl World {
             let objects = &scene.objects;
             let bounds = |object: u32| objects[object as usize].shape.bounds();
             let known = previous.and_then(|world| world.tree.as_ref());
-            let refitted = known.zip(changed);
-            let refitted = refitted.and_then(|(tree, changed)| tree.refitted(&changed, bounds));
-            let tree = match refitted {
+            let adapted = known.and_then(|tree| {
+                if let Some(changed) = changed {
+                    return tree.refitted(&changed, bounds);
+                }
+                let (removed, inserted) = replaced(&previous?.scene.objects, objects)?;
+                tree.spliced(removed, inserted, bounds)
+            });
+            let tree = match adapted {
                 Some(tree) => tree,
                 None => Bvh::over(objects.len(), bounds, cancelled)?,
             };
@@ -284,6 +292,28 @@ fn opaque_meshes(scene: &Scene) -> Vec<bool> {
         }
     }
     opaque
+}
+
+/// The objects removed from a list and the number of those inserted in their place, if the others have
+/// the same shapes; `None` if there are many, or of both kinds.
+fn replaced(before: &Objects, after: &Objects) -> Option<(Range<u32>, u32)> {
+    /// The maximum number of objects removed or inserted.
+    const MANY: usize = 16;
+    let (removed, inserted) = (
+        before.len().saturating_sub(after.len()),
+        after.len().saturating_sub(before.len()),
+    );
+    if removed + inserted == 0 || MANY < removed + inserted {
+        return None;
+    }
+    let is_other = |a: &Object, b: &Object| a.shape != b.shape;
+    let first = before.differences(after, is_other).next();
+    let first = first.unwrap_or_else(|| before.len().min(after.len()));
+    let rest = (first + removed..before.len()).into_par_iter();
+    let is_same = |number: usize| before[number].shape == after[number - removed + inserted].shape;
+    let start = first as u32;
+    rest.all(is_same)
+        .then_some((start..start + removed as u32, inserted as u32))
 }
 
 /// Returns the objects whose shapes differ; `None` if too many, or if their counts differ.

@@ -178,6 +178,91 @@ fn a_tree_follows_boxes_that_move() {
 }
 
 #[test]
+fn a_tree_follows_boxes_that_come_and_go() {
+    let mut random = Random(11);
+    let mut boxes = random_boxes(&mut random, 20_000, 1.0, DVec3::ZERO);
+    let mut bvh = build(&boxes);
+    let mut followed = 0;
+    for (removed, inserted) in [
+        (1, 0),
+        (0, 1),
+        (3, 0),
+        (0, 3),
+        (2, 2),
+        (1, 1),
+        (1, 0),
+        (0, 1),
+    ] {
+        let start = random.bits() as usize % 19_000;
+        let new = random_boxes(&mut random, inserted, 1.0, DVec3::ZERO);
+        boxes.splice(start..start + removed, new);
+        let places = start as u32..(start + removed) as u32;
+        let spliced = bvh.spliced(places, inserted as u32, |index| boxes[index as usize]);
+        followed += u32::from(spliced.is_some());
+        // One near a full leaf is not.
+        bvh = spliced.unwrap_or_else(|| build(&boxes));
+        check_tree(&bvh, &boxes);
+        let runs = bvh.runs();
+        assert!(runs.is_sorted_by_key(|run| run.start));
+        assert!(runs.iter().all(|run| (1..=RUN).contains(&run.len())));
+    }
+    assert!(6 < followed, "{followed}");
+}
+
+#[test]
+fn a_tree_is_built_anew_where_boxes_have_no_room() {
+    let mut random = Random(12);
+    let mut boxes = random_boxes(&mut random, 20_000, 1.0, DVec3::ZERO);
+    let mut bvh = build(&boxes);
+    let at = boxes[7];
+    let mut room = 0;
+    loop {
+        boxes.insert(8, at);
+        let Some(spliced) = bvh.spliced(8..8, 1, |index| boxes[index as usize]) else {
+            break;
+        };
+        check_tree(&spliced, &boxes);
+        bvh = spliced;
+        room += 1;
+    }
+    assert!(room < RUN, "{room}");
+    let bvh = build(&boxes);
+    let spliced = |places: std::ops::Range<u32>, inserted, aabb: Aabb| {
+        bvh.spliced(places, inserted, |_| aabb).is_some()
+    };
+    assert!(spliced(0..16, 0, at));
+    assert!(!spliced(0..17, 0, at));
+    assert!(!spliced(0..0, 1, Aabb::EMPTY));
+    assert!(!spliced(0..0, 1, cube(DVec3::ZERO, DVec3::INFINITY)));
+    assert!(
+        build(&boxes[..1000]).spliced(0..1, 0, |_| at).is_none(),
+        "too few"
+    );
+}
+
+/// All boxes of some leaves are removed.
+#[test]
+fn leaves_may_become_empty() {
+    let mut boxes = random_boxes(&mut Random(13), 20_000, 1.0, DVec3::ZERO);
+    // Sixteen that share two leaves of their own.
+    for (at, aabb) in boxes[..16].iter_mut().enumerate() {
+        *aabb = cube(DVec3::splat(50.0 + (at / 8) as f64), DVec3::splat(0.1));
+    }
+    let bvh = build(&boxes);
+    boxes.drain(..16);
+    let spliced = bvh.spliced(0..16, 0, |index| boxes[index as usize]);
+    let spliced = spliced.expect("few boxes are removed");
+    check_tree(&spliced, &boxes);
+    assert!(spliced.farthest < 10.0, "{}", spliced.farthest);
+    let lengths = spliced
+        .runs()
+        .iter()
+        .map(ExactSizeIterator::len)
+        .sum::<usize>();
+    assert_eq!(lengths, boxes.len());
+}
+
+#[test]
 fn a_build_checks_often_and_stops_when_cancelled() {
     let boxes = random_boxes(&mut Random(6), 100_000, 1.0, DVec3::ZERO);
     let calls = AtomicUsize::new(0);

@@ -458,3 +458,48 @@ fn other_edits_trace_everything_again() {
     let other = |scene: &mut Scene| scene.materials[0] = Material::unlit(Rgb::new(0.1, 0.2, 0.3));
     assert_eq!(of_scene(&other), Some(Touched::object(0)));
 }
+
+#[test]
+fn rays_hit_the_same_after_objects_come_and_go() {
+    let mut random = Random(52);
+    let ball = |random: &mut Random| Object {
+        shape: sphere(random.point(5.0).to_array(), 0.2),
+        material: 0,
+    };
+    let objects: Vec<_> = (0..9000).map(|_| ball(&mut random)).collect();
+    let mut scene = still(1, &mut random);
+    scene.objects = objects.into_iter().collect();
+    let world = |scene: &Scene, known: Option<&World>| {
+        let job = job(&Arc::new(scene.clone()), settings(19, 17, 1));
+        built(&job, known).expect("nothing cancels")
+    };
+    let mut adapted = world(&scene, None);
+    let mut differ = 0;
+    for (at, removed, inserted) in [
+        (17, 1, 0),
+        (0, 0, 1),
+        (8999, 1, 0),
+        (5000, 0, 2),
+        (40, 2, 0),
+    ] {
+        let new: Vec<_> = (0..inserted).map(|_| ball(&mut random)).collect();
+        scene.objects.edit(|objects| {
+            objects.splice(at..at + removed, new);
+        });
+        adapted = world(&scene, Some(&adapted));
+        let fresh = world(&scene, None);
+        differ += u32::from(adapted.order() != fresh.order());
+        let mut hits = 0;
+        for _ in 0..500 {
+            let ray = Ray {
+                origin: random.point(6.0),
+                direction: random.point(1.0).normalize(),
+            };
+            let nearest = adapted.nearest(&ray, f64::INFINITY);
+            assert_eq!(nearest, fresh.nearest(&ray, f64::INFINITY));
+            hits += u32::from(nearest.is_some());
+        }
+        assert!(100 < hits, "{hits}");
+    }
+    assert!(0 < differ, "the tree is adapted");
+}

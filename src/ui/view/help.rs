@@ -105,11 +105,11 @@ mod tests {
     fn a_wide_page_has_columns_and_starts_with_the_present_mode() {
         let mut app = app();
         app.overlays.help = Some(Help::default());
-        let wide = drawn(&app, super::render, 120, 30);
+        let wide = drawn(&app, render, 120, 30);
         assert!(wide[1].starts_with("│ SELECT"), "{}", wide[1]);
         let headings = wide[1].matches("anywhere").count();
         assert_eq!(headings, 1, "{}", wide[1]);
-        let narrow = drawn(&app, super::render, 80, 30);
+        let narrow = drawn(&app, render, 80, 30);
         assert!(!narrow[1].contains("anywhere"));
     }
 
@@ -134,7 +134,7 @@ mod tests {
             search: Input::new("ORBIT".to_owned()),
             ..Help::default()
         });
-        let lines = drawn(&app, super::render, 80, 24);
+        let lines = drawn(&app, render, 80, 24);
         let found = lines.iter().filter(|line| line.contains("orbit")).count();
         // Four keys and the mouse, under two headings.
         assert!(lines[0].contains("1–7 of 7"), "{}", lines[0]);
