@@ -85,7 +85,7 @@ fn a_question_is_asked_if_others_changed_the_edited_places() {
         let mut session = place.start(&["balls.ray"], WIDE);
         session.wait_for(QUESTION);
         session.send("r");
-        session.wait_for("Both the file and unsaved edits changed these");
+        session.wait_for("The file and your unsaved edits both changed these");
         session.wait_for("mine 2");
         session.wait_for("file .90");
         session.send([answer, ENTER].concat());
