@@ -96,9 +96,9 @@ impl Bvh {
         refit::refit(self, changed, aabb)
     }
 
-    /// Adapts the tree to `inserted` boxes in place of those in `removed`: those behind have other indices
-    /// now. `aabb` returns the new boxes. Returns `None` if a new tree is better: after many changes, for
-    /// few boxes, or if one of the boxes is empty, unbounded or in a part that is full.
+    /// Adapts the tree to `inserted` boxes in place of those in `removed`, which shifts the indices of later
+    /// boxes. `aabb` takes new indices. Returns `None` if a new tree is better: after many changes, for few
+    /// boxes, or if a new box is empty, unbounded or near a full leaf.
     pub fn spliced(
         &self,
         removed: Range<u32>,

@@ -59,7 +59,7 @@ pub(super) fn refit(bvh: &Bvh, changed: &[u32], aabb: impl Fn(u32) -> Aabb) -> O
     })
 }
 
-/// Whether so many more boxes may change before a new tree is better.
+/// Whether `count` more boxes may change before a new tree is better.
 pub(super) fn may_change(bvh: &Bvh, count: usize) -> bool {
     count <= MAX_MOVED && bvh.moved + count <= bvh.order.len() / BOXES_PER_MOVE
 }

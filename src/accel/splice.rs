@@ -7,7 +7,7 @@ use super::refit::{Parents, may_change};
 use super::{Bvh, RUN};
 use crate::geometry::Aabb;
 
-/// Changes of [`Bvh::order`]: each place is one before the changes.
+/// Changes of [`Bvh::order`]. Places are those before the changes.
 struct Changes {
     /// The places of removed boxes, in ascending order.
     removed: Vec<usize>,

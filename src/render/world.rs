@@ -294,8 +294,8 @@ fn opaque_meshes(scene: &Scene) -> Vec<bool> {
     opaque
 }
 
-/// The objects removed from a list and the number of those inserted in their place, if the others have
-/// the same shapes; `None` if there are many, or of both kinds.
+/// The run of objects removed from a list, or where and how many were inserted, if all others keep their
+/// shapes; `None` otherwise, or if there are many.
 fn replaced(before: &Objects, after: &Objects) -> Option<(Range<u32>, u32)> {
     /// The maximum number of objects removed or inserted.
     const MANY: usize = 16;

@@ -199,7 +199,7 @@ fn a_tree_follows_boxes_that_come_and_go() {
         let places = start as u32..(start + removed) as u32;
         let spliced = bvh.spliced(places, inserted as u32, |index| boxes[index as usize]);
         followed += u32::from(spliced.is_some());
-        // One near a full leaf is not.
+        // Near a full leaf, a new tree is needed.
         bvh = spliced.unwrap_or_else(|| build(&boxes));
         check_tree(&bvh, &boxes);
         let runs = bvh.runs();

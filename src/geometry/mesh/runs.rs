@@ -4,9 +4,8 @@
 //!
 //! Rejected: copies of the vertices in double precision, tested exactly in lanes (rays through a million
 //! triangles took a tenth to a fifth less time, but the copies take 36 bytes more per triangle, and the
-//! kernel as much time to provide them as a frame gains); the numbers of the vertices beside them (12
-//! bytes more per triangle; scattered rays, which wait for memory, take an eighth less time, others no
-//! less).
+//! kernel as much time to provide them as a frame gains); vertex indices beside the rows (12 bytes
+//! more per triangle; scattered rays, which wait for memory, take an eighth less time, others no less).
 
 use std::ops::Range;
 

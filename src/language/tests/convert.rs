@@ -469,7 +469,7 @@ fn what_gamma_says_of_lights_is_lost_at_its_place() {
     }
 }
 
-/// There a light with a size has the radiance of its intensity, and so falls off by the square.
+/// Such a light has a radiance that follows from its intensity, so it falls off with the squared distance.
 #[test]
 fn a_light_with_a_size_under_gamma_is_written_with_a_falloff() {
     for (settings, radial) in [

@@ -136,7 +136,7 @@ fn conflict(app: &App, merge: &Merge, at: usize, from: &Outside, area: Rect, buf
             Style::new()
         };
         row.put(if index == at { "▸ " } else { "  " }, here);
-        // Where something was deleted, what is there now is something else.
+        // What is now at the place of a deletion is not what was deleted.
         let is_deleted = conflict.mine.trim().is_empty();
         let place = app.place_name(conflict.span).filter(|_| !is_deleted);
         let place = place.map_or_else(
@@ -224,8 +224,8 @@ fn one_line(text: &str) -> String {
 
 #[cfg(test)]
 mod tests {
-    use crate::document::Side;
-    use crate::ui::app::{Dialog, Next, Outside};
+    use crate::document::{Merge, Side};
+    use crate::ui::app::{App, Dialog, Next, Outside};
     use crate::ui::view::tests::{SCENE, app, conflict, drawn, retype};
 
     #[test]
@@ -268,6 +268,18 @@ mod tests {
         }
     }
 
+    /// The line of the first conflict with the file.
+    fn drawn_conflict(mut app: App, merge: Merge) -> String {
+        app.overlays.dialog = Some(Dialog::Conflict {
+            merge,
+            at: 0,
+            from: Outside::File,
+        });
+        let lines = drawn(&app, super::render, 100, 24);
+        let line = lines.into_iter().find(|line| line.contains('▸'));
+        line.expect("a cursor")
+    }
+
     #[test]
     fn a_conflict_with_a_deletion_is_shown_as_one() {
         let mut app = app();
@@ -275,14 +287,7 @@ mod tests {
         let from = SCENE.find("box").expect("a box");
         let theirs = SCENE[..from].replacen("\n2\n", "\n1\n", 1);
         let merge = conflict(&app, &theirs);
-        app.overlays.dialog = Some(Dialog::Conflict {
-            merge,
-            at: 0,
-            from: Outside::File,
-        });
-        let lines = drawn(&app, super::render, 100, 24);
-        let line = lines.iter().find(|line| line.contains('▸'));
-        let line = line.expect("a cursor");
+        let line = drawn_conflict(app, merge);
         for part in ["object 2 (box)", "○ mine box", "○ file (deleted)"] {
             assert!(line.contains(part), "{part:?} in {line}");
         }
@@ -295,14 +300,7 @@ mod tests {
         retype(&mut app, &SCENE[from..], "");
         retype(&mut app, "\n2\n", "\n1\n");
         let merge = conflict(&app, &SCENE.replacen("box 0 0 0", "box 0 0 7", 1));
-        app.overlays.dialog = Some(Dialog::Conflict {
-            merge,
-            at: 0,
-            from: Outside::File,
-        });
-        let lines = drawn(&app, super::render, 100, 24);
-        let line = lines.iter().find(|line| line.contains('▸'));
-        let line = line.expect("a cursor");
+        let line = drawn_conflict(app, merge);
         for part in ["▸ line ", "○ mine (deleted)", "○ file box"] {
             assert!(line.contains(part), "{part:?} in {line}");
         }

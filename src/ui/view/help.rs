@@ -80,7 +80,7 @@ fn help_line(line: &HelpLine, mut row: Row) {
         }
         HelpLine::Entry { keys, words } => {
             let width = row.room();
-            // Long words begin farther left, as far as the keys leave room.
+            // A long description starts farther left, as far as its keys leave room.
             let least = (keys.width() + 3).min(width * 2 / 5);
             let most = width.saturating_sub(words.width() + 1);
             let keys_width = most.clamp(least, width * 2 / 5);
