@@ -50,6 +50,15 @@ impl From<&Ray> for Rays<f64> {
 }
 
 impl<S: Simd> Rays<Eight<S>> {
+    /// Stores the rays in memory.
+    #[inline(always)]
+    pub fn store(self) -> Rays<Row> {
+        Rays {
+            origin: self.origin.store(),
+            direction: self.direction.store(),
+        }
+    }
+
     /// Broadcasts a ray to all lanes.
     #[inline(always)]
     pub fn all(simd: S, ray: &Ray) -> Self {
@@ -122,14 +131,20 @@ impl Packet {
     /// Returns the ray in a lane.
     #[inline(always)]
     pub fn ray(&self, lane: usize) -> Ray {
-        Ray {
-            origin: self.rays.origin.get(lane),
-            direction: self.rays.direction.get(lane),
-        }
+        self.rays.get(lane)
     }
 }
 
 impl Rays<Row> {
+    /// Returns the ray in a lane.
+    #[inline(always)]
+    pub fn get(&self, lane: usize) -> Ray {
+        Ray {
+            origin: self.origin.get(lane),
+            direction: self.direction.get(lane),
+        }
+    }
+
     /// Loads the rays into SIMD vectors.
     #[inline(always)]
     pub fn load<S: Simd>(&self, simd: S) -> Rays<Eight<S>> {

@@ -88,16 +88,22 @@ pub(crate) fn shadow<N: Lanes>(
     if light.shadows == Shadows::Off {
         return None;
     }
+    Some(shadow_rays(surface, incoming))
+}
+
+/// The same for a light that casts shadows.
+#[inline(always)]
+pub(crate) fn shadow_rays<N: Lanes>(surface: &Surfaces<N>, incoming: Incoming<N>) -> Shadow<N> {
     let toward = incoming.toward;
     let origin = surface.leave(toward);
     let Some(source) = incoming.source else {
-        return Some(Shadow {
+        return Shadow {
             rays: Rays {
                 origin,
                 direction: toward,
             },
             ends: toward.x.all(f64::INFINITY),
-        });
+        };
     };
     let offset = source - origin;
     let distance = offset.length();
@@ -109,7 +115,7 @@ pub(crate) fn shadow<N: Lanes>(
         direction: offset.over(distance),
     };
     let ends = distance - distance.all(32.0) * reach.larger(distance).ulp();
-    Some(Shadow { rays, ends })
+    Shadow { rays, ends }
 }
 
 /// Returns the unoccluded light reflected from a light, given the reflectance `reflected` for light
@@ -153,12 +159,17 @@ impl Unshadowed {
 
     /// The light that remains, given the transmittance of the shadow ray.
     pub(crate) fn shadowed(&self, transmittance: f64) -> Rgb {
-        // Occluded light adds nothing, even if infinite.
-        if transmittance == 0.0 {
-            Rgb::ZERO
-        } else {
-            transmittance * self.light
-        }
+        shadowed(self.light, transmittance)
+    }
+}
+
+/// What remains of unshadowed light, given the transmittance of its shadow ray.
+pub(crate) fn shadowed(light: Rgb, transmittance: f64) -> Rgb {
+    // Occluded light adds nothing, even if infinite.
+    if transmittance == 0.0 {
+        Rgb::ZERO
+    } else {
+        transmittance * light
     }
 }
 

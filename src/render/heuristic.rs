@@ -1,5 +1,7 @@
 //! Multiple importance sampling of two techniques.
 
+use crate::geometry::lanes::Lanes;
+
 /// The probability densities, per steradian, with which two techniques choose a direction to what
 /// emits light.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -33,8 +35,10 @@ impl Densities {
 }
 
 /// Veach's power heuristic: the weight of a sample with density `own` that another technique would
-/// produce with density `other`.
-pub(super) fn power_heuristic(own: f64, other: f64) -> f64 {
+/// produce with density `other`, in each lane.
+#[inline(always)]
+pub(super) fn power_heuristic<N: Lanes>(own: N, other: N) -> N {
     let ratio = other / own;
-    1.0 / (1.0 + ratio * ratio)
+    let one = own.all(1.0);
+    one / (one + ratio * ratio)
 }

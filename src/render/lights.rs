@@ -9,8 +9,8 @@ use super::level::level;
 use super::optics::power;
 use super::warp;
 use crate::accel::Bvh;
-use crate::geometry::lanes::{Eight, Lanes, Level, Simd, Vector, dispatch};
-use crate::geometry::{Aabb, Ray};
+use crate::geometry::lanes::{Eight, Lanes, Level, Row, Simd, Vector, dispatch};
+use crate::geometry::{Aabb, Ray, Rays};
 use crate::scene::{Emitter, Falloff, FalloffRule, Light, Rgb};
 
 /// The light arriving at points, in each lane.
@@ -183,27 +183,13 @@ impl SphereLight {
     /// Samples the part of the sphere visible from a point, uniformly over directions. `None` if
     /// the point is inside.
     pub(crate) fn choose(&self, point: DVec3, place: [f64; 2]) -> Option<Incoming<f64>> {
-        let versine = self.versine(point)?;
-        let axis = (self.centre - point).normalize();
-        let toward = warp::in_cone(axis, versine, place);
-        let ray = Ray {
-            origin: point,
-            direction: toward,
-        };
-        // A ray along the rim may just miss the sphere.
-        let distance = self
-            .hit(&ray)
-            .unwrap_or_else(|| toward.dot(self.centre - point));
-        Some(Incoming {
-            toward: toward.into(),
-            source: Some(ray.at(distance).into()),
-        })
+        let (incoming, is_outside) = Spheres::from(self).choose(point.into(), place);
+        is_outside.then_some(incoming)
     }
 
     /// The density of [`SphereLight::choose`] per steradian where it hits the sphere; 0 inside.
     pub(crate) fn density(&self, point: DVec3) -> f64 {
-        self.versine(point)
-            .map_or(0.0, |versine| 1.0 / (TAU * versine))
+        Spheres::from(self).density(point.into())
     }
 
     /// Emitted radiance: I / (π r²).
@@ -213,23 +199,13 @@ impl SphereLight {
 
     /// Radiance over density: the contribution of a sampled direction.
     pub(crate) fn irradiance(&self, point: DVec3) -> Rgb {
-        // 1 − cos is sin² / (1 + cos), and the sine is the radius over the distance, so that the
-        // radius, which may be arbitrarily small, cancels.
-        let distance = self.centre.distance(point);
-        let sine = self.radius / distance;
-        let cosine = (1.0 - sine * sine).max(0.0).sqrt();
-        2.0 * self.intensity / distance / distance / (1.0 + cosine)
+        Spheres::from(self).irradiance(point.into()).into()
     }
 
     /// The distance at which a ray hits the sphere; `None` if it misses or starts inside.
     pub(crate) fn hit(&self, ray: &Ray) -> Option<f64> {
-        let offset = self.centre - ray.origin;
-        let along = offset.dot(ray.direction);
-        let aside = (offset - along * ray.direction).length_squared();
-        let square = self.radius * self.radius;
-        let half = square - aside;
-        let is_outside = square < offset.length_squared();
-        (is_outside && 0.0 < along && 0.0 <= half).then(|| along - half.sqrt())
+        let (distance, is_hit) = Spheres::from(self).hit(&ray.into());
+        is_hit.then_some(distance)
     }
 
     fn bounds(&self) -> Aabb {
@@ -238,16 +214,127 @@ impl SphereLight {
             max: self.centre + self.radius,
         }
     }
+}
 
-    /// 1 − cos of the half angle that the sphere subtends at a point; `None` inside.
-    fn versine(&self, point: DVec3) -> Option<f64> {
-        let sine = self.radius / self.centre.distance(point);
-        (sine < 1.0).then(|| {
-            let square = sine * sine;
-            square / (1.0 + (1.0 - square).sqrt())
-        })
+/// The spheres of lights with a size, in each lane.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Spheres<N> {
+    centre: Vector<N>,
+    radius: N,
+    intensity: Vector<N>,
+}
+
+impl From<&SphereLight> for Spheres<f64> {
+    #[inline(always)]
+    fn from(light: &SphereLight) -> Self {
+        Self {
+            centre: light.centre.into(),
+            radius: light.radius,
+            intensity: light.intensity.into(),
+        }
     }
 }
+
+impl<N: Lanes> Spheres<N> {
+    /// See [`SphereLight::choose`]; the mask selects points outside.
+    #[inline(always)]
+    pub(crate) fn choose(&self, points: Vector<N>, place: [N; 2]) -> (Incoming<N>, N::Mask) {
+        let (versine, is_outside) = self.versine(points);
+        let offset = self.centre - points;
+        let rays = Rays {
+            origin: points,
+            direction: warp::in_cone(offset.unit(), versine, place),
+        };
+        let toward = rays.direction;
+        // A ray along the rim may just miss the sphere.
+        let (distance, is_hit) = self.hit(&rays);
+        let distance = N::select(is_hit, distance, toward.dot(offset));
+        let incoming = Incoming {
+            toward,
+            source: Some(rays.at(distance)),
+        };
+        (incoming, is_outside)
+    }
+
+    /// See [`SphereLight::density`].
+    #[inline(always)]
+    pub(crate) fn density(&self, points: Vector<N>) -> N {
+        let (versine, is_outside) = self.versine(points);
+        let density = versine.all(1.0) / (versine.all(TAU) * versine);
+        N::select(is_outside, density, versine.all(0.0))
+    }
+
+    /// See [`SphereLight::irradiance`].
+    #[inline(always)]
+    pub(crate) fn irradiance(&self, points: Vector<N>) -> Vector<N> {
+        // 1 − cos is sin² / (1 + cos), and the sine is the radius over the distance, so that the
+        // radius, which may be arbitrarily small, cancels.
+        let one = self.radius.all(1.0);
+        let distance = (self.centre - points).length();
+        let sine = self.radius / distance;
+        let square = one - sine * sine;
+        let cosine = square.larger(one.all(0.0)).sqrt();
+        let doubled = self.intensity.scaled(one.all(2.0));
+        doubled.over(distance).over(distance).over(one + cosine)
+    }
+
+    /// See [`SphereLight::hit`]; the mask selects rays that hit.
+    #[inline(always)]
+    fn hit(&self, rays: &Rays<N>) -> (N, N::Mask) {
+        let offset = self.centre - rays.origin;
+        let along = offset.dot(rays.direction);
+        let aside = (offset - rays.direction.scaled(along)).length_squared();
+        let square = self.radius * self.radius;
+        let half = square - aside;
+        let zero = square.all(0.0);
+        let is_outside = square.below(offset.length_squared());
+        let is_hit = is_outside & zero.below(along) & zero.up_to(half);
+        (along - half.sqrt(), is_hit)
+    }
+
+    /// 1 − cos of the half angles that the spheres subtend at points; the mask selects points
+    /// outside.
+    #[inline(always)]
+    fn versine(&self, points: Vector<N>) -> (N, N::Mask) {
+        let one = self.radius.all(1.0);
+        let sine = self.radius / (self.centre - points).length();
+        let square = sine * sine;
+        let versine = square / (one + (one - square).sqrt());
+        (versine, sine.below(one))
+    }
+}
+
+impl Spheres<Row> {
+    /// Repeats a light in all lanes.
+    pub(crate) fn repeat(light: &SphereLight) -> Self {
+        Self {
+            centre: Vector::repeat(light.centre),
+            radius: Row::all(light.radius),
+            intensity: Vector::repeat(light.intensity),
+        }
+    }
+
+    /// Replaces the light in a lane.
+    #[inline(always)]
+    pub(crate) fn set(&mut self, lane: usize, light: &SphereLight) {
+        self.centre.set(lane, light.centre);
+        self.radius.0[lane] = light.radius;
+        self.intensity.set(lane, light.intensity);
+    }
+
+    /// Loads the lights into SIMD vectors.
+    #[inline(always)]
+    pub(crate) fn load<S: Simd>(&self, simd: S) -> Spheres<Eight<S>> {
+        Spheres {
+            centre: self.centre.load(simd),
+            radius: self.radius.load(simd),
+            intensity: self.intensity.load(simd),
+        }
+    }
+}
+
+/// Up to this number of lights, a ray is tested against each instead of descending the tree.
+const FEW: usize = 4;
 
 /// All lights of a scene with a size that path tracing sees.
 #[derive(Clone, Debug)]
@@ -278,7 +365,11 @@ impl SphereLights {
 
     /// Returns the nearest light that a ray hits before a distance, with its index among all lights,
     /// and where; of several at the same distance, the first in the file.
+    #[inline]
     pub(crate) fn nearest(&self, ray: &Ray, distance: f64) -> Option<(u32, SphereLight, f64)> {
+        if self.all.is_empty() {
+            return None;
+        }
         let mut nearest: Option<(f64, u32)> = None;
         self.visit(ray, distance, |number| {
             if let Some(hit) = self.all[number as usize].hit(ray)
@@ -295,8 +386,13 @@ impl SphereLights {
         })
     }
 
-    /// Whether a ray hits a light other than its target before a distance.
-    pub(crate) fn hide(&self, target: &SphereLight, ray: &Ray, distance: f64) -> bool {
+    /// Whether a ray to a point on one of them, its target, hits another before.
+    #[inline]
+    pub(crate) fn hide(&self, target: &SphereLight, ray: &Ray, place: DVec3) -> bool {
+        if self.all.len() <= 1 {
+            return false;
+        }
+        let distance = place.distance(ray.origin);
         let mut hidden = false;
         self.visit(ray, distance, |number| {
             let sphere = &self.all[number as usize];
@@ -307,10 +403,21 @@ impl SphereLights {
     }
 
     /// Visits the lights that the ray may hit; `visit` returns the new limit, negative to stop.
+    #[inline(always)]
     fn visit(&self, ray: &Ray, limit: f64, mut visit: impl FnMut(u32) -> f64) {
-        if self.all.is_empty() {
-            return;
+        if self.all.len() <= FEW {
+            for number in 0..self.all.len() as u32 {
+                if visit(number) < 0.0 {
+                    break;
+                }
+            }
+        } else {
+            self.traverse(ray, limit, &mut visit);
         }
+    }
+
+    #[inline(never)]
+    fn traverse(&self, ray: &Ray, limit: f64, visit: &mut dyn FnMut(u32) -> f64) {
         dispatch!(self.level, simd => {
             self.tree.traverse(simd, ray, limit, |places| {
                 let mut limit = limit;

@@ -11,6 +11,7 @@ use super::microfacet::Microfacets;
 use super::optics::{power, reflect, schlick, strength};
 use super::probe::Point;
 use super::warp;
+use crate::geometry::lanes::{Lanes, Vector};
 use crate::scene::{Gloss, Highlight, Material, Rgb};
 
 /// The diffuse and glossy lobes of a surface at a point.
@@ -44,6 +45,32 @@ pub(crate) struct Scattered {
     pub(crate) value: Rgb,
     /// Probability density with which [`Lobes::choose`] returns the direction, per steradian.
     pub(crate) density: f64,
+}
+
+/// The diffuse lobes of surfaces, in each lane.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Diffuse<N> {
+    /// BRDFs.
+    pub(crate) colour: Vector<N>,
+    /// See [`Lobes`].
+    pub(crate) even: N,
+}
+
+impl<N: Lanes> Diffuse<N> {
+    /// Completes a scattering, given for each lane the value of the glossy lobe without the cosine
+    /// of incidence and its density, and the cosine.
+    #[inline(always)]
+    pub(crate) fn scatter(&self, cosine: N, glossy: (Vector<N>, N)) -> (Vector<N>, N) {
+        let (value, density) = glossy;
+        let (zero, one, pi) = (cosine.all(0.0), cosine.all(1.0), cosine.all(PI));
+        let is_above = zero.below(cosine);
+        let value = (self.colour + value).scaled(cosine);
+        let density = self.even * cosine / pi + (one - self.even) * density;
+        (
+            Vector::select(is_above, value, Vector::all(zero, DVec3::ZERO)),
+            N::select(is_above, density, zero),
+        )
+    }
 }
 
 impl Lobes {
@@ -133,14 +160,30 @@ impl Lobes {
             Glossy::None => (Rgb::ZERO, 0.0),
             _ => self.scatter_glossy(point, toward),
         };
+        let (value, density) = self.diffuse().scatter(cosine, (glossy.into(), density));
         Scattered {
-            value: cosine * (self.diffuse + glossy),
-            density: self.even * cosine / PI + (1.0 - self.even) * density,
+            value: value.into(),
+            density,
         }
     }
 
+    /// The diffuse lobe.
+    #[inline(always)]
+    pub(crate) fn diffuse(&self) -> Diffuse<f64> {
+        Diffuse {
+            colour: self.diffuse.into(),
+            even: self.even,
+        }
+    }
+
+    /// Whether there is a glossy lobe.
+    #[inline]
+    pub(crate) fn is_glossy(&self) -> bool {
+        !matches!(self.glossy, Glossy::None)
+    }
+
     /// The value of the glossy lobe without the cosine of incidence, and its density.
-    fn scatter_glossy(&self, point: &Point, toward: DVec3) -> (Rgb, f64) {
+    pub(crate) fn scatter_glossy(&self, point: &Point, toward: DVec3) -> (Rgb, f64) {
         let view = point.view;
         match self.glossy {
             Glossy::None => (Rgb::ZERO, 0.0),
@@ -176,11 +219,9 @@ impl Lobes {
     /// Samples a direction by three numbers in 0..1. It may point below the surface, into darkness.
     #[inline]
     pub(crate) fn choose(&self, point: &Point, lobe: f64, place: [f64; 2]) -> DVec3 {
-        if self.is_diffuse(lobe) {
-            return warp::by_cosine(point.normal, place);
-        }
         match self.glossy {
-            Glossy::None => warp::by_cosine(point.normal, place),
+            _ if self.is_diffuse(lobe) => warp::by_cosine(point.normal.into(), place).into(),
+            Glossy::None => warp::by_cosine(point.normal.into(), place).into(),
             Glossy::Blinn(Gloss { exponent, .. }) => {
                 let exponent = exponent.max(0.0);
                 let halfway = warp::by_power_of_cosine(point.normal, exponent, place);

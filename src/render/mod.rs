@@ -105,6 +105,7 @@ mod touched;
 mod tracer;
 mod tracing;
 mod trials;
+mod vertices;
 mod warp;
 mod wave;
 mod whitted;

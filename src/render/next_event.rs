@@ -44,10 +44,17 @@ pub(super) struct Asking {
     pub(super) ray: Option<Ray>,
     /// Where the ray ends.
     pub(super) reach: f64,
-    /// The part of the object's surface.
-    part: u32,
+    /// What the ray is to hit; `None` for the environment.
+    target: Option<Target>,
+}
+
+/// The part of an emitter toward which a shadow ray goes.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Target {
+    /// The indices of the object and of the part of its surface.
+    pub(super) part: (u32, u32),
     /// Whether the ray hits the front of the part.
-    is_front: bool,
+    pub(super) is_front: bool,
 }
 
 impl Asking {
@@ -66,8 +73,7 @@ impl Asking {
             },
             ray: (!is_dark).then(|| vertex.point.leave(toward)),
             reach: f64::INFINITY,
-            part: 0,
-            is_front: true,
+            target: None,
         }
     }
 }
@@ -118,7 +124,16 @@ impl<C: Fn() -> bool> Probe<'_, C> {
                 return asking.asked;
             };
             let nearest = world.nearest(&ray, asking.reach);
-            self.of_object(&asking, &ray, nearest)
+            let mut asked = asking.asked;
+            if let Some(nearest) = nearest {
+                asked.distance = nearest.hit.t;
+            }
+            if let Some(target) = asking.target
+                && let Some(emitted) = self.of_object(target, &ray, nearest)
+            {
+                asked.arrives(emitted);
+            }
+            asked
         });
         let of_sky = (!world.sky.is_unsampled())
             .then(|| self.ask_sky(vertex, bounce, sampler.four(bounce, Use::Sky)))
@@ -129,7 +144,11 @@ impl<C: Fn() -> bool> Probe<'_, C> {
             };
             let (reach, occlusion) = (asking.reach, Occlusion::Complete);
             let transmittance = world.transmittance(&ray, reach, occlusion, &mut self.crossed);
-            self.of_sky(&asking, &ray, transmittance)
+            let mut asked = asking.asked;
+            if let Some(emitted) = self.of_sky(&ray, transmittance) {
+                asked.arrives(emitted);
+            }
+            asked
         });
         for asked in of_object.into_iter().chain(of_sky) {
             sum += asked.radiance;
@@ -148,7 +167,7 @@ impl<C: Fn() -> bool> Probe<'_, C> {
     }
 
     /// Samples the emission of an object that was picked, by numbers in 0..1.
-    pub(super) fn ask_object(
+    fn ask_object(
         &self,
         vertex: &Vertex<'_>,
         bounce: u32,
@@ -165,24 +184,25 @@ impl<C: Fn() -> bool> Probe<'_, C> {
         let mut asking = Asking::new(vertex, choice.toward, scattered.value, densities);
         asking.reach = choice.reach;
         asking.asked.object = Some(choice.object);
-        asking.part = choice.part;
-        asking.is_front = choice.is_front;
+        asking.target = Some(Target {
+            part: (choice.object, choice.part),
+            is_front: choice.is_front,
+        });
         Some(asking)
     }
 
-    /// Completes the sampling of an object, given what its shadow ray hits.
-    pub(super) fn of_object(&self, asking: &Asking, ray: &Ray, nearest: Option<Nearest>) -> Asked {
-        let mut asked = asking.asked;
-        let Some(nearest) = nearest else {
-            return asked;
-        };
-        asked.distance = nearest.hit.t;
-        let is_met = (Some(nearest.object), nearest.hit.part) == (asked.object, asking.part);
+    /// The emission of an object that arrives, given what its shadow ray hits; `None` if it is hidden.
+    pub(super) fn of_object(
+        &self,
+        target: Target,
+        ray: &Ray,
+        nearest: Option<Nearest>,
+    ) -> Option<Rgb> {
+        let nearest = nearest?;
+        let is_met = (nearest.object, nearest.hit.part) == target.part;
         let sphere_lights = &self.world.sphere_lights;
-        if is_met && sphere_lights.nearest(ray, asked.distance).is_none() {
-            asked.arrives(self.emitted(ray, nearest, asking.is_front));
-        }
-        asked
+        let arrives = is_met && sphere_lights.nearest(ray, nearest.hit.t).is_none();
+        arrives.then(|| self.emitted(ray, nearest, target.is_front))
     }
 
     /// The emission of an object toward the start of a ray that hits it.
@@ -198,12 +218,7 @@ impl<C: Fn() -> bool> Probe<'_, C> {
     }
 
     /// Samples the environment by numbers in 0..1.
-    pub(super) fn ask_sky(
-        &self,
-        vertex: &Vertex<'_>,
-        bounce: u32,
-        numbers: [f64; 4],
-    ) -> Option<Asking> {
+    fn ask_sky(&self, vertex: &Vertex<'_>, bounce: u32, numbers: [f64; 4]) -> Option<Asking> {
         let Vertex { point, bsdf, .. } = vertex;
         let world = self.world;
         let [u, v, ..] = numbers;
@@ -214,14 +229,12 @@ impl<C: Fn() -> bool> Probe<'_, C> {
         Some(Asking::new(vertex, toward, scattered.value, densities))
     }
 
-    /// Completes the sampling of the environment, given the transmittance of its shadow ray.
-    pub(super) fn of_sky(&self, asking: &Asking, ray: &Ray, transmittance: f64) -> Asked {
-        let mut asked = asking.asked;
+    /// The radiance of the environment that arrives along a shadow ray, given its transmittance; `None`
+    /// if it is hidden.
+    pub(super) fn of_sky(&self, ray: &Ray, transmittance: f64) -> Option<Rgb> {
         let sphere_lights = &self.world.sphere_lights;
-        if transmittance != 0.0 && sphere_lights.nearest(ray, asking.reach).is_none() {
-            asked.arrives(self.world.environment(asked.toward));
-        }
-        asked
+        let arrives = transmittance != 0.0 && sphere_lights.nearest(ray, f64::INFINITY).is_none();
+        arrives.then(|| self.world.environment(ray.direction))
     }
 
     /// The densities by which a path that hits an object could have found its emission; `None` where

@@ -135,7 +135,7 @@ pub(crate) fn spread(
     let secant = (1.0 + tangent * tangent).sqrt();
     let versine = tangent * tangent / (secant * (secant + 1.0));
     let versine = if versine.is_finite() { versine } else { 1.0 };
-    let spread = warp::in_cone(direction, versine, numbers);
+    let spread = DVec3::from(warp::in_cone(direction.into(), versine, numbers));
     let height = spread.dot(outward);
     if height < 0.0 && 0.0 <= direction.dot(outward) {
         spread - 2.0 * height * outward

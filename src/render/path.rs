@@ -237,10 +237,7 @@ impl<C: Fn() -> bool> Probe<'_, C> {
         let scattered = bsdf.lobes.scatter(point, toward);
         let highlight = bsdf.lobes.highlight(point, toward);
         let ray = point.leave(toward);
-        let hides = |place: Vector<f64>| {
-            let distance = DVec3::from(place).distance(ray.origin);
-            self.world.sphere_lights.hide(sphere, &ray, distance)
-        };
+        let hides = |place: Vector<f64>| self.world.sphere_lights.hide(sphere, &ray, place.into());
         let is_dark = scattered.value == Rgb::ZERO && highlight == Rgb::ZERO;
         if is_dark || incoming.source.is_some_and(hides) {
             return None;

@@ -2,24 +2,26 @@
 //! packets. The order of summation within each path does not depend on the others.
 
 use std::borrow::Cow;
-use std::mem;
 
 use glam::DVec3;
 
-use super::direct::Unshadowed;
-use super::emitters::Picked;
+use super::bsdf::{BsdfSample, Scattering};
+use super::direct::shadowed;
+use super::emitters::Choices;
 use super::intersect::{Nearest, Occlusion};
-use super::next_event::Asking;
+use super::lights::{SphereLight, Spheres};
+use super::next_event::Target;
 use super::path::{Met, Onward, Path, Vertex};
 use super::probe::{Probe, Sample, Seen};
-use super::sampler::{Sampler, Use};
+use super::sampler::{Fours, Sampler, Use};
 use super::surfaces::Landing;
 use super::touched::Touched;
+use super::vertices::{Asking, Vertices};
 use super::wave::Found;
 use super::world::World;
-use crate::geometry::Packets;
-use crate::geometry::lanes::WIDTH;
-use crate::scene::Rgb;
+use crate::geometry::lanes::{Row, Vector, WIDTH, dispatch, each_bit};
+use crate::geometry::{Packets, Ray};
+use crate::scene::{Rgb, Shadows};
 
 /// How many paths are traced together: with four times as many, tracing takes 2 % longer.
 const TOGETHER: usize = 64;
@@ -43,15 +45,14 @@ struct Questions {
     bounce: u32,
     samplers: Vec<Sampler>,
     /// For each surface, its numbers for a purpose.
-    numbers: Vec<[f64; 4]>,
-    /// Their points and shading normals, and the emitter or light picked for each.
-    surfaces: Vec<(DVec3, DVec3)>,
-    picked: Vec<Option<Picked>>,
+    numbers: Vec<Fours>,
+    /// One of many lights for each surface, with the probability of its choice.
+    chosen: Vec<Option<(usize, f64)>>,
     shadows: Packets,
-    /// For each shadow ray to a light, the indices of its surface and of the light.
-    lit: Vec<(usize, usize, Unshadowed)>,
-    /// For each shadow ray to an emitter, the index of its surface.
-    asking: Vec<(usize, Asking)>,
+    /// For each shadow ray to a light, the indices of its surface and of the light, and the light
+    /// without shadow.
+    lit: Vec<(usize, usize, Rgb)>,
+    asked: Vec<Asked>,
     nearest: Vec<Option<Nearest>>,
     transmittances: Vec<f64>,
     /// For each light, the last simple object that occluded it; then for the environment, and for one of
@@ -60,17 +61,28 @@ struct Questions {
 }
 
 /// A surface that a path met.
-struct Meeting<'m> {
+struct Meeting {
     /// Index of the path.
     path: usize,
-    sampler: Sampler,
-    vertex: Vertex<'m>,
     /// Whether its side emits and reflects light.
     is_lit: bool,
     /// The reflected light of lights.
     light: Rgb,
     /// The reflected light of emitters.
     asked: Rgb,
+}
+
+/// An emitter sampled at a surface, whose shadow ray is traced.
+#[derive(Clone, Copy, Debug)]
+struct Asked {
+    /// Index of the surface.
+    at: usize,
+    ray: Ray,
+    /// What the ray is to hit; `None` for the environment.
+    target: Option<Target>,
+    /// See [`Asking`].
+    reflected: Rgb,
+    share: f64,
 }
 
 impl<C: Fn() -> bool> Probe<'_, C> {
@@ -158,30 +170,68 @@ impl<C: Fn() -> bool> Probe<'_, C> {
             }
         }
         let mut meetings = Vec::with_capacity(found.len());
+        let mut vertices = Vec::with_capacity(found.len());
+        questions.samplers.clear();
         for &(place, nearest, material) in &found {
             let Some(material) = material.material(&mapped) else {
                 continue;
             };
             let point = landings[place / WIDTH].point(&rays[place / WIDTH], place % WIDTH);
+            let path = growing[place];
+            vertices.push(Vertex::new(world, nearest, point, material));
+            questions.samplers.push(samples[path].sampler);
             meetings.push(Meeting {
-                path: growing[place],
-                sampler: samples[growing[place]].sampler,
-                vertex: Vertex::new(world, nearest, point, material),
+                path,
                 is_lit: material.is_lit(point.side),
                 light: Rgb::ZERO,
                 asked: Rgb::ZERO,
             });
         }
-        self.add_lights(&mut meetings, questions, seen);
-        self.add_emitters(&mut meetings, questions, seen);
-        questions.draw(world, &meetings, Use::Bounce);
+        let vertices = Vertices::collect(&vertices);
+        self.add_lights(&vertices, &mut meetings, questions, seen);
+        self.add_emitters(&vertices, &mut meetings, questions, seen);
+        questions.draw(world, Use::Bounce);
         growing.clear();
-        for (meeting, &numbers) in meetings.iter().zip(&questions.numbers) {
+        let batches = meetings
+            .chunks(WIDTH)
+            .zip(&questions.numbers)
+            .zip(&vertices);
+        for batch in batches {
+            self.go_on(batch, paths, samples, seen, growing);
+        }
+    }
+
+    /// Adds what the surfaces send back, and continues the paths.
+    fn go_on(
+        &mut self,
+        ((meetings, numbers), vertices): ((&[Meeting], &Fours), &Vertices<'_, '_>),
+        paths: &mut [Path],
+        samples: &[Sample],
+        seen: &mut [Seen],
+        growing: &mut Vec<usize>,
+    ) {
+        let by_lobes = vertices.sample(self.world.level, numbers);
+        for (lane, (vertex, meeting)) in vertices.all().iter().zip(meetings).enumerate() {
             let path = &mut paths[meeting.path];
             if meeting.is_lit {
-                seen[meeting.path].radiance += path.throughput * self.local(path, meeting);
+                let local = self.local(path, vertex, meeting);
+                seen[meeting.path].radiance += path.throughput * local;
             }
-            let next = meeting.vertex.sample(path, numbers, meeting.sampler);
+            let numbers = numbers.lane(lane);
+            let next = if by_lobes.lobes >> lane & 1 == 0 {
+                vertex.sample(path, numbers, samples[meeting.path].sampler)
+            } else {
+                (by_lobes.lead_on >> lane & 1 == 1).then(|| BsdfSample {
+                    ray: by_lobes.rays.get(lane),
+                    weight: by_lobes.weight.get(lane),
+                    absorption: Rgb::ZERO,
+                    chosen: Some(Scattering {
+                        point: vertex.point.surface.point,
+                        normal: vertex.point.normal,
+                        density: by_lobes.density.0[lane],
+                    }),
+                })
+            };
             if let Onward::Goes { .. } = self.onward(path, next, numbers) {
                 growing.push(meeting.path);
             }
@@ -199,15 +249,15 @@ impl<C: Fn() -> bool> Probe<'_, C> {
     }
 
     /// The radiance of a surface toward a path.
-    fn local(&self, path: &Path, meeting: &Meeting<'_>) -> Rgb {
+    fn local(&self, path: &Path, vertex: &Vertex<'_>, meeting: &Meeting) -> Rgb {
         let emission = if self.gather.glow(path.bounce) {
-            self.emission(path, &meeting.vertex)
+            self.emission(path, vertex)
         } else {
             Rgb::ZERO
         };
         let mut local = emission + meeting.light;
         if self.photon_map.is_some() {
-            local += self.caustics(&meeting.vertex, path.bounce);
+            local += self.caustics(vertex, path.bounce);
         }
         local + meeting.asked
     }
@@ -215,12 +265,14 @@ impl<C: Fn() -> bool> Probe<'_, C> {
     /// Adds the light of all lights, in file order; of many lights, that of one at each surface.
     fn add_lights(
         &mut self,
-        meetings: &mut [Meeting<'_>],
+        vertices: &[Vertices<'_, '_>],
+        meetings: &mut [Meeting],
         questions: &mut Questions,
         seen: &mut [Seen],
     ) {
         let (world, bounce) = (self.world, questions.bounce);
         let (many, lights) = (&world.many_lights, world.lights());
+        let count = meetings.len();
         for (place, number) in many.others().enumerate() {
             // Each light may take as many rays as there are paths.
             if 0 < place && (self.cancelled)() {
@@ -231,74 +283,114 @@ impl<C: Fn() -> bool> Probe<'_, C> {
             }
             let light = &lights[number];
             if light.sphere().is_some() {
-                questions.draw(world, meetings, Use::Light(number as u32));
+                questions.draw(world, Use::Light(number as u32));
+            } else {
+                questions
+                    .numbers
+                    .resize(vertices.len(), Fours([Row::all(0.5); 4]));
             }
+            questions.chosen.clear();
+            questions.chosen.resize(count, Some((number, 1.0)));
             let occlusion = self.occlusion(light);
-            self.add_light(meetings, questions, seen, (number, occlusion), |_| {
-                Some((number, 1.0))
-            });
+            self.add_light(vertices, meetings, questions, seen, (number, occlusion));
         }
-        let is_lit = |meeting: &Meeting<'_>| meeting.is_lit;
+        let is_lit = |meeting: &Meeting| meeting.is_lit;
         if !many.is_empty() && meetings.iter().any(is_lit) {
-            questions.draw(world, meetings, Use::ManyLights);
-            questions.locate(meetings);
-            let (surfaces, numbers) = (&questions.surfaces, &questions.numbers);
-            many.pick_each(surfaces, numbers, world.level, &mut questions.picked);
-            let picked = mem::take(&mut questions.picked);
-            let gather = self.gather;
+            questions.draw(world, Use::ManyLights);
+            questions.choose_lights(world, vertices, |number| self.gather.light(number, bounce));
             // All of them emit photons, or none.
             let occlusion = self.occlusion(&lights[many.first()]);
             let slot = lights.len() + 1;
-            self.add_light(meetings, questions, seen, (slot, occlusion), |at| {
-                let (number, chance) = many.light(picked[at]?);
-                gather.light(number, bounce).then_some((number, chance))
-            });
-            questions.picked = picked;
+            self.add_light(vertices, meetings, questions, seen, (slot, occlusion));
         }
     }
 
-    /// Adds, at each surface, the light that `chosen` names together with the probability of its choice.
-    /// All of them share a slot for the last blocker, and the kind of occlusion.
-    #[inline]
+    /// Adds, at each surface, the light chosen there. All of them share a slot for the last blocker,
+    /// and the kind of occlusion.
     fn add_light(
         &mut self,
-        meetings: &mut [Meeting<'_>],
+        vertices: &[Vertices<'_, '_>],
+        meetings: &mut [Meeting],
         questions: &mut Questions,
         seen: &mut [Seen],
         (slot, occlusion): (usize, Occlusion),
-        chosen: impl Fn(usize) -> Option<(usize, f64)>,
     ) {
-        let (lights, bounce) = (self.world.lights(), questions.bounce);
+        let (world, bounce) = (self.world, questions.bounce);
+        let lights = world.lights();
         questions.shadows.clear();
         questions.lit.clear();
-        for (at, meeting) in meetings.iter_mut().enumerate() {
-            if !meeting.is_lit {
-                continue;
+        let batches = vertices.iter().zip(&questions.numbers);
+        let chosen = questions.chosen.chunks(WIDTH);
+        for ((batch, (vertices, numbers)), chosen) in batches.enumerate().zip(chosen) {
+            let first = batch * WIDTH;
+            let mut spheres = None;
+            let mut chances = Row::all(1.0);
+            let mut with_size = 0;
+            for (lane, vertex) in vertices.all().iter().enumerate() {
+                let meeting = &mut meetings[first + lane];
+                let Some((number, chance)) = chosen[lane].filter(|_| meeting.is_lit) else {
+                    continue;
+                };
+                if let Some(sphere) = lights[number].luminous_sphere() {
+                    let spheres = spheres.get_or_insert_with(|| Spheres::repeat(&sphere));
+                    spheres.set(lane, &sphere);
+                    chances.0[lane] = chance;
+                    with_size |= 1 << lane;
+                    continue;
+                }
+                let place = || {
+                    let [u, v, ..] = numbers.lane(lane);
+                    [u, v]
+                };
+                let unshadowed = self.unshadowed((number, chance), vertex, bounce, place);
+                let Some(unshadowed) = unshadowed else {
+                    continue;
+                };
+                match &unshadowed.shadow {
+                    None => meeting.light += lights[number].scale * unshadowed.light,
+                    Some(shadow) => {
+                        questions.shadows.push(&shadow.ray(), shadow.ends);
+                        questions.lit.push((first + lane, number, unshadowed.light));
+                        seen[meeting.path].rays += 1;
+                    }
+                }
             }
-            let Some((number, chance)) = chosen(at) else {
+            let Some(spheres) = spheres else {
                 continue;
             };
-            let place = || {
-                let [u, v, ..] = questions.numbers[at];
-                [u, v]
-            };
-            let unshadowed = self.unshadowed((number, chance), &meeting.vertex, bounce, place);
-            let Some(unshadowed) = unshadowed else {
-                continue;
-            };
-            match &unshadowed.shadow {
-                None => meeting.light += lights[number].scale * unshadowed.light,
-                Some(shadow) => {
-                    questions.shadows.push(&shadow.ray(), shadow.ends);
-                    questions.lit.push((at, number, unshadowed));
+            let leads_on = bounce < self.depth;
+            let spheres = (&spheres, &chances, with_size);
+            let lit = vertices.light(world.level, spheres, numbers, leads_on);
+            for lane in each_bit(lit.lanes) {
+                let Some((number, _)) = chosen[lane] else {
+                    continue;
+                };
+                let (meeting, light) = (&mut meetings[first + lane], lit.light.get(lane));
+                let hides = |sphere: &SphereLight| {
+                    let (ray, place) = (lit.rays.get(lane), lit.places.get(lane));
+                    world.sphere_lights.hide(sphere, &ray, place)
+                };
+                if lights[number].luminous_sphere().as_ref().is_some_and(hides) {
+                    continue;
+                }
+                if lights[number].shadows == Shadows::Off {
+                    meeting.light += lights[number].scale * light;
+                } else {
+                    let shadow = &lit.shadow;
+                    questions
+                        .shadows
+                        .push(&shadow.rays.get(lane), shadow.ends.0[lane]);
+                    questions.lit.push((first + lane, number, light));
                     seen[meeting.path].rays += 1;
                 }
             }
         }
+        self.counts.rays += questions.lit.len() as u64;
+        self.counts.shadow_rays += questions.lit.len() as u64;
         self.trace_shadows(slot, occlusion, questions);
         let lit = questions.lit.iter().zip(&questions.transmittances);
-        for (&(at, number, unshadowed), &transmittance) in lit {
-            meetings[at].light += lights[number].scale * unshadowed.shadowed(transmittance);
+        for (&(at, number, light), &transmittance) in lit {
+            meetings[at].light += lights[number].scale * shadowed(light, transmittance);
         }
         // Empty unless dependencies are recorded.
         for (&(at, ..), &touched) in questions.lit.iter().zip(&self.crossed.touched) {
@@ -309,43 +401,44 @@ impl<C: Fn() -> bool> Probe<'_, C> {
     /// Adds the light of objects that emit light, and of the environment, as far as it is sampled.
     fn add_emitters(
         &mut self,
-        meetings: &mut [Meeting<'_>],
+        vertices: &[Vertices<'_, '_>],
+        meetings: &mut [Meeting],
         questions: &mut Questions,
         seen: &mut [Seen],
     ) {
         let (world, bounce) = (self.world, questions.bounce);
-        let asks = |meeting: &Meeting<'_>| meeting.is_lit && self.asks(&meeting.vertex, bounce);
-        if !meetings.iter().any(asks) {
+        let of_batch = |(meetings, vertices): (&[Meeting], &Vertices<'_, '_>)| {
+            let all = meetings.iter().zip(vertices.all()).enumerate();
+            all.fold(0, |lanes, (lane, (meeting, vertex))| {
+                let asks = meeting.is_lit && self.asks(vertex, bounce);
+                lanes | u32::from(asks) << lane
+            })
+        };
+        let lanes: Vec<_> = meetings.chunks(WIDTH).zip(vertices).map(of_batch).collect();
+        if lanes.iter().all(|&lanes| lanes == 0) {
             return;
         }
         if !world.emitters.is_empty() {
-            questions.draw(world, meetings, Use::Emitter);
-            questions.pick(world, meetings);
-            let picked = mem::take(&mut questions.picked);
-            questions.ask(meetings, seen, |at, vertex, numbers| {
-                let picked = picked[at].filter(|_| self.asks(vertex, bounce))?;
-                self.ask_object(vertex, bounce, picked, numbers)
-            });
-            questions.picked = picked;
-            self.count_shadows(questions);
+            questions.draw(world, Use::Emitter);
+            questions.ask_objects(world, vertices, &lanes);
+            self.count_asked(questions, meetings, seen);
             world.nearest_each(&questions.shadows, &mut questions.nearest);
-            for ((at, asking), &nearest) in questions.asking.iter().zip(&questions.nearest) {
-                if let Some(ray) = &asking.ray {
-                    meetings[*at].asked += self.of_object(asking, ray, nearest).radiance;
+            for (asked, &nearest) in questions.asked.iter().zip(&questions.nearest) {
+                if let Some(target) = asked.target
+                    && let Some(emitted) = self.of_object(target, &asked.ray, nearest)
+                {
+                    meetings[asked.at].asked += asked.arrives(emitted);
                 }
             }
         }
         if !world.sky.is_unsampled() {
-            questions.draw(world, meetings, Use::Sky);
-            questions.ask(meetings, seen, |_, vertex, numbers| {
-                let asks = self.asks(vertex, bounce);
-                asks.then(|| self.ask_sky(vertex, bounce, numbers))?
-            });
+            questions.draw(world, Use::Sky);
+            questions.ask_sky(world, vertices, &lanes);
+            self.count_asked(questions, meetings, seen);
             self.trace_shadows(world.lights().len(), Occlusion::Complete, questions);
-            let asking = questions.asking.iter().zip(&questions.transmittances);
-            for ((at, asking), &transmittance) in asking {
-                if let Some(ray) = &asking.ray {
-                    meetings[*at].asked += self.of_sky(asking, ray, transmittance).radiance;
+            for (asked, &transmittance) in questions.asked.iter().zip(&questions.transmittances) {
+                if let Some(emitted) = self.of_sky(&asked.ray, transmittance) {
+                    meetings[asked.at].asked += asked.arrives(emitted);
                 }
             }
         }
@@ -353,7 +446,6 @@ impl<C: Fn() -> bool> Probe<'_, C> {
 
     /// Computes the transmittances of all shadow rays, given the place of their last blocker.
     fn trace_shadows(&mut self, slot: usize, occlusion: Occlusion, questions: &mut Questions) {
-        self.count_shadows(questions);
         self.world.transmittance_each(
             &questions.shadows,
             occlusion,
@@ -363,57 +455,110 @@ impl<C: Fn() -> bool> Probe<'_, C> {
         );
     }
 
-    fn count_shadows(&mut self, questions: &Questions) {
-        self.counts.rays += questions.shadows.count() as u64;
-        self.counts.shadow_rays += questions.shadows.count() as u64;
+    /// Counts the shadow rays to emitters.
+    fn count_asked(&mut self, questions: &Questions, meetings: &[Meeting], seen: &mut [Seen]) {
+        for asked in &questions.asked {
+            seen[meetings[asked.at].path].rays += 1;
+        }
+        self.counts.rays += questions.asked.len() as u64;
+        self.counts.shadow_rays += questions.asked.len() as u64;
     }
 }
 
 impl Questions {
     /// Draws the numbers of all surfaces for a purpose.
-    fn draw(&mut self, world: &World, meetings: &[Meeting<'_>], purpose: Use) {
-        self.samplers.clear();
-        self.samplers
-            .extend(meetings.iter().map(|meeting| meeting.sampler));
+    fn draw(&mut self, world: &World, purpose: Use) {
         let (node, numbers) = (self.bounce, &mut self.numbers);
         Sampler::four_each(&self.samplers, (node, purpose), world.level, numbers);
     }
 
-    /// Collects the points and shading normals of all surfaces.
-    fn locate(&mut self, meetings: &[Meeting<'_>]) {
-        let places = meetings.iter();
-        let places = places.map(|meeting| meeting.vertex.point_and_normal());
-        self.surfaces.clear();
-        self.surfaces.extend(places);
-    }
-
-    /// Picks an emitter for each surface.
-    fn pick(&mut self, world: &World, meetings: &[Meeting<'_>]) {
-        self.locate(meetings);
-        let (surfaces, numbers) = (&self.surfaces, &self.numbers);
-        world
-            .emitters
-            .pick_each(surfaces, numbers, world.level, &mut self.picked);
-    }
-
-    /// Collects the shadow rays to emitters from all surfaces that are lit.
-    fn ask(
+    /// Chooses one of many lights for each surface, among those gathered.
+    fn choose_lights(
         &mut self,
-        meetings: &[Meeting<'_>],
-        seen: &mut [Seen],
-        mut ask: impl FnMut(usize, &Vertex<'_>, [f64; 4]) -> Option<Asking>,
+        world: &World,
+        vertices: &[Vertices<'_, '_>],
+        is_gathered: impl Fn(usize) -> bool,
     ) {
+        self.chosen.clear();
+        for (vertices, numbers) in vertices.iter().zip(&self.numbers) {
+            let count = vertices.all().len();
+            let lanes = (1 << count) - 1;
+            let chosen = dispatch!(world.level, simd => {
+                world.many_lights.choose_together(simd, vertices.places(), numbers, lanes)
+            });
+            let gathered =
+                |chosen: Option<(usize, f64)>| chosen.filter(|&(number, _)| is_gathered(number));
+            self.chosen
+                .extend(chosen.into_iter().take(count).map(gathered));
+        }
+    }
+
+    /// Collects the shadow rays to objects that emit light from the surfaces in lanes.
+    fn ask_objects(&mut self, world: &World, vertices: &[Vertices<'_, '_>], lanes: &[u32]) {
         self.shadows.clear();
-        self.asking.clear();
-        for (at, (meeting, &numbers)) in meetings.iter().zip(&self.numbers).enumerate() {
-            if meeting.is_lit
-                && let Some(asking) = ask(at, &meeting.vertex, numbers)
-                && let Some(ray) = &asking.ray
-            {
-                self.shadows.push(ray, asking.reach);
-                self.asking.push((at, asking));
-                seen[meeting.path].rays += 1;
+        self.asked.clear();
+        let batches = vertices.iter().zip(&self.numbers).zip(lanes);
+        for (batch, ((vertices, numbers), &lanes)) in batches.enumerate() {
+            let (choices, asking) = dispatch!(world.level, simd => {
+                let (emitters, at) = (&world.emitters, vertices.places());
+                let choices = emitters.choose_together(simd, &world.scene, at, numbers, lanes);
+                let Choices { lanes, toward, density, .. } = &choices;
+                let asking = vertices.ask(simd, *lanes, toward, density);
+                (choices, asking)
+            });
+            for lane in each_bit(asking.lanes) {
+                let target = Target {
+                    part: choices.parts[lane],
+                    is_front: choices.front >> lane & 1 == 1,
+                };
+                let asked = Asked::new(batch, lane, &asking, Some(target));
+                self.shadows.push(&asked.ray, choices.reach.0[lane]);
+                self.asked.push(asked);
             }
         }
+    }
+
+    /// Collects the shadow rays to the environment from the surfaces in lanes.
+    fn ask_sky(&mut self, world: &World, vertices: &[Vertices<'_, '_>], lanes: &[u32]) {
+        self.shadows.clear();
+        self.asked.clear();
+        let batches = vertices.iter().zip(&self.numbers).zip(lanes);
+        for (batch, ((vertices, numbers), &lanes)) in batches.enumerate() {
+            let mut toward = Vector::repeat(DVec3::ZERO);
+            let mut density = Row::all(0.0);
+            for lane in each_bit(lanes) {
+                let [u, v, ..] = numbers.lane(lane);
+                if let Some(chosen) = world.sky.choose([u, v]) {
+                    toward.set(lane, chosen);
+                    density.0[lane] = world.sky.density(chosen);
+                }
+            }
+            let asking = dispatch!(world.level, simd => {
+                vertices.ask(simd, lanes, &toward, &density)
+            });
+            for lane in each_bit(asking.lanes) {
+                let asked = Asked::new(batch, lane, &asking, None);
+                self.shadows.push(&asked.ray, f64::INFINITY);
+                self.asked.push(asked);
+            }
+        }
+    }
+}
+
+impl Asked {
+    /// What is asked in a lane of a batch of surfaces.
+    fn new(batch: usize, lane: usize, asking: &Asking, target: Option<Target>) -> Self {
+        Self {
+            at: batch * WIDTH + lane,
+            ray: asking.rays.get(lane),
+            target,
+            reflected: asking.reflected.get(lane),
+            share: asking.share.0[lane],
+        }
+    }
+
+    /// What the emission that arrives adds.
+    fn arrives(&self, emitted: Rgb) -> Rgb {
+        self.reflected * emitted * self.share
     }
 }

@@ -7,7 +7,7 @@ use sobol_burley::parts::{
     Int4, hash, hash_int4, owen_scramble_int4_rev, owen_scramble_rev, sobol_int4_rev,
 };
 
-use crate::geometry::lanes::{Level, Simd, SimdBase, WIDTH, Words, dispatch};
+use crate::geometry::lanes::{Eight, Level, Row, Simd, SimdBase, WIDTH, Words, dispatch};
 
 /// The numbers of one sample, each a function of pixel, index, seed and purpose: points of Sobol'
 /// sequences, each Owen-scrambled with its own seed (Burley, "Practical Hash-based Owen
@@ -17,6 +17,26 @@ pub(crate) struct Sampler {
     pixel: [u32; 2],
     index: u32,
     seed: u32,
+}
+
+/// Four numbers of each of eight samplers.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Fours(pub(crate) [Row; 4]);
+
+impl Fours {
+    /// The numbers of the sampler in a lane.
+    #[inline(always)]
+    pub(crate) fn lane(&self, lane: usize) -> [f64; 4] {
+        let [a, b, c, d] = &self.0;
+        [a.0[lane], b.0[lane], c.0[lane], d.0[lane]]
+    }
+
+    /// The first two numbers of each, in SIMD vectors.
+    #[inline(always)]
+    pub(crate) fn pair<S: Simd>(&self, simd: S) -> [Eight<S>; 2] {
+        let [a, b, ..] = &self.0;
+        [a.load(simd), b.load(simd)]
+    }
 }
 
 /// The purpose of a number.
@@ -121,18 +141,17 @@ impl Sampler {
         four(self.index, mix(seed)).map(f64::from)
     }
 
-    /// The same for several samplers with one index.
+    /// The same for several samplers with one index, in rows of eight.
     pub(crate) fn four_each(
         samplers: &[Self],
         (node, purpose): (u32, Use),
         level: Level,
-        numbers: &mut Vec<[f64; 4]>,
+        numbers: &mut Vec<Fours>,
     ) {
         numbers.clear();
         dispatch!(level, simd => {
             for samplers in samplers.chunks(WIDTH) {
-                let fours = four_together(simd, samplers, (node, purpose));
-                numbers.extend_from_slice(&fours[..samplers.len()]);
+                numbers.push(four_together(simd, samplers, (node, purpose)));
             }
         });
     }
@@ -166,11 +185,7 @@ fn point(index: u32) -> Int4 {
 
 /// [`Sampler::four`] in each lane.
 #[inline(always)]
-fn four_together<S: Simd>(
-    simd: S,
-    samplers: &[Sampler],
-    (node, purpose): (u32, Use),
-) -> [[f64; 4]; WIDTH] {
+fn four_together<S: Simd>(simd: S, samplers: &[Sampler], (node, purpose): (u32, Use)) -> Fours {
     let all = |number| Words::splat(simd, number);
     let mut pixels = [[0; WIDTH]; 2];
     for (lane, sampler) in samplers.iter().enumerate() {
@@ -191,17 +206,17 @@ fn four_together<S: Simd>(
             row[lane] = number;
         }
     }
-    let mut fours = [[0.0; 4]; WIDTH];
+    let mut fours = [Row::all(0.0); 4];
     for (dimension, row) in points.into_iter().enumerate() {
         let scramble = hash_each((seeds * all(FACTOR)) ^ all(DIMENSIONS[dimension]));
         let scrambled = owen_each(Words::load_array(simd, row), scramble);
         // From 1 to 2.
         let bits = reverse_each(scrambled) >> 9 | all(1.0_f32.to_bits());
-        for (four, bits) in fours.iter_mut().zip(*bits) {
-            four[dimension] = f64::from(f32::from_bits(bits) - 1.0);
+        for (number, bits) in fours[dimension].0.iter_mut().zip(*bits) {
+            *number = f64::from(f32::from_bits(bits) - 1.0);
         }
     }
-    fours
+    Fours(fours)
 }
 
 /// [`mix`] in each lane.
@@ -310,7 +325,8 @@ mod tests {
                 let mut numbers = Vec::new();
                 Sampler::four_each(&samplers, (5, purpose), level, &mut numbers);
                 let alone = samplers.iter().map(|sampler| sampler.four(5, purpose));
-                assert_eq!(numbers, alone.collect::<Vec<_>>());
+                let lanes = (0..samplers.len()).map(|at| numbers[at / WIDTH].lane(at % WIDTH));
+                assert!(lanes.eq(alone));
             }
         }
     }

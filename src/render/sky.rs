@@ -350,7 +350,7 @@ mod tests {
     fn sphere(side: u32) -> impl Iterator<Item = DVec3> {
         let middle = move |i: u32| (f64::from(i) + 0.5) / f64::from(side);
         let places = (0..side).flat_map(move |i| (0..side).map(move |j| [middle(i), middle(j)]));
-        places.map(|place| super::super::warp::in_cone(DVec3::X, 2.0, place))
+        places.map(|place| super::super::warp::in_cone(DVec3::X.into(), 2.0, place).into())
     }
 
     #[test]

@@ -4,25 +4,29 @@ use std::f64::consts::{FRAC_PI_2, FRAC_PI_4, TAU};
 
 use glam::{DVec2, DVec3};
 
-/// Samples a direction uniformly in a cone around a unit vector; u = 0 gives the axis. `versine` is
-/// 1 − cos of the half angle, which stays accurate for small angles.
-pub(crate) fn in_cone(axis: DVec3, versine: f64, [u, v]: [f64; 2]) -> DVec3 {
+use crate::geometry::lanes::{Lanes, Vector};
+
+/// Samples directions uniformly in cones around unit vectors, in each lane; u = 0 gives the axis.
+/// `versine` is 1 − cos of the half angle, which stays accurate for small angles.
+#[inline(always)]
+pub(crate) fn in_cone<N: Lanes>(axis: Vector<N>, versine: N, [u, v]: [N; 2]) -> Vector<N> {
     let versine = u * versine;
-    let sine = (versine * (2.0 - versine)).max(0.0).sqrt();
-    around(axis, 1.0 - versine, sine, v)
+    let square = versine * (versine.all(2.0) - versine);
+    let sine = square.larger(square.all(0.0)).sqrt();
+    around(axis, versine.all(1.0) - versine, sine, v)
 }
 
-/// Samples a direction around a unit vector with density cos θ / π.
-#[inline]
-pub(crate) fn by_cosine(normal: DVec3, [u, v]: [f64; 2]) -> DVec3 {
-    around(normal, (1.0 - u).sqrt(), u.sqrt(), v)
+/// Samples directions around unit vectors with density cos θ / π, in each lane.
+#[inline(always)]
+pub(crate) fn by_cosine<N: Lanes>(normal: Vector<N>, [u, v]: [N; 2]) -> Vector<N> {
+    around(normal, (u.all(1.0) - u).sqrt(), u.sqrt(), v)
 }
 
 /// Samples a direction around a unit vector with density (n + 1) / 2π cosⁿ θ.
 pub(crate) fn by_power_of_cosine(axis: DVec3, exponent: f64, [u, v]: [f64; 2]) -> DVec3 {
     let cosine = libm::pow(1.0 - u, 1.0 / (exponent + 1.0));
     let sine = (1.0 - cosine * cosine).max(0.0).sqrt();
-    around(axis, cosine, sine, v)
+    around(axis.into(), cosine, sine, v).into()
 }
 
 /// Maps to the unit disc, uniformly and continuously; (½, ½) maps to the centre (Shirley and Chiu,
@@ -43,21 +47,38 @@ pub(crate) fn in_disc([u, v]: [f64; 2]) -> DVec2 {
 /// Two unit vectors that complete a unit vector to a right-handed basis (Duff and others, "Building
 /// an Orthonormal Basis, Revisited", JCGT 6(1), 2017).
 pub(crate) fn basis(normal: DVec3) -> [DVec3; 2] {
-    let DVec3 { x, y, z } = normal;
-    let sign = 1.0f64.copysign(z);
-    let a = -1.0 / (sign + z);
-    let b = x * y * a;
-    [
-        DVec3::new(1.0 + sign * x * x * a, sign * b, -sign * x),
-        DVec3::new(b, sign + y * y * a, -y),
-    ]
+    let [x, y] = bases(normal.into());
+    [x.into(), y.into()]
 }
 
-/// The unit vector at an angle to an axis, at a fraction of the turn around it.
-fn around(axis: DVec3, cosine: f64, sine: f64, part: f64) -> DVec3 {
-    let [x, y] = basis(axis);
-    let (up, across) = libm::sincos(TAU * part);
-    (sine * (across * x + up * y) + cosine * axis).normalize()
+/// [`basis`] in each lane.
+#[inline(always)]
+fn bases<N: Lanes>(normal: Vector<N>) -> [Vector<N>; 2] {
+    let Vector { x, y, z } = normal;
+    let one = x.all(1.0);
+    let sign = one.copysign(z);
+    let a = -one / (sign + z);
+    let b = x * y * a;
+    let first = Vector {
+        x: one + sign * x * x * a,
+        y: sign * b,
+        z: -sign * x,
+    };
+    let second = Vector {
+        x: b,
+        y: sign + y * y * a,
+        z: -y,
+    };
+    [first, second]
+}
+
+/// The unit vectors at angles to axes, at fractions of the turn around them, in each lane.
+#[inline(always)]
+fn around<N: Lanes>(axis: Vector<N>, cosine: N, sine: N, part: N) -> Vector<N> {
+    let [x, y] = bases(axis);
+    let [up, across] = (part.all(TAU) * part).sincos();
+    let aside = x.scaled(across) + y.scaled(up);
+    (aside.scaled(sine) + axis.scaled(cosine)).unit()
 }
 
 #[cfg(test)]
@@ -102,10 +123,10 @@ mod tests {
     fn mean_cosines_match_the_densities() {
         for axis in axes() {
             for versine in [1e-12, 0.1, 1.0, 2.0] {
-                let turned = mean(|uv| 1.0 - axis.dot(in_cone(axis, versine, uv)));
+                let turned = mean(|uv| 1.0 - axis.dot(in_cone(axis.into(), versine, uv).into()));
                 assert!((turned - 0.5 * versine).abs() < 1e-12 + 1e-6 * versine);
             }
-            let cosine = mean(|uv| axis.dot(by_cosine(axis, uv)));
+            let cosine = mean(|uv| axis.dot(by_cosine(axis.into(), uv).into()));
             assert!((cosine - 2.0 / 3.0).abs() < 1e-3, "{cosine}");
             for exponent in [0.0, 1.0, 20.0] {
                 let cosine = mean(|uv| axis.dot(by_power_of_cosine(axis, exponent, uv)));
@@ -119,9 +140,9 @@ mod tests {
     fn directions_stay_within_the_cone() {
         let axis = DVec3::new(1.0, 2.0, -3.0).normalize();
         for part in [0.0, 0.2, 0.5, 0.999] {
-            let direction = in_cone(axis, 0.25, [1.0, part]);
-            assert!((direction.dot(axis) - 0.75).abs() < 1e-15);
-            assert_eq!(in_cone(axis, 0.25, [0.0, part]), axis.normalize());
+            let in_cone = |place| DVec3::from(in_cone(axis.into(), 0.25, place));
+            assert!((in_cone([1.0, part]).dot(axis) - 0.75).abs() < 1e-15);
+            assert_eq!(in_cone([0.0, part]), axis.normalize());
         }
     }
 

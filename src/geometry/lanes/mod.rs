@@ -4,6 +4,7 @@
 //! whatever vectors the machine has: no operation here depends on its neighbours, and products are
 //! fused only where [`Lanes::mul_add`] says so.
 
+mod angle;
 mod rows;
 mod vector;
 
@@ -96,6 +97,9 @@ pub trait Lanes:
     /// The magnitude of this with the sign of the other.
     #[must_use]
     fn copysign(self, sign: Self) -> Self;
+    /// The sine and cosine of an angle from 0 to 2π, with the bits of `libm::sincos`.
+    #[must_use]
+    fn sincos(self) -> [Self; 2];
     /// The product with `factor`, plus `term`, rounded once.
     #[must_use]
     fn mul_add(self, factor: Self, term: Self) -> Self;
@@ -110,6 +114,12 @@ pub trait Lanes:
     fn select(mask: Self::Mask, yes: Self, no: Self) -> Self;
     /// Whether the mask is true in any lane.
     fn any(mask: Self::Mask) -> bool;
+
+    /// Whether this is a finite number.
+    #[inline(always)]
+    fn is_finite(self) -> Self::Mask {
+        self.abs().below(self.all(f64::INFINITY))
+    }
 
     /// The larger of two numbers.
     #[must_use]
@@ -159,6 +169,11 @@ impl Lanes for f64 {
     #[inline(always)]
     fn copysign(self, sign: Self) -> Self {
         self.copysign(sign)
+    }
+
+    #[inline(always)]
+    fn sincos(self) -> [Self; 2] {
+        libm::sincos(self).into()
     }
 
     #[inline(always)]
@@ -252,6 +267,20 @@ macro_rules! lanes {
             #[inline(always)]
             fn copysign(self, sign: Self) -> Self {
                 SimdFloat::copysign(self, sign)
+            }
+
+            #[inline(always)]
+            fn sincos(self) -> [Self; 2] {
+                let ([sine, cosine], near) = angle::sincos(self);
+                if near.any_true() {
+                    let [sine, cosine] =
+                        angle::repaired(*self, [*sine, *cosine], near.to_bitmask());
+                    return [
+                        Self::load_array(self.simd, sine),
+                        Self::load_array(self.simd, cosine),
+                    ];
+                }
+                [sine, cosine]
             }
 
             #[inline(always)]

@@ -61,6 +61,17 @@ impl<N: Lanes> Vector<N> {
         }
     }
 
+    /// The product with another vector, coordinate by coordinate.
+    #[must_use]
+    #[inline(always)]
+    pub fn times(self, other: Self) -> Self {
+        Self {
+            x: self.x * other.x,
+            y: self.y * other.y,
+            z: self.z * other.z,
+        }
+    }
+
     /// The quotient by a number.
     #[must_use]
     #[inline(always)]
@@ -125,6 +136,19 @@ impl<N: Lanes> Vector<N> {
             y: self.y.smaller(other.y),
             z: self.z.smaller(other.z),
         }
+    }
+
+    /// Whether all coordinates are finite.
+    #[inline(always)]
+    pub fn is_finite(self) -> N::Mask {
+        self.x.is_finite() & self.y.is_finite() & self.z.is_finite()
+    }
+
+    /// Whether all coordinates are 0.
+    #[inline(always)]
+    pub fn is_zero(self) -> N::Mask {
+        let zero = self.x.all(0.0);
+        self.x.equals(zero) & self.y.equals(zero) & self.z.equals(zero)
     }
 
     /// The largest coordinate.

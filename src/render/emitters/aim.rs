@@ -5,6 +5,7 @@ use std::f64::consts::TAU;
 use glam::DVec3;
 
 use super::super::warp;
+use crate::geometry::lanes::{Eight, Lanes, Row, Simd, Vector};
 use crate::geometry::{Ball, Flat, Patch};
 
 /// A direction toward a part of a surface.
@@ -23,37 +24,57 @@ pub(super) struct Aim {
 /// Allows for rounding of a distance.
 const SLACK: f64 = 1.0 + 1e-6;
 
+/// The part of the parallelogram that a triangle is, and the whole.
+const TRIANGLE: f64 = 0.5;
+const PARALLELOGRAM: f64 = 1.0;
+
+/// Flat parts of surfaces, in each lane.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Flats<N> {
+    corner: Vector<N>,
+    sides: [Vector<N>; 2],
+    normal: Vector<N>,
+    /// [`TRIANGLE`] or [`PARALLELOGRAM`].
+    part: N,
+}
+
+/// Directions toward flat parts: see [`Aim`].
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Aims<N: Lanes> {
+    pub(super) toward: Vector<N>,
+    pub(super) reach: N,
+    pub(super) density: N,
+    pub(super) is_front: N::Mask,
+}
+
 impl Patch {
     /// Chooses a direction from a point toward this part, by two numbers in 0..1: points of flat
     /// parts uniformly by area, a ball, from outside, uniformly over the directions of its unit
     /// sphere's space.
     pub(super) fn aim(&self, from: DVec3, place: [f64; 2]) -> Option<Aim> {
-        let (flat, at) = match self {
-            Self::Triangle(flat) => (flat, flat.in_triangle(place)),
-            Self::Parallelogram(flat) => (flat, flat.at(place)),
+        let flats = match self {
+            Self::Triangle(flat) => Flats::new(flat, TRIANGLE),
+            Self::Parallelogram(flat) => Flats::new(flat, PARALLELOGRAM),
             Self::Ball(ball) => return ball.aim(from, place),
         };
-        let offset = at - from;
-        let distance = offset.length();
-        let toward = offset / distance;
-        toward.is_finite().then(|| Aim {
-            toward,
-            reach: SLACK * distance,
-            density: self.density(from, toward, at),
-            is_front: toward.dot(flat.normal) < 0.0,
+        let (aims, is_finite) = flats.aim(from.into(), place);
+        is_finite.then(|| Aim {
+            toward: aims.toward.into(),
+            reach: aims.reach,
+            density: aims.density,
+            is_front: aims.is_front,
         })
     }
 
     /// The density of [`Patch::aim`] per steradian in the direction `toward`, in which the part is hit
     /// at a point.
     pub(super) fn density(&self, from: DVec3, toward: DVec3, at: DVec3) -> f64 {
-        let (part, flat) = match self {
-            Self::Triangle(flat) => (0.5, flat),
-            Self::Parallelogram(flat) => (1.0, flat),
+        let flats = match self {
+            Self::Triangle(flat) => Flats::new(flat, TRIANGLE),
+            Self::Parallelogram(flat) => Flats::new(flat, PARALLELOGRAM),
             Self::Ball(ball) => return ball.density(from, toward),
         };
-        let seen = part * flat.normal.dot(toward).abs();
-        finite(at.distance_squared(from) / seen)
+        flats.density(toward.into(), at.distance_squared(from))
     }
 
     /// A point and the normal there, by two numbers in 0..1.
@@ -62,7 +83,7 @@ impl Patch {
             Self::Triangle(flat) => (flat.in_triangle(place), flat.normal.normalize_or_zero()),
             Self::Parallelogram(flat) => (flat.at(place), flat.normal.normalize_or_zero()),
             Self::Ball(ball) => {
-                let unit = warp::in_cone(DVec3::Z, 2.0, place);
+                let unit = DVec3::from(warp::in_cone(DVec3::Z.into(), 2.0, place));
                 let [x, y, z] = ball.duals;
                 let normal = unit.x * x + unit.y * y + unit.z * z;
                 (
@@ -79,13 +100,100 @@ impl Flat {
         self.corner + u * self.sides[0] + v * self.sides[1]
     }
 
-    /// Maps the square to the triangle, uniformly and with little distortion (Heitz, "A
-    /// Low-Distortion Map Between Triangle and Square", 2019).
-    fn in_triangle(&self, [u, v]: [f64; 2]) -> DVec3 {
-        if u < v {
-            self.at([0.5 * u, v - 0.5 * u])
-        } else {
-            self.at([u - 0.5 * v, 0.5 * v])
+    fn in_triangle(&self, place: [f64; 2]) -> DVec3 {
+        self.at(to_triangle(place))
+    }
+}
+
+/// Maps the square to the triangle below its diagonal, uniformly and with little distortion (Heitz,
+/// "A Low-Distortion Map Between Triangle and Square", 2019), in each lane.
+#[inline(always)]
+fn to_triangle<N: Lanes>([u, v]: [N; 2]) -> [N; 2] {
+    let (half_u, half_v) = (u.all(0.5) * u, v.all(0.5) * v);
+    let is_above = u.below(v);
+    [
+        N::select(is_above, half_u, u - half_v),
+        N::select(is_above, v - half_u, half_v),
+    ]
+}
+
+impl Flats<f64> {
+    fn new(flat: &Flat, part: f64) -> Self {
+        Self {
+            corner: flat.corner.into(),
+            sides: [flat.sides[0].into(), flat.sides[1].into()],
+            normal: flat.normal.into(),
+            part,
+        }
+    }
+}
+
+impl<N: Lanes> Flats<N> {
+    /// See [`Patch::aim`]; the mask selects lanes in which there is a direction.
+    #[inline(always)]
+    pub(super) fn aim(&self, from: Vector<N>, [u, v]: [N; 2]) -> (Aims<N>, N::Mask) {
+        let is_triangle = self.part.equals(self.part.all(TRIANGLE));
+        let [across, up] = to_triangle([u, v]);
+        let u = N::select(is_triangle, across, u);
+        let v = N::select(is_triangle, up, v);
+        let at = self.corner + self.sides[0].scaled(u) + self.sides[1].scaled(v);
+        let offset = at - from;
+        let square = offset.length_squared();
+        let distance = square.sqrt();
+        let toward = offset.over(distance);
+        let aims = Aims {
+            toward,
+            reach: distance.all(SLACK) * distance,
+            density: self.density(toward, square),
+            is_front: toward.dot(self.normal).below(square.all(0.0)),
+        };
+        (aims, toward.is_finite())
+    }
+
+    /// The density per steradian, given the square of the distance; where it overflows 0, which leaves
+    /// the direction to BSDF sampling.
+    #[inline(always)]
+    fn density(&self, toward: Vector<N>, square: N) -> N {
+        let seen = self.part * self.normal.dot(toward).abs();
+        let density = square / seen;
+        N::select(Lanes::is_finite(density), density, density.all(0.0))
+    }
+}
+
+impl Flats<Row> {
+    /// Room for flat parts.
+    pub(super) const NONE: Self = Self {
+        corner: Vector::repeat(DVec3::ZERO),
+        sides: [Vector::repeat(DVec3::ZERO); 2],
+        normal: Vector::repeat(DVec3::ZERO),
+        part: Row::all(0.0),
+    };
+
+    /// Puts a part into a lane; whether it is flat.
+    #[inline(always)]
+    pub(super) fn set(&mut self, lane: usize, patch: &Patch) -> bool {
+        let (flat, part) = match patch {
+            Patch::Triangle(flat) => (flat, TRIANGLE),
+            Patch::Parallelogram(flat) => (flat, PARALLELOGRAM),
+            Patch::Ball(_) => return false,
+        };
+        self.corner.set(lane, flat.corner);
+        self.sides[0].set(lane, flat.sides[0]);
+        self.sides[1].set(lane, flat.sides[1]);
+        self.normal.set(lane, flat.normal);
+        self.part.0[lane] = part;
+        true
+    }
+
+    /// Loads the parts into SIMD vectors.
+    #[inline(always)]
+    pub(super) fn load<S: Simd>(&self, simd: S) -> Flats<Eight<S>> {
+        let [across, up] = &self.sides;
+        Flats {
+            corner: self.corner.load(simd),
+            sides: [across.load(simd), up.load(simd)],
+            normal: self.normal.load(simd),
+            part: self.part.load(simd),
         }
     }
 }
@@ -95,7 +203,8 @@ impl Ball {
     fn aim(&self, from: DVec3, place: [f64; 2]) -> Option<Aim> {
         let offset = self.to_unit(self.centre - from);
         let versine = versine(offset)?;
-        let turned = self.to_world(warp::in_cone(offset.normalize(), versine, place));
+        let chosen = warp::in_cone(offset.normalize().into(), versine, place);
+        let turned = self.to_world(chosen.into());
         let speed = turned.length();
         let toward = turned / speed;
         toward.is_finite().then(|| Aim {

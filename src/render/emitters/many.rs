@@ -6,9 +6,9 @@ use glam::DVec3;
 
 use super::cone::{Cone, Reach};
 use super::tree::Tree;
-use super::{Picked, strength};
+use super::{Fours, Picked, strength};
 use crate::geometry::Aabb;
-use crate::geometry::lanes::Level;
+use crate::geometry::lanes::{Row, Simd, Vector, WIDTH};
 use crate::scene::{Emitter, Light};
 
 /// Up to this number of lights that fade with the square of the distance, each is sampled at every
@@ -93,19 +93,21 @@ impl ManyLights {
         chosen.map(|chosen| self.light(chosen.into()))
     }
 
-    /// The same for several surfaces, as [`Picked`] for [`ManyLights::light`].
-    pub(crate) fn pick_each(
+    /// The same for the surfaces in several lanes.
+    #[inline(always)]
+    pub(crate) fn choose_together<S: Simd>(
         &self,
-        surfaces: &[(DVec3, DVec3)],
-        numbers: &[[f64; 4]],
-        level: Level,
-        picked: &mut Vec<Option<Picked>>,
-    ) {
-        self.tree.choose_each(surfaces, numbers, level, picked);
+        simd: S,
+        at: (&Vector<Row>, &Vector<Row>),
+        Fours([_, _, numbers, _]): &Fours,
+        lanes: u32,
+    ) -> [Option<(usize, f64)>; WIDTH] {
+        let picked = self.tree.choose_together(simd, at, numbers, lanes);
+        picked.map(|picked| Some(self.light(picked?)))
     }
 
     /// The index of a light that was picked, and the probability.
-    pub(crate) fn light(&self, Picked { emitter, chance }: Picked) -> (usize, f64) {
+    fn light(&self, Picked { emitter, chance }: Picked) -> (usize, f64) {
         (self.numbers[emitter as usize] as usize, chance)
     }
 

@@ -19,10 +19,12 @@ use glam::DVec3;
 use rayon::prelude::*;
 
 use super::optics::strength;
+use super::sampler::Fours;
 use super::texture::Textures;
-use crate::geometry::lanes::Level;
+use crate::geometry::lanes::{Lanes, Row, Simd, Vector, WIDTH, bits, each_bit, mask};
 use crate::geometry::{Hit, Patch, Ray, Shape};
 use crate::scene::{Faces, Material, Object, Rgb, Scene, Tinted};
+use aim::Flats;
 use cone::{Cone, Reach};
 pub(crate) use many::ManyLights;
 use tree::Tree;
@@ -85,6 +87,44 @@ pub(crate) struct Choice {
     pub(crate) density: f64,
     /// Whether it hits the front of the part.
     pub(crate) is_front: bool,
+}
+
+/// Directions toward parts of emitters, in lanes: see [`Choice`].
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Choices {
+    /// The lanes with a direction.
+    pub(crate) lanes: u32,
+    /// Object and part.
+    pub(crate) parts: [(u32, u32); WIDTH],
+    pub(crate) toward: Vector<Row>,
+    pub(crate) reach: Row,
+    pub(crate) density: Row,
+    /// The lanes that hit the front of the part.
+    pub(crate) front: u32,
+}
+
+impl Default for Choices {
+    fn default() -> Self {
+        Self {
+            lanes: 0,
+            parts: [(0, 0); WIDTH],
+            toward: Vector::repeat(DVec3::ZERO),
+            reach: Row::all(f64::INFINITY),
+            density: Row::all(0.0),
+            front: 0,
+        }
+    }
+}
+
+impl Choices {
+    fn set(&mut self, lane: usize, choice: &Choice) {
+        self.lanes |= 1 << lane;
+        self.parts[lane] = (choice.object, choice.part);
+        self.toward.set(lane, choice.toward);
+        self.reach.0[lane] = choice.reach;
+        self.density.0[lane] = choice.density;
+        self.front |= u32::from(choice.is_front) << lane;
+    }
 }
 
 /// What is known from a world before, for whose emitters it may do.
@@ -155,17 +195,6 @@ impl Emitters {
         self.tree.choose(from, normal, number).map(Picked::from)
     }
 
-    /// The same for several surfaces.
-    pub(crate) fn pick_each(
-        &self,
-        surfaces: &[(DVec3, DVec3)],
-        numbers: &[[f64; 4]],
-        level: Level,
-        picked: &mut Vec<Option<Picked>>,
-    ) {
-        self.tree.choose_each(surfaces, numbers, level, picked);
-    }
-
     /// Chooses a direction from a point toward an emitter that was picked there, by two numbers in
     /// 0..1; `None` if there is none.
     pub(crate) fn choose(
@@ -176,11 +205,7 @@ impl Emitters {
         [u, v]: [f64; 2],
     ) -> Option<Choice> {
         let Part { object, part } = self.parts[emitter as usize];
-        let patch = match self.known_patch(object) {
-            Some(patch) => *patch,
-            None => scene.objects[object as usize].shape.patch(part)?,
-        };
-        let aim = patch.aim(from, [u, v])?;
+        let aim = self.patch(scene, emitter)?.aim(from, [u, v])?;
         Some(Choice {
             object,
             part,
@@ -189,6 +214,61 @@ impl Emitters {
             density: chance * aim.density,
             is_front: aim.is_front,
         })
+    }
+
+    /// Chooses an emitter for each of several surfaces, and a direction toward it, as [`Emitters::pick`]
+    /// and [`Emitters::choose`] do.
+    #[inline(always)]
+    pub(crate) fn choose_together<S: Simd>(
+        &self,
+        simd: S,
+        scene: &Scene,
+        at: (&Vector<Row>, &Vector<Row>),
+        numbers: &Fours,
+        lanes: u32,
+    ) -> Choices {
+        let (from, _) = at;
+        let picked = self.tree.choose_together(simd, at, &numbers.0[2], lanes);
+        let mut flats = Flats::NONE;
+        let mut chances = Row::all(0.0);
+        let mut choices = Choices::default();
+        let mut flat = 0;
+        for lane in each_bit(lanes) {
+            let Some(Picked { emitter, chance }) = picked[lane] else {
+                continue;
+            };
+            let Some(patch) = self.patch(scene, emitter) else {
+                continue;
+            };
+            if flats.set(lane, &patch) {
+                flat |= 1 << lane;
+                chances.0[lane] = chance;
+                let Part { object, part } = self.parts[emitter as usize];
+                choices.parts[lane] = (object, part);
+            } else {
+                let [u, v, ..] = numbers.lane(lane);
+                let choice = self.choose(scene, from.get(lane), Picked { emitter, chance }, [u, v]);
+                if let Some(choice) = choice {
+                    choices.set(lane, &choice);
+                }
+            }
+        }
+        if flat != 0 {
+            let flats = flats.load(simd);
+            let (aims, is_finite) = flats.aim(from.load(simd), numbers.pair(simd));
+            let flat = flat & bits::<S>(is_finite);
+            let chosen = mask(simd, flat);
+            let density = chances.load(simd) * aims.density;
+            choices.lanes |= flat;
+            choices.front |= flat & bits::<S>(aims.is_front);
+            let others = choices.toward.load(simd);
+            choices.toward = Vector::select(chosen, aims.toward, others).store();
+            let others = choices.reach.load(simd);
+            choices.reach = Lanes::select(chosen, aims.reach, others).into();
+            let others = choices.density.load(simd);
+            choices.density = Lanes::select(chosen, density, others).into();
+        }
+        choices
     }
 
     /// The density of [`Emitters::choose`] per steradian for a direction in which a part of an object is
@@ -207,6 +287,16 @@ impl Emitters {
         let patch = scene.objects[object as usize].shape.patch(part);
         let density = patch.map_or(0.0, |patch| patch.density(from, toward, at));
         density * self.tree.chance(emitter as u32, from, normal)
+    }
+
+    /// The part of the surface that an emitter is.
+    #[inline]
+    fn patch(&self, scene: &Scene, emitter: u32) -> Option<Patch> {
+        let Part { object, part } = self.parts[emitter as usize];
+        match self.known_patch(object) {
+            Some(patch) => Some(*patch),
+            None => scene.objects[object as usize].shape.patch(part),
+        }
     }
 
     /// The only part of an object, if it is not a mesh.

@@ -3,7 +3,7 @@
 use std::f64::consts::PI;
 
 use super::*;
-use crate::geometry::lanes::dispatch;
+use crate::geometry::lanes::{Level, dispatch};
 use crate::geometry::{Affine, Ball, Flat};
 use crate::render::tests::Random;
 use cone::Cone;
@@ -87,14 +87,25 @@ fn lanes_choose_the_same() {
         for together in [1, 3, 8] {
             let place = |_| (7.0 * random.point(1.0), random.direction());
             let surfaces: Vec<_> = (0..together).map(place).collect();
-            let numbers: Vec<_> = surfaces.iter().map(|_| [random.next(); 4]).collect();
+            let numbers: Vec<_> = surfaces.iter().map(|_| random.next()).collect();
             let alone = surfaces.iter().zip(&numbers);
-            let alone =
-                alone.map(|(&(from, normal), [number, ..])| tree.choose(from, normal, *number));
+            let alone = alone.map(|(&(from, normal), &number)| {
+                tree.choose(from, normal, number).map(Picked::from)
+            });
             let alone: Vec<_> = alone.collect();
+            let mut at = [Vector::repeat(DVec3::ZERO); 2];
+            let mut third = Row::all(0.0);
+            for (lane, (&(from, normal), number)) in surfaces.iter().zip(&numbers).enumerate() {
+                at[0].set(lane, from);
+                at[1].set(lane, normal);
+                third.0[lane] = *number;
+            }
+            let (from, normal) = (&at[0], &at[1]);
+            let lanes = (1 << together) - 1;
             for level in [Level::baseline(), Level::new()] {
-                let chosen =
-                    dispatch!(level, simd => tree.choose_together(simd, &surfaces, &numbers));
+                let chosen = dispatch!(level, simd => {
+                    tree.choose_together(simd, (from, normal), &third, lanes)
+                });
                 assert_eq!(chosen[..together], alone);
             }
         }

@@ -7,7 +7,7 @@ use glam::DVec3;
 
 use super::cone::{Cone, Reach};
 use super::{Picked, split};
-use crate::geometry::lanes::{Eight, Lanes, Level, Row, Simd, Vector, WIDTH, dispatch, each_bit};
+use crate::geometry::lanes::{Eight, Lanes, Row, Simd, Vector, WIDTH, each_bit};
 
 /// From this depth on the tree halves the number of emitters at each node.
 const DEEP: u32 = 64;
@@ -130,60 +130,33 @@ impl Tree {
         self.among_alike(&search)
     }
 
-    /// The same for several surfaces, by the third of the numbers of each.
-    pub(super) fn choose_each(
-        &self,
-        surfaces: &[(DVec3, DVec3)],
-        numbers: &[[f64; 4]],
-        level: Level,
-        picked: &mut Vec<Option<Picked>>,
-    ) {
-        picked.clear();
-        dispatch!(level, simd => {
-            for (surfaces, numbers) in surfaces.chunks(WIDTH).zip(numbers.chunks(WIDTH)) {
-                let chosen = self.choose_together(simd, surfaces, numbers);
-                let chosen = chosen.into_iter().take(surfaces.len());
-                picked.extend(chosen.map(|chosen| chosen.map(Picked::from)));
-            }
-        });
-    }
-
-    /// The same for up to eight surfaces at once.
+    /// The same for several surfaces, by the numbers in their lanes.
     #[inline(always)]
     pub(crate) fn choose_together<S: Simd>(
         &self,
         simd: S,
-        surfaces: &[(DVec3, DVec3)],
-        numbers: &[[f64; 4]],
-    ) -> [Option<(u32, f64)>; WIDTH] {
+        (from, normal): (&Vector<Row>, &Vector<Row>),
+        numbers: &Row,
+        lanes: u32,
+    ) -> [Option<Picked>; WIDTH] {
         let mut chosen = [None; WIDTH];
         let mut searches = [Search::new(0.0); WIDTH];
-        let mut at = [Vector::repeat(DVec3::ZERO); 2];
-        let count = surfaces.len().min(WIDTH);
-        for lane in 0..count {
-            searches[lane] = Search::new(numbers[lane][2]);
-            let (from, normal) = surfaces[lane];
-            at[0].set(lane, from);
-            at[1].set(lane, normal);
+        for lane in each_bit(lanes) {
+            searches[lane] = Search::new(numbers.0[lane]);
         }
-        let [from, normal] = at;
-        let (from, normal) = (from.load(simd), normal.load(simd));
-        let mut active = if self.nodes.is_empty() {
-            0
-        } else {
-            (1_u32 << count) - 1
-        };
+        let (points, normals) = (from.load(simd), normal.load(simd));
+        let mut active = if self.nodes.is_empty() { 0 } else { lanes };
         let mut children = [[(0, 0); 2]; WIDTH];
         loop {
             let mut spots = [SpotRows::default(); 2];
             for lane in each_bit(active) {
-                if let Some(pair) = self.children(&searches[lane], surfaces[lane].0) {
+                if let Some(pair) = self.children(&searches[lane], from.get(lane)) {
                     children[lane] = pair;
                     for (rows, (node, _)) in spots.iter_mut().zip(pair) {
                         rows.put(lane, &self.nodes[node]);
                     }
                 } else {
-                    chosen[lane] = self.among_alike(&searches[lane]);
+                    chosen[lane] = self.among_alike(&searches[lane]).map(Picked::from);
                     active &= !(1 << lane);
                 }
             }
@@ -191,8 +164,8 @@ impl Tree {
                 break;
             }
             let [first, second] = spots;
-            let first = first.load(simd).importance(from, normal);
-            let second = second.load(simd).importance(from, normal);
+            let first = first.load(simd).importance(points, normals);
+            let second = second.load(simd).importance(points, normals);
             for lane in each_bit(active) {
                 match share_of(first[lane], second[lane]) {
                     Some(share) => searches[lane].descend(children[lane], share),

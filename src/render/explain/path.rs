@@ -1,7 +1,5 @@
 //! The rays of a path: the integrator's own steps run one by one, and what each returns is recorded.
 
-use glam::DVec3;
-
 use super::super::bsdf::{BsdfSample, Component};
 use super::super::direct::Facing;
 use super::super::heuristic::Densities;
@@ -19,6 +17,7 @@ use super::record::{
     Chosen, Dark, EmitterTerm, LightHit, LightTerm, RayEnd, Shading, Stop, TracedRay, Unlisted,
 };
 use super::surface::{boundary, missing_around, missing_at, surface_hit};
+use crate::geometry::lanes::Vector;
 use crate::scene::Rgb;
 
 /// Traces a sample; returns its radiance and all rays, or `None` once `cancelled` returns true.
@@ -335,10 +334,9 @@ impl<C: Fn() -> bool> Recorder<'_, C> {
     /// Whether another light with a size lies before a point of one.
     fn is_hidden(&self, vertex: &Vertex<'_>, sphere: &SphereLight, chosen: Incoming<f64>) -> bool {
         let ray = vertex.point.leave(chosen.toward.into());
-        chosen.source.is_some_and(|source| {
-            let distance = DVec3::from(source).distance(ray.origin);
-            self.probe.world.sphere_lights.hide(sphere, &ray, distance)
-        })
+        let sphere_lights = &self.probe.world.sphere_lights;
+        let hides = |place: Vector<f64>| sphere_lights.hide(sphere, &ray, place.into());
+        chosen.source.is_some_and(hides)
     }
 
     /// What the ray is that a path chooses next, and the probability of its component.

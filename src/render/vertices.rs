@@ -1,0 +1,275 @@
+//! Surfaces that paths met, eight side by side: light sampling and BSDF sampling in lanes. A lobe
+//! with exponents or microfacets is evaluated one surface at a time.
+
+use glam::DVec3;
+
+use super::bsdf::Component;
+use super::direct::{Points, Shadow, shadow_rays};
+use super::heuristic::power_heuristic;
+use super::lights::Spheres;
+use super::lobes::Diffuse;
+use super::path::Vertex;
+use super::sampler::Fours;
+use super::warp;
+use crate::geometry::lanes::{
+    Eight, Lanes, Level, Row, Simd, Vector, WIDTH, bits, dispatch, each_bit, mask,
+};
+use crate::geometry::{Rays, Surfaces};
+
+/// Up to eight surfaces.
+pub(super) struct Vertices<'v, 'm> {
+    all: &'v [Vertex<'m>],
+    points: Points<Row>,
+    diffuse: Diffuse<Row>,
+    lobes_chance: Row,
+    /// The lanes with a glossy lobe, and with a highlight that is not part of the BRDF.
+    glossy: u32,
+    highlights: u32,
+}
+
+/// Emitters sampled at surfaces, before their shadow rays are traced.
+pub(super) struct Asking {
+    /// The lanes in which light may arrive.
+    pub(super) lanes: u32,
+    pub(super) rays: Rays<Row>,
+    /// The fraction that the surface reflects, the cosine of incidence included.
+    pub(super) reflected: Vector<Row>,
+    /// The multiple importance sampling weight over the density.
+    pub(super) share: Row,
+}
+
+/// Lights with a size sampled at surfaces, before their shadow rays are traced.
+pub(super) struct Lit {
+    /// The lanes in which light may arrive.
+    pub(super) lanes: u32,
+    /// The unshadowed light.
+    pub(super) light: Vector<Row>,
+    /// The points on the lights.
+    pub(super) places: Vector<Row>,
+    /// The rays toward them from the surfaces.
+    pub(super) rays: Rays<Row>,
+    pub(super) shadow: Shadow<Row>,
+}
+
+/// Continuations by the lobes.
+pub(super) struct Continuations {
+    /// The lanes that go on by them, and those of these whose direction leads on.
+    pub(super) lobes: u32,
+    pub(super) lead_on: u32,
+    pub(super) rays: Rays<Row>,
+    /// Factors on the throughput.
+    pub(super) weight: Vector<Row>,
+    pub(super) density: Row,
+}
+
+impl<'v, 'm> Vertices<'v, 'm> {
+    /// Collects all surfaces.
+    pub(super) fn collect(all: &'v [Vertex<'m>]) -> Vec<Self> {
+        all.chunks(WIDTH).map(Self::new).collect()
+    }
+
+    fn new(all: &'v [Vertex<'m>]) -> Self {
+        let zero = Vector::repeat(DVec3::ZERO);
+        let mut vertices = Self {
+            all,
+            points: Points {
+                surface: Surfaces {
+                    point: zero,
+                    normal: zero,
+                    scale: Row::all(0.0),
+                },
+                normal: zero,
+                view: zero,
+            },
+            diffuse: Diffuse {
+                colour: zero,
+                even: Row::all(1.0),
+            },
+            lobes_chance: Row::all(0.0),
+            glossy: 0,
+            highlights: 0,
+        };
+        for (lane, Vertex { point, bsdf, .. }) in all.iter().enumerate() {
+            let points = &mut vertices.points;
+            points.surface.point.set(lane, point.surface.point);
+            points.surface.normal.set(lane, point.surface.normal);
+            points.surface.scale.0[lane] = point.surface.scale;
+            points.normal.set(lane, point.normal);
+            let diffuse = bsdf.lobes.diffuse();
+            vertices.diffuse.colour.set(lane, diffuse.colour.into());
+            vertices.diffuse.even.0[lane] = diffuse.even;
+            vertices.lobes_chance.0[lane] = bsdf.lobes_chance;
+            vertices.glossy |= u32::from(bsdf.lobes.is_glossy()) << lane;
+            vertices.highlights |= u32::from(bsdf.lobes.has_highlight()) << lane;
+        }
+        vertices
+    }
+
+    /// The surfaces.
+    pub(super) fn all(&self) -> &'v [Vertex<'m>] {
+        self.all
+    }
+
+    /// Their points and shading normals.
+    pub(super) fn places(&self) -> (&Vector<Row>, &Vector<Row>) {
+        (&self.points.surface.point, &self.points.normal)
+    }
+
+    /// The surfaces' answers to emitters in directions with these densities.
+    #[inline(always)]
+    pub(super) fn ask<S: Simd>(
+        &self,
+        simd: S,
+        lanes: u32,
+        toward: &Vector<Row>,
+        by_light: &Row,
+    ) -> Asking {
+        let (toward, by_light) = (toward.load(simd), by_light.load(simd));
+        let (reflected, density) = self.scatter(simd, toward);
+        let by_path = self.lobes_chance.load(simd) * density;
+        let share = power_heuristic(by_light, by_path) / by_light;
+        let is_dark = reflected.is_zero() | by_light.equals(by_light.all(0.0));
+        Asking {
+            lanes: lanes & !bits::<S>(is_dark),
+            rays: self.leave(simd, toward),
+            reflected: reflected.store(),
+            share: share.into(),
+        }
+    }
+
+    /// Samples lights with a size, chosen with these probabilities; `leads_on` says whether paths may go
+    /// on from here.
+    pub(super) fn light(
+        &self,
+        level: Level,
+        (spheres, chances, lanes): (&Spheres<Row>, &Row, u32),
+        numbers: &Fours,
+        leads_on: bool,
+    ) -> Lit {
+        dispatch!(level, simd => {
+            self.light_together(simd, (spheres, chances, lanes), numbers, leads_on)
+        })
+    }
+
+    #[inline(always)]
+    fn light_together<S: Simd>(
+        &self,
+        simd: S,
+        (spheres, chances, lanes): (&Spheres<Row>, &Row, u32),
+        numbers: &Fours,
+        leads_on: bool,
+    ) -> Lit {
+        let (spheres, chance) = (spheres.load(simd), chances.load(simd));
+        let surface = self.points.surface.load(simd);
+        let (incoming, is_outside) = spheres.choose(surface.point, numbers.pair(simd));
+        let toward = incoming.toward;
+        let (scattered, density) = self.scatter(simd, toward);
+        let highlight = self.highlight(simd, toward);
+        let by_path = if leads_on {
+            self.lobes_chance.load(simd) * density
+        } else {
+            density.all(0.0)
+        };
+        let by_light = chance * spheres.density(surface.point);
+        let irradiance = spheres.irradiance(surface.point);
+        let arriving = irradiance.scaled(power_heuristic(by_light, by_path));
+        // BSDF samples never include the highlight.
+        let light = scattered.times(arriving) + highlight.times(irradiance);
+        let is_dark = scattered.is_zero() & highlight.is_zero();
+        let shadow = shadow_rays(&surface, incoming);
+        let places = incoming.source.unwrap_or(surface.point);
+        Lit {
+            lanes: lanes & bits::<S>(is_outside) & !bits::<S>(is_dark),
+            light: light.over(chance).store(),
+            places: places.store(),
+            rays: self.leave(simd, toward),
+            shadow: Shadow {
+                rays: shadow.rays.store(),
+                ends: shadow.ends.into(),
+            },
+        }
+    }
+
+    /// Samples continuations by the lobes, where the numbers choose these.
+    pub(super) fn sample(&self, level: Level, numbers: &Fours) -> Continuations {
+        dispatch!(level, simd => self.sample_together(simd, numbers))
+    }
+
+    #[inline(always)]
+    fn sample_together<S: Simd>(&self, simd: S, numbers: &Fours) -> Continuations {
+        let mut lobes = 0;
+        let mut glossy = 0;
+        let mut directions = Vector::repeat(DVec3::ZERO);
+        for (lane, Vertex { point, bsdf, .. }) in self.all.iter().enumerate() {
+            let [u, v, choice, _] = numbers.lane(lane);
+            if let Some(Component::Lobes(choice)) = bsdf.component(choice) {
+                lobes |= 1 << lane;
+                if !bsdf.lobes.is_diffuse(choice) {
+                    glossy |= 1 << lane;
+                    directions.set(lane, bsdf.lobes.choose(point, choice, [u, v]));
+                }
+            }
+        }
+        let normal = self.points.normal.load(simd);
+        let toward = warp::by_cosine(normal, numbers.pair(simd));
+        let toward = Vector::select(mask(simd, glossy), directions.load(simd), toward);
+        let (value, density) = self.scatter(simd, toward);
+        let density = self.lobes_chance.load(simd) * density;
+        let leads_on = !value.is_zero() & density.all(0.0).below(density);
+        Continuations {
+            lobes,
+            lead_on: lobes & bits::<S>(leads_on),
+            rays: self.leave(simd, toward),
+            weight: value.over(density).store(),
+            density: density.into(),
+        }
+    }
+
+    /// The light scattered from directions by the lobes, the cosine of incidence included, and the
+    /// densities of the directions.
+    #[inline(always)]
+    fn scatter<S: Simd>(&self, simd: S, toward: Vector<Eight<S>>) -> (Vector<Eight<S>>, Eight<S>) {
+        let cosine = self.points.normal.load(simd).dot(toward);
+        let mut values = Vector::repeat(DVec3::ZERO);
+        let mut densities = Row::all(0.0);
+        let glossy = self.glossy & bits::<S>(cosine.all(0.0).below(cosine));
+        if glossy != 0 {
+            let toward = toward.store();
+            for lane in each_bit(glossy) {
+                let Vertex { point, bsdf, .. } = &self.all[lane];
+                let (value, density) = bsdf.lobes.scatter_glossy(point, toward.get(lane));
+                values.set(lane, value);
+                densities.0[lane] = density;
+            }
+        }
+        let diffuse = Diffuse {
+            colour: self.diffuse.colour.load(simd),
+            even: self.diffuse.even.load(simd),
+        };
+        diffuse.scatter(cosine, (values.load(simd), densities.load(simd)))
+    }
+
+    /// The highlights of light from directions that are not part of the BRDF.
+    #[inline(always)]
+    fn highlight<S: Simd>(&self, simd: S, toward: Vector<Eight<S>>) -> Vector<Eight<S>> {
+        let mut highlights = Vector::repeat(DVec3::ZERO);
+        if self.highlights != 0 {
+            let toward = toward.store();
+            for lane in each_bit(self.highlights) {
+                let Vertex { point, bsdf, .. } = &self.all[lane];
+                highlights.set(lane, bsdf.lobes.highlight(point, toward.get(lane)));
+            }
+        }
+        highlights.load(simd)
+    }
+
+    /// Rays that leave the surfaces.
+    #[inline(always)]
+    fn leave<S: Simd>(&self, simd: S, toward: Vector<Eight<S>>) -> Rays<Row> {
+        let origin = self.points.surface.load(simd).leave(toward);
+        Rays {
+            origin: origin.store(),
+            direction: toward.store(),
+        }
+    }
+}
