@@ -21,12 +21,13 @@
 //!
 //! A tracer has three integrators: [`whitted`] traces a [`wave`] of samples at once, whose rays land
 //! on [`surfaces`] and [`branch`]; [`path_wave`] follows a [`path`] for each sample, all of them bounce
-//! by bounce, continuing by a [`bsdf`] and its [`lobes`] and asking what emits light ([`next_event`]);
-//! the third adds the [`caustics`] of [`photons`] to paths. These are traced before the tiles of a step
-//! ([`photon_paths`]), turned at mirrors and glass by a [`deflection`], and found in a [`photon_map`].
-//! All query the world through a [`probe`], which applies a material's maps ([`texture`]), shade
-//! according to [`shading`], and sample [`lights`] for [`direct`] light. [`optics`], [`microfacet`]
-//! and [`warp`] hold the formulas. [`gather`] tells the shares of the light apart.
+//! by bounce, continuing by a [`bsdf`] and its [`lobes`] and asking what emits light ([`next_event`]),
+//! at eight [`vertices`] at once; the third adds the [`caustics`] of [`photons`] to paths. These are
+//! traced before the tiles of a step ([`photon_paths`]), turned at mirrors and glass by a
+//! [`deflection`], and found in a [`photon_map`]. All query the world through a [`probe`], which applies
+//! a material's maps ([`texture`]), shade according to [`shading`], and sample [`lights`] for [`direct`]
+//! light. [`optics`], [`microfacet`] and [`warp`] hold the formulas. [`gather`] tells the shares of the
+//! light apart.
 //!
 //! [`explain`] records every ray behind a sample, part by part, by driving the same integrators;
 //! a [`Query`] of a frame does so for the frame's pixels.

@@ -37,13 +37,13 @@ pub(super) struct Asked {
 
 /// An emitter sampled at a surface, before its shadow ray is traced.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Asking {
+struct Asking {
     /// The answer if it is hidden.
-    pub(super) asked: Asked,
+    asked: Asked,
     /// The shadow ray; `None` if no light could arrive along it.
-    pub(super) ray: Option<Ray>,
+    ray: Option<Ray>,
     /// Where the ray ends.
-    pub(super) reach: f64,
+    reach: f64,
     /// What the ray is to hit; `None` for the environment.
     target: Option<Target>,
 }

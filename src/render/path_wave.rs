@@ -16,7 +16,7 @@ use super::probe::{Probe, Sample, Seen};
 use super::sampler::{Fours, Sampler, Use};
 use super::surfaces::Landing;
 use super::touched::Touched;
-use super::vertices::{Asking, Vertices};
+use super::vertices::{Aimed, Vertices};
 use super::wave::Found;
 use super::world::World;
 use crate::geometry::lanes::{Row, Vector, WIDTH, dispatch, each_bit};
@@ -52,7 +52,7 @@ struct Questions {
     /// For each shadow ray to a light, the indices of its surface and of the light, and the light
     /// without shadow.
     lit: Vec<(usize, usize, Rgb)>,
-    asked: Vec<Asked>,
+    to_emitters: Vec<EmitterRay>,
     nearest: Vec<Option<Nearest>>,
     transmittances: Vec<f64>,
     /// For each light, the last simple object that occluded it; then for the environment, and for one of
@@ -69,18 +69,18 @@ struct Meeting {
     /// The reflected light of lights.
     light: Rgb,
     /// The reflected light of emitters.
-    asked: Rgb,
+    of_emitters: Rgb,
 }
 
-/// An emitter sampled at a surface, whose shadow ray is traced.
+/// A shadow ray to an emitter.
 #[derive(Clone, Copy, Debug)]
-struct Asked {
+struct EmitterRay {
     /// Index of the surface.
     at: usize,
     ray: Ray,
-    /// What the ray is to hit; `None` for the environment.
+    /// What it is to hit; `None` for the environment.
     target: Option<Target>,
-    /// See [`Asking`].
+    /// See [`Aimed`].
     reflected: Rgb,
     share: f64,
 }
@@ -184,7 +184,7 @@ impl<C: Fn() -> bool> Probe<'_, C> {
                 path,
                 is_lit: material.is_lit(point.side),
                 light: Rgb::ZERO,
-                asked: Rgb::ZERO,
+                of_emitters: Rgb::ZERO,
             });
         }
         let vertices = Vertices::collect(&vertices);
@@ -259,7 +259,7 @@ impl<C: Fn() -> bool> Probe<'_, C> {
         if self.photon_map.is_some() {
             local += self.caustics(vertex, path.bounce);
         }
-        local + meeting.asked
+        local + meeting.of_emitters
     }
 
     /// Adds the light of all lights, in file order; of many lights, that of one at each surface.
@@ -285,9 +285,8 @@ impl<C: Fn() -> bool> Probe<'_, C> {
             if light.sphere().is_some() {
                 questions.draw(world, Use::Light(number as u32));
             } else {
-                questions
-                    .numbers
-                    .resize(vertices.len(), Fours([Row::all(0.5); 4]));
+                // Only lights with a size need them.
+                questions.numbers.resize(vertices.len(), Fours::ZERO);
             }
             questions.chosen.clear();
             questions.chosen.resize(count, Some((number, 1.0)));
@@ -421,24 +420,25 @@ impl<C: Fn() -> bool> Probe<'_, C> {
         if !world.emitters.is_empty() {
             questions.draw(world, Use::Emitter);
             questions.ask_objects(world, vertices, &lanes);
-            self.count_asked(questions, meetings, seen);
+            self.count_emitter_rays(questions, meetings, seen);
             world.nearest_each(&questions.shadows, &mut questions.nearest);
-            for (asked, &nearest) in questions.asked.iter().zip(&questions.nearest) {
-                if let Some(target) = asked.target
-                    && let Some(emitted) = self.of_object(target, &asked.ray, nearest)
+            for (to_emitter, &nearest) in questions.to_emitters.iter().zip(&questions.nearest) {
+                if let Some(target) = to_emitter.target
+                    && let Some(emitted) = self.of_object(target, &to_emitter.ray, nearest)
                 {
-                    meetings[asked.at].asked += asked.arrives(emitted);
+                    meetings[to_emitter.at].of_emitters += to_emitter.reflect(emitted);
                 }
             }
         }
         if !world.sky.is_unsampled() {
             questions.draw(world, Use::Sky);
             questions.ask_sky(world, vertices, &lanes);
-            self.count_asked(questions, meetings, seen);
+            self.count_emitter_rays(questions, meetings, seen);
             self.trace_shadows(world.lights().len(), Occlusion::Complete, questions);
-            for (asked, &transmittance) in questions.asked.iter().zip(&questions.transmittances) {
-                if let Some(emitted) = self.of_sky(&asked.ray, transmittance) {
-                    meetings[asked.at].asked += asked.arrives(emitted);
+            let rays = questions.to_emitters.iter();
+            for (to_emitter, &transmittance) in rays.zip(&questions.transmittances) {
+                if let Some(emitted) = self.of_sky(&to_emitter.ray, transmittance) {
+                    meetings[to_emitter.at].of_emitters += to_emitter.reflect(emitted);
                 }
             }
         }
@@ -456,12 +456,17 @@ impl<C: Fn() -> bool> Probe<'_, C> {
     }
 
     /// Counts the shadow rays to emitters.
-    fn count_asked(&mut self, questions: &Questions, meetings: &[Meeting], seen: &mut [Seen]) {
-        for asked in &questions.asked {
-            seen[meetings[asked.at].path].rays += 1;
+    fn count_emitter_rays(
+        &mut self,
+        questions: &Questions,
+        meetings: &[Meeting],
+        seen: &mut [Seen],
+    ) {
+        for to_emitter in &questions.to_emitters {
+            seen[meetings[to_emitter.at].path].rays += 1;
         }
-        self.counts.rays += questions.asked.len() as u64;
-        self.counts.shadow_rays += questions.asked.len() as u64;
+        self.counts.rays += questions.to_emitters.len() as u64;
+        self.counts.shadow_rays += questions.to_emitters.len() as u64;
     }
 }
 
@@ -496,24 +501,24 @@ impl Questions {
     /// Collects the shadow rays to objects that emit light from the surfaces in lanes.
     fn ask_objects(&mut self, world: &World, vertices: &[Vertices<'_, '_>], lanes: &[u32]) {
         self.shadows.clear();
-        self.asked.clear();
+        self.to_emitters.clear();
         let batches = vertices.iter().zip(&self.numbers).zip(lanes);
         for (batch, ((vertices, numbers), &lanes)) in batches.enumerate() {
-            let (choices, asking) = dispatch!(world.level, simd => {
+            let (choices, aimed) = dispatch!(world.level, simd => {
                 let (emitters, at) = (&world.emitters, vertices.places());
                 let choices = emitters.choose_together(simd, &world.scene, at, numbers, lanes);
                 let Choices { lanes, toward, density, .. } = &choices;
-                let asking = vertices.ask(simd, *lanes, toward, density);
-                (choices, asking)
+                let aimed = vertices.aim(simd, *lanes, toward, density);
+                (choices, aimed)
             });
-            for lane in each_bit(asking.lanes) {
+            for lane in each_bit(aimed.lanes) {
                 let target = Target {
                     part: choices.parts[lane],
                     is_front: choices.front >> lane & 1 == 1,
                 };
-                let asked = Asked::new(batch, lane, &asking, Some(target));
-                self.shadows.push(&asked.ray, choices.reach.0[lane]);
-                self.asked.push(asked);
+                let to_emitter = EmitterRay::new(batch, lane, &aimed, Some(target));
+                self.shadows.push(&to_emitter.ray, choices.reach.0[lane]);
+                self.to_emitters.push(to_emitter);
             }
         }
     }
@@ -521,7 +526,7 @@ impl Questions {
     /// Collects the shadow rays to the environment from the surfaces in lanes.
     fn ask_sky(&mut self, world: &World, vertices: &[Vertices<'_, '_>], lanes: &[u32]) {
         self.shadows.clear();
-        self.asked.clear();
+        self.to_emitters.clear();
         let batches = vertices.iter().zip(&self.numbers).zip(lanes);
         for (batch, ((vertices, numbers), &lanes)) in batches.enumerate() {
             let mut toward = Vector::repeat(DVec3::ZERO);
@@ -533,32 +538,32 @@ impl Questions {
                     density.0[lane] = world.sky.density(chosen);
                 }
             }
-            let asking = dispatch!(world.level, simd => {
-                vertices.ask(simd, lanes, &toward, &density)
+            let aimed = dispatch!(world.level, simd => {
+                vertices.aim(simd, lanes, &toward, &density)
             });
-            for lane in each_bit(asking.lanes) {
-                let asked = Asked::new(batch, lane, &asking, None);
-                self.shadows.push(&asked.ray, f64::INFINITY);
-                self.asked.push(asked);
+            for lane in each_bit(aimed.lanes) {
+                let to_emitter = EmitterRay::new(batch, lane, &aimed, None);
+                self.shadows.push(&to_emitter.ray, f64::INFINITY);
+                self.to_emitters.push(to_emitter);
             }
         }
     }
 }
 
-impl Asked {
-    /// What is asked in a lane of a batch of surfaces.
-    fn new(batch: usize, lane: usize, asking: &Asking, target: Option<Target>) -> Self {
+impl EmitterRay {
+    /// The ray in a lane of a batch of surfaces.
+    fn new(batch: usize, lane: usize, aimed: &Aimed, target: Option<Target>) -> Self {
         Self {
             at: batch * WIDTH + lane,
-            ray: asking.rays.get(lane),
+            ray: aimed.rays.get(lane),
             target,
-            reflected: asking.reflected.get(lane),
-            share: asking.share.0[lane],
+            reflected: aimed.reflected.get(lane),
+            share: aimed.share.0[lane],
         }
     }
 
-    /// What the emission that arrives adds.
-    fn arrives(&self, emitted: Rgb) -> Rgb {
+    /// The light that the surface reflects of the emission that arrives.
+    fn reflect(&self, emitted: Rgb) -> Rgb {
         self.reflected * emitted * self.share
     }
 }

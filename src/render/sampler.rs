@@ -24,6 +24,9 @@ pub(crate) struct Sampler {
 pub(crate) struct Fours(pub(crate) [Row; 4]);
 
 impl Fours {
+    /// All of them 0.
+    pub(crate) const ZERO: Self = Self([Row::all(0.0); 4]);
+
     /// The numbers of the sampler in a lane.
     #[inline(always)]
     pub(crate) fn lane(&self, lane: usize) -> [f64; 4] {

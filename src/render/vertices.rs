@@ -1,5 +1,7 @@
-//! Surfaces that paths met, eight side by side: light sampling and BSDF sampling in lanes. A lobe
-//! with exponents or microfacets is evaluated one surface at a time.
+//! Surfaces that paths met, eight side by side: light sampling and BSDF sampling in lanes.
+//!
+//! Glossy lobes and highlights, mirrors and boundaries are evaluated one surface at a time: their
+//! powers are, and few lanes of a batch have the same.
 
 use glam::DVec3;
 
@@ -28,7 +30,7 @@ pub(super) struct Vertices<'v, 'm> {
 }
 
 /// Emitters sampled at surfaces, before their shadow rays are traced.
-pub(super) struct Asking {
+pub(super) struct Aimed {
     /// The lanes in which light may arrive.
     pub(super) lanes: u32,
     pub(super) rays: Rays<Row>,
@@ -115,21 +117,21 @@ impl<'v, 'm> Vertices<'v, 'm> {
         (&self.points.surface.point, &self.points.normal)
     }
 
-    /// The surfaces' answers to emitters in directions with these densities.
+    /// Samples emitters in directions with these densities.
     #[inline(always)]
-    pub(super) fn ask<S: Simd>(
+    pub(super) fn aim<S: Simd>(
         &self,
         simd: S,
         lanes: u32,
         toward: &Vector<Row>,
         by_light: &Row,
-    ) -> Asking {
+    ) -> Aimed {
         let (toward, by_light) = (toward.load(simd), by_light.load(simd));
         let (reflected, density) = self.scatter(simd, toward);
         let by_path = self.lobes_chance.load(simd) * density;
         let share = power_heuristic(by_light, by_path) / by_light;
         let is_dark = reflected.is_zero() | by_light.equals(by_light.all(0.0));
-        Asking {
+        Aimed {
             lanes: lanes & !bits::<S>(is_dark),
             rays: self.leave(simd, toward),
             reflected: reflected.store(),
