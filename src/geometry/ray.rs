@@ -169,11 +169,6 @@ impl Packets {
         self.count = 0;
     }
 
-    /// The number of rays.
-    pub fn count(&self) -> usize {
-        self.count
-    }
-
     /// Adds a ray and its maximum distance.
     #[inline(always)]
     pub fn push(&mut self, ray: &Ray, end: f64) {

@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-use super::lobes::Lobes;
+use super::lobes::{Continuation, Lobes, Scattered};
 use super::microfacet::Microfacets;
 use super::optics::{Refraction, facet, folded, reflect, schlick, spread, strength};
 use super::probe::Point;
@@ -52,6 +52,23 @@ pub(crate) struct Scattering {
     pub(crate) normal: DVec3,
     /// The probability density of the direction per steradian.
     pub(crate) density: f64,
+}
+
+impl BsdfSample {
+    /// A continuation by the lobes at a point.
+    #[inline(always)]
+    pub(crate) fn by_lobes(point: &Point, ray: Ray, weight: Rgb, density: f64) -> Self {
+        Self {
+            ray,
+            weight,
+            absorption: Rgb::ZERO,
+            chosen: Some(Scattering {
+                point: point.surface.point,
+                normal: point.normal,
+                density,
+            }),
+        }
+    }
 }
 
 impl<'m> Bsdf<'m> {
@@ -114,19 +131,14 @@ impl<'m> Bsdf<'m> {
         match component {
             Component::Lobes(choice) => {
                 let direction = self.lobes.choose(point, choice, [u, v]);
-                let scattered = self.lobes.scatter(point, direction);
-                let density = chance * scattered.density;
-                let leads_on = scattered.value != Rgb::ZERO && 0.0 < density;
-                leads_on.then(|| BsdfSample {
-                    ray: point.leave(direction),
-                    weight: scattered.value / density,
-                    absorption: Rgb::ZERO,
-                    chosen: Some(Scattering {
-                        point: point.surface.point,
-                        normal: point.normal,
-                        density,
-                    }),
-                })
+                let Scattered { value, density } = self.lobes.scatter(point, direction);
+                let Continuation {
+                    weight,
+                    density,
+                    leads_on,
+                } = Continuation::new(chance, (value.into(), density));
+                let ray = || point.leave(direction);
+                leads_on.then(|| BsdfSample::by_lobes(point, ray(), weight.into(), density))
             }
             Component::Mirror => {
                 let losses = self.material.losses(point.side);

@@ -5,7 +5,7 @@ use glam::DVec3;
 use super::intersect::Occlusion;
 use super::lights::{self, Incoming};
 use super::probe::{Point, Probe};
-use crate::geometry::lanes::{Lanes, Vector};
+use crate::geometry::lanes::{Lanes, Row, Vector};
 use crate::geometry::{Ray, Rays, Surfaces};
 use crate::scene::{Light, Rgb, Shadows};
 
@@ -170,6 +170,17 @@ pub(crate) fn shadowed(light: Rgb, transmittance: f64) -> Rgb {
         Rgb::ZERO
     } else {
         transmittance * light
+    }
+}
+
+impl Shadow<Row> {
+    /// Returns the shadow ray in a lane.
+    #[inline]
+    pub(crate) fn lane(&self, lane: usize) -> Shadow<f64> {
+        Shadow {
+            rays: (&self.rays.get(lane)).into(),
+            ends: self.ends.0[lane],
+        }
     }
 }
 

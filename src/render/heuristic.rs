@@ -42,3 +42,10 @@ pub(super) fn power_heuristic<N: Lanes>(own: N, other: N) -> N {
     let one = own.all(1.0);
     one / (one + ratio * ratio)
 }
+
+/// The multiple importance sampling weight over the density of a direction that was chosen by
+/// sampling what emits light, in each lane.
+#[inline(always)]
+pub(super) fn share<N: Lanes>(by_light: N, by_path: N) -> N {
+    power_heuristic(by_light, by_path) / by_light
+}

@@ -73,6 +73,30 @@ impl<N: Lanes> Diffuse<N> {
     }
 }
 
+/// A continuation by the lobes, in each lane, if it leads on.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Continuation<N: Lanes> {
+    /// Factor on the throughput.
+    pub(crate) weight: Vector<N>,
+    /// The probability density of the direction per steradian.
+    pub(crate) density: N,
+    pub(crate) leads_on: N::Mask,
+}
+
+impl<N: Lanes> Continuation<N> {
+    /// Given the probability of continuing by the lobes, and light scattered from the direction with
+    /// the density of its choice by them.
+    #[inline(always)]
+    pub(crate) fn new(chance: N, (value, density): (Vector<N>, N)) -> Self {
+        let density = chance * density;
+        Self {
+            weight: value.over(density),
+            density,
+            leads_on: !value.is_zero() & density.all(0.0).below(density),
+        }
+    }
+}
+
 impl Lobes {
     /// Returns the lobes of a surface at a point, and approximately their maximum reflectance.
     #[inline(always)]

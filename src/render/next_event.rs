@@ -7,7 +7,7 @@
 use glam::DVec3;
 
 use super::emitters::Picked;
-use super::heuristic::Densities;
+use super::heuristic::{Densities, share};
 use super::intersect::{Nearest, Occlusion};
 use super::path::{Path, Vertex};
 use super::probe::{Probe, RAY_BUDGET};
@@ -82,10 +82,10 @@ impl Asked {
     /// Adds the emission that arrives.
     fn arrives(&mut self, emitted: Rgb) {
         let Densities {
-            by_light, weight, ..
+            by_light, by_path, ..
         } = self.densities;
         self.emitted = Some(emitted);
-        self.radiance = self.reflected * emitted * (weight / by_light);
+        self.radiance = self.reflected * emitted * share(by_light, by_path);
     }
 }
 

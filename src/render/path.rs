@@ -11,7 +11,7 @@ use super::direct::{Unshadowed, shadow};
 use super::gather::Gather;
 use super::heuristic::power_heuristic;
 use super::intersect::{Nearest, Occlusion};
-use super::lights::SphereLight;
+use super::lights::{SphereLight, Spheres};
 use super::lobes::Scattered;
 use super::optics::transmitted;
 use super::probe::{Point, Probe, RAY_BUDGET, Sample};
@@ -243,12 +243,11 @@ impl<C: Fn() -> bool> Probe<'_, C> {
             return None;
         }
         let by_path = self.density_of(bsdf, scattered, bounce);
-        let weight = power_heuristic(chance * sphere.density(from), by_path);
-        let irradiance = sphere.irradiance(from);
-        let arriving = weight * irradiance;
+        let scattered = (scattered.value.into(), by_path);
+        let spheres = Spheres::from(sphere);
+        let reflected = spheres.reflected(from.into(), chance, scattered, highlight.into());
         Some(Unshadowed {
-            // BSDF samples never include the highlight.
-            light: scattered.value * arriving + highlight * irradiance,
+            light: reflected.into(),
             shadow: shadow(&point.surface.into(), light, incoming),
         })
     }
@@ -271,10 +270,16 @@ impl<C> Probe<'_, C> {
         self.photon_map.is_some() && light.emits_photons(FalloffRule::None)
     }
 
+    /// Whether a path at a bounce is not at its last.
+    #[inline]
+    pub(super) fn may_go_on(&self, bounce: u32) -> bool {
+        bounce < self.depth
+    }
+
     /// The density with which a path at a bounce goes on in a direction, per steradian; 0 at the last
     /// bounce, after which no BSDF sample can hit a light.
     pub(super) fn density_of(&self, bsdf: &Bsdf<'_>, scattered: Scattered, bounce: u32) -> f64 {
-        if bounce < self.depth {
+        if self.may_go_on(bounce) {
             bsdf.lobes_chance * scattered.density
         } else {
             0.0

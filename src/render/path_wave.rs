@@ -5,8 +5,8 @@ use std::borrow::Cow;
 
 use glam::DVec3;
 
-use super::bsdf::{BsdfSample, Scattering};
-use super::direct::shadowed;
+use super::bsdf::BsdfSample;
+use super::direct::{Shadow, Unshadowed, shadowed};
 use super::emitters::Choices;
 use super::intersect::{Nearest, Occlusion};
 use super::lights::{SphereLight, Spheres};
@@ -44,9 +44,9 @@ pub(crate) struct PathWave {
 struct Questions {
     bounce: u32,
     samplers: Vec<Sampler>,
-    /// For each surface, its numbers for a purpose.
+    /// The numbers of all surfaces for a purpose, eight by eight.
     numbers: Vec<Fours>,
-    /// One of many lights for each surface, with the probability of its choice.
+    /// The light that each surface samples, with the probability of its choice.
     chosen: Vec<Option<(usize, f64)>>,
     shadows: Packets,
     /// For each shadow ray to a light, the indices of its surface and of the light, and the light
@@ -192,11 +192,9 @@ impl<C: Fn() -> bool> Probe<'_, C> {
         self.add_emitters(&vertices, &mut meetings, questions, seen);
         questions.draw(world, Use::Bounce);
         growing.clear();
-        let batches = meetings
-            .chunks(WIDTH)
-            .zip(&questions.numbers)
-            .zip(&vertices);
-        for batch in batches {
+        let batches = vertices.iter().zip(&questions.numbers);
+        for ((vertices, numbers), meetings) in batches.zip(meetings.chunks(WIDTH)) {
+            let batch = (vertices, numbers, meetings);
             self.go_on(batch, paths, samples, seen, growing);
         }
     }
@@ -204,7 +202,7 @@ impl<C: Fn() -> bool> Probe<'_, C> {
     /// Adds what the surfaces send back, and continues the paths.
     fn go_on(
         &mut self,
-        ((meetings, numbers), vertices): ((&[Meeting], &Fours), &Vertices<'_, '_>),
+        (vertices, numbers, meetings): (&Vertices<'_, '_>, &Fours, &[Meeting]),
         paths: &mut [Path],
         samples: &[Sample],
         seen: &mut [Seen],
@@ -221,15 +219,9 @@ impl<C: Fn() -> bool> Probe<'_, C> {
             let next = if by_lobes.lobes >> lane & 1 == 0 {
                 vertex.sample(path, numbers, samples[meeting.path].sampler)
             } else {
-                (by_lobes.lead_on >> lane & 1 == 1).then(|| BsdfSample {
-                    ray: by_lobes.rays.get(lane),
-                    weight: by_lobes.weight.get(lane),
-                    absorption: Rgb::ZERO,
-                    chosen: Some(Scattering {
-                        point: vertex.point.surface.point,
-                        normal: vertex.point.normal,
-                        density: by_lobes.density.0[lane],
-                    }),
+                (by_lobes.lead_on >> lane & 1 == 1).then(|| {
+                    let (ray, weight) = (by_lobes.rays.get(lane), by_lobes.weight.get(lane));
+                    BsdfSample::by_lobes(&vertex.point, ray, weight, by_lobes.density.0[lane])
                 })
             };
             if let Onward::Goes { .. } = self.onward(path, next, numbers) {
@@ -272,7 +264,6 @@ impl<C: Fn() -> bool> Probe<'_, C> {
     ) {
         let (world, bounce) = (self.world, questions.bounce);
         let (many, lights) = (&world.many_lights, world.lights());
-        let count = meetings.len();
         for (place, number) in many.others().enumerate() {
             // Each light may take as many rays as there are paths.
             if 0 < place && (self.cancelled)() {
@@ -289,14 +280,18 @@ impl<C: Fn() -> bool> Probe<'_, C> {
                 questions.numbers.resize(vertices.len(), Fours::ZERO);
             }
             questions.chosen.clear();
-            questions.chosen.resize(count, Some((number, 1.0)));
+            let chosen = meetings
+                .iter()
+                .map(|meeting| meeting.is_lit.then_some((number, 1.0)));
+            questions.chosen.extend(chosen);
             let occlusion = self.occlusion(light);
             self.add_light(vertices, meetings, questions, seen, (number, occlusion));
         }
         let is_lit = |meeting: &Meeting| meeting.is_lit;
         if !many.is_empty() && meetings.iter().any(is_lit) {
             questions.draw(world, Use::ManyLights);
-            questions.choose_lights(world, vertices, |number| self.gather.light(number, bounce));
+            let gathers = |number| self.gather.light(number, bounce);
+            questions.choose_lights(world, vertices, meetings, gathers);
             // All of them emit photons, or none.
             let occlusion = self.occlusion(&lights[many.first()]);
             let slot = lights.len() + 1;
@@ -316,23 +311,40 @@ impl<C: Fn() -> bool> Probe<'_, C> {
     ) {
         let (world, bounce) = (self.world, questions.bounce);
         let lights = world.lights();
-        questions.shadows.clear();
-        questions.lit.clear();
-        let batches = vertices.iter().zip(&questions.numbers);
-        let chosen = questions.chosen.chunks(WIDTH);
-        for ((batch, (vertices, numbers)), chosen) in batches.enumerate().zip(chosen) {
+        let Questions {
+            numbers,
+            chosen,
+            shadows,
+            lit,
+            ..
+        } = questions;
+        shadows.clear();
+        lit.clear();
+        let mut receive = |at: usize, number: usize, light: Rgb, shadow: Option<Shadow<f64>>| {
+            let meeting = &mut meetings[at];
+            match shadow {
+                None => meeting.light += lights[number].scale * light,
+                Some(shadow) => {
+                    shadows.push(&shadow.ray(), shadow.ends);
+                    lit.push((at, number, light));
+                    seen[meeting.path].rays += 1;
+                }
+            }
+        };
+        let chosen = chosen.chunks(WIDTH);
+        for (batch, ((vertices, numbers), chosen)) in
+            vertices.iter().zip(&*numbers).zip(chosen).enumerate()
+        {
             let first = batch * WIDTH;
-            let mut spheres = None;
+            let mut spheres = [None; WIDTH];
             let mut chances = Row::all(1.0);
             let mut with_size = 0;
             for (lane, vertex) in vertices.all().iter().enumerate() {
-                let meeting = &mut meetings[first + lane];
-                let Some((number, chance)) = chosen[lane].filter(|_| meeting.is_lit) else {
+                let Some((number, chance)) = chosen[lane] else {
                     continue;
                 };
                 if let Some(sphere) = lights[number].luminous_sphere() {
-                    let spheres = spheres.get_or_insert_with(|| Spheres::repeat(&sphere));
-                    spheres.set(lane, &sphere);
+                    spheres[lane] = Some(sphere);
                     chances.0[lane] = chance;
                     with_size |= 1 << lane;
                     continue;
@@ -342,45 +354,26 @@ impl<C: Fn() -> bool> Probe<'_, C> {
                     [u, v]
                 };
                 let unshadowed = self.unshadowed((number, chance), vertex, bounce, place);
-                let Some(unshadowed) = unshadowed else {
-                    continue;
-                };
-                match &unshadowed.shadow {
-                    None => meeting.light += lights[number].scale * unshadowed.light,
-                    Some(shadow) => {
-                        questions.shadows.push(&shadow.ray(), shadow.ends);
-                        questions.lit.push((first + lane, number, unshadowed.light));
-                        seen[meeting.path].rays += 1;
-                    }
+                if let Some(Unshadowed { light, shadow }) = unshadowed {
+                    receive(first + lane, number, light, shadow);
                 }
             }
-            let Some(spheres) = spheres else {
+            if with_size == 0 {
                 continue;
-            };
-            let leads_on = bounce < self.depth;
-            let spheres = (&spheres, &chances, with_size);
-            let lit = vertices.light(world.level, spheres, numbers, leads_on);
-            for lane in each_bit(lit.lanes) {
-                let Some((number, _)) = chosen[lane] else {
-                    continue;
-                };
-                let (meeting, light) = (&mut meetings[first + lane], lit.light.get(lane));
+            }
+            let sampled = (&Spheres::gather(&spheres), &chances, with_size);
+            let samples = vertices.light(world.level, sampled, numbers, self.may_go_on(bounce));
+            for lane in each_bit(samples.lanes) {
                 let hides = |sphere: &SphereLight| {
-                    let (ray, place) = (lit.rays.get(lane), lit.places.get(lane));
+                    let (ray, place) = (samples.rays.get(lane), samples.places.get(lane));
                     world.sphere_lights.hide(sphere, &ray, place)
                 };
-                if lights[number].luminous_sphere().as_ref().is_some_and(hides) {
-                    continue;
-                }
-                if lights[number].shadows == Shadows::Off {
-                    meeting.light += lights[number].scale * light;
-                } else {
-                    let shadow = &lit.shadow;
-                    questions
-                        .shadows
-                        .push(&shadow.rays.get(lane), shadow.ends.0[lane]);
-                    questions.lit.push((first + lane, number, light));
-                    seen[meeting.path].rays += 1;
+                if let Some((number, _)) = chosen[lane]
+                    && !spheres[lane].as_ref().is_some_and(hides)
+                {
+                    let casts = lights[number].shadows != Shadows::Off;
+                    let shadow = casts.then(|| samples.shadow.lane(lane));
+                    receive(first + lane, number, samples.light.get(lane), shadow);
                 }
             }
         }
@@ -407,11 +400,8 @@ impl<C: Fn() -> bool> Probe<'_, C> {
     ) {
         let (world, bounce) = (self.world, questions.bounce);
         let of_batch = |(meetings, vertices): (&[Meeting], &Vertices<'_, '_>)| {
-            let all = meetings.iter().zip(vertices.all()).enumerate();
-            all.fold(0, |lanes, (lane, (meeting, vertex))| {
-                let asks = meeting.is_lit && self.asks(vertex, bounce);
-                lanes | u32::from(asks) << lane
-            })
+            let all = meetings.iter().zip(vertices.all());
+            lanes_of(all.map(|(meeting, vertex)| meeting.is_lit && self.asks(vertex, bounce)))
         };
         let lanes: Vec<_> = meetings.chunks(WIDTH).zip(vertices).map(of_batch).collect();
         if lanes.iter().all(|&lanes| lanes == 0) {
@@ -477,24 +467,24 @@ impl Questions {
         Sampler::four_each(&self.samplers, (node, purpose), world.level, numbers);
     }
 
-    /// Chooses one of many lights for each surface, among those gathered.
+    /// Chooses one of many lights for each surface that is lit, among those gathered.
     fn choose_lights(
         &mut self,
         world: &World,
         vertices: &[Vertices<'_, '_>],
-        is_gathered: impl Fn(usize) -> bool,
+        meetings: &[Meeting],
+        gathers: impl Fn(usize) -> bool,
     ) {
         self.chosen.clear();
-        for (vertices, numbers) in vertices.iter().zip(&self.numbers) {
-            let count = vertices.all().len();
-            let lanes = (1 << count) - 1;
+        let batches = vertices.iter().zip(&self.numbers);
+        for ((vertices, numbers), meetings) in batches.zip(meetings.chunks(WIDTH)) {
+            let lanes = lanes_of(meetings.iter().map(|meeting| meeting.is_lit));
             let chosen = dispatch!(world.level, simd => {
                 world.many_lights.choose_together(simd, vertices.places(), numbers, lanes)
             });
-            let gathered =
-                |chosen: Option<(usize, f64)>| chosen.filter(|&(number, _)| is_gathered(number));
-            self.chosen
-                .extend(chosen.into_iter().take(count).map(gathered));
+            let chosen = chosen.into_iter().take(meetings.len());
+            let gathered = chosen.map(|chosen| chosen.filter(|&(number, _)| gathers(number)));
+            self.chosen.extend(gathered);
         }
     }
 
@@ -566,4 +556,10 @@ impl EmitterRay {
     fn reflect(&self, emitted: Rgb) -> Rgb {
         self.reflected * emitted * self.share
     }
+}
+
+/// A bit for each of up to eight, the lowest for the first.
+fn lanes_of(each: impl Iterator<Item = bool>) -> u32 {
+    let numbered = each.enumerate();
+    numbered.fold(0, |lanes, (lane, is_in)| lanes | u32::from(is_in) << lane)
 }

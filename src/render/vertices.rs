@@ -1,15 +1,15 @@
 //! Surfaces that paths met, eight side by side: light sampling and BSDF sampling in lanes.
 //!
-//! Glossy lobes and highlights, mirrors and boundaries are evaluated one surface at a time: their
-//! powers are, and few lanes of a batch have the same.
+//! Glossy lobes, highlights, mirrors and boundaries are evaluated one surface at a time: powers are
+//! computed so anyway, and the surfaces of a batch rarely share a kind of lobe.
 
 use glam::DVec3;
 
 use super::bsdf::Component;
-use super::direct::{Points, Shadow, shadow_rays};
-use super::heuristic::power_heuristic;
+use super::direct::{Shadow, shadow_rays};
+use super::heuristic::share;
 use super::lights::Spheres;
-use super::lobes::Diffuse;
+use super::lobes::{Continuation, Diffuse};
 use super::path::Vertex;
 use super::sampler::Fours;
 use super::warp;
@@ -21,7 +21,9 @@ use crate::geometry::{Rays, Surfaces};
 /// Up to eight surfaces.
 pub(super) struct Vertices<'v, 'm> {
     all: &'v [Vertex<'m>],
-    points: Points<Row>,
+    surface: Surfaces<Row>,
+    /// Shading normals.
+    normal: Vector<Row>,
     diffuse: Diffuse<Row>,
     lobes_chance: Row,
     /// The lanes with a glossy lobe, and with a highlight that is not part of the BRDF.
@@ -41,7 +43,7 @@ pub(super) struct Aimed {
 }
 
 /// Lights with a size sampled at surfaces, before their shadow rays are traced.
-pub(super) struct Lit {
+pub(super) struct SphereSamples {
     /// The lanes in which light may arrive.
     pub(super) lanes: u32,
     /// The unshadowed light.
@@ -55,8 +57,9 @@ pub(super) struct Lit {
 
 /// Continuations by the lobes.
 pub(super) struct Continuations {
-    /// The lanes that go on by them, and those of these whose direction leads on.
+    /// The lanes that go on by them.
     pub(super) lobes: u32,
+    /// Those of them whose direction leads on.
     pub(super) lead_on: u32,
     pub(super) rays: Rays<Row>,
     /// Factors on the throughput.
@@ -74,15 +77,12 @@ impl<'v, 'm> Vertices<'v, 'm> {
         let zero = Vector::repeat(DVec3::ZERO);
         let mut vertices = Self {
             all,
-            points: Points {
-                surface: Surfaces {
-                    point: zero,
-                    normal: zero,
-                    scale: Row::all(0.0),
-                },
+            surface: Surfaces {
+                point: zero,
                 normal: zero,
-                view: zero,
+                scale: Row::all(0.0),
             },
+            normal: zero,
             diffuse: Diffuse {
                 colour: zero,
                 even: Row::all(1.0),
@@ -92,11 +92,11 @@ impl<'v, 'm> Vertices<'v, 'm> {
             highlights: 0,
         };
         for (lane, Vertex { point, bsdf, .. }) in all.iter().enumerate() {
-            let points = &mut vertices.points;
-            points.surface.point.set(lane, point.surface.point);
-            points.surface.normal.set(lane, point.surface.normal);
-            points.surface.scale.0[lane] = point.surface.scale;
-            points.normal.set(lane, point.normal);
+            let surface = &mut vertices.surface;
+            surface.point.set(lane, point.surface.point);
+            surface.normal.set(lane, point.surface.normal);
+            surface.scale.0[lane] = point.surface.scale;
+            vertices.normal.set(lane, point.normal);
             let diffuse = bsdf.lobes.diffuse();
             vertices.diffuse.colour.set(lane, diffuse.colour.into());
             vertices.diffuse.even.0[lane] = diffuse.even;
@@ -114,10 +114,10 @@ impl<'v, 'm> Vertices<'v, 'm> {
 
     /// Their points and shading normals.
     pub(super) fn places(&self) -> (&Vector<Row>, &Vector<Row>) {
-        (&self.points.surface.point, &self.points.normal)
+        (&self.surface.point, &self.normal)
     }
 
-    /// Samples emitters in directions with these densities.
+    /// Weighs the directions to emitters in lanes, chosen with these densities.
     #[inline(always)]
     pub(super) fn aim<S: Simd>(
         &self,
@@ -127,9 +127,9 @@ impl<'v, 'm> Vertices<'v, 'm> {
         by_light: &Row,
     ) -> Aimed {
         let (toward, by_light) = (toward.load(simd), by_light.load(simd));
-        let (reflected, density) = self.scatter(simd, toward);
+        let (reflected, density) = self.scatter(simd, lanes, toward);
         let by_path = self.lobes_chance.load(simd) * density;
-        let share = power_heuristic(by_light, by_path) / by_light;
+        let share = share(by_light, by_path);
         let is_dark = reflected.is_zero() | by_light.equals(by_light.all(0.0));
         Aimed {
             lanes: lanes & !bits::<S>(is_dark),
@@ -139,17 +139,17 @@ impl<'v, 'm> Vertices<'v, 'm> {
         }
     }
 
-    /// Samples lights with a size, chosen with these probabilities; `leads_on` says whether paths may go
-    /// on from here.
+    /// Samples lights with a size, chosen with these probabilities; `may_go_on`
+    /// says whether paths are not at their last bounce.
     pub(super) fn light(
         &self,
         level: Level,
         (spheres, chances, lanes): (&Spheres<Row>, &Row, u32),
         numbers: &Fours,
-        leads_on: bool,
-    ) -> Lit {
+        may_go_on: bool,
+    ) -> SphereSamples {
         dispatch!(level, simd => {
-            self.light_together(simd, (spheres, chances, lanes), numbers, leads_on)
+            self.light_together(simd, (spheres, chances, lanes), numbers, may_go_on)
         })
     }
 
@@ -159,28 +159,25 @@ impl<'v, 'm> Vertices<'v, 'm> {
         simd: S,
         (spheres, chances, lanes): (&Spheres<Row>, &Row, u32),
         numbers: &Fours,
-        leads_on: bool,
-    ) -> Lit {
+        may_go_on: bool,
+    ) -> SphereSamples {
         let (spheres, chance) = (spheres.load(simd), chances.load(simd));
-        let surface = self.points.surface.load(simd);
+        let surface = self.surface.load(simd);
         let (incoming, is_outside) = spheres.choose(surface.point, numbers.pair(simd));
         let toward = incoming.toward;
-        let (scattered, density) = self.scatter(simd, toward);
-        let highlight = self.highlight(simd, toward);
-        let by_path = if leads_on {
+        let (scattered, density) = self.scatter(simd, lanes, toward);
+        let highlight = self.highlight(simd, lanes, toward);
+        let by_path = if may_go_on {
             self.lobes_chance.load(simd) * density
         } else {
             density.all(0.0)
         };
-        let by_light = chance * spheres.density(surface.point);
-        let irradiance = spheres.irradiance(surface.point);
-        let arriving = irradiance.scaled(power_heuristic(by_light, by_path));
-        // BSDF samples never include the highlight.
-        let light = scattered.times(arriving) + highlight.times(irradiance);
+        let scattering = (scattered, by_path);
+        let light = spheres.reflected(surface.point, chance, scattering, highlight);
         let is_dark = scattered.is_zero() & highlight.is_zero();
         let shadow = shadow_rays(&surface, incoming);
         let places = incoming.source.unwrap_or(surface.point);
-        Lit {
+        SphereSamples {
             lanes: lanes & bits::<S>(is_outside) & !bits::<S>(is_dark),
             light: light.over(chance).store(),
             places: places.store(),
@@ -212,29 +209,33 @@ impl<'v, 'm> Vertices<'v, 'm> {
                 }
             }
         }
-        let normal = self.points.normal.load(simd);
+        let normal = self.normal.load(simd);
         let toward = warp::by_cosine(normal, numbers.pair(simd));
         let toward = Vector::select(mask(simd, glossy), directions.load(simd), toward);
-        let (value, density) = self.scatter(simd, toward);
-        let density = self.lobes_chance.load(simd) * density;
-        let leads_on = !value.is_zero() & density.all(0.0).below(density);
+        let scattered = self.scatter(simd, lobes, toward);
+        let by_lobes = Continuation::new(self.lobes_chance.load(simd), scattered);
         Continuations {
             lobes,
-            lead_on: lobes & bits::<S>(leads_on),
+            lead_on: lobes & bits::<S>(by_lobes.leads_on),
             rays: self.leave(simd, toward),
-            weight: value.over(density).store(),
-            density: density.into(),
+            weight: by_lobes.weight.store(),
+            density: by_lobes.density.into(),
         }
     }
 
     /// The light scattered from directions by the lobes, the cosine of incidence included, and the
-    /// densities of the directions.
+    /// densities of the directions; without glossy lobes outside the lanes.
     #[inline(always)]
-    fn scatter<S: Simd>(&self, simd: S, toward: Vector<Eight<S>>) -> (Vector<Eight<S>>, Eight<S>) {
-        let cosine = self.points.normal.load(simd).dot(toward);
+    fn scatter<S: Simd>(
+        &self,
+        simd: S,
+        lanes: u32,
+        toward: Vector<Eight<S>>,
+    ) -> (Vector<Eight<S>>, Eight<S>) {
+        let cosine = self.normal.load(simd).dot(toward);
         let mut values = Vector::repeat(DVec3::ZERO);
         let mut densities = Row::all(0.0);
-        let glossy = self.glossy & bits::<S>(cosine.all(0.0).below(cosine));
+        let glossy = self.glossy & lanes & bits::<S>(cosine.all(0.0).below(cosine));
         if glossy != 0 {
             let toward = toward.store();
             for lane in each_bit(glossy) {
@@ -251,13 +252,19 @@ impl<'v, 'm> Vertices<'v, 'm> {
         diffuse.scatter(cosine, (values.load(simd), densities.load(simd)))
     }
 
-    /// The highlights of light from directions that are not part of the BRDF.
+    /// The highlights, in lanes, of light from directions that are not part of the BRDF.
     #[inline(always)]
-    fn highlight<S: Simd>(&self, simd: S, toward: Vector<Eight<S>>) -> Vector<Eight<S>> {
+    fn highlight<S: Simd>(
+        &self,
+        simd: S,
+        lanes: u32,
+        toward: Vector<Eight<S>>,
+    ) -> Vector<Eight<S>> {
         let mut highlights = Vector::repeat(DVec3::ZERO);
-        if self.highlights != 0 {
+        let lanes = self.highlights & lanes;
+        if lanes != 0 {
             let toward = toward.store();
-            for lane in each_bit(self.highlights) {
+            for lane in each_bit(lanes) {
                 let Vertex { point, bsdf, .. } = &self.all[lane];
                 highlights.set(lane, bsdf.lobes.highlight(point, toward.get(lane)));
             }
@@ -268,7 +275,7 @@ impl<'v, 'm> Vertices<'v, 'm> {
     /// Rays that leave the surfaces.
     #[inline(always)]
     fn leave<S: Simd>(&self, simd: S, toward: Vector<Eight<S>>) -> Rays<Row> {
-        let origin = self.points.surface.load(simd).leave(toward);
+        let origin = self.surface.load(simd).leave(toward);
         Rays {
             origin: origin.store(),
             direction: toward.store(),

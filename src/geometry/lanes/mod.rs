@@ -97,7 +97,7 @@ pub trait Lanes:
     /// The magnitude of this with the sign of the other.
     #[must_use]
     fn copysign(self, sign: Self) -> Self;
-    /// The sine and cosine of an angle from 0 to 2π, with the bits of `libm::sincos`.
+    /// The sine and cosine of an angle from 0, not −0, to 2π, with the bits of `libm::sincos`.
     #[must_use]
     fn sincos(self) -> [Self; 2];
     /// The product with `factor`, plus `term`, rounded once.

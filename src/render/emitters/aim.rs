@@ -34,7 +34,7 @@ pub(super) struct Flats<N> {
     corner: Vector<N>,
     sides: [Vector<N>; 2],
     normal: Vector<N>,
-    /// [`TRIANGLE`] or [`PARALLELOGRAM`].
+    /// [`TRIANGLE`] or [`PARALLELOGRAM`]; 0 in unused lanes.
     part: N,
 }
 
@@ -150,13 +150,11 @@ impl<N: Lanes> Flats<N> {
         (aims, toward.is_finite())
     }
 
-    /// The density per steradian, given the square of the distance; where it overflows 0, which leaves
-    /// the direction to BSDF sampling.
+    /// The density per steradian, given the square of the distance.
     #[inline(always)]
     fn density(&self, toward: Vector<N>, square: N) -> N {
         let seen = self.part * self.normal.dot(toward).abs();
-        let density = square / seen;
-        N::select(Lanes::is_finite(density), density, density.all(0.0))
+        finite(square / seen)
     }
 }
 
@@ -233,7 +231,8 @@ fn versine(offset: DVec3) -> Option<f64> {
     (square < 1.0).then(|| square / (1.0 + (1.0 - square).sqrt()))
 }
 
-/// A density; where it overflows 0, which leaves a direction to BSDF sampling.
-fn finite(density: f64) -> f64 {
-    if density.is_finite() { density } else { 0.0 }
+/// A density; where it overflows, 0, which leaves a direction to BSDF sampling. In each lane.
+#[inline(always)]
+fn finite<N: Lanes>(density: N) -> N {
+    N::select(Lanes::is_finite(density), density, density.all(0.0))
 }

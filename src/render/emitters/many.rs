@@ -4,9 +4,10 @@ use std::sync::Arc;
 
 use glam::DVec3;
 
+use super::super::sampler::Fours;
 use super::cone::{Cone, Reach};
 use super::tree::Tree;
-use super::{Fours, Picked, strength};
+use super::{Picked, strength};
 use crate::geometry::Aabb;
 use crate::geometry::lanes::{Row, Simd, Vector, WIDTH};
 use crate::scene::{Emitter, Light};

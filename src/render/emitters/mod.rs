@@ -24,7 +24,7 @@ use super::texture::Textures;
 use crate::geometry::lanes::{Lanes, Row, Simd, Vector, WIDTH, bits, each_bit, mask};
 use crate::geometry::{Hit, Patch, Ray, Shape};
 use crate::scene::{Faces, Material, Object, Rgb, Scene, Tinted};
-use aim::Flats;
+use aim::{Aim, Flats};
 use cone::{Cone, Reach};
 pub(crate) use many::ManyLights;
 use tree::Tree;
@@ -117,7 +117,7 @@ impl Default for Choices {
 }
 
 impl Choices {
-    fn set(&mut self, lane: usize, choice: &Choice) {
+    fn set(&mut self, lane: usize, choice: Choice) {
         self.lanes |= 1 << lane;
         self.parts[lane] = (choice.object, choice.part);
         self.toward.set(lane, choice.toward);
@@ -201,19 +201,24 @@ impl Emitters {
         &self,
         scene: &Scene,
         from: DVec3,
-        Picked { emitter, chance }: Picked,
-        [u, v]: [f64; 2],
+        picked: Picked,
+        place: [f64; 2],
     ) -> Option<Choice> {
+        let aim = self.patch(scene, picked.emitter)?.aim(from, place)?;
+        Some(self.choice(picked, aim))
+    }
+
+    /// A direction toward an emitter that was picked.
+    fn choice(&self, Picked { emitter, chance }: Picked, aim: Aim) -> Choice {
         let Part { object, part } = self.parts[emitter as usize];
-        let aim = self.patch(scene, emitter)?.aim(from, [u, v])?;
-        Some(Choice {
+        Choice {
             object,
             part,
             toward: aim.toward,
             reach: aim.reach,
             density: chance * aim.density,
             is_front: aim.is_front,
-        })
+        }
     }
 
     /// Chooses an emitter for each of several surfaces, and a direction toward it, as [`Emitters::pick`]
@@ -247,9 +252,8 @@ impl Emitters {
                 choices.parts[lane] = (object, part);
             } else {
                 let [u, v, ..] = numbers.lane(lane);
-                let choice = self.choose(scene, from.get(lane), Picked { emitter, chance }, [u, v]);
-                if let Some(choice) = choice {
-                    choices.set(lane, &choice);
+                if let Some(aim) = patch.aim(from.get(lane), [u, v]) {
+                    choices.set(lane, self.choice(Picked { emitter, chance }, aim));
                 }
             }
         }

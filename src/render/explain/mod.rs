@@ -1,8 +1,8 @@
 //! Why a pixel has its colour: the whole tree of rays behind a sample, recorded part by part.
 //!
-//! Nothing here computes radiance: the integrators do, one sample at a time, and what they did is
-//! read between their steps. So the record cannot drift from the picture, and costs nothing where no
-//! one asks.
+//! The steps of the integrators are run for one sample at a time, and what they did is read between
+//! them. Where pictures take them eight at once, the formulas are the same, and a test compares the
+//! bits. So the record does not drift from the picture, and costs nothing where no one asks.
 
 mod judge;
 mod kind;

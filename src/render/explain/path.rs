@@ -1,4 +1,5 @@
-//! The rays of a path: the integrator's own steps run one by one, and what each returns is recorded.
+//! The rays of a path: the integrator's steps run for one path alone, and what each returns is
+//! recorded.
 
 use super::super::bsdf::{BsdfSample, Component};
 use super::super::direct::Facing;

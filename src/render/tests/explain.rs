@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 use super::many_lights::lamps;
 use super::*;
 use crate::assets::{Assets, Loaded, Wanted};
+use crate::geometry::lanes::Level;
 use crate::render::shot::Shot;
 use crate::render::{Explanation, PreparedScene, Query, RayEnd, RayKind, Stop, TracedRay};
 use crate::scene::Emitter;
@@ -63,19 +64,35 @@ fn job_of((scene, images): (Scene, Images), integrator: Integrator) -> Job {
     }
 }
 
-/// The radiance of a sample, traced among others as in a picture.
+/// The radiance of a sample, traced among others as in a picture, in the second of several packets;
+/// by the vectors of this machine and by those that every machine has.
 fn traced(job: &Job, world: &World, pixel: [u32; 2], index: u32) -> Rgb {
     let shot = Shot::new(world, &job.camera, job.settings);
     let [x, y] = pixel;
-    let beside = [x.saturating_sub(1), y];
+    let row: Vec<_> = (0..21)
+        .map(|place| [(x + place).saturating_sub(13), y])
+        .collect();
+    let place = row.iter().rposition(|other| *other == pixel);
     let mut samples = Vec::new();
-    shot.samples(&[beside, pixel, beside], index, &mut samples);
-    let mut seen = Vec::new();
+    shot.samples(&row, index, &mut samples);
     let Settings {
         integrator, depth, ..
     } = job.settings;
-    Tracer::new(world, integrator, depth, || false).trace(&samples, &mut seen);
-    seen[1].radiance
+    let trace = |world: &World| {
+        let mut seen = Vec::new();
+        Tracer::new(world, integrator, depth, || false).trace(&samples, &mut seen);
+        seen
+    };
+    let seen = trace(world);
+    let level = Level::baseline();
+    let plain = trace(&World {
+        level,
+        ..world.clone()
+    });
+    for (seen, plain) in seen.iter().zip(&plain) {
+        assert_eq!(bits(seen.radiance), bits(plain.radiance));
+    }
+    seen[place.expect("the pixel is in its row")].radiance
 }
 
 fn bits(colour: Rgb) -> [u64; 3] {

@@ -11,6 +11,10 @@ use crate::language::xml::table::{
 };
 use crate::text::{Diagnostic, Span, nearest_word, visible};
 
+/// The elements known in `xml` and in `scene`.
+const IN_ROOT: [&str; 3] = ["scene", "camera", "render"];
+const IN_SCENE: [&str; 5] = ["object", "material", "light", "background", "environment"];
+
 impl<'a> Lowering<'a> {
     /// Gives every element its role and every attribute its word. Unknown elements are skipped with
     /// a warning, and their content without.
@@ -233,9 +237,12 @@ impl<'a> Lowering<'a> {
         let (name, outer) = (quoted(self.name(element)), quoted(self.name(parent)));
         let known = self.known_in(parent);
         let nearest = nearest_word(self.name(element), known.iter().copied());
-        let hint = match nearest {
-            Some(nearest) => format!("it is skipped; did you mean `{nearest}`?"),
-            None => "it is skipped with all its content".to_owned(),
+        let mut places = [("xml", &IN_ROOT[..]), ("scene", &IN_SCENE)].into_iter();
+        let place = places.find(|(_, words)| words.contains(&self.name(element)));
+        let hint = match (place, nearest) {
+            (Some((place, _)), _) => format!("it is skipped; it belongs in `{place}`"),
+            (None, Some(nearest)) => format!("it is skipped; did you mean `{nearest}`?"),
+            (None, None) => "it is skipped with all its content".to_owned(),
         };
         let expected = if known.is_empty() {
             "nothing".to_owned()
@@ -263,8 +270,8 @@ impl<'a> Lowering<'a> {
         let parameters = self.parameters_in(parent).iter();
         let parameters = parameters.chain(transforms_in(parent));
         let others: &[_] = match parent {
-            Role::Root => &["scene", "camera", "render"],
-            Role::Scene => &["object", "material", "light", "background", "environment"],
+            Role::Root => &IN_ROOT,
+            Role::Scene => &IN_SCENE,
             Role::Object(_) => &["object"],
             _ => &[],
         };

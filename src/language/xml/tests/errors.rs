@@ -240,6 +240,27 @@ fn all_errors_are_reported_at_once_at_their_places() {
 }
 
 #[test]
+fn misplaced_elements_are_told_where_they_belong() {
+    for (text, expected) in [
+        (
+            around("<render spp='4'/>"),
+            "it is skipped; it belongs in `xml`",
+        ),
+        (
+            around("<material name='a'><light/></material>"),
+            "it is skipped; it belongs in `scene`",
+        ),
+    ] {
+        let (_, lowered) = read(&text);
+        let mut hints = lowered
+            .diagnostics
+            .iter()
+            .filter_map(|found| found.hint.as_deref());
+        assert!(hints.any(|hint| hint == expected), "{text}");
+    }
+}
+
+#[test]
 fn misspelt_words_are_recognised() {
     let text = around("<obejct/>");
     let (_, lowered) = read(&text);
