@@ -42,14 +42,14 @@ pub(super) fn print_finding(
         exposure: Some(job.settings.exposure),
         ..Rendering::default()
     };
+    let over = frame.overexposure.stops;
     // No time is left for small pictures: only an exposure is known to help.
     let is_timed = matches!(job.limit, Some(Limit::Time(_)));
     let shown = if is_timed {
         TrialResults::default()
     } else {
-        tracer().try_darker(&job)
+        tracer().try_darker(&job, over)
     };
-    let over = frame.overexposure.stops;
     let cures = darkening(&asked, over, shown.falloff, shown.depth);
     let options = cures.iter();
     let options = options.map(|(key, value)| format!("`--{} {value}`", key.name()));

@@ -123,10 +123,10 @@ impl Tracer {
         layers.collect()
     }
 
-    /// Traces small pictures of a job whose picture is too bright, and returns what they show of settings
-    /// that darken it.
-    pub(super) fn try_darker(&mut self, job: &Job) -> TrialResults {
-        let mut next = Trials::new(&job.settings, &job.scene.lights);
+    /// Traces small pictures of a job whose picture is `over` stops too bright, and returns what they show
+    /// of settings that darken it.
+    pub(super) fn try_darker(&mut self, job: &Job, over: f64) -> TrialResults {
+        let mut next = Trials::new(&job.settings, &job.scene.lights, over);
         let mut shown = TrialResults::default();
         while let Some(trials) = next {
             shown = trials.shown();

@@ -1,9 +1,11 @@
 //! Arguments and ranges that several commands have in common.
 
+use std::fmt::Display;
 use std::path::{Path, PathBuf};
+use std::str::FromStr;
 
+use clap::Args;
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
-use clap::{Args, value_parser};
 
 use crate::batch::{Output, Warnings};
 use crate::config::MAX_THREADS;
@@ -36,15 +38,27 @@ impl StrictnessArguments {
 }
 
 pub(super) fn spp_range() -> impl TypedValueParser<Value = u32> {
-    value_parser!(u32).range(1..=i64::from(MAX_SPP))
+    whole_number(1, MAX_SPP)
 }
 
 pub(super) fn depth_range() -> impl TypedValueParser<Value = u32> {
-    value_parser!(u32).range(..=i64::from(MAX_DEPTH))
+    whole_number(0, MAX_DEPTH)
 }
 
 pub(super) fn threads_range() -> impl TypedValueParser<Value = u16> {
-    value_parser!(u16).range(1..=i64::from(MAX_THREADS))
+    whole_number(1, MAX_THREADS)
+}
+
+/// Parses whole numbers in a range.
+fn whole_number<N>(least: N, most: N) -> impl TypedValueParser<Value = N>
+where
+    N: FromStr + PartialOrd + Display + Copy + Send + Sync + 'static,
+{
+    move |text: &str| {
+        let number = text.parse().ok();
+        let number = number.filter(|number| (least..=most).contains(number));
+        number.ok_or_else(|| format!("expected a whole number from {least} to {most}"))
+    }
 }
 
 /// The format of a picture file by its extension.

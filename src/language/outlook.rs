@@ -66,13 +66,10 @@ struct Judge<'a> {
 }
 
 impl Judge<'_> {
-    /// Every object is nearer than the near limit, or beyond the far limit.
+    /// Every object is behind the camera, nearer than the near limit or beyond the far limit.
     fn clipped(&self) -> Option<Outlook> {
         let Camera { eye, target, .. } = self.scene.camera;
         let [near, far] = self.scene.camera.depths;
-        if near == 0.0 && far == f64::INFINITY {
-            return None;
-        }
         let forward = normalise(0.5 * target - 0.5 * eye)?;
         let depths = |object: &Object| {
             let bounds = object.shape.bounds();
@@ -84,20 +81,21 @@ impl Judge<'_> {
             let mut objects = self.scene.objects.iter();
             objects.all(|object| object.shape.bounds().is_bounded() && is(depths(object)))
         };
-        let (key, side) = if all(&|[_, end]| end < near) {
-            ("near", "nearer than near")
+        let depths = "a range of depths that includes an object";
+        let (key, side, expected) = if self.scene.objects.is_empty() {
+            return None;
+        } else if all(&|[_, end]| end < 0.0) {
+            ("target", "behind the camera", "a view toward an object")
+        } else if all(&|[_, end]| end < near) {
+            ("near", "nearer than near", depths)
         } else if all(&|[start, _]| far < start) {
-            ("far", "beyond far")
+            ("far", "beyond far", depths)
         } else {
             return None;
         };
         let span = self.place(Node::View, key);
         let message = format!("every object is {side}: the picture is black");
-        Some(plain(
-            span,
-            &message,
-            "a range of depths that includes an object",
-        ))
+        Some(plain(span, &message, expected))
     }
 
     /// No light reaches any surface by the integrator.
@@ -136,7 +134,7 @@ impl Judge<'_> {
             if integrator.traces_paths() {
                 return None;
             }
-            let message = "the only light is emission or the environment, which only path tracing takes to other surfaces";
+            let message = "the only light is emission or the environment, which only path tracing carries to other surfaces";
             let finding = plain(self.nowhere(), message, "`integrator path`, or a light");
             return Some(Outlook {
                 cure: setting("integrator", Integrator::Path.name()),
@@ -163,15 +161,22 @@ impl Judge<'_> {
         })
     }
 
-    /// The materials of objects; all where objects have several.
+    /// The materials of objects; all where trees combine several.
     fn used(&self) -> Box<dyn Iterator<Item = &Material> + '_> {
         let scene = self.scene;
-        let is_mixed = |object: &Object| matches!(object.shape, Shape::Mesh(_) | Shape::Csg(_));
-        if scene.objects.iter().any(is_mixed) {
+        let is_tree = |object: &Object| matches!(object.shape, Shape::Csg(_));
+        if scene.objects.iter().any(is_tree) {
             return Box::new(scene.materials.iter());
         }
-        let materials = scene.objects.iter();
-        Box::new(materials.filter_map(|object| scene.materials.get(object.material as usize)))
+        let of_object = |object: &Object| match &object.shape {
+            Shape::Mesh(instance) => {
+                let tags = instance.tags();
+                tags.map(|tag| tag.unwrap_or(object.material)).collect()
+            }
+            _ => vec![object.material],
+        };
+        let used = scene.objects.iter().flat_map(of_object);
+        Box::new(used.filter_map(|material| scene.materials.get(material as usize)))
     }
 
     fn has_ambient(&self) -> bool {
@@ -373,7 +378,7 @@ fn reflectance(material: &Material) -> Rgb {
     material.diffuse + glossy
 }
 
-/// The largest sum of reflectances by which path tracing goes on at a surface, and its name. What a
+/// The largest sum of shares by which path tracing goes on at a surface, and its name. What a
 /// texture darkens by an unknown amount is left out.
 fn gain(material: &Material) -> (f64, &'static str) {
     let maps = material.maps.as_deref().copied().unwrap_or_default();
@@ -390,11 +395,14 @@ fn gain(material: &Material) -> (f64, &'static str) {
     let glossy = plain(glossy, maps.specular);
     let mirror = plain(material.mirror.tint, maps.mirror);
     let diffuse = plain(material.diffuse, maps.diffuse);
-    let opaque = (diffuse + glossy + mirror).max_element();
-    let clear = (mirror + plain(material.dielectric.tint, maps.dielectric)).max_element();
-    if clear <= opaque {
-        (opaque, "diffuse, specular and mirror reflectance")
+    let opaque = diffuse + glossy;
+    let clear = plain(material.dielectric.tint, maps.dielectric);
+    let words = if clear == Rgb::ZERO {
+        "diffuse, specular and mirror reflectance"
+    } else if opaque == Rgb::ZERO {
+        "mirror reflectance and transmittance"
     } else {
-        (clear, "mirror reflectance and transmittance")
-    }
+        "diffuse, specular and mirror reflectance and transmittance"
+    };
+    ((opaque + mirror + clear).max_element(), words)
 }

@@ -37,23 +37,27 @@ pub struct TrialResults {
 pub struct Trials {
     /// The settings of the picture.
     settings: Settings,
+    /// The stops by which its 99th percentile is above 1.
+    over: f64,
     next: Trial,
     shown: TrialResults,
 }
 
 impl Trials {
-    /// Starts the trials for an overexposed picture with these settings and lights; `None` if there is
-    /// nothing to try.
-    pub fn new(settings: &Settings, lights: &[Light]) -> Option<Self> {
+    /// Starts the trials for a picture with these settings and lights whose 99th percentile is `over`
+    /// stops above 1; `None` if there is nothing to try. Depths are not, unless that is more than noise,
+    /// since any would seem to help.
+    pub fn new(settings: &Settings, lights: &[Light], over: f64) -> Option<Self> {
         let fades =
             settings.falloff == FalloffRule::None && faded(lights, FalloffRule::Square).is_some();
         let first = if fades {
             Some(Trial::Falloff)
         } else {
-            is_deep(settings, 1).then_some(Trial::Depth(1))
+            (ROUGHLY < over && is_deep(settings, 1)).then_some(Trial::Depth(1))
         };
         first.map(|next| Self {
             settings: *settings,
+            over,
             next,
             shown: TrialResults::default(),
         })
@@ -106,7 +110,7 @@ impl Trials {
                 2 * depth
             }
         };
-        if !is_deep(&self.settings, depth) {
+        if self.over <= ROUGHLY || !is_deep(&self.settings, depth) {
             return ControlFlow::Break(self.shown);
         }
         self.next = Trial::Depth(depth);
@@ -169,9 +173,10 @@ mod tests {
         }
     }
 
-    /// The depths tried, 0 for the falloff, and what was shown, if pictures of depths up to `most` are
-    /// not too bright.
+    /// The depths tried, 0 for the falloff, and what was shown, for a picture so many stops too bright if
+    /// pictures of depths up to `most` are not.
     fn trials(
+        over: f64,
         (integrator, depth): (Integrator, u32),
         radial: [f64; 3],
         most: u32,
@@ -187,7 +192,7 @@ mod tests {
             height: 3,
         };
         let mut tried = Vec::new();
-        let mut next = Trials::new(&Settings::new(size, &asked), &[lamp(radial)]);
+        let mut next = Trials::new(&Settings::new(size, &asked), &[lamp(radial)], over);
         while let Some(trials) = next {
             let settings = trials.settings();
             let Size { width, height } = settings.size;
@@ -234,8 +239,23 @@ mod tests {
             ((path, 3), steady, 1, vec![0, 1, 2], falloff, Some(1)),
         ] {
             let shown = TrialResults { falloff, depth };
-            assert_eq!(trials(by, lamp, most), (tried, shown), "{by:?}");
+            assert_eq!(trials(2.0, by, lamp, most), (tried, shown), "{by:?}");
         }
+    }
+
+    #[test]
+    fn no_depth_is_tried_for_a_picture_that_is_hardly_too_bright() {
+        let path = (Integrator::Path, 64);
+        let shown = |falloff| TrialResults {
+            falloff,
+            depth: None,
+        };
+        assert_eq!(
+            trials(0.5, path, [0.0, 0.0, 1.0], 64),
+            (vec![], shown(None))
+        );
+        let steady = trials(0.5, path, [1.0, 0.0, 0.0], 64);
+        assert_eq!(steady, (vec![0], shown(Some(-2.0))));
     }
 
     #[test]

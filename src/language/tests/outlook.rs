@@ -127,7 +127,7 @@ fn a_scene_without_light_is_black() {
 
 #[test]
 fn what_only_paths_see_is_offered_to_them() {
-    let glows = "2:1 the only light is emission or the environment, which only path tracing takes to other surfaces \
+    let glows = "2:1 the only light is emission or the environment, which only path tracing carries to other surfaces \
                  | integrator path";
     for more in [
         "<environment value='.5'/>",
@@ -142,6 +142,19 @@ fn what_only_paths_see_is_offered_to_them() {
         let settled = text.replace("</camera>", "</camera><render integrator='path'/>");
         check(Language::Xml, &settled, None, &[]);
     }
+}
+
+#[test]
+fn a_view_away_from_all_objects_is_named() {
+    let text = |target: &str| {
+        format!(
+            "// view: eye 0 0 6 target 0 0 {target} fov 40 size 8 6\n{LIT}1 sphere 0 0 0 1  0 0 0 \
+             .5 .5 .5  0 0 0 9  0 0 1\n"
+        )
+    };
+    check(Language::Ray, &text("0"), None, &[]);
+    let behind = "1:29 every object is behind the camera: the picture is black";
+    check(Language::Ray, &text("12"), None, &[behind]);
 }
 
 #[test]
@@ -245,6 +258,13 @@ fn materials_that_send_back_more_than_comes_are_named_with_the_sum() {
             Some(
                 "2:3 object 1 (sphere): mirror reflectance and transmittance add up to 1.02: \
                   the picture grows brighter with every bounce | depth 35",
+            ),
+        ),
+        (
+            ".5 .5 .5  0 0 0 9  .5 .5 1.5",
+            Some(
+                "2:3 object 1 (sphere): diffuse, specular and mirror reflectance and transmittance \
+                  add up to 1.5: the picture grows brighter with every bounce | depth 1",
             ),
         ),
     ] {

@@ -58,7 +58,7 @@ impl App {
             let settings_and_scene = settings.zip(self.scene.as_ref());
             let trials = settings_and_scene
                 .filter(|_| !self.is_large())
-                .and_then(|(settings, scene)| Trials::new(settings, &scene.lights));
+                .and_then(|(settings, scene)| Trials::new(settings, &scene.lights, over));
             if let Some(trial) = trials.and_then(|trials| self.try_darker(trials, over)) {
                 return vec![trial];
             }
