@@ -70,7 +70,7 @@ fn a_picture_that_can_only_be_black_is_a_warning() {
     let sky = "<xml>\n<scene><object type=\"sphere\" material=\"m\"/><material name=\"m\"/>\
                <environment value=\"1\"/></scene>\n<camera><position z=\"9\"/></camera>\n</xml>\n";
     place.write("sky.xml", sky);
-    let warning = "sky.xml:3:1: the only light is emission or the environment, which only path tracing takes to other surfaces";
+    let warning = "sky.xml:3:1: the only light is emission or the environment, which only path tracing carries to other surfaces";
     let said = place.stderr("check sky.xml", 0);
     assert!(said.contains(warning), "{said}");
     assert!(

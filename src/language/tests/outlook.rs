@@ -153,7 +153,7 @@ fn a_view_away_from_all_objects_is_named() {
         )
     };
     check(Language::Ray, &text("0"), None, &[]);
-    let behind = "1:29 every object is behind the camera: the picture is black";
+    let behind = "1:27 every object is behind the camera: the picture is black";
     check(Language::Ray, &text("12"), None, &[behind]);
 }
 
