@@ -353,7 +353,7 @@ impl Spheres<Row> {
 }
 
 /// Up to this number of lights, a ray is tested against each instead of descending the tree, which
-/// took a tenth of the time of `lamp.xml` with its single light.
+/// takes a tenth of the time of `lamp.xml` with its single light.
 const FEW: usize = 4;
 
 /// All lights of a scene with a size that path tracing sees.

@@ -57,8 +57,8 @@ pub(crate) struct Diffuse<N> {
 }
 
 impl<N: Lanes> Diffuse<N> {
-    /// Completes a scattering, given for each lane the value of the glossy lobe without the cosine
-    /// of incidence and its density, and the cosine.
+    /// Adds the glossy lobe, given its value without the cosine of incidence, and its density; returns
+    /// the value of both times that cosine, and the density of choosing either.
     #[inline(always)]
     pub(crate) fn scatter(&self, cosine: N, glossy: (Vector<N>, N)) -> (Vector<N>, N) {
         let (value, density) = glossy;
@@ -73,7 +73,7 @@ impl<N: Lanes> Diffuse<N> {
     }
 }
 
-/// A continuation by the lobes, in each lane, if it leads on.
+/// Continuations by the lobes, in each lane.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Continuation<N: Lanes> {
     /// Factor on the throughput.
@@ -84,8 +84,8 @@ pub(crate) struct Continuation<N: Lanes> {
 }
 
 impl<N: Lanes> Continuation<N> {
-    /// Given the probability of continuing by the lobes, and light scattered from the direction with
-    /// the density of its choice by them.
+    /// Creates continuations from the probability of continuing by the lobes, and what these scatter from
+    /// the direction, with the density by which they choose it.
     #[inline(always)]
     pub(crate) fn new(chance: N, (value, density): (Vector<N>, N)) -> Self {
         let density = chance * density;

@@ -45,8 +45,8 @@ pub struct Trials {
 
 impl Trials {
     /// Starts the trials for a picture with these settings and lights whose 99th percentile is `over`
-    /// stops above 1; `None` if there is nothing to try. Depths are not, unless that is more than noise,
-    /// since any would seem to help.
+    /// stops above 1; `None` if there is nothing to try. Depths are tried only if noise does not account
+    /// for that: otherwise any would seem to help.
     pub fn new(settings: &Settings, lights: &[Light], over: f64) -> Option<Self> {
         let fades =
             settings.falloff == FalloffRule::None && faded(lights, FalloffRule::Square).is_some();

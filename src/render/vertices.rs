@@ -1,7 +1,7 @@
 //! Surfaces that paths met, eight side by side: light sampling and BSDF sampling in lanes.
 //!
 //! Glossy lobes, highlights, mirrors and boundaries are evaluated one surface at a time: powers are
-//! computed so anyway, and the surfaces of a batch rarely share a kind of lobe.
+//! computed one by one anyway, and the surfaces of a batch rarely share a kind of lobe.
 
 use glam::DVec3;
 

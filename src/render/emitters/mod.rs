@@ -94,7 +94,7 @@ pub(crate) struct Choice {
 pub(crate) struct Choices {
     /// The lanes with a direction.
     pub(crate) lanes: u32,
-    /// Object and part.
+    /// The indices of the object and of the part of its surface.
     pub(crate) parts: [(u32, u32); WIDTH],
     pub(crate) toward: Vector<Row>,
     pub(crate) reach: Row,
