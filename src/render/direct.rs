@@ -5,7 +5,7 @@ use glam::DVec3;
 use super::intersect::Occlusion;
 use super::lights::{self, Incoming};
 use super::probe::{Point, Probe};
-use crate::geometry::lanes::{Lanes, Row, Vector};
+use crate::geometry::lanes::{Eight, Lanes, Row, Simd, Vector};
 use crate::geometry::{Ray, Rays, Surfaces};
 use crate::scene::{Light, Rgb, Shadows};
 
@@ -170,6 +170,17 @@ pub(crate) fn shadowed(light: Rgb, transmittance: f64) -> Rgb {
         Rgb::ZERO
     } else {
         transmittance * light
+    }
+}
+
+impl<S: Simd> Shadow<Eight<S>> {
+    /// Stores them in rows.
+    #[inline(always)]
+    pub(crate) fn store(self) -> Shadow<Row> {
+        Shadow {
+            rays: self.rays.store(),
+            ends: self.ends.into(),
+        }
     }
 }
 

@@ -10,7 +10,7 @@ use super::level::level;
 use super::optics::power;
 use super::warp;
 use crate::accel::Bvh;
-use crate::geometry::lanes::{Eight, Lanes, Level, Row, Simd, Vector, WIDTH, dispatch};
+use crate::geometry::lanes::{Eight, Lanes, Level, Row, Simd, Vector, WIDTH, dispatch, each_bit};
 use crate::geometry::{Aabb, Ray, Rays};
 use crate::scene::{Emitter, Falloff, FalloffRule, Light, Rgb};
 
@@ -29,11 +29,7 @@ pub(crate) struct Incoming<N> {
 pub(crate) fn incoming<N: Lanes>(light: &Light, points: Vector<N>) -> Option<Incoming<N>> {
     match light.emitter {
         Emitter::Point { position, .. } => {
-            let source = Vector::all(points.x, position);
-            Some(Incoming {
-                toward: (source - points).unit(),
-                source: Some(source),
-            })
+            Some(Incoming::from(Vector::all(points.x, position), points))
         }
         Emitter::Distant(toward) => Some(Incoming {
             toward: Vector::all(points.x, toward),
@@ -53,6 +49,40 @@ pub(crate) fn attenuation(light: &Light, point: DVec3, toward: DVec3) -> f64 {
             position, falloff, ..
         } => falloff.share(position.distance(point), toward),
         Emitter::Distant(_) | Emitter::Ambient => 1.0,
+    }
+}
+
+/// The same in lanes, each for the light with the index there: either all of them are one, or all are at
+/// a finite distance.
+#[inline(always)]
+pub(crate) fn incoming_each<S: Simd>(
+    simd: S,
+    lights: &[Light],
+    (numbers, lanes): (&[usize; WIDTH], u32),
+    points: Vector<Eight<S>>,
+) -> Option<Incoming<Eight<S>>> {
+    let mut numbered = each_bit(lanes).map(|lane| numbers[lane]);
+    let first = numbered.next()?;
+    if numbered.all(|number| number == first) {
+        return incoming(&lights[first], points);
+    }
+    let mut sources = Vector::repeat(DVec3::ZERO);
+    for lane in each_bit(lanes) {
+        if let Emitter::Point { position, .. } = lights[numbers[lane]].emitter {
+            sources.set(lane, position);
+        }
+    }
+    Some(Incoming::from(sources.load(simd), points))
+}
+
+impl<N: Lanes> Incoming<N> {
+    /// The light that arrives at points from sources.
+    #[inline(always)]
+    pub(crate) fn from(source: Vector<N>, points: Vector<N>) -> Self {
+        Self {
+            toward: (source - points).unit(),
+            source: Some(source),
+        }
     }
 }
 

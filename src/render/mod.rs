@@ -21,8 +21,8 @@
 //!
 //! A tracer has three integrators: [`whitted`] traces a [`wave`] of samples at once, whose rays land
 //! on [`surfaces`] and [`branch`]; [`path_wave`] follows a [`path`] for each sample, all of them bounce
-//! by bounce, continuing by a [`bsdf`] and its [`lobes`] and asking what emits light ([`next_event`]),
-//! at eight [`vertices`] at once; the third adds the [`caustics`] of [`photons`] to paths. These are
+//! by bounce, continuing by a [`bsdf`] and its [`lobes`] and asking what emits light ([`next_events`],
+//! [`next_event`]), at eight [`vertices`] at once; the third adds the [`caustics`] of [`photons`] to paths. These are
 //! traced before the tiles of a step ([`photon_paths`]), turned at mirrors and glass by a
 //! [`deflection`], and found in a [`photon_map`]. All query the world through a [`probe`], which applies
 //! a material's maps ([`texture`]), shade according to [`shading`], and sample [`lights`] for [`direct`]
@@ -74,6 +74,7 @@ mod lights;
 mod lobes;
 mod microfacet;
 mod next_event;
+mod next_events;
 mod noise;
 mod optics;
 mod overexposure;

@@ -42,6 +42,28 @@ impl Fours {
     }
 }
 
+/// Samplers with one index at a node, and the numbers they draw, in rows of eight.
+#[derive(Debug, Default)]
+pub(crate) struct Draws {
+    pub(crate) node: u32,
+    pub(crate) samplers: Vec<Sampler>,
+    numbers: Vec<Fours>,
+}
+
+impl Draws {
+    /// The numbers of [`Sampler::four`] of each sampler.
+    pub(crate) fn four(&mut self, purpose: Use, level: Level) -> &[Fours] {
+        self.numbers.clear();
+        dispatch!(level, simd => {
+            for samplers in self.samplers.chunks(WIDTH) {
+                let fours = four_together(simd, samplers, (self.node, purpose));
+                self.numbers.push(fours);
+            }
+        });
+        &self.numbers
+    }
+}
+
 /// The purpose of a number.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Use {
@@ -142,21 +164,6 @@ impl Sampler {
     pub(crate) fn four(self, node: u32, purpose: Use) -> [f64; 4] {
         let seed = mix(self.pixel_seed() ^ node).wrapping_add(STEP) ^ purpose.number();
         four(self.index, mix(seed)).map(f64::from)
-    }
-
-    /// The same for several samplers with one index, in rows of eight.
-    pub(crate) fn four_each(
-        samplers: &[Self],
-        (node, purpose): (u32, Use),
-        level: Level,
-        numbers: &mut Vec<Fours>,
-    ) {
-        numbers.clear();
-        dispatch!(level, simd => {
-            for samplers in samplers.chunks(WIDTH) {
-                numbers.push(four_together(simd, samplers, (node, purpose)));
-            }
-        });
     }
 
     /// Hashes pixel and seed so that adjacent pixels get unrelated patterns. Computed on demand: a
@@ -324,11 +331,14 @@ mod tests {
         for level in [Level::baseline(), best] {
             for (seed, index, purpose) in [(0, 1, Use::Bounce), (7, 65_535, Use::Light(3))] {
                 let sampler = |x| Sampler::new(x, 3 * x, index, seed);
-                let samplers: Vec<_> = (0..21).map(sampler).collect();
-                let mut numbers = Vec::new();
-                Sampler::four_each(&samplers, (5, purpose), level, &mut numbers);
-                let alone = samplers.iter().map(|sampler| sampler.four(5, purpose));
-                let lanes = (0..samplers.len()).map(|at| numbers[at / WIDTH].lane(at % WIDTH));
+                let mut draws = Draws {
+                    node: 5,
+                    samplers: (0..21).map(sampler).collect(),
+                    ..Draws::default()
+                };
+                let alone: Vec<_> = (0..21).map(|x| sampler(x).four(5, purpose)).collect();
+                let numbers = draws.four(purpose, level);
+                let lanes = (0..21).map(|at| numbers[at / WIDTH].lane(at % WIDTH));
                 assert!(lanes.eq(alone));
             }
         }

@@ -8,7 +8,7 @@ use glam::DVec3;
 use super::bsdf::Component;
 use super::direct::{Shadow, shadow_rays};
 use super::heuristic::share;
-use super::lights::Spheres;
+use super::lights::{Spheres, incoming_each};
 use super::lobes::{Continuation, Diffuse};
 use super::path::Vertex;
 use super::sampler::Fours;
@@ -17,6 +17,7 @@ use crate::geometry::lanes::{
     Eight, Lanes, Level, Row, Simd, Vector, WIDTH, bits, dispatch, each_bit, mask,
 };
 use crate::geometry::{Rays, Surfaces};
+use crate::scene::Light;
 
 /// Up to eight surfaces.
 pub(super) struct Vertices<'v, 'm> {
@@ -42,7 +43,18 @@ pub(super) struct Aimed {
     pub(super) share: Row,
 }
 
-/// Lights with a size sampled at surfaces, before their shadow rays are traced.
+/// Lights without a radiance sampled at surfaces, before their shadow rays are traced.
+pub(super) struct PointSamples {
+    /// The lanes in which light is reflected.
+    pub(super) lanes: u32,
+    /// The fraction that the surface reflects, the cosine of incidence included.
+    pub(super) reflected: Vector<Row>,
+    /// Unit vectors toward the lights.
+    pub(super) toward: Vector<Row>,
+    pub(super) shadow: Shadow<Row>,
+}
+
+/// Lights with a radiance sampled at surfaces, before their shadow rays are traced.
 pub(super) struct SphereSamples {
     /// The lanes in which light may arrive.
     pub(super) lanes: u32,
@@ -139,9 +151,51 @@ impl<'v, 'm> Vertices<'v, 'm> {
         }
     }
 
-    /// Samples lights with a size, chosen with these probabilities; `may_go_on`
+    /// Samples lights without a radiance, given the indices of those that light the lanes: either all of
+    /// them are one, or all are at a finite distance.
+    pub(super) fn of_points(
+        &self,
+        level: Level,
+        (lights, chosen, lanes): (&[Light], &[usize; WIDTH], u32),
+        numbers: &Fours,
+    ) -> Option<PointSamples> {
+        dispatch!(level, simd => {
+            self.of_points_together(simd, (lights, chosen, lanes), numbers)
+        })
+    }
+
+    #[inline(always)]
+    fn of_points_together<S: Simd>(
+        &self,
+        simd: S,
+        (lights, chosen, lanes): (&[Light], &[usize; WIDTH], u32),
+        numbers: &Fours,
+    ) -> Option<PointSamples> {
+        let surface = self.surface.load(simd);
+        let mut incoming = incoming_each(simd, lights, (chosen, lanes), surface.point)?;
+        for lane in each_bit(lanes) {
+            let [u, v, ..] = numbers.lane(lane);
+            if let Some(sphere) = lights[chosen[lane]].sphere()
+                && let Some(chosen) = sphere.choose(self.surface.point.get(lane), [u, v])
+            {
+                incoming.put(lane, chosen);
+            }
+        }
+        let toward = incoming.toward;
+        let (scattered, _) = self.scatter(simd, lanes, toward);
+        let reflected = scattered + self.highlight(simd, lanes, toward);
+        let shadow = shadow_rays(&surface, incoming);
+        Some(PointSamples {
+            lanes: lanes & !bits::<S>(reflected.is_zero()),
+            reflected: reflected.store(),
+            toward: toward.store(),
+            shadow: shadow.store(),
+        })
+    }
+
+    /// Samples lights with a radiance, chosen with these probabilities; `may_go_on`
     /// says whether paths are not at their last bounce.
-    pub(super) fn light(
+    pub(super) fn of_spheres(
         &self,
         level: Level,
         (spheres, chances, lanes): (&Spheres<Row>, &Row, u32),
@@ -149,12 +203,12 @@ impl<'v, 'm> Vertices<'v, 'm> {
         may_go_on: bool,
     ) -> SphereSamples {
         dispatch!(level, simd => {
-            self.light_together(simd, (spheres, chances, lanes), numbers, may_go_on)
+            self.of_spheres_together(simd, (spheres, chances, lanes), numbers, may_go_on)
         })
     }
 
     #[inline(always)]
-    fn light_together<S: Simd>(
+    fn of_spheres_together<S: Simd>(
         &self,
         simd: S,
         (spheres, chances, lanes): (&Spheres<Row>, &Row, u32),
@@ -182,10 +236,7 @@ impl<'v, 'm> Vertices<'v, 'm> {
             light: light.over(chance).store(),
             places: places.store(),
             rays: self.leave(simd, toward),
-            shadow: Shadow {
-                rays: shadow.rays.store(),
-                ends: shadow.ends.into(),
-            },
+            shadow: shadow.store(),
         }
     }
 
