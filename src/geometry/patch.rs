@@ -2,6 +2,8 @@
 
 use glam::DVec3;
 
+use super::lanes::{Eight, Lanes, Simd, Vector, WIDTH};
+use super::mesh::gathered;
 use super::{Aabb, Affine, Instance, Shape, Solid};
 
 /// A part of a shape's surface.
@@ -24,6 +26,17 @@ pub struct Flat {
     pub sides: [DVec3; 2],
     /// The outward geometric normal, as long as its area.
     pub normal: DVec3,
+}
+
+/// The same, in each lane.
+#[derive(Clone, Copy, Debug)]
+pub struct Flats<N> {
+    /// A corner.
+    pub corner: Vector<N>,
+    /// The sides that start there.
+    pub sides: [Vector<N>; 2],
+    /// The outward geometric normal, as long as its area.
+    pub normal: Vector<N>,
 }
 
 /// An affine image of the unit sphere.
@@ -66,26 +79,40 @@ impl Shape {
             Self::Plane(plane) => {
                 let [x, y, _] = plane.0.axes();
                 let corner = plane.0.origin() - x - y;
-                Some(Patch::Parallelogram(Flat::new(
-                    corner,
-                    [2.0 * x, 2.0 * y],
-                    &plane.0,
-                )))
+                let sides = [2.0 * x, 2.0 * y].map(Vector::from);
+                let flats = Flats::new(corner.into(), sides, &plane.0);
+                Some(Patch::Parallelogram(flats.into()))
             }
-            Self::Mesh(instance) => Some(Patch::Triangle(instance.patch(part))),
+            Self::Mesh(instance) => {
+                let corners = instance.mesh().vertices(part).map(Vector::from);
+                Some(Patch::Triangle(instance.placed(corners).into()))
+            }
             Self::Solid(_) | Self::Csg(_) => None,
         }
     }
 }
 
 impl Instance {
-    /// A triangle.
-    fn patch(&self, triangle: u32) -> Flat {
-        let [a, b, c] = self.mesh().vertices(triangle);
-        let [x, y, z] = self.frame().axes();
-        let turned = |v: DVec3| v.x * x + v.y * y + v.z * z;
-        let corner = self.frame().origin() + turned(a);
-        Flat::new(corner, [turned(b - a), turned(c - a)], self.frame())
+    /// The triangles with these numbers in several lanes.
+    #[inline(always)]
+    pub fn triangles<S: Simd>(
+        &self,
+        simd: S,
+        triangles: &[u32; WIDTH],
+        lanes: u32,
+    ) -> Flats<Eight<S>> {
+        let vertices = |lane: usize| self.mesh().vertices(triangles[lane]);
+        self.placed(gathered(simd, lanes, vertices))
+    }
+
+    /// Triangles with vertices in unit space.
+    #[inline(always)]
+    fn placed<N: Lanes>(&self, [a, b, c]: [Vector<N>; 3]) -> Flats<N> {
+        let place = |vector: DVec3| Vector::all(a.x, vector);
+        let axes = self.frame().axes().map(place);
+        let corner = place(self.frame().origin()) + a.combine(axes);
+        let sides = [(b - a).combine(axes), (c - a).combine(axes)];
+        Flats::new(corner, sides, self.frame())
     }
 }
 
@@ -141,10 +168,11 @@ impl Patch {
     }
 }
 
-impl Flat {
+impl<N: Lanes> Flats<N> {
     /// Sides that turn counter-clockwise around the outward normal in the space that a frame maps to the
     /// world, which may mirror it.
-    fn new(corner: DVec3, sides: [DVec3; 2], frame: &Affine) -> Self {
+    #[inline(always)]
+    fn new(corner: Vector<N>, sides: [Vector<N>; 2], frame: &Affine) -> Self {
         let [x, y, z] = frame.axes();
         let across = sides[0].cross(sides[1]);
         let is_mirrored = x.cross(y).dot(z) < 0.0;
@@ -154,7 +182,29 @@ impl Flat {
             normal: if is_mirrored { -across } else { across },
         }
     }
+}
 
+impl From<Flats<f64>> for Flat {
+    fn from(flats: Flats<f64>) -> Self {
+        Self {
+            corner: flats.corner.into(),
+            sides: flats.sides.map(DVec3::from),
+            normal: flats.normal.into(),
+        }
+    }
+}
+
+impl From<&Flat> for Flats<f64> {
+    fn from(flat: &Flat) -> Self {
+        Self {
+            corner: flat.corner.into(),
+            sides: flat.sides.map(Vector::from),
+            normal: flat.normal.into(),
+        }
+    }
+}
+
+impl Flat {
     /// The area of the parallelogram.
     pub fn area(&self) -> f64 {
         self.normal.length()

@@ -18,6 +18,7 @@ use super::Aabb;
 pub use instance::{Instance, MeshLine};
 pub use lines::{MeshLines, NearestOnLines};
 pub use runs::{RoughLine, TriangleRun, TriangleRuns};
+pub(super) use surface::gathered;
 
 /// The margin of a triangle's box, in the unit space of the mesh: a crossing is computed from
 /// vertices at most 6 away from the line's start, and is off the line by less than half of this.

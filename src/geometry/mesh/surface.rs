@@ -22,10 +22,11 @@ impl Instance {
     #[inline(always)]
     pub fn surfaces<S: Simd>(&self, rays: &Rays<Eight<S>>, hits: &Hits) -> Shaded<Eight<S>> {
         let simd = rays.origin.x.simd;
-        let corners = gathered(simd, hits, |part| self.mesh().vertices(part));
-        let normals = self
-            .has_normals()
-            .then(|| gathered(simd, hits, |part| self.normals(part)));
+        let part = |lane: usize| hits.hit(lane).part;
+        let corners = |lane: usize| self.mesh().vertices(part(lane));
+        let corners = gathered(simd, hits.lanes, corners);
+        let normals = |lane: usize| self.normals(part(lane));
+        let normals = (self.has_normals()).then(|| gathered(simd, hits.lanes, normals));
         self.on_triangles(rays, corners, normals)
     }
 
@@ -137,17 +138,16 @@ impl Instance {
     }
 }
 
-/// Three vectors of each triangle that was hit; lanes without a hit repeat the first.
+/// Three vectors of the triangle in each lane; other lanes repeat the first.
 #[inline(always)]
-fn gathered<S: Simd>(
+pub(in crate::geometry) fn gathered<S: Simd>(
     simd: S,
-    hits: &Hits,
-    of: impl Fn(u32) -> [DVec3; 3],
+    lanes: u32,
+    of: impl Fn(usize) -> [DVec3; 3],
 ) -> [Vector<Eight<S>>; 3] {
-    let first = hits.lanes.trailing_zeros() as usize;
-    let mut gathered = of(hits.hit(first).part).map(Vector::<Row>::repeat);
-    for lane in each_bit(hits.lanes) {
-        let [a, b, c] = of(hits.hit(lane).part);
+    let mut gathered = of(lanes.trailing_zeros() as usize).map(Vector::<Row>::repeat);
+    for lane in each_bit(lanes) {
+        let [a, b, c] = of(lane);
         gathered[0].set(lane, a);
         gathered[1].set(lane, b);
         gathered[2].set(lane, c);

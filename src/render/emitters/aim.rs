@@ -6,7 +6,7 @@ use glam::DVec3;
 
 use super::super::warp;
 use crate::geometry::lanes::{Eight, Lanes, Row, Simd, Vector};
-use crate::geometry::{Ball, Flat, Patch};
+use crate::geometry::{Ball, Flat, Flats, Patch};
 
 /// A direction toward a part of a surface.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -30,10 +30,8 @@ const PARALLELOGRAM: f64 = 1.0;
 
 /// Flat parts of surfaces, in each lane.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Flats<N> {
-    corner: Vector<N>,
-    sides: [Vector<N>; 2],
-    normal: Vector<N>,
+pub(super) struct FlatParts<N> {
+    flats: Flats<N>,
     /// [`TRIANGLE`] or [`PARALLELOGRAM`]; 0 in unused lanes.
     part: N,
 }
@@ -53,8 +51,8 @@ impl Patch {
     /// sphere's space.
     pub(super) fn aim(&self, from: DVec3, place: [f64; 2]) -> Option<Aim> {
         let flats = match self {
-            Self::Triangle(flat) => Flats::new(flat, TRIANGLE),
-            Self::Parallelogram(flat) => Flats::new(flat, PARALLELOGRAM),
+            Self::Triangle(flat) => FlatParts::new(flat, TRIANGLE),
+            Self::Parallelogram(flat) => FlatParts::new(flat, PARALLELOGRAM),
             Self::Ball(ball) => return ball.aim(from, place),
         };
         let (aims, is_finite) = flats.aim(from.into(), place);
@@ -70,8 +68,8 @@ impl Patch {
     /// at a point.
     pub(super) fn density(&self, from: DVec3, toward: DVec3, at: DVec3) -> f64 {
         let flats = match self {
-            Self::Triangle(flat) => Flats::new(flat, TRIANGLE),
-            Self::Parallelogram(flat) => Flats::new(flat, PARALLELOGRAM),
+            Self::Triangle(flat) => FlatParts::new(flat, TRIANGLE),
+            Self::Parallelogram(flat) => FlatParts::new(flat, PARALLELOGRAM),
             Self::Ball(ball) => return ball.density(from, toward),
         };
         flats.density(toward.into(), at.distance_squared(from))
@@ -117,18 +115,26 @@ fn to_triangle<N: Lanes>([u, v]: [N; 2]) -> [N; 2] {
     ]
 }
 
-impl Flats<f64> {
+impl FlatParts<f64> {
     fn new(flat: &Flat, part: f64) -> Self {
-        Self {
-            corner: flat.corner.into(),
-            sides: [flat.sides[0].into(), flat.sides[1].into()],
-            normal: flat.normal.into(),
-            part,
-        }
+        let flats = flat.into();
+        Self { flats, part }
     }
 }
 
-impl<N: Lanes> Flats<N> {
+impl<N: Lanes> FlatParts<N> {
+    /// Replaces some by triangles.
+    #[inline(always)]
+    pub(super) fn put_triangles(&mut self, mask: N::Mask, triangles: &Flats<N>) {
+        let flats = &mut self.flats;
+        flats.corner = Vector::select(mask, triangles.corner, flats.corner);
+        for (side, &of_triangles) in flats.sides.iter_mut().zip(&triangles.sides) {
+            *side = Vector::select(mask, of_triangles, *side);
+        }
+        flats.normal = Vector::select(mask, triangles.normal, flats.normal);
+        self.part = N::select(mask, self.part.all(TRIANGLE), self.part);
+    }
+
     /// See [`Patch::aim`]; the mask selects lanes in which there is a direction.
     #[inline(always)]
     pub(super) fn aim(&self, from: Vector<N>, [u, v]: [N; 2]) -> (Aims<N>, N::Mask) {
@@ -136,7 +142,8 @@ impl<N: Lanes> Flats<N> {
         let [across, up] = to_triangle([u, v]);
         let u = N::select(is_triangle, across, u);
         let v = N::select(is_triangle, up, v);
-        let at = self.corner + self.sides[0].scaled(u) + self.sides[1].scaled(v);
+        let Flats { corner, sides, .. } = &self.flats;
+        let at = *corner + sides[0].scaled(u) + sides[1].scaled(v);
         let offset = at - from;
         let square = offset.length_squared();
         let distance = square.sqrt();
@@ -145,7 +152,7 @@ impl<N: Lanes> Flats<N> {
             toward,
             reach: distance.all(SLACK) * distance,
             density: self.density(toward, square),
-            is_front: toward.dot(self.normal).below(square.all(0.0)),
+            is_front: toward.dot(self.flats.normal).below(square.all(0.0)),
         };
         (aims, toward.is_finite())
     }
@@ -153,17 +160,19 @@ impl<N: Lanes> Flats<N> {
     /// The density per steradian, given the square of the distance.
     #[inline(always)]
     fn density(&self, toward: Vector<N>, square: N) -> N {
-        let seen = self.part * self.normal.dot(toward).abs();
+        let seen = self.part * self.flats.normal.dot(toward).abs();
         finite(square / seen)
     }
 }
 
-impl Flats<Row> {
+impl FlatParts<Row> {
     /// Room for flat parts.
     pub(super) const NONE: Self = Self {
-        corner: Vector::repeat(DVec3::ZERO),
-        sides: [Vector::repeat(DVec3::ZERO); 2],
-        normal: Vector::repeat(DVec3::ZERO),
+        flats: Flats {
+            corner: Vector::repeat(DVec3::ZERO),
+            sides: [Vector::repeat(DVec3::ZERO); 2],
+            normal: Vector::repeat(DVec3::ZERO),
+        },
         part: Row::all(0.0),
     };
 
@@ -175,22 +184,24 @@ impl Flats<Row> {
             Patch::Parallelogram(flat) => (flat, PARALLELOGRAM),
             Patch::Ball(_) => return false,
         };
-        self.corner.set(lane, flat.corner);
-        self.sides[0].set(lane, flat.sides[0]);
-        self.sides[1].set(lane, flat.sides[1]);
-        self.normal.set(lane, flat.normal);
+        self.flats.corner.set(lane, flat.corner);
+        self.flats.sides[0].set(lane, flat.sides[0]);
+        self.flats.sides[1].set(lane, flat.sides[1]);
+        self.flats.normal.set(lane, flat.normal);
         self.part.0[lane] = part;
         true
     }
 
     /// Loads the parts into SIMD vectors.
     #[inline(always)]
-    pub(super) fn load<S: Simd>(&self, simd: S) -> Flats<Eight<S>> {
-        let [across, up] = &self.sides;
-        Flats {
-            corner: self.corner.load(simd),
-            sides: [across.load(simd), up.load(simd)],
-            normal: self.normal.load(simd),
+    pub(super) fn load<S: Simd>(&self, simd: S) -> FlatParts<Eight<S>> {
+        let [across, up] = &self.flats.sides;
+        FlatParts {
+            flats: Flats {
+                corner: self.flats.corner.load(simd),
+                sides: [across.load(simd), up.load(simd)],
+                normal: self.flats.normal.load(simd),
+            },
             part: self.part.load(simd),
         }
     }

@@ -22,9 +22,9 @@ use super::optics::strength;
 use super::sampler::Fours;
 use super::texture::Textures;
 use crate::geometry::lanes::{Lanes, Row, Simd, Vector, WIDTH, bits, each_bit, mask};
-use crate::geometry::{Hit, Patch, Ray, Shape};
+use crate::geometry::{Hit, Instance, Patch, Ray, Shape};
 use crate::scene::{Faces, Material, Object, Rgb, Scene, Tinted};
-use aim::{Aim, Flats};
+use aim::{Aim, FlatParts};
 use cone::{Cone, Reach};
 pub(crate) use many::ManyLights;
 use tree::Tree;
@@ -124,6 +124,34 @@ impl Choices {
         self.reach.0[lane] = choice.reach;
         self.density.0[lane] = choice.density;
         self.front |= u32::from(choice.is_front) << lane;
+    }
+}
+
+/// The lanes whose emitters are triangles of one mesh, the first found: a batch rarely has several.
+/// Their vertices are read lane after lane, so that the waits for memory overlap.
+#[derive(Default)]
+struct MeshLanes<'s> {
+    instance: Option<&'s Instance>,
+    object: u32,
+    lanes: u32,
+    triangles: [u32; WIDTH],
+}
+
+impl<'s> MeshLanes<'s> {
+    /// Whether a part of an object is a triangle of the mesh, in which case it is taken into a lane.
+    #[inline(always)]
+    fn take(&mut self, scene: &'s Scene, lane: usize, (object, part): (u32, u32)) -> bool {
+        if self.instance.is_none()
+            && let Shape::Mesh(instance) = &scene.objects[object as usize].shape
+        {
+            (self.instance, self.object) = (Some(instance.as_ref()), object);
+        }
+        let takes = self.instance.is_some() && object == self.object;
+        if takes {
+            self.lanes |= 1 << lane;
+            self.triangles[lane] = part;
+        }
+        takes
     }
 }
 
@@ -234,22 +262,26 @@ impl Emitters {
     ) -> Choices {
         let (from, _) = at;
         let picked = self.tree.choose_together(simd, at, &numbers.0[2], lanes);
-        let mut flats = Flats::NONE;
+        let mut flats = FlatParts::NONE;
         let mut chances = Row::all(0.0);
         let mut choices = Choices::default();
         let mut flat = 0;
+        let mut in_mesh = MeshLanes::default();
         for lane in each_bit(lanes) {
             let Some(Picked { emitter, chance }) = picked[lane] else {
                 continue;
             };
+            let Part { object, part } = self.parts[emitter as usize];
+            choices.parts[lane] = (object, part);
+            chances.0[lane] = chance;
+            if in_mesh.take(scene, lane, (object, part)) {
+                continue;
+            }
             let Some(patch) = self.patch(scene, emitter) else {
                 continue;
             };
             if flats.set(lane, &patch) {
                 flat |= 1 << lane;
-                chances.0[lane] = chance;
-                let Part { object, part } = self.parts[emitter as usize];
-                choices.parts[lane] = (object, part);
             } else {
                 let [u, v, ..] = numbers.lane(lane);
                 if let Some(aim) = patch.aim(from.get(lane), [u, v]) {
@@ -257,8 +289,13 @@ impl Emitters {
                 }
             }
         }
+        flat |= in_mesh.lanes;
         if flat != 0 {
-            let flats = flats.load(simd);
+            let mut flats = flats.load(simd);
+            if let Some(instance) = in_mesh.instance {
+                let triangles = instance.triangles(simd, &in_mesh.triangles, in_mesh.lanes);
+                flats.put_triangles(mask(simd, in_mesh.lanes), &triangles);
+            }
             let (aims, is_finite) = flats.aim(from.load(simd), numbers.pair(simd));
             let flat = flat & bits::<S>(is_finite);
             let chosen = mask(simd, flat);

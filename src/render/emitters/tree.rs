@@ -3,6 +3,8 @@
 //! Adaptive Tree Splitting", 2018; Pharr, Jakob and Humphreys, "Physically Based Rendering", 4th
 //! edition, 2023, §12.6.3).
 
+use std::ops::Range;
+
 use glam::DVec3;
 
 use super::cone::{Cone, Reach};
@@ -139,7 +141,7 @@ impl Tree {
         numbers: &Row,
         lanes: u32,
     ) -> [Option<Picked>; WIDTH] {
-        let mut chosen = [None; WIDTH];
+        let mut alike = 0;
         let mut searches = [Search::new(0.0); WIDTH];
         for lane in each_bit(lanes) {
             searches[lane] = Search::new(numbers.0[lane]);
@@ -156,7 +158,7 @@ impl Tree {
                         rows.put(lane, &self.nodes[node]);
                     }
                 } else {
-                    chosen[lane] = self.among_alike(&searches[lane]).map(Picked::from);
+                    alike |= 1 << lane;
                     active &= !(1 << lane);
                 }
             }
@@ -173,7 +175,7 @@ impl Tree {
                 }
             }
         }
-        chosen
+        self.among_alike_together(&searches, alike)
     }
 
     /// The children of the node that a search has reached; `None` if its emitters, seen from the point,
@@ -185,13 +187,64 @@ impl Tree {
 
     /// Chooses among the emitters of the node that a search has reached, by strength.
     fn among_alike(&self, search: &Search) -> Option<(u32, f64)> {
-        let at = search.at;
-        let sums = &self.sums[at.1..self.nodes[at.0].end as usize];
-        let before = at.1.checked_sub(1).map_or(0.0, |last| self.sums[last]);
-        let sought = before + search.number * (sums[sums.len() - 1] - before);
-        let place = sums.partition_point(|&sum| sum <= sought);
-        let place = at.1 + place.min(sums.len() - 1);
-        let share = self.share(at, place);
+        let (places, sought) = self.sought(search);
+        let place = self.sums[places.clone()].partition_point(|&sum| sum <= sought);
+        self.found(search, places.start + place)
+    }
+
+    /// The same for the searches in several lanes, side by side so that the waits for memory overlap.
+    #[inline(always)]
+    fn among_alike_together(
+        &self,
+        searches: &[Search; WIDTH],
+        lanes: u32,
+    ) -> [Option<Picked>; WIDTH] {
+        let (mut starts, mut counts, mut sought) = ([0; WIDTH], [0; WIDTH], [0.0; WIDTH]);
+        let mut most = 0;
+        for lane in each_bit(lanes) {
+            let places;
+            (places, sought[lane]) = self.sought(&searches[lane]);
+            (starts[lane], counts[lane]) = (places.start, places.len());
+            most = most.max(places.len());
+        }
+        // Of a node's emitters, the first whose sum is above the one sought is among the `counts` from
+        // `starts` on, or follows them.
+        while most != 0 {
+            for lane in each_bit(lanes) {
+                let half = counts[lane] / 2;
+                let middle = starts[lane] + half;
+                if counts[lane] != 0 && self.sums[middle] <= sought[lane] {
+                    starts[lane] = middle + 1;
+                    counts[lane] -= half + 1;
+                } else {
+                    counts[lane] = half;
+                }
+            }
+            most /= 2;
+        }
+        let mut chosen = [None; WIDTH];
+        for lane in each_bit(lanes) {
+            chosen[lane] = self.found(&searches[lane], starts[lane]).map(Picked::from);
+        }
+        chosen
+    }
+
+    /// The places of the emitters of the node that a search has reached, and the sum that is sought there.
+    #[inline(always)]
+    fn sought(&self, search: &Search) -> (Range<usize>, f64) {
+        let (node, first) = search.at;
+        let end = self.nodes[node].end as usize;
+        let before = first.checked_sub(1).map_or(0.0, |last| self.sums[last]);
+        let sought = before + search.number * (self.sums[end - 1] - before);
+        (first..end, sought)
+    }
+
+    /// The emitter at a place or, beyond the end of the node that a search has reached, its last.
+    #[inline(always)]
+    fn found(&self, search: &Search, place: usize) -> Option<(u32, f64)> {
+        let last = self.nodes[search.at.0].end as usize - 1;
+        let place = place.min(last);
+        let share = self.share(search.at, place);
         (0.0 < share).then(|| (self.order[place], search.chance * share))
     }
 
