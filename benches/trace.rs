@@ -176,7 +176,12 @@ fn mesh(name: &str, cores: usize) {
             .map(|number| mesh.triangle_bounds(number))
             .collect();
         let bvh = Bvh::build(&boxes, || false).expect("nothing cancels");
-        let runs = TriangleRuns::new(mesh, bvh.order(), &bvh.runs(), &|| false);
+        let runs = TriangleRuns::new(
+            mesh,
+            bvh.order(),
+            &bvh.runs(|| false).expect("never cancelled"),
+            &|| false,
+        );
         (bvh, runs.expect("nothing cancels"))
     };
     // First, as freed memory may later stay resident.

@@ -71,6 +71,11 @@ pub enum Order {
 /// The maximum number of boxes in a leaf, and in any run visited at once.
 pub const RUN: usize = 8;
 
+/// Whether cancellation is asked for at this step of a loop: every few milliseconds.
+fn is_due(step: usize) -> bool {
+    step.is_multiple_of(1 << 14)
+}
+
 impl Bvh {
     /// Builds the tree in parallel on the current rayon pool; the result depends on the boxes only.
     /// Returns `None` if `cancelled` returns true; it is called at least every few milliseconds.
@@ -91,21 +96,29 @@ impl Bvh {
     }
 
     /// Adapts the tree to a few changed boxes. Returns `None` if a new one is better: after many
-    /// changes, for few boxes, or if a box becomes or ceases to be empty or unbounded.
-    pub fn refitted(&self, changed: &[u32], aabb: impl Fn(u32) -> Aabb) -> Option<Self> {
-        refit::refit(self, changed, aabb)
+    /// changes, for few boxes, or if a box becomes or ceases to be empty or unbounded; and if `cancelled`
+    /// returns true, which is called every few milliseconds.
+    pub fn refitted(
+        &self,
+        changed: &[u32],
+        aabb: impl Fn(u32) -> Aabb,
+        cancelled: impl Fn() -> bool,
+    ) -> Option<Self> {
+        refit::refit(self, changed, aabb, cancelled)
     }
 
     /// Adapts the tree to `inserted` boxes in place of those in `removed`, which shifts the indices of later
     /// boxes. `aabb` takes new indices. Returns `None` if a new tree is better: after many changes, for few
-    /// boxes, or if a new box is empty, unbounded or near a full leaf.
+    /// boxes, or if a new box is empty, unbounded or near a full leaf; and if `cancelled` returns true, which
+    /// is called every few milliseconds.
     pub fn spliced(
         &self,
         removed: Range<u32>,
         inserted: u32,
         aabb: impl Fn(u32) -> Aabb,
+        cancelled: impl Fn() -> bool,
     ) -> Option<Self> {
-        splice::splice(self, removed, inserted, aabb)
+        splice::splice(self, removed, inserted, aabb, cancelled)
     }
 
     /// Whether a packet is traced faster together than ray by ray.
@@ -124,8 +137,9 @@ impl Bvh {
         &self.order
     }
 
-    /// The ranges of [`Bvh::order`] that are visited at once, in ascending order.
-    pub fn runs(&self) -> Vec<Range<usize>> {
+    /// The ranges of [`Bvh::order`] that are visited at once, in ascending order. `None` if `cancelled`
+    /// returns true, which is called every few milliseconds.
+    pub fn runs(&self, cancelled: impl Fn() -> bool) -> Option<Vec<Range<usize>>> {
         let children = |node: &Node| node.filled().count_ones() as usize;
         let leaves = 1 + self.nodes.iter().map(children).sum::<usize>() - self.nodes.len();
         let mut runs = Vec::with_capacity(leaves + self.unbounded().count());
@@ -135,6 +149,9 @@ impl Bvh {
         while let Some(child) = pending.pop() {
             match child {
                 Child::Inner(number) => {
+                    if is_due(number as usize) && cancelled() {
+                        return None;
+                    }
                     let node = &self.nodes[number as usize];
                     pending.extend((0..WIDTH).rev().map(|lane| node.child(lane)));
                 }
@@ -147,7 +164,7 @@ impl Bvh {
             }
         }
         runs.extend(self.unbounded());
-        runs
+        Some(runs)
     }
 
     /// Calls `visit` with ranges of [`Bvh::order`], at most [`RUN`] long, that include every box

@@ -1,7 +1,7 @@
 //! Refits a tree to a few moved boxes without changing its topology.
 
-use super::Bvh;
 use super::node::{Bounds, Child, Node, WIDTH};
+use super::{Bvh, is_due};
 use crate::geometry::Aabb;
 
 /// The maximum number of boxes moved at once: each is searched for among all.
@@ -12,7 +12,12 @@ const MAX_MOVED: usize = 16;
 const BOXES_PER_MOVE: usize = 1024;
 
 /// See [`Bvh::refitted`].
-pub(super) fn refit(bvh: &Bvh, changed: &[u32], aabb: impl Fn(u32) -> Aabb) -> Option<Bvh> {
+pub(super) fn refit(
+    bvh: &Bvh,
+    changed: &[u32],
+    aabb: impl Fn(u32) -> Aabb,
+    cancelled: impl Fn() -> bool,
+) -> Option<Bvh> {
     if !may_change(bvh, changed.len()) {
         return None;
     }
@@ -22,10 +27,16 @@ pub(super) fn refit(bvh: &Bvh, changed: &[u32], aabb: impl Fn(u32) -> Aabb) -> O
         return None;
     }
     let bounded = &bvh.order[..bvh.bounded];
-    let find = |index: &u32| bounded.iter().position(|other| other == index);
+    let find = |index: &u32| {
+        let place = bounded.iter().position(|other| other == index);
+        place.filter(|_| !cancelled())
+    };
     let positions: Vec<usize> = changed.iter().map(find).collect::<Option<_>>()?;
     let mut leaves = Vec::new();
     for (number, node) in bvh.nodes.iter().enumerate() {
+        if is_due(number) && cancelled() {
+            return None;
+        }
         for lane in 0..WIDTH {
             if let Child::Leaf { first, count } = node.child(lane) {
                 let run = first as usize..first as usize + usize::from(count);
@@ -35,8 +46,8 @@ pub(super) fn refit(bvh: &Bvh, changed: &[u32], aabb: impl Fn(u32) -> Aabb) -> O
             }
         }
     }
-    let mut nodes = bvh.nodes.clone();
-    let parents = Parents::of(&nodes);
+    let mut nodes = copied(&bvh.nodes, &cancelled)?;
+    let parents = Parents::of(&nodes, &cancelled)?;
     for (number, lane) in leaves {
         let child = nodes[number].child(lane);
         let Child::Leaf { first, count } = child else {
@@ -53,10 +64,24 @@ pub(super) fn refit(bvh: &Bvh, changed: &[u32], aabb: impl Fn(u32) -> Aabb) -> O
         spread: bvh.spread,
         farthest: nodes.first().map_or(0.0, Node::farthest),
         nodes,
-        order: bvh.order.clone(),
+        order: copied(&bvh.order, &cancelled)?,
         bounded: bvh.bounded,
         moved: bvh.moved + changed.len(),
     })
+}
+
+/// Copies part by part; `None` once `cancelled` returns true.
+pub(super) fn copied<T: Clone>(items: &[T], cancelled: impl Fn() -> bool) -> Option<Vec<T>> {
+    /// Up to a few megabytes.
+    const PART: usize = 1 << 14;
+    let mut copy = Vec::with_capacity(items.len());
+    for part in items.chunks(PART) {
+        if cancelled() {
+            return None;
+        }
+        copy.extend_from_slice(part);
+    }
+    Some(copy)
 }
 
 /// Whether `count` more boxes may change before a new tree is better.
@@ -68,16 +93,20 @@ pub(super) fn may_change(bvh: &Bvh, count: usize) -> bool {
 pub(super) struct Parents(Vec<(usize, usize)>);
 
 impl Parents {
-    pub(super) fn of(nodes: &[Node]) -> Self {
+    /// `None` once `cancelled` returns true.
+    pub(super) fn of(nodes: &[Node], cancelled: impl Fn() -> bool) -> Option<Self> {
         let mut places = vec![(0, 0); nodes.len()];
         for (number, node) in nodes.iter().enumerate() {
+            if is_due(number) && cancelled() {
+                return None;
+            }
             for lane in 0..WIDTH {
                 if let Child::Inner(child) = node.child(lane) {
                     places[child as usize] = (number, lane);
                 }
             }
         }
-        Self(places)
+        Some(Self(places))
     }
 
     /// Adapts the boxes of a node whose children have changed, and of those above it.

@@ -3,8 +3,8 @@
 use std::ops::Range;
 
 use super::node::{Bounds, Child, Node, WIDTH};
-use super::refit::{Parents, may_change};
-use super::{Bvh, RUN};
+use super::refit::{Parents, copied, may_change};
+use super::{Bvh, RUN, is_due};
 use crate::geometry::Aabb;
 
 /// Changes of [`Bvh::order`]. Places are those before the changes.
@@ -22,6 +22,7 @@ pub(super) fn splice(
     removed: Range<u32>,
     inserted: u32,
     aabb: impl Fn(u32) -> Aabb,
+    cancelled: impl Fn() -> bool,
 ) -> Option<Bvh> {
     let count = removed.len() + inserted as usize;
     if !may_change(bvh, count) {
@@ -53,10 +54,13 @@ pub(super) fn splice(
             index - (removed.end - removed.start) + inserted
         }
     };
-    let order = changes.applied(&bvh.order, renumbered);
-    let mut nodes = bvh.nodes.clone();
+    let order = changes.applied(&bvh.order, renumbered, &cancelled)?;
+    let mut nodes = copied(&bvh.nodes, &cancelled)?;
     let mut touched = Vec::new();
     for (number, node) in nodes.iter_mut().enumerate() {
+        if is_due(number) && cancelled() {
+            return None;
+        }
         for lane in 0..WIDTH {
             let Child::Leaf { first, count } = node.child(lane) else {
                 continue;
@@ -81,7 +85,7 @@ pub(super) fn splice(
             node.put(lane, &own, child);
         }
     }
-    let parents = Parents::of(&nodes);
+    let parents = Parents::of(&nodes, &cancelled)?;
     for number in touched {
         parents.enclose(&mut nodes, number);
     }
@@ -138,12 +142,21 @@ impl Changes {
         self.removed.iter().any(|place| run.contains(place)) || self.inserted.iter().any(is_end)
     }
 
-    /// The order after the changes, with new indices of the boxes that stay.
-    fn applied(&self, order: &[u32], renumbered: impl Fn(u32) -> u32) -> Vec<u32> {
+    /// The order after the changes, with new indices of the boxes that stay; `None` once `cancelled`
+    /// returns true.
+    fn applied(
+        &self,
+        order: &[u32],
+        renumbered: impl Fn(u32) -> u32,
+        cancelled: impl Fn() -> bool,
+    ) -> Option<Vec<u32>> {
         let mut new = Vec::with_capacity(order.len() + self.inserted.len());
         let mut removed = self.removed.iter().peekable();
         let mut inserted = self.inserted.iter().peekable();
         for (place, &index) in order.iter().enumerate() {
+            if is_due(place) && cancelled() {
+                return None;
+            }
             while let Some((_, inserted)) = inserted.next_if(|(before, _)| *before <= place) {
                 new.push(*inserted);
             }
@@ -152,6 +165,6 @@ impl Changes {
             }
         }
         new.extend(inserted.map(|(_, index)| *index));
-        new
+        Some(new)
     }
 }

@@ -42,7 +42,7 @@ impl MeshTree {
     fn build(mesh: &Mesh, cancelled: &(dyn Fn() -> bool + Sync)) -> Option<Self> {
         let bounds = |triangle: u32| mesh.triangle_bounds(triangle);
         let bvh = Bvh::over(mesh.len(), bounds, cancelled)?;
-        let runs = TriangleRuns::new(mesh, bvh.order(), &bvh.runs(), cancelled)?;
+        let runs = TriangleRuns::new(mesh, bvh.order(), &bvh.runs(cancelled)?, cancelled)?;
         Some(Self { bvh, runs })
     }
 

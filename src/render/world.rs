@@ -181,10 +181,11 @@ impl World {
             let known = previous.and_then(|world| world.tree.as_ref());
             let adapted = known.and_then(|tree| {
                 if let Some(changed) = changed {
-                    return tree.refitted(&changed, bounds);
+                    return tree.refitted(&changed, bounds, cancelled);
                 }
-                let (removed, inserted) = replaced(&previous?.scene.objects, objects)?;
-                tree.spliced(removed, inserted, bounds)
+                let before = &previous?.scene.objects;
+                let (removed, inserted) = replaced(before, objects, cancelled)?;
+                tree.spliced(removed, inserted, bounds, cancelled)
             });
             let tree = match adapted {
                 Some(tree) => tree,
@@ -199,7 +200,7 @@ impl World {
             None => &FILE_ORDER[..scene.objects.len()],
         };
         let runs = match &tree {
-            Some(tree) => tree.runs(),
+            Some(tree) => tree.runs(cancelled)?,
             None => runs_in_file_order(scene.objects.len()).collect(),
         };
         let spheres = Arc::new(Spheres::new(&scene.objects, order, &runs, cancelled)?);
@@ -295,8 +296,14 @@ fn opaque_meshes(scene: &Scene) -> Vec<bool> {
 }
 
 /// The run of objects removed from a list, or where and how many were inserted, if all others keep their
-/// shapes; `None` otherwise, or if there are many.
-fn replaced(before: &Objects, after: &Objects) -> Option<(Range<u32>, u32)> {
+/// shapes; `None` otherwise, or if there are many, or once `cancelled` returns true.
+fn replaced(
+    before: &Objects,
+    after: &Objects,
+    cancelled: &(dyn Fn() -> bool + Sync),
+) -> Option<(Range<u32>, u32)> {
+    /// Cancellation is asked for once in this many objects.
+    const POLLED: usize = 1 << 12;
     /// The maximum number of objects removed or inserted.
     const MANY: usize = 16;
     let (removed, inserted) = (
@@ -310,7 +317,10 @@ fn replaced(before: &Objects, after: &Objects) -> Option<(Range<u32>, u32)> {
     let first = before.differences(after, is_other).next();
     let first = first.unwrap_or_else(|| before.len().min(after.len()));
     let rest = (first + removed..before.len()).into_par_iter();
-    let is_same = |number: usize| before[number].shape == after[number - removed + inserted].shape;
+    let is_same = |number: usize| {
+        let goes_on = !number.is_multiple_of(POLLED) || !cancelled();
+        goes_on && before[number].shape == after[number - removed + inserted].shape
+    };
     let start = first as u32;
     rest.all(is_same)
         .then_some((start..start + removed as u32, inserted as u32))

@@ -1,5 +1,6 @@
 //! Tests of built trees.
 
+use std::cell::Cell;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use super::super::RUN;
@@ -162,17 +163,20 @@ fn a_tree_follows_boxes_that_move() {
     for turn in 0..19 {
         let moved = random.bits() as u32 % 20_000;
         boxes[moved as usize] = cube(3.0 * random.point(), random.point().abs());
-        let refitted = bvh.refitted(&[moved], |index| boxes[index as usize]);
+        let refitted = bvh.refitted(&[moved], |index| boxes[index as usize], || false);
         bvh = refitted.unwrap_or_else(|| panic!("box {turn} is not refitted"));
         check_tree(&bvh, &boxes);
     }
-    assert!(bvh.refitted(&[1], |index| boxes[index as usize]).is_none());
-    let bvh = build(&boxes);
-    assert!(bvh.refitted(&[1], |_| Aabb::EMPTY).is_none());
-    let endless = cube(DVec3::ZERO, DVec3::INFINITY);
-    assert!(bvh.refitted(&[1], |_| endless).is_none());
     assert!(
-        bvh.refitted(&[0; 17], |index| boxes[index as usize])
+        bvh.refitted(&[1], |index| boxes[index as usize], || false)
+            .is_none()
+    );
+    let bvh = build(&boxes);
+    assert!(bvh.refitted(&[1], |_| Aabb::EMPTY, || false).is_none());
+    let endless = cube(DVec3::ZERO, DVec3::INFINITY);
+    assert!(bvh.refitted(&[1], |_| endless, || false).is_none());
+    assert!(
+        bvh.refitted(&[0; 17], |index| boxes[index as usize], || false)
             .is_none()
     );
 }
@@ -197,12 +201,17 @@ fn a_tree_follows_boxes_that_come_and_go() {
         let new = random_boxes(&mut random, inserted, 1.0, DVec3::ZERO);
         boxes.splice(start..start + removed, new);
         let places = start as u32..(start + removed) as u32;
-        let spliced = bvh.spliced(places, inserted as u32, |index| boxes[index as usize]);
+        let spliced = bvh.spliced(
+            places,
+            inserted as u32,
+            |index| boxes[index as usize],
+            || false,
+        );
         followed += u32::from(spliced.is_some());
         // Near a full leaf, a new tree is needed.
         bvh = spliced.unwrap_or_else(|| build(&boxes));
         check_tree(&bvh, &boxes);
-        let runs = bvh.runs();
+        let runs = bvh.runs(|| false).expect("never cancelled");
         assert!(runs.is_sorted_by_key(|run| run.start));
         assert!(runs.iter().all(|run| (1..=RUN).contains(&run.len())));
     }
@@ -218,7 +227,7 @@ fn a_tree_is_built_anew_where_boxes_have_no_room() {
     let mut room = 0;
     loop {
         boxes.insert(8, at);
-        let Some(spliced) = bvh.spliced(8..8, 1, |index| boxes[index as usize]) else {
+        let Some(spliced) = bvh.spliced(8..8, 1, |index| boxes[index as usize], || false) else {
             break;
         };
         check_tree(&spliced, &boxes);
@@ -228,16 +237,53 @@ fn a_tree_is_built_anew_where_boxes_have_no_room() {
     assert!(room < RUN, "{room}");
     let bvh = build(&boxes);
     let spliced = |places: std::ops::Range<u32>, inserted, aabb: Aabb| {
-        bvh.spliced(places, inserted, |_| aabb).is_some()
+        bvh.spliced(places, inserted, |_| aabb, || false).is_some()
     };
     assert!(spliced(0..16, 0, at));
     assert!(!spliced(0..17, 0, at));
     assert!(!spliced(0..0, 1, Aabb::EMPTY));
     assert!(!spliced(0..0, 1, cube(DVec3::ZERO, DVec3::INFINITY)));
     assert!(
-        build(&boxes[..1000]).spliced(0..1, 0, |_| at).is_none(),
+        build(&boxes[..1000])
+            .spliced(0..1, 0, |_| at, || false)
+            .is_none(),
         "too few"
     );
+}
+
+/// Whenever cancellation is requested, nothing is returned, and it is not asked for again.
+#[test]
+fn changes_of_a_tree_can_be_cancelled() {
+    let boxes = random_boxes(&mut Random(14), 100_000, 1.0, DVec3::ZERO);
+    let bvh = build(&boxes);
+    let aabb = |index: u32| boxes[index as usize];
+    let changes: [(&str, &dyn Fn(&dyn Fn() -> bool) -> bool); 3] = [
+        ("refitted", &|cancelled| {
+            bvh.refitted(&[7], aabb, cancelled).is_some()
+        }),
+        ("spliced", &|cancelled| {
+            bvh.spliced(7..8, 1, aabb, cancelled).is_some()
+        }),
+        ("runs", &|cancelled| bvh.runs(cancelled).is_some()),
+    ];
+    for (name, change) in changes {
+        let polled = Cell::new(0);
+        assert!(change(&|| {
+            polled.set(polled.get() + 1);
+            false
+        }));
+        let polls = polled.get();
+        assert!(1 < polls, "{name}");
+        for late in 1..=polls {
+            polled.set(0);
+            let cancelled = || {
+                polled.set(polled.get() + 1);
+                late <= polled.get()
+            };
+            assert!(!change(&cancelled), "{name}, {late} of {polls}");
+            assert_eq!(polled.get(), late, "{name}");
+        }
+    }
 }
 
 /// All boxes of some leaves are removed.
@@ -250,15 +296,12 @@ fn leaves_may_become_empty() {
     }
     let bvh = build(&boxes);
     boxes.drain(..16);
-    let spliced = bvh.spliced(0..16, 0, |index| boxes[index as usize]);
+    let spliced = bvh.spliced(0..16, 0, |index| boxes[index as usize], || false);
     let spliced = spliced.expect("few boxes are removed");
     check_tree(&spliced, &boxes);
     assert!(spliced.farthest < 10.0, "{}", spliced.farthest);
-    let lengths = spliced
-        .runs()
-        .iter()
-        .map(ExactSizeIterator::len)
-        .sum::<usize>();
+    let runs = spliced.runs(|| false).expect("never cancelled");
+    let lengths = runs.iter().map(ExactSizeIterator::len).sum::<usize>();
     assert_eq!(lengths, boxes.len());
 }
 
@@ -299,7 +342,7 @@ fn runs_are_the_leaves_in_order() {
         let mut boxes = random_boxes(&mut random, count, 1.0, DVec3::ZERO);
         boxes.extend([infinite; 3]);
         let bvh = build(&boxes);
-        let runs = bvh.runs();
+        let runs = bvh.runs(|| false).expect("never cancelled");
         let joined: Vec<usize> = runs.iter().cloned().flatten().collect();
         let all: Vec<usize> = (0..bvh.order().len()).collect();
         assert_eq!(joined, all);
