@@ -251,38 +251,32 @@ fn a_tree_is_built_anew_where_boxes_have_no_room() {
     );
 }
 
-/// Whenever cancellation is requested, nothing is returned, and it is not asked for again.
 #[test]
 fn changes_of_a_tree_can_be_cancelled() {
     let boxes = random_boxes(&mut Random(14), 100_000, 1.0, DVec3::ZERO);
     let bvh = build(&boxes);
     let aabb = |index: u32| boxes[index as usize];
-    let changes: [(&str, &dyn Fn(&dyn Fn() -> bool) -> bool); 3] = [
-        ("refitted", &|cancelled| {
-            bvh.refitted(&[7], aabb, cancelled).is_some()
-        }),
-        ("spliced", &|cancelled| {
-            bvh.spliced(7..8, 1, aabb, cancelled).is_some()
-        }),
-        ("runs", &|cancelled| bvh.runs(cancelled).is_some()),
-    ];
-    for (name, change) in changes {
-        let polled = Cell::new(0);
-        assert!(change(&|| {
-            polled.set(polled.get() + 1);
-            false
-        }));
-        let polls = polled.get();
-        assert!(1 < polls, "{name}");
-        for late in 1..=polls {
-            polled.set(0);
-            let cancelled = || {
-                polled.set(polled.get() + 1);
-                late <= polled.get()
-            };
-            assert!(!change(&cancelled), "{name}, {late} of {polls}");
-            assert_eq!(polled.get(), late, "{name}");
-        }
+    check_cancelling(|cancelled| bvh.refitted(&[7], aabb, cancelled).is_some());
+    check_cancelling(|cancelled| bvh.spliced(7..8, 1, aabb, cancelled).is_some());
+    check_cancelling(|cancelled| bvh.runs(cancelled).is_some());
+}
+
+/// Whenever work is cancelled, it returns nothing and does not ask again.
+fn check_cancelling(is_done: impl Fn(&dyn Fn() -> bool) -> bool) {
+    let polls = Cell::new(0);
+    let cancelled_at = |last: usize| {
+        polls.set(0);
+        is_done(&|| {
+            polls.set(polls.get() + 1);
+            polls.get() == last
+        })
+    };
+    assert!(cancelled_at(usize::MAX));
+    let all = polls.get();
+    assert!(1 < all, "{all}");
+    for last in 1..=all {
+        assert!(!cancelled_at(last), "{last} of {all}");
+        assert_eq!(polls.get(), last);
     }
 }
 
