@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use clap::Args;
 
-use super::shared::{AssetArguments, StrictnessArguments, picture_format};
+use super::shared::{AssetArguments, StrictnessArguments, at_least, picture_format, whole_number};
 use super::tracing::TracingArguments;
 use crate::batch::{Compare, Report};
 
@@ -31,10 +31,10 @@ pub(super) struct CompareArguments {
     #[arg(value_name = "B")]
     b: PathBuf,
     /// Largest difference of a channel, in levels of 255, that does not count
-    #[arg(long, value_name = "LEVELS", default_value_t = 0)]
+    #[arg(long, value_name = "LEVELS", default_value_t = 0, allow_negative_numbers = true, value_parser = whole_number(0, u8::MAX))]
     tolerance: u8,
     /// Number of pixels that may differ by more than the tolerance
-    #[arg(long, value_name = "N", default_value_t = 0)]
+    #[arg(long, value_name = "N", default_value_t = 0, allow_negative_numbers = true, value_parser = at_least(0_usize))]
     max_differing: usize,
     /// Print the figures as JSON
     #[arg(long)]

@@ -3,11 +3,11 @@
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
-use clap::{ArgGroup, Args, value_parser};
+use clap::{ArgGroup, Args};
 
 use super::choices::{ColourChoice, PixelsChoice, ThemeChoice};
 use super::rendering::RenderingArguments;
-use super::shared::{AssetArguments, spp_range, threads_range};
+use super::shared::{AssetArguments, spp_range, threads_range, whole_number};
 use crate::config::{self, MAX_BANDWIDTH, POLLS};
 use crate::ui;
 use crate::ui::keymap::Keymap;
@@ -40,12 +40,13 @@ pub(super) struct InterfaceArguments {
     /// network file systems, which send no change notifications
     #[arg(
         long, value_name = "MS", num_args = 0..=1, require_equals = true,
-        default_missing_value = "500", value_parser = value_parser!(u64).range(POLLS)
+        default_missing_value = "500", value_parser = whole_number(*POLLS.start(), *POLLS.end())
     )]
     poll: Option<u64>,
     /// Limit terminal output, in KB/s (1000 bytes per second), up to 4000000; 0 means no limit
     #[arg(
-        long, value_name = "KB/s", value_parser = value_parser!(u32).range(..=i64::from(MAX_BANDWIDTH))
+        long, value_name = "KB/s", allow_negative_numbers = true,
+        value_parser = whole_number(0, MAX_BANDWIDTH)
     )]
     bandwidth: Option<u32>,
     /// Colour depth of the terminal [default: auto]

@@ -2,13 +2,13 @@
 
 use std::path::PathBuf;
 
+use clap::Args;
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
-use clap::{Args, value_parser};
 
 use super::choices::{AovChoice, ProgressChoice};
 use super::shared::{
-    AssetArguments, StrictnessArguments, destination, format_named, output, output_help,
-    picture_format, picture_names,
+    AssetArguments, StrictnessArguments, at_least, destination, format_named, output, output_help,
+    picture_format, picture_names, whole_number,
 };
 use super::tracing::TracingArguments;
 use crate::batch::{
@@ -105,7 +105,7 @@ struct ContentArguments {
 #[derive(Args, Debug)]
 struct SequenceArguments {
     /// Render N frames of a full turn around the view's target
-    #[arg(long, value_name = "N", value_parser = value_parser!(u32).range(1..))]
+    #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = at_least(1_u32))]
     turntable: Option<u32>,
     /// Render the frames of a track file, which changes fields of the scene and moves the camera; see
     /// scenes/README.md
@@ -115,7 +115,7 @@ struct SequenceArguments {
     #[arg(long, value_name = "A-B", value_parser = parse_frames)]
     frames: Option<[u32; 2]>,
     /// Frames per second of Y4M, 1 to 100, and GIF, 1 to 50 [default: the track's, or 24]
-    #[arg(long, value_name = "N", value_parser = value_parser!(u32).range(1..=100))]
+    #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = whole_number(1, 100_u32))]
     fps: Option<u32>,
     /// Render frames again that are already finished, one file each
     #[arg(long)]

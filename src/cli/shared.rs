@@ -50,7 +50,7 @@ pub(super) fn threads_range() -> impl TypedValueParser<Value = u16> {
 }
 
 /// Parses whole numbers in a range.
-fn whole_number<N>(least: N, most: N) -> impl TypedValueParser<Value = N>
+pub(super) fn whole_number<N>(least: N, most: N) -> impl TypedValueParser<Value = N>
 where
     N: FromStr + PartialOrd + Display + Copy + Send + Sync + 'static,
 {
@@ -58,6 +58,17 @@ where
         let number = text.parse().ok();
         let number = number.filter(|number| (least..=most).contains(number));
         number.ok_or_else(|| format!("expected a whole number from {least} to {most}"))
+    }
+}
+
+/// Parses whole numbers without a limit but that of their type.
+pub(super) fn at_least<N>(least: N) -> impl TypedValueParser<Value = N>
+where
+    N: FromStr + PartialOrd + Display + Copy + Send + Sync + 'static,
+{
+    move |text: &str| {
+        let number = text.parse().ok().filter(|number| least <= *number);
+        number.ok_or_else(|| format!("expected a whole number, {least} or more"))
     }
 }
 

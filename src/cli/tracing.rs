@@ -9,7 +9,7 @@ use clap::Args;
 
 use super::choices::AovChoice;
 use super::rendering::RenderingArguments;
-use super::shared::{spp_range, threads_range};
+use super::shared::{spp_range, threads_range, whole_number};
 use crate::batch::{ProgressStyle, Tracing};
 use crate::render::{Aov, Region, denoises};
 use crate::scene::{Rendering, Size, Viewpoint};
@@ -55,7 +55,7 @@ pub(super) struct SampleArguments {
     #[command(flatten)]
     rendering: RenderingArguments,
     /// Random seed, 0 to 4294967295
-    #[arg(long, value_name = "N", default_value_t = 0)]
+    #[arg(long, value_name = "N", default_value_t = 0, allow_negative_numbers = true, value_parser = whole_number(0, u32::MAX))]
     seed: u32,
 }
 

@@ -1,5 +1,5 @@
 //! What a text shows of its picture before it is traced: that it can only be black, or grows brighter
-//! with every bounce.
+//! with every bounce, or that a setting has no effect.
 
 use glam::DVec3;
 
@@ -7,8 +7,8 @@ use super::rendering::RenderKey;
 use super::{Node, Source};
 use crate::geometry::{Ray, Shape, normalise};
 use crate::scene::{
-    Camera, Emitter, FalloffRule, Highlight, Integrator, Lens, Light, Material, Object, Rendering,
-    Rgb, Scene, Shadows, Size, Tinted,
+    Camera, Emitter, FalloffRule, Highlight, Integrator, LEAST_ADAPTIVE_SPP, Lens, Light, Material,
+    Object, Rendering, Rgb, Scene, Shadows, Size, Tinted,
 };
 use crate::text::{Diagnostic, Span, concise};
 
@@ -48,6 +48,7 @@ pub fn outlook(source: &Source, scene: &Scene, asked: &Rendering) -> Vec<Outlook
         ));
         return found;
     }
+    found.extend(view.never_adaptive());
     found.extend(view.clipped());
     found.extend(view.unlit().or_else(|| view.enclosed()));
     if asked.integrator().traces_paths() {
@@ -96,6 +97,20 @@ impl Judge<'_> {
         let span = self.place(Node::View, key);
         let message = format!("every object is {side}: the picture is black");
         Some(plain(span, &message, expected))
+    }
+
+    /// No pixel can stop taking samples early.
+    fn never_adaptive(&self) -> Option<Outlook> {
+        let noise = self.asked.noise()?;
+        if LEAST_ADAPTIVE_SPP < self.asked.spp() {
+            return None;
+        }
+        let message = format!(
+            "`noise {noise}` has no effect: pixels stop after {LEAST_ADAPTIVE_SPP} samples at the earliest"
+        );
+        let span = self.place(Node::Render, "noise");
+        let expected = format!("`spp` above {LEAST_ADAPTIVE_SPP}");
+        Some(plain(span, &message, &expected))
     }
 
     /// No light reaches any surface by the integrator.

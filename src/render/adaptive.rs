@@ -16,9 +16,6 @@ const ACROSS: u32 = BLOCK / SQUARE;
 /// Squares of a block.
 pub(crate) const SQUARES: usize = (ACROSS * ACROSS) as usize;
 
-/// The fewest samples of a pixel that stops.
-pub(crate) const LEAST: u32 = 16;
-
 /// A set of squares of a block, one bit each, in rows.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(crate) struct Squares(u64);

@@ -2,7 +2,7 @@
 
 use std::time::{Duration, Instant};
 
-use super::adaptive::{LEAST, SQUARES, Squares, go_on, square};
+use super::adaptive::{SQUARES, Squares, go_on, square};
 use super::blocks::Blocks;
 use super::frame::{Aov, Settings};
 use super::noise::Doubling;
@@ -11,7 +11,7 @@ use super::region::Region;
 use super::shot::Shot;
 use super::steps::Step;
 use super::tile::Work;
-use crate::scene::Rgb;
+use crate::scene::{LEAST_ADAPTIVE_SPP, Rgb};
 
 /// Pixels traced together: most of a block's share of the cache.
 const TOGETHER: usize = 256;
@@ -74,7 +74,7 @@ impl Block {
         let mut kept = Instant::now();
         for index in self.samples..spp {
             if let Some(limit) = shot.settings.adaptive()
-                && LEAST <= index
+                && LEAST_ADAPTIVE_SPP <= index
                 && index.is_power_of_two()
             {
                 let errors = region

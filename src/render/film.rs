@@ -5,7 +5,7 @@ use std::ops::Range;
 
 use rayon::prelude::*;
 
-use super::adaptive::{LEAST, SQUARES, Selection, Squares, go_on, square};
+use super::adaptive::{SQUARES, Selection, Squares, go_on, square};
 use super::blocks::{BLOCK, Blocks};
 use super::denoise::{self, UNKNOWN};
 use super::frame::{Aov, Frames, Settings};
@@ -21,7 +21,7 @@ use super::tile::{AREA, Remembers, Tile, TileShape, Work};
 use super::tone::{self, Light, Tone};
 use super::touched::Touched;
 use super::tracer::Tracer;
-use crate::scene::{Integrator, Rgb, Size, Transfer};
+use crate::scene::{Integrator, LEAST_ADAPTIVE_SPP, Rgb, Size, Transfer};
 
 /// Pixels developed between two polls of cancellation, which takes a few milliseconds; at least two
 /// rows of tiles per thread.
@@ -278,7 +278,7 @@ impl Film {
     /// pixels that have its samples afterwards, 0 to 1.
     pub(crate) fn select(&mut self, step: &Step) -> f64 {
         self.selection = match (self.adaptive, step) {
-            (Some(limit), Step::Samples(indices)) if LEAST <= indices.start => {
+            (Some(limit), Step::Samples(indices)) if LEAST_ADAPTIVE_SPP <= indices.start => {
                 let blocks = Blocks::of(self.size);
                 let select = |number| self.select_in(blocks, number, limit, step.level());
                 Some(Selection::new(blocks, select))

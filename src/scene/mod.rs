@@ -21,8 +21,8 @@ pub use material::{
 pub use mesh::{Meshes, NoMesh, beside};
 
 pub use rendering::{
-    DEFAULT_DEPTH, DEFAULT_SPP, EXPOSURES, FalloffRule, Filter, GlossRule, Integrator, MAX_DEPTH,
-    MAX_SPP, Rendering, Transfer,
+    DEFAULT_DEPTH, DEFAULT_SPP, EXPOSURES, FalloffRule, Filter, GlossRule, Integrator,
+    LEAST_ADAPTIVE_SPP, MAX_DEPTH, MAX_SPP, Rendering, Transfer,
 };
 pub use setting::Setting;
 pub use texture::{Image, Images, Pattern, Side, Texture, Tinted};

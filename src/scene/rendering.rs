@@ -8,6 +8,9 @@ pub const DEFAULT_SPP: u32 = 16;
 /// Default maximum of samples per pixel with adaptive sampling.
 const DEFAULT_ADAPTIVE_SPP: u32 = 4096;
 
+/// The fewest samples of a pixel that adaptive sampling stops.
+pub const LEAST_ADAPTIVE_SPP: u32 = 16;
+
 /// Maximum samples per pixel: the length of the sample sequence.
 pub const MAX_SPP: u32 = 65_536;
 

@@ -45,6 +45,16 @@ fn scenes_with_light_on_something_are_not_warned_of() {
 }
 
 #[test]
+fn adaptive_sampling_needs_more_samples_than_all_pixels_take() {
+    let with = |settings: &str| format!("// render: {settings}\n{LIT}{BALL}");
+    let expected = "1:12 `noise 0.01` has no effect: pixels stop after 16 samples at the earliest";
+    check(Language::Ray, &with("noise 0.01 spp 16"), None, &[expected]);
+    for settings in ["noise 0.01", "noise 0.01 spp 17", "noise 0 spp 16", "spp 1"] {
+        check(Language::Ray, &with(settings), None, &[]);
+    }
+}
+
+#[test]
 fn what_glows_by_itself_needs_no_light() {
     let text =
         "<xml><scene><object type='sphere'/></scene><camera><position z='9'/></camera></xml>";
