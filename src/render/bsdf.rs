@@ -182,7 +182,7 @@ impl<'m> Bsdf<'m> {
 
     /// Whether light is scattered into many directions, beside mirror and boundary.
     pub(crate) fn scatters(&self) -> bool {
-        0.0 < self.lobes_chance || self.lobes.has_highlight()
+        0.0 < self.lobes_chance || self.lobes.gloss().is_some()
     }
 
     /// Whether there is any component.

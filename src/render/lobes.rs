@@ -150,9 +150,10 @@ impl Lobes {
         (lobes, total)
     }
 
-    /// Whether there is a highlight that [`Lobes::scatter`] excludes.
-    pub(crate) fn has_highlight(&self) -> bool {
-        self.highlight.is_some()
+    /// The highlight that [`Lobes::scatter`] excludes, if there is one.
+    #[inline]
+    pub(crate) fn gloss(&self) -> Option<Gloss> {
+        self.highlight
     }
 
     /// Returns the highlight of light from the direction `toward` that [`Lobes::scatter`] excludes:

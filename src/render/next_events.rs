@@ -12,7 +12,7 @@ use super::probe::{Probe, Seen};
 use super::sampler::{Draws, Fours, Use};
 use super::vertices::{Aimed, Vertices};
 use super::world::World;
-use crate::geometry::lanes::{Row, Vector, WIDTH, dispatch, each_bit};
+use crate::geometry::lanes::{Row, Vector, WIDTH, dispatch, each_bit, lanes_of};
 use crate::geometry::{Packets, Ray};
 use crate::scene::{Light, Rgb, Shadows};
 
@@ -447,10 +447,4 @@ impl EmitterRay {
     fn reflect(&self, emitted: Rgb) -> Rgb {
         self.reflected * emitted * self.share
     }
-}
-
-/// A bit for each of up to eight, the lowest for the first.
-fn lanes_of(each: impl Iterator<Item = bool>) -> u32 {
-    let numbered = each.enumerate();
-    numbered.fold(0, |lanes, (lane, is_in)| lanes | u32::from(is_in) << lane)
 }

@@ -3,7 +3,7 @@
 use glam::DVec3;
 
 use super::warp;
-use crate::geometry::lanes::{Lanes, Vector};
+use crate::geometry::lanes::{Eight, Lanes, Simd, Vector, WIDTH, each_bit, mask};
 use crate::scene::{Reflectance, Rgb};
 
 /// Reflects unit directions, in each lane: R = d − 2(d·N)N.
@@ -179,11 +179,10 @@ pub(crate) fn power(cosine: f64, exponent: f64) -> f64 {
         return 0.0;
     }
     let exponent = exponent.max(0.0);
-    let whole = exponent as u32;
-    if f64::from(whole) != exponent || 4096 < whole {
+    let Some(mut rest) = whole(exponent) else {
         return libm::pow(cosine, exponent);
-    }
-    let (mut power, mut square, mut rest) = (1.0, cosine, whole);
+    };
+    let (mut power, mut square) = (1.0, cosine);
     while rest != 0 {
         if rest & 1 == 1 {
             power *= square;
@@ -192,6 +191,53 @@ pub(crate) fn power(cosine: f64, exponent: f64) -> f64 {
         rest >>= 1;
     }
     power
+}
+
+/// The same in several lanes; others are undefined.
+#[inline(always)]
+pub(crate) fn power_each<S: Simd>(
+    cosines: Eight<S>,
+    exponents: &[f64; WIDTH],
+    lanes: u32,
+) -> Eight<S> {
+    /// Binary digits of [`MOST_SQUARED`].
+    const DIGITS: usize = 13;
+    let simd = cosines.simd;
+    // For each digit, the lanes in whose exponent it is 1.
+    let mut digits = [0; DIGITS];
+    let (mut all, mut others) = (0, 0);
+    for lane in each_bit(lanes) {
+        if let Some(whole) = whole(exponents[lane].max(0.0)) {
+            all |= whole;
+            for digit in each_bit(whole) {
+                digits[digit] |= 1 << lane;
+            }
+        } else {
+            others |= 1 << lane;
+        }
+    }
+    let (zero, one) = (cosines.all(0.0), cosines.all(1.0));
+    let (mut powers, mut square) = (one, cosines);
+    let used = (u32::BITS - all.leading_zeros()) as usize;
+    for &lanes in &digits[..used] {
+        powers = Lanes::select(mask(simd, lanes), powers * square, powers);
+        square = square * square;
+    }
+    powers = Lanes::select(cosines.below(zero), zero, powers);
+    for lane in each_bit(others) {
+        powers[lane] = power(cosines[lane], exponents[lane]);
+    }
+    powers
+}
+
+/// The largest exponent whose power is computed by repeated squaring.
+const MOST_SQUARED: u32 = 4096;
+
+/// An exponent of 0 or more that is an integer for which repeated squaring pays.
+#[inline]
+fn whole(exponent: f64) -> Option<u32> {
+    let whole = exponent as u32;
+    (f64::from(whole) == exponent && whole <= MOST_SQUARED).then_some(whole)
 }
 
 /// Scalar weight of a colour, used for probabilities.

@@ -8,7 +8,9 @@ use super::intersect::Nearest;
 use super::probe::Point;
 use super::shading::Side;
 use super::world::World;
-use crate::geometry::lanes::{Eight, Lanes, Row, Simd, Vector, WIDTH, bits, dispatch, mask};
+use crate::geometry::lanes::{
+    Eight, Lanes, Row, Simd, Vector, WIDTH, bits, dispatch, lanes_of, mask,
+};
 use crate::geometry::{Hits, Packet, Rays, Shape, Solid, Surface, Surfaces, sphere_surfaces};
 use crate::scene::Material;
 
@@ -134,7 +136,11 @@ impl World {
                 let (lanes, found) = self.of_spheres(&rays, nearest, &hits);
                 Some((lanes, found.into()))
             } else {
-                let lanes = lanes_of(nearest, met.object) & rest;
+                let meets = nearest.iter().map(
+                    #[inline(always)]
+                    |nearest| nearest.is_some_and(|nearest| nearest.object == met.object),
+                );
+                let lanes = lanes_of(meets) & rest;
                 let found = shape.surfaces(&rays, &hits.within(lanes));
                 found.map(|found| (lanes, found))
             };
@@ -188,15 +194,4 @@ impl World {
         let found = sphere_surfaces(centre, radius, rays, hits.distances(simd));
         (lanes, found)
     }
-}
-
-/// The lanes that hit an object.
-#[inline(always)]
-fn lanes_of(nearest: &[Option<Nearest>], object: u32) -> u32 {
-    let mut lanes = 0;
-    for (lane, nearest) in nearest.iter().enumerate() {
-        let same = nearest.is_some_and(|nearest| nearest.object == object);
-        lanes |= u32::from(same) << lane;
-    }
-    lanes
 }

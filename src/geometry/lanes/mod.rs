@@ -343,6 +343,16 @@ pub fn bits<S: Simd>(mask: impl SimdMask<S>) -> u32 {
     mask.to_bitmask() as u32
 }
 
+/// A mask of the lanes for which a condition holds, the lowest bit for the first.
+#[inline(always)]
+pub fn lanes_of(conditions: impl Iterator<Item = bool>) -> u32 {
+    let mut lanes = 0;
+    for (lane, holds) in conditions.enumerate() {
+        lanes |= u32::from(holds) << lane;
+    }
+    lanes
+}
+
 /// The numbers of the bits that are 1, ascending.
 #[inline(always)]
 pub fn each_bit(mut bits: u32) -> impl Iterator<Item = usize> {

@@ -1,7 +1,8 @@
 //! Mirrors, glass, depth and the ray budget.
 
-use super::super::optics::{power, refract};
+use super::super::optics::{power, power_each, refract};
 use super::*;
+use crate::geometry::lanes::{Level, Row, WIDTH, dispatch};
 
 /// Between two mirrors with emission a and reflectance r, a ray sees a Σ rᵏ, k from 0 to the depth.
 #[test]
@@ -183,4 +184,24 @@ fn integer_powers() {
         assert!((ours / general - 1.0).abs() < 1e-12);
     }
     assert_eq!(power(0.0, 0.0), 1.0);
+}
+
+#[test]
+fn powers_in_lanes_are_the_same() {
+    let cosines = [0.999, 1e-9, 0.0, -0.5, 1.0, 0.25, f64::NAN, 0.7];
+    let exponents = [0.0, 1.0, 40.0, 4095.0, 4096.0, 4097.0, 2.5, -3.0];
+    for turn in 0..WIDTH {
+        let mut exponents = exponents;
+        exponents.rotate_left(turn);
+        for level in [Level::baseline(), Level::new()] {
+            let powers: Row = dispatch!(level, simd => {
+                power_each(Row(cosines).load(simd), &exponents, 0b1111_1111).into()
+            });
+            for lane in 0..WIDTH {
+                let alone = power(cosines[lane], exponents[lane]);
+                let is_same = powers.0[lane] == alone || powers.0[lane].is_nan() && alone.is_nan();
+                assert!(is_same, "{} to the {}", cosines[lane], exponents[lane]);
+            }
+        }
+    }
 }
