@@ -3,8 +3,8 @@
 use super::print_message;
 use super::tracing::Tracer;
 use crate::language::{brightening, darkening};
-use crate::render::{Frame, Job, Limit, Provenance, TrialResults};
-use crate::scene::Rendering;
+use crate::render::{Frame, Job, Limit, Provenance, Settings, TrialResults};
+use crate::scene::{LEAST_ADAPTIVE_SPP, Rendering};
 use crate::text::alternatives;
 
 /// Whether more than half of a picture is above 1.
@@ -12,12 +12,29 @@ pub(super) fn is_burnt(frame: &Frame) -> bool {
     0.5 < frame.overexposure.share
 }
 
+/// Says that options over the text leave adaptive sampling no pixel to stop.
+pub(super) fn print_without_effect(over_text: &Rendering, settings: &Settings) {
+    let Settings {
+        noise, spp, aov, ..
+    } = *settings;
+    let is_asked = over_text.noise.is_some() || over_text.spp.is_some();
+    if is_asked && noise.is_some() && aov.is_none() && spp <= LEAST_ADAPTIVE_SPP {
+        let least = LEAST_ADAPTIVE_SPP;
+        let note = format!(
+            "`--noise` has no effect: it stops no pixel before {least} samples, and `--spp` is {spp}"
+        );
+        print_message("note", &note);
+    }
+}
+
 /// Prints what is wrong with a whole picture of light: that it is black or, if `burnt` holds its job,
-/// too bright; and the options that help. May trace small pictures to find them.
+/// too bright; and the options that help. May trace small pictures to find them. `warned` says whether
+/// there were warnings of the scene.
 pub(super) fn print_finding(
     frame: &Frame,
     picture: &Provenance,
     burnt: Option<Job>,
+    warned: bool,
     tracer: impl FnOnce() -> Tracer,
 ) {
     if picture.settings.aov.is_some() || picture.settings.region.is_some() {
@@ -30,7 +47,8 @@ pub(super) fn print_finding(
         };
         let helps = match brightening(&asked, frame.overexposure.brightest) {
             Some((key, value)) => format!("try `--{} {value}`", key.name()),
-            None => "`halflight check` and `halflight explain` may say why".to_owned(),
+            None if warned => "the warnings above may say why".to_owned(),
+            None => "`halflight explain` may say why".to_owned(),
         };
         print_message("note", &format!("the picture is black; {helps}"));
         return;

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use super::finding::{is_burnt, print_finding};
+use super::finding::{is_burnt, print_finding, print_without_effect};
 use super::output::Output;
 use super::parts::{self, Existing, Parts};
 use super::stats::{Stats, Times};
@@ -72,7 +72,7 @@ fn try_render(work: &Render) -> Result<(), Error> {
         &work.scene,
         &work.assets,
         work.warnings,
-        Some(&work.tracing.rendering),
+        Some(&work.tracing.over_text()),
     )?;
     let scene = loaded.scene.ok_or_else(|| Error::Invalid {
         errors: loaded.findings.errors(),
@@ -89,6 +89,7 @@ fn try_render(work: &Render) -> Result<(), Error> {
         };
         return Err(Error::Incomplete { needed_by });
     }
+    let warned = 0 < loaded.findings.warnings();
     let frames = work.format.frames();
     let job = work.tracing.job(scene, loaded.read.images, frames)?;
     check_size(
@@ -101,6 +102,7 @@ fn try_render(work: &Render) -> Result<(), Error> {
         let refused = "--shard and --resume cannot sample --aov cost adaptively; use --noise 0";
         return Err(Error::Refused(refused.to_owned()));
     }
+    print_without_effect(&work.tracing.over_text(), &job.settings);
     let memory = memory_needed(work, &job);
     let estimate = estimate(memory);
     if work.purpose == Purpose::Estimate {
@@ -121,7 +123,7 @@ fn try_render(work: &Render) -> Result<(), Error> {
     times.write = times.lap();
     if let Some(frame) = &traced.frame {
         let tracer = || traced.tracer.unwrap_or_else(|| Tracer::new(&work.tracing));
-        print_finding(frame, &traced.picture, traced.burnt, tracer);
+        print_finding(frame, &traced.picture, traced.burnt, warned, tracer);
     }
     let Some(output) = &work.stats else {
         return Ok(());

@@ -24,7 +24,7 @@ impl Still {
         tracing: &Tracing,
         frames: Frames,
     ) -> Result<Self, Error> {
-        let loaded = load(path, folders, warnings, Some(&tracing.rendering))?;
+        let loaded = load(path, folders, warnings, Some(&tracing.over_text()))?;
         let errors = loaded.findings.errors();
         let scene = loaded.scene.ok_or(Error::Invalid { errors })?;
         if !loaded.read.is_whole() {

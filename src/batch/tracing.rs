@@ -172,6 +172,16 @@ impl Tracer {
 }
 
 impl Tracing {
+    /// The render settings that take precedence over those of a text.
+    pub(super) fn over_text(&self) -> Rendering {
+        // A time to spend means more than the samples that a text asks for.
+        let spp = self.time.map(|_| MAX_SPP);
+        Rendering {
+            spp: self.rendering.spp.or(spp),
+            ..self.rendering
+        }
+    }
+
     /// Traces a scene and shows the progress. `started` is called while the renderer works.
     pub(super) fn trace(
         &self,
@@ -212,13 +222,8 @@ impl Tracing {
         }
         let camera = self.view.of(&scene.camera);
         let camera = camera.map_err(|reason| Error::Refused(format!("--view: {reason}")))?;
-        // A time to spend means more than the samples that a text asks for.
-        let spp = self.rendering.spp.or_else(|| self.time.map(|_| MAX_SPP));
-        let asked = Rendering {
-            spp,
-            ..self.rendering
-        };
-        let settings = Settings::new(size, &asked.or(scene.setting.rendering));
+        let asked = self.over_text().or(scene.setting.rendering);
+        let settings = Settings::new(size, &asked);
         Ok(Job {
             images,
             // The requested size sets the aspect ratio.

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use clap::Args;
 
-use super::shared::{AssetArguments, StrictnessArguments, at_least, picture_format, whole_number};
+use super::shared::{AssetArguments, StrictnessArguments, picture_format, whole_number};
 use super::tracing::TracingArguments;
 use crate::batch::{Compare, Report};
 
@@ -34,7 +34,7 @@ pub(super) struct CompareArguments {
     #[arg(long, value_name = "LEVELS", default_value_t = 0, allow_negative_numbers = true, value_parser = whole_number(0, u8::MAX))]
     tolerance: u8,
     /// Number of pixels that may differ by more than the tolerance
-    #[arg(long, value_name = "N", default_value_t = 0, allow_negative_numbers = true, value_parser = at_least(0_usize))]
+    #[arg(long, value_name = "N", default_value_t = 0, allow_negative_numbers = true, value_parser = whole_number(0, usize::MAX))]
     max_differing: usize,
     /// Print the figures as JSON
     #[arg(long)]

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use clap::Args;
 
-use super::shared::{AssetArguments, StrictnessArguments, at_least, whole_number};
+use super::shared::{AssetArguments, StrictnessArguments, whole_number};
 use super::tracing::SampleArguments;
 use crate::batch::{Explain, Report};
 use crate::scene::MAX_SPP;
@@ -26,13 +26,13 @@ pub(super) struct ExplainArguments {
     #[arg(value_name = "SCENE")]
     scene: PathBuf,
     /// Column of the pixel, from 0 at the left
-    #[arg(value_name = "X", allow_negative_numbers = true, value_parser = at_least(0_u32))]
+    #[arg(value_name = "X", allow_negative_numbers = true, value_parser = whole_number(0, u32::MAX))]
     x: u32,
     /// Row of the pixel, from 0 at the top
-    #[arg(value_name = "Y", allow_negative_numbers = true, value_parser = at_least(0_u32))]
+    #[arg(value_name = "Y", allow_negative_numbers = true, value_parser = whole_number(0, u32::MAX))]
     y: u32,
     /// Index of the sample, 0 to 65535: 0 is the centre of the pixel
-    #[arg(long, value_name = "N", default_value_t = 0, value_parser = whole_number(0, MAX_SPP - 1))]
+    #[arg(long, value_name = "N", default_value_t = 0, allow_negative_numbers = true, value_parser = whole_number(0, MAX_SPP - 1))]
     sample: u32,
     /// Print the explanation as JSON
     #[arg(long)]

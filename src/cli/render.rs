@@ -7,7 +7,7 @@ use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 
 use super::choices::{AovChoice, ProgressChoice};
 use super::shared::{
-    AssetArguments, StrictnessArguments, at_least, destination, format_named, output, output_help,
+    AssetArguments, StrictnessArguments, destination, format_named, output, output_help,
     picture_format, picture_names, whole_number,
 };
 use super::tracing::TracingArguments;
@@ -105,7 +105,7 @@ struct ContentArguments {
 #[derive(Args, Debug)]
 struct SequenceArguments {
     /// Render N frames of a full turn around the view's target
-    #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = at_least(1_u32))]
+    #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = whole_number(1, u32::MAX))]
     turntable: Option<u32>,
     /// Render the frames of a track file, which changes fields of the scene and moves the camera; see
     /// scenes/README.md

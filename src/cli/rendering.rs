@@ -74,7 +74,7 @@ fn parse_noise(text: &str) -> Result<f64, String> {
     let noise = text.parse().ok();
     noise
         .filter(|noise| (0.0..1.0).contains(noise))
-        .ok_or_else(|| "expected a number from 0 to less than 1".to_owned())
+        .ok_or_else(|| "expected a number of at least 0 and less than 1".to_owned())
 }
 
 fn parse_clamp(text: &str) -> Result<f64, String> {

@@ -61,17 +61,6 @@ where
     }
 }
 
-/// Parses whole numbers without a limit but that of their type.
-pub(super) fn at_least<N>(least: N) -> impl TypedValueParser<Value = N>
-where
-    N: FromStr + PartialOrd + Display + Copy + Send + Sync + 'static,
-{
-    move |text: &str| {
-        let number = text.parse().ok().filter(|number| least <= *number);
-        number.ok_or_else(|| format!("expected a whole number, {least} or more"))
-    }
-}
-
 /// The format of a picture file by its extension.
 pub(super) fn picture_format(path: &Path) -> Result<ImageFormat, String> {
     ImageFormat::of_path(path).ok_or_else(|| {

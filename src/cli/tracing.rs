@@ -29,7 +29,7 @@ pub(super) struct TracingArguments {
     spp: Option<u32>,
     /// Stop within this time, such as 90s or 5min, with the samples of a whole pass: 1, 2, 4 …
     /// The picture is the one with that --spp
-    #[arg(long, value_name = "TIME", value_parser = parse_time)]
+    #[arg(long, value_name = "TIME", allow_hyphen_values = true, value_parser = parse_time)]
     time: Option<Duration>,
     /// Render a property of the first surface under each pixel, or of the samples of its light,
     /// instead of light

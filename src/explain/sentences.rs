@@ -126,8 +126,8 @@ impl Case<'_> {
             } => {
                 let object_name = names.object(*object);
                 let (name, key, word) = match limit {
-                    DepthLimit::Near => ("clipped-near", "near", "nearer than near"),
-                    DepthLimit::Far => ("clipped-far", "far", "beyond far"),
+                    DepthLimit::Near => ("clipped-near", "near", "nearer than the near limit"),
+                    DepthLimit::Far => ("clipped-far", "far", "beyond the far limit"),
                 };
                 let (depth, at) = (number(*depth), number(*at));
                 let text = format!("{object_name} is clipped: at depth {depth} it is {word}, {at}");

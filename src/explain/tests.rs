@@ -248,15 +248,20 @@ fn verdicts_of_dat_scenes() {
         "ordinary",
         "lit by light 1 (line 6)",
     );
-    check(dat(".1 3", lamp), PLAIN, "clipped-far", "beyond far, 3");
+    check(
+        dat(".1 3", lamp),
+        PLAIN,
+        "clipped-far",
+        "beyond the far limit, 3",
+    );
     check(
         dat("20 99", lamp),
         PLAIN,
         "clipped-near",
-        "nearer than near, 20",
+        "nearer than the near limit, 20",
     );
     let text = dat("5 99", lamp);
-    check(text, PLAIN, "clipped-near", "nearer than near, 5");
+    check(text, PLAIN, "clipped-near", "nearer than the near limit, 5");
     let away = "light ID 1 pnt  0 0 6  0 0 1  1 1 1  1 0 0  10 shadow_on";
     let words = "outside the cone of light 1 (line 6): 1";
     check(dat(".1 99", away), PLAIN, "outside-cone", words);

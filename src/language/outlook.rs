@@ -41,11 +41,13 @@ pub fn outlook(source: &Source, scene: &Scene, asked: &Rendering) -> Vec<Outlook
     };
     let mut found = Vec::new();
     if scene.objects.is_empty() {
-        found.push(plain(
-            view.nowhere(),
-            "the scene has no object",
-            "an object",
-        ));
+        // Meshes that could not be read are left out.
+        let message = if source.nodes().objects == 0 {
+            "the scene has no object"
+        } else {
+            "no object of the scene can be shown"
+        };
+        found.push(plain(view.nowhere(), message, "an object"));
         return found;
     }
     found.extend(view.never_adaptive());
@@ -88,9 +90,9 @@ impl Judge<'_> {
         } else if all(&|[_, end]| end < 0.0) {
             ("target", "behind the camera", "a view toward an object")
         } else if all(&|[_, end]| end < near) {
-            ("near", "nearer than near", depths)
+            ("near", "nearer than the near limit", depths)
         } else if all(&|[start, _]| far < start) {
-            ("far", "beyond far", depths)
+            ("far", "beyond the far limit", depths)
         } else {
             return None;
         };
@@ -99,14 +101,16 @@ impl Judge<'_> {
         Some(plain(span, &message, expected))
     }
 
-    /// No pixel can stop taking samples early.
+    /// The text asks for adaptive sampling, but for so few samples that no pixel can stop early.
     fn never_adaptive(&self) -> Option<Outlook> {
-        let noise = self.asked.noise()?;
-        if LEAST_ADAPTIVE_SPP < self.asked.spp() {
+        let own = &self.scene.setting.rendering;
+        let (noise, spp) = (own.noise()?, own.spp?);
+        let is_used = self.asked.noise == own.noise && self.asked.spp == own.spp;
+        if LEAST_ADAPTIVE_SPP < spp || !is_used {
             return None;
         }
         let message = format!(
-            "`noise {noise}` has no effect: pixels stop after {LEAST_ADAPTIVE_SPP} samples at the earliest"
+            "`noise {noise}` has no effect: it stops no pixel before {LEAST_ADAPTIVE_SPP} samples, and `spp` is {spp}"
         );
         let span = self.place(Node::Render, "noise");
         let expected = format!("`spp` above {LEAST_ADAPTIVE_SPP}");
@@ -160,8 +164,16 @@ impl Judge<'_> {
         Some(if lamps().next().is_some() {
             let first = scene.lights.iter().position(|light| is_lamp(&light));
             let span = self.source.span(Node::Light(first.unwrap_or_default()));
-            let message = "all lights are off: their colours are zero";
-            plain(span, message, "a light with a colour")
+            let message = "all lights are off: they emit nothing";
+            let finding = plain(span, message, "a light that emits");
+            // Path tracing leaves out ambient light.
+            let helps = integrator.traces_paths() && self.has_ambient();
+            Outlook {
+                cure: helps
+                    .then(|| setting("integrator", Integrator::Whitted.name()))
+                    .flatten(),
+                ..finding
+            }
         } else if integrator.traces_paths() && self.has_ambient() {
             let message =
                 "the only light is ambient, which path tracing leaves out: the picture is black";

@@ -181,7 +181,7 @@ impl Range {
             Self::Positive => "greater than 0".to_owned(),
             Self::NotNegative => "0 or more".to_owned(),
             Self::Unit => "from 0 to 1".to_owned(),
-            Self::Below(high) => format!("0 or more and less than {high}"),
+            Self::Below(high) => format!("at least 0 and less than {high}"),
             Self::Between(low, high) => format!("greater than {low} and less than {high}"),
             Self::Within(low, high) => format!("from {low} to {high}"),
             Self::Count => "a whole number, 1 or more".to_owned(),

@@ -126,7 +126,7 @@ fn black_and_clipped_pictures_are_remarked_on_with_what_helps() {
         (
             "0 0 0",
             "",
-            "note: the picture is black; `halflight check` and `halflight explain` may say why",
+            "note: the picture is black; the warnings above may say why",
         ),
         (
             ".001 .001 .001",
@@ -159,6 +159,12 @@ fn black_and_clipped_pictures_are_remarked_on_with_what_helps() {
             "note: more than half of the picture is above 1; try `--exposure -3.5`",
         ),
         ("0 0 0", "--aov albedo", ""),
+        (
+            "1 1 1",
+            "--noise 0.1 --spp 16",
+            "note: `--noise` has no effect: it stops no pixel before 16 samples, and `--spp` is 16",
+        ),
+        ("1 1 1", "--noise 0.1 --spp 17", ""),
     ] {
         place.write("a.ray", ball(light).as_bytes());
         let said = place.stderr(&format!("render a.ray -o a.bmp --size 9x9 {options}"), 0);

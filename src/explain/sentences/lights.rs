@@ -165,7 +165,7 @@ impl Case<'_> {
             ),
             (Integrator::Path | Integrator::Photon, true) => (
                 "the scene has only ambient light, which path tracing leaves out",
-                "trace with whitted, or add a light",
+                "use `integrator whitted`, or add a light",
             ),
         };
         let mut sentence = self.sentence("no-lights", text);

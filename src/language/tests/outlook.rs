@@ -47,11 +47,22 @@ fn scenes_with_light_on_something_are_not_warned_of() {
 #[test]
 fn adaptive_sampling_needs_more_samples_than_all_pixels_take() {
     let with = |settings: &str| format!("// render: {settings}\n{LIT}{BALL}");
-    let expected = "1:12 `noise 0.01` has no effect: pixels stop after 16 samples at the earliest";
+    let expected =
+        "1:12 `noise 0.01` has no effect: it stops no pixel before 16 samples, and `spp` is 16";
     check(Language::Ray, &with("noise 0.01 spp 16"), None, &[expected]);
     for settings in ["noise 0.01", "noise 0.01 spp 17", "noise 0 spp 16", "spp 1"] {
         check(Language::Ray, &with(settings), None, &[]);
     }
+    // Other samples are asked for over the text.
+    let text = with("noise 0.01 spp 16");
+    let (source, lowered) = read_as(Language::Ray, &text, &Meshes::default());
+    let scene = lowered.scene.expect("it has no errors");
+    let over = Rendering {
+        spp: Some(17),
+        ..Rendering::default()
+    };
+    let asked = over.or(scene.setting.rendering);
+    assert_eq!(outlook(&source, &scene, &asked), []);
 }
 
 #[test]
@@ -109,12 +120,13 @@ fn textured_slots_are_not_part_of_the_sum() {
 #[test]
 fn a_scene_without_light_is_black() {
     let dark = format!("// view: up 0 1 0\n0 0 0 1 0 5 5 0 0 0\n{BALL}");
-    let off = "2:9 all lights are off: their colours are zero";
+    let off = "2:9 all lights are off: they emit nothing";
     check(Language::Ray, &dark, None, &[off]);
     check(Language::Ray, &dark, PATH, &[off]);
     let ambient = dark.replacen("0 0 0 1 0", "1 1 1 1 0", 1);
     check(Language::Ray, &ambient, None, &[]);
-    check(Language::Ray, &ambient, PATH, &[off]);
+    let cure = format!("{off} | integrator whitted");
+    check(Language::Ray, &ambient, PATH, &[&cure]);
     let ball = "<object type='sphere' material='m'/><material name='m'/>";
     let camera = "<camera><position z='9'/></camera>";
     let xml = |more: &str| format!("<xml><scene>{ball}{more}</scene>\n{camera}</xml>");
@@ -132,6 +144,28 @@ fn a_scene_without_light_is_black() {
             "2:1 the only light is ambient, which path tracing leaves out: the picture is black \
            | integrator whitted",
         ],
+    );
+}
+
+#[test]
+fn a_scene_without_objects_is_black() {
+    let lit = "<light type='direct'><intensity/></light>";
+    let xml = |scene: &str| {
+        format!("<xml><scene>{scene}{lit}</scene>\n<camera><position z='9'/></camera></xml>")
+    };
+    check(
+        Language::Xml,
+        &xml(""),
+        None,
+        &["2:1 the scene has no object"],
+    );
+    // Its mesh is not read here.
+    let left_out = "2:1 no object of the scene can be shown";
+    check(
+        Language::Xml,
+        &xml("<object type='obj' name='a.obj'/>"),
+        None,
+        &[left_out],
     );
 }
 
@@ -182,13 +216,13 @@ fn a_scene_whose_objects_are_all_clipped_is_black() {
     dat(
         "6.1",
         "100",
-        &["4:44 every object is nearer than near: the picture is black"],
+        &["4:44 every object is nearer than the near limit: the picture is black"],
     );
     dat("1", "4.1", &[]);
     dat(
         "1",
         "3.9",
-        &["4:46 every object is beyond far: the picture is black"],
+        &["4:46 every object is beyond the far limit: the picture is black"],
     );
 }
 

@@ -94,7 +94,7 @@ fn what_is_wrong_with_a_setting_skips_only_that() {
         ),
         (
             ("noise", "1"),
-            "render noise: must be 0 or more and less than 1",
+            "render noise: must be at least 0 and less than 1",
         ),
         (("depth", "3f"), "render depth: `3f` is not a number"),
         (
