@@ -179,7 +179,7 @@ fn mesh(name: &str, cores: usize) {
         let runs = TriangleRuns::new(
             mesh,
             bvh.order(),
-            &bvh.runs(|| false).expect("never cancelled"),
+            &bvh.runs(|| false).expect("nothing cancels"),
             &|| false,
         );
         (bvh, runs.expect("nothing cancels"))

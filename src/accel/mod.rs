@@ -71,8 +71,8 @@ pub enum Order {
 /// The maximum number of boxes in a leaf, and in any run visited at once.
 pub const RUN: usize = 8;
 
-/// Whether cancellation is asked for at this step of a loop: every few milliseconds.
-fn is_due(step: usize) -> bool {
+/// Whether cancellation is polled at this step of a loop: every few milliseconds.
+fn polls_at(step: usize) -> bool {
     step.is_multiple_of(1 << 14)
 }
 
@@ -96,8 +96,8 @@ impl Bvh {
     }
 
     /// Adapts the tree to a few changed boxes. Returns `None` if a new one is better: after many
-    /// changes, for few boxes, or if a box becomes or ceases to be empty or unbounded; and if `cancelled`
-    /// returns true, which is called every few milliseconds.
+    /// changes, for few boxes, or if a box becomes or ceases to be empty or unbounded; or once `cancelled`,
+    /// polled every few milliseconds, returns true.
     pub fn refitted(
         &self,
         changed: &[u32],
@@ -109,8 +109,8 @@ impl Bvh {
 
     /// Adapts the tree to `inserted` boxes in place of those in `removed`, which shifts the indices of later
     /// boxes. `aabb` takes new indices. Returns `None` if a new tree is better: after many changes, for few
-    /// boxes, or if a new box is empty, unbounded or near a full leaf; and if `cancelled` returns true, which
-    /// is called every few milliseconds.
+    /// boxes, or if a new box is empty, unbounded or near a full leaf; or once `cancelled`, polled every few
+    /// milliseconds, returns true.
     pub fn spliced(
         &self,
         removed: Range<u32>,
@@ -137,11 +137,18 @@ impl Bvh {
         &self.order
     }
 
-    /// The ranges of [`Bvh::order`] that are visited at once, in ascending order. `None` if `cancelled`
-    /// returns true, which is called every few milliseconds.
+    /// The ranges of [`Bvh::order`] that are visited at once, in ascending order. `None` once
+    /// `cancelled`, polled every few milliseconds, returns true.
     pub fn runs(&self, cancelled: impl Fn() -> bool) -> Option<Vec<Range<usize>>> {
-        let children = |node: &Node| node.filled().count_ones() as usize;
-        let leaves = 1 + self.nodes.iter().map(children).sum::<usize>() - self.nodes.len();
+        let mut children = 0;
+        for (number, node) in self.nodes.iter().enumerate() {
+            if polls_at(number) && cancelled() {
+                return None;
+            }
+            children += node.filled().count_ones() as usize;
+        }
+        // All nodes but the root are children.
+        let leaves = 1 + children - self.nodes.len();
         let mut runs = Vec::with_capacity(leaves + self.unbounded().count());
         // The children of a node are in the order of their boxes.
         let mut pending = Vec::new();
@@ -149,7 +156,7 @@ impl Bvh {
         while let Some(child) = pending.pop() {
             match child {
                 Child::Inner(number) => {
-                    if is_due(number as usize) && cancelled() {
+                    if polls_at(number as usize) && cancelled() {
                         return None;
                     }
                     let node = &self.nodes[number as usize];

@@ -1,7 +1,7 @@
 //! Refits a tree to a few moved boxes without changing its topology.
 
 use super::node::{Bounds, Child, Node, WIDTH};
-use super::{Bvh, is_due};
+use super::{Bvh, polls_at};
 use crate::geometry::Aabb;
 
 /// The maximum number of boxes moved at once: each is searched for among all.
@@ -34,7 +34,7 @@ pub(super) fn refit(
     let positions: Vec<usize> = changed.iter().map(find).collect::<Option<_>>()?;
     let mut leaves = Vec::new();
     for (number, node) in bvh.nodes.iter().enumerate() {
-        if is_due(number) && cancelled() {
+        if polls_at(number) && cancelled() {
             return None;
         }
         for lane in 0..WIDTH {
@@ -97,7 +97,7 @@ impl Parents {
     pub(super) fn of(nodes: &[Node], cancelled: impl Fn() -> bool) -> Option<Self> {
         let mut places = vec![(0, 0); nodes.len()];
         for (number, node) in nodes.iter().enumerate() {
-            if is_due(number) && cancelled() {
+            if polls_at(number) && cancelled() {
                 return None;
             }
             for lane in 0..WIDTH {

@@ -4,7 +4,7 @@ use std::ops::Range;
 
 use super::node::{Bounds, Child, Node, WIDTH};
 use super::refit::{Parents, copied, may_change};
-use super::{Bvh, RUN, is_due};
+use super::{Bvh, RUN, polls_at};
 use crate::geometry::Aabb;
 
 /// Changes of [`Bvh::order`]. Places are those before the changes.
@@ -58,7 +58,7 @@ pub(super) fn splice(
     let mut nodes = copied(&bvh.nodes, &cancelled)?;
     let mut touched = Vec::new();
     for (number, node) in nodes.iter_mut().enumerate() {
-        if is_due(number) && cancelled() {
+        if polls_at(number) && cancelled() {
             return None;
         }
         for lane in 0..WIDTH {
@@ -154,7 +154,7 @@ impl Changes {
         let mut removed = self.removed.iter().peekable();
         let mut inserted = self.inserted.iter().peekable();
         for (place, &index) in order.iter().enumerate() {
-            if is_due(place) && cancelled() {
+            if polls_at(place) && cancelled() {
                 return None;
             }
             while let Some((_, inserted)) = inserted.next_if(|(before, _)| *before <= place) {

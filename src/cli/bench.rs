@@ -24,7 +24,7 @@ pub(super) struct BenchArguments {
     #[arg(value_name = "SCENE")]
     scenes: Vec<PathBuf>,
     /// Number of runs, 1 to 1000
-    #[arg(long, value_name = "N", default_value_t = 5, value_parser = whole_number(1, 1000_u32))]
+    #[arg(long, value_name = "N", default_value_t = 5, allow_negative_numbers = true, value_parser = whole_number(1, 1000_u32))]
     runs: u32,
     /// Also plan a cluster: how long 1 to 10000 tasks would take for a picture, computed from what is
     /// measured here

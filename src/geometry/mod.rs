@@ -52,7 +52,7 @@ pub use mesh::{
 };
 pub use numbers::{FrameNumbers, direction_of};
 pub use outline::Detail;
-pub use patch::{Ball, Flat, Flats, Patch};
+pub use patch::{Ball, Flat, Parallelograms, Patch};
 pub use plane::Plane;
 pub use quadric::{Quadric, principal_axes};
 pub use ray::{Packet, Packets, Ray, Rays};

@@ -28,9 +28,9 @@ pub struct Flat {
     pub normal: DVec3,
 }
 
-/// The same, in each lane.
+/// Parallelograms, in each lane: see [`Flat`].
 #[derive(Clone, Copy, Debug)]
-pub struct Flats<N> {
+pub struct Parallelograms<N> {
     /// A corner.
     pub corner: Vector<N>,
     /// The sides that start there.
@@ -80,8 +80,8 @@ impl Shape {
                 let [x, y, _] = plane.0.axes();
                 let corner = plane.0.origin() - x - y;
                 let sides = [2.0 * x, 2.0 * y].map(Vector::from);
-                let flats = Flats::new(corner.into(), sides, &plane.0);
-                Some(Patch::Parallelogram(flats.into()))
+                let square = Parallelograms::new(corner.into(), sides, &plane.0);
+                Some(Patch::Parallelogram(square.into()))
             }
             Self::Mesh(instance) => {
                 let corners = instance.mesh().vertices(part).map(Vector::from);
@@ -93,26 +93,26 @@ impl Shape {
 }
 
 impl Instance {
-    /// The triangles with these numbers in several lanes.
+    /// The triangles with these numbers in lanes, at least one, as halves of parallelograms.
     #[inline(always)]
     pub fn triangles<S: Simd>(
         &self,
         simd: S,
         triangles: &[u32; WIDTH],
         lanes: u32,
-    ) -> Flats<Eight<S>> {
+    ) -> Parallelograms<Eight<S>> {
         let vertices = |lane: usize| self.mesh().vertices(triangles[lane]);
         self.placed(gathered(simd, lanes, vertices))
     }
 
     /// Triangles with vertices in unit space.
     #[inline(always)]
-    fn placed<N: Lanes>(&self, [a, b, c]: [Vector<N>; 3]) -> Flats<N> {
+    fn placed<N: Lanes>(&self, [a, b, c]: [Vector<N>; 3]) -> Parallelograms<N> {
         let place = |vector: DVec3| Vector::all(a.x, vector);
         let axes = self.frame().axes().map(place);
         let corner = place(self.frame().origin()) + a.combine(axes);
         let sides = [(b - a).combine(axes), (c - a).combine(axes)];
-        Flats::new(corner, sides, self.frame())
+        Parallelograms::new(corner, sides, self.frame())
     }
 }
 
@@ -168,7 +168,7 @@ impl Patch {
     }
 }
 
-impl<N: Lanes> Flats<N> {
+impl<N: Lanes> Parallelograms<N> {
     /// Sides that turn counter-clockwise around the outward normal in the space that a frame maps to the
     /// world, which may mirror it.
     #[inline(always)]
@@ -184,17 +184,17 @@ impl<N: Lanes> Flats<N> {
     }
 }
 
-impl From<Flats<f64>> for Flat {
-    fn from(flats: Flats<f64>) -> Self {
+impl From<Parallelograms<f64>> for Flat {
+    fn from(all: Parallelograms<f64>) -> Self {
         Self {
-            corner: flats.corner.into(),
-            sides: flats.sides.map(DVec3::from),
-            normal: flats.normal.into(),
+            corner: all.corner.into(),
+            sides: all.sides.map(DVec3::from),
+            normal: all.normal.into(),
         }
     }
 }
 
-impl From<&Flat> for Flats<f64> {
+impl From<&Flat> for Parallelograms<f64> {
     fn from(flat: &Flat) -> Self {
         Self {
             corner: flat.corner.into(),

@@ -1,5 +1,5 @@
-//! What a text shows of its picture before it is traced: that it can only be black, or grows brighter
-//! with every bounce, or that a setting has no effect.
+//! What a text shows of its picture before it is traced: that it can only be black, that it grows
+//! brighter with every bounce, or that a setting has no effect.
 
 use glam::DVec3;
 

@@ -28,15 +28,41 @@ pub(crate) struct Incoming<N> {
 #[inline(always)]
 pub(crate) fn incoming<N: Lanes>(light: &Light, points: Vector<N>) -> Option<Incoming<N>> {
     match light.emitter {
-        Emitter::Point { position, .. } => {
-            Some(Incoming::from(Vector::all(points.x, position), points))
-        }
+        Emitter::Point { position, .. } => Some(Incoming::from_sources(
+            Vector::all(points.x, position),
+            points,
+        )),
         Emitter::Distant(toward) => Some(Incoming {
             toward: Vector::all(points.x, toward),
             source: None,
         }),
         Emitter::Ambient => None,
     }
+}
+
+/// The same in lanes, each for the light with the index there: either all of them are one, or all are at
+/// a finite distance.
+#[inline(always)]
+pub(crate) fn incoming_each<S: Simd>(
+    simd: S,
+    lights: &[Light],
+    (indices, lanes): (&[usize; WIDTH], u32),
+    points: Vector<Eight<S>>,
+) -> Option<Incoming<Eight<S>>> {
+    let mut used = each_bit(lanes).map(|lane| indices[lane]);
+    let first = used.next()?;
+    if used.all(|index| index == first) {
+        return incoming(&lights[first], points);
+    }
+    let mut sources = Vector::repeat(DVec3::ZERO);
+    for lane in each_bit(lanes) {
+        let light = &lights[indices[lane]];
+        debug_assert!(matches!(light.emitter, Emitter::Point { .. }));
+        if let Emitter::Point { position, .. } = light.emitter {
+            sources.set(lane, position);
+        }
+    }
+    Some(Incoming::from_sources(sources.load(simd), points))
 }
 
 /// The fraction of a light that arrives at a point from a direction, ignoring occlusion. For a
@@ -52,33 +78,10 @@ pub(crate) fn attenuation(light: &Light, point: DVec3, toward: DVec3) -> f64 {
     }
 }
 
-/// The same in lanes, each for the light with the index there: either all of them are one, or all are at
-/// a finite distance.
-#[inline(always)]
-pub(crate) fn incoming_each<S: Simd>(
-    simd: S,
-    lights: &[Light],
-    (numbers, lanes): (&[usize; WIDTH], u32),
-    points: Vector<Eight<S>>,
-) -> Option<Incoming<Eight<S>>> {
-    let mut numbered = each_bit(lanes).map(|lane| numbers[lane]);
-    let first = numbered.next()?;
-    if numbered.all(|number| number == first) {
-        return incoming(&lights[first], points);
-    }
-    let mut sources = Vector::repeat(DVec3::ZERO);
-    for lane in each_bit(lanes) {
-        if let Emitter::Point { position, .. } = lights[numbers[lane]].emitter {
-            sources.set(lane, position);
-        }
-    }
-    Some(Incoming::from(sources.load(simd), points))
-}
-
 impl<N: Lanes> Incoming<N> {
     /// The light that arrives at points from sources.
     #[inline(always)]
-    pub(crate) fn from(source: Vector<N>, points: Vector<N>) -> Self {
+    pub(crate) fn from_sources(source: Vector<N>, points: Vector<N>) -> Self {
         Self {
             toward: (source - points).unit(),
             source: Some(source),

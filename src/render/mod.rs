@@ -21,10 +21,10 @@
 //!
 //! A tracer has three integrators: [`whitted`] traces a [`wave`] of samples at once, whose rays land
 //! on [`surfaces`] and [`branch`]; [`path_wave`] follows a [`path`] for each sample, all of them bounce
-//! by bounce, continuing by a [`bsdf`] and its [`lobes`] and asking what emits light ([`next_events`],
-//! [`next_event`]), at eight [`vertices`] at once; the third adds the [`caustics`] of [`photons`] to paths. These are
-//! traced before the tiles of a step ([`photon_paths`]), turned at mirrors and glass by a
-//! [`deflection`], and found in a [`photon_map`]. All query the world through a [`probe`], which applies
+//! by bounce, continuing by a [`bsdf`] and its [`lobes`] and asking what emits light ([`next_event`],
+//! [`next_event_wave`]), at eight [`vertices`] at once; the third adds the [`caustics`] of [`photons`]
+//! to paths. These are traced before the tiles of a step ([`photon_paths`]), turned at mirrors and glass
+//! by a [`deflection`], and found in a [`photon_map`]. All query the world through a [`probe`], which applies
 //! a material's maps ([`texture`]), shade according to [`shading`], and sample [`lights`] for [`direct`]
 //! light. [`optics`], [`microfacet`] and [`warp`] hold the formulas. [`gather`] tells the shares of the
 //! light apart.
@@ -74,7 +74,7 @@ mod lights;
 mod lobes;
 mod microfacet;
 mod next_event;
-mod next_events;
+mod next_event_wave;
 mod noise;
 mod optics;
 mod overexposure;

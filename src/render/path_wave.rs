@@ -5,7 +5,7 @@ use std::borrow::Cow;
 
 use super::bsdf::BsdfSample;
 use super::intersect::Nearest;
-use super::next_events::{Meeting, NextEvents};
+use super::next_event_wave::{Meeting, NextEventWave};
 use super::path::{Met, Onward, Path, Vertex};
 use super::probe::{Probe, Sample, Seen};
 use super::sampler::{Draws, Fours, Use};
@@ -32,7 +32,7 @@ pub(crate) struct PathWave {
     landings: Vec<Landing>,
     /// The numbers of the paths' samplers at a bounce.
     draws: Draws,
-    next_events: NextEvents,
+    next_events: NextEventWave,
 }
 
 impl<C: Fn() -> bool> Probe<'_, C> {

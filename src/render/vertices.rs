@@ -177,29 +177,29 @@ impl<'v, 'm> Vertices<'v, 'm> {
 
     /// Samples lights without a radiance, given the indices of those that light the lanes: either all of
     /// them are one, or all are at a finite distance.
-    pub(super) fn of_points(
+    pub(super) fn sample_points(
         &self,
         level: Level,
-        (lights, chosen, lanes): (&[Light], &[usize; WIDTH], u32),
+        (lights, indices, lanes): (&[Light], &[usize; WIDTH], u32),
         numbers: &Fours,
     ) -> Option<PointSamples> {
         dispatch!(level, simd => {
-            self.of_points_together(simd, (lights, chosen, lanes), numbers)
+            self.sample_points_together(simd, (lights, indices, lanes), numbers)
         })
     }
 
     #[inline(always)]
-    fn of_points_together<S: Simd>(
+    fn sample_points_together<S: Simd>(
         &self,
         simd: S,
-        (lights, chosen, lanes): (&[Light], &[usize; WIDTH], u32),
+        (lights, indices, lanes): (&[Light], &[usize; WIDTH], u32),
         numbers: &Fours,
     ) -> Option<PointSamples> {
         let surface = self.surface.load(simd);
-        let mut incoming = incoming_each(simd, lights, (chosen, lanes), surface.point)?;
+        let mut incoming = incoming_each(simd, lights, (indices, lanes), surface.point)?;
         for lane in each_bit(lanes) {
             let [u, v, ..] = numbers.lane(lane);
-            if let Some(sphere) = lights[chosen[lane]].sphere()
+            if let Some(sphere) = lights[indices[lane]].sphere()
                 && let Some(chosen) = sphere.choose(self.surface.point.get(lane), [u, v])
             {
                 incoming.put(lane, chosen);
@@ -219,7 +219,7 @@ impl<'v, 'm> Vertices<'v, 'm> {
 
     /// Samples lights with a radiance, chosen with these probabilities; `may_go_on`
     /// says whether paths are not at their last bounce.
-    pub(super) fn of_spheres(
+    pub(super) fn sample_spheres(
         &self,
         level: Level,
         (spheres, chances, lanes): (&Spheres<Row>, &Row, u32),
@@ -227,12 +227,12 @@ impl<'v, 'm> Vertices<'v, 'm> {
         may_go_on: bool,
     ) -> SphereSamples {
         dispatch!(level, simd => {
-            self.of_spheres_together(simd, (spheres, chances, lanes), numbers, may_go_on)
+            self.sample_spheres_together(simd, (spheres, chances, lanes), numbers, may_go_on)
         })
     }
 
     #[inline(always)]
-    fn of_spheres_together<S: Simd>(
+    fn sample_spheres_together<S: Simd>(
         &self,
         simd: S,
         (spheres, chances, lanes): (&Spheres<Row>, &Row, u32),

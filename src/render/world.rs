@@ -179,6 +179,7 @@ impl World {
             let objects = &scene.objects;
             let bounds = |object: u32| objects[object as usize].shape.bounds();
             let known = previous.and_then(|world| world.tree.as_ref());
+            // Once cancelled, none is adapted, and none is built.
             let adapted = known.and_then(|tree| {
                 if let Some(changed) = changed {
                     return tree.refitted(&changed, bounds, cancelled);
@@ -302,7 +303,7 @@ fn replaced(
     after: &Objects,
     cancelled: &(dyn Fn() -> bool + Sync),
 ) -> Option<(Range<u32>, u32)> {
-    /// Cancellation is asked for once in this many objects.
+    /// Cancellation is polled once in this many objects.
     const POLLED: usize = 1 << 12;
     /// The maximum number of objects removed or inserted.
     const MANY: usize = 16;

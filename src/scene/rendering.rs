@@ -8,7 +8,7 @@ pub const DEFAULT_SPP: u32 = 16;
 /// Default maximum of samples per pixel with adaptive sampling.
 const DEFAULT_ADAPTIVE_SPP: u32 = 4096;
 
-/// The fewest samples of a pixel that adaptive sampling stops.
+/// The number of samples after which adaptive sampling may first stop a pixel.
 pub const LEAST_ADAPTIVE_SPP: u32 = 16;
 
 /// Maximum samples per pixel: the length of the sample sequence.

@@ -261,7 +261,7 @@ fn changes_of_a_tree_can_be_cancelled() {
     check_cancelling(|cancelled| bvh.runs(cancelled).is_some());
 }
 
-/// Whenever work is cancelled, it returns nothing and does not ask again.
+/// Whenever work is cancelled, it returns nothing and does not poll again.
 fn check_cancelling(is_done: impl Fn(&dyn Fn() -> bool) -> bool) {
     let polls = Cell::new(0);
     let cancelled_at = |last: usize| {

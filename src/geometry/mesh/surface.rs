@@ -138,7 +138,7 @@ impl Instance {
     }
 }
 
-/// Three vectors of the triangle in each lane; other lanes repeat the first.
+/// Three vectors of the triangle in each lane, of which there is at least one; others repeat the first.
 #[inline(always)]
 pub(in crate::geometry) fn gathered<S: Simd>(
     simd: S,

@@ -6,7 +6,7 @@ use glam::DVec3;
 
 use super::super::warp;
 use crate::geometry::lanes::{Eight, Lanes, Row, Simd, Vector};
-use crate::geometry::{Ball, Flat, Flats, Patch};
+use crate::geometry::{Ball, Flat, Parallelograms, Patch};
 
 /// A direction toward a part of a surface.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -30,10 +30,10 @@ const PARALLELOGRAM: f64 = 1.0;
 
 /// Flat parts of surfaces, in each lane.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct FlatParts<N> {
-    flats: Flats<N>,
+pub(super) struct Flats<N> {
+    whole: Parallelograms<N>,
     /// [`TRIANGLE`] or [`PARALLELOGRAM`]; 0 in unused lanes.
-    part: N,
+    fraction: N,
 }
 
 /// Directions toward flat parts: see [`Aim`].
@@ -51,8 +51,8 @@ impl Patch {
     /// sphere's space.
     pub(super) fn aim(&self, from: DVec3, place: [f64; 2]) -> Option<Aim> {
         let flats = match self {
-            Self::Triangle(flat) => FlatParts::new(flat, TRIANGLE),
-            Self::Parallelogram(flat) => FlatParts::new(flat, PARALLELOGRAM),
+            Self::Triangle(flat) => Flats::new(flat, TRIANGLE),
+            Self::Parallelogram(flat) => Flats::new(flat, PARALLELOGRAM),
             Self::Ball(ball) => return ball.aim(from, place),
         };
         let (aims, is_finite) = flats.aim(from.into(), place);
@@ -68,8 +68,8 @@ impl Patch {
     /// at a point.
     pub(super) fn density(&self, from: DVec3, toward: DVec3, at: DVec3) -> f64 {
         let flats = match self {
-            Self::Triangle(flat) => FlatParts::new(flat, TRIANGLE),
-            Self::Parallelogram(flat) => FlatParts::new(flat, PARALLELOGRAM),
+            Self::Triangle(flat) => Flats::new(flat, TRIANGLE),
+            Self::Parallelogram(flat) => Flats::new(flat, PARALLELOGRAM),
             Self::Ball(ball) => return ball.density(from, toward),
         };
         flats.density(toward.into(), at.distance_squared(from))
@@ -115,34 +115,38 @@ fn to_triangle<N: Lanes>([u, v]: [N; 2]) -> [N; 2] {
     ]
 }
 
-impl FlatParts<f64> {
-    fn new(flat: &Flat, part: f64) -> Self {
-        let flats = flat.into();
-        Self { flats, part }
+impl Flats<f64> {
+    fn new(flat: &Flat, fraction: f64) -> Self {
+        let whole = flat.into();
+        Self { whole, fraction }
     }
 }
 
-impl<N: Lanes> FlatParts<N> {
+impl<N: Lanes> Flats<N> {
     /// Replaces some by triangles.
     #[inline(always)]
-    pub(super) fn put_triangles(&mut self, mask: N::Mask, triangles: &Flats<N>) {
-        let flats = &mut self.flats;
-        flats.corner = Vector::select(mask, triangles.corner, flats.corner);
-        for (side, &of_triangles) in flats.sides.iter_mut().zip(&triangles.sides) {
-            *side = Vector::select(mask, of_triangles, *side);
-        }
-        flats.normal = Vector::select(mask, triangles.normal, flats.normal);
-        self.part = N::select(mask, self.part.all(TRIANGLE), self.part);
+    pub(super) fn put_triangles(&mut self, mask: N::Mask, triangles: &Parallelograms<N>) {
+        let Parallelograms {
+            corner,
+            sides: [across, up],
+            normal,
+        } = &mut self.whole;
+        let [across_triangle, up_triangle] = triangles.sides;
+        *corner = Vector::select(mask, triangles.corner, *corner);
+        *across = Vector::select(mask, across_triangle, *across);
+        *up = Vector::select(mask, up_triangle, *up);
+        *normal = Vector::select(mask, triangles.normal, *normal);
+        self.fraction = N::select(mask, self.fraction.all(TRIANGLE), self.fraction);
     }
 
     /// See [`Patch::aim`]; the mask selects lanes in which there is a direction.
     #[inline(always)]
     pub(super) fn aim(&self, from: Vector<N>, [u, v]: [N; 2]) -> (Aims<N>, N::Mask) {
-        let is_triangle = self.part.equals(self.part.all(TRIANGLE));
+        let is_triangle = self.fraction.equals(self.fraction.all(TRIANGLE));
         let [across, up] = to_triangle([u, v]);
         let u = N::select(is_triangle, across, u);
         let v = N::select(is_triangle, up, v);
-        let Flats { corner, sides, .. } = &self.flats;
+        let Parallelograms { corner, sides, .. } = &self.whole;
         let at = *corner + sides[0].scaled(u) + sides[1].scaled(v);
         let offset = at - from;
         let square = offset.length_squared();
@@ -152,7 +156,7 @@ impl<N: Lanes> FlatParts<N> {
             toward,
             reach: distance.all(SLACK) * distance,
             density: self.density(toward, square),
-            is_front: toward.dot(self.flats.normal).below(square.all(0.0)),
+            is_front: toward.dot(self.whole.normal).below(square.all(0.0)),
         };
         (aims, toward.is_finite())
     }
@@ -160,49 +164,49 @@ impl<N: Lanes> FlatParts<N> {
     /// The density per steradian, given the square of the distance.
     #[inline(always)]
     fn density(&self, toward: Vector<N>, square: N) -> N {
-        let seen = self.part * self.flats.normal.dot(toward).abs();
+        let seen = self.fraction * self.whole.normal.dot(toward).abs();
         finite(square / seen)
     }
 }
 
-impl FlatParts<Row> {
+impl Flats<Row> {
     /// Room for flat parts.
     pub(super) const NONE: Self = Self {
-        flats: Flats {
+        whole: Parallelograms {
             corner: Vector::repeat(DVec3::ZERO),
             sides: [Vector::repeat(DVec3::ZERO); 2],
             normal: Vector::repeat(DVec3::ZERO),
         },
-        part: Row::all(0.0),
+        fraction: Row::all(0.0),
     };
 
     /// Puts a part into a lane; whether it is flat.
     #[inline(always)]
     pub(super) fn set(&mut self, lane: usize, patch: &Patch) -> bool {
-        let (flat, part) = match patch {
+        let (flat, fraction) = match patch {
             Patch::Triangle(flat) => (flat, TRIANGLE),
             Patch::Parallelogram(flat) => (flat, PARALLELOGRAM),
             Patch::Ball(_) => return false,
         };
-        self.flats.corner.set(lane, flat.corner);
-        self.flats.sides[0].set(lane, flat.sides[0]);
-        self.flats.sides[1].set(lane, flat.sides[1]);
-        self.flats.normal.set(lane, flat.normal);
-        self.part.0[lane] = part;
+        self.whole.corner.set(lane, flat.corner);
+        self.whole.sides[0].set(lane, flat.sides[0]);
+        self.whole.sides[1].set(lane, flat.sides[1]);
+        self.whole.normal.set(lane, flat.normal);
+        self.fraction.0[lane] = fraction;
         true
     }
 
     /// Loads the parts into SIMD vectors.
     #[inline(always)]
-    pub(super) fn load<S: Simd>(&self, simd: S) -> FlatParts<Eight<S>> {
-        let [across, up] = &self.flats.sides;
-        FlatParts {
-            flats: Flats {
-                corner: self.flats.corner.load(simd),
+    pub(super) fn load<S: Simd>(&self, simd: S) -> Flats<Eight<S>> {
+        let [across, up] = &self.whole.sides;
+        Flats {
+            whole: Parallelograms {
+                corner: self.whole.corner.load(simd),
                 sides: [across.load(simd), up.load(simd)],
-                normal: self.flats.normal.load(simd),
+                normal: self.whole.normal.load(simd),
             },
-            part: self.part.load(simd),
+            fraction: self.fraction.load(simd),
         }
     }
 }

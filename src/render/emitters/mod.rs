@@ -24,7 +24,7 @@ use super::texture::Textures;
 use crate::geometry::lanes::{Lanes, Row, Simd, Vector, WIDTH, bits, each_bit, mask};
 use crate::geometry::{Hit, Instance, Patch, Ray, Shape};
 use crate::scene::{Faces, Material, Object, Rgb, Scene, Tinted};
-use aim::{Aim, FlatParts};
+use aim::{Aim, Flats};
 use cone::{Cone, Reach};
 pub(crate) use many::ManyLights;
 use tree::Tree;
@@ -131,8 +131,8 @@ impl Choices {
 /// Their vertices are read lane after lane, so that the waits for memory overlap.
 #[derive(Default)]
 struct MeshLanes<'s> {
-    instance: Option<&'s Instance>,
-    object: u32,
+    /// The mesh, with the index of its object.
+    mesh: Option<(u32, &'s Instance)>,
     lanes: u32,
     triangles: [u32; WIDTH],
 }
@@ -141,12 +141,12 @@ impl<'s> MeshLanes<'s> {
     /// Whether a part of an object is a triangle of the mesh, in which case it is taken into a lane.
     #[inline(always)]
     fn take(&mut self, scene: &'s Scene, lane: usize, (object, part): (u32, u32)) -> bool {
-        if self.instance.is_none()
+        if self.mesh.is_none()
             && let Shape::Mesh(instance) = &scene.objects[object as usize].shape
         {
-            (self.instance, self.object) = (Some(instance.as_ref()), object);
+            self.mesh = Some((object, instance.as_ref()));
         }
-        let takes = self.instance.is_some() && object == self.object;
+        let takes = self.mesh.is_some_and(|(mesh, _)| mesh == object);
         if takes {
             self.lanes |= 1 << lane;
             self.triangles[lane] = part;
@@ -262,7 +262,7 @@ impl Emitters {
     ) -> Choices {
         let (from, _) = at;
         let picked = self.tree.choose_together(simd, at, &numbers.0[2], lanes);
-        let mut flats = FlatParts::NONE;
+        let mut flats = Flats::NONE;
         let mut chances = Row::all(0.0);
         let mut choices = Choices::default();
         let mut flat = 0;
@@ -292,7 +292,7 @@ impl Emitters {
         flat |= in_mesh.lanes;
         if flat != 0 {
             let mut flats = flats.load(simd);
-            if let Some(instance) = in_mesh.instance {
+            if let Some((_, instance)) = in_mesh.mesh {
                 let triangles = instance.triangles(simd, &in_mesh.triangles, in_mesh.lanes);
                 flats.put_triangles(mask(simd, in_mesh.lanes), &triangles);
             }

@@ -20,6 +20,15 @@ impl Random {
     }
 }
 
+/// Small emitters side by side that shine almost in one direction: from afar they look alike.
+fn alike(count: usize, random: &mut Random) -> Vec<Reach> {
+    let mut reaches = reaches(count, random);
+    for reach in &mut reaches {
+        reach.cone = Cone::around((DVec3::Z + 0.1 * random.direction()).normalize(), true);
+    }
+    reaches
+}
+
 fn reaches(count: usize, random: &mut Random) -> Vec<Reach> {
     let mut reach = |_| {
         let corner = 5.0 * random.point(1.0);
@@ -82,11 +91,14 @@ fn chances_are_those_of_choices() {
 #[test]
 fn lanes_choose_the_same() {
     let mut random = Random(3);
-    for count in [0, 1, 2, 17, 300] {
-        let reaches = reaches(count, &mut random);
+    for (count, reaches) in [0, 1, 2, 17, 300]
+        .into_iter()
+        .flat_map(|count| [(count, reaches as fn(_, &mut _) -> _), (count, alike)])
+    {
+        let reaches: Vec<_> = reaches(count, &mut random);
         let tree = Tree::build(&reaches, &|| false).expect("nothing cancels");
-        for together in [1, 3, 8] {
-            let place = |_| (7.0 * random.point(1.0), random.direction());
+        for (together, distance) in [(1, 7.0), (3, 70.0), (8, 7.0), (8, 20.0), (8, 70.0)] {
+            let place = |_| (distance * random.point(1.0), random.direction());
             let surfaces: Vec<_> = (0..together).map(place).collect();
             let numbers: Vec<_> = surfaces.iter().map(|_| random.next()).collect();
             let alone = surfaces.iter().zip(&numbers);

@@ -3,10 +3,10 @@
 
 use glam::DVec3;
 
-use super::direct::{Shadow, shadowed};
+use super::direct::{Shadow, sent_back, shadowed};
 use super::emitters::Choices;
 use super::intersect::{Nearest, Occlusion};
-use super::lights::{SphereLight, Spheres, attenuation};
+use super::lights::{SphereLight, Spheres};
 use super::next_event::Target;
 use super::probe::{Probe, Seen};
 use super::sampler::{Draws, Fours, Use};
@@ -18,11 +18,11 @@ use crate::scene::{Light, Rgb, Shadows};
 
 /// Shadow rays of the surfaces of a bounce, what they carry, and scratch space.
 #[derive(Debug, Default)]
-pub(super) struct NextEvents {
+pub(super) struct NextEventWave {
     /// The light that each surface samples, with the probability of its choice.
     chosen: Vec<Option<(usize, f64)>>,
     shadows: Packets,
-    lit: Vec<LightRay>,
+    to_lights: Vec<LightRay>,
     to_emitters: Vec<EmitterRay>,
     nearest: Vec<Option<Nearest>>,
     transmittances: Vec<f64>,
@@ -68,12 +68,12 @@ struct EmitterRay {
 }
 
 /// The lights that a batch of surfaces samples, in lanes.
-struct Asked {
-    /// The lanes of lights with a size, and of others.
-    with_size: u32,
-    points: u32,
+struct LightBatch {
+    /// The lanes of lights with a radiance, and of others.
+    with_radiance: u32,
+    without: u32,
     /// Their indices, and the probabilities of their choice.
-    numbers: [usize; WIDTH],
+    indices: [usize; WIDTH],
     chances: Row,
     spheres: [Option<SphereLight>; WIDTH],
 }
@@ -86,13 +86,13 @@ struct Lit<'e> {
     rays: &'e mut Vec<LightRay>,
 }
 
-impl Asked {
+impl LightBatch {
     /// Collects the lights from their indices and probabilities.
     fn new(lights: &[Light], chosen: &[Option<(usize, f64)>]) -> Self {
         let mut asked = Self {
-            with_size: 0,
-            points: 0,
-            numbers: [0; WIDTH],
+            with_radiance: 0,
+            without: 0,
+            indices: [0; WIDTH],
             chances: Row::all(1.0),
             spheres: [None; WIDTH],
         };
@@ -100,13 +100,13 @@ impl Asked {
             let Some((number, chance)) = chosen else {
                 continue;
             };
-            asked.numbers[lane] = number;
+            asked.indices[lane] = number;
             asked.chances.0[lane] = chance;
             asked.spheres[lane] = lights[number].luminous_sphere();
             if asked.spheres[lane].is_some() {
-                asked.with_size |= 1 << lane;
+                asked.with_radiance |= 1 << lane;
             } else {
-                asked.points |= 1 << lane;
+                asked.without |= 1 << lane;
             }
         }
         asked
@@ -133,7 +133,7 @@ impl<C: Fn() -> bool> Probe<'_, C> {
         &mut self,
         vertices: &[Vertices<'_, '_>],
         meetings: &mut [Meeting],
-        (draws, events): (&mut Draws, &mut NextEvents),
+        (draws, events): (&mut Draws, &mut NextEventWave),
         seen: &mut [Seen],
     ) {
         let (world, bounce) = (self.world, draws.node);
@@ -156,8 +156,8 @@ impl<C: Fn() -> bool> Probe<'_, C> {
             events.chosen.clear();
             (events.chosen).extend(is_lit.map(|is_lit| is_lit.then_some((number, 1.0))));
             let occlusion = self.occlusion(&lights[number]);
-            let rays = (number, occlusion, bounce);
-            self.add_light((vertices, numbers), meetings, events, seen, rays);
+            let batches = (vertices, numbers);
+            self.add_light(batches, meetings, events, seen, (number, occlusion, bounce));
         }
         let is_lit = |meeting: &Meeting| meeting.is_lit;
         if !many.is_empty() && meetings.iter().any(is_lit) {
@@ -166,8 +166,9 @@ impl<C: Fn() -> bool> Probe<'_, C> {
             events.choose_lights(world, (vertices, numbers), meetings, gathers);
             // All of them emit photons, or none.
             let occlusion = self.occlusion(&lights[many.first()]);
-            let rays = (lights.len() + 1, occlusion, bounce);
-            self.add_light((vertices, numbers), meetings, events, seen, rays);
+            let batches = (vertices, numbers);
+            let slot = lights.len() + 1;
+            self.add_light(batches, meetings, events, seen, (slot, occlusion, bounce));
         }
     }
 
@@ -177,7 +178,7 @@ impl<C: Fn() -> bool> Probe<'_, C> {
         &mut self,
         (vertices, numbers): (&[Vertices<'_, '_>], &[Fours]),
         meetings: &mut [Meeting],
-        events: &mut NextEvents,
+        events: &mut NextEventWave,
         seen: &mut [Seen],
         (slot, occlusion, bounce): (usize, Occlusion, u32),
     ) {
@@ -186,52 +187,53 @@ impl<C: Fn() -> bool> Probe<'_, C> {
             lights: world.lights(),
             meetings,
             shadows: &mut events.shadows,
-            rays: &mut events.lit,
+            rays: &mut events.to_lights,
         };
         lit.shadows.clear();
         lit.rays.clear();
         for (batch, vertices) in vertices.iter().enumerate() {
             let numbers = numbers.get(batch).unwrap_or(&Fours::ZERO);
             let chosen = &events.chosen[batch * WIDTH..][..vertices.all().len()];
-            let asked = Asked::new(world.lights(), chosen);
+            let asked = LightBatch::new(world.lights(), chosen);
             let surfaces = (vertices, batch * WIDTH, numbers);
             self.ask_spheres(&asked, surfaces, bounce, &mut lit);
             self.ask_points(&asked, surfaces, &mut lit);
         }
-        for ray in &events.lit {
+        for ray in &events.to_lights {
             seen[meetings[ray.at].path].rays += 1;
         }
-        self.counts.rays += events.lit.len() as u64;
-        self.counts.shadow_rays += events.lit.len() as u64;
+        self.counts.rays += events.to_lights.len() as u64;
+        self.counts.shadow_rays += events.to_lights.len() as u64;
         self.trace_shadows(slot, occlusion, events);
-        for (ray, &transmittance) in events.lit.iter().zip(&events.transmittances) {
+        for (ray, &transmittance) in events.to_lights.iter().zip(&events.transmittances) {
             let light = world.lights()[ray.number].scale * shadowed(ray.light, transmittance);
             meetings[ray.at].light += light;
         }
         // Empty unless dependencies are recorded.
-        for (ray, &touched) in events.lit.iter().zip(&self.crossed.touched) {
+        for (ray, &touched) in events.to_lights.iter().zip(&self.crossed.touched) {
             seen[meetings[ray.at].path].touched |= touched;
         }
     }
 
-    /// Asks the lights of a batch of surfaces, given the index of the first, that have a size.
+    /// Asks the lights of a batch of surfaces, given the index of the first, that have a radiance.
     fn ask_spheres(
         &self,
-        asked: &Asked,
+        asked: &LightBatch,
         (vertices, first, numbers): (&Vertices<'_, '_>, usize, &Fours),
         bounce: u32,
         lit: &mut Lit<'_>,
     ) {
-        if asked.with_size == 0 {
+        if asked.with_radiance == 0 {
             return;
         }
         let world = self.world;
         let spheres = (
             &Spheres::gather(&asked.spheres),
             &asked.chances,
-            asked.with_size,
+            asked.with_radiance,
         );
-        let samples = vertices.of_spheres(world.level, spheres, numbers, self.may_go_on(bounce));
+        let samples =
+            vertices.sample_spheres(world.level, spheres, numbers, self.may_go_on(bounce));
         for lane in each_bit(samples.lanes) {
             let hides = |sphere: &SphereLight| {
                 let (ray, place) = (samples.rays.get(lane), samples.places.get(lane));
@@ -241,7 +243,7 @@ impl<C: Fn() -> bool> Probe<'_, C> {
                 let light = samples.light.get(lane);
                 lit.add(
                     first + lane,
-                    asked.numbers[lane],
+                    asked.indices[lane],
                     light,
                     &samples.shadow.lane(lane),
                 );
@@ -252,25 +254,24 @@ impl<C: Fn() -> bool> Probe<'_, C> {
     /// The same for all others.
     fn ask_points(
         &self,
-        asked: &Asked,
+        asked: &LightBatch,
         (vertices, first, numbers): (&Vertices<'_, '_>, usize, &Fours),
         lit: &mut Lit<'_>,
     ) {
-        if asked.points == 0 {
+        if asked.without == 0 {
             return;
         }
         let (world, lights) = (self.world, self.world.lights());
-        let sampled = (lights, &asked.numbers, asked.points);
-        let Some(samples) = vertices.of_points(world.level, sampled, numbers) else {
+        let sampled = (lights, &asked.indices, asked.without);
+        let Some(samples) = vertices.sample_points(world.level, sampled, numbers) else {
             return;
         };
         let (places, _) = vertices.places();
         for lane in each_bit(samples.lanes) {
-            let number = asked.numbers[lane];
+            let number = asked.indices[lane];
             let (place, toward) = (places.get(lane), samples.toward.get(lane));
-            let attenuation = attenuation(&lights[number], place, toward);
-            if attenuation != 0.0 {
-                let light = samples.reflected.get(lane) * (attenuation * lights[number].colour);
+            let reflected = samples.reflected.get(lane);
+            if let Some(light) = sent_back(&lights[number], place, || toward, reflected) {
                 let light = light / asked.chances.0[lane];
                 lit.add(first + lane, number, light, &samples.shadow.lane(lane));
             }
@@ -282,7 +283,7 @@ impl<C: Fn() -> bool> Probe<'_, C> {
         &mut self,
         vertices: &[Vertices<'_, '_>],
         meetings: &mut [Meeting],
-        (draws, events): (&mut Draws, &mut NextEvents),
+        (draws, events): (&mut Draws, &mut NextEventWave),
         seen: &mut [Seen],
     ) {
         let (world, bounce) = (self.world, draws.node);
@@ -322,7 +323,7 @@ impl<C: Fn() -> bool> Probe<'_, C> {
     }
 
     /// Computes the transmittances of all shadow rays, given the place of their last blocker.
-    fn trace_shadows(&mut self, slot: usize, occlusion: Occlusion, events: &mut NextEvents) {
+    fn trace_shadows(&mut self, slot: usize, occlusion: Occlusion, events: &mut NextEventWave) {
         self.world.transmittance_each(
             &events.shadows,
             occlusion,
@@ -333,7 +334,12 @@ impl<C: Fn() -> bool> Probe<'_, C> {
     }
 
     /// Counts the shadow rays to emitters.
-    fn count_emitter_rays(&mut self, events: &NextEvents, meetings: &[Meeting], seen: &mut [Seen]) {
+    fn count_emitter_rays(
+        &mut self,
+        events: &NextEventWave,
+        meetings: &[Meeting],
+        seen: &mut [Seen],
+    ) {
         for to_emitter in &events.to_emitters {
             seen[meetings[to_emitter.at].path].rays += 1;
         }
@@ -342,7 +348,7 @@ impl<C: Fn() -> bool> Probe<'_, C> {
     }
 }
 
-impl NextEvents {
+impl NextEventWave {
     /// Makes room for what is remembered of the lights of a world.
     pub(super) fn start(&mut self, world: &World) {
         self.blockers.resize(world.lights().len() + 2, None);
