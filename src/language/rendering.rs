@@ -260,15 +260,22 @@ impl Around {
 }
 
 /// Reads the settings of a comment from its words; `None` if the first is no key: then it is only a
-/// comment.
+/// comment, with a warning if that looks like a misspelt key.
 pub(super) fn read_comment(
     text: &str,
     comment: Span,
     body: Span,
     report: &mut Findings,
 ) -> Option<RenderPlace> {
+    let mut words = Words::new(text, body);
+    let first = words.next()?;
+    if index_of(first.of(text)).is_none() {
+        if let Some(warning) = misspelt(text, first, words.next()) {
+            report.warning(|| warning);
+        }
+        return None;
+    }
     let mut words = Words::new(text, body).peekable();
-    index_of(words.peek()?.of(text))?;
     let mut place = RenderPlace::new(comment);
     while let Some(key) = words.next() {
         let word = key.of(text);
@@ -300,6 +307,21 @@ pub(super) fn read_comment(
         place.read(word, value.of(text), part, report);
     }
     Some(place)
+}
+
+/// The warning for a comment whose first word looks like a misspelt key with a value behind it, as in
+/// `spp=4` or `integrater path`.
+fn misspelt(text: &str, first: Span, second: Option<Span>) -> Option<Diagnostic> {
+    let word = first.of(text);
+    let (name, value) = word.split_once('=').unwrap_or((word, ""));
+    let keys = RENDER.map(|field| field.key);
+    let meant = nearest_word(name, keys)?;
+    if value.is_empty() && second.is_none() {
+        return None;
+    }
+    let message = format!("render: {} is no key: the comment is ignored", quoted(word));
+    let warning = Diagnostic::warning(first, message, keys.join(", "));
+    Some(warning.with_hint(format!("did you mean `{meant} VALUE`?")))
 }
 
 /// The warning for render settings after the first.

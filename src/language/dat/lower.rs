@@ -140,6 +140,7 @@ impl Lowering<'_> {
             };
             let mut findings = Findings::default();
             let Some(place) = read_comment(self.text, line, body, &mut findings) else {
+                self.report.append(findings);
                 continue;
             };
             if self.origins.settings.is_some() {

@@ -109,6 +109,7 @@ pub(super) fn find_rendering(
     for (comment, body) in keyed(text, tokens, tree::RENDER) {
         let mut findings = Findings::default();
         let Some(place) = read_comment(text, comment, body, &mut findings) else {
+            report.append(findings);
             continue;
         };
         if found.is_some() {

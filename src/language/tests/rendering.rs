@@ -86,6 +86,28 @@ fn every_key_is_read_in_every_language() {
 }
 
 #[test]
+fn a_comment_that_looks_like_a_misspelt_setting_is_ignored_with_a_warning() {
+    for (start, (language, scene)) in [("// ", SCENES[0]), ("# ", SCENES[1])] {
+        for (words, is_close) in [
+            ("integrater path spp 4", true),
+            ("spp=4", true),
+            ("Spp 4", true),
+            ("integrater", false),
+            ("a quick one", false),
+            ("seed 3", false),
+        ] {
+            let (settings, found) = read(language, scene, &format!("{start}render: {words}\n"));
+            assert_eq!(settings, Rendering::default(), "{words}");
+            let first = words.split(' ').next().unwrap_or_default();
+            let message = format!("warning: render: `{first}` is no key: the comment is ignored");
+            let is_said = matches!(&found[..], [one] if one.ends_with(&message));
+            assert_eq!(is_said, is_close, "{words}: {found:?}");
+            assert!(is_said || found.is_empty(), "{words}: {found:?}");
+        }
+    }
+}
+
+#[test]
 fn what_is_wrong_with_a_setting_skips_only_that() {
     let cases = [
         (
