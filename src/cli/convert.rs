@@ -15,7 +15,7 @@ Examples:
   halflight convert scene.xml -o scene.dat --strict       only if nothing is lost
   halflight convert scene.dat -o - --to ray
 
-For all that the other language cannot hold, a warning names its place and the nearest that was \
+For everything that the other language cannot express, a warning names its place and the nearest that was \
 written instead. With --strict these are errors, and nothing is written. Without any, both scenes \
 give the same picture: halflight compare scene.ray scene.xml finds no differing pixel.
 

@@ -350,7 +350,7 @@ enum Subcommands {
     /// Say why a pixel has its colour, and show the rays behind it
     #[command(after_help = explain::EXAMPLES)]
     Explain(ExplainArguments),
-    /// Convert a scene to another language, and say what it cannot hold
+    /// Convert a scene to another language, and say what that cannot express
     #[command(after_help = convert::EXAMPLES)]
     Convert(ConvertArguments),
     /// Measure how fast scenes are loaded and traced on this machine
