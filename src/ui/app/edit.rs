@@ -11,6 +11,7 @@ use crate::language::{Lowered, Node, Nodes};
 use crate::scene::Scene;
 use crate::text::{Diagnostic, Edit, Findings, Span, parse_number};
 use crate::ui::keymap::{Action, Mode};
+use crate::ui::msg::Effect;
 
 impl App {
     /// Takes files of the scene that were read.
@@ -181,16 +182,18 @@ impl App {
         fields.iter().filter(|part| part.is_explicit()).count()
     }
 
-    pub(super) fn undo(&mut self) {
+    pub(super) fn undo(&mut self) -> Vec<Effect> {
         let done = self.step_back();
         self.overlays
             .say(done.as_deref().unwrap_or("nothing to undo"));
+        self.catch_up()
     }
 
-    pub(super) fn redo(&mut self) {
+    pub(super) fn redo(&mut self) -> Vec<Effect> {
         let done = self.step_forward();
         self.overlays
             .say(done.as_deref().unwrap_or("nothing to redo"));
+        self.catch_up()
     }
 
     /// Undoes a step and selects what it changed; returns what to say, or `None` without a step.

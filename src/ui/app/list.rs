@@ -129,7 +129,12 @@ impl App {
         self.overlays.errors = match self.overlays.errors {
             Some(_) => None,
             None if self.wrong().findings.is_empty() => {
-                self.overlays.say("no errors or warnings");
+                let text = "no errors or warnings";
+                let words = match &self.cures.said {
+                    Some(of_picture) => format!("{text} in the text, but {of_picture}"),
+                    None => text.to_owned(),
+                };
+                self.overlays.say(words);
                 None
             }
             None => Some(0),

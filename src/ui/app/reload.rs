@@ -62,6 +62,16 @@ const SAME_NOW: Wording = Wording {
 };
 
 impl App {
+    /// Reads a file that changed while there were unsaved edits, once there are none: nothing is left to
+    /// be decided.
+    pub(super) fn catch_up(&mut self) -> Vec<Effect> {
+        if self.disk.state == OnDisk::Changed && !self.document.is_dirty() {
+            self.read_again()
+        } else {
+            Vec::new()
+        }
+    }
+
     pub(super) fn read_again(&mut self) -> Vec<Effect> {
         self.suspend_frame();
         self.disk.read_again(self.baseline())

@@ -322,8 +322,8 @@ impl App {
                 self.decide(action);
             }
             Action::OnTrack(action) => return self.act_on_track(action),
-            Action::Undo => self.undo(),
-            Action::Redo => self.redo(),
+            Action::Undo => return self.undo(),
+            Action::Redo => return self.redo(),
             Action::Errors => self.toggle_errors(),
             Action::Steps => self.list_steps(),
             Action::Messages => self.overlays.history = Some(0),

@@ -72,6 +72,20 @@ fn a_postponed_conflict_returns_with_the_next_save() {
 }
 
 #[test]
+fn a_postponed_conflict_ends_when_the_edits_are_undone() {
+    let mut app = open(SCENE);
+    press(&mut app, "jjjel");
+    let theirs = SCENE.replace("sphere\n0 0 0", "sphere\n9 0 0");
+    outside(&mut app, &theirs);
+    press(&mut app, "<Esc>");
+    let effects = press(&mut app, "u");
+    assert!(wants(&effects, |effect| matches!(effect, Effect::Read(..))));
+    outside(&mut app, &theirs);
+    assert_eq!(app.document.text(), theirs);
+    assert_eq!(app.disk.state, OnDisk::Known);
+}
+
+#[test]
 fn all_conflicts_can_be_decided_at_once() {
     for (key, decided) in [("M", Side::Mine), ("T", Side::Theirs)] {
         let mut app = open(SCENE);

@@ -260,13 +260,15 @@ fn a_picture_that_is_too_bright_says_so_once() {
     let (mut app, effects) = opened(&faded());
     let bright =
         "more than half of the picture is above 1: C sets exposure -1, < darkens the screen only";
+    let again = format!("no errors or warnings in the text, but {bright}");
     let trace = job(&effects, Target::Preview).expect("a preview").clone();
     press(&mut app, "<Esc>");
     for (keys, grey, told) in [
         ("", 0.9, ""),
         ("", 1.5, bright),
-        // The next key dismisses it, and it does not come back.
+        // The next key dismisses it, and it only comes back on request.
         ("j", 1.5, ""),
+        ("!", 1.5, &again),
         ("j", 0.9, ""),
         ("", 1.5, bright),
         ("<Lt><Lt><Esc>", 0.9, ""),
