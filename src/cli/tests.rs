@@ -198,7 +198,7 @@ fn wrong_arguments_are_rejected_with_a_reason() {
             "halflight --color blue a",
             "[possible values: auto, 24, 256, 16, mono]",
         ),
-        ("halflight --poll=1 a", "10..=3600000"),
+        ("halflight --poll=1 a", "from 10 to 3600000"),
         ("halflight render a", "--output"),
         ("halflight render a -o b.webp", ".bmp, .ppm, .png"),
         ("halflight render a -o b", ".exr or .hdr"),
@@ -247,7 +247,6 @@ fn wrong_arguments_are_rejected_with_a_reason() {
         ),
         ("halflight compare a b -o c", ".exr or .hdr"),
         ("halflight bench --runs 0", "from 1 to 1000"),
-        ("halflight --poll=9", "from 10 to 3600000"),
         ("halflight --bandwidth -1", "from 0 to 4000000"),
         (
             "halflight render a -o b_#.bmp --turntable 0",
