@@ -67,12 +67,12 @@ struct EmitterRay {
     share: f64,
 }
 
-/// The lights that a batch of surfaces samples, in lanes.
+/// The lights sampled at a batch of surfaces, in lanes.
 struct LightBatch {
     /// The lanes of lights with a radiance, and of others.
     with_radiance: u32,
     without: u32,
-    /// Their indices, and the probabilities of their choice.
+    /// The lights' indices, and the probabilities of their choice.
     indices: [usize; WIDTH],
     chances: Row,
     spheres: [Option<SphereLight>; WIDTH],
@@ -215,7 +215,7 @@ impl<C: Fn() -> bool> Probe<'_, C> {
         }
     }
 
-    /// Asks the lights of a batch of surfaces, given the index of the first, that have a radiance.
+    /// Samples those lights of a batch that have a radiance, at its surfaces, given the index of the first.
     fn ask_spheres(
         &self,
         asked: &LightBatch,
@@ -251,7 +251,7 @@ impl<C: Fn() -> bool> Probe<'_, C> {
         }
     }
 
-    /// The same for all others.
+    /// Samples all other lights of a batch.
     fn ask_points(
         &self,
         asked: &LightBatch,
