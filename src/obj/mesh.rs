@@ -1,7 +1,7 @@
 //! Meshes: vertices, faces and the assignment of materials.
 
 use std::collections::HashMap;
-use std::ops::{Range, RangeInclusive};
+use std::ops::RangeInclusive;
 use std::sync::Arc;
 
 use glam::{DVec2, DVec3};
@@ -48,7 +48,7 @@ pub(super) fn read<B: AsRef<[u8]>>(
 /// Reads a text that has been cut into parts.
 pub(super) fn read_parts<B: AsRef<[u8]>>(
     bytes: &[u8],
-    parts: Vec<Chunk>,
+    mut parts: Vec<Chunk>,
     most: usize,
     library: impl FnMut(&str) -> Result<B, String>,
 ) -> Result<Model, Vec<Finding>> {
@@ -59,25 +59,30 @@ pub(super) fn read_parts<B: AsRef<[u8]>>(
     let mut last = 1;
     let mut line = 1;
     builder.reserve(&parts);
-    for part in parts {
-        match part.plain {
-            Some(plain) if builder.has_room(&plain) => {
-                builder.append(plain, line);
-                last = part.last.map_or(last, |last| line + last);
+    for run in parts.chunk_by_mut(|a, b| a.plain.is_some() && b.plain.is_some()) {
+        let (fitting, others) = run.split_at_mut(builder.fitting(run));
+        let mut content = Vec::with_capacity(fitting.len());
+        for part in fitting {
+            last = part.last.map_or(last, |last| line + last);
+            if let Some(plain) = part.plain.take() {
+                builder.note(&plain, line);
+                content.push(plain);
             }
-            _ => {
-                for statement in statements(&bytes[part.range], line) {
-                    last = statement.line;
-                    if let Err(Fault { column, message }) = builder.take(&statement) {
-                        builder.findings.error(statement.line, column, message);
-                    }
-                    if builder.findings.is_full() {
-                        return Err(builder.findings.errors);
-                    }
+            line += part.lines;
+        }
+        plain::append(content, &mut builder.parts);
+        for part in others {
+            for statement in statements(&bytes[part.range.clone()], line) {
+                last = statement.line;
+                if let Err(Fault { column, message }) = builder.take(&statement) {
+                    builder.findings.error(statement.line, column, message);
+                }
+                if builder.findings.is_full() {
+                    return Err(builder.findings.errors);
                 }
             }
+            line += part.lines;
         }
-        line += part.lines;
     }
     builder.check_indices();
     let (materials, library_warnings) = builder.materials(library);
@@ -115,7 +120,7 @@ pub(super) fn read_parts<B: AsRef<[u8]>>(
 }
 
 impl MeshBuilder {
-    /// Reserves memory for the content of plain parts.
+    /// Reserves memory for the content of plain parts, so that several runs of them do not regrow the lists.
     fn reserve(&mut self, parts: &[Chunk]) {
         let plain = || parts.iter().filter_map(|part| part.plain.as_ref());
         let sum = |of: fn(&Plain) -> usize| plain().map(of).sum();
@@ -129,30 +134,21 @@ impl MeshBuilder {
         own.normals.corners.reserve(corners);
     }
 
-    /// Whether the triangles of a part stay within the limit.
-    fn has_room(&self, plain: &Plain) -> bool {
-        self.parts.triangles.len() + plain.triangles.len() <= self.most
+    /// How many parts at the start are plain and keep within the limit of triangles.
+    fn fitting(&self, parts: &[Chunk]) -> usize {
+        let mut triangles = self.parts.triangles.len();
+        let fits = |part: &&Chunk| {
+            let Some(plain) = &part.plain else {
+                return false;
+            };
+            triangles += plain.triangles.len();
+            triangles <= self.most
+        };
+        parts.iter().take_while(fits).count()
     }
 
-    /// Appends the content of plain lines, the first of which has number `line`.
-    fn append(&mut self, plain: Plain, line: usize) {
-        let parts = &mut self.parts;
-        let before = parts.triangles.len();
-        parts.positions.extend(plain.positions);
-        parts.uvs.values.extend(plain.uvs);
-        parts.normals.values.extend(plain.normals);
-        let added = plain.triangles.len();
-        parts.triangles.extend(plain.triangles);
-        push_all_corners(
-            &mut parts.uvs.corners,
-            before..before + added,
-            plain.uv_corners,
-        );
-        push_all_corners(
-            &mut parts.normals.corners,
-            before..before + added,
-            plain.normal_corners,
-        );
+    /// Notes the greatest indices in plain lines, the first of which has number `line`.
+    fn note(&mut self, plain: &Plain, line: usize) {
         for (known, greatest) in self.greatest.iter_mut().zip(plain.greatest) {
             if known.0 < greatest.0 {
                 *known = (greatest.0, line + greatest.1, greatest.2);
@@ -370,16 +366,6 @@ impl MeshBuilder {
         findings.warnings.truncate(MAX_FINDINGS);
         (by_slot, findings.warnings)
     }
-}
-
-/// Adds the indices of a run of triangles like [`push_corners`].
-fn push_all_corners(corners: &mut Vec<[u32; 3]>, run: Range<usize>, triangles: Vec<[u32; 3]>) {
-    if corners.is_empty() && triangles.is_empty() {
-        return;
-    }
-    corners.resize(run.start, [ABSENT; 3]);
-    corners.extend(triangles);
-    corners.resize(run.end, [ABSENT; 3]);
 }
 
 /// Reads the first N numbers of a statement, 0 if missing. Also returns an error unless these are

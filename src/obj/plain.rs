@@ -1,12 +1,14 @@
-//! Reads plain lines of a mesh in parallel: vertices, and faces with positive indices. A part of
-//! the text that contains any other statement is left to the sequential reader.
+//! Reads plain lines of a mesh in parallel, vertices and faces with positive indices, and appends them to
+//! the mesh. A part of the text that contains any other statement is left to the sequential reader.
 
+use std::mem;
 use std::ops::Range;
 
 use glam::{DVec2, DVec3};
+use rayon::iter::repeat_n;
 use rayon::prelude::*;
 
-use crate::geometry::ABSENT;
+use crate::geometry::{ABSENT, MeshParts};
 use crate::text::{leading_number, parse_number};
 
 /// The length in bytes of the parts that are read in parallel.
@@ -59,7 +61,7 @@ pub(super) fn parts(bytes: &[u8], size: usize) -> Vec<Chunk> {
 }
 
 /// The number of line ends in a text. Sums bytes, 16 or more per instruction: with wider integers
-/// counting takes a fifth of the time that reading takes.
+/// counting would take a fifth as long as reading.
 fn lines(bytes: &[u8]) -> usize {
     let of_few = |few: &[u8]| {
         let ends = few.iter().map(|&byte| u8::from(byte == b'\n'));
@@ -322,13 +324,80 @@ impl<'t> Words<'t> {
     }
 }
 
-/// Adds the indices of a triangle, which is the `number`th, unless none before and none of it has
-/// any.
+/// Adds the indices of a triangle, which is the `number`th, to a list that stays empty until the first
+/// triangle with an index.
 pub(super) fn push_corners(corners: &mut Vec<[u32; 3]>, number: usize, triangle: [u32; 3]) {
     if !corners.is_empty() || triangle != [ABSENT; 3] {
         corners.resize(number - 1, [ABSENT; 3]);
         corners.push(triangle);
     }
+}
+
+/// Appends plain parts to a mesh.
+pub(super) fn append(mut parts: Vec<Plain>, mesh: &mut MeshParts) {
+    let before = mesh.triangles.len();
+    let counts: Vec<_> = parts.iter().map(|part| part.triangles.len()).collect();
+    extend(
+        &mut mesh.positions,
+        taken(&mut parts, |part| &mut part.positions),
+    );
+    extend(
+        &mut mesh.uvs.values,
+        taken(&mut parts, |part| &mut part.uvs),
+    );
+    extend(
+        &mut mesh.normals.values,
+        taken(&mut parts, |part| &mut part.normals),
+    );
+    extend(
+        &mut mesh.triangles,
+        taken(&mut parts, |part| &mut part.triangles),
+    );
+    let extend_corners = |all: &mut Vec<_>, mut corners: Vec<Vec<_>>| {
+        // Without any indices, there is no list of them.
+        if all.is_empty() && corners.iter().all(Vec::is_empty) {
+            return;
+        }
+        all.resize(before, [ABSENT; 3]);
+        for (corners, &count) in corners.iter_mut().zip(&counts) {
+            corners.resize(count, [ABSENT; 3]);
+        }
+        extend(all, corners);
+    };
+    extend_corners(
+        &mut mesh.uvs.corners,
+        taken(&mut parts, |part| &mut part.uv_corners),
+    );
+    extend_corners(
+        &mut mesh.normals.corners,
+        taken(&mut parts, |part| &mut part.normal_corners),
+    );
+}
+
+/// Takes one list from each part.
+fn taken<T>(parts: &mut [Plain], list: impl Fn(&mut Plain) -> &mut Vec<T>) -> Vec<Vec<T>> {
+    parts.iter_mut().map(|part| mem::take(list(part))).collect()
+}
+
+/// Appends lists in parallel, since most of the time goes into page faults of the new memory. Each is
+/// freed once it is copied.
+fn extend<T: Copy + Default + Send + Sync>(list: &mut Vec<T>, parts: Vec<Vec<T>>) {
+    let start = list.len();
+    let count = parts.iter().map(Vec::len).sum();
+    if count == 0 {
+        return;
+    }
+    list.par_extend(repeat_n(T::default(), count));
+    let mut rest = &mut list[start..];
+    let places = parts.into_iter().map(|part| {
+        let (own, after) = mem::take(&mut rest).split_at_mut(part.len());
+        rest = after;
+        (own, part)
+    });
+    let places: Vec<_> = places.collect();
+    places
+        .into_par_iter()
+        .for_each(|(own, part)| own.copy_from_slice(&part));
 }
 
 #[cfg(test)]

@@ -1,10 +1,11 @@
 use std::path::PathBuf;
+use std::sync::Arc;
 
 use glam::{DVec2, DVec3};
 use proptest::prelude::*;
 
 use super::{MAX_FINDINGS, Material, Model, mesh, plain, read};
-use crate::geometry::{Affine, Instance, Ray, Shape};
+use crate::geometry::{Affine, Instance, Mesh, Ray, Shape};
 
 const SQUARE: &str = "v -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0\n";
 
@@ -384,6 +385,45 @@ const WHOLE: &str = "mtllib a.mtl\no x\nv -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0\n
 const LIBRARY: &str =
     "newmtl a\nKd 1 .5 0\nKs .5\nNs 3\nillum 2\nmap_Kd -o 1 2 a b.png\nnewmtl b\n";
 
+const CORNERS: &str = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0 0 1\nvt 0 0\nvt 1 0\nvt 1 1\n\
+                       vn 0 0 1\nvn 0 1 0\n";
+
+/// What is read of a text.
+type Content = (
+    Arc<Mesh>,
+    Vec<Option<Material>>,
+    Vec<super::Finding>,
+    Vec<super::Finding>,
+);
+
+/// Reads a text cut into parts of about this many bytes, with at most so many triangles.
+fn read_in(text: &str, size: usize, most: usize) -> Result<Content, Vec<super::Finding>> {
+    content(text, plain::parts(text.as_bytes(), size), most)
+}
+
+/// Reads a text statement by statement.
+fn read_in_order(text: &str, most: usize) -> Result<Content, Vec<super::Finding>> {
+    let mut parts = plain::parts(text.as_bytes(), usize::MAX / 2);
+    for part in &mut parts {
+        part.plain = None;
+    }
+    content(text, parts, most)
+}
+
+fn content(
+    text: &str,
+    parts: Vec<plain::Chunk>,
+    most: usize,
+) -> Result<Content, Vec<super::Finding>> {
+    let model = mesh::read_parts(text.as_bytes(), parts, most, no_library)?;
+    Ok((
+        model.mesh,
+        model.materials,
+        model.warnings,
+        model.library_warnings,
+    ))
+}
+
 proptest! {
     #![proptest_config(crate::repeatable())]
 
@@ -403,19 +443,21 @@ proptest! {
         most in 3usize..60,
         ends in any::<bool>(),
     ) {
-        let corners = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0 0 1\nvt 0 0\nvt 1 0\nvt 1 1\nvn 0 0 1\nvn 0 1 0\n";
-        let text = format!("{mixed}{corners}{}", lines.concat());
+        let text = format!("{mixed}{CORNERS}{}", lines.concat());
         let text = if ends { &text[..] } else { text.trim_end_matches('\n') };
-        let parts = plain::parts(text.as_bytes(), size);
-        let in_order = |size| {
-            let parts = plain::parts(text.as_bytes(), size).into_iter();
-            parts.map(|part| plain::Chunk { plain: None, ..part }).collect::<Vec<_>>()
-        };
-        let read = |parts| {
-            let read = mesh::read_parts(text.as_bytes(), parts, most, no_library);
-            read.map(|model| (model.mesh, model.materials, model.warnings, model.library_warnings))
-        };
-        prop_assert_eq!(read(parts), read(in_order(usize::MAX / 2)));
+        prop_assert_eq!(read_in(text, size, most), read_in_order(text, most));
+    }
+
+    #[test]
+    fn plain_parts_are_appended_in_order(
+        lines in prop::collection::vec("f [1-5] [1-5] [1-5]( [1-5])?|f ([1-5]/[1-3] ){3}|f ([1-5]//[12] ){3}|f ([1-5]/[1-3]/[12] ){3}|v [0-9] 1 2|vt 1 [0-9]|vn 0 [0-9] 1|usemtl [ab]", 1..40),
+        size in 1usize..120,
+        room in 0usize..3,
+    ) {
+        let text = format!("{CORNERS}{}\n", lines.join("\n"));
+        let triangles = read_in(&text, usize::MAX / 2, usize::MAX).map_or(0, |(mesh, ..)| mesh.len());
+        let most = (triangles + room).saturating_sub(1);
+        prop_assert_eq!(read_in(&text, size, most), read_in_order(&text, most));
     }
 
     #[test]
