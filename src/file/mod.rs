@@ -19,6 +19,8 @@ use std::fs::{File, FileType, OpenOptions};
 use std::io::{self, Read};
 use std::path::{Path, PathBuf};
 
+use rayon::prelude::*;
+
 use crate::memory::{self, Need, OutOfMemory};
 use crate::text::{Position, Span};
 
@@ -39,6 +41,13 @@ pub const LONG: u64 = 16 << 20;
 
 /// The length of such a beginning in bytes, which parse within a few milliseconds.
 const BEGINNING: usize = 1 << 20;
+
+/// Files of this many bytes are read and checked in parallel. Smaller ones must not be: the configuration
+/// is read before any threads are started.
+const LARGE: usize = 16 * PART;
+
+/// The length in bytes of the parts in which they are.
+const PART: usize = 1 << 20;
 
 /// How many bytes of a line are kept from its first invalid UTF-8 byte on.
 const WRONG_LINE: usize = 1 << 10;
@@ -199,7 +208,12 @@ fn binary_start(file: &File) -> Option<usize> {
 /// parser to report each.
 fn first_zero(bytes: &[u8]) -> Option<usize> {
     // Texts usually have none, and checking that is faster than counting.
-    if !bytes.contains(&0) {
+    let has_none = if bytes.len() < LARGE {
+        !bytes.contains(&0)
+    } else {
+        bytes.par_chunks(PART).all(|part| !part.contains(&0))
+    };
+    if has_none {
         return None;
     }
     let zeros: usize = bytes.iter().map(|&byte| usize::from(byte == 0)).sum();
@@ -392,11 +406,8 @@ fn read_open(file: &File, limit: u64) -> io::Result<Vec<u8>> {
 /// memory for them is most of the work. Reads nothing of small files and of files that shrink.
 #[cfg(unix)]
 fn read_by_parts(mut file: &File, length: usize, bytes: &mut Vec<u8>) -> io::Result<()> {
-    use rayon::prelude::*;
     use std::io::{Seek, SeekFrom};
     use std::os::unix::fs::FileExt;
-    const PART: usize = 1 << 20;
-    const LARGE: usize = 16 * PART;
     if length < LARGE {
         return Ok(());
     }

@@ -23,6 +23,17 @@ fn each_error_is_printed_with_its_place_and_advice() {
     }
 }
 
+/// Reading it must not start the threads, which the interface does later.
+#[test]
+fn the_interface_starts_with_a_valid_configuration() {
+    let place = Place::new();
+    place.write("a.toml", "theme = \"mono\"\n");
+    place.write("quit.keys", "q");
+    place.write("ball.ray", BALL);
+    let line = "--config a.toml ball.ray --keys quit.keys --dump-frame screen.txt";
+    assert_eq!(place.stderr(line, 0), "");
+}
+
 #[test]
 fn a_configuration_that_is_named_must_exist_and_the_usual_one_need_not() {
     let place = Place::new();
