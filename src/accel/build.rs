@@ -7,7 +7,7 @@ use rayon::prelude::*;
 use crate::geometry::Aabb;
 
 use super::node::{Bounds, Child, Node, WIDTH};
-use super::split::{CancelCheck, Cancelled, Extent, Halves, Reference, by_area, by_count};
+use super::split::{CHUNK, CancelCheck, Cancelled, Extent, Halves, Reference, by_area, by_count};
 use super::{Bvh, RUN};
 
 /// The number of levels divided by area, more than good trees of 2³² boxes have. Nodes below them
@@ -29,8 +29,10 @@ const PARALLEL: usize = 2048;
 /// one node for seven boxes: a node's number and a lane fit into 32 bits.
 const MOST: usize = 1 << 31;
 
-/// The number of boxes between two cancellation checks: about 1 ms.
-const BATCH: usize = 65_536;
+/// The number of references filled between two cancellation checks, a few milliseconds: 4 MB, more than a
+/// huge page for each of two threads. Threads that first touch the same huge page wait for each other, or
+/// both clear it.
+const BATCH: usize = 1 << 17;
 
 /// Subtrees of fewer references are built without cancellation checks: about 0.2 ms.
 const UNCHECKED: usize = 1024;
@@ -98,19 +100,31 @@ fn collect_references(
     // With room for scratch, see `add_spare`.
     let mut references = Vec::with_capacity(2 * count as usize);
     let mut unbounded = Vec::new();
+    let referred = |index| {
+        let aabb = aabb(index);
+        let bounds = if is_empty(&aabb) {
+            Bounds::EMPTY
+        } else {
+            Bounds::around(aabb, reference)
+        };
+        Reference::new(bounds, index)
+    };
     for first in (0..count).step_by(BATCH) {
         cancel.check()?;
         let start = references.len();
         let part = first..count.min(first.saturating_add(BATCH as u32));
-        references.par_extend(part.into_par_iter().map(|index| {
-            let aabb = aabb(index);
-            let bounds = if is_empty(&aabb) {
-                Bounds::EMPTY
-            } else {
-                Bounds::around(aabb, reference)
-            };
-            Reference::new(bounds, index)
-        }));
+        let empty = Reference::new(Bounds::EMPTY, 0);
+        references.par_extend(rayon::iter::repeat_n(empty, part.len()));
+        let chunks = references[start..].par_chunks_mut(CHUNK).enumerate();
+        // Boxes may take long to compute.
+        chunks.try_for_each(|(chunk, references)| {
+            cancel.check()?;
+            let indices = first + (chunk * CHUNK) as u32..;
+            for (reference, index) in references.iter_mut().zip(indices) {
+                *reference = referred(index);
+            }
+            Ok(())
+        })?;
         let is_bounded = |reference: &Reference| reference.bounds.is_finite();
         if references[start..].par_iter().all(is_bounded) {
             continue;
