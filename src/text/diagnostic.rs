@@ -38,6 +38,14 @@ impl Diagnostic {
         }
     }
 
+    /// The problem and how to fix it, for a line without an excerpt.
+    pub fn message_with_hint(&self) -> String {
+        match &self.hint {
+            Some(hint) => format!("{}; {hint}", self.message),
+            None => self.message.clone(),
+        }
+    }
+
     /// A warning at `span`.
     pub fn warning(span: Span, message: impl Into<String>, expected: impl Into<String>) -> Self {
         Self {

@@ -88,7 +88,7 @@ impl App {
                 self.overlays.say(words.clone());
                 self.document.name_step(StepName::done(words));
             }
-            Err(refused) => self.overlays.fail(refused.message),
+            Err(refused) => self.overlays.fail(refused.message_with_hint()),
         }
         self.document.end_step();
     }

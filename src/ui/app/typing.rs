@@ -121,9 +121,7 @@ impl App {
         match outcome {
             Ok(()) => self.cursor.typing = None,
             Err(mut refused) => {
-                if let Some(hint) = refused.hint.take() {
-                    refused.message = format!("{}; {hint}", refused.message);
-                }
+                refused.message = refused.message_with_hint();
                 if let Some(typing) = &mut self.cursor.typing {
                     typing.refused = Some(refused);
                 }

@@ -133,6 +133,10 @@ fn a_setting_in_use_is_written_and_no_longer_lies_over_the_text() {
     for (order, reason) in [
         (":set depth x<Enter>", "render depth: `x` is not a number"),
         (
+            ":set integrator pth<Enter>",
+            "render integrator: unknown word `pth`; did you mean `path`?",
+        ),
+        (
             ":set depth 9999<Enter>",
             "render depth: must be a whole number from 0 to 4096",
         ),
