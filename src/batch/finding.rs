@@ -21,7 +21,7 @@ pub(super) fn print_without_effect(over_text: &Rendering, settings: &Settings) {
     if is_asked && noise.is_some() && aov.is_none() && spp <= LEAST_ADAPTIVE_SPP {
         let least = LEAST_ADAPTIVE_SPP;
         let note = format!(
-            "`--noise` has no effect: it stops no pixel before {least} samples, and `--spp` is {spp}"
+            "`--noise` has no effect: it cannot stop a pixel before {least} samples, and `--spp` is {spp}"
         );
         print_message("note", &note);
     }

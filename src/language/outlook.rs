@@ -110,7 +110,7 @@ impl Judge<'_> {
             return None;
         }
         let message = format!(
-            "`noise {noise}` has no effect: it stops no pixel before {LEAST_ADAPTIVE_SPP} samples, and `spp` is {spp}"
+            "`noise {noise}` has no effect: it cannot stop a pixel before {LEAST_ADAPTIVE_SPP} samples, and `spp` is {spp}"
         );
         let span = self.place(Node::Render, "noise");
         let expected = format!("`spp` above {LEAST_ADAPTIVE_SPP}");

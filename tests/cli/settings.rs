@@ -162,7 +162,7 @@ fn black_and_clipped_pictures_are_remarked_on_with_what_helps() {
         (
             "1 1 1",
             "--noise 0.1 --spp 16",
-            "note: `--noise` has no effect: it stops no pixel before 16 samples, and `--spp` is 16",
+            "note: `--noise` has no effect: it cannot stop a pixel before 16 samples, and `--spp` is 16",
         ),
         ("1 1 1", "--noise 0.1 --spp 17", ""),
     ] {

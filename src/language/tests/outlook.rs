@@ -47,8 +47,7 @@ fn scenes_with_light_on_something_are_not_warned_of() {
 #[test]
 fn adaptive_sampling_needs_more_samples_than_all_pixels_take() {
     let with = |settings: &str| format!("// render: {settings}\n{LIT}{BALL}");
-    let expected =
-        "1:18 `noise 0.01` has no effect: it stops no pixel before 16 samples, and `spp` is 16";
+    let expected = "1:18 `noise 0.01` has no effect: it cannot stop a pixel before 16 samples, and `spp` is 16";
     check(Language::Ray, &with("noise 0.01 spp 16"), None, &[expected]);
     for settings in ["noise 0.01", "noise 0.01 spp 17", "noise 0 spp 16", "spp 1"] {
         check(Language::Ray, &with(settings), None, &[]);
