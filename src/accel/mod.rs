@@ -124,8 +124,8 @@ impl Bvh {
     /// Whether a packet is traced faster together than ray by ray.
     ///
     /// Rays into different octants soon diverge. In a small tree, which stays in the cache, a packet is
-    /// still faster: diffuse rays among 7,000 spheres take a tenth less time, among a million spheres half
-    /// as much again, among a million triangles a fifth more.
+    /// still faster: diffuse rays take a tenth less time among 7,000 spheres, but half as much again among a
+    /// million spheres, and a fifth more among a million triangles.
     #[inline(always)]
     pub fn takes_together<S: Simd>(&self, rays: &Rays<Eight<S>>) -> bool {
         const SMALL: usize = 1 << 16;

@@ -49,7 +49,7 @@ impl CancelCheck<'_> {
 /// The number of references between two checks, and the smallest parallel task: about 0.2 ms.
 pub(super) const CHUNK: usize = 8192;
 
-/// The number of references from which only the axis of the widest spread of centres is considered.
+/// With at least this many references, only the axis along which the centres spread most is considered.
 /// Rejected: all three axes up to 256 references (building takes 1.5 times as long, and rays are at
 /// most 0.4 % faster); all three for any number, with 64 bins (three times as long; rays are 4 %
 /// faster among a million triangles, not at all among spheres).

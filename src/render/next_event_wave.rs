@@ -37,9 +37,9 @@ pub(super) struct Meeting {
     pub(super) path: usize,
     /// Whether its side emits and reflects light.
     pub(super) is_lit: bool,
-    /// The reflected light of lights.
+    /// The light of lights that it reflects.
     pub(super) light: Rgb,
-    /// The reflected light of emitters.
+    /// The light of emitters that it reflects.
     pub(super) of_emitters: Rgb,
 }
 
@@ -78,7 +78,7 @@ struct LightBatch {
     spheres: [Option<SphereLight>; WIDTH],
 }
 
-/// Collects the light of lights.
+/// Collects the contributions of lights.
 struct Lit<'e> {
     lights: &'e [Light],
     meetings: &'e mut [Meeting],
@@ -146,7 +146,7 @@ impl<C: Fn() -> bool> Probe<'_, C> {
             if !self.gather.light(number, bounce) {
                 continue;
             }
-            // Only lights with a size need numbers.
+            // Only lights with a size need random numbers.
             let numbers = if lights[number].sphere().is_some() {
                 draws.four(Use::Light(number as u32), world.level)
             } else {

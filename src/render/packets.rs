@@ -314,7 +314,7 @@ impl World {
     }
 }
 
-/// Ends some rays before their start.
+/// Disables some rays, by limits below 0.
 #[inline(always)]
 fn close<S: Simd>(limits: &mut Eight<S>, mut lanes: u32) {
     while lanes != 0 {

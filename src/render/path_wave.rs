@@ -179,7 +179,7 @@ impl<C: Fn() -> bool> Probe<'_, C> {
         }
     }
 
-    /// What a path that leads to nothing adds, given the radiance there.
+    /// The contribution of a path that leaves the scene, given the radiance there.
     fn of_nothing(&self, path: &Path, radiance: Rgb) -> Rgb {
         if !self.gather.glow(path.bounce) {
             return Rgb::ZERO;

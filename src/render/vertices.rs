@@ -82,9 +82,9 @@ pub(super) struct SphereSamples {
 
 /// Continuations by the lobes.
 pub(super) struct Continuations {
-    /// The lanes that go on by them.
+    /// The lanes continued by a lobe.
     pub(super) lobes: u32,
-    /// Those of them whose direction leads on.
+    /// Those of them whose sampled direction can be followed.
     pub(super) lead_on: u32,
     pub(super) rays: Rays<Row>,
     /// Factors on the throughput.

@@ -24,8 +24,8 @@ use crate::scene::{
 };
 
 /// Up to this many objects are intersected without a tree. Measured with single rays: with two
-/// solids this is 1.5 times as fast as a tree; with six to eleven a tree is 1.2 to 1.7 times as
-/// fast. With packets of eight and eleven solids a tree is 1.1 times as fast.
+/// solids, no tree is 1.5 times as fast; with six to eleven, a tree is 1.2 to 1.7 times as fast. With
+/// packets of eight and eleven solids, a tree is 1.1 times as fast.
 pub(super) const FEW: usize = 4;
 
 /// The same for paths, whose packets spread after the first bounce: without a tree, eight objects take
@@ -90,7 +90,7 @@ pub(crate) struct World {
     pub(crate) ambient: Rgb,
     /// The lights if a rule makes them fade; otherwise they are the scene's.
     pub(super) faded: Option<Vec<Light>>,
-    /// What spreads mirrors and glass.
+    /// The rule that blurs reflections and refractions.
     pub(crate) gloss: GlossRule,
     /// The lights with a size.
     pub(crate) sphere_lights: SphereLights,

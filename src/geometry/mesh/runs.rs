@@ -3,9 +3,11 @@
 //! at once for a triangle.
 //!
 //! Rejected: copies of the vertices in double precision, tested exactly in lanes (rays through a million
-//! triangles took a tenth to a fifth less time, but the copies take 36 bytes more per triangle, and the
-//! kernel as much time to provide them as a frame gains); vertex indices beside the rows (12 bytes
-//! more per triangle; scattered rays, which wait for memory, take an eighth less time, others no less).
+//! triangles took a tenth to a fifth less time, but the copies take 36 bytes more per triangle, and
+//! the page faults for them cost as much as a frame gains); vertex indices beside the rows (12 bytes
+//! more per triangle; scattered rays, which wait for memory, take an eighth less time, others no less);
+//! reading the vertices of all candidates of a run before the first is tested, to overlap the waits (no
+//! less time).
 
 use std::ops::Range;
 
