@@ -132,10 +132,7 @@ fn a_setting_in_use_is_written_and_no_longer_lies_over_the_text() {
     assert_eq!(said(&app).as_deref(), Some("// render: depth 5"));
     for (order, reason) in [
         (":set depth x<Enter>", "render depth: `x` is not a number"),
-        (
-            ":set integrator pth<Enter>",
-            "render integrator: unknown word `pth`; did you mean `path`?",
-        ),
+        (":set integrator pth<Enter>", "did you mean `path`?"),
         (
             ":set depth 9999<Enter>",
             "render depth: must be a whole number from 0 to 4096",
