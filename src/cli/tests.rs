@@ -340,15 +340,15 @@ fn the_readme_lists_the_exit_codes_of_help() {
 
 #[test]
 fn unknown_vector_instructions_are_refused() {
-    for known in ["", "sse2", "sse4.2", "avx2", "avx512"] {
+    for known in ["", "sse2", "avx2", "avx512"] {
         assert_eq!(check_cap(Some(known.as_ref())), None);
     }
     assert_eq!(check_cap(None), None);
-    for unknown in ["foo", "SSE2", "no cap"] {
+    for unknown in ["foo", "SSE2", "sse4.2"] {
         assert_eq!(
             check_cap(Some(unknown.as_ref())),
             Some(format!(
-                "HALFLIGHT_CPU={unknown}: expected sse2, sse4.2, avx2 or avx512"
+                "HALFLIGHT_CPU={unknown}: expected sse2, avx2 or avx512"
             ))
         );
     }

@@ -9,7 +9,7 @@ use crate::geometry::lanes::Level;
 pub const CAP: &str = "HALFLIGHT_CPU";
 
 /// The values of [`CAP`], from the lowest level to the highest.
-pub const CAPS: [&str; 4] = ["sse2", "sse4.2", "avx2", "avx512"];
+pub const CAPS: [&str; 3] = ["sse2", "avx2", "avx512"];
 
 /// The best level of this machine that [`CAP`] permits; what is none of [`CAPS`], which the command
 /// line refuses unless it is empty, caps nothing.
@@ -23,12 +23,9 @@ pub(crate) fn level() -> Level {
 
 #[cfg(target_arch = "x86_64")]
 fn capped(best: Level, cap: &str) -> Level {
-    let avx2 = || best.as_avx2().map(Level::Avx2);
-    let sse4_2 = || best.as_sse4_2().map(Level::Sse4_2);
     match cap {
         "sse2" => Level::baseline(),
-        "sse4.2" => sse4_2().unwrap_or(Level::baseline()),
-        "avx2" => avx2().or_else(sse4_2).unwrap_or(Level::baseline()),
+        "avx2" => best.as_avx2().map_or(Level::baseline(), Level::Avx2),
         _ => best,
     }
 }
@@ -45,7 +42,6 @@ pub fn vectors() -> &'static str {
     return match level {
         _ if level.as_avx512().is_some() => "AVX-512",
         _ if level.as_avx2().is_some() => "AVX2",
-        _ if level.as_sse4_2().is_some() => "SSE4.2",
         _ => "SSE2",
     };
     #[cfg(not(target_arch = "x86_64"))]
