@@ -179,7 +179,7 @@ impl Bvh {
     /// new limit: the same, or less after a nearer hit; below 0 ends the traversal. Conservative:
     /// boxes the ray misses may be visited.
     ///
-    /// Inlined into the caller, to use the vectors the caller was compiled for; the visits do not
+    /// Inlined into the caller, to use the vectors the caller was compiled for; what is hit does not
     /// depend on them.
     ///
     /// Each index is visited at most once. The visits of a ray that is not finite are unspecified.

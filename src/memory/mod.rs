@@ -1,5 +1,5 @@
-//! The memory available to the process, whether work fits into it, and the allocator of the program.
-//! Does not know what the memory is used for.
+//! The memory available to the process, whether work fits into it, the allocator of the program, and
+//! the threads that share it. Does not know what either is used for.
 //!
 //! Most failing allocations abort the process, and most systems grant more memory than exists. So
 //! large work states its need before it begins, and is refused if that exceeds what the tightest

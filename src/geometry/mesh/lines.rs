@@ -104,7 +104,7 @@ impl<'m, S: Simd> MeshLines<'m, S> {
             Some((lines, roughly)) if FEW < lanes.count_ones() => {
                 let zero = Eight::splat(simd, 0.0);
                 for (at, &triangle) in run.triangles.iter().enumerate() {
-                    let lanes = run.lines_at(roughly, at) & lanes;
+                    let lanes = run.may_cross_at(roughly, at) & lanes;
                     if lanes == 0 {
                         continue;
                     }

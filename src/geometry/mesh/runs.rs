@@ -2,7 +2,7 @@
 //! rejected by vertices in single precision: eight triangles at once for a single line, or eight lines
 //! at once for a triangle.
 //!
-//! Rejected: copies of the vertices in double precision, tested exactly in lanes (rays through a million
+//! Rejected: copies of the vertices in double precision, for exact tests in lanes (rays through a million
 //! triangles took a tenth to a fifth less time, but the copies take 36 bytes more per triangle, and
 //! the page faults for them cost as much as a frame gains); vertex indices beside the rows (12 bytes
 //! more per triangle; scattered rays, which wait for memory, take an eighth less time, others no less);
@@ -63,7 +63,7 @@ impl TriangleRun<'_> {
     /// A mask of the lines that may cross the triangle at a place of the run: all but those that surely
     /// do not.
     #[inline(always)]
-    pub(super) fn lines_at<S: Simd>(&self, lines: &Roughly<S>, at: usize) -> u32 {
+    pub(super) fn may_cross_at<S: Simd>(&self, lines: &Roughly<S>, at: usize) -> u32 {
         lines.may_cross([
             self.corner(lines, 0, at),
             self.corner(lines, 3, at),
@@ -73,7 +73,7 @@ impl TriangleRun<'_> {
 
     /// A mask of the triangles that a line, in all lanes, may cross.
     #[inline(always)]
-    pub(in crate::geometry) fn crossed_by<S: Simd>(&self, line: &RoughLine<S>) -> u32 {
+    pub(in crate::geometry) fn may_be_crossed_by<S: Simd>(&self, line: &RoughLine<S>) -> u32 {
         let line = &line.0;
         let may_cross = line.may_cross([
             self.corners(line, 0),
@@ -117,7 +117,7 @@ impl MeshLine<'_> {
         nearest: &mut Option<Hit>,
     ) -> f64 {
         let mut farthest = nearest.map_or(limit, |hit| hit.t);
-        for at in each_bit(run.crossed_by(roughly)) {
+        for at in each_bit(run.may_be_crossed_by(roughly)) {
             farthest = self.meet(run.triangles[at], limit, nearest);
         }
         farthest

@@ -95,7 +95,7 @@ fn tested(least: [f64; 2]) -> [u32; 3] {
                             line.meet(order[place], f64::INFINITY, &mut own);
                             line.meet(order[place], f64::INFINITY, &mut nearest);
                             let at = place - places.start;
-                            let may_cross = run.crossed_by(&roughly) >> at & 1;
+                            let may_cross = run.may_be_crossed_by(&roughly) >> at & 1;
                             assert!(own.is_none() || may_cross == 1, "{line:?}");
                             met += u32::from(own.is_some());
                             passed += may_cross;
