@@ -25,15 +25,25 @@ pub struct Hits {
 
 impl Hits {
     /// No ray hits.
-    pub(super) const NONE: Self = Self {
+    pub const NONE: Self = Self {
         lanes: 0,
         distances: [0.0; WIDTH],
         parts: [0.0; WIDTH],
     };
 
-    /// Collects the hits of all lanes.
+    /// The hits of the given lanes, by distances and parts.
     #[inline(always)]
-    pub fn new(mut hit: impl FnMut(usize) -> Option<Hit>) -> Self {
+    pub fn of<S: Simd>(lanes: u32, distances: Eight<S>, parts: Eight<S>) -> Self {
+        Self {
+            lanes,
+            distances: *distances,
+            parts: *parts,
+        }
+    }
+
+    /// Collects the hits of all lanes.
+    #[cfg(test)]
+    pub(super) fn new(mut hit: impl FnMut(usize) -> Option<Hit>) -> Self {
         let mut hits = Self::NONE;
         for lane in 0..WIDTH {
             hits.put(lane, hit(lane));
@@ -71,8 +81,10 @@ impl Hits {
         (self.lanes != 0).then_some(self)
     }
 
+    /// Replaces the hit of a lane.
     #[inline(always)]
-    fn put(&mut self, lane: usize, hit: Option<Hit>) {
+    pub fn put(&mut self, lane: usize, hit: Option<Hit>) {
+        self.lanes &= !(1 << lane);
         if let Some(Hit { t, part }) = hit {
             self.lanes |= 1 << lane;
             self.distances[lane] = t;
@@ -145,11 +157,7 @@ impl<S: Simd> End<Eight<S>> {
     /// The crossings as hits of the given lanes.
     #[inline(always)]
     pub(super) fn hits(self, lanes: u32) -> Hits {
-        Hits {
-            lanes,
-            distances: *self.t,
-            parts: *self.part,
-        }
+        Hits::of(lanes, self.t, self.part)
     }
 }
 

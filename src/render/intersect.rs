@@ -7,8 +7,8 @@ use super::spheres::MayMeet;
 use super::structures::Search;
 use super::touched::Touched;
 use super::world::{World, runs_in_file_order};
-use crate::geometry::lanes::{Eight, Lanes, Simd, dispatch, each_bit};
-use crate::geometry::{Hit, Ray, Shape};
+use crate::geometry::lanes::{Eight, Lanes, Simd, SimdBase, WIDTH, bits, dispatch, each_bit};
+use crate::geometry::{Hit, Hits, Ray, Shape};
 
 /// What shadow rays pass through.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -64,6 +64,47 @@ pub(crate) struct Nearest {
     pub(crate) object: u32,
     /// The hit on its surface.
     pub(crate) hit: Hit,
+}
+
+/// The nearest hits of the rays of a packet.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct NearestHits {
+    pub(crate) hits: Hits,
+    /// The indices of the objects hit.
+    objects: [f64; WIDTH],
+}
+
+impl NearestHits {
+    /// No ray hits.
+    pub(crate) const NONE: Self = Self {
+        hits: Hits::NONE,
+        objects: [0.0; WIDTH],
+    };
+
+    /// The nearest hit of the ray in a lane.
+    #[inline(always)]
+    pub(crate) fn get(&self, lane: usize) -> Option<Nearest> {
+        (self.hits.lanes >> lane & 1 == 1).then(|| Nearest {
+            object: self.objects[lane] as u32,
+            hit: self.hits.hit(lane),
+        })
+    }
+
+    /// Replaces the nearest hit of the ray in a lane.
+    #[inline(always)]
+    pub(crate) fn put(&mut self, lane: usize, nearest: Option<Nearest>) {
+        self.hits.put(lane, nearest.map(|nearest| nearest.hit));
+        if let Some(Nearest { object, .. }) = nearest {
+            self.objects[lane] = object.into();
+        }
+    }
+
+    /// The lanes of rays that hit an object.
+    #[inline(always)]
+    pub(crate) fn lanes_of<S: Simd>(&self, simd: S, object: u32) -> u32 {
+        let objects = Eight::load_array(simd, self.objects);
+        bits::<S>(objects.equals(objects.all(object.into()))) & self.hits.lanes
+    }
 }
 
 /// The nearest of the objects hit so far, in each lane.
@@ -160,6 +201,18 @@ impl<S: Simd> Closest<Eight<S>> {
         self.tied[lane] = closest.tied;
         self.limit[lane] = closest.limit;
     }
+
+    /// The nearest hits in the given lanes, and the lanes of those that are tied.
+    #[inline(always)]
+    pub(crate) fn best_each(&self, lanes: u32) -> (NearestHits, u32) {
+        let met = self.t.below(self.t.all(f64::INFINITY));
+        let is_tied = self.tied.all(0.0).below(self.tied);
+        let nearest = NearestHits {
+            hits: Hits::of(lanes & bits::<S>(met), self.t, self.part),
+            objects: *self.object,
+        };
+        (nearest, lanes & bits::<S>(is_tied))
+    }
 }
 
 impl World {
@@ -221,7 +274,11 @@ impl World {
                 closest.limit
             },
         );
-        self.settle(simd, || *ray, &closest)
+        if closest.tied == 0.0 {
+            closest.best()
+        } else {
+            self.first_in_file(simd, ray, closest.limit)
+        }
     }
 
     #[inline(always)]
@@ -279,42 +336,34 @@ impl World {
         occlusion == Occlusion::Complete || self.transmission(material) == 0.0
     }
 
-    /// Returns the nearest hit, with ties settled.
-    #[inline(always)]
-    pub(crate) fn settle<S: Simd>(
-        &self,
-        simd: S,
-        ray: impl FnOnce() -> Ray,
-        closest: &Closest<f64>,
-    ) -> Option<Nearest> {
-        if closest.tied == 0.0 {
-            closest.best()
-        } else {
-            self.first_in_file(simd, &ray(), closest.limit)
-        }
-    }
-
     /// Returns the first object in the file that is hit before a limit, which settles ties.
     #[inline(never)]
-    fn first_in_file<S: Simd>(&self, simd: S, ray: &Ray, limit: f64) -> Option<Nearest> {
-        let mut first: Option<Nearest> = None;
-        self.visit(
-            simd,
-            ray,
-            limit,
+    pub(super) fn first_in_file<S: Simd>(&self, simd: S, ray: &Ray, limit: f64) -> Option<Nearest> {
+        // A function of its own does not inherit the vectors of its caller.
+        simd.vectorize(
             #[inline(always)]
-            |places| {
-                for &object in &self.order()[places] {
-                    if first.is_none_or(|before| object < before.object)
-                        && let Some(hit) = self.hit(simd, object, ray, limit, Search::Nearest)
-                    {
-                        first = Some(Nearest { object, hit });
-                    }
-                }
-                limit
+            || {
+                let mut first: Option<Nearest> = None;
+                self.visit(
+                    simd,
+                    ray,
+                    limit,
+                    #[inline(always)]
+                    |places| {
+                        for &object in &self.order()[places] {
+                            if first.is_none_or(|before| object < before.object)
+                                && let Some(hit) =
+                                    self.hit(simd, object, ray, limit, Search::Nearest)
+                            {
+                                first = Some(Nearest { object, hit });
+                            }
+                        }
+                        limit
+                    },
+                );
+                first
             },
-        );
-        first
+        )
     }
 
     /// Reports the objects of a run that the ray hits before a limit.

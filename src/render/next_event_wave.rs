@@ -5,7 +5,7 @@ use glam::DVec3;
 
 use super::direct::{Shadow, sent_back, shadowed};
 use super::emitters::Choices;
-use super::intersect::{Nearest, Occlusion};
+use super::intersect::{NearestHits, Occlusion};
 use super::lights::{SphereLight, Spheres};
 use super::next_event::Target;
 use super::probe::{Probe, Seen};
@@ -24,7 +24,7 @@ pub(super) struct NextEventWave {
     shadows: Packets,
     to_lights: Vec<LightRay>,
     to_emitters: Vec<EmitterRay>,
-    nearest: Vec<Option<Nearest>>,
+    nearest: Vec<NearestHits>,
     transmittances: Vec<f64>,
     /// For each light, the last simple object that occluded it; then for the environment, and for one of
     /// many lights.
@@ -300,7 +300,8 @@ impl<C: Fn() -> bool> Probe<'_, C> {
             events.ask_objects(world, (vertices, numbers), &lanes);
             self.count_emitter_rays(events, meetings, seen);
             world.nearest_each(&events.shadows, &mut events.nearest);
-            for (to_emitter, &nearest) in events.to_emitters.iter().zip(&events.nearest) {
+            for (number, to_emitter) in events.to_emitters.iter().enumerate() {
+                let nearest = events.nearest[number / WIDTH].get(number % WIDTH);
                 if let Some(target) = to_emitter.target
                     && let Some(emitted) = self.of_object(target, &to_emitter.ray, nearest)
                 {

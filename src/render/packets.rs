@@ -1,8 +1,11 @@
 //! Intersection of rays with a world in packets of eight.
+//!
+//! Where one ray is left, it is tested against all spheres of a run at once. Rejected: the same for each
+//! of two rays (no less time).
 
 use std::ops::Range;
 
-use super::intersect::{Closest, Crossed, Nearest, Occlusion};
+use super::intersect::{Closest, Crossed, NearestHits, Occlusion};
 use super::structures::Search;
 use super::world::{World, runs_in_file_order};
 use crate::accel::Order;
@@ -13,12 +16,12 @@ use crate::geometry::{Hit, Hits, Packet, Rays, Shape, Sphere, sphere_hits};
 use crate::scene::Object;
 
 impl World {
-    /// Returns [`World::nearest`] for each ray.
-    pub(crate) fn nearest_each(&self, packets: &[Packet], nearest: &mut Vec<Option<Nearest>>) {
+    /// Returns [`World::nearest`] for each ray, packet by packet.
+    pub(crate) fn nearest_each(&self, packets: &[Packet], nearest: &mut Vec<NearestHits>) {
         nearest.clear();
         dispatch!(self.level, simd => {
             for packet in packets {
-                self.nearest_together(simd, packet, nearest);
+                nearest.push(self.nearest_together(simd, packet));
             }
         });
     }
@@ -158,21 +161,18 @@ impl World {
     }
 
     #[inline(always)]
-    fn nearest_together<S: Simd>(
-        &self,
-        simd: S,
-        packet: &Packet,
-        nearest: &mut Vec<Option<Nearest>>,
-    ) {
+    fn nearest_together<S: Simd>(&self, simd: S, packet: &Packet) -> NearestHits {
         let rays = packet.rays.load(simd);
         if let Some(tree) = &self.tree
             && !tree.takes_together(&rays)
         {
+            let mut nearest = NearestHits::NONE;
             for lane in each_bit(packet.lanes) {
-                let (ray, end) = (packet.ray(lane), packet.ends.0[lane % WIDTH]);
-                nearest.push(self.nearest_alone(simd, &ray, end));
+                let lane = lane % WIDTH;
+                let (ray, end) = (packet.ray(lane), packet.ends.0[lane]);
+                nearest.put(lane, self.nearest_alone(simd, &ray, end));
             }
-            return;
+            return nearest;
         }
         let reach = rays.origin.length();
         let closed = Eight::splat(simd, -1.0);
@@ -213,10 +213,13 @@ impl World {
                 closest.limit
             },
         );
-        let count = packet.lanes.count_ones() as usize;
-        for lane in 0..count {
-            nearest.push(self.settle(simd, || packet.ray(lane), &closest.lane(lane)));
+        let (mut nearest, tied) = closest.best_each(packet.lanes);
+        for lane in each_bit(tied) {
+            let lane = lane % WIDTH;
+            let (ray, limit) = (packet.ray(lane), closest.limit[lane]);
+            nearest.put(lane, self.first_in_file(simd, &ray, limit));
         }
+        nearest
     }
 
     /// Runs [`World::meet`] for one ray of a packet.

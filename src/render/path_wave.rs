@@ -4,7 +4,7 @@
 use std::borrow::Cow;
 
 use super::bsdf::BsdfSample;
-use super::intersect::Nearest;
+use super::intersect::NearestHits;
 use super::next_event_wave::{Meeting, NextEventWave};
 use super::path::{Met, Onward, Path, Vertex};
 use super::probe::{Probe, Sample, Seen};
@@ -28,7 +28,7 @@ pub(crate) struct PathWave {
     growing: Vec<usize>,
     /// Their rays, nearest hits and surface points.
     rays: Packets,
-    nearest: Vec<Option<Nearest>>,
+    nearest: Vec<NearestHits>,
     landings: Vec<Landing>,
     /// The numbers of the paths' samplers at a bounce.
     draws: Draws,
@@ -89,7 +89,8 @@ impl<C: Fn() -> bool> Probe<'_, C> {
         let mut found = Vec::with_capacity(growing.len());
         for (place, &number) in growing.iter().enumerate() {
             let (path, seen) = (&mut paths[number], &mut seen[number]);
-            match self.meet(path, &samples[number], nearest[place]) {
+            let nearest = nearest[place / WIDTH].get(place % WIDTH);
+            match self.meet(path, &samples[number], nearest) {
                 Met::Nothing(radiance) => seen.radiance += self.of_nothing(path, radiance),
                 Met::Light {
                     number,

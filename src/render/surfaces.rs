@@ -4,14 +4,14 @@ use std::borrow::Cow;
 
 use glam::DVec3;
 
-use super::intersect::Nearest;
+use super::intersect::{Nearest, NearestHits};
 use super::probe::Point;
 use super::shading::Side;
 use super::world::World;
 use crate::geometry::lanes::{
-    Eight, Lanes, Row, Simd, Vector, WIDTH, bits, dispatch, lanes_of, mask,
+    Eight, Lanes, Row, Simd, Vector, WIDTH, bits, dispatch, each_bit, mask,
 };
-use crate::geometry::{Hits, Packet, Rays, Shape, Solid, Surface, Surfaces, sphere_surfaces};
+use crate::geometry::{Packet, Rays, Shape, Solid, Surface, Surfaces, sphere_surfaces};
 use crate::scene::Material;
 
 /// Up to eight surface points, in memory layout; lanes of rays that miss are undefined.
@@ -94,28 +94,20 @@ impl World {
     pub(crate) fn land_each(
         &self,
         packets: &[Packet],
-        nearest: &[Option<Nearest>],
+        nearest: &[NearestHits],
         landings: &mut Vec<Landing>,
     ) {
         landings.clear();
         dispatch!(self.level, simd => {
-            for (packet, nearest) in packets.iter().zip(nearest.chunks(WIDTH)) {
+            for (packet, nearest) in packets.iter().zip(nearest) {
                 landings.push(self.land_together(simd, packet, nearest));
             }
         });
     }
 
     #[inline(always)]
-    fn land_together<S: Simd>(
-        &self,
-        simd: S,
-        packet: &Packet,
-        nearest: &[Option<Nearest>],
-    ) -> Landing {
-        let hits = Hits::new(
-            #[inline(always)]
-            |lane| nearest.get(lane)?.map(|nearest| nearest.hit),
-        );
+    fn land_together<S: Simd>(&self, simd: S, packet: &Packet, nearest: &NearestHits) -> Landing {
+        let hits = &nearest.hits;
         if hits.lanes == 0 {
             return Landing::NONE;
         }
@@ -130,17 +122,13 @@ impl World {
         let mut rest = hits.lanes;
         while rest != 0 {
             let first = rest.trailing_zeros() as usize % WIDTH;
-            let Some(met) = nearest[first] else { break };
+            let Some(met) = nearest.get(first) else { break };
             let shape = &self.scene.objects[met.object as usize].shape;
             let found = if let Shape::Solid(Solid::Sphere(_)) = shape {
-                let (lanes, found) = self.of_spheres(&rays, nearest, &hits);
+                let (lanes, found) = self.of_spheres(&rays, nearest);
                 Some((lanes, found.into()))
             } else {
-                let meets = nearest.iter().map(
-                    #[inline(always)]
-                    |nearest| nearest.is_some_and(|nearest| nearest.object == met.object),
-                );
-                let lanes = lanes_of(meets) & rest;
+                let lanes = nearest.lanes_of(simd, met.object) & rest;
                 let found = shape.surfaces(&rays, &hits.within(lanes));
                 found.map(|found| (lanes, found))
             };
@@ -173,15 +161,15 @@ impl World {
     fn of_spheres<S: Simd>(
         &self,
         rays: &Rays<Eight<S>>,
-        nearest: &[Option<Nearest>],
-        hits: &Hits,
+        nearest: &NearestHits,
     ) -> (u32, Surfaces<Eight<S>>) {
         let simd = rays.origin.x.simd;
         let mut centre = Vector::repeat(DVec3::ZERO);
         let mut radius = Row::all(1.0);
         let mut lanes = 0;
-        for (lane, nearest) in nearest.iter().enumerate().take(WIDTH) {
-            if let Some(Nearest { object, .. }) = *nearest
+        for lane in each_bit(nearest.hits.lanes) {
+            let lane = lane % WIDTH;
+            if let Some(Nearest { object, .. }) = nearest.get(lane)
                 && let Shape::Solid(Solid::Sphere(sphere)) =
                     &self.scene.objects[object as usize].shape
             {
@@ -191,7 +179,7 @@ impl World {
             }
         }
         let (centre, radius) = (centre.load(simd), radius.load(simd));
-        let found = sphere_surfaces(centre, radius, rays, hits.distances(simd));
+        let found = sphere_surfaces(centre, radius, rays, nearest.hits.distances(simd));
         (lanes, found)
     }
 }

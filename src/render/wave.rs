@@ -2,7 +2,7 @@
 
 use std::mem;
 
-use super::intersect::Nearest;
+use super::intersect::NearestHits;
 use super::probe::{Counts, RAY_BUDGET, Sample};
 use super::sampler::Sampler;
 use super::surfaces::Landing;
@@ -117,8 +117,8 @@ pub(crate) struct Wave<'w> {
     pub(super) front: Front,
     /// The front after this one.
     pub(super) next: Front,
-    /// Nearest hits of the front.
-    pub(super) nearest: Vec<Option<Nearest>>,
+    /// Nearest hits of the front, packet by packet.
+    pub(super) nearest: Vec<NearestHits>,
     /// Surface points of the front.
     pub(super) landings: Vec<Landing>,
     /// Shaded hits of the front.

@@ -120,7 +120,7 @@ impl<'w> Wave<'w> {
     fn arrive(&mut self, world: &'w World, gather: Gather, samples: &[Sample], seen: &mut [Seen]) {
         self.arrived.clear();
         self.mapped.clear();
-        for (number, (nearest, state)) in self.nearest.iter().zip(&self.front.states).enumerate() {
+        for (number, state) in self.front.states.iter().enumerate() {
             let seen = &mut seen[state.tree];
             let (packet, lane) = (&self.front.rays[number / WIDTH], number % WIDTH);
             let landing = &mut self.landings[number / WIDTH];
@@ -129,7 +129,7 @@ impl<'w> Wave<'w> {
                 weight: state.weight,
                 radiance: Rgb::ZERO,
             };
-            if let Some(nearest) = *nearest {
+            if let Some(nearest) = self.nearest[number / WIDTH].get(lane) {
                 if state.bounce == 0 {
                     seen.object = nearest.object;
                 }
@@ -157,6 +157,8 @@ impl<'w> Wave<'w> {
     }
 
     /// Adds shadow rays from a packet's points to a light.
+    ///
+    /// Rejected: reflected light in lanes, from copies of the materials in rows (no less time).
     #[inline(always)]
     fn ask<S: Simd>(
         &mut self,

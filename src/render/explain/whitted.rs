@@ -81,7 +81,7 @@ impl<C: Fn() -> bool> Recorder<'_, C> {
         let state = next.1;
         self.rays
             .push(traced(next, waiting?, wave.front.rays[0].ends.0[0]));
-        match self.wave.nearest[0] {
+        match self.wave.nearest[0].get(0) {
             None => self.miss(&state),
             Some(_) => self.shade(&state)?,
         }
@@ -124,7 +124,7 @@ impl<C: Fn() -> bool> Recorder<'_, C> {
     fn shade(&mut self, state: &RayState) -> Option<()> {
         let Self { probe, wave, .. } = self;
         let world = probe.world;
-        let nearest = wave.nearest[0]?;
+        let nearest = wave.nearest[0].get(0)?;
         let material = wave.arrived[0].found.material(&wave.mapped)?.clone();
         let ray = wave.front.rays[0].ray(0);
         let point = wave.landings[0].point(&wave.front.rays[0], 0);
