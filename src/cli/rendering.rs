@@ -32,8 +32,8 @@ pub(super) struct RenderingArguments {
     #[arg(long, value_name = "GLOSS", value_enum)]
     gloss: Option<GlossChoice>,
     /// Adaptive sampling: pixels below this error, in displayed values from 0 to 1, take no more
-    /// samples after 16, and others up to --spp or 4096; 0 turns it off [default: the scene's,
-    /// otherwise 0]
+    /// samples after 16, and others up to the samples per pixel asked for, or 4096; 0 turns it off
+    /// [default: the scene's, otherwise 0]
     #[arg(long, value_name = "ERROR", allow_negative_numbers = true, value_parser = parse_noise)]
     noise: Option<f64>,
     /// Scale samples down whose largest channel exceeds this, which removes fireflies at the cost of

@@ -242,6 +242,11 @@ fn wrong_arguments_are_rejected_with_a_reason() {
         ("halflight explain a 1 2 --aov depth", "--aov"),
         ("halflight explain a 1 2 --region 0,0,1,1", "--region"),
         (
+            "halflight render a -o b.bmp --region -1,-1,5,5",
+            "left column",
+        ),
+        ("halflight render a -o b.bmp --view -1", "eye"),
+        (
             "halflight compare a b --tolerance 256",
             "a whole number from 0 to 255",
         ),

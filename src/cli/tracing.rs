@@ -21,7 +21,7 @@ pub(super) struct TracingArguments {
     samples: SampleArguments,
     /// Trace only this part of the picture, in pixels from its top left corner; its pixels are those
     /// of the whole picture, but AOVs on a scale take its ends, and --noise decides, from the part
-    #[arg(long, value_name = "X,Y,W,H", value_parser = parse_region)]
+    #[arg(long, value_name = "X,Y,W,H", allow_hyphen_values = true, value_parser = parse_region)]
     region: Option<Region>,
     /// Samples per pixel, 1 to 65536 [default: the scene's, otherwise 16, or up to 4096 with
     /// --noise; as many as the time permits with --time]
@@ -50,7 +50,7 @@ pub(super) struct SampleArguments {
     size: Option<Size>,
     /// Replace parts of the scene's view, such as "eye 0 1 5 fov 30"; parts: eye X Y Z, target X Y Z,
     /// up X Y Z, fov DEGREES, height H, aspect A, near D, far D, focus D, lens R
-    #[arg(long, value_name = "PARTS", value_parser = Viewpoint::parse)]
+    #[arg(long, value_name = "PARTS", allow_hyphen_values = true, value_parser = Viewpoint::parse)]
     view: Option<Viewpoint>,
     #[command(flatten)]
     rendering: RenderingArguments,

@@ -10,8 +10,8 @@ use crate::scene::{
     EXPOSURES, FalloffRule, Filter, GlossRule, Integrator, MAX_DEPTH, MAX_SPP, Rendering, Transfer,
 };
 use crate::text::{
-    Diagnostic, Edit, Findings, Severity, Span, is_integer, line_end, nearest_word, next_line,
-    parse_number,
+    Diagnostic, Edit, Findings, SKIPPED, Severity, Span, is_integer, line_end, nearest_word,
+    next_line, parse_number,
 };
 
 /// The keys, in the order of the interface.
@@ -201,8 +201,8 @@ impl RenderPlace {
                 self.parts[at].get_or_insert(part);
                 report.warning(|| {
                     let hint = match &bad.hint {
-                        Some(hint) => format!("it is skipped; {hint}"),
-                        None => "it is skipped".to_owned(),
+                        Some(hint) => format!("{SKIPPED}; {hint}"),
+                        None => SKIPPED.to_owned(),
                     };
                     bad.with_hint(hint)
                 });
@@ -296,7 +296,7 @@ pub(super) fn read_comment(
                 let field = RENDER.iter().find(|field| field.key == word);
                 let expected = field.map_or_else(String::new, Field::expected);
                 Diagnostic::warning(key, format!("render {word}: no value"), expected)
-                    .with_hint("it is skipped")
+                    .with_hint(SKIPPED)
             });
             continue;
         };
@@ -338,7 +338,7 @@ fn unknown_key(span: Span, key: &str) -> Diagnostic {
     let keys = RENDER.map(|field| field.key);
     let message = format!("render: unknown key {}", quoted(key));
     let diagnostic = Diagnostic::warning(span, message, keys.join(", "));
-    did_you_mean(diagnostic, nearest_word(key, keys), Some("it is skipped"))
+    did_you_mean(diagnostic, nearest_word(key, keys), Some(SKIPPED))
 }
 
 /// The value of a setting: a number, or the index of a word; an error is a warning for the text.

@@ -26,6 +26,9 @@ pub struct Diagnostic {
     pub hint: Option<String>,
 }
 
+/// The hint of a warning about what is valid text, but has no effect.
+pub const SKIPPED: &str = "it is skipped";
+
 impl Diagnostic {
     /// An error at `span`.
     pub fn error(span: Span, message: impl Into<String>, expected: impl Into<String>) -> Self {
@@ -44,6 +47,16 @@ impl Diagnostic {
             Some(hint) => format!("{}; {hint}", self.message),
             None => self.message.clone(),
         }
+    }
+
+    /// The same for a value that was refused instead of written, so that nothing is [`SKIPPED`].
+    #[must_use]
+    pub fn refused(mut self) -> Self {
+        self.hint = self.hint.and_then(|hint| match hint.strip_prefix(SKIPPED) {
+            Some(rest) => rest.strip_prefix("; ").map(str::to_owned),
+            None => Some(hint),
+        });
+        self
     }
 
     /// A warning at `span`.

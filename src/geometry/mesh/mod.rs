@@ -129,7 +129,7 @@ impl<T: Copy> Attribute<T> {
         let exists = |&corner: &u32| corner == ABSENT || (corner as usize) < count;
         let shared = self.corners.is_empty();
         let corners = if shared { triangles } else { &self.corners };
-        if corners.len() != triangles.len() || !corners.as_flattened().iter().all(exists) {
+        if corners.len() != triangles.len() || !corners.as_flattened().par_iter().all(exists) {
             return Err(MeshError::Index);
         }
         self.values.shrink_to_fit();
@@ -163,8 +163,8 @@ impl Mesh {
             return Err(MeshError::Order);
         }
         let finite = positions.par_iter().all(|position| position.is_finite())
-            && normals.values.iter().all(|normal| normal.is_finite())
-            && uvs.values.iter().all(|uv| uv.is_finite());
+            && normals.values.par_iter().all(|normal| normal.is_finite())
+            && uvs.values.par_iter().all(|uv| uv.is_finite());
         if !finite {
             return Err(MeshError::Range);
         }

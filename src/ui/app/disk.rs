@@ -32,7 +32,7 @@ pub struct Disk {
     place: Option<SceneFolder>,
     /// The last text without errors, while the current one has some.
     pub(super) sound: Option<Arc<String>>,
-    /// The message about a file that could not be read, until it is written.
+    /// The message about a file that could not be read or taken, until it is read again or written.
     pub(super) complaint: Option<String>,
     /// The journal of unsaved edits.
     pub(super) journal: Journal,

@@ -150,7 +150,7 @@ impl App {
         }
         if let Some(refused) = refused.cloned() {
             self.document.reject();
-            return Err(refused);
+            return Err(refused.refused());
         }
         let step = step.unwrap_or_else(|| self.name_of_change(&touched));
         self.document.name_step(step);

@@ -154,7 +154,10 @@ impl App {
             return Vec::new();
         }
         match read {
-            Ok(reading) => self.take_reading(reading, settle),
+            Ok(reading) => {
+                self.withdraw_complaint();
+                self.take_reading(reading, settle)
+            }
             Err(error) if settle != Settle::Final => self.disk.wait(match error {
                 ReadError::NotFound { .. } => GONE,
                 _ => QUIET,
@@ -170,11 +173,23 @@ impl App {
                 self.disk.state = state;
                 self.overlays.errors = None;
                 self.jobs.next = None;
-                let words = format!("{error}{hint}");
-                self.disk.complaint = Some(words.clone());
-                self.overlays.fail(words);
+                self.complain(format!("{error}{hint}"));
                 Vec::new()
             }
+        }
+    }
+
+    /// Shows that the file cannot be read or taken, until that changes.
+    fn complain(&mut self, words: String) {
+        self.withdraw_complaint();
+        self.overlays.fail(words.clone());
+        self.disk.complaint = Some(words);
+    }
+
+    /// Dismisses what [`App::complain`] shows.
+    pub(super) fn withdraw_complaint(&mut self) {
+        if let Some(complaint) = self.disk.complaint.take() {
+            self.overlays.withdraw(&complaint);
         }
     }
 
@@ -285,7 +300,7 @@ impl App {
         self.jobs.next = None;
         self.disk.state = OnDisk::Faulty(Faulty { text, diagnostics });
         let editor = self.key_for(Action::Editor);
-        self.overlays.fail(format!(
+        self.complain(format!(
             "line {line} of the file on disk has an error: press {editor} to edit it, or use :w! to overwrite it"
         ));
     }

@@ -70,9 +70,7 @@ impl App {
                 } else {
                     self.unwritten_view()
                 };
-                if let Some(complaint) = self.disk.complaint.take() {
-                    self.overlays.withdraw(&complaint);
-                }
+                self.withdraw_complaint();
                 self.overlays.say(format!("wrote {}{view}", path.display()));
                 written = Some(Arc::clone(&text));
                 if ended.is_late {

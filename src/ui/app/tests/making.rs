@@ -144,6 +144,7 @@ fn a_setting_in_use_is_written_and_no_longer_lies_over_the_text() {
     ] {
         press(&mut app, order);
         assert!(words(&app).contains(reason), "{}", words(&app));
+        assert!(!words(&app).contains("skipped"), "{}", words(&app));
         assert_eq!(said(&app).as_deref(), Some("// render: depth 5"));
         press(&mut app, "<Esc>");
     }

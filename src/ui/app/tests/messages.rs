@@ -1,6 +1,7 @@
 //! Messages: none is lost before it could be read, and none outlives its cause.
 
 use super::*;
+use crate::file::ReadError;
 use crate::ui::msg::Timer;
 
 fn past(app: &App) -> Vec<&str> {
@@ -102,4 +103,31 @@ fn a_message_about_errors_goes_when_they_are_corrected() {
         assert_eq!(app.error_count(), 0);
         assert!(!words(&app).contains("error"), "{said}: {}", words(&app));
     }
+}
+
+#[test]
+fn a_message_about_the_file_goes_when_the_file_can_be_read_again() {
+    let mut app = open(SCENE);
+    let twice = |app: &mut App, read: &dyn Fn(&mut App)| {
+        read(app);
+        app.update(Msg::Elapsed(Timer::Settled));
+        read(app);
+    };
+    app.overlays.say("one");
+    twice(&mut app, &|app| {
+        let path = PathBuf::from("scene.ray");
+        app.update(Msg::Read(path.clone(), Err(ReadError::NotFound { path })));
+    });
+    assert!(past(&app)[0].contains("no such file"));
+    outside(&mut app, SCENE);
+    press(&mut app, "j");
+    assert_eq!(shown(&app), "the file matches the saved text again");
+
+    press(&mut app, "jjel<Esc>");
+    twice(&mut app, &|app| {
+        outside(app, "nonsense");
+    });
+    assert!(shown(&app).contains("has an error"), "{}", shown(&app));
+    outside(&mut app, &format!("{SCENE}\n"));
+    assert!(!shown(&app).contains("has an error"), "{}", shown(&app));
 }
