@@ -9,8 +9,8 @@
 //!
 //! Rejected: one list of children for both tests (a tenth more time); testing the rays against a child
 //! when it is visited, by when fewer may be left (no less time for coherent rays, a third more for
-//! others); a ray that is left alone prepared once instead of at each node, and no selection by the signs
-//! of directions where all have the same (no less time).
+//! others); preparing a lone ray once instead of at every node, and skipping the selection by sign where all
+//! directions have the same (no less time).
 //!
 //! Where any hit is as good as the nearest, children with larger boxes are visited first: they are more
 //! likely to hold one (the surface area as an estimate, after Nah and Manocha, "SATO: Surface Area

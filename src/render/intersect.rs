@@ -339,7 +339,7 @@ impl World {
     /// Returns the first object in the file that is hit before a limit, which settles ties.
     #[inline(never)]
     pub(super) fn first_in_file<S: Simd>(&self, simd: S, ray: &Ray, limit: f64) -> Option<Nearest> {
-        // A function of its own does not inherit the vectors of its caller.
+        // A function that is not inlined does not inherit the vector instructions of its caller.
         simd.vectorize(
             #[inline(always)]
             || {

@@ -1,7 +1,7 @@
 //! Intersection of rays with a world in packets of eight.
 //!
-//! Where one ray is left, it is tested against all spheres of a run at once. Rejected: the same for each
-//! of two rays (no less time).
+//! When only one ray is left, it is tested against all spheres of a run at once. Rejected: doing so for
+//! two rays as well (no less time).
 
 use std::ops::Range;
 

@@ -158,7 +158,7 @@ impl<'w> Wave<'w> {
 
     /// Adds shadow rays from a packet's points to a light.
     ///
-    /// Rejected: reflected light in lanes, from copies of the materials in rows (no less time).
+    /// Rejected: computing the reflected light in lanes, from materials gathered into rows (no less time).
     #[inline(always)]
     fn ask<S: Simd>(
         &mut self,

@@ -318,7 +318,7 @@ fn replaced(
         return None;
     }
     let compared = Cell::new(0);
-    let is_other = differs_or_ends(&compared, cancelled);
+    let is_other = differs_or_cancelled(&compared, cancelled);
     let first = before.differences(after, is_other).next();
     let first = first.unwrap_or_else(|| before.len().min(after.len()));
     let rest = (first + removed..before.len()).into_par_iter();
@@ -331,8 +331,9 @@ fn replaced(
         .then_some((start..start + removed as u32, inserted as u32))
 }
 
-/// Whether shapes differ; now and then also true once `cancelled` returns true.
-fn differs_or_ends<'c>(
+/// Whether shapes differ. Once `cancelled`, polled once in [`POLLED`] comparisons, returns true, the
+/// shapes compared then count as different, which ends the comparison.
+fn differs_or_cancelled<'c>(
     compared: &'c Cell<usize>,
     cancelled: &'c (dyn Fn() -> bool + Sync),
 ) -> impl Fn(&Object, &Object) -> bool + Copy + 'c {
@@ -356,7 +357,7 @@ fn changed_shapes(
     }
     let mut changed = Vec::new();
     let compared = Cell::new(0);
-    let is_other = differs_or_ends(&compared, cancelled);
+    let is_other = differs_or_cancelled(&compared, cancelled);
     for number in a.differences(b, is_other) {
         changed.push(number as u32);
         if MANY < changed.len() || cancelled() {

@@ -26,7 +26,7 @@ pub struct Diagnostic {
     pub hint: Option<String>,
 }
 
-/// The hint of a warning about what is valid text, but has no effect.
+/// The hint of a warning about valid text that has no effect.
 pub const SKIPPED: &str = "it is skipped";
 
 impl Diagnostic {
