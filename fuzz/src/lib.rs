@@ -4,18 +4,20 @@
 mod document;
 mod files;
 mod keys;
+mod kept;
 mod scene;
 
 pub use document::{edits, merge};
 pub use files::{mtl, obj, picture};
 pub use keys::keys;
+pub use kept::{config, part, record, track};
 pub use scene::{dat, ray, xml};
 
 /// A function that accepts any bytes.
 pub type Target = fn(&[u8]);
 
 /// All targets by name, which is also that of their corpus.
-pub const TARGETS: [(&str, Target); 9] = [
+pub const TARGETS: [(&str, Target); 13] = [
     ("ray", ray),
     ("dat", dat),
     ("xml", xml),
@@ -25,6 +27,10 @@ pub const TARGETS: [(&str, Target); 9] = [
     ("edits", edits),
     ("merge", merge),
     ("keys", keys),
+    ("track", track),
+    ("config", config),
+    ("part", part),
+    ("record", record),
 ];
 
 /// Splits an input at zero bytes, which do not occur in text, into N parts.
