@@ -40,7 +40,7 @@ pub const MAX_BYTES: u64 = u32::MAX as u64;
 pub const LONG: u64 = 16 << 20;
 
 /// The length of such a beginning in bytes, which parse within a few milliseconds.
-const BEGINNING: usize = 1 << 20;
+pub const BEGINNING: usize = 1 << 20;
 
 /// Files of this many bytes are read and checked in parallel. Smaller ones must not be: the configuration
 /// is read before any threads are started.

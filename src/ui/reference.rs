@@ -8,11 +8,11 @@ use crate::assets::Assets;
 use crate::compare::{Comparison, SizesDiffer};
 use crate::file;
 use crate::image_file;
-use crate::language::{self, Language, Source};
+use crate::language::{self, Language, Source, errors_of_beginning};
 use crate::memory::OutOfMemory;
 use crate::render::Frame;
 use crate::scene::{Image, Images, Scene, Size};
-use crate::text::{Position, counted};
+use crate::text::{Findings, Position, counted};
 
 /// Identifies a request of the session; starts at 1 and increases.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -72,14 +72,18 @@ impl ReferenceSource {
         match self {
             Self::File(path) => match Language::of_path(path) {
                 Ok(language) => {
+                    let beginning =
+                        file::read_beginning(path).map_err(|error| error.to_string())?;
+                    beginning.map_or(Ok(()), |text| check_beginning(path, language, &text))?;
                     let text = file::read_text(path).map_err(|error| error.to_string())?;
                     scene(path, language, text, assets)
                 }
                 Err(_) => picture(path),
             },
             Self::Revision(revision, path) => {
-                let text = revision::text_in(revision, path)?;
                 let language = Language::of_path(path).map_err(|error| error.to_string())?;
+                let sound = |beginning: &str| check_beginning(path, language, beginning);
+                let text = revision::text_in(revision, path, sound)?;
                 scene(path, language, text, assets)
             }
         }
@@ -105,18 +109,30 @@ fn scene(
     language::fits(language, &text, 0).map_err(no_memory)?;
     let mut source = Source::new(language, Arc::new(text));
     let (lowered, loaded) = assets.lower(path, &mut source).map_err(no_memory)?;
-    let findings = &lowered.diagnostics;
-    let faults = || match findings.first_error() {
-        Some(error) => {
-            let Position { line, column } = Position::of(source.text(), error.span.start());
-            let count = counted(findings.errors(), "error");
-            format!(
-                "{name} has {count}, the first at {line}:{column}: {}",
-                error.message
-            )
-        }
-        None => format!("{name} has errors"),
-    };
+    let faults = || faults(path, source.text(), &lowered.diagnostics);
     let scene = lowered.scene.ok_or_else(faults)?;
     Ok(ReferenceRead::Scene(Arc::new(scene), loaded.images))
+}
+
+/// Fails if the beginning of a long scene has errors that nothing behind it can correct.
+fn check_beginning(path: &Path, language: Language, text: &str) -> Result<(), String> {
+    let findings = errors_of_beginning(language, text);
+    match findings.errors() {
+        0 => Ok(()),
+        _ => Err(faults(path, text, &findings)),
+    }
+}
+
+/// Says how many errors a scene has, and which is the first.
+fn faults(path: &Path, text: &str, findings: &Findings) -> String {
+    let name = path.display();
+    let Some(error) = findings.first_error() else {
+        return format!("{name} has errors");
+    };
+    let Position { line, column } = Position::of(text, error.span.start());
+    let count = counted(findings.errors(), "error");
+    format!(
+        "{name} has {count}, the first at {line}:{column}: {}",
+        error.message
+    )
 }

@@ -1,153 +1,146 @@
 //! A scene as a git repository holds it, read by running git.
 
-use std::ffi::OsString;
-use std::io;
+mod git;
+
+use std::ffi::{OsStr, OsString};
 use std::path::Path;
-use std::process::{Command, Stdio};
 
 use crate::file;
+use crate::memory::{self, Need, megabytes};
+use git::{Git, Output};
 
-/// The text of a scene file in a revision of the repository that its folder belongs to.
+/// The longest scene in bytes: a repository of a few megabytes may hold one of gigabytes.
+const MOST: u64 = 512 << 20;
+
+/// The most bytes that git lists about one file.
+const LISTED: u64 = 1 << 16;
+
+/// The text of a scene file in a revision of the repository that its folder belongs to. `sound` is
+/// called with the beginning of a long text, before the rest is read.
 ///
 /// # Errors
 ///
-/// Says why there is none: git is missing, the folder is in no repository, there is no such
-/// revision, the file is not in it, or it is not UTF-8.
-pub(super) fn text_in(revision: &str, scene: &Path) -> Result<String, String> {
-    let name = scene.file_name().unwrap_or_default();
-    let shown = name.to_string_lossy();
-    let mut object = OsString::from(format!("{revision}:./"));
-    object.push(name);
-    let ran = Command::new("git")
-        .arg("-C")
-        .arg(file::directory_of(scene))
-        // Plumbing: no pager, no filters that the repository configures.
-        .args(["cat-file", "blob"])
-        .arg(object)
-        // The messages are read below, and nothing may wait for an answer.
-        .env("LC_ALL", "C")
-        .env("GIT_TERMINAL_PROMPT", "0")
-        .stdin(Stdio::null())
-        .output();
-    let output = ran.map_err(|error| match error.kind() {
-        io::ErrorKind::NotFound => "cannot run git: it is not installed".to_owned(),
-        _ => format!("cannot run git: {error}"),
-    })?;
-    if !output.status.success() {
-        let said = String::from_utf8_lossy(&output.stderr);
-        return Err(reason(&said, revision, &shown));
-    }
-    String::from_utf8(output.stdout).map_err(|_| format!("{shown} in {revision} is not UTF-8 text"))
+/// Says why there is none: git is missing or takes too long, the folder is in no repository, there
+/// is no such revision, the file is not in it or not a scene that can be read, or `sound` fails.
+pub(super) fn text_in(
+    revision: &str,
+    scene: &Path,
+    sound: impl Fn(&str) -> Result<(), String>,
+) -> Result<String, String> {
+    let git = Git::of_folder(file::directory_of(scene));
+    text_by(&git, revision, scene, sound)
 }
+
+fn text_by(
+    git: &Git,
+    revision: &str,
+    scene: &Path,
+    sound: impl Fn(&str) -> Result<(), String>,
+) -> Result<String, String> {
+    let name = scene.file_name().unwrap_or_default();
+    let shown = format!("{} in {revision}", name.to_string_lossy());
+    let failed = |ran: &Output| reason(&ran.complaint, revision, &name.to_string_lossy());
+    let mut path = OsString::from("./");
+    path.push(name);
+    let listing = ["ls-tree", "-z", "--long", revision, "--"].map(OsStr::new);
+    let listed = git.run(&[&listing[..], &[&path]].concat(), LISTED, |_| Ok(()))?;
+    if !listed.has_succeeded {
+        return Err(failed(&listed));
+    }
+    let entry = String::from_utf8_lossy(&listed.output).into_owned();
+    let Blob { id, bytes } = Blob::listed(&entry, &shown)?;
+    check_size(bytes, &shown)?;
+    let mut is_checked = bytes <= file::LONG;
+    let look = |text: &[u8]| {
+        if is_checked || text.len() < file::BEGINNING {
+            return Ok(());
+        }
+        is_checked = true;
+        // The cut may be inside a character.
+        let whole = text[..file::BEGINNING].utf8_chunks().next();
+        sound(whole.map_or("", |chunk| chunk.valid()))
+    };
+    let read = git.run(&["cat-file", "blob", id].map(OsStr::new), bytes, look)?;
+    if !read.has_succeeded {
+        return Err(failed(&read));
+    }
+    String::from_utf8(read.output).map_err(|_| format!("{shown} is not UTF-8 text"))
+}
+
+/// A file in a repository.
+struct Blob<'a> {
+    /// The name of its content.
+    id: &'a str,
+    /// The length of its content.
+    bytes: u64,
+}
+
+impl<'a> Blob<'a> {
+    /// The file in a line of `git ls-tree --long`: mode, kind, name and length of the content, and,
+    /// after a tab, the path. The line is empty if there is none.
+    fn listed(entry: &'a str, shown: &str) -> Result<Self, String> {
+        let fields = entry.split('\t').next().unwrap_or_default();
+        let fields: Vec<_> = fields.split_ascii_whitespace().collect();
+        match fields[..] {
+            [] => Err(format!(
+                "{shown} does not exist: git does not track it there"
+            )),
+            // Links have other modes.
+            [mode, "blob", id, length] if mode.starts_with("100") => match length.parse() {
+                Ok(bytes) => Ok(Self { id, bytes }),
+                Err(_) => Err(format!(
+                    "{shown} is missing from the repository, and nothing is fetched (object {id})"
+                )),
+            },
+            _ => Err(format!("{shown} is not a file")),
+        }
+    }
+}
+
+/// Fails if a text is longer than [`MOST`], or than fits into memory.
+fn check_size(bytes: u64, shown: &str) -> Result<(), String> {
+    if MOST < bytes {
+        let [bytes, most] = [bytes, MOST].map(megabytes);
+        return Err(format!(
+            "{shown} is {bytes} long, and git is asked for at most {most}; compare with a file"
+        ));
+    }
+    let need = || Need {
+        what: "the file's contents".to_owned(),
+        bytes,
+    };
+    memory::check(bytes, need).map_err(|reason| format!("{shown}: {reason}"))
+}
+
+/// What git says of an object that it lacks, or would fetch.
+const MISSING: &[&str] = &[
+    "Could not read",
+    "bad file",
+    "' not allowed",
+    "lazy fetching disabled",
+];
 
 /// What git's complaint about a file in a revision means.
 fn reason(said: &str, revision: &str, name: &str) -> String {
-    let line = said.lines().next().unwrap_or_default();
-    let line = line.strip_prefix("fatal: ").unwrap_or(line);
-    let says = |words: &[&str]| words.iter().any(|words| line.contains(words));
+    let says = |words: &[&str]| words.iter().any(|words| said.contains(words));
     if says(&["not a git repository"]) {
         format!("{name} is not in a git repository")
-    } else if says(&["exists on disk, but not in", "does not exist in"]) {
-        format!("{name} is not in {revision}: git does not track it there")
-    } else if says(&["invalid object name", "Not a valid object name"]) {
+    } else if says(&["Not a valid object name"]) {
         match revision {
             "HEAD" => "the git repository has no commits yet".to_owned(),
             _ => format!("git knows no revision {revision}"),
         }
-    } else if line.is_empty() {
-        "git failed without a reason".to_owned()
+    } else if says(&["not a tree object"]) {
+        format!("{revision} is not a commit, or is missing from the repository: nothing is fetched")
+    } else if says(MISSING) {
+        format!("{name} in {revision} is missing from the repository, and nothing is fetched")
     } else {
-        format!("git: {line}")
+        match said.lines().find(|line| !line.starts_with("warning: ")) {
+            None | Some("") => "git failed without a reason".to_owned(),
+            Some(line) => format!("git: {}", line.strip_prefix("fatal: ").unwrap_or(line)),
+        }
     }
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn complaints_of_git_are_explained() {
-        for (said, revision, reason) in [
-            (
-                "fatal: not a git repository (or any of the parent directories): .git\n",
-                "HEAD",
-                "a.ray is not in a git repository",
-            ),
-            (
-                "fatal: path 'a.ray' exists on disk, but not in 'HEAD'\n",
-                "HEAD",
-                "a.ray is not in HEAD: git does not track it there",
-            ),
-            (
-                "fatal: path 'a.ray' does not exist in 'HEAD~3'\n",
-                "HEAD~3",
-                "a.ray is not in HEAD~3: git does not track it there",
-            ),
-            (
-                "fatal: invalid object name 'HEAD'.\n",
-                "HEAD",
-                "the git repository has no commits yet",
-            ),
-            (
-                "fatal: invalid object name 'nope'.\n",
-                "nope",
-                "git knows no revision nope",
-            ),
-            (
-                "fatal: detected dubious ownership in repository at '/x'\nTo add\n",
-                "HEAD",
-                "git: detected dubious ownership in repository at '/x'",
-            ),
-            ("", "HEAD", "git failed without a reason"),
-        ] {
-            assert_eq!(super::reason(said, revision, "a.ray"), reason);
-        }
-    }
-
-    /// Runs git in a folder; `None` if it is not installed.
-    fn git(folder: &Path, arguments: &[&str]) -> Option<()> {
-        let mut git = Command::new("git");
-        git.arg("-C").arg(folder).args(arguments);
-        for name in ["GIT_CONFIG_GLOBAL", "GIT_CONFIG_SYSTEM"] {
-            git.env(name, "/dev/null");
-        }
-        let output = git.output().ok()?;
-        assert!(output.status.success(), "{arguments:?}: {output:?}");
-        Some(())
-    }
-
-    #[test]
-    fn a_scene_is_read_as_it_was_committed() {
-        let folder = tempfile::tempdir().expect("a folder");
-        let scene = folder.path().join("a b.ray");
-        std::fs::write(&scene, "one").expect("writable");
-        let found = |revision| text_in(revision, &scene);
-        let Some(()) = git(folder.path(), &["init", "-q"]) else {
-            return;
-        };
-        assert_eq!(
-            found("HEAD"),
-            Err("the git repository has no commits yet".to_owned())
-        );
-        let commit = |text: &str| {
-            std::fs::write(&scene, text).expect("writable");
-            git(folder.path(), &["add", "a b.ray"]);
-            let author = ["-c", "user.name=a", "-c", "user.email=a@example.org"];
-            git(
-                folder.path(),
-                &[&author[..], &["commit", "-qm", text]].concat(),
-            );
-        };
-        commit("one");
-        commit("two");
-        std::fs::write(&scene, "three").expect("writable");
-        assert_eq!(found("HEAD"), Ok("two".to_owned()));
-        assert_eq!(found("HEAD~1"), Ok("one".to_owned()));
-        assert_eq!(found("nope"), Err("git knows no revision nope".to_owned()));
-        let other = folder.path().join("other.ray");
-        assert_eq!(
-            text_in("HEAD", &other),
-            Err("other.ray is not in HEAD: git does not track it there".to_owned())
-        );
-    }
-}
+mod tests;
