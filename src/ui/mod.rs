@@ -48,6 +48,7 @@ mod service;
 mod session;
 mod sheet;
 mod snapshot;
+mod state;
 pub mod terminal;
 mod theme;
 mod traces;

@@ -3,15 +3,15 @@
 //! the state folder. Sessions that end up there at the same moment may lose one of their entries.
 
 use std::convert::Infallible;
-use std::fs::{self, DirBuilder, File};
+use std::fs;
 use std::io;
 use std::path::{Component, Path, PathBuf};
 use std::sync::mpsc::{self, Receiver};
 use std::time::Instant;
 
 use super::arrange::PanelSizes;
-use super::recovery;
 use super::service::{Ended, Service};
+use super::state::{self, Folder, Part};
 use crate::file;
 
 /// Names of the files.
@@ -57,10 +57,10 @@ impl Recent {
                     Request::List => report(list()),
                     Request::Panels(sizes) => {
                         // The loss is too small to interrupt anyone.
-                        let _ = recovery::state().and_then(|state| keep_in(&state, sizes));
+                        let _ = state::state().and_then(|state| keep_in(&state, sizes));
                     }
                     Request::Note(scene) => {
-                        let noted = recovery::state().and_then(|state| note_in(&state, &scene));
+                        let noted = state::state().and_then(|state| note_in(&state, &scene));
                         let reason = noted.err().map(|error| error.to_string());
                         if let Some(reason) = reason.filter(|reason| last.as_ref() != Some(reason))
                         {
@@ -103,20 +103,20 @@ impl Recent {
 
 /// The recently used scenes that still exist, the newest first; empty if that is unknown.
 pub(super) fn list() -> Vec<PathBuf> {
-    recovery::state().map_or_else(|_| Vec::new(), |state| list_in(&state))
+    state::state().map_or_else(|_| Vec::new(), |state| list_in(&state))
 }
 
 /// The sizes of the panels that were kept last; the default ones if that is unknown.
 pub(super) fn panels() -> PanelSizes {
-    recovery::state().map_or_else(|_| PanelSizes::default(), |state| panels_in(&state))
+    state::state().map_or_else(|_| PanelSizes::default(), |state| panels_in(&state))
 }
 
 fn panels_in(state: &Path) -> PanelSizes {
-    PanelSizes::of_text(&text_of(&place(state, PANELS)))
+    PanelSizes::of_text(&text_of(state, PANELS))
 }
 
 fn keep_in(state: &Path, sizes: PanelSizes) -> io::Result<()> {
-    write(&place(state, PANELS), &sizes.to_text())
+    write(state, PANELS, &sizes.to_text())
 }
 
 fn list_in(state: &Path) -> Vec<PathBuf> {
@@ -160,21 +160,17 @@ fn note_in(state: &Path, scene: &Path) -> io::Result<()> {
     scenes.insert(0, scene);
     scenes.truncate(MOST);
     let lines: Vec<_> = scenes.iter().filter_map(|scene| scene.to_str()).collect();
-    write(&place(state, SCENES), &format!("{}\n", lines.join("\n")))
+    write(state, SCENES, &format!("{}\n", lines.join("\n")))
 }
 
-/// Replaces a file in a folder that only the user can read.
-fn write(place: &Path, text: &str) -> io::Result<()> {
-    let mut builder = DirBuilder::new();
-    #[cfg(unix)]
-    std::os::unix::fs::DirBuilderExt::mode(&mut builder, 0o700);
-    builder.recursive(true).create(file::directory_of(place))?;
-    file::replace(place, |out| out.write_all(text.as_bytes()), || Ok(()))
+fn write(state: &Path, name: &str, text: &str) -> io::Result<()> {
+    let folder = Folder::make(state, Part::Sessions)?;
+    folder.replace(name, |out| out.write_all(text.as_bytes()))
 }
 
 /// The scenes in the file; none if it cannot be read.
 fn read(state: &Path) -> Vec<PathBuf> {
-    let text = text_of(&place(state, SCENES));
+    let text = text_of(state, SCENES);
     let scenes = text.lines().map(PathBuf::from);
     let mut scenes: Vec<_> = scenes.filter(|scene| scene.is_absolute()).collect();
     scenes.truncate(MOST);
@@ -182,24 +178,23 @@ fn read(state: &Path) -> Vec<PathBuf> {
 }
 
 /// The text of a file; empty if it cannot be read.
-fn text_of(place: &Path) -> String {
-    // A pipe would never end.
-    let is_file = fs::metadata(place).is_ok_and(|found| found.is_file());
-    let file = is_file.then(|| File::open(place));
-    let Some(Ok(file)) = file else {
-        return String::new();
+fn text_of(state: &Path, name: &str) -> String {
+    let read = || {
+        let folder = Folder::find(state, Part::Sessions).ok()??;
+        let file = folder.open(name).ok()??;
+        let bytes = file::read_opened(&file, &folder.place(name), LONGEST).ok()?;
+        String::from_utf8(bytes).ok()
     };
-    let bytes = file::read_opened(&file, place, LONGEST).unwrap_or_default();
-    String::from_utf8(bytes).unwrap_or_default()
-}
-
-fn place(state: &Path, name: &str) -> PathBuf {
-    state.join("halflight").join(name)
+    read().unwrap_or_default()
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    fn place(state: &Path, name: &str) -> PathBuf {
+        state.join("halflight").join(name)
+    }
 
     #[test]
     fn the_newest_scenes_that_still_exist_are_listed_once() {
@@ -262,5 +257,37 @@ mod tests {
         }
         note_in(folder.path(), &scene).expect("it can be written");
         assert_eq!(list_in(folder.path()), [scene]);
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn nothing_outside_the_folder_is_read_or_written() {
+        use std::os::unix::fs::symlink;
+        type Plant = fn(&Path, &Path) -> io::Result<()>;
+        let links: [Plant; 2] = [|to, at| symlink(to, at), |to, at| fs::hard_link(to, at)];
+        for (number, plant) in links.into_iter().enumerate() {
+            let folder = tempfile::tempdir().expect("a folder");
+            let (state, victim) = (folder.path().join("state"), folder.path().join("a.ray"));
+            let held = format!("{}\n", victim.display());
+            fs::write(&victim, &held).expect("the folder is new");
+            fs::create_dir_all(state.join("halflight")).expect("the folder is new");
+            for name in [SCENES, PANELS] {
+                plant(&victim, &place(&state, name)).expect("the folder is new");
+            }
+            if number == 0 {
+                assert_eq!(list_in(&state), [] as [PathBuf; 0]);
+            }
+            note_in(&state, &folder.path().join("b.ray")).expect("it is replaced");
+            keep_in(&state, PanelSizes::default()).expect("it is replaced");
+            assert_eq!(fs::read_to_string(&victim).expect("a text"), held);
+        }
+        // A folder that leads elsewhere is refused.
+        let folder = tempfile::tempdir().expect("a folder");
+        symlink(folder.path(), folder.path().join("halflight")).expect("the folder is new");
+        let scene = folder.path().join("a.ray");
+        let refused = note_in(folder.path(), &scene).expect_err("it is a link");
+        assert!(refused.to_string().contains("symbolic link"), "{refused}");
+        keep_in(folder.path(), PanelSizes::default()).expect_err("it is a link");
+        assert_eq!(fs::read_dir(folder.path()).expect("a folder").count(), 1);
     }
 }

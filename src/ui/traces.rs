@@ -13,19 +13,30 @@
 //! ```
 //!
 //! After these lines follow the bytes of [`Kept`], and the SHA-256 of all before. All lines but the
-//! last say what the picture is made from; a file is named after their digest.
+//! last say what the picture is made from; a file is named after their digest. Files that have no
+//! such name, or do not begin like this, are never replaced or removed.
 
-use std::fs::{self, DirBuilder};
-use std::io::{self, BufReader, ErrorKind, Read, Write};
-use std::path::{Path, PathBuf};
-use std::time::{Instant, SystemTime};
+use std::fs::File;
+use std::io::{self, BufReader, ErrorKind, Read, Seek, Write};
+use std::path::PathBuf;
+use std::time::{Duration, Instant, SystemTime};
 
-use super::recovery;
-use crate::file::{self, Digest, Digested, ReadError};
+use super::state::{self, Folder, NEW, Part};
+use crate::file::{Digest, Digested};
 use crate::render::{Job, Kept, Provenance};
 
 /// The first line, with the version of the format.
 const MAGIC: &str = "halflight trace 2";
+
+/// How the first line of every version begins.
+const KIND: &str = "halflight trace ";
+
+/// The end of the names of files, and the length of what is before it: hexadecimal digits.
+const END: &str = ".trace";
+const DIGITS: usize = 32;
+
+/// Files that were to become traces are removed after this time, which none takes to write.
+const LEFT_BEHIND: Duration = Duration::from_secs(3600);
 
 /// The most files, and the most bytes of all of them; the newest alone may have more.
 const MOST: usize = 4;
@@ -40,7 +51,8 @@ const LONGEST: usize = 40;
 /// The folder of kept traces.
 #[derive(Clone, Debug)]
 pub(super) struct Traces {
-    folder: PathBuf,
+    /// The state folder, which need not exist.
+    state: PathBuf,
 }
 
 /// Why a kept trace cannot be read.
@@ -57,14 +69,9 @@ pub(super) enum Unreadable {
 impl Traces {
     /// The folder in the user's state folder. Fails if the environment names none.
     pub(super) fn of_user() -> io::Result<Self> {
-        Ok(Self::of(&recovery::state()?))
-    }
-
-    /// The folder in a state folder; neither needs to exist.
-    fn of(state: &Path) -> Self {
-        Self {
-            folder: state.join("halflight").join("traces"),
-        }
+        Ok(Self {
+            state: state::state()?,
+        })
     }
 
     /// Writes a trace, unless as many samples of it are kept already, and removes the oldest ones
@@ -75,13 +82,12 @@ impl Traces {
         kept: &Kept,
         deadline: Instant,
     ) -> io::Result<()> {
-        let mut builder = DirBuilder::new();
-        #[cfg(unix)]
-        std::os::unix::fs::DirBuilderExt::mode(&mut builder, 0o700);
-        builder.recursive(true).create(&self.folder)?;
+        let folder = Folder::make(&self.state, Part::Traces)?;
         let (head, samples) = (head(picture), kept.samples());
-        let path = self.place(&head);
-        if self.samples(&head).is_some_and(|there| samples <= there) {
+        let name = name(&head);
+        if let Some(file) = open(&folder, &name)?
+            && samples_of(file, &head).is_ok_and(|there| samples <= there)
+        {
             return Ok(());
         }
         let write = |out: &mut dyn Write| {
@@ -89,26 +95,24 @@ impl Traces {
             writeln!(out, "{head}samples {samples}")?;
             kept.write(&mut out)?;
             let (mut out, digest) = out.finish();
-            out.write_all(&digest)
+            out.write_all(&digest)?;
+            out.flush()
         };
-        let in_time = || match Instant::now() {
-            now if now < deadline => Ok(()),
-            _ => Err(too_late()),
-        };
-        file::replace(&path, write, in_time)?;
-        self.tidy(&path);
+        folder.replace(&name, write)?;
+        tidy(&folder, &name);
         Ok(())
     }
 
     /// Reads the trace that was kept of a picture and that the job can continue, if there is one.
     /// Removes a damaged one.
     pub(super) fn read(&self, picture: &Provenance, job: &Job) -> Result<Option<Kept>, Unreadable> {
+        let Some(folder) = Folder::find(&self.state, Part::Traces)? else {
+            return Ok(None);
+        };
         let head = head(picture);
-        let path = self.place(&head);
-        let file = match file::open(&path) {
-            Ok(file) => file,
-            Err(ReadError::NotFound { .. }) => return Ok(None),
-            Err(error) => return Err(io::Error::other(error).into()),
+        let name = name(&head);
+        let Some(file) = open(&folder, &name)? else {
+            return Ok(None);
         };
         let read = || {
             let mut from = Digested::new(BufReader::with_capacity(CHUNK, file));
@@ -132,48 +136,84 @@ impl Traces {
                     ErrorKind::InvalidData | ErrorKind::UnexpectedEof
                 ) =>
             {
-                let _ = fs::remove_file(path);
+                let _ = folder.remove(&name);
                 Err(Unreadable::Damaged)
             }
             Err(error) => Err(error.into()),
         }
     }
+}
 
-    fn place(&self, head: &str) -> PathBuf {
-        let digest = Digest::of([head.as_bytes()]);
-        self.folder.join(format!("{}.trace", &digest[..32]))
+/// The name of the file of a picture.
+fn name(head: &str) -> String {
+    let digest = Digest::of([head.as_bytes()]);
+    format!("{}{END}", &digest[..DIGITS])
+}
+
+/// Whether a file may have this name.
+fn is_name(name: &str) -> bool {
+    let digits = name.strip_suffix(END);
+    let is_digit = |byte: u8| matches!(byte, b'0'..=b'9' | b'a'..=b'f');
+    digits.is_some_and(|digits| digits.len() == DIGITS && digits.bytes().all(is_digit))
+}
+
+/// Whether this is the name of a file that was to become a trace.
+fn is_left_behind(name: &str, modified: SystemTime) -> bool {
+    let meant = name
+        .strip_suffix(NEW)
+        .and_then(|name| name.rsplit_once('.'));
+    let is_old = modified.elapsed().is_ok_and(|age| LEFT_BEHIND < age);
+    is_old && meant.is_some_and(|(name, _)| is_name(name))
+}
+
+/// Opens a file, if it exists. Fails unless it begins like a trace.
+fn open(folder: &Folder, name: &str) -> io::Result<Option<File>> {
+    let Some(mut file) = folder.open(name)? else {
+        return Ok(None);
+    };
+    let mut kind = [0; KIND.len()];
+    if file.read_exact(&mut kind).is_err() || kind != KIND.as_bytes() {
+        let place = folder.place(name);
+        let reason = format!("{} is not a full-size trace: move it away", place.display());
+        return Err(io::Error::new(ErrorKind::InvalidInput, reason));
     }
+    file.rewind()?;
+    Ok(Some(file))
+}
 
-    /// The number of samples that a file says it has; `None` if there is none of this picture.
-    fn samples(&self, head: &str) -> Option<u64> {
-        let mut from = BufReader::new(file::open(&self.place(head)).ok()?);
-        check_head(&mut from, head).ok()?;
-        samples_in(&mut from).ok()
+/// The number of samples that a file says it has. Fails if it is of another picture.
+fn samples_of(file: File, head: &str) -> io::Result<u64> {
+    let mut from = BufReader::new(file);
+    check_head(&mut from, head)?;
+    samples_in(&mut from)
+}
+
+/// Removes what was left behind, and the oldest traces but the newest, which was just written, if
+/// there are too many.
+fn tidy(folder: &Folder, newest: &str) {
+    let dated = |name: String| {
+        let found = open(folder, &name).ok()??.metadata().ok()?;
+        let written = found.modified().unwrap_or(SystemTime::UNIX_EPOCH);
+        Some((written, found.len(), name))
+    };
+    let (mut traces, mut others): (Vec<_>, Vec<_>) = folder
+        .names()
+        .into_iter()
+        .filter(|name| is_name(name) || name.ends_with(NEW))
+        .filter_map(dated)
+        .partition(|(.., name)| is_name(name));
+    others.retain(|(written, _, name)| is_left_behind(name, *written));
+    for (.., name) in others {
+        let _ = folder.remove(&name);
     }
-
-    /// Removes the oldest files but the newest, which was just written, if there are too many.
-    fn tidy(&self, newest: &Path) {
-        let Ok(entries) = fs::read_dir(&self.folder) else {
-            return;
-        };
-        let dated = entries.flatten().filter_map(|entry| {
-            let path = entry.path();
-            let is_trace = path.extension().is_some_and(|end| end == "trace");
-            let found = entry
-                .metadata()
-                .ok()
-                .filter(|_| is_trace && path != newest)?;
-            let written = found.modified().unwrap_or(SystemTime::UNIX_EPOCH);
-            Some((written, found.len(), path))
-        });
-        let mut others: Vec<_> = dated.collect();
-        others.sort_unstable();
-        let mut bytes = fs::metadata(newest).map_or(0, |found| found.len());
-        for (number, (_, length, path)) in others.into_iter().rev().enumerate() {
-            bytes = bytes.saturating_add(length);
-            if MOST <= number + 1 || MOST_BYTES < bytes {
-                let _ = fs::remove_file(path);
-            }
+    let is_newest = |(.., name): &(SystemTime, u64, String)| name == newest;
+    let newest = traces.extract_if(.., |trace| is_newest(trace));
+    let mut bytes: u64 = newest.map(|(_, length, _)| length).sum();
+    traces.sort_unstable();
+    for (number, (_, length, name)) in traces.into_iter().rev().enumerate() {
+        bytes = bytes.saturating_add(length);
+        if MOST <= number + 1 || MOST_BYTES < bytes {
+            let _ = folder.remove(&name);
         }
     }
 }

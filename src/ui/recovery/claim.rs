@@ -5,9 +5,9 @@ use std::io;
 use std::path::PathBuf;
 use std::sync::Arc;
 
-use super::folder::Folder;
 use super::identity::Identity;
 use crate::file::{Lock, lock};
+use crate::ui::state::Folder;
 
 /// The maximum number of damaged journals with one name.
 const MOST_DAMAGED: u32 = 1000;
@@ -181,12 +181,13 @@ fn write(mut file: &File, content: &[u8]) -> io::Result<()> {
 mod tests {
     use super::*;
     use crate::language::Language;
+    use crate::ui::state::Part;
 
     #[test]
     #[cfg(unix)]
     fn a_claim_ends_despite_copies_of_its_file() {
         let state = tempfile::tempdir().expect("a folder");
-        let folder = Arc::new(Folder::make(state.path()).expect("a folder"));
+        let folder = Arc::new(Folder::make(state.path(), Part::Edits).expect("a folder"));
         let scene = Identity::of(None, Language::Ray);
         let claim = Claim::new(&folder, &scene).expect("the name is free");
         let name = claim.name().to_owned();

@@ -5,12 +5,12 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use super::claim::Claim;
-use super::folder::Folder;
 use super::identity::Identity;
 use super::record;
 use crate::document::Snapshot;
 use crate::language::Language;
 use crate::text::Edit;
+use crate::ui::state::{Folder, Part};
 
 /// Outdated edits may take this many bytes, or as many as the text if it is longer.
 const WASTE: u64 = 1 << 20;
@@ -109,7 +109,7 @@ impl Journal {
 
 impl OpenJournal {
     fn new(state: &Path, change: &Change) -> io::Result<Self> {
-        let folder = Arc::new(Folder::make(state)?);
+        let folder = Arc::new(Folder::make(state, Part::Edits)?);
         let identity = Identity::of(change.scene.as_deref(), change.language);
         let Beginning {
             content,

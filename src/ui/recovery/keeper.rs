@@ -7,9 +7,9 @@ use std::sync::mpsc::{self, Receiver, RecvTimeoutError};
 use std::time::Instant;
 
 use super::claim::Claim;
-use super::folder;
 use super::journal::{Edits, Journal};
 use crate::ui::service::{Ended, Service};
+use crate::ui::state;
 
 /// A request for the thread.
 #[derive(Debug)]
@@ -95,7 +95,7 @@ impl Keeper {
 
 /// Executes requests until the channel is closed.
 fn follow(inbox: &Receiver<Request>, report: impl Fn(Outcome)) -> End {
-    let mut journal = folder::state().map(Journal::new);
+    let mut journal = state::state().map(Journal::new);
     let mut waiting = VecDeque::new();
     let mut adopted = Vec::new();
     let mut trouble = None;

@@ -4,26 +4,26 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use super::claim::Claim;
-use super::folder::{self, Folder};
 use super::identity::Identity;
 use super::offer::{left_behind, limit, read};
 use super::record::{self, Content};
 use crate::language::Language;
+use crate::ui::state::{self, Folder, Part};
 
 /// The base of the newest edits kept of a scene, or of the one without a file: what is left of it if
 /// its file is missing.
 pub(crate) fn base_of(path: Option<&Path>, language: Language) -> Option<String> {
-    base_in(&folder::state().ok()?, path, language)
+    base_in(&state::state().ok()?, path, language)
 }
 
 /// The addition to the message that a scene is missing, if edits of it may be kept.
 pub(crate) fn note_for_missing(path: &Path) -> Option<String> {
-    missing_in(&folder::state().ok()?, path)
+    missing_in(&state::state().ok()?, path)
 }
 
 /// The addition to the message that a scene cannot be read, if edits of it are kept.
 pub(crate) fn note_for_unreadable(path: &Path) -> Option<String> {
-    unreadable_in(&folder::state().ok()?, path)
+    unreadable_in(&state::state().ok()?, path)
 }
 
 pub(super) fn base_in(state: &Path, path: Option<&Path>, language: Language) -> Option<String> {
@@ -63,7 +63,7 @@ fn newest_place(state: &Path, path: &Path) -> Option<PathBuf> {
 
 /// Claims the non-empty journals of a scene whose runs have ended, oldest first.
 fn claims(state: &Path, scene: &Identity) -> Vec<Claim> {
-    let Ok(Some(folder)) = Folder::find(state) else {
+    let Ok(Some(folder)) = Folder::find(state, Part::Edits) else {
         return Vec::new();
     };
     let mut claims = left_behind(&Arc::new(folder), scene.names(), drop);

@@ -1,7 +1,7 @@
 //! Unsaved edits kept from one run to the next, readable by their owner only.
 //!
 //! Every run keeps its edits in its own journal, `recovery/STEM-HASH-N.EXTENSION` below the
-//! [state folder](folder), locked while the run lasts: undecided edits stay, and those of running
+//! [state folder](super::state), locked while the run lasts: undecided edits stay, and those of running
 //! processes are not offered. The hash is of the scene's canonical path, so that a scene has the
 //! same journals under all its names.
 //!
@@ -10,13 +10,12 @@
 //! missing, the journal's base replaces it.
 //!
 //! ```text
-//! App ──Effect──▶ Keeper, a thread ──▶ Journal ──▶ Claim ──▶ Folder
+//! App ──Effect──▶ Keeper, a thread ──▶ Journal ──▶ Claim ──▶ state::Folder
 //!  ▲                     └──Outcome───┐
 //!  └──────────────────────────────────┴──Found── look_for, a thread
 //! ```
 
 mod claim;
-mod folder;
 mod identity;
 mod journal;
 mod keeper;
@@ -27,7 +26,6 @@ mod record;
 pub(crate) mod tests;
 
 pub use claim::Claim;
-pub(crate) use folder::{place, state};
 pub(crate) use journal::Edits;
 pub(crate) use keeper::{End, Keeper, Outcome, Request};
 pub(crate) use missing::{base_of, note_for_missing, note_for_unreadable};

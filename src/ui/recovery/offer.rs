@@ -7,7 +7,6 @@ use std::sync::Arc;
 use std::thread;
 
 use super::claim::Claim;
-use super::folder::{self, Folder};
 use super::identity::Identity;
 use super::record::{self, Content};
 use crate::document::{Merge, Side, differences};
@@ -15,6 +14,7 @@ use crate::file;
 use crate::language::Language;
 use crate::memory::megabytes;
 use crate::text::{Edit, smallest_edit};
+use crate::ui::state::{self, Folder, Part};
 
 /// The size, in bytes, that a journal may have regardless of the scene's length.
 const ALWAYS: u64 = 64 << 20;
@@ -81,7 +81,7 @@ pub enum Since {
 /// Looks for kept edits on a new thread, which reports any that it finds.
 pub(crate) fn look_for(sought: Sought, report: impl Fn(Found) + Send + 'static) -> io::Result<()> {
     let look = move || {
-        let found = match folder::state() {
+        let found = match state::state() {
             Ok(state) => look_in(&state, &sought),
             // Reported once there is something to keep.
             Err(_) => Found::default(),
@@ -99,7 +99,7 @@ pub(crate) fn look_for(sought: Sought, report: impl Fn(Found) + Send + 'static) 
 /// Finds the newest edits kept below a state folder.
 pub(super) fn look_in(state: &Path, sought: &Sought) -> Found {
     let mut found = Found::default();
-    let folder = match Folder::find(state) {
+    let folder = match Folder::find(state, Part::Edits) {
         Ok(Some(folder)) => Arc::new(folder),
         Ok(None) => return found,
         Err(error) => {

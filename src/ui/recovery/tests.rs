@@ -12,18 +12,18 @@ use std::time::{Duration, SystemTime};
 use tempfile::TempDir;
 
 use super::claim::Claim;
-use super::folder::Folder;
 use super::identity::Identity;
 use super::journal::{Edits, Journal};
 use super::offer::look_in;
 use super::{Found, Offer, Sought, missing, record};
 use crate::document::{Document, Snapshot};
 use crate::language::Language;
+use crate::ui::state::{Folder, Part};
 
 /// An offer of edits for a text, whose journal is gone.
 pub(crate) fn offer(language: Language, text: &Arc<String>, base: &str, kept: &str) -> Offer {
     let place = Place::new();
-    let folder = Arc::new(Folder::make(&place.state).expect("a folder"));
+    let folder = Arc::new(Folder::make(&place.state, Part::Edits).expect("a folder"));
     let claim = Claim::new(&folder, &Identity::of(None, language)).expect("it is empty");
     let sought = Sought {
         scene: None,
@@ -72,7 +72,7 @@ impl Place {
     }
 
     fn make(&self) {
-        Folder::make(&self.state).expect("a folder");
+        Folder::make(&self.state, Part::Edits).expect("a folder");
     }
 
     fn scene(&self) -> PathBuf {

@@ -1,5 +1,7 @@
 //! Files of kept traces.
 
+use std::fs;
+use std::path::Path;
 use std::sync::Arc;
 use std::sync::mpsc;
 use std::time::Duration;
@@ -85,7 +87,9 @@ pub(in crate::ui) struct Place {
 impl Place {
     pub(in crate::ui) fn new() -> Self {
         let folder = tempfile::tempdir().expect("a folder");
-        let traces = Traces::of(folder.path());
+        let traces = Traces {
+            state: folder.path().to_owned(),
+        };
         Self { folder, traces }
     }
 
@@ -98,6 +102,16 @@ impl Place {
             .collect();
         files.sort();
         files
+    }
+
+    /// The path of a file.
+    fn at(&self, name: &str) -> PathBuf {
+        self.folder.path().join("halflight/traces").join(name)
+    }
+
+    /// The path of the trace of a picture.
+    fn place(&self, picture: &Provenance) -> PathBuf {
+        self.at(&name(&head(picture)))
     }
 
     fn write(&self, job: &Job, kept: &Kept) {
@@ -170,16 +184,15 @@ fn a_damaged_file_is_refused_and_removed() {
         let read = place.traces.read(&picture(&job), &job);
         matches!(read, Err(Unreadable::Damaged)) && !path.exists()
     };
-    for at in 0..bytes.len() {
+    for at in KIND.len()..bytes.len() {
         let mut damaged = bytes.clone();
         damaged[at] ^= 1;
         assert!(is_refused(&damaged), "byte {at}");
-        if at % 50 == 0 {
+        if at % 50 == KIND.len() {
             assert!(is_refused(&bytes[..at]), "{at} bytes");
         }
     }
     assert!(is_refused(&[&bytes[..], b"\0"].concat()), "a byte more");
-    assert!(is_refused(b""));
     fs::write(&path, &bytes).expect("it is ours");
     assert_eq!(place.read(&picture(&job), &job), Some(1));
 }
@@ -219,13 +232,13 @@ fn the_newest_files_are_kept() {
         job
     };
     let date = |path: &Path, seconds| {
-        let file = fs::File::options().write(true).open(path).expect("a file");
+        let file = File::options().write(true).open(path).expect("a file");
         let at = SystemTime::UNIX_EPOCH + Duration::from_secs(seconds);
         file.set_modified(at).expect("it is ours");
     };
     for depth in 1..=5 {
         place.write(&with_depth(depth), &kept);
-        let path = place.traces.place(&head(&picture(&with_depth(depth))));
+        let path = place.place(&picture(&with_depth(depth)));
         date(&path, u64::from(depth));
     }
     let left = |place: &Place| -> Vec<u32> {
@@ -234,16 +247,13 @@ fn the_newest_files_are_kept() {
     };
     assert_eq!(left(&place), [2, 3, 4, 5]);
     // The newest but one is very large, and the others are beyond the limit with it.
-    let large = place.traces.place(&head(&picture(&with_depth(5))));
-    let file = fs::File::options()
-        .write(true)
-        .open(&large)
-        .expect("a file");
+    let large = place.place(&picture(&with_depth(5)));
+    let file = File::options().write(true).open(&large).expect("a file");
     file.set_len(MOST_BYTES - 40_000).expect("it is sparse");
     date(&large, 5);
     place.write(&with_depth(6), &kept);
     let lengths = [6, 5].map(|depth| {
-        let path = place.traces.place(&head(&picture(&with_depth(depth))));
+        let path = place.place(&picture(&with_depth(depth)));
         path.exists()
     });
     assert_eq!(lengths, [true, true]);
@@ -252,4 +262,93 @@ fn the_newest_files_are_kept() {
     date(&large, 5);
     place.write(&with_depth(7), &kept);
     assert_eq!(left(&place), [6, 7]);
+}
+
+/// The most traces are written, so that the oldest are removed.
+fn overfill(place: &Place) {
+    let first = job(1);
+    let kept = traced(&first);
+    for depth in 1..=MOST as u32 + 2 {
+        let mut job = first.clone();
+        job.settings.depth = depth;
+        place.write(&job, &kept);
+    }
+}
+
+#[test]
+#[cfg(unix)]
+fn files_of_others_are_neither_removed_nor_replaced() {
+    use std::os::unix::fs::symlink;
+    let (place, first) = (Place::new(), job(1));
+    place.write(&first, &traced(&first));
+    let hex = |digit: &str| digit.repeat(DIGITS);
+    let outside = place.folder.path().join("precious");
+    fs::write(&outside, "halflight trace 2\nmine").expect("the folder is new");
+    symlink(&outside, place.at(&format!("{}.trace", hex("a")))).expect("it is new");
+    fs::create_dir(place.at(&format!("{}.trace", hex("b")))).expect("it is new");
+    let foreign = [
+        ("run.trace".to_owned(), "halflight trace 2\n"),
+        (format!("{}.trace", hex("c")), "mine"),
+        (format!("{}.trace", hex("d")), ""),
+        (format!("{}.trace", hex("g")), "halflight trace 2\n"),
+        (format!("{}.trace.1.new", hex("e")), "mine"),
+    ];
+    for (name, text) in &foreign {
+        fs::write(place.at(name), text).expect("it is new");
+    }
+    overfill(&place);
+    for (name, text) in &foreign {
+        assert_eq!(&fs::read_to_string(place.at(name)).expect(name), text);
+    }
+    assert_eq!(place.files().len(), foreign.len() + 2 + MOST);
+    assert!(outside.exists());
+
+    // Neither is one that has the name of the picture.
+    let own = place.place(&picture(&first));
+    for plant in [
+        (|own, _| fs::write(own, "mine")) as fn(&Path, &Path) -> io::Result<()>,
+        |own, outside| symlink(outside, own),
+    ] {
+        let _ = fs::remove_file(&own);
+        plant(&own, &outside).expect("it is free");
+        let written = place.traces.write(&picture(&first), &traced(&first), far());
+        written.expect_err("it is not ours");
+        let read = place.traces.read(&picture(&first), &first);
+        assert!(matches!(read, Err(Unreadable::Io(_))));
+        assert!(own.symlink_metadata().is_ok());
+    }
+}
+
+#[test]
+#[cfg(unix)]
+fn a_folder_that_leads_elsewhere_is_not_used() {
+    let (place, job) = (Place::new(), job(1));
+    place.write(&job, &traced(&job));
+    let folder = place.folder.path().join("halflight/traces");
+    let away = place.folder.path().join("away");
+    fs::rename(&folder, &away).expect("it is ours");
+    std::os::unix::fs::symlink(&away, &folder).expect("it is free");
+    let read = place.traces.read(&picture(&job), &job);
+    assert!(matches!(read, Err(Unreadable::Io(_))));
+    let written = place.traces.write(&picture(&job), &traced(&job), far());
+    let reason = written.expect_err("it is a link").to_string();
+    assert!(reason.contains("traces is a symbolic link"), "{reason}");
+}
+
+#[test]
+fn what_a_crash_left_behind_is_removed_after_an_hour() {
+    let (place, first) = (Place::new(), job(1));
+    place.write(&first, &traced(&first));
+    let name = |digit: &str| place.at(&format!("{}.trace.7.new", digit.repeat(DIGITS)));
+    for (digit, hours) in [("a", 0), ("b", 2)] {
+        fs::write(name(digit), "halflight trace 2\n").expect("it is new");
+        let file = File::options()
+            .write(true)
+            .open(name(digit))
+            .expect("a file");
+        let at = SystemTime::now() - Duration::from_secs(hours * 3600);
+        file.set_modified(at).expect("it is ours");
+    }
+    overfill(&place);
+    assert_eq!([name("a").exists(), name("b").exists()], [true, false]);
 }
