@@ -14,7 +14,7 @@ mod value;
 mod tests;
 
 use std::env;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use crate::file::{self, ReadError};
 use crate::text::Diagnostic;
@@ -27,7 +27,8 @@ pub use settings::{COLOURS, FILTERS, INTEGRATORS, MAX_BANDWIDTH, MAX_THREADS, PO
 /// Where the configuration comes from.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub enum Source {
-    /// `halflight/config.toml` in `$XDG_CONFIG_HOME` or in `~/.config`, if it exists.
+    /// `halflight/config.toml` in `$XDG_CONFIG_HOME` or in `~/.config`, unless there is none: neither
+    /// is one in a place that can hold no file, or one of another user that cannot be read.
     #[default]
     Usual,
     /// This file.
@@ -35,6 +36,9 @@ pub enum Source {
     /// Nowhere: everything has its default.
     None,
 }
+
+/// The device that holds no configuration, as other programs take it.
+const NOTHING: &str = "/dev/null";
 
 /// Why a configuration cannot be used.
 #[derive(Debug, thiserror::Error)]
@@ -65,12 +69,13 @@ fn load(source: &Source) -> Result<Options, Error> {
         Source::File(path) => Some(path.clone()),
         Source::Usual => place(),
     };
+    let path = path.filter(|path| !file::is_same(path, Path::new(NOTHING)));
     let Some(path) = path else {
         return Ok(Options::default());
     };
     let text = match file::read_text(&path) {
         Ok(text) => text,
-        Err(ReadError::NotFound { .. }) if *source == Source::Usual => {
+        Err(_) if *source == Source::Usual && !file::is_own(&path) => {
             return Ok(Options::default());
         }
         Err(error) => return Err(error.into()),

@@ -320,6 +320,24 @@ pub fn is_same(one: &Path, other: &Path) -> bool {
     FileId::of(one).is_some_and(|found| FileId::of(other) == Some(found))
 }
 
+/// Whether a path names something of the user's own, whether or not that can be read. `false` if
+/// there is nothing, or nothing can be there.
+pub fn is_own(path: &Path) -> bool {
+    let Ok(found) = path.symlink_metadata() else {
+        return false;
+    };
+    #[cfg(unix)]
+    {
+        use std::os::unix::fs::MetadataExt;
+        found.uid() == rustix::process::geteuid().as_raw()
+    }
+    #[cfg(not(unix))]
+    {
+        let _ = found;
+        true
+    }
+}
+
 /// Opens a regular file for reading. Never blocks, as opening a pipe without a writer would.
 pub(crate) fn open(path: &Path) -> Result<File, ReadError> {
     let describe = |source: io::Error| match source.kind() {

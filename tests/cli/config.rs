@@ -56,3 +56,36 @@ fn a_configuration_that_is_named_must_exist_and_the_usual_one_need_not() {
     assert!(printed("--print-config --spp 6").contains("\nspp = 6\n"));
     assert!(printed("--print-config --spp 6").contains("\ntheme = \"mono\"\n"));
 }
+
+#[test]
+#[cfg(unix)]
+fn a_home_that_can_hold_no_configuration_has_none() {
+    let place = Place::new();
+    let run = |line: &str, variable: &str, value: &str| {
+        let mut command = place.command(line);
+        for name in ["XDG_CONFIG_HOME", "HOME"] {
+            command.env_remove(name);
+        }
+        let output = command.env(variable, value).output().expect("it starts");
+        (
+            output.status.code(),
+            String::from_utf8(output.stdout).expect("UTF-8"),
+        )
+    };
+    let file = place.at("ball.ray/x").display().to_string();
+    let default = run("--print-config", "HOME", &file);
+    assert_eq!(default.0, Some(0));
+    for (line, variable, value) in [
+        ("--print-config", "HOME", "/dev/null"),
+        ("--print-config", "XDG_CONFIG_HOME", "/dev/null"),
+        ("--print-config", "XDG_CONFIG_HOME", &file),
+        ("--config /dev/null --print-config", "HOME", "/dev/null"),
+    ] {
+        let case = format!("{line} {variable}={value}");
+        assert_eq!(run(line, variable, value), default, "{case}");
+    }
+    // What is there but is no file may have been meant as one.
+    fs::create_dir_all(place.at("own/halflight/config.toml")).expect("it is new");
+    let own = place.at("own").display().to_string();
+    assert_eq!(run("--print-config", "XDG_CONFIG_HOME", &own).0, Some(66));
+}
