@@ -1,5 +1,7 @@
 //! Signals that ask a long render to keep what it has and stop.
 
+#[cfg(unix)]
+use std::fs;
 use std::io;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -7,7 +9,8 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 /// The signals that stop a render that can be continued, and their names. `SIGUSR1` is what Slurm's
 /// `--signal` is mostly set to, to warn of the end of the time.
 #[cfg(unix)]
-const SIGNALS: [(i32, &str); 3] = [
+const SIGNALS: [(i32, &str); 4] = [
+    (signal_hook::consts::SIGHUP, "SIGHUP"),
     (signal_hook::consts::SIGTERM, "SIGTERM"),
     (signal_hook::consts::SIGUSR1, "SIGUSR1"),
     (signal_hook::consts::SIGINT, "SIGINT"),
@@ -23,6 +26,9 @@ impl Signals {
     pub(super) fn noted() -> io::Result<Self> {
         let noted = Self::default();
         for (signal, _) in SIGNALS {
+            if signal == signal_hook::consts::SIGHUP && may_be_ignored(signal) {
+                continue;
+            }
             let cell = Arc::clone(&noted.0);
             signal_hook::flag::register_usize(signal, cell, signal as usize)?;
         }
@@ -45,6 +51,16 @@ impl Signals {
         let number = self.0.load(Ordering::Relaxed);
         (number != 0).then_some(Signal(number as u8))
     }
+}
+
+/// Whether a signal was ignored when the program began, as by nohup, so that it must stay without
+/// effect. Where the system has no table of these, every signal may be.
+#[cfg(unix)]
+fn may_be_ignored(signal: i32) -> bool {
+    let table = fs::read_to_string("/proc/self/status").unwrap_or_default();
+    let ignored = table.lines().find_map(|line| line.strip_prefix("SigIgn:"));
+    let ignored = ignored.and_then(|mask| u64::from_str_radix(mask.trim(), 16).ok());
+    ignored.is_none_or(|mask| mask & (1 << (signal - 1)) != 0)
 }
 
 /// A signal.

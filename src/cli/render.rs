@@ -62,7 +62,7 @@ pub(super) struct RenderArguments {
     #[command(flatten)]
     sequence: SequenceArguments,
     /// Checkpoint to a part file next to FILE, and continue from one that exists: after SIGTERM,
-    /// SIGUSR1 or a crash, or with a larger --spp; numbered frames of a sequence are continued with
+    /// SIGHUP, SIGUSR1 or a crash, or with a larger --spp; numbered frames of a sequence are continued with
     /// or without it, .y4m and .gif cannot be
     #[arg(long, conflicts_with = "again")]
     resume: bool,

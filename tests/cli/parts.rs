@@ -243,11 +243,17 @@ fn outputs_do_not_overwrite_one_another() {
 pub(super) fn begun(place: &Place, line: &str, part: &Path, length: u64) -> std::process::Child {
     let mut child = place.command(line);
     let mut child = child.stderr(Stdio::piped()).spawn().expect("it starts");
+    grown(&mut child, part, length);
+    child
+}
+
+/// Waits until the part file of a render is longer than `length`, or all is done.
+#[cfg(unix)]
+fn grown(child: &mut std::process::Child, part: &Path, length: u64) {
     let is_longer = || fs::metadata(part).is_ok_and(|file| length < file.len());
     while !is_longer() && child.try_wait().expect("it is a child").is_none() {
         std::thread::yield_now();
     }
-    child
 }
 
 #[cfg(unix)]
@@ -264,7 +270,9 @@ fn signals_keep_what_was_traced() {
     let place = Place::new();
     let part = place.at("a.part");
     let line = format!("render {SCENE} -o a.bmp --size 64x64 --spp 65536 --resume");
-    for (signal, code) in [("TERM", 75), ("USR1", 75), ("INT", 130)] {
+    let signals = [("TERM", 75), ("USR1", 75), ("INT", 130)];
+    let hangs_up = cfg!(target_os = "linux").then_some(("HUP", 75));
+    for (signal, code) in signals.into_iter().chain(hangs_up) {
         let child = begun(&place, &line, &part, 0);
         send(signal, &child);
         let output = child.wait_with_output().expect("it ends");
@@ -280,6 +288,27 @@ fn signals_keep_what_was_traced() {
     let mut child = place.command(&line).spawn().expect("it starts");
     send("TERM", &child);
     assert_eq!(child.wait().expect("it ends").code(), None);
+}
+
+/// As under nohup.
+#[test]
+#[cfg(unix)]
+fn a_signal_that_is_ignored_stays_so() {
+    let place = Place::new();
+    let part = place.at("a.part");
+    let line = format!("render {SCENE} -o a.bmp --size 64x64 --spp 65536 --resume");
+    let script = format!("trap '' HUP; exec {BINARY} {line}");
+    let mut shell = Command::new("bash");
+    let shell = shell.args(["-c", &script]).current_dir(place.at("."));
+    let mut child = shell.stderr(Stdio::piped()).spawn().expect("it starts");
+    grown(&mut child, &part, 0);
+    send("HUP", &child);
+    let length = fs::metadata(&part).expect("it is there").len();
+    grown(&mut child, &part, length);
+    send("TERM", &child);
+    let output = child.wait_with_output().expect("it ends");
+    let said = String::from_utf8_lossy(&output.stderr);
+    assert!(said.starts_with("error: stopped by SIGTERM; "), "{said}");
 }
 
 /// Killed after each block, and stopped within blocks.
