@@ -179,9 +179,10 @@ impl Runtime {
         timers.chain(self.trim_at).min()
     }
 
-    /// Takes the timer that is due first, whenever that is.
-    pub(crate) fn next_elapsed(&mut self) -> Option<Msg> {
+    /// Takes the timer, of some, that is due first, whenever that is.
+    pub(crate) fn next_elapsed(&mut self, of: impl Fn(Timer) -> bool) -> Option<Msg> {
         let first = self.timers.iter().enumerate();
+        let first = first.filter(|&(_, &(_, timer))| of(timer));
         let (first, _) = first.min_by_key(|&(_, &(at, _))| at)?;
         Some(Msg::Elapsed(self.timers.remove(first).1))
     }

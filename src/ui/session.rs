@@ -7,6 +7,7 @@ mod play;
 use std::collections::VecDeque;
 use std::io;
 use std::mem;
+use std::path::PathBuf;
 use std::sync::mpsc::{self, Receiver, RecvTimeoutError};
 use std::time::{Duration, Instant};
 
@@ -64,6 +65,8 @@ pub(crate) fn run(
         manner: Manner::Half,
         inbox,
         script,
+        is_played: false,
+        assets: options.assets.clone(),
         failed: None,
         at_work: beginning.at_work,
         refined: None,
@@ -96,6 +99,10 @@ struct Session {
     inbox: Receiver<Event>,
     /// Where the keys come from, if not from the terminal.
     script: Option<Script>,
+    /// Whether the step to play next has shown a frame of a sequence that plays.
+    is_played: bool,
+    /// Folders that the scene's files may be in, besides those around it.
+    assets: Vec<PathBuf>,
     /// Why the script was not played to its end.
     failed: Option<Error>,
     /// The number of pieces of work under way whose results arrive in the inbox.

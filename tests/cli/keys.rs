@@ -121,11 +121,61 @@ fn a_screen_never_replaces_a_file_that_the_scene_uses() {
     }
 }
 
+/// The interface does not read the files of a text with errors.
+#[test]
+fn a_screen_never_replaces_a_file_that_a_scene_with_errors_uses() {
+    const MESH: &str = "mtllib a.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl a\nf 1 2 3\n";
+    const XML: &str = "<xml><scene><object type=\"obj\" name=\"a.obj\"/></scene><camera><fov \
+                       value=\"x\"/></camera></xml>";
+    let place = Place::new();
+    place.write("a.obj", MESH);
+    place.write("a.mtl", "newmtl a\nmap_Kd skin.png\n");
+    let textured = TEXTURED.replace("skin.ppm", "skin.png");
+    for (name, text) in [
+        ("a.dat", textured.replace("obj sphere", "obj sphre")),
+        ("b.dat", textured.replace("image 1 1", "image 1 x")),
+        ("c.xml", XML.to_owned()),
+    ] {
+        place.write(name, text);
+        place.write("skin.png", SKIN);
+        let errors = place.stderr(&format!("{name} --dump-frame skin.png"), 73);
+        assert!(errors.contains("skin.png: the scene uses it"), "{errors}");
+        assert_eq!(place.read("skin.png"), SKIN.as_bytes());
+        place.stderr(&format!("{name} --dump-frame other.png"), 0);
+    }
+}
+
+#[test]
+fn a_wait_shows_the_next_frame_of_a_sequence_that_plays() {
+    let place = Place::new();
+    let last = |keys: &str| {
+        place.write("a.keys", keys);
+        played(&place.at("a.keys"), "80x24").0
+    };
+    let stepped = last("T wait l l wait");
+    let playing = last("T wait Space wait wait");
+    for screen in [stepped, playing] {
+        let mut words = screen.split_ascii_whitespace();
+        assert!(words.any(|word| word == "2/47"), "{screen}");
+    }
+}
+
+#[test]
+fn a_byte_order_mark_before_a_script_is_no_key() {
+    let place = Place::new();
+    let [plain, marked] = ["j", "\u{feff}j"].map(|keys| {
+        place.write("a.keys", keys);
+        played(&place.at("a.keys"), "80x24").0
+    });
+    assert_eq!(marked, plain);
+}
+
 #[test]
 fn an_error_in_a_script_is_reported_at_its_place() {
     let place = Place::new();
     for (keys, reason) in [
         ("j\n Entr", "bad.keys:2:2: unknown key Entr"),
+        ("\u{feff}Entr", "bad.keys:1:1: unknown key Entr"),
         (
             "q j",
             "bad.keys:1:3: the interface has ended before this step",

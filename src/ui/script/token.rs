@@ -1,6 +1,6 @@
 //! The words and quoted texts of a script.
 
-use crate::text::{Diagnostic, Span};
+use crate::text::{Diagnostic, Span, mark_len};
 
 /// A word or a text in quotation marks.
 #[derive(Clone, Debug)]
@@ -28,7 +28,8 @@ pub(super) struct Tokens<'a> {
 
 impl<'a> Tokens<'a> {
     pub(super) fn of(text: &'a str) -> Self {
-        Self { text, at: 0 }
+        let at = mark_len(text);
+        Self { text, at }
     }
 
     /// The next token; `None` at the end.

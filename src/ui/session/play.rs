@@ -2,13 +2,17 @@
 //! does not depend on time.
 
 use std::io;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 use crossterm::event::{KeyModifiers, MouseButton, MouseEvent, MouseEventKind};
 
 use super::{Session, Urgency};
+use crate::assets::Assets;
 use crate::file;
+use crate::language::Source;
 use crate::ui::ending::Error;
-use crate::ui::msg::{Effect, Msg};
+use crate::ui::msg::{Effect, Msg, Timer};
 use crate::ui::options::Rehearsal;
 use crate::ui::script::{Script, Step};
 use crate::ui::snapshot;
@@ -17,7 +21,8 @@ impl Session {
     /// Handles what has arrived or, if nothing more will, plays the next step of the script.
     ///
     /// A key waits for files, and for one sample of each pixel of the preview, below which it may
-    /// pick an object. Waits and dumps also wait for complete pictures, exports and timers.
+    /// pick an object. Waits and dumps also wait for complete pictures, exports and timers. A
+    /// sequence that plays has no end: a wait shows its next frame.
     pub(super) fn play(&mut self) -> Urgency {
         if let Ok(event) = self.inbox.try_recv() {
             return self.take(event);
@@ -40,10 +45,14 @@ impl Session {
                 Err(_) => Urgency::Never,
             };
         }
-        if is_last && let Some(elapsed) = self.runtime.next_elapsed() {
+        let is_played = self.is_played || next != Some(&Step::Wait);
+        let is_awaited = |timer| timer != Timer::Frame || !is_played;
+        if is_last && let Some(elapsed) = self.runtime.next_elapsed(is_awaited) {
+            self.is_played |= matches!(elapsed, Msg::Elapsed(Timer::Frame));
             self.step(elapsed);
             return Urgency::Now;
         }
+        self.is_played = false;
         // A page is always written to.
         let _ = self.draw(Urgency::Now);
         match self.script.as_mut().and_then(Script::next) {
@@ -103,12 +112,32 @@ impl Session {
         }
     }
 
-    fn dump(&mut self, path: &std::path::Path, format: snapshot::Format) -> Result<(), Error> {
+    /// Whether a file is one that the scene uses. That of a text with errors is not known to the
+    /// interface, which does not read its files.
+    fn uses(&self, path: &Path) -> bool {
+        if self.app.files().any(|used| file::is_same(path, used)) {
+            return true;
+        }
+        let (Some(scene), 1.., true) = (&self.app.disk.path, self.app.error_count(), path.exists())
+        else {
+            return false;
+        };
+        let (language, text) = (self.app.source().language(), self.app.source().text());
+        let name = path.file_name().unwrap_or_default();
+        let is_named = name.to_str().is_some_and(|name| text.contains(name));
+        let mut source = Source::new(language, Arc::clone(text));
+        let read = Assets::new(&self.assets).lower(scene, &mut source);
+        let is_same = |used: &PathBuf| file::is_same(path, used);
+        is_named || read.map_or(true, |(_, read)| read.files.iter().any(is_same))
+    }
+
+    fn dump(&mut self, path: &Path, format: snapshot::Format) -> Result<(), Error> {
         let theme = self.app.theme;
+        let is_used = self.uses(path);
         let Some(cells) = self.runtime.screen().cells() else {
             return Ok(());
         };
-        let written = if self.app.files().any(|used| file::is_same(path, used)) {
+        let written = if is_used {
             Err(io::Error::other("the scene uses it; name another file"))
         } else {
             snapshot::write(cells, path, format, theme)
