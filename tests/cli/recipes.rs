@@ -49,12 +49,84 @@ fn assert_cooks(recipe: &str) {
     place.write("ball.ray", format!("{BALL}// another\n"));
     let three = ["ball.ray", "out.png", "3"];
     assert!(!cook(&place, recipe, three, MORE));
-    // Names mean nothing to a shell.
-    let (scene, picture) = ("my scene.ray", "a;touch x;.png");
+    // Names mean nothing to a shell, and a dot in that of a folder begins no extension.
+    let scene = "my scene.ray";
     place.write(scene, BALL);
-    assert!(cook(&place, recipe, [scene, picture, "2"], MORE));
-    assert!(place.read(picture) == place.read("more.png"));
+    fs::create_dir(place.at("a.b")).expect("it is new");
+    // Of another picture.
+    place.write("out.again.x.0-2.part", "");
+    for picture in ["a;touch x;.png", "out.again.png", "a.b/out.png"] {
+        assert!(
+            cook(&place, recipe, [scene, picture, "2"], MORE),
+            "{picture}"
+        );
+        assert!(place.read(picture) == place.read("more.png"), "{picture}");
+    }
+    assert!(!cook(&place, recipe, [scene, "a.b/out", "2"], MORE));
     assert!(!place.at("x").exists());
+    assert_counts(recipe, &["ball.ray", "out.png"]);
+}
+
+/// Runs a recipe with numbers that are none; no command in them is run.
+#[cfg(unix)]
+fn assert_counts(recipe: &str, before: &[&str]) {
+    let place = Place::new();
+    // The scheduler does nothing.
+    place.write("sbatch", "#!/bin/sh\n");
+    let executable = std::os::unix::fs::PermissionsExt::from_mode(0o700);
+    fs::set_permissions(place.at("sbatch"), executable).expect("it is ours");
+    for (shards, tries) in [
+        ("BASH_VERSINFO[$(touch x)0]", "3"),
+        ("3", "BASH_VERSINFO[$(touch x)0]"),
+        ("0x3", "3"),
+        ("-1", "3"),
+        ("1e3", "3"),
+        ("99999999999999999999", "3"),
+        ("", "3"),
+    ] {
+        if shards == "3" && !recipe.ends_with("merge.sbatch") {
+            continue;
+        }
+        let path = std::env::var("PATH").expect("a path");
+        let folder = place.directory.path().display();
+        let mut command = Command::new("bash");
+        let recipes = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/recipes");
+        command
+            .arg(recipes.join(recipe))
+            .args(before)
+            .arg(shards)
+            .env("PATH", format!("{folder}:{path}"))
+            .env("TRIES", tries)
+            .current_dir(place.directory.path());
+        let output = command.output().expect("it starts");
+        assert!(!output.status.success(), "{recipe} {shards} {tries}");
+        assert!(!place.at("x").exists(), "{recipe} {shards} {tries}");
+    }
+}
+
+/// Scenes are untrusted.
+#[test]
+fn pods_may_do_nothing_but_compute() {
+    let recipe = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/recipes/kubernetes.yaml");
+    let text = fs::read_to_string(recipe).expect("it is there");
+    for line in [
+        "activeDeadlineSeconds: 86400",
+        "automountServiceAccountToken: false",
+        "runAsNonRoot: true",
+        "allowPrivilegeEscalation: false",
+        "readOnlyRootFilesystem: true",
+        "drop: [ALL]",
+        "ephemeral-storage: 64Mi",
+    ] {
+        assert!(text.lines().any(|found| found.trim() == line), "{line}");
+    }
+}
+
+#[test]
+#[cfg(unix)]
+fn recipes_for_slurm_check_their_numbers() {
+    assert_counts("slurm/submit.sh", &["ball.ray", "out.png"]);
+    assert_counts("slurm/merge.sbatch", &["here", "ball.ray", "out.png"]);
 }
 
 #[test]

@@ -4,8 +4,15 @@
 set -euo pipefail
 scene=${1:?SCENE is missing} picture=${2:?PICTURE is missing} shards=${3:?SHARDS is missing}
 shift 3
+# Arithmetic would run commands in what is not a number.
+[[ $shards =~ ^([2-9]|[1-9][0-9]{1,5})$ ]] || { echo "SHARDS is no number from 2 on: $shards" >&2; exit 2; }
+# A dot in the name of a folder begins no extension.
+[[ ${picture##*/} == ?*.* ]] || { echo "PICTURE has no extension: $picture" >&2; exit 2; }
+stem=${picture%.*}
 
+parts=()
 for ((k = 0; k < shards; k++)); do
     halflight render "$scene" -o "$picture" --shard "$k/$shards" --resume "$@"
+    parts+=("$stem.$k-$shards.part")
 done
-halflight merge "${picture%.*}".*-"$shards".part -o "$picture"
+halflight merge "${parts[@]}" -o "$picture"

@@ -7,15 +7,23 @@
 set -euo pipefail
 scene=${1:?SCENE is missing} picture=${2:?PICTURE is missing} shards=${3:?SHARDS is missing}
 shift 3
+# Arithmetic would run commands in what is not a number.
+[[ $shards =~ ^([2-9]|[1-9][0-9]{1,5})$ ]] || { echo "SHARDS is no number from 2 on: $shards" >&2; exit 2; }
+# A dot in the name of a folder begins no extension.
+[[ ${picture##*/} == ?*.* ]] || { echo "PICTURE has no extension: $picture" >&2; exit 2; }
 stem=${picture%.*}
 
+parts=()
+for ((k = 0; k < shards; k++)); do
+    parts+=("$stem.$k-$shards.part")
+done
 far=()
 if [ -n "${HOSTS:-}" ]; then
     part="$stem.{}-$shards.part"
     far=(--sshlogin "$HOSTS" --workdir ... --transferfile "$scene" --transferfile "$part" --return "$part" --cleanup)
-    for ((k = 0; k < shards; k++)); do
+    for part in "${parts[@]}"; do
         # What is sent must exist; an empty part is begun.
-        : >>"$stem.$k-$shards.part"
+        : >>"$part"
     done
     for asset in ${ASSETS:-}; do
         far+=(--transferfile "$asset")
@@ -24,4 +32,4 @@ fi
 parallel --quote --jobs "${JOBS:-100%}" --retries 3 "${far[@]}" \
     halflight render "$scene" -o "$picture" --shard "{}/$shards" --resume --threads 1 "$@" \
     ::: $(seq 0 $((shards - 1)))
-halflight merge "$stem".*-"$shards".part -o "$picture"
+halflight merge "${parts[@]}" -o "$picture"
