@@ -1,10 +1,11 @@
 //! Progress on standard error: a line that is updated, or lines of JSON for other programs.
 
-use std::io::{self, IsTerminal, Write};
+use std::io::{self, Write};
 use std::time::{Duration, Instant};
 
 use serde_json::{Value, json};
 
+use super::report::has_controls;
 use crate::render::Progress;
 use crate::text::percentage;
 
@@ -17,7 +18,7 @@ const BAR: usize = 20;
 /// How progress is shown.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum ProgressStyle {
-    /// A line that is updated, if standard error is a terminal, and erased at the end.
+    /// A line that is updated, if standard error is a terminal that can do that, and erased at the end.
     #[default]
     Line,
     /// An object of JSON a line, at least one, the last with the event `done`; one with the event
@@ -51,7 +52,7 @@ pub(super) struct Place {
 impl Reporter {
     pub(super) fn new(style: ProgressStyle) -> Self {
         let style = match style {
-            ProgressStyle::Line if !io::stderr().is_terminal() => ProgressStyle::Off,
+            ProgressStyle::Line if !has_controls() => ProgressStyle::Off,
             style => style,
         };
         Self {

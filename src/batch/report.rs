@@ -18,15 +18,20 @@ pub(super) enum Style {
 }
 
 impl Style {
-    /// Coloured on a terminal, unless `NO_COLOR` is set (see no-color.org).
+    /// Coloured on a terminal, unless `NO_COLOR` is set (see no-color.org) or `TERM` is `dumb`.
     pub(super) fn of_error_stream() -> Self {
         let no_colour = std::env::var_os("NO_COLOR").is_some_and(|value| !value.is_empty());
-        if io::stderr().is_terminal() && !no_colour {
+        if has_controls() && !no_colour {
             Self::Coloured
         } else {
             Self::Plain
         }
     }
+}
+
+/// Whether standard error is a terminal that knows control sequences.
+pub(super) fn has_controls() -> bool {
+    io::stderr().is_terminal() && std::env::var_os("TERM").is_none_or(|term| term != "dumb")
 }
 
 /// Formats the diagnostics of a text, in order, without a trailing line break. The first line of

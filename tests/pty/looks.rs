@@ -128,6 +128,32 @@ fn a_dumb_terminal_is_refused() {
 }
 
 #[test]
+fn messages_on_a_dumb_terminal_have_no_control_sequences() {
+    let place = Place::new();
+    place.write("bad.ray", "1 1\n");
+    let many = ["render", "balls.ray", "-o", "a.png", "--time", "600ms"];
+    for (arguments, code) in [(&["check", "bad.ray"][..], 65), (&many, 0)] {
+        let environment = [("TERM", "dumb")];
+        let mut session = Session::start(place.directory.path(), arguments, WIDE, &environment);
+        assert_eq!(session.end().exit_code(), code, "{}", session.text());
+        assert!(!session.written.contains(&0x1b), "{}", session.text());
+    }
+}
+
+#[test]
+fn a_home_that_can_hold_no_files_is_no_obstacle() {
+    let place = Place::new();
+    let file = place.at("balls.ray/x").display().to_string();
+    for home in ["/dev/null", &file] {
+        let environment = [("HOME", home)];
+        let arguments = ["--color", "24", "balls.ray"];
+        let mut session = Session::start(place.directory.path(), &arguments, WIDE, &environment);
+        wait_for_rest(&mut session);
+        quit(session);
+    }
+}
+
+#[test]
 fn colours_are_limited_to_those_of_the_terminal() {
     let place = Place::new();
     let start = |arguments: &[&str], environment| {
