@@ -60,8 +60,8 @@
 //!   drawing never locks.
 //! - Threads communicate by messages. The exceptions are a renderer's newest generation, which
 //!   may be paused, and its frame slot; and in [`ui::terminal`] the count of expected replies, and
-//!   what a panic hook or signal handler must reach: the queued output, the owner of the terminal,
-//!   the panics of other threads and whether unsaved edits are stored.
+//!   what a panic hook or signal handler must reach: the queued output, the owner of the terminal
+//!   and how it reports keys, the panics of other threads and whether unsaved edits are stored.
 
 pub mod accel;
 pub mod assets;

@@ -6,8 +6,13 @@ use std::time::{Duration, Instant};
 #[cfg(unix)]
 use halflight::ui::terminal::{Decoder, Event};
 
+/// The bytes that end a control string or may begin what ends it.
+#[cfg(unix)]
+const ENDS: [u8; 5] = [0x07, 0x18, 0x1a, 0x1b, 0x9c];
+
 /// Decodes the input after its first byte at once and in pieces whose length that byte gives: the
-/// events must be equal. With pauses between the pieces they may differ.
+/// events must be equal. With pauses between the pieces they may differ. As the content of a control
+/// string, the input must give no event at all.
 #[cfg(unix)]
 pub fn keys(input: &[u8]) {
     let Some((&seed, bytes)) = input.split_first() else {
@@ -17,6 +22,19 @@ pub fn keys(input: &[u8]) {
     let each = 1 + usize::from(seed % 16);
     assert_eq!(decode(bytes.chunks(each), Duration::ZERO), whole);
     decode(bytes.chunks(each), Duration::from_millis(u64::from(seed)));
+    let introducer = b"]^X"[usize::from(seed) % 3];
+    let content = bytes.iter().filter(|byte| !ENDS.contains(byte));
+    let string = [
+        &[0x1b, introducer],
+        &content.copied().collect::<Vec<_>>()[..],
+        b"\x1b\\x",
+    ];
+    let string = string.concat();
+    let one_key = decode([&b"x"[..]], Duration::ZERO);
+    assert_eq!(
+        decode(string.chunks(each), Duration::from_millis(20)),
+        one_key
+    );
 }
 
 /// Other systems have no decoder of bytes.

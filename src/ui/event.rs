@@ -25,6 +25,9 @@ pub(crate) enum Event {
     Replied(Reply, Instant),
 }
 
+/// The answer to a paste that is not kept.
+const TOO_LONG: &str = "the pasted text is longer than 1 MiB; save it to a file and open that";
+
 /// Work under way. Announces its begin when it is created and its end when it is dropped, which
 /// happens after the results are sent.
 #[derive(Debug)]
@@ -60,6 +63,7 @@ impl From<terminal::Event> for Event {
             E::Reply(reply) => return Self::Replied(reply, Instant::now()),
             E::Key(key) => Msg::Key(key),
             E::Paste(text) => Msg::Paste(text),
+            E::LongPaste => Msg::Failed(TOO_LONG.to_owned()),
             E::Mouse(event) => Msg::Mouse(event),
             E::Resize { columns, rows } => Msg::Resize(columns, rows),
             E::Suspend => Msg::Suspend,

@@ -86,6 +86,14 @@ impl Screen {
         }
     }
 
+    /// Lets the terminal keep keys apart from the beginnings of sequences.
+    pub(super) fn keep_keys_apart(&mut self) -> io::Result<()> {
+        match self {
+            Self::Console(console) => console.terminal().keep_keys_apart(),
+            Self::Page(_) => Ok(()),
+        }
+    }
+
     /// Queries the terminal. Any answers arrive as [`Event::Replied`].
     pub(super) fn ask(&self, questions: &[Question]) -> io::Result<()> {
         let console = self.console();

@@ -130,6 +130,10 @@ impl Session {
         if reply == Reply::Status {
             self.link.replied(at);
         }
+        if reply == Reply::KeysApart {
+            // A terminal that is gone is noticed by the next frame.
+            let _ = self.runtime.screen().keep_keys_apart();
+        }
         self.known.take(reply);
         let before = self.manner;
         let changed = if self.wanted_manner() == before {

@@ -10,6 +10,7 @@ mod looks;
 mod opening;
 mod pixels;
 mod traces;
+mod typed;
 
 use std::fs;
 use std::os::unix::fs::PermissionsExt;

@@ -11,14 +11,15 @@ use crate::ui::terminal::query::{self, Question};
 use crate::ui::terminal::{self, Choice, ColourDepth};
 
 impl Session {
-    /// Queries what neither the user nor the environment has decided.
+    /// Queries what neither the user nor the environment has decided, and how keys are reported.
     pub(super) fn ask_at_start(&mut self) -> io::Result<()> {
         let is_open = self.choice == Choice::Auto
             && self.depth < ColourDepth::TrueColour
             && is_coloured(variable);
         let colours = is_open.then_some(Question::Colours);
         let pictures = self.wants_answers().then_some(Question::Pictures);
-        let questions: Vec<_> = colours.into_iter().chain(pictures).collect();
+        let keys = [Question::Keys];
+        let questions: Vec<_> = colours.into_iter().chain(pictures).chain(keys).collect();
         self.put(&questions)
     }
 

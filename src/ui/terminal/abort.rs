@@ -54,7 +54,8 @@ pub(super) fn install(shared: &Arc<GuardState>, leave: &'static str) -> io::Resu
             if shared.ownership_in_signal() == Ownership::Ours {
                 shared.output().fall_silent();
                 let kept = if shared.has_kept_edits() { KEPT } else { "" };
-                let parts = [shared.ending(), leave, words, kept, "\r\n"];
+                let keys = shared.keys_ending();
+                let parts = [shared.ending(), keys, leave, words, kept, "\r\n"];
                 let _ = parts.iter().all(|part| write(part.as_bytes()));
                 let _ = tcsetattr(&terminal, OptionalActions::Now, &modes);
             }

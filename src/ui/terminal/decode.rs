@@ -1,473 +1,397 @@
 //! Decodes bytes from the keyboard: a pure state machine from bytes and times to events.
 //!
-//! The grammar is that of xterm's control sequences (`ctlseqs`, sections "PC-Style Function Keys"
-//! and "Extended coordinates") and of the Linux console. An escape sequence may arrive in pieces;
-//! its beginning is held for [`PATIENCE`] before it is taken for the Esc key.
+//! The grammar is that of ECMA-48 and of xterm's control sequences (`ctlseqs`). The answers of the
+//! terminal arrive among the keys, also late and to questions of other programs: whatever their kind
+//! and length, no byte of one is a key. Each byte moves the machine on, so that it does not matter
+//! how bytes are cut into pieces; only the times between them count.
+//!
+//! `ESC` is the Esc key, begins Alt with another key, or introduces a sequence: more bytes within
+//! [`PATIENCE`] decide. Alt with the character of an introducer is a key only if nothing follows it.
 
+mod keys;
+mod kitty;
+mod sequence;
+
+use std::mem;
 use std::time::{Duration, Instant};
 
-use crossterm::event::{KeyCode, KeyEvent, KeyModifiers, MouseButton, MouseEvent, MouseEventKind};
+use crossterm::event::{KeyCode, KeyModifiers};
 
-use super::{Event, Reply, query};
+use super::{Event, query};
+use keys::{key, with_alt};
+use sequence::Meaning;
 
-/// Maximum time for the rest of an escape sequence: longer than the gaps caused by networks, and
-/// too short to be noticed on the Esc key.
+/// Maximum time for the rest of what may be a key: longer than the gaps caused by networks, and too
+/// short to be noticed on the Esc key.
 pub(super) const PATIENCE: Duration = Duration::from_millis(25);
+
+/// Maximum pause within an answer of the terminal, whose rest would be taken for typed text.
+const ANSWER_PATIENCE: Duration = Duration::from_secs(2);
 
 /// Maximum pause within a paste before it is accepted as it is.
 const PASTE_PATIENCE: Duration = Duration::from_secs(1);
 
-/// Maximum length of a sequence in bytes; anything longer is noise.
+/// Maximum number of bytes before the final byte of a sequence that means anything.
 const LONGEST: usize = 64;
 
-/// Maximum time for the rest of a device control string, and its maximum length in bytes: it is an
-/// answer of the terminal, and its rest would be taken for typed text.
-const STRING_PATIENCE: Duration = Duration::from_secs(1);
+/// Maximum length of a control string that means anything, in bytes.
 const LONGEST_STRING: usize = 4096;
 
-/// Introducers of a device control string and of an application program command.
-const STRINGS: [&[u8]; 2] = [b"\x1bP", b"\x1b_"];
+/// Maximum length of a paste in bytes. It is held in memory and inserted in one step.
+pub(super) const LONGEST_PASTE: usize = 1 << 20;
 
 const PASTE_END: &[u8] = b"\x1b[201~";
 
-/// Decodes bytes to events.
+/// Decodes bytes to events. Holds at most a little more than the longest paste.
 #[derive(Debug, Default)]
 pub struct Decoder {
-    pending: Vec<u8>,
-    mode: Mode,
+    state: State,
+    /// The bytes of the state that may have a meaning; one more than the longest if there were more.
+    held: Vec<u8>,
+    /// The key that the bytes so far are if no more follow.
+    key: Option<Event>,
     /// Time of the last bytes.
     fed: Option<Instant>,
 }
 
+/// What the next byte belongs to.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-enum Mode {
+enum State {
     #[default]
-    Keys,
-    /// Within a bracketed paste.
-    Paste,
-    /// In a sequence with too many parameters; further ones are ignored as well.
-    Noise,
-    /// In a device control string longer than any answer; ignored up to its end.
-    NoiseString,
+    Ground,
+    /// Follows `ESC`.
+    Escape,
+    /// In a UTF-8 character, typed with Alt after `ESC`.
+    Character { alt: bool },
+    /// In a control sequence, whose parameters are held.
+    Sequence,
+    /// In a function key `ESC O`, whose parameters are held.
+    Function,
+    /// The last byte of a function key of the Linux console, `ESC [ [`.
+    Console,
+    /// In a mouse report of the old format: so many more bytes that are not keys.
+    OldMouse(u8),
+    /// In a control string.
+    Text(Text),
+    /// Within a bracketed paste, of whose end so many bytes have arrived.
+    Paste { ended: usize },
 }
 
-/// The first token of the pending bytes.
-#[derive(Debug, PartialEq, Eq)]
-enum Token {
-    /// The beginning of a sequence whose end has yet to arrive.
-    Unfinished,
-    /// The number of bytes and their event.
-    Event(usize, Event),
-    /// The number of bytes to ignore.
-    Noise(usize),
-    /// The number of bytes that begin a paste.
-    PasteBegin(usize),
+/// The state of a control string.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+struct Text {
+    kind: Kind,
+    /// The bytes missing from a UTF-8 character, which may be like the eight-bit terminator.
+    missing: u8,
+    /// Whether the last byte was `ESC`.
+    is_escaped: bool,
+}
+
+/// The kinds of control strings.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Kind {
+    /// Device control string: `ESC P`.
+    Device,
+    /// Operating system command: `ESC ]`.
+    System,
+    /// Application program command: `ESC _`.
+    Application,
+    /// Privacy message and start of string: `ESC ^` and `ESC X`.
+    Other,
 }
 
 impl Decoder {
     /// Decodes bytes and emits the events that they complete.
     pub fn feed(&mut self, bytes: &[u8], now: Instant, mut emit: impl FnMut(Event)) {
-        self.pending.extend_from_slice(bytes);
-        self.fed = Some(now);
-        self.advance(&mut emit);
+        if !bytes.is_empty() {
+            self.fed = Some(now);
+        }
+        for &byte in bytes {
+            self.take(byte, &mut emit);
+        }
     }
 
     /// Returns when [`Decoder::expire`] is due, `None` if no bytes are held.
     pub fn deadline(&self) -> Option<Instant> {
-        let patience = match self.mode {
-            Mode::Paste => PASTE_PATIENCE,
-            Mode::Keys if self.pending.is_empty() => return None,
-            Mode::NoiseString => STRING_PATIENCE,
-            Mode::Keys if is_string(&self.pending) => STRING_PATIENCE,
-            Mode::Keys | Mode::Noise => PATIENCE,
+        let patience = match self.state {
+            State::Ground => return None,
+            State::Paste { .. } => PASTE_PATIENCE,
+            // An answer may pause after its introducer; a sequence is too short for that.
+            State::Escape | State::Sequence | State::Function if self.key.is_some() => PATIENCE,
+            _ => ANSWER_PATIENCE,
         };
         self.fed.map(|fed| fed + patience)
     }
 
-    /// Emits held bytes whose time is up: the Esc key, Alt with a key, or a paste whose end was
-    /// lost.
+    /// Ends what is incomplete once its time is up: emits the Esc key, Alt with a key, or a paste
+    /// whose end was lost, and drops the rest.
     pub fn expire(&mut self, now: Instant, mut emit: impl FnMut(Event)) {
         if self.deadline().is_none_or(|deadline| now < deadline) {
             return;
         }
-        if self.mode == Mode::Paste {
-            emit(Event::Paste(pasted(&self.pending)));
-        } else {
-            match self.pending[..] {
-                [0x1b] => emit(key(KeyCode::Esc, KeyModifiers::NONE)),
-                [0x1b, introducer @ (b'[' | b'O')] => {
-                    emit(with_alt(character(introducer.into())));
-                }
-                _ => {}
-            }
+        if matches!(self.state, State::Paste { .. }) {
+            self.end_paste(&mut emit);
         }
-        self.mode = Mode::Keys;
-        self.pending.clear();
+        self.abandon(&mut emit);
     }
 
-    fn advance(&mut self, emit: &mut impl FnMut(Event)) {
-        let mut start = 0;
-        while start < self.pending.len() {
-            let rest = &self.pending[start..];
-            if self.mode == Mode::Paste {
-                let Some(end) = find(rest, PASTE_END) else {
-                    break;
-                };
-                emit(Event::Paste(pasted(&rest[..end])));
-                self.mode = Mode::Keys;
-                start += end + PASTE_END.len();
-                continue;
-            }
-            if self.mode == Mode::Noise {
-                let noise = rest.iter().take_while(|&&byte| is_parameter(byte)).count();
-                start += noise;
-                if noise == rest.len() {
-                    break;
-                }
-                self.mode = Mode::Keys;
-                continue;
-            }
-            if self.mode == Mode::NoiseString {
-                let body = rest.iter().take_while(|byte| !byte.is_ascii_control());
-                let body = body.count();
-                start += body;
-                match &rest[body..] {
-                    [] | [0x1b] => break,
-                    [0x1b, b'\\', ..] => start += 2,
-                    _ => {}
-                }
-                self.mode = Mode::Keys;
-                continue;
-            }
-            match token(rest) {
-                Token::Unfinished if rest.len() < longest(rest) => break,
-                Token::Unfinished => {
-                    self.mode = if is_string(rest) {
-                        Mode::NoiseString
-                    } else {
-                        Mode::Noise
-                    };
-                    // A trailing escape may belong to the terminator.
-                    start += rest.len() - usize::from(rest.ends_with(b"\x1b"));
-                }
-                Token::Noise(length) => start += length,
-                Token::PasteBegin(length) => {
-                    self.mode = Mode::Paste;
-                    start += length;
-                }
-                Token::Event(length, event) => {
-                    emit(event);
-                    start += length;
+    fn take(&mut self, byte: u8, emit: &mut impl FnMut(Event)) {
+        match self.state {
+            State::Ground => self.begin(byte, emit),
+            State::Escape => self.after_escape(byte, emit),
+            State::Character { alt } => self.in_character(byte, alt, emit),
+            State::Text(text) => self.in_text(text, byte, emit),
+            State::Paste { ended } => self.in_paste(ended, byte, emit),
+            State::OldMouse(left) => {
+                self.state = match left {
+                    0 | 1 => State::Ground,
+                    _ => State::OldMouse(left - 1),
                 }
             }
+            State::Sequence | State::Function | State::Console => self.in_sequence(byte, emit),
         }
-        self.pending.drain(..start);
     }
-}
 
-fn is_string(bytes: &[u8]) -> bool {
-    STRINGS
-        .iter()
-        .any(|introducer| bytes.starts_with(introducer))
-}
-
-fn longest(bytes: &[u8]) -> usize {
-    if is_string(bytes) {
-        LONGEST_STRING
-    } else {
-        LONGEST
+    /// Takes the first byte of a key or an answer.
+    fn begin(&mut self, byte: u8, emit: &mut impl FnMut(Event)) {
+        self.key = None;
+        self.held.clear();
+        self.state = State::Ground;
+        match byte {
+            0x1b => {
+                self.key = Some(key(KeyCode::Esc, KeyModifiers::NONE));
+                self.state = State::Escape;
+            }
+            0xc2..=0xf4 => {
+                self.held.push(byte);
+                self.state = State::Character { alt: false };
+            }
+            ..=0x7f => emit(keys::plain(byte)),
+            // The eight-bit form of `ESC` with another byte.
+            0x80..=0x9f => self.state = introduced(byte - 0x40).unwrap_or_default(),
+            _ => {}
+        }
     }
-}
 
-fn token(bytes: &[u8]) -> Token {
-    match bytes {
-        // Alt-P begins the same way; what follows the introducer of an answer is a parameter. An
-        // answer about graphics begins with a G.
-        [0x1b] | [0x1b, b'P' | b'_'] => Token::Unfinished,
-        [0x1b, b'P', 0x30..=0x3f, ..] | [0x1b, b'_', b'G', ..] => control_string(bytes),
-        [0x1b, b'[', ..] => control_sequence(bytes),
-        [0x1b, b'O', rest @ ..] => match rest.first() {
-            None => Token::Unfinished,
-            Some(&end) => match function_key(end) {
-                Some(code) => Token::Event(3, key(code, KeyModifiers::NONE)),
-                None => Token::Noise(3),
+    fn after_escape(&mut self, byte: u8, emit: &mut impl FnMut(Event)) {
+        match byte {
+            0x1b | 0x80..=0x9f => {
+                self.emit_key(emit);
+                self.begin(byte, emit);
+            }
+            0xc2..=0xf4 => {
+                self.begin(byte, emit);
+                self.state = State::Character { alt: true };
+            }
+            ..=0x7f => match introduced(byte) {
+                None => {
+                    self.state = State::Ground;
+                    emit(with_alt(keys::plain(byte)));
+                }
+                Some(state) => {
+                    self.key = Some(with_alt(keys::plain(byte)));
+                    self.state = state;
+                }
             },
-        },
-        [0x1b, 0x1b, ..] => Token::Event(1, key(KeyCode::Esc, KeyModifiers::NONE)),
-        [0x1b, rest @ ..] => match plain(rest) {
-            Token::Event(length, event) => Token::Event(length + 1, with_alt(event)),
-            Token::Noise(length) => Token::Noise(length + 1),
-            other => other,
-        },
-        _ => plain(bytes),
+            _ => self.state = State::Ground,
+        }
     }
-}
 
-/// Decodes a character or a control character.
-fn plain(bytes: &[u8]) -> Token {
-    let control = |code: char| key(KeyCode::Char(code), KeyModifiers::CONTROL);
-    let event = match bytes[0] {
-        0 => control(' '),
-        b'\t' => key(KeyCode::Tab, KeyModifiers::NONE),
-        b'\r' => key(KeyCode::Enter, KeyModifiers::NONE),
-        0x08 | 0x7f => key(KeyCode::Backspace, KeyModifiers::NONE),
-        byte @ 0x01..=0x1f => control((byte + 0x40).to_ascii_lowercase().into()),
-        byte @ b' '..=b'~' => character(byte.into()),
-        _ => return beyond_ascii(bytes),
-    };
-    Token::Event(1, event)
-}
-
-fn beyond_ascii(bytes: &[u8]) -> Token {
-    let length = match bytes[0] {
-        0xc2..=0xdf => 2,
-        0xe0..=0xef => 3,
-        0xf0..=0xf4 => 4,
-        _ => return Token::Noise(1),
-    };
-    let available = &bytes[..length.min(bytes.len())];
-    match std::str::from_utf8(available) {
-        Ok(text) => match text.chars().next() {
-            Some(c) if !c.is_control() => Token::Event(length, character(c)),
-            _ => Token::Noise(length),
-        },
-        Err(error) if error.error_len().is_none() => Token::Unfinished,
-        Err(_) => Token::Noise(1),
-    }
-}
-
-/// Decodes `ESC [`, parameters and a final byte (ECMA-48, 5.4).
-fn control_sequence(bytes: &[u8]) -> Token {
-    if let [_, _, b'[', rest @ ..] = bytes {
-        // The first five function keys of the Linux console.
-        return match rest.first() {
-            None => Token::Unfinished,
-            Some(&end @ b'A'..=b'E') => {
-                Token::Event(4, key(KeyCode::F(end - b'A' + 1), KeyModifiers::NONE))
+    fn in_character(&mut self, byte: u8, alt: bool, emit: &mut impl FnMut(Event)) {
+        self.held.push(byte);
+        match std::str::from_utf8(&self.held).map(|text| text.chars().next()) {
+            Ok(character) => {
+                self.state = State::Ground;
+                let typed = character.filter(|character| !character.is_control());
+                match typed.map(keys::character) {
+                    Some(event) if alt => emit(with_alt(event)),
+                    Some(event) => emit(event),
+                    None => {}
+                }
             }
-            Some(_) => Token::Noise(3),
+            Err(error) if error.error_len().is_none() => {}
+            // What continues a character begins nothing, even if that is malformed.
+            Err(_) if is_continuation(byte) => self.state = State::Ground,
+            Err(_) => self.begin(byte, emit),
+        }
+    }
+
+    /// Takes a byte of a control sequence (ECMA-48, 5.4), or of a function key.
+    fn in_sequence(&mut self, byte: u8, emit: &mut impl FnMut(Event)) {
+        let alone = self.key.take();
+        match (self.state, byte) {
+            // Cancels the sequence.
+            (_, 0x18 | 0x1a) => self.state = State::Ground,
+            (_, ..0x20 | 0x7f..) => self.begin(byte, emit),
+            (State::Sequence, b'[') if self.held.is_empty() && alone.is_some() => {
+                self.state = State::Console;
+            }
+            (State::Sequence | State::Function, ..0x40) => self.hold(byte, LONGEST),
+            (state, last) => {
+                self.state = State::Ground;
+                let parameters = &self.held[..];
+                let meaning = match state {
+                    _ if LONGEST < parameters.len() => Meaning::Nothing,
+                    State::Sequence => sequence::meaning(parameters, last),
+                    State::Function => sequence::function(parameters, last),
+                    _ => sequence::console(last),
+                };
+                match meaning {
+                    Meaning::Event(event) => emit(event),
+                    Meaning::OldMouse => self.state = State::OldMouse(3),
+                    Meaning::Paste => self.state = State::Paste { ended: 0 },
+                    Meaning::Nothing => {}
+                }
+                self.held.clear();
+            }
+        }
+    }
+
+    /// Takes a byte of a control string (ECMA-48, 5.6). Another sequence interrupts it.
+    fn in_text(&mut self, text: Text, byte: u8, emit: &mut impl FnMut(Event)) {
+        let next = |missing| {
+            State::Text(Text {
+                missing,
+                is_escaped: false,
+                ..text
+            })
         };
-    }
-    let body = &bytes[2..];
-    let Some(end) = body.iter().position(|&byte| !is_parameter(byte)) else {
-        return Token::Unfinished;
-    };
-    let length = end + 3;
-    if LONGEST < length {
-        // The byte after so much noise is decoded separately, regardless of when it arrives.
-        return Token::Noise(length - 1);
-    }
-    let parameters = &body[..end];
-    match body[end] {
-        b'M' if parameters.is_empty() => {
-            // A mouse report in the old format: three more bytes that are not keys.
-            if bytes.len() < length + 3 {
-                Token::Unfinished
-            } else {
-                Token::Noise(length + 3)
+        match byte {
+            b'\\' if text.is_escaped => self.end_text(text.kind, emit),
+            // Doubled by a program that has passed it on.
+            0x1b => {
+                self.state = State::Text(Text {
+                    missing: 0,
+                    is_escaped: true,
+                    ..text
+                });
+            }
+            _ if text.is_escaped && introduced(byte).is_some() => {
+                self.abandon(emit);
+                self.begin(0x1b, emit);
+                self.take(byte, emit);
+            }
+            0x80..=0xbf if 0 < text.missing => {
+                self.hold_text(text.kind, byte);
+                self.state = next(text.missing - 1);
+            }
+            0x9c => self.end_text(text.kind, emit),
+            0x07 if text.kind == Kind::System => self.end_text(text.kind, emit),
+            0x18 | 0x1a => {
+                self.key = None;
+                self.abandon(emit);
+            }
+            _ => {
+                self.hold_text(text.kind, byte);
+                self.state = next(match byte {
+                    0xc2..=0xdf => 1,
+                    0xe0..=0xef => 2,
+                    0xf0..=0xf4 => 3,
+                    _ => 0,
+                });
             }
         }
-        b'~' if parameters == b"200" => Token::PasteBegin(length),
-        b'n' if matches!(parameters, b"0" | b"3") => {
-            Token::Event(length, Event::Reply(Reply::Status))
+    }
+
+    fn end_text(&mut self, kind: Kind, emit: &mut impl FnMut(Event)) {
+        let reply = match kind {
+            _ if LONGEST_STRING < self.held.len() => None,
+            Kind::Device => query::answer(&self.held),
+            Kind::Application => query::command(&self.held),
+            Kind::System | Kind::Other => None,
+        };
+        if let Some(reply) = reply {
+            emit(Event::Reply(reply));
         }
-        last @ (b'M' | b'm') if parameters.first() == Some(&b'<') => {
-            event_or_noise(mouse(&parameters[1..], last), length)
+        self.key = None;
+        self.abandon(emit);
+    }
+
+    fn in_paste(&mut self, ended: usize, byte: u8, emit: &mut impl FnMut(Event)) {
+        self.hold(byte, LONGEST_PASTE + PASTE_END.len());
+        let ended = match byte {
+            _ if PASTE_END[ended] == byte => ended + 1,
+            0x1b => 1,
+            _ => 0,
+        };
+        self.state = State::Paste { ended };
+        if ended == PASTE_END.len() {
+            if self.held.len() <= LONGEST_PASTE + ended {
+                self.held.truncate(self.held.len() - ended);
+            }
+            self.end_paste(emit);
         }
-        b'y' if parameters.starts_with(b"?") => event_or_noise(mode_report(parameters), length),
-        b'c' if parameters.starts_with(b"?") => {
-            let numbers = numbers(&parameters[1..]).unwrap_or_default();
-            Token::Event(length, Event::Reply(query::attributes(&numbers)))
+    }
+
+    fn end_paste(&mut self, emit: &mut impl FnMut(Event)) {
+        let bytes = mem::take(&mut self.held);
+        self.state = State::Ground;
+        emit(if LONGEST_PASTE < bytes.len() {
+            Event::LongPaste
+        } else {
+            Event::Paste(pasted(bytes))
+        });
+    }
+
+    /// Holds a byte unless there are more than `longest` already.
+    fn hold(&mut self, byte: u8, longest: usize) {
+        if self.held.len() <= longest {
+            self.held.push(byte);
         }
-        b't' => {
-            let reply = numbers(parameters).and_then(|numbers| query::window(&numbers));
-            event_or_noise(reply.map(Event::Reply), length)
+    }
+
+    fn hold_text(&mut self, kind: Kind, byte: u8) {
+        self.key = None;
+        if matches!(kind, Kind::Device | Kind::Application) {
+            self.hold(byte, LONGEST_STRING);
         }
-        last @ 0x40..=0x7e => event_or_noise(sequence_key(parameters, last), length),
-        // Another sequence interrupts this one and is decoded separately.
-        _ => Token::Noise(length - 1),
+    }
+
+    /// Returns to the beginning; emits the key that the bytes so far are.
+    fn abandon(&mut self, emit: &mut impl FnMut(Event)) {
+        self.emit_key(emit);
+        self.state = State::Ground;
+        self.held.clear();
+    }
+
+    fn emit_key(&mut self, emit: &mut impl FnMut(Event)) {
+        if let Some(event) = self.key.take() {
+            emit(event);
+        }
     }
 }
 
-/// Whether a byte may occur between the introducer and the final byte of a control sequence.
-fn is_parameter(byte: u8) -> bool {
-    (0x20..0x40).contains(&byte)
-}
-
-/// Decodes `ESC P` or `ESC _`, printable characters and the terminator `ESC \\` (ECMA-48, 5.6).
-fn control_string(bytes: &[u8]) -> Token {
-    let (introducer, body) = bytes.split_at(STRINGS[0].len());
-    let Some(end) = body.iter().position(u8::is_ascii_control) else {
-        return Token::Unfinished;
-    };
-    match body[end..] {
-        [0x1b] => Token::Unfinished,
-        [0x1b, b'\\', ..] => {
-            let reply = if introducer == STRINGS[0] {
-                query::answer(&body[..end])
-            } else {
-                query::command(&body[..end])
-            };
-            event_or_noise(reply.map(Event::Reply), introducer.len() + end + 2)
-        }
-        // Another sequence interrupts this one and is decoded separately.
-        _ => Token::Noise(introducer.len() + end),
-    }
-}
-
-fn event_or_noise(event: Option<Event>, length: usize) -> Token {
-    event.map_or(Token::Noise(length), |event| Token::Event(length, event))
-}
-
-/// Decodes `? number ; state $`.
-fn mode_report(parameters: &[u8]) -> Option<Event> {
-    let inner = parameters.strip_prefix(b"?")?.strip_suffix(b"$")?;
-    let &[number, state] = numbers(inner)?.as_slice() else {
-        return None;
-    };
-    Some(Event::Reply(Reply::Mode { number, state }))
-}
-
-fn sequence_key(parameters: &[u8], last: u8) -> Option<Event> {
-    let numbers = numbers(parameters)?;
-    let modifiers = modifiers(numbers.get(1).copied().unwrap_or(1));
-    let code = match (last, numbers.first()) {
-        (b'Z', _) => return Some(key(KeyCode::BackTab, modifiers | KeyModifiers::SHIFT)),
-        (b'~', Some(&number)) => numbered_key(number)?,
-        // With another number it is a report, such as the cursor position.
-        (_, None | Some(1)) => function_key(last)?,
+/// What the character after `ESC` introduces, if anything.
+fn introduced(byte: u8) -> Option<State> {
+    let kind = match byte {
+        b'[' => return Some(State::Sequence),
+        b'O' => return Some(State::Function),
+        b'P' => Kind::Device,
+        b']' => Kind::System,
+        b'_' => Kind::Application,
+        b'^' | b'X' => Kind::Other,
         _ => return None,
     };
-    Some(key(code, modifiers))
-}
-
-fn function_key(last: u8) -> Option<KeyCode> {
-    Some(match last {
-        b'A' => KeyCode::Up,
-        b'B' => KeyCode::Down,
-        b'C' => KeyCode::Right,
-        b'D' => KeyCode::Left,
-        b'F' => KeyCode::End,
-        b'H' => KeyCode::Home,
-        b'M' => KeyCode::Enter,
-        b'P'..=b'S' => KeyCode::F(last - b'P' + 1),
-        _ => return None,
-    })
-}
-
-fn numbered_key(number: u16) -> Option<KeyCode> {
-    Some(match number {
-        1 | 7 => KeyCode::Home,
-        2 => KeyCode::Insert,
-        3 => KeyCode::Delete,
-        4 | 8 => KeyCode::End,
-        5 => KeyCode::PageUp,
-        6 => KeyCode::PageDown,
-        // The numbers skip one after about every fifth function key.
-        11..=15 => KeyCode::F(number as u8 - 10),
-        17..=21 => KeyCode::F(number as u8 - 11),
-        23..=26 => KeyCode::F(number as u8 - 12),
-        28 | 29 => KeyCode::F(number as u8 - 13),
-        31..=34 => KeyCode::F(number as u8 - 14),
-        _ => return None,
-    })
-}
-
-/// Decodes a report of mode 1006: button and modifiers, column, row.
-fn mouse(parameters: &[u8], last: u8) -> Option<Event> {
-    let &[code, column, row] = numbers(parameters)?.as_slice() else {
-        return None;
-    };
-    let button = match code & 3 {
-        0 => MouseButton::Left,
-        1 => MouseButton::Middle,
-        _ => MouseButton::Right,
-    };
-    let kind = match (code & 0b1100_0011, code & 32 != 0, last) {
-        (64, ..) => MouseEventKind::ScrollUp,
-        (65, ..) => MouseEventKind::ScrollDown,
-        (66, ..) => MouseEventKind::ScrollLeft,
-        (67, ..) => MouseEventKind::ScrollRight,
-        (0..=2, true, _) => MouseEventKind::Drag(button),
-        (0..=2, false, b'm') => MouseEventKind::Up(button),
-        (0..=2, false, _) => MouseEventKind::Down(button),
-        _ => return None,
-    };
-    let mut modifiers = KeyModifiers::NONE;
-    modifiers.set(KeyModifiers::SHIFT, code & 4 != 0);
-    modifiers.set(KeyModifiers::ALT, code & 8 != 0);
-    modifiers.set(KeyModifiers::CONTROL, code & 16 != 0);
-    let (column, row) = (column.checked_sub(1)?, row.checked_sub(1)?);
-    Some(Event::Mouse(MouseEvent {
+    Some(State::Text(Text {
         kind,
-        column,
-        row,
-        modifiers,
+        missing: 0,
+        is_escaped: false,
     }))
 }
 
-/// Decodes numbers separated by semicolons; an empty one is 1, xterm's default for keys.
-fn numbers(parameters: &[u8]) -> Option<Vec<u16>> {
-    if parameters.is_empty() {
-        return Some(Vec::new());
-    }
-    let text = std::str::from_utf8(parameters).ok()?;
-    text.split(';')
-        .map(|part| {
-            if part.is_empty() {
-                Some(1)
-            } else {
-                part.parse().ok()
-            }
-        })
-        .collect()
-}
-
-/// Decodes xterm's modifier parameter: 1 plus the sum of shift 1, alt 2 and control 4.
-fn modifiers(parameter: u16) -> KeyModifiers {
-    let bits = parameter.saturating_sub(1);
-    let mut modifiers = KeyModifiers::NONE;
-    modifiers.set(KeyModifiers::SHIFT, bits & 1 != 0);
-    modifiers.set(KeyModifiers::ALT, bits & 2 != 0);
-    modifiers.set(KeyModifiers::CONTROL, bits & 4 != 0);
-    modifiers
-}
-
-fn character(character: char) -> Event {
-    let shift = if character.is_uppercase() {
-        KeyModifiers::SHIFT
-    } else {
-        KeyModifiers::NONE
-    };
-    key(KeyCode::Char(character), shift)
-}
-
-const fn key(code: KeyCode, modifiers: KeyModifiers) -> Event {
-    Event::Key(KeyEvent::new(code, modifiers))
-}
-
-fn with_alt(event: Event) -> Event {
-    match event {
-        Event::Key(mut key) => {
-            key.modifiers |= KeyModifiers::ALT;
-            Event::Key(key)
-        }
-        other => other,
-    }
+/// Whether a byte continues a UTF-8 character.
+fn is_continuation(byte: u8) -> bool {
+    (0x80..=0xbf).contains(&byte)
 }
 
 /// Decodes pasted text; terminals send line ends as the byte of the Enter key.
-fn pasted(bytes: &[u8]) -> String {
-    String::from_utf8_lossy(bytes)
-        .replace("\r\n", "\n")
-        .replace('\r', "\n")
+fn pasted(bytes: Vec<u8>) -> String {
+    let text = String::from_utf8(bytes)
+        .unwrap_or_else(|error| String::from_utf8_lossy(error.as_bytes()).into_owned());
+    text.replace("\r\n", "\n").replace('\r', "\n")
 }
 
-fn find(bytes: &[u8], wanted: &[u8]) -> Option<usize> {
-    bytes
-        .windows(wanted.len())
-        .position(|window| window == wanted)
-}
-
+#[cfg(test)]
+mod answers;
 #[cfg(test)]
 mod tests;

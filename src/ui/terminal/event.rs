@@ -11,6 +11,8 @@ pub enum Event {
     Key(KeyEvent),
     /// Text was pasted; its line ends are `\n`.
     Paste(String),
+    /// Text was pasted that is longer than 1 MiB; it is not kept.
+    LongPaste,
     /// A button, a drag or the wheel; motion without a button is not reported.
     Mouse(MouseEvent),
     /// The terminal replied to a query.

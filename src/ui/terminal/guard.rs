@@ -38,6 +38,11 @@ const LEAVE: &str =
 const MOUSE_ON: &str = "\x1b[?1000h\x1b[?1002h\x1b[?1006h";
 const MOUSE_OFF: &str = "\x1b[?1006l\x1b[?1002l\x1b[?1000l";
 
+/// Reports keys that are ambiguous otherwise in kitty's way: the Esc key, and Alt or Ctrl with a key,
+/// together with the character that Shift makes of it. The alternate screen has its own stack of such
+/// settings, so that this comes after [`ENTER`] and is taken back before [`LEAVE`].
+const KEYS_APART: &str = "\x1b[>5u";
+
 /// Maximum time to give the terminal back; a terminal that is being read needs only a moment.
 const PATIENCE: Duration = Duration::from_millis(500);
 
@@ -212,7 +217,9 @@ impl Terminal {
     pub fn reenter(&mut self) -> io::Result<()> {
         {
             let mut ownership = self.shared.ownership();
+            let mut before = "";
             if *ownership == Ownership::Ours {
+                before = self.shared.keys_ending();
                 // crossterm assumes that raw mode persists once set, and leaving it to set it again
                 // would echo keys typed meanwhile.
                 #[cfg(unix)]
@@ -227,6 +234,11 @@ impl Terminal {
             let output = self.shared.output();
             output.send(ENTER.as_bytes())?;
             output.send(mouse_sequence(self.mouse).as_bytes())?;
+            // Whoever had the terminal may have changed the setting.
+            output.send(before.as_bytes())?;
+            if self.shared.has_keys_apart() {
+                output.send(KEYS_APART.as_bytes())?;
+            }
         }
         self.repaint();
         Ok(())
@@ -235,6 +247,19 @@ impl Terminal {
     /// Requests [`Reply::Status`](super::Reply), which follows everything sent so far.
     pub fn ask_status(&self) -> io::Result<()> {
         self.shared.output().send(ASK_STATUS.as_bytes())
+    }
+
+    /// Lets the terminal keep the Esc key apart from the beginnings of sequences, which it must have
+    /// reported that it can.
+    pub fn keep_keys_apart(&mut self) -> io::Result<()> {
+        if self.shared.has_keys_apart() {
+            return Ok(());
+        }
+        self.shared.note_keys_apart();
+        if !self.is_ours() {
+            return Ok(());
+        }
+        self.shared.output().send(KEYS_APART.as_bytes())
     }
 
     /// Takes the mouse or leaves it to the terminal.
@@ -294,7 +319,7 @@ fn give_back(shared: &GuardState, to: Ownership, deadline: Instant) -> io::Resul
     if before != Ownership::Ours {
         return Ok(());
     }
-    let bytes = [shared.ending(), LEAVE].concat();
+    let bytes = [shared.ending(), shared.keys_ending(), LEAVE].concat();
     let written = shared.output().send_last(bytes.as_bytes(), deadline);
     crossterm::terminal::disable_raw_mode()?;
     written

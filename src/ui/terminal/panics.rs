@@ -35,6 +35,9 @@ const ENDINGS: [&str; 4] = [
     graphics::REMOVE_THROUGH_TMUX,
 ];
 
+/// Restores the setting of keys from before the interface changed it (kitty's keyboard protocol).
+const KEYS_AS_BEFORE: &str = "\x1b[<u";
+
 /// State shared by the terminal guard, the panic hook and the handler of aborts.
 #[derive(Debug)]
 pub(super) struct GuardState {
@@ -42,6 +45,8 @@ pub(super) struct GuardState {
     output: Output,
     ownership: Mutex<Ownership>,
     has_kept_edits: AtomicBool,
+    /// Whether the terminal keeps the Esc key apart from the beginnings of sequences for us.
+    has_keys_apart: AtomicBool,
     /// What ends pictures, as an index into [`ENDINGS`].
     ending: AtomicUsize,
     panics: Mutex<Vec<String>>,
@@ -55,6 +60,7 @@ impl GuardState {
             output,
             ownership: Mutex::new(Ownership::GivenBack),
             has_kept_edits: AtomicBool::new(false),
+            has_keys_apart: AtomicBool::new(false),
             ending: AtomicUsize::new(0),
             panics: Mutex::new(Vec::new()),
         });
@@ -99,6 +105,23 @@ impl GuardState {
 
     pub(super) fn note_kept_edits(&self, are_kept: bool) {
         self.has_kept_edits.store(are_kept, Ordering::Relaxed);
+    }
+
+    pub(super) fn has_keys_apart(&self) -> bool {
+        self.has_keys_apart.load(Ordering::Relaxed)
+    }
+
+    pub(super) fn note_keys_apart(&self) {
+        self.has_keys_apart.store(true, Ordering::Relaxed);
+    }
+
+    /// What ends the setting of keys, also for a signal handler: nothing if there is none.
+    pub(super) fn keys_ending(&self) -> &'static str {
+        if self.has_keys_apart() {
+            KEYS_AS_BEFORE
+        } else {
+            ""
+        }
     }
 
     /// What ends pictures on the screen, also for a signal handler: nothing if there are none.

@@ -1,4 +1,4 @@
-//! Queries about the terminal's colours and pictures, and the meaning of the answers.
+//! Queries about the terminal's colours, pictures and keys, and the meaning of the answers.
 //!
 //! A login over SSH has `TERM=xterm-256color` whatever the terminal can do. Most terminals with
 //! 24-bit colours report them when asked for the current colour (DECRQSS) or for terminfo entries
@@ -45,6 +45,8 @@ pub enum Question {
     Colours,
     /// How it shows pictures.
     Pictures,
+    /// Whether it can keep the Esc key apart from the beginnings of sequences.
+    Keys,
 }
 
 impl Question {
@@ -52,6 +54,7 @@ impl Question {
         match self {
             Self::Colours => COLOURS,
             Self::Pictures => pictures(),
+            Self::Keys => KEYS,
         }
     }
 }
@@ -64,6 +67,9 @@ pub(super) fn pictures() -> &'static [u8] {
         PICTURES
     }
 }
+
+/// Queries the flags of kitty's keyboard protocol.
+const KEYS: &[u8] = b"\x1b[?u";
 
 /// Queries the device attributes (DA1), which every terminal answers.
 pub(super) const ATTRIBUTES: &[u8] = b"\x1b[c";

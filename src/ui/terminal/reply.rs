@@ -25,6 +25,9 @@ pub enum Reply {
         /// The state of the mode.
         state: u16,
     },
+    /// The terminal knows kitty's keyboard protocol, which keeps keys apart from the beginnings of
+    /// sequences.
+    KeysApart,
     /// The device attributes (DA1). Every terminal sends them, and in order, so that they end the
     /// replies before.
     Attributes,
