@@ -4,14 +4,17 @@
 use std::io;
 use std::sync::Arc;
 use std::sync::mpsc::Sender;
+#[cfg(unix)]
+use std::sync::mpsc::{self, Receiver};
 use std::thread;
 use std::time::{Duration, Instant};
 
 use super::event::Event;
+use super::msg::Msg;
 use super::options::Options;
 use super::terminal::query::Question;
 use super::terminal::tmux;
-use super::terminal::{self, Input, Replies, Reply, Terminal};
+use super::terminal::{self, Input, Replies, Reply, Terminal, Unread};
 #[cfg(unix)]
 use super::terminal::{Signals, suspend_process};
 
@@ -28,26 +31,18 @@ pub(super) struct Console {
     input: Input,
     #[cfg(unix)]
     signals: Signals,
+    /// Signals that have arrived, each announced by [`Event::Signalled`].
+    #[cfg(unix)]
+    arrived: Receiver<Msg>,
     sender: Sender<Event>,
 }
 
 impl Console {
     /// Takes over the terminal and starts reading keys and signals.
     pub(super) fn enter(options: &Options, sender: &Sender<Event>) -> io::Result<Self> {
-        let replies = Arc::new(Replies::default());
-        let sink = |sender: &Sender<Event>| {
-            let (sender, replies) = (sender.clone(), Arc::clone(&replies));
-            move |event| {
-                if let terminal::Event::Reply(reply) = event {
-                    replies.came(reply);
-                }
-                // The inbox is gone only when the program ends.
-                let _ = sender.send(Event::from(event));
-            }
-        };
         // Before the terminal is changed: until then the default actions of signals do no harm.
         #[cfg(unix)]
-        let signals = Signals::start(sink(sender))?;
+        let (signals, arrived) = watch(sender)?;
         let terminal = {
             let sender = sender.clone();
             let cleared = move || {
@@ -55,14 +50,25 @@ impl Console {
             };
             Terminal::enter(options.colours(), options.mouse(), cleared)?
         };
+        let replies = Arc::new(Replies::default());
         Ok(Self {
             terminal,
-            input: Input::start(sink(sender))?,
+            input: Input::start(typing(sender, &replies))?,
             replies,
             #[cfg(unix)]
             signals,
+            #[cfg(unix)]
+            arrived,
             sender: sender.clone(),
         })
+    }
+
+    /// The next signal that has arrived.
+    pub(super) fn next_signal(&self) -> Option<Msg> {
+        #[cfg(unix)]
+        return self.arrived.try_recv().ok();
+        #[cfg(not(unix))]
+        None
     }
 
     /// The terminal to draw on.
@@ -173,4 +179,34 @@ impl Console {
                 .wait(deadline.min(Instant::now() + REPLY_PATIENCE));
         }
     }
+}
+
+/// Puts what the keyboard sends into the inbox.
+fn typing(
+    sender: &Sender<Event>,
+    replies: &Arc<Replies>,
+) -> impl Fn(terminal::Event, Unread) + Send + 'static {
+    let (sender, replies) = (sender.clone(), Arc::clone(replies));
+    move |event, unread| {
+        if let terminal::Event::Reply(reply) = event {
+            replies.came(reply);
+        }
+        // The inbox is gone only when the program ends.
+        let _ = sender.send(Event::Typed(Box::new(Event::from(event)), unread));
+    }
+}
+
+/// Starts watching signals, which do not wait for what is in the inbox.
+#[cfg(unix)]
+fn watch(sender: &Sender<Event>) -> io::Result<(Signals, Receiver<Msg>)> {
+    let (arrive, arrived) = mpsc::channel();
+    let sender = sender.clone();
+    let signals = Signals::start(move |event| {
+        if let Event::Msg(msg) = Event::from(event) {
+            // Both are gone only when the program ends.
+            let _ = arrive.send(msg);
+            let _ = sender.send(Event::Signalled);
+        }
+    })?;
+    Ok((signals, arrived))
 }

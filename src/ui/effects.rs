@@ -147,7 +147,10 @@ impl Runtime {
                 let ended = self.numbered(target)?.number == number;
                 ended.then_some(Msg::Ended(target))
             }
-            Event::Cleared | Event::Replied(..) | Event::Begun | Event::Done => None,
+            Event::Typed(event, _) => self.message(*event),
+            Event::Cleared | Event::Replied(..) | Event::Begun | Event::Done | Event::Signalled => {
+                None
+            }
         }
     }
 

@@ -4,13 +4,17 @@ use std::sync::mpsc::Sender;
 use std::time::Instant;
 
 use super::msg::{Msg, Target};
-use super::terminal::{self, Reply};
+use super::terminal::{self, Reply, Unread};
 
 /// What the session waits for.
 #[derive(Debug)]
 pub(crate) enum Event {
     /// A message for the state of the interface.
     Msg(Msg),
+    /// The keyboard sent this.
+    Typed(Box<Event>, Unread),
+    /// A signal has arrived, which is handled before everything else here.
+    Signalled,
     /// A renderer has a newer frame.
     Ready(Target),
     /// The renderer with this serial number has ended.

@@ -11,6 +11,7 @@ use ratatui::layout::Rect;
 
 use super::console::Console;
 use super::event::Event;
+use super::msg::Msg;
 use super::options::Options;
 use super::terminal::query::Question;
 use super::terminal::{ColourDepth, Means, Mouse, Pixmap};
@@ -84,6 +85,11 @@ impl Screen {
         if let Self::Page(page) = self {
             page.backend_mut().resize(columns, rows);
         }
+    }
+
+    /// The next signal that has arrived.
+    pub(super) fn next_signal(&self) -> Option<Msg> {
+        self.console().and_then(Console::next_signal)
     }
 
     /// Lets the terminal keep keys apart from the beginnings of sequences.

@@ -273,6 +273,13 @@ impl Session {
         let mut urgency = Urgency::Never;
         let events: Vec<_> = first.into_iter().chain(self.inbox.try_iter()).collect();
         for event in events {
+            while let Some(msg) = self.runtime.screen().next_signal() {
+                urgency = Urgency::Now;
+                self.step(msg);
+            }
+            if self.runtime.is_over() {
+                break;
+            }
             urgency = urgency.max(self.take(event));
         }
         let now = Instant::now();
@@ -294,6 +301,8 @@ impl Session {
     /// Handles an event.
     fn take(&mut self, event: Event) -> Urgency {
         match event {
+            // Counts as unread until it is handled.
+            Event::Typed(event, _unread) => return self.take(*event),
             Event::Replied(reply, at) => return self.replied(reply, at),
             Event::Begun => self.at_work += 1,
             Event::Done => self.at_work -= 1,

@@ -104,6 +104,14 @@ impl Session {
         writer.flush().expect("the terminal takes keys");
     }
 
+    /// Types these bytes over and over on another thread, as fast as the program takes them, until
+    /// it ends. Nothing else can be sent.
+    #[allow(dead_code, reason = "not every test needs it")]
+    pub(crate) fn flood(&mut self, keys: &'static [u8]) {
+        let mut writer = self.keys.take().expect("the terminal exists");
+        std::thread::spawn(move || while writer.write_all(keys).is_ok() {});
+    }
+
     /// Resizes the terminal.
     pub(crate) fn resize(&mut self, columns: u16, rows: u16) {
         let resized = self.terminal().resize(size_in_cells(columns, rows));

@@ -1,5 +1,5 @@
-//! What arrives where keys are typed: answers of the terminal, and keys that it keeps apart from
-//! those.
+//! What arrives where keys are typed: answers of the terminal, keys that it keeps apart from those,
+//! and floods.
 
 use super::*;
 
@@ -161,10 +161,10 @@ fn the_esc_key_and_a_letter_in_one_packet_are_two_keys_if_the_terminal_keeps_the
     // Esc, then the help, then Esc again and the command line.
     session.send("\x1b[27u?");
     session.wait_for(" Keys ");
-    session.send("\x1b[27u:undo");
-    session.wait_for("undo");
+    session.send("\x1b[27u:zzz");
+    session.wait_for("zzz");
     session.send("\x1b[27u");
-    wait_until_gone(&mut session, "undo");
+    wait_until_gone(&mut session, "zzz");
     quit(session);
 }
 
@@ -175,4 +175,83 @@ fn a_terminal_that_does_not_answer_is_told_nothing() {
     assert!(last(QUESTIONS[0], &session.written).is_some());
     assert!(last(APART, &session.written).is_none());
     quit(session);
+}
+
+/// The most memory that the program has had, in mebibytes.
+#[cfg(target_os = "linux")]
+fn most_memory(session: &Session) -> u64 {
+    let status = fs::read_to_string(format!("/proc/{}/status", session.process_id()));
+    let status = status.expect("it is running");
+    let line = status.lines().find_map(|line| line.strip_prefix("VmHWM:"));
+    let line = line.expect("Linux counts it");
+    let kilobytes: u64 = line
+        .trim()
+        .trim_end_matches(" kB")
+        .parse()
+        .expect("a number");
+    kilobytes >> 10
+}
+
+/// More than these mebibytes are never needed for what is typed.
+#[cfg(target_os = "linux")]
+const MORE: u64 = 16;
+
+#[cfg(target_os = "linux")]
+#[test]
+fn a_signal_does_not_wait_for_a_flood() {
+    const FULL: &str = "a line holds 4096 characters at most";
+    for (opening, flood, sign) in [
+        ("\rji", "1", FULL),
+        (":", "l", FULL),
+        ("/", "l", FULL),
+        ("", "\x1b[<65;9;9M\x1b[<64;9;9M", "balls.ray"),
+        ("", "\x1b[0n", "balls.ray"),
+    ] {
+        let flood = flood.repeat(1 << 14).leak().as_bytes();
+        let place = Place::new();
+        let mut session = place.open();
+        session.send(opening);
+        session.drain(Duration::from_millis(50));
+        let before = most_memory(&session);
+        session.flood(flood);
+        session.wait_for(sign);
+        let more = most_memory(&session) - before;
+        assert!(more < MORE, "{more} MiB more after {opening:?}");
+        let begun = Instant::now();
+        kill(session.process_id(), Signal::TERM);
+        assert_eq!(session.end().exit_code(), 143);
+        // Two seconds more for a busy machine.
+        let taken = begun.elapsed();
+        assert!(
+            taken < Duration::from_secs(3),
+            "{taken:?} after {opening:?}"
+        );
+        session.assert_restored();
+    }
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn floods_of_answers_and_pastes_take_little_memory() {
+    let [long, numbers] = [b'l', b'1'].map(|byte| vec![byte; 10 << 20]);
+    for (flood, sign) in [
+        ([b"\x1b]11;", &long[..], b"\x07?"].concat(), " Keys "),
+        ([b"\x1bP", &long[..], b"\x1b\\?"].concat(), " Keys "),
+        ([b"\x1b[", &numbers[..], b"q?"].concat(), " Keys "),
+        (
+            [b"\x1b[200~", &long[..], b"\x1b[201~"].concat(),
+            "the pasted text is longer than 1 MiB",
+        ),
+        (b"\x1b[200~l\x1b[201~".repeat(1 << 14), "balls.ray"),
+    ] {
+        let place = Place::new();
+        let mut session = place.open();
+        let before = most_memory(&session);
+        session.send(flood);
+        session.wait_for(sign);
+        let more = most_memory(&session) - before;
+        assert!(more < MORE, "{more} MiB more until {sign}");
+        kill(session.process_id(), Signal::TERM);
+        assert_end(session, 143);
+    }
 }

@@ -3,6 +3,10 @@
 use crossterm::event::{KeyCode, KeyEvent, KeyModifiers};
 use tui_input::{Input, InputRequest};
 
+/// The longest line that typing and pasting make, in characters: longer than any path, and so short
+/// that each key takes the same moment, however much is typed.
+pub(super) const LONGEST: usize = 4096;
+
 /// Applies a key to a line; keys without a meaning there are ignored.
 pub(super) fn edit(input: &mut Input, key: KeyEvent) {
     use InputRequest as R;
@@ -67,12 +71,18 @@ pub(super) fn insert_over(input: &mut Input, is_selected: &mut bool, text: &str)
 
 /// Inserts pasted text, replacing line breaks with blanks.
 pub(super) fn insert(input: &mut Input, text: &str) {
-    for character in text.trim_end().chars() {
-        let character = if character.is_control() {
+    let at = input.cursor();
+    let shown = text.trim_end().chars();
+    let shown = shown.map(|character| {
+        if character.is_control() {
             ' '
         } else {
             character
-        };
-        input.handle(InputRequest::InsertChar(character));
-    }
+        }
+    });
+    let shown: Vec<_> = shown.collect();
+    let before = input.value().chars().take(at);
+    let after = input.value().chars().skip(at);
+    let line: String = before.chain(shown.iter().copied()).chain(after).collect();
+    *input = Input::new(line).with_cursor(at + shown.len());
 }

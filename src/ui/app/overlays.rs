@@ -154,6 +154,18 @@ impl Overlays {
         self.prompt.is_some() || self.menu.is_some() || help.or(page) == Some(PageFocus::Search)
     }
 
+    /// The line that keys or pastes are typed into, and whether the next character replaces it.
+    pub(super) fn line(&self) -> Option<(&Input, bool)> {
+        let prompt = self.prompt.as_ref();
+        let prompt = prompt.map(|prompt| (&prompt.input, prompt.is_selected));
+        let menu = self.menu.as_ref().map(|menu| (&menu.filter.input, false));
+        let help = self.help.as_ref();
+        let help = help.filter(|help| help.focus == PageFocus::Search);
+        let help = help.map(|help| (&help.search, false));
+        let page = self.page.as_ref().map(|page| (&page.filter.input, false));
+        prompt.or(menu).or(help).or(page)
+    }
+
     /// The open merge dialog, if any.
     pub(super) fn conflict(&mut self) -> Option<(&mut Merge, &mut usize, &Outside)> {
         match &mut self.dialog {

@@ -4,8 +4,8 @@
 use crossterm::event::{KeyCode, KeyEvent};
 use glam::DVec3;
 
-use super::App;
 use super::transform::{Lock, Snap, Transform, decimals_of, round_up};
+use super::{App, line};
 use crate::language::{Along, Language, Motion, Node, Pose, StructureError};
 use crate::render::{axes, pixel_width};
 use crate::scene::{Camera, Size};
@@ -198,7 +198,9 @@ impl App {
             .as_ref()
             .map_or("", |transform| &transform.typed);
         match key.code {
-            KeyCode::Char(character) if types_amount(character, typed) => {
+            KeyCode::Char(character)
+                if types_amount(character, typed) && typed.len() < line::LONGEST =>
+            {
                 self.change_transform(|transform| transform.typed.push(character));
                 true
             }

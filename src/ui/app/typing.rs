@@ -152,7 +152,26 @@ impl App {
         })
     }
 
+    /// Whether the line being typed has room for more characters; says so if it has not.
+    pub(super) fn has_room(&mut self, more: usize) -> bool {
+        let typing = self.cursor.typing.as_ref();
+        let typing = typing.map(|typing| (&typing.input, typing.is_selected));
+        let has_room = match self.overlays.line().or(typing) {
+            None | Some((_, true)) => more <= line::LONGEST,
+            Some((input, false)) => input.value().chars().count() + more <= line::LONGEST,
+        };
+        if !has_room {
+            let words = format!("a line holds {} characters at most", line::LONGEST);
+            self.overlays.warn(words);
+        }
+        has_room
+    }
+
     pub(super) fn paste(&mut self, text: &str) -> Vec<Effect> {
+        let is_open = self.overlays.line().is_some() && self.overlays.dialog.is_none();
+        if is_open && !self.has_room(text.trim_end().chars().count()) {
+            return Vec::new();
+        }
         if let Some(prompt) = &mut self.overlays.prompt
             && self.overlays.dialog.is_none()
         {
@@ -207,6 +226,10 @@ impl App {
         let values = self.literals_of(pasted);
         let count = |values: &Vec<Values>| values.iter().map(Vec::len).sum::<usize>();
         let is_whole = values.as_ref().is_ok_and(|values| 1 < count(values));
+        let is_typed = self.cursor.typing.is_some() && !is_whole;
+        if is_typed && !self.has_room(text.trim_end().chars().count()) {
+            return;
+        }
         if let (Some(typing), false) = (&mut self.cursor.typing, is_whole) {
             typing.refused = None;
             line::insert_over(&mut typing.input, &mut typing.is_selected, text);

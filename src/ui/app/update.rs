@@ -200,6 +200,9 @@ impl App {
     }
 
     fn type_key(&mut self, key: KeyEvent) -> Vec<Effect> {
+        if line::types(key) && !self.has_room(1) {
+            return Vec::new();
+        }
         if self.overlays.prompt.is_some() {
             return self.prompt_key(key);
         }

@@ -4,6 +4,8 @@
 //! sequence, where it cannot be parked, and spins when the terminal is gone (crossterm#793).
 
 use std::io;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::mpsc::{self, Receiver, Sender};
 use std::thread::{self, JoinHandle};
 
@@ -14,11 +16,15 @@ use unix::{Keyboard, Waker};
 #[cfg(not(unix))]
 use windows::{Keyboard, Waker};
 
+/// The most that may be unread, in keys and in bytes of pastes, before no more is read. Then the
+/// system and the terminal hold back the rest, however much is typed.
+const MOST_UNREAD: usize = 1024;
+
 /// Reads the keyboard on its own thread until dropped.
 #[derive(Debug)]
 pub struct Input {
     requests: Sender<Request>,
-    waker: Waker,
+    flow: Arc<Flow>,
     thread: Option<JoinHandle<()>>,
 }
 
@@ -28,6 +34,49 @@ enum Request {
     Park(Sender<()>),
     Resume,
     Stop,
+}
+
+/// Counts what was sent and not yet handled.
+#[derive(Debug)]
+struct Flow {
+    unread: AtomicUsize,
+    waker: Waker,
+}
+
+/// Counts an event as unread until it is dropped.
+#[derive(Debug)]
+pub struct Unread {
+    size: usize,
+    flow: Arc<Flow>,
+}
+
+impl Flow {
+    fn is_full(&self) -> bool {
+        MOST_UNREAD <= self.unread.load(Ordering::SeqCst)
+    }
+}
+
+impl Unread {
+    fn new(event: &Event, flow: &Arc<Flow>) -> Self {
+        let size = match event {
+            Event::Paste(text) => 1 + text.len(),
+            _ => 1,
+        };
+        flow.unread.fetch_add(size, Ordering::SeqCst);
+        Self {
+            size,
+            flow: Arc::clone(flow),
+        }
+    }
+}
+
+impl Drop for Unread {
+    fn drop(&mut self) {
+        let before = self.flow.unread.fetch_sub(self.size, Ordering::SeqCst);
+        if MOST_UNREAD <= before && !self.flow.is_full() {
+            self.flow.waker.wake();
+        }
+    }
 }
 
 /// Reason why the keyboard stopped waiting.
@@ -40,17 +89,27 @@ enum Wake {
 }
 
 impl Input {
-    /// Starts reading; `send` is called on the reading thread. The thread ends by itself when the
-    /// terminal is gone.
-    pub fn start(send: impl Fn(Event) + Send + 'static) -> io::Result<Self> {
+    /// Starts reading; `send` is called on the reading thread, which pauses while too much is unread.
+    /// The thread ends by itself when the terminal is gone.
+    pub fn start(send: impl Fn(Event, Unread) + Send + 'static) -> io::Result<Self> {
         let (keyboard, waker) = Keyboard::open()?;
+        let flow = Arc::new(Flow {
+            unread: AtomicUsize::new(0),
+            waker,
+        });
         let (requests, inbox) = mpsc::channel();
+        let theirs = Arc::clone(&flow);
+        let send = move |event| {
+            let unread = Unread::new(&event, &theirs);
+            send(event, unread);
+        };
+        let theirs = Arc::clone(&flow);
         let thread = thread::Builder::new()
             .name("keyboard".to_owned())
-            .spawn(move || read(keyboard, &inbox, &send))?;
+            .spawn(move || read(keyboard, &inbox, &theirs, &send))?;
         Ok(Self {
             requests,
-            waker,
+            flow,
             thread: Some(thread),
         })
     }
@@ -71,7 +130,7 @@ impl Input {
     fn request(&self, request: Request) {
         // A thread that has ended needs no requests.
         let _ = self.requests.send(request);
-        self.waker.wake();
+        self.flow.waker.wake();
     }
 }
 
@@ -84,7 +143,7 @@ impl Drop for Input {
     }
 }
 
-fn read(mut keyboard: Keyboard, inbox: &Receiver<Request>, send: &impl Fn(Event)) {
+fn read(mut keyboard: Keyboard, inbox: &Receiver<Request>, flow: &Flow, send: &impl Fn(Event)) {
     loop {
         match inbox.try_recv() {
             Ok(Request::Park(done)) => {
@@ -96,7 +155,12 @@ fn read(mut keyboard: Keyboard, inbox: &Receiver<Request>, send: &impl Fn(Event)
             Ok(Request::Resume) => {}
             Ok(Request::Stop) | Err(mpsc::TryRecvError::Disconnected) => return,
             Err(mpsc::TryRecvError::Empty) => {
-                if keyboard.wait(send) == Wake::Gone {
+                let woken = if flow.is_full() {
+                    keyboard.pause()
+                } else {
+                    keyboard.wait(send)
+                };
+                if woken == Wake::Gone {
                     return;
                 }
             }
@@ -179,10 +243,7 @@ mod unix {
             }
             let [keys, woken] = sources.map(|source| source.revents());
             if !woken.is_empty() {
-                while (&self.woken)
-                    .read(&mut [0; 64])
-                    .is_ok_and(|bytes| bytes != 0)
-                {}
+                self.clear_wakes();
             }
             if keys.intersects(PollFlags::HUP | PollFlags::ERR | PollFlags::NVAL) {
                 return Wake::Gone;
@@ -195,8 +256,26 @@ mod unix {
             Wake::Again
         }
 
+        /// Waits for the waker only. A held key waits too: what decides about it may be among the
+        /// bytes that are not read.
+        pub(super) fn pause(&self) -> Wake {
+            match poll(&mut [PollFd::new(&self.woken, PollFlags::IN)], None) {
+                Ok(_) => self.clear_wakes(),
+                Err(Errno::INTR) => {}
+                Err(_) => return Wake::Gone,
+            }
+            Wake::Again
+        }
+
+        fn clear_wakes(&self) {
+            while (&self.woken)
+                .read(&mut [0; 64])
+                .is_ok_and(|bytes| bytes != 0)
+            {}
+        }
+
         fn read(&mut self, send: &impl Fn(Event)) -> Wake {
-            let mut bytes = [0; 4096];
+            let mut bytes = [0; 1024];
             match rustix::io::read(&self.tty, &mut bytes) {
                 Ok(0) => Wake::Gone,
                 Ok(count) => {
@@ -238,6 +317,12 @@ mod windows {
     impl Keyboard {
         pub(super) fn open() -> io::Result<(Self, Waker)> {
             Ok((Self, Waker))
+        }
+
+        #[expect(clippy::unused_self, reason = "the same on all systems")]
+        pub(super) fn pause(&self) -> Wake {
+            std::thread::sleep(PATIENCE);
+            Wake::Again
         }
 
         pub(super) fn wait(&mut self, send: &impl Fn(Event)) -> Wake {

@@ -37,7 +37,7 @@ pub use decode::Decoder;
 pub use event::Event;
 pub use graphics::{Means, Pixmap, Protocol, Wrapping};
 pub use guard::{Mouse, Terminal};
-pub use input::Input;
+pub use input::{Input, Unread};
 pub use link::{Budget, Link};
 pub(crate) use print::printed;
 pub use reply::{Replies, Reply};

@@ -12,6 +12,7 @@ mod exports;
 mod fields;
 mod hints;
 mod inspecting;
+mod lines;
 mod listing;
 mod looking;
 mod making;

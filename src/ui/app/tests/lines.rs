@@ -1,0 +1,58 @@
+//! Lines that keys are typed into, when they are full.
+
+use super::*;
+use crate::ui::app::line::LONGEST;
+
+const FULL: &str = "a line holds 4096 characters at most";
+
+/// The line that keys are typed into.
+fn line(app: &App) -> &str {
+    let typing = app.cursor.typing.as_ref().map(|typing| &typing.input);
+    let line = app.overlays.line().map(|(input, _)| input).or(typing);
+    line.expect("a line is open").value()
+}
+
+#[test]
+fn a_full_line_takes_no_more_and_says_so() {
+    for opening in [":", "/", "?/", "a", "<Enter>i", "<Enter>ji"] {
+        let mut app = open(SCENE);
+        press(&mut app, opening);
+        let held = line(&app).chars().count();
+        let full = "é".repeat(LONGEST - held);
+        for (said, pasted) in [
+            ("<Left><Right>", full.as_str()),
+            ("x", ""),
+            ("", "y"),
+            ("", "zz"),
+        ] {
+            press(&mut app, said);
+            app.update(Msg::Paste(pasted.to_owned()));
+            assert_eq!(line(&app).chars().count(), LONGEST, "{opening} {said}");
+            let is_full = (said, pasted) != ("<Left><Right>", full.as_str());
+            assert_eq!(words(&app) == FULL, is_full, "{opening} {said}{pasted}");
+        }
+        press(&mut app, "<Back>x");
+        assert!(line(&app).ends_with('x'), "{opening}");
+        assert_eq!(line(&app).chars().count(), LONGEST, "{opening}");
+    }
+}
+
+/// A mebibyte takes hours where each character costs a copy of the line.
+#[test]
+fn long_pastes_are_refused_at_once_everywhere() {
+    let long = "1 2 3 ~ ".repeat(130_000);
+    for opening in [
+        "", ":", "/", "?/", "a", "<Enter>", "<Enter>i", "<Enter>c", "v",
+    ] {
+        let mut app = open(SCENE);
+        press(&mut app, opening);
+        app.update(Msg::Paste(long.clone()));
+        let words = words(&app);
+        assert!(
+            (1..1000).contains(&words.len()),
+            "{opening}: {} bytes",
+            words.len()
+        );
+        assert_eq!(app.document.text(), SCENE, "{opening}");
+    }
+}
