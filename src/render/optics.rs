@@ -1,5 +1,7 @@
 //! Reflection, refraction and highlights: directions and Fresnel weights.
 
+use std::cmp::Ordering;
+
 use glam::DVec3;
 
 use super::warp;
@@ -62,14 +64,15 @@ pub(crate) fn schlick(cosine: f64) -> f64 {
 
 /// The reflectance of glass by Schlick's approximation: `incident` and `refracted` are the cosines
 /// on the sides of the indices `first` and `second`; the one on the side of the smaller index is
-/// used. Zero where the indices are equal.
+/// used. Zero where the indices are equal; otherwise 1 where the normal looks away from the incident
+/// side, as an interpolated one may: what passed there would come back on the same side of it, on a
+/// way that no photon takes the other way round.
 pub(crate) fn fresnel(first: f64, incident: f64, second: f64, refracted: f64) -> f64 {
-    let cosine = if first < second {
-        incident
-    } else if second < first {
-        refracted
-    } else {
-        return 0.0;
+    let cosine = match first.total_cmp(&second) {
+        Ordering::Equal => return 0.0,
+        _ if incident < 0.0 => 0.0,
+        Ordering::Less => incident,
+        Ordering::Greater => refracted,
     };
     let f0 = normal_reflectance(first, second);
     f0 + (1.0 - f0) * schlick(cosine)
@@ -261,6 +264,12 @@ mod tests {
         let from_glass = fresnel(1.5, 8.0f64.sqrt() / 3.0, 1.0, 0.75f64.sqrt());
         assert!((from_glass - (0.04 + 0.96 * 4.316_307e-5)).abs() < 1e-9);
         assert_eq!(fresnel(1.5, 0.1, 1.5, 0.1), 0.0);
+        // A normal that looks away has no cosine, on either side of the boundary.
+        assert_eq!(
+            [fresnel(1.0, -0.1, 1.5, 0.7), fresnel(1.5, -0.1, 1.0, 0.3)],
+            [1.0; 2]
+        );
+        assert_eq!(fresnel(1.5, -0.1, 1.5, 0.1), 0.0);
         // Toward an index below that of air, the inside cosine is used.
         assert!((fresnel(1.0, 0.9, 0.5, 0.5) - (1.0 / 9.0 + 8.0 / 9.0 / 32.0)).abs() < 1e-15);
     }
