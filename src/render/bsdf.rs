@@ -185,6 +185,11 @@ impl<'m> Bsdf<'m> {
         0.0 < self.lobes_chance || self.lobes.gloss().is_some()
     }
 
+    /// Whether photons that arrive at a point of it are kept.
+    pub(crate) fn takes_photons(&self, point: &Point) -> bool {
+        self.material.is_lit(point.side) && self.scatters()
+    }
+
     /// Whether there is any component.
     pub(crate) fn can_go_on(&self) -> bool {
         let of_surface = self.lobes_chance + self.mirror_chance;

@@ -24,7 +24,7 @@
 //! by bounce, continuing by a [`bsdf`] and its [`lobes`] and asking what emits light ([`next_event`],
 //! [`next_event_wave`]), at eight [`vertices`] at once; the third adds the [`caustics`] of [`photons`]
 //! to paths. These are traced before the tiles of a step ([`photon_paths`]), turned at mirrors and glass
-//! by a [`deflection`], and found in a [`photon_map`]. All query the world through a [`probe`], which applies
+//! by a [`deflection`], and found in a [`photon_map`], on what of a [`disc`] lies on a surface. All query the world through a [`probe`], which applies
 //! a material's maps ([`texture`]), shade according to [`shading`], and sample [`lights`] for [`direct`]
 //! light. [`optics`], [`microfacet`] and [`warp`] hold the formulas. [`gather`] tells the shares of the
 //! light apart.
@@ -57,6 +57,7 @@ mod caustics;
 mod deflection;
 mod denoise;
 mod direct;
+mod disc;
 mod display;
 mod emitters;
 mod explain;

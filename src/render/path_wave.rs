@@ -191,7 +191,7 @@ impl<C: Fn() -> bool> Probe<'_, C> {
     }
 
     /// The radiance of a surface toward a path.
-    fn local(&self, path: &Path, vertex: &Vertex<'_>, meeting: &Meeting) -> Rgb {
+    fn local(&mut self, path: &Path, vertex: &Vertex<'_>, meeting: &Meeting) -> Rgb {
         let emission = if self.gather.glow(path.bounce) {
             self.emission(path, vertex)
         } else {

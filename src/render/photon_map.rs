@@ -30,7 +30,7 @@ pub(crate) struct PhotonMap {
     /// The first photon of each bucket, and the end of the last; a power of two of buckets.
     starts: Vec<u32>,
     /// The radius of the kernel.
-    radius: f64,
+    pub(crate) radius: f64,
     /// The unit of photons' powers.
     pub(crate) unit: f64,
 }
@@ -105,7 +105,7 @@ fn cell(point: DVec3) -> [i64; 3] {
 }
 
 /// Mixes the coordinates of a cell (constants of Vigna's splitmix64).
-fn hash(cell: [i64; 3]) -> usize {
+pub(crate) fn hash(cell: [i64; 3]) -> usize {
     let mut bits = 0u64;
     for along in cell {
         bits = (bits ^ along as u64).wrapping_mul(0xBF58_476D_1CE4_E5B9);

@@ -143,7 +143,7 @@ fn follow(
         let mut mapped = None;
         let (point, material) = world.arrive(&ray, nearest, &mut mapped);
         let bsdf = Bsdf::at(&point, material, world.gloss);
-        if 0 < bounce && material.is_lit(point.side) && bsdf.scatters() {
+        if 0 < bounce && bsdf.takes_photons(&point) {
             kept += 1;
             let [.., chance] = sampler.four(bounce, Use::Spread);
             // Of the photons kept on one way, of which mirrors make many, the nth with a chance

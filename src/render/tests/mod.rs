@@ -4,6 +4,7 @@ mod adaptive;
 mod blocks;
 mod cameras;
 mod continuing;
+mod cut_discs;
 mod denoising;
 mod edits;
 mod emitters;

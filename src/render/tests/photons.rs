@@ -7,10 +7,11 @@ use super::*;
 use crate::scene::Emitter;
 
 /// The light along rays, each the mean over `maps` samples, by photons of which each map has `count`.
-struct Traced {
-    depth: u32,
-    count: u32,
-    maps: u32,
+#[derive(Clone, Copy)]
+pub(super) struct Traced {
+    pub(super) depth: u32,
+    pub(super) count: u32,
+    pub(super) maps: u32,
 }
 
 /// Those of path tracing with photons.
@@ -52,7 +53,7 @@ fn mean_of(
 }
 
 impl Traced {
-    fn mean(&self, world: &World, rays: &[Ray], seed: u32) -> Rgb {
+    pub(super) fn mean(&self, world: &World, rays: &[Ray], seed: u32) -> Rgb {
         let Self { depth, count, maps } = *self;
         let rules = PhotonRules {
             count,
@@ -89,14 +90,14 @@ fn mean(rays: &[Ray], of: impl Fn(DVec3) -> f64) -> f64 {
 }
 
 /// What the ground gets of a light of intensity 1: cos θ / d².
-fn cosine_over_square(at: DVec3, light: [f64; 3]) -> f64 {
+pub(super) fn cosine_over_square(at: DVec3, light: [f64; 3]) -> f64 {
     let offset = DVec3::from(light) - at;
     offset.z / offset.length().powi(3)
 }
 
 /// Rays down to points of the ground within a distance of the origin along both axes, from close
 /// above.
-fn onto_ground(half: f64, count: usize) -> Vec<Ray> {
+pub(super) fn onto_ground(half: f64, count: usize) -> Vec<Ray> {
     let ray = |index| {
         let mut numbers = Numbers::new(index);
         let (x, y) = (numbers.between(-half, half), numbers.between(-half, half));
@@ -232,9 +233,19 @@ fn a_glass_ball_focuses_as_ray_optics_says() {
 
 /// The mean light of the ground by photons and by paths, over seeds, within three standard errors.
 fn assert_alike(scene: &Scene, rules: Rules, depth: u32, case: &str) {
+    assert_alike_along(&onto_ground(6.0, 256), scene, rules, depth, case);
+}
+
+/// The same along some rays.
+pub(super) fn assert_alike_along(
+    rays: &[Ray],
+    scene: &Scene,
+    rules: Rules,
+    depth: u32,
+    case: &str,
+) {
     const SEEDS: u32 = 64;
     let world = world_by(scene, rules);
-    let rays = onto_ground(6.0, 256);
     let deviation = |values: &[f64]| {
         let mean = values.iter().sum::<f64>() / f64::from(SEEDS);
         let square = values.iter().map(|each| (each - mean).powi(2)).sum::<f64>();
@@ -252,8 +263,8 @@ fn assert_alike(scene: &Scene, rules: Rules, depth: u32, case: &str) {
         let means: Vec<_> = (0..SEEDS).map(|seed| mean(seed).x).collect();
         deviation(&means)
     };
-    let (first, error) = by(&|seed| photons.mean(&world, &rays, seed));
-    let (second, other) = by(&|seed| mean_of(&world, depth, None, &rays, (16, seed)));
+    let (first, error) = by(&|seed| photons.mean(&world, rays, seed));
+    let (second, other) = by(&|seed| mean_of(&world, depth, None, rays, (16, seed)));
     let sum = (error * error + other * other).sqrt();
     assert!(
         (first - second).abs() <= 3.0 * sum,
