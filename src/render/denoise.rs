@@ -19,7 +19,7 @@ use rayon::prelude::*;
 
 use self::features::Features;
 pub(crate) use self::guides::Guides;
-use self::mix::{Kernel, Mixed, mix, slack};
+use self::mix::{Alike, Kernel, Mixed, mix, slack};
 use self::plane::{Layout, Plane, stride};
 use super::first_hit::Guide;
 use crate::geometry::lanes::Level;
@@ -43,6 +43,11 @@ const SPLINE: &[f32] = &[0.375, 0.25, 0.0625];
 /// Pixels between those that mix, and the standard deviations of their light that count as one, by
 /// iteration.
 const STEPS: [(usize, f32); 5] = [(1, 2.5), (2, 2.1), (4, 1.8), (8, 1.5), (16, 1.3)];
+
+/// Pixels beside each other whose light is this many standard deviations apart or fewer share their
+/// variance: that of a lamp in a mirror is not that of the mirror around it. The variance of one pixel
+/// with few samples is so uncertain that the square on all sides serves better than a wider one.
+const ALIKE: f32 = 1.25;
 
 /// Numbers from here on are left out, as are those that are none: their squares may overflow.
 const MOST: f32 = 1e15;
@@ -80,7 +85,7 @@ impl Noisy<'_> {
                 level: self.level,
                 taps: SPLINE,
                 step,
-                tolerance: Some(tolerance),
+                alike: Alike::Light(tolerance),
             };
             mixed = mix(&mixed, &features, kernel);
         }
@@ -140,15 +145,16 @@ impl Noisy<'_> {
 
     /// Better variances: those of single pixels tell little.
     fn estimated(&self, mixed: &Mixed, features: &Features<'_>) -> Plane {
-        let kernel = |taps| Kernel {
+        let kernel = |taps, alike| Kernel {
             level: self.level,
             taps,
             step: 1,
-            tolerance: None,
+            alike,
         };
         let is_known = |variance: &&f32| **variance != UNKNOWN;
         if mixed.beside.iter().all(|variance| is_known(&variance)) {
-            let around = mix(mixed, features, kernel(&[1.0; 3])).beside;
+            let alike = Alike::Variances(ALIKE);
+            let around = mix(mixed, features, kernel(&[1.0; 2], alike)).beside;
             let both = around.into_iter().zip(&mixed.beside);
             return both.map(|(around, own)| around.max(*own)).collect();
         }
@@ -162,7 +168,7 @@ impl Noisy<'_> {
             beside: places.clone().map(|at| square(&mixed.light, at)).collect(),
             ..mixed.clone()
         };
-        let mean = mix(&squares, features, kernel(&[1.0; 4]));
+        let mean = mix(&squares, features, kernel(&[1.0; 4], Alike::Surfaces));
         let variance = |at: usize| match mixed.beside[at] {
             UNKNOWN => (mean.beside[at] - square(&mean.light, at)).max(0.0),
             known => known,

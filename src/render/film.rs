@@ -11,7 +11,7 @@ use super::denoise::{self, UNKNOWN};
 use super::frame::{Aov, Frames, Settings};
 use super::gather::Gather;
 use super::kept::{Effort, Kept};
-use super::noise::Doubling;
+use super::noise::{Doubling, EVEN};
 use super::overexposure::{Excess, Overexposure};
 use super::photons::MAPS;
 use super::probe::Counts;
@@ -434,6 +434,7 @@ impl Film {
                 // A single sample is at the centre of all distributions.
                 (UNKNOWN, Integrator::Whitted) => 0.0,
                 (UNKNOWN, Integrator::Path | Integrator::Photon) => UNKNOWN,
+                (variance, Integrator::Whitted) => EVEN * scale * variance,
                 (variance, _) => scale * variance,
             }
         });

@@ -17,6 +17,13 @@ const ALBEDO: f32 = 1.0;
 const NEARNESS: f32 = 0.02;
 const SLOPE: f32 = 0.5;
 
+/// How many times noisier light may be and still count in full: a mirror that shows a lamp in some of
+/// its samples would light up all around it. Any number from 8 to 32 does; without this, the root
+/// mean square error of `caustic.xml` with 16 samples is four times as large. With 1, each weight being
+/// the best for its variance, paths with 4 samples have up to a fifth more error: what is brighter
+/// by chance seems noisier too, so that all gets too dark.
+const NOISIER: f32 = 16.0;
+
 /// Most slack.
 const MOST_SLACK: f32 = 1e3;
 
@@ -40,9 +47,18 @@ pub(super) struct Kernel<'k> {
     pub(super) taps: &'k [f32],
     /// Pixels between taps.
     pub(super) step: usize,
-    /// The standard deviations of light that count as one, if light must be alike to mix: its
-    /// variances become those of the mixed light.
-    pub(super) tolerance: Option<f32>,
+    pub(super) alike: Alike,
+}
+
+/// What must be alike to mix.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Alike {
+    /// Surfaces; the numbers beside the light are averaged.
+    Surfaces,
+    /// Light too, given the standard deviations that count as one; its variances are averaged.
+    Variances(f32),
+    /// The same; its variances become those of the mixed light.
+    Light(f32),
 }
 
 /// Mixes the pixels of a picture.
@@ -62,9 +78,11 @@ pub(super) fn mix(from: &Mixed, features: &Features<'_>, kernel: Kernel<'_>) -> 
             return;
         }
         let into = [red, green, blue, beside];
-        dispatch!(kernel.level, simd => match kernel.tolerance {
-            Some(_) => row::<true, _>(simd, (from, features), kernel, y, into),
-            None => row::<false, _>(simd, (from, features), kernel, y, into),
+        let pictures = (from, features);
+        dispatch!(kernel.level, simd => match kernel.alike {
+            Alike::Surfaces => row::<false, false, _>(simd, pictures, kernel, y, into),
+            Alike::Variances(_) => row::<true, false, _>(simd, pictures, kernel, y, into),
+            Alike::Light(_) => row::<true, true, _>(simd, pictures, kernel, y, into),
         });
     });
     mixed
@@ -72,7 +90,7 @@ pub(super) fn mix(from: &Mixed, features: &Features<'_>, kernel: Kernel<'_>) -> 
 
 /// Mixes the pixels of a row.
 #[inline(always)]
-fn row<const BY_LIGHT: bool, S: Simd>(
+fn row<const BY_LIGHT: bool, const MIXES_LIGHT: bool, S: Simd>(
     simd: S,
     (from, features): (&Mixed, &Features<'_>),
     kernel: Kernel<'_>,
@@ -81,7 +99,11 @@ fn row<const BY_LIGHT: bool, S: Simd>(
 ) {
     let layout = features.layout;
     let reach = kernel.taps.len() - 1;
-    let (step, tolerance) = (kernel.step, kernel.tolerance.unwrap_or(1.0));
+    let step = kernel.step;
+    let tolerance = match kernel.alike {
+        Alike::Surfaces => 1.0,
+        Alike::Variances(tolerance) | Alike::Light(tolerance) => tolerance,
+    };
     let sharpness = 1.0 / (tolerance * tolerance);
     let above = reach.min(y / step);
     let below = reach.min((layout.height - 1 - y) / step);
@@ -113,14 +135,18 @@ fn row<const BY_LIGHT: bool, S: Simd>(
                 let near = (1.0 - distance * 0.25).max_precise(zero);
                 let near = near * near;
                 let tap = tap_down * kernel.taps[reach.abs_diff(column)];
-                let weight = near * near * tap;
+                let mut weight = near * near * tap;
+                if MIXES_LIGHT {
+                    weight *= own_light.trust(&other);
+                }
                 weights += weight;
                 light = array::from_fn(|channel| light[channel] + weight * other.light[channel]);
-                number += if BY_LIGHT { weight * weight } else { weight } * other.beside;
+                let share = if MIXES_LIGHT { weight * weight } else { weight };
+                number += share * other.beside;
             }
         }
         let share = 1.0 / weights.max_precise(Singles::splat(simd, TINY));
-        number *= if BY_LIGHT { share * share } else { share };
+        number *= if MIXES_LIGHT { share * share } else { share };
         for (row, sum) in [&mut *red, green, blue].into_iter().zip(light) {
             (sum * share).store_slice(&mut row[MARGIN + x..][..WIDTH]);
         }
@@ -189,6 +215,13 @@ impl<S: Simd> Lights<S> {
         let light = apart(&self.light, &other.light) * (1.0 / 3.0);
         let noise = self.beside + self.beside.min_precise(other.beside);
         (light - noise) / (self.beside + other.beside + TINY)
+    }
+
+    /// How much the light of others counts: less where it is far noisier.
+    #[inline(always)]
+    fn trust(&self, other: &Self) -> Singles<S> {
+        let share = (self.beside * NOISIER + TINY) / (other.beside + TINY);
+        share.min_precise(Singles::splat(self.beside.simd, 1.0))
     }
 }
 

@@ -208,6 +208,17 @@ fn the_less_noise_the_closer_to_the_input() {
     assert!(apart[4] < 1e-3, "{apart:?}");
 }
 
+/// A mirror that shows a lamp in a quarter of one pixel's samples is no brighter around it.
+#[test]
+fn glints_do_not_glow() {
+    let mut glint = picture(|_, _| WALL, |x, y| [0.1 + 0.01 * noise(x, y); 3], 1e-4);
+    let at = 30 * WIDTH + 40;
+    (glint.1[at], glint.2[at]) = ([100.0; 3], 2500.0);
+    let mut after = denoised(&glint);
+    after[at] = [0.1; 3];
+    assert!(most_apart(&after, &vec![[0.1; 3]; WIDTH * HEIGHT]) < 0.02);
+}
+
 /// A single sample tells nothing of its noise; its neighbours do.
 #[test]
 fn single_samples_take_their_noise_from_around() {
