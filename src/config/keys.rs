@@ -2,6 +2,7 @@
 
 use toml::de::DeValue;
 
+use super::MOST_ERRORS;
 use super::value::{Name, Value, advised, in_order, kind_of, span_of};
 use crate::text::{Diagnostic, Span, alternatives};
 use crate::ui::keymap::{self, Action, Keymap, Keys, Section, key_names};
@@ -21,7 +22,7 @@ impl Entry {
     }
 }
 
-/// Reads the table of keys into a keymap.
+/// Reads the table of keys into a keymap, up to [`MOST_ERRORS`].
 pub(super) fn read(value: &Value<'_>, keymap: &mut Keymap, errors: &mut Vec<Diagnostic>) {
     let DeValue::Table(sections) = value.get_ref() else {
         errors.push(no_table(value, "keys"));
@@ -29,6 +30,9 @@ pub(super) fn read(value: &Value<'_>, keymap: &mut Keymap, errors: &mut Vec<Diag
     };
     let mut found = Vec::new();
     for (name, value) in in_order(sections) {
+        if MOST_ERRORS <= errors.len() {
+            return;
+        }
         let Some(section) = Section::named(name.get_ref()) else {
             errors.push(unknown_section(name, value));
             continue;
@@ -39,6 +43,9 @@ pub(super) fn read(value: &Value<'_>, keymap: &mut Keymap, errors: &mut Vec<Diag
         };
         let mut read: Vec<Entry> = Vec::new();
         for (name, value) in in_order(entries) {
+            if MOST_ERRORS <= errors.len() {
+                return;
+            }
             match entry(section, name, value) {
                 Ok(entry) => {
                     let twin = read.iter().find(|other| entry.excludes(other));

@@ -24,6 +24,10 @@ pub use print::{print_config, print_keys};
 pub use read::read;
 pub use settings::{COLOURS, FILTERS, INTEGRATORS, MAX_BANDWIDTH, MAX_THREADS, POLLS};
 
+/// After this many errors no more is read: they tell the user nothing new, and a long file could have
+/// many thousands.
+const MOST_ERRORS: usize = 100;
+
 /// Where the configuration comes from.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub enum Source {
@@ -73,7 +77,7 @@ fn load(source: &Source) -> Result<Options, Error> {
     let Some(path) = path else {
         return Ok(Options::default());
     };
-    let text = match file::read_text(&path) {
+    let text = match file::read_small_text(&path) {
         Ok(text) => text,
         Err(_) if *source == Source::Usual && !file::is_own(&path) => {
             return Ok(Options::default());

@@ -2,20 +2,20 @@
 
 use toml::de::{DeTable, DeValue};
 
-use super::keys;
 use super::settings::{Kind, SETTINGS, Setting, folder};
 use super::value::{Name, Value, advised, in_order, kind_of, span_of};
+use super::{MOST_ERRORS, keys};
 use crate::text::{Diagnostic, Span, alternatives};
 use crate::ui::Options;
 
 /// The table of keys.
 const KEYS: &str = "keys";
 
-/// Reads a configuration; what it does not set is left to its default. Fails with all errors, in
-/// the order of the text.
+/// Reads a configuration; what it does not set is left to its default. Fails with all errors, at most a
+/// hundred, in the order of the text.
 pub fn read(text: &str) -> Result<Options, Vec<Diagnostic>> {
     let (root, faults) = DeTable::parse_recoverable(text);
-    let faults = faults.iter().map(|fault| {
+    let faults = faults.iter().take(MOST_ERRORS).map(|fault| {
         let span = fault.span().unwrap_or_default();
         let expected = "a setting such as spp = 16, or a table such as [keys.select]";
         Diagnostic::error(Span::new(span.start, span.end), fault.message(), expected)
@@ -25,6 +25,9 @@ pub fn read(text: &str) -> Result<Options, Vec<Diagnostic>> {
     // What could not be read would only cause more errors.
     if errors.is_empty() {
         for (name, value) in in_order(root.get_ref()) {
+            if MOST_ERRORS <= errors.len() {
+                break;
+            }
             if name.get_ref() == KEYS {
                 keys::read(value, &mut options.keymap, &mut errors);
             } else if let Err(error) = set(name, value, &mut options) {
@@ -36,6 +39,7 @@ pub fn read(text: &str) -> Result<Options, Vec<Diagnostic>> {
         return Ok(options);
     }
     errors.sort_by_key(|error| error.span);
+    errors.truncate(MOST_ERRORS);
     Err(errors)
 }
 

@@ -139,3 +139,23 @@ fn keys_are_printed_with_the_names_of_their_actions() {
         assert!(has(&row), "{row:?} in\n{text}");
     }
 }
+
+#[test]
+fn a_long_text_of_mistakes_has_a_hundred_errors() {
+    for mistakes in [
+        (0..9999)
+            .map(|at| format!("k{at} = 1\n"))
+            .collect::<String>(),
+        "'\n".repeat(9999),
+        "[keys]\n".to_owned()
+            + &(0..9999)
+                .map(|at| format!("[keys.k{at}]\n"))
+                .collect::<String>(),
+        "[keys.select]\n".to_owned()
+            + &(0..9999)
+                .map(|at| format!("'k{at}' = 'x'\n"))
+                .collect::<String>(),
+    ] {
+        assert_eq!(read(&mistakes).expect_err("mistakes").len(), 100);
+    }
+}

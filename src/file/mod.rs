@@ -35,6 +35,10 @@ pub use version::{FileId, Version};
 /// The largest readable file, in bytes: positions in a text are 32-bit.
 pub const MAX_BYTES: u64 = u32::MAX as u64;
 
+/// The largest text of a few settings, in bytes: a track, a configuration, a script of keys. People write
+/// these, and what is built from one takes up to fifty times its length.
+pub const MAX_SMALL_BYTES: u64 = 1 << 20;
+
 /// The beginning of files longer than this is checked before the rest is read; in bytes. See
 /// [`read_beginning`].
 pub const LONG: u64 = 16 << 20;
@@ -80,11 +84,13 @@ pub enum ReadError {
         /// Its type with an article, e.g. `a folder`.
         kind: &'static str,
     },
-    /// Longer than allowed; the limit for scenes is [`MAX_BYTES`].
-    #[error("{path}: is 4 GiB or longer; scenes must be shorter", path = path.display())]
+    /// Longer than allowed.
+    #[error("{path}: is {}", too_long(*limit), path = path.display())]
     TooLong {
         /// The path of the file.
         path: PathBuf,
+        /// The most bytes allowed, such as [`MAX_BYTES`].
+        limit: u64,
     },
     /// Not enough memory for the file, or for what is built from it.
     #[error("{path}: {reason}", path = path.display())]
@@ -127,14 +133,36 @@ pub enum ReadError {
 
 /// Reads a scene file: a regular UTF-8 file of at most [`MAX_BYTES`] bytes, with few NUL bytes.
 pub fn read_text(path: &Path) -> Result<String, ReadError> {
+    read_text_within(path, MAX_BYTES)
+}
+
+/// Reads a track, a configuration or a script of keys: as [`read_text`], but of at most
+/// [`MAX_SMALL_BYTES`] bytes.
+pub fn read_small_text(path: &Path) -> Result<String, ReadError> {
+    read_text_within(path, MAX_SMALL_BYTES)
+}
+
+fn read_text_within(path: &Path, limit: u64) -> Result<String, ReadError> {
     let file = open(path)?;
-    if let Some(line) = binary_start(&file) {
+    if let Some(line) = binary_start(&file, limit) {
         return Err(ReadError::Binary {
             path: path.to_owned(),
             line,
         });
     }
-    text(path, read_opened(&file, path, MAX_BYTES)?)
+    text(path, read_opened(&file, path, limit)?)
+}
+
+/// What a file longer than `limit` bytes is.
+fn too_long(limit: u64) -> String {
+    match limit {
+        MAX_BYTES => "4 GiB or longer; scenes must be shorter".to_owned(),
+        MAX_SMALL_BYTES => {
+            "longer than 1 MiB; tracks, configurations and scripts of keys must be shorter"
+                .to_owned()
+        }
+        _ => format!("longer than {limit} bytes"),
+    }
 }
 
 /// Reads about the first megabyte of a scene file longer than [`LONG`] bytes, in whole characters.
@@ -151,9 +179,10 @@ pub fn read_beginning(path: &Path) -> Result<Option<String>, ReadError> {
     if MAX_BYTES < metadata.len() {
         return Err(ReadError::TooLong {
             path: path.to_owned(),
+            limit: MAX_BYTES,
         });
     }
-    if let Some(line) = binary_start(&file) {
+    if let Some(line) = binary_start(&file, MAX_BYTES) {
         return Err(ReadError::Binary {
             path: path.to_owned(),
             line,
@@ -188,11 +217,8 @@ fn text(path: &Path, bytes: Vec<u8>) -> Result<String, ReadError> {
 
 /// Checks the first bytes of a file before all of it is read. Returns the line of the first NUL
 /// byte if the file looks binary; `None` if it looks like UTF-16 or is too long anyway.
-fn binary_start(file: &File) -> Option<usize> {
-    if file
-        .metadata()
-        .is_ok_and(|metadata| MAX_BYTES < metadata.len())
-    {
+fn binary_start(file: &File, limit: u64) -> Option<usize> {
+    if file.metadata().is_ok_and(|metadata| limit < metadata.len()) {
         return None;
     }
     let mut start = [0; 4096];
@@ -283,6 +309,7 @@ pub fn scene_length(path: &Path) -> Result<u64, ReadError> {
     if MAX_BYTES < metadata.len() {
         return Err(ReadError::TooLong {
             path: path.to_owned(),
+            limit: MAX_BYTES,
         });
     }
     Ok(metadata.len())
@@ -307,6 +334,7 @@ pub(crate) fn read_opened(file: &File, path: &Path, limit: u64) -> Result<Vec<u8
     read_open(file, limit).map_err(|source| match source.kind() {
         io::ErrorKind::FileTooLarge => ReadError::TooLong {
             path: path.to_owned(),
+            limit,
         },
         _ => ReadError::Io {
             path: path.to_owned(),

@@ -1,6 +1,7 @@
 mod faults;
 #[cfg(unix)]
 mod kills;
+mod limits;
 
 use std::fs;
 use std::io::Write;
@@ -67,33 +68,6 @@ fn long_files_are_read_byte_for_byte() {
             "{length}"
         );
     }
-}
-
-#[test]
-fn a_file_may_have_all_the_bytes_permitted_and_no_more() {
-    let directory = directory();
-    let path = directory.path().join("s");
-    fs::write(&path, "four").expect("written");
-    for limit in [4, 5] {
-        assert_eq!(read_bytes(&path, limit).expect("read"), b"four");
-    }
-    for limit in [0, 3] {
-        let refused = read_bytes(&path, limit);
-        assert!(matches!(refused, Err(ReadError::TooLong { .. })), "{limit}");
-    }
-}
-
-/// The kernel's files claim to be empty; a file that grows while it is read claims too little, too.
-#[test]
-#[cfg(target_os = "linux")]
-fn a_file_longer_than_it_claims_is_read_up_to_the_limit() {
-    let path = Path::new("/proc/version");
-    let all = read_bytes(path, MAX_BYTES).expect("read");
-    let length = all.len() as u64;
-    assert!(fs::metadata(path).expect("there").len() < length);
-    assert_eq!(read_bytes(path, length).expect("read"), all);
-    let refused = read_bytes(path, length - 1);
-    assert!(matches!(refused, Err(ReadError::TooLong { .. })));
 }
 
 #[test]

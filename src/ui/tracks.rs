@@ -61,7 +61,7 @@ where
 
 /// The text of a file; `None` if there is no such file.
 fn read(path: &Path) -> Result<Option<String>, ReadError> {
-    match file::read_text(path) {
+    match file::read_small_text(path) {
         Ok(text) => Ok(Some(text)),
         Err(ReadError::NotFound { .. }) => Ok(None),
         Err(error) => Err(error),

@@ -46,6 +46,10 @@ pub(super) enum Step {
     Dump(PathBuf, Format),
 }
 
+/// After this many errors no more is read: they tell the user nothing new, and a long script could have
+/// many thousands.
+const MOST_ERRORS: usize = 100;
+
 /// The largest number of columns or rows.
 const MAX_SIDE: u16 = 1000;
 
@@ -61,7 +65,7 @@ pub fn parse_screen(text: &str) -> Option<(u16, u16)> {
 
 impl Script {
     /// Reads a script, which may name sequences of keys that `keymap` has; fails with an error for
-    /// each word that means nothing.
+    /// each word that means nothing, at most a hundred.
     pub(super) fn parse(
         name: String,
         text: String,
@@ -78,7 +82,7 @@ impl Script {
                 Ok(found) => steps.extend(found.into_iter().map(|step| (step, span))),
                 Err(error) => errors.push(error),
             }
-            if is_open {
+            if is_open || MOST_ERRORS <= errors.len() {
                 break;
             }
         }
@@ -241,6 +245,13 @@ mod tests {
                 Step::Click(3, 0),
             ]
         );
+    }
+
+    #[test]
+    fn a_long_text_of_unknown_words_has_a_hundred_errors() {
+        let words = "word ".repeat(10_000);
+        let read = Script::parse(String::new(), words, &Keymap::default());
+        assert_eq!(read.expect_err("no keys").len(), 100);
     }
 
     #[test]
