@@ -37,8 +37,8 @@ fn of_text(text: &str) -> Option<Provenance> {
 ///
 /// # Errors
 ///
-/// Fails if it is neither a PNG nor an EXR, or damaged before its pixels, or says it in a way that
-/// this version does not know.
+/// Fails if it is neither a PNG nor an EXR, or damaged before what says it, or says it in a way that this
+/// version does not know.
 pub fn provenance(file: impl Read + Seek) -> Result<Option<Provenance>, Unreadable> {
     // As for pixels, decoders run on untrusted bytes.
     let read = panic::catch_unwind(AssertUnwindSafe(|| stored_text(file)));
@@ -58,10 +58,13 @@ fn stored_text(mut file: impl Read + Seek) -> Result<Option<String>, Unreadable>
     if magic == PNG {
         let mut decoder = png::Decoder::new(file);
         decoder.set_limits(png::Limits { bytes: MOST });
-        let reader = decoder.read_info().map_err(broken)?;
-        let texts = &reader.info().uncompressed_latin1_text;
-        let found = texts.iter().find(|text| text.keyword == KEYWORD);
-        Ok(found.map(|found| found.text.clone()))
+        let mut reader = decoder.read_info().map_err(broken)?;
+        if let Some(text) = text_of(reader.info()) {
+            return Ok(Some(text));
+        }
+        // Programs that rewrite a PNG may put texts after its pixels.
+        reader.finish().map_err(broken)?;
+        Ok(text_of(reader.info()))
     } else if magic.starts_with(EXR) {
         let meta = MetaData::read_from_buffered(file, false).map_err(broken)?;
         let first = meta.headers.first();
@@ -76,6 +79,13 @@ fn stored_text(mut file: impl Read + Seek) -> Result<Option<String>, Unreadable>
     } else {
         Err(Unreadable::Unknown)
     }
+}
+
+/// The text with our keyword, as far as a PNG was read.
+fn text_of(png: &png::Info<'_>) -> Option<String> {
+    let mut texts = png.uncompressed_latin1_text.iter();
+    let found = texts.find(|text| text.keyword == KEYWORD)?;
+    Some(found.text.clone())
 }
 
 fn broken(error: impl std::fmt::Display) -> Unreadable {

@@ -2,6 +2,7 @@
 //! sizes.
 
 mod exr;
+mod exr_colours;
 mod metadata;
 mod movie;
 mod picture;
@@ -20,6 +21,8 @@ pub use movie::{MovieFormat, MovieWriter};
 pub use picture::Picture;
 pub use read::{MAX_TEXTURE_PIXELS, Unreadable, decode};
 pub use write::{encode_quickly, save};
+
+pub use crate::scene::MAX_PIXELS;
 
 /// The picture formats that can be written. All of them can also be read.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -62,10 +65,6 @@ const _: () = {
         at += 1;
     }
 };
-
-/// The maximum number of pixels of a picture in any format. Tracing takes about 40 bytes per pixel:
-/// 10 GB at this limit.
-pub const MAX_PIXELS: u64 = 1 << 28;
 
 /// The longest side of a BMP in pixels. The format stores 32 bits, but readers, including that of
 /// the `image` crate, accept only 16.

@@ -1,13 +1,14 @@
 //! Decodes picture files into textures. Files are untrusted: sizes are checked before memory is
 //! allocated, and data that the pixels do not need is not read.
 
-use std::io::{BufReader, ErrorKind, Read, Seek};
+use std::io::{BufReader, ErrorKind, Read, Seek, SeekFrom};
 use std::panic::{self, AssertUnwindSafe};
 
 use image::error::UnsupportedErrorKind;
 use image::{ColorType, DynamicImage, ImageDecoder, ImageError, ImageFormat, ImageReader};
 use image::{Limits, Rgba};
 
+use super::exr_colours::read_colours;
 use super::sieve::Sieve;
 use crate::scene::{Image, Size};
 
@@ -16,7 +17,7 @@ pub const MAX_TEXTURE_PIXELS: u64 = 1 << 26;
 
 /// The memory limit of a decoder in bytes, including its result. No format has more than 16 bytes
 /// per pixel, and few pictures have that many.
-const MAX_MEMORY: u64 = 512 << 20;
+pub(super) const MAX_MEMORY: u64 = 512 << 20;
 
 /// The memory limit, in bytes, for everything before the pixels.
 const MAX_HEADER: u64 = 16 << 20;
@@ -27,9 +28,14 @@ pub enum Unreadable {
     /// Not a picture, or one of an unknown format.
     #[error("is not in a supported picture format")]
     Unknown,
-    /// Uses an unsupported feature of the named format.
-    #[error("is an unsupported kind of {0}")]
-    Unsupported(&'static str),
+    /// Uses an unsupported feature of a format.
+    #[error("is an unsupported kind of {format}{}", parenthesis(feature))]
+    Unsupported {
+        /// The name of the format.
+        format: &'static str,
+        /// The feature; empty if it is not known.
+        feature: String,
+    },
     /// Truncated or inconsistent, with a description.
     #[error("is not a valid picture: {0}")]
     Broken(String),
@@ -47,6 +53,14 @@ pub enum Unreadable {
     /// Out of memory, or its decoder needs more than [`MAX_MEMORY`].
     #[error("needs more memory than a texture may use (512 MiB), or than is available")]
     NoMemory,
+}
+
+/// Text in parentheses after a word; nothing if it is empty.
+fn parenthesis(text: &str) -> String {
+    match text {
+        "" => String::new(),
+        text => format!(" ({text})"),
+    }
 }
 
 /// Decodes a picture file from its current position; its first bytes determine the format. Of
@@ -68,8 +82,20 @@ fn by_format(mut file: impl Read + Seek, room: u64) -> Result<Image, Unreadable>
     let length = (&mut file).take(MAGIC).read_to_end(&mut magic);
     let back = -(length.map_err(unreadable)? as i64);
     file.seek_relative(back).map_err(unreadable)?;
+    // Whatever program is named after `#?` wrote the same format.
+    if magic.starts_with(b"#?") {
+        return pixels(&mut Sieve::hdr(file), ImageFormat::Hdr, room);
+    }
     let format = image::guess_format(&magic).map_err(|_| Unreadable::Unknown)?;
     match format {
+        ImageFormat::OpenExr => {
+            let start = file.stream_position().map_err(unreadable)?;
+            if let Some(image) = read_colours(&mut file, room)? {
+                return Ok(image);
+            }
+            file.seek(SeekFrom::Start(start)).map_err(unreadable)?;
+            pixels(&mut file, format, room)
+        }
         ImageFormat::Png => pixels(&mut Sieve::png(file), format, room),
         ImageFormat::Jpeg => pixels(&mut Sieve::jpeg(file), format, room),
         _ => pixels(&mut file, format, room),
@@ -92,18 +118,12 @@ fn pixels(file: &mut dyn Input, format: ImageFormat, room: u64) -> Result<Image,
     reader.limits(limits(MAX_HEADER));
     let mut decoder = reader.into_decoder().map_err(broken)?;
     let (width, height) = decoder.dimensions();
-    let count = u64::from(width) * u64::from(height);
-    if MAX_TEXTURE_PIXELS < count {
-        return Err(Unreadable::TooLarge { width, height });
-    }
-    if room < count {
-        return Err(Unreadable::NoRoom);
-    }
+    let size = Size { width, height };
+    check_size(size, room)?;
     if MAX_MEMORY < decoder.total_bytes() {
         return Err(Unreadable::NoMemory);
     }
     decoder.set_limits(limits(MAX_MEMORY)).map_err(broken)?;
-    let size = Size { width, height };
     let mut pixels = Vec::<[u8; 3]>::new();
     let reserved = pixels.try_reserve_exact(size.pixels());
     reserved.map_err(|_| Unreadable::NoMemory)?;
@@ -126,6 +146,19 @@ fn pixels(file: &mut dyn Input, format: ImageFormat, room: u64) -> Result<Image,
     Image::new(size, pixels).ok_or_else(|| Unreadable::Broken("it has no pixels".to_owned()))
 }
 
+/// Refuses a picture with more than [`MAX_TEXTURE_PIXELS`], or than `room`.
+pub(super) fn check_size(size: Size, room: u64) -> Result<(), Unreadable> {
+    let Size { width, height } = size;
+    let count = u64::from(width) * u64::from(height);
+    if MAX_TEXTURE_PIXELS < count {
+        return Err(Unreadable::TooLarge { width, height });
+    }
+    if room < count {
+        return Err(Unreadable::NoRoom);
+    }
+    Ok(())
+}
+
 /// Translates a decoder's error, whose own message is meant for programmers.
 fn unreadable(error: ImageError, format: ImageFormat) -> Unreadable {
     let name = match format {
@@ -143,12 +176,30 @@ fn unreadable(error: ImageError, format: ImageFormat) -> Unreadable {
         ImageError::Limits(_) => Unreadable::NoMemory,
         ImageError::Unsupported(error) => match error.kind() {
             UnsupportedErrorKind::Format(_) => Unreadable::Unknown,
-            _ => Unreadable::Unsupported(name),
+            UnsupportedErrorKind::GenericFeature(what) => unsupported(name, &compression(&what)),
+            _ => unsupported(name, ""),
         },
         ImageError::IoError(error) if error.kind() == ErrorKind::UnexpectedEof => {
             Unreadable::Broken("it is truncated".to_owned())
         }
         ImageError::IoError(error) => Unreadable::Broken(error.to_string()),
         _ => Unreadable::Broken(format!("its {name} data is damaged")),
+    }
+}
+
+pub(super) fn unsupported(format: &'static str, feature: &str) -> Unreadable {
+    Unreadable::Unsupported {
+        format,
+        feature: feature.to_owned(),
+    }
+}
+
+/// The compression that a decoder's message says it does not support, as in
+/// `UnsupportedCompressionMethod(LZMA)`; empty if it says something else.
+fn compression(what: &str) -> String {
+    let (_, named) = what.split_once("CompressionMethod(").unwrap_or_default();
+    match named.split_once(')') {
+        Some((name, _)) => format!("{name} compression"),
+        None => String::new(),
     }
 }

@@ -13,6 +13,12 @@ const JPEG_BYTES: u64 = 8;
 /// The bytes that a JPEG may have in addition, for tables and for the overhead of small pictures.
 const JPEG_TABLES: u64 = 1 << 20;
 
+/// The first line of a Radiance HDR, as the decoder expects it.
+const HDR: &[u8] = b"#?RADIANCE\n";
+
+/// The longest first line of a Radiance HDR, in bytes.
+const HDR_LONGEST: u64 = 256;
+
 /// The chunks of a PNG that define its pixels.
 const PNG_CHUNKS: [&[u8; 4]; 5] = [b"IHDR", b"PLTE", b"tRNS", b"IDAT", b"IEND"];
 
@@ -36,6 +42,10 @@ enum Format {
         left: u64,
     },
     Jpeg(Jpeg),
+    Hdr {
+        /// Whether the first line has been passed on.
+        is_begun: bool,
+    },
 }
 
 #[derive(Default)]
@@ -64,6 +74,11 @@ impl<R: Read + Seek> Sieve<R> {
         Self::new(source, Format::Jpeg(Jpeg::default()))
     }
 
+    /// A Radiance HDR, whichever program is named in its first line.
+    pub(super) fn hdr(source: R) -> Self {
+        Self::new(source, Format::Hdr { is_begun: false })
+    }
+
     fn new(source: R, format: Format) -> Self {
         Self {
             source: BufReader::new(source),
@@ -84,6 +99,7 @@ impl<R: Read + Seek> Read for Sieve<R> {
                     png(&mut self.source, is_begun, left, &mut self.piece)?;
                 }
                 Format::Jpeg(jpeg) => jpeg.next(&mut self.source, &mut self.piece)?,
+                Format::Hdr { is_begun } => hdr(&mut self.source, is_begun, &mut self.piece)?,
             }
         }
         let mut rest = &self.piece[self.at..];
@@ -142,6 +158,23 @@ fn png(
         }
     }
     *left -= take(source, PIECE.min(*left), piece)?;
+    Ok(())
+}
+
+/// Reads the next piece of a Radiance HDR. It is empty at the end.
+fn hdr(
+    source: &mut BufReader<impl Read + Seek>,
+    is_begun: &mut bool,
+    piece: &mut Vec<u8>,
+) -> io::Result<()> {
+    if *is_begun {
+        take(source, PIECE, piece)?;
+        return Ok(());
+    }
+    *is_begun = true;
+    source.take(HDR_LONGEST).read_until(b'\n', piece)?;
+    piece.clear();
+    piece.extend(HDR);
     Ok(())
 }
 

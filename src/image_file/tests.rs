@@ -1,3 +1,5 @@
+mod features;
+
 use std::io::{self, Cursor, Write};
 
 use super::*;
@@ -457,7 +459,10 @@ fn damage_is_reported_without_the_decoders_messages() {
             let is_known = message == damaged
                 || message == unsupported
                 || message.ends_with("it is truncated")
-                || !matches!(error, Unreadable::Broken(_) | Unreadable::Unsupported(_));
+                || !matches!(
+                    error,
+                    Unreadable::Broken(_) | Unreadable::Unsupported { .. }
+                );
             assert!(is_known, "{format:?} at {at}: {message}");
         }
         assert!(0 < found, "{format:?}");

@@ -79,6 +79,9 @@ pub(crate) fn bounds<'o>(objects: impl Iterator<Item = &'o Object>) -> Aabb {
         .fold(Aabb::EMPTY, Aabb::union)
 }
 
+/// The maximum number of pixels of a picture. Tracing takes about 40 bytes per pixel: 10 GB at this limit.
+pub const MAX_PIXELS: u64 = 1 << 28;
+
 /// Width and height in pixels, each at least 1.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct Size {

@@ -104,6 +104,31 @@ fn forged(text: &str) -> Vec<u8> {
     bytes
 }
 
+/// Programs that rewrite a PNG put texts where they like.
+#[test]
+fn the_origin_is_found_after_the_pixels_too() {
+    let place = Place::new();
+    place.stderr("render ball.ray -o a.png --spp 1", 0);
+    let png = place.read("a.png");
+    let (mut rest, mut chunks) = (&png[8..], Vec::new());
+    while let Some(length) = rest.first_chunk() {
+        let (chunk, others) = rest.split_at(12 + u32::from_be_bytes(*length) as usize);
+        chunks.push(chunk);
+        rest = others;
+    }
+    chunks.sort_by_key(|chunk| match &chunk[4..8] {
+        b"tEXt" => 1,
+        b"IEND" => 2,
+        _ => 0,
+    });
+    let moved = [&png[..8], &chunks.concat()].concat();
+    assert_ne!(moved, png);
+    place.write("b.png", moved);
+    let (code, said) = place.shown("b.png");
+    let (_, before) = place.shown("a.png");
+    assert_eq!((code, said), (Some(0), before.replace("a.png", "b.png")));
+}
+
 #[test]
 fn forged_origins_control_no_terminal() {
     let place = Place::new();
