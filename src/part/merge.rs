@@ -129,41 +129,52 @@ pub enum Unmerged {
     Refused(#[from] Refusal),
 }
 
-/// Puts parts together, one after the other, in the memory of one picture. Its last frame has what
-/// `frames` says.
+/// Puts parts together, one after the other, in the memory of one picture, which is taken only once they
+/// are known to make a whole one. Its last frame has what `frames` says.
 pub fn merge(parts: &[PathBuf], frames: Frames) -> Result<Merged, Unmerged> {
-    let mut picture: Option<(Assembly, Survey)> = None;
+    let survey = survey(parts)?;
+    survey.check()?;
+    let mut assembly = Assembly::new(survey.header.picture.settings, frames)?;
     for path in parts {
         let (mut reader, header) = Reader::open(path)?;
-        let (assembly, survey) = match &mut picture {
-            Some(picture) => picture,
-            None => picture.insert((
-                Assembly::new(header.picture.settings, frames)?,
-                Survey::new(header.clone()),
-            )),
-        };
-        survey.add(path, &header)?;
+        if header.difference(&survey.header).is_some() {
+            return Err(Unmerged::Io {
+                path: path.clone(),
+                source: io::Error::other("another process has changed it meanwhile"),
+            });
+        }
         while let Some(record) = reader.next()? {
-            survey.note(header.shard.index, &record);
             if let Record::Block(block) = record {
                 assembly.place(&block);
             }
         }
     }
-    let Some((assembly, survey)) = picture else {
-        let source = io::Error::other("no parts");
-        return Err(Unmerged::Io {
-            path: PathBuf::new(),
-            source,
-        });
-    };
-    survey.check()?;
-    let spp = survey.goal();
-    let frame = assembly.finish(spp);
+    let frame = assembly.finish(survey.goal());
     Ok(Merged {
         picture: survey.header.picture.in_frame(&frame),
         frame,
     })
+}
+
+/// What parts hold. Fails at the first that is damaged or belongs to another picture.
+fn survey(parts: &[PathBuf]) -> Result<Survey, Unmerged> {
+    let mut survey: Option<Survey> = None;
+    for path in parts {
+        let (mut reader, header) = Reader::open(path)?;
+        let survey = survey.get_or_insert_with(|| Survey::new(header.clone()));
+        survey.add(path, &header)?;
+        while let Some(record) = reader.next()? {
+            survey.note(header.shard.index, &record);
+        }
+    }
+    survey.ok_or_else(no_parts)
+}
+
+fn no_parts() -> Unmerged {
+    Unmerged::Io {
+        path: PathBuf::new(),
+        source: io::Error::other("no parts"),
+    }
 }
 
 /// The shards that lack blocks, given all parts there are, as ranges such as `3,7-9`; and what is
@@ -197,10 +208,7 @@ pub fn missing(parts: &[PathBuf]) -> Result<(Vec<u32>, Vec<Unmerged>), Unmerged>
     match survey {
         Some(survey) => Ok((survey.lacking(), damaged)),
         // How many shards there are is not known.
-        None => Err(damaged.pop().unwrap_or_else(|| Unmerged::Io {
-            path: PathBuf::new(),
-            source: io::Error::other("no parts"),
-        })),
+        None => Err(damaged.pop().unwrap_or_else(no_parts)),
     }
 }
 
@@ -289,20 +297,19 @@ struct Survey {
     paths: BTreeMap<u32, PathBuf>,
     /// The samples that each shard is traced to.
     goals: BTreeMap<u32, u32>,
-    /// The samples of each block.
-    samples: Vec<u32>,
+    /// The samples of the blocks that there are.
+    samples: BTreeMap<u32, u32>,
     damaged: BTreeSet<u32>,
 }
 
 impl Survey {
     /// Begins with the header of the first part.
     fn new(header: Header) -> Self {
-        let count = blocks(&header).count() as usize;
         Self {
             header,
             paths: BTreeMap::new(),
             goals: BTreeMap::new(),
-            samples: vec![0; count],
+            samples: BTreeMap::new(),
             damaged: BTreeSet::new(),
         }
     }
@@ -335,7 +342,9 @@ impl Survey {
             }
             Record::Block(Block {
                 number, samples, ..
-            }) => self.samples[*number as usize] = *samples,
+            }) => {
+                self.samples.insert(*number, *samples);
+            }
         }
     }
 
@@ -348,10 +357,11 @@ impl Survey {
     fn unfinished(&self) -> impl Iterator<Item = u32> {
         let goal = self.goal();
         let owners = deal(blocks(&self.header), self.header.shard.count);
-        let samples = self.samples.iter().zip(owners);
-        samples
-            .filter(move |&(&samples, owner)| {
-                samples < goal || goal == 0 || self.damaged.contains(&owner)
+        let numbered = (0..).zip(owners);
+        numbered
+            .filter(move |(number, owner)| {
+                let samples = self.samples.get(number).copied().unwrap_or(0);
+                samples < goal || goal == 0 || self.damaged.contains(owner)
             })
             .map(|(_, owner)| owner)
     }
@@ -389,7 +399,7 @@ impl Survey {
         }
         Err(Unmerged::Holes {
             blocks: self.unfinished().count() as u32,
-            all: self.samples.len() as u32,
+            all: blocks(&self.header).count(),
             shards,
             count,
         })

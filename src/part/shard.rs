@@ -58,9 +58,11 @@ impl fmt::Display for Shard {
 pub fn deal(blocks: Blocks, shards: u32) -> impl Iterator<Item = u32> {
     let across = blocks.across();
     let edge = across.max(blocks.count() / across).next_power_of_two();
-    let mut along: Vec<_> = (0..blocks.count()).collect();
+    let mut owners = vec![0; blocks.count() as usize];
+    // All blocks of a picture in one part are those of shard 0.
+    let dealt = if shards == 1 { 0 } else { blocks.count() };
+    let mut along: Vec<_> = (0..dealt).collect();
     along.sort_by_cached_key(|number| place_along(edge, [number % across, number / across]));
-    let mut owners = vec![0; along.len()];
     for (place, number) in (0_u32..).zip(along) {
         owners[number as usize] = place % shards;
     }

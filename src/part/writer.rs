@@ -58,6 +58,9 @@ pub enum Refused {
     /// It exists, and is not to be continued.
     #[error("it exists; continue it with --resume, or delete it")]
     Exists,
+    /// A symbolic link that leads nowhere is in its place.
+    #[error("a link that leads nowhere is in its place; delete the link")]
+    Dangling,
     /// It is not a part file, or its header is damaged.
     #[error("it is not a part file, or its header is damaged; delete it to start over")]
     NoPart,
@@ -70,7 +73,7 @@ pub enum Refused {
 }
 
 impl Part {
-    /// Creates a part file, which must not exist.
+    /// Creates a part file, which must not exist; nor may a link be in its place.
     pub fn create(path: &Path, header: &Header) -> Result<Self, Refused> {
         let file = OpenOptions::new()
             .read(true)
@@ -78,7 +81,8 @@ impl Part {
             .create_new(true)
             .open(path);
         let file = file.map_err(|error| match error.kind() {
-            io::ErrorKind::AlreadyExists => Refused::Exists,
+            io::ErrorKind::AlreadyExists if path.exists() => Refused::Exists,
+            io::ErrorKind::AlreadyExists => Refused::Dangling,
             _ => Refused::Io(error),
         })?;
         if lock(&file) == Lock::Busy {
@@ -93,7 +97,11 @@ impl Part {
     pub fn open(path: &Path, header: &Header) -> Result<Self, Refused> {
         let found = match fs::metadata(path) {
             Err(error) if error.kind() == io::ErrorKind::NotFound => {
-                return Self::create(path, header);
+                return Self::create(path, header).map_err(|refused| match refused {
+                    // It was not there a moment ago.
+                    Refused::Exists => Refused::Busy,
+                    refused => refused,
+                });
             }
             found => found?,
         };

@@ -2,7 +2,7 @@
 
 use super::frame::{Aov, Settings};
 use super::region::Region;
-use crate::scene::{FalloffRule, Filter, GlossRule, Integrator, Size, Transfer};
+use crate::scene::{FalloffRule, Filter, GlossRule, Integrator, MAX_PIXELS, Size, Transfer};
 
 impl Settings {
     /// The name and value of each setting but the number of samples, in a fixed order, the noise and the
@@ -52,7 +52,7 @@ impl Settings {
     }
 
     /// Reads settings as [`Settings::written`], in this order, for `spp` samples. `None` if they are
-    /// no such settings.
+    /// no such settings, or of a picture of more than [`MAX_PIXELS`].
     pub fn read<'t>(pairs: impl IntoIterator<Item = (&'t str, &'t str)>, spp: u32) -> Option<Self> {
         let mut pairs = pairs.into_iter().peekable();
         let mut next = |name: &str| {
@@ -93,7 +93,8 @@ impl Settings {
         }
         let gloss = pairs.next().filter(|(name, _)| *name == "gloss")?.1;
         settings.gloss = one_of(&GlossRule::ALL, GlossRule::name, gloss)?;
-        settings.exposure.is_finite().then_some(settings)
+        let is_possible = settings.traced().size().pixels() as u64 <= MAX_PIXELS;
+        (is_possible && settings.exposure.is_finite()).then_some(settings)
     }
 }
 

@@ -344,3 +344,60 @@ fn a_part_that_stopped_early_is_continued_with_fewer_samples_than_were_allowed()
     assert!(limited == render("--spp 4096"));
     assert!(limited == place.rendered("b.png", "--size 40x30 --noise 0.3"));
 }
+
+/// A part without blocks of a picture of this size.
+fn declared(size: &str) -> String {
+    let digest = "0".repeat(64);
+    let header = format!(
+        "halflight part 1\nversion 0.1.0\nscene {digest}\nview own\nlayers none\nsize {size}\n\
+         region none\ndepth 8\nseed 0\naov none\nintegrator whitted\nfilter box\n\
+         transfer linear\nexposure 0\nfalloff none\ngloss none\nshard 0/1\n"
+    );
+    let crc = crc32fast::hash(header.as_bytes());
+    format!("{header}crc {crc:08x}\n")
+}
+
+/// Memory is taken for the blocks that there are, not for those that a header announces.
+#[test]
+#[cfg(target_os = "linux")]
+fn a_part_takes_no_memory_for_what_it_declares() {
+    let place = Place::new();
+    for (size, said) in [
+        (
+            "16384x16384",
+            "incomplete: 262144 of 262144 blocks are missing",
+        ),
+        (
+            "8388608x32",
+            "incomplete: 262144 of 262144 blocks are missing",
+        ),
+        ("16384x16385", "big.part is not a part file"),
+        ("4294967295x4294967295", "big.part is not a part file"),
+    ] {
+        place.write("big.part", declared(size));
+        for line in ["merge big.part -o a.png", "merge big.part --missing"] {
+            let output = in_shell(&place, "ulimit -v 400000", line);
+            let stderr = String::from_utf8_lossy(&output.stderr);
+            let is_listed = line.ends_with("--missing") && said.starts_with("incomplete");
+            if is_listed {
+                assert_eq!(output.stdout, b"0\n", "{stderr}");
+            } else {
+                assert_eq!(output.status.code(), Some(3), "{stderr}");
+                assert!(stderr.contains(said), "{size}: {stderr}");
+            }
+        }
+    }
+}
+
+/// A link that leads nowhere cannot be continued, whatever the option.
+#[test]
+#[cfg(unix)]
+fn a_dangling_link_is_no_part_to_continue() {
+    let place = Place::new();
+    std::os::unix::fs::symlink("none/a.part", place.at("a.part")).expect("a link");
+    let said = "error: a.part: a link that leads nowhere is in its place; delete the link\n";
+    for options in ["--resume", "--shard 0/1"] {
+        let line = format!("render ball.ray -o a.png --spp 1 {options}");
+        assert_eq!(place.stderr(&line, 73), said);
+    }
+}
