@@ -70,8 +70,8 @@ pub(super) fn number_of(
 /// allowed.
 pub(super) fn out_of_range(field: &Field, span: Span, value: f64, what: &str) -> Diagnostic {
     if !field.allowed.contains(value) {
-        let message = format!("{what}: must be {}", field.allowed.limits());
-        return Diagnostic::error(span, message, field.allowed.words());
+        let message = format!("{what}: must be {}", field.allowed.limits_against(value));
+        return Diagnostic::error(span, message, field.allowed.words_against(value));
     }
     let message = format!("{what}: {} is not {}", concise(value), field.usual.limits());
     let hint = match field.reads_as {

@@ -106,6 +106,10 @@ impl Category {
     }
 }
 
+/// The least size of a solid, and the first that is too large: the squares of sizes in between, and of
+/// distances some hundred times as large or small, have all their digits.
+pub const SIZES: [f64; 2] = [1e-150, 1e150];
+
 /// Bounds of a number.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Range {
@@ -113,6 +117,8 @@ pub enum Range {
     Any,
     /// Greater than 0.
     Positive,
+    /// Greater than 0, and within [`SIZES`], which is only said of numbers beyond.
+    Size,
     /// 0 or more.
     NotNegative,
     /// From 0 to 1, inclusive.
@@ -138,6 +144,7 @@ impl Range {
             && match self {
                 Self::Any => true,
                 Self::Positive => 0.0 < value,
+                Self::Size => (SIZES[0]..SIZES[1]).contains(&value),
                 Self::NotNegative => 0.0 <= value,
                 Self::Unit => (0.0..=1.0).contains(&value),
                 Self::Below(high) => (0.0..high).contains(&value),
@@ -156,6 +163,7 @@ impl Range {
         match self {
             Self::Any => Some([f64::MIN, f64::MAX]),
             Self::Positive => Some([0.0_f64.next_up(), f64::MAX]),
+            Self::Size => Some([SIZES[0], SIZES[1].next_down()]),
             Self::NotNegative => Some([0.0, f64::MAX]),
             Self::Unit => Some([0.0, 1.0]),
             Self::Below(high) => Some([0.0, high.next_down()]),
@@ -174,11 +182,30 @@ impl Range {
         }
     }
 
+    /// As [`Range::words`], for a value that is out of bounds.
+    pub fn words_against(self, value: f64) -> String {
+        match self {
+            Self::Size if 0.0 < value => format!("a number {}", self.limits_against(value)),
+            _ => self.words(),
+        }
+    }
+
+    /// As [`Range::limits`], for a value that is out of bounds.
+    pub fn limits_against(self, value: f64) -> String {
+        match self {
+            Self::Size if 0.0 < value => {
+                let [least, beyond] = SIZES;
+                format!("at least {least:e} and less than {beyond:e}")
+            }
+            _ => self.limits(),
+        }
+    }
+
     /// The bounds as a phrase after "must be": `greater than 0`.
     pub fn limits(self) -> String {
         match self {
             Self::Any => "a number".to_owned(),
-            Self::Positive => "greater than 0".to_owned(),
+            Self::Positive | Self::Size => "greater than 0".to_owned(),
             Self::NotNegative => "0 or more".to_owned(),
             Self::Unit => "from 0 to 1".to_owned(),
             Self::Below(high) => format!("at least 0 and less than {high}"),
@@ -286,6 +313,16 @@ impl Field {
     pub(super) const fn size(key: &'static str, doc: &'static str) -> Self {
         Self {
             kind: Kind::Number,
+            allowed: Range::Size,
+            usual: Range::Size,
+            ..Self::point(key, doc)
+        }
+    }
+
+    /// A length that is not of a solid.
+    pub(super) const fn length(key: &'static str, doc: &'static str) -> Self {
+        Self {
+            kind: Kind::Number,
             allowed: Range::Positive,
             usual: Range::Positive,
             ..Self::point(key, doc)
@@ -340,12 +377,18 @@ pub(crate) mod tests {
 
     #[test]
     fn ranges_contain_what_their_words_describe() {
-        let cases: [(Range, &[f64], &[f64], &str); 9] = [
+        let cases: [(Range, &[f64], &[f64], &str); 10] = [
             (Range::Any, &[-1e308, 0.0], &[], "a number"),
             (
                 Range::Positive,
                 &[5e-324],
                 &[0.0, -0.0, -1.0],
+                "a number greater than 0",
+            ),
+            (
+                Range::Size,
+                &[1e-150, 1.0, 9.9e149],
+                &[0.0, -1.0, 9.9e-151, 1e150],
                 "a number greater than 0",
             ),
             (

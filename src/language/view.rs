@@ -38,10 +38,11 @@ pub(super) fn with_component(
             let (place, _) = field.chosen(literal).ok_or_else(|| words.join(" or "))?;
             place as f64
         }
-        _ => parse_number(literal)
-            .ok()
-            .filter(|&number| field.allowed.contains(number))
-            .ok_or_else(|| field.allowed.limits())?,
+        _ => match parse_number(literal) {
+            Ok(number) if field.allowed.contains(number) => number,
+            Ok(number) => return Err(field.allowed.limits_against(number)),
+            Err(_) => return Err(field.allowed.limits()),
+        },
     };
     Ok(numbers)
 }

@@ -151,11 +151,13 @@ fn check_numbers(field: &Field, component: Option<usize>, values: &[f64]) -> Res
             format!("{list}{named}"),
         ));
     }
-    if values.iter().all(|&value| field.allowed.contains(value)) {
-        Ok(())
-    } else {
-        let limits = format!("must be {}", field.allowed.limits());
-        Err((limits, field.allowed.words()))
+    let mut values = values.iter();
+    match values.find(|&&value| !field.allowed.contains(value)) {
+        None => Ok(()),
+        Some(&value) => {
+            let limits = format!("must be {}", field.allowed.limits_against(value));
+            Err((limits, field.allowed.words_against(value)))
+        }
     }
 }
 

@@ -70,6 +70,14 @@ impl Quadric {
         self.bounds.is_empty()
     }
 
+    /// Its sizes: those of its bounds that are finite, and that of its curvature if it is curved.
+    pub fn sizes(&self) -> impl Iterator<Item = f64> {
+        let curved = self.form.squares != DVec3::ZERO;
+        let bounds = self.bounds.size().to_array().into_iter();
+        let bounded = bounds.filter(|size| size.is_finite());
+        bounded.chain(curved.then_some(self.form.unit))
+    }
+
     /// Whether the solid is too small for its distance from the origin to be described by
     /// coefficients in `f64`: |centre|² 2⁻⁵² > 1e-4 size².
     pub fn has_lost_its_shape(&self) -> bool {

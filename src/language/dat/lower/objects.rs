@@ -13,7 +13,7 @@ use crate::language::dat::table::{HALF_SPACE, OPERATIONS, ObjectKind, RecordKind
 use crate::language::record::what;
 use crate::language::report::Name;
 use crate::language::report::{number_of, quoted};
-use crate::language::table::Category;
+use crate::language::table::{Category, Range, SIZES};
 use crate::language::words::Words;
 use crate::scene::Object;
 use crate::text::{Diagnostic, Span, counted};
@@ -95,28 +95,30 @@ impl<'a> Lowering<'a> {
             ObjectKind::Ellipsoid => shapes::ellipsoid(numbers),
             ObjectKind::Cylinder => shapes::cylinder(numbers),
             ObjectKind::Box => shapes::cuboid(numbers),
-            ObjectKind::Quadric => Some(self.quadric(numbers, cuts, line)),
+            ObjectKind::Quadric => self.quadric(numbers, cuts, line),
         };
         if shape.is_none() {
             let span = line.span_after_material();
             self.report.error(|| {
                 let message = format!("{}: its size or position is out of range", line.name);
-                Diagnostic::error(
-                    span,
-                    message,
-                    "sizes and positions that numbers can represent",
-                )
+                let [least, beyond] = SIZES;
+                let expected = format!(
+                    "sizes at least {least:e} and less than {beyond:e}, at positions that numbers can \
+                     represent"
+                );
+                Diagnostic::error(span, message, expected)
             });
         }
         Some(Definition::Solid(shape?, material? as u32))
     }
 
+    /// A quadric; `None` if its size is out of range.
     fn quadric(
         &mut self,
         numbers: &[f64],
         cuts: &[(DVec3, f64)],
         line: &RecordContent<'_>,
-    ) -> Solid {
+    ) -> Option<Solid> {
         const QUADRIC: ObjectKind = ObjectKind::Quadric;
         let coefficients = const {
             [
@@ -144,6 +146,8 @@ impl<'a> Lowering<'a> {
                 )
                 .with_hint("inside is where the sum is 0 or less")
             });
+        } else if !quadric.sizes().all(|size| Range::Size.contains(size)) {
+            return None;
         } else if quadric.has_lost_its_shape() {
             self.report.warning(|| {
                 let message = format!("{}: too far from the origin for its size", line.name);
@@ -151,7 +155,7 @@ impl<'a> Lowering<'a> {
                     .with_hint("double precision cannot represent its shape")
             });
         }
-        Solid::Quadric(Box::new(quadric))
+        Some(Solid::Quadric(Box::new(quadric)))
     }
 
     /// Reads the half-spaces after a quadric's coefficients: their count, then each. If the count

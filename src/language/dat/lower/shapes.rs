@@ -5,6 +5,7 @@ use glam::DVec3;
 use crate::geometry::{Affine, Cuboid, Cylinder, Ellipsoid, Solid, Sphere, normalise};
 use crate::language::dat::table::ObjectKind;
 use crate::language::form::rotated;
+use crate::language::table::Range;
 
 /// A sphere.
 pub(super) fn sphere(numbers: &[f64]) -> Solid {
@@ -15,7 +16,7 @@ pub(super) fn sphere(numbers: &[f64]) -> Solid {
     })
 }
 
-/// An axis-aligned ellipsoid; `None` if its sizes overflow.
+/// An axis-aligned ellipsoid; `None` if it is out of range.
 pub(super) fn ellipsoid(numbers: &[f64]) -> Option<Solid> {
     const ELLIPSOID: ObjectKind = ObjectKind::Ellipsoid;
     let centre = const { ELLIPSOID.at("centre") }.vector(numbers);
@@ -54,9 +55,12 @@ pub(super) fn cuboid(numbers: &[f64]) -> Option<Solid> {
     Some(Solid::Cuboid(Box::new(Cuboid(frame))))
 }
 
-/// A frame; `None` if its origin or lengths overflow.
+/// A frame; `None` if its origin overflows, or its lengths are no sizes.
 fn frame(origin: DVec3, directions: [DVec3; 3], lengths: DVec3) -> Option<Affine> {
-    let holds = origin.is_finite() && lengths.is_finite() && 0.0 < lengths.min_element();
+    let are_sizes = lengths
+        .to_array()
+        .map(|length| Range::Size.contains(length));
+    let holds = origin.is_finite() && are_sizes == [true; 3];
     Affine::new(origin, directions, lengths).filter(|_| holds)
 }
 

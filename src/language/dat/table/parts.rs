@@ -105,10 +105,10 @@ pub(super) const CAMERA: &[Part] = &[
     point("eye", "The position of the camera."),
     point("look", "The point the camera looks at."),
     point("up", "Which way is up in the picture; of any length."),
-    size(
+    Part::Field(Field::length(
         "focal",
         "From the eye to the image plane; orthographic pictures do not depend on it.",
-    ),
+    )),
     number(
         "near",
         Range::Any,
@@ -125,7 +125,7 @@ pub(super) const CAMERA: &[Part] = &[
 
 pub(super) const RESOLUTION: &[Part] = &[Part::Field(Field {
     step: 0.001,
-    ..pair(Field::size(
+    ..pair(Field::length(
         "resolution",
         "World units per pixel on the image plane, across and up.",
     ))

@@ -95,9 +95,17 @@ render 1 ID 9
 }
 
 #[test]
-fn overflowing_solids_are_reported_at_their_numbers() {
+fn sizes_beyond_the_limits_are_reported_at_their_numbers() {
     check_under(&[
-        "obj cylinder ID 1 mat ID 0  1e308 0 0  -1 0 0  1 1.7e308\n#~ 29 error: object 1 (cylinder): its size or position is out of range",
+        "obj sphere ID 1 BALL 1e-150\nobj sphere ID 2 BALL 9e149",
+        "obj sphere ID 1 BALL 1e150\n#~ 33 error: object 1 (sphere) radius: must be at least 1e-150 and less than 1e150",
+        "obj ellipsoid ID 1 BALL 1 1 9e-151\n#~ 40 error: object 1 (ellipsoid) rz: must be at least 1e-150",
+        "obj cylinder ID 1 mat ID 0  1e308 0 0  -1 0 0  1 1.7e308\n#~ 50 error: object 1 (cylinder) length: must be at least 1e-150 and less",
+        "obj box ID 1 mat ID 0  0 0 0  1e100 0 0  0 1 0  0 0 1  1e60 1 1\n#~ 24 error: object 1 (box): its size or position is out of range\n#~ 31 warning: object 1 (box) u: has length 1e100",
+        "obj box ID 1 mat ID 0  0 0 0  1e-99 0 0  0 1 0  0 0 1  1e-60 1 1\n#~ 24 error: object 1 (box): its size or position is out of range\n#~ 31 warning: object 1 (box) u: has length 1e-99",
+        "obj quadric ID 1 mat ID 0  1 0 0 0 1 0 0 1 0 -1e302  0\n#~ 28 error: object 1 (quadric): its size or position is out of range",
+        "obj quadric ID 1 mat ID 0  1 0 0 0 1 0 0 1 0 -1e-302  0\n#~ 28 error: object 1 (quadric): its size or position is out of range",
+        "obj quadric ID 1 mat ID 0  1 0 0 0 1 0 0 0 0 -1  1  0 0 1 1e200\n#~ 28 error: object 1 (quadric): its size or position is out of range",
     ]);
 }
 

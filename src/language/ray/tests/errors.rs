@@ -34,6 +34,18 @@ fn check(case: &str) {
 }
 
 #[test]
+fn sizes_are_within_the_limits() {
+    for case in [
+        "HEAD 1 sphere 0 0 0 1e-150 MAT",
+        "HEAD 1 sphere 0 0 0 9e149 MAT",
+        "HEAD 1 sphere 0 0 0\n1e150 //~ 1 error: object 1 (sphere) radius: must be at least 1e-150 and less than 1e150\nMAT",
+        "HEAD 1 sphere 0 0 0\n9e-151 //~ 1 error: object 1 (sphere) radius: must be at least 1e-150\nMAT",
+    ] {
+        check(case);
+    }
+}
+
+#[test]
 fn numbers_are_decimal_and_finite() {
     for case in [
         "HEAD 1 sphere 0 0 0\n1,5 //~ 1 error: object 1 (sphere) radius: `1,5` is not a number\nMAT",

@@ -8,6 +8,7 @@ use super::Lowering;
 use super::surfaces::lit;
 use crate::geometry::{Instance, Shape};
 use crate::language::node::Node;
+use crate::language::table::SIZES;
 use crate::language::xml::origins::{NamedPlace, What};
 use crate::obj;
 use crate::obj::{Finding, Model};
@@ -50,6 +51,10 @@ impl<'a> Lowering<'a> {
         let shape = Shape::Mesh(Box::new(Instance::new(mesh, &affine, tags)));
         if !shape.bounds().is_bounded() {
             self.no_volume(element);
+            return None;
+        }
+        if SIZES[1] <= shape.bounds().size().max_element() {
+            self.no_size(element);
             return None;
         }
         Some((shape, material.unwrap_or_else(|| self.white())))

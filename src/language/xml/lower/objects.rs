@@ -6,6 +6,7 @@ use super::Lowering;
 use crate::geometry::{Affine, Ellipsoid, Plane, Shape, Solid, Sphere, normalise};
 use crate::language::form::rotation;
 use crate::language::report::quoted;
+use crate::language::table::{Range, SIZES};
 use crate::language::xml::origins::Role;
 use crate::language::xml::table::ObjectKind;
 use crate::scene::{Material, Object, Rgb};
@@ -111,6 +112,7 @@ impl Lowering<'_> {
         let columns = [frame.x_axis, frame.y_axis, frame.z_axis];
         if kind == ObjectKind::Sphere
             && let Some(radius) = scaling(columns)
+            && Range::Size.contains(radius)
             && frame.translation.is_finite()
         {
             return Some(Shape::Solid(Solid::Sphere(Sphere {
@@ -131,8 +133,30 @@ impl Lowering<'_> {
         let affine = Affine::of_matrix(columns, frame.translation);
         if affine.is_none() {
             self.no_volume(element);
+            return None;
+        }
+        let are_sizes = columns.map(|column| Range::Size.contains(column.length()));
+        if are_sizes != [true; 3] {
+            self.no_size(element);
+            return None;
         }
         affine
+    }
+
+    /// Reports an object that its transforms scale too far, at the last of its own that scale it.
+    pub(super) fn no_size(&mut self, element: usize) {
+        let (name, tree) = (self.display_name(element), self.tree);
+        let scales = tree.children(element).filter(|&child| {
+            matches!(self.origins.roles[child], Role::Transform(one) if one.element == "scale")
+        });
+        let span = match scales.last() {
+            Some(scale) => self.attributes_span(scale),
+            None => tree.elements[element].name,
+        };
+        let [least, beyond] = SIZES;
+        let expected = format!("a size at least {least:e} and less than {beyond:e}");
+        let message = || format!("{name}: its transforms make it too small or too large");
+        self.error(span, message, &expected);
     }
 
     pub(super) fn no_volume(&mut self, element: usize) {

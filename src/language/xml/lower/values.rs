@@ -53,10 +53,11 @@ impl<'a> Lowering<'a> {
             let limits = if is_too_large {
                 format!("{} at most", u32::MAX)
             } else {
-                field.allowed.limits()
+                field.allowed.limits_against(value)
             };
             let message = format!("{}: must be {limits}", what());
-            findings.error(|| Diagnostic::error(span, message, field.allowed.words()));
+            let expected = field.allowed.words_against(value);
+            findings.error(|| Diagnostic::error(span, message, expected));
         } else if !field.usual.contains(value) {
             findings.warning(|| out_of_range(field, span, value, &what()));
         }

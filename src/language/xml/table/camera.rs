@@ -29,7 +29,7 @@ pub(in crate::language::xml) static FOV: Parameter = Parameter::number(
 );
 
 pub(in crate::language::xml) static FOCAL_DISTANCE: Parameter =
-    Parameter::number(Field::size("focaldist", "The distance in focus."), &["1"]);
+    Parameter::number(Field::length("focaldist", "The distance in focus."), &["1"]);
 
 pub(in crate::language::xml) static LENS_RADIUS: Parameter = Parameter::number(
     at_least_0(

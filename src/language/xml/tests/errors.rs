@@ -47,6 +47,14 @@ fn each_mistake_has_its_message() {
             "error: object 1 (sphere): its transforms flatten it or are too large",
         ),
         (
+            "<object><scale value='1e-99'/><object type='sphere'><scale x='1e-60'/></object></object>",
+            "error: object 2 (sphere): its transforms make it too small or too large",
+        ),
+        (
+            "<object type='plane'><scale value='1e150'/></object>",
+            "error: object 1 (plane): its transforms make it too small or too large",
+        ),
+        (
             "<object type='sphere'><translate x='1e300' value='1e300'/></object>",
             "error: object 1 (sphere) translate: too large for any number",
         ),
