@@ -181,7 +181,7 @@ fn pictures(
             return Err(Error::Refused(format!("frame {number}: {reason}")));
         }
         let layers = work.tracing.memory_for_layers(&job);
-        check_memory(&job, memory_for(&job).saturating_add(layers))?;
+        check_memory(&job, memory_for(&job, None).saturating_add(layers))?;
         let place = Place {
             frame: number,
             before,

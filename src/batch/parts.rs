@@ -16,6 +16,7 @@ use crate::render::{
     self, BLOCK, Block, BlockTracer, Blocks, Counts, Frame, Job, Progress, Provenance, Settings,
     memory_for_blocks,
 };
+use crate::scene::Integrator;
 use crate::text::counted;
 
 /// How a picture is traced into a part file.
@@ -54,21 +55,21 @@ pub(super) struct Traced {
 }
 
 /// About how many bytes of memory tracing a job into a part file takes, and merging it if it is whole;
-/// without those of the scene.
-pub(super) fn memory_for(job: &Job, parts: Parts, threads: usize) -> u64 {
+/// without those of the scene. `kept` are the photons of each map, if known.
+pub(super) fn memory_for(job: &Job, parts: Parts, threads: usize, kept: Option<u64>) -> u64 {
     let blocks = Blocks::of(job.settings.traced().size());
     let in_flight = (WAITING + 2 * threads) as u64 * u64::from(BLOCK) * u64::from(BLOCK);
-    // Blocks that are continued are read before.
-    let begun = match parts.existing {
-        Existing::Refused => 0,
-        Existing::Continued => {
-            let numbers = parts.shard.blocks(blocks).into_iter();
-            numbers.map(|number| blocks.area(number) as u64).sum()
-        }
+    // Blocks that are continued are read before, and those with photons traced together.
+    let is_together = job.settings.integrator == Integrator::Photon;
+    let begun = if parts.existing == Existing::Refused && !is_together {
+        0
+    } else {
+        let numbers = parts.shard.blocks(blocks).into_iter();
+        numbers.map(|number| blocks.area(number) as u64).sum()
     };
-    let traced = memory_for_blocks(job, begun + in_flight);
+    let traced = memory_for_blocks(job, begun + in_flight, kept);
     match parts.shard {
-        Shard::WHOLE => traced.max(render::memory_for(job)),
+        Shard::WHOLE => traced.max(render::memory_for(job, kept)),
         _ => traced,
     }
 }

@@ -15,7 +15,9 @@ use crate::image_file::{ImageFormat, Picture};
 use crate::language::Source;
 use crate::memory;
 use crate::part;
-use crate::render::{Aov, Frame, Job, Progress, Provenance, check_memory, exposes, memory_for};
+use crate::render::{
+    Aov, Frame, Job, Progress, Provenance, check_memory, exposes, memory_for, photons_kept,
+};
 use crate::scene::Size;
 use crate::text::{Diagnostic, Span, counted};
 
@@ -103,13 +105,16 @@ fn try_render(work: &Render) -> Result<(), Error> {
         return Err(Error::Refused(refused.to_owned()));
     }
     print_without_effect(&work.tracing.over_text(), &job.settings);
-    let memory = memory_needed(work, &job);
-    let estimate = estimate(memory);
+    let threads = work.tracing.threads;
+    let used = memory::used().unwrap_or(0);
     if work.purpose == Purpose::Estimate {
+        let needed = memory_needed(work, &job, photons_kept(&job));
+        let estimate = estimate(used, needed, threads);
         let line = format!("{}M\n", estimate.div_ceil(1 << 20));
         return stdout::print(&line).map_err(stdout::error);
     }
-    check_memory(&job, memory)?;
+    let needed = memory_needed(work, &job, None);
+    check_memory(&job, needed)?;
     times.load = times.lap();
     let text = (loaded.source, loaded.read.found);
     let traced = match work.parts {
@@ -134,7 +139,7 @@ fn try_render(work: &Render) -> Result<(), Error> {
         threads: work.tracing.threads,
         progress: traced.progress,
         pixels: traced.pixels,
-        estimate,
+        estimate: estimate(used, needed, threads),
         times,
     };
     stats.write(output)
@@ -246,21 +251,24 @@ fn check_size(
     Err(Error::Invalid { errors: 1 })
 }
 
-/// About how many bytes of memory a job takes, besides its scene.
-fn memory_needed(work: &Render, job: &Job) -> u64 {
+/// About how many bytes of memory a job takes, besides its scene. `kept` are the photons of each map, if
+/// known.
+fn memory_needed(work: &Render, job: &Job, kept: Option<u64>) -> u64 {
     let traced = match work.parts {
-        None => memory_for(job),
-        Some(parts) => parts::memory_for(job, parts, work.tracing.threads),
+        None => memory_for(job, kept),
+        Some(parts) => parts::memory_for(job, parts, work.tracing.threads, kept),
     };
     traced.saturating_add(work.tracing.memory_for_layers(job))
 }
 
-/// About how many bytes of memory a job that needs these takes in all, now that its scene is loaded: a
-/// tenth more than the larger parts, for all the others, and the threads.
-fn estimate(needed: u64) -> u64 {
-    const THREADS: u64 = 32 << 20;
-    let all = memory::used().unwrap_or(0).saturating_add(needed);
-    all.saturating_add(all / 10).saturating_add(THREADS)
+/// About how many bytes of memory a job that needs these takes in all, with those that its scene uses: a
+/// tenth more than the larger parts, for all the others, and the stacks and heaps of threads.
+fn estimate(used: u64, needed: u64, threads: usize) -> u64 {
+    const OTHERS: u64 = 3 << 20;
+    const THREAD: u64 = 1 << 20;
+    let all = used.saturating_add(needed);
+    all.saturating_add(all / 10)
+        .saturating_add(OTHERS + threads as u64 * THREAD)
 }
 
 /// Says what is to be said of a picture, and writes it.

@@ -41,7 +41,7 @@ impl BlockTracer {
             reason: error.to_string(),
         })?;
         job.settings.traced().within(job.settings.size)?;
-        refusal::check_memory(&job, refusal::memory_for_blocks(&job, 0))?;
+        refusal::check_memory(&job, refusal::memory_for_blocks(&job, 0, None))?;
         let build = || {
             let rules = job.settings.rules();
             let scene = Arc::clone(&job.scene);

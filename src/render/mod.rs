@@ -136,7 +136,7 @@ pub use overexposure::Overexposure;
 pub use place::{SurfacePoint, axes, clearance, line_of, pixel_of, pixel_width, surface_under};
 pub use probe::Counts;
 pub use provenance::Provenance;
-pub use refusal::{Refusal, check_memory, memory_for, memory_for_blocks};
+pub use refusal::{Refusal, check_memory, memory_for, memory_for_blocks, photons_kept};
 pub use region::{NoRegion, Region};
 pub use renderer::{Renderer, Threads};
 pub use shading::Side;

@@ -64,6 +64,11 @@ impl PhotonMap {
         }
     }
 
+    /// The number of photons.
+    pub(crate) fn count(&self) -> usize {
+        self.photons.len()
+    }
+
     /// Whether there are no photons.
     #[inline]
     pub(crate) fn is_empty(&self) -> bool {

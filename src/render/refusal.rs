@@ -4,9 +4,10 @@ use std::sync::Arc;
 
 use super::film::Film;
 use super::frame::Job;
+use super::photons::Photons;
 use super::region::NoRegion;
 use super::structures::instances;
-use super::world::FEW;
+use super::world::{FEW, World};
 use crate::memory::{self, Need, OutOfMemory};
 use crate::scene::{Rgb, Scene, Size};
 
@@ -46,8 +47,8 @@ pub enum Refusal {
     OutOfMemory(#[from] OutOfMemory),
     /// The picture needs more memory than is available.
     #[error(
-        "cannot trace {}x{}: not enough memory for the {:.1} GB it needs; choose a smaller size",
-        size.width, size.height, *bytes as f64 / 1e9
+        "cannot trace {}x{}: not enough memory for the {} it needs; choose a smaller size",
+        size.width, size.height, memory::megabytes(*bytes)
     )]
     Memory {
         /// Size of the picture.
@@ -57,20 +58,31 @@ pub enum Refusal {
     },
 }
 
-/// About how many bytes of memory tracing a job takes, without those of its scene.
-pub fn memory_for(job: &Job) -> u64 {
+/// About how many bytes of memory tracing a job takes, without those of its scene. If it has photons, at
+/// most, unless it is known how many each map keeps.
+pub fn memory_for(job: &Job, kept: Option<u64>) -> u64 {
     film(job)
-        .saturating_add(photons(job))
+        .saturating_add(photons(job, kept))
         .saturating_add(world(&job.scene))
 }
 
 /// About how many bytes of memory tracing a job by blocks takes, without those of its scene, if blocks
-/// of this many pixels in all are held at once.
-pub fn memory_for_blocks(job: &Job, pixels: u64) -> u64 {
+/// of this many pixels in all are held at once; photons as in [`memory_for`].
+pub fn memory_for_blocks(job: &Job, pixels: u64, kept: Option<u64>) -> u64 {
     let blocks = pixels.saturating_mul(BLOCK_PIXEL as u64);
     blocks
-        .saturating_add(photons(job))
+        .saturating_add(photons(job, kept))
         .saturating_add(world(&job.scene))
+}
+
+/// How many photons each map of a job keeps, judging by the first, which is traced on the current thread
+/// pool; `None` for a job without photons.
+pub fn photons_kept(job: &Job) -> Option<u64> {
+    let rules = job.settings.photon_rules()?;
+    let scene = Arc::clone(&job.scene);
+    let never = || false;
+    let world = World::build(scene, &job.images, job.settings.rules(), None, &never)?;
+    Some(Photons::build(&world, rules, None, &never)?.kept())
 }
 
 /// Refuses a job unless this many bytes, those of its acceleration structures included, fit into
@@ -86,10 +98,10 @@ fn film(job: &Job) -> u64 {
     Film::bytes(&job.settings, job.frames, job.denoise).saturating_add(pixels)
 }
 
-/// Bytes of the photon maps, which are none without photons.
-fn photons(job: &Job) -> u64 {
+/// Bytes of the photon maps, which are none without photons; `kept` are the photons of each, if known.
+fn photons(job: &Job, kept: Option<u64>) -> u64 {
     let rules = job.settings.photon_rules();
-    rules.map_or(0, |rules| rules.bytes())
+    rules.map_or(0, |rules| rules.bytes(job.settings.spp, kept))
 }
 
 /// Refuses a job whose world and film do not fit into memory. For an edit of the scene `before`,
@@ -99,7 +111,7 @@ pub(super) fn fits(job: &Job, before: Option<&Arc<Scene>>) -> Result<(), Refusal
         Some(before) if is_edit_of(before, &job.scene) => 0,
         _ => world(&job.scene),
     };
-    let picture = film(job).saturating_add(photons(job));
+    let picture = film(job).saturating_add(photons(job, None));
     check(job, picture.saturating_add(world), world)
 }
 

@@ -96,15 +96,26 @@ impl PhotonRules {
         pixels.clamp(least, most) / CHUNK * CHUNK
     }
 
-    /// About the most bytes of all maps held at once, while another is sorted.
-    pub(crate) fn bytes(&self) -> u64 {
+    /// About how many bytes all maps held at once take, while another is sorted, for a picture of `spp`
+    /// samples, if each map keeps this many photons; the most if that is not known.
+    pub(crate) fn bytes(&self, spp: u32, kept: Option<u64>) -> u64 {
         // More than one of most photons is kept only where mirrors face each other.
-        let each = u64::from(2 * self.count) * (size_of::<Photon>() + size_of::<u32>()) as u64;
-        u64::from(MAPS + 2) * each
+        let kept = kept.unwrap_or(u64::from(2 * self.count));
+        let photon = size_of::<Photon>() as u64;
+        let map = kept * photon + kept.next_power_of_two() * size_of::<u32>() as u64;
+        // The first is held besides those of a step. A map is sorted from a copy, and where photons arrive
+        // they are listed with room for as many more.
+        let held = u64::from(1 + MAPS.min(spp));
+        held * map + 3 * kept * photon
     }
 }
 
 impl Photons {
+    /// The photons that the first map keeps.
+    pub(crate) fn kept(&self) -> u64 {
+        self.first.count() as u64
+    }
+
     /// The map with an index that need not be traced.
     pub(super) fn known(&self, index: u32) -> Option<Arc<PhotonMap>> {
         let is_known = index == 0 || self.emission.power == 0.0;
