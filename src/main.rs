@@ -6,7 +6,7 @@ use std::process::ExitCode;
 use std::sync::Arc;
 
 use halflight::cli::{self, Command, Purpose, Stop};
-use halflight::memory::Allocator;
+use halflight::memory::{self, Allocator};
 use halflight::text::{Diagnostic, visible, without_codes};
 use halflight::{batch, config, ui};
 
@@ -14,6 +14,7 @@ use halflight::{batch, config, ui};
 static ALLOCATOR: Allocator = Allocator;
 
 fn main() -> ExitCode {
+    memory::heap::share();
     #[cfg(unix)]
     survive_file_size_limit();
     ExitCode::from(match cli::parse(std::env::args_os()) {

@@ -60,6 +60,12 @@ impl Watcher {
         let builder = thread::Builder::new().name("watch".to_owned());
         let thread = match method {
             Method::Native => {
+                // The watcher of the system panics if it cannot start its thread: this one ends at once, and
+                // leaves its stack to that.
+                thread::Builder::new()
+                    .spawn(|| {})?
+                    .join()
+                    .unwrap_or_default();
                 let mut places = WatchedPaths::new(paths, inbox.clone())?;
                 builder.spawn(move || places.follow(&notices, changed))?
             }

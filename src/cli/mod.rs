@@ -255,7 +255,7 @@ pub fn interface_exit_code(outcome: &Result<ui::Ending, ui::Error>) -> u8 {
         Err(ui::Error::Frame { .. }) => NO_OUTPUT,
         Err(ui::Error::Folder { .. } | ui::Error::Assets(_)) => NO_INPUT,
         Err(ui::Error::NoSuch { .. } | ui::Error::NoTerminal | ui::Error::DumbTerminal) => USAGE,
-        Err(ui::Error::NoThreads(_) | ui::Error::Terminal(_)) => FAILED,
+        Err(ui::Error::NoThreads(_) | ui::Error::NoMemory(_) | ui::Error::Terminal(_)) => FAILED,
     }
 }
 

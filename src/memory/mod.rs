@@ -1,5 +1,5 @@
-//! The memory available to the process, whether work fits into it, the allocator of the program, and
-//! the threads that share it. Does not know what either is used for.
+//! The memory available to the process, whether work fits into it, the allocator and the heaps of the
+//! program, and the threads that share it. Does not know what either is used for.
 //!
 //! Most failing allocations abort the process, and most systems grant more memory than exists. So
 //! large work states its need before it begins, and is refused if that exceeds what the tightest
@@ -8,6 +8,7 @@
 mod available;
 #[cfg(target_os = "linux")]
 mod cgroup;
+pub mod heap;
 mod pages;
 #[cfg(target_os = "linux")]
 mod proc;
@@ -90,6 +91,15 @@ pub fn check(most: u64, need: impl FnOnce() -> Need) -> Result<(), OutOfMemory> 
     match available() {
         Some(available) if available.bytes < most => fits(need(), available),
         _ => Ok(()),
+    }
+}
+
+/// Refuses work that does not fit into what a limit of address space leaves, if there is one.
+pub fn check_address_space(need: Need) -> Result<(), OutOfMemory> {
+    let mut limits = limits().into_iter();
+    match limits.find(|available| available.limit == Limit::AddressSpace) {
+        Some(available) => fits(need, available),
+        None => Ok(()),
     }
 }
 

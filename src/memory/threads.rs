@@ -5,9 +5,17 @@ use std::{io, thread};
 
 use rayon::{ThreadBuilder, ThreadPoolBuilder};
 
-/// Address space of a thread in bytes: a stack of two megabytes, and the separate heap that the GNU
-/// C library reserves.
-const EACH: u64 = 66 << 20;
+#[cfg(target_os = "linux")]
+use super::heap::more_heaps;
+
+/// Address space of a thread's stack in bytes.
+const STACK: u64 = 2 << 20;
+
+/// Address space of a thread in bytes: its stack, and the separate heap that the GNU C library reserves.
+const EACH: u64 = STACK + HEAP;
+
+/// Address space of a heap in bytes.
+const HEAP: u64 = 64 << 20;
 
 /// A thread pool may take one part in this many of the address space.
 const SHARE: u64 = 4;
@@ -33,10 +41,12 @@ fn fewer(wanted: usize, limit: Option<u64>) -> usize {
 #[cfg(target_os = "linux")]
 pub(super) fn address_space() -> u64 {
     let cores = thread::available_parallelism().map_or(1, usize::from);
-    EACH * threads(cores) as u64
+    let threads = threads(cores) as u64;
+    let heaps = address_space_limit().map_or(threads, more_heaps);
+    STACK * threads + HEAP * heaps.min(threads)
 }
 
-fn address_space_limit() -> Option<u64> {
+pub(super) fn address_space_limit() -> Option<u64> {
     #[cfg(unix)]
     {
         rustix::process::getrlimit(rustix::process::Resource::As).current

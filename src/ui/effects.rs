@@ -20,7 +20,6 @@ use super::editor;
 use super::ending::Patience;
 use super::event::{Event, Work, sending};
 use super::explaining::Explainer;
-use super::heap;
 use super::msg::{Effect, Msg, Origin, SaveOutcome, Target, Timer};
 use super::options::Options;
 use super::past::NoPicture;
@@ -32,6 +31,7 @@ use super::service::{Ended, Service};
 use super::traces::Traces;
 use super::tracks::TrackReader;
 use super::writing::Writers;
+use crate::memory;
 use crate::render::{Job, Kept, Refusal, Renderer, Threads};
 use crate::scene::Scene;
 use others::{reaches_others, without_others};
@@ -193,7 +193,7 @@ impl Runtime {
     /// Takes the timers that are due, as messages.
     pub(crate) fn due(&mut self, now: Instant) -> Vec<Msg> {
         if self.trim_at.take_if(|at| *at <= now).is_some() {
-            heap::trim();
+            memory::heap::trim();
         }
         self.timers
             .extract_if(.., |&mut (at, _)| at <= now)

@@ -7,7 +7,7 @@ use std::time::Duration;
 use crate::assets::NoFolder;
 use crate::file::ReadError;
 use crate::language::{UnknownLanguage, extensions};
-use crate::memory::NoThreads;
+use crate::memory::{NoThreads, OutOfMemory};
 use crate::text::Diagnostic;
 
 /// How the interface ended.
@@ -116,7 +116,20 @@ pub enum Error {
     /// No thread can be started.
     #[error(transparent)]
     NoThreads(#[from] NoThreads),
+    /// There is too little memory to begin.
+    #[error(transparent)]
+    NoMemory(#[from] OutOfMemory),
     /// Reading from or writing to the terminal failed.
-    #[error("terminal: {0}")]
+    #[error("{}", without_terminal(.0))]
     Terminal(#[from] io::Error),
+}
+
+/// Why the terminal could not be used. A thread for it that does not start is no fault of the terminal.
+fn without_terminal(error: &io::Error) -> String {
+    match error.kind() {
+        io::ErrorKind::WouldBlock => {
+            format!("cannot start threads: {error}; see the limits that ulimit -a shows")
+        }
+        _ => format!("terminal: {error}"),
+    }
 }

@@ -27,7 +27,6 @@ mod event;
 mod explaining;
 pub mod filmstrip;
 mod fit;
-mod heap;
 pub mod keymap;
 pub mod layout;
 pub mod listing;
@@ -63,7 +62,7 @@ use std::path::{Path, PathBuf};
 use crate::assets::check_folders;
 use crate::file::{self, ReadError};
 use crate::language::Language;
-use crate::memory;
+use crate::memory::{self, Need};
 use app::{App, Opening, OpeningText, Preferences};
 use arrange::PanelSizes;
 pub use ending::{Ending, Error};
@@ -82,10 +81,18 @@ const DEFAULT_SCENE: &str = "default.ray";
 /// A copy of [`DEFAULT_SCENE`], opened if the current folder has none.
 const EMBEDDED_SCENE: &str = include_str!("../../scenes/default.ray");
 
+/// Bytes of address space that the interface takes with a small scene, most of them for stacks: with less,
+/// threads would not start, or memory run out at any moment.
+const NEEDED: u64 = 40 << 20;
+
 /// Runs the interface until the user leaves it. Errors that can be detected without reading the
 /// scene file are returned before the terminal is touched; the file is read on another thread.
 pub fn run(options: &Options) -> Result<Ending, Error> {
-    heap::map_large();
+    memory::heap::map_large();
+    memory::check_address_space(Need {
+        what: "the interface and a small picture".to_owned(),
+        bytes: NEEDED,
+    })?;
     memory::start_threads()?;
     let (path, language, text) = find_scene(options.scene.as_deref())?;
     check_folders(&options.assets)?;
@@ -138,7 +145,7 @@ fn read_script(rehearsal: &Rehearsal, keymap: &Keymap) -> Result<Script, Error> 
     let Some(path) = &rehearsal.keys else {
         return Ok(Script::default());
     };
-    let (name, text) = (path.display().to_string(), file::read_text(path)?);
+    let (name, text) = (path.display().to_string(), file::read_small_text(path)?);
     Script::parse(name.clone(), text.clone(), keymap).map_err(|errors| Error::Faulty {
         name,
         text,

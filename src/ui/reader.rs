@@ -8,7 +8,6 @@ use std::sync::mpsc::Receiver;
 use std::thread;
 
 use super::event::Work;
-use super::heap;
 use super::msg::Msg;
 use super::reading::{Baseline, Opened, Reading, SceneFolder};
 use super::recovery;
@@ -102,7 +101,7 @@ fn follow(
                 if text.len() < LARGE {
                     return Reading::new(text, baseline);
                 }
-                heap::keep_large();
+                memory::heap::keep_large();
                 match &*pool {
                     Ok(pool) => pool.install(|| Reading::new(text, baseline)),
                     Err(_) => Reading::new(text, baseline),

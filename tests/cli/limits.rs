@@ -113,3 +113,52 @@ fn a_picture_that_does_not_fit_in_memory_is_an_error() {
     let (code, stderr) = in_2_gb("-o a.ppm --size 16384x16384 --shard 0/100000");
     assert_eq!(code, Some(0), "{stderr}");
 }
+
+/// More memory never makes a start fail that succeeded with less.
+#[test]
+#[cfg(target_os = "linux")]
+fn the_interface_starts_under_any_memory_limit_or_says_why_not() {
+    let place = Place::new();
+    place.write("a.keys", "wait q");
+    let mut has_started = false;
+    // In kilobytes.
+    for limit in (8..=60).step_by(4).map(|limit| limit * 10_000) {
+        let line = "ball.ray --keys a.keys --screen 80x24 --dump-frame a.txt";
+        let output = in_shell(&place, &format!("ulimit -v {limit}"), line);
+        let stderr = String::from_utf8_lossy(&output.stderr);
+        match output.status.code() {
+            Some(0) => has_started = true,
+            code => {
+                let is_refused = code == Some(1) && stderr.starts_with("error: ");
+                assert!(is_refused && !has_started, "{limit} kB: {code:?}: {stderr}");
+            }
+        }
+    }
+    assert!(has_started);
+}
+
+/// At least what is used, and at most half as much again.
+#[test]
+#[cfg(target_os = "linux")]
+fn the_estimate_of_photons_is_close() {
+    let place = Place::new();
+    for name in ["caustic.xml", "pool.dat"] {
+        let scenes = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("scenes");
+        fs::copy(scenes.join(name), place.at(name)).expect("copied");
+        for (size, spp) in [("80x60", 1), ("64x48", 12), ("160x120", 2)] {
+            let line = format!(
+                "render {name} -o a.ppm --integrator photon --falloff square --size {size} --spp {spp}"
+            );
+            let estimate = place.run(&format!("{line} --estimate")).stdout;
+            let estimate = String::from_utf8(estimate).expect("UTF-8");
+            let estimate: u64 = estimate.trim().trim_end_matches('M').parse().expect("MB");
+            let stats = place.run(&format!("{line} --stats -")).stdout;
+            let stats = String::from_utf8(stats).expect("UTF-8");
+            let (_, peak) = stats.split_once("\"peak\":").expect("a peak");
+            let peak = peak.split([',', '}', '\n']).next().expect("a number");
+            let peak: f64 = peak.trim().parse().expect("a number");
+            let ratio = (estimate << 20) as f64 / peak;
+            assert!((1.0..1.5).contains(&ratio), "{name} {size} {spp}: {ratio}");
+        }
+    }
+}

@@ -1,4 +1,8 @@
-//! Returns free memory of this process to the system.
+//! The heaps of the GNU C library: how many there are, and what they return to the system.
+//!
+//! Each of the first threads has a heap of its own, which reserves 64 MB of address space, and twice as
+//! much while it is begun. Under a limit of address space these few heaps would take what the stacks of
+//! further threads need, though more of it is used by nobody.
 //!
 //! glibc keeps freed memory in one arena per thread, each retaining everything below a threshold
 //! that follows the largest buffer ever freed. Frames are allocated by one thread and freed by
@@ -12,15 +16,39 @@
 
 use std::thread;
 
+/// Address space that a heap takes in bytes while it is begun.
+#[cfg(target_os = "linux")]
+const HEAP: u64 = 128 << 20;
+
+/// All heaps but the first may take one part in this many of the address space.
+#[cfg(target_os = "linux")]
+const SHARE: u64 = 4;
+
+/// The number of heaps besides the first that fit into a limit of address space.
+#[cfg(target_os = "linux")]
+pub(super) fn more_heaps(limit: u64) -> u64 {
+    limit / (SHARE * HEAP)
+}
+
+/// Lets threads share heaps under a limit of address space. To be called before any thread is started.
+pub fn share() {
+    #[cfg(all(target_os = "linux", target_env = "gnu"))]
+    if let Some(limit) = super::threads::address_space_limit() {
+        let most = 1 + more_heaps(limit);
+        let most = std::ffi::c_int::try_from(most).unwrap_or(std::ffi::c_int::MAX);
+        glibc::mallopt(glibc::M_ARENA_MAX, most);
+    }
+}
+
 /// Maps buffers of the size of frames individually, so that they return to the system as soon as
 /// they are freed.
-pub(crate) fn map_large() {
+pub fn map_large() {
     #[cfg(all(target_os = "linux", target_env = "gnu"))]
     glibc::mallopt(glibc::M_MMAP_THRESHOLD, MAPPED);
 }
 
 /// Makes the heap keep the buffers of a large scene from now on.
-pub(crate) fn keep_large() {
+pub fn keep_large() {
     #[cfg(all(target_os = "linux", target_env = "gnu"))]
     {
         glibc::mallopt(glibc::M_MMAP_THRESHOLD, KEPT);
@@ -29,7 +57,7 @@ pub(crate) fn keep_large() {
 }
 
 /// Returns free memory on another thread, as this takes about as long as a frame.
-pub(crate) fn trim() {
+pub fn trim() {
     // Without the thread it is returned later.
     let _ = thread::Builder::new()
         .name("trim".to_owned())
@@ -50,6 +78,7 @@ const KEPT: std::ffi::c_int = 32 << 20;
 mod glibc {
     use std::ffi::c_int;
 
+    pub(super) const M_ARENA_MAX: c_int = -8;
     pub(super) const M_TRIM_THRESHOLD: c_int = -1;
     pub(super) const M_MMAP_THRESHOLD: c_int = -3;
 
@@ -92,6 +121,14 @@ mod tests {
         let after = resident();
         drop(last);
         before.saturating_sub(after)
+    }
+
+    #[test]
+    fn little_address_space_holds_few_heaps() {
+        const GB: u64 = 1 << 30;
+        for (limit, more) in [(0, 0), (GB / 2, 1), (4 * GB, 8)] {
+            assert_eq!(more_heaps(limit), more, "{limit}");
+        }
     }
 
     #[test]
