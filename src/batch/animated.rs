@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
 use super::still::Still;
-use super::{Error, Tracing, Warnings, load, print_all_findings};
+use super::{Error, Messages, Tracing, Warnings, load};
 use crate::assets::{self, Assets, FileDigests, Wanted};
 use crate::file::{self, ReadError};
 use crate::language::{Before, Lowered, Source};
@@ -23,6 +23,8 @@ pub(super) struct Origin<'w> {
     pub(super) folders: &'w [PathBuf],
     /// How the warnings of both files are treated.
     pub(super) warnings: Warnings,
+    /// How findings in them are told.
+    pub(super) messages: Messages,
 }
 
 /// A scene whose text a track changes from frame to frame.
@@ -54,9 +56,15 @@ struct Files {
 impl<'w> Animated<'w> {
     /// Reads a track and its scene, and prints all findings in both.
     pub(super) fn new(origin: Origin<'w>) -> Result<Self, Error> {
-        let text = file::read_text(origin.track)?;
+        let text = file::read_small_text(origin.track)?;
         let (track, mut findings) = track::read(&text);
-        let loaded = load(origin.scene, origin.folders, origin.warnings, None);
+        let loaded = load(
+            origin.messages,
+            origin.scene,
+            origin.folders,
+            origin.warnings,
+            None,
+        );
         let scene = loaded.as_ref().ok().and_then(|loaded| {
             let scene = loaded.scene.as_ref()?;
             Some((&loaded.source, &scene.camera))
@@ -67,7 +75,8 @@ impl<'w> Animated<'w> {
             bound
         });
         let findings = origin.warnings.apply(findings.sorted());
-        print_all_findings(origin.track, &text, &findings);
+        let messages = origin.messages;
+        messages.all_findings(origin.track, &text, &findings);
         let loaded = loaded?;
         let (Some(scene), Some(bound)) = (loaded.scene, bound) else {
             let errors = loaded.findings.errors();
@@ -175,7 +184,8 @@ impl<'w> Animated<'w> {
                 }
             }
         }
-        print_all_findings(self.origin.scene, self.source.text(), &new);
+        let messages = self.origin.messages;
+        messages.all_findings(self.origin.scene, self.source.text(), &new);
         match findings.errors() {
             0 => Ok(()),
             errors => Err(Error::Invalid { errors }),
@@ -266,6 +276,7 @@ keys = [{ frame = 0, value = [0, 0, 0] }, { frame = 2, value = [1, 1, 1] }]";
             track: &track,
             folders: &[],
             warnings: Warnings::Allowed,
+            messages: Messages::Text,
         };
         let mut animated = Animated::new(origin).expect("it is valid");
         fs::remove_file(at("a.obj")).expect("it is there");

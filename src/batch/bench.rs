@@ -9,7 +9,7 @@ use std::time::{Duration, Instant};
 use serde_json::{Value, json};
 
 use super::plan::Measured;
-use super::{Error, Report, Tracing, Warnings, load, machine, print_error, stdout};
+use super::{Error, Messages, Report, Tracing, Warnings, load, machine, stdout};
 use crate::assets;
 use crate::language::{Language, Source};
 use crate::memory;
@@ -52,7 +52,7 @@ const EDGES: [u32; 2] = [10, 40];
 
 /// Measures scenes and prints a row of figures for each to standard output.
 pub fn bench(work: &Bench) -> Result<(), Error> {
-    try_bench(work).inspect_err(print_error)
+    try_bench(work).inspect_err(|error| Messages::Text.error(error))
 }
 
 fn try_bench(work: &Bench) -> Result<(), Error> {
@@ -98,6 +98,7 @@ struct Read {
 /// Reads a scene file and lowers it.
 fn from_file(work: &Bench, path: &Path) -> Result<Read, Error> {
     let loaded = load(
+        Messages::Text,
         path,
         &work.assets,
         work.warnings,

@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use serde_json::{Value, json};
 
 use super::output::Output;
-use super::{Error, Tracing, Warnings, load, print_error, print_message, stdout};
+use super::{Error, Messages, Tracing, Warnings, load, stdout};
 use crate::assets;
 use crate::compare::{Comparison, Difference, SizesDiffer, heat_map};
 use crate::file;
@@ -58,7 +58,7 @@ pub enum Verdict {
 
 /// Compares two pictures and prints the figures to standard output.
 pub fn compare(work: &Compare) -> Result<Verdict, Error> {
-    try_compare(work).inspect_err(print_error)
+    try_compare(work).inspect_err(|error| Messages::Text.error(error))
 }
 
 fn try_compare(work: &Compare) -> Result<Verdict, Error> {
@@ -79,13 +79,10 @@ fn try_compare(work: &Compare) -> Result<Verdict, Error> {
         (Some((path, format)), Ok(found)) => {
             draw(path, *format, found.size, heat_map(a.pixels(), b.pixels()))?;
         }
-        (Some((path, _)), Err(_)) => print_message(
-            "note",
-            &format!(
-                "{} is not written: pictures of different sizes have no differences to draw",
-                path.display()
-            ),
-        ),
+        (Some((path, _)), Err(_)) => Messages::Text.note(&format!(
+            "{} is not written: pictures of different sizes have no differences to draw",
+            path.display()
+        )),
         (None, _) => {}
     }
     Ok(verdict)
@@ -134,6 +131,7 @@ fn read(path: &Path) -> Result<Image, Error> {
 
 fn trace(work: &Compare, path: &Path, size: Option<Size>) -> Result<Image, Error> {
     let loaded = load(
+        Messages::Text,
         path,
         &work.assets,
         work.warnings,
@@ -153,13 +151,10 @@ fn trace(work: &Compare, path: &Path, size: Option<Size>) -> Result<Image, Error
     {
         let [own, size] = [own, size].map(|Size { width, height }| format!("{width}x{height}"));
         let name = path.display();
-        print_message(
-            "note",
-            &format!(
-                "{name} is traced at {size}, the size of the picture; its own is {own}: --size {own} \
+        Messages::Text.note(&format!(
+            "{name} is traced at {size}, the size of the picture; its own is {own}: --size {own} \
              compares at that"
-            ),
-        );
+        ));
     }
     let tracing = Tracing {
         size: work.tracing.size.or(size),

@@ -4,7 +4,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use super::output::Output;
-use super::{Error, Loaded, Warnings, load, print_all_findings, print_error};
+use super::{Error, Loaded, Messages, Warnings, load};
 use crate::assets;
 use crate::file;
 use crate::language::{self, Converted, Language};
@@ -28,7 +28,7 @@ pub struct Convert {
 
 /// Converts a scene and prints what it loses.
 pub fn convert(work: &Convert) -> Result<(), Error> {
-    try_convert(work).inspect_err(print_error)
+    try_convert(work).inspect_err(|error| Messages::Text.error(error))
 }
 
 fn try_convert(work: &Convert) -> Result<(), Error> {
@@ -36,7 +36,13 @@ fn try_convert(work: &Convert) -> Result<(), Error> {
     work.output.check()?;
     assets::check_folders(&work.assets)?;
     memory::start_threads_or_none();
-    let loaded = load(&work.scene, &work.assets, work.warnings, None)?;
+    let loaded = load(
+        Messages::Text,
+        &work.scene,
+        &work.assets,
+        work.warnings,
+        None,
+    )?;
     let scene = loaded.scene.as_ref().ok_or_else(|| Error::Unconverted {
         errors: loaded.findings.errors(),
     })?;
@@ -47,7 +53,7 @@ fn try_convert(work: &Convert) -> Result<(), Error> {
         losses.append(unreachable_files(work, path, &loaded));
     }
     let losses = work.warnings.apply(losses.sorted());
-    print_all_findings(&work.scene, loaded.source.text(), &losses);
+    Messages::Text.all_findings(&work.scene, loaded.source.text(), &losses);
     match losses.errors() {
         0 => {}
         errors => return Err(Error::Unconverted { errors }),

@@ -5,7 +5,7 @@ mod json;
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
 
-use super::{Error, Report, Tracing, Warnings, load, print_error, stdout};
+use super::{Error, Messages, Report, Tracing, Warnings, load, stdout};
 use crate::assets;
 use crate::explain::{Line, Place, Sentence, Subject, Words, number, words};
 use crate::memory;
@@ -34,13 +34,14 @@ pub struct Explain {
 
 /// Explains a pixel and prints the verdict and the tree of rays to standard output.
 pub fn explain(work: &Explain) -> Result<(), Error> {
-    try_explain(work).inspect_err(print_error)
+    try_explain(work).inspect_err(|error| Messages::Text.error(error))
 }
 
 fn try_explain(work: &Explain) -> Result<(), Error> {
     assets::check_folders(&work.assets)?;
     memory::start_threads_or_none();
     let loaded = load(
+        Messages::Text,
         &work.scene,
         &work.assets,
         work.warnings,

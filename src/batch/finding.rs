@@ -1,6 +1,6 @@
 //! What is wrong with a picture as a whole, and the options that help.
 
-use super::print_message;
+use super::Messages;
 use super::tracing::Tracer;
 use crate::language::{brightening, darkening};
 use crate::render::{Frame, Job, Limit, Provenance, Settings, TrialResults};
@@ -13,7 +13,7 @@ pub(super) fn is_burnt(frame: &Frame) -> bool {
 }
 
 /// Says that options over the text leave adaptive sampling no pixel to stop.
-pub(super) fn print_without_effect(over_text: &Rendering, settings: &Settings) {
+pub(super) fn print_without_effect(messages: Messages, over_text: &Rendering, settings: &Settings) {
     let Settings {
         noise, spp, aov, ..
     } = *settings;
@@ -23,7 +23,7 @@ pub(super) fn print_without_effect(over_text: &Rendering, settings: &Settings) {
         let note = format!(
             "`--noise` has no effect: it cannot stop a pixel before {least} samples, and `--spp` is {spp}"
         );
-        print_message("note", &note);
+        messages.note(&note);
     }
 }
 
@@ -31,6 +31,7 @@ pub(super) fn print_without_effect(over_text: &Rendering, settings: &Settings) {
 /// too bright; and the options that help. May trace small pictures to find them. `warned` says whether
 /// there were warnings of the scene.
 pub(super) fn print_finding(
+    messages: Messages,
     frame: &Frame,
     picture: &Provenance,
     burnt: Option<Job>,
@@ -50,7 +51,7 @@ pub(super) fn print_finding(
             None if warned => "the warnings above may say why".to_owned(),
             None => "`halflight explain` may say why".to_owned(),
         };
-        print_message("note", &format!("the picture is black; {helps}"));
+        messages.note(&format!("the picture is black; {helps}"));
         return;
     }
     let Some(job) = burnt else {
@@ -73,5 +74,5 @@ pub(super) fn print_finding(
     let options = options.map(|(key, value)| format!("`--{} {value}`", key.name()));
     let options = alternatives(options);
     let finding = format!("more than half of the picture is above 1; try {options}");
-    print_message("note", &finding);
+    messages.note(&finding);
 }

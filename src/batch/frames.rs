@@ -10,13 +10,14 @@ use std::time::Instant;
 
 use super::animated::{Animated, Origin};
 use super::ledger::Ledger;
+use super::numbers::Numbers;
 use super::output::Output;
 use super::pattern::Pattern;
 use super::progress::{self, Place};
 use super::signals::Signals;
 use super::still::Still;
 use super::tracing::{Tracer, Tracing};
-use super::{Error, Warnings, print_error, print_message};
+use super::{Error, Messages, Warnings};
 use crate::assets;
 use crate::file::{Digest, ReadError};
 use crate::image_file::{ImageFormat, MovieFormat, MovieWriter, Picture};
@@ -103,7 +104,7 @@ pub enum Finished {
 
 /// Renders the frames of a sequence. Warnings, notes and progress go to standard error.
 pub fn render_sequence(work: &Sequence) -> Result<(), Error> {
-    try_render(work).inspect_err(print_error)
+    try_render(work).inspect_err(|error| work.messages().error(error))
 }
 
 fn try_render(work: &Sequence) -> Result<(), Error> {
@@ -117,10 +118,7 @@ fn try_render(work: &Sequence) -> Result<(), Error> {
             shard,
             finished,
         } => {
-            let numbers = source.numbers.iter().copied();
-            source.numbers = numbers
-                .filter(|number| number % shard.count == shard.index)
-                .collect();
+            source.numbers = source.numbers.of_shard(*shard);
             pictures(work, &mut source, (pattern, *shard), *format, *finished)
         }
         SequenceOutput::Movie { to, format, rate } => {
@@ -151,9 +149,9 @@ fn pictures(
     // Without them, a signal ends the process, and finished frames are kept all the same.
     let signals = Signals::noted().unwrap_or_default();
     let mut tracer = Tracer::new(&work.tracing).stopped_by(signals.clone());
-    let (numbers, mut skipped) = (source.numbers.clone(), 0);
+    let (numbers, mut skipped) = (source.numbers, 0);
     let begun = Instant::now();
-    for (before, &number) in numbers.iter().enumerate() {
+    for (number, before) in numbers.iter().zip(0..) {
         let stopped = |error| match (error, signals.last()) {
             (Error::Stopped, Some(signal)) => Error::KeptFrames {
                 signal,
@@ -185,7 +183,9 @@ fn pictures(
         let place = Place {
             frame: number,
             before,
-            all: numbers.len(),
+            skipped,
+            all: numbers.count,
+            begun,
         };
         let frame = tracer.trace(job.clone(), Some(place), || {});
         let frame = frame.map_err(stopped)?;
@@ -205,10 +205,13 @@ fn pictures(
     }
     if 0 < skipped {
         let was = if skipped == 1 { "was" } else { "were" };
-        let note = format!("{} {was} already finished", counted(skipped, "frame"));
-        print_message("note", &note);
+        let note = format!(
+            "{} {was} already finished",
+            counted(skipped as usize, "frame")
+        );
+        work.messages().note(&note);
     }
-    progress::finish_sequence(work.tracing.progress, numbers.len(), begun.elapsed());
+    progress::finish_sequence(work.tracing.progress, numbers.count, begun.elapsed());
     Ok(())
 }
 
@@ -247,28 +250,31 @@ fn write_movie(
 ) -> Result<(), Failure> {
     let mut tracer = Tracer::new(&work.tracing);
     let begun = Instant::now();
-    let numbers = source.numbers.clone();
-    let mut next = |before: usize| {
-        let number = numbers[before];
+    let numbers = source.numbers;
+    let mut next = |(number, before)| {
         let Still { job, files, .. } = source.still(number, Frames::Last)?;
         source.check_spared(to, &files)?;
         let place = Place {
             frame: number,
             before,
-            all: numbers.len(),
+            skipped: 0,
+            all: numbers.count,
+            begun,
         };
         tracer.trace(job, Some(place), || {})
     };
-    let first: Arc<Frame> = next(0).map_err(Failure::Rendering)?;
+    let mut places = numbers.iter().zip(0..);
+    let first = places.next().ok_or(Error::Stopped);
+    let first: Arc<Frame> = first.and_then(&mut next).map_err(Failure::Rendering)?;
     let movie = MovieWriter::new(format, first.size, rate, out);
     let mut movie = movie.map_err(Failure::Writing)?;
     movie.add(&first).map_err(Failure::Writing)?;
-    for before in 1..numbers.len() {
-        let frame = next(before).map_err(Failure::Rendering)?;
+    for place in places {
+        let frame = next(place).map_err(Failure::Rendering)?;
         movie.add(&frame).map_err(Failure::Writing)?;
     }
     movie.finish().map_err(Failure::Writing)?;
-    progress::finish_sequence(work.tracing.progress, numbers.len(), begun.elapsed());
+    progress::finish_sequence(work.tracing.progress, numbers.count, begun.elapsed());
     Ok(())
 }
 
@@ -276,7 +282,7 @@ fn write_movie(
 struct Source<'w> {
     work: &'w Sequence,
     /// The numbers of those to render; not empty at first.
-    numbers: Vec<u32>,
+    numbers: Numbers,
     /// The scene files, and the track file.
     scenes: Vec<PathBuf>,
     shows: Shows<'w>,
@@ -306,6 +312,7 @@ impl<'w> Source<'w> {
                     track,
                     folders: &work.assets,
                     warnings: work.warnings,
+                    messages: work.messages(),
                 };
                 let shows = Shows::Edits(Box::new(Animated::new(origin)?));
                 (vec![scene.clone(), track.clone()], shows)
@@ -325,7 +332,7 @@ impl<'w> Source<'w> {
         }
         Ok(Self {
             work,
-            numbers: (first..=last).collect(),
+            numbers: Numbers::within([first, last]),
             scenes,
             shows,
         })
@@ -381,6 +388,10 @@ impl<'w> Source<'w> {
 }
 
 impl Sequence {
+    fn messages(&self) -> Messages {
+        Messages::beside(self.tracing.progress)
+    }
+
     /// Reads a scene file.
     fn still(&self, path: &Path, frames: Frames) -> Result<Still, Error> {
         Still::of(path, (&self.assets, self.warnings), &self.tracing, frames)

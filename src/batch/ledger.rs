@@ -1,8 +1,8 @@
 //! Which frames of a sequence are finished.
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::HashSet;
 use std::fs::{File, OpenOptions};
-use std::io::{self, Write};
+use std::io::{self, BufRead, BufReader, Read, Write};
 use std::path::{Path, PathBuf};
 
 use super::Error;
@@ -11,18 +11,24 @@ use crate::file::{self, Digest, ReadError};
 /// The first line of every list, with the version of the format.
 const HEADER: &str = "halflight frames 1\n";
 
+/// More bytes than any line has: two digests, and a name whose every byte is escaped.
+const LONGEST: u64 = 8 << 10;
+
 /// A list of finished frames beside their pictures: after [`HEADER`] a line `INPUTS PICTURE NAME` for
 /// each, with the SHA-256 of what it was made of and of its file, whose name is escaped as in Rust.
 /// Lines are only appended; what is no such line is skipped.
 #[derive(Debug)]
 pub(super) struct Ledger {
     path: PathBuf,
-    /// The digests that the file of a frame may have, by its inputs and name.
-    finished: BTreeMap<[String; 2], BTreeSet<String>>,
+    /// The marks of the lines, of which there may be many millions.
+    finished: HashSet<Mark>,
     /// What is to be written before the next line.
     lead: &'static str,
     file: Option<File>,
 }
+
+/// Half of the digest of a line.
+type Mark = u128;
 
 impl Ledger {
     /// Reads a list, which need not exist, to append to it; and what other lists name, as far as they
@@ -32,52 +38,43 @@ impl Ledger {
             path: path.clone(),
             source,
         };
-        let text = text(&path).map_err(unusable)?;
-        let lead = if let Some(rest) = HEADER.strip_prefix(&text) {
-            // A process that was killed at once leaves a part of it.
-            rest
-        } else if !text.starts_with(HEADER) {
-            return Err(unusable(io::Error::other(
-                "exists, but is not a list of finished frames; move it away, or name the pictures \
-                 differently",
-            )));
-        } else if text.ends_with('\n') {
-            ""
-        } else {
-            "\n"
+        let mut finished = HashSet::new();
+        let mut learn = |mark| {
+            finished.insert(mark);
         };
-        let mut ledger = Self {
+        let lead = match learned(&path, &mut learn).map_err(unusable)? {
+            // There is none, or a process that was killed at once left a part of the first line.
+            Found::Part(bytes) => &HEADER[bytes..],
+            Found::Other => {
+                return Err(unusable(io::Error::other(
+                    "exists, but is not a list of finished frames; move it away, or name the \
+                     pictures differently",
+                )));
+            }
+            Found::List { is_cut: true } => "\n",
+            Found::List { is_cut: false } => "",
+        };
+        for other in others {
+            // What cannot be read is no list.
+            let _ = learned(other, &mut learn);
+        }
+        Ok(Self {
             path,
-            finished: BTreeMap::new(),
+            finished,
             lead,
             file: None,
-        };
-        ledger.learn(&text);
-        for other in others {
-            ledger.learn(&self::text(other).unwrap_or_default());
-        }
-        Ok(ledger)
-    }
-
-    /// Notes the frames that a list names.
-    fn learn(&mut self, text: &str) {
-        let lines = text.strip_prefix(HEADER).unwrap_or_default().lines();
-        for line in lines {
-            let mut words = line.splitn(3, ' ').map(str::to_owned);
-            if let (Some(inputs), Some(picture), Some(name)) =
-                (words.next(), words.next(), words.next())
-            {
-                let pictures = self.finished.entry([inputs, name]).or_default();
-                pictures.insert(picture);
-            }
-        }
+        })
     }
 
     /// Whether a frame is made of these inputs, and its file is as it was written.
     pub(super) fn has(&self, inputs: &str, picture: &Path) -> bool {
-        let key = [inputs.to_owned(), name_of(picture)];
-        self.finished.get(&key).is_some_and(|written| {
-            Digest::of_file(picture).is_ok_and(|found| written.contains(&found))
+        // Opening a pipe could wait for ever.
+        if self.finished.is_empty() || !picture.is_file() {
+            return false;
+        }
+        Digest::of_file(picture).is_ok_and(|found| {
+            let line = format!("{inputs} {found} {}", name_of(picture));
+            self.finished.contains(&mark(line.as_bytes()))
         })
     }
 
@@ -105,17 +102,75 @@ impl Ledger {
     }
 }
 
-/// The text of a list; empty if there is none. What is not UTF-8 is no part of a list.
-fn text(path: &Path) -> io::Result<String> {
-    match file::read_bytes(path, file::MAX_BYTES) {
-        Ok(bytes) => Ok(String::from_utf8_lossy(&bytes).into_owned()),
-        Err(ReadError::NotFound { .. }) => Ok(String::new()),
-        Err(ReadError::Io { source, .. }) => Err(source),
-        Err(ReadError::NotRegular { kind, .. }) => Err(io::Error::other(format!(
-            "is {kind}, where the list of finished frames belongs"
-        ))),
-        Err(error) => Err(io::Error::other(error.to_string())),
+/// What stands where a list belongs.
+enum Found {
+    /// The first bytes of [`HEADER`], maybe none.
+    Part(usize),
+    /// A list, whose last line may be cut.
+    List { is_cut: bool },
+    /// Something else.
+    Other,
+}
+
+/// Reads a list, which need not exist, line by line, and calls `learn` with the mark of each line that
+/// names a frame.
+fn learned(path: &Path, mut learn: impl FnMut(Mark)) -> io::Result<Found> {
+    let file = match file::open(path) {
+        Ok(file) => file,
+        Err(ReadError::NotFound { .. }) => return Ok(Found::Part(0)),
+        Err(ReadError::Io { source, .. }) => return Err(source),
+        Err(ReadError::NotRegular { kind, .. }) => {
+            return Err(io::Error::other(format!(
+                "is {kind}, where the list of finished frames belongs"
+            )));
+        }
+        Err(error) => return Err(io::Error::other(error.to_string())),
+    };
+    let mut from = BufReader::new(file);
+    let mut line = Vec::new();
+    from.by_ref()
+        .take(HEADER.len() as u64)
+        .read_to_end(&mut line)?;
+    if line != HEADER.as_bytes() {
+        let is_part = HEADER.as_bytes().starts_with(&line);
+        return Ok(if is_part {
+            Found::Part(line.len())
+        } else {
+            Found::Other
+        });
     }
+    let mut is_cut = false;
+    loop {
+        line.clear();
+        from.by_ref().take(LONGEST).read_until(b'\n', &mut line)?;
+        if line.is_empty() {
+            return Ok(Found::List { is_cut });
+        }
+        let is_begun = is_cut;
+        is_cut = !line.ends_with(b"\n");
+        let line = line.strip_suffix(b"\n").unwrap_or(&line);
+        let line = line.strip_suffix(b"\r").unwrap_or(line);
+        // The pieces of a longer line name no frame.
+        if !is_begun && (line.len() as u64) < LONGEST && names_a_frame(line) {
+            learn(mark(line));
+        }
+    }
+}
+
+/// Whether a line begins with two digests.
+fn names_a_frame(line: &[u8]) -> bool {
+    let mut words = line.splitn(3, |&byte| byte == b' ');
+    let mut is_digest = || {
+        let word = words.next();
+        word.is_some_and(|word| word.len() == 64 && word.iter().all(u8::is_ascii_hexdigit))
+    };
+    is_digest() && is_digest() && words.next().is_some()
+}
+
+fn mark(line: &[u8]) -> Mark {
+    let mut digest = Digest::default();
+    digest.add(line);
+    digest.half()
 }
 
 /// The name of a file, on one line.

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use super::output::Output;
 use super::render::print_biases;
-use super::{Error, print_error, print_message, stdout};
+use super::{Error, Messages, stdout};
 use crate::image_file::{ImageFormat, Picture};
 use crate::part::{self, ranges};
 
@@ -28,7 +28,7 @@ pub enum MergePurpose {
 
 /// Merges part files, or prints what they lack.
 pub fn merge(work: &Merge) -> Result<(), Error> {
-    try_merge(work).inspect_err(print_error)
+    try_merge(work).inspect_err(|error| Messages::Text.error(error))
 }
 
 fn try_merge(work: &Merge) -> Result<(), Error> {
@@ -37,7 +37,7 @@ fn try_merge(work: &Merge) -> Result<(), Error> {
             output.check()?;
             output.check_is_not(&work.parts, "it is one of the parts")?;
             let merged = part::merge(&work.parts, format.frames())?;
-            print_biases(&merged.frame, &merged.picture);
+            print_biases(Messages::Text, &merged.frame, &merged.picture);
             if let Some(reason) = format.refuses(merged.frame.size) {
                 return Err(Error::Refused(format!("the picture is {reason}")));
             }
@@ -50,7 +50,7 @@ fn try_merge(work: &Merge) -> Result<(), Error> {
         MergePurpose::Missing => {
             let (shards, damaged) = part::missing(&work.parts)?;
             for damage in damaged {
-                print_message("note", &damage.to_string());
+                Messages::Text.note(&damage.to_string());
             }
             let line = match ranges(&shards) {
                 none if none.is_empty() => none,

@@ -11,6 +11,8 @@ mod frames;
 mod ledger;
 mod machine;
 mod merge;
+mod messages;
+mod numbers;
 mod output;
 mod parts;
 mod pattern;
@@ -25,7 +27,7 @@ mod stdout;
 mod still;
 mod tracing;
 
-use std::io::{self, Write};
+use std::io;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
@@ -39,14 +41,16 @@ use crate::memory::{self, OutOfMemory};
 use crate::part::{self, Unmerged};
 use crate::render::Refusal;
 use crate::scene::{Rendering, Scene};
-use crate::text::{Diagnostic, Findings, Span, counted, percentage, visible, without_codes};
+use crate::text::{Diagnostic, Findings, Span, counted, percentage};
 
+pub use crate::track::MAX_FRAMES;
 pub use bench::{Bench, bench};
 pub use compare::{Compare, Report, Verdict, compare};
 pub use convert::{Convert, convert};
 pub use explain::{Explain, explain};
 pub use frames::{Finished, FrameSource, Sequence, SequenceOutput, render_sequence};
 pub use merge::{Merge, MergePurpose, merge};
+use messages::Messages;
 pub use output::Output;
 pub use parts::{Existing, Parts};
 pub use pattern::{NoPattern, Pattern};
@@ -218,7 +222,7 @@ pub fn check(work: &Check) -> Result<(), Error> {
     memory::start_threads_or_none();
     if let Err(error) = assets::check_folders(&work.assets) {
         let error = error.into();
-        print_error(&error);
+        Messages::Text.error(&error);
         return Err(error);
     }
     let mut first = None;
@@ -226,6 +230,7 @@ pub fn check(work: &Check) -> Result<(), Error> {
     let mut warnings = 0;
     for path in &work.scenes {
         match load(
+            Messages::Text,
             path,
             &work.assets,
             work.warnings,
@@ -244,12 +249,12 @@ pub fn check(work: &Check) -> Result<(), Error> {
             }
             Err(error) => {
                 errors += 1;
-                print_error(&error);
+                Messages::Text.error(&error);
                 first.get_or_insert(error);
             }
         }
     }
-    print(&format!(
+    messages::print(&format!(
         "{} checked: {}, {}",
         counted(work.scenes.len(), "scene"),
         counted(errors, "error"),
@@ -279,6 +284,7 @@ struct Loaded {
 /// Reads a scene and the files it references, from `folders` too, and prints all findings; among them
 /// what the text shows of its picture with these render settings over its own, if any are given.
 fn load(
+    messages: Messages,
     path: &Path,
     folders: &[PathBuf],
     warnings: Warnings,
@@ -289,11 +295,11 @@ fn load(
         file::open(path).map_or_else(Error::from, |_| unknown.into())
     })?;
     if let Some(beginning) = file::read_beginning(path)? {
-        check_beginning(path, language, &beginning, warnings)?;
+        check_beginning(messages, path, language, &beginning, warnings)?;
     }
     let text = file::read_text(path)?;
     for copy in file::backups(path) {
-        print_message("note", &file::interruption(path.display(), &copy));
+        messages.note(&file::interruption(path.display(), &copy));
     }
     let no_memory = |reason| ReadError::NoMemory {
         path: path.to_owned(),
@@ -301,7 +307,7 @@ fn load(
     };
     language::fits(language, &text, 0).map_err(no_memory)?;
     let mut source = Source::new(language, Arc::new(text));
-    let (lowered, read) = lower(path, &mut source, folders).map_err(no_memory)?;
+    let (lowered, read) = lower(messages, path, &mut source, folders).map_err(no_memory)?;
     let mut findings = lowered.diagnostics;
     if let Some((scene, over)) = lowered.scene.as_ref().zip(over) {
         let asked = over.or(scene.setting.rendering);
@@ -316,7 +322,7 @@ fn load(
         }
     }
     let findings = warnings.apply(findings.sorted());
-    print_all_findings(path, source.text(), &findings);
+    messages.all_findings(path, source.text(), &findings);
     Ok(Loaded {
         size: size_span(&source),
         scene: lowered.scene.filter(|_| findings.errors() == 0),
@@ -329,6 +335,7 @@ fn load(
 /// Checks the beginning of a long scene, so that the rest is not read if nothing in it can correct
 /// the errors. Prints them.
 fn check_beginning(
+    messages: Messages,
     path: &Path,
     language: Language,
     beginning: &str,
@@ -339,10 +346,10 @@ fn check_beginning(
         return Ok(());
     }
     let findings = warnings.apply(findings);
-    print_all_findings(path, beginning, &findings);
+    messages.all_findings(path, beginning, &findings);
     let read = counted(beginning.len(), "byte");
     let note = format!("{}: only the first {read} were read", path.display());
-    print_message("note", &note);
+    messages.note(&note);
     Err(Error::Invalid {
         errors: findings.errors(),
     })
@@ -351,6 +358,7 @@ fn check_beginning(
 /// Lowers a text with the files it references, and returns both. The diagnostics include those of the
 /// files; files found elsewhere than at the path written are printed as notes.
 fn lower(
+    messages: Messages,
     path: &Path,
     source: &mut Source,
     folders: &[PathBuf],
@@ -361,7 +369,7 @@ fn lower(
             Some(parent) if parent.as_os_str().is_empty() => Path::new(".").join(found),
             _ => found.clone(),
         };
-        print_message("note", &format!("{name} is read from {}", found.display()));
+        messages.note(&format!("{name} is read from {}", found.display()));
     }
     Ok((lowered, loaded))
 }
@@ -374,56 +382,4 @@ fn size_span(source: &Source) -> Option<Span> {
     sizes
         .flat_map(|size| size.spans.iter().copied())
         .reduce(Span::to)
-}
-
-/// Prints the findings that were kept, and the number of further ones.
-fn print_all_findings(path: &Path, text: &str, findings: &Findings) {
-    print_findings(path, text, findings);
-    let more = findings.errors() + findings.warnings() - findings.len();
-    if 0 < more {
-        let more = counted(more, "more finding");
-        print_message("note", &format!("{more} not shown"));
-    }
-}
-
-fn print_findings(path: &Path, text: &str, findings: &[Diagnostic]) {
-    print(&report::render(
-        &path.to_string_lossy(),
-        text,
-        findings,
-        report::Style::of_error_stream(),
-    ));
-}
-
-/// Prints an error; for a file that is not UTF-8, with the offending line.
-fn print_error(error: &Error) {
-    let Error::Read(ReadError::NotUtf8 {
-        path,
-        text,
-        span,
-        byte,
-        encoding,
-        ..
-    }) = error
-    else {
-        print_message("error", &error.to_string());
-        return;
-    };
-    let message = format!("the byte 0x{byte:02X} is not UTF-8 text");
-    let diagnostic = Diagnostic::error(*span, message, "UTF-8 text").with_hint(format!(
-        "convert the file, for example with: iconv -f {encoding} -t UTF-8"
-    ));
-    print_findings(path, text, &[diagnostic]);
-}
-
-/// Prints one line that belongs to no place in a text: `error: no such file`.
-fn print_message(kind: &str, message: &str) {
-    print(&format!("{kind}: {}", visible(&without_codes(message))));
-}
-
-/// Prints lines to standard error. A failure cannot be reported anywhere.
-fn print(lines: &str) {
-    if !lines.is_empty() {
-        let _ = writeln!(io::stderr().lock(), "{lines}");
-    }
 }

@@ -10,7 +10,7 @@ use std::time::{Duration, Instant};
 use super::progress::{ProgressStyle, Reporter};
 use super::signals::Signals;
 use super::tracing::Tracing;
-use super::{Error, print_message};
+use super::{Error, Messages};
 use crate::part::{self, Header, Part, Shard};
 use crate::render::{
     self, BLOCK, Block, BlockTracer, Blocks, Counts, Frame, Job, Progress, Provenance, Settings,
@@ -102,7 +102,7 @@ pub(super) fn trace(
     if 0 < part.cut() {
         let cut = counted(part.cut() as usize, "damaged byte");
         let note = format!("{}: discarded {cut} at the end", path.display());
-        print_message("note", &note);
+        Messages::beside(tracing.progress).note(&note);
     }
     let mut continued = Continued {
         numbers: parts.shard.blocks(blocks),
@@ -136,7 +136,7 @@ pub(super) fn trace(
             parts.shard,
             path.display()
         );
-        print_message("note", &note);
+        Messages::beside(tracing.progress).note(&note);
         return Ok(Traced {
             frame: None,
             progress,

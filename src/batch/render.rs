@@ -9,7 +9,7 @@ use super::output::Output;
 use super::parts::{self, Existing, Parts};
 use super::stats::{Stats, Times};
 use super::tracing::Tracer;
-use super::{Error, Tracing, Warnings, load, print_error, print_findings, print_message, stdout};
+use super::{Error, Messages, Tracing, Warnings, load, stdout};
 use crate::assets::{self, fingerprint};
 use crate::image_file::{ImageFormat, Picture};
 use crate::language::Source;
@@ -58,7 +58,7 @@ pub enum Purpose {
 /// reader that closes the pipe early is not an error. If interrupted, leaves either the old file or
 /// the new one, see [`deliver`](crate::file::deliver).
 pub fn render(work: &Render) -> Result<(), Error> {
-    try_render(work).inspect_err(print_error)
+    try_render(work).inspect_err(|error| work.messages().error(error))
 }
 
 fn try_render(work: &Render) -> Result<(), Error> {
@@ -70,7 +70,9 @@ fn try_render(work: &Render) -> Result<(), Error> {
     assets::check_folders(&work.assets)?;
     let mut times = Times::started();
     memory::start_threads_or_none();
+    let messages = work.messages();
     let loaded = load(
+        messages,
         &work.scene,
         &work.assets,
         work.warnings,
@@ -104,7 +106,7 @@ fn try_render(work: &Render) -> Result<(), Error> {
         let refused = "--shard and --resume cannot sample --aov cost adaptively; use --noise 0";
         return Err(Error::Refused(refused.to_owned()));
     }
-    print_without_effect(&work.tracing.over_text(), &job.settings);
+    print_without_effect(messages, &work.tracing.over_text(), &job.settings);
     let threads = work.tracing.threads;
     let used = memory::used().unwrap_or(0);
     if work.purpose == Purpose::Estimate {
@@ -128,7 +130,14 @@ fn try_render(work: &Render) -> Result<(), Error> {
     times.write = times.lap();
     if let Some(frame) = &traced.frame {
         let tracer = || traced.tracer.unwrap_or_else(|| Tracer::new(&work.tracing));
-        print_finding(frame, &traced.picture, traced.burnt, warned, tracer);
+        print_finding(
+            messages,
+            frame,
+            &traced.picture,
+            traced.burnt,
+            warned,
+            tracer,
+        );
     }
     let Some(output) = &work.stats else {
         return Ok(());
@@ -143,6 +152,12 @@ fn try_render(work: &Render) -> Result<(), Error> {
         times,
     };
     stats.write(output)
+}
+
+impl Render {
+    fn messages(&self) -> Messages {
+        Messages::beside(self.tracing.progress)
+    }
 }
 
 /// A picture, or a part of one, that was traced.
@@ -247,7 +262,8 @@ fn check_size(
     let message = format!("view size {reason}");
     let diagnostic =
         Diagnostic::error(span, message, "a smaller size").with_hint("or override it: --size WxH");
-    print_findings(&work.scene, source.text(), &[diagnostic]);
+    let messages = work.messages();
+    messages.findings(&work.scene, source.text(), &[diagnostic]);
     Err(Error::Invalid { errors: 1 })
 }
 
@@ -275,17 +291,17 @@ fn estimate(used: u64, needed: u64, threads: usize) -> u64 {
 fn finish(work: &Render, frame: &Frame, traced: &Traced) -> Result<(), Error> {
     if 0 < frame.progress.over_budget {
         let samples = counted(frame.progress.over_budget as usize, "sample");
-        print_message(
-            "note",
-            &format!("{samples} ran out of rays and may be too dark; try a lower --depth"),
-        );
+        work.messages().note(&format!(
+            "{samples} ran out of rays and may be too dark; try a lower --depth"
+        ));
     }
-    print_biases(frame, &traced.picture);
+    print_biases(work.messages(), frame, &traced.picture);
     if work.tracing.time.is_some() {
         let Progress { spp, elapsed, .. } = frame.progress;
         let samples = counted(spp as usize, "sample");
         let seconds = elapsed.as_secs_f64();
-        print_message("note", &format!("{samples} per pixel in {seconds:.1} s"));
+        work.messages()
+            .note(&format!("{samples} per pixel in {seconds:.1} s"));
     }
     let picture = Picture {
         frame,
@@ -296,24 +312,20 @@ fn finish(work: &Render, frame: &Frame, traced: &Traced) -> Result<(), Error> {
 }
 
 /// Says by what a picture is biased.
-pub(super) fn print_biases(frame: &Frame, picture: &Provenance) {
+pub(super) fn print_biases(messages: Messages, frame: &Frame, picture: &Provenance) {
     if let Some(most) = picture.settings.clamp
         && exposes(picture.settings.aov)
     {
-        print_message(
-            "note",
-            &format!("samples are clamped to {most:?}; light above that is lost (biased)"),
-        );
+        messages.note(&format!(
+            "samples are clamped to {most:?}; light above that is lost (biased)"
+        ));
     }
     if frame.progress.is_adaptive() {
         let Progress { spp, mean_spp, .. } = frame.progress;
-        print_message(
-            "note",
-            &format!(
-                "adaptive sampling (slightly biased): up to {spp} samples per pixel, {mean_spp:.1} on \
+        messages.note(&format!(
+            "adaptive sampling (slightly biased): up to {spp} samples per pixel, {mean_spp:.1} on \
                  average"
-            ),
-        );
+        ));
     }
 }
 

@@ -4,6 +4,7 @@ use std::fmt::Write;
 use std::io::{self, IsTerminal};
 
 use annotate_snippets::{AnnotationKind, Level, Renderer, Snippet};
+use serde_json::{Value, json};
 
 use crate::text::{Diagnostic, Position, Severity, Span, line_end, line_start, mark_len, visible};
 
@@ -72,6 +73,26 @@ fn one(name: &str, text: &str, diagnostic: &Diagnostic, renderer: &Renderer) -> 
         group = group.element(Level::HELP.message(visible(hint)));
     }
     renderer.render(&[group])
+}
+
+/// A diagnostic of a text as an object of JSON, whose `excerpt` is the offending part of the first line;
+/// the `hint` is null if there is none. Foreign text is escaped by [`visible`].
+pub(super) fn object(name: &str, text: &str, diagnostic: &Diagnostic) -> Value {
+    let Position { line, column } = Position::of(text, diagnostic.span.start());
+    let excerpt = Excerpt::of(text, diagnostic.span);
+    json!({
+        "event": match diagnostic.severity {
+            Severity::Error => "error",
+            Severity::Warning => "warning",
+        },
+        "message": visible(&diagnostic.message),
+        "file": visible(name),
+        "line": line,
+        "column": column,
+        "excerpt": excerpt.marked.of(&excerpt.line),
+        "expected": visible(&diagnostic.expected),
+        "hint": diagnostic.hint.as_deref().map(visible),
+    })
 }
 
 /// A line prepared for display.

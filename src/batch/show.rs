@@ -3,7 +3,7 @@
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
 
-use super::{Error, Verdict, Warnings, load, print_error, stdout};
+use super::{Error, Messages, Verdict, Warnings, load, stdout};
 use crate::assets::{self, fingerprint};
 use crate::file;
 use crate::image_file::{self, ImageFormat, Unreadable};
@@ -24,7 +24,7 @@ pub struct Show {
 
 /// Prints what a picture is made from, and whether that is the scene given.
 pub fn show(work: &Show) -> Result<Verdict, Error> {
-    try_show(work).inspect_err(print_error)
+    try_show(work).inspect_err(|error| Messages::Text.error(error))
 }
 
 fn try_show(work: &Show) -> Result<Verdict, Error> {
@@ -43,7 +43,7 @@ fn try_show(work: &Show) -> Result<Verdict, Error> {
         None => None,
         Some(scene) => {
             memory::start_threads_or_none();
-            let loaded = load(scene, &work.assets, Warnings::Allowed, None)?;
+            let loaded = load(Messages::Text, scene, &work.assets, Warnings::Allowed, None)?;
             let digest = fingerprint(loaded.source.text(), &loaded.read.found)?;
             Some(digest == provenance.scene)
         }

@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use super::{Error, Tracing, Warnings, load};
+use super::{Error, Messages, Tracing, Warnings, load};
 use crate::assets::fingerprint;
 use crate::render::{Frames, Job};
 
@@ -24,7 +24,9 @@ impl Still {
         tracing: &Tracing,
         frames: Frames,
     ) -> Result<Self, Error> {
-        let loaded = load(path, folders, warnings, Some(&tracing.over_text()))?;
+        let messages = Messages::beside(tracing.progress);
+        let over = tracing.over_text();
+        let loaded = load(messages, path, folders, warnings, Some(&over))?;
         let errors = loaded.findings.errors();
         let scene = loaded.scene.ok_or(Error::Invalid { errors })?;
         if !loaded.read.is_whole() {

@@ -12,7 +12,7 @@ use super::shared::{
 };
 use super::tracing::TracingArguments;
 use crate::batch::{
-    self, Existing, Finished, FrameSource, Output, Parts, Pattern, Render, Sequence,
+    self, Existing, Finished, FrameSource, MAX_FRAMES, Output, Parts, Pattern, Render, Sequence,
     SequenceOutput, Tracing,
 };
 use crate::image_file::{ImageFormat, MovieFormat};
@@ -105,7 +105,7 @@ struct ContentArguments {
 #[derive(Args, Debug)]
 struct SequenceArguments {
     /// Render N frames of a full turn around the view's target
-    #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = whole_number(1, u32::MAX))]
+    #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = whole_number(1, MAX_FRAMES))]
     turntable: Option<u32>,
     /// Render the frames of a track file, which changes fields of the scene and moves the camera; see
     /// scenes/README.md

@@ -255,7 +255,11 @@ fn wrong_arguments_are_rejected_with_a_reason() {
         ("halflight --bandwidth -1", "from 0 to 4000000"),
         (
             "halflight render a -o b_#.bmp --turntable 0",
-            "from 1 to 4294967295",
+            "from 1 to 1000000",
+        ),
+        (
+            "halflight render a -o b_#.bmp --turntable 4294967295",
+            "from 1 to 1000000",
         ),
         (
             "halflight render a -o b.bmp --spp 0",

@@ -63,6 +63,14 @@ impl Digest {
         text
     }
 
+    /// The first half of the digest, as a number: enough to tell parts apart.
+    pub fn half(self) -> u128 {
+        use sha2::Digest as _;
+        let bytes = self.0.finalize();
+        let half = bytes.first_chunk().copied();
+        u128::from_be_bytes(half.expect("SHA-256 has 32 bytes"))
+    }
+
     fn begin(&mut self, length: u64) {
         self.append(&length.to_le_bytes());
     }

@@ -158,6 +158,83 @@ fn progress_is_told_to_programs() {
     );
 }
 
+/// The values of the events in lines of JSON, which all of these are.
+fn events(said: &str) -> Vec<String> {
+    let lines = said.lines().map(|line| {
+        assert!(line.starts_with('{') && line.ends_with('}'), "{line}");
+        after(line, "event").trim_matches('"').to_owned()
+    });
+    lines.collect()
+}
+
+#[test]
+fn progress_of_a_sequence_covers_all_of_it() {
+    let place = Place::new();
+    for output in ["f%d.ppm", "f.gif"] {
+        let line = format!("render ball.ray -o {output} --turntable 4 --progress json");
+        let said = place.stderr(&line, 0);
+        events(&said);
+        let frames = said.lines().filter(|line| line.contains("\"frame\":"));
+        let of_frames = frames.filter(|line| after(line, "event") == "\"frame\"");
+        let done: Vec<_> = of_frames.map(|line| after(line, "done")).collect();
+        assert_eq!(done, ["0.25", "0.5", "0.75", "1.0"], "{said}");
+        let elapsed = said
+            .lines()
+            .map(|line| after(line, "elapsed").parse::<f64>());
+        let elapsed: Result<Vec<_>, _> = elapsed.collect();
+        assert!(elapsed.expect("numbers").is_sorted(), "{said}");
+    }
+}
+
+/// Warnings, errors and notes are objects among those of the progress.
+#[test]
+fn messages_beside_progress_are_objects() {
+    let place = Place::new();
+    place.write(
+        "odd.ray",
+        BALL.replace("sphere 0 0 0 1 ", "sphere 0 0 0 1f "),
+    );
+    let bad = BALL.replace("sphere 0 0 0 1 ", "sphere 0 0 0 -1 ");
+    place.write("bad.ray", &bad);
+    place.write("bytes.ray", b"1 1 1\n\xff");
+    place.write("t.toml", "frames = 2\nfps = 0\n");
+    fs::create_dir(place.at("shots")).expect("it is new");
+    place.write("shots/a.ray", &bad);
+    for (line, code, expected) in [
+        ("odd.ray -o a.ppm", 0, &["warning", "done"][..]),
+        ("bad.ray -o a.ppm", 65, &["error", "error"]),
+        ("bytes.ray -o a.ppm", 65, &["error"]),
+        ("none.ray -o a.ppm", 66, &["error"]),
+        ("ball.ray -o none/a.ppm", 73, &["error"]),
+        ("ball.ray -o a.ppm --noise .1", 0, &["note", "done"]),
+        ("ball.ray -o a.ppm --shard 0/2", 0, &["done", "note"]),
+        ("ball.ray -o b.ppm --exposure -20", 0, &["done", "note"]),
+        ("ball.ray -o f%d.ppm --turntable 1", 0, &["frame", "done"]),
+        ("ball.ray -o f%d.ppm --turntable 1", 0, &["note", "done"]),
+        (
+            "ball.ray -o g%d.ppm --track t.toml",
+            65,
+            &["error", "error"],
+        ),
+        ("shots -o s%d.ppm", 65, &["error", "error"]),
+    ] {
+        let said = place.stderr(&format!("render {line} --spp 4 --progress json"), code);
+        let found = events(&said);
+        let found: Vec<_> = found.iter().filter(|event| *event != "progress").collect();
+        assert_eq!(found, expected, "{line}: {said}");
+    }
+    let said = place.stderr("render odd.ray -o a.ppm --progress json", 0);
+    let first = said.lines().next().expect("a line");
+    for (key, value) in [
+        ("file", "\"odd.ray\""),
+        ("line", "3"),
+        ("column", "16"),
+        ("excerpt", "\"1f\""),
+    ] {
+        assert_eq!(after(first, key), value, "{first}");
+    }
+}
+
 #[test]
 fn figures_of_a_render_are_written() {
     let place = Place::new();
