@@ -1,11 +1,12 @@
 #!/usr/bin/env python3
-"""Checks and renders hostile files, and measures time, peak memory and exit code.
+"""Gives the program hostile files, and measures time, peak memory and exit code.
 
     tests/hostile.py BINARY [FOLDER [FILE...]]
 
-The first error of a file must appear within 1 s and take at most 256 MB in addition to the scene's
-text, which is kept for messages, and the pixels of its pictures. Files with an error at the end may
-take as long as reading them, and five times their length. Violations are marked with `!` and make
+The first error of a scene must appear within 1 s and take at most 256 MB in addition to the scene's
+text, which is kept for messages, and the pixels of its pictures. Scenes with an error at the end may
+take as long as reading them, and five times their length. Parts, tracks, lists of frames, configurations
+and scripts of keys must be refused or read within 1 s and 256 MB in all. Violations are marked with `!` and make
 the exit code 1. Needs 6 GB in FOLDER (default: a new one in the temporary directory). FILE limits the
 run to files of these names.
 """
@@ -171,6 +172,57 @@ def late():
     yield "200 MB of records, then a word", write("late.dat", b"mat ID 1 1 1 1 1 1 0 1 0 0 1\n", (b"// obj\n", 30000000), b"obj x")
 
 
+def part(size, shard="0/1"):
+    """The header of a part, without blocks."""
+    header = (f"halflight part 1\nversion 0.1.0\nscene {'0' * 64}\nview own\nlayers none\nsize {size}\n"
+              "region none\ndepth 8\nseed 0\naov none\nintegrator whitted\nfilter box\ntransfer linear\n"
+              f"exposure 0\nfalloff none\ngloss none\nshard {shard}\n").encode()
+    return header + b"crc %08x\n" % zlib.crc32(header)
+
+
+def small_texts():
+    """Texts that are too long for what people write by hand, or just short enough."""
+    yield "60 MB of line ends", (b"\n", 60 * MB)
+    yield "1 MB of line ends", (b"\n", MB)
+    yield "1 MB of `[`", (b"[", MB)
+    yield "1 MB of `a.`", (b"a.", MB // 2)
+    yield "1 MB of one word", (b"a", MB)
+    yield "1 MB of words", (b"a ", MB // 2)
+    yield "1 MB of quotes", (b'"\n', MB // 2)
+    yield "1 MB of keys", b"".join(b"k%d = %d\n" % (number, number) for number in range(55000))
+    yield "1 MB of tables", b"".join(b"[k%d]\n" % number for number in range(100000))
+    yield "1 MB of empty tracks", (b"[[track]]\n", 100000)
+    yield "1 MB of keys of one track", b"frames = 9\n[[track]]\nthing = 'light 1'\nfield = 'position'\nkeys = [" + (
+        b"{frame = 0, value = 1}," * 43000) + b"]\n"
+    yield "1 MB of numbers", b"frames = 9\nx = [" + b"1," * (MB // 2 - 20) + b"]\n"
+
+
+def inputs():
+    """Other files than scenes: descriptions, file names and command lines."""
+    merge = ["merge", "big.part", "-o", "out.ppm"]
+    for size, shard in [("16384x16384", "0/1"), ("16384x16384", "3/7"), ("268435456x1", "0/1"),
+                        ("268435456x1", "0/2"), ("4294967295x4294967295", "0/1")]:
+        yield f"a part of {size}, shard {shard}", write("big.part", part(size, shard)), merge
+        yield "the same, what is missing", write("big.part", part(size, shard)), ["merge", "big.part", "--missing"]
+    frames = ["--size", "4x3", "--spp", "1"]
+    for what, content in small_texts():
+        track = write("track.toml", content)
+        yield f"track: {what}", track, ["render", "ball.ray", "--track", track, "-o", "t.%d.ppm", *frames]
+    for what, content in small_texts():
+        config = write("config.toml", content)
+        yield f"configuration: {what}", config, ["--config", config, "--print-config"]
+    for what, content in small_texts():
+        keys = write("script.keys", content)
+        yield f"keys: {what}", keys, ["ball.ray", "--keys", keys, "--screen", "80x24", "--dump-frame", "out.txt"]
+    line = b"%s %s u.0.ppm\n" % (b"0" * 64, b"1" * 64)
+    for what, content in [("a line of 300 MB", (b"a", 300 * MB)), ("300 MB of line ends", (b"\n", 300 * MB)),
+                          ("300 MB of one frame", (line, 300 * MB // len(line))),
+                          ("300 MB of words", (b"a b c\n", 50 * MB))]:
+        listed = write("u.frames", b"halflight frames 1\n", content)
+        yield f"list: {what}", listed, ["render", "ball.ray", "--turntable", "2", "-o", "u.%d.ppm", *frames]
+    yield "4294967295 frames", write("none", b"x"), ["render", "ball.ray", "--turntable", "4294967295", "-o", "v.%d.ppm"]
+
+
 def measured(arguments):
     """Runs a program; returns seconds, CPU seconds, peak resident bytes, exit code and first message."""
     begun = time.monotonic()
@@ -214,7 +266,27 @@ def main():
             beyond.extend(f"{command[0]} {scene}: {what}: {', '.join(wrong)}" for _ in wrong[:1])
         os.remove(scene)
 
+    def test_input(what, name, command):
+        if not os.path.exists(name):
+            return
+        size = os.stat(name).st_size
+        took, spent, resident, code, first = measured([binary, *command])
+        wrong = []
+        if code not in (0, 2, 3, 65, 66):
+            wrong.append(f"exit {code}")
+        if SECONDS < took:
+            wrong.append(f"{took:.2f} s")
+        if BESIDE < resident:
+            wrong.append(f"{resident / 1e6:.0f} MB")
+        mark = "!" if wrong else " "
+        print(f"{mark} {what:40}{size / 1e6:11.1f}{took:8.2f}{spent:8.2f}{resident / 1e6:11.0f}  {code:4}  {first[:70]}", flush=True)
+        beyond.extend(f"{' '.join(command)}: {what}: {', '.join(wrong)}" for _ in wrong[:1])
+        os.remove(name)
+
     try:
+        write("ball.ray", HEAD + b"1 " + SPHERE)
+        for what, name, command in inputs():
+            test_input(what, name, command)
         for what, scene in texts():
             test(what, scene)
         for what, scene, pixels in pictures():
