@@ -57,12 +57,20 @@ impl PictureError {
     }
 }
 
-/// Adds the errors of a scene's pictures to the findings in its text.
+/// Adds the errors of a scene's pictures to the findings in its text, and names the files that these
+/// are about by their paths in `places`.
 pub fn report(
     picture_errors: &PictureErrors,
     files: &[NamedFile],
-    mut findings: Findings,
+    places: &BTreeMap<String, PathBuf>,
+    findings: Findings,
 ) -> Findings {
+    let path = |name: &str| {
+        let path = places.get(name)?;
+        let short = path.strip_prefix(".").unwrap_or(path);
+        Some(short.display().to_string())
+    };
+    let mut findings = findings.citing(path);
     if picture_errors.is_empty() {
         return findings;
     }

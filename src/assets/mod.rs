@@ -159,7 +159,8 @@ impl Assets {
                 loaded = self.read(&wanted);
             }
         }
-        lowered.diagnostics = report(&loaded.picture_errors, &files, lowered.diagnostics);
+        let errors = &loaded.picture_errors;
+        lowered.diagnostics = report(errors, &files, &loaded.found, lowered.diagnostics);
         Ok((lowered, loaded))
     }
 

@@ -342,7 +342,8 @@ fn every_place_that_names_a_file_gets_a_warning() {
         what: "texture 1 file".to_owned(),
     };
     let files = [file(9, "none"), file(5, "other"), file(3, "none")];
-    let found = report(&loaded.picture_errors, &files, Findings::default());
+    let (errors, none) = (&loaded.picture_errors, Findings::default());
+    let found = report(errors, &files, &loaded.found, none);
     assert_eq!(found.warnings(), 2);
     let starts: Vec<_> = found.iter().map(|found| found.span.start()).collect();
     assert_eq!(starts, [3, 9]);

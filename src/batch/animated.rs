@@ -91,7 +91,7 @@ impl<'w> Animated<'w> {
             track: bound,
             count: track.frames,
             rate: track.rate,
-            told: warnings.map(|found| found.message.clone()).collect(),
+            told: warnings.map(Diagnostic::message_with_file).collect(),
             files: Files::new(origin.scene, &loaded.source, loaded.read)?,
             source: loaded.source,
             scene,
@@ -152,8 +152,9 @@ impl<'w> Animated<'w> {
         let mut lowered = source.lower_again(meshes, before).map_err(no_memory)?;
         let files = source.files();
         if Wanted::new(scene, &files).is_among(&self.files.wanted) {
-            let errors = &self.files.read.picture_errors;
-            lowered.diagnostics = assets::report(errors, &files, lowered.diagnostics);
+            let read = &self.files.read;
+            let (errors, found) = (&read.picture_errors, &read.found);
+            lowered.diagnostics = assets::report(errors, &files, found, lowered.diagnostics);
             return Ok(lowered);
         }
         let assets = self
@@ -171,7 +172,7 @@ impl<'w> Animated<'w> {
         let findings = self.origin.warnings.apply(findings);
         let mut new = Findings::default();
         for found in findings.iter() {
-            if found.is_error() || self.told.insert(found.message.clone()) {
+            if found.is_error() || self.told.insert(found.message_with_file()) {
                 let message = format!("frame {number}: {}", found.message);
                 let found = Diagnostic {
                     message,

@@ -6,7 +6,9 @@ use std::io::{self, IsTerminal};
 use annotate_snippets::{AnnotationKind, Level, Renderer, Snippet};
 use serde_json::{Value, json};
 
-use crate::text::{Diagnostic, Position, Severity, Span, line_end, line_start, mark_len, visible};
+use crate::text::{
+    Diagnostic, Position, Severity, Shown, Span, line_end, line_start, mark_len, visible,
+};
 
 /// Maximum number of characters shown before a span, of it, and after it.
 const MARGIN: usize = 60;
@@ -50,20 +52,25 @@ pub(super) fn render(name: &str, text: &str, diagnostics: &[Diagnostic], style: 
 }
 
 fn one(name: &str, text: &str, diagnostic: &Diagnostic, renderer: &Renderer) -> String {
-    let Position { line, column } = Position::of(text, diagnostic.span.start());
+    let Shown {
+        file,
+        position: Position { line, column },
+        text,
+        span,
+    } = diagnostic.shown(text);
     let mut title = String::new();
     // Writing to a string cannot fail.
     let _ = write!(
         title,
         "{}:{line}:{column}: {}",
-        visible(name),
+        visible(file.unwrap_or(name)),
         visible(&diagnostic.message)
     );
     let level = match diagnostic.severity {
         Severity::Error => Level::ERROR,
         Severity::Warning => Level::WARNING,
     };
-    let excerpt = Excerpt::of(text, diagnostic.span);
+    let excerpt = Excerpt::of(text, span);
     let mark = AnnotationKind::Primary.span(excerpt.marked.range());
     let snippet = Snippet::source(excerpt.line)
         .line_start(line)
@@ -158,6 +165,7 @@ fn last_chars(text: &str) -> &str {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::text::Cited;
 
     /// The plain report of one error at the part of `text` between brackets.
     fn report(text: &str) -> String {
@@ -186,6 +194,26 @@ error: a.ray:2:14: object 1 (sphere) radius: must be greater than 0
   |              ^^ a number greater than 0
   |
   = help: write 1"
+        );
+    }
+
+    #[test]
+    fn a_report_about_another_file_shows_its_line() {
+        let diagnostic = Diagnostic::warning(Span::new(0, 5), "f: too few", "three corners");
+        let diagnostic = diagnostic.citing(Cited {
+            file: "meshes/a.obj".to_owned(),
+            line: 12,
+            column: 3,
+            excerpt: "f 1 2".to_owned(),
+            marked: Span::new(2, 5),
+        });
+        assert_eq!(
+            render("a.xml", "a.obj", &[diagnostic], Style::Plain),
+            "\
+warning: meshes/a.obj:12:3: f: too few
+   |
+12 | f 1 2
+   |   ^^^ three corners"
         );
     }
 

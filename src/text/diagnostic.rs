@@ -1,6 +1,6 @@
 //! Errors and warnings at spans of a text.
 
-use super::Span;
+use super::{Position, Span};
 
 /// The severity of a diagnostic.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -24,6 +24,36 @@ pub struct Diagnostic {
     pub expected: String,
     /// How to fix it, if known.
     pub hint: Option<String>,
+    /// The place in another file that it is about; the span then leads to that file.
+    pub cited: Option<Box<Cited>>,
+}
+
+/// A place in another file than the text, with its line.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Cited {
+    /// The file as named by the text, relative to its folder.
+    pub file: String,
+    /// The line, from 1.
+    pub line: usize,
+    /// The column, in characters from 1.
+    pub column: usize,
+    /// The line, or the part of a long one around the offending text.
+    pub excerpt: String,
+    /// The offending text in the excerpt.
+    pub marked: Span,
+}
+
+/// What a diagnostic shows.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Shown<'a> {
+    /// The other file that it is about, as in [`Cited`]; `None` for the text itself.
+    pub file: Option<&'a str>,
+    /// Where the offending text begins in that file.
+    pub position: Position,
+    /// A text with the line.
+    pub text: &'a str,
+    /// The offending text in it.
+    pub span: Span,
 }
 
 /// The hint of a warning about valid text that has no effect.
@@ -38,13 +68,54 @@ impl Diagnostic {
             message: message.into(),
             expected: expected.into(),
             hint: None,
+            cited: None,
+        }
+    }
+
+    /// What to show of it, given the text of its span.
+    pub fn shown<'a>(&'a self, text: &'a str) -> Shown<'a> {
+        match &self.cited {
+            Some(cited) => Shown {
+                file: Some(&cited.file),
+                position: Position {
+                    line: cited.line,
+                    column: cited.column,
+                },
+                text: &cited.excerpt,
+                span: cited.marked,
+            },
+            None => Shown {
+                file: None,
+                position: Position::of(text, self.span.start()),
+                text,
+                span: self.span,
+            },
+        }
+    }
+
+    /// Adds the place in another file that it is about.
+    #[must_use]
+    pub fn citing(self, cited: Cited) -> Self {
+        Self {
+            cited: Some(Box::new(cited)),
+            ..self
         }
     }
 
     /// The problem and how to fix it, for a line without an excerpt.
     pub fn message_with_hint(&self) -> String {
         match &self.hint {
-            Some(hint) => format!("{}; {hint}", self.message),
+            Some(hint) => format!("{}; {hint}", self.message_with_file()),
+            None => self.message_with_file(),
+        }
+    }
+
+    /// The problem, with its place if that is in another file, for a line without an excerpt.
+    pub fn message_with_file(&self) -> String {
+        match self.cited.as_deref() {
+            Some(Cited {
+                file, line, column, ..
+            }) => format!("{file}:{line}:{column}: {}", self.message),
             None => self.message.clone(),
         }
     }

@@ -59,6 +59,18 @@ impl Findings {
         self
     }
 
+    /// Replaces the names of cited files by those that `name` gives.
+    #[must_use]
+    pub fn citing(mut self, name: impl Fn(&str) -> Option<String>) -> Self {
+        let cited = self.kept.iter_mut().filter_map(|kept| kept.cited.as_mut());
+        for cited in cited {
+            if let Some(name) = name(&cited.file) {
+                cited.file = name;
+            }
+        }
+        self
+    }
+
     /// The number of errors, kept or not.
     pub fn errors(&self) -> usize {
         self.errors

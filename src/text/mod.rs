@@ -17,7 +17,7 @@ mod visible;
 
 pub use codes::without_codes;
 pub use counted::{alternatives, counted};
-pub use diagnostic::{Diagnostic, SKIPPED, Severity};
+pub use diagnostic::{Cited, Diagnostic, SKIPPED, Severity, Shown};
 pub use duration::parse_duration;
 pub use edit::{Edit, apply, common_prefix, cover, difference, smallest_edit};
 pub use findings::Findings;

@@ -1,6 +1,7 @@
 //! The layout of the error panel: each diagnostic with its position, its line of text and a hint.
 //! Shared by drawing and the mouse.
 
+use std::borrow::Cow;
 use std::ops::Range;
 
 use ratatui::layout::Rect;
@@ -10,7 +11,7 @@ use unicode_width::{UnicodeWidthChar, UnicodeWidthStr};
 use super::fit::{shorten, visible, wrap};
 use super::layout::split_bottom;
 use super::theme;
-use crate::text::{Diagnostic, Findings, Position, Span, line_end, line_start};
+use crate::text::{Diagnostic, Findings, Position, Shown, Span, line_end, line_start};
 
 /// Bytes of a line read on either side of a span; more than any screen shows.
 const REACH: usize = 2048;
@@ -84,7 +85,13 @@ pub(crate) struct StyledLine(pub(crate) Vec<(String, Style)>);
 fn describe(text: &str, file: &str, diagnostic: &Diagnostic, width: usize) -> Vec<StyledLine> {
     let mut lines = Vec::new();
     let style = theme::severity(Some(diagnostic.severity));
-    let Position { line, column } = Position::of(text, diagnostic.span.start());
+    let Shown {
+        file: other,
+        position: Position { line, column },
+        text,
+        span,
+    } = diagnostic.shown(text);
+    let file = other.map_or(Cow::Borrowed(file), visible);
     let place = format!("{file}:{line}:{column}");
     let message = visible(&diagnostic.message);
     if place.width() + 1 + message.width() <= width {
@@ -98,7 +105,7 @@ fn describe(text: &str, file: &str, diagnostic: &Diagnostic, width: usize) -> Ve
     let number = line.to_string();
     let margin = " ".repeat(number.len());
     let room = width.saturating_sub(number.len() + 3);
-    let shown = excerpt(text, diagnostic.span, room);
+    let shown = excerpt(text, span, room);
     let numbered = (format!("{number} │ "), theme::DIM);
     lines.push(StyledLine(vec![numbered, (shown.text, Style::new())]));
 

@@ -98,7 +98,7 @@ impl Assets {
             let path = path.filter(|_| !files.is_empty());
             self.want(path.map(|path| Wanted::new(path, &files)));
         }
-        assets::report(&self.picture_errors, &files, found)
+        assets::report(&self.picture_errors, &files, &self.elsewhere, found)
     }
 
     fn want(&mut self, wanted: Option<Wanted>) {

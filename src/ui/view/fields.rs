@@ -225,7 +225,10 @@ fn explain(app: &App, field: &FieldRow, area: Rect, buffer: &mut Buffer) {
         say(&refused.message, theme::ERROR);
     }
     if let Some(found) = app.field_finding(app.cursor.field) {
-        say(&found.message, theme::severity(Some(found.severity)));
+        say(
+            &found.message_with_file(),
+            theme::severity(Some(found.severity)),
+        );
     }
     let names = field.field.kind.component_names();
     let component = names.get(app.cursor.component).copied().unwrap_or_default();
