@@ -21,7 +21,8 @@ pub fn mtl(input: &[u8]) {
 }
 
 fn read(mesh: &[u8], library: &[u8]) {
-    let lines = |bytes: &[u8]| bytes.split(|&byte| byte == b'\n').count();
+    let is_end = |&byte: &u8| byte == b'\n' || byte == b'\r';
+    let lines = |bytes: &[u8]| bytes.split(is_end).count();
     let last = lines(mesh).max(lines(library));
     let findings = match obj::read(mesh, |_| Ok(library)) {
         Ok(model) => [model.warnings, model.library_warnings].concat(),
@@ -33,6 +34,7 @@ fn read(mesh: &[u8], library: &[u8]) {
     for finding in findings {
         assert!((1..=last).contains(&finding.line), "{finding:?}");
         assert!(0 < finding.column && !finding.to_string().is_empty());
+        assert!(finding.excerpt.get(finding.marked.range()).is_some());
     }
 }
 

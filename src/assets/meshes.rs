@@ -6,7 +6,7 @@ use std::sync::Arc;
 use super::Load;
 use super::failure::Failure;
 use super::gate::FileContent;
-use crate::obj::{self, Model};
+use crate::obj::{self, Finding, Model};
 use crate::scene::{Meshes, NoMesh, beside};
 
 /// A mesh and the files it was read from.
@@ -35,8 +35,8 @@ impl Load<'_> {
     }
 
     fn mesh(&mut self, name: &str, libraries: &mut Libraries) -> Result<Arc<Model>, NoMesh> {
-        let failed = |failure: Failure| NoMesh {
-            reasons: vec![failure.to_string()],
+        let failed = |failure: Failure| NoMesh::Unread {
+            reason: failure.to_string(),
             hint: failure.hint(),
         };
         let content = self.content(name).map_err(failed)?;
@@ -44,10 +44,7 @@ impl Load<'_> {
             Some(known) => known,
             None => self
                 .parsed(name, &content, libraries)
-                .map_err(|reasons| NoMesh {
-                    reasons,
-                    hint: None,
-                })?,
+                .map_err(NoMesh::Malformed)?,
         };
         let model = Arc::clone(&known.model);
         let is_counted = |other: &KnownMesh| Arc::ptr_eq(&other.model.mesh, &model.mesh);
@@ -74,13 +71,13 @@ impl Load<'_> {
         })
     }
 
-    /// Parses a mesh. Fails with its errors.
+    /// Parses a mesh. Fails with what is wrong with it.
     fn parsed(
         &mut self,
         name: &str,
         content: &FileContent,
         libraries: &mut Libraries,
-    ) -> Result<KnownMesh, Vec<String>> {
+    ) -> Result<KnownMesh, Vec<Finding>> {
         let mut asked = Vec::new();
         let read = obj::read(&content.bytes, |library| {
             let answer = self.library(name, library, libraries);
@@ -91,10 +88,7 @@ impl Load<'_> {
             asked.push((library.to_owned(), digest));
             bytes
         });
-        let mut model = read.map_err(|findings| {
-            let reasons = findings.iter().map(ToString::to_string);
-            reasons.collect::<Vec<_>>()
-        })?;
+        let mut model = read?;
         let mut known = self.now.meshes.iter().chain(&self.before.meshes);
         if let Some(twin) = known.find(|known| known.digest == content.digest) {
             // Only the materials differ: the triangles and their tree can be shared.

@@ -218,7 +218,9 @@ fn is_tinted_alike([a, b]: [&Scene; 2], both: [Tinted; 2]) -> bool {
             (None, None) => {}
             (Some(one), Some(other)) if one.inverse == other.inverse => {
                 match (one.pattern, other.pattern) {
-                    (Pattern::Image(one), Pattern::Image(other)) if one == other => {}
+                    (Pattern::Image(one), Pattern::Image(other))
+                    | (Pattern::Clamped(one), Pattern::Clamped(other))
+                        if one == other => {}
                     (
                         Pattern::Checker { squares, side },
                         Pattern::Checker {

@@ -1,58 +1,152 @@
 //! Splits `.obj` and `.mtl` files into statements and words.
 
 use std::borrow::Cow;
+use std::ops::Range;
 use std::str;
 
-use super::{Finding, MAX_FINDINGS};
 use crate::text::{NumberError, parse_number, visible};
+
+/// The greatest magnitude of a coordinate: boxes around such points have finite sizes.
+pub(super) const MOST: f64 = f64::MAX / 4.0;
 
 /// A statement: a line, or several lines of which all except the last end in `\`.
 #[derive(Clone, Debug)]
 pub(super) struct Statement<'t> {
-    /// The number of the first line, from 1.
-    pub(super) line: usize,
     text: Cow<'t, [u8]>,
+    /// Where it begins.
+    start: Place,
+    /// Where its further lines begin: in its text, and in the file.
+    joints: Vec<(usize, usize)>,
 }
 
-/// A word of a statement.
+/// A place in a file.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Place {
+    /// The line, from 1.
+    pub(super) line: usize,
+    /// The offset in bytes.
+    pub(super) at: usize,
+}
+
+/// A word of a statement, or the empty place of one that is missing.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Word<'s> {
     pub(super) text: &'s [u8],
-    /// The column of the first byte, in bytes from 1.
-    pub(super) column: usize,
+    /// The place of the first byte.
+    pub(super) place: Place,
 }
 
-/// The non-blank statements of a text whose first line has number `line`.
-pub(super) fn statements(bytes: &[u8], line: usize) -> impl Iterator<Item = Statement<'_>> {
-    let mut lines = bytes.split(|&byte| byte == b'\n').zip(line..);
+/// The lines of a text. They end at a line feed, including all carriage returns directly before it,
+/// or at any other carriage return.
+struct Lines<'t> {
+    bytes: &'t [u8],
+    /// Where the next line begins.
+    next: Place,
+    end: usize,
+}
+
+/// The non-blank statements in a range of a file, whose first line has number `line`.
+pub(super) fn statements(
+    bytes: &[u8],
+    range: Range<usize>,
+    line: usize,
+) -> impl Iterator<Item = Statement<'_>> {
+    let mut lines = Lines {
+        bytes,
+        next: Place {
+            line,
+            at: range.start,
+        },
+        end: range.end,
+    };
     std::iter::from_fn(move || {
-        let (first, line) = lines.next()?;
-        let mut text = Cow::Borrowed(first.trim_ascii_end());
-        while text.ends_with(b"\\") {
+        let (start, first) = lines.next()?;
+        let mut text = Cow::Borrowed(first);
+        let mut joints = Vec::new();
+        let mut scanned = 0;
+        while text.ends_with(b"\\") && !has_comment(&text, scanned) {
+            scanned = text.len() - 1;
             let whole = text.to_mut();
             whole.pop();
-            match lines.next() {
-                Some((next, _)) => whole.extend_from_slice(next.trim_ascii_end()),
-                None => break,
+            // Blank lines are not returned, but end a statement.
+            if start.line + joints.len() + 1 != lines.next.line {
+                break;
             }
+            let Some((place, next)) = lines.next() else {
+                break;
+            };
+            joints.push((whole.len(), place.at));
+            whole.extend_from_slice(next);
         }
-        Some(Statement { line, text })
+        Some(Statement {
+            text,
+            start,
+            joints,
+        })
     })
     .filter(|statement| !statement.text.is_empty())
+}
+
+/// The number of line ends in a text.
+pub(super) fn line_ends(bytes: &[u8]) -> usize {
+    let mut lines = Lines {
+        bytes,
+        next: Place::default(),
+        end: bytes.len(),
+    };
+    lines.by_ref().for_each(drop);
+    lines.next.line
+}
+
+/// Whether a comment begins in a text, not before `from`.
+fn has_comment(text: &[u8], from: usize) -> bool {
+    let is_start = |at: usize| {
+        let before = at.checked_sub(1).map(|before| text[before]);
+        text[at] == b'#' && before.is_none_or(|before| before.is_ascii_whitespace())
+    };
+    (from..text.len()).any(is_start)
+}
+
+impl<'t> Iterator for Lines<'t> {
+    type Item = (Place, &'t [u8]);
+
+    /// The next line without blanks at its end. Several carriage returns count as line ends, but the
+    /// blank lines between them are not returned.
+    fn next(&mut self) -> Option<Self::Item> {
+        let Place { line, at } = self.next;
+        let rest = self
+            .bytes
+            .get(at..self.end)
+            .filter(|rest| !rest.is_empty())?;
+        let is_end = |&byte: &u8| byte == b'\n' || byte == b'\r';
+        let length = rest.iter().position(is_end).unwrap_or(rest.len());
+        let (text, after) = rest.split_at(length);
+        let returns = after.iter().take_while(|&&byte| byte == b'\r').count();
+        let (ends, skipped) = match after.get(returns) {
+            Some(b'\n') => (1, returns + 1),
+            _ => (returns, returns),
+        };
+        self.next = Place {
+            line: line + ends,
+            at: at + length + skipped,
+        };
+        Some((Place { line, at }, text.trim_ascii_end()))
+    }
 }
 
 impl Statement<'_> {
     /// The words, without a comment at the end.
     pub(super) fn words(&self) -> impl Iterator<Item = Word<'_>> {
-        let start = self.text.as_ptr() as usize;
         self.text
             .split(u8::is_ascii_whitespace)
             .filter(|word| !word.is_empty())
             .take_while(|word| !word.starts_with(b"#"))
-            .map(move |text| Word {
-                text,
-                column: 1 + (text.as_ptr() as usize - start),
-            })
+            .map(|text| self.word(text))
+    }
+
+    /// The first word; empty if there is none.
+    pub(super) fn keyword(&self) -> Word<'_> {
+        self.words().next().unwrap_or_else(|| self.end())
     }
 
     /// Everything after the first word up to a comment: a name may contain blanks.
@@ -68,15 +162,38 @@ impl Statement<'_> {
             (_, Some(blank)) => blank,
             _ => after.len(),
         };
-        Word {
-            text: after[..end].trim_ascii_end(),
-            column: 1 + self.text.len() - after.len(),
-        }
+        self.word(after[..end].trim_ascii_end())
     }
 
-    /// The column after the end, for errors about missing words.
-    pub(super) fn end(&self) -> usize {
-        1 + self.text.len()
+    /// Everything from the start of one word to the end of another.
+    pub(super) fn between(&self, first: Word<'_>, last: Word<'_>) -> Word<'_> {
+        let at = |word: Word<'_>| word.text.as_ptr() as usize - self.text.as_ptr() as usize;
+        self.word(&self.text[at(first)..at(last) + last.text.len()])
+    }
+
+    /// The place after the end, for messages about missing words.
+    pub(super) fn end(&self) -> Word<'_> {
+        self.word(&self.text[self.text.len()..])
+    }
+
+    /// The number of its last line, from 1.
+    pub(super) fn last_line(&self) -> usize {
+        self.start.line + self.joints.len()
+    }
+
+    /// A part of the text with its place in the file.
+    fn word<'s>(&self, text: &'s [u8]) -> Word<'s> {
+        let at = text.as_ptr() as usize - self.text.as_ptr() as usize;
+        let before = self.joints.partition_point(|joint| joint.0 <= at);
+        let (from, there) = match before.checked_sub(1) {
+            Some(last) => self.joints[last],
+            None => (0, self.start.at),
+        };
+        let place = Place {
+            line: self.start.line + before,
+            at: there + at - from,
+        };
+        Word { text, place }
     }
 }
 
@@ -92,71 +209,78 @@ impl Word<'_> {
         String::from_utf8_lossy(self.text).into_owned()
     }
 
+    /// Whether this begins a comment as other languages write it.
+    pub(super) fn begins_foreign_comment(&self) -> bool {
+        self.text.starts_with(b"//")
+    }
+
     /// Parses a number.
     pub(super) fn number(&self) -> Result<f64, Fault> {
         let number = str::from_utf8(self.text).map_err(|_| NumberError::NotANumber);
         match number.and_then(parse_number) {
             Ok(number) => Ok(number),
-            Err(NumberError::NotANumber) => Err(self.fault("is not a number")),
-            Err(NumberError::Overflow) => Err(self.fault("is too large")),
+            Err(NumberError::NotANumber) => Err(self.no_number("is not a number")),
+            Err(NumberError::Overflow) => Err(self.no_number("is too large")),
         }
     }
 
-    /// An error in this word, which the message begins with.
-    fn fault(&self, message: &str) -> Fault {
-        Fault::new(self.column, format!("`{}` {message}", self.shown()))
+    /// Parses a number whose magnitude is at most [`MOST`].
+    pub(super) fn coordinate(&self) -> Result<f64, Fault> {
+        let number = self.number()?;
+        if MOST < number.abs() {
+            return Err(self.no_number("is too large"));
+        }
+        Ok(number)
+    }
+
+    fn no_number(&self, message: &str) -> Fault {
+        let message = format!("`{}` {message}", self.shown());
+        Fault::new(*self, message, "a number")
     }
 }
 
-/// An error in a statement.
+/// What is wrong with a statement.
 pub(super) struct Fault {
-    /// The column, in bytes from 1.
-    pub(super) column: usize,
+    /// The place of the offending word.
+    pub(super) place: Place,
+    /// The length of the word in bytes.
+    pub(super) length: usize,
     pub(super) message: String,
+    /// What was expected instead.
+    pub(super) expected: String,
+    /// What it costs; may be empty.
+    pub(super) cost: &'static str,
 }
 
 impl Fault {
-    pub(super) fn new(column: usize, message: impl Into<String>) -> Self {
-        let message = message.into();
-        Self { column, message }
-    }
-}
-
-/// The errors and warnings of a text.
-#[derive(Debug, Default)]
-pub(super) struct Findings {
-    /// The library being read; `None` for the mesh itself.
-    pub(super) library: Option<String>,
-    pub(super) errors: Vec<Finding>,
-    pub(super) warnings: Vec<Finding>,
-}
-
-impl Findings {
-    /// Adds an error; line and column count from 1.
-    pub(super) fn error(&mut self, line: usize, column: usize, message: impl Into<String>) {
-        let finding = self.finding(line, column, message.into());
-        self.errors.push(finding);
-    }
-
-    /// Adds a warning, unless there are [`MAX_FINDINGS`] already.
-    pub(super) fn warn(&mut self, line: usize, column: usize, message: impl Into<String>) {
-        if self.warnings.len() < MAX_FINDINGS {
-            let finding = self.finding(line, column, message.into());
-            self.warnings.push(finding);
+    pub(super) fn new(
+        word: Word<'_>,
+        message: impl Into<String>,
+        expected: impl Into<String>,
+    ) -> Self {
+        Self {
+            place: word.place,
+            length: word.text.len(),
+            message: message.into(),
+            expected: expected.into(),
+            cost: "",
         }
     }
 
-    /// Whether there are enough errors to stop reading.
-    pub(super) fn is_full(&self) -> bool {
-        MAX_FINDINGS <= self.errors.len()
+    /// A comment as other languages write it.
+    pub(super) fn foreign_comment(word: Word<'_>) -> Self {
+        let message = format!("`{}` does not begin a comment", word.shown());
+        Self::new(word, message, "# before a comment").costing("the rest of the line is ignored")
     }
 
-    fn finding(&self, line: usize, column: usize, message: String) -> Finding {
-        Finding {
-            library: self.library.clone(),
-            line,
-            column,
-            message,
-        }
+    /// Adds what it costs.
+    pub(super) fn costing(self, cost: &'static str) -> Self {
+        Self { cost, ..self }
+    }
+
+    /// Puts the keyword of the statement before the message.
+    pub(super) fn in_statement(self, statement: &Statement<'_>) -> Self {
+        let message = format!("{}: {}", statement.keyword().shown(), self.message);
+        Self { message, ..self }
     }
 }

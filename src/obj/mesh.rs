@@ -1,38 +1,75 @@
 //! Meshes: vertices, faces and the assignment of materials.
 
-use std::collections::HashMap;
 use std::ops::RangeInclusive;
 use std::sync::Arc;
 
 use glam::{DVec2, DVec3};
 
-use super::lines::{Fault, Findings, Statement, Word, statements};
-use super::plain::{self, Chunk, Plain, push_corners};
-use super::{Finding, MAX_FINDINGS, MAX_LIBRARIES, Model, mtl};
-use crate::geometry::{ABSENT, Mesh, MeshError, MeshParts, SlotRun};
-use crate::text::{counted, visible};
+use super::findings::{File, Findings};
+use super::libraries::Libraries;
+use super::lines::{Fault, Place, Statement, statements};
+use super::plain::{self, Chunk, Plain};
+use super::polygons::Polygons;
+use super::{Finding, Model};
+use crate::geometry::{Mesh, MeshParts};
+use crate::text::counted;
 
-/// The kinds of values that a corner of a face refers to, in this order.
-const KINDS: [&str; 3] = ["v", "vt", "vn"];
+/// The maximum number of vertices, and of others, that cannot be used. They take more memory than
+/// their lines.
+const MAX_WRONG: usize = 1 << 24;
+
+/// What an unusable value of each kind costs: positions, texture coordinates, normals.
+const COSTS: [&str; 3] = [
+    "faces that use it are left out",
+    "it reads as 0 0",
+    "faces that use it are flat",
+];
 
 /// A mesh being read.
-#[derive(Default)]
-struct MeshBuilder {
+pub(super) struct MeshBuilder<'t> {
+    pub(super) file: File<'t>,
     /// The maximum number of triangles.
-    most: usize,
-    parts: MeshParts,
-    findings: Findings,
-    /// The greatest index of each kind plus 1, with its line and column; checked at the end because
-    /// the value may follow later.
-    greatest: [(u32, usize, usize); 3],
-    /// The slots of materials by name; slot 0 means no material.
-    slots: HashMap<String, u32>,
-    /// The names of slots from 1 on, with line and column of their first use.
-    named: Vec<(String, usize, usize)>,
-    /// The names of libraries with line and column.
-    libraries: Vec<(String, usize, usize)>,
+    pub(super) most: usize,
+    /// What corners may refer to, if the file has been read once; until then all may follow later.
+    pub(super) known: Option<Known>,
+    pub(super) parts: MeshParts,
+    pub(super) polygons: Polygons,
+    pub(super) findings: Findings,
+    /// The greatest index of each kind plus 1.
+    pub(super) greatest: [u32; 3],
+    /// The indices of values that cannot be used, ascending.
+    wrong: [Vec<u32>; 3],
+    pub(super) libraries: Libraries,
     /// The corners of the current face: position, texture coordinates, normal.
-    corners: Vec<[u32; 3]>,
+    pub(super) corners: Vec<[u32; 3]>,
+    /// The last line with a statement.
+    last: usize,
+}
+
+/// The values in a file that the corners of its faces may refer to.
+#[derive(Debug)]
+pub(super) struct Known {
+    /// The number of values of each kind.
+    pub(super) counts: [usize; 3],
+    /// The indices of those that cannot be used, ascending.
+    wrong: [Vec<u32>; 3],
+}
+
+impl Known {
+    /// Whether there is a usable value of a kind at an index below its count.
+    pub(super) fn is_usable(&self, kind: usize, index: u32) -> bool {
+        self.wrong[kind].binary_search(&index).is_err()
+    }
+
+    /// Whether all corners of plain lines refer to usable values.
+    fn suffices(&self, plain: &Plain) -> bool {
+        let [v, vt, vn] = [&plain.triangles, &plain.uv_corners, &plain.normal_corners];
+        [v, vt, vn].into_iter().enumerate().all(|(kind, corners)| {
+            let is_usable = |&index: &u32| self.is_usable(kind, index);
+            plain.greatest[kind] as usize <= self.counts[kind]
+                && (self.wrong[kind].is_empty() || corners.as_flattened().iter().all(is_usable))
+        })
+    }
 }
 
 /// See [`super::read`]. `most` is the maximum number of triangles.
@@ -42,84 +79,81 @@ pub(super) fn read<B: AsRef<[u8]>>(
     library: impl FnMut(&str) -> Result<B, String>,
 ) -> Result<Model, Vec<Finding>> {
     let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
-    read_parts(bytes, plain::parts(bytes, plain::PART), most, library)
+    read_parts(bytes, || plain::parts(bytes, plain::PART), most, library)
 }
 
-/// Reads a text that has been cut into parts.
+/// Reads a text that `parts` cuts into parts. If corners refer to values that are not there, it is
+/// read once more: only then are all values known, which may follow the faces.
 pub(super) fn read_parts<B: AsRef<[u8]>>(
     bytes: &[u8],
-    mut parts: Vec<Chunk>,
+    parts: impl Fn() -> Vec<Chunk>,
     most: usize,
     library: impl FnMut(&str) -> Result<B, String>,
 ) -> Result<Model, Vec<Finding>> {
-    let mut builder = MeshBuilder {
-        most,
-        ..MeshBuilder::default()
-    };
-    let mut last = 1;
-    let mut line = 1;
-    builder.reserve(&parts);
-    for run in parts.chunk_by_mut(|a, b| a.plain.is_some() && b.plain.is_some()) {
-        let (fitting, others) = run.split_at_mut(builder.fitting(run));
-        let mut content = Vec::with_capacity(fitting.len());
-        for part in fitting {
-            last = part.last.map_or(last, |last| line + last);
-            if let Some(plain) = part.plain.take() {
-                builder.note(&plain, line);
-                content.push(plain);
-            }
-            line += part.lines;
-        }
-        plain::append(content, &mut builder.parts);
-        for part in others {
-            for statement in statements(&bytes[part.range.clone()], line) {
-                last = statement.line;
-                if let Err(Fault { column, message }) = builder.take(&statement) {
-                    builder.findings.error(statement.line, column, message);
-                }
-                if builder.findings.is_full() {
-                    return Err(builder.findings.errors);
-                }
-            }
-            line += part.lines;
-        }
+    let mut builder = MeshBuilder::new(bytes, most, None).read(parts())?;
+    if let Some(known) = builder.lacking() {
+        drop(builder);
+        builder = MeshBuilder::new(bytes, most, Some(known)).read(parts())?;
     }
-    builder.check_indices();
-    let (materials, library_warnings) = builder.materials(library);
-    let MeshBuilder {
-        mut parts,
-        mut findings,
-        ..
-    } = builder;
-    if !findings.errors.is_empty() {
-        return Err(findings.errors);
-    }
-    // Values that no corner refers to are dropped.
-    if parts.normals.corners.is_empty() {
-        parts.normals.values.clear();
-    }
-    if parts.uvs.corners.is_empty() {
-        parts.uvs.values.clear();
-    }
-    match Mesh::new(parts) {
-        Ok(mesh) => Ok(Model {
-            mesh: Arc::new(mesh),
-            materials,
-            warnings: findings.warnings,
-            library_warnings,
-        }),
-        Err(error) => {
-            let message = match error {
-                MeshError::Empty => "the file has no faces".to_owned(),
-                other => other.to_string(),
-            };
-            findings.error(last, 1, message);
-            Err(findings.errors)
-        }
-    }
+    builder.model(library)
 }
 
-impl MeshBuilder {
+impl<'t> MeshBuilder<'t> {
+    fn new(bytes: &'t [u8], most: usize, known: Option<Known>) -> Self {
+        Self {
+            file: File {
+                library: None,
+                bytes,
+            },
+            most,
+            known,
+            parts: MeshParts::default(),
+            polygons: Polygons::default(),
+            findings: Findings::default(),
+            greatest: [0; 3],
+            wrong: <[_; 3]>::default(),
+            libraries: Libraries::default(),
+            corners: Vec::new(),
+            last: 1,
+        }
+    }
+
+    /// Reads the whole text. Fails if it has too many triangles.
+    fn read(mut self, mut parts: Vec<Chunk>) -> Result<Self, Vec<Finding>> {
+        if let Some(known) = &self.known {
+            for part in &mut parts {
+                part.plain = part.plain.take().filter(|plain| known.suffices(plain));
+            }
+        }
+        let mut line = 1;
+        self.reserve(&parts);
+        for run in parts.chunk_by_mut(|a, b| a.plain.is_some() && b.plain.is_some()) {
+            let (fitting, others) = run.split_at_mut(self.fitting(run));
+            let mut content = Vec::with_capacity(fitting.len());
+            for part in fitting {
+                self.last = part.last.map_or(self.last, |last| line + last);
+                if let Some(plain) = part.plain.take() {
+                    for (greatest, own) in self.greatest.iter_mut().zip(plain.greatest) {
+                        *greatest = own.max(*greatest);
+                    }
+                    content.push(plain);
+                }
+                line += part.lines;
+            }
+            plain::append(content, &mut self.parts, &mut self.polygons);
+            for part in others {
+                for statement in statements(self.file.bytes, part.range.clone(), line) {
+                    self.last = statement.last_line();
+                    if let Err(fault) = self.take(&statement) {
+                        return Err(self.findings.fail(self.file, fault));
+                    }
+                }
+                line += part.lines;
+            }
+        }
+        Ok(self)
+    }
+
     /// Reserves memory for the content of plain parts, so that several runs of them do not regrow the lists.
     fn reserve(&mut self, parts: &[Chunk]) {
         let plain = || parts.iter().filter_map(|part| part.plain.as_ref());
@@ -147,265 +181,177 @@ impl MeshBuilder {
         parts.iter().take_while(fits).count()
     }
 
-    /// Notes the greatest indices in plain lines, the first of which has number `line`.
-    fn note(&mut self, plain: &Plain, line: usize) {
-        for (known, greatest) in self.greatest.iter_mut().zip(plain.greatest) {
-            if known.0 < greatest.0 {
-                *known = (greatest.0, line + greatest.1, greatest.2);
-            }
-        }
+    /// The number of values of each kind so far.
+    pub(super) fn counts(&self) -> [usize; 3] {
+        let MeshParts {
+            positions,
+            uvs,
+            normals,
+            ..
+        } = &self.parts;
+        [positions.len(), uvs.values.len(), normals.values.len()]
     }
 
+    /// All values of the file, if corners refer to others or some cannot be used.
+    fn lacking(&mut self) -> Option<Known> {
+        let counts = self.counts();
+        let exceeds = |(greatest, count): (u32, usize)| count < greatest as usize;
+        let has_wrong = self.wrong.iter().any(|wrong| !wrong.is_empty());
+        let exceeds = self.greatest.into_iter().zip(counts).any(exceeds);
+        (exceeds || has_wrong).then(|| Known {
+            counts,
+            wrong: std::mem::take(&mut self.wrong),
+        })
+    }
+
+    /// Reads a statement. Fails only if there are too many triangles.
     fn take(&mut self, statement: &Statement<'_>) -> Result<(), Fault> {
-        let Some(keyword) = statement.words().next() else {
-            return Ok(());
-        };
+        let keyword = statement.keyword();
         match keyword.text {
+            // A weight or a colour may follow.
             b"v" => {
-                // A weight or a colour may follow.
-                let (position, fault) = numbers(statement, 3..=7);
-                // Kept even if it is wrong, so that the following indices keep their meaning.
+                let position = self.value(0, statement, 3..=7)?;
                 self.parts.positions.push(DVec3::from_array(position));
-                fault
             }
             b"vt" => {
-                let (uv, fault) = numbers(statement, 1..=3);
+                let uv = self.value(1, statement, 1..=3)?;
                 self.parts.uvs.values.push(DVec2::from_array(uv));
-                fault
             }
             b"vn" => {
-                let (normal, fault) = numbers(statement, 3..=3);
+                let normal = self.value(2, statement, 3..=3)?;
                 self.parts.normals.values.push(DVec3::from_array(normal));
-                fault
             }
-            b"f" | b"fo" => self.face(statement),
-            b"usemtl" => self.use_material(statement),
+            b"f" | b"fo" => return self.face(statement),
+            b"usemtl" => {
+                let first = self.parts.triangles.len() as u32;
+                let slots = &mut self.parts.slots;
+                if let Err(fault) = self.libraries.use_material(statement, first, slots) {
+                    self.findings.warn(self.file, fault);
+                }
+            }
             b"mtllib" => {
-                let names = statement.rest();
-                if names.text.is_empty() {
-                    return Err(Fault::new(statement.end(), "mtllib: the name is missing"));
+                if let Err(fault) = self.libraries.add(statement) {
+                    self.findings.warn(self.file, fault);
                 }
-                if self.libraries.len() == MAX_LIBRARIES {
-                    let message = format!("more than {MAX_LIBRARIES} mtllib statements");
-                    return Err(Fault::new(keyword.column, message));
-                }
-                let library = (names.name(), statement.line, names.column);
-                self.libraries.push(library);
-                Ok(())
             }
             // Groups and smoothing do not affect triangles; points and lines have no surface.
-            b"g" | b"o" | b"s" | b"mg" | b"p" | b"l" => Ok(()),
+            b"" | b"g" | b"o" | b"s" | b"mg" | b"p" | b"l" => {}
             _ => {
                 let message = format!("`{}` is ignored", keyword.shown());
-                self.findings.warn(statement.line, keyword.column, message);
-                Ok(())
+                let expected = "v, vt, vn, f, usemtl or mtllib";
+                let fault = Fault::new(keyword, message, expected);
+                self.findings.warn(self.file, fault);
             }
-        }
-    }
-
-    fn face(&mut self, statement: &Statement<'_>) -> Result<(), Fault> {
-        let mut corners = std::mem::take(&mut self.corners);
-        corners.clear();
-        for word in statement.words().skip(1) {
-            corners.push(self.corner(statement.line, word)?);
-        }
-        if corners.len() < 3 {
-            let count = corners.len();
-            let message = format!("f: expected at least three corners, found {count}");
-            return Err(Fault::new(statement.end(), message));
-        }
-        let parts = &mut self.parts;
-        let first = parts.triangles.len();
-        if self.most < first + corners.len() - 2 {
-            let message = format!("f: more than {} triangles", self.most);
-            return Err(Fault::new(1, message));
-        }
-        for pair in corners[1..].windows(2) {
-            let fan = [corners[0], pair[0], pair[1]];
-            parts.triangles.push(fan.map(|corner| corner[0]));
-            let number = parts.triangles.len();
-            push_corners(&mut parts.uvs.corners, number, fan.map(|corner| corner[1]));
-            push_corners(
-                &mut parts.normals.corners,
-                number,
-                fan.map(|corner| corner[2]),
-            );
-        }
-        self.corners = corners;
-        Ok(())
-    }
-
-    /// Parses the indices of a corner, converted to start at 0.
-    fn corner(&mut self, line: usize, word: Word<'_>) -> Result<[u32; 3], Fault> {
-        let counts = [
-            self.parts.positions.len(),
-            self.parts.uvs.values.len(),
-            self.parts.normals.values.len(),
-        ];
-        let mut corner = [ABSENT; 3];
-        let fault =
-            |message: String| Fault::new(word.column, format!("f: `{}` {message}", word.shown()));
-        for (place, text) in word.text.split(|&byte| byte == b'/').enumerate() {
-            let Some(kind) = KINDS.get(place) else {
-                return Err(fault("has more than three indices".into()));
-            };
-            if text.is_empty() && 0 < place {
-                continue;
-            }
-            let number = std::str::from_utf8(text).ok();
-            let number: Option<i64> = number.and_then(|text| text.parse().ok());
-            let index = match number {
-                None => {
-                    return Err(fault(
-                        "is not a corner: expected v, v/vt, v//vn or v/vt/vn".into(),
-                    ));
-                }
-                Some(0) => return Err(fault("is not an index: indices start at 1".into())),
-                Some(number) if 0 < number => number - 1,
-                Some(number) => counts[place] as i64 + number,
-            };
-            let Some(index) = u32::try_from(index).ok().filter(|&index| index < ABSENT) else {
-                let count = counts[place];
-                return Err(fault(format!(
-                    "is out of range: there are {count} {kind} so far"
-                )));
-            };
-            corner[place] = index;
-            let (greatest, _, _) = self.greatest[place];
-            if greatest <= index {
-                self.greatest[place] = (index + 1, line, word.column);
-            }
-        }
-        Ok(corner)
-    }
-
-    fn use_material(&mut self, statement: &Statement<'_>) -> Result<(), Fault> {
-        let name = statement.rest();
-        if name.text.is_empty() {
-            return Err(Fault::new(statement.end(), "usemtl: the name is missing"));
-        }
-        let next = self.slots.len() as u32 + 1;
-        let slot = *self.slots.entry(name.name()).or_insert(next);
-        if slot == next {
-            self.named.push((name.name(), statement.line, name.column));
-        }
-        let first = self.parts.triangles.len() as u32;
-        let runs = &mut self.parts.slots;
-        match runs.last_mut() {
-            Some(last) if last.first == first => last.slot = slot,
-            Some(last) if last.slot == slot => {}
-            _ => runs.push(SlotRun { first, slot }),
         }
         Ok(())
     }
 
-    /// Checks that the greatest indices exist: they may refer to later lines.
-    fn check_indices(&mut self) {
-        let counts = [
-            self.parts.positions.len(),
-            self.parts.uvs.values.len(),
-            self.parts.normals.values.len(),
-        ];
-        for ((kind, count), (greatest, line, column)) in
-            KINDS.into_iter().zip(counts).zip(self.greatest)
-        {
-            if count < greatest as usize {
-                let message = format!("f: refers to {kind} {greatest}, but there are only {count}");
-                self.findings.error(line, column, message);
-            }
-        }
-    }
-
-    /// Reads the libraries. Returns the material of each slot and the warnings.
-    fn materials<B: AsRef<[u8]>>(
+    /// Reads a value of a kind. One that cannot be used is 0 and noted as wrong, so that the following
+    /// indices keep their meaning. Fails if there are too many of these.
+    fn value<const N: usize>(
         &mut self,
-        mut library: impl FnMut(&str) -> Result<B, String>,
-    ) -> (Vec<Option<mtl::Material>>, Vec<Finding>) {
-        let mut materials = HashMap::new();
-        let mut findings = Findings::default();
-        let mut seen = Vec::new();
-        for (names, line, column) in std::mem::take(&mut self.libraries) {
-            if seen.contains(&names) {
-                continue;
+        kind: usize,
+        statement: &Statement<'_>,
+        allowed: RangeInclusive<usize>,
+    ) -> Result<[f64; N], Fault> {
+        let value = self.numbers(statement, allowed, COSTS[kind]);
+        if value.is_none() {
+            if self.wrong[kind].len() == MAX_WRONG {
+                let message = format!("more than {MAX_WRONG} lines cannot be used");
+                return Err(Fault::new(statement.keyword(), message, "a mesh"));
             }
-            seen.push(names.clone());
-            // A line may name one library whose name contains blanks, or several.
-            let several = names.contains(|c: char| c.is_ascii_whitespace());
-            let read: Vec<_> = match library(&names) {
-                Err(_) if several => names
-                    .split_ascii_whitespace()
-                    .take(MAX_LIBRARIES)
-                    .map(|name| (name.to_owned(), library(name)))
-                    .collect(),
-                bytes => vec![(names, bytes)],
-            };
-            for (name, bytes) in read {
-                match bytes {
-                    Ok(bytes) => match mtl::read(bytes.as_ref(), &name) {
-                        Ok(defined) => materials.extend(defined),
-                        Err(errors) => findings.warnings.extend(errors),
-                    },
-                    Err(reason) => {
-                        let message = format!("cannot read `{}`: {reason}", visible(&name));
-                        findings.warn(line, column, message);
+            let index = self.counts()[kind] as u32;
+            self.wrong[kind].push(index);
+        }
+        Ok(value.unwrap_or([0.0; N]))
+    }
+
+    /// Reads the first N numbers of a statement, 0 if missing; `None` if they cannot be used. Warns
+    /// unless these are numbers and the number of words is in `allowed`. `cost` says what unusable
+    /// numbers mean.
+    fn numbers<const N: usize>(
+        &mut self,
+        statement: &Statement<'_>,
+        allowed: RangeInclusive<usize>,
+        cost: &'static str,
+    ) -> Option<[f64; N]> {
+        let mut warn = |fault: Fault| self.findings.warn(self.file, fault.in_statement(statement));
+        let mut numbers = [0.0; N];
+        let mut count = 0;
+        let (least, most) = (*allowed.start(), *allowed.end());
+        for word in statement.words().skip(1) {
+            if word.begins_foreign_comment() {
+                warn(Fault::foreign_comment(word));
+                break;
+            }
+            if let Some(number) = numbers.get_mut(count) {
+                match word.coordinate() {
+                    Ok(value) => *number = value,
+                    Err(wrong) => {
+                        warn(wrong.costing(cost));
+                        return None;
                     }
                 }
             }
-        }
-        // The definitions in an unreadable library are not known.
-        let is_known = findings.warnings.is_empty();
-        let mut by_slot = vec![None];
-        for (name, line, column) in std::mem::take(&mut self.named) {
-            let material = materials.get(&name).cloned();
-            if material.is_none() && is_known {
-                let message = format!("no library defines `{}`", visible(&name));
-                findings.warn(line, column, message);
-            }
-            by_slot.push(material);
-        }
-        findings.warnings.truncate(MAX_FINDINGS);
-        (by_slot, findings.warnings)
-    }
-}
-
-/// Reads the first N numbers of a statement, 0 if missing. Also returns an error unless these are
-/// numbers and the number of words is in `allowed`.
-fn numbers<const N: usize>(
-    statement: &Statement<'_>,
-    allowed: RangeInclusive<usize>,
-) -> ([f64; N], Result<(), Fault>) {
-    let mut numbers = [0.0; N];
-    let mut count = 0;
-    let fault = |column: usize, message: &str| {
-        Err(Fault::new(
-            column,
-            format!("{}: {message}", keyword(statement)),
-        ))
-    };
-    for word in statement.words().skip(1) {
-        if let Some(number) = numbers.get_mut(count) {
-            match word.number() {
-                Ok(value) => *number = value,
-                Err(wrong) => return (numbers, fault(wrong.column, &wrong.message)),
+            count += 1;
+            if most < count {
+                let expected = format!("at most {}", counted(most, "number"));
+                let message = format!("expected {expected}");
+                warn(Fault::new(word, message, expected).costing("the rest is ignored"));
+                break;
             }
         }
-        count += 1;
-        if *allowed.end() < count {
-            let message = format!("expected at most {}", counted(*allowed.end(), "number"));
-            return (numbers, fault(word.column, &message));
+        if count < least {
+            let expected = counted(least, "number");
+            let message = format!("expected {expected}, found {count}");
+            warn(Fault::new(statement.end(), message, expected).costing(cost));
+            return None;
+        }
+        Some(numbers)
+    }
+
+    /// The mesh and its materials. Fails if there are no faces.
+    fn model<B: AsRef<[u8]>>(
+        mut self,
+        library: impl FnMut(&str) -> Result<B, String>,
+    ) -> Result<Model, Vec<Finding>> {
+        self.polygons.reshape(&mut self.parts);
+        let mut parts = self.parts;
+        // Values that no corner refers to are dropped.
+        if parts.normals.corners.is_empty() {
+            parts.normals.values.clear();
+        }
+        if parts.uvs.corners.is_empty() {
+            parts.uvs.values.clear();
+        }
+        let mesh = if parts.triangles.is_empty() {
+            Err("the file has no faces that can be used".to_owned())
+        } else {
+            Mesh::new(parts).map_err(|error| error.to_string())
+        };
+        match mesh {
+            Ok(mesh) => {
+                let (materials, library_warnings) = self.libraries.read(self.file, library);
+                Ok(Model {
+                    mesh: Arc::new(mesh),
+                    materials,
+                    warnings: self.findings.finish(),
+                    library_warnings,
+                })
+            }
+            Err(message) => {
+                let fault = Fault {
+                    place: Place {
+                        line: self.last,
+                        at: self.file.bytes.trim_ascii_end().len(),
+                    },
+                    length: 0,
+                    message,
+                    expected: "a line such as f 1 2 3".to_owned(),
+                    cost: "",
+                };
+                Err(self.findings.fail(self.file, fault))
+            }
         }
     }
-    if count < *allowed.start() {
-        let expected = counted(*allowed.start(), "number");
-        let message = format!("expected {expected}, found {count}");
-        return (numbers, fault(statement.end(), &message));
-    }
-    (numbers, Ok(()))
-}
-
-fn keyword(statement: &Statement<'_>) -> String {
-    statement
-        .words()
-        .next()
-        .map_or_else(String::new, |word| word.shown())
 }

@@ -1,9 +1,10 @@
 //! Material libraries.
 
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 
-use super::Finding;
-use super::lines::{Fault, Findings, Statement, Word, statements};
+use super::findings::{File, Findings};
+use super::lines::{Fault, Statement, Word, statements};
+use super::maps::{self, Map, Problem};
 
 /// A material as a library defines it.
 #[derive(Clone, Debug, PartialEq)]
@@ -14,18 +15,20 @@ pub struct Material {
     pub diffuse: [f64; 3],
     /// Ks; black by default.
     pub specular: [f64; 3],
+    /// Ke; black by default.
+    pub emission: [f64; 3],
     /// Ns; 0 by default.
     pub exponent: f64,
     /// Ni; 1 by default.
     pub index: f64,
-    /// illum; 2 by default.
+    /// illum, 0 to 7; 2 by default.
     pub illumination: u32,
     /// Tf; black by default.
     pub filter: [f64; 3],
-    /// The path of `map_Kd`.
-    pub diffuse_map: Option<String>,
-    /// The path of `map_Ks`.
-    pub specular_map: Option<String>,
+    /// `map_Kd`.
+    pub diffuse_map: Option<Map>,
+    /// `map_Ks`.
+    pub specular_map: Option<Map>,
 }
 
 impl Material {
@@ -34,6 +37,7 @@ impl Material {
             library,
             diffuse: [1.0; 3],
             specular: [0.0; 3],
+            emission: [0.0; 3],
             exponent: 0.0,
             index: 1.0,
             illumination: 2,
@@ -44,144 +48,224 @@ impl Material {
     }
 }
 
-/// Reads the materials of a library by name. Of two with the same name the last counts.
-pub(super) fn read(bytes: &[u8], library: &str) -> Result<HashMap<String, Material>, Vec<Finding>> {
+/// Keywords of which everything is ignored, though it would change the picture.
+const IGNORED: [&str; 10] = [
+    "bump", "map_bump", "disp", "map_disp", "norm", "decal", "refl", "map_d", "map_ke", "map_ns",
+];
+
+/// What an unusable statement costs.
+const COST: &str = "it is ignored";
+
+/// A library being read.
+struct Library<'t, 'f> {
+    file: File<'t>,
+    findings: &'f mut Findings,
+    /// The words that have been said to be ignored.
+    told: HashSet<&'static str>,
+}
+
+/// Reads the materials of a library by name. Of two with the same name the last counts; what follows
+/// a `newmtl` without a name belongs to none.
+pub(super) fn read(
+    bytes: &[u8],
+    library: &str,
+    findings: &mut Findings,
+) -> HashMap<String, Material> {
     let mut materials = HashMap::new();
-    let mut findings = Findings {
-        library: Some(library.to_owned()),
-        ..Findings::default()
-    };
     let mut current: Option<(String, Material)> = None;
     let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
-    for statement in statements(bytes, 1) {
-        if findings.is_full() {
-            break;
-        }
-        let Some(keyword) = statement.words().next() else {
-            continue;
-        };
-        if keyword.text == b"newmtl" {
-            materials.extend(current.take());
+    let mut reader = Library {
+        file: File {
+            library: Some(library),
+            bytes,
+        },
+        findings,
+        told: HashSet::new(),
+    };
+    for statement in statements(bytes, 0..bytes.len(), 1) {
+        let keyword = statement.keyword();
+        if keyword.text.eq_ignore_ascii_case(b"newmtl") {
+            materials.extend(current.take().filter(|(name, _)| !name.is_empty()));
             let name = statement.rest();
             if name.text.is_empty() {
-                findings.error(
-                    statement.line,
-                    statement.end(),
-                    "newmtl: the name is missing",
-                );
+                let message = "newmtl: the name is missing";
+                let fault = Fault::new(statement.end(), message, "the name of the material");
+                let cost = "what follows is ignored up to the next newmtl";
+                reader.findings.warn(reader.file, fault.costing(cost));
             }
             current = Some((name.name(), Material::new(library.to_owned())));
             continue;
         }
-        let Some((_, material)) = &mut current else {
-            if is_known(keyword) {
-                findings.error(
-                    statement.line,
-                    keyword.column,
-                    format!("{}: before the first newmtl", keyword.shown()),
-                );
-            }
-            continue;
+        let set = match &mut current {
+            Some((_, material)) => reader.set(material, &statement),
+            None => before_materials(keyword),
         };
-        if let Err(Fault { column, message }) = set(material, keyword, &statement) {
-            let message = format!("{}: {message}", keyword.shown());
-            findings.error(statement.line, column, message);
+        if let Err(fault) = set {
+            let fault = fault.in_statement(&statement);
+            reader.findings.warn(reader.file, fault);
         }
     }
-    materials.extend(current);
-    if findings.errors.is_empty() {
-        Ok(materials)
-    } else {
-        Err(findings.errors)
+    materials.extend(current.filter(|(name, _)| !name.is_empty()));
+    materials
+}
+
+/// Warns of a statement that belongs to no material, unless it would be ignored anyway.
+fn before_materials(keyword: Word<'_>) -> Result<(), Fault> {
+    match &keyword.text.to_ascii_lowercase()[..] {
+        b"kd" | b"ks" | b"ke" | b"ns" | b"ni" | b"illum" | b"tf" | b"map_kd" | b"map_ks" => {
+            let message = "before the first newmtl";
+            Err(Fault::new(keyword, message, "newmtl").costing(COST))
+        }
+        _ => Ok(()),
     }
 }
 
-/// Whether a keyword sets a property of a material.
-fn is_known(keyword: Word<'_>) -> bool {
-    matches!(
-        keyword.text,
-        b"Kd" | b"Ks" | b"Ns" | b"Ni" | b"illum" | b"Tf" | b"map_Kd" | b"map_Ks"
-    )
-}
-
-fn set(material: &mut Material, keyword: Word<'_>, statement: &Statement<'_>) -> Result<(), Fault> {
-    match keyword.text {
-        b"Kd" => colour(&mut material.diffuse, statement)?,
-        b"Ks" => colour(&mut material.specular, statement)?,
-        b"Tf" => colour(&mut material.filter, statement)?,
-        b"Ns" => material.exponent = number(statement)?,
-        b"Ni" => material.index = number(statement)?,
-        b"illum" => {
-            let model = number(statement)?;
-            if !(0.0..=10.0).contains(&model) || model.fract() != 0.0 {
-                let column = statement.rest().column;
-                return Err(Fault::new(column, "expected a whole number from 0 to 10"));
+impl Library<'_, '_> {
+    /// Reads a statement of a material. One that cannot be used changes nothing.
+    fn set(&mut self, material: &mut Material, statement: &Statement<'_>) -> Result<(), Fault> {
+        let keyword = statement.keyword().text.to_ascii_lowercase();
+        match &keyword[..] {
+            b"kd" => self.colour(&mut material.diffuse, statement),
+            b"ks" => self.colour(&mut material.specular, statement),
+            b"ke" => self.colour(&mut material.emission, statement),
+            b"tf" => self.colour(&mut material.filter, statement),
+            b"ns" => {
+                material.exponent = number(statement)?.1;
+                Ok(())
             }
-            material.illumination = model as u32;
+            b"ni" => {
+                material.index = number(statement)?.1;
+                Ok(())
+            }
+            b"illum" => self.illumination(material, statement),
+            b"map_kd" => {
+                material.diffuse_map = Some(self.map(statement)?);
+                Ok(())
+            }
+            b"map_ks" => {
+                material.specular_map = Some(self.map(statement)?);
+                Ok(())
+            }
+            b"d" => {
+                self.opacity("d", 1.0, statement);
+                Ok(())
+            }
+            b"tr" => {
+                self.opacity("tr", 0.0, statement);
+                Ok(())
+            }
+            other => {
+                let known = IGNORED.iter().find(|word| word.as_bytes() == other);
+                if let Some(word) = known.filter(|_| !statement.rest().text.is_empty()) {
+                    self.ignored(word, statement.keyword(), statement);
+                }
+                Ok(())
+            }
         }
-        b"map_Kd" => material.diffuse_map = Some(path(statement)?),
-        b"map_Ks" => material.specular_map = Some(path(statement)?),
-        _ => {}
     }
-    Ok(())
-}
 
-/// Reads a colour: one number for all channels, or three. Spectra and CIE XYZ are ignored.
-fn colour(colour: &mut [f64; 3], statement: &Statement<'_>) -> Result<(), Fault> {
-    let mut values = Vec::with_capacity(3);
-    for word in statement.words().skip(1) {
-        if matches!(word.text, b"spectral" | b"xyz") {
-            return Ok(());
-        }
-        values.push(word.number()?);
-        if 3 < values.len() {
-            return Err(Fault::new(word.column, "expected one or three numbers"));
-        }
-    }
-    *colour = match values[..] {
-        [grey] => [grey; 3],
-        [red, green, blue] => [red, green, blue],
-        _ => return Err(Fault::new(statement.end(), "expected one or three numbers")),
-    };
-    Ok(())
-}
-
-fn number(statement: &Statement<'_>) -> Result<f64, Fault> {
-    let Some(word) = statement.words().nth(1) else {
-        return Err(Fault::new(statement.end(), "the number is missing"));
-    };
-    word.number()
-}
-
-/// Reads the path of a map after its options, which are ignored.
-fn path(statement: &Statement<'_>) -> Result<String, Fault> {
-    let whole = statement.rest();
-    let mut words = statement.words().skip(1).peekable();
-    while let Some(option) = words.next_if(|word| word.text.starts_with(b"-")) {
-        let (least, most) = match option.text {
-            b"-o" | b"-s" | b"-t" => (1, 3),
-            b"-mm" => (2, 2),
-            _ => (1, 1),
+    /// Reads a colour: one number for all channels, or three. Spectra and CIE XYZ are ignored.
+    fn colour(&mut self, colour: &mut [f64; 3], statement: &Statement<'_>) -> Result<(), Fault> {
+        const EXPECTED: &str = "one or three numbers";
+        let wrong = |word: Word<'_>| {
+            let message = format!("expected {EXPECTED}");
+            Fault::new(word, message, EXPECTED).costing(COST)
         };
-        for given in 0..most {
-            let is_number = |word: &Word<'_>| word.number().is_ok();
-            if words
-                .next_if(|word| given < least || is_number(word))
-                .is_none()
-            {
+        let mut values = [0.0; 3];
+        let mut count = 0;
+        for word in statement.words().skip(1) {
+            if matches!(word.text, b"spectral" | b"xyz") {
+                return Ok(());
+            }
+            if word.begins_foreign_comment() {
+                let fault = Fault::foreign_comment(word).in_statement(statement);
+                self.findings.warn(self.file, fault);
                 break;
             }
+            let value = word.number().map_err(|fault| fault.costing(COST))?;
+            *values.get_mut(count).ok_or_else(|| wrong(word))? = value;
+            count += 1;
         }
+        *colour = match count {
+            1 => [values[0]; 3],
+            3 => values,
+            _ => return Err(wrong(statement.end())),
+        };
+        Ok(())
     }
-    match words.next() {
-        Some(first) => {
-            let from = first.column - whole.column;
-            let path = Word {
-                text: &whole.text[from..],
-                column: first.column,
+
+    fn illumination(
+        &mut self,
+        material: &mut Material,
+        statement: &Statement<'_>,
+    ) -> Result<(), Fault> {
+        let (word, model) = number(statement)?;
+        if !(0.0..=10.0).contains(&model) || model.fract() != 0.0 {
+            let expected = "a whole number from 0 to 10";
+            let message = format!("expected {expected}");
+            return Err(Fault::new(word, message, expected).costing(COST));
+        }
+        if model <= 7.0 {
+            material.illumination = model as u32;
+        } else {
+            material.illumination = 2;
+            self.ignored("illum", word, statement);
+        }
+        Ok(())
+    }
+
+    /// Warns of an opacity that would be seen: surfaces are as opaque as `illum` and `Tf` say.
+    fn opacity(&mut self, keyword: &'static str, usual: f64, statement: &Statement<'_>) {
+        let mut values = statement.words().skip(1);
+        let value = values.find(|word| word.text != b"-halo");
+        let Some(value) = value.filter(|word| word.number().is_ok_and(|value| value != usual))
+        else {
+            return;
+        };
+        self.ignored(keyword, value, statement);
+    }
+
+    /// Reads a map with its options.
+    fn map(&mut self, statement: &Statement<'_>) -> Result<Map, Fault> {
+        let read = maps::read(statement, |problem| match problem {
+            Problem::Wrong(fault) => {
+                let fault = fault.in_statement(statement);
+                self.findings.warn(self.file, fault);
+            }
+            Problem::Ignored(option, word) => self.ignored(option, word, statement),
+        });
+        read.map_err(|fault| fault.costing(COST))
+    }
+
+    /// Warns once that a word is ignored that would change the picture.
+    fn ignored(&mut self, word: &'static str, place: Word<'_>, statement: &Statement<'_>) {
+        if self.told.insert(word) {
+            let message = format!("`{}` is ignored", place.shown());
+            let expected = match word {
+                "d" | "tr" => "illum 6 or 7 and Tf for transparency",
+                "illum" => "a model from 0 to 7",
+                _ => "a material without it",
             };
-            Ok(path.name())
+            let fault = Fault::new(place, message, expected);
+            let cost = "the picture is drawn without it; said once for this library";
+            let fault = fault.costing(cost);
+            let is_all = place.text == statement.keyword().text;
+            let fault = if is_all {
+                fault
+            } else {
+                fault.in_statement(statement)
+            };
+            self.findings.warn(self.file, fault);
         }
-        None => Err(Fault::new(statement.end(), "the path is missing")),
     }
+}
+
+/// The number of a statement.
+fn number<'s>(statement: &'s Statement<'_>) -> Result<(Word<'s>, f64), Fault> {
+    let Some(word) = statement.words().nth(1) else {
+        let fault = Fault::new(statement.end(), "the number is missing", "a number");
+        return Err(fault.costing(COST));
+    };
+    let number = word.number().map_err(|fault| fault.costing(COST))?;
+    Ok((word, number))
 }

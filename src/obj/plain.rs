@@ -8,6 +8,8 @@ use glam::{DVec2, DVec3};
 use rayon::iter::repeat_n;
 use rayon::prelude::*;
 
+use super::lines::{MOST, line_ends};
+use super::polygons::Polygons;
 use crate::geometry::{ABSENT, MeshParts};
 use crate::text::{leading_number, parse_number};
 
@@ -23,8 +25,9 @@ pub(super) struct Plain {
     pub(super) triangles: Vec<[u32; 3]>,
     pub(super) uv_corners: Vec<[u32; 3]>,
     pub(super) normal_corners: Vec<[u32; 3]>,
-    /// The greatest index of each kind plus 1, with the line and column of its first use.
-    pub(super) greatest: [(u32, usize, usize); 3],
+    pub(super) polygons: Polygons,
+    /// The greatest index of each kind plus 1.
+    pub(super) greatest: [u32; 3],
 }
 
 /// A part of a mesh's text.
@@ -44,13 +47,15 @@ pub(super) fn parts(bytes: &[u8], size: usize) -> Vec<Chunk> {
     let part = |range: Range<usize>| {
         let bytes = &bytes[range.clone()];
         let text = bytes.trim_ascii_end();
-        let last = lines(text);
+        let (last, has_return) = lines(text);
+        let (more, has_more) = lines(&bytes[text.len()..]);
         Chunk {
             range,
-            lines: last + lines(&bytes[text.len()..]),
+            lines: last + more,
             last: (!text.is_empty()).then_some(last),
             plain: std::str::from_utf8(bytes)
                 .ok()
+                .filter(|_| !has_return && !has_more)
                 .and_then(|text| read(text, last)),
         }
     };
@@ -60,14 +65,27 @@ pub(super) fn parts(bytes: &[u8], size: usize) -> Vec<Chunk> {
     }
 }
 
-/// The number of line ends in a text. Sums bytes, 16 or more per instruction: with wider integers
-/// counting would take a fifth as long as reading.
-fn lines(bytes: &[u8]) -> usize {
-    let of_few = |few: &[u8]| {
-        let ends = few.iter().map(|&byte| u8::from(byte == b'\n'));
-        usize::from(ends.sum::<u8>())
-    };
-    bytes.chunks(u8::MAX.into()).map(of_few).sum()
+/// The number of line ends in a text, and whether one of them is a carriage return without a line
+/// feed. Sums bytes, 16 or more per instruction: with wider integers counting would take a fifth as
+/// long as reading.
+fn lines(bytes: &[u8]) -> (usize, bool) {
+    const FEW: usize = u8::MAX as usize;
+    let mut feeds = usize::from(bytes.last() == Some(&b'\n'));
+    let mut has_return = 0;
+    let following = bytes.get(1..).unwrap_or_default();
+    for (few, following) in bytes.chunks(FEW).zip(following.chunks(FEW)) {
+        let mut ends = 0_u8;
+        for (&byte, &next) in few.iter().zip(following) {
+            ends += u8::from(byte == b'\n');
+            // The last of several counts.
+            has_return |= u8::from(byte == b'\r') & u8::from(next != b'\r' && next != b'\n');
+        }
+        feeds += usize::from(ends);
+    }
+    match has_return {
+        0 => (feeds, false),
+        _ => (line_ends(bytes), true),
+    }
 }
 
 /// Cuts a text after lines that are not continued.
@@ -109,7 +127,7 @@ fn read(text: &str, lines: usize) -> Option<Plain> {
         line: 0,
         at: 0,
     };
-    for number in 0.. {
+    loop {
         match words.next().map(str::as_bytes) {
             // Groups and smoothing do not affect triangles.
             None | Some(b"g" | b"o" | b"s") => {}
@@ -117,8 +135,8 @@ fn read(text: &str, lines: usize) -> Option<Plain> {
                 let position = words.numbers()?;
                 reserve(&mut plain.positions, lines);
                 plain.positions.push(DVec3::from_array(position));
-                // A weight or a colour may follow.
-                if 4 < words.count() {
+                // A weight or a colour may follow, or a comment of other languages.
+                if 4 < words.count()? {
                     return None;
                 }
             }
@@ -131,7 +149,7 @@ fn read(text: &str, lines: usize) -> Option<Plain> {
                     0.0
                 };
                 plain.uvs.push(DVec2::new(u, v));
-                if 1 < words.count() {
+                if 1 < words.count()? {
                     return None;
                 }
             }
@@ -146,12 +164,10 @@ fn read(text: &str, lines: usize) -> Option<Plain> {
             Some(b"f") => {
                 corners.clear();
                 while words.has_next() {
-                    let column = 1 + words.at - words.line;
                     let corner = words.corner()?;
                     for (greatest, index) in plain.greatest.iter_mut().zip(corner) {
-                        if index != ABSENT && greatest.0 <= index {
-                            *greatest = (index + 1, number, column);
-                        }
+                        // One more than an absent index is 0.
+                        *greatest = (*greatest).max(index.wrapping_add(1));
                     }
                     corners.push(corner);
                 }
@@ -180,6 +196,9 @@ impl Plain {
         let (first, rest) = corners.split_first()?;
         if rest.len() < 2 {
             return None;
+        }
+        if 2 < rest.len() {
+            self.polygons.push(self.triangles.len(), corners.len());
         }
         for pair in rest.windows(2) {
             let fan = [*first, pair[0], pair[1]];
@@ -241,9 +260,13 @@ impl<'t> Words<'t> {
         Some(&self.text[start..self.at])
     }
 
-    /// Skips the remaining words of the line, and returns their number.
-    fn count(&mut self) -> usize {
-        std::iter::from_fn(|| self.next()).count()
+    /// Skips the remaining words of the line, and returns their number; `None` if one begins a comment
+    /// as other languages write it.
+    fn count(&mut self) -> Option<usize> {
+        let words = std::iter::from_fn(|| self.next());
+        words
+            .map(|word| (!word.starts_with("//")).then_some(1))
+            .sum()
     }
 
     /// The numbers that are the next words.
@@ -269,7 +292,8 @@ impl<'t> Words<'t> {
             }
             self.at = start;
         }
-        parse_number(self.next()?).ok()
+        let number = parse_number(self.next()?).ok();
+        number.filter(|number| number.abs() <= MOST)
     }
 
     /// The indices of the corner that is the next word, converted to start at 0.
@@ -333,9 +357,14 @@ pub(super) fn push_corners(corners: &mut Vec<[u32; 3]>, number: usize, triangle:
     }
 }
 
-/// Appends plain parts to a mesh.
-pub(super) fn append(mut parts: Vec<Plain>, mesh: &mut MeshParts) {
+/// Appends plain parts to a mesh and its polygons.
+pub(super) fn append(mut parts: Vec<Plain>, mesh: &mut MeshParts, polygons: &mut Polygons) {
     let before = mesh.triangles.len();
+    let mut first = before;
+    for part in &parts {
+        polygons.append(&part.polygons, first);
+        first += part.triangles.len();
+    }
     let counts: Vec<_> = parts.iter().map(|part| part.triangles.len()).collect();
     extend(
         &mut mesh.positions,

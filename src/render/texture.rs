@@ -27,6 +27,8 @@ type Ready = (DAffine2, Texels);
 enum Texels {
     Checker([Tinted; 2], Side),
     Image(Arc<Image>),
+    /// Not repeated.
+    Clamped(Arc<Image>),
     Missing,
 }
 
@@ -38,6 +40,10 @@ impl Textures {
             Pattern::Image(path) => {
                 let image = images.get(path).cloned();
                 image.map_or(Texels::Missing, Texels::Image)
+            }
+            Pattern::Clamped(path) => {
+                let image = images.get(path).cloned();
+                image.map_or(Texels::Missing, Texels::Clamped)
             }
         };
         let ready = |texture: &Texture| {
@@ -59,7 +65,8 @@ impl Textures {
                 (Texels::Checker(squares, side), Texels::Checker(others, other_side)) => {
                     squares == others && side == other_side
                 }
-                (Texels::Image(image), Texels::Image(other)) => Arc::ptr_eq(image, other),
+                (Texels::Image(image), Texels::Image(other))
+                | (Texels::Clamped(image), Texels::Clamped(other)) => Arc::ptr_eq(image, other),
                 (Texels::Missing, Texels::Missing) => true,
                 _ => false,
             };
@@ -120,6 +127,7 @@ impl Textures {
         let place = inverse.transform_point2(place);
         match texels {
             Texels::Image(image) => Some(image.at(place.x, place.y)),
+            Texels::Clamped(image) => Some(image.clamped_at(place.x, place.y)),
             Texels::Missing => Some(MAGENTA),
             Texels::Checker([first, second], side) => {
                 let square = if side.is_first(place) { first } else { second };
@@ -141,6 +149,7 @@ impl Textures {
             place = inverse.transform_point2(place);
             match texels {
                 Texels::Image(image) => return colour * image.at(place.x, place.y),
+                Texels::Clamped(image) => return colour * image.clamped_at(place.x, place.y),
                 Texels::Missing => return colour * MAGENTA,
                 Texels::Checker([first, second], side) => {
                     let square = if side.is_first(place) { first } else { second };
@@ -162,7 +171,7 @@ impl Textures {
             };
             place = inverse.transform_point2(place);
             texture = match texels {
-                Texels::Image(_) => None,
+                Texels::Image(_) | Texels::Clamped(_) => None,
                 Texels::Missing => return Some(index),
                 Texels::Checker([first, second], side) => {
                     let square = if side.is_first(place) { first } else { second };

@@ -4,7 +4,7 @@ use std::collections::HashMap;
 use std::path::Path;
 use std::sync::Arc;
 
-use crate::obj::Model;
+use crate::obj::{Finding, Model};
 
 /// The meshes of a scene, or the reasons why they cannot be read, by their paths as written in the
 /// text. Paths not read yet are missing.
@@ -15,11 +15,16 @@ pub struct Meshes(Arc<HashMap<String, Result<Arc<Model>, NoMesh>>>);
 
 /// Why a mesh cannot be read.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct NoMesh {
-    /// The reasons, each completing a sentence; at least one.
-    pub reasons: Vec<String>,
-    /// A hint towards a fix.
-    pub hint: Option<String>,
+pub enum NoMesh {
+    /// Its file cannot be read.
+    Unread {
+        /// The reason, completing a sentence.
+        reason: String,
+        /// A hint towards a fix.
+        hint: Option<String>,
+    },
+    /// What is wrong with its text; at least one finding.
+    Malformed(Vec<Finding>),
 }
 
 impl Meshes {

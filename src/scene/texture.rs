@@ -47,8 +47,10 @@ pub enum Pattern {
         /// Edge length.
         side: Side,
     },
-    /// An image, by its path as written in the text; fills the unit square.
+    /// An image, by its path as written in the text; fills the unit square and repeats.
     Image(String),
+    /// The same, but beyond the unit square its edge goes on.
+    Clamped(String),
 }
 
 /// The edge length of a checker's squares, and which square its lines belong to.
@@ -86,8 +88,20 @@ impl Image {
     /// The bilinearly interpolated colour at (u, v): u to the right, v down, 1 for the whole image,
     /// which repeats. A pixel's own colour is at its upper left corner. Channels are bytes / 255.
     pub fn at(&self, u: f64, v: f64) -> Rgb {
-        let (left, right, x) = between(u, self.size.width);
-        let (top, bottom, y) = between(v, self.size.height);
+        let Size { width, height } = self.size;
+        self.mixed(between(u, width), between(v, height))
+    }
+
+    /// The same, but beyond the image, and between the middle of its last pixels and its end, the
+    /// colour of its edge.
+    pub fn clamped_at(&self, u: f64, v: f64) -> Rgb {
+        let Size { width, height } = self.size;
+        self.mixed(among(u, width), among(v, height))
+    }
+
+    /// The colour between four pixels, by the neighbours in a row and in a column and the offset
+    /// between them.
+    fn mixed(&self, (left, right, x): (u32, u32, f64), (top, bottom, y): (u32, u32, f64)) -> Rgb {
         let pixel = |column: u32, row: u32| {
             let at = row as usize * self.size.width as usize + column as usize;
             Rgb::from_array(self.pixels[at].map(f64::from)) / 255.0
@@ -112,6 +126,17 @@ fn between(place: f64, count: u32) -> (u32, u32, f64) {
     let first = place.floor();
     let index = first as u32 % count;
     (index, (index + 1) % count, place - first)
+}
+
+/// The two neighbours of a coordinate among `count` that end, and its offset between them, 0 to 1. A
+/// coordinate that is not a number counts as 0.
+fn among(place: f64, count: u32) -> (u32, u32, f64) {
+    let last = count - 1;
+    let place = (place * f64::from(count)).clamp(0.0, f64::from(last));
+    let place = if place.is_finite() { place } else { 0.0 };
+    let first = place.floor();
+    let index = first as u32;
+    (index, last.min(index + 1), place - first)
 }
 
 /// The images of a scene's textures, by their paths as written in the text.
@@ -159,6 +184,23 @@ mod tests {
             (f64::NAN, f64::INFINITY, [0.0, 0.0, 0.0]),
         ] {
             assert_eq!(image().at(u, v), Rgb::from_array(colour), "{u} {v}");
+        }
+    }
+
+    #[test]
+    fn the_edge_of_a_clamped_image_goes_on() {
+        for (u, v, colour) in [
+            (0.0, 0.0, [0.0, 0.0, 0.0]),
+            (0.25, 0.0, [0.5, 0.0, 0.0]),
+            (0.5, 0.0, [1.0, 0.0, 0.0]),
+            (0.75, 0.0, [1.0, 0.0, 0.0]),
+            (9.0, -1.0, [1.0, 0.0, 0.0]),
+            (-9.0, f64::INFINITY, [0.0, 1.0, 0.0]),
+            (1.0, 0.25, [0.5, 0.0, 0.5]),
+            (f64::NAN, 0.0, [0.0, 0.0, 0.0]),
+        ] {
+            let seen = image().clamped_at(u, v);
+            assert_eq!(seen, Rgb::from_array(colour), "{u} {v}");
         }
     }
 

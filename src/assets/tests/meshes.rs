@@ -1,7 +1,8 @@
 //! Reading meshes and their libraries.
 
 use super::*;
-use crate::obj::Model;
+use crate::obj::{self, Model};
+use crate::scene::NoMesh;
 
 /// A triangle with a library in the same folder.
 const TRIANGLE: &str = "mtllib a.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl a\nf 1 2 3\n";
@@ -63,7 +64,10 @@ fn a_mesh_that_cannot_be_read_is_reported_with_the_reason() {
     fs::write(&outside, TRIANGLE).expect("written");
     symlink(&outside, place.at("link.obj")).expect("a link");
     fs::create_dir(place.at("folder.obj")).expect("a folder");
-    place.write("bad.obj", "v 0 0 0\nv 1 0 x\nv 0 1 0\nf 1 2\nf 1 2 3\n");
+    place.write(
+        "bad.obj",
+        "v 0 0 0\nv 1 0 x\nv 0 1 0\nf 1 2\nf 1 3 2\nf 1 3 3 4\n",
+    );
     place.write("empty.obj", "");
     let long = fs::File::create(place.at("long.obj")).expect("made");
     long.set_len(LIMITS.bytes + 1).expect("a hole");
@@ -76,7 +80,10 @@ fn a_mesh_that_cannot_be_read_is_reported_with_the_reason() {
         .meshes
         .get(name)
     {
-        Some(Err(fault)) => (fault.reasons.clone(), fault.hint.clone()),
+        Some(Err(NoMesh::Unread { reason, hint })) => (vec![reason.clone()], hint.clone()),
+        Some(Err(NoMesh::Malformed(findings))) => {
+            (findings.iter().map(ToString::to_string).collect(), None)
+        }
         other => panic!("{name}: {other:?}"),
     };
     for (name, reasons, hint) in [
@@ -92,13 +99,14 @@ fn a_mesh_that_cannot_be_read_is_reported_with_the_reason() {
             "bad.obj",
             &[
                 "line 2, column 7: v: `x` is not a number",
-                "line 4, column 6: f: expected at least three corners, found 2",
+                "line 6, column 9: f: refers to v 4, but there are only 3",
+                "line 6, column 10: the file has no faces that can be used",
             ],
             None,
         ),
         (
             "empty.obj",
-            &["line 1, column 1: the file has no faces"],
+            &["line 1, column 1: the file has no faces that can be used"],
             None,
         ),
         (
@@ -122,10 +130,17 @@ fn a_library_that_cannot_be_read_is_a_warning() {
     fs::write(folder.join("a.mtl"), "newmtl a\n").expect("written");
     let absolute = folder.join("a.mtl").display().to_string();
     place.write("bad.mtl", "newmtl a\nKd x\n");
-    for (library, warning) in [
+    let white = obj::read(TRIANGLE.as_bytes(), |_| Ok::<_, String>("newmtl a"));
+    let white = white.expect("a valid mesh").materials.remove(1);
+    let defined = white.map(|white| obj::Material {
+        library: "bad.mtl".to_owned(),
+        ..white
+    });
+    for (library, warning, material) in [
         (
             "none.mtl",
             "line 1, column 8: cannot read `none.mtl`: no such file".to_owned(),
+            None,
         ),
         (
             absolute.as_str(),
@@ -134,16 +149,18 @@ fn a_library_that_cannot_be_read_is_a_warning() {
                  (allow it with --assets {})",
                 folder.display()
             ),
+            None,
         ),
         (
             "bad.mtl",
             "bad.mtl: line 2, column 4: Kd: `x` is not a number".to_owned(),
+            defined,
         ),
     ] {
         place.write("a.obj", TRIANGLE.replace("a.mtl", library));
         let loaded = Assets::new(&[]).read(&place.wanted_meshes(&["a.obj"]));
         assert_eq!(warnings(&loaded, "a.obj"), [warning]);
-        assert_eq!(model(&loaded, "a.obj").materials, [None, None]);
+        assert_eq!(model(&loaded, "a.obj").materials, [None, material]);
     }
 }
 

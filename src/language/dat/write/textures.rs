@@ -24,7 +24,7 @@ const APART: Loss = Loss {
 
 const INEXPRESSIBLE: Loss = Loss {
     keys: &["diffuse", "color"],
-    lost: "a checkerboard of textures, or a picture whose path has blanks",
+    lost: "a checkerboard of textures, or a picture that is not repeated or whose path has blanks",
     instead: "written in its plain colour",
 };
 
@@ -135,7 +135,7 @@ fn record(texture: &Texture, of: Of, losses: &mut Losses<'_>) -> Option<String> 
                 vector(&mut record, square.colour);
             }
         }
-        Pattern::Image(_) | Pattern::Checker { .. } => {
+        Pattern::Image(_) | Pattern::Clamped(_) | Pattern::Checker { .. } => {
             losses.add(of, &INEXPRESSIBLE);
             return None;
         }

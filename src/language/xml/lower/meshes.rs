@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use glam::DAffine3;
+use glam::{DAffine3, DMat3, DVec3};
 
 use super::Lowering;
 use super::surfaces::lit;
@@ -11,14 +11,18 @@ use crate::language::node::Node;
 use crate::language::table::SIZES;
 use crate::language::xml::origins::{NamedPlace, What};
 use crate::obj;
-use crate::obj::{Finding, Model};
+use crate::obj::{Edges, Finding, Map, Model};
 use crate::scene::beside;
 use crate::scene::{
-    Dielectric, Faces, Gloss, Highlight, Maps, Material, Mirror, Pattern, Rgb, Texture,
+    Dielectric, Faces, Gloss, Highlight, Maps, Material, Mirror, NoMesh, Pattern, Rgb, Texture,
 };
+use crate::text::{Cited, Diagnostic, Span};
 
 /// The expected name of such an object, for messages.
 const EXPECTED: &str = "a mesh file: .obj";
+
+/// What it costs if a mesh cannot be read.
+const LEFT_OUT: &str = "the object is left out";
 
 /// The attribute that names a mesh.
 #[derive(Clone, Copy)]
@@ -88,32 +92,42 @@ impl<'a> Lowering<'a> {
         match self.meshes.get(named.name)? {
             Ok(model) => {
                 if self.reported_meshes.insert(named.name) {
-                    self.warn_of(named, &model.warnings, "");
+                    self.warn_of(named, &model.warnings);
                 }
                 Some(model)
             }
-            Err(fault) => {
+            Err(NoMesh::Unread { reason, hint }) => {
                 let span = self.tree.attributes[named.attribute].value;
                 let object = self.origins.name(Node::Object(named.object));
-                for reason in &fault.reasons {
-                    let hint = match &fault.hint {
-                        Some(hint) => format!("the object is left out; {hint}"),
-                        None => "the object is left out".to_owned(),
-                    };
-                    let message = || format!("{object}: {reason}");
-                    self.warn(span, message, EXPECTED, &hint);
+                let hint = match hint {
+                    Some(hint) => format!("{LEFT_OUT}; {hint}"),
+                    None => LEFT_OUT.to_owned(),
+                };
+                let message = || format!("{object}: {reason}");
+                self.warn(span, message, EXPECTED, &hint);
+                None
+            }
+            Err(NoMesh::Malformed(findings)) => {
+                let (reason, lines) = findings.split_last()?;
+                if self.reported_meshes.insert(named.name) {
+                    self.warn_of(named, lines);
                 }
+                let object = self.origins.name(Node::Object(named.object));
+                let span = self.tree.attributes[named.attribute].value;
+                self.report.warning(|| Diagnostic {
+                    message: format!("{object}: {}", reason.message),
+                    ..cited(span, named.name, reason).with_hint(LEFT_OUT)
+                });
                 None
             }
         }
     }
 
-    fn warn_of(&mut self, named: Named<'a>, findings: &[Finding], hint: &str) {
+    /// Warns of problems of a mesh and its libraries, at their own places.
+    fn warn_of(&mut self, named: Named<'a>, findings: &[Finding]) {
         let span = self.tree.attributes[named.attribute].value;
         for finding in findings {
-            let object = self.origins.name(Node::Object(named.object));
-            let message = || format!("{object}: {finding}");
-            self.warn(span, message, "a file without errors", hint);
+            self.report.warning(|| cited(span, named.name, finding));
         }
     }
 
@@ -122,8 +136,7 @@ impl<'a> Lowering<'a> {
         if let Some(tags) = self.slots.get(named.name) {
             return tags.clone();
         }
-        let hint = "faces without a material are unlit white";
-        self.warn_of(named, &model.library_warnings, hint);
+        self.warn_of(named, &model.library_warnings);
         let mut tags = Vec::with_capacity(model.materials.len());
         for material in &model.materials {
             let index = match material {
@@ -142,9 +155,9 @@ impl<'a> Lowering<'a> {
 
     fn library_material(&mut self, named: Named<'a>, material: &obj::Material) -> Material {
         let library = beside(named.name, &material.library);
-        let mut map = |keyword, map: &Option<String>| {
+        let mut map = |keyword, map: &Option<Map>| {
             let map = map.as_ref();
-            map.map(|map| self.map(named, keyword, beside(&library, map)))
+            map.map(|map| self.map(named, keyword, beside(&library, &map.path), map))
         };
         let maps = Maps {
             diffuse: map("map_Kd", &material.diffuse_map),
@@ -176,6 +189,7 @@ impl<'a> Lowering<'a> {
                 index: material.index,
                 ..Dielectric::OPAQUE
             },
+            emission: Rgb::from_array(material.emission),
             lit: lit(transmittance),
             maps: maps.boxed(),
             ..Material::BLACK
@@ -183,16 +197,44 @@ impl<'a> Lowering<'a> {
     }
 
     /// The texture of a picture named by a material of a mesh.
-    fn map(&mut self, named: Named<'a>, keyword: &'static str, path: String) -> u32 {
+    fn map(&mut self, named: Named<'a>, keyword: &'static str, path: String, map: &Map) -> u32 {
         self.origins.files.push(NamedPlace {
             element: named.element,
             attribute: named.attribute,
             what: What::Map(keyword, path.clone().into()),
         });
+        let [scale, offset] =
+            [(map.scale, 1.0), (map.offset, 0.0)].map(|([u, v], w)| DVec3::new(u, v, w));
         self.textures.push(Texture {
-            inverse: DAffine3::IDENTITY,
-            pattern: Pattern::Image(path),
+            inverse: DAffine3 {
+                matrix3: DMat3::from_diagonal(scale),
+                translation: offset,
+            },
+            pattern: match map.edges {
+                Edges::Repeat => Pattern::Image(path),
+                Edges::Clamp => Pattern::Clamped(path),
+            },
         });
         self.textures.len() as u32 - 1
+    }
+}
+
+/// The warning of a problem of a mesh, or of one of its libraries, where the scene names the mesh.
+fn cited(span: Span, mesh: &str, finding: &Finding) -> Diagnostic {
+    let file = match &finding.library {
+        Some(library) => beside(mesh, library),
+        None => mesh.to_owned(),
+    };
+    let warning = Diagnostic::warning(span, &finding.message, &finding.expected);
+    let warning = warning.citing(Cited {
+        file,
+        line: finding.line,
+        column: finding.column,
+        excerpt: finding.excerpt.clone(),
+        marked: finding.marked,
+    });
+    match &finding.hint {
+        Some(hint) => warning.with_hint(hint),
+        None => warning,
     }
 }

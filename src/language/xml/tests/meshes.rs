@@ -99,6 +99,13 @@ fn materials_come_from_the_library() {
         ("Ks .5\nNs 7", shiny([1.0; 3], [0.5; 3], 7.0)),
         ("Ns -7", silent()),
         (
+            "Ke 3 2 .5",
+            Material {
+                emission: Rgb::new(3.0, 2.0, 0.5),
+                ..silent()
+            },
+        ),
+        (
             "Ni 1.5",
             Material {
                 lit: Faces::Both,
@@ -242,8 +249,8 @@ fn unread_meshes_are_not_drawn() {
 
 #[test]
 fn unreadable_meshes_are_warnings_at_every_name_and_leave_their_objects_out() {
-    let fault = NoMesh {
-        reasons: vec!["one thing".to_owned(), "another".to_owned()],
+    let fault = NoMesh::Unread {
+        reason: "one thing".to_owned(),
         hint: Some("do this".to_owned()),
     };
     let meshes = [("a.obj".to_owned(), Err(fault))].into_iter().collect();
@@ -259,9 +266,7 @@ fn unreadable_meshes_are_warnings_at_every_name_and_leave_their_objects_out() {
         shown,
         [
             "3:26 warning: a.obj (obj): one thing",
-            "3:26 warning: a.obj (obj): another",
             "4:26 warning: a.obj (obj): one thing",
-            "4:26 warning: a.obj (obj): another",
         ]
     );
     assert!(lowered.scene.is_some_and(|scene| scene.objects.is_empty()));
@@ -276,20 +281,65 @@ fn warnings_about_a_file_are_reported_at_its_first_name() {
     let said = |text: &str| {
         let (_, lowered) = read_with(&around(text), &meshes);
         assert!(lowered.scene.is_some(), "{text}");
-        let found = lowered
-            .diagnostics
-            .iter()
-            .map(|found| found.message.clone());
+        let found = lowered.diagnostics.iter();
+        let found = found.map(crate::text::Diagnostic::message_with_file);
         found.collect::<Vec<_>>()
     };
-    let line = "a.obj (obj): line 1, column 1: `curv` is ignored";
-    let library = "a.obj (obj): a.mtl: line 2, column 4: Kd: `red` is not a number";
+    let line = "a.obj:1:1: `curv` is ignored";
+    let library = "a.mtl:2:4: Kd: `red` is not a number";
     assert_eq!(said(&format!("{object}{object}")), [line, library]);
     // An unused library is not checked.
     assert_eq!(said(dressed), [line]);
+    let (_, lowered) = read_with(&around(object), &meshes);
+    let excerpts = lowered.diagnostics.iter().map(|found| {
+        let shown = found.shown("");
+        (shown.text.to_owned(), shown.span.of(shown.text).to_owned())
+    });
+    let quoted = |line: &str, word: &str| (line.to_owned(), word.to_owned());
+    assert_eq!(
+        excerpts.collect::<Vec<_>>(),
+        [quoted("curv 0 1", "curv"), quoted("Kd red", "red")]
+    );
+    // What the line would have set keeps its default.
     let scene = scene(&around(object), &meshes);
-    let white = Materials::from_iter([Material::unlit(Rgb::ONE)]);
-    assert_eq!(scene.materials, white);
+    let expected = Materials::from_iter([Material::unlit(Rgb::ONE), silent()]);
+    assert_eq!(scene.materials, expected);
+}
+
+#[test]
+fn a_mesh_without_faces_is_reported_with_its_lines_and_leaves_its_objects_out() {
+    let read = obj::read(b"v 0 0 0\nf 1 1\n", |_| Ok::<_, String>(""));
+    let fault = NoMesh::Malformed(read.expect_err("no face is left"));
+    let meshes = [("a.obj".to_owned(), Err(fault))].into_iter().collect();
+    let text = around("<object type='obj' name='a.obj'/><object type='obj' name='a.obj'/>");
+    let (_, lowered) = read_with(&text, &meshes);
+    let found = lowered.diagnostics.iter();
+    let found: Vec<_> = found
+        .map(crate::text::Diagnostic::message_with_hint)
+        .collect();
+    let none = "a.obj:2:6: a.obj (obj): the file has no faces that can be used; \
+                the object is left out";
+    let line = "a.obj:2:6: f: expected at least three corners, found 2; the face is left out";
+    assert_eq!(found, [line, none, none]);
+    assert!(lowered.scene.is_some_and(|scene| scene.objects.is_empty()));
+}
+
+#[test]
+fn options_of_maps_place_the_picture() {
+    let library = "newmtl a\nmap_Kd a.png -s 4 2 1 -o .5 .25\nmap_Ks -clamp on b.png\n";
+    let scene = scene(
+        &around("<object type='obj' name='a.obj'/>"),
+        &two_faces(library),
+    );
+    let [repeated, clamped] = &scene.textures[..] else {
+        panic!("{:?}", scene.textures);
+    };
+    assert_eq!(repeated.pattern, Pattern::Image("a.png".to_owned()));
+    let uv = DVec3::new(0.5, 0.5, 0.0);
+    let place = repeated.inverse.transform_point3(uv);
+    assert_eq!(place, DVec3::new(2.5, 1.25, 0.0));
+    assert_eq!(clamped.inverse, DAffine3::IDENTITY);
+    assert_eq!(clamped.pattern, Pattern::Clamped("b.png".to_owned()));
 }
 
 /// The triangle lies in the plane x + z = 0, which scaled by 2 along x becomes x + 2z = 0; its

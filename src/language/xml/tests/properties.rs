@@ -16,8 +16,8 @@ fn meshes() -> Meshes {
     let text = "v 0 0 0\nv 1 0 0\nv 0 1 0\nmtllib a.mtl\nf 1 2 3\nusemtl a\nf 1 3 2\nwhat\n";
     let library = "newmtl a\nKd 1 0 0\nmap_Ks b.png\n";
     let sound = obj::read(text.as_bytes(), |_| Ok::<_, String>(library)).map(Arc::new);
-    let fault = NoMesh {
-        reasons: vec!["no such file".to_owned()],
+    let fault = NoMesh::Unread {
+        reason: "no such file".to_owned(),
         hint: None,
     };
     let sound = sound.map_err(|_| fault.clone());

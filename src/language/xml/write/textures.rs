@@ -42,7 +42,7 @@ pub(super) fn with(
 fn inside(text: &mut String, indent: usize, texture: &Texture, scene: &Scene) {
     let mut inverse = texture.inverse;
     match &texture.pattern {
-        Pattern::Image(path) => {
+        Pattern::Image(path) | Pattern::Clamped(path) => {
             word(text, "texture", path);
             text.push_str(">\n");
         }

@@ -209,10 +209,8 @@ fn triangle(size: &str, library: &str) -> Loaded {
 }
 
 fn broken() -> Loaded {
-    let fault = NoMesh {
-        reasons: vec!["line 2, column 3: v: `x` is not a number".to_owned()],
-        hint: None,
-    };
+    let read = obj::read(b"v 0 0 0\nv x 0 0\n", |_| Ok::<_, String>(""));
+    let fault = NoMesh::Malformed(read.expect_err("there are no faces"));
     Loaded {
         meshes: [("a.obj".to_owned(), Err(fault))].into_iter().collect(),
         ..Loaded::default()
@@ -279,11 +277,15 @@ fn a_broken_mesh_is_a_warning_and_its_object_is_left_out() {
     assert_eq!(traced_objects(&effects), Some(1));
     assert_eq!(words(&app), "cannot read 1 file: press ! to see why");
     let (text, found) = (app.wrong().text, app.wrong().findings);
-    let message = "a.obj (obj): line 2, column 3: v: `x` is not a number";
-    let mut found = found.iter();
-    let warning = found.find(|found| found.message == message);
-    let warning = warning.expect("it is reported");
-    assert_eq!(warning.span.of(text), "a.obj");
+    for message in [
+        "a.obj:2:3: v: `x` is not a number",
+        "a.obj:2:8: a.obj (obj): the file has no faces that can be used",
+    ] {
+        let mut found = found.iter();
+        let warning = found.find(|found| found.message_with_file() == message);
+        let warning = warning.expect("it is reported");
+        assert_eq!(warning.span.of(text), "a.obj");
+    }
     // The mesh's file is still watched; other edits are accepted meanwhile.
     assert_eq!(
         asked(&app.update(Msg::AssetsChanged)),
