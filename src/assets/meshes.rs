@@ -1,6 +1,7 @@
 //! Reads meshes and the material libraries that they name.
 
 use std::collections::{BTreeMap, BTreeSet};
+use std::path::Path;
 use std::sync::Arc;
 
 use super::Load;
@@ -22,6 +23,12 @@ pub(super) struct KnownMesh {
 /// The libraries read so far by name: their bytes and a hash of these, or an error.
 type Libraries = BTreeMap<String, Result<(Arc<[u8]>, u64), String>>;
 
+/// The name of a mesh with the extension that it lacks; `None` if it has one.
+pub(super) fn with_extension(name: &str) -> Option<String> {
+    let lacks = Path::new(name).extension().is_none() && !name.ends_with(['/', '\\']);
+    lacks.then(|| format!("{name}.obj"))
+}
+
 impl Load<'_> {
     /// Reads meshes. The result contains the meshes or the reasons why they cannot be read.
     pub(super) fn meshes(&mut self, names: &BTreeSet<String>) -> Meshes {
@@ -39,7 +46,7 @@ impl Load<'_> {
             reason: failure.to_string(),
             hint: failure.hint(),
         };
-        let content = self.content(name).map_err(failed)?;
+        let content = self.mesh_content(name).map_err(failed)?;
         let known = match self.known(name, content.digest, libraries) {
             Some(known) => known,
             None => self
@@ -54,6 +61,31 @@ impl Load<'_> {
         }
         self.now.meshes.push(known);
         Ok(model)
+    }
+
+    /// Reads the file of a mesh, also if its name lacks the extension.
+    fn mesh_content(&mut self, name: &str) -> Result<FileContent, Failure> {
+        let refusal = match self.content(name) {
+            Err(refusal @ (Failure::Missing(_) | Failure::NotRegular(_))) => refusal,
+            read => return read,
+        };
+        let Some(longer) = with_extension(name) else {
+            return Err(refusal);
+        };
+        match (self.gate.read(&longer, &mut self.room.bytes), refusal) {
+            (Ok(mut content), _) => {
+                let place = content.elsewhere.take();
+                let place = place.unwrap_or_else(|| self.gate.place(&longer));
+                self.note(name, Some(place));
+                Ok(content)
+            }
+            (Err(Failure::Missing(others)), Failure::Missing(mut places)) => {
+                places.extend(others);
+                Err(Failure::Missing(places))
+            }
+            (Err(Failure::Missing(_)), refusal) => Err(refusal),
+            (Err(failure), _) => Err(failure),
+        }
     }
 
     /// The known mesh with this hash whose libraries have not changed.

@@ -206,7 +206,12 @@ impl Assets {
         let gate = self.gate(wanted);
         let libraries = self.known.libraries.iter();
         let names = wanted.pictures.iter().chain(&wanted.meshes);
+        let longer = wanted
+            .meshes
+            .iter()
+            .filter_map(|name| meshes::with_extension(name));
         let places = names.chain(libraries).flat_map(|name| gate.watched(name));
+        let places = places.chain(longer.flat_map(|name| gate.watched(&name)));
         places.collect::<BTreeSet<_>>().into_iter().collect()
     }
 }

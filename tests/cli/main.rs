@@ -9,6 +9,7 @@ mod explaining;
 mod frames;
 mod keys;
 mod limits;
+mod meshes;
 mod metadata;
 mod parts;
 mod pictures;

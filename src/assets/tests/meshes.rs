@@ -219,6 +219,40 @@ fn meshes_beyond_the_limits_are_refused() {
     assert!(matches!(loaded.meshes.get("c.obj"), Some(Err(_))));
 }
 
+#[test]
+fn a_mesh_named_without_its_extension_is_found_and_watched() {
+    let place = Place::new();
+    place.write("a.mtl", "newmtl a\n");
+    let wanted = place.wanted_meshes(&["a"]);
+    let mut assets = Assets::new(&[]);
+    let places = [place.at("a"), place.at("a.obj")];
+    assert_eq!(assets.places(&wanted), places);
+    let looked_for = format!(
+        "looked for {}, {}",
+        places[0].display(),
+        places[1].display()
+    );
+    let missing = NoMesh::Unread {
+        reason: "no such file".to_owned(),
+        hint: Some(looked_for),
+    };
+    let loaded = assets.read(&wanted);
+    let fault = loaded.meshes.get("a").and_then(Result::err);
+    assert_eq!(fault, Some(&missing));
+    place.write("a.obj", TRIANGLE);
+    // A folder of this name is no mesh.
+    for _ in 0..2 {
+        let loaded = assets.read(&wanted);
+        assert_eq!(warnings(&loaded, "a"), [""; 0]);
+        assert_eq!(loaded.elsewhere["a"], place.at("a.obj"));
+        let _ = fs::create_dir(place.at("a"));
+    }
+    // A file of this name comes first.
+    fs::remove_dir(place.at("a")).expect("it is there");
+    place.write("a", TRIANGLE);
+    assert_eq!(assets.read(&wanted).elsewhere, BTreeMap::new());
+}
+
 /// The library of a mesh found in a named folder is found there too.
 #[test]
 fn a_mesh_from_a_named_folder_uses_the_library_there() {
