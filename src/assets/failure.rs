@@ -156,9 +156,10 @@ impl From<ReadError> for Failure {
             ReadError::TooLong { .. } => Self::TooLong,
             ReadError::Io { source, .. } => Self::Io(source),
             ReadError::NoMemory { reason, .. } => Self::NoMemory(reason),
-            ReadError::NotFound { .. } | ReadError::NotUtf8 { .. } | ReadError::Binary { .. } => {
-                Self::Missing(Vec::new())
-            }
+            ReadError::NotFound { .. }
+            | ReadError::NoFolder { .. }
+            | ReadError::NotUtf8 { .. }
+            | ReadError::Binary { .. } => Self::Missing(Vec::new()),
         }
     }
 }

@@ -273,6 +273,7 @@ fn read_code(error: &ReadError) -> u8 {
         ReadError::NoMemory { .. } => FAILED,
         ReadError::Io { source, .. } if source.kind() == std::io::ErrorKind::OutOfMemory => FAILED,
         ReadError::NotFound { .. }
+        | ReadError::NoFolder { .. }
         | ReadError::NotRegular { .. }
         | ReadError::TooLong { .. }
         | ReadError::Io { .. } => NO_INPUT,

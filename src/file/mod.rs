@@ -4,6 +4,7 @@
 mod alike;
 mod backup;
 mod calls;
+mod current;
 mod digest;
 #[cfg(test)]
 pub(crate) mod faults;
@@ -25,6 +26,7 @@ use crate::memory::{self, Need, OutOfMemory};
 use crate::text::{Position, Span};
 
 pub use backup::{backups, interruption};
+pub use current::{absolute, has_folder, regain_folder};
 pub use digest::{Digest, Digested};
 pub(crate) use lock::{Lock, lock};
 pub use replace::{deliver, replace};
@@ -67,6 +69,12 @@ pub enum ReadError {
     NotFound {
         /// The path of the file.
         path: PathBuf,
+    },
+    /// The file does not exist, nor does its folder.
+    #[error("{folder}: no such folder", folder = folder.display())]
+    NoFolder {
+        /// The path of the folder.
+        folder: PathBuf,
     },
     /// The file system reported an error.
     #[error("{path}: {source}", path = path.display())]

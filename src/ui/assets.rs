@@ -6,10 +6,11 @@ use std::sync::Arc;
 use std::sync::mpsc::Receiver;
 
 use super::event::Work;
-use super::msg::Msg;
+use super::msg::{Msg, Polled};
 use super::service::{Ended, Service};
 use crate::assets::{Assets, Wanted};
-use crate::watch::{Method, Watcher};
+use crate::file;
+use crate::watch::{Method, Notice, Watcher};
 
 /// Handle of the thread. Nothing waits for its end, as it has no work that could be lost.
 pub(super) struct AssetReader(Service<(Wanted, Work)>);
@@ -55,6 +56,7 @@ impl<S: Fn(Msg) + Send + Sync + 'static> AssetThread<S> {
     fn follow(mut self, inbox: &Receiver<(Wanted, Work)>) {
         while let Ok(first) = inbox.recv() {
             let (wanted, work) = inbox.try_iter().last().unwrap_or(first);
+            file::regain_folder();
             self.watch(&wanted);
             self.read(&wanted);
             // Reading has revealed the material libraries of the meshes. They are read again,
@@ -78,15 +80,23 @@ impl<S: Fn(Msg) + Send + Sync + 'static> AssetThread<S> {
         if places == self.watched {
             return false;
         }
-        drop(self.watcher.take());
+        if self.watcher.take().is_some() {
+            (self.send)(Msg::Polled(Polled::Assets, None));
+        }
         self.watched.clear();
         if !places.is_empty() {
             let send = Arc::clone(&self.send);
-            match Watcher::new(&places, self.method, move || send(Msg::AssetsChanged)) {
+            let notify = move |notice| {
+                send(match notice {
+                    Notice::Changed => Msg::AssetsChanged,
+                    Notice::Polled(reason) => Msg::Polled(Polled::Assets, reason),
+                });
+            };
+            match Watcher::new(&places, self.method, notify) {
                 Ok(watcher) => self.watcher = Some(watcher),
                 Err(error) => {
                     (self.send)(Msg::Failed(format!(
-                        "cannot watch the scene's files for changes: {error}; try --poll"
+                        "cannot watch the scene's files for changes: {error}"
                     )));
                     return false;
                 }

@@ -87,6 +87,9 @@ pub enum Msg {
     Explained(Question, Option<Box<Explanation>>),
     /// The scene file may have changed.
     FileChanged,
+    /// The system cannot notify of all changes of these files, for this reason, and they are polled;
+    /// `None`: it can, or they are no longer watched.
+    Polled(Polled, Option<String>),
     /// The result of [`Effect::Read`] for this path.
     Read(PathBuf, Result<Reading, ReadError>),
     /// The result of [`Effect::Open`] for this path.
@@ -187,8 +190,21 @@ pub enum SaveOutcome {
     },
     /// The file holds text that this session neither wrote nor read: nothing was written.
     ChangedOnDisk,
+    /// The file's folder does not exist: nothing was written; says so.
+    NoFolder(String),
     /// Nothing was written; the reason.
     Failed(String),
+}
+
+/// Files that are watched together.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Polled {
+    /// The scene's file.
+    Scene,
+    /// The files that the scene names.
+    Assets,
+    /// The track file.
+    Track,
 }
 
 /// A side effect requested by a step.

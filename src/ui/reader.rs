@@ -8,7 +8,7 @@ use std::sync::mpsc::Receiver;
 use std::thread;
 
 use super::event::Work;
-use super::msg::Msg;
+use super::msg::{Msg, Polled};
 use super::reading::{Baseline, Opened, Reading, SceneFolder};
 use super::recovery;
 use super::service::{Ended, Service};
@@ -18,7 +18,7 @@ use crate::file::ReadError;
 use crate::language::{self, Language};
 use crate::memory;
 use crate::scene::Meshes;
-use crate::watch::{Method, Watcher};
+use crate::watch::{Method, Notice, Watcher};
 
 /// Length in bytes from which a text is lowered on several threads.
 const LARGE: usize = 1 << 20;
@@ -87,6 +87,7 @@ fn follow(
         requests.extend(inbox.try_iter());
         while let Some(request) = last(requests, &mut watch) {
             let path = request.path().to_owned();
+            file::regain_folder();
             let read = read(&path);
             requests = inbox.try_iter().collect();
             if !requests.iter().all(Request::is_watch) {
@@ -116,7 +117,10 @@ fn follow(
                 understood.map(|reading| Reading { place, ..reading })
             });
             send(match language {
-                None => Msg::Read(path, reading),
+                None => {
+                    let reading = reading.map_err(|error| without_folder(error, &path));
+                    Msg::Read(path, reading)
+                }
                 Some(language) => {
                     let opened = opened(reading, &path, language);
                     Msg::Opened(path, opened)
@@ -179,6 +183,17 @@ fn opened(
     }
 }
 
+/// Tells a missing file from a missing folder.
+fn without_folder(error: ReadError, path: &Path) -> ReadError {
+    if matches!(error, ReadError::NotFound { .. }) && !file::has_folder(path) {
+        let folder = file::absolute(file::directory_of(path));
+        return ReadError::NoFolder {
+            folder: folder.components().collect(),
+        };
+    }
+    error
+}
+
 /// How to open a scene whose file is missing: from edits that were kept of it, or as a new one.
 /// `None` if its folder is missing too.
 pub(super) fn missing(path: &Path, language: Language) -> Option<Opened> {
@@ -197,14 +212,21 @@ fn watch(
     send: &(impl Fn(Msg) + Clone + Send + 'static),
 ) {
     // The old watcher ends first, so that its notices are not taken for the new file's.
-    drop(watcher.take());
-    let path = [path];
-    let changed = send.clone();
-    match Watcher::new(&path, method, move || changed(Msg::FileChanged)) {
+    if watcher.take().is_some() {
+        send(Msg::Polled(Polled::Scene, None));
+    }
+    let notify = send.clone();
+    let notify = move |notice| {
+        notify(match notice {
+            Notice::Changed => Msg::FileChanged,
+            Notice::Polled(reason) => Msg::Polled(Polled::Scene, reason),
+        });
+    };
+    match Watcher::new(std::slice::from_ref(&path), method, notify) {
         Ok(new) => *watcher = Some(new),
         Err(error) => send(Msg::Failed(format!(
-            "{}: cannot watch for changes: {error}; try --poll",
-            path[0].display()
+            "{}: cannot watch for changes: {error}",
+            path.display()
         ))),
     }
 }

@@ -144,7 +144,7 @@ fn normal(scene: &Path) -> PathBuf {
 }
 
 fn note_in(state: &Path, scene: &Path) -> io::Result<()> {
-    let scene = normal(&std::path::absolute(scene)?);
+    let scene = normal(&file::absolute(scene));
     // Such a path cannot be a line of text.
     if scene
         .to_str()

@@ -6,10 +6,10 @@ use std::sync::Arc;
 use std::sync::mpsc::Receiver;
 
 use super::event::Work;
-use super::msg::Msg;
+use super::msg::{Msg, Polled};
 use super::service::{Ended, Service};
 use crate::file::{self, ReadError};
-use crate::watch::{Method, Watcher};
+use crate::watch::{Method, Notice, Watcher};
 
 /// Handle of the thread. Nothing waits for its end, as it has no work that could be lost.
 pub(super) struct TrackReader(Service<(PathBuf, Work)>);
@@ -43,16 +43,25 @@ where
     while let Ok(first) = inbox.recv() {
         let (path, work) = inbox.try_iter().last().unwrap_or(first);
         if watched.as_ref().is_none_or(|(known, _)| *known != path) {
+            if watched.take().is_some() {
+                send(Msg::Polled(Polled::Track, None));
+            }
             let notify = Arc::clone(send);
-            let paths = [path.clone()];
-            match Watcher::new(&paths, method, move || notify(Msg::TrackChanged)) {
+            let notify = move |notice| {
+                notify(match notice {
+                    Notice::Changed => Msg::TrackChanged,
+                    Notice::Polled(reason) => Msg::Polled(Polled::Track, reason),
+                });
+            };
+            match Watcher::new(std::slice::from_ref(&path), method, notify) {
                 Ok(watcher) => watched = Some((path.clone(), watcher)),
                 Err(error) => send(Msg::Failed(format!(
-                    "cannot watch {} for changes: {error}; try --poll",
+                    "{}: cannot watch for changes: {error}",
                     path.display()
                 ))),
             }
         }
+        file::regain_folder();
         let text = read(&path);
         send(Msg::TrackRead(path, text));
         drop(work);

@@ -144,6 +144,7 @@ impl Writers {
         let begun = Work::begin(&self.sender);
         let thread = thread::Builder::new().name(name.to_owned());
         let spawned = thread.spawn(move || {
+            file::regain_folder();
             report.msg = work();
             drop(report);
             drop(begun);
@@ -198,10 +199,8 @@ fn names_in(folder: &Path) -> Vec<String> {
 
 /// Writes a scene unless that would overwrite another program's changes.
 fn save(path: PathBuf, text: &str, guard: &Guard) -> SaveOutcome {
-    let folder = file::directory_of(&path);
-    if let Ok(false) = folder.try_exists() {
-        let reason = file::no_such_folder(folder);
-        return SaveOutcome::Failed(format!("{}: {reason}", folder.display()));
+    if !file::has_folder(&path) {
+        return SaveOutcome::NoFolder(without_folder(&path));
     }
     let saved = file::replace(
         &path,
@@ -218,6 +217,17 @@ fn save(path: PathBuf, text: &str, guard: &Guard) -> SaveOutcome {
         Err(WriteError::Other(reason)) => SaveOutcome::Failed(reason),
         Err(WriteError::Io(error)) => SaveOutcome::Failed(format!("{}: {error}", path.display())),
     }
+}
+
+/// Says that the folder of a file does not exist: the current one by where it was, others as named.
+fn without_folder(path: &Path) -> String {
+    let folder = file::directory_of(path);
+    let reason = file::no_such_folder(folder);
+    if folder == Path::new(".") {
+        let lost: PathBuf = file::absolute(folder).components().collect();
+        return format!("{}: {reason}", lost.display());
+    }
+    format!("{}: {reason}", folder.display())
 }
 
 /// Reason why a scene was not written.
@@ -411,7 +421,7 @@ mod tests {
             ),
         ] {
             let outcome = save(path, "", &Guard::Absent);
-            assert!(matches!(outcome, SaveOutcome::Failed(said) if said.ends_with(reason)));
+            assert!(matches!(outcome, SaveOutcome::NoFolder(said) if said.ends_with(reason)));
         }
     }
 
@@ -435,7 +445,7 @@ mod tests {
                     assert_eq!(reason, format!("{}: {cause}", path.display()));
                     assert_eq!(held, "old", "{calls:?}");
                 }
-                SaveOutcome::ChangedOnDisk => panic!("{calls:?}"),
+                outcome => panic!("{outcome:?}: {calls:?}"),
             }
             assert_eq!(place.path().read_dir().expect("a folder").count(), 1);
             calls.hit.is_none()

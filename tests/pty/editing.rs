@@ -271,3 +271,40 @@ fn a_scene_is_followed_when_its_folder_is_moved() {
         }
     }
 }
+
+/// As `git switch` does with folders that are not in the other branch.
+#[test]
+fn a_scene_is_followed_into_the_folder_that_takes_the_place_of_its_own() {
+    let place = Place::new();
+    let folder = place.at("scenes");
+    let home = place.at("");
+    let environment = [("HOME", home.to_str().expect("a text"))];
+    for name in ["balls.ray", "./balls.ray"] {
+        fs::create_dir_all(&folder).expect("created");
+        place.write("scenes/balls.ray", BALLS);
+        let arguments = ["--color", "24", name];
+        let mut session = Session::start(&folder, &arguments, WIDE, &environment);
+        wait_for_rest(&mut session);
+        session.send(RADIUS_TO_2);
+        session.wait_for("balls.ray [+]");
+
+        fs::remove_dir_all(&folder).expect("removed");
+        session.wait_for("scenes: no such folder; save the scene elsewhere with :w FILE");
+        session.send(":w\r");
+        session.wait_for("scenes: no such folder; save elsewhere with :w FILE");
+
+        fs::create_dir(&folder).expect("created");
+        place.write(
+            "scenes/balls.ray",
+            &BALLS.replacen("0 1 0  0", "0 0 1  0", 1),
+        );
+        wait_for_colour(&mut session, BLUE);
+        session.send(":w\r");
+        session.wait_for("wrote ");
+        assert_eq!(
+            place.read("scenes/balls.ray"),
+            edited().replacen("0 1 0  0", "0 0 1  0", 1)
+        );
+        quit(session);
+    }
+}

@@ -11,7 +11,7 @@ use std::path::{Path, PathBuf};
 use std::sync::mpsc::{self, Receiver};
 use std::time::{Duration, SystemTime};
 
-use halflight::watch::{Method, Watcher};
+use halflight::watch::{Method, Notice, Watcher};
 use tempfile::TempDir;
 
 /// The timeout for a notice that must arrive.
@@ -71,7 +71,8 @@ impl Watched {
         let path = directory.path().join(name);
         let (sender, notices) = mpsc::channel();
         // The receiver may be dropped first when the test ends.
-        let notify = move || {
+        let notify = move |notice| {
+            assert_eq!(notice, Notice::Changed);
             let _ = sender.send(());
         };
         let watcher = Watcher::new(std::slice::from_ref(&path), method, notify).expect("a watcher");
@@ -228,7 +229,8 @@ fn the_creation_of_a_missing_file_is_noticed() {
 fn watch(directory: &Path, names: &[&str], method: Method) -> (Watcher, Receiver<()>) {
     let paths: Vec<_> = names.iter().map(|name| directory.join(name)).collect();
     let (sender, notices) = mpsc::channel();
-    let notify = move || {
+    let notify = move |notice| {
+        assert_eq!(notice, Notice::Changed);
         let _ = sender.send(());
     };
     let watcher = Watcher::new(&paths, method, notify).expect("a watcher");

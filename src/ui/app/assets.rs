@@ -197,6 +197,11 @@ impl Assets {
         Some(words)
     }
 
+    /// Whether files cannot be read.
+    pub(super) fn have_faults(&self) -> bool {
+        0 < self.meshes.unreadable() + self.picture_errors.len()
+    }
+
     /// The message that counts the unreadable files, and its severity; `errors` lists the reasons.
     pub(super) fn faults(&self, errors: &str) -> (Option<Severity>, String) {
         let count = self.meshes.unreadable() + self.picture_errors.len();

@@ -5,6 +5,7 @@ use std::sync::Arc;
 use super::App;
 use super::assets::Notice;
 use super::cursor::Names;
+use super::messages::About;
 use super::trial::Meaning;
 use crate::assets::{Loaded, Wanted};
 use crate::language::{Lowered, Node, Nodes};
@@ -30,7 +31,13 @@ impl App {
         match news.notice {
             Some(Notice::Faults) => {
                 let (severity, words) = self.assets.faults(&self.key_for(Action::Errors));
-                self.overlays.show(severity, words);
+                match severity {
+                    Some(severity) => self.overlays.complain(About::Assets, severity, &words),
+                    None => {
+                        self.overlays.end_complaint(About::Assets);
+                        self.overlays.say(words);
+                    }
+                }
             }
             Some(Notice::Elsewhere(words)) => self.overlays.say(words),
             Some(Notice::Reloaded) => self.overlays.say("files reloaded"),
@@ -80,6 +87,9 @@ impl App {
     fn install_with(&mut self, lowered: Lowered, names: Names) {
         let (path, source) = (self.disk.path.as_deref(), self.document.source());
         self.reported = self.assets.report(path, source, lowered.diagnostics);
+        if !self.assets.have_faults() {
+            self.overlays.end_complaint(About::Assets);
+        }
         self.keep_solo();
         // A scene that lacks a mesh may still have an error.
         if let Some(scene) = lowered.scene.filter(|_| !self.assets.lack_meshes())

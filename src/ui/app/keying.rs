@@ -111,15 +111,21 @@ impl App {
 
     /// Takes the outcome of writing a track file.
     pub(super) fn track_written(&mut self, outcome: SaveOutcome) -> Vec<Effect> {
+        self.take_written(outcome);
+        // What was read of the file meanwhile was not taken.
+        self.reread_track().into_iter().collect()
+    }
+
+    fn take_written(&mut self, outcome: SaveOutcome) {
         let Some((text, words)) = self.sequence.writing.take() else {
-            return Vec::new();
+            return;
         };
         let Some(open) = &mut self.sequence.open else {
-            return Vec::new();
+            return;
         };
         match outcome {
             // Another track may have been opened meanwhile.
-            SaveOutcome::Saved { path, .. } if path != open.path => Vec::new(),
+            SaveOutcome::Saved { path, .. } if path != open.path => {}
             SaveOutcome::Saved { .. } => {
                 (open.track, _) = track::read(&text);
                 if open.before.last() == Some(&text) {
@@ -132,19 +138,16 @@ impl App {
                 self.overlays.say(words);
                 self.suspend_frame();
                 self.resume_frame();
-                Vec::new()
             }
             SaveOutcome::ChangedOnDisk => {
-                let (name, path) = (open.name(), open.path.clone());
+                let name = open.name();
                 let key = self.key_for(Action::OnTrack(Playback::Key));
                 self.overlays.warn(format!(
                     "{name} has changed on disk and is being read again; then press {key} again"
                 ));
-                vec![Effect::ReadTrack(path)]
             }
-            SaveOutcome::Failed(reason) => {
+            SaveOutcome::NoFolder(reason) | SaveOutcome::Failed(reason) => {
                 self.overlays.fail(reason);
-                Vec::new()
             }
         }
     }

@@ -1,9 +1,10 @@
 //! Messages that wait to be shown, and those of the session so far.
 
-use std::collections::VecDeque;
+use std::collections::{BTreeMap, VecDeque};
 use std::time::Duration;
 
 use crate::text::Severity;
+use crate::ui::msg::Polled;
 
 /// The number of messages remembered.
 const REMEMBERED: usize = 50;
@@ -19,6 +20,19 @@ const READING: Duration = Duration::from_millis(50);
 
 /// The number of characters to read at most; the rest can be read in the history.
 const MOST_READ: usize = 120;
+
+/// Files that messages complain about, at most as long as something is wrong with them.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(super) enum About {
+    /// The scene's file cannot be read or taken.
+    Scene,
+    /// Files that the scene names cannot be read.
+    Assets,
+    /// The track file cannot be read or played.
+    Track,
+    /// They are polled.
+    Polling(Polled),
+}
 
 /// A message to the user.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -36,6 +50,8 @@ pub struct Messages {
     waiting: VecDeque<(Message, Lasts)>,
     /// The last messages, the newest first.
     past: VecDeque<Message>,
+    /// What was said last about files that something is wrong with.
+    pub(super) complaints: BTreeMap<About, String>,
     /// Whether the message in the status line came in this step, so that nobody has seen it.
     pub(super) is_unseen: bool,
     /// How long the message in the status line is worth showing.

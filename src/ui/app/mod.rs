@@ -57,6 +57,7 @@ mod pictures;
 mod pixel;
 mod places;
 mod pointer;
+mod polling;
 mod rays;
 mod recover;
 mod regions;

@@ -1,5 +1,6 @@
 //! The state of the interface.
 
+use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use crossterm::event::KeyEvent;
@@ -21,6 +22,7 @@ use crate::scene::Scene;
 use crate::text::Findings;
 use crate::ui::arrange::{PanelSizes, Zoom};
 use crate::ui::keymap::{Keymap, Mode};
+use crate::ui::msg::Polled;
 use crate::ui::pixels::Pixels;
 use crate::ui::terminal::Mouse;
 use crate::ui::theme::Theme;
@@ -66,6 +68,8 @@ pub struct App {
     pub thumbnails: Thumbnails,
     /// Dialogs, help, errors, the line being typed, and messages.
     pub overlays: Overlays,
+    /// Why files are polled that the system was to watch.
+    pub(super) polled: BTreeMap<Polled, String>,
     /// Completions and history of the command line.
     pub palette: Palette,
     /// Saves and exports under way.

@@ -1,5 +1,6 @@
 //! Opening the interface: the scene is read in the background, and the first screen does not wait.
 
+use std::collections::BTreeMap;
 use std::path::PathBuf;
 
 use super::assets::Assets;
@@ -100,6 +101,7 @@ impl App {
             sequence: Sequence::default(),
             thumbnails: Thumbnails::default(),
             overlays: Overlays::default(),
+            polled: BTreeMap::new(),
             jobs: Jobs::default(),
             mode: Mode::Select,
             keymap: opening.preferences.keymap,
@@ -156,6 +158,7 @@ impl App {
             .message
             .take_if(|message| message.severity != Some(Severity::Error));
         self.install(lowered);
+        self.complain_of_polling();
         if self.disk.state == OnDisk::New {
             self.announce_new();
         }

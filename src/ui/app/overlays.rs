@@ -8,7 +8,7 @@ use tui_input::Input;
 
 use super::jobs::Pending;
 use super::menu::Menu;
-use super::messages::{Lasts, Message, Messages};
+use super::messages::{About, Lasts, Message, Messages};
 use super::next::Next;
 use super::page::{Page, PageFocus};
 use super::picker::ColourPicker;
@@ -281,11 +281,26 @@ impl Overlays {
 
     /// Dismisses a message whose cause is gone, also while it waits.
     pub(super) fn withdraw(&mut self, text: &str) {
+        let text = &*without_codes(text);
         self.messages.withdraw(text);
         let is_stale = |message: &mut Message| message.text == text;
         if self.message.take_if(is_stale).is_some() {
             // Before messages that are yet to come in this step.
             self.end_step();
+        }
+    }
+
+    /// Shows what is wrong with files, in place of what was before.
+    pub(super) fn complain(&mut self, about: About, severity: Severity, text: &str) {
+        self.end_complaint(about);
+        self.messages.complaints.insert(about, text.to_owned());
+        self.show(Some(severity), text);
+    }
+
+    /// Dismisses the message about files that nothing is wrong with any more.
+    pub(super) fn end_complaint(&mut self, about: About) {
+        if let Some(text) = self.messages.complaints.remove(&about) {
+            self.withdraw(&text);
         }
     }
 

@@ -7,13 +7,14 @@ use std::time::Duration;
 
 use super::cursor::SavedCursor;
 use super::disk::{Faulty, Requester, Settle};
+use super::messages::About;
 use super::places::name_of;
 use super::{App, Dialog, OnDisk, Outside, PromptKind};
 use crate::document::{Adopted, Difference, Numbers, StepName};
 use crate::file;
 use crate::file::ReadError;
 use crate::language::{Before, Lowered};
-use crate::text::{Findings, Position, counted};
+use crate::text::{Findings, Position, Severity, counted};
 use crate::ui::keymap::Action;
 use crate::ui::msg::{Effect, Guard};
 use crate::ui::reading::{Baseline, News, Reading};
@@ -147,7 +148,11 @@ impl App {
     /// Takes the outcome of reading the file, which was compared with the present state.
     fn take_read(&mut self, read: Result<Reading, ReadError>) -> Vec<Effect> {
         let settle = self.disk.take_settle();
-        if self.disk.state == OnDisk::New && matches!(read, Err(ReadError::NotFound { .. })) {
+        let is_missing = matches!(
+            read,
+            Err(ReadError::NotFound { .. } | ReadError::NoFolder { .. })
+        );
+        if self.disk.state == OnDisk::New && is_missing {
             if self.disk.take_requester() == Requester::User {
                 self.announce_new();
             }
@@ -155,41 +160,31 @@ impl App {
         }
         match read {
             Ok(reading) => {
-                self.withdraw_complaint();
+                self.overlays.end_complaint(About::Scene);
                 self.take_reading(reading, settle)
             }
-            Err(error) if settle != Settle::Final => self.disk.wait(match error {
-                ReadError::NotFound { .. } => GONE,
-                _ => QUIET,
-            }),
+            Err(_) if settle != Settle::Final => {
+                self.disk.wait(if is_missing { GONE } else { QUIET })
+            }
             Err(error) => {
                 let (state, hint) = match error {
                     ReadError::NotFound { .. } => {
                         let save = self.key_for(Action::Save);
                         (OnDisk::Missing, format!("; press {save} to write it again"))
                     }
+                    ReadError::NoFolder { .. } => {
+                        let elsewhere = "; save the scene elsewhere with :w FILE";
+                        (OnDisk::Missing, elsewhere.to_owned())
+                    }
                     _ => (OnDisk::Unreadable, String::new()),
                 };
                 self.disk.state = state;
                 self.overlays.errors = None;
                 self.jobs.next = None;
-                self.complain(format!("{error}{hint}"));
+                self.overlays
+                    .complain(About::Scene, Severity::Error, &format!("{error}{hint}"));
                 Vec::new()
             }
-        }
-    }
-
-    /// Shows that the file cannot be read or taken, until that changes.
-    fn complain(&mut self, words: String) {
-        self.withdraw_complaint();
-        self.overlays.fail(words.clone());
-        self.disk.complaint = Some(words);
-    }
-
-    /// Dismisses what [`App::complain`] shows.
-    pub(super) fn withdraw_complaint(&mut self) {
-        if let Some(complaint) = self.disk.complaint.take() {
-            self.overlays.withdraw(&complaint);
         }
     }
 
@@ -300,9 +295,11 @@ impl App {
         self.jobs.next = None;
         self.disk.state = OnDisk::Faulty(Faulty { text, diagnostics });
         let editor = self.key_for(Action::Editor);
-        self.complain(format!(
+        let words = format!(
             "line {line} of the file on disk has an error: press {editor} to edit it, or use :w! to overwrite it"
-        ));
+        );
+        self.overlays
+            .complain(About::Scene, Severity::Error, &words);
     }
 
     /// Installs the new meaning of the text, keeps the cursor in place and reports the change;

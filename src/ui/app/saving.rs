@@ -3,6 +3,7 @@
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
+use super::messages::About;
 use super::{App, OnDisk};
 use crate::ui::keymap::Action;
 use crate::ui::msg::{Effect, Guard, SaveId, SaveOutcome};
@@ -55,7 +56,8 @@ impl App {
         self.jobs.count_seconds()
     }
 
-    /// Takes the outcome of a save, and starts the one that waited for it.
+    /// Takes the outcome of a save, and starts the one that waited for it. Reads the file if it is no
+    /// longer being written.
     pub(super) fn was_saved(&mut self, id: SaveId, outcome: SaveOutcome) -> Vec<Effect> {
         let ended = self.jobs.end_save(id);
         // Leaving waits for the newest save.
@@ -70,7 +72,7 @@ impl App {
                 } else {
                     self.unwritten_view()
                 };
-                self.withdraw_complaint();
+                self.overlays.end_complaint(About::Scene);
                 self.overlays.say(format!("wrote {}{view}", path.display()));
                 written = Some(Arc::clone(&text));
                 if ended.is_late {

@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use std::sync::Arc;
 
 use super::App;
+use super::messages::About;
 use super::next::name_of;
 use super::sequence::{OpenTrack, ShownFrame, complaint};
 use crate::document::StepName;
@@ -61,11 +62,17 @@ impl App {
         let open = self.sequence.open.as_ref();
         let open = open.filter(|open| open.path == path);
         let text = match read {
-            Ok(text) if is_asked || open.is_some() && text.is_some() => text,
-            // Many programs move the old file away before the new one exists.
+            Ok(text) if is_asked || open.is_some() => {
+                self.overlays.end_complaint(About::Track);
+                if text.is_none() && !is_asked {
+                    // Many programs move the old file away before the new one exists.
+                    return Vec::new();
+                }
+                text
+            }
             Ok(_) => return Vec::new(),
             Err(error) => {
-                self.overlays.fail(error.to_string());
+                self.complain_of_track(&error.to_string());
                 return Vec::new();
             }
         };
@@ -80,8 +87,7 @@ impl App {
         let (track, findings) = track::read(text.as_deref().unwrap_or(track::BEGUN));
         if 0 < findings.errors() {
             let text = text.unwrap_or_default();
-            self.overlays
-                .fail(complaint(&name_of(&path), &text, &findings));
+            self.complain_of_track(&complaint(&name_of(&path), &text, &findings));
             return Vec::new();
         }
         self.suspend_frame();
@@ -157,10 +163,14 @@ impl App {
         let camera = self.scene.as_ref()?.camera;
         let (bound, findings) = track::bind(track, self.source(), &camera);
         if 0 < findings.errors() {
-            self.overlays.fail(complaint(name, text, &findings));
+            self.complain_of_track(&complaint(name, text, &findings));
             return None;
         }
         Some(bound)
+    }
+
+    fn complain_of_track(&mut self, words: &str) {
+        self.overlays.complain(About::Track, Severity::Error, words);
     }
 
     /// Puts the present frame into the text, in SEQUENCE mode.
@@ -344,9 +354,12 @@ impl App {
         was_dirty.unwrap_or_else(|| self.document.is_dirty())
     }
 
-    /// Reads the open track again, if there is one.
+    /// Reads the open track again, if there is one and it is not being written.
     pub(super) fn reread_track(&self) -> Option<Effect> {
         let open = self.sequence.open.as_ref()?;
+        if self.sequence.writing.is_some() {
+            return None;
+        }
         Some(Effect::ReadTrack(open.path.clone()))
     }
 }

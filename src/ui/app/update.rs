@@ -63,6 +63,7 @@ impl App {
             Msg::Explained(question, answer) => self.explained(question, answer),
             Msg::Ended(target) => return self.ended(target, "the renderer stopped early"),
             Msg::FileChanged => return self.read_again(),
+            Msg::Polled(what, reason) => self.polled(what, reason),
             // The scene may have been given another name since the request.
             Msg::Read(path, read) if !self.disk.is_own(&path) => drop(read),
             Msg::Opened(path, opened) => return self.scene_read(path, opened),

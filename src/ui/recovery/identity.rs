@@ -65,8 +65,7 @@ fn canonical(path: &Path) -> PathBuf {
     fs::canonicalize(path)
         .ok()
         .or_else(in_folder)
-        .or_else(|| std::path::absolute(path).ok())
-        .unwrap_or_else(|| path.to_owned())
+        .unwrap_or_else(|| file::absolute(path))
 }
 
 /// The 64-bit FNV-1a hash (Fowler, Noll, Vo). Unlike the standard library's, it is the same in

@@ -249,6 +249,9 @@ fn text_segments(app: &App, say: &mut impl FnMut(u8, String, Style)) {
     if let Some(disk) = disk {
         say(3, disk.to_owned(), theme::WARNING);
     }
+    if app.polls() {
+        say(3, "[polling]".to_owned(), theme::WARNING);
+    }
     if app.fails_to_keep() {
         say(3, "[not kept]".to_owned(), theme::WARNING);
     }

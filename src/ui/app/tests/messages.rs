@@ -2,7 +2,7 @@
 
 use super::*;
 use crate::file::ReadError;
-use crate::ui::msg::Timer;
+use crate::ui::msg::{Polled, Timer};
 
 fn past(app: &App) -> Vec<&str> {
     let past = app.overlays.messages.past();
@@ -130,4 +130,50 @@ fn a_message_about_the_file_goes_when_the_file_can_be_read_again() {
     assert!(shown(&app).contains("has an error"), "{}", shown(&app));
     outside(&mut app, &format!("{SCENE}\n"));
     assert!(!shown(&app).contains("has an error"), "{}", shown(&app));
+}
+
+#[test]
+fn a_message_that_files_are_polled_lasts_until_they_are_watched() {
+    let mut app = open(SCENE);
+    let reason = "the limit is reached (os error 24)";
+    app.update(Msg::Polled(Polled::Scene, Some(reason.to_owned())));
+    let said = "the limit is reached: polling scene.ray for changes instead";
+    assert_eq!(shown(&app), said);
+    app.update(Msg::Polled(Polled::Track, Some(reason.to_owned())));
+    press(&mut app, "jk");
+    assert!(app.polls());
+    app.update(Msg::Polled(Polled::Scene, None));
+    assert!(app.polls());
+    app.update(Msg::Polled(Polled::Track, None));
+    assert!(!app.polls());
+
+    // A message that nobody has dismissed goes with its cause.
+    app.update(Msg::Polled(Polled::Assets, Some(reason.to_owned())));
+    assert!(shown(&app).contains("the scene's files"), "{}", shown(&app));
+    app.update(Msg::Polled(Polled::Assets, None));
+    assert_eq!(shown(&app), "");
+}
+
+#[test]
+fn a_missing_folder_is_not_told_to_be_written_to() {
+    let mut app = open(SCENE);
+    for _ in 0..2 {
+        let folder = PathBuf::from("/scenes");
+        let error = ReadError::NoFolder { folder };
+        app.update(Msg::Read(PathBuf::from("scene.ray"), Err(error)));
+        app.update(Msg::Elapsed(Timer::Settled));
+    }
+    assert_eq!(app.disk.state, OnDisk::Missing);
+    let said = "/scenes: no such folder; save the scene elsewhere with :w FILE";
+    assert_eq!(shown(&app), said);
+    // The folder is there again, but not the file.
+    for _ in 0..2 {
+        let path = PathBuf::from("scene.ray");
+        app.update(Msg::Read(path.clone(), Err(ReadError::NotFound { path })));
+        app.update(Msg::Elapsed(Timer::Settled));
+    }
+    assert_eq!(
+        shown(&app),
+        "scene.ray: no such file; press w to write it again"
+    );
 }

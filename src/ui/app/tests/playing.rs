@@ -5,6 +5,7 @@ use std::sync::Arc;
 use super::moving::click;
 use super::pictures::frame;
 use super::*;
+use crate::file::ReadError;
 use crate::scene::Size;
 use crate::ui::msg::{Guard, SaveOutcome, Target, Timer};
 
