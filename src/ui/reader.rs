@@ -159,7 +159,7 @@ fn last(requests: Vec<Request>, mut watch: impl FnMut(PathBuf)) -> Option<Reques
 fn nothing(language: Language) -> Baseline {
     Baseline {
         scene: Document::new(language, String::new()).snapshot(),
-        saving: None,
+        saves: 0,
         meshes: Meshes::default(),
         is_sound: false,
     }

@@ -16,8 +16,8 @@ use crate::text::Findings;
 pub struct Baseline {
     /// The text under edit, and the text last saved or loaded.
     pub scene: Snapshot,
-    /// The text that is being written to the file.
-    pub saving: Option<Arc<String>>,
+    /// The number of saves so far, of any file.
+    pub saves: u32,
     /// The meshes read so far.
     pub meshes: Meshes,
     /// Whether the text under edit has no errors, so that numbers can be lowered alone.
@@ -29,7 +29,7 @@ pub struct Baseline {
 pub struct Reading {
     /// The state when the reading was requested.
     pub baseline: Baseline,
-    /// The change found; `None` if the file holds the text last saved or the one being saved.
+    /// The change found; `None` if the file holds the text last saved.
     pub news: Option<Box<News>>,
     /// The folder that the file was read from, if known.
     pub place: Option<SceneFolder>,
@@ -94,9 +94,7 @@ pub struct Meaning {
 impl Reading {
     /// Parses and lowers a text. Fails if that would take more memory than is available.
     pub fn new(text: String, baseline: Baseline) -> Result<Self, OutOfMemory> {
-        let is_own = |own: &Arc<String>| **own == text;
-        let news = if is_own(&baseline.scene.saved) || baseline.saving.as_ref().is_some_and(is_own)
-        {
+        let news = if *baseline.scene.saved == text {
             None
         } else {
             Some(Box::new(News::of(text, &baseline)?))

@@ -32,6 +32,12 @@ impl App {
         let Ok(language) = Language::of_path(&path) else {
             return Vec::new();
         };
+        if self.jobs.is_saving(&path) {
+            let path = path.display();
+            self.overlays
+                .warn(format!("{path} is still being written: open it after that"));
+            return Vec::new();
+        }
         let now = (self.document.revision(), self.pictures.view);
         self.disk.request(path.clone(), now);
         vec![Effect::Open(path, language)]

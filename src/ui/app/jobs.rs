@@ -111,7 +111,6 @@ pub enum Stage {
 struct Save {
     id: SaveId,
     path: PathBuf,
-    text: Arc<String>,
     seconds: u32,
     /// The save of this file that waits for this one.
     next: Option<(SaveId, Arc<String>, Guard)>,
@@ -124,6 +123,13 @@ pub(super) struct Ended {
     /// Whether it is the newest save.
     pub(super) is_newest: bool,
     save: Option<Save>,
+}
+
+impl Ended {
+    /// The file that was written; `None` for a save that is not known.
+    pub(super) fn path(&self) -> Option<&Path> {
+        self.save.as_ref().map(|save| &*save.path)
+    }
 }
 
 impl Jobs {
@@ -143,11 +149,14 @@ impl Jobs {
         self.saves.first().map(|save| save.path.as_path())
     }
 
-    /// The text that is being written to a file.
-    pub(super) fn text_being_saved(&self, path: Option<&Path>) -> Option<&Arc<String>> {
-        let mut saves = self.saves.iter();
-        let save = saves.find(|save| Some(&*save.path) == path);
-        save.map(|save| &save.text)
+    /// Whether a file is being written.
+    pub(super) fn is_saving(&self, path: &Path) -> bool {
+        self.saves.iter().any(|save| save.path == path)
+    }
+
+    /// The number of saves so far, running, waiting or ended.
+    pub(super) fn count_saves(&self) -> u32 {
+        self.newest.0
     }
 
     /// Saves a text. If a save of the same file is running, the new one waits for it and no effect
@@ -174,7 +183,6 @@ impl Jobs {
         self.saves.push(Save {
             id,
             path: path.clone(),
-            text: Arc::clone(&text),
             seconds: 0,
             next: None,
         });

@@ -73,9 +73,21 @@ impl App {
         }
     }
 
+    /// Reads the file, which may have to settle; not while it is being saved.
     pub(super) fn read_again(&mut self) -> Vec<Effect> {
+        if self.is_being_saved() {
+            return Vec::new();
+        }
         self.suspend_frame();
         self.disk.read_again(self.baseline())
+    }
+
+    /// Reads the file and accepts what it holds; not while it is being saved.
+    pub(super) fn read_finally(&mut self) -> Vec<Effect> {
+        if self.is_being_saved() {
+            return Vec::new();
+        }
+        self.disk.read_finally(self.baseline())
     }
 
     /// Rereads the scene's file and the files that it names, for `:e`.
@@ -93,6 +105,9 @@ impl App {
     }
 
     pub(super) fn read_effect(&self) -> Vec<Effect> {
+        if self.is_being_saved() {
+            return Vec::new();
+        }
         self.disk.read(self.baseline())
     }
 
@@ -100,7 +115,7 @@ impl App {
     pub(super) fn baseline(&self) -> Baseline {
         Baseline {
             scene: self.document.snapshot(),
-            saving: self.text_being_saved().cloned(),
+            saves: self.jobs.count_saves(),
             meshes: self.assets.meshes.clone(),
             is_sound: self.sound_scene().is_some(),
         }
@@ -111,8 +126,7 @@ impl App {
     /// after the last edit.
     fn is_known(&self, reading: &Reading) -> bool {
         let baseline = &reading.baseline;
-        let saving = |text: Option<&Arc<String>>| text.map(Arc::as_ptr);
-        if saving(baseline.saving.as_ref()) != saving(self.text_being_saved()) {
+        if baseline.saves != self.jobs.count_saves() {
             return false;
         }
         if reading.news.is_none() {
@@ -123,13 +137,16 @@ impl App {
 
     pub(super) fn settled(&mut self) -> Vec<Effect> {
         if self.disk.is_waiting() {
-            self.disk.read_finally(self.baseline())
+            self.read_finally()
         } else {
             Vec::new()
         }
     }
 
     pub(super) fn was_read(&mut self, read: Result<Reading, ReadError>) -> Vec<Effect> {
+        if self.is_being_saved() {
+            return vec![Effect::Free(Arc::new(read))];
+        }
         if let Ok(reading) = &read
             && !self.is_known(reading)
         {
@@ -223,8 +240,7 @@ impl App {
             self.overlays.dialog = None;
         }
         let Some(news) = reading.news else {
-            // While the file is being saved, the outcome of the save determines its state.
-            if self.disk.state != OnDisk::Known && self.text_being_saved().is_none() {
+            if self.disk.state != OnDisk::Known {
                 self.disk.state = OnDisk::Known;
                 self.overlays.say("the file matches the saved text again");
             } else if requester == Requester::User {

@@ -9,9 +9,11 @@ use crate::ui::keymap::Action;
 use crate::ui::msg::{Effect, Guard, SaveId, SaveOutcome};
 
 impl App {
-    /// The text that is being written to the scene's file.
-    pub(super) fn text_being_saved(&self) -> Option<&Arc<String>> {
-        self.jobs.text_being_saved(self.disk.path.as_deref())
+    /// Whether the scene's file is being written. What is read of it meanwhile may be half of that, and
+    /// is not taken: the end of the save requests another reading.
+    pub(super) fn is_being_saved(&self) -> bool {
+        let path = self.disk.path.as_deref();
+        path.is_some_and(|path| self.jobs.is_saving(path))
     }
 
     /// Saves the text. If a save of the same file is running, the new one waits for it.
@@ -62,6 +64,8 @@ impl App {
         let ended = self.jobs.end_save(id);
         // Leaving waits for the newest save.
         let next = self.jobs.next.take_if(|_| ended.is_newest);
+        let is_own = ended.path().is_some_and(|path| self.disk.is_own(path));
+        let is_changed = matches!(outcome, SaveOutcome::ChangedOnDisk);
         // What the file holds from now on.
         let mut written = None;
         let mut effects = match outcome {
@@ -84,7 +88,12 @@ impl App {
             SaveOutcome::ChangedOnDisk => {
                 let words = "the file has changed: nothing was written yet";
                 self.overlays.warn(words);
-                self.disk.read_finally(self.baseline())
+                Vec::new()
+            }
+            SaveOutcome::NoFolder(reason) => {
+                self.overlays
+                    .fail(format!("{reason}; save elsewhere with :w FILE"));
+                Vec::new()
             }
             SaveOutcome::Failed(reason) => {
                 self.overlays.fail(reason);
@@ -93,6 +102,13 @@ impl App {
         };
         let is_written = written.is_some();
         effects.extend(self.jobs.go_on(ended, written));
+        if is_own {
+            effects.extend(if is_changed {
+                self.read_finally()
+            } else {
+                self.read_again()
+            });
+        }
         if next.is_some() && is_written {
             self.jobs.next = next;
             effects.extend(self.leave_when_done());

@@ -57,6 +57,12 @@ impl App {
         path: PathBuf,
         read: Result<Option<String>, ReadError>,
     ) -> Vec<Effect> {
+        let open = self.sequence.open.as_ref();
+        let is_open = open.is_some_and(|open| open.path == path);
+        if is_open && self.sequence.writing.is_some() {
+            // It may be half of what is being written, after which the file is read again.
+            return Vec::new();
+        }
         let asked = self.sequence.asked.take_if(|asked| *asked == path);
         let is_asked = asked.is_some();
         let open = self.sequence.open.as_ref();

@@ -327,3 +327,51 @@ fn what_cannot_be_played_says_why() {
     );
     assert_eq!((app.mode, app.document.text()), (Mode::Select, SCENE));
 }
+
+#[test]
+fn what_was_said_of_a_track_goes_once_it_can_be_read() {
+    let path = || PathBuf::from("scene.toml");
+    let folder = |app: &mut App| {
+        let kind = "a folder";
+        let error = ReadError::NotRegular { path: path(), kind };
+        app.update(Msg::TrackRead(path(), Err(error)));
+    };
+    let wrong = |app: &mut App| {
+        track(app, Some(&TRACK.replace("13", "'x'")));
+    };
+    let foreign = |app: &mut App| {
+        track(app, Some(&TRACK.replace("the light", "the lihgt")));
+    };
+    for break_it in [&folder as &dyn Fn(&mut App), &wrong, &foreign] {
+        for held in [Some(TRACK), None] {
+            let mut app = playing();
+            break_it(&mut app);
+            assert!(shown(&app).starts_with("scene.toml:"), "{}", shown(&app));
+            track(&mut app, held);
+            assert!(!shown(&app).starts_with("scene.toml:"), "{}", shown(&app));
+        }
+    }
+}
+
+/// What is read of a track that is being written may be half of that.
+#[test]
+fn nothing_that_is_read_of_a_track_during_a_save_is_taken() {
+    let mut app = playing();
+    press(&mut app, "<Esc>ggjjj<Enter>I");
+    let written = app.sequence.writing.clone().expect("a key").0;
+    assert!(app.update(Msg::TrackChanged).is_empty());
+    track(&mut app, Some(&TRACK.replace("13", "21")));
+    let path = PathBuf::from("scene.toml");
+    let text = Arc::clone(&written);
+    let effects = app.update(Msg::TrackWritten(SaveOutcome::Saved { path, text }));
+    assert!(wants(&effects, |effect| matches!(
+        effect,
+        Effect::ReadTrack(_)
+    )));
+    let held = app
+        .sequence
+        .open
+        .as_ref()
+        .and_then(|open| open.held.clone());
+    assert_eq!(held, Some(written));
+}

@@ -142,33 +142,25 @@ fn a_leading_dot_does_not_make_it_another_file() {
 #[test]
 fn the_text_of_a_running_save_is_not_a_change() {
     let mut app = open(SCENE);
-    // Notice of a change before the save.
-    let late = Reading::new(SCENE.replace("1.5", "1.7"), app.baseline()).expect("it fits");
     press(&mut app, "jjjelw");
-    let mine = app.document.text().to_owned();
+    let mine = app.document.shared_text();
     let said = words(&app).to_owned();
-    assert!(outside(&mut app, &mine).is_empty());
+    outside(&mut app, &mine);
     assert_eq!(words(&app), said);
     assert!(app.document.is_dirty(), "the save has no outcome yet");
-    // A reading that was compared with other texts is repeated.
-    let effects = app.update(Msg::Read(PathBuf::from("scene.ray"), Ok(late)));
-    assert!(wants(&effects, |effect| matches!(effect, Effect::Read(..))));
-    let early = Reading::new(mine.clone(), app.baseline()).expect("it fits");
-    let text = app.document.shared_text();
-    saved(&mut app, 1, "scene.ray", &text);
-    let effects = app.update(Msg::Read(PathBuf::from("scene.ray"), Ok(early)));
-    assert!(wants(&effects, |effect| matches!(effect, Effect::Read(..))));
+    saved(&mut app, 1, "scene.ray", &mine);
     assert!(outside(&mut app, &mine).is_empty());
     assert_eq!(words(&app), "wrote scene.ray");
 
-    // What others write meanwhile is a change.
+    // What others write meanwhile is a change, but only once the save has ended.
     press(&mut app, "lw");
-    outside(&mut app, &mine.replace("1.5", "1.7"));
-    assert!(
-        words(&app).starts_with("merged the file's changes"),
-        "{}",
-        words(&app)
-    );
+    let mine = app.document.shared_text();
+    let theirs = mine.replace("1.5", "1.7");
+    outside(&mut app, &theirs);
+    assert_eq!(app.document.text(), **mine);
+    saved(&mut app, 2, "scene.ray", &mine);
+    outside(&mut app, &theirs);
+    assert_eq!(app.document.text(), theirs);
 }
 
 #[test]
@@ -292,4 +284,76 @@ fn a_save_outdates_what_was_said_of_the_missing_file() {
     let text = app.document.shared_text();
     saved(&mut app, saves(&effects)[0].0, "scene.ray", &text);
     assert_eq!(words(&app), "wrote scene.ray");
+}
+
+/// What is read of a file that is being written may be half of that.
+#[test]
+fn nothing_that_is_read_during_a_save_is_taken() {
+    let reads = |effects: &[Effect]| {
+        let reads = |effect: &&Effect| matches!(effect, Effect::Read(..));
+        effects.iter().filter(reads).count()
+    };
+    let half = SCENE.replace("1.5", "1.7");
+    let path = || PathBuf::from("scene.ray");
+    let text_of = |app: &App| Arc::clone(&app.document.shared_text());
+    let outcomes: [fn(PathBuf, Arc<String>) -> SaveOutcome; 4] = [
+        |path, text| SaveOutcome::Saved { path, text },
+        |_, _| SaveOutcome::ChangedOnDisk,
+        |_, _| SaveOutcome::NoFolder("none".to_owned()),
+        |_, _| SaveOutcome::Failed("full".to_owned()),
+    ];
+    for outcome in outcomes {
+        let mut app = open(SCENE);
+        press(&mut app, "jjjel");
+        let reading = Reading::new(half.clone(), app.baseline()).expect("it fits into memory");
+        let requested_before = Msg::Read(path(), Ok(reading));
+        press(&mut app, "w");
+        let mine = text_of(&app);
+
+        for msg in [Msg::FileChanged, Msg::Elapsed(Timer::Settled)] {
+            assert_eq!(reads(&app.update(msg)), 0);
+        }
+        assert_eq!(reads(&press(&mut app, ":e<Enter>")), 0);
+        assert_eq!(reads(&outside(&mut app, &half)), 0);
+        assert_eq!(text_of(&app), mine);
+
+        let saved = outcome(path(), Arc::new(String::clone(&mine)));
+        let effects = app.update(Msg::Saved(SaveId(1), saved));
+        assert_eq!(reads(&effects), 1);
+        assert_eq!(reads(&app.update(requested_before)), 1, "read anew");
+        assert_eq!(text_of(&app), mine);
+        assert!(app.overlays.dialog.is_none());
+    }
+}
+
+/// Two windows: the other one saves between this one's save and its report.
+#[test]
+fn a_late_report_of_a_save_is_older_than_what_is_read_after_it() {
+    let mut app = open(SCENE);
+    press(&mut app, "jjjelw");
+    let mine = app.document.shared_text();
+    let theirs = mine.replace("4 0 0", "5 0 0");
+    outside(&mut app, &theirs);
+    saved(&mut app, 1, "scene.ray", &mine);
+    outside(&mut app, &theirs);
+    assert_eq!(app.document.text(), theirs);
+    assert_eq!(**app.document.saved(), theirs);
+    // Again in the same place: nobody else has changed this one.
+    press(&mut app, "l");
+    outside(&mut app, &theirs.replace("5 0 0\n1\n", "6 0 0\n1\n"));
+    assert!(app.overlays.dialog.is_none());
+    assert_eq!(changed_lines(&app), ["0.2 0 0", "6 0 0"]);
+}
+
+/// A save that waits begins at once when the one before ends.
+#[test]
+fn the_file_is_read_after_the_last_of_several_saves() {
+    let mut app = open(SCENE);
+    press(&mut app, "jjjelw");
+    let first = app.document.shared_text();
+    press(&mut app, "lw");
+    let second = app.document.shared_text();
+    let reads = |effects: &[Effect]| wants(effects, |effect| matches!(effect, Effect::Read(..)));
+    assert!(!reads(&saved(&mut app, 1, "scene.ray", &first)));
+    assert!(reads(&saved(&mut app, 2, "scene.ray", &second)));
 }

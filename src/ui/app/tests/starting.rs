@@ -22,7 +22,7 @@ fn found(name: &str, text: &str) -> Opened {
     let language = Language::of_path(Path::new(name)).expect("a scene's name");
     let nothing = Baseline {
         scene: Document::new(language, String::new()).snapshot(),
-        saving: None,
+        saves: 0,
         meshes: Meshes::default(),
         is_sound: false,
     };
