@@ -282,6 +282,19 @@ impl Document {
         Adopted::Taken
     }
 
+    /// Merges the text that was last taken from outside once more, with edits made after that which
+    /// are meant as changes of `base`, the text saved before. With conflicts, `base` is the saved text
+    /// again, and the merge is still to be adopted.
+    pub fn merge_again(&mut self, base: Arc<String>) -> Adopted {
+        let merge = Merge::new(self.language(), &base, self.source.text(), &self.saved);
+        self.set_saved(base);
+        if merge.conflicts.is_empty() {
+            self.adopt(merge)
+        } else {
+            Adopted::Conflict(merge)
+        }
+    }
+
     /// Applies a merge of this text with recovered edits, as one undoable step; the saved text
     /// stays the same. Unlike in [`Document::adopt`], the text from outside is the edited one.
     pub fn restore(&mut self, merge: &Merge) -> Adopted {

@@ -25,7 +25,7 @@ impl App {
         let entries = additions
             .iter()
             .map(|addition| Entry::new(addition.name, addition.words));
-        self.overlays.menu = Some(Menu::new(Purpose::Add, entries.collect(), 0));
+        self.overlays.menu = Some(Menu::new(Purpose::Add, entries.collect(), None));
     }
 
     /// Opens the menu of kinds that the selected node can be changed to.
@@ -40,14 +40,21 @@ impl App {
             self.overlays.fail(format!("{name} has only one type"));
             return;
         }
-        let fields = self.source().fields(node);
-        let written = fields.iter().filter_map(|placed| placed.spans.first());
-        let written: Vec<_> = written.map(|&span| self.source().leaf_text(span)).collect();
-        let own = kinds
-            .iter()
-            .position(|kind| name.ends_with(&format!("({kind})")) || written.contains(kind));
+        let own = self.own_kind(node);
+        let own = own.and_then(|own| kinds.iter().position(|kind| *kind == own));
         let entries = kinds.into_iter().map(|kind| Entry::new(kind, "")).collect();
-        self.overlays.menu = Some(Menu::new(Purpose::Retype, entries, own.unwrap_or(0)));
+        self.overlays.menu = Some(Menu::new(Purpose::Retype, entries, own));
+    }
+
+    /// The kind that a node has, of those that it can be changed to.
+    pub(super) fn own_kind(&self, node: Node) -> Option<&'static str> {
+        let source = self.source();
+        let name = source.name(node);
+        let fields = source.fields(node);
+        let written = fields.iter().filter_map(|placed| placed.spans.first());
+        let written: Vec<_> = written.map(|&span| source.leaf_text(span)).collect();
+        let mut kinds = source.kinds(node).into_iter();
+        kinds.find(|kind| name.ends_with(&format!("({kind})")) || written.contains(kind))
     }
 
     /// Adds a thing on the surface looked at, otherwise at the camera's target; in an empty text, a

@@ -32,7 +32,7 @@ impl App {
         let present = row.field.chosen(present).map_or(present, |(_, word)| word);
         let at = entries.iter().position(|entry| entry.name == present);
         let purpose = Purpose::Value(row.field.key);
-        let mut menu = Menu::new(purpose, entries, at.unwrap_or(0));
+        let mut menu = Menu::new(purpose, entries, at);
         // A change of the view may concern the working view, which is not in the text.
         let is_text = node != Node::View;
         menu.trial = is_text.then(|| self.begin_trial());
@@ -154,17 +154,22 @@ impl App {
         let Some(name) = menu.chosen().map(|entry| entry.name.clone()) else {
             return;
         };
-        let purpose = menu.purpose;
+        let (purpose, node) = (menu.purpose, self.cursor.selected());
+        // A trial knows what to leave; without one, another program may have changed the value since.
+        let is_untouched = menu.trial.is_none() && menu.opened.as_ref() == Some(&name);
         match purpose {
+            Purpose::Value(_) | Purpose::Retype if is_untouched => {}
+            Purpose::Retype if self.own_kind(node) == Some(&*name) => {}
             Purpose::Value(_) => {
                 self.choose_value(&name);
                 return;
             }
             Purpose::Add => self.add(&name),
             Purpose::Retype => {
-                let node = self.cursor.selected();
                 let edits = self.source().retyping(node, &name);
-                self.restructure(edits, None, &format!("changed to {name}"));
+                if self.restructure(edits, None, &format!("changed to {name}")) {
+                    self.merge_input();
+                }
             }
         }
         self.overlays.menu = None;

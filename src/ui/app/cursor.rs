@@ -66,6 +66,8 @@ pub(super) struct Slide {
 pub struct Typing {
     /// The text and its cursor.
     pub input: Input,
+    /// The literal that it was opened with; `None` if typing began in place of that.
+    pub opened: Option<String>,
     /// Whether the next character replaces the text; moving the text's cursor keeps it.
     pub is_selected: bool,
     /// Why the last attempt was refused: the parser's own message.
@@ -293,13 +295,6 @@ impl Cursor {
             Stride::Plain => "nudge step ×1",
             Stride::Coarse => "nudge step ×10",
         }
-    }
-
-    pub(super) fn type_value(&mut self, input: Input) {
-        self.typing = Some(Typing {
-            input,
-            ..Typing::default()
-        });
     }
 
     /// Scrolls so that the cursors are visible.

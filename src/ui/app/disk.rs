@@ -32,8 +32,9 @@ pub struct Disk {
     place: Option<SceneFolder>,
     /// The last text without errors, while the current one has some.
     pub(super) sound: Option<Arc<String>>,
-    /// The message about a file that could not be read or taken, until it is read again or written.
-    pub(super) complaint: Option<String>,
+    /// The saved text before a text was taken from the file while an input was open: what is typed is
+    /// meant as a change of that.
+    pub(super) before_input: Option<Arc<String>>,
     /// The journal of unsaved edits.
     pub(super) journal: Journal,
 }

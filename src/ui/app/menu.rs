@@ -11,6 +11,8 @@ pub struct Menu {
     /// What choosing an entry does.
     pub purpose: Purpose,
     entries: Vec<Entry>,
+    /// The name of the entry that is the present one, if any was when the menu was opened.
+    pub(super) opened: Option<String>,
     /// What a new name makes, offered after the entries.
     pub(super) offer: Option<Entry>,
     /// The typed filter, and the cursor among the entries shown.
@@ -52,13 +54,15 @@ impl Entry {
 }
 
 impl Menu {
-    /// A menu with its cursor on an entry.
-    pub(super) fn new(purpose: Purpose, entries: Vec<Entry>, at: usize) -> Self {
+    /// A menu with its cursor on the present entry, otherwise on the first.
+    pub(super) fn new(purpose: Purpose, entries: Vec<Entry>, present: Option<usize>) -> Self {
+        let opened = present.and_then(|at| entries.get(at));
         Self {
             purpose,
+            opened: opened.map(|entry| entry.name.clone()),
             entries,
             offer: None,
-            filter: Filter::at(at),
+            filter: Filter::at(present.unwrap_or(0)),
             trial: None,
         }
     }

@@ -32,6 +32,7 @@ mod filter;
 mod filtering;
 mod hints;
 mod hsv;
+mod inputs;
 mod inspecting;
 mod inspection;
 mod jobs;

@@ -50,6 +50,8 @@ pub struct Prompt {
     pub kind: PromptKind,
     /// The text and its cursor.
     pub input: Input,
+    /// The text that it was opened with.
+    pub opened: String,
     /// Whether the next character replaces the text; other keys edit it.
     pub is_selected: bool,
 }
@@ -123,6 +125,7 @@ impl Overlays {
         self.prompt = Some(Prompt {
             kind,
             input: Input::from(text),
+            opened: text.to_owned(),
             is_selected: false,
         });
     }

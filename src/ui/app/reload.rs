@@ -255,17 +255,20 @@ impl App {
             return effects;
         }
         let held = self.cursor.hold(self.document.shared_text());
+        let saved = Arc::clone(self.document.saved());
         let state = std::mem::replace(&mut self.disk.state, OnDisk::Known);
         let (document, meaning, words) = match *news {
             News::Numbers(numbers) => {
-                return self.take_numbers(numbers, &held).unwrap_or_else(|| {
+                let Some(effects) = self.take_numbers(numbers, &held) else {
                     self.disk.state = state;
                     let baseline = self.baseline();
-                    self.disk.read(Baseline {
+                    return self.disk.read(Baseline {
                         is_sound: false,
                         ..baseline
-                    })
-                });
+                    });
+                };
+                self.note_before_input(saved);
+                return effects;
             }
             News::Text(document, meaning) => (self.document.load(document), meaning, RELOADED),
             News::Merged(merged, meaning) => {
@@ -286,6 +289,7 @@ impl App {
                 return Vec::new();
             }
         };
+        self.note_before_input(saved);
         let former = (document, self.scene.clone());
         self.show_reload(&held, meaning.difference.as_ref(), meaning.lowered, &words);
         vec![Effect::Free(Arc::new(former))]

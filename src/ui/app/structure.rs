@@ -196,10 +196,14 @@ impl App {
             "" => "name removed".to_owned(),
             name => format!("renamed: {name}"),
         };
-        if self.restructure(edits, None, &done) && !name.is_empty() {
+        if !self.restructure(edits, None, &done) {
+            return;
+        }
+        if !name.is_empty() {
             let step = StepName::done(format!("renamed {before} to {name}"));
             self.document.name_step(step);
         }
+        self.merge_input();
     }
 
     /// Makes the frame of the selected node orthonormal.

@@ -68,6 +68,7 @@ impl App {
     pub(super) fn type_current(&mut self) {
         if let Some((field, literal)) = self.current() {
             self.cursor.typing = Some(Typing {
+                opened: Some(literal.clone()),
                 input: Input::from(literal),
                 is_selected: !field.kind.is_numeric(),
                 refused: None,
@@ -108,12 +109,18 @@ impl App {
         }
     }
 
-    /// Accepts the typed value; returns whether it was valid.
+    /// Accepts the typed value, or drops one that is as it was opened: another program may have changed
+    /// the field since. Returns whether it was valid.
     fn commit(&mut self) -> bool {
         let Some(typing) = &self.cursor.typing else {
             return true;
         };
         let typed = typing.input.value().trim().to_owned();
+        let opened = typing.opened.as_deref().map(str::trim);
+        if opened == Some(&*typed) {
+            self.cursor.typing = None;
+            return true;
+        }
         let outcome = match self.literals_of(&typed) {
             Ok(values) => self.assign_whole(&values),
             Err(reason) => Err(Diagnostic::error(Span::at(0), reason, "")),
@@ -135,6 +142,9 @@ impl App {
         self.document.end_step();
         let outcome = self.assign(values);
         self.document.end_step();
+        if outcome.is_ok() {
+            self.merge_input();
+        }
         outcome
     }
 

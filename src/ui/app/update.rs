@@ -4,6 +4,7 @@ use crossterm::event::{KeyCode, KeyEvent, KeyModifiers};
 use tui_input::Input;
 
 use super::camera::{advanced, dollied, faced, panned, rolled, stepped, widened};
+use super::cursor::Typing;
 use super::journal::KEPT_AFTER;
 use super::{App, Grid, Help, PageFocus, PromptKind, line};
 use crate::text::Severity;
@@ -22,6 +23,7 @@ impl App {
             self.overlays.forgive_errors();
         }
         self.overlays.end_step();
+        self.follow_input();
         self.follow_sequence();
         let areas = self.areas();
         self.scroll(&areas);
@@ -114,7 +116,7 @@ impl App {
         let context = self.context();
         let before = self.prefix.take();
         let meaning = self.keymap.meaning(context, before, key);
-        let is_line = self.cursor.typing.is_some() || self.overlays.has_line();
+        let is_line = self.has_input();
         let controls = key.modifiers.contains(KeyModifiers::CONTROL);
         let reserved = matches!(
             meaning,
@@ -160,7 +162,10 @@ impl App {
         if let (Context::In(Mode::Edit), KeyCode::Char(first)) = (context, key.code)
             && keymap::begins_value(first)
         {
-            self.cursor.type_value(Input::from(first.to_string()));
+            self.cursor.typing = Some(Typing {
+                input: Input::from(first.to_string()),
+                ..Typing::default()
+            });
         } else {
             self.answer_unknown(context, key);
         }
@@ -242,8 +247,10 @@ impl App {
             KeyCode::Backspace if prompt.input.value().is_empty() => self.close_prompt(),
             KeyCode::Enter => {
                 let (kind, typed) = (prompt.kind, prompt.input.value().to_owned());
+                let is_untouched = typed.trim() == prompt.opened.trim();
                 match kind {
                     PromptKind::Command => return self.run_line(&typed),
+                    PromptKind::Name if is_untouched => self.close_prompt(),
                     PromptKind::Name => {
                         self.overlays.prompt = None;
                         self.rename(&typed);

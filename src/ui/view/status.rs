@@ -590,6 +590,7 @@ mod tests {
             kind: PromptKind::Command,
             is_selected: false,
             input: Input::new("export a.bmp".to_owned()),
+            opened: String::new(),
         });
         assert_eq!(drawn(&app, render_hint, 80, 1)[0], ":export a.bmp");
     }

@@ -277,6 +277,7 @@ const STATES: &[(&str, Change)] = &[
             kind: PromptKind::Filter(Node::View),
             is_selected: false,
             input: Input::new("界界界界界界界界界界界界界界界界".to_owned()).with_cursor(3),
+            opened: String::new(),
         });
     }),
     ("message", |app| {

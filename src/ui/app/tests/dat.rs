@@ -100,7 +100,7 @@ fn an_f_suffix_is_dropped_by_the_next_edit() {
     for (said, radius) in [
         ("e", "0.50f"),
         ("ejjl", "0.60"),
-        ("ejji<Enter>", "0.50"),
+        ("ejji<Enter>", "0.50f"),
         ("ejj2F<Enter>", "2"),
         ("ejjlu", "0.50f"),
     ] {

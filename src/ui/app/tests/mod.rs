@@ -11,6 +11,7 @@ mod editing;
 mod exports;
 mod fields;
 mod hints;
+mod inputs;
 mod inspecting;
 mod lines;
 mod listing;
