@@ -13,6 +13,8 @@ use super::lock::{Lock, lock};
 use super::stream;
 use super::target::{Target, directory_of, not_a_file, open};
 use super::temporary::{Access, Temporary, is_refusal, sync_directory};
+#[cfg(unix)]
+use super::version::FileId;
 use super::version::Version;
 
 /// How long to wait for a file that another program has locked, and the interval between attempts.
@@ -28,7 +30,9 @@ const CHUNK: usize = 1 << 18;
 ///
 /// The content is written to a file without a name, or with a temporary one if the file system has
 /// no unnamed files, and synced; then it takes the file's name. `confirm` is called just before:
-/// an error leaves the old file. It is called again if another file took the name meanwhile.
+/// an error leaves the old file. It is called again if another file took the name meanwhile. Until
+/// the name is taken the old file is locked, so that of several writers of this kind each sees what
+/// the one before has written; a lock of another program is waited for up to a second.
 ///
 /// If that would break a hard link or lose the owner, or if the folder is not writable, the content
 /// is built in memory and overwrites the old one, a copy of which is kept until the new one is
@@ -91,8 +95,10 @@ fn put<E: From<io::Error>>(
                 return overwrite(path, write, confirm);
             };
             let mut twin = filled(twin, write)?;
+            let turn = wait_for_turn(path);
             confirm()?;
             twin.take_name(path)?;
+            drop(turn);
             let version = version_of(twin.file());
             sync_directory(directory_of(path));
             Ok(version)
@@ -174,6 +180,31 @@ fn overwrite<E: From<io::Error>>(
             Err(error.into())
         }
     }
+}
+
+/// Locks a file that is to be replaced, so that nobody who waits for it too replaces it between what
+/// `confirm` has seen and the new content. Returns the lock. `None` if there are no locks, or after
+/// [`LOCK_PATIENCE`]: a lock of another program may mean anything.
+#[cfg(unix)]
+fn wait_for_turn(path: &Path) -> Option<File> {
+    let give_up = Instant::now() + LOCK_PATIENCE;
+    loop {
+        let file = open(OpenOptions::new().read(true), path).ok()?;
+        match lock(&file) {
+            Lock::Unknown => return None,
+            // The lock of a file that was replaced meanwhile keeps nobody out.
+            Lock::Taken if FileId::of_file(&file) == FileId::of(path) => return Some(file),
+            _ if give_up < Instant::now() => return None,
+            Lock::Taken => {}
+            Lock::Busy => thread::sleep(LOCK_RETRY),
+        }
+    }
+}
+
+/// As elsewhere, but a lock would also keep this process from reading the file by its name.
+#[cfg(not(unix))]
+fn wait_for_turn(_path: &Path) -> Option<File> {
+    None
 }
 
 /// Waits until no other program has the file locked, under any of its names. Fails after

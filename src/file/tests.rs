@@ -2,6 +2,8 @@ mod faults;
 #[cfg(unix)]
 mod kills;
 mod limits;
+#[cfg(unix)]
+mod turns;
 
 use std::fs;
 use std::io::Write;

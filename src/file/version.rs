@@ -1,5 +1,7 @@
 //! Detects changes of a file without reading it.
 
+#[cfg(unix)]
+use std::fs::File;
 use std::fs::{self, Metadata};
 use std::io;
 use std::path::Path;
@@ -25,6 +27,14 @@ impl FileId {
         }
         #[cfg(not(unix))]
         fs::canonicalize(path).ok().map(Self)
+    }
+
+    /// The identity of an open file.
+    #[cfg(unix)]
+    pub(super) fn of_file(file: &File) -> Option<Self> {
+        use std::os::unix::fs::MetadataExt;
+        let metadata = file.metadata().ok()?;
+        Some(Self((metadata.dev(), metadata.ino())))
     }
 }
 
