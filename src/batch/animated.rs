@@ -245,7 +245,7 @@ keys = [{ frame = 0, value = [0, 0, 0] }, { frame = 2, value = [1, 1, 1] }]";
                 ..Rendering::default()
             },
             time: None,
-            seed: 0,
+            seed: None,
             aov: None,
             layers: Vec::new(),
             denoise: false,

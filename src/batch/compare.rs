@@ -5,12 +5,14 @@ use std::path::{Path, PathBuf};
 
 use serde_json::{Value, json};
 
+use super::graded::Graded;
 use super::output::Output;
+use super::tracing::Tracer;
 use super::{Error, Messages, Tracing, Warnings, load, stdout};
 use crate::assets;
 use crate::compare::{Comparison, Difference, SizesDiffer, heat_map};
 use crate::file;
-use crate::image_file::{self, ImageFormat, Picture};
+use crate::image_file::{ImageFormat, Picture, Recorded, in_8_bits};
 use crate::language::Language;
 use crate::memory;
 use crate::render::{Frame, Frames};
@@ -105,37 +107,50 @@ fn check(work: &Compare) -> Result<(), Error> {
     output.check()
 }
 
-/// The pictures of both sides. A scene is traced at the size of the picture on the other side,
-/// unless that is compared with a region of it.
+/// The pictures of both sides. A scene is traced as the picture on the other side was.
 fn images(work: &Compare) -> Result<[Image; 2], Error> {
     let [a, b] = &work.sides;
-    let pictures = [a, b].map(|path| is_picture(path).then(|| read(path)).transpose());
-    let [first, second] = pictures;
-    let (first, second) = (first?, second?);
-    let size = first.as_ref().or(second.as_ref()).map(Image::size);
-    let traced = |path, image: Option<Image>| image.map_or_else(|| trace(work, path, size), Ok);
-    Ok([traced(a, first)?, traced(b, second)?])
+    let [first, second] = [a, b].map(|path| is_picture(path).then(|| read(path)).transpose());
+    Ok(match (first?, second?) {
+        (Some(first), Some(second)) => [first.image, second.image],
+        (Some(picture), None) => {
+            let traced = trace(work, b, Some((a.as_path(), &picture)))?;
+            [picture.image, traced]
+        }
+        (None, Some(picture)) => [
+            trace(work, a, Some((b.as_path(), &picture)))?,
+            picture.image,
+        ],
+        (None, None) => [trace(work, a, None)?, trace(work, b, None)?],
+    })
 }
 
 fn is_picture(path: &Path) -> bool {
     Language::of_path(path).is_err()
 }
 
-fn read(path: &Path) -> Result<Image, Error> {
+fn read(path: &Path) -> Result<Recorded, Error> {
     let file = file::open(path)?;
-    image_file::decode(file, u64::MAX).map_err(|source| Error::Picture {
+    Recorded::read(file).map_err(|source| Error::Picture {
         path: path.to_owned(),
         source,
     })
 }
 
-fn trace(work: &Compare, path: &Path, size: Option<Size>) -> Result<Image, Error> {
+/// Traces a scene, to be compared with a picture if there is one.
+fn trace(work: &Compare, path: &Path, picture: Option<(&Path, &Recorded)>) -> Result<Image, Error> {
+    let holds_light = picture.is_some_and(|(_, picture)| picture.holds_light);
+    let mut graded = picture.map(|(of, read)| Graded::new([path, of], read, &work.tracing));
+    let rendering = match &graded {
+        Some(graded) => graded.rendering(),
+        None => work.tracing.rendering,
+    };
     let loaded = load(
         Messages::Text,
         path,
         &work.assets,
         work.warnings,
-        Some(&work.tracing.rendering),
+        Some(&rendering),
     )?;
     let scene = loaded.scene.ok_or_else(|| Error::Invalid {
         errors: loaded.findings.errors(),
@@ -144,25 +159,29 @@ fn trace(work: &Compare, path: &Path, size: Option<Size>) -> Result<Image, Error
         let reason = format!("{} uses it", path.display());
         Output::File(output.clone()).check_is_not(&loaded.read.files, &reason)?;
     }
-    let size = size.filter(|_| work.tracing.region.is_none());
     let own = scene.camera.size;
-    if let (None, Some(size)) = (work.tracing.size, size)
-        && size != own
-    {
-        let [own, size] = [own, size].map(|Size { width, height }| format!("{width}x{height}"));
-        let name = path.display();
-        Messages::Text.note(&format!(
-            "{name} is traced at {size}, the size of the picture; its own is {own}: --size {own} \
-             compares at that"
-        ));
-    }
-    let tracing = Tracing {
-        size: work.tracing.size.or(size),
-        ..work.tracing.clone()
+    let tracing = match &mut graded {
+        Some(graded) => graded.tracing(&scene),
+        None => work.tracing.clone(),
     };
-    let traced = tracing.trace(scene, loaded.read.images, Frames::Last, || {})?;
-    let frame = &traced.frame;
-    Image::new(frame.size, frame.pixels.clone()).ok_or(Error::Stopped)
+    let frames = if holds_light {
+        Frames::LastWithValues
+    } else {
+        Frames::Last
+    };
+    let job = tracing.job(scene, loaded.read.images, frames)?;
+    if let Some(graded) = &graded {
+        graded.tell(&tracing, &job, own);
+    }
+    let frame = Tracer::new(&tracing).trace(job, None, || {})?;
+    let pixels = if holds_light {
+        in_8_bits(&frame)
+    } else {
+        Some(frame.pixels.clone())
+    };
+    pixels
+        .and_then(|pixels| Image::new(frame.size, pixels))
+        .ok_or(Error::Stopped)
 }
 
 /// The figures as a table.

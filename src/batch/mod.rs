@@ -8,6 +8,7 @@ mod convert;
 mod explain;
 mod finding;
 mod frames;
+mod graded;
 mod ledger;
 mod machine;
 mod merge;

@@ -30,8 +30,8 @@ pub fn show(work: &Show) -> Result<Verdict, Error> {
 fn try_show(work: &Show) -> Result<Verdict, Error> {
     assets::check_folders(&work.assets)?;
     let path = &work.picture;
-    let provenance = match image_file::provenance(file::open(path)?) {
-        Ok(Some(provenance)) => provenance,
+    let record = match image_file::record(file::open(path)?) {
+        Ok(Some(record)) => record,
         Ok(None) => return Err(Error::NoProvenance(path.clone(), true)),
         Err(Unreadable::Unknown) => return Err(Error::NoProvenance(path.clone(), false)),
         Err(source) => {
@@ -45,12 +45,18 @@ fn try_show(work: &Show) -> Result<Verdict, Error> {
             memory::start_threads_or_none();
             let loaded = load(Messages::Text, scene, &work.assets, Warnings::Allowed, None)?;
             let digest = fingerprint(loaded.source.text(), &loaded.read.found)?;
-            Some(digest == provenance.scene)
+            Some(record.scene.as_ref() == Some(&digest))
         }
     };
-    let mut text = entries(&provenance);
+    let mut text = String::new();
+    for (name, value) in record.entries() {
+        // Writing to a string cannot fail.
+        let _ = writeln!(text, "{name:<12}{}", visible(value));
+    }
     if is_same != Some(false)
-        && let Some(line) = command_line(work, &provenance)
+        && let Some(line) = record
+            .provenance()
+            .and_then(|made| command_line(work, &made))
     {
         text += &line;
     }
@@ -61,25 +67,18 @@ fn try_show(work: &Show) -> Result<Verdict, Error> {
             "is not the scene of this picture: it is another one, or its text or a file that it names \
              has changed, or the picture is a frame of a track"
         };
-        // Writing to a string cannot fail.
         let _ = writeln!(text, "{} {is}", visible(&scene.to_string_lossy()));
+    }
+    if let Some(unused) = record.unused() {
+        let picture = path.display();
+        Messages::Text.note(&format!("{picture}: not understood of what it says of itself: {unused}"),
+        );
     }
     stdout::print(&text).map_err(stdout::error)?;
     Ok(match is_same {
         Some(false) => Verdict::Different,
         None | Some(true) => Verdict::Alike,
     })
-}
-
-/// All entries, a line each.
-fn entries(provenance: &Provenance) -> String {
-    let spp = ("spp", provenance.settings.spp.to_string());
-    let mut text = String::new();
-    for (name, value) in provenance.written().into_iter().chain([spp]) {
-        // Writing to a string cannot fail.
-        let _ = writeln!(text, "{name:<12}{}", visible(&value));
-    }
-    text
 }
 
 /// The command that renders the picture again; `None` if it was made in the interface and the

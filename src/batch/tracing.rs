@@ -32,8 +32,8 @@ pub struct Tracing {
     /// The time after which no pass begins; without a number of samples, as many are taken as it
     /// permits.
     pub time: Option<Duration>,
-    /// The random seed.
-    pub seed: u32,
+    /// The random seed; 0 if `None`.
+    pub seed: Option<u32>,
     /// What to render instead of light.
     pub aov: Option<Aov>,
     /// What to render beside light.
@@ -44,13 +44,6 @@ pub struct Tracing {
     pub threads: usize,
     /// How the progress is shown.
     pub progress: ProgressStyle,
-}
-
-/// A complete picture, with the renderer that traced it. Kept to the end, so that its threads free memory while the
-/// picture is used.
-pub(super) struct Traced {
-    pub(super) frame: Arc<Frame>,
-    _tracer: Tracer,
 }
 
 /// A renderer that traces one job after the other, and keeps the structures of objects that stay as
@@ -182,23 +175,6 @@ impl Tracing {
         }
     }
 
-    /// Traces a scene and shows the progress. `started` is called while the renderer works.
-    pub(super) fn trace(
-        &self,
-        scene: Scene,
-        images: Images,
-        frames: Frames,
-        started: impl FnOnce(),
-    ) -> Result<Traced, Error> {
-        let job = self.job(scene, images, frames)?;
-        let mut tracer = Tracer::new(self);
-        let frame = tracer.trace(job, None, started)?;
-        Ok(Traced {
-            frame,
-            _tracer: tracer,
-        })
-    }
-
     /// About how many bytes of memory the layers of a job take until its picture is written.
     pub(super) fn memory_for_layers(&self, job: &Job) -> u64 {
         let size = job.settings.traced().size();
@@ -234,7 +210,7 @@ impl Tracing {
                 spp: self
                     .aov
                     .map_or(settings.spp, |aov| aov.samples(settings.spp)),
-                seed: self.seed,
+                seed: self.seed.unwrap_or_default(),
                 aov: self.aov,
                 ..settings
             },

@@ -14,8 +14,10 @@ Examples:
   halflight compare scene.ray reference.bmp --spp 1 --tolerance 2 --max-differing 20
   halflight compare before.xml after.xml --json -o difference.png
 
-A scene is traced at the size of the picture it is compared with, unless --size or --region is \
-given. Pictures are compared as they are displayed: with 8 bits per channel. The worst pixels listed \
+A scene is traced as the picture was that it is compared with, as far as that is a PNG or EXR that says \
+how it was made: with its size, view, samples and every other setting, unless an option says otherwise. \
+With other pictures it is traced at their size, unless --size or --region is given. The settings used are \
+printed to standard error. Pictures are compared as they are displayed: with 8 bits per channel. The worst pixels listed \
 are each from another block of 16 × 16 pixels.
 
 Exit codes: 0 alike, 1 different, 2 wrong arguments, 65 invalid scene or picture, 66 not found or \

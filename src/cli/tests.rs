@@ -108,7 +108,7 @@ fn the_extension_sets_the_format_unless_one_is_given() {
 fn render_options_have_defaults() {
     let default = render("halflight render a.ray -o a.bmp");
     assert_eq!(default.tracing.rendering, Rendering::default());
-    assert_eq!(default.tracing.seed, 0);
+    assert_eq!(default.tracing.seed, None);
     assert_eq!(default.tracing.size, None);
     assert_eq!((default.tracing.region, default.tracing.time), (None, None));
     assert_eq!(default.output, Output::File("a.bmp".into()));
@@ -119,7 +119,10 @@ fn render_options_have_defaults() {
         width: 3,
         height: 2,
     };
-    assert_eq!((given.tracing.size, given.tracing.seed), (Some(size), 7));
+    assert_eq!(
+        (given.tracing.size, given.tracing.seed),
+        (Some(size), Some(7))
+    );
     let asked = Rendering {
         integrator: Some(Integrator::Whitted),
         depth: Some(9),

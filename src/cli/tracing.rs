@@ -54,9 +54,9 @@ pub(super) struct SampleArguments {
     view: Option<Viewpoint>,
     #[command(flatten)]
     rendering: RenderingArguments,
-    /// Random seed, 0 to 4294967295
-    #[arg(long, value_name = "N", default_value_t = 0, allow_negative_numbers = true, value_parser = whole_number(0, u32::MAX))]
-    seed: u32,
+    /// Random seed, 0 to 4294967295 [default: 0]
+    #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = whole_number(0, u32::MAX))]
+    seed: Option<u32>,
 }
 
 impl TracingArguments {

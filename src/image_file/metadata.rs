@@ -6,8 +6,8 @@ use std::panic::{self, AssertUnwindSafe};
 use exr::meta::MetaData;
 use exr::meta::attribute::AttributeValue;
 
-use super::Unreadable;
-use crate::render::Provenance;
+use super::{MAX_PIXELS, Unreadable};
+use crate::render::{Provenance, Record};
 
 /// The keyword of the text in a PNG, and the name of the attribute in an EXR.
 pub(super) const KEYWORD: &str = "halflight";
@@ -26,28 +26,21 @@ pub(super) fn text(provenance: &Provenance) -> String {
     format!("{}spp {}\n", provenance.lines(), provenance.settings.spp)
 }
 
-fn of_text(text: &str) -> Option<Provenance> {
-    let (entries, spp) = text.strip_suffix('\n')?.rsplit_once('\n')?;
-    let spp = spp.strip_prefix("spp ")?.parse().ok()?;
-    let lines = entries.lines();
-    Provenance::read(lines.map_while(|line| line.split_once(' ')), spp)
-}
-
-/// Reads what a picture is made from; `None` if its file does not say so.
+/// Reads what a file says of how its picture was made; `None` if it says nothing.
 ///
 /// # Errors
 ///
-/// Fails if it is neither a PNG nor an EXR, or damaged before what says it, or says it in a way that this
-/// version does not know.
-pub fn provenance(file: impl Read + Seek) -> Result<Option<Provenance>, Unreadable> {
+/// Fails if it is neither a PNG nor an EXR, or damaged before its pixels.
+pub fn record(file: impl Read + Seek) -> Result<Option<Record>, Unreadable> {
     // As for pixels, decoders run on untrusted bytes.
     let read = panic::catch_unwind(AssertUnwindSafe(|| stored_text(file)));
     let text = read.unwrap_or_else(|_| Err(Unreadable::Broken("its decoder failed".to_owned())))?;
     let read = |text: String| {
-        let foreign = || "its metadata is damaged, or of another version".to_owned();
-        of_text(&text).ok_or_else(|| Unreadable::Broken(foreign()))
+        let mut record = Record::read(&text);
+        record.limit(MAX_PIXELS);
+        record
     };
-    text.map(read).transpose()
+    Ok(text.map(read))
 }
 
 fn stored_text(mut file: impl Read + Seek) -> Result<Option<String>, Unreadable> {

@@ -7,6 +7,7 @@ mod metadata;
 mod movie;
 mod picture;
 mod read;
+mod recorded;
 mod sieve;
 mod write;
 
@@ -16,10 +17,11 @@ use crate::render::Frames;
 use crate::scene::Size;
 
 pub use exr::layer_bytes;
-pub use metadata::provenance;
+pub use metadata::record;
 pub use movie::{MovieFormat, MovieWriter};
 pub use picture::Picture;
 pub use read::{MAX_TEXTURE_PIXELS, Unreadable, decode};
+pub use recorded::{Recorded, in_8_bits};
 pub use write::{encode_quickly, save};
 
 pub use crate::scene::MAX_PIXELS;

@@ -74,26 +74,39 @@ pub fn decode(file: impl Read + Seek, room: u64) -> Result<Image, Unreadable> {
     decoded.unwrap_or_else(|_| Err(Unreadable::Broken("its decoder failed".to_owned())))
 }
 
-fn by_format(mut file: impl Read + Seek, room: u64) -> Result<Image, Unreadable> {
+/// Whether a picture file holds floating-point values.
+pub(super) fn holds_light(file: &mut (impl Read + Seek)) -> Result<bool, Unreadable> {
+    let format = format(file)?;
+    Ok(matches!(format, ImageFormat::OpenExr | ImageFormat::Hdr))
+}
+
+/// The format, by the first bytes; the file stays where it is.
+fn format(file: &mut (impl Read + Seek)) -> Result<ImageFormat, Unreadable> {
     /// The length of the longest magic number of any format.
     const MAGIC: u64 = 16;
     let unreadable = |error: std::io::Error| Unreadable::Broken(error.to_string());
     let mut magic = Vec::new();
-    let length = (&mut file).take(MAGIC).read_to_end(&mut magic);
+    let length = file.by_ref().take(MAGIC).read_to_end(&mut magic);
     let back = -(length.map_err(unreadable)? as i64);
     file.seek_relative(back).map_err(unreadable)?;
     // Whatever program is named after `#?` wrote the same format.
     if magic.starts_with(b"#?") {
-        return pixels(&mut Sieve::hdr(file), ImageFormat::Hdr, room);
+        return Ok(ImageFormat::Hdr);
     }
-    let format = image::guess_format(&magic).map_err(|_| Unreadable::Unknown)?;
+    image::guess_format(&magic).map_err(|_| Unreadable::Unknown)
+}
+
+fn by_format(mut file: impl Read + Seek, room: u64) -> Result<Image, Unreadable> {
+    let broken = |error: std::io::Error| Unreadable::Broken(error.to_string());
+    let format = format(&mut file)?;
     match format {
+        ImageFormat::Hdr => pixels(&mut Sieve::hdr(file), format, room),
         ImageFormat::OpenExr => {
-            let start = file.stream_position().map_err(unreadable)?;
+            let start = file.stream_position().map_err(broken)?;
             if let Some(image) = read_colours(&mut file, room)? {
                 return Ok(image);
             }
-            file.seek(SeekFrom::Start(start)).map_err(unreadable)?;
+            file.seek(SeekFrom::Start(start)).map_err(broken)?;
             pixels(&mut file, format, room)
         }
         ImageFormat::Png => pixels(&mut Sieve::png(file), format, room),

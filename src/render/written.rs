@@ -1,5 +1,7 @@
 //! Render settings as text, with the names and values of the command line's options.
 
+use std::ops::RangeInclusive;
+
 use super::frame::{Aov, Settings};
 use super::region::Region;
 use crate::scene::{FalloffRule, Filter, GlossRule, Integrator, MAX_PIXELS, Size, Transfer};
@@ -113,8 +115,22 @@ pub(super) const AOVS: &[Aov] = &[
     Aov::Indirect,
 ];
 
-fn one_of<T: Copy>(all: &[T], name: impl Fn(T) -> &'static str, written: &str) -> Option<T> {
+pub(super) fn one_of<T: Copy>(
+    all: &[T],
+    name: impl Fn(T) -> &'static str,
+    written: &str,
+) -> Option<T> {
     all.iter().copied().find(|&one| name(one) == written)
+}
+
+pub(super) fn whole_within(range: RangeInclusive<u32>, written: &str) -> Option<u32> {
+    let number = written.parse().ok();
+    number.filter(|number| range.contains(number))
+}
+
+pub(super) fn number_within(range: RangeInclusive<f64>, written: &str) -> Option<f64> {
+    let number = written.parse().ok();
+    number.filter(|number| range.contains(number))
 }
 
 pub(super) fn aov_name(aov: Aov) -> String {

@@ -77,6 +77,14 @@ impl Viewpoint {
         Ok(Self(parts))
     }
 
+    /// These parts, and before them those of another that are not among them.
+    #[must_use]
+    pub fn over(&self, other: &Self) -> Self {
+        let is_named = |part: Part| self.0.iter().any(|&(own, _)| own == part);
+        let others = other.0.iter().filter(|(part, _)| !is_named(*part));
+        Self(others.chain(&self.0).copied().collect())
+    }
+
     /// The camera with these parts replaced.
     ///
     /// # Errors

@@ -7,10 +7,10 @@ use super::revision;
 use crate::assets::Assets;
 use crate::compare::{Comparison, SizesDiffer};
 use crate::file;
-use crate::image_file;
+use crate::image_file::Recorded;
 use crate::language::{self, Language, Source, errors_of_beginning};
 use crate::memory::OutOfMemory;
-use crate::render::Frame;
+use crate::render::{Frame, Record};
 use crate::scene::{Image, Images, Scene, Size};
 use crate::text::{Findings, Position, counted};
 
@@ -30,10 +30,19 @@ pub enum ReferenceSource {
 /// A reference that was read.
 #[derive(Clone, Debug)]
 pub enum ReferenceRead {
-    /// A picture.
-    Picture(Arc<Frame>),
+    /// A picture, and how it was made.
+    Picture(Arc<Frame>, Made),
     /// A scene, which is still to be traced, and the images of its textures.
     Scene(Arc<Scene>, Images),
+}
+
+/// How the picture of a file was made.
+#[derive(Clone, Debug, Default)]
+pub struct Made {
+    /// What the file says of it; `None` if it says nothing.
+    pub record: Option<Box<Record>>,
+    /// Whether the file holds light without a transfer curve, as [`Recorded::holds_light`] says.
+    pub holds_light: bool,
 }
 
 /// Two pictures to compare.
@@ -92,10 +101,13 @@ impl ReferenceSource {
 
 fn picture(path: &Path) -> Result<ReferenceRead, String> {
     let file = file::open(path).map_err(|error| error.to_string())?;
-    let image = image_file::decode(file, u64::MAX);
-    let image = image.map_err(|error| format!("{} {error}", path.display()))?;
-    let frame = Frame::drawn(image.size(), image.pixels().to_vec());
-    Ok(ReferenceRead::Picture(Arc::new(frame)))
+    let read = Recorded::read(file).map_err(|error| format!("{} {error}", path.display()))?;
+    let frame = Frame::drawn(read.image.size(), read.image.pixels().to_vec());
+    let made = Made {
+        record: read.record.map(Box::new),
+        holds_light: read.holds_light,
+    };
+    Ok(ReferenceRead::Picture(Arc::new(frame), made))
 }
 
 fn scene(

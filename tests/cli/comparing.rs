@@ -91,25 +91,47 @@ fn a_scene_is_traced_at_the_size_of_the_picture() {
         "dimmer.ray",
         BALL.replace("1 1 1\n1 0 9", ".5 .5 .5\n1 0 9"),
     );
+    let assumed = |picture: &str, size: &str, spp: u32| {
+        format!(
+            "note: {picture} does not say how it was made: ball.ray is traced with size {size}, depth \
+             8, seed 0, integrator whitted, filter box, transfer linear, exposure 0, falloff none, \
+             gloss none, spp {spp}; options such as --spp change that\n"
+        )
+    };
     let its_size = "note: ball.ray is traced at 16x12, the size of the picture; its own is 8x6: \
                     --size 8x6 compares at that\n";
     let undrawn = "note: c.png is not written: pictures of different sizes have no differences to \
                    draw\n";
     for (words, code, size, told) in [
-        ("ball.bmp ball.ray --spp 2", 0, "16x12", its_size),
-        ("ball.ray ball.bmp --spp 2", 0, "16x12", its_size),
-        ("ball.ray dimmer.ray", 1, "8x6", ""),
-        ("ball.ray ball.ray --size 20x10", 0, "20x10", ""),
-        ("ball.bmp ball.ray --size 4x3", 1, "16x12 and 4x3", ""),
+        (
+            "ball.bmp ball.ray --spp 2",
+            0,
+            "16x12",
+            format!("{its_size}{}", assumed("ball.bmp", "16x12", 2)),
+        ),
+        (
+            "ball.ray ball.bmp --spp 2",
+            0,
+            "16x12",
+            format!("{its_size}{}", assumed("ball.bmp", "16x12", 2)),
+        ),
+        ("ball.ray dimmer.ray", 1, "8x6", String::new()),
+        ("ball.ray ball.ray --size 20x10", 0, "20x10", String::new()),
+        (
+            "ball.bmp ball.ray --size 4x3",
+            1,
+            "16x12 and 4x3",
+            assumed("ball.bmp", "4x3", 16),
+        ),
         (
             "ball.bmp ball.ray --size 4x3 -o c.png",
             1,
             "16x12 and 4x3",
-            undrawn,
+            format!("{}{undrawn}", assumed("ball.bmp", "4x3", 16)),
         ),
     ] {
         let (printed, notes, found) = noted(&place, words);
-        assert_eq!((found, &*notes), (Some(code), told), "{words}: {printed}");
+        assert_eq!((found, notes), (Some(code), told), "{words}: {printed}");
         let first = format!("size              {size}\n");
         assert!(printed.starts_with(&first), "{words}: {printed}");
     }

@@ -7,6 +7,7 @@ mod config;
 mod converting;
 mod explaining;
 mod frames;
+mod grading;
 mod keys;
 mod limits;
 mod meshes;

@@ -6,11 +6,12 @@ use super::contrast::{Both, Contrast};
 use super::picture::Picture;
 use super::sight::Grid;
 use crate::compare::{Comparison, Difference};
-use crate::render::{Frame, NO_OBJECT, Progress};
+use crate::image_file::in_8_bits;
+use crate::render::{Aov, Frame, NO_OBJECT, Progress};
 use crate::scene::{Images, Scene, Size};
 use crate::ui::keymap::Mode;
 use crate::ui::msg::Target;
-use crate::ui::reference::{Pair, ReferenceId, ReferenceRead};
+use crate::ui::reference::{Made, Pair, ReferenceId, ReferenceRead};
 
 /// What pictures are compared with, and in [`Mode::Compare`] the comparison.
 #[derive(Debug, Default)]
@@ -59,12 +60,13 @@ pub struct Reference {
 /// How a reference was made, which says how to trace what is compared with it.
 #[derive(Clone, Debug)]
 pub(super) enum Origin {
-    /// As a preview of this size in half blocks on this grid, with so many samples per pixel.
-    Preview(Size, Grid, u32),
+    /// As a preview of this size in half blocks on this grid, with so many samples per pixel, of an
+    /// output picture of the last size.
+    Preview(Size, Grid, u32, Size),
     /// At full size, with so many samples per pixel.
     Traced(u32),
-    /// By others.
-    File,
+    /// It was read from a file.
+    File(Made),
     /// It is a scene, traced with the present settings, with the images of its textures; the
     /// generation requested last.
     Scene(Arc<Scene>, Images, Option<u64>),
@@ -81,6 +83,9 @@ enum Work {
     /// The present one is seen alone, to be inspected.
     Inspected,
 }
+
+/// What a picture shows unless that is an AOV.
+pub(super) const LIGHT: &str = "light";
 
 /// A place between the left edge of a picture, 0, and the right one, 1.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -99,6 +104,12 @@ impl Compared {
         let id = ReferenceId(self.requests);
         self.asked = Some((id, name));
         id
+    }
+
+    /// The reference requested last.
+    #[cfg(test)]
+    pub(super) fn requested(&self) -> ReferenceId {
+        ReferenceId(self.requests)
     }
 
     /// What to call a reference that was read, unless another was requested since.
@@ -158,8 +169,16 @@ impl Compared {
         if self.work == Work::None {
             return;
         }
+        // Of a picture that is denoised, only the last frame has pixels.
+        if frame.pixels.is_empty() {
+            return;
+        }
         match (target, &mut self.reference) {
-            (Target::Compared, _) => self.live = Some(frame),
+            (Target::Compared, reference) => {
+                let reference = reference.as_ref();
+                let like = reference.and_then(|reference| reference.alike(&frame));
+                self.live = Some(like.map_or(frame, Arc::new));
+            }
             (Target::Reference, Some(reference)) => {
                 if let Origin::Scene(.., Some(_)) = reference.origin {
                     reference.frame = Some(frame);
@@ -269,6 +288,28 @@ impl Compared {
         })
     }
 
+    /// The size of the picture on screen, whose aspect ratio it has there; `None` if that is the scene's
+    /// own.
+    pub(super) fn framed(&self) -> Option<Size> {
+        let reference = self.reference.as_ref()?;
+        match (&reference.origin, self.work, &self.live) {
+            (Origin::Scene(..), ..) => None,
+            (Origin::Preview(.., output), ..) => Some(*output),
+            (_, Work::Inspected, Some(live)) => Some(live.whole()),
+            _ => reference.frame.as_ref().map(|frame| frame.size),
+        }
+    }
+
+    /// The size of the output picture that a reference was pinned of.
+    pub(super) fn pinned_size(&self) -> Option<Size> {
+        let reference = self.reference.as_ref()?;
+        match reference.origin {
+            Origin::Preview(.., output) => Some(output),
+            Origin::Traced(_) => reference.frame.as_ref().map(|frame| frame.size),
+            Origin::File(_) | Origin::Scene(..) => None,
+        }
+    }
+
     /// Points at the next or previous of the worst pixels; fails if there is none.
     pub(super) fn go_to_worst(&mut self, step: isize) -> Result<(), &'static str> {
         let found = self
@@ -341,6 +382,16 @@ impl Reference {
         }
     }
 
+    /// The frame with the pixels that correspond to those of this, if they are others.
+    fn alike(&self, frame: &Frame) -> Option<Frame> {
+        let holds_light = matches!(&self.origin, Origin::File(made) if made.holds_light);
+        let pixels = holds_light.then(|| in_8_bits(frame)).flatten()?;
+        Some(Frame {
+            pixels,
+            ..frame.clone()
+        })
+    }
+
     /// Whether a sample of its picture is still to be taken.
     fn is_awaited(&self) -> bool {
         matches!(self.origin, Origin::Scene(.., Some(_))) && !self.is_settled()
@@ -348,13 +399,17 @@ impl Reference {
 
     /// One that was read.
     pub(super) fn read(name: String, read: ReferenceRead) -> Self {
-        let (origin, frame) = match read {
-            ReferenceRead::Picture(frame) => (Origin::File, Some(frame)),
-            ReferenceRead::Scene(scene, images) => (Origin::Scene(scene, images, None), None),
+        let (shows, origin, frame) = match read {
+            ReferenceRead::Picture(frame, made) => {
+                let record = made.record.as_ref();
+                let shows = record.map(|record| record.aov.map_or(LIGHT, Aov::name));
+                (shows, Origin::File(made), Some(frame))
+            }
+            ReferenceRead::Scene(scene, images) => (None, Origin::Scene(scene, images, None), None),
         };
         Self {
             name,
-            shows: None,
+            shows,
             origin,
             frame,
         }

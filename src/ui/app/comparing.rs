@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 use std::sync::Arc;
 
-use super::compared::{Origin, Reference, Wipe};
+use super::compared::{LIGHT, Origin, Reference, Wipe};
 use super::contrast::Contrast;
 use super::{App, Cross};
 use crate::image_file::ImageFormat;
@@ -60,8 +60,8 @@ impl App {
         let grid = self.pictures.grid;
         let (kind, origin) = match (self.mode, &self.compared.reference) {
             (Mode::Compare, Some(reference)) => match &reference.origin {
-                Origin::Preview(halves, grid, _) => {
-                    ("preview", Origin::Preview(*halves, *grid, spp))
+                Origin::Preview(halves, grid, _, output) => {
+                    ("preview", Origin::Preview(*halves, *grid, spp, *output))
                 }
                 _ => ("trace", Origin::Traced(spp)),
             },
@@ -70,7 +70,7 @@ impl App {
                 let screen = self.preview_screen();
                 let screen = screen.filter(|screen| grid.size(screen.halves) == frame.size);
                 let halves = screen.ok_or_else(untraced)?.halves;
-                ("preview", Origin::Preview(halves, grid, spp))
+                ("preview", Origin::Preview(halves, grid, spp, self.output()))
             }
         };
         let shows = shown(self.pictures.aov);
@@ -128,7 +128,8 @@ impl App {
         vec![Effect::ReadReference(id, source)]
     }
 
-    /// Takes a reference that was read, and compares with it unless the user does something else.
+    /// Takes a reference that was read, and compares with it unless the user does something else. One
+    /// that cannot be compared leaves the one before.
     pub(super) fn reference_read(
         &mut self,
         id: ReferenceId,
@@ -144,14 +145,26 @@ impl App {
                 return Vec::new();
             }
         };
+        if let Err(reason) = self.comparison_jobs(&reference) {
+            self.refuse_picture(Severity::Error, &reason);
+            return vec![Effect::Free(Arc::new(reference))];
+        }
         let is_free = matches!(self.context(), Context::In(mode) if mode != Mode::Move)
             && self.typed_line().is_none();
         let name = reference.name.clone();
+        let how = match (&reference.origin, &reference.frame) {
+            (Origin::File(made), Some(frame)) => self.grading(&name, made, frame.size),
+            _ => String::new(),
+        };
         let mut effects = self.refer(reference);
         if !is_free {
             self.overlays.say(format!(":compare compares with {name}"));
         } else if self.mode != Mode::Compare {
+            self.leave_sequence();
             effects.extend(self.go(Mode::Compare));
+        }
+        if !how.is_empty() {
+            self.overlays.say(how);
         }
         effects
     }
@@ -162,13 +175,22 @@ impl App {
             self.end_comparison();
             return Vec::new();
         }
-        if let Err(reason) = self.comparison_jobs() {
+        if let Err(reason) = self.comparison() {
             self.refuse_picture(Severity::Error, &reason);
             return Vec::new();
         }
         self.compared.before = Some(self.mode);
         self.mode = Mode::Compare;
         self.compared.due = true;
+        let own = self.output();
+        let pinned = self.compared.pinned_size();
+        if let Some(size) = pinned.filter(|size| *size != own) {
+            let [theirs, own] =
+                [size, own].map(|Size { width, height }| format!("{width}×{height}"));
+            self.overlays.say(format!(
+                "traced at {theirs}, the size of the pinned picture; the scene's own is {own}"
+            ));
+        }
         Vec::new()
     }
 
@@ -193,7 +215,7 @@ impl App {
         if !std::mem::take(&mut self.compared.due) && !has_changed {
             return self.measure();
         }
-        match self.comparison_jobs() {
+        match self.comparison() {
             Ok((live, reference)) => {
                 self.compared.begin();
                 let other = match reference {
@@ -215,33 +237,34 @@ impl App {
         pair.map(Effect::Compare).into_iter().collect()
     }
 
-    /// What to trace of the present scene, and of the reference if that is a scene; the error says
-    /// why they cannot be compared.
-    fn comparison_jobs(&self) -> Result<(Job, Option<Job>), String> {
+    /// What to trace of the present scene, and of its reference if that is a scene.
+    fn comparison(&self) -> Result<(Job, Option<Job>), String> {
         let reference = self.compared.reference.as_ref().ok_or_else(|| {
             let pin = self.key_for(Action::Pin);
             format!("nothing to compare with: {pin} pins the picture, :compare FILE loads one")
         })?;
-        let output = self.output();
-        let size = match (&reference.origin, &reference.frame) {
-            (Origin::Preview(halves, ..), _) => *halves,
-            (Origin::Traced(_) | Origin::File, Some(frame)) => frame.size,
-            _ => output,
+        self.comparison_jobs(reference)
+    }
+
+    /// What to trace of the present scene, and of a reference if that is a scene; the error says why
+    /// they cannot be compared.
+    fn comparison_jobs(&self, reference: &Reference) -> Result<(Job, Option<Job>), String> {
+        let (size, spp) = match (&reference.origin, &reference.frame) {
+            (&Origin::Preview(halves, grid, spp, size), _) => {
+                let job = self.shown_job(grid.size(halves), spp);
+                let job = job.ok_or_else(|| self.no_picture())?;
+                let camera = Camera { size, ..job.camera };
+                return Ok((Job { camera, ..job }, None));
+            }
+            (Origin::File(made), Some(frame)) => {
+                return Ok((self.graded_job(made, frame.size)?, None));
+            }
+            (Origin::Traced(spp), Some(frame)) => (frame.size, *spp),
+            _ => (self.output(), self.rendering().spp()),
         };
         if let Some(reason) = ImageFormat::Bmp.refuses(size) {
             return Err(reason);
         }
-        if !corresponds(size, output) {
-            return Err(self.mismatch(reference, size));
-        }
-        let spp = match reference.origin {
-            Origin::Preview(halves, grid, spp) => {
-                let job = self.shown_job(grid.size(halves), spp);
-                return Ok((job.ok_or_else(|| self.no_picture())?, None));
-            }
-            Origin::Traced(spp) => spp,
-            Origin::File | Origin::Scene(..) => self.rendering().spp(),
-        };
         let live = self.final_job(size, spp)?;
         // As exports of this size are framed.
         let camera = Camera {
@@ -251,7 +274,7 @@ impl App {
         let live = Job { camera, ..live };
         let other = match &reference.origin {
             Origin::Scene(scene, images, _) => Some(self.reference_job(scene, images, &live)),
-            Origin::Preview(..) | Origin::Traced(_) | Origin::File => None,
+            Origin::Preview(..) | Origin::Traced(_) | Origin::File(_) => None,
         };
         Ok((live, other))
     }
@@ -282,25 +305,16 @@ impl App {
         }
     }
 
-    /// Why pixels of the reference do not correspond to those of the scene's picture.
-    fn mismatch(&self, reference: &Reference, size: Size) -> String {
-        let Size { width, height } = size;
-        let output = self.output();
-        let cure = match reference.origin {
-            Origin::File => format!(":size {width}x{height} sets that of the scene"),
-            _ => format!("{} pins the present picture", self.key_for(Action::Pin)),
-        };
-        format!(
-            "{} is {width}×{height}, the scene's picture {}×{}: they cannot be compared; {cure}",
-            reference.name, output.width, output.height
-        )
-    }
-
     /// What is unlike about the two pictures, if they show different things: `light against depth`.
     pub fn compares_unlike(&self) -> Option<String> {
-        let reference = self.compared.reference.as_ref()?.shows?;
-        let live = shown(self.pictures.aov);
-        (live != reference).then(|| format!("{live} against {reference}"))
+        let reference = self.compared.reference.as_ref()?;
+        let shows = reference.shows?;
+        let aov = match &reference.origin {
+            Origin::File(made) => self.graded_aov(made),
+            _ => self.pictures.aov,
+        };
+        let live = shown(aov);
+        (live != shows).then(|| format!("{live} against {shows}"))
     }
 
     /// Performs an action of [`Mode::Compare`].
@@ -343,11 +357,11 @@ impl App {
         if self.compared.cross.is_none() {
             self.go_to_worst(1);
         }
-        let size = self.compared.live().map(|live| live.size);
-        if let Some(((x, y), size)) = self.compared.cross.zip(size) {
+        let place = self.compared.live().map(|live| (live.corner, live.whole()));
+        if let Some(((x, y), ([left, top], size))) = self.compared.cross.zip(place) {
             self.compared.inspect(true);
             self.explain_at(Cross {
-                pixel: [x, y],
+                pixel: [left + x, top + y],
                 size,
             });
         }
@@ -400,7 +414,7 @@ impl App {
 
 /// What a picture shows, in a word.
 fn shown(aov: Option<Aov>) -> &'static str {
-    aov.map_or("light", Aov::name)
+    aov.map_or(LIGHT, Aov::name)
 }
 
 /// Whether these are words of git for the newest commit or one before it.
@@ -409,36 +423,9 @@ fn is_head(word: &str) -> bool {
     rest.is_some_and(|rest| rest.is_empty() || rest.starts_with(['~', '^', '@']))
 }
 
-/// Whether a picture of one size has the aspect ratio of another, up to the rounding of one side.
-fn corresponds(size: Size, output: Size) -> bool {
-    let scaled = |side: u32, to: u32, from: u32| {
-        let (side, to, from) = (u64::from(side), u64::from(to), u64::from(from.max(1)));
-        (2 * side * to + from) / (2 * from)
-    };
-    let width = scaled(size.height, output.width, output.height);
-    let height = scaled(size.width, output.height, output.width);
-    width.abs_diff(size.width.into()) <= 1 || height.abs_diff(size.height.into()) <= 1
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn sizes_correspond_up_to_rounding() {
-        let size = |width, height| Size { width, height };
-        for (one, other, fits) in [
-            ((800, 600), (800, 600), true),
-            ((400, 300), (800, 600), true),
-            ((53, 40), (800, 600), true),
-            ((1, 1), (800, 600), true),
-            ((640, 640), (800, 600), false),
-            ((800, 602), (800, 600), false),
-        ] {
-            let found = corresponds(size(one.0, one.1), size(other.0, other.1));
-            assert_eq!(found, fits, "{one:?} {other:?}");
-        }
-    }
 
     #[test]
     fn revisions_before_the_newest_are_recognised() {

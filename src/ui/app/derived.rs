@@ -103,7 +103,14 @@ impl App {
 
     /// The cells of the picture on screen and its size in half blocks; `None` if there is no room.
     pub fn raster(&self) -> Option<(Rect, Size)> {
-        raster(self.areas().picture, self.output())
+        raster(self.areas().picture, self.framed())
+    }
+
+    /// The size of the picture on screen, whose aspect ratio it has there.
+    pub(super) fn framed(&self) -> Size {
+        let is_compared = self.seen() == Target::Compared;
+        let compared = self.compared.framed().filter(|_| is_compared);
+        compared.unwrap_or_else(|| self.output())
     }
 
     /// Which picture is on screen.
@@ -353,7 +360,7 @@ impl App {
     pub(super) fn shape(&self, zoom: Zoom) -> Shape {
         Shape {
             zoom,
-            output: self.output(),
+            output: self.framed(),
             fields: self.cursor.fields().len() + self.cursor.parts().len(),
             panels: self.panels,
         }

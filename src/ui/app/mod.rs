@@ -30,6 +30,7 @@ mod explaining;
 mod exports;
 mod filter;
 mod filtering;
+mod grading;
 mod hints;
 mod hsv;
 mod inputs;

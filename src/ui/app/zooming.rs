@@ -82,17 +82,17 @@ impl App {
     /// What the preview is traced for.
     pub(super) fn preview_screen(&self) -> Option<Screen> {
         let (_, halves) = raster(self.areas_at(self.zoom).picture, self.output())?;
-        Some(self.screen_of(halves))
+        Some(self.screen_of(self.output(), halves))
     }
 
     fn screen(&self) -> Option<Screen> {
         let (_, halves) = self.raster()?;
-        Some(self.screen_of(halves))
+        Some(self.screen_of(self.framed(), halves))
     }
 
-    fn screen_of(&self, halves: Size) -> Screen {
+    fn screen_of(&self, output: Size, halves: Size) -> Screen {
         Screen {
-            output: self.output(),
+            output,
             halves,
             grid: self.pictures.grid,
         }

@@ -5,10 +5,10 @@ use std::sync::Arc;
 use super::pictures::frame;
 use super::*;
 use crate::compare::Comparison;
-use crate::render::{Aov, Frame, Job};
-use crate::scene::{Image, Images, Size};
+use crate::render::{Aov, Frame, Frames, Job, Record};
+use crate::scene::{Image, Images, Integrator, Size, Viewpoint};
 use crate::ui::msg::Target;
-use crate::ui::reference::{Pair, ReferenceId, ReferenceRead, ReferenceSource};
+use crate::ui::reference::{Made, Pair, ReferenceId, ReferenceRead, ReferenceSource};
 
 /// A frame of one colour, except for its first pixel.
 fn picture(size: Size, generation: u64, first: [u8; 3]) -> Arc<Frame> {
@@ -194,36 +194,149 @@ fn the_command_names_files_the_saved_scene_and_revisions() {
     }
 }
 
-/// The effects of a picture of this size that was read.
-fn read_picture(app: &mut App, width: u32, height: u32) -> Vec<Effect> {
-    press(app, ":compare theirs.ppm<Enter>");
+/// The effects of a picture of this size that was read, with what its file says of it.
+fn read_picture(app: &mut App, [width, height]: [u32; 2], record: Option<&str>) -> Vec<Effect> {
+    press(app, ":compare theirs.png<Enter>");
     let size = Size { width, height };
     let frame = Frame::drawn(size, vec![[0; 3]; size.pixels()]);
-    let read = ReferenceRead::Picture(Arc::new(frame));
-    app.update(Msg::ReferenceRead(ReferenceId(1), Ok(read)))
+    let made = Made {
+        record: record.map(|text| Box::new(Record::read(text))),
+        holds_light: false,
+    };
+    let read = ReferenceRead::Picture(Arc::new(frame), made);
+    let id = app.compared.requested();
+    app.update(Msg::ReferenceRead(id, Ok(read)))
 }
 
 #[test]
-fn the_scene_is_traced_at_the_size_of_a_picture_that_it_fits() {
+fn the_scene_is_traced_at_the_size_of_a_picture() {
     let mut app = open(SCENE);
     let Size { width, height } = app.output();
-    let effects = read_picture(&mut app, width / 2, height / 2);
+    for size in [[width / 2, height / 2], [64, 64]] {
+        let mut app = open(SCENE);
+        let effects = read_picture(&mut app, size, None);
+        let live = job(&effects, Target::Compared).expect("it is traced");
+        let [width_of, height_of] = size;
+        let traced = Size {
+            width: width_of,
+            height: height_of,
+        };
+        assert_eq!((live.settings.size, live.camera.size), (traced, traced));
+        assert_eq!(app.mode, Mode::Compare);
+        assert_eq!(
+            words(&app),
+            format!(
+                "theirs.png does not say how it was made: compared at {width_of}×{height_of}, 16 spp, \
+                 whitted, depth 8; the scene's own size is {width}×{height}"
+            )
+        );
+        let (cells, halves) = app.raster().expect("there is room");
+        let [shown, own] =
+            [halves, traced].map(|size| f64::from(size.width) / f64::from(size.height));
+        assert!((shown / own - 1.0).abs() < 0.1, "{cells:?} {halves:?}");
+    }
+    // A pinned one as well, once the scene's size is another.
+    press(&mut app, "<F5>");
+    app.update(Msg::Started(Target::Trace, 1));
+    let size = app.output();
+    app.update(Msg::Frame(Target::Trace, picture(size, 1, [9; 3])));
+    press(&mut app, "A<Esc>:size 64x64<Enter>");
+    let effects = press(&mut app, "=");
     let live = job(&effects, Target::Compared).expect("it is traced");
-    assert_eq!(live.settings.size.width, width / 2);
-    assert_eq!(live.camera.size, live.settings.size);
-    assert_eq!(app.mode, Mode::Compare);
-
-    let mut app = open(SCENE);
-    let effects = read_picture(&mut app, 64, 64);
-    assert!(job(&effects, Target::Compared).is_none());
-    assert_eq!(
-        words(&app),
-        format!(
-            "theirs.ppm is 64×64, the scene's picture {width}×{height}: they cannot be compared; \
-             :size 64x64 sets that of the scene"
-        )
+    assert_eq!(live.settings.size, size);
+    let said = format!(
+        "traced at {width}×{height}, the size of the pinned picture; the scene's own is 64×64"
     );
-    assert_eq!(app.mode, Mode::Select);
+    assert!(said_before(&app, &said), "{}", words(&app));
+}
+
+/// Whether this was said in the session.
+fn said_before(app: &App, said: &str) -> bool {
+    app.overlays
+        .messages
+        .past()
+        .any(|message| message.text == said)
+}
+
+const RECORD: &str = "version 1\nscene 0\nview fov 30\nlayers none\ndenoise yes\nsize 8x6\n\
+                      region 1,2,3,4\ndepth 2\nseed 7\naov none\nintegrator path\nfilter gaussian\n\
+                      transfer srgb\nexposure -1\nfalloff square\nnoise 0.05\nclamp 8\n\
+                      gloss exponent\nspp 64\n";
+
+#[test]
+fn a_picture_is_compared_as_its_file_says_that_it_was_made() {
+    let mut app = open(SCENE);
+    // Neither the text's settings nor the moved view count.
+    press(&mut app, "vl<Esc>");
+    let effects = read_picture(&mut app, [3, 4], Some(RECORD));
+    let live = job(&effects, Target::Compared).expect("it is traced");
+    let mut written = live.settings.written();
+    written.push(("spp", live.settings.spp.to_string()));
+    for (name, value) in written {
+        let line = format!("{name} {value}\n");
+        assert!(RECORD.contains(&line), "{line}");
+    }
+    let own = app.scene.as_ref().expect("a scene").camera;
+    let view = Viewpoint::between(&own, &live.camera).to_string();
+    assert_eq!(view, "fov 30");
+    assert!(live.denoise && live.frames == Frames::LastWithValues);
+    let said = "compared as theirs.png says that it was made: 8×6, 64 spp, path, depth 2, filter \
+                gaussian, transfer srgb, exposure -1, falloff square, gloss exponent, noise 0.05, \
+                clamp 8; the scene's own size is ";
+    assert!(words(&app).starts_with(said), "{}", words(&app));
+    // What the user chooses comes first, and an AOV is named as unlike.
+    let effects = press(&mut app, "PP2");
+    let live = job(&effects, Target::Compared).expect("it is traced");
+    assert_eq!(live.settings.integrator, Integrator::Photon);
+    assert_eq!(live.settings.spp, 1);
+    let unlike = app.compares_unlike();
+    assert_eq!(unlike.as_deref(), Some("depth against light"));
+}
+
+#[test]
+fn of_a_record_that_cannot_be_believed_the_rest_is_used() {
+    for (record, settings) in [
+        (
+            "spp 0\ndepth 3\nnew 1\n",
+            "16 spp, whitted, depth 3; not used: spp 0, new 1, no version and 12 more",
+        ),
+        ("nonsense", "16 spp, whitted, depth 8; not used: nonsense"),
+    ] {
+        let mut app = open(SCENE);
+        let Size { width, height } = app.output();
+        read_picture(&mut app, [width, height], Some(record));
+        let expected =
+            format!("compared as theirs.png says that it was made: {width}×{height}, {settings}");
+        assert_eq!(words(&app), expected);
+    }
+}
+
+/// A pinned picture stays whatever becomes of another one.
+#[test]
+fn a_reference_that_cannot_be_compared_leaves_the_one_before() {
+    let (mut app, _) = previewed();
+    press(&mut app, "A");
+    let name = |app: &App| {
+        app.compared
+            .reference
+            .as_ref()
+            .map(|reference| reference.name.clone())
+    };
+    let pinned = name(&app).expect("it is pinned");
+    // Its whole picture would have too many pixels to trace.
+    let huge = RECORD.replace("size 8x6", "size 4294967295x6");
+    let effects = read_picture(&mut app, [3, 4], Some(&huge));
+    assert!(wants(&effects, |effect| matches!(effect, Effect::Free(_))));
+    assert_eq!(name(&app), Some(pinned.clone()));
+    press(&mut app, ":compare none.png<Enter>");
+    let id = app.compared.requested();
+    app.update(Msg::ReferenceRead(
+        id,
+        Err("none.png: no such file".to_owned()),
+    ));
+    assert_eq!((name(&app), app.mode), (Some(pinned), Mode::Select));
+    press(&mut app, "=");
+    assert_eq!(app.mode, Mode::Compare);
 }
 
 #[test]

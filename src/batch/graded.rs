@@ -1,0 +1,128 @@
+//! How a scene is traced that is compared with a picture: as that was made, if its file says how.
+
+use std::path::Path;
+
+use super::{Tracing, print_message};
+use crate::image_file::Recorded;
+use crate::render::{Job, Record, Region, denoises};
+use crate::scene::{Rendering, Scene, Size};
+
+/// A scene that is to be traced as a picture was.
+pub(super) struct Graded<'w> {
+    /// The files of the scene and the picture.
+    scene: &'w Path,
+    picture: &'w Path,
+    /// What the command line says, which comes first.
+    said: &'w Tracing,
+    /// What the picture's file says.
+    record: Option<Record>,
+    size: Option<Size>,
+    region: Option<Region>,
+}
+
+impl<'w> Graded<'w> {
+    pub(super) fn new([scene, picture]: [&'w Path; 2], read: &Recorded, said: &'w Tracing) -> Self {
+        let mut record = read.record.clone();
+        let own = read.image.size();
+        let (size, region) = match (said.size, said.region, &mut record) {
+            (None, None, Some(record)) => {
+                let (size, region) = record.framing(own);
+                (Some(size), region)
+            }
+            (None, None, None) => (Some(own), None),
+            // The picture may be cut out of the one that its file tells of.
+            (None, region, record) => (record.as_ref().and_then(|record| record.size), region),
+            (size, region, _) => (size, region),
+        };
+        Self {
+            scene,
+            picture,
+            said,
+            record,
+            size,
+            region,
+        }
+    }
+
+    /// The render settings that take precedence over those of the scene's text.
+    pub(super) fn rendering(&self) -> Rendering {
+        let recorded = self.record.as_ref().map(|record| record.rendering);
+        self.said.over_text().or(recorded.unwrap_or_default())
+    }
+
+    /// How the scene is traced.
+    pub(super) fn tracing(&mut self, scene: &Scene) -> Tracing {
+        if let Some(record) = &mut self.record {
+            record.fit(scene);
+        }
+        let record = self.record.clone().unwrap_or_default();
+        let aov = self.said.aov.or(record.aov);
+        Tracing {
+            size: self.size,
+            region: self.region,
+            view: self.said.view.over(&record.view),
+            rendering: self.rendering(),
+            seed: self.said.seed.or(record.seed),
+            aov,
+            denoise: record.denoise && denoises(aov),
+            ..self.said.clone()
+        }
+    }
+
+    /// Says how the scene is traced, and why so.
+    pub(super) fn tell(&self, tracing: &Tracing, job: &Job, own: Size) {
+        let (scene, picture) = (self.scene.display(), self.picture.display());
+        let recorded = self.record.as_ref().and_then(|record| record.size);
+        if let (None, None, None, Some(size)) =
+            (self.said.size, self.said.region, recorded, self.size)
+            && size != own
+        {
+            let [own, size] = [own, size].map(|Size { width, height }| format!("{width}x{height}"));
+            print_message(
+                "note",
+                &format!(
+                    "{scene} is traced at {size}, the size of the picture; its own is {own}: --size \
+                     {own} compares at that"
+                ),
+            );
+        }
+        let settings = settings(tracing, job);
+        let told = match &self.record {
+            Some(_) => format!(
+                "{scene} is traced as {picture} says that it was made, where no option says \
+                 otherwise: {settings}"
+            ),
+            None => format!(
+                "{picture} does not say how it was made: {scene} is traced with {settings}; options \
+                 such as --spp change that"
+            ),
+        };
+        print_message("note", &told);
+        if let Some(unused) = self.record.as_ref().and_then(Record::unused) {
+            let told = format!("{picture}: not used of what it says of itself: {unused}");
+            print_message("note", &told);
+        }
+    }
+}
+
+/// The settings of a job with their names, but for those of a part or property that is not there.
+fn settings(tracing: &Tracing, job: &Job) -> String {
+    let spp = match tracing.time {
+        None => Some(("spp", job.settings.spp.to_string())),
+        Some(_) => None,
+    };
+    let entries = tracing.provenance(job, String::new()).written();
+    let is_told = |(name, value): &(&str, String)| {
+        let is_of_file = matches!(*name, "version" | "scene" | "layers");
+        let is_none = matches!(
+            (*name, value.as_str()),
+            ("view", "own") | ("region" | "aov", "none")
+        );
+        !is_of_file && !is_none
+    };
+    let told = entries.into_iter().chain(spp).filter(is_told);
+    let told: Vec<_> = told
+        .map(|(name, value)| format!("{name} {value}"))
+        .collect();
+    told.join(", ")
+}

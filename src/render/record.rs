@@ -1,0 +1,371 @@
+//! What the file of a picture says of how it was made. Files come from anywhere: what cannot be used is
+//! left out, and counted among what is wrong.
+
+use super::frame::{Aov, Settings};
+use super::provenance::Provenance;
+use super::region::Region;
+use super::written::{aov_name, aov_of, number_within, one_of, whole_within};
+use crate::scene::{
+    EXPOSURES, FalloffRule, Filter, GlossRule, Integrator, MAX_DEPTH, MAX_SPP, Rendering, Scene,
+    Size, Transfer, Viewpoint,
+};
+
+/// How a picture was made, as far as its file says and can be believed.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Record {
+    /// The version of the program that made it.
+    pub version: Option<String>,
+    /// The digest of the scene's text and all files it names.
+    pub scene: Option<String>,
+    /// What differed from the scene's own camera.
+    pub view: Viewpoint,
+    /// The AOVs beside the picture.
+    pub layers: Vec<Aov>,
+    /// Whether its noise was reduced.
+    pub denoise: bool,
+    /// The size of the whole picture.
+    pub size: Option<Size>,
+    /// The only part of it that was traced.
+    pub region: Option<Region>,
+    /// The random seed.
+    pub seed: Option<u32>,
+    /// The AOV that it shows instead of light.
+    pub aov: Option<Aov>,
+    /// The other settings, in the ranges that the command line permits.
+    pub rendering: Rendering,
+    /// The names of the entries that are there.
+    there: Vec<&'static str>,
+    /// The entries that were read.
+    read: Vec<(&'static str, String)>,
+    /// The first of what cannot be used.
+    wrong: Vec<String>,
+    /// How much more of it there is.
+    more: usize,
+}
+
+/// How much of what cannot be used is named.
+const NAMED: usize = 3;
+
+/// More bytes than any value has: a view of numbers that are written without exponents.
+const LONGEST_VALUE: usize = 8192;
+
+/// The most characters named of an entry that cannot be used.
+const LONGEST: usize = 40;
+
+/// Takes a value into a record; `None` if it is none.
+type Take = fn(&mut Record, &str) -> Option<()>;
+
+/// An entry of a record.
+struct Entry {
+    name: &'static str,
+    /// Whether each picture has it; what others lack is off.
+    is_always: bool,
+    take: Take,
+}
+
+const fn entry(name: &'static str, take: Take) -> Entry {
+    Entry {
+        name,
+        is_always: true,
+        take,
+    }
+}
+
+const fn option(name: &'static str, take: Take) -> Entry {
+    Entry {
+        is_always: false,
+        ..entry(name, take)
+    }
+}
+
+/// Sets what is `None` if the value is none.
+fn set<T>(place: &mut Option<T>, value: Option<T>) -> Option<()> {
+    *place = Some(value?);
+    Some(())
+}
+
+/// The entries, with the names that [`Provenance::written`] gives them.
+#[rustfmt::skip]
+const ENTRIES: &[Entry] = &[
+    entry("version", |to, value| set(&mut to.version, Some(value.to_owned()))),
+    entry("scene", |to, value| set(&mut to.scene, Some(value.to_owned()))),
+    entry("view", |to, value| {
+        if value != "own" {
+            to.view = Viewpoint::parse(value).ok()?;
+        }
+        Some(())
+    }),
+    entry("layers", |to, value| {
+        if value != "none" {
+            to.layers = value.split(',').map(aov_of).collect::<Option<_>>()?;
+        }
+        Some(())
+    }),
+    option("denoise", |to, value| {
+        to.denoise = value == "yes";
+        to.denoise.then_some(())
+    }),
+    entry("size", |to, value| set(&mut to.size, Size::parse(value))),
+    entry("region", |to, value| match value {
+        "none" => Some(()),
+        _ => set(&mut to.region, Region::parse(value)),
+    }),
+    entry("depth", |to, value| set(&mut to.rendering.depth, whole_within(0..=MAX_DEPTH, value))),
+    entry("seed", |to, value| set(&mut to.seed, whole_within(0..=u32::MAX, value))),
+    entry("aov", |to, value| match value {
+        "none" => Some(()),
+        _ => set(&mut to.aov, aov_of(value)),
+    }),
+    entry("integrator", |to, value| set(&mut to.rendering.integrator, one_of(&Integrator::ALL, Integrator::name, value))),
+    entry("filter", |to, value| set(&mut to.rendering.filter, one_of(&Filter::ALL, Filter::name, value))),
+    entry("transfer", |to, value| set(&mut to.rendering.transfer, one_of(&Transfer::ALL, Transfer::name, value))),
+    entry("exposure", |to, value| set(&mut to.rendering.exposure, number_within(EXPOSURES, value))),
+    entry("falloff", |to, value| set(&mut to.rendering.falloff, one_of(&FalloffRule::ALL, FalloffRule::name, value))),
+    option("noise", |to, value| set(&mut to.rendering.noise, number_within(0.0..=1.0f64.next_down(), value))),
+    option("clamp", |to, value| set(&mut to.rendering.clamp, number_within(0.0..=f64::MAX, value))),
+    entry("gloss", |to, value| set(&mut to.rendering.gloss, one_of(&GlossRule::ALL, GlossRule::name, value))),
+    entry("spp", |to, value| set(&mut to.rendering.spp, whole_within(1..=MAX_SPP, value))),
+];
+
+impl Record {
+    /// Reads a record: an entry a line, its name before the first blank. Of an entry given twice the
+    /// first good value counts.
+    pub fn read(text: &str) -> Self {
+        let mut record = Self::default();
+        for line in text.lines().filter(|line| !line.is_empty()) {
+            let (name, value) = line.split_once(' ').unwrap_or((line, ""));
+            let known = ENTRIES.iter().find(|entry| entry.name == name);
+            if let Some(entry) = known
+                && !record.there.contains(&entry.name)
+            {
+                record.there.push(entry.name);
+            }
+            let is_new = |entry: &&Entry| record.read.iter().all(|(read, _)| *read != entry.name);
+            let new = known.filter(|entry| is_new(entry) && value.len() <= LONGEST_VALUE);
+            match new.filter(|entry| (entry.take)(&mut record, value).is_some()) {
+                Some(entry) => record.read.push((entry.name, value.to_owned())),
+                None => record.refuse(line),
+            }
+        }
+        if !record.read.is_empty() {
+            record.complete();
+        }
+        record
+    }
+
+    /// Names what is missing, and sets what is off if nothing says otherwise.
+    fn complete(&mut self) {
+        let is_missing = |entry: &&Entry| entry.is_always && !self.there.contains(&entry.name);
+        for entry in ENTRIES.iter().filter(is_missing).collect::<Vec<_>>() {
+            self.refuse(&format!("no {}", entry.name));
+        }
+        self.rendering.noise.get_or_insert(0.0);
+        self.rendering.clamp.get_or_insert(0.0);
+    }
+
+    /// The name and value of each entry that was read, in the order of the file. May contain control
+    /// characters.
+    pub fn entries(&self) -> &[(&'static str, String)] {
+        &self.read
+    }
+
+    /// Whether nothing in it can be used.
+    pub fn is_empty(&self) -> bool {
+        self.read.is_empty()
+    }
+
+    /// Drops a size of more than so many pixels.
+    pub fn limit(&mut self, most: u64) {
+        let is_larger = |size: &mut Size| {
+            let Size { width, height } = *size;
+            most < u64::from(width) * u64::from(height)
+        };
+        if let Some(Size { width, height }) = self.size.take_if(is_larger) {
+            self.refuse(&format!("size {width}x{height}"));
+        }
+    }
+
+    /// Counts something as not used, such as `spp 0` or `no depth`.
+    pub fn refuse(&mut self, what: &str) {
+        if self.wrong.len() < NAMED {
+            let mut shortened: String = what.chars().take(LONGEST).collect();
+            if shortened.len() < what.len() {
+                shortened.push('…');
+            }
+            self.wrong.push(shortened);
+        } else {
+            self.more += 1;
+        }
+    }
+
+    /// What of it is not used, if anything: `new 1, spp 0 and 2 more`. May contain control characters.
+    pub fn unused(&self) -> Option<String> {
+        let more = match self.more {
+            0 => String::new(),
+            more => format!(" and {more} more"),
+        };
+        let named = self.wrong.join(", ");
+        (!self.wrong.is_empty()).then(|| named + &more)
+    }
+
+    /// All of it; `None` if anything is missing or wrong.
+    pub fn provenance(&self) -> Option<Provenance> {
+        let size = self.size.filter(|_| self.wrong.is_empty())?;
+        let region = self.region.map(|region| region.within(size));
+        Some(Provenance {
+            version: self.version.clone()?,
+            scene: self.scene.clone()?,
+            view: self.view.clone(),
+            layers: self.layers.clone(),
+            denoise: self.denoise,
+            settings: Settings {
+                region: region.transpose().ok()?,
+                seed: self.seed?,
+                aov: self.aov,
+                ..Settings::new(size, &self.rendering)
+            },
+        })
+    }
+
+    /// The size of the whole picture and what of it was traced, for a file whose picture has this size.
+    /// If the record says something else, the picture is taken to be whole.
+    pub fn framing(&mut self, picture: Size) -> (Size, Option<Region>) {
+        let Some(size) = self.size else {
+            return (picture, None);
+        };
+        let is_within = |region: Region| region.within(size).is_ok();
+        let traced = self.region.map_or(size, Region::size);
+        if traced == picture && self.region.is_none_or(is_within) {
+            return (size, self.region);
+        }
+        let Size { width, height } = size;
+        let region = self.region.take();
+        let region = region.map_or_else(String::new, |region| format!(" region {region}"));
+        self.size = None;
+        let is = format!("{}x{}", picture.width, picture.height);
+        self.refuse(&format!("size {width}x{height}{region} of {is}"));
+        (picture, None)
+    }
+
+    /// Drops what a scene with this camera cannot show: a view that is none, and the light of a lamp
+    /// that is not there.
+    pub fn fit(&mut self, scene: &Scene) {
+        if self.view.of(&scene.camera).is_err() {
+            let view = std::mem::take(&mut self.view);
+            self.refuse(&format!("view {view}"));
+        }
+        if let Some(aov @ Aov::Direct(light)) = self.aov
+            && scene.lights.len() <= light as usize
+        {
+            self.aov = None;
+            self.refuse(&format!("aov {}", aov_name(aov)));
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const WHOLE: &str = "version 1\nscene 0\nview own\nlayers none\nsize 8x6\nregion none\ndepth 2\n\
+                         seed 7\naov none\nintegrator path\nfilter box\ntransfer srgb\nexposure -1\n\
+                         falloff none\ngloss none\nspp 4\n";
+
+    const SIZE: Size = Size {
+        width: 8,
+        height: 6,
+    };
+
+    #[test]
+    fn what_can_be_used_is_used_and_the_rest_is_named() {
+        for (from, to, unused) in [
+            ("", "", None),
+            ("depth 2\n", "", Some("no depth")),
+            ("depth 2", "depth 4097", Some("depth 4097")),
+            ("spp 4", "spp 0", Some("spp 0")),
+            ("exposure -1", "exposure inf", Some("exposure inf")),
+            ("spp 4", "noise 1\nspp 4", Some("noise 1")),
+            ("spp 4", "clamp nan\nspp 4", Some("clamp nan")),
+            ("view own", "view eye 1", Some("view eye 1")),
+            ("gloss none", "depth 3\ngloss none", Some("depth 3")),
+            ("version 1", "a\nb\nc\nd\ne", Some("a, b, c and 3 more")),
+            ("seed 7\n", "seed 7\n\n", None),
+        ] {
+            let text = WHOLE.replacen(from, to, 1);
+            let record = Record::read(&text);
+            assert_eq!(record.unused().as_deref(), unused, "{text}");
+            assert_eq!(record.rendering.transfer, Some(Transfer::Srgb), "{text}");
+            assert_eq!(record.provenance().is_some(), unused.is_none(), "{text}");
+        }
+        let depth = |text: &str| Record::read(text).rendering.depth;
+        assert_eq!(depth(&WHOLE.replace("gloss", "depth 3\ngloss")), Some(2));
+    }
+
+    #[test]
+    fn a_record_cut_short_anywhere_is_read_as_far_as_it_goes() {
+        for end in 0..WHOLE.len() {
+            let record = Record::read(&WHOLE[..end]);
+            assert!(record.is_empty() || record.provenance().is_none() || WHOLE.len() - 1 <= end);
+        }
+        let huge = "x".repeat(1 << 20);
+        let named = Record::read(&huge).unused().expect("it is no entry");
+        assert!(named.chars().count() <= LONGEST + 1, "{named}");
+        assert!(Record::read(&huge).is_empty());
+    }
+
+    #[test]
+    fn whatever_is_written_is_read_again() {
+        let record = Record::read(WHOLE);
+        let provenance = record.provenance().expect("nothing is wrong");
+        let settings = provenance.settings;
+        let written = format!("{}spp {}\n", provenance.lines(), settings.spp);
+        assert_eq!(written, WHOLE);
+        let other = WHOLE
+            .replace("layers none", "layers depth,normal\ndenoise yes")
+            .replace("view own", "view eye 1 2 3 fov 30")
+            .replace("region none", "region 1,2,3,4")
+            .replace("aov none", "aov direct 3")
+            .replace("gloss", "noise 0.02\nclamp 8.5\ngloss");
+        let record = Record::read(&other);
+        assert_eq!(record.unused(), None);
+        let provenance = record.provenance().expect("nothing is wrong");
+        assert_eq!(format!("{}spp 4\n", provenance.lines()), other);
+    }
+
+    #[test]
+    fn a_size_that_is_not_the_picture_s_is_not_used() {
+        let part = Region {
+            x: 1,
+            y: 2,
+            width: 3,
+            height: 4,
+        };
+        for (region, picture, expected, unused) in [
+            ("none", SIZE, (SIZE, None), None),
+            ("1,2,3,4", part.size(), (SIZE, Some(part)), None),
+            (
+                "none",
+                part.size(),
+                (part.size(), None),
+                Some("size 8x6 of 3x4"),
+            ),
+            (
+                "1,2,3,4",
+                SIZE,
+                (SIZE, None),
+                Some("size 8x6 region 1,2,3,4 of 8x6"),
+            ),
+            (
+                "7,2,3,4",
+                part.size(),
+                (part.size(), None),
+                Some("size 8x6 region 7,2,3,4 of 3x4"),
+            ),
+        ] {
+            let mut record =
+                Record::read(&WHOLE.replace("region none", &format!("region {region}")));
+            assert_eq!(record.framing(picture), expected);
+            assert_eq!(record.unused().as_deref(), unused);
+        }
+    }
+}
