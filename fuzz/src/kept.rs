@@ -56,8 +56,8 @@ pub fn part(input: &[u8]) {
 
 /// Reads what a picture is made from, and writes it again.
 pub fn record(input: &[u8]) {
-    if let Ok(Some(made_from)) = image_file::provenance(Cursor::new(input)) {
-        assert!(!made_from.lines().is_empty());
+    if let Ok(Some(made_from)) = image_file::record(Cursor::new(input)) {
+        assert!(!made_from.entries().is_empty());
     }
 }
 

@@ -2,6 +2,7 @@
 //! read, from the scene's folder, its parent, and folders that the user names. Independent of what
 //! the files are used for.
 
+mod edited;
 mod failure;
 mod fingerprint;
 mod folder;
@@ -22,6 +23,7 @@ use failure::Failure;
 use gate::{FileContent, Gate, Stream};
 use meshes::KnownMesh;
 
+pub use edited::Edited;
 pub use failure::{PictureError, PictureErrors, report};
 pub use fingerprint::{FileDigests, fingerprint};
 pub use folder::{NoFolder, check_folders};

@@ -5,11 +5,9 @@ use std::path::{Path, PathBuf};
 
 use super::still::Still;
 use super::{Error, Messages, Tracing, Warnings, load};
-use crate::assets::{self, Assets, FileDigests, Wanted};
-use crate::file::{self, ReadError};
-use crate::language::{Before, Lowered, Source};
+use crate::assets::Edited;
+use crate::file;
 use crate::render::Frames;
-use crate::scene::Scene;
 use crate::text::{Diagnostic, Findings};
 use crate::track::{self, Bound};
 
@@ -35,22 +33,9 @@ pub(super) struct Animated<'w> {
     pub(super) count: u32,
     /// Frames per second, if the track says so.
     pub(super) rate: Option<u32>,
-    source: Source,
-    /// The scene of the text without the track, and its findings.
-    scene: Scene,
-    findings: Findings,
-    files: Files,
+    text: Edited,
     /// The messages of warnings that were printed.
     told: BTreeSet<String>,
-}
-
-/// The files that the text names, as read last.
-struct Files {
-    wanted: Wanted,
-    read: assets::Loaded,
-    digests: FileDigests,
-    /// What read them again; `None` while the first are those that count.
-    assets: Option<Assets>,
 }
 
 impl<'w> Animated<'w> {
@@ -92,10 +77,12 @@ impl<'w> Animated<'w> {
             count: track.frames,
             rate: track.rate,
             told: warnings.map(Diagnostic::message_with_file).collect(),
-            files: Files::new(origin.scene, &loaded.source, loaded.read)?,
-            source: loaded.source,
-            scene,
-            findings: loaded.findings,
+            text: Edited::new(
+                (origin.scene, origin.folders),
+                loaded.source,
+                (scene, loaded.findings),
+                loaded.read,
+            )?,
             origin,
         })
     }
@@ -107,24 +94,11 @@ impl<'w> Animated<'w> {
         tracing: &Tracing,
         frames: Frames,
     ) -> Result<Still, Error> {
-        let edits = self.track.edits(&self.source, number);
-        let inverse = self.source.change(&edits);
-        let still = self.still_of_text(number, tracing, frames);
-        self.source.revert(&inverse);
-        still
-    }
-
-    /// The frame of the text as edited for it.
-    fn still_of_text(
-        &mut self,
-        number: u32,
-        tracing: &Tracing,
-        frames: Frames,
-    ) -> Result<Still, Error> {
-        let lowered = self.lower()?;
+        let edits = self.track.edits(self.text.plain(), number);
+        let lowered = self.text.lower(&edits)?;
         self.print_findings(number, lowered.diagnostics)?;
         let scene = lowered.scene.ok_or(Error::Invalid { errors: 1 })?;
-        let Files { read, digests, .. } = &self.files;
+        let read = self.text.read();
         if !read.is_whole() {
             return Err(Error::Incomplete {
                 needed_by: "a sequence needs",
@@ -132,39 +106,9 @@ impl<'w> Animated<'w> {
         }
         Ok(Still {
             job: tracing.job(scene, read.images.clone(), frames)?,
-            scene: digests.fingerprint(self.source.text()),
+            scene: self.text.fingerprint(),
             files: read.files.clone(),
         })
-    }
-
-    /// Lowers the edited text, and reads files only if it names others than before.
-    fn lower(&mut self) -> Result<Lowered, Error> {
-        let scene = self.origin.scene;
-        let no_memory = |reason| ReadError::NoMemory {
-            path: scene.to_owned(),
-            reason,
-        };
-        let before = Before {
-            scene: &self.scene,
-            diagnostics: &self.findings,
-        };
-        let (source, meshes) = (&mut self.source, &self.files.read.meshes);
-        let mut lowered = source.lower_again(meshes, before).map_err(no_memory)?;
-        let files = source.files();
-        if Wanted::new(scene, &files).is_among(&self.files.wanted) {
-            let read = &self.files.read;
-            let (errors, found) = (&read.picture_errors, &read.found);
-            lowered.diagnostics = assets::report(errors, &files, found, lowered.diagnostics);
-            return Ok(lowered);
-        }
-        let assets = self
-            .files
-            .assets
-            .get_or_insert_with(|| Assets::new(self.origin.folders));
-        let (lowered, read) = assets.lower(scene, source).map_err(no_memory)?;
-        let wanted = Wanted::new(scene, &source.files());
-        self.files.replace(wanted, read)?;
-        Ok(lowered)
     }
 
     /// Prints the findings in a frame, but no warnings that are the same as before.
@@ -186,29 +130,11 @@ impl<'w> Animated<'w> {
             }
         }
         let messages = self.origin.messages;
-        messages.all_findings(self.origin.scene, self.source.text(), &new);
+        messages.all_findings(self.origin.scene, self.text.text(), &new);
         match findings.errors() {
             0 => Ok(()),
             errors => Err(Error::Invalid { errors }),
         }
-    }
-}
-
-impl Files {
-    fn new(scene: &Path, source: &Source, read: assets::Loaded) -> Result<Self, Error> {
-        Ok(Self {
-            wanted: Wanted::new(scene, &source.files()),
-            digests: FileDigests::of(&read.found)?,
-            read,
-            assets: None,
-        })
-    }
-
-    fn replace(&mut self, wanted: Wanted, read: assets::Loaded) -> Result<(), Error> {
-        self.digests = FileDigests::of(&read.found)?;
-        self.wanted = wanted;
-        self.read = read;
-        Ok(())
     }
 }
 

@@ -10,9 +10,9 @@ use std::time::Instant;
 
 use super::animated::{Animated, Origin};
 use super::ledger::Ledger;
+use super::lists::{list, lists};
 use super::numbers::Numbers;
 use super::output::Output;
-use super::pattern::Pattern;
 use super::progress::{self, Place};
 use super::signals::Signals;
 use super::still::Still;
@@ -20,7 +20,7 @@ use super::tracing::{Tracer, Tracing};
 use super::{Error, Messages, Warnings};
 use crate::assets;
 use crate::file::{Digest, ReadError};
-use crate::image_file::{ImageFormat, MovieFormat, MovieWriter, Picture};
+use crate::image_file::{DEFAULT_RATE, ImageFormat, MovieFormat, MovieWriter, Pattern, Picture};
 use crate::language::Language;
 use crate::memory;
 use crate::part::Shard;
@@ -90,9 +90,6 @@ pub enum SequenceOutput {
     },
 }
 
-/// Frames per second of a movie unless others are asked for.
-const RATE: u32 = 24;
-
 /// What becomes of frames that are finished already.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Finished {
@@ -122,7 +119,7 @@ fn try_render(work: &Sequence) -> Result<(), Error> {
             pictures(work, &mut source, (pattern, *shard), *format, *finished)
         }
         SequenceOutput::Movie { to, format, rate } => {
-            let rate = rate.or(source.rate()).unwrap_or(RATE);
+            let rate = rate.or(source.rate()).unwrap_or(DEFAULT_RATE);
             if let Some(reason) = format.refuses(rate) {
                 return Err(Error::Refused(reason));
             }
@@ -141,11 +138,11 @@ fn pictures(
     format: ImageFormat,
     finished: Finished,
 ) -> Result<(), Error> {
-    let list = pattern.ledger(shard);
+    let list = list(pattern, shard);
     let output = Output::File(list.clone());
     source.check_spared(&output, &[])?;
     output.check()?;
-    let mut ledger = Ledger::read(list.clone(), &pattern.ledgers())?;
+    let mut ledger = Ledger::read(list.clone(), &lists(pattern))?;
     // Without them, a signal ends the process, and finished frames are kept all the same.
     let signals = Signals::noted().unwrap_or_default();
     let mut tracer = Tracer::new(&work.tracing).stopped_by(signals.clone());

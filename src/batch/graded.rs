@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use super::{Tracing, print_message};
+use super::{Messages, Tracing};
 use crate::image_file::Recorded;
 use crate::render::{Job, Record, Region, denoises};
 use crate::scene::{Rendering, Scene, Size};
@@ -78,13 +78,10 @@ impl<'w> Graded<'w> {
             && size != own
         {
             let [own, size] = [own, size].map(|Size { width, height }| format!("{width}x{height}"));
-            print_message(
-                "note",
-                &format!(
+            Messages::Text.note(&format!(
                     "{scene} is traced at {size}, the size of the picture; its own is {own}: --size \
                      {own} compares at that"
-                ),
-            );
+                ));
         }
         let settings = settings(tracing, job);
         let told = match &self.record {
@@ -97,10 +94,10 @@ impl<'w> Graded<'w> {
                  such as --spp change that"
             ),
         };
-        print_message("note", &told);
+        Messages::Text.note(&told);
         if let Some(unused) = self.record.as_ref().and_then(Record::unused) {
             let told = format!("{picture}: not used of what it says of itself: {unused}");
-            print_message("note", &told);
+            Messages::Text.note(&told);
         }
     }
 }

@@ -12,10 +12,10 @@ use super::shared::{
 };
 use super::tracing::TracingArguments;
 use crate::batch::{
-    self, Existing, Finished, FrameSource, MAX_FRAMES, Output, Parts, Pattern, Render, Sequence,
+    self, Existing, Finished, FrameSource, MAX_FRAMES, Output, Parts, Render, Sequence,
     SequenceOutput, Tracing,
 };
-use crate::image_file::{ImageFormat, MovieFormat};
+use crate::image_file::{ImageFormat, MovieFormat, Pattern};
 use crate::part::{MOST_SHARDS, Shard};
 use crate::render::Aov;
 
@@ -224,13 +224,10 @@ impl RenderArguments {
 
     /// The format of one file for all frames of a sequence.
     fn movie(&self) -> Option<MovieFormat> {
-        let extension = self.output.extension().unwrap_or_default();
-        let is = |name: &str| extension.eq_ignore_ascii_case(name);
         match (Pattern::of(&self.output), self.format) {
             (_, Some(Format::Movie(format))) => Some(format),
             (Err(_), Some(Format::Picture(ImageFormat::Gif))) => Some(MovieFormat::Gif),
-            (Err(_), None) if is("y4m") => Some(MovieFormat::Y4m),
-            (Err(_), None) if is("gif") => Some(MovieFormat::Gif),
+            (Err(_), None) => MovieFormat::of_path(&self.output),
             _ => None,
         }
     }

@@ -5,6 +5,7 @@ mod exr;
 mod exr_colours;
 mod metadata;
 mod movie;
+mod pattern;
 mod picture;
 mod read;
 mod recorded;
@@ -18,7 +19,8 @@ use crate::scene::Size;
 
 pub use exr::layer_bytes;
 pub use metadata::record;
-pub use movie::{MovieFormat, MovieWriter};
+pub use movie::{DEFAULT_RATE, MovieFormat, MovieWriter};
+pub use pattern::{NoPattern, Pattern};
 pub use picture::Picture;
 pub use read::{MAX_TEXTURE_PIXELS, Unreadable, decode};
 pub use recorded::{Recorded, in_8_bits};

@@ -1,6 +1,7 @@
 //! Files of several pictures: Y4M for other programs, GIF for viewers.
 
 use std::io::{self, Write};
+use std::path::Path;
 
 use image::codecs::gif::{GifEncoder, Repeat};
 use image::{Delay, Frame as GifFrame, RgbaImage};
@@ -24,12 +25,23 @@ const GIF_SPEED: i32 = 10;
 /// of a second.
 const MOST_OF_GIF: u32 = 50;
 
+/// Pictures per second unless another rate is asked for.
+pub const DEFAULT_RATE: u32 = 24;
+
 impl MovieFormat {
+    /// The format for a file name's extension, case-insensitively.
+    pub fn of_path(path: &Path) -> Option<Self> {
+        let extension = path.extension()?;
+        let is = |name: &str| extension.eq_ignore_ascii_case(name);
+        let y4m = is("y4m").then_some(Self::Y4m);
+        y4m.or(is("gif").then_some(Self::Gif))
+    }
+
     /// Why the format cannot have a rate of pictures per second, if so.
     pub fn refuses(self, rate: u32) -> Option<String> {
         let is_too_fast = self == Self::Gif && MOST_OF_GIF < rate;
         is_too_fast.then(|| {
-            format!("a .gif has at most {MOST_OF_GIF} frames per second, not {rate}: use a smaller --fps, or .y4m")
+            format!("a .gif has at most {MOST_OF_GIF} frames per second, not {rate}: ask for fewer, or use .y4m")
         })
     }
 }
@@ -207,7 +219,7 @@ mod tests {
         let reason = MovieFormat::Gif.refuses(60).expect("it is too fast");
         assert_eq!(
             reason,
-            "a .gif has at most 50 frames per second, not 60: use a smaller --fps, or .y4m"
+            "a .gif has at most 50 frames per second, not 60: ask for fewer, or use .y4m"
         );
     }
 

@@ -4,11 +4,12 @@
 mod others;
 
 use std::any::Any;
+use std::convert::Infallible;
 use std::io;
 use std::num::NonZero;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
-use std::sync::mpsc::{Receiver, Sender};
+use std::sync::mpsc::{self, Receiver, Sender};
 use std::thread;
 use std::time::{Duration, Instant};
 
@@ -20,12 +21,13 @@ use super::editor;
 use super::ending::Patience;
 use super::event::{Event, Work, sending};
 use super::explaining::Explainer;
-use super::msg::{Effect, Msg, Origin, SaveOutcome, Target, Timer};
+use super::msg::{Destination, Effect, ExportId, Msg, Origin, SaveOutcome, Target, Timer};
 use super::options::Options;
 use super::past::NoPicture;
 use super::reader::Reader;
 use super::recent::Recent;
 use super::recovery::{self, Edits, End, Keeper, Outcome, Request};
+use super::reel::Reel;
 use super::screen::Screen;
 use super::service::{Ended, Service};
 use super::traces::Traces;
@@ -66,6 +68,10 @@ pub(crate) struct Runtime {
     /// What the full-size trace is made from.
     traced: Option<Traced>,
     export: Option<Numbered>,
+    /// Dropping it cancels the sequence that is exported.
+    filming: Option<Sender<Infallible>>,
+    /// The folders that files of scenes may be read from besides those around the scene.
+    folders: Vec<PathBuf>,
     compared: Option<Numbered>,
     reference: Option<Numbered>,
     thumbnail: Option<Numbered>,
@@ -106,6 +112,8 @@ impl Runtime {
             trace: None,
             traced: None,
             export: None,
+            filming: None,
+            folders: options.assets.clone(),
             compared: None,
             reference: None,
             thumbnail: None,
@@ -170,6 +178,7 @@ impl Runtime {
             .zip(self.trace)
             .map(|(traced, running)| traced.keep(running.renderer, now, begun + patience.trace));
         self.screen.close(begun + patience.terminal);
+        drop(self.filming);
         let end = self.keeper.finish(files);
         self.writers.finish(files);
         self.recent.finish(files);
@@ -239,6 +248,11 @@ impl Runtime {
             }
             Effect::WriteImage(id, frame, to) => {
                 let started = self.writers.export(id, frame, to);
+                let refused = started.err().map(|error| Err(error.to_string()));
+                return Ok(refused.map(|refused| Msg::Exported(id, refused)));
+            }
+            Effect::Film(id, reel, to) => {
+                let started = self.film((id, *reel), to);
                 let refused = started.err().map(|error| Err(error.to_string()));
                 return Ok(refused.map(|refused| Msg::Exported(id, refused)));
             }
@@ -353,7 +367,6 @@ impl Runtime {
     }
 
     fn trace(&mut self, target: Target, job: Job, recalled: Option<Receiver<Kept>>) -> Msg {
-        let cores = || thread::available_parallelism().map_or(1, NonZero::get);
         let threads = match (target, self.threads) {
             (Target::Preview, None) => Threads::Preview,
             (Target::Preview, Some(count)) => Threads::Exactly(count),
@@ -402,7 +415,19 @@ impl Runtime {
         }
     }
 
+    /// Exports a sequence in place of one that is being exported.
+    fn film(&mut self, reel: (ExportId, Reel), to: Destination) -> io::Result<()> {
+        let (alive, cancelled) = mpsc::channel();
+        self.filming = Some(alive);
+        let threads = self.threads.unwrap_or_else(cores);
+        let folders = self.folders.clone();
+        self.writers.film(reel, to, (folders, threads), cancelled)
+    }
+
     fn stop(&mut self, target: Target) {
+        if target == Target::Export {
+            self.filming = None;
+        }
         // The preview stops by itself.
         if target != Target::Preview {
             *self.slot(target) = None;
@@ -432,6 +457,10 @@ impl Runtime {
         let ran = self.screen.lend(|| editor::run(configured, path, line));
         ran.map_err(Failure::Terminal)?.map_err(Failure::Editor)
     }
+}
+
+fn cores() -> usize {
+    thread::available_parallelism().map_or(1, NonZero::get)
 }
 
 /// Reason why an effect cannot be performed.

@@ -13,6 +13,7 @@ use super::arrange::PanelSizes;
 use super::past::{NoPicture, PastScene, PastText};
 use super::reading::{Baseline, Opened, Reading};
 use super::recovery::{Claim, Found, Sought};
+use super::reel::{Reel, ReelProgress};
 use super::reference::{Pair, ReferenceId, ReferenceRead, ReferenceSource};
 use super::terminal::{ColourDepth, Mouse};
 use crate::assets::{Loaded, Wanted};
@@ -117,6 +118,10 @@ pub enum Msg {
     BackupsFound(Vec<PathBuf>),
     /// The result of an export.
     Exported(ExportId, Result<Exported, String>),
+    /// How far the export of a sequence is.
+    Filmed(ExportId, ReelProgress),
+    /// A picture of a sequence was written.
+    FrameExported(Exported),
     /// The file of an export exists, and this session did not write it; the reason why it is kept.
     Taken(ExportId, String),
     /// The result of [`Effect::ListFolder`]: the names in the folder, sorted; those of folders end
@@ -232,6 +237,9 @@ pub enum Effect {
     /// Writes a frame to a picture file, reported by [`Msg::Exported`] or
     /// [`Msg::Taken`].
     WriteImage(ExportId, Arc<Frame>, Destination),
+    /// Traces and writes a sequence, reported by [`Msg::Filmed`] and [`Msg::Exported`], or by
+    /// [`Msg::Taken`]. [`Effect::Stop`] of [`Target::Export`] cancels it.
+    Film(ExportId, Box<Reel>, Destination),
     /// Checks whether a picture can be written there; a failure is reported by [`Msg::Exported`]
     /// or [`Msg::Taken`].
     CheckTarget(ExportId, Destination),

@@ -15,6 +15,7 @@ mod metadata;
 mod parts;
 mod pictures;
 mod recipes;
+mod reels;
 mod scenes;
 mod settings;
 mod streams;

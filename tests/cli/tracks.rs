@@ -33,7 +33,7 @@ keys = [{ frame = 0, value = 0.8, easing = \"hold\" }, { frame = 7, value = 0.5 
 ";
 
 impl Place {
-    fn with_moves() -> Self {
+    pub(super) fn with_moves() -> Self {
         let place = Self::new();
         place.write("still.ray", STILL);
         place.write("moves.toml", MOVES);

@@ -76,13 +76,16 @@ impl App {
             (None, _) => self.overlays.fail("there are no meshes in this language"),
             (_, None) => self.overlays.fail("name the mesh: mesh FILE.obj"),
             (Some(mesh), Some(file)) => {
-                self.mode = Mode::Select;
-                self.add_with(mesh.name, Some(&file.to_string_lossy()));
+                let before = std::mem::replace(&mut self.mode, Mode::Select);
+                if !self.add_with(mesh.name, Some(&file.to_string_lossy())) {
+                    self.mode = before;
+                }
             }
         }
     }
 
-    fn add_with(&mut self, name: &str, file: Option<&str>) {
+    /// Adds something of this name; returns whether that could be done.
+    fn add_with(&mut self, name: &str, file: Option<&str>) -> bool {
         let done = format!("added: {name}");
         if self.source().is_blank() {
             let first = self.source().first(name);
@@ -94,7 +97,7 @@ impl App {
             if is_done {
                 self.say_added(&done);
             }
-            return;
+            return is_done;
         }
         let marked: Vec<_> = self.cursor.marks.iter().copied().collect();
         let (centre, half, decimals) = self.place_for_new();
@@ -109,9 +112,11 @@ impl App {
         let placed = self.source().addition(name, &wish);
         let at = placed.as_ref().ok().map(|placed| placed.at);
         let edits = placed.map(|placed| placed.edits);
-        if self.restructure(edits, at, &done) {
+        let is_done = self.restructure(edits, at, &done);
+        if is_done {
             self.say_added(&done);
         }
+        is_done
     }
 
     /// Says what was added, which is selected, and the keys that transform it.

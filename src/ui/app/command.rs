@@ -156,7 +156,7 @@ const TABLE: &[CommandRow] = &[
     row(&["new"], A::Language(C::New), "start a new scene: ray, dat or xml"),
     row(&["recent"], A::Nothing(C::Recent), "list recently used scenes"),
     row(&["history", "undolist"], A::Nothing(C::History), "show the undo history as pictures"),
-    row(&["export"], A::Picture(|picture| C::Export(picture, Force::No)), "export a picture of what is shown"),
+    row(&["export"], A::Picture(|picture| C::Export(picture, Force::No)), "export a picture of what is shown, or in SEQUENCE all frames"),
     row(&["export!"], A::Picture(|picture| C::Export(picture, Force::Yes)), "export, overwriting an existing file"),
     row(&["export cancel"], A::Nothing(C::ExportCancel), "cancel the export"),
     row(&["render"], A::Nothing(C::Render), "trace at full size"),
@@ -460,9 +460,23 @@ impl App {
                 self.warn_of_opening();
                 return Vec::new();
             }
-            Command::Track(_) => {}
-            _ => self.leave_sequence(),
+            Command::Track(_)
+            | Command::Compare(Some(_))
+            | Command::Export(..)
+            | Command::ExportCancel => {}
+            _ => {
+                let left = self.leave_sequence();
+                let effects = self.perform(command);
+                if self.overlays.has_failed() {
+                    self.return_to_sequence(left);
+                }
+                return effects;
+            }
         }
+        self.perform(command)
+    }
+
+    fn perform(&mut self, command: Command) -> Vec<Effect> {
         match command {
             Command::Write(file, force) => return self.write(file, force),
             Command::Quit(Force::No) => return self.quit(),
@@ -477,11 +491,14 @@ impl App {
             Command::Recent => return vec![Effect::ListRecent],
             Command::History => self.list_steps(),
             Command::Export(ExportArguments { path, size, spp }, force) => {
-                let path = path.unwrap_or_else(|| self.export_path());
                 let asking = match force {
                     Force::Yes => Asking::Forced,
                     Force::No => Asking::No,
                 };
+                if self.mode == Mode::Sequence {
+                    return self.export_sequence(path, size, spp, asking);
+                }
+                let path = path.unwrap_or_else(|| self.export_path());
                 return self.start_export(&path, size, spp, asking);
             }
             Command::ExportCancel => return self.cancel_export(),

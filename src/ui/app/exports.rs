@@ -4,17 +4,22 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use super::jobs::{Asking, Making, Pending};
+use super::reeling::names_sequence;
 use super::{App, Dialog, Export, Stage};
 use crate::image_file::{ImageFormat, known_extensions};
 use crate::render::{Aov, Frame, Frames, Job};
 use crate::scene::{Camera, Size, Viewpoint};
-use crate::text::Severity;
+use crate::text::{Severity, counted};
+use crate::ui::keymap::{Action, Mode};
 use crate::ui::msg::{Destination, Effect, Existing, ExportId, Exported, Origin, Target};
 
 impl App {
     /// Exports to the scene's folder under the scene's name. If another program has written that
     /// file, the user is asked.
     pub(super) fn export_default(&mut self) -> Vec<Effect> {
+        if self.mode == Mode::Sequence {
+            return self.export_sequence(None, None, None, Asking::Yes);
+        }
         self.start_export(&self.export_path(), None, None, Asking::Yes)
     }
 
@@ -61,10 +66,7 @@ impl App {
             stage: Stage::Tracing,
             destination: Destination {
                 path: path.to_owned(),
-                existing: match asking {
-                    Asking::Forced => Existing::Overwritten,
-                    Asking::Yes | Asking::No => Existing::Kept,
-                },
+                existing: asking.existing(),
                 scene: self.disk.path.clone(),
                 named: self.assets.files().to_vec(),
                 origin: self.origin_in(path),
@@ -72,6 +74,8 @@ impl App {
             size,
             spp,
             aov: self.pictures.aov,
+            frames: None,
+            reel: None,
             progress: traced.as_ref().map(|frame| frame.progress),
             written_for: 0,
         };
@@ -90,7 +94,7 @@ impl App {
     }
 
     /// Says what is exported, and whether that has to wait.
-    fn announce_export(&mut self, path: &Path) {
+    pub(super) fn announce_export(&mut self, path: &Path) {
         let [begun, queued] = announcements(self.pictures.aov, path);
         let words = match self.jobs.export {
             Some(_) => queued,
@@ -104,7 +108,7 @@ impl App {
         }
     }
 
-    fn begin_or_queue(&mut self, pending: Pending) -> Vec<Effect> {
+    pub(super) fn begin_or_queue(&mut self, pending: Pending) -> Vec<Effect> {
         if self.jobs.export.is_some() {
             self.jobs.queue(pending);
             return Vec::new();
@@ -236,6 +240,10 @@ impl App {
 
     /// The job whose picture an export to `path` writes, or the reason why there is none.
     fn export_job(&self, path: &Path, size: Size, spp: u32) -> Result<Job, String> {
+        let play = self.key_for(Action::Go(Mode::Sequence));
+        if let Some(reason) = names_sequence(path, &play) {
+            return Err(reason);
+        }
         let format = ImageFormat::of_path(path).ok_or_else(|| {
             let (name, known) = (path.display(), known_extensions());
             format!("{name}: picture files end in {known}")
@@ -263,7 +271,13 @@ impl App {
         };
         self.jobs.next = None;
         match export.stage {
-            Stage::Tracing => self.overlays.say("export cancelled"),
+            Stage::Tracing => self.overlays.say(match export.frames_written() {
+                0 => "export cancelled".to_owned(),
+                written => format!(
+                    "export cancelled; {} written before are kept",
+                    counted(written as usize, "frame")
+                ),
+            }),
             Stage::Writing => {
                 let path = export.destination.path.display();
                 self.overlays

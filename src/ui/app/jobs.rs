@@ -10,9 +10,11 @@ use super::next::Next;
 use crate::file::Version;
 use crate::render::{Aov, Frame, Job, Progress};
 use crate::scene::Size;
+use crate::text::counted;
 use crate::ui::msg::{
     Destination, Effect, Existing, ExportId, Exported, Guard, SaveId, Target, Timer,
 };
+use crate::ui::reel::{Reel, ReelForm, ReelProgress};
 
 /// Interval between checks of unfinished writes.
 const TICK: Duration = Duration::from_secs(1);
@@ -63,7 +65,11 @@ pub struct Export {
     pub spp: u32,
     /// What it shows instead of light.
     pub aov: Option<Aov>,
-    /// Progress of tracing; `None` before the first frame.
+    /// The number of frames of a sequence.
+    pub frames: Option<u32>,
+    /// How far a sequence is; `None` before the first frame.
+    pub reel: Option<ReelProgress>,
+    /// Progress of tracing; `None` before the first frame, and for a sequence.
     pub progress: Option<Progress>,
     /// Seconds since its file began to be written.
     pub written_for: u32,
@@ -85,6 +91,8 @@ pub(super) enum Making {
     Trace(Box<Job>),
     /// It is already traced.
     Write(Arc<Frame>),
+    /// It is a sequence, traced and written on a thread of its own.
+    Film(Box<Reel>),
 }
 
 /// What an export does about a file that another program has written.
@@ -96,6 +104,16 @@ pub(super) enum Asking {
     No,
     /// It overwrites the file.
     Forced,
+}
+
+impl Asking {
+    /// What it does about a file that exists.
+    pub(super) fn existing(self) -> Existing {
+        match self {
+            Self::Forced => Existing::Overwritten,
+            Self::Yes | Self::No => Existing::Kept,
+        }
+    }
 }
 
 /// A stage of an export.
@@ -312,6 +330,14 @@ impl Jobs {
                 effects.extend(self.count_seconds());
                 effects
             }
+            Making::Film(reel) => {
+                export.stage = Stage::Tracing;
+                let reel = Reel {
+                    written: self.written.clone(),
+                    ..(**reel).clone()
+                };
+                vec![Effect::Film(export.id, Box::new(reel), destination)]
+            }
             Making::Trace(job) => {
                 export.stage = Stage::Tracing;
                 vec![
@@ -350,6 +376,21 @@ impl Export {
         }
     }
 
+    /// The number of frames of a sequence that have been written to a file each.
+    pub(super) fn frames_written(&self) -> u32 {
+        let is_each = ReelForm::of_path(&self.destination.path)
+            .is_ok_and(|form| matches!(form, ReelForm::Pictures(..)));
+        let reel = self.reel.filter(|_| is_each);
+        reel.map_or(0, |reel| reel.frame)
+    }
+
+    /// The share that is done, 0 to 1.
+    pub fn done(&self) -> f64 {
+        let reel = self.reel.map(|reel| reel.done());
+        let traced = self.progress.map(|progress| progress.done);
+        reel.or(traced).unwrap_or(0.0)
+    }
+
     /// Describes what it shows, its size and samples, and the time it took.
     pub(super) fn summary(&self) -> String {
         let Size { width, height } = self.size;
@@ -364,6 +405,9 @@ impl Export {
             .map_or_else(String::new, |aov| format!("{}, ", aov.name()));
         let progress = self.progress.filter(Progress::is_adaptive);
         let samples = progress.map_or_else(|| format!("{} spp", self.spp), |done| done.samples());
-        format!(": {what}{width}×{height}, {samples}{took}")
+        let frames = self.frames.map_or_else(String::new, |frames| {
+            format!("{}, ", counted(frames as usize, "frame"))
+        });
+        format!(": {frames}{what}{width}×{height}, {samples}{took}")
     }
 }

@@ -62,6 +62,7 @@ mod pointer;
 mod polling;
 mod rays;
 mod recover;
+mod reeling;
 mod regions;
 mod reload;
 mod rows;

@@ -249,6 +249,12 @@ impl Overlays {
         self.messages.lasts = lasts;
     }
 
+    /// Whether an error is shown.
+    pub(super) fn has_failed(&self) -> bool {
+        let severity = self.message.as_ref().and_then(|message| message.severity);
+        severity == Some(Severity::Error)
+    }
+
     /// Begins a step: messages shown so far may have been seen.
     pub(super) fn begin_step(&mut self) {
         self.messages.is_unseen = false;

@@ -4,6 +4,7 @@ use super::App;
 use super::drawing::{Drawing, Held, RegionOrder};
 use super::sight::{Marked, Reason};
 use crate::render::Region;
+use crate::text::Severity;
 use crate::ui::keymap::Mode;
 use crate::ui::msg::Effect;
 
@@ -135,7 +136,12 @@ impl App {
             self.overlays.fail(reason.to_string());
             return Vec::new();
         }
-        self.pictures.region = Some(region);
+        let before = self.pictures.region.replace(region);
+        if let Err(reason) = self.trace_job() {
+            self.pictures.region = before;
+            self.refuse_picture(Severity::Error, &reason);
+            return Vec::new();
+        }
         self.overlays.say(format!(
             "tracing only the region {region}; :region off traces the whole picture"
         ));

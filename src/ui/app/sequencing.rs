@@ -1,7 +1,7 @@
 //! Playing a track: its frames are tried in the text of the scene, one after the other, so that each is
 //! a scene like any other.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use super::App;
@@ -79,7 +79,7 @@ impl App {
             Ok(_) => return Vec::new(),
             Err(error) => {
                 self.complain_of_track(&error.to_string());
-                return Vec::new();
+                return self.follow_open_track(&path);
             }
         };
         let held = open.and_then(|open| open.held.as_deref());
@@ -94,13 +94,16 @@ impl App {
         if 0 < findings.errors() {
             let text = text.unwrap_or_default();
             self.complain_of_track(&complaint(&name_of(&path), &text, &findings));
-            return Vec::new();
+            return self.follow_open_track(&path);
+        }
+        if is_asked && !self.has_sound_scene() {
+            return self.follow_open_track(&path);
         }
         self.suspend_frame();
         let text_of = text.as_deref().unwrap_or_default();
         if self.error_count() == 0 && self.bound_track(&track, &name_of(&path), text_of).is_none() {
             self.resume_frame();
-            return Vec::new();
+            return self.follow_open_track(&path);
         }
         let before = self.sequence.open.take_if(|open| open.path == path);
         let is_known = before.is_some();
@@ -319,15 +322,29 @@ impl App {
         vec![timer]
     }
 
-    /// Leaves SEQUENCE mode with the text as it was before.
-    pub(super) fn leave_sequence(&mut self) {
-        if let Some(open) = &mut self.sequence.open {
-            open.is_playing = false;
-        }
+    /// Leaves SEQUENCE mode with the text as it was before; returns whether it played, if that was the
+    /// mode.
+    pub(super) fn leave_sequence(&mut self) -> Option<bool> {
+        let open = self.sequence.open.as_mut();
+        let was_playing = open.is_some_and(|open| std::mem::take(&mut open.is_playing));
         self.suspend_frame();
-        if self.mode == Mode::Sequence {
+        let left = (self.mode == Mode::Sequence).then_some(was_playing);
+        if left.is_some() {
             self.mode = Mode::Select;
         }
+        left
+    }
+
+    /// Returns to SEQUENCE mode as it was left.
+    pub(super) fn return_to_sequence(&mut self, left: Option<bool>) {
+        let Some(was_playing) = left else {
+            return;
+        };
+        if let Some(open) = &mut self.sequence.open {
+            open.is_playing = was_playing;
+        }
+        self.mode = Mode::Sequence;
+        self.resume_frame();
     }
 
     /// Leaves SEQUENCE mode with the values of the frame in the text, as one undo step.
@@ -358,6 +375,13 @@ impl App {
     pub fn has_edits(&self) -> bool {
         let was_dirty = self.sequence.was_dirty();
         was_dirty.unwrap_or_else(|| self.document.is_dirty())
+    }
+
+    /// Watches the open track again after another one was read in vain.
+    fn follow_open_track(&self, read: &Path) -> Vec<Effect> {
+        let again = self.reread_track();
+        let is_other = |effect: &Effect| !matches!(effect, Effect::ReadTrack(path) if path == read);
+        again.filter(is_other).into_iter().collect()
     }
 
     /// Reads the open track again, if there is one and it is not being written.

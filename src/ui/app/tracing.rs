@@ -185,7 +185,7 @@ impl App {
         }
     }
 
-    fn trace_job(&self) -> Result<Job, String> {
+    pub(super) fn trace_job(&self) -> Result<Job, String> {
         let (spp, limit) = self.until().limits();
         let mut job = self.final_job(self.output(), spp)?;
         job.limit = limit;

@@ -87,6 +87,8 @@ impl App {
             Msg::Saved(id, outcome) => return self.was_saved(id, outcome),
             Msg::BackupsFound(copies) => self.backups_found(&copies),
             Msg::Exported(id, outcome) => return self.exported(id, outcome),
+            Msg::Filmed(id, progress) => self.filmed(id, progress),
+            Msg::FrameExported(exported) => self.jobs.note_export(exported),
             Msg::Listed(folder, names) => self.folder_listed(folder, names),
             Msg::Taken(id, reason) => return self.is_taken(id, reason),
             Msg::ReferenceRead(id, read) => return self.reference_read(id, read),
@@ -479,7 +481,9 @@ impl App {
             Context::In(Mode::Select) if self.end_filter() => {}
             Context::In(Mode::Select) => self.cursor.marks.clear(),
             Context::In(Mode::Move) => self.cancel_transform(),
-            Context::In(Mode::Sequence) => self.leave_sequence(),
+            Context::In(Mode::Sequence) => {
+                self.leave_sequence();
+            }
             Context::In(_) => {
                 self.document.end_step();
                 self.mode = Mode::Select;

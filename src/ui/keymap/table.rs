@@ -248,6 +248,8 @@ pub(super) const TABLE: &[Binding] = &[
     in_turn(SEQUENCE, &[c('g'), c('g')], A::OnTrack(Frames(i32::MIN)), "first frame"),
     bind(SEQUENCE, &[key(Home)], A::OnTrack(Frames(i32::MIN)), "first frame"),
     bind(SEQUENCE, &[c('G'), key(End)], A::OnTrack(Frames(i32::MAX)), "last frame"),
+    bind(SEQUENCE, &[c('b')], A::Export, "export all frames"),
+    bind(SEQUENCE, &[c('x')], A::Stop, "cancel the export"),
     bind(SEQUENCE, &[c('u')], A::OnTrack(TakeBack), "undo the last key"),
     bind(SEQUENCE, &[c('E')], A::OnTrack(Playback::Edit), "open the editor on the track"),
     bind(INSPECTABLE, &[c('i')], A::Go(Inspect), "inspect a pixel of the picture"),

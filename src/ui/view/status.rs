@@ -176,12 +176,14 @@ fn segments(app: &App, glyphs: Glyphs) -> Vec<Segment> {
         say(3, text, theme::WARNING);
     }
     if let Some(export) = &app.jobs.export {
-        let done = export.progress.map_or(0.0, |progress| progress.done);
+        let frame = export.reel.map_or_else(String::new, |reel| {
+            format!("frame {}/{} ", reel.frame, reel.count.saturating_sub(1))
+        });
         let queued = match app.jobs.queued() {
             0 => String::new(),
             queued => format!(", {queued} more queued"),
         };
-        let text = format!("export {}{queued}", percent(done));
+        let text = format!("export {frame}{}{queued}", percent(export.done()));
         say(6, text, theme::ACCENT);
     }
     if app.assets.are_awaited() {

@@ -298,6 +298,8 @@ const STATES: &[(&str, Change)] = &[
                 named: Vec::new(),
                 origin: None,
             },
+            frames: None,
+            reel: None,
             size: Size {
                 width: 4,
                 height: 3,

@@ -27,6 +27,7 @@ pub(in crate::ui) mod pictures;
 mod playing;
 mod rebinding;
 mod recovering;
+mod reeling;
 mod reloading;
 mod saving;
 mod sequences;

@@ -27,7 +27,7 @@ fn track(app: &mut App, text: Option<&str>) -> Vec<Effect> {
 }
 
 /// Opens the scene with the track, at its first frame.
-fn playing() -> App {
+pub(super) fn playing() -> App {
     let mut app = open(SCENE);
     let effects = press(&mut app, ":track<Enter>");
     let path = PathBuf::from("scene.toml");

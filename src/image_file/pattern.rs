@@ -1,11 +1,7 @@
 //! The names of the pictures of a sequence.
 
 use std::ffi::OsStr;
-use std::fs;
 use std::path::{Path, PathBuf};
-
-use crate::file::directory_of;
-use crate::part::Shard;
 
 /// A path whose file name has `%d`, or `%05d` for at least five digits, where the number of the frame
 /// is to stand.
@@ -75,7 +71,7 @@ impl Pattern {
     }
 
     /// The path of a frame.
-    pub(super) fn path(&self, number: u32) -> PathBuf {
+    pub fn path(&self, number: u32) -> PathBuf {
         let Self {
             folder,
             before,
@@ -85,38 +81,13 @@ impl Pattern {
         folder.join(format!("{before}{number:0digits$}{after}"))
     }
 
-    /// The path of the list of finished frames, such as `turn.frames` beside `turn.%05d.png`, one for
-    /// each shard: processes on several machines do not append to the same file.
-    pub(super) fn ledger(&self, shard: Shard) -> PathBuf {
-        let stem = self.stem();
-        let Shard { index, count } = shard;
-        self.folder.join(match count {
-            1 => format!("{stem}.frames"),
-            _ => format!("{stem}.{index}-{count}.frames"),
-        })
+    /// The path of a file of this name beside the pictures.
+    pub fn beside(&self, name: String) -> PathBuf {
+        self.folder.join(name)
     }
 
-    /// The paths of the lists that there are, of all shards.
-    pub(super) fn ledgers(&self) -> Vec<PathBuf> {
-        let Ok(entries) = fs::read_dir(directory_of(&self.path(0))) else {
-            return Vec::new();
-        };
-        let names = entries.filter_map(|entry| entry.ok()?.file_name().into_string().ok());
-        let lists = names.filter(|name| {
-            let rest = name.strip_prefix(self.stem());
-            let shard = rest.and_then(|rest| rest.strip_suffix(".frames"));
-            shard.is_some_and(|shard| {
-                let shard = shard
-                    .strip_prefix('.')
-                    .map(|shard| shard.replacen('-', "/", 1));
-                shard.is_none_or(|shard| Shard::parse(&shard).is_some())
-            })
-        });
-        lists.map(|name| self.folder.join(name)).collect()
-    }
-
-    /// What the names of lists begin with.
-    fn stem(&self) -> &str {
+    /// What the names of files beside the pictures begin with: `turn` of `turn.%05d.png`.
+    pub fn stem(&self) -> &str {
         match self.before.trim_end_matches(['.', '-', '_']) {
             "" => "frames",
             stem => stem,
@@ -130,18 +101,15 @@ mod tests {
 
     #[test]
     fn numbers_stand_where_the_pattern_says() {
-        let shard = Shard { index: 1, count: 4 };
-        for (pattern, frame, ledger) in [
-            ("a/turn.%05d.png", "a/turn.00042.png", "a/turn.frames"),
-            ("turn%d.png", "turn42.png", "turn.frames"),
-            ("%03d.bmp", "042.bmp", "frames.frames"),
-            ("%01d_x", "42_x", "frames.frames"),
+        for (pattern, frame, stem) in [
+            ("a/turn.%05d.png", "a/turn.00042.png", "turn"),
+            ("turn%d.png", "turn42.png", "turn"),
+            ("%03d.bmp", "042.bmp", "frames"),
+            ("%01d_x", "42_x", "frames"),
         ] {
             let pattern = Pattern::of(Path::new(pattern)).expect("a pattern");
             assert_eq!(pattern.path(42), Path::new(frame));
-            assert_eq!(pattern.ledger(Shard::WHOLE), Path::new(ledger));
-            let of_shard = ledger.replace(".frames", ".1-4.frames");
-            assert_eq!(pattern.ledger(shard), Path::new(&of_shard));
+            assert_eq!(pattern.stem(), stem);
         }
         for (wrong, reason) in [
             ("a.png", NoPattern::Missing),
