@@ -157,7 +157,7 @@ fn the_text_of_a_running_save_is_not_a_change() {
     let mine = app.document.shared_text();
     let theirs = mine.replace("1.5", "1.7");
     outside(&mut app, &theirs);
-    assert_eq!(app.document.text(), **mine);
+    assert_eq!(app.document.text(), *mine);
     saved(&mut app, 2, "scene.ray", &mine);
     outside(&mut app, &theirs);
     assert_eq!(app.document.text(), theirs);
