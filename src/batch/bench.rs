@@ -102,7 +102,7 @@ fn from_file(work: &Bench, path: &Path) -> Result<Read, Error> {
         path,
         &work.assets,
         work.warnings,
-        Some(&work.tracing.rendering),
+        Some(&work.tracing.over()),
     )?;
     let errors = loaded.findings.errors();
     let scene = loaded.scene.ok_or(Error::Invalid { errors })?;

@@ -141,16 +141,16 @@ fn read(path: &Path) -> Result<Recorded, Error> {
 fn trace(work: &Compare, path: &Path, picture: Option<(&Path, &Recorded)>) -> Result<Image, Error> {
     let holds_light = picture.is_some_and(|(_, picture)| picture.holds_light);
     let mut graded = picture.map(|(of, read)| Graded::new([path, of], read, &work.tracing));
-    let rendering = match &graded {
-        Some(graded) => graded.rendering(),
-        None => work.tracing.rendering,
+    let over = match &graded {
+        Some(graded) => graded.over(),
+        None => work.tracing.over(),
     };
     let loaded = load(
         Messages::Text,
         path,
         &work.assets,
         work.warnings,
-        Some(&rendering),
+        Some(&over),
     )?;
     let scene = loaded.scene.ok_or_else(|| Error::Invalid {
         errors: loaded.findings.errors(),

@@ -5,6 +5,8 @@ mod json;
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
 
+use super::finding::{Naming, Suspect, Text};
+use super::tracing::Tracer;
 use super::{Error, Messages, Report, Tracing, Warnings, load, stdout};
 use crate::assets;
 use crate::explain::{Line, Place, Sentence, Subject, Words, number, words};
@@ -45,7 +47,7 @@ fn try_explain(work: &Explain) -> Result<(), Error> {
         &work.scene,
         &work.assets,
         work.warnings,
-        Some(&work.tracing.rendering),
+        Some(&work.tracing.over()),
     )?;
     let scene = loaded.scene.ok_or_else(|| Error::Invalid {
         errors: loaded.findings.errors(),
@@ -70,7 +72,21 @@ fn try_explain(work: &Explain) -> Result<(), Error> {
             format!("{object:#}\n")
         }
     };
-    stdout::print(&report).map_err(stdout::error)
+    stdout::print(&report).map_err(stdout::error)?;
+    let text = Text {
+        messages: Messages::Text,
+        path: &work.scene,
+        naming: Naming::Implied,
+        source: Some(&loaded.source),
+        prospects: &loaded.prospects,
+    };
+    // Elsewhere the pixel is as it is for a reason of its own.
+    let is_of_picture = words.verdicts[0].may_be_of_picture();
+    let suspect = is_of_picture.then(|| Suspect::of_scene(job, &loaded.prospects));
+    if let Some(suspect) = suspect.flatten() {
+        suspect.print(&text, || Tracer::new(&work.tracing));
+    }
+    Ok(())
 }
 
 /// Refuses a pixel outside the picture.
@@ -134,7 +150,7 @@ fn add_line(text: &mut String, name: &str, line: &Line) {
 }
 
 /// A place as the end of a line.
-fn place_after(name: &str, place: Option<Place>) -> String {
+pub(super) fn place_after(name: &str, place: Option<Place>) -> String {
     place.map_or(String::new(), |Place { line, column, .. }| {
         format!("  [{name}:{line}:{column}]")
     })

@@ -1,16 +1,14 @@
-//! What is wrong with a picture as a whole, and the options that help.
+//! What is wrong with a picture as a whole, and the option that helps.
 
-use super::Messages;
+use std::path::Path;
+
+use super::explain::place_after;
 use super::tracing::Tracer;
-use crate::language::{brightening, darkening};
-use crate::render::{Frame, Job, Limit, Provenance, Settings, TrialResults};
+use super::{Loaded, Messages, Tracing};
+use crate::explain::{Subject, cause, fault};
+use crate::language::{Prospect, RenderKey, Source};
+use crate::render::{Advice, Fault, Frame, Frames, Job, Limit, PreparedScene, Settings, Trials};
 use crate::scene::{LEAST_ADAPTIVE_SPP, Rendering};
-use crate::text::alternatives;
-
-/// Whether more than half of a picture is above 1.
-pub(super) fn is_burnt(frame: &Frame) -> bool {
-    0.5 < frame.overexposure.share
-}
 
 /// Says that options over the text leave adaptive sampling no pixel to stop.
 pub(super) fn print_without_effect(messages: Messages, over_text: &Rendering, settings: &Settings) {
@@ -27,52 +25,140 @@ pub(super) fn print_without_effect(messages: Messages, over_text: &Rendering, se
     }
 }
 
-/// Prints what is wrong with a whole picture of light: that it is black or, if `burnt` holds its job,
-/// too bright; and the options that help. May trace small pictures to find them. `warned` says whether
-/// there were warnings of the scene.
-pub(super) fn print_finding(
-    messages: Messages,
-    frame: &Frame,
-    picture: &Provenance,
-    burnt: Option<Job>,
-    warned: bool,
-    tracer: impl FnOnce() -> Tracer,
-) {
-    if picture.settings.aov.is_some() || picture.settings.region.is_some() {
-        return;
+/// A picture with which something may be wrong.
+pub(super) struct Suspect {
+    job: Job,
+    trials: Trials,
+}
+
+impl Suspect {
+    /// A complete picture that was traced, if it is one of light as a whole. `prospects` are those of its
+    /// text.
+    pub(super) fn of_picture(frame: &Frame, job: Job, prospects: &[Prospect]) -> Option<Self> {
+        if job.settings.aov.is_some() || job.settings.region.is_some() {
+            return None;
+        }
+        let of_text = fault(prospects);
+        let trials = Trials::of_picture(frame, &job.scene, &job.settings, of_text)?;
+        Some(Self { job, trials })
     }
-    if frame.is_black() {
-        let asked = Rendering {
-            exposure: Some(picture.settings.exposure),
-            ..Rendering::default()
-        };
-        let helps = match brightening(&asked, frame.overexposure.brightest) {
-            Some((key, value)) => format!("try `--{} {value}`", key.name()),
-            None if warned => "the warnings above may say why".to_owned(),
-            None => "`halflight explain` may say why".to_owned(),
-        };
-        messages.note(&format!("the picture is black; {helps}"));
-        return;
+
+    /// A picture that was not traced; `None` if its scene is large.
+    pub(super) fn of_scene(job: Job, prospects: &[Prospect]) -> Option<Self> {
+        let trials = Trials::of_scene(&job.scene, &job.settings, fault(prospects))?;
+        Some(Self { job, trials })
     }
-    let Some(job) = burnt else {
+
+    /// Prints what is wrong with the picture, if anything is, and the option that helps. Traces small
+    /// pictures to find out.
+    pub(super) fn print(self, text: &Text<'_>, tracer: impl FnOnce() -> Tracer) {
+        let Self { job, trials } = self;
+        // No time is left for small pictures.
+        if let Some(Limit::Time(_)) = job.limit {
+            if let Some(fault) = trials.fault() {
+                let helps = "without `--time`, what helps is tried";
+                text.print(&format!("{fault}; {helps}"));
+            }
+            return;
+        }
+        let Some(Advice { fault, cure }) = tracer().try_out(&job, trials) else {
+            return;
+        };
+        let setting = cure.and_then(|cure| RenderKey::stated(&cure).next());
+        match (setting, fault) {
+            (Some((key, value)), _) => {
+                text.print(&format!("{fault}; try `--{} {value}`", key.name()));
+            }
+            (None, Fault::Black(_)) if text.prospects.contains(&Prospect::Black) => {
+                text.print(&format!("{fault}; the warnings above say why"));
+            }
+            (None, Fault::Black(_)) => text.print_cause(fault, &job),
+            (None, Fault::Burnt) => {
+                text.print(&format!("{fault}; no single render setting mends that"));
+            }
+            // The warning of the text says it all.
+            (None, Fault::Unlit | Fault::WithoutPhotons) => {}
+        }
+    }
+}
+
+/// The text of a picture.
+pub(super) struct Text<'t> {
+    /// How what is found is told.
+    pub(super) messages: Messages,
+    /// The name of its file.
+    pub(super) path: &'t Path,
+    /// Whether the name belongs into the message.
+    pub(super) naming: Naming,
+    /// The text, lowered; `None` if it is no longer in memory.
+    pub(super) source: Option<&'t Source>,
+    /// What it shows of its picture.
+    pub(super) prospects: &'t [Prospect],
+}
+
+/// Whether messages say which file they are about.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Naming {
+    /// They do: there may be several.
+    File,
+    /// There is only one.
+    Implied,
+}
+
+impl Text<'_> {
+    fn print(&self, finding: &str) {
+        let name = match self.naming {
+            Naming::File => format!("{}: ", self.path.display()),
+            Naming::Implied => String::new(),
+        };
+        self.messages.note(&format!("{name}{finding}"));
+    }
+
+    /// Prints that a picture is black, and why most of it is.
+    fn print_cause(&self, fault: Fault, job: &Job) {
+        let size = job.settings.size;
+        let prepared = self.source.zip(PreparedScene::new(job, || false));
+        let found = prepared.and_then(|(source, prepared)| {
+            let subject = Subject {
+                source,
+                scene: &job.scene,
+                camera: &job.camera,
+                size,
+            };
+            cause(prepared.query(), &subject)
+        });
+        let name = self.path.to_string_lossy();
+        self.print(&match found {
+            Some(cause) => {
+                let help = cause
+                    .help
+                    .map_or_else(String::new, |help| format!("; {help}"));
+                let place = place_after(&name, cause.place);
+                format!("{fault}: {}{help}{place}", cause.text)
+            }
+            None => format!("{fault}; `halflight explain` may say why"),
+        });
+    }
+}
+
+/// Prints what is wrong with the picture of a scene that was read, which is not traced otherwise.
+pub(super) fn print_of_scene(path: &Path, loaded: &mut Loaded, tracing: &Tracing, naming: Naming) {
+    let Some(scene) = loaded.scene.take() else {
         return;
     };
-    let asked = Rendering {
-        exposure: Some(job.settings.exposure),
-        ..Rendering::default()
-    };
-    let over = frame.overexposure.stops;
-    // No time is left for small pictures: only an exposure is known to help.
-    let is_timed = matches!(job.limit, Some(Limit::Time(_)));
-    let shown = if is_timed {
-        TrialResults::default()
-    } else {
-        tracer().try_darker(&job, over)
-    };
-    let cures = darkening(&asked, over, shown.falloff, shown.depth);
-    let options = cures.iter();
-    let options = options.map(|(key, value)| format!("`--{} {value}`", key.name()));
-    let options = alternatives(options);
-    let finding = format!("more than half of the picture is above 1; try {options}");
-    messages.note(&finding);
+    let images = std::mem::take(&mut loaded.read.images);
+    let job = tracing.job(scene, images, Frames::Live);
+    let suspect = job
+        .ok()
+        .and_then(|job| Suspect::of_scene(job, &loaded.prospects));
+    if let Some(suspect) = suspect {
+        let text = Text {
+            messages: Messages::Text,
+            path,
+            naming,
+            source: Some(&loaded.source),
+            prospects: &loaded.prospects,
+        };
+        suspect.print(&text, || Tracer::new(tracing));
+    }
 }

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use super::{Messages, Tracing};
+use super::{Messages, Over, Tracing};
 use crate::image_file::Recorded;
 use crate::render::{Job, Record, Region, denoises};
 use crate::scene::{Rendering, Scene, Size};
@@ -44,8 +44,20 @@ impl<'w> Graded<'w> {
         }
     }
 
-    /// The render settings that take precedence over those of the scene's text.
-    pub(super) fn rendering(&self) -> Rendering {
+    /// What takes precedence over what the scene's text says.
+    pub(super) fn over(&self) -> Over {
+        let view = match &self.record {
+            Some(record) => self.said.view.over(&record.view),
+            None => self.said.view.clone(),
+        };
+        Over {
+            rendering: self.rendering(),
+            view,
+            size: self.size,
+        }
+    }
+
+    fn rendering(&self) -> Rendering {
         let recorded = self.record.as_ref().map(|record| record.rendering);
         self.said.over_text().or(recorded.unwrap_or_default())
     }

@@ -36,13 +36,16 @@ use crate::assets::{self, Assets, NoFolder};
 use crate::file::{self, ReadError};
 use crate::image_file::Unreadable;
 use crate::language::{
-    self, Language, Lowered, Node, Outlook, Source, UnknownLanguage, errors_of_beginning, outlook,
+    self, Language, Lowered, Node, Outlook, Prospect, Source, UnknownLanguage, errors_of_beginning,
+    outlook,
 };
 use crate::memory::{self, OutOfMemory};
 use crate::part::{self, Unmerged};
 use crate::render::Refusal;
-use crate::scene::{Rendering, Scene};
+use crate::scene::{Camera, Rendering, Scene, Size, Viewpoint};
 use crate::text::{Diagnostic, Findings, Span, counted, percentage};
+
+use finding::Naming;
 
 pub use crate::track::MAX_FRAMES;
 pub use bench::{Bench, bench};
@@ -234,14 +237,15 @@ pub fn check(work: &Check) -> Result<(), Error> {
             path,
             &work.assets,
             work.warnings,
-            Some(&Rendering::default()),
+            Some(&Over::default()),
         ) {
-            Ok(loaded) => {
+            Ok(mut loaded) => {
                 errors += loaded.findings.errors();
                 warnings += loaded.findings.warnings();
                 if 0 < loaded.findings.errors() {
                     first.get_or_insert(Error::Invalid { errors: 0 });
                 }
+                finding::print_of_scene(path, &mut loaded, &Tracing::of_scene(), Naming::File);
             }
             Err(Error::Invalid { errors: more }) => {
                 errors += more;
@@ -279,16 +283,35 @@ struct Loaded {
     size: Option<Span>,
     /// All of its findings, which were printed.
     findings: Findings,
+    /// What the text shows of its picture.
+    prospects: Vec<Prospect>,
+}
+
+/// What takes precedence over what a text says of its picture.
+#[derive(Clone, Debug, Default)]
+struct Over {
+    rendering: Rendering,
+    view: Viewpoint,
+    size: Option<Size>,
+}
+
+impl Over {
+    /// The camera in effect, given the scene's own; otherwise what is wrong with the view.
+    fn camera(&self, own: &Camera) -> Result<Camera, &'static str> {
+        let size = self.size.unwrap_or(own.size);
+        // The requested size sets the aspect ratio.
+        self.view.of(own).map(|camera| Camera { size, ..camera })
+    }
 }
 
 /// Reads a scene and the files it references, from `folders` too, and prints all findings; among them
-/// what the text shows of its picture with these render settings over its own, if any are given.
+/// what the text shows of its picture with this over what it says itself, if anything is given.
 fn load(
     messages: Messages,
     path: &Path,
     folders: &[PathBuf],
     warnings: Warnings,
-    over: Option<&Rendering>,
+    over: Option<&Over>,
 ) -> Result<Loaded, Error> {
     let language = Language::of_path(path).map_err(|unknown| {
         // An error in opening the file comes before its extension.
@@ -309,16 +332,14 @@ fn load(
     let mut source = Source::new(language, Arc::new(text));
     let (lowered, read) = lower(messages, path, &mut source, folders).map_err(no_memory)?;
     let mut findings = lowered.diagnostics;
+    let mut prospects = Vec::new();
     if let Some((scene, over)) = lowered.scene.as_ref().zip(over) {
-        let asked = over.or(scene.setting.rendering);
-        for Outlook { warning, cure } in outlook(&source, scene, &asked) {
-            findings.warning(|| match cure {
-                Some((key, value)) => warning.with_hint(format!(
-                    "`--{0} {value}`, or the render setting `{0} {value}`",
-                    key.name()
-                )),
-                None => warning,
-            });
+        let asked = over.rendering.or(scene.setting.rendering);
+        // A view that cannot be is refused later.
+        let camera = over.camera(&scene.camera).unwrap_or(scene.camera);
+        for Outlook { warning, prospect } in outlook(&source, scene, &camera, &asked) {
+            findings.warning(|| warning);
+            prospects.push(prospect);
         }
     }
     let findings = warnings.apply(findings.sorted());
@@ -328,6 +349,7 @@ fn load(
         scene: lowered.scene.filter(|_| findings.errors() == 0),
         read,
         findings,
+        prospects,
         source,
     })
 }

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use super::finding::{is_burnt, print_finding, print_without_effect};
+use super::finding::{Naming, Suspect, Text, print_without_effect};
 use super::output::Output;
 use super::parts::{self, Existing, Parts};
 use super::stats::{Stats, Times};
@@ -12,7 +12,7 @@ use super::tracing::Tracer;
 use super::{Error, Messages, Tracing, Warnings, load, stdout};
 use crate::assets::{self, fingerprint};
 use crate::image_file::{ImageFormat, Picture};
-use crate::language::Source;
+use crate::language::{Prospect, Source};
 use crate::memory;
 use crate::part;
 use crate::render::{
@@ -76,7 +76,7 @@ fn try_render(work: &Render) -> Result<(), Error> {
         &work.scene,
         &work.assets,
         work.warnings,
-        Some(&work.tracing.over_text()),
+        Some(&work.tracing.over()),
     )?;
     let scene = loaded.scene.ok_or_else(|| Error::Invalid {
         errors: loaded.findings.errors(),
@@ -93,7 +93,6 @@ fn try_render(work: &Render) -> Result<(), Error> {
         };
         return Err(Error::Incomplete { needed_by });
     }
-    let warned = 0 < loaded.findings.warnings();
     let frames = work.format.frames();
     let job = work.tracing.job(scene, loaded.read.images, frames)?;
     check_size(
@@ -118,26 +117,27 @@ fn try_render(work: &Render) -> Result<(), Error> {
     let needed = memory_needed(work, &job, None);
     check_memory(&job, needed)?;
     times.load = times.lap();
+    let prospects = loaded.prospects;
     let text = (loaded.source, loaded.read.found);
     let traced = match work.parts {
-        Some(parts) => trace_parts(work, parts, &job, text)?,
-        None => trace_whole(work, job, text)?,
+        Some(parts) => trace_parts(work, parts, &job, text, &prospects)?,
+        None => trace_whole(work, job, text, &prospects)?,
     };
     times.trace = times.lap();
     if let Some(frame) = &traced.frame {
         finish(work, frame, &traced)?;
     }
     times.write = times.lap();
-    if let Some(frame) = &traced.frame {
+    if let Some(suspect) = traced.suspect {
         let tracer = || traced.tracer.unwrap_or_else(|| Tracer::new(&work.tracing));
-        print_finding(
+        let text = Text {
             messages,
-            frame,
-            &traced.picture,
-            traced.burnt,
-            warned,
-            tracer,
-        );
+            path: &work.scene,
+            naming: Naming::Implied,
+            source: traced.source.as_ref(),
+            prospects: &prospects,
+        };
+        suspect.print(&text, tracer);
     }
     let Some(output) = &work.stats else {
         return Ok(());
@@ -170,8 +170,10 @@ struct Traced {
     progress: Progress,
     /// The number of pixels traced.
     pixels: usize,
-    /// The job, if its picture is too bright.
-    burnt: Option<Job>,
+    /// The picture, if something may be wrong with it.
+    suspect: Option<Suspect>,
+    /// The text of the scene, if it is short.
+    source: Option<Source>,
     /// Kept to the end, so that its threads free memory while the picture is written.
     tracer: Option<Tracer>,
 }
@@ -180,6 +182,7 @@ fn trace_whole(
     work: &Render,
     job: Job,
     (source, found): (Source, BTreeMap<String, PathBuf>),
+    prospects: &[Prospect],
 ) -> Result<Traced, Error> {
     let tracing = &work.tracing;
     let mut picture = tracing.provenance(&job, String::new());
@@ -187,10 +190,10 @@ fn trace_whole(
     let is_digest_said = work.format.has_metadata() || work.stats.is_some();
     let mut digest = None;
     let mut tracer = Tracer::new(tracing);
-    // Freeing a text of 85 MB takes 10 ms, its tree nearly as long: the worker is already running.
+    let mut kept = None;
     let meanwhile = || {
         digest = is_digest_said.then(|| fingerprint(source.text(), &found));
-        drop(source);
+        kept = short(source);
     };
     let frame = tracer.trace(job, None, meanwhile)?;
     if let Some(digest) = digest {
@@ -202,11 +205,18 @@ fn trace_whole(
         progress: frame.progress,
         pixels: frame.size.pixels(),
         // Another reference would keep the scene in memory until the end.
-        burnt: Some(again).filter(|_| is_burnt(&frame)),
+        suspect: Suspect::of_picture(&frame, again, prospects),
+        source: kept,
         frame: Some(frame),
         layers,
         tracer: Some(tracer),
     })
+}
+
+/// A text, if it is so short that keeping it costs nothing. Freeing one of 85 MB takes 10 ms, its tree nearly
+/// as long, which are spent while the picture is traced.
+fn short(source: Source) -> Option<Source> {
+    Some(source).filter(|source| source.text().len() <= 1 << 20)
 }
 
 fn trace_parts(
@@ -214,11 +224,12 @@ fn trace_parts(
     parts: Parts,
     job: &Job,
     (source, found): (Source, BTreeMap<String, PathBuf>),
+    prospects: &[Prospect],
 ) -> Result<Traced, Error> {
     let path = beside(&work.output)?;
     let tracing = &work.tracing;
     let digest = fingerprint(source.text(), &found)?;
-    drop(source);
+    let source = short(source);
     let mut picture = tracing.provenance(job, digest);
     let traced = parts::trace(tracing, (path, parts), job.clone(), &picture)?;
     let mut layers = Vec::new();
@@ -229,11 +240,11 @@ fn trace_parts(
     }
     picture.settings.spp = traced.progress.spp;
     Ok(Traced {
-        burnt: traced
+        suspect: traced
             .frame
             .as_ref()
-            .filter(|frame| is_burnt(frame))
-            .map(|_| job.clone()),
+            .and_then(|frame| Suspect::of_picture(frame, job.clone(), prospects)),
+        source,
         frame: traced.frame.map(Arc::new),
         layers,
         picture,

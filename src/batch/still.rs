@@ -25,8 +25,7 @@ impl Still {
         frames: Frames,
     ) -> Result<Self, Error> {
         let messages = Messages::beside(tracing.progress);
-        let over = tracing.over_text();
-        let loaded = load(messages, path, folders, warnings, Some(&over))?;
+        let loaded = load(messages, path, folders, warnings, Some(&tracing.over()))?;
         let errors = loaded.findings.errors();
         let scene = loaded.scene.ok_or(Error::Invalid { errors })?;
         if !loaded.read.is_whole() {

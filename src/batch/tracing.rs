@@ -1,19 +1,20 @@
 //! Traces pictures without an interface.
 
+use std::num::NonZero;
 use std::ops::ControlFlow;
 use std::sync::Arc;
 use std::sync::mpsc::{self, Receiver, RecvTimeoutError};
+use std::thread;
 use std::time::Duration;
 
-use super::Error;
 use super::progress::{Place, ProgressStyle, Reporter};
 use super::signals::Signals;
+use super::{Error, Over};
 use crate::image_file::layer_bytes;
 use crate::render::{
-    Aov, Frame, Frames, Job, Limit, Provenance, Region, Renderer, Settings, Threads, TrialResults,
-    Trials,
+    Advice, Aov, Frame, Frames, Job, Limit, Provenance, Region, Renderer, Settings, Threads, Trials,
 };
-use crate::scene::{Camera, Images, MAX_SPP, Rendering, Scene, Size, Viewpoint};
+use crate::scene::{Images, MAX_SPP, Rendering, Scene, Size, Viewpoint};
 
 /// How long a signal may go unnoticed.
 const PATIENCE: Duration = Duration::from_millis(50);
@@ -116,31 +117,24 @@ impl Tracer {
         layers.collect()
     }
 
-    /// Traces small pictures of a job whose picture is `over` stops too bright, and returns what they show
-    /// of settings that darken it.
-    pub(super) fn try_darker(&mut self, job: &Job, over: f64) -> TrialResults {
-        let mut next = Trials::new(&job.settings, &job.scene.lights, over);
-        let mut shown = TrialResults::default();
-        while let Some(trials) = next {
-            shown = trials.shown();
+    /// Traces the small pictures of trials for a job, and returns what they show. Ends without if they
+    /// cannot be traced.
+    pub(super) fn try_out(&mut self, job: &Job, mut trials: Trials) -> Option<Advice> {
+        loop {
             let job = Job {
                 settings: trials.settings(),
                 limit: None,
-                frames: Frames::LastWithValues,
+                frames: Frames::Live,
                 denoise: false,
                 ..job.clone()
             };
-            let started = self.renderer.restart(job);
-            let traced = started.map(|_| self.wait(Reporter::new(ProgressStyle::Off)));
-            let Ok(Ok(picture)) = traced else {
-                break;
-            };
+            self.renderer.restart(job).ok()?;
+            let picture = self.wait(Reporter::new(ProgressStyle::Off)).ok()?;
             match trials.after(&picture) {
-                ControlFlow::Continue(trials) => next = Some(trials),
-                ControlFlow::Break(all) => return all,
+                ControlFlow::Continue(next) => trials = next,
+                ControlFlow::Break(advice) => return advice,
             }
         }
-        shown
     }
 
     /// Waits for the last frame of the present job.
@@ -165,6 +159,32 @@ impl Tracer {
 }
 
 impl Tracing {
+    /// How a scene's own picture is traced.
+    pub(super) fn of_scene() -> Self {
+        Self {
+            size: None,
+            view: Viewpoint::default(),
+            region: None,
+            rendering: Rendering::default(),
+            time: None,
+            seed: 0,
+            aov: None,
+            layers: Vec::new(),
+            denoise: false,
+            threads: thread::available_parallelism().map_or(1, NonZero::get),
+            progress: ProgressStyle::Off,
+        }
+    }
+
+    /// What takes precedence over what a text says of its picture.
+    pub(super) fn over(&self) -> Over {
+        Over {
+            rendering: self.over_text(),
+            view: self.view.clone(),
+            size: self.size,
+        }
+    }
+
     /// The render settings that take precedence over those of a text.
     pub(super) fn over_text(&self) -> Rendering {
         // A time to spend means more than the samples that a text asks for.
@@ -192,18 +212,17 @@ impl Tracing {
 
     /// The job that traces a scene.
     pub(super) fn job(&self, scene: Scene, images: Images, frames: Frames) -> Result<Job, Error> {
-        let size = self.size.unwrap_or(scene.camera.size);
+        let camera = self.over().camera(&scene.camera);
+        let camera = camera.map_err(|reason| Error::Refused(format!("--view: {reason}")))?;
+        let size = camera.size;
         if let Some(Err(reason)) = self.region.map(|region| region.within(size)) {
             return Err(Error::Refused(format!("--region: {reason}")));
         }
-        let camera = self.view.of(&scene.camera);
-        let camera = camera.map_err(|reason| Error::Refused(format!("--view: {reason}")))?;
         let asked = self.over_text().or(scene.setting.rendering);
         let settings = Settings::new(size, &asked);
         Ok(Job {
             images,
-            // The requested size sets the aspect ratio.
-            camera: Camera { size, ..camera },
+            camera,
             scene: Arc::new(scene),
             settings: Settings {
                 region: self.region,

@@ -357,7 +357,7 @@ enum Subcommands {
     /// Measure how fast scenes are loaded and traced on this machine
     #[command(after_help = bench::EXAMPLES)]
     Bench(BenchArguments),
-    /// Report errors and warnings in scenes without rendering them
+    /// Report errors and warnings in scenes, and pictures that are black or washed out
     Check {
         /// Scene files
         #[arg(required = true, value_name = "SCENE")]

@@ -6,6 +6,7 @@
 //! structure are kept apart from printing. The interface shows the verdicts, and folds the tree in
 //! its own lines.
 
+mod cause;
 mod names;
 mod sentences;
 #[cfg(test)]
@@ -21,6 +22,7 @@ use crate::scene::{Camera, Rgb, Scene, Size};
 
 use names::Names;
 
+pub use cause::{cause, fault};
 pub use names::number;
 
 /// What an explanation is about.
@@ -93,7 +95,7 @@ pub struct Place {
 }
 
 /// The names of all kinds of verdicts.
-pub const VERDICTS: [&str; 27] = [
+pub const VERDICTS: [&str; 29] = [
     "not-drawn",
     "no-objects",
     "missed",
@@ -103,6 +105,7 @@ pub const VERDICTS: [&str; 27] = [
     "missing-texture",
     "not-finite",
     "too-bright",
+    "underexposed",
     "black",
     "depth",
     "budget",
@@ -113,6 +116,7 @@ pub const VERDICTS: [&str; 27] = [
     "shadow",
     "outside-cone",
     "faces-away",
+    "facet",
     "at-the-light",
     "attenuated",
     "dim",

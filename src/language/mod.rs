@@ -7,7 +7,6 @@
 
 mod alike;
 mod at;
-mod brightness;
 mod camera;
 pub(crate) mod coefficients;
 mod convert;
@@ -57,11 +56,10 @@ use room::Counts;
 use table::{Category, Field};
 use view::Numbers;
 
-pub use brightness::{brightening, darkening};
 pub use convert::{Converted, convert};
 pub use form::{Along, Motion};
 pub use node::{FileKind, NamedFile, Node, Nodes};
-pub use outlook::{Outlook, outlook};
+pub use outlook::{Outlook, Prospect, outlook};
 pub use placed::{Placed, Wanted};
 pub use rendering::RenderKey;
 pub use roles::{Role, Roles};

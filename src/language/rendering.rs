@@ -115,6 +115,12 @@ impl RenderKey {
         self.0
     }
 
+    /// The keys of what is asked for, each with its value as the text spells it.
+    pub fn stated(asked: &Rendering) -> impl Iterator<Item = (Self, String)> {
+        let stated = spelled(asked).into_iter();
+        stated.map(|(key, value)| (Self(key), value))
+    }
+
     /// The value that is asked for, or else the default, as the text spells it.
     pub fn value(self, asked: &Rendering) -> String {
         let stated = spelled(asked).into_iter().find(|(key, _)| *key == self.0);

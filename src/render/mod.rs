@@ -46,6 +46,7 @@
 //! singly with up to eight [`spheres`] at once ([`intersect`]), with bitwise equal results.
 
 mod adaptive;
+mod appearance;
 mod assembly;
 mod block;
 mod block_tracer;
@@ -142,7 +143,7 @@ pub use refusal::{Refusal, check_memory, memory_for, memory_for_blocks, photons_
 pub use region::{NoRegion, Region};
 pub use renderer::{Renderer, Threads};
 pub use shading::Side;
-pub use trials::{TrialResults, Trials};
+pub use trials::{Advice, Fault, Trials};
 pub use wireframe::{WireLine, Wireframe, wireframe};
 
 #[cfg(test)]

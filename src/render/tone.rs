@@ -133,16 +133,17 @@ impl Tone {
 }
 
 impl Frame {
-    /// Whether every pixel of this picture of light is black as exported.
-    pub fn is_black(&self) -> bool {
+    /// The brightest level of any channel of this picture of light as exported, 0 to 255.
+    pub(crate) fn brightest(&self) -> u8 {
+        let brightest = |most: u8, [red, green, blue]: [u8; 3]| most.max(red).max(green).max(blue);
         if self.values.is_empty() {
-            return self.pixels.iter().all(|pixel| *pixel == [0; 3]);
+            return self.pixels.iter().copied().fold(0, brightest);
         }
         let transfer = self.settings().map(|settings| settings.transfer);
         // The exposure is in the values.
         let tone = Tone::Colour(Light::new(0.0, transfer.unwrap_or_default()));
         let bytes = |value: &[f32; 3]| tone.bytes(Rgb::from(value.map(f64::from)));
-        self.values.iter().all(|value| bytes(value) == [0; 3])
+        self.values.iter().map(bytes).fold(0, brightest)
     }
 }
 

@@ -1,10 +1,19 @@
-//! Small trial pictures that show which settings bring an overexposed picture down to about 1.
+//! Small trial pictures that show what is wrong with a picture as a whole, and which render setting
+//! mends it.
+//!
+//! They have the same samples whatever the picture has, so that the advice does not depend on those.
 
+use std::fmt;
 use std::ops::ControlFlow;
 
+use super::appearance::{Appearance, Shown};
 use super::frame::{Frame, Settings};
 use super::lights::faded;
-use crate::scene::{FalloffRule, Filter, Light, Size};
+use super::overexposure::Overexposure;
+use crate::geometry::Shape;
+use crate::scene::{
+    EXPOSURES, FalloffRule, Filter, Integrator, Material, Rendering, Rgb, Scene, Size,
+};
 
 /// The longer side of a small picture, in pixels.
 const SIDE: u32 = 64;
@@ -12,263 +21,370 @@ const SIDE: u32 = 64;
 /// Its samples per pixel.
 const SAMPLES: u32 = 16;
 
-/// How many stops its 99th percentile may be above 1: noise alone accounts for about that.
-const ROUGHLY: f64 = 0.5;
+/// The longer side, in pixels, of the picture that tells whether one is black: small ones may miss what
+/// is bright in it.
+const WHOLE_SIDE: u32 = 1024;
 
-/// A change of the settings.
+/// A picture without a brighter level, of 255, is told as a black one is.
+const BLACK: u8 = 15;
+
+/// A glance with levels up to this, of 255, is no proof of a picture that is not black.
+const DIM: u8 = 63;
+
+/// Pictures of which this share is above 1 may be too bright: the noise of few samples hides how much is.
+const BRIGHT: f64 = 0.25;
+
+/// Scenes with more objects and triangles, or more lights, are not traced unasked.
+const MOST_TRIANGLES: usize = 200_000;
+const MOST_LIGHTS: usize = 100;
+
+/// How much less than it receives a surface that sends all of it back may send back by rounding.
+const ROUNDING: f64 = 1e-6;
+
+/// What is wrong with a picture of light as a whole.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Fault {
+    /// Nothing in it is brighter than this level, 0 to 15 of 255.
+    Black(u8),
+    /// More than half of it is above 1 after the exposure.
+    Burnt,
+    /// Nothing lights surfaces by this integrator but would by paths, as the text shows.
+    Unlit,
+    /// Lights emit no photons because they do not fade, as the text shows.
+    WithoutPhotons,
+}
+
+/// What is wrong with a picture, and what mends it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Advice {
+    /// What is wrong.
+    pub fault: Fault,
+    /// The one render setting with which a trial was best; `None` if no single setting helps.
+    pub cure: Option<Rendering>,
+}
+
+/// The small picture to trace next.
 #[derive(Clone, Copy, Debug)]
 enum Trial {
-    Falloff,
-    Depth(u32),
+    /// The picture itself, with a sample per pixel.
+    Glance,
+    /// The picture itself, large but with a sample per pixel, to tell whether it is black.
+    Whole,
+    /// The picture itself.
+    Base,
+    /// With a setting that may help.
+    With(Rendering),
 }
 
-/// What the small pictures showed.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct TrialResults {
-    /// The stops by which the 99th percentile exceeds 1 with `falloff square`, negative if it is below;
-    /// `None` if that was not tried.
-    pub falloff: Option<f64>,
-    /// The largest of the depths 1, 2, 4 … at which the 99th percentile is at most about 1.
-    pub depth: Option<u32>,
-}
-
-/// Trials of `falloff square`, if there are lights that it changes, and of smaller depths for paths.
-#[derive(Clone, Copy, Debug)]
+/// Trials of what mends a picture.
+#[derive(Clone, Debug)]
 pub struct Trials {
     /// The settings of the picture.
     settings: Settings,
-    /// The stops by which its 99th percentile is above 1.
-    over: f64,
     next: Trial,
-    shown: TrialResults,
+    /// What is known to be wrong.
+    fault: Option<Fault>,
+    /// What is wrong if nothing else is.
+    of_text: Option<Fault>,
+    /// Settings to try, the next one last.
+    left: Vec<Rendering>,
+    /// The pixels that a setting can change, once they are known.
+    shown: Option<Shown>,
+    /// The best setting so far, with the distance of its picture from a good one.
+    best: Option<(f64, Rendering)>,
+}
+
+impl fmt::Display for Fault {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Black(0) => f.write_str("the picture is black"),
+            Self::Black(most) => write!(f, "the picture is black (at most {most} of 255)"),
+            Self::Burnt => f.write_str("more than half of the picture is above 1"),
+            Self::Unlit => f.write_str("no surface is lit"),
+            Self::WithoutPhotons => f.write_str("lights emit no photons"),
+        }
+    }
 }
 
 impl Trials {
-    /// Starts the trials for a picture with these settings and lights whose 99th percentile is `over`
-    /// stops above 1; `None` if there is nothing to try. Depths are tried only if noise does not account
-    /// for that: otherwise any would seem to help.
-    pub fn new(settings: &Settings, lights: &[Light], over: f64) -> Option<Self> {
-        let fades =
-            settings.falloff == FalloffRule::None && faded(lights, FalloffRule::Square).is_some();
-        let first = if fades {
-            Some(Trial::Falloff)
-        } else {
-            (ROUGHLY < over && is_deep(settings, 1)).then_some(Trial::Depth(1))
+    /// Starts the trials for a complete picture of light of these settings, of whose scene the text shows a
+    /// fault, or none; `None` if nothing is wrong with it. Whether one that is bright is too bright, the
+    /// trials decide.
+    pub fn of_picture(
+        frame: &Frame,
+        scene: &Scene,
+        settings: &Settings,
+        of_text: Option<Fault>,
+    ) -> Option<Self> {
+        let black = frame.black().map(Fault::Black);
+        let share = || match &frame.values[..] {
+            [] => frame.overexposure.share,
+            values => Overexposure::of(values).share,
         };
-        first.map(|next| Self {
-            settings: *settings,
-            over,
-            next,
-            shown: TrialResults::default(),
+        let is_suspect = black.is_some() || of_text.is_some() || BRIGHT < share();
+        is_suspect.then(|| Self {
+            fault: black,
+            next: Trial::Base,
+            ..Self::new(scene, settings, of_text)
         })
     }
 
-    /// What the pictures so far have shown.
-    pub fn shown(&self) -> TrialResults {
-        self.shown
+    /// Starts the trials for a picture that was not traced; `None` if the scene is so large that a small
+    /// picture takes long.
+    pub fn of_scene(scene: &Scene, settings: &Settings, of_text: Option<Fault>) -> Option<Self> {
+        is_small(scene).then(|| Self::new(scene, settings, of_text))
     }
 
-    /// The settings of the small picture to trace next.
+    fn new(scene: &Scene, settings: &Settings, of_text: Option<Fault>) -> Self {
+        Self {
+            settings: *settings,
+            next: Trial::Glance,
+            fault: None,
+            of_text,
+            left: candidates(scene, settings),
+            shown: None,
+            best: None,
+        }
+    }
+
+    /// What is known to be wrong before any trial.
+    pub fn fault(&self) -> Option<Fault> {
+        self.fault
+    }
+
+    /// The settings of the picture to trace next, in [live](super::Frames::Live) frames.
     pub fn settings(&self) -> Settings {
-        let Size { width, height } = self.settings.size;
-        let longer = width.max(height);
-        let side = |side: u32| {
-            let fitted = u64::from(side) * u64::from(SIDE) / u64::from(longer);
-            side.min(fitted.max(1) as u32)
+        let (side, spp) = match self.next {
+            Trial::Glance => (SIDE, 1),
+            Trial::Whole => (WHOLE_SIDE, 1),
+            Trial::Base | Trial::With(_) => (SIDE, SAMPLES),
         };
-        let small = Settings {
-            size: Size {
-                width: side(width),
-                height: side(height),
-            },
+        let plain = Settings {
+            size: within(self.settings.size, side),
             region: None,
-            spp: SAMPLES,
+            spp,
+            seed: 0,
+            aov: None,
             filter: Filter::Box,
             noise: None,
             ..self.settings
         };
         match self.next {
-            Trial::Falloff => Settings {
-                falloff: FalloffRule::Square,
-                ..small
-            },
-            Trial::Depth(depth) => Settings { depth, ..small },
+            Trial::With(change) => changed(plain, &change),
+            Trial::Glance | Trial::Whole | Trial::Base => plain,
         }
     }
 
-    /// Goes on after that picture, or ends with what was shown.
-    pub fn after(mut self, picture: &Frame) -> ControlFlow<TrialResults, Self> {
-        let stops = stops_above_1(&picture.values);
-        let depth = match self.next {
-            Trial::Falloff => {
-                self.shown.falloff = Some(stops);
-                1
+    /// Goes on after that picture, or ends with what is wrong and what helps, if anything is wrong.
+    pub fn after(mut self, picture: &Frame) -> ControlFlow<Option<Advice>, Self> {
+        let values = &picture.values;
+        match self.next {
+            Trial::Glance => {
+                let above = Overexposure::of(values).share;
+                let is_good = DIM < picture.brightest() && above <= BRIGHT;
+                if is_good && self.of_text.is_none() {
+                    return ControlFlow::Break(None);
+                }
+                self.next = Trial::Base;
+                return ControlFlow::Continue(self);
             }
-            Trial::Depth(_) if ROUGHLY < stops => return ControlFlow::Break(self.shown),
-            Trial::Depth(depth) => {
-                self.shown.depth = Some(depth);
-                2 * depth
+            Trial::Whole => {
+                self.fault = picture.black().map(Fault::Black).or(self.of_text);
+                if self.fault.is_none() {
+                    return ControlFlow::Break(None);
+                }
+                self.next = Trial::Base;
+                return ControlFlow::Continue(self);
             }
+            Trial::Base => {
+                let shown = Shown::of(picture);
+                let now = Appearance::of(values, &shown, (0.0, self.settings.transfer));
+                if self.fault.is_none() {
+                    if now.is_burnt() {
+                        self.fault = Some(Fault::Burnt);
+                    } else if picture.brightest() <= DIM {
+                        self.next = Trial::Whole;
+                        return ControlFlow::Continue(self);
+                    } else if self.of_text.is_some() {
+                        self.fault = self.of_text;
+                    } else {
+                        return ControlFlow::Break(None);
+                    }
+                }
+                self.shown = Some(shown);
+                self.keep_what_may_help();
+                self.try_exposure(values);
+            }
+            Trial::With(change) => {
+                let is_burnt = self.consider(change, values, 0.0);
+                if is_burnt && change.depth.is_some() {
+                    // More bounces are brighter still.
+                    self.left.retain(|other| other.depth.is_none());
+                }
+            }
+        }
+        match (self.left.pop(), self.fault) {
+            (Some(change), _) => {
+                self.next = Trial::With(change);
+                ControlFlow::Continue(self)
+            }
+            (None, Some(fault)) => ControlFlow::Break(Some(Advice {
+                fault,
+                cure: self.best.map(|(_, change)| change),
+            })),
+            (None, None) => ControlFlow::Break(None),
+        }
+    }
+
+    /// Leaves out the candidates that cannot mend what is wrong.
+    fn keep_what_may_help(&mut self) {
+        let fault = self.fault;
+        self.left.retain(|change| {
+            let fades = change.falloff == Some(FalloffRule::Square);
+            match fault {
+                Some(Fault::Black(_)) => {
+                    change.integrator.is_some() || change.falloff.is_some() && !fades
+                }
+                Some(Fault::Burnt) => change.depth.is_some() || fades,
+                Some(Fault::Unlit) => change.integrator.is_some(),
+                Some(Fault::WithoutPhotons) | None => fades,
+            }
+        });
+    }
+
+    /// Considers the exposure that brings the 99th percentile of a picture to 1, or the brightest channel
+    /// of a black one: a trial of it is the same picture times a factor.
+    fn try_exposure(&mut self, values: &[[f32; 3]]) {
+        let found = Overexposure::of(values);
+        let over = match self.fault {
+            Some(Fault::Black(_)) if 0.0 < found.brightest => libm::log2(found.brightest),
+            Some(Fault::Burnt) => found.stops,
+            _ => return,
         };
-        if self.over <= ROUGHLY || !is_deep(&self.settings, depth) {
-            return ControlFlow::Break(self.shown);
-        }
-        self.next = Trial::Depth(depth);
-        ControlFlow::Continue(self)
-    }
-}
-
-/// Whether paths may have more bounces than `depth`.
-fn is_deep(settings: &Settings, depth: u32) -> bool {
-    settings.integrator.traces_paths() && depth < settings.depth
-}
-
-/// By how many stops the 99th percentile of the pixels' largest channels is above 1; negative if it is
-/// below, −∞ if it is 0.
-fn stops_above_1(values: &[[f32; 3]]) -> f64 {
-    let largest = values.iter().map(|[r, g, b]| r.max(*g).max(*b));
-    let mut largest: Vec<f32> = largest.filter(|value| !value.is_nan()).collect();
-    // A hundredth of the pixels may be brighter.
-    let at = largest.len().saturating_sub(1 + values.len() / 100);
-    if largest.is_empty() {
-        return f64::NEG_INFINITY;
-    }
-    let (_, value, _) = largest.select_nth_unstable_by(at, f32::total_cmp);
-    libm::log2(f64::from(*value))
-}
-
-#[cfg(test)]
-mod tests {
-    use glam::DVec3;
-
-    use super::*;
-    use crate::scene::{Emitter, Falloff, Integrator, Rendering, Rgb, Shadows};
-
-    /// A lamp with these falloff coefficients.
-    fn lamp(radial: [f64; 3]) -> Light {
-        Light {
-            emitter: Emitter::Point {
-                position: DVec3::Z,
-                radius: 0.0,
-                falloff: Falloff { radial, spot: None },
-            },
-            colour: Rgb::ONE,
-            scale: 1.0,
-            shadows: Shadows::Cast,
-        }
-    }
-
-    /// A picture whose 99th percentile is this many stops above 1.
-    fn picture(stops: f64) -> Frame {
-        let bright = libm::exp2(stops) as f32;
-        let size = Size {
-            width: 10,
-            height: 10,
-        };
-        let mut values = vec![[0.0, bright, 0.0]; 100];
-        values[7] = [f32::INFINITY; 3];
-        Frame {
-            values,
-            ..Frame::drawn(size, vec![[0; 3]; 100])
-        }
-    }
-
-    /// The depths tried, 0 for the falloff, and what was shown, for a picture so many stops too bright if
-    /// pictures of depths up to `most` are not.
-    fn trials(
-        over: f64,
-        (integrator, depth): (Integrator, u32),
-        radial: [f64; 3],
-        most: u32,
-    ) -> (Vec<u32>, TrialResults) {
-        let asked = Rendering {
-            integrator: Some(integrator),
-            depth: Some(depth),
-            noise: Some(0.1),
+        let own = self.settings.exposure;
+        let stops = (2.0 * (own - over)).floor() / 2.0;
+        let stops = stops.clamp(*EXPOSURES.start(), *EXPOSURES.end());
+        let change = Rendering {
+            exposure: Some(stops),
             ..Rendering::default()
         };
-        let size = Size {
-            width: 640,
-            height: 3,
-        };
-        let mut tried = Vec::new();
-        let mut next = Trials::new(&Settings::new(size, &asked), &[lamp(radial)], over);
-        while let Some(trials) = next {
-            let settings = trials.settings();
-            let Size { width, height } = settings.size;
-            assert_eq!(
-                (width, height, settings.spp, settings.noise),
-                (64, 1, 16, None)
-            );
-            let fades = settings.falloff == FalloffRule::Square;
-            tried.push(if fades { 0 } else { settings.depth });
-            let stops = match fades {
-                true => -2.0,
-                false if settings.depth <= most => 0.25,
-                false => 1.0,
-            };
-            match trials.after(&picture(stops)) {
-                ControlFlow::Continue(trials) => next = Some(trials),
-                ControlFlow::Break(shown) => return (tried, shown),
-            }
-        }
-        (tried, TrialResults::default())
-    }
-
-    #[test]
-    fn the_falloff_and_the_largest_depth_that_is_not_too_bright_are_found() {
-        let (path, whitted) = (Integrator::Path, Integrator::Whitted);
-        let (steady, fading) = ([1.0, 0.0, 0.0], [0.0, 0.0, 1.0]);
-        let falloff = Some(-2.0);
-        for (by, lamp, most, tried, falloff, depth) in [
-            ((path, 64), fading, 5, vec![1, 2, 4, 8], None, Some(4)),
-            ((path, 64), fading, 0, vec![1], None, None),
-            ((path, 5), fading, 9, vec![1, 2, 4], None, Some(4)),
-            (
-                (Integrator::Photon, 4),
-                fading,
-                9,
-                vec![1, 2],
-                None,
-                Some(2),
-            ),
-            ((path, 1), fading, 9, vec![], None, None),
-            ((whitted, 8), fading, 9, vec![], None, None),
-            ((whitted, 8), steady, 9, vec![0], falloff, None),
-            ((path, 1), steady, 9, vec![0], falloff, None),
-            ((path, 3), steady, 1, vec![0, 1, 2], falloff, Some(1)),
-        ] {
-            let shown = TrialResults { falloff, depth };
-            assert_eq!(trials(2.0, by, lamp, most), (tried, shown), "{by:?}");
+        if stops != own {
+            self.consider(change, values, stops - own);
         }
     }
 
-    #[test]
-    fn no_depth_is_tried_for_a_picture_that_is_hardly_too_bright() {
-        let path = (Integrator::Path, 64);
-        let shown = |falloff| TrialResults {
-            falloff,
-            depth: None,
+    /// Keeps a change if the picture with it, brightened by these stops, is the best so far; returns
+    /// whether it is too bright.
+    fn consider(&mut self, change: Rendering, values: &[[f32; 3]], stops: f64) -> bool {
+        let Some(shown) = &self.shown else {
+            return false;
         };
-        assert_eq!(
-            trials(0.5, path, [0.0, 0.0, 1.0], 64),
-            (vec![], shown(None))
-        );
-        let steady = trials(0.5, path, [1.0, 0.0, 0.0], 64);
-        assert_eq!(steady, (vec![0], shown(Some(-2.0))));
+        let appearance = Appearance::of(values, shown, (stops, self.settings.transfer));
+        // What makes a picture black is undone rather than made up for by an exposure.
+        let undoes = matches!(self.fault, Some(Fault::Black(_))) && change.exposure.is_none();
+        let is_better = |(least, best): (f64, Rendering), distance: f64| {
+            distance < least || undoes && best.exposure.is_some()
+        };
+        if let Some(distance) = appearance.distance()
+            && self.best.is_none_or(|best| is_better(best, distance))
+        {
+            self.best = Some((distance, change));
+        }
+        appearance.is_burnt()
     }
+}
 
-    #[test]
-    fn a_hundredth_of_the_pixels_may_be_brighter() {
-        let with = |bright: &[f32]| {
-            let mut values = vec![[0.5; 3]; 200 - bright.len()];
-            values.extend(bright.iter().map(|green| [0.0, *green, 0.0]));
-            stops_above_1(&values)
-        };
-        assert_eq!(with(&[]), -1.0);
-        assert_eq!(with(&[8.0, f32::INFINITY]), -1.0);
-        assert_eq!(with(&[8.0, 4.0, f32::INFINITY]), 2.0);
-        assert_eq!(stops_above_1(&[[0.0; 3]; 9]), f64::NEG_INFINITY);
-        assert_eq!(stops_above_1(&[]), f64::NEG_INFINITY);
+impl Frame {
+    /// The brightest level of a picture of light as exported, 0 to 15 of 255, if it is so dark that it
+    /// counts as black.
+    pub fn black(&self) -> Option<u8> {
+        Some(self.brightest()).filter(|most| *most <= BLACK)
+    }
+}
+
+/// Whether a small picture of a scene takes about as long as reading the scene, or is quick.
+fn is_small(scene: &Scene) -> bool {
+    let triangles = scene.objects.iter().map(|object| match &object.shape {
+        Shape::Mesh(instance) => instance.mesh().len(),
+        _ => 1,
+    });
+    let all = triangles.fold(0, usize::saturating_add);
+    all <= MOST_TRIANGLES && scene.lights.len() <= MOST_LIGHTS
+}
+
+/// The settings to try, the last one first: whatever may mend one fault or another.
+fn candidates(scene: &Scene, settings: &Settings) -> Vec<Rendering> {
+    let traces_paths = settings.integrator.traces_paths();
+    let mut left: Vec<Rendering> = Vec::new();
+    if traces_paths {
+        let depths = depths(scene).take_while(|depth| *depth < settings.depth);
+        left.extend(depths.map(|depth| Rendering {
+            depth: Some(depth),
+            ..Rendering::default()
+        }));
+        left.reverse();
+    }
+    let other = match settings.integrator {
+        Integrator::Whitted => is_lit_by_paths(scene).then_some(Integrator::Path),
+        Integrator::Path | Integrator::Photon => {
+            (scene.ambient_light() != Rgb::ZERO).then_some(Integrator::Whitted)
+        }
+    };
+    left.extend(other.map(|integrator| Rendering {
+        integrator: Some(integrator),
+        ..Rendering::default()
+    }));
+    let fades = faded(&scene.lights, FalloffRule::Square).is_some();
+    let rule = match settings.falloff {
+        FalloffRule::None => FalloffRule::Square,
+        FalloffRule::Square => FalloffRule::None,
+    };
+    left.extend(fades.then(|| Rendering {
+        falloff: Some(rule),
+        ..Rendering::default()
+    }));
+    left
+}
+
+/// The depths that may help, the smallest first: where surfaces send back all that they receive, or more.
+/// What comes from all around them may be too much after a single bounce.
+fn depths(scene: &Scene) -> impl Iterator<Item = u32> {
+    let albedo = scene.materials.iter().map(Material::sent_on);
+    let albedo = albedo.map(Rgb::max_element).fold(0.0, f64::max);
+    let is_around = scene.setting.environment.colour != Rgb::ZERO;
+    let first = (1.0 - ROUNDING <= albedo).then_some(if is_around { 1 } else { 2 });
+    std::iter::successors(first, |depth: &u32| depth.checked_mul(2))
+}
+
+/// Whether there is light that only paths carry to other surfaces.
+fn is_lit_by_paths(scene: &Scene) -> bool {
+    let glows = |material: &Material| material.emission != Rgb::ZERO;
+    scene.setting.environment.colour != Rgb::ZERO || scene.materials.iter().any(glows)
+}
+
+/// These settings with a candidate.
+fn changed(settings: Settings, change: &Rendering) -> Settings {
+    let integrator = change.integrator.unwrap_or(settings.integrator);
+    // Another depth than the default was asked for, by whichever integrator.
+    let own = if settings.depth == settings.integrator.default_depth() {
+        integrator.default_depth()
+    } else {
+        settings.depth
+    };
+    Settings {
+        integrator,
+        depth: change.depth.unwrap_or(own),
+        falloff: change.falloff.unwrap_or(settings.falloff),
+        ..settings
+    }
+}
+
+/// A size with the same proportions whose longer side is at most this.
+fn within(Size { width, height }: Size, most: u32) -> Size {
+    let longer = width.max(height).max(most);
+    let side = |side: u32| (u64::from(side) * u64::from(most) / u64::from(longer)).max(1) as u32;
+    Size {
+        width: side(width),
+        height: side(height),
     }
 }

@@ -189,6 +189,26 @@ impl Material {
         }
     }
 
+    /// The largest share of the light that arrives, by channel, that path tracing sends on: diffuse,
+    /// highlight, mirror and transmission together, as if its textures were white. Above 1, pictures grow
+    /// brighter with every bounce.
+    pub fn sent_on(&self) -> Rgb {
+        self.diffuse + self.glossy_albedo() + self.mirror.tint + self.dielectric.tint
+    }
+
+    /// The share of the light that arrives that path tracing reflects by the highlight: the mean over
+    /// directions of incidence by their cosine. That of microfacets is not counted.
+    pub fn glossy_albedo(&self) -> Rgb {
+        match self.highlight {
+            Highlight::ModifiedPhong(gloss) => 2.0 / 3.0 * gloss.specular,
+            Highlight::Blinn(gloss) => {
+                let exponent = gloss.exponent.max(0.0);
+                0.5 * (exponent + 2.0) / (exponent + 4.0) * gloss.specular
+            }
+            Highlight::None | Highlight::Phong(_) | Highlight::Microfacet { .. } => Rgb::ZERO,
+        }
+    }
+
     /// Whether it reflects no light diffusely or as a highlight.
     pub(crate) fn is_unlit(&self) -> bool {
         self.highlight == Highlight::None && self.diffuse == Rgb::ZERO

@@ -1,5 +1,6 @@
 //! Tests of the program as run from a shell: arguments, streams, files and exit codes.
 
+mod advice;
 mod arguments;
 mod bench;
 mod comparing;

@@ -1,14 +1,15 @@
-//! What texts show of their pictures: the warnings, with their places, and the cures.
+//! What texts show of their pictures: the warnings, with their places, and what comes of them.
 
 use super::read_as;
-use crate::language::{Language, outlook};
+use crate::language::{Language, Prospect, outlook};
 use crate::scene::{Integrator, Meshes, Rendering};
 use crate::text::Position;
 
 const LIT: &str = "0 0 0 1 0 5 5 1 1 1\n";
 const BALL: &str = "1 sphere 0 0 0 1  .1 .1 .1 .5 .5 .5 0 0 0 1 0 0 1\n";
 
-/// The warnings as `LINE:COLUMN message`, each with its cure.
+/// The warnings as `LINE:COLUMN message`, each with what comes of it if that is neither a black picture
+/// nor something else.
 fn shown(language: Language, text: &str, integrator: Option<Integrator>) -> Vec<String> {
     let (source, lowered) = read_as(language, text, &Meshes::default());
     let scene = lowered.scene.expect("it has no errors");
@@ -17,12 +18,14 @@ fn shown(language: Language, text: &str, integrator: Option<Integrator>) -> Vec<
         ..Rendering::default()
     };
     let asked = over.or(scene.setting.rendering);
-    let found = outlook(&source, &scene, &asked).into_iter().map(|found| {
+    let found = outlook(&source, &scene, &scene.camera, &asked).into_iter();
+    let found = found.map(|found| {
         let Position { line, column } = Position::of(text, found.warning.span.start());
-        let cure = found.cure.map_or_else(String::new, |(key, value)| {
-            format!(" | {} {value}", key.name())
-        });
-        format!("{line}:{column} {}{cure}", found.warning.message)
+        let prospect = match found.prospect {
+            Prospect::Black | Prospect::Other => String::new(),
+            prospect => format!(" | {prospect:?}"),
+        };
+        format!("{line}:{column} {}{prospect}", found.warning.message)
     });
     found.collect()
 }
@@ -61,7 +64,7 @@ fn adaptive_sampling_needs_more_samples_than_all_pixels_take() {
         ..Rendering::default()
     };
     let asked = over.or(scene.setting.rendering);
-    assert_eq!(outlook(&source, &scene, &asked), []);
+    assert_eq!(outlook(&source, &scene, &scene.camera, &asked), []);
 }
 
 #[test]
@@ -124,8 +127,7 @@ fn a_scene_without_light_is_black() {
     check(Language::Ray, &dark, PATH, &[off]);
     let ambient = dark.replacen("0 0 0 1 0", "1 1 1 1 0", 1);
     check(Language::Ray, &ambient, None, &[]);
-    let cure = format!("{off} | integrator whitted");
-    check(Language::Ray, &ambient, PATH, &[&cure]);
+    check(Language::Ray, &ambient, PATH, &[off]);
     let ball = "<object type='sphere' material='m'/><material name='m'/>";
     let camera = "<camera><position z='9'/></camera>";
     let xml = |more: &str| format!("<xml><scene>{ball}{more}</scene>\n{camera}</xml>");
@@ -139,10 +141,7 @@ fn a_scene_without_light_is_black() {
         Language::Xml,
         &xml("<light type='ambient'><intensity/></light>"),
         PATH,
-        &[
-            "2:1 the only light is ambient, which path tracing leaves out: the picture is black \
-           | integrator whitted",
-        ],
+        &["2:1 the only light is ambient, which path tracing leaves out: the picture is black"],
     );
 }
 
@@ -171,7 +170,7 @@ fn a_scene_without_objects_is_black() {
 #[test]
 fn what_only_paths_see_is_offered_to_them() {
     let glows = "2:1 the only light is emission or the environment, which only path tracing carries to other surfaces \
-                 | integrator path";
+                 | Unlit";
     for more in [
         "<environment value='.5'/>",
         "<object type='sphere' material='lamp'/><material name='lamp'><emission value='3'/></material>",
@@ -293,21 +292,21 @@ fn materials_that_send_back_more_than_comes_are_named_with_the_sum() {
             ".5 .6 .75  0 0 0 9  .5 0 1",
             Some(
                 "2:3 object 1 (sphere): diffuse, specular and mirror reflectance add up to 1.25: \
-                  the picture grows brighter with every bounce | depth 3",
+                  the picture grows brighter with every bounce",
             ),
         ),
         (
             "0 0 0  0 0 0 9  .12 .9 1.5",
             Some(
                 "2:3 object 1 (sphere): mirror reflectance and transmittance add up to 1.02: \
-                  the picture grows brighter with every bounce | depth 35",
+                  the picture grows brighter with every bounce",
             ),
         ),
         (
             ".5 .5 .5  0 0 0 9  .5 .5 1.5",
             Some(
                 "2:3 object 1 (sphere): diffuse, specular and mirror reflectance and transmittance \
-                  add up to 1.5: the picture grows brighter with every bounce | depth 1",
+                  add up to 1.5: the picture grows brighter with every bounce",
             ),
         ),
     ] {
@@ -323,7 +322,7 @@ fn materials_that_send_back_more_than_comes_are_named_with_the_sum() {
         PATH,
         &[
             "2:1 m (blinn): diffuse, specular and mirror reflectance add up to 1.033: \
-           the picture grows brighter with every bounce | depth 21",
+           the picture grows brighter with every bounce",
         ],
     );
 }
@@ -334,7 +333,7 @@ fn lights_without_photons_are_named() {
     const PHOTON: Option<Integrator> = Some(Integrator::Photon);
     let steady = "it does not fall off with the squared distance";
     let ray = format!("{LIT}{BALL}");
-    let expected = format!("1:9 light 1 emits no photons: {steady} | falloff square");
+    let expected = format!("1:9 light 1 emits no photons: {steady} | WithoutPhotons");
     check(Language::Ray, &ray, PHOTON, &[&expected]);
     check(Language::Ray, &ray, PATH, &[]);
     let fading = format!("// render: integrator photon falloff square\n{ray}");
@@ -360,15 +359,60 @@ fn lights_without_photons_are_named() {
     let xml = |terms: &str| {
         format!(
             "<xml><scene><object type='sphere' material='m'/><material name='m'/>
-             <light type='point'><intensity/>{terms}</light></scene>
+             <light type='point'><intensity/><position z='9'/>{terms}</light></scene>
              <camera><position z='9'/></camera></xml>"
         )
     };
-    let expected = format!("2:14 light 1 (point) emits no photons: {steady} | falloff square");
+    let expected = format!("2:14 light 1 (point) emits no photons: {steady} | WithoutPhotons");
     for terms in ["", "<size value='2'/>"] {
         check(Language::Xml, &xml(terms), PHOTON, &[&expected]);
     }
     check(Language::Xml, &xml("<attenuation value='2'/>"), PHOTON, &[]);
     let radiant = xml("<size value='2'/>").replace("<camera>", "<camera gamma='sRGB'>");
     check(Language::Xml, &radiant, PHOTON, &[]);
+}
+
+#[test]
+fn lights_inside_opaque_solids_are_named_if_there_are_no_others() {
+    let grey = ".1 .1 .1 .5 .5 .5 0 0 0 1 0";
+    let text = |ambient: &str, lights: &str, transmission: &str| {
+        format!(
+            "// view: eye 0 0 9 target 0 0 0\n{ambient} {lights}\n2 sphere 0 0 0 1  {grey} {transmission} 1\n\
+             sphere 4 0 0 1  {grey} 0 1\n"
+        )
+    };
+    let ray = |text: String, expected: &[&str]| check(Language::Ray, &text, None, expected);
+    let inside = "2:9 light 1 is inside object 1 (sphere), which is opaque: the picture is black";
+    let (dark, one) = ("0 0 0", "1 0 .5 0 1 1 1");
+    ray(text(dark, one, "0"), &[inside]);
+    check(
+        Language::Ray,
+        &text(".3 .3 .3", one, "0"),
+        PATH,
+        &[&inside.replace("2:9", "2:12")],
+    );
+    for others in [
+        text(dark, one, ".5"),
+        text(".3 .3 .3", one, "0"),
+        text(dark, "2 0 .5 0 1 1 1  0 9 9 1 1 1", "0"),
+        // A room.
+        text(dark, one, "0").replace("eye 0 0 9", "eye 0 .9 0"),
+    ] {
+        ray(others, &[]);
+    }
+    let both = "2:9 all lights are inside opaque solids, light 1 inside object 1 (sphere): the picture \
+                is black";
+    ray(text(dark, "2 0 .5 0 1 1 1  4 0 0 1 1 1", "0"), &[both]);
+    // A light that is off lights nothing either.
+    ray(text(dark, "2 0 .5 0 1 1 1  0 9 9 0 0 0", "0"), &[inside]);
+    let dat = |shadow: &str| {
+        format!(
+            "light ID 1 pnt 0 0 0  0 0 0  1 1 1  1 0 0  0 {shadow}\n\
+             mat ID 1  1 1 1  0 .5 0 1  0 0 1\nobj sphere ID 1 mat ID 1  0 0 0  1\n\
+             camera perspective 0 -5 0  0 0 0  0 0 1  1 0 100\nresolution .1 .1\nviewport 8 6\n"
+        )
+    };
+    let inside = "1:1 light 1 is inside object 1 (sphere), which is opaque: the picture is black";
+    check(Language::Dat, &dat("shadow_on"), None, &[inside]);
+    check(Language::Dat, &dat("shadow_off"), None, &[]);
 }

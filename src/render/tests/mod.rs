@@ -31,6 +31,7 @@ mod shading;
 mod solids;
 mod spread;
 mod textures;
+mod trials;
 mod visibility;
 
 use std::sync::Arc;

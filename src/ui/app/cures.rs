@@ -1,33 +1,31 @@
-//! The render settings suggested for a picture.
+//! The render setting suggested for a picture.
 
-use crate::language::RenderKey;
+use crate::language::{Prospect, RenderKey};
 use crate::render::Trials;
 use crate::scene::Rendering;
 
 /// A render setting and its value.
 pub(super) type Cure = (RenderKey, String);
 
-/// The suggested cures.
+/// What is wrong with the picture, and the setting that helps.
 #[derive(Debug, Default)]
 pub struct Cures {
-    /// For what the text shows.
-    pub(super) of_text: Vec<Cure>,
-    /// For what the preview shows.
-    pub(super) of_picture: Vec<Cure>,
-    /// What was said of a preview that is black or too bright, while it is so.
+    /// What the text shows of its picture.
+    pub(super) prospects: Vec<Prospect>,
+    /// What helps, as trials of the preview have shown.
+    pub(super) cure: Option<Cure>,
+    /// What was said of a preview with which something is wrong, while it is so.
     pub(super) said: Option<String>,
-    /// The trials under way, before the preview is said to be too bright.
+    /// The trials under way, before that is said.
     pub(super) trials: Option<RunningTrials>,
 }
 
-/// Trials of what darkens a preview that is too bright.
+/// Trials of what mends the preview.
 #[derive(Debug)]
 pub(super) struct RunningTrials {
     pub(super) next: Trials,
     /// The generation of the picture under way, once it is traced.
     pub(super) generation: Option<u64>,
-    /// By how many stops the 99th percentile of the preview is above 1.
-    pub(super) over: f64,
     /// What the preview is of: the text's revision, and the render settings.
     pub(super) of: (u64, Rendering),
 }

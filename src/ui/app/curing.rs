@@ -1,12 +1,13 @@
-//! What is wrong with a picture as a whole, and the render settings suggested for it.
+//! What is wrong with a picture as a whole, and the render setting suggested for it.
 
 use std::ops::ControlFlow;
 
 use super::App;
 use super::cures::{Cure, RunningTrials};
 use super::looking::is_light;
-use crate::language::{Outlook, brightening, darkening, outlook};
-use crate::render::{Frame, Frames, Histogram, Job, Overexposure, TrialResults, Trials};
+use crate::explain::fault;
+use crate::language::{Outlook, Prospect, RenderKey, outlook};
+use crate::render::{Advice, Fault, Frame, Frames, Histogram, Job, Settings, Trials};
 use crate::ui::keymap::{Action, Mode};
 use crate::ui::msg::{Effect, Target};
 
@@ -14,77 +15,80 @@ impl App {
     /// Adds what the text shows of its picture to what was found in reading it.
     pub(super) fn judge_text(&mut self) {
         let mut found = self.reported.clone();
-        self.cures.of_text.clear();
+        self.cures.prospects.clear();
         let scene = self.scene.clone().filter(|_| found.errors() == 0);
         let Some(scene) = scene else {
             self.diagnostics = found;
             return;
         };
-        for Outlook { warning, cure } in outlook(self.source(), &scene, &self.rendering()) {
-            let hint = cure.as_ref().map(|cure| self.cure_in_words(cure));
-            found.warning(|| match hint {
-                Some(hint) => warning.with_hint(hint),
-                None => warning,
-            });
-            self.cures.of_text.extend(cure);
+        let asked = self.rendering();
+        for Outlook { warning, prospect } in outlook(self.source(), &scene, &scene.camera, &asked) {
+            found.warning(|| warning);
+            self.cures.prospects.push(prospect);
         }
         self.diagnostics = found.sorted();
     }
 
-    /// Says what is wrong with a complete preview that is black, or of which more than half is above 1,
-    /// and what helps; once, until one is not.
+    /// Says what is wrong with a complete preview of light as a whole, and what helps, once trials have
+    /// shown it; once, until nothing is wrong.
     pub(super) fn judge_picture(&mut self, target: Target, frame: &Frame) -> Vec<Effect> {
         if target != Target::Preview || !frame.progress.complete || !is_light(frame) {
             return Vec::new();
         }
-        let settings = frame.settings().filter(|settings| settings.aov.is_none());
-        let is_black = settings.is_some() && frame.is_black();
-        let clipped = Histogram::of(&frame.values, self.pictures.display.stops()).clipped;
-        self.cures.of_picture.clear();
-        let under_way = self.cures.trials.take();
-        let stop = || {
-            under_way
-                .map(|_| Effect::Stop(Target::Trial))
-                .into_iter()
-                .collect()
+        let under_way = self.cures.trials.take().is_some();
+        self.cures.cure = None;
+        let suspected = self.suspected(frame);
+        let fault = suspected.as_ref().and_then(Trials::fault);
+        let trial = match suspected {
+            // A scene of this size would keep all else waiting.
+            Some(_) if self.is_large() => {
+                if let Some(fault) = fault {
+                    self.say_fault(fault);
+                }
+                None
+            }
+            Some(trials) => self.try_out(trials),
+            None => {
+                self.withdraw_fault();
+                None
+            }
         };
-        if is_black {
-            let brightest = Overexposure::of(&frame.values).brightest;
-            let cure = brightening(&self.rendering(), brightest);
-            self.cures.of_picture.extend(cure);
-            self.say_black();
-        } else if 0.5 < clipped {
-            let over = Overexposure::of(&frame.values).stops;
-            let settings_and_scene = settings.zip(self.scene.as_ref());
-            let trials = settings_and_scene
-                .filter(|_| !self.is_large())
-                .and_then(|(settings, scene)| Trials::new(settings, &scene.lights, over));
-            if let Some(trial) = trials.and_then(|trials| self.try_darker(trials, over)) {
-                return vec![trial];
-            }
-            if settings.is_some() {
-                self.cures.of_picture = self.darkening(over, TrialResults::default());
-            }
-            self.say_burnt();
-        } else if let Some(said) = self.cures.said.take() {
-            self.overlays.withdraw(&said);
+        match trial {
+            Some(trial) => vec![trial],
+            None if under_way => vec![Effect::Stop(Target::Trial)],
+            None => Vec::new(),
         }
-        stop()
+    }
+
+    /// The trials for a preview, if something may be wrong with it as displayed.
+    fn suspected(&self, frame: &Frame) -> Option<Trials> {
+        let settings = frame.settings().filter(|settings| settings.aov.is_none())?;
+        let scene = self.scene.as_ref()?;
+        let stops = self.pictures.display.stops();
+        let is_darkened = stops < 0.0 && Histogram::of(&frame.values, stops).clipped <= 0.5;
+        let settings = Settings {
+            // The advice is that on the whole picture.
+            size: scene.camera.size,
+            ..*settings
+        };
+        let of_text = fault(&self.cures.prospects);
+        let trials = Trials::of_picture(frame, scene, &settings, of_text)?;
+        let is_known = trials.fault().is_some() || of_text.is_some();
+        (is_known || !is_darkened).then_some(trials)
     }
 
     /// Traces the next trial picture.
-    fn try_darker(&mut self, next: Trials, over: f64) -> Option<Effect> {
+    fn try_out(&mut self, next: Trials) -> Option<Effect> {
         let settings = next.settings();
         let job = self.shown_job(settings.size, settings.spp)?;
         self.cures.trials = Some(RunningTrials {
             next,
             generation: None,
-            over,
             of: (self.document.revision(), self.rendering()),
         });
         let job = Job {
             settings,
-            frames: Frames::LastWithValues,
+            frames: Frames::Live,
             ..job
         };
         Some(Effect::Trace(Target::Trial, job))
@@ -100,62 +104,74 @@ impl App {
         else {
             return Vec::new();
         };
-        match trials.next.after(frame) {
-            _ if trials.of != (self.document.revision(), self.rendering()) => {
-                // The preview of what came since is judged anew.
-                vec![Effect::Stop(Target::Trial)]
+        let advice = match trials.next.after(frame) {
+            // The preview of what came since is judged anew.
+            _ if trials.of != (self.document.revision(), self.rendering()) => None,
+            ControlFlow::Continue(next) => {
+                return self.try_out(next).into_iter().collect();
             }
-            ControlFlow::Continue(next) => self.try_darker(next, trials.over).into_iter().collect(),
-            ControlFlow::Break(shown) => self.end_burnt(trials.over, shown),
+            ControlFlow::Break(advice) => {
+                if advice.is_none() {
+                    self.withdraw_fault();
+                }
+                advice
+            }
+        };
+        if let Some(Advice { fault, cure }) = advice {
+            self.cures.cure = cure.and_then(|cure| RenderKey::stated(&cure).next());
+            self.say_fault(fault);
         }
-    }
-
-    /// Ends the trials, and says that the preview is too bright.
-    pub(super) fn end_trials(&mut self) -> Vec<Effect> {
-        let trials = self.cures.trials.take();
-        trials.map_or_else(Vec::new, |trials| {
-            self.end_burnt(trials.over, trials.next.shown())
-        })
-    }
-
-    /// Says that the preview is too bright, and what helps, as trials have shown.
-    fn end_burnt(&mut self, over: f64, shown: TrialResults) -> Vec<Effect> {
-        self.cures.of_picture = self.darkening(over, shown);
-        self.say_burnt();
         vec![Effect::Stop(Target::Trial)]
     }
 
-    fn darkening(&self, over: f64, shown: TrialResults) -> Vec<Cure> {
-        darkening(&self.rendering(), over, shown.falloff, shown.depth)
-    }
-
-    fn say_black(&mut self) {
-        let cure = self.suggested_cure().map(|cure| self.cure_in_words(cure));
-        let nothing_known = self.cures.of_text.is_empty() && self.diagnostics.is_empty();
-        let helps = match (cure, nothing_known) {
-            (Some(cure), _) => cure,
-            (None, false) => format!("{} may say why", self.key_for(Action::Errors)),
-            (None, true) => {
-                let inspect = self.key_for(Action::Go(Mode::Inspect));
-                format!("{inspect} explains a pixel")
-            }
+    /// Ends trials that cannot be traced.
+    pub(super) fn end_trials(&mut self) -> Vec<Effect> {
+        let Some(trials) = self.cures.trials.take() else {
+            return Vec::new();
         };
-        self.say_once(format!("the picture is black: {helps}"));
+        if let Some(fault) = trials.next.fault() {
+            self.say_fault(fault);
+        }
+        vec![Effect::Stop(Target::Trial)]
     }
 
-    fn say_burnt(&mut self) {
+    /// Says what is wrong with the preview and what helps, unless that was said.
+    fn say_fault(&mut self, fault: Fault) {
         let cure = self.suggested_cure().map(|cure| self.cure_in_words(cure));
-        let darker = self.key_for(Action::Expose(-1));
-        let darker = format!("{darker} darkens the screen only");
-        let helps = cure.map_or_else(|| darker.clone(), |cure| format!("{cure}, {darker}"));
-        self.say_once(format!("more than half of the picture is above 1: {helps}"));
-    }
-
-    /// Says what is wrong with the preview, unless that was said.
-    fn say_once(&mut self, words: String) {
+        let helps = match fault {
+            Fault::Black(_) => cure.unwrap_or_else(|| self.reason_of_black()),
+            Fault::Burnt => {
+                let cure = cure.unwrap_or_else(|| "no single render setting mends that".to_owned());
+                let darker = self.key_for(Action::Expose(-1));
+                format!("{cure}, {darker} darkens the screen only")
+            }
+            // The text's warning says it all.
+            Fault::Unlit | Fault::WithoutPhotons => match cure {
+                Some(cure) => cure,
+                None => return,
+            },
+        };
         if self.cures.said.is_none() {
+            let words = format!("{fault}: {helps}");
             self.overlays.say(words.clone());
             self.cures.said = Some(words);
+        }
+    }
+
+    /// Where to look for the reason why a picture is black.
+    fn reason_of_black(&self) -> String {
+        if self.cures.prospects.contains(&Prospect::Black) {
+            format!("{} says why", self.key_for(Action::Errors))
+        } else {
+            let inspect = self.key_for(Action::Go(Mode::Inspect));
+            format!("{inspect} explains a pixel")
+        }
+    }
+
+    /// Takes back what was said of a preview with which nothing is wrong any more.
+    fn withdraw_fault(&mut self) {
+        if let Some(said) = self.cures.said.take() {
+            self.overlays.withdraw(&said);
         }
     }
 
@@ -183,12 +199,11 @@ impl App {
         self.overlays.say(words);
     }
 
-    /// The first cure that is not in use yet.
+    /// The cure, if it is not in use yet.
     fn suggested_cure(&self) -> Option<&Cure> {
         let asked = self.rendering();
-        let cures = self.cures.of_text.iter().chain(&self.cures.of_picture);
-        let mut new = cures.filter(|(key, value)| key.value(&asked) != *value);
-        new.next()
+        let cure = self.cures.cure.as_ref();
+        cure.filter(|(key, value)| key.value(&asked) != *value)
     }
 
     fn cure_in_words(&self, (key, value): &Cure) -> String {

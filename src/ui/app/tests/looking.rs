@@ -3,18 +3,18 @@
 use std::sync::{Arc, Weak};
 
 use super::*;
-use crate::render::{Aov, Colours, Frame, Frames, Job, Query};
-use crate::scene::{FalloffRule, Size, Transfer};
+use crate::render::{Aov, Colours, Frame, Job, Query};
+use crate::scene::Transfer;
 use crate::ui::msg::Target;
 
 /// The job of a picture among the effects.
-fn job(effects: &[Effect], wanted: Target) -> Option<&Job> {
+pub(super) fn job(effects: &[Effect], wanted: Target) -> Option<&Job> {
     let mut traced = effects.iter().filter_map(traced_by);
     traced.find_map(|(target, job)| (target == wanted).then_some(job))
 }
 
 /// The complete preview of a job, of a single grey.
-fn preview(job: &Job, grey: f32) -> Msg {
+pub(super) fn preview(job: &Job, grey: f32) -> Msg {
     let size = job.settings.size;
     let plain = pictures::frame(size, vec![0; size.pixels()]);
     let query = Query {
@@ -248,204 +248,6 @@ fn legends_say_what_colours_stand_for() {
     }
     assert_eq!(app.pictures.display.colours, Colours::False);
     assert_eq!(app.pictures.display.transfer, None::<Transfer>);
-}
-
-/// A scene of which nothing is tried that would darken it.
-fn faded() -> String {
-    format!("// render: falloff square\n{SCENE}")
-}
-
-#[test]
-fn a_picture_that_is_too_bright_says_so_once() {
-    let (mut app, effects) = opened(&faded());
-    let bright =
-        "more than half of the picture is above 1: C sets exposure -1, < darkens the screen only";
-    let again = format!("no errors or warnings in the text, but {bright}");
-    let trace = job(&effects, Target::Preview).expect("a preview").clone();
-    press(&mut app, "<Esc>");
-    for (keys, grey, told) in [
-        ("", 0.9, ""),
-        ("", 1.5, bright),
-        // The next key dismisses it, and it only comes back on request.
-        ("j", 1.5, ""),
-        ("!", 1.5, &again),
-        ("j", 0.9, ""),
-        ("", 1.5, bright),
-        ("<Lt><Lt><Esc>", 0.9, ""),
-        // Darkened by a stop, it is not too bright.
-        ("<Esc>", 1.5, ""),
-    ] {
-        press(&mut app, keys);
-        app.update(preview(&trace, grey));
-        assert_eq!(shown(&app), told, "{keys} {grey}");
-    }
-}
-
-#[test]
-fn what_is_wrong_with_a_picture_is_said_after_other_messages_while_it_is_so() {
-    let (mut app, effects) = opened(&faded());
-    let trace = job(&effects, Target::Preview).expect("a preview").clone();
-    press(&mut app, "<Esc>");
-    for (last, told) in [(1.5, "more than half of the picture is above 1"), (0.9, "")] {
-        app.overlays.say("something else");
-        app.update(preview(&trace, 1.5));
-        app.update(preview(&trace, last));
-        assert_eq!(shown(&app), "something else");
-        press(&mut app, "<Esc>");
-        assert_eq!(shown(&app).split(':').next(), Some(told));
-        press(&mut app, "<Esc>");
-        app.update(preview(&trace, 0.9));
-    }
-}
-
-#[test]
-fn a_burnt_picture_is_offered_its_likeliest_cure_first() {
-    let (mut app, effects) = opened(SCENE);
-    let trace = job(&effects, Target::Preview).expect("a preview").clone();
-    press(&mut app, "<Esc>");
-    let burnt = "more than half of the picture is above 1: C sets";
-    let effects = app.update(preview(&trace, 40.0));
-    let trial = job(&effects, Target::Trial).expect("a trial");
-    assert_eq!(trial.settings.falloff, FalloffRule::Square);
-    tried(&mut app, 1, 0.5);
-    assert!(shown(&app).starts_with(&format!("{burnt} falloff square,")));
-    let effects = press(&mut app, "C");
-    assert_eq!(app.document.text(), faded());
-    // Nothing is left to try.
-    let trace = job(&effects, Target::Preview).expect("a preview").clone();
-    press(&mut app, "<Esc>");
-    let effects = app.update(preview(&trace, 3.0));
-    assert!(job(&effects, Target::Trial).is_none());
-    assert!(shown(&app).starts_with(&format!("{burnt} exposure -2,")));
-    press(&mut app, "C");
-    assert_eq!(
-        app.document.text(),
-        format!("// render: falloff square exposure -2\n{SCENE}")
-    );
-    press(&mut app, "uu");
-    assert_eq!(app.document.text(), SCENE);
-}
-
-/// A small picture by which a setting is tried, whose 99th percentile is so many stops above 1; returns what
-/// follows.
-fn tried(app: &mut App, generation: u64, stops: f64) -> Vec<Effect> {
-    let size = Size {
-        width: 1,
-        height: 1,
-    };
-    app.update(Msg::Started(Target::Trial, generation));
-    let frame = Frame {
-        generation,
-        values: vec![[stops.exp2() as f32; 3]],
-        ..Frame::drawn(size, vec![[255; 3]])
-    };
-    app.update(Msg::Frame(Target::Trial, Arc::new(frame)))
-}
-
-#[test]
-fn a_falloff_that_does_not_help_is_not_offered() {
-    let (mut app, effects) = opened(SCENE);
-    let trace = job(&effects, Target::Preview).expect("a preview").clone();
-    press(&mut app, "<Esc>");
-    app.update(preview(&trace, 3.0));
-    tried(&mut app, 1, 2.0);
-    let burnt = "more than half of the picture is above 1: C sets";
-    assert!(shown(&app).starts_with(&format!("{burnt} exposure -2,")));
-    press(&mut app, "<Esc>C");
-    press(&mut app, "<Esc>");
-    assert_eq!(
-        app.document.text(),
-        format!("// render: exposure -2\n{SCENE}")
-    );
-}
-
-#[test]
-fn a_picture_burnt_by_its_bounces_is_offered_a_smaller_depth() {
-    let text = format!("// render: integrator path falloff square\n{SCENE}");
-    let (mut app, effects) = opened(&text);
-    let trace = job(&effects, Target::Preview).expect("a preview").clone();
-    press(&mut app, "<Esc>");
-    let trial = |effects: &[Effect]| {
-        job(effects, Target::Trial).map(|job| (job.settings.depth, job.settings.spp, job.frames))
-    };
-    let ends = |effects: &[Effect]| matches!(effects, [Effect::Stop(Target::Trial)]);
-    let effects = app.update(preview(&trace, 3.0));
-    assert_eq!(trial(&effects), Some((1, 16, Frames::LastWithValues)));
-    assert_eq!(
-        shown(&app),
-        "",
-        "nothing is said before it is known what helps"
-    );
-    let effects = tried(&mut app, 1, 0.0);
-    assert_eq!(trial(&effects), Some((2, 16, Frames::LastWithValues)));
-    let effects = tried(&mut app, 2, 1.0);
-    assert!(ends(&effects), "{effects:?}");
-    let burnt = "more than half of the picture is above 1: C sets";
-    assert!(
-        shown(&app).starts_with(&format!("{burnt} depth 1,")),
-        "{}",
-        shown(&app)
-    );
-    press(&mut app, "C");
-    assert!(
-        app.document
-            .text()
-            .starts_with("// render: integrator path falloff square depth 1\n")
-    );
-    // Where no depth helps, or nothing can be tried, an exposure does.
-    press(&mut app, "u<Esc>");
-    app.update(preview(&trace, 0.5));
-    for ended in [
-        |app: &mut App| tried(app, 3, 1.0),
-        |app: &mut App| app.update(Msg::Refused(Target::Trial, "no memory".to_owned())),
-    ] {
-        assert!(trial(&app.update(preview(&trace, 3.0))).is_some());
-        assert!(ends(&ended(&mut app)));
-        assert!(
-            shown(&app).starts_with(&format!("{burnt} exposure -2,")),
-            "{}",
-            shown(&app)
-        );
-        press(&mut app, "<Esc>");
-        app.update(preview(&trace, 0.5));
-    }
-    // What is found out of a picture that was left is not said.
-    app.update(preview(&trace, 3.0));
-    press(&mut app, "P<Esc>");
-    assert!(ends(&tried(&mut app, 4, 0.0)));
-    assert_eq!(shown(&app), "");
-}
-
-#[test]
-fn a_picture_too_dark_to_be_exported_says_which_exposure_helps() {
-    let (mut app, effects) = opened_as("scene.ray", SCENE);
-    let trace = job(&effects, Target::Preview).expect("a preview").clone();
-    app.update(preview(&trace, 1e-4));
-    assert_eq!(shown(&app), "the picture is black: C sets exposure 13");
-    app.update(preview(&trace, 0.01));
-    assert_eq!(shown(&app), "");
-}
-
-#[test]
-fn a_black_picture_says_what_helps() {
-    let sky = "<xml><scene><object type=\"sphere\" material=\"m\"/><material name=\"m\"/>\
-               <environment value=\"1\"/></scene><camera><position z=\"9\"/></camera></xml>";
-    let (mut app, effects) = opened_as("scene.xml", sky);
-    let trace = job(&effects, Target::Preview).expect("a preview").clone();
-    assert_eq!(app.diagnostics.len(), 1);
-    app.update(preview(&trace, 0.0));
-    assert_eq!(shown(&app), "the picture is black: C sets integrator path");
-    press(&mut app, "P");
-    assert_eq!(app.diagnostics.len(), 0, "by path it is lit");
-    press(&mut app, "PPC");
-    assert!(
-        app.document
-            .text()
-            .contains("<render integrator=\"path\"/>")
-    );
-    assert_eq!(app.diagnostics.len(), 0);
-    press(&mut app, "<Esc>C");
-    assert_eq!(shown(&app), "there is no render setting to suggest");
 }
 
 #[test]

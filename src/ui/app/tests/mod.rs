@@ -5,6 +5,7 @@ mod adding;
 mod assets;
 mod colours;
 mod comparing;
+mod curing;
 mod dat;
 mod disk;
 mod editing;

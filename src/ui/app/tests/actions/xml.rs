@@ -300,10 +300,7 @@ pub(super) const ROWS: &[Row] = &[
         ("    <width value=\"400\"/>\n    <height value=\"300\"/>\n",
             "    <width value=\"320\"/>\n    <height value=\"200\"/>\n"),
     ])),
-    row(Key(A::Cure), Object(0), "C", Becomes(&[
-        ("  </camera>\n",
-            "  </camera>\n  <render integrator=\"path\"/>\n"),
-    ])),
+    row(Key(A::Cure), Object(0), "C", Says("there is no render setting to suggest")),
     row(Command("set"), Object(0), ":set depth 3<Enter>", Becomes(&[
         ("  </camera>\n",
             "  </camera>\n  <render depth=\"3\"/>\n"),
