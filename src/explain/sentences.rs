@@ -9,11 +9,11 @@ use crate::render::{
     DepthLimit, Explanation, Finding, RayKind, Shading, Term, TermSource, Verdict,
 };
 use crate::scene::Rgb;
-use crate::text::counted;
 
 /// Keys of fields, by what they mean, in the order of the languages.
 pub(super) const LIGHT_COLOUR: &[&str] = &["colour", "intensity"];
 const LIGHT_PLACE: &[&str] = &["position", "direction"];
+const LIGHT_DIRECTION: &[&str] = &["direction", "position"];
 const CONE: &[&str] = &["direction", "aa"];
 const ATTENUATION: &[&str] = &["attenuation", "a2", "a1", "a0"];
 const DIFFUSE: &[&str] = &["kd", "Kd", "diffuse", "color"];
@@ -62,7 +62,8 @@ impl Case<'_> {
             | Verdict::Budget { .. }
             | Verdict::TotalReflection { .. }
             | Verdict::NotFinite
-            | Verdict::TooBright { .. } => self.of_rays(verdict),
+            | Verdict::TooBright { .. }
+            | Verdict::Underexposed { .. } => self.of_rays(verdict),
             Verdict::Black { .. }
             | Verdict::MissingTexture { .. }
             | Verdict::NotReflected { .. }
@@ -208,13 +209,24 @@ impl Case<'_> {
                 let text = format!("clipped at 255: the sum {} is above 1", colour(*exposed));
                 let mut sentence = self.sentence("too-bright", text);
                 let main = self.main_term();
-                let stops = counted(exposed.max_element().log2().ceil() as usize, "stop");
-                let exposure = format!("lower the exposure by {stops}");
+                let exposure = "lower the exposure";
                 sentence.help = Some(match &main {
                     Some(main) => format!("it is mostly {main}: dim that, or {exposure}"),
-                    None => exposure,
+                    None => exposure.to_owned(),
                 });
                 sentence
+            }
+            Verdict::Underexposed { stops, radiance } => {
+                let [red, green, blue] = self.explanation.displayed;
+                let text = format!(
+                    "the exposure of {} stops leaves {} at {} of 255",
+                    number(*stops),
+                    colour(*radiance),
+                    red.max(green).max(blue)
+                );
+                let mut sentence = self.sentence("underexposed", text);
+                sentence.help = Some("raise the exposure".to_owned());
+                self.about(Node::Render, &["exposure"], sentence)
             }
             _ => self.sentence(
                 "not-finite",

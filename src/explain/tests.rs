@@ -1,5 +1,7 @@
 //! Small scenes with something wrong, and what is to be said about a pixel of each.
 
+mod help;
+
 use std::fs;
 use std::path::Path;
 use std::sync::Arc;
@@ -7,8 +9,7 @@ use std::sync::Arc;
 use super::*;
 use crate::language::{Language, Source};
 use crate::render::{Frames, Job, PreparedScene, Settings};
-use crate::scene::{FalloffRule, Filter, GlossRule};
-use crate::scene::{Images, Integrator, Meshes};
+use crate::scene::{Images, Integrator, Meshes, Rendering};
 
 /// How a scene is traced unless its text says otherwise.
 #[derive(Clone, Copy, Default)]
@@ -43,32 +44,20 @@ fn explain(language: Language, text: &str, pixel: [u32; 2], how: How) -> Words {
     let lights = source.nodes().iter();
     let lights = lights.filter(|node| matches!(node, Node::Light(_))).count();
     assert_eq!(lights, scene.lights.len(), "lights of text and scene agree");
-    let (size, transfer) = (
-        scene.camera.size,
-        scene.setting.rendering.transfer.unwrap_or_default(),
-    );
-    let integrator = how
-        .integrator
-        .unwrap_or_else(|| scene.setting.rendering.integrator());
+    let size = scene.camera.size;
+    let asked = Rendering {
+        integrator: how.integrator,
+        depth: how.depth,
+        ..Rendering::default()
+    };
+    let asked = asked.or(scene.setting.rendering);
     let job = Job {
         camera: scene.camera,
         scene: Arc::new(scene),
         images: Images::default(),
         settings: Settings {
-            size,
-            region: None,
             spp: 1,
-            depth: how.depth.unwrap_or_else(|| integrator.default_depth()),
-            seed: 0,
-            aov: None,
-            integrator,
-            filter: Filter::Box,
-            transfer,
-            exposure: 0.0,
-            falloff: FalloffRule::None,
-            gloss: GlossRule::None,
-            noise: None,
-            clamp: None,
+            ..Settings::new(size, &asked)
         },
         limit: None,
         frames: Frames::Last,
@@ -157,10 +146,13 @@ fn verdicts_of_ray_scenes() {
         "enclosed",
         words,
     );
-    let shade = format!("sphere 1.5 3 3 .5 {GREY}");
-    let words = "light 1 (line 2) is inside object 2 (sphere, line 5)";
-    let text = ray("0 0 0", "1.5 3 3 1 1 1", &[&grey, &shade]);
-    check(text, PLAIN, "enclosed", words);
+    // Whether the surface faces it or not.
+    for z in [3, -3] {
+        let shade = format!("sphere 1.5 3 {z} .5 {GREY}");
+        let words = "light 1 (line 2) is inside object 2 (sphere, line 5)";
+        let text = ray("0 0 0", &format!("1.5 3 {z} 1 1 1"), &[&grey, &shade]);
+        check(text, PLAIN, "enclosed", words);
+    }
     let screen = format!("sphere 0 5 2 1 {GREY}");
     let text = ray(".1 .1 .1", "0 10 3 1 1 1", &[&grey, &screen]);
     let words = "in the shadow of object 2 (sphere, line 5) from light 1 (line 2)";

@@ -275,6 +275,15 @@ impl World {
         }
     }
 
+    /// The rule that makes a light fade, if it does not fade by itself.
+    pub(crate) fn rule_of(&self, light: u32) -> FalloffRule {
+        let light = light as usize;
+        match &self.faded {
+            Some(faded) if faded[light] != self.scene.lights[light] => FalloffRule::Square,
+            Some(_) | None => FalloffRule::None,
+        }
+    }
+
     /// The transmitted fraction of light at a material.
     #[inline]
     pub(crate) fn transmission(&self, material: u32) -> f64 {

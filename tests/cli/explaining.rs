@@ -32,7 +32,7 @@ fn a_pixel_in_shadow_is_said_to_be_so_with_its_places() {
     let verdict = "\
 pixel 20,15 of a.ray, sample 0: 0.02 0.02 0.02, alone displayed as 5 5 5
 verdict: in the shadow of object 2 (sphere, line 5) from light 1 (line 2)  [a.ray:5:1]
-  help: move the light or what is in between
+  help: move the light, or move what is between
 also: object 1 (sphere, line 4) lit by ambient light (0.02)  [a.ray:4:1]
 
 camera ray hits the front of object 1 (sphere, line 4) at t 4";
@@ -40,6 +40,29 @@ camera ray hits the front of object 1 (sphere, line 4) at t 4";
     assert!(printed.contains("\n  ambient 0.02\n"), "{printed}");
     let blocked = "blocked by object 2 (sphere, line 5)  [a.ray:2:4]";
     assert!(printed.contains(blocked), "{printed}");
+}
+
+/// An octahedron with smooth normals: one of its faces bends toward the light, which is behind its plane.
+#[test]
+fn a_facet_behind_whose_plane_the_light_is_is_said_to_be_so() {
+    let place = Place::new();
+    place.write(
+        "o.obj",
+        "v 1 0 0\nv -1 0 0\nv 0 1 0\nv 0 -1 0\nv 0 0 1\nv 0 0 -1\n\
+         vn 1 0 0\nvn -1 0 0\nvn 0 1 0\nvn 0 -1 0\nvn 0 0 1\nvn 0 0 -1\n\
+         f 1//1 3//3 5//5\nf 3//3 2//2 5//5\nf 2//2 4//4 5//5\nf 4//4 1//1 5//5\n\
+         f 3//3 1//1 6//6\nf 2//2 3//3 6//6\nf 4//4 2//2 6//6\nf 1//1 4//4 6//6\n",
+    );
+    place.write(
+        "a.xml",
+        "<xml><scene>\n<object type='obj' name='o.obj' material='m'/><material name='m'/>\n\
+         <light type='direct' name='d'><intensity/><direction x='-1' y='-.4' z='-.4'/></light>\n\
+         </scene><camera><position z='5'/></camera></xml>",
+    );
+    let printed = explained(&place, "a.xml 95 54");
+    let verdict = "verdict: this facet of o.obj (obj, line 2) faces away from d (direct, line 3), \
+                   although its smooth normal faces the light  [a.xml:2:1]";
+    assert!(printed.contains(verdict), "{printed}");
 }
 
 #[test]

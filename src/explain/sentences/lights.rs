@@ -1,10 +1,11 @@
 //! Verdicts on lights as sentences.
 
-use super::{ATTENUATION, CONE, Case, LIGHT_COLOUR, LIGHT_PLACE, raise};
+use super::{ATTENUATION, CONE, Case, LIGHT_COLOUR, LIGHT_DIRECTION, LIGHT_PLACE, raise};
 use crate::explain::Sentence;
 use crate::explain::names::{Names, colour, number, percent};
+use crate::language::Node;
 use crate::render::Verdict;
-use crate::scene::Integrator;
+use crate::scene::{Emitter, FalloffRule, Integrator};
 
 impl Case<'_> {
     pub(super) fn of_light(&self, verdict: &Verdict) -> Sentence {
@@ -62,6 +63,16 @@ impl Case<'_> {
                 cosine,
                 object,
             } => self.faces_away((lights, *all), *cosine, *object),
+            Verdict::Facet { light, object } => {
+                let (light_name, object_name) = (names.light(*light), names.object(*object));
+                let text = format!(
+                    "this facet of {object_name} faces away from {light_name}, although its smooth \
+                     normal faces the light"
+                );
+                let mut sentence = self.sentence("facet", text);
+                sentence.help = Some("a finer mesh has such facets in a narrower band".to_owned());
+                self.about(names.object_node(*object), &[], sentence)
+            }
             Verdict::AtTheLight { light, object } => {
                 let (light_name, object_name) = (names.light(*light), names.object(*object));
                 let text = format!("this point of {object_name} lies inside {light_name}");
@@ -73,17 +84,8 @@ impl Case<'_> {
                 light,
                 distance,
                 radial,
-            } => {
-                let text = format!(
-                    "{} is attenuated to {} at distance {}",
-                    names.light(*light),
-                    number(*radial),
-                    number(*distance)
-                );
-                let mut sentence = self.sentence("attenuated", text);
-                sentence.help = Some("lower its attenuation, or raise its colour".to_owned());
-                self.about(light_node(light), ATTENUATION, sentence)
-            }
+                rule,
+            } => self.attenuated(*light, (*distance, *radial), *rule),
             Verdict::Dim {
                 light,
                 colour: dark,
@@ -99,6 +101,46 @@ impl Case<'_> {
                 self.about(node, LIGHT_COLOUR, sentence)
             }
             _ => self.sentence("ordinary", "nothing is wrong"),
+        }
+    }
+
+    fn attenuated(
+        &self,
+        light: u32,
+        (distance, radial): (f64, f64),
+        rule: FalloffRule,
+    ) -> Sentence {
+        let names = self.names;
+        let node = Names::light_node(light);
+        let name = names.light(light);
+        let text = format!(
+            "{name} is attenuated to {} at distance {}",
+            number(radial),
+            number(distance)
+        );
+        let colour = names.key(node, LIGHT_COLOUR).unwrap_or(LIGHT_COLOUR[0]);
+        if rule == FalloffRule::Square {
+            let text = format!("{text} by `falloff square`");
+            let mut sentence = self.sentence("attenuated", text);
+            sentence.help = Some(format!("use `falloff none`, or raise {colour} of {name}"));
+            return self.about(Node::Render, &["falloff"], sentence);
+        }
+        let mut sentence = self.sentence("attenuated", text);
+        let key = names.key(node, ATTENUATION);
+        sentence.help = Some(match key {
+            Some("a2") => format!("lower a0, a1 or a2 of {name}, or raise its {colour}"),
+            Some(key) => format!("lower {key} of {name}, or raise its {colour}"),
+            None => format!("raise {colour} of {name}"),
+        });
+        self.about(node, ATTENUATION, sentence)
+    }
+
+    /// The fields that place a light, the one that matters first.
+    fn places(&self, light: u32) -> (&'static [&'static str], &'static str) {
+        let light = self.names.subject.scene.lights.get(light as usize);
+        match light.map(|light| light.emitter) {
+            Some(Emitter::Distant(_)) => (LIGHT_DIRECTION, "turn"),
+            _ => (LIGHT_PLACE, "move"),
         }
     }
 
@@ -119,8 +161,15 @@ impl Case<'_> {
             format!("{object} faces away from {which} here")
         };
         let mut sentence = self.sentence("faces-away", text);
-        sentence.help = Some("move the light to this side, or add one".to_owned());
-        self.about(Names::light_node(lights[0]), LIGHT_PLACE, sentence)
+        let node = Names::light_node(lights[0]);
+        let (keys, verb) = self.places(lights[0]);
+        sentence.help = Some(match (verb, names.key(node, keys)) {
+            ("turn", Some(key)) => {
+                format!("turn the {key} of {}, or add a light", names.node(node))
+            }
+            _ => format!("move {} to this side, or add a light", names.node(node)),
+        });
+        self.about(node, keys, sentence)
     }
 
     fn shadow(&self, (light, object): (u32, u32), blockers: &[u32], passes: f64) -> Sentence {
@@ -152,7 +201,8 @@ impl Case<'_> {
             }
         };
         let mut sentence = self.sentence("shadow", text);
-        sentence.help = Some("move the light or what is in between".to_owned());
+        let (_, verb) = self.places(light);
+        sentence.help = Some(format!("{verb} the light, or move what is between"));
         self.about(node, &[], sentence)
     }
 

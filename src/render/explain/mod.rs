@@ -128,6 +128,7 @@ impl Query {
             projection: &Projection::new(&self.camera, settings.size),
             rays: &rays,
             light: Light::of(&settings),
+            stops: settings.exposure,
             integrator: settings.integrator,
             depth: settings.depth,
         };

@@ -3,7 +3,7 @@
 use glam::DVec3;
 
 use super::kind::RayKind;
-use crate::scene::Rgb;
+use crate::scene::{FalloffRule, Rgb};
 
 /// A verdict with the ray at whose end it was found.
 #[derive(Clone, Debug, PartialEq)]
@@ -58,6 +58,13 @@ pub enum Verdict {
     TooBright {
         /// The linear colour after exposure.
         exposed: Rgb,
+    },
+    /// The exposure darkens what would be seen without it.
+    Underexposed {
+        /// The exposure in stops, below 0.
+        stops: f64,
+        /// The linear colour before exposure.
+        radiance: Rgb,
     },
     /// The material reflects, transmits and emits nothing.
     Black {
@@ -133,6 +140,14 @@ pub enum Verdict {
         /// The object.
         object: u32,
     },
+    /// The facet of a mesh faces away from a light that its smooth normal faces, so that the mesh itself
+    /// blocks it.
+    Facet {
+        /// The light.
+        light: u32,
+        /// The object.
+        object: u32,
+    },
     /// A light is at the point itself, or has a size and the point is inside it.
     AtTheLight {
         /// The light.
@@ -148,6 +163,8 @@ pub enum Verdict {
         distance: f64,
         /// The factor of attenuation.
         radial: f64,
+        /// The rule that makes it fade, if it does not fade by itself.
+        rule: FalloffRule,
     },
     /// The colour of a light is too dark to be seen.
     Dim {
@@ -264,6 +281,7 @@ impl Verdict {
             | Self::TotalReflection { object }
             | Self::Enclosed { object, .. }
             | Self::FacesAway { object, .. }
+            | Self::Facet { object, .. }
             | Self::AtTheLight { object, .. }
             | Self::NotReflected { object, .. }
             | Self::UnlitSide { object }
@@ -272,6 +290,7 @@ impl Verdict {
             Self::NoObjects
             | Self::NotFinite
             | Self::TooBright { .. }
+            | Self::Underexposed { .. }
             | Self::Budget { .. }
             | Self::NoLights { .. }
             | Self::SwitchedOff { .. }

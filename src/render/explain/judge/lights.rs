@@ -5,6 +5,7 @@ use super::super::record::{Dark, LightTerm, Shading};
 use super::super::verdict::{Finding, Verdict, angle};
 use super::surface::reflectance;
 use super::{DARK, Judge, found};
+use crate::geometry::{Ray, normalise};
 use crate::scene::{Emitter, Integrator, Light, Rgb, Scene};
 
 /// Missing light at a surface.
@@ -135,18 +136,40 @@ impl Judge<'_> {
         Some((f64::INFINITY, Verdict::NoLights { others }))
     }
 
-    /// That a light is inside the object that a surface belongs to and faces away from it.
+    /// That a light from which a surface faces away is inside an object that the surface is not in.
     fn around(&self, term: &LightTerm, shading: &Shading) -> Option<Reason> {
         let light = &self.case.world.lights()[term.light as usize];
-        let object = shading.hit.object;
-        let is_around = shading.hit.side == Side::Front && self.encloses(object, light);
-        is_around.then(|| {
-            let verdict = Verdict::Enclosed {
-                light: term.light,
-                object,
-            };
-            (0.5 * light.colour.abs().max_element(), verdict)
-        })
+        let own = shading.hit.object;
+        let object = if shading.hit.side == Side::Front && self.encloses(own, light) {
+            own
+        } else {
+            self.opaque_around(light, shading)?
+        };
+        let verdict = Verdict::Enclosed {
+            light: term.light,
+            object,
+        };
+        Some((0.5 * light.colour.abs().max_element(), verdict))
+    }
+
+    /// The opaque object that a light is in and the surface is outside of: whatever way light goes, it meets
+    /// that first.
+    fn opaque_around(&self, light: &Light, shading: &Shading) -> Option<u32> {
+        let Emitter::Point { position, .. } = light.emitter else {
+            return None;
+        };
+        let world = self.case.world;
+        let toward = Ray {
+            origin: position,
+            direction: normalise(shading.hit.point - position)?,
+        };
+        let nearest = world.nearest(&toward, f64::INFINITY)?;
+        let object = &world.scene.objects[nearest.object as usize];
+        let is_outside = nearest.hit.t < position.distance(shading.hit.point);
+        let is_opaque = world.transmission(object.material_at(nearest.hit)) == 0.0;
+        let is_between = is_outside && is_opaque && nearest.object != shading.hit.object;
+        let is_around = is_between && self.encloses(nearest.object, light);
+        is_around.then_some(nearest.object)
     }
 
     /// Why a light in front of a surface adds nothing, or little.
@@ -177,6 +200,7 @@ impl Judge<'_> {
                 light: term.light,
                 distance: term.distance,
                 radial: term.radial,
+                rule: self.case.world.rule_of(term.light),
             };
             (reflected * colour, verdict)
         };
@@ -186,6 +210,10 @@ impl Judge<'_> {
             (0.5 * term.arriving.abs().max_element(), verdict)
         };
         match dark {
+            Some(Dark::Blocked) if is_facet_away(term, shading) => {
+                let light = term.light;
+                return Some((loss, Verdict::Facet { light, object }));
+            }
             Some(Dark::Blocked) => return Some(shadow()),
             Some(Dark::Hidden) => {
                 let verdict = Verdict::Shadow {
@@ -269,6 +297,20 @@ impl Judge<'_> {
         };
         ((1.0 - transmittance) * loss, verdict)
     }
+}
+
+/// Whether the facet of a mesh faces away from a light that its smooth normal faces.
+fn is_facet_away(term: &LightTerm, shading: &Shading) -> bool {
+    let hit = &shading.hit;
+    let facet = match hit.side {
+        Side::Front => hit.geometric,
+        Side::Back => -hit.geometric,
+    };
+    let is_own = term
+        .crossed
+        .iter()
+        .any(|crossing| crossing.object == hit.object);
+    !hit.solid && is_own && facet.dot(term.toward) <= 0.0
 }
 
 /// Whether a light is not ambient.

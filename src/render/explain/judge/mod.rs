@@ -30,6 +30,8 @@ pub(super) struct Case<'r> {
     pub(super) projection: &'r Projection,
     pub(super) rays: &'r [TracedRay],
     pub(super) light: Light,
+    /// The exposure.
+    pub(super) stops: f64,
     pub(super) integrator: Integrator,
     pub(super) depth: u32,
 }
@@ -129,6 +131,12 @@ impl<'r> Judge<'r> {
             findings.push(found(Verdict::NotFinite, 0));
         } else if 1.0 + 1e-9 < exposed.max_element() {
             findings.push(found(Verdict::TooBright { exposed }, 0));
+        } else if self.case.stops < 0.0 && self.is_dark(total) && DARK <= total.max_element() {
+            let verdict = Verdict::Underexposed {
+                stops: self.case.stops,
+                radiance: total,
+            };
+            findings.push(found(verdict, 0));
         }
         findings
     }
