@@ -7,7 +7,7 @@ use super::cures::{Cure, RunningTrials};
 use super::looking::is_light;
 use crate::explain::fault;
 use crate::language::{Outlook, Prospect, RenderKey, outlook};
-use crate::render::{Advice, Fault, Frame, Frames, Histogram, Job, Settings, Trials};
+use crate::render::{Advice, Fault, Frame, Frames, Histogram, Job, Overexposure, Settings, Trials};
 use crate::ui::keymap::{Action, Mode};
 use crate::ui::msg::{Effect, Target};
 
@@ -38,13 +38,12 @@ impl App {
         let under_way = self.cures.trials.take().is_some();
         self.cures.cure = None;
         let suspected = self.suspected(frame);
-        let fault = suspected.as_ref().and_then(Trials::fault);
         let trial = match suspected {
             // A scene of this size would keep all else waiting.
-            Some(_) if self.is_large() => {
-                if let Some(fault) = fault {
-                    self.say_fault(fault);
-                }
+            Some(trials) if self.is_large() => {
+                let is_burnt = 0.5 < Overexposure::of(&frame.values).share;
+                let burnt = is_burnt.then_some(Fault::Burnt);
+                self.say_untried(trials.fault().or(burnt));
                 None
             }
             Some(trials) => self.try_out(trials),
@@ -129,9 +128,7 @@ impl App {
         let Some(trials) = self.cures.trials.take() else {
             return Vec::new();
         };
-        if let Some(fault) = trials.next.fault() {
-            self.say_fault(fault);
-        }
+        self.say_untried(trials.next.fault());
         vec![Effect::Stop(Target::Trial)]
     }
 
@@ -151,8 +148,28 @@ impl App {
                 None => return,
             },
         };
+        self.say_once(format!("{fault}: {helps}"));
+    }
+
+    /// Says what is wrong with the preview where nothing that may help was tried.
+    fn say_untried(&mut self, fault: Option<Fault>) {
+        let helps = match fault {
+            Some(Fault::Black(_)) => self.reason_of_black(),
+            Some(Fault::Burnt) => {
+                let darker = self.key_for(Action::Expose(-1));
+                format!("{darker} darkens the screen only")
+            }
+            // The text's warning says it all.
+            Some(Fault::Unlit | Fault::WithoutPhotons) | None => return,
+        };
+        if let Some(fault) = fault {
+            self.say_once(format!("{fault}: {helps}"));
+        }
+    }
+
+    /// Says what is wrong with the preview, unless that was said.
+    fn say_once(&mut self, words: String) {
         if self.cures.said.is_none() {
-            let words = format!("{fault}: {helps}");
             self.overlays.say(words.clone());
             self.cures.said = Some(words);
         }
