@@ -7,8 +7,8 @@ use std::sync::Arc;
 use halflight::image_file;
 use halflight::language::{Language, Source};
 use halflight::part;
-use halflight::scene::Meshes;
 use halflight::render::Frames;
+use halflight::scene::Meshes;
 use halflight::text::Diagnostic;
 use halflight::{config, track};
 use tempfile::NamedTempFile;
@@ -22,12 +22,16 @@ const SCENE: &str = "<xml><scene><object type='sphere' name='a' material='m'><sc
 pub fn track(input: &[u8]) {
     let text = String::from_utf8_lossy(input);
     let (track, findings) = track::read(&text);
-    findings.iter().for_each(|found| check(&text, found));
+    for found in findings.iter() {
+        check(&text, found);
+    }
     let mut source = Source::new(Language::Xml, Arc::new(SCENE.to_owned()));
     let lowered = source.lower(&Meshes::default()).expect("there is memory");
     let scene = lowered.scene.expect("the scene is valid");
     let (bound, findings) = track::bind(&track, &source, &scene.camera);
-    findings.iter().for_each(|found| check(&text, found));
+    for found in findings.iter() {
+        check(&text, found);
+    }
     for frame in [0, 1, track.frames / 2, track.frames.saturating_sub(1)] {
         for edit in bound.edits(&source, frame) {
             assert!(SCENE.get(edit.span.start()..edit.span.end()).is_some());
@@ -40,7 +44,9 @@ pub fn config(input: &[u8]) {
     let text = String::from_utf8_lossy(input);
     if let Err(errors) = config::read(&text) {
         assert!(!errors.is_empty());
-        errors.iter().for_each(|error| check(&text, error));
+        for error in &errors {
+            check(&text, error);
+        }
     }
 }
 
@@ -62,6 +68,9 @@ pub fn record(input: &[u8]) {
 }
 
 fn check(text: &str, found: &Diagnostic) {
-    assert!(text.get(found.span.start()..found.span.end()).is_some(), "{found:?}");
+    assert!(
+        text.get(found.span.start()..found.span.end()).is_some(),
+        "{found:?}"
+    );
     assert!(!found.message.is_empty());
 }

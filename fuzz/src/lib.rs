@@ -3,14 +3,14 @@
 
 mod document;
 mod files;
-mod keys;
 mod kept;
+mod keys;
 mod scene;
 
 pub use document::{edits, merge};
 pub use files::{mtl, obj, picture};
-pub use keys::keys;
 pub use kept::{config, part, record, track};
+pub use keys::keys;
 pub use scene::{dat, ray, xml};
 
 /// A function that accepts any bytes.

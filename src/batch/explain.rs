@@ -5,11 +5,11 @@ mod json;
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
 
-use super::finding::{Naming, Suspect, Text};
+use super::finding::{Naming, Suspect, Text, place_after};
 use super::tracing::Tracer;
 use super::{Error, Messages, Report, Tracing, Warnings, load, stdout};
 use crate::assets;
-use crate::explain::{Line, Place, Sentence, Subject, Words, number, words};
+use crate::explain::{Line, Sentence, Subject, Words, number, words};
 use crate::memory;
 use crate::render::{Explanation, Frames, PreparedScene};
 use crate::scene::Size;
@@ -147,11 +147,4 @@ fn add_line(text: &mut String, name: &str, line: &Line) {
     let place = place_after(name, line.place);
     // Writing to a string cannot fail.
     let _ = writeln!(text, "{indent}{}{adds}{place}", line.text);
-}
-
-/// A place as the end of a line.
-pub(super) fn place_after(name: &str, place: Option<Place>) -> String {
-    place.map_or(String::new(), |Place { line, column, .. }| {
-        format!("  [{name}:{line}:{column}]")
-    })
 }

@@ -2,10 +2,9 @@
 
 use std::path::Path;
 
-use super::explain::place_after;
 use super::tracing::Tracer;
 use super::{Loaded, Messages, Tracing};
-use crate::explain::{Subject, cause, fault};
+use crate::explain::{Place, Subject, cause, fault};
 use crate::language::{Prospect, RenderKey, Source};
 use crate::render::{Advice, Fault, Frame, Frames, Job, Limit, PreparedScene, Settings, Trials};
 use crate::scene::{LEAST_ADAPTIVE_SPP, Rendering};
@@ -161,4 +160,11 @@ pub(super) fn print_of_scene(path: &Path, loaded: &mut Loaded, tracing: &Tracing
         };
         suspect.print(&text, || Tracer::new(tracing));
     }
+}
+
+/// A place as the end of a line.
+pub(super) fn place_after(name: &str, place: Option<Place>) -> String {
+    place.map_or(String::new(), |Place { line, column, .. }| {
+        format!("  [{name}:{line}:{column}]")
+    })
 }

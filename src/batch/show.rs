@@ -71,7 +71,9 @@ fn try_show(work: &Show) -> Result<Verdict, Error> {
     }
     if let Some(unused) = record.unused() {
         let picture = path.display();
-        Messages::Text.note(&format!("{picture}: not understood of what it says of itself: {unused}"));
+        Messages::Text.note(&format!(
+            "{picture}: not understood of what it says of itself: {unused}"
+        ));
     }
     stdout::print(&text).map_err(stdout::error)?;
     Ok(match is_same {

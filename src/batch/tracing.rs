@@ -167,7 +167,7 @@ impl Tracing {
             region: None,
             rendering: Rendering::default(),
             time: None,
-            seed: 0,
+            seed: None,
             aov: None,
             layers: Vec::new(),
             denoise: false,

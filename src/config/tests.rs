@@ -142,19 +142,15 @@ fn keys_are_printed_with_the_names_of_their_actions() {
 
 #[test]
 fn a_long_text_of_mistakes_has_a_hundred_errors() {
+    let numbered = |head: &str, line: fn(u32) -> String| {
+        let lines = std::iter::once(head.to_owned()).chain((0..9999).map(line));
+        lines.collect::<Vec<_>>().join("\n")
+    };
     for mistakes in [
-        (0..9999)
-            .map(|at| format!("k{at} = 1\n"))
-            .collect::<String>(),
+        numbered("", |at| format!("k{at} = 1")),
         "'\n".repeat(9999),
-        "[keys]\n".to_owned()
-            + &(0..9999)
-                .map(|at| format!("[keys.k{at}]\n"))
-                .collect::<String>(),
-        "[keys.select]\n".to_owned()
-            + &(0..9999)
-                .map(|at| format!("'k{at}' = 'x'\n"))
-                .collect::<String>(),
+        numbered("[keys]", |at| format!("[keys.k{at}]")),
+        numbered("[keys.select]", |at| format!("'k{at}' = 'x'")),
     ] {
         assert_eq!(read(&mistakes).expect_err("mistakes").len(), 100);
     }

@@ -34,7 +34,7 @@ impl MovieFormat {
         let extension = path.extension()?;
         let is = |name: &str| extension.eq_ignore_ascii_case(name);
         let y4m = is("y4m").then_some(Self::Y4m);
-        y4m.or(is("gif").then_some(Self::Gif))
+        y4m.or_else(|| is("gif").then_some(Self::Gif))
     }
 
     /// Why the format cannot have a rate of pictures per second, if so.

@@ -84,6 +84,8 @@ pub struct Trials {
     next: Trial,
     /// What is known to be wrong.
     fault: Option<Fault>,
+    /// Whether it is known if the picture is black: it was traced.
+    is_traced: bool,
     /// What is wrong if nothing else is.
     of_text: Option<Fault>,
     /// Settings to try, the next one last.
@@ -124,6 +126,7 @@ impl Trials {
         let is_suspect = black.is_some() || of_text.is_some() || BRIGHT < share();
         is_suspect.then(|| Self {
             fault: black,
+            is_traced: true,
             next: Trial::Base,
             ..Self::new(scene, settings, of_text)
         })
@@ -140,6 +143,7 @@ impl Trials {
             settings: *settings,
             next: Trial::Glance,
             fault: None,
+            is_traced: false,
             of_text,
             left: candidates(scene, settings),
             shown: None,
@@ -202,7 +206,7 @@ impl Trials {
                 if self.fault.is_none() {
                     if now.is_burnt() {
                         self.fault = Some(Fault::Burnt);
-                    } else if picture.brightest() <= DIM {
+                    } else if !self.is_traced && picture.brightest() <= DIM {
                         self.next = Trial::Whole;
                         return ControlFlow::Continue(self);
                     } else if self.of_text.is_some() {

@@ -247,15 +247,9 @@ impl Runtime {
                 return Ok(refused.map(|reason| Msg::Derived(ticket, Err(reason))));
             }
             Effect::WriteImage(id, frame, to) => {
-                let started = self.writers.export(id, frame, to);
-                let refused = started.err().map(|error| Err(error.to_string()));
-                return Ok(refused.map(|refused| Msg::Exported(id, refused)));
+                return Ok(not_exported(id, self.writers.export(id, frame, to)));
             }
-            Effect::Film(id, reel, to) => {
-                let started = self.film((id, *reel), to);
-                let refused = started.err().map(|error| Err(error.to_string()));
-                return Ok(refused.map(|refused| Msg::Exported(id, refused)));
-            }
+            Effect::Film(id, reel, to) => return Ok(not_exported(id, self.film((id, *reel), to))),
             Effect::CheckTarget(id, to) => self.writers.check(id, to)?,
             Effect::CheckPlace(path) => self.writers.check_place(path)?,
             Effect::ListFolder(folder) => self.writers.list_folder(folder)?,
@@ -502,6 +496,12 @@ impl Drop for Waker {
     fn drop(&mut self) {
         let _ = self.sender.send(Event::Ended(self.target, self.number));
     }
+}
+
+/// What becomes of an export that could not be started.
+fn not_exported(id: ExportId, started: io::Result<()>) -> Option<Msg> {
+    let error = started.err()?;
+    Some(Msg::Exported(id, Err(error.to_string())))
 }
 
 /// Announces the results of storing unsaved edits.

@@ -12,7 +12,7 @@ pub(crate) enum Event {
     /// A message for the state of the interface.
     Msg(Msg),
     /// The keyboard sent this.
-    Typed(Box<Event>, Unread),
+    Typed(Box<Self>, Unread),
     /// A signal has arrived, which is handled before everything else here.
     Signalled,
     /// A renderer has a newer frame.

@@ -336,13 +336,11 @@ impl From<io::Error> for NotWritten {
 
 /// Refuses to replace a file that the scene of a frame names.
 fn check_spared(to: &Destination, files: &[PathBuf]) -> Result<(), Refused> {
-    match files.iter().find(|file| file::is_same(&to.path, file)) {
-        None => Ok(()),
-        Some(_) => {
-            let path = to.path.display();
-            Err(format!("cannot overwrite {path}: a scene uses it; name another file").into())
-        }
+    if files.iter().any(|file| file::is_same(&to.path, file)) {
+        let path = to.path.display();
+        return Err(format!("cannot overwrite {path}: a scene uses it; name another file").into());
     }
+    Ok(())
 }
 
 /// The first error in a text.

@@ -45,7 +45,7 @@ impl Reader {
     ) -> io::Result<Self> {
         let service = Service::start("reading", "reads scenes", move |inbox| {
             let mut watcher = None;
-            let watch = |path| watch(path, method, &mut watcher, &send);
+            let watch = |path: PathBuf| watch(&path, method, &mut watcher, &send);
             follow(inbox, watch, file::read_text, &send);
         });
         service.map(Self)
@@ -206,7 +206,7 @@ pub(super) fn missing(path: &Path, language: Language) -> Option<Opened> {
 }
 
 fn watch(
-    path: PathBuf,
+    path: &PathBuf,
     method: Method,
     watcher: &mut Option<Watcher>,
     send: &(impl Fn(Msg) + Clone + Send + 'static),
@@ -222,7 +222,7 @@ fn watch(
             Notice::Polled(reason) => Msg::Polled(Polled::Scene, reason),
         });
     };
-    match Watcher::new(std::slice::from_ref(&path), method, notify) {
+    match Watcher::new(std::slice::from_ref(path), method, notify) {
         Ok(new) => *watcher = Some(new),
         Err(error) => send(Msg::Failed(format!(
             "{}: cannot watch for changes: {error}",

@@ -7,7 +7,7 @@ use std::path::Path;
 
 use crate::file;
 use crate::memory::{self, Need, megabytes};
-use git::{Git, Output};
+use git::{Git, Ran};
 
 /// The longest scene in bytes: a repository of a few megabytes may hold one of gigabytes.
 const MOST: u64 = 512 << 20;
@@ -39,7 +39,7 @@ fn text_by(
 ) -> Result<String, String> {
     let name = scene.file_name().unwrap_or_default();
     let shown = format!("{} in {revision}", name.to_string_lossy());
-    let failed = |ran: &Output| reason(&ran.complaint, revision, &name.to_string_lossy());
+    let failed = |ran: &Ran| reason(&ran.complaint, revision, &name.to_string_lossy());
     let mut path = OsString::from("./");
     path.push(name);
     let listing = ["ls-tree", "-z", "--long", revision, "--"].map(OsStr::new);

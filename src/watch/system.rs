@@ -181,7 +181,8 @@ impl<S: notify::Watcher> WatchedPaths<S> {
         self.start()?;
         let mut outcome = Ok(());
         for (directory, _) in &own {
-            outcome = outcome.and(self.watch_one(directory));
+            let watched = self.watch_one(directory);
+            outcome = outcome.and(watched);
         }
         for (directory, _) in &above {
             if let Err(Unwatched::Limit) = self.watch_one(directory) {
@@ -193,7 +194,8 @@ impl<S: notify::Watcher> WatchedPaths<S> {
             for (directory, _) in &own {
                 if self.watched.remove(directory) {
                     self.unwatch(directory);
-                    outcome = outcome.and(self.watch_one(directory));
+                    let watched = self.watch_one(directory);
+                    outcome = outcome.and(watched);
                 }
             }
         }

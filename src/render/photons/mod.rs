@@ -100,7 +100,7 @@ impl PhotonRules {
     /// samples, if each map keeps this many photons; the most if that is not known.
     pub(crate) fn bytes(&self, spp: u32, kept: Option<u64>) -> u64 {
         // More than one of most photons is kept only where mirrors face each other.
-        let kept = kept.unwrap_or(u64::from(2 * self.count));
+        let kept = kept.unwrap_or_else(|| u64::from(2 * self.count));
         let photon = size_of::<Photon>() as u64;
         let map = kept * photon + kept.next_power_of_two() * size_of::<u32>() as u64;
         // The first is held besides those of a step. A map is sorted from a copy, and where photons arrive

@@ -31,12 +31,11 @@ impl App {
         match news.notice {
             Some(Notice::Faults) => {
                 let (severity, words) = self.assets.faults(&self.key_for(Action::Errors));
-                match severity {
-                    Some(severity) => self.overlays.complain(About::Assets, severity, &words),
-                    None => {
-                        self.overlays.end_complaint(About::Assets);
-                        self.overlays.say(words);
-                    }
+                if let Some(severity) = severity {
+                    self.overlays.complain(About::Assets, severity, &words);
+                } else {
+                    self.overlays.end_complaint(About::Assets);
+                    self.overlays.say(words);
                 }
             }
             Some(Notice::Elsewhere(words)) => self.overlays.say(words),

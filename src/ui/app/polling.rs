@@ -13,15 +13,12 @@ impl App {
 
     /// Records why files are polled from now on, or that they no longer are.
     pub(super) fn polled(&mut self, what: Polled, reason: Option<String>) {
-        match reason {
-            Some(reason) => {
-                self.polled.insert(what, reason);
-                self.complain_of_polling();
-            }
-            None => {
-                self.polled.remove(&what);
-                self.overlays.end_complaint(About::Polling(what));
-            }
+        if let Some(reason) = reason {
+            self.polled.insert(what, reason);
+            self.complain_of_polling();
+        } else {
+            self.polled.remove(&what);
+            self.overlays.end_complaint(About::Polling(what));
         }
     }
 

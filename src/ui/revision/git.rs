@@ -48,9 +48,9 @@ pub(super) struct Git<'a> {
     deadline: Instant,
 }
 
-/// What git has written.
+/// A git that has ended, and what it has written.
 #[derive(Debug)]
-pub(super) struct Output {
+pub(super) struct Ran {
     pub(super) has_succeeded: bool,
     pub(super) output: Vec<u8>,
     pub(super) complaint: String,
@@ -91,7 +91,7 @@ impl<'a> Git<'a> {
         arguments: &[&OsStr],
         most: u64,
         mut look: impl FnMut(&[u8]) -> Result<(), String>,
-    ) -> Result<Output, String> {
+    ) -> Result<Ran, String> {
         let names = env::vars_os().map(|(name, _)| name);
         let mut command = self.command(names, most);
         command.args(arguments);
@@ -110,7 +110,7 @@ impl<'a> Git<'a> {
                 }
                 Ok(Piece::Complaint(complaint)) => {
                     let status = running.wait(self.deadline)?;
-                    return Ok(Output {
+                    return Ok(Ran {
                         has_succeeded: status.success(),
                         output,
                         complaint,

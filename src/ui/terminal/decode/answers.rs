@@ -260,7 +260,7 @@ fn eight_bit_introducers_count_only_outside_a_character() {
 
 #[test]
 fn endless_strings_take_no_memory() {
-    let piece = [b'd'; 1 << 16];
+    let piece = vec![b'd'; 1 << 16];
     for introducer in [b"\x1bP", b"\x1b]", b"\x1b_", b"\x1b^", b"\x1bX", b"\x1b["] {
         let pieces = std::iter::once(&introducer[..]).chain([&piece[..]; 16]);
         let pieces = pieces.chain([&b"\x1b\\"[..]]);

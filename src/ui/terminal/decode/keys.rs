@@ -12,7 +12,7 @@ pub(super) fn plain(byte: u8) -> Event {
         b'\t' => key(KeyCode::Tab, KeyModifiers::NONE),
         b'\r' => key(KeyCode::Enter, KeyModifiers::NONE),
         0x08 | 0x7f => key(KeyCode::Backspace, KeyModifiers::NONE),
-        ..0x20 => control((byte + 0x40).to_ascii_lowercase().into()),
+        1..0x20 => control((byte + 0x40).to_ascii_lowercase().into()),
         _ => character(byte.into()),
     }
 }

@@ -142,15 +142,15 @@ fn a_paste_ends_with_its_mark_and_is_not_kept_if_it_is_too_long() {
             b"\x1b]11;\x07\x9d\xe2\x9c\xb3",
             "Paste(\"\\u{1b}]11;\\u{7}\u{fffd}\u{2733}\")",
         ),
-        (&[b'a'; LONGEST_PASTE + 1], "LongPaste"),
-        (&[b'a'; 3 * LONGEST_PASTE], "LongPaste"),
+        (&vec![b'a'; LONGEST_PASTE + 1], "LongPaste"),
+        (&vec![b'a'; 3 * LONGEST_PASTE], "LongPaste"),
     ] {
         let bytes = [b"\x1b[200~", inside, b"\x1b[201~x"].concat();
         assert_eq!(decode(&[(0, &bytes)]), [event, "Char('x')"]);
         let (head, tail) = bytes.split_at(bytes.len() - 3);
         assert_eq!(decode(&[(0, head), (999, tail)]), [event, "Char('x')"]);
     }
-    let longest = [b"\x1b[200~", &[b'a'; LONGEST_PASTE][..], b"\x1b[201~"].concat();
+    let longest = [b"\x1b[200~", &vec![b'a'; LONGEST_PASTE][..], b"\x1b[201~"].concat();
     assert!(decode(&[(0, &longest)])[0].starts_with("Paste"));
 }
 
