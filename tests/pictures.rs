@@ -198,7 +198,7 @@ fn length_power(field: &Field, component: usize) -> i32 {
         (_, "absorption") => -i32::from(component < 3),
         (Kind::Number, "a2") => -2,
         // Numbers in units of the axes.
-        (Kind::Number, _) => i32::from(field.allowed == Range::Positive),
+        (Kind::Number, _) => i32::from(matches!(field.allowed, Range::Positive | Range::Size)),
         (Kind::Pair, key) => i32::from(key == "resolution"),
         (Kind::HalfSpace | Kind::ScaledVector, _) => i32::from(component == 3),
         _ => 0,

@@ -2,8 +2,7 @@
 
 use toml::de::DeValue;
 
-use super::MOST_ERRORS;
-use super::value::{Name, Value, advised, in_order, kind_of, span_of};
+use super::value::{MOST_ERRORS, Name, Value, advised, in_order, kind_of, span_of};
 use crate::text::{Diagnostic, Span, alternatives};
 use crate::ui::keymap::{self, Action, Keymap, Keys, Section, key_names};
 

@@ -24,10 +24,6 @@ pub use print::{print_config, print_keys};
 pub use read::read;
 pub use settings::{COLOURS, FILTERS, INTEGRATORS, MAX_BANDWIDTH, MAX_THREADS, POLLS};
 
-/// After this many errors no more is read: they tell the user nothing new, and a long file could have
-/// many thousands.
-const MOST_ERRORS: usize = 100;
-
 /// Where the configuration comes from.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub enum Source {

@@ -2,9 +2,9 @@
 
 use toml::de::{DeTable, DeValue};
 
+use super::keys;
 use super::settings::{Kind, SETTINGS, Setting, folder};
-use super::value::{Name, Value, advised, in_order, kind_of, span_of};
-use super::{MOST_ERRORS, keys};
+use super::value::{MOST_ERRORS, Name, Value, advised, in_order, kind_of, span_of};
 use crate::text::{Diagnostic, Span, alternatives};
 use crate::ui::Options;
 

@@ -5,6 +5,10 @@ use toml::de::{DeTable, DeValue};
 
 use crate::text::{Diagnostic, Span, nearest_word};
 
+/// After this many errors no more is read: they tell the user nothing new, and a long file could have
+/// many thousands.
+pub(super) const MOST_ERRORS: usize = 100;
+
 /// A key of a table.
 pub(super) type Name<'a> = Spanned<std::borrow::Cow<'a, str>>;
 /// A value of a table.

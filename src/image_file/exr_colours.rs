@@ -11,8 +11,7 @@ use exr::meta::header::Header;
 use exr::prelude::{ReadChannels, ReadLayers, Vec2, read};
 use image::{DynamicImage, Rgb32FImage};
 
-use super::Unreadable;
-use super::read::{MAX_MEMORY, check_size, unsupported};
+use super::unreadable::{MAX_MEMORY, Unreadable, check_size, unsupported};
 use crate::scene::{Image, Size};
 
 /// The name of the format in messages.

@@ -10,6 +10,7 @@ mod picture;
 mod read;
 mod recorded;
 mod sieve;
+mod unreadable;
 mod write;
 
 use std::path::Path;
@@ -22,8 +23,9 @@ pub use metadata::record;
 pub use movie::{DEFAULT_RATE, MovieFormat, MovieWriter};
 pub use pattern::{NoPattern, Pattern};
 pub use picture::Picture;
-pub use read::{MAX_TEXTURE_PIXELS, Unreadable, decode};
+pub use read::decode;
 pub use recorded::{Recorded, in_8_bits};
+pub use unreadable::{MAX_TEXTURE_PIXELS, Unreadable};
 pub use write::{encode_quickly, save};
 
 pub use crate::scene::MAX_PIXELS;

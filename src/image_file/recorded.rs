@@ -5,7 +5,8 @@ use std::io::{Read, Seek};
 use image::{DynamicImage, Rgb32FImage};
 
 use super::metadata::record;
-use super::read::{Unreadable, decode, holds_light};
+use super::read::{decode, holds_light};
+use super::unreadable::Unreadable;
 use crate::render::{Frame, Record};
 use crate::scene::Image;
 

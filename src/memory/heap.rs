@@ -16,25 +16,11 @@
 
 use std::thread;
 
-/// Address space that a heap takes in bytes while it is begun.
-#[cfg(target_os = "linux")]
-const HEAP: u64 = 128 << 20;
-
-/// All heaps but the first may take one part in this many of the address space.
-#[cfg(target_os = "linux")]
-const SHARE: u64 = 4;
-
-/// The number of heaps besides the first that fit into a limit of address space.
-#[cfg(target_os = "linux")]
-pub(super) fn more_heaps(limit: u64) -> u64 {
-    limit / (SHARE * HEAP)
-}
-
 /// Lets threads share heaps under a limit of address space. To be called before any thread is started.
 pub fn share() {
     #[cfg(all(target_os = "linux", target_env = "gnu"))]
     if let Some(limit) = super::threads::address_space_limit() {
-        let most = 1 + more_heaps(limit);
+        let most = 1 + super::threads::more_heaps(limit);
         let most = std::ffi::c_int::try_from(most).unwrap_or(std::ffi::c_int::MAX);
         glibc::mallopt(glibc::M_ARENA_MAX, most);
     }
@@ -121,14 +107,6 @@ mod tests {
         let after = resident();
         drop(last);
         before.saturating_sub(after)
-    }
-
-    #[test]
-    fn little_address_space_holds_few_heaps() {
-        const GB: u64 = 1 << 30;
-        for (limit, more) in [(0, 0), (GB / 2, 1), (4 * GB, 8)] {
-            assert_eq!(more_heaps(limit), more, "{limit}");
-        }
     }
 
     #[test]

@@ -5,9 +5,6 @@ use std::{io, thread};
 
 use rayon::{ThreadBuilder, ThreadPoolBuilder};
 
-#[cfg(target_os = "linux")]
-use super::heap::more_heaps;
-
 /// Address space of a thread's stack in bytes.
 const STACK: u64 = 2 << 20;
 
@@ -17,7 +14,7 @@ const EACH: u64 = STACK + HEAP;
 /// Address space of a heap in bytes.
 const HEAP: u64 = 64 << 20;
 
-/// A thread pool may take one part in this many of the address space.
+/// A thread pool may take one part in this many of the address space, and so may all heaps but the first.
 const SHARE: u64 = 4;
 
 /// The error that no threads can be started.
@@ -28,6 +25,13 @@ pub struct NoThreads;
 /// The number of threads that a pool may have, from 1 to `wanted`.
 pub fn threads(wanted: usize) -> usize {
     fewer(wanted, address_space_limit())
+}
+
+/// The number of heaps besides the first that fit into a limit of address space: while one is begun it
+/// takes twice its size.
+#[cfg(target_os = "linux")]
+pub(super) fn more_heaps(limit: u64) -> u64 {
+    limit / (SHARE * 2 * HEAP)
 }
 
 fn fewer(wanted: usize, limit: Option<u64>) -> usize {
@@ -105,6 +109,15 @@ mod tests {
             (0, None, 1),
         ] {
             assert_eq!(fewer(wanted, limit), got, "{wanted} within {limit:?}");
+        }
+    }
+
+    #[test]
+    #[cfg(target_os = "linux")]
+    fn little_address_space_holds_few_heaps() {
+        const GB: u64 = 1 << 30;
+        for (limit, more) in [(0, 0), (GB / 2, 1), (4 * GB, 8)] {
+            assert_eq!(more_heaps(limit), more, "{limit}");
         }
     }
 }

@@ -132,10 +132,11 @@ impl Trials {
         })
     }
 
-    /// Starts the trials for a picture that was not traced; `None` if the scene is so large that a small
-    /// picture takes long.
+    /// Starts the trials for a picture that was not traced; `None` if there is no object, or the scene is
+    /// so large that a small picture takes long.
     pub fn of_scene(scene: &Scene, settings: &Settings, of_text: Option<Fault>) -> Option<Self> {
-        is_small(scene).then(|| Self::new(scene, settings, of_text))
+        let is_tried = !scene.objects.is_empty() && is_small(scene);
+        is_tried.then(|| Self::new(scene, settings, of_text))
     }
 
     fn new(scene: &Scene, settings: &Settings, of_text: Option<Fault>) -> Self {

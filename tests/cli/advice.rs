@@ -58,7 +58,7 @@ fn a_picture_is_judged_alike_by_every_command() {
         (
             "bright.ray",
             &ball("exposure 0", "5 5 9 90 90 90").replace("fov 30", "fov 9"),
-            format!("{burnt} `--exposure -6`"),
+            format!("{burnt} `--exposure -6.5`"),
         ),
     ] {
         place.write(name, text);

@@ -62,8 +62,8 @@ fn work_under_any_memory_limit_succeeds_or_is_refused() {
     let place = Place::new();
     place.write("many.ray", spheres(100_000));
     let mut refused = 0;
-    // In kilobytes, from too little for the threads to more than enough.
-    for limit in (8..=52).step_by(4).map(|limit| limit * 10_000) {
+    // In kilobytes, from too little for the text to more than enough.
+    for limit in (24..=112).step_by(8).map(|limit| limit * 1000) {
         for line in ["check many.ray", "render many.ray -o -"] {
             let output = in_shell(&place, &format!("ulimit -v {limit}"), line);
             let stderr = String::from_utf8_lossy(&output.stderr);

@@ -125,4 +125,4 @@ use colour ID 3 mat ID 0
 obj sphere ID 0 mat ID 0  0 0 0  2
 ";
 
-const SKIN: &str = "P3\n1 1\n255\n1 2 3\n";
+const SKIN: &str = "P3\n1 1\n255\n91 120 150\n";

@@ -229,7 +229,7 @@ fn the_picture_follows_changes_of_meshes_libraries_and_their_pictures() {
         place.write("a.obj", "v 1 2\n");
         session.wait_for("cannot read 1 file: press ! to see why");
         session.send("!");
-        session.wait_for("line 1, column 6: v: expected 3 numbers");
+        session.wait_for("a.obj:1:6 v: expected 3 numbers");
         session.wait_for("the object is left out");
         session.send(ESC);
         place.write("a.obj", &mesh("a"));

@@ -242,7 +242,10 @@ fn floods_of_answers_and_pastes_take_little_memory() {
             [b"\x1b[200~", &long[..], b"\x1b[201~"].concat(),
             "the pasted text is longer than 1 MiB",
         ),
-        (b"\x1b[200~l\x1b[201~".repeat(1 << 14), "balls.ray"),
+        (
+            [&b"\x1b[200~l\x1b[201~".repeat(1 << 14)[..], b"?"].concat(),
+            " Keys ",
+        ),
     ] {
         let place = Place::new();
         let mut session = place.open();

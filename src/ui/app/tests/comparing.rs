@@ -19,6 +19,16 @@ fn picture(size: Size, generation: u64, first: [u8; 3]) -> Arc<Frame> {
     Arc::new(frame)
 }
 
+/// The interface where no option asks for a render setting.
+fn unasked() -> App {
+    let opening = opening_as("scene.ray", SCENE.to_owned());
+    let (app, _) = App::open(Opening {
+        rendering: Rendering::default(),
+        ..opening
+    });
+    app
+}
+
 /// The interface with a complete preview.
 fn previewed() -> (App, Size) {
     let mut app = open(SCENE);
@@ -210,10 +220,10 @@ fn read_picture(app: &mut App, [width, height]: [u32; 2], record: Option<&str>) 
 
 #[test]
 fn the_scene_is_traced_at_the_size_of_a_picture() {
-    let mut app = open(SCENE);
+    let mut app = unasked();
     let Size { width, height } = app.output();
     for size in [[width / 2, height / 2], [64, 64]] {
-        let mut app = open(SCENE);
+        let mut app = unasked();
         let effects = read_picture(&mut app, size, None);
         let live = job(&effects, Target::Compared).expect("it is traced");
         let [width_of, height_of] = size;
@@ -265,7 +275,7 @@ const RECORD: &str = "version 1\nscene 0\nview fov 30\nlayers none\ndenoise yes\
 
 #[test]
 fn a_picture_is_compared_as_its_file_says_that_it_was_made() {
-    let mut app = open(SCENE);
+    let mut app = unasked();
     // Neither the text's settings nor the moved view count.
     press(&mut app, "vl<Esc>");
     let effects = read_picture(&mut app, [3, 4], Some(RECORD));
@@ -302,7 +312,7 @@ fn of_a_record_that_cannot_be_believed_the_rest_is_used() {
         ),
         ("nonsense", "16 spp, whitted, depth 8; not used: nonsense"),
     ] {
-        let mut app = open(SCENE);
+        let mut app = unasked();
         let Size { width, height } = app.output();
         read_picture(&mut app, [width, height], Some(record));
         let expected =
