@@ -238,7 +238,7 @@ fn what_cannot_be_used_of_a_record_is_said() {
     // A text that is no record at all says nothing.
     place.write("a.png", forged("\u{e9}\n\n\n"));
     let notes = place.stderr("compare --tolerance 255 ball.ray a.png", 0);
-    assert!(notes.starts_with("note: a.png does not say how"), "{notes}");
+    assert!(notes.contains("note: a.png does not say how"), "{notes}");
 }
 
 /// In the interface a picture is compared in the same way.
