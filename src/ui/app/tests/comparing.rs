@@ -295,7 +295,8 @@ fn a_picture_is_compared_as_its_file_says_that_it_was_made() {
                 clamp 8; the scene's own size is ";
     assert!(words(&app).starts_with(said), "{}", words(&app));
     // What the user chooses comes first, and an AOV is named as unlike.
-    let effects = press(&mut app, "PP2");
+    press(&mut app, "PP");
+    let effects = press(&mut app, "2");
     let live = job(&effects, Target::Compared).expect("it is traced");
     assert_eq!(live.settings.integrator, Integrator::Photon);
     assert_eq!(live.settings.spp, 1);
@@ -308,7 +309,7 @@ fn of_a_record_that_cannot_be_believed_the_rest_is_used() {
     for (record, settings) in [
         (
             "spp 0\ndepth 3\nnew 1\n",
-            "16 spp, whitted, depth 3; not used: spp 0, new 1, no version and 12 more",
+            "16 spp, whitted, depth 3; not used: spp 0, new 1, no version and 13 more",
         ),
         ("nonsense", "16 spp, whitted, depth 8; not used: nonsense"),
     ] {
