@@ -138,7 +138,10 @@ fn edits_are_stored_once_their_folder_can_be_created() {
     let place = Place::new();
     fs::create_dir_all(place.at(".local/state")).expect("the folder is new");
     place.write(".local/state/halflight", "in the way");
-    let mut session = place.open_edited();
+    let mut session = place.start(&["balls.ray"], WIDE);
+    // The reason names the folder, whose path may leave no room for how far the picture is.
+    session.wait_for("recent scenes cannot be remembered");
+    session.send(RADIUS_TO_2);
     session.wait_for("unsaved edits cannot be kept for recovery");
     session.wait_for("[not kept]");
     fs::remove_file(place.at(".local/state/halflight")).expect("it is there");
