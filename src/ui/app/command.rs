@@ -1,9 +1,10 @@
 //! The command line after `:`: one table of commands, shared by the parser, the help and the
 //! README, and what each command does.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use super::drawing::RegionOrder;
+use super::exports::ExportOrder;
 use super::jobs::Asking;
 use super::setting::SettingOrder;
 use super::until::Until;
@@ -13,7 +14,7 @@ use crate::document::StepName;
 use crate::image_file::ImageFormat;
 use crate::language::{Language, extensions};
 use crate::render::{Aov, MOST_HALF_STOPS};
-use crate::scene::{Camera, MAX_SPP, Size, Transfer};
+use crate::scene::{Camera, Size, Transfer};
 use crate::text::{Severity, nearest_word};
 use crate::ui::keymap::{self, Action, HelpLine, Mode};
 use crate::ui::msg::{Effect, Guard};
@@ -38,7 +39,7 @@ enum Command {
     /// List the steps of the undo history.
     History,
     /// Export what is shown to a picture file.
-    Export(ExportArguments, Force),
+    Export(ExportOrder, Asking),
     /// Cancel the running export.
     ExportCancel,
     /// Trace at full size.
@@ -94,14 +95,6 @@ pub(super) enum Force {
     Yes,
 }
 
-/// The picture to export; fields that are `None` are taken from the scene.
-#[derive(Clone, Debug, PartialEq, Eq)]
-struct ExportArguments {
-    path: Option<PathBuf>,
-    size: Option<Size>,
-    spp: Option<u32>,
-}
-
 /// A row of the table: the spelling of a command and its meaning.
 struct CommandRow {
     /// One or two words, and alternative spellings.
@@ -117,7 +110,7 @@ enum Arguments {
     File(fn(Option<PathBuf>) -> Command),
     Name(fn(Option<String>) -> Command),
     Language(fn(Option<Language>) -> Command),
-    Picture(fn(ExportArguments) -> Command),
+    Picture(fn(ExportOrder) -> Command),
     Size(fn(Size) -> Command),
     /// How they are spelled, and what reads them.
     Said(&'static str, fn(&str) -> Result<Command, String>),
@@ -156,8 +149,8 @@ const TABLE: &[CommandRow] = &[
     row(&["new"], A::Language(C::New), "start a new scene: ray, dat or xml"),
     row(&["recent"], A::Nothing(C::Recent), "list recently used scenes"),
     row(&["history", "undolist"], A::Nothing(C::History), "show the undo history as pictures"),
-    row(&["export"], A::Picture(|picture| C::Export(picture, Force::No)), "export a picture of what is shown, or in SEQUENCE all frames"),
-    row(&["export!"], A::Picture(|picture| C::Export(picture, Force::Yes)), "export, overwriting an existing file"),
+    row(&["export"], A::Picture(|order| C::Export(order, Asking::No)), "export a picture of what is shown, or in SEQUENCE all frames"),
+    row(&["export!"], A::Picture(|order| C::Export(order, Asking::Forced)), "export, overwriting an existing file"),
     row(&["export cancel"], A::Nothing(C::ExportCancel), "cancel the export"),
     row(&["render"], A::Nothing(C::Render), "trace at full size"),
     row(&["compare"], A::File(C::Compare), "compare with a picture or scene FILE, saved, or git [REVISION]"),
@@ -302,7 +295,7 @@ impl CommandRow {
                 Some(pixels) => Ok(command(pixels)),
                 None => Err(format!("{name} takes {}", Pixels::names())),
             },
-            A::Picture(command) => picture(rest).map(command),
+            A::Picture(command) => ExportOrder::parse(rest).map(command),
             A::Said(_, parse) => parse(rest),
             A::Size(command) => {
                 let size = Size::parse(rest);
@@ -355,50 +348,6 @@ fn exposure(said: &str) -> Result<Command, String> {
 fn until(said: &str) -> Result<Command, String> {
     let until = (!said.is_empty()).then(|| Until::parse(said));
     until.transpose().map(Command::Until)
-}
-
-/// Parses `[FILE] [WxH] [SPP]`; the file name may contain blanks.
-fn picture(rest: &str) -> Result<ExportArguments, String> {
-    let mut words: Vec<_> = rest.split_whitespace().collect();
-    let mut spp = None;
-    if let Some(count) = words.last().and_then(|word| word.parse().ok()) {
-        if !(1..=MAX_SPP).contains(&count) {
-            return Err(format!("{count}: samples per pixel must be 1 to {MAX_SPP}"));
-        }
-        spp = Some(count);
-        words.pop();
-    }
-    let size = words.last().and_then(|word| Size::parse(word));
-    if size.is_some() {
-        words.pop();
-    }
-    if let Some(wrong) = wrong_word(&words) {
-        return Err(wrong);
-    }
-    let path = (!words.is_empty()).then(|| PathBuf::from(words.join(" ")));
-    Ok(ExportArguments { path, size, spp })
-}
-
-/// Finds fault with a word left after the picture's name.
-fn wrong_word(words: &[&str]) -> Option<String> {
-    let is_picture = |word: &&str| ImageFormat::of_path(Path::new(word)).is_some();
-    let word = match words.iter().rposition(is_picture) {
-        Some(name) => words.get(name + 1)?,
-        None => words.last()?,
-    };
-    let numbers = |extra: &str| {
-        let known = |c: char| c.is_ascii_digit() || extra.contains(c);
-        word.starts_with(|c: char| c.is_ascii_digit()) && word.chars().all(known)
-    };
-    if numbers("") {
-        Some(format!("{word}: samples per pixel must be 1 to {MAX_SPP}"))
-    } else if numbers("xX×*") {
-        Some(format!("`{word}`: expected a size such as 800x600"))
-    } else if words.last().is_some_and(is_picture) || !words.iter().any(is_picture) {
-        None
-    } else {
-        Some(format!("`{word}` is neither a size nor a sample count"))
-    }
 }
 
 fn unknown(name: &str) -> String {
@@ -490,17 +439,7 @@ impl App {
             }
             Command::Recent => return vec![Effect::ListRecent],
             Command::History => self.list_steps(),
-            Command::Export(ExportArguments { path, size, spp }, force) => {
-                let asking = match force {
-                    Force::Yes => Asking::Forced,
-                    Force::No => Asking::No,
-                };
-                if self.mode == Mode::Sequence {
-                    return self.export_sequence(path, size, spp, asking);
-                }
-                let path = path.unwrap_or_else(|| self.export_path());
-                return self.start_export(&path, size, spp, asking);
-            }
+            Command::Export(order, asking) => return self.export(order, asking),
             Command::ExportCancel => return self.cancel_export(),
             Command::Render => return self.start_trace(),
             Command::Compare(with) => return self.compare_with(with),

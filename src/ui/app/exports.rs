@@ -8,19 +8,80 @@ use super::reeling::names_sequence;
 use super::{App, Dialog, Export, Stage};
 use crate::image_file::{ImageFormat, known_extensions};
 use crate::render::{Aov, Frame, Frames, Job};
-use crate::scene::{Camera, Size, Viewpoint};
+use crate::scene::{Camera, MAX_SPP, Size, Viewpoint};
 use crate::text::{Severity, counted};
 use crate::ui::keymap::{Action, Mode};
 use crate::ui::msg::{Destination, Effect, Existing, ExportId, Exported, Origin, Target};
+
+/// The picture to export; fields that are `None` are taken from the scene.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub(super) struct ExportOrder {
+    path: Option<PathBuf>,
+    size: Option<Size>,
+    spp: Option<u32>,
+}
+
+impl ExportOrder {
+    /// Parses `[FILE] [WxH] [SPP]`; the file name may contain blanks.
+    pub(super) fn parse(said: &str) -> Result<Self, String> {
+        let mut words: Vec<_> = said.split_whitespace().collect();
+        let mut spp = None;
+        if let Some(count) = words.last().and_then(|word| word.parse().ok()) {
+            if !(1..=MAX_SPP).contains(&count) {
+                return Err(format!("{count}: samples per pixel must be 1 to {MAX_SPP}"));
+            }
+            spp = Some(count);
+            words.pop();
+        }
+        let size = words.last().and_then(|word| Size::parse(word));
+        if size.is_some() {
+            words.pop();
+        }
+        if let Some(wrong) = wrong_word(&words) {
+            return Err(wrong);
+        }
+        let path = (!words.is_empty()).then(|| PathBuf::from(words.join(" ")));
+        Ok(Self { path, size, spp })
+    }
+}
+
+/// Finds fault with a word left after the picture's name.
+fn wrong_word(words: &[&str]) -> Option<String> {
+    let is_picture = |word: &&str| ImageFormat::of_path(Path::new(word)).is_some();
+    let word = match words.iter().rposition(is_picture) {
+        Some(name) => words.get(name + 1)?,
+        None => words.last()?,
+    };
+    let numbers = |extra: &str| {
+        let known = |c: char| c.is_ascii_digit() || extra.contains(c);
+        word.starts_with(|c: char| c.is_ascii_digit()) && word.chars().all(known)
+    };
+    if numbers("") {
+        Some(format!("{word}: samples per pixel must be 1 to {MAX_SPP}"))
+    } else if numbers("xX×*") {
+        Some(format!("`{word}`: expected a size such as 800x600"))
+    } else if words.last().is_some_and(is_picture) || !words.iter().any(is_picture) {
+        None
+    } else {
+        Some(format!("`{word}` is neither a size nor a sample count"))
+    }
+}
 
 impl App {
     /// Exports to the scene's folder under the scene's name. If another program has written that
     /// file, the user is asked.
     pub(super) fn export_default(&mut self) -> Vec<Effect> {
+        self.export(ExportOrder::default(), Asking::Yes)
+    }
+
+    /// Exports what is seen, or the sequence that is played.
+    pub(super) fn export(&mut self, order: ExportOrder, asking: Asking) -> Vec<Effect> {
+        let ExportOrder { path, size, spp } = order;
         if self.mode == Mode::Sequence {
-            return self.export_sequence(None, None, None, Asking::Yes);
+            return self.export_sequence(path, size, spp, asking);
         }
-        self.start_export(&self.export_path(), None, None, Asking::Yes)
+        let path = path.unwrap_or_else(|| self.export_path());
+        self.start_export(&path, size, spp, asking)
     }
 
     /// The scene's path with a picture's extension, distinct for each AOV so that they don't

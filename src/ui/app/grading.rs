@@ -110,34 +110,27 @@ struct Graded {
 
 /// A size and settings in a few words; of some settings only what differs from the default.
 fn words(size: Size, rendering: &Rendering) -> String {
+    let settings = Settings::new(size, rendering);
     let Settings {
         spp,
         depth,
         integrator,
-        filter,
-        transfer,
-        exposure,
-        falloff,
-        gloss,
-        noise,
-        clamp,
         ..
-    } = Settings::new(size, rendering);
-    let plain = Settings::new(size, &Rendering::default());
-    let others = [
-        (filter != plain.filter).then(|| format!("filter {}", filter.name())),
-        (transfer != plain.transfer).then(|| format!("transfer {}", transfer.name())),
-        (exposure != plain.exposure).then(|| format!("exposure {exposure}")),
-        (falloff != plain.falloff).then(|| format!("falloff {}", falloff.name())),
-        (gloss != plain.gloss).then(|| format!("gloss {}", gloss.name())),
-        noise.map(|noise| format!("noise {noise}")),
-        clamp.map(|most| format!("clamp {most}")),
-    ];
+    } = settings;
     let Size { width, height } = size;
     let main = format!(
         "{width}×{height}, {spp} spp, {}, depth {depth}",
         integrator.name()
     );
-    let all = [Some(main)].into_iter().chain(others).flatten();
-    all.collect::<Vec<_>>().join(", ")
+    let usual = Settings::new(size, &Rendering::default()).written();
+    let others = settings.written().into_iter().filter(|setting| {
+        let is_in_main = ["integrator", "depth"].contains(&setting.0);
+        !is_in_main && !usual.contains(setting)
+    });
+    let others = others.map(|(name, value)| format!("{name} {value}"));
+    [main]
+        .into_iter()
+        .chain(others)
+        .collect::<Vec<_>>()
+        .join(", ")
 }
