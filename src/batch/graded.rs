@@ -91,8 +91,7 @@ impl<'w> Graded<'w> {
         {
             let [own, size] = [own, size].map(|Size { width, height }| format!("{width}x{height}"));
             Messages::Text.note(&format!(
-                "{scene} is traced at {size}, the size of the picture; its own is {own}: --size \
-                     {own} compares at that"
+                "{scene} is traced at {size}, the size of the picture; its own is {own}"
             ));
         }
         let settings = settings(tracing, job);

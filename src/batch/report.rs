@@ -85,15 +85,20 @@ fn one(name: &str, text: &str, diagnostic: &Diagnostic, renderer: &Renderer) -> 
 /// A diagnostic of a text as an object of JSON, whose `excerpt` is the offending part of the first line;
 /// the `hint` is null if there is none. Foreign text is escaped by [`visible`].
 pub(super) fn object(name: &str, text: &str, diagnostic: &Diagnostic) -> Value {
-    let Position { line, column } = Position::of(text, diagnostic.span.start());
-    let excerpt = Excerpt::of(text, diagnostic.span);
+    let Shown {
+        file,
+        position: Position { line, column },
+        text,
+        span,
+    } = diagnostic.shown(text);
+    let excerpt = Excerpt::of(text, span);
     json!({
         "event": match diagnostic.severity {
             Severity::Error => "error",
             Severity::Warning => "warning",
         },
         "message": visible(&diagnostic.message),
-        "file": visible(name),
+        "file": visible(file.unwrap_or(name)),
         "line": line,
         "column": column,
         "excerpt": excerpt.marked.of(&excerpt.line),

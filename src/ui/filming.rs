@@ -112,6 +112,7 @@ impl<S: Fn(Msg)> Filming<'_, S> {
             }
             ReelForm::Pictures(pattern, format) => {
                 for number in 0..reel.track.frames {
+                    self.check_cancelled()?;
                     self.check_frame(&self.frame_of(reel, pattern, number))?;
                 }
                 let takes = Takes::new(reel, folders)?;
@@ -201,15 +202,20 @@ impl<S: Fn(Msg)> Filming<'_, S> {
         check_target_of(&self.to.path, to)
     }
 
+    fn check_cancelled(&self) -> Result<(), Unfinished> {
+        match self.cancelled.try_recv() {
+            Err(TryRecvError::Disconnected) => Err(Unfinished::Cancelled),
+            _ => Ok(()),
+        }
+    }
+
     /// Traces a frame, and reports how far it is.
     fn trace(&mut self, frame: u32, count: u32, job: Job) -> Result<Arc<Frame>, Unfinished> {
         let started = self.renderer.restart(job);
         started.map_err(|refusal| format!("frame {frame}: {refusal}"))?;
         let mut told = None;
         loop {
-            if self.cancelled.try_recv() == Err(TryRecvError::Disconnected) {
-                return Err(Unfinished::Cancelled);
-            }
+            self.check_cancelled()?;
             match self.woken.recv_timeout(PATIENCE) {
                 Ok(()) => {}
                 Err(RecvTimeoutError::Timeout) => continue,

@@ -9,7 +9,7 @@ use notify::{Config, ErrorKind, RecursiveMode};
 
 use super::names::{Meaning, Names};
 use super::notice::{Notice, WatchMessage};
-use super::polling::fingerprints;
+use super::polling::Seen;
 
 /// The interval of polling while the system has too few watches.
 const INTERVAL: Duration = Duration::from_millis(500);
@@ -32,8 +32,8 @@ pub(super) struct WatchedPaths<S> {
 struct Polled {
     /// Why.
     reason: String,
-    /// Their contents when they were compared last.
-    last: Vec<Option<u64>>,
+    /// The files when they were looked at last.
+    last: Vec<Seen>,
 }
 
 /// Why a directory is not watched.
@@ -110,16 +110,17 @@ impl<S: notify::Watcher> WatchedPaths<S> {
     /// Tries again to watch all directories; returns whether a file has changed since it was compared
     /// last.
     pub(super) fn poll(&mut self) -> bool {
-        let last = self.polled.as_ref().map(|polled| polled.last.clone());
+        let mut last = self.polled.as_ref().map(|polled| polled.last.clone());
         self.renew(Meaning::File);
         if self.polled.is_none() {
             // Directories may have been replaced unnoticed.
             self.renew(Meaning::Directory);
         }
-        let now = fingerprints(&self.paths);
-        let is_changed = last.is_some_and(|last| last != now);
-        if let Some(polled) = &mut self.polled {
-            polled.last = now;
+        let is_changed = last
+            .as_mut()
+            .is_some_and(|last| Seen::have_changed(last, &self.paths));
+        if let Some((polled, last)) = self.polled.as_mut().zip(last) {
+            polled.last = last;
         }
         is_changed
     }
@@ -146,7 +147,7 @@ impl<S: notify::Watcher> WatchedPaths<S> {
             reason: error.reason(),
             last: match self.polled.take() {
                 Some(polled) => polled.last,
-                None => fingerprints(&self.paths),
+                None => Seen::all(&self.paths),
             },
         });
     }

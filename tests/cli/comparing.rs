@@ -98,8 +98,7 @@ fn a_scene_is_traced_at_the_size_of_the_picture() {
              gloss none, spp {spp}; options such as --spp change that\n"
         )
     };
-    let its_size = "note: ball.ray is traced at 16x12, the size of the picture; its own is 8x6: \
-                    --size 8x6 compares at that\n";
+    let its_size = "note: ball.ray is traced at 16x12, the size of the picture; its own is 8x6\n";
     let undrawn = "note: c.png is not written: pictures of different sizes have no differences to \
                    draw\n";
     for (words, code, size, told) in [

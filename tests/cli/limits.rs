@@ -147,7 +147,7 @@ fn the_estimate_of_photons_is_close() {
         fs::copy(scenes.join(name), place.at(name)).expect("copied");
         for (size, spp) in [("80x60", 1), ("64x48", 12), ("160x120", 2)] {
             let line = format!(
-                "render {name} -o a.ppm --integrator photon --falloff square --size {size} --spp {spp}"
+                "render {name} -o a.ppm --integrator photon --falloff square --size {size} --spp {spp} --threads 2"
             );
             let estimate = place.run(&format!("{line} --estimate")).stdout;
             let estimate = String::from_utf8(estimate).expect("UTF-8");

@@ -92,13 +92,12 @@ fn no_file_of_others_is_replaced_and_no_part_of_one_is_left() {
         assert_eq!(names, before, "{command}");
     }
     assert_eq!(place.read("a5.png"), b"theirs");
-    // A frame whose scene has an error ends the film, and none is left.
+    // A shorter track: no other file is replaced, and none is left.
     place.write(
         "moves.toml",
         "frames = 3\n[[track]]\nthing = \"object 1\"\nfield = \"radius\"\n\
          keys = [{ frame = 0, value = 0.4 }, { frame = 2, value = 0.1 }]\n",
     );
-    place.write("gone.dat", TEXTURED);
     let screen = play(
         &place,
         ": \"track moves.toml\" Enter wait : \"export! a%d.png 8x6 1\" Enter wait",

@@ -223,15 +223,23 @@ fn messages_beside_progress_are_objects() {
         let found: Vec<_> = found.iter().filter(|event| *event != "progress").collect();
         assert_eq!(found, expected, "{line}: {said}");
     }
-    let said = place.stderr("render odd.ray -o a.ppm --progress json", 0);
-    let first = said.lines().next().expect("a line");
-    for (key, value) in [
-        ("file", "\"odd.ray\""),
-        ("line", "3"),
-        ("column", "16"),
-        ("excerpt", "\"1f\""),
+    place.write("odd.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\nf 1 9 3\n");
+    place.write(
+        "odd.xml",
+        "<xml><scene><object type=\"obj\" name=\"odd.obj\"/></scene></xml>\n",
+    );
+    for (scene, place_of_it) in [
+        ("odd.ray", ["\"odd.ray\"", "3", "16", "\"1f\""]),
+        ("odd.xml", ["\"odd.obj\"", "5", "5", "\"9\""]),
     ] {
-        assert_eq!(after(first, key), value, "{first}");
+        let said = place.stderr(&format!("render {scene} -o a.ppm --progress json"), 0);
+        let first = said.lines().next().expect("a line");
+        for (key, value) in ["file", "line", "column", "excerpt"]
+            .into_iter()
+            .zip(place_of_it)
+        {
+            assert_eq!(after(first, key), value, "{first}");
+        }
     }
 }
 

@@ -110,7 +110,16 @@ fn keys_are_reported_as_before_after_every_ending() {
         // Taken back while it is its own: nothing is set twice.
         kill(session.process_id(), Signal::CONT);
         session.send(CTRL_L);
-        session.drain(Duration::from_millis(100));
+        let count = |session: &Session| {
+            session
+                .written
+                .windows(APART.len())
+                .filter(|w| *w == APART)
+                .count()
+        };
+        while count(&session) < 2 {
+            session.drain(Duration::from_millis(1));
+        }
         end(&mut session);
         session.end();
         let left = last(AS_BEFORE, &session.written);

@@ -32,10 +32,11 @@ impl App {
         let Ok(language) = Language::of_path(&path) else {
             return Vec::new();
         };
-        if self.jobs.is_saving(&path) {
-            let path = path.display();
-            self.overlays
-                .warn(format!("{path} is still being written: open it after that"));
+        // It may be this very file, under another name.
+        if let Some(saved) = self.jobs.file_being_saved() {
+            let saved = saved.display();
+            let words = format!("{saved} is still being written: open another scene after that");
+            self.overlays.warn(words);
             return Vec::new();
         }
         let now = (self.document.revision(), self.pictures.view);

@@ -413,14 +413,7 @@ impl App {
             | Command::Compare(Some(_))
             | Command::Export(..)
             | Command::ExportCancel => {}
-            _ => {
-                let left = self.leave_sequence();
-                let effects = self.perform(command);
-                if self.overlays.has_failed() {
-                    self.return_to_sequence(left);
-                }
-                return effects;
-            }
+            _ => return self.outside_sequence(|app| app.perform(command)),
         }
         self.perform(command)
     }

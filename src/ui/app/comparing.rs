@@ -145,7 +145,10 @@ impl App {
                 return Vec::new();
             }
         };
-        if let Err(reason) = self.comparison_jobs(&reference) {
+        let is_early = self.assets.are_awaited();
+        if let Err(reason) = self.comparison_jobs(&reference)
+            && !is_early
+        {
             self.refuse_picture(Severity::Error, &reason);
             return vec![Effect::Free(Arc::new(reference))];
         }
@@ -157,7 +160,10 @@ impl App {
             _ => String::new(),
         };
         let mut effects = self.refer(reference);
-        if !is_free {
+        if is_early {
+            let words = format!(":compare compares with {name} once the scene's files are read");
+            self.overlays.say(words);
+        } else if !is_free {
             self.overlays.say(format!(":compare compares with {name}"));
         } else if self.mode != Mode::Compare {
             self.leave_sequence();

@@ -82,12 +82,8 @@ impl App {
                 self.warn_of_transform();
                 Vec::new()
             }
-            Some((action, context)) => {
-                if !matches!(context, Context::In(Mode::Sequence)) {
-                    self.leave_sequence();
-                }
-                self.act_in(action, context)
-            }
+            Some((action, context @ Context::In(Mode::Sequence))) => self.act_in(action, context),
+            Some((action, context)) => self.outside_sequence(|app| app.act_in(action, context)),
             None => self.command(line),
         }
     }

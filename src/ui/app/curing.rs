@@ -36,7 +36,6 @@ impl App {
             return Vec::new();
         }
         let under_way = self.cures.trials.take().is_some();
-        self.cures.cure = None;
         let suspected = self.suspected(frame);
         let trial = match suspected {
             // A scene of this size would keep all else waiting.
@@ -143,16 +142,20 @@ impl App {
                 format!("{cure}, {darker} darkens the screen only")
             }
             // The text's warning says it all.
-            Fault::Unlit | Fault::WithoutPhotons => match cure {
-                Some(cure) => cure,
-                None => return,
-            },
+            Fault::Unlit | Fault::WithoutPhotons => {
+                let Some(cure) = cure else {
+                    self.withdraw_fault();
+                    return;
+                };
+                cure
+            }
         };
         self.say_once(format!("{fault}: {helps}"));
     }
 
     /// Says what is wrong with the preview where nothing that may help was tried.
     fn say_untried(&mut self, fault: Option<Fault>) {
+        self.cures.cure = None;
         let helps = match fault {
             Some(Fault::Black(_)) => self.reason_of_black(),
             Some(Fault::Burnt) => {
@@ -160,19 +163,27 @@ impl App {
                 format!("{darker} darkens the screen only")
             }
             // The text's warning says it all.
-            Some(Fault::Unlit | Fault::WithoutPhotons) | None => return,
+            Some(Fault::Unlit | Fault::WithoutPhotons) | None => {
+                self.withdraw_fault();
+                return;
+            }
         };
         if let Some(fault) = fault {
             self.say_once(format!("{fault}: {helps}"));
         }
     }
 
-    /// Says what is wrong with the preview, unless that was said.
+    /// Says what is wrong with the preview, unless something was said of it. Words that nobody has
+    /// dismissed yet are replaced.
     fn say_once(&mut self, words: String) {
-        if self.cures.said.is_none() {
+        let is_due = match &self.cures.said {
+            None => true,
+            Some(said) => *said != words && self.overlays.withdraw(said),
+        };
+        if is_due {
             self.overlays.say(words.clone());
-            self.cures.said = Some(words);
         }
+        self.cures.said = Some(words);
     }
 
     /// Where to look for the reason why a picture is black.
@@ -187,6 +198,7 @@ impl App {
 
     /// Takes back what was said of a preview with which nothing is wrong any more.
     fn withdraw_fault(&mut self) {
+        self.cures.cure = None;
         if let Some(said) = self.cures.said.take() {
             self.overlays.withdraw(&said);
         }

@@ -9,7 +9,7 @@ use super::{App, Dialog, Export, Stage};
 use crate::image_file::{ImageFormat, known_extensions};
 use crate::render::{Aov, Frame, Frames, Job};
 use crate::scene::{Camera, MAX_SPP, Size, Viewpoint};
-use crate::text::{Severity, counted};
+use crate::text::Severity;
 use crate::ui::keymap::{Action, Mode};
 use crate::ui::msg::{Destination, Effect, Existing, ExportId, Exported, Origin, Target};
 
@@ -332,12 +332,10 @@ impl App {
         };
         self.jobs.next = None;
         match export.stage {
-            Stage::Tracing => self.overlays.say(match export.frames_written() {
-                0 => "export cancelled".to_owned(),
-                written => format!(
-                    "export cancelled; {} written before are kept",
-                    counted(written as usize, "frame")
-                ),
+            Stage::Tracing => self.overlays.say(if export.has_written_frames() {
+                "export cancelled; the frames already written are kept"
+            } else {
+                "export cancelled"
             }),
             Stage::Writing => {
                 let path = export.destination.path.display();

@@ -167,11 +167,6 @@ impl Jobs {
         self.saves.first().map(|save| save.path.as_path())
     }
 
-    /// Whether a file is being written.
-    pub(super) fn is_saving(&self, path: &Path) -> bool {
-        self.saves.iter().any(|save| save.path == path)
-    }
-
     /// The number of saves so far, running, waiting or ended.
     pub(super) fn count_saves(&self) -> u32 {
         self.newest.0
@@ -376,12 +371,11 @@ impl Export {
         }
     }
 
-    /// The number of frames of a sequence that have been written to a file each.
-    pub(super) fn frames_written(&self) -> u32 {
+    /// Whether frames of a sequence have been written to a file each.
+    pub(super) fn has_written_frames(&self) -> bool {
         let is_each = ReelForm::of_path(&self.destination.path)
             .is_ok_and(|form| matches!(form, ReelForm::Pictures(..)));
-        let reel = self.reel.filter(|_| is_each);
-        reel.map_or(0, |reel| reel.frame)
+        is_each && self.reel.is_some_and(|reel| 0 < reel.frame)
     }
 
     /// The share that is done, 0 to 1.

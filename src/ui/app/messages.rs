@@ -104,9 +104,11 @@ impl Messages {
         self.waiting.insert(at, (message, lasts));
     }
 
-    /// Drops a message that waits.
-    pub(super) fn withdraw(&mut self, text: &str) {
+    /// Drops a message that waits. Returns whether it did.
+    pub(super) fn withdraw(&mut self, text: &str) -> bool {
+        let before = self.waiting.len();
         self.waiting.retain(|(message, _)| message.text != text);
+        self.waiting.len() < before
     }
 
     /// Drops the messages about errors that wait.

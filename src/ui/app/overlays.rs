@@ -288,15 +288,18 @@ impl Overlays {
         self.message = None;
     }
 
-    /// Dismisses a message whose cause is gone, also while it waits.
-    pub(super) fn withdraw(&mut self, text: &str) {
+    /// Dismisses a message whose cause is gone, also while it waits. Returns whether it was shown or
+    /// waited.
+    pub(super) fn withdraw(&mut self, text: &str) -> bool {
         let text = &*without_codes(text);
-        self.messages.withdraw(text);
+        let waited = self.messages.withdraw(text);
         let is_stale = |message: &mut Message| message.text == text;
-        if self.message.take_if(is_stale).is_some() {
+        let was_shown = self.message.take_if(is_stale).is_some();
+        if was_shown {
             // Before messages that are yet to come in this step.
             self.end_step();
         }
+        waited || was_shown
     }
 
     /// Shows what is wrong with files, in place of what was before.

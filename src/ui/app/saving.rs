@@ -9,11 +9,11 @@ use crate::ui::keymap::Action;
 use crate::ui::msg::{Effect, Guard, SaveId, SaveOutcome};
 
 impl App {
-    /// Whether the scene's file is being written. What is read of it meanwhile may be half of that, and
-    /// is not taken: the end of the save requests another reading.
+    /// Whether the scene's file may be being written: any save may do so, since a file has many names.
+    /// What is read of it meanwhile may be half of that, and is not taken: the end of the last save
+    /// requests another reading.
     pub(super) fn is_being_saved(&self) -> bool {
-        let path = self.disk.path.as_deref();
-        path.is_some_and(|path| self.jobs.is_saving(path))
+        self.jobs.file_being_saved().is_some()
     }
 
     /// Saves the text. If a save of the same file is running, the new one waits for it.
@@ -102,8 +102,8 @@ impl App {
         };
         let is_written = written.is_some();
         effects.extend(self.jobs.go_on(ended, written));
-        if is_own {
-            effects.extend(if is_changed {
+        if self.disk.path.is_some() && !self.is_being_saved() {
+            effects.extend(if is_own && is_changed {
                 self.read_finally()
             } else {
                 self.read_again()

@@ -335,8 +335,21 @@ impl App {
         left
     }
 
+    /// Does something outside of SEQUENCE mode, and returns there if it fails.
+    pub(super) fn outside_sequence(
+        &mut self,
+        act: impl FnOnce(&mut Self) -> Vec<Effect>,
+    ) -> Vec<Effect> {
+        let left = self.leave_sequence();
+        let effects = act(self);
+        if self.overlays.has_failed() {
+            self.return_to_sequence(left);
+        }
+        effects
+    }
+
     /// Returns to SEQUENCE mode as it was left.
-    pub(super) fn return_to_sequence(&mut self, left: Option<bool>) {
+    fn return_to_sequence(&mut self, left: Option<bool>) {
         let Some(was_playing) = left else {
             return;
         };

@@ -215,8 +215,28 @@ impl Drop for Running {
     }
 }
 
-/// Reads two streams to their ends, or until nobody listens.
-fn read(mut output: impl Read, mut complaints: impl Read, send: &SyncSender<Piece>) {
+/// Reads two streams to their ends, or until nobody listens; both at once, since a writer that nobody
+/// reads is stopped.
+fn read(output: impl Read, complaints: impl Read + Send, send: &SyncSender<Piece>) {
+    let said = thread::scope(|scope| {
+        let thread = thread::Builder::new().name("git's complaints".to_owned());
+        let listener = thread.spawn_scoped(scope, || beginning(complaints));
+        read_output(output, send);
+        let said = listener.ok().and_then(|listener| listener.join().ok());
+        said.unwrap_or_default()
+    });
+    let _ = send.send(Piece::Complaint(said));
+}
+
+/// Reads a stream to its end and returns the first [`COMPLAINT`] bytes.
+fn beginning(mut complaints: impl Read) -> String {
+    let mut said = Vec::new();
+    let _ = complaints.by_ref().take(COMPLAINT).read_to_end(&mut said);
+    let _ = io::copy(&mut complaints, &mut io::sink());
+    String::from_utf8_lossy(&said).into_owned()
+}
+
+fn read_output(mut output: impl Read, send: &SyncSender<Piece>) {
     let mut chunk = vec![0; CHUNK];
     loop {
         match output.read(&mut chunk) {
@@ -229,13 +249,6 @@ fn read(mut output: impl Read, mut complaints: impl Read, send: &SyncSender<Piec
             Ok(0) | Err(_) => break,
         }
     }
-    let mut said = Vec::new();
-    let _ = complaints.by_ref().take(COMPLAINT).read_to_end(&mut said);
-    // A writer that nobody reads would be stopped.
-    let _ = io::copy(&mut complaints, &mut io::sink());
-    let _ = send.send(Piece::Complaint(
-        String::from_utf8_lossy(&said).into_owned(),
-    ));
 }
 
 fn too_late() -> String {

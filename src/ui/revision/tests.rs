@@ -173,6 +173,21 @@ fn a_scene_that_is_too_long_is_not_read() {
     }
 }
 
+/// More than a pipe holds.
+#[test]
+fn a_git_that_complains_much_is_read() {
+    let Some(folder) = repository() else {
+        return;
+    };
+    let scene = folder.path().join("a.ray");
+    fs::write(&scene, "a text").expect("writable");
+    commit(folder.path());
+    let missing = "/none/at/this/long/place/with/objects\n".repeat(2000);
+    let alternates = folder.path().join(".git/objects/info/alternates");
+    fs::write(alternates, missing).expect("writable");
+    assert_eq!(found("HEAD", &scene), Ok("a text".to_owned()));
+}
+
 #[test]
 fn a_git_that_takes_too_long_is_stopped() {
     let Some(folder) = repository() else {

@@ -11,6 +11,8 @@ use rustix::fs::{fstat, fsync, mkdirat, openat, renameat, statat, unlinkat};
 use rustix::io::Errno;
 use rustix::process::geteuid;
 
+use crate::text::shell_path;
+
 /// What to do about a missing folder.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Missing {
@@ -100,28 +102,35 @@ fn is_same(one: &Stat, other: &Stat) -> bool {
 
 /// Fails unless a folder is ours and nobody else can write to it.
 fn check(stat: &Stat, path: &Path) -> io::Result<()> {
-    let path = path.display();
     if stat.st_uid != geteuid().as_raw() {
-        return Err(refusal(format!("{path} belongs to another user")));
+        return Err(foreign(path));
     }
     if Mode::from_raw_mode(stat.st_mode).intersects(WRITABLE) {
-        let reason = format!("{path} is writable by others: chmod go-w {path}");
-        return Err(refusal(reason));
+        return Err(writable(path, "by its group or others", "go-w"));
     }
     Ok(())
+}
+
+fn foreign(path: &Path) -> io::Error {
+    refusal(format!("{} belongs to another user", path.display()))
+}
+
+/// The refusal of a folder in which somebody else may write, and the command that ends that.
+fn writable(path: &Path, by: &str, mode: &str) -> io::Error {
+    let shown = path.display();
+    let word = shell_path(&shown.to_string());
+    refusal(format!("{shown} is writable {by}: chmod {mode} {word}"))
 }
 
 /// Fails if somebody else could replace our folder. Group write permission is accepted: on many
 /// systems each user has a group of their own.
 fn check_around(stat: &Stat, path: &Path) -> io::Result<()> {
-    let path = path.display();
     let mode = Mode::from_raw_mode(stat.st_mode);
     if ![geteuid().as_raw(), 0].contains(&stat.st_uid) {
-        return Err(refusal(format!("{path} belongs to another user")));
+        return Err(foreign(path));
     }
     if mode.contains(Mode::WOTH) && !mode.contains(Mode::SVTX) {
-        let reason = format!("{path} is writable by others: chmod o-w {path}");
-        return Err(refusal(reason));
+        return Err(writable(path, "by others", "o-w"));
     }
     Ok(())
 }

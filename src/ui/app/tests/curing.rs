@@ -62,12 +62,16 @@ const BURNT: &str = "more than half of the picture is above 1: ";
 #[test]
 fn a_picture_that_is_too_bright_says_so_once() {
     let (mut app, effects) = opened(&faded());
-    let bright = format!("{BURNT}C sets exposure -1, < darkens the screen only");
+    let [bright, brighter] =
+        [-1, -2].map(|stops| format!("{BURNT}C sets exposure {stops}, < darkens the screen only"));
     let again = format!("no errors or warnings in the text, but {bright}");
     let trace = job(&effects, Target::Preview).expect("a preview").clone();
     press(&mut app, "<Esc>");
     for (keys, grey, told) in [
         ("", 0.9, ""),
+        ("", 1.5, &*bright),
+        // What is offered is what `C` does.
+        ("", 3.0, &*brighter),
         ("", 1.5, &*bright),
         // The next key dismisses it, and it only comes back on request.
         ("j", 1.5, ""),

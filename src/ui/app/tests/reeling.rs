@@ -134,7 +134,7 @@ fn a_sequence_is_cancelled_where_it_is_played() {
         (
             "a%d.png",
             "x",
-            "export cancelled; 4 frames written before are kept",
+            "export cancelled; the frames already written are kept",
         ),
     ] {
         let mut app = playing();

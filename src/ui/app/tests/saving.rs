@@ -302,12 +302,20 @@ fn nothing_that_is_read_during_a_save_is_taken() {
         |_, _| SaveOutcome::NoFolder("none".to_owned()),
         |_, _| SaveOutcome::Failed("full".to_owned()),
     ];
-    for outcome in outcomes {
+    let orders = [
+        "w",
+        ":w! ./scene.ray<Enter>",
+        ":w! /a/link/of/it.ray<Enter>",
+    ];
+    for (outcome, order) in outcomes
+        .into_iter()
+        .flat_map(|outcome| orders.map(|order| (outcome, order)))
+    {
         let mut app = open(SCENE);
         press(&mut app, "jjjel");
         let reading = Reading::new(half.clone(), app.baseline()).expect("it fits into memory");
         let requested_before = Msg::Read(path(), Ok(reading));
-        press(&mut app, "w");
+        press(&mut app, order);
         let mine = text_of(&app);
 
         for msg in [Msg::FileChanged, Msg::Elapsed(Timer::Settled)] {
