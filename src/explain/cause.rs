@@ -23,12 +23,13 @@ pub fn fault(prospects: &[Prospect]) -> Option<Fault> {
 impl Sentence {
     /// Whether what it says of a pixel may be so of the whole picture.
     pub fn may_be_of_picture(&self) -> bool {
-        const NAMES: [&str; 9] = [
+        const NAMES: [&str; 10] = [
             "too-bright",
             "underexposed",
             "no-lights",
             "switched-off",
             "enclosed",
+            "outside-cone",
             "faces-away",
             "attenuated",
             "dim",

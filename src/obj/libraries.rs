@@ -91,7 +91,7 @@ impl Libraries {
         if slot == 0 {
             let message = "usemtl: the name is missing";
             let fault = Fault::new(statement.end(), message, "the name of a material");
-            return Err(fault.costing("the faces that follow are white"));
+            return Err(fault.costing("the faces that follow have none of its materials"));
         }
         Ok(())
     }

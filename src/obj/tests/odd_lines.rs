@@ -107,7 +107,7 @@ fn a_line_that_is_wrong_costs_itself() {
         ),
         (
             "usemtl",
-            "7: usemtl: the name is missing | the faces that follow are white | usemtl[]",
+            "7: usemtl: the name is missing | the faces that follow have none of its materials | usemtl[]",
         ),
         ("mtllib  ", "7: mtllib: the name is missing | - | mtllib[]"),
     ] {
@@ -183,7 +183,7 @@ fn a_mesh_is_unreadable_only_if_no_face_is_left() {
         shown,
         [
             "line 5, column 6: f: expected at least three corners, found 2 | the face is left out | f 1 2[]",
-            "line 6, column 7: usemtl: the name is missing | the faces that follow are white | usemtl[]",
+            "line 6, column 7: usemtl: the name is missing | the faces that follow have none of its materials | usemtl[]",
             "line 6, column 7: the file has no faces that can be used | - | usemtl[]",
         ]
     );

@@ -79,6 +79,12 @@ impl Assets {
         &self.files
     }
 
+    /// The path of the file read that diagnostics cite by this name.
+    pub(super) fn file(&self, cited: &str) -> Option<PathBuf> {
+        let mut files = self.files.iter();
+        files.find(|file| file.ends_with(cited)).cloned()
+    }
+
     /// Whether a mesh that the scene names has neither been read nor failed to be.
     pub(super) fn lack_meshes(&self) -> bool {
         let is_missing = |name: &String| self.meshes.get(name).is_none();

@@ -1,7 +1,7 @@
 //! The render setting suggested for a picture.
 
 use crate::language::{Prospect, RenderKey};
-use crate::render::Trials;
+use crate::render::{Frame, Progress, Trials};
 use crate::scene::Rendering;
 
 /// A render setting and its value.
@@ -18,6 +18,8 @@ pub struct Cures {
     pub(super) said: Option<String>,
     /// The trials under way, before that is said.
     pub(super) trials: Option<RunningTrials>,
+    /// The generation of the preview that was judged before it was complete.
+    judged: Option<u64>,
 }
 
 /// Trials of what mends the preview.
@@ -30,7 +32,26 @@ pub(super) struct RunningTrials {
     pub(super) of: (u64, Rendering),
 }
 
+/// Samples per pixel that tell what is wrong with a picture as a whole: those of a trial.
+const ENOUGH: u32 = 16;
+
+/// Whether a picture is traced far enough to tell what is wrong with it as a whole.
+pub(super) fn is_judgeable(progress: &Progress) -> bool {
+    progress.complete || ENOUGH <= progress.spp
+}
+
 impl Cures {
+    /// Whether a frame of the preview is the first that tells what is wrong with it, or a whole one of
+    /// which no earlier frame did.
+    pub(super) fn is_to_judge(&mut self, frame: &Frame) -> bool {
+        let generation = Some(frame.generation);
+        if !is_judgeable(&frame.progress) || self.judged == generation {
+            return false;
+        }
+        self.judged = generation.filter(|_| !frame.progress.complete);
+        true
+    }
+
     /// Notes the generation of the picture by which a cure is tried.
     pub(super) fn started(&mut self, generation: u64) {
         if let Some(trials) = &mut self.trials {

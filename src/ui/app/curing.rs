@@ -3,7 +3,7 @@
 use std::ops::ControlFlow;
 
 use super::App;
-use super::cures::{Cure, RunningTrials};
+use super::cures::{Cure, RunningTrials, is_judgeable};
 use super::looking::is_light;
 use crate::explain::fault;
 use crate::language::{Outlook, Prospect, RenderKey, outlook};
@@ -29,10 +29,10 @@ impl App {
         self.diagnostics = found.sorted();
     }
 
-    /// Says what is wrong with a complete preview of light as a whole, and what helps, once trials have
+    /// Says what is wrong with a preview of light as a whole, and what helps, once trials have
     /// shown it; once, until nothing is wrong.
     pub(super) fn judge_picture(&mut self, target: Target, frame: &Frame) -> Vec<Effect> {
-        if target != Target::Preview || !frame.progress.complete || !is_light(frame) {
+        if target != Target::Preview || !is_light(frame) || !self.cures.is_to_judge(frame) {
             return Vec::new();
         }
         let under_way = self.cures.trials.take().is_some();
@@ -206,14 +206,19 @@ impl App {
 
     /// Writes the suggested setting into the text.
     fn cure(&mut self) {
-        match self.suggested_cure().cloned() {
-            Some((key, value)) => {
-                self.write_setting(key, Some(value));
-                // What is still wrong is said again.
-                self.cures.said = None;
-            }
-            None => self.overlays.say("there is no render setting to suggest"),
+        if let Some((key, value)) = self.suggested_cure().cloned() {
+            self.write_setting(key, Some(value));
+            // What is still wrong is said again.
+            self.cures.said = None;
+            return;
         }
+        let progress = self.pictures.preview.progress();
+        let is_early = progress.is_some_and(|progress| !is_judgeable(progress));
+        self.overlays.say(if is_early || self.cures.are_awaited() {
+            "no suggestion yet: too little is traced"
+        } else {
+            "there is no render setting to suggest"
+        });
     }
 
     /// Switches the integrator, or writes the suggested setting.

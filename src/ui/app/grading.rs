@@ -49,23 +49,35 @@ impl App {
         })
     }
 
-    /// What is to be said of how a picture of this name and size is compared.
+    /// What is to be said of how a picture of this name and size is compared; nothing if it cannot be.
     pub(super) fn grading(&self, name: &str, made: &Made, picture: Size) -> String {
-        let Graded { record, size, .. } = self.graded(made, picture);
-        let rendering = self.graded_rendering(record.as_ref());
-        let settings = words(size, &rendering);
-        let Size { width, height } = self.output();
-        let other = if size == self.output() {
-            String::new()
-        } else {
-            format!("; the scene's own size is {width}×{height}")
+        let Ok(job) = self.graded_job(made, picture) else {
+            return String::new();
         };
-        let Some(record) = record else {
-            return format!("{name} does not say how it was made: compared at {settings}{other}");
+        let size = job.settings.size;
+        let mut settings = words(&job);
+        let Size { width, height } = self.output();
+        if size != self.output() {
+            settings = format!("{settings}; the scene's own size is {width}×{height}");
+        }
+        let Some(record) = self.graded(made, picture).record else {
+            return format!("{name} records no settings: traced at {settings}");
+        };
+        let view = if record.view.is_empty() {
+            ""
+        } else {
+            "its view, "
+        };
+        let here = self.pictures.aov.is_some_and(|aov| record.aov != Some(aov))
+            || self.pictures.rendering.or(record.rendering) != record.rendering;
+        let except = if here {
+            ", except for what is set here"
+        } else {
+            ""
         };
         let unused = record.unused();
-        let unused = unused.map_or_else(String::new, |unused| format!("; not used: {unused}"));
-        format!("compared as {name} says that it was made: {settings}{other}{unused}")
+        let unused = unused.map_or_else(String::new, |unused| format!("; ignored: {unused}"));
+        format!("traced as recorded in {name}{except}: {view}{settings}{unused}")
     }
 
     /// What a picture of this file shows instead of light.
@@ -108,29 +120,21 @@ struct Graded {
     region: Option<Region>,
 }
 
-/// A size and settings in a few words; of some settings only what differs from the default.
-fn words(size: Size, rendering: &Rendering) -> String {
-    let settings = Settings::new(size, rendering);
-    let Settings {
-        spp,
-        depth,
-        integrator,
-        ..
-    } = settings;
-    let Size { width, height } = size;
-    let main = format!(
-        "{width}×{height}, {spp} spp, {}, depth {depth}",
-        integrator.name()
-    );
-    let usual = Settings::new(size, &Rendering::default()).written();
+/// The settings of a job in a few words; of some only what differs from the default.
+fn words(job: &Job) -> String {
+    let settings = &job.settings;
+    let Size { width, height } = settings.size;
+    let mut words = vec![format!("{width}×{height}"), format!("{} spp", settings.spp)];
+    if settings.aov.is_none() {
+        words.push(settings.integrator.name().to_owned());
+        words.push(format!("depth {}", settings.depth));
+    }
+    let usual = Settings::new(settings.size, &Rendering::default()).written();
     let others = settings.written().into_iter().filter(|setting| {
-        let is_in_main = ["integrator", "depth"].contains(&setting.0);
-        !is_in_main && !usual.contains(setting)
+        let is_said = ["integrator", "depth"].contains(&setting.0);
+        !is_said && !usual.contains(setting)
     });
-    let others = others.map(|(name, value)| format!("{name} {value}"));
-    [main]
-        .into_iter()
-        .chain(others)
-        .collect::<Vec<_>>()
-        .join(", ")
+    words.extend(others.map(|(name, value)| format!("{name} {value}")));
+    words.extend(job.denoise.then(|| "denoised".to_owned()));
+    words.join(", ")
 }

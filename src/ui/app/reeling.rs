@@ -96,8 +96,17 @@ impl App {
         if self.assets.are_awaited() {
             return Err(self.no_picture());
         }
-        let track = self.sequence.open.as_ref().map(|open| open.track.clone());
-        let track = track.ok_or("no track is open")?;
+        let open = self.sequence.open.as_ref().ok_or("no track is open")?;
+        if open.is_refused {
+            return Err(format!(
+                "{} cannot be played as it is on disk: correct it first",
+                open.name()
+            ));
+        }
+        if open.held.is_none() {
+            return Err(format!("nothing to export yet: {}", self.how_to_key(open)));
+        }
+        let track = open.track.clone();
         self.suspend_frame();
         let text = self.document.shared_text();
         self.resume_frame();

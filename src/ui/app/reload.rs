@@ -513,6 +513,11 @@ impl App {
             None if self.is_disk_wrong() => wrong.findings.iter().find(|d| d.is_error()),
             None => None,
         };
+        let cited = error.and_then(|error| error.cited.as_deref());
+        let cited = cited.and_then(|cited| Some((self.assets.file(&cited.file)?, cited.line)));
+        if let Some((path, line)) = cited {
+            return vec![Effect::OpenEditor { path, line }];
+        }
         let span = error.map_or_else(|| self.source().span(self.node_in_focus()), |d| d.span);
         let line = Position::of(wrong.text, span.start()).line;
         vec![Effect::OpenEditor { path, line }]

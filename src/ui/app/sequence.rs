@@ -30,6 +30,8 @@ pub struct OpenTrack {
     pub path: PathBuf,
     /// The text of the file, as read or written last; `None` as long as there is no file.
     pub(super) held: Option<Arc<String>>,
+    /// Whether the file holds by now what cannot be played.
+    pub is_refused: bool,
     /// What the text says.
     pub track: Track,
     /// The number of the frame.

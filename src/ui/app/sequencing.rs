@@ -79,11 +79,14 @@ impl App {
             Ok(_) => return Vec::new(),
             Err(error) => {
                 self.complain_of_track(&error.to_string());
-                return self.follow_open_track(&path);
+                return self.refuse_track(&path);
             }
         };
-        let held = open.and_then(|open| open.held.as_deref());
-        if open.is_some() && held == text.as_ref() {
+        let open = self.sequence.open.as_mut();
+        if let Some(open) =
+            open.filter(|open| open.path == path && open.held.as_deref() == text.as_ref())
+        {
+            open.is_refused = false;
             return if is_asked {
                 self.enter_sequence()
             } else {
@@ -94,7 +97,7 @@ impl App {
         if 0 < findings.errors() {
             let text = text.unwrap_or_default();
             self.complain_of_track(&complaint(&name_of(&path), &text, &findings));
-            return self.follow_open_track(&path);
+            return self.refuse_track(&path);
         }
         if is_asked && !self.has_sound_scene() {
             return self.follow_open_track(&path);
@@ -103,13 +106,14 @@ impl App {
         let text_of = text.as_deref().unwrap_or_default();
         if self.error_count() == 0 && self.bound_track(&track, &name_of(&path), text_of).is_none() {
             self.resume_frame();
-            return self.follow_open_track(&path);
+            return self.refuse_track(&path);
         }
         let before = self.sequence.open.take_if(|open| open.path == path);
         let is_known = before.is_some();
         self.sequence.open = Some(OpenTrack {
             path,
             held: text.map(Arc::new),
+            is_refused: false,
             frame: before
                 .as_ref()
                 .map_or(0, |open| open.frame.min(track.frames.saturating_sub(1))),
@@ -146,8 +150,7 @@ impl App {
             self.mode = before;
             return kept.into_iter().collect();
         };
-        let is_new = open.held.is_none();
-        let name = open.name();
+        let how_to_key = open.held.is_none().then(|| self.how_to_key(open));
         let moves = open
             .shown
             .as_ref()
@@ -155,16 +158,18 @@ impl App {
         if moves && self.pictures.view.is_some() {
             self.pictures.reset_view();
         }
-        if is_new {
-            let (edit, key) = (
-                self.key_for(Action::Go(Mode::Edit)),
-                self.key_for(Action::OnTrack(Playback::Key)),
-            );
-            self.overlays.say(format!(
-                "{name} is new: {edit} edits at this frame, then {key} keys the value"
-            ));
+        if let Some(words) = how_to_key {
+            self.overlays.say(words);
         }
         kept.into_iter().collect()
+    }
+
+    /// How the first value is keyed.
+    pub(super) fn how_to_key(&self, open: &OpenTrack) -> String {
+        let edit = self.key_for(Action::Go(Mode::Edit));
+        let key = self.key_for(Action::OnTrack(Playback::Key));
+        let name = open.name();
+        format!("{name} is new: {edit} edits at this frame, then {key} keys the value")
     }
 
     /// Relates the open track to the present text; reports errors in it.
@@ -388,6 +393,15 @@ impl App {
     pub fn has_edits(&self) -> bool {
         let was_dirty = self.sequence.was_dirty();
         was_dirty.unwrap_or_else(|| self.document.is_dirty())
+    }
+
+    /// Goes on with the open track after a file was read that cannot be played, its own or another.
+    fn refuse_track(&mut self, read: &Path) -> Vec<Effect> {
+        let open = self.sequence.open.as_mut();
+        if let Some(open) = open.filter(|open| open.path == read) {
+            open.is_refused = true;
+        }
+        self.follow_open_track(read)
     }
 
     /// Watches the open track again after another one was read in vain.

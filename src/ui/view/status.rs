@@ -229,6 +229,9 @@ fn text_segments(app: &App, say: &mut impl FnMut(u8, String, Style)) {
     }
     if let Some(open) = &app.sequence.open {
         frame_segment(open, app.mode == Mode::Sequence, say);
+        if open.is_refused {
+            say(3, "[track refused]".to_owned(), theme::WARNING);
+        }
     }
     let errors = app.error_count();
     let warnings = app.diagnostics.warnings();
