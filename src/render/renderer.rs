@@ -12,7 +12,7 @@ use super::frame::{Frame, Job};
 use super::kept::Kept;
 use super::refusal::{self, Refusal};
 use super::shared::Shared;
-use super::worker::{self, Request, Submission};
+use super::worker::{self, Request, Submission, Submissions};
 use crate::memory;
 use crate::scene::Scene;
 
@@ -39,6 +39,7 @@ pub struct Renderer {
 
 #[derive(Debug)]
 struct Worker {
+    submissions: Arc<Submissions>,
     requests: Sender<Request>,
     thread: JoinHandle<()>,
 }
@@ -89,10 +90,12 @@ impl Renderer {
             film,
             recalled,
         };
-        worker
-            .requests
-            .send(Request::Trace(Box::new(submission)))
-            .map_err(|_| Refusal::Ended)?;
+        let older = worker.submissions.submit(submission);
+        let older = older.map(|job| Request::Drop(Box::new(job)));
+        for request in older.into_iter().chain([Request::Trace]) {
+            let sent = worker.requests.send(request);
+            sent.map_err(|_| Refusal::Ended)?;
+        }
         self.accepted = scene;
         Ok(generation)
     }
@@ -137,7 +140,9 @@ impl Renderer {
 impl Drop for Renderer {
     fn drop(&mut self) {
         self.shared.quit();
-        if let Ok(Worker { requests, thread }) = mem::replace(&mut self.worker, Err(Refusal::Ended))
+        if let Ok(Worker {
+            requests, thread, ..
+        }) = mem::replace(&mut self.worker, Err(Refusal::Ended))
         {
             drop(requests);
             // The panic hook has already reported any panic.
@@ -154,11 +159,17 @@ impl Worker {
     ) -> Result<Self, String> {
         let pool = pool(threads).map_err(|error| error.to_string())?;
         let (requests, inbox) = mpsc::channel();
+        let submissions = Arc::new(Submissions::default());
+        let submitted = Arc::clone(&submissions);
         let thread = std::thread::Builder::new()
             .name("renderer".to_owned())
-            .spawn(move || worker::run(&inbox, &shared, &wake, &pool))
+            .spawn(move || worker::run(&inbox, &submitted, &shared, &wake, &pool))
             .map_err(|error| error.to_string())?;
-        Ok(Self { requests, thread })
+        Ok(Self {
+            submissions,
+            requests,
+            thread,
+        })
     }
 }
 

@@ -1,9 +1,9 @@
 //! The thread behind a renderer, which traces the newest job and publishes its progress.
 
-use std::iter;
-use std::sync::Arc;
 use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender};
+use std::sync::{Arc, Mutex, PoisonError};
 use std::time::Duration;
+use std::{iter, mem};
 
 use rayon::ThreadPool;
 
@@ -20,13 +20,36 @@ use super::world::World;
 
 /// What the thread is asked for.
 pub(crate) enum Request {
-    /// To trace this instead of what it traces.
-    Trace(Box<Submission>),
+    /// To trace what is submitted instead of what it traces.
+    Trace,
+    /// To drop a job that is not traced, which takes time for a large scene.
+    Drop(Box<Job>),
     /// To send the newest picture, as far as it is traced, before it ends.
     Keep(Sender<Kept>),
 }
 
+/// The jobs that the worker has not begun: the newest, and before it those that recall a picture, which
+/// a newer one may continue. A film may take megabytes, so that the others must not wait with theirs.
+#[derive(Debug, Default)]
+pub(crate) struct Submissions(Mutex<Vec<Submission>>);
+
+impl Submissions {
+    /// Adds the newest job; returns the one in whose place it is traced, if any.
+    pub(crate) fn submit(&self, newest: Submission) -> Option<Job> {
+        let mut waiting = self.0.lock().unwrap_or_else(PoisonError::into_inner);
+        let older = waiting.pop_if(|older| older.recalled.is_none());
+        waiting.push(newest);
+        drop(waiting);
+        older.map(|older| older.job)
+    }
+
+    fn take(&self) -> Vec<Submission> {
+        mem::take(&mut *self.0.lock().unwrap_or_else(PoisonError::into_inner))
+    }
+}
+
 /// A job with its generation and film.
+#[derive(Debug)]
 pub(crate) struct Submission {
     pub(crate) generation: u64,
     pub(crate) job: Job,
@@ -58,6 +81,7 @@ struct Traced {
 /// Traces jobs until the renderer is dropped or the thread panics.
 pub(crate) fn run<W: Fn() + Sync>(
     requests: &Receiver<Request>,
+    submissions: &Submissions,
     shared: &Shared,
     wake: &W,
     pool: &ThreadPool,
@@ -65,23 +89,16 @@ pub(crate) fn run<W: Fn() + Sync>(
     let mut left = None;
     let mut keeper = None;
     while let Ok(first) = requests.recv() {
-        let mut newest: Option<Box<Submission>> = None;
-        let mut take = |submission: Box<Submission>| {
-            left = pool.install(|| trace(*submission, shared, wake, left.take()));
-        };
         for request in iter::once(first).chain(requests.try_iter()) {
             match request {
-                Request::Trace(submission) => {
-                    // A newer job may continue what an older one recalls.
-                    let older = newest.replace(submission);
-                    older
-                        .filter(|older| older.recalled.is_some())
-                        .map(&mut take);
-                }
+                Request::Trace => {}
+                Request::Drop(job) => drop(job),
                 Request::Keep(to) => keeper = Some(to),
             }
         }
-        newest.map(&mut take);
+        for submission in submissions.take() {
+            left = pool.install(|| trace(submission, shared, wake, left.take()));
+        }
     }
     let (world, traced) = left.map_or((None, None), |left| {
         (Some((left.world, left.photons)), left.traced)

@@ -135,6 +135,24 @@ fn a_loop_renders_shards() {
     assert_cooks("loop.sh");
 }
 
+/// GNU parallel would evaluate what is in braces.
+#[test]
+#[cfg(unix)]
+fn braces_are_refused_for_gnu_parallel() {
+    let recipe = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/recipes/parallel.sh");
+    for words in [
+        ["a{= die =}.ray", "out.png", "2", "--resume"],
+        ["a.ray", "{#}.png", "2", "--resume"],
+        ["a.ray", "out.png", "2", "{}"],
+    ] {
+        let output = Command::new("bash").arg(&recipe).args(words).output();
+        let output = output.expect("it starts");
+        let said = String::from_utf8_lossy(&output.stderr);
+        assert_eq!(said, "names and options must not contain {\n", "{words:?}");
+        assert_eq!(output.status.code(), Some(2), "{words:?}");
+    }
+}
+
 /// Where GNU parallel is installed.
 #[test]
 #[cfg(unix)]

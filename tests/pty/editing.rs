@@ -273,6 +273,37 @@ fn a_scene_is_followed_when_its_folder_is_moved() {
 }
 
 /// As `git switch` does with folders that are not in the other branch.
+/// As by `mv scenes old; mv new scenes; rm -r old`.
+#[test]
+fn a_scene_is_followed_to_the_first_place_of_its_folder() {
+    let place = Place::new();
+    let [folder, new, old] = ["scenes", "new", "old"].map(|name| place.at(name));
+    for (folder, colour) in [(&folder, "0 1 0  0"), (&new, "0 0 1  0")] {
+        fs::create_dir(folder).expect("it is new");
+        let text = BALLS.replacen("0 1 0  0", colour, 1);
+        fs::write(folder.join("balls.ray"), text).expect("written");
+    }
+    let arguments = ["--color", "24", "balls.ray"];
+    let mut session = Session::start(&folder, &arguments, WIDE, &[]);
+    wait_for_rest(&mut session);
+    session.send(RADIUS_TO_2);
+    session.wait_for("balls.ray [+]");
+    fs::rename(&folder, &old).expect("renamed");
+    fs::rename(&new, &folder).expect("renamed");
+    // Seen where it is now, so that this is another place it has had.
+    session.send(":e\r");
+    session.wait_for("balls.ray [+]");
+    fs::remove_dir_all(&old).expect("removed");
+    wait_for_colour(&mut session, BLUE);
+    session.send(":w\r");
+    session.wait_for("wrote ");
+    assert_eq!(
+        place.read("scenes/balls.ray"),
+        edited().replacen("0 1 0  0", "0 0 1  0", 1)
+    );
+    quit(session);
+}
+
 #[test]
 fn a_scene_is_followed_into_the_folder_that_takes_the_place_of_its_own() {
     let place = Place::new();

@@ -15,4 +15,4 @@ for ((k = 0; k < shards; k++)); do
     halflight render "$scene" -o "$picture" --shard "$k/$shards" --resume "$@"
     parts+=("$stem.$k-$shards.part")
 done
-halflight merge "${parts[@]}" -o "$picture"
+halflight merge -o "$picture" -- "${parts[@]}"

@@ -12,6 +12,8 @@ shift 3
 # A dot in the name of a folder begins no extension.
 [[ ${picture##*/} == ?*.* ]] || { echo "PICTURE has no extension: $picture" >&2; exit 2; }
 stem=${picture%.*}
+# GNU parallel replaces braces, and evaluates some of what is in them.
+[[ "$scene $picture ${ASSETS:-} $*" != *'{'* ]] || { echo "names and options must not contain {" >&2; exit 2; }
 
 parts=()
 for ((k = 0; k < shards; k++)); do
@@ -32,4 +34,4 @@ fi
 parallel --quote --jobs "${JOBS:-100%}" --retries 3 "${far[@]}" \
     halflight render "$scene" -o "$picture" --shard "{}/$shards" --resume --threads 1 "$@" \
     ::: $(seq 0 $((shards - 1)))
-halflight merge "${parts[@]}" -o "$picture"
+halflight merge -o "$picture" -- "${parts[@]}"

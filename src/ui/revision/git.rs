@@ -26,6 +26,10 @@ const PATIENCE: Duration = Duration::from_secs(5);
 /// Interval between questions whether git has ended.
 const POLL: Duration = Duration::from_millis(2);
 
+/// What git would unpack before it asks whether it may fetch, and the programs that it would run for
+/// each reference of that.
+const UNBUNDLED: [&str; 2] = ["fetch.bundleURI=", "core.hooksPath=/dev/null"];
+
 /// Files of more bytes are not held in memory by git, whatever the repository says.
 const STREAMED: &str = "core.bigFileThreshold=16m";
 
@@ -137,6 +141,7 @@ impl<'a> Git<'a> {
             .arg("-C")
             .arg(self.folder)
             .args(["-c", STREAMED])
+            .args(UNBUNDLED.iter().flat_map(|setting| ["-c", setting]))
             .envs(self.guards.iter().copied())
             .env("GIT_ALLOC_LIMIT", room.to_string())
             .env("GIT_LITERAL_PATHSPECS", "1")

@@ -28,8 +28,9 @@ pub(super) const PATIENCE: Duration = Duration::from_millis(25);
 /// Maximum pause within an answer of the terminal, whose rest would be taken for typed text.
 const ANSWER_PATIENCE: Duration = Duration::from_secs(2);
 
-/// Maximum pause within a paste before it is accepted as it is.
-const PASTE_PATIENCE: Duration = Duration::from_secs(1);
+/// Maximum pause within a paste before it is accepted as it is: then its end was lost, and the rest
+/// would be taken for typed text.
+const PASTE_PATIENCE: Duration = Duration::from_secs(10);
 
 /// Maximum number of bytes before the final byte of a sequence that means anything.
 const LONGEST: usize = 64;
@@ -116,8 +117,8 @@ impl Decoder {
         let patience = match self.state {
             State::Ground => return None,
             State::Paste { .. } => PASTE_PATIENCE,
-            // An answer may pause after its introducer; a sequence is too short for that.
-            State::Escape | State::Sequence | State::Function if self.key.is_some() => PATIENCE,
+            State::Escape => PATIENCE,
+            // An answer may pause after its introducer.
             _ => ANSWER_PATIENCE,
         };
         self.fed.map(|fed| fed + patience)

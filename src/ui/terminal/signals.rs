@@ -18,7 +18,7 @@ use rustix::process::{
 };
 use signal_hook::SigId;
 use signal_hook::consts::{
-    SIGALRM, SIGCONT, SIGHUP, SIGINT, SIGPROF, SIGQUIT, SIGTERM, SIGTSTP, SIGUSR1, SIGUSR2,
+    SIGALRM, SIGCONT, SIGHUP, SIGINT, SIGIO, SIGPROF, SIGQUIT, SIGTERM, SIGTSTP, SIGUSR1, SIGUSR2,
     SIGVTALRM, SIGWINCH, SIGXCPU,
 };
 use signal_hook::low_level::{self, pipe};
@@ -36,10 +36,10 @@ const HUNG_UP: i32 = 128 + SIGHUP;
 const LENT: u8 = b'l';
 const OURS: u8 = b'o';
 
-/// Signals with a specific meaning, and all others that would end the process without restoring the
-/// terminal.
-const WATCHED: [i32; 13] = [
-    SIGHUP, SIGTERM, SIGQUIT, SIGINT, SIGTSTP, SIGCONT, SIGWINCH, SIGALRM, SIGPROF, SIGUSR1,
+/// Signals with a specific meaning, and all others of POSIX that would end the process without restoring
+/// the terminal.
+const WATCHED: [i32; 14] = [
+    SIGHUP, SIGTERM, SIGQUIT, SIGINT, SIGTSTP, SIGCONT, SIGWINCH, SIGALRM, SIGIO, SIGPROF, SIGUSR1,
     SIGUSR2, SIGVTALRM, SIGXCPU,
 ];
 

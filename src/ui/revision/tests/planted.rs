@@ -25,6 +25,7 @@ const SETTINGS: &[(&str, &str)] = &[
     ("diff.x.command", "PROGRAM"),
     ("diff.x.textconv", "PROGRAM"),
     ("difftool.x.cmd", "PROGRAM"),
+    ("fetch.bundleURI", "BUNDLE"),
     ("filter.x.clean", "PROGRAM"),
     ("filter.x.process", "PROGRAM"),
     ("filter.x.required", "true"),
@@ -115,6 +116,11 @@ impl Planted {
             fs::write(at(name), attributes).expect("the folder is new");
         }
         let planted = Self { folder, scene };
+        let bundle = planted.at("bundle").display().to_string();
+        git(
+            planted.folder.path(),
+            &["bundle", "create", "-q", &bundle, "--all"],
+        );
         for hook in HOOKS {
             let program = planted.program(hook);
             for folder in ["hooks", ".git/hooks"] {
@@ -161,7 +167,7 @@ impl Planted {
                 Some((section, part)) => format!("{section} \"{part}\""),
                 None => section.to_owned(),
             };
-            let value = ["ATTRIBUTES", "HOOKS", "INCLUDED"].iter().fold(
+            let value = ["ATTRIBUTES", "BUNDLE", "HOOKS", "INCLUDED"].iter().fold(
                 value.replace("PROGRAM", &program),
                 |value, word| {
                     let place = self.at(&word.to_lowercase());
