@@ -11,7 +11,7 @@ use exr::meta::header::Header;
 use exr::prelude::{ReadChannels, ReadLayers, Vec2, read};
 use image::{DynamicImage, Rgb32FImage};
 
-use super::unreadable::{MAX_MEMORY, Unreadable, check_size, unsupported};
+use super::unreadable::{MAX_MEMORY, Unreadable, check_room, check_size, unsupported};
 use crate::scene::{Image, Size};
 
 /// The name of the format in messages.
@@ -50,6 +50,7 @@ pub(super) fn read_colours(
     if MAX_MEMORY < values.saturating_mul(size_of::<f32>()) as u64 {
         return Err(Unreadable::NoMemory);
     }
+    check_room(size, (values * size_of::<f32>()) as u64)?;
     let offset = header.own_attributes.layer_position - window.position;
     // Pixels outside the display window are not shown.
     let put = move |pixels: &mut Vec<f32>, at: Vec2<usize>, colour: [f32; 3]| {

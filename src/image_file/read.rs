@@ -10,7 +10,7 @@ use image::{Limits, Rgba};
 
 use super::exr_colours::read_colours;
 use super::sieve::Sieve;
-use super::unreadable::{MAX_MEMORY, Unreadable, check_size, unsupported};
+use super::unreadable::{MAX_MEMORY, Unreadable, check_room, check_size, unsupported};
 use crate::scene::{Image, Size};
 
 /// The memory limit, in bytes, for everything before the pixels.
@@ -90,17 +90,14 @@ fn pixels(file: &mut dyn Input, format: ImageFormat, room: u64) -> Result<Image,
         return Err(Unreadable::NoMemory);
     }
     decoder.set_limits(limits(MAX_MEMORY)).map_err(broken)?;
-    let mut pixels = Vec::<[u8; 3]>::new();
-    let reserved = pixels.try_reserve_exact(size.pixels());
-    reserved.map_err(|_| Unreadable::NoMemory)?;
+    // The decoder's own pixels, and those it returns.
+    check_room(size, 2 * decoder.total_bytes())?;
+    let mut pixels = Vec::<[u8; 3]>::with_capacity(size.pixels());
     if decoder.color_type() == ColorType::Rgb8 {
         pixels.resize(size.pixels(), [0; 3]);
         let read = decoder.read_image(pixels.as_flattened_mut());
         read.map_err(broken)?;
     } else {
-        // If the decoder's own allocation failed, it would end the process: try it beforehand.
-        let available = Vec::<u8>::new().try_reserve_exact(decoder.total_bytes() as usize);
-        available.map_err(|_| Unreadable::NoMemory)?;
         match DynamicImage::from_decoder(decoder).map_err(broken)? {
             // The most frequent case, without another copy.
             DynamicImage::ImageRgba8(image) => {

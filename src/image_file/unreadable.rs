@@ -1,5 +1,7 @@
 //! Why a picture file cannot be used, and the limits of those that can.
 
+use std::hint;
+
 use crate::scene::Size;
 
 /// The maximum number of pixels of a texture: 8192 × 8192, 192 MiB.
@@ -61,6 +63,20 @@ pub(super) fn check_size(size: Size, room: u64) -> Result<(), Unreadable> {
         return Err(Unreadable::NoRoom);
     }
     Ok(())
+}
+
+/// Refuses a picture whose decoder needs so many bytes beside those of two copies in eight bits, if there
+/// is no such room. An allocation that fails in a decoder would end the process.
+pub(super) fn check_room(size: Size, decoder: u64) -> Result<(), Unreadable> {
+    let copies = 2 * size_of::<[u8; 3]>() * size.pixels();
+    let bytes = usize::try_from(decoder)
+        .ok()
+        .and_then(|bytes| bytes.checked_add(copies));
+    let mut trial = Vec::<u8>::new();
+    let room = bytes.and_then(|bytes| trial.try_reserve_exact(bytes).ok());
+    // An allocation that nothing uses may be left out.
+    hint::black_box(&trial);
+    room.ok_or(Unreadable::NoMemory)
 }
 
 /// The error that a feature of a format is not supported; it is empty if it is not known.

@@ -114,6 +114,24 @@ fn a_picture_that_does_not_fit_in_memory_is_an_error() {
     assert_eq!(code, Some(0), "{stderr}");
 }
 
+/// A few bytes that claim to be 8192 by 8192 pixels.
+#[test]
+#[cfg(target_os = "linux")]
+fn a_texture_that_does_not_fit_in_memory_is_left_out() {
+    let place = Place::new();
+    place.write("a.dat", TEXTURED.replace("skin.ppm", "skin.gif"));
+    let frame = b"\x2c\0\0\0\0\0\x20\0\x20\0\x02\x01\x04\0";
+    let gif = [&b"GIF89a\0\x20\0\x20\x80\0\0\0\0\0\0\0\0"[..], frame, b";"].concat();
+    place.write("skin.gif", gif);
+    for limit in [200_000, 500_000, 600_000] {
+        let line = "render a.dat -o a.ppm --spp 1 --threads 1";
+        let output = in_shell(&place, &format!("ulimit -v {limit}"), line);
+        let stderr = String::from_utf8_lossy(&output.stderr);
+        assert_eq!(output.status.code(), Some(0), "{limit} kB: {stderr}");
+        assert!(stderr.contains("skin.gif"), "{limit} kB: {stderr}");
+    }
+}
+
 /// More memory never makes a start fail that succeeded with less.
 #[test]
 #[cfg(target_os = "linux")]
