@@ -117,8 +117,8 @@ impl Tracer {
         layers.collect()
     }
 
-    /// Traces the small pictures of trials for a job, and returns what they show. Ends without if they
-    /// cannot be traced.
+    /// Traces the small pictures of trials for a job, and returns what they show. Returns `None`
+    /// if they cannot be traced.
     pub(super) fn try_out(&mut self, job: &Job, mut trials: Trials) -> Option<Advice> {
         loop {
             let job = Job {

@@ -27,8 +27,8 @@ pub use settings::{COLOURS, FILTERS, INTEGRATORS, MAX_BANDWIDTH, MAX_THREADS, PO
 /// Where the configuration comes from.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub enum Source {
-    /// `halflight/config.toml` in `$XDG_CONFIG_HOME` or in `~/.config`, unless there is none: neither
-    /// is one in a place that can hold no file, or one of another user that cannot be read.
+    /// `halflight/config.toml` in `$XDG_CONFIG_HOME` or in `~/.config`, if it exists; a place
+    /// that cannot hold files, or another user's unreadable file, counts as none.
     #[default]
     Usual,
     /// This file.

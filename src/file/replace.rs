@@ -182,9 +182,9 @@ fn overwrite<E: From<io::Error>>(
     }
 }
 
-/// Locks a file that is to be replaced, so that nobody who waits for it too replaces it between what
-/// `confirm` has seen and the new content. Returns the lock. `None` if there are no locks, or after
-/// [`LOCK_PATIENCE`]: a lock of another program may mean anything.
+/// Locks a file that is to be replaced, so that no other writer replaces it between `confirm` and
+/// the rename. Returns the lock. `None` if there are no locks, or after [`LOCK_PATIENCE`]: a lock of
+/// another program may mean anything.
 #[cfg(unix)]
 fn wait_for_turn(path: &Path) -> Option<File> {
     let give_up = Instant::now() + LOCK_PATIENCE;

@@ -191,7 +191,7 @@ impl Runtime {
         timers.chain(self.trim_at).min()
     }
 
-    /// Takes the timer, of some, that is due first, whenever that is.
+    /// Removes the earliest timer that `of` accepts, whether or not it is due. Returns its message.
     pub(crate) fn next_elapsed(&mut self, of: impl Fn(Timer) -> bool) -> Option<Msg> {
         let first = self.timers.iter().enumerate();
         let first = first.filter(|&(_, &(_, timer))| of(timer));

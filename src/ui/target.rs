@@ -59,7 +59,7 @@ pub(super) fn check_target(to: &Destination) -> Result<(), Refused> {
     check_target_of(&to.path, to)
 }
 
-/// As [`check_target`], for a picture of an export to files that are named in this way.
+/// As [`check_target`], for one frame of an export whose pattern is `named`.
 pub(super) fn check_target_of(named: &Path, to: &Destination) -> Result<(), Refused> {
     let (path, shown) = (&to.path, to.path.display());
     let scene = to.scene.as_deref();
