@@ -167,7 +167,7 @@ fn the_reason_why_a_picture_cannot_be_read_is_precise() {
         ("half.ppm", "is not a valid picture: "),
         (
             "huge.ppm",
-            "is 8193x8192: a texture has at most 67108864 pixels",
+            "is 8193x8192: an image has at most 67108864 pixels",
         ),
         ("long.ppm", "more than 512 MiB"),
     ] {

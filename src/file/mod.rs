@@ -166,8 +166,7 @@ fn too_long(limit: u64) -> String {
     match limit {
         MAX_BYTES => "4 GiB or longer; scenes must be shorter".to_owned(),
         MAX_SMALL_BYTES => {
-            "longer than 1 MiB; tracks, configurations and scripts of keys must be shorter"
-                .to_owned()
+            "longer than 1 MiB, the limit for tracks, configurations and key scripts".to_owned()
         }
         _ => format!("longer than {limit} bytes"),
     }

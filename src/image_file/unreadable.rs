@@ -29,7 +29,7 @@ pub enum Unreadable {
     #[error("is not a valid picture: {0}")]
     Broken(String),
     /// Has more than [`MAX_TEXTURE_PIXELS`] pixels.
-    #[error("is {width}x{height}: a texture has at most {MAX_TEXTURE_PIXELS} pixels (8192x8192)")]
+    #[error("is {width}x{height}: an image has at most {MAX_TEXTURE_PIXELS} pixels (8192x8192)")]
     TooLarge {
         /// Width in pixels.
         width: u32,
@@ -40,7 +40,7 @@ pub enum Unreadable {
     #[error("the scene's textures have too many pixels in total")]
     NoRoom,
     /// Out of memory, or its decoder needs more than [`MAX_MEMORY`].
-    #[error("needs more memory than a texture may use (512 MiB), or than is available")]
+    #[error("needs more memory than an image may use (512 MiB), or than is available")]
     NoMemory,
 }
 

@@ -185,7 +185,7 @@ impl Range {
     /// As [`Range::words`], for a value that is out of bounds.
     pub fn words_against(self, value: f64) -> String {
         match self {
-            Self::Size if 0.0 < value => format!("a number {}", self.limits_against(value)),
+            Self::Size if 0.0 < value => format!("a number of {}", self.limits_against(value)),
             _ => self.words(),
         }
     }

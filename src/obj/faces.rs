@@ -12,13 +12,16 @@ const KINDS: [&str; 3] = ["v", "vt", "vn"];
 const COSTS: [&str; 3] = [
     LEFT_OUT,
     "its texture coordinates read as 0 0",
-    "the face is flat there",
+    "the face is shaded flat at that corner",
 ];
 
 const LEFT_OUT: &str = "the face is left out";
 
 /// The form of a corner.
 const CORNER: &str = "v, v/vt, v//vn or v/vt/vn";
+
+/// An index that can be used.
+const EXISTING: &str = "the index of an existing v, vt or vn";
 
 /// Why an index cannot be used.
 enum Wrong {
@@ -125,17 +128,19 @@ impl MeshBuilder<'_> {
             Some(number) => count as i64 + number,
         };
         let Some(index) = u32::try_from(index).ok().filter(|&index| index < ABSENT) else {
-            let message = format!(
-                "`{}` is out of range: there are {count} {name} so far",
-                shown()
-            );
-            return Err(wrong(message, "an index of a line that is there"));
+            let lines = match count {
+                0 => format!("no {name} line precedes it"),
+                1 => format!("only 1 {name} line precedes it"),
+                count => format!("only {count} {name} lines precede it"),
+            };
+            let message = format!("`{}` is out of range: {lines}", shown());
+            return Err(wrong(message, EXISTING));
         };
         match &self.known {
             Some(known) if known.counts[kind] <= index as usize => {
                 let (number, count) = (index + 1, known.counts[kind]);
                 let message = format!("refers to {name} {number}, but there are only {count}");
-                Err(wrong(message, "an index of a line that is there"))
+                Err(wrong(message, EXISTING))
             }
             Some(known) if !known.is_usable(kind, index) => Err(Wrong::Known),
             _ => Ok(index),

@@ -53,11 +53,19 @@ impl Libraries {
         let names = statement.rest();
         if names.text.is_empty() {
             let message = "mtllib: the name is missing";
-            return Err(Fault::new(statement.end(), message, "a library: .mtl"));
+            return Err(Fault::new(
+                statement.end(),
+                message,
+                "a material library (.mtl)",
+            ));
         }
         if self.named.len() == MAX_LIBRARIES {
             let message = format!("more than {MAX_LIBRARIES} mtllib statements");
-            let fault = Fault::new(statement.keyword(), message, "fewer libraries");
+            let fault = Fault::new(
+                statement.keyword(),
+                message,
+                format!("at most {MAX_LIBRARIES} libraries"),
+            );
             return Err(fault.costing("the library is not read"));
         }
         self.named.push(Named::new(names));
@@ -130,7 +138,7 @@ impl Libraries {
                     }
                     Err(reason) => {
                         let message = format!("cannot read `{}`: {reason}", visible(name));
-                        findings.warn(mesh, named.fault(message, "a library: .mtl"));
+                        findings.warn(mesh, named.fault(message, "a material library (.mtl)"));
                         is_complete = false;
                     }
                 }
@@ -142,7 +150,7 @@ impl Libraries {
             // The definitions in an unreadable library are not known.
             if material.is_none() && is_complete {
                 let message = format!("no library defines `{}`", visible(&used.name));
-                let fault = used.fault(message, "a material of a library");
+                let fault = used.fault(message, "a material that a library defines");
                 findings.warn(mesh, fault.costing("its faces are white"));
             }
             by_slot.push(material);

@@ -269,8 +269,8 @@ impl Fault {
 
     /// A comment as other languages write it.
     pub(super) fn foreign_comment(word: Word<'_>) -> Self {
-        let message = format!("`{}` does not begin a comment", word.shown());
-        Self::new(word, message, "# before a comment").costing("the rest of the line is ignored")
+        let message = format!("`{}` is not a comment here", word.shown());
+        Self::new(word, message, "comments begin with #").costing("the rest of the line is ignored")
     }
 
     /// Adds what it costs.

@@ -62,7 +62,7 @@ pub(super) fn read<'s>(
                 Some((_, last)) if !is_path_over => *last = word,
                 Some(_) => {
                     let message = format!("`{}` is not an option", word.shown());
-                    let fault = Fault::new(word, message, "an option, or nothing");
+                    let fault = Fault::new(word, message, "an option or the end of the line");
                     report(Problem::Wrong(fault.costing("it is ignored")));
                 }
                 None => path = Some((word, word)),

@@ -258,7 +258,7 @@ impl<'t> MeshBuilder<'t> {
         if value.is_none() {
             if self.wrong[kind].len() == MAX_WRONG {
                 let message = format!("more than {MAX_WRONG} lines cannot be used");
-                return Err(Fault::new(statement.keyword(), message, "a mesh"));
+                return Err(Fault::new(statement.keyword(), message, "fewer bad lines"));
             }
             let index = self.counts()[kind] as u32;
             self.wrong[kind].push(index);

@@ -54,7 +54,10 @@ const IGNORED: [&str; 10] = [
 ];
 
 /// What an unusable statement costs.
-const COST: &str = "it is ignored";
+const COST: &str = "the line is ignored";
+
+/// What `illum` may be to count: other models of the format are ignored.
+const MODEL: &str = "a whole number from 0 to 7";
 
 /// A library being read.
 struct Library<'t, 'f> {
@@ -97,11 +100,12 @@ pub(super) fn read(
             continue;
         }
         let set = match &mut current {
-            Some((_, material)) => reader.set(material, &statement),
+            Some((_, material)) => reader
+                .set(material, &statement)
+                .map_err(|fault| fault.in_statement(&statement)),
             None => before_materials(keyword),
         };
         if let Err(fault) = set {
-            let fault = fault.in_statement(&statement);
             reader.findings.warn(reader.file, fault);
         }
     }
@@ -113,7 +117,7 @@ pub(super) fn read(
 fn before_materials(keyword: Word<'_>) -> Result<(), Fault> {
     match &keyword.text.to_ascii_lowercase()[..] {
         b"kd" | b"ks" | b"ke" | b"ns" | b"ni" | b"illum" | b"tf" | b"map_kd" | b"map_ks" => {
-            let message = "before the first newmtl";
+            let message = format!("{} stands before the first newmtl", keyword.shown());
             Err(Fault::new(keyword, message, "newmtl").costing(COST))
         }
         _ => Ok(()),
@@ -201,9 +205,8 @@ impl Library<'_, '_> {
     ) -> Result<(), Fault> {
         let (word, model) = number(statement)?;
         if !(0.0..=10.0).contains(&model) || model.fract() != 0.0 {
-            let expected = "a whole number from 0 to 10";
-            let message = format!("expected {expected}");
-            return Err(Fault::new(word, message, expected).costing(COST));
+            let message = format!("expected {MODEL}");
+            return Err(Fault::new(word, message, MODEL).costing(COST));
         }
         if model <= 7.0 {
             material.illumination = model as u32;
@@ -243,11 +246,14 @@ impl Library<'_, '_> {
             let message = format!("`{}` is ignored", place.shown());
             let expected = match word {
                 "d" | "tr" => "illum 6 or 7 and Tf for transparency",
-                "illum" => "a model from 0 to 7",
+                "illum" => MODEL,
                 _ => "a material without it",
             };
             let fault = Fault::new(place, message, expected);
-            let cost = "the picture is drawn without it; said once for this library";
+            let cost = match word {
+                "illum" => "illum 2 is used; reported once per library",
+                _ => "it has no effect here; reported once per library",
+            };
             let fault = fault.costing(cost);
             let is_all = place.text == statement.keyword().text;
             let fault = if is_all {

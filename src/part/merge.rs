@@ -140,7 +140,9 @@ pub fn merge(parts: &[PathBuf], frames: Frames) -> Result<Merged, Unmerged> {
         if header.difference(&survey.header).is_some() {
             return Err(Unmerged::Io {
                 path: path.clone(),
-                source: io::Error::other("another process has changed it meanwhile"),
+                source: io::Error::other(
+                    "another process has changed it meanwhile; run the merge again",
+                ),
             });
         }
         while let Some(record) = reader.next()? {

@@ -59,7 +59,7 @@ pub enum Refused {
     #[error("it exists; continue it with --resume, or delete it")]
     Exists,
     /// A symbolic link that leads nowhere is in its place.
-    #[error("a link that leads nowhere is in its place; delete the link")]
+    #[error("it is a dangling symbolic link; delete it")]
     Dangling,
     /// It is not a part file, or its header is damaged.
     #[error("it is not a part file, or its header is damaged; delete it to start over")]

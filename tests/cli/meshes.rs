@@ -35,7 +35,7 @@ warning: meshes/a.mtl:2:4: Ks: `x` is not a number
 2 | Ks x
   |    ^ a number
   |
-  = help: it is ignored
+  = help: the line is ignored
 ";
     let said = format!("{note}{face}{library}");
     assert_eq!(place.stderr("render a.xml -o a.ppm --spp 1", 0), said);

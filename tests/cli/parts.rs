@@ -395,7 +395,7 @@ fn a_part_takes_no_memory_for_what_it_declares() {
 fn a_dangling_link_is_no_part_to_continue() {
     let place = Place::new();
     std::os::unix::fs::symlink("none/a.part", place.at("a.part")).expect("a link");
-    let said = "error: a.part: a link that leads nowhere is in its place; delete the link\n";
+    let said = "error: a.part: it is a dangling symbolic link; delete it\n";
     for options in ["--resume", "--shard 0/1"] {
         let line = format!("render ball.ray -o a.png --spp 1 {options}");
         assert_eq!(place.stderr(&line, 73), said);

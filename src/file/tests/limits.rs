@@ -27,7 +27,7 @@ fn small_texts_have_a_small_limit() {
             Ok(text) => assert!(is_read && text.len() == length, "{length}"),
             Err(error) => {
                 let expected = format!(
-                    "{}: is longer than 1 MiB; tracks, configurations and scripts of keys must be shorter",
+                    "{}: is longer than 1 MiB, the limit for tracks, configurations and key scripts",
                     path.display()
                 );
                 assert!(

@@ -151,9 +151,7 @@ impl Judge<'_> {
         let message = if shining == 1 {
             format!("{name} is inside {solid}, which is opaque: the picture is black")
         } else {
-            format!(
-                "all lights are inside opaque solids, {name} inside {solid}: the picture is black"
-            )
+            format!("all lights are inside opaque solids ({name} in {solid}): the picture is black")
         };
         let expected = "a light outside, or a transparent solid";
         Some(black(self.source.span(light), &message, expected))

@@ -400,7 +400,7 @@ fn lights_inside_opaque_solids_are_named_if_there_are_no_others() {
     ] {
         ray(others, &[]);
     }
-    let both = "2:9 all lights are inside opaque solids, light 1 inside object 1 (sphere): the picture \
+    let both = "2:9 all lights are inside opaque solids (light 1 in object 1 (sphere)): the picture \
                 is black";
     ray(text(dark, "2 0 .5 0 1 1 1  4 0 0 1 1 1", "0"), &[both]);
     // A light that is off lights nothing either.

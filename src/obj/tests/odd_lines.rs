@@ -53,7 +53,7 @@ fn a_line_that_is_wrong_costs_itself() {
         ),
         (
             "v 0 0 0 // é",
-            "9: v: `//` does not begin a comment | the rest of the line is ignored | v 0 0 0 [//] é",
+            "9: v: `//` is not a comment here | the rest of the line is ignored | v 0 0 0 [//] é",
         ),
         (
             "vt",
@@ -81,7 +81,7 @@ fn a_line_that_is_wrong_costs_itself() {
         ),
         (
             "f 1 -5 3",
-            &format!("5: f: `-5` is out of range: there are 4 v so far | {none} | f 1 [-5] 3"),
+            &format!("5: f: `-5` is out of range: only 4 v lines precede it | {none} | f 1 [-5] 3"),
         ),
         (
             "f 1 0 3",
@@ -90,7 +90,7 @@ fn a_line_that_is_wrong_costs_itself() {
         (
             "f 1 9999999999 3",
             &format!(
-                "5: f: `9999999999` is out of range: there are 4 v so far | {none} | f 1 [9999999999] 3"
+                "5: f: `9999999999` is out of range: only 4 v lines precede it | {none} | f 1 [9999999999] 3"
             ),
         ),
         (
@@ -116,6 +116,23 @@ fn a_line_that_is_wrong_costs_itself() {
         let reports: Vec<_> = model.warnings.iter().map(report).collect();
         assert_eq!(reports, [format!("line 5, column {warning}")], "{line}");
         assert_eq!(seen_of(model), (1, Some((DVec2::ZERO, DVec3::Z))), "{line}");
+    }
+}
+
+#[test]
+fn an_index_out_of_range_is_told_with_the_lines_before_it() {
+    for (before, told) in [
+        ("", "`-9` is out of range: no v line precedes it"),
+        (
+            "v 0 0 0\n",
+            "`-9` is out of range: only 1 v line precedes it",
+        ),
+        (SQUARE, "`-9` is out of range: only 4 v lines precede it"),
+    ] {
+        let after = if before == SQUARE { "" } else { SQUARE };
+        let model = model(&format!("{before}f -9 1 2\n{after}f 1 2 3"));
+        let message = model.warnings[0].to_string();
+        assert!(message.ends_with(told), "{message}");
     }
 }
 
@@ -217,40 +234,43 @@ fn materials_without_a_name_are_white() {
 /// The other lines of a library count.
 #[test]
 fn a_line_of_a_library_that_is_wrong_costs_itself() {
-    let ignored = "the picture is drawn without it; said once for this library";
+    let ignored = "it has no effect here; reported once per library";
     for (line, warning) in [
         (
             "Kd 1 0",
-            "7: Kd: expected one or three numbers | it is ignored | Kd 1 0[]",
+            "7: Kd: expected one or three numbers | the line is ignored | Kd 1 0[]",
         ),
         (
             "Kd",
-            "3: Kd: expected one or three numbers | it is ignored | Kd[]",
+            "3: Kd: expected one or three numbers | the line is ignored | Kd[]",
         ),
         (
             "Ks 1 0 0 0",
-            "10: Ks: expected one or three numbers | it is ignored | Ks 1 0 0 [0]",
+            "10: Ks: expected one or three numbers | the line is ignored | Ks 1 0 0 [0]",
         ),
         (
             "Ke x",
-            "4: Ke: `x` is not a number | it is ignored | Ke [x]",
+            "4: Ke: `x` is not a number | the line is ignored | Ke [x]",
         ),
         (
             "Ns high",
-            "4: Ns: `high` is not a number | it is ignored | Ns [high]",
+            "4: Ns: `high` is not a number | the line is ignored | Ns [high]",
         ),
-        ("Ni", "3: Ni: the number is missing | it is ignored | Ni[]"),
+        (
+            "Ni",
+            "3: Ni: the number is missing | the line is ignored | Ni[]",
+        ),
         (
             "illum 2.5",
-            "7: illum: expected a whole number from 0 to 10 | it is ignored | illum [2.5]",
+            "7: illum: expected a whole number from 0 to 7 | the line is ignored | illum [2.5]",
         ),
         (
             "map_Kd ",
-            "7: map_Kd: the path is missing | it is ignored | map_Kd[]",
+            "7: map_Kd: the path is missing | the line is ignored | map_Kd[]",
         ),
         (
             "map_Kd -s 1 1",
-            "14: map_Kd: the path is missing | it is ignored | map_Kd -s 1 1[]",
+            "14: map_Kd: the path is missing | the line is ignored | map_Kd -s 1 1[]",
         ),
         (
             "map_Ks -clamp x",
@@ -258,7 +278,7 @@ fn a_line_of_a_library_that_is_wrong_costs_itself() {
         ),
         (
             "Kd 1 0 0 // red",
-            "10: Kd: `//` does not begin a comment | the rest of the line is ignored | Kd 1 0 0 [//] red",
+            "10: Kd: `//` is not a comment here | the rest of the line is ignored | Kd 1 0 0 [//] red",
         ),
         (
             "d .5",
@@ -270,7 +290,7 @@ fn a_line_of_a_library_that_is_wrong_costs_itself() {
         ),
         (
             "illum 9",
-            &format!("7: illum: `9` is ignored | {ignored} | illum [9]"),
+            "7: illum: `9` is ignored | illum 2 is used; reported once per library | illum [9]",
         ),
         (
             "map_Bump a.png",
@@ -325,7 +345,7 @@ fn statements_before_the_first_material_are_ignored() {
     let model = read(mesh.as_bytes(), |_| Ok::<_, String>(library)).expect("a valid mesh");
     assert_eq!(
         messages(&model.library_warnings),
-        ["x.mtl: line 2, column 1: kd: before the first newmtl"]
+        ["x.mtl: line 2, column 1: kd stands before the first newmtl"]
     );
     let material = model.materials[1].as_ref().expect("it is defined");
     assert_eq!((material.diffuse, material.specular), ([1.0; 3], [1.0; 3]));

@@ -7,7 +7,7 @@ set -euo pipefail
 here=$(cd "$(dirname "$0")" && pwd)
 picture=${2:?PICTURE is missing} shards=${3:?SHARDS is missing}
 # Arithmetic would run commands in what is not a number.
-[[ $shards =~ ^([2-9]|[1-9][0-9]{1,5})$ ]] || { echo "SHARDS is no number from 2 on: $shards" >&2; exit 2; }
+[[ $shards =~ ^([2-9]|[1-9][0-9]{1,5})$ ]] || { echo "SHARDS must be a whole number of at least 2: $shards" >&2; exit 2; }
 # A dot in the name of a folder begins no extension.
 [[ ${picture##*/} == ?*.* ]] || { echo "PICTURE has no extension: $picture" >&2; exit 2; }
 

@@ -103,8 +103,7 @@ impl<'a> Lowering<'a> {
                 let message = format!("{}: its size or position is out of range", line.name);
                 let [least, beyond] = SIZES;
                 let expected = format!(
-                    "sizes at least {least:e} and less than {beyond:e}, at positions that numbers can \
-                     represent"
+                    "sizes of at least {least:e} and less than {beyond:e}, at finite positions"
                 );
                 Diagnostic::error(span, message, expected)
             });

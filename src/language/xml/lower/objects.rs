@@ -154,7 +154,7 @@ impl Lowering<'_> {
             None => tree.elements[element].name,
         };
         let [least, beyond] = SIZES;
-        let expected = format!("a size at least {least:e} and less than {beyond:e}");
+        let expected = format!("a size of at least {least:e} and less than {beyond:e}");
         let message = || format!("{name}: its transforms make it too small or too large");
         self.error(span, message, &expected);
     }
