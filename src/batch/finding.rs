@@ -73,7 +73,7 @@ impl Suspect {
             }
             (None, Fault::Black(_)) => text.print_cause(fault, &job),
             (None, Fault::Burnt) => {
-                text.print(&format!("{fault}; no single render setting mends that"));
+                text.print(&format!("{fault}; no single render setting fixes that"));
             }
             // The warning of the text says it all.
             (None, Fault::Unlit | Fault::WithoutPhotons) => {}
@@ -135,7 +135,7 @@ impl Text<'_> {
                 let place = place_after(&name, cause.place);
                 format!("{fault}: {}{help}{place}", cause.text)
             }
-            None => format!("{fault}; `halflight explain` may say why"),
+            None => format!("{fault}; `halflight explain SCENE X Y` may show why"),
         });
     }
 }

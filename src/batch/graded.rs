@@ -97,17 +97,17 @@ impl<'w> Graded<'w> {
         let settings = settings(tracing, job);
         let told = match &self.record {
             Some(_) => format!(
-                "{scene} is traced as {picture} says that it was made, where no option says \
-                 otherwise: {settings}"
+                "{scene} is traced with the settings recorded in {picture}, except where options \
+                 override them: {settings}"
             ),
             None => format!(
-                "{picture} does not say how it was made: {scene} is traced with {settings}; options \
-                 such as --spp change that"
+                "{picture} records no settings: {scene} is traced with {settings}; options such as \
+                 --spp change them"
             ),
         };
         Messages::Text.note(&told);
         if let Some(unused) = self.record.as_ref().and_then(Record::unused) {
-            let told = format!("{picture}: not used of what it says of itself: {unused}");
+            let told = format!("problems in the record of {picture} are ignored: {unused}");
             Messages::Text.note(&told);
         }
     }

@@ -123,9 +123,12 @@ pub enum Error {
         /// What is wrong with it.
         source: Unreadable,
     },
-    /// A picture does not say what it is made from; whether it could.
-    #[error("{} does not say what it is made from{}", .0.display(), if *.1 { "" } else { ": only PNG and EXR do" })]
-    NoProvenance(PathBuf, bool),
+    /// A picture does not say what it is made from.
+    #[error("{} does not say what it is made from", .0.display())]
+    NoProvenance(PathBuf),
+    /// A file is of no format that says what a picture is made from.
+    #[error("{} is not a PNG or EXR file", .0.display())]
+    NeverRecorded(PathBuf),
     /// The picture file cannot be created.
     #[error("{path}: {source}", path = path.display())]
     Create {
@@ -304,8 +307,9 @@ impl Over {
     }
 }
 
-/// Reads a scene and the files it references, from `folders` too, and prints all findings; among them
-/// what the text shows of its picture with this over what it says itself, if anything is given.
+/// Reads a scene and the files it references, from `folders` too, and prints all findings,
+/// including those about the resulting picture, with `over` in precedence to the text's settings,
+/// if given.
 fn load(
     messages: Messages,
     path: &Path,

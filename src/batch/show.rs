@@ -32,8 +32,8 @@ fn try_show(work: &Show) -> Result<Verdict, Error> {
     let path = &work.picture;
     let record = match image_file::record(file::open(path)?) {
         Ok(Some(record)) => record,
-        Ok(None) => return Err(Error::NoProvenance(path.clone(), true)),
-        Err(Unreadable::Unknown) => return Err(Error::NoProvenance(path.clone(), false)),
+        Ok(None) => return Err(Error::NoProvenance(path.clone())),
+        Err(Unreadable::Unknown) => return Err(Error::NeverRecorded(path.clone())),
         Err(source) => {
             let path = path.clone();
             return Err(Error::Picture { path, source });
@@ -71,9 +71,7 @@ fn try_show(work: &Show) -> Result<Verdict, Error> {
     }
     if let Some(unused) = record.unused() {
         let picture = path.display();
-        Messages::Text.note(&format!(
-            "{picture}: not understood of what it says of itself: {unused}"
-        ));
+        Messages::Text.note(&format!("{picture}: problems in its record: {unused}"));
     }
     stdout::print(&text).map_err(stdout::error)?;
     Ok(match is_same {

@@ -14,11 +14,12 @@ Examples:
   halflight compare scene.ray reference.bmp --spp 1 --tolerance 2 --max-differing 20
   halflight compare before.xml after.xml --json -o difference.png
 
-A scene is traced as the picture was that it is compared with, as far as that is a PNG or EXR that says \
-how it was made: with its size, view, samples and every other setting, unless an option says otherwise. \
-With other pictures it is traced at their size, unless --size or --region is given. The settings used are \
-printed to standard error. Pictures are compared as they are displayed: with 8 bits per channel. The worst pixels listed \
-are each from another block of 16 × 16 pixels.
+A scene is traced with the settings recorded in the PNG or EXR it is compared with (size, view, \
+samples and all others) unless an option overrides them. The defaults listed with the options \
+apply only to settings that are not recorded. With other pictures it is traced at their size, \
+unless --size or --region is given. The settings used are printed to standard error. Pictures are \
+compared as they are displayed: with 8 bits per channel. The worst pixels listed come from \
+different blocks of 16 × 16 pixels.
 
 Exit codes: 0 alike, 1 different, 2 wrong arguments, 65 invalid scene or picture, 66 not found or \
 unreadable, 73 difference picture cannot be created, 74 write or system error. Nothing but a \

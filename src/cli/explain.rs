@@ -18,8 +18,8 @@ Examples:
 Prints a verdict, which says why the pixel is dark, bright or odd and what would change it, and the \
 tree of rays behind one sample: what each hit, the light of every light factor by factor, and what \
 blocks it. The root is the sample of the picture to the last bit; pixels are counted from the top \
-left corner of the whole picture, from 0. Light is printed without the exposure; the colour \
-displayed, and what the verdict calls dark or bright, are with it.";
+left corner of the whole picture, from 0. Light is printed before exposure; the displayed colour \
+and the words dark and bright apply after it.";
 
 #[derive(Args, Debug)]
 pub(super) struct ExplainArguments {

@@ -212,7 +212,8 @@ fn failure_code(error: &batch::Error) -> u8 {
         | Error::NoFrame { .. }
         | Error::Unconverted { .. }
         | Error::Picture { .. }
-        | Error::NoProvenance(..) => INVALID,
+        | Error::NoProvenance(_)
+        | Error::NeverRecorded(_) => INVALID,
         Error::Refused(_) => USAGE,
         Error::Create { .. } => NO_OUTPUT,
         Error::Part { source, .. } => match source {
@@ -357,7 +358,7 @@ enum Subcommands {
     /// Measure how fast scenes are loaded and traced on this machine
     #[command(after_help = bench::EXAMPLES)]
     Bench(BenchArguments),
-    /// Report errors and warnings in scenes, and pictures that are black or washed out
+    /// Report errors and warnings in scenes, and pictures that are black or overexposed
     Check {
         /// Scene files
         #[arg(required = true, value_name = "SCENE")]

@@ -72,7 +72,9 @@ pub fn cause(query: &Query, subject: &Subject<'_>) -> Option<Sentence> {
         .max_by_key(|kind| (kind.sees, kind.pixels))?;
     let mut sentence = most.sentence;
     if let Some(light) = sentence.node.filter(|_| most.is_away && is_only) {
-        sentence.text = format!("all that is in view faces away from {}", names.node(light));
+        sentence.text = format!("everything in view faces away from {}", names.node(light));
+        let help = sentence.help.take();
+        sentence.help = help.map(|help| help.replace("to this side", "to the camera's side"));
     }
     Some(sentence)
 }

@@ -174,7 +174,11 @@ pub(super) fn colour(colour: Rgb) -> String {
 
 /// A fraction as a percentage.
 pub(super) fn percent(share: f64) -> String {
-    format!("{} %", number((1000.0 * share).round() / 10.0))
+    let tenths = (1000.0 * share).round();
+    if tenths == 0.0 && 0.0 < share {
+        return "less than 0.1 %".to_owned();
+    }
+    format!("{} %", number(tenths / 10.0))
 }
 
 /// The side of a surface.

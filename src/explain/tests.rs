@@ -257,6 +257,14 @@ fn verdicts_of_dat_scenes() {
     let away = "light ID 1 pnt  0 0 6  0 0 1  1 1 1  1 0 0  10 shadow_on";
     let words = "outside the cone of light 1 (line 6): 1";
     check(dat(".1 99", away), PLAIN, "outside-cone", words);
+    let edge = "light ID 1 pnt  0 0 6  .98 0 -.2  1 1 1  1 0 0  AA shadow_on";
+    for (exponent, words) in [
+        ("3", "° off its direction, which leaves 0.8 %"),
+        ("5", "° off its direction, which leaves less than 0.1 %"),
+    ] {
+        let text = dat(".1 99", &edge.replace("AA", exponent));
+        check(text, PLAIN, "outside-cone", words);
+    }
     let strong = "light ID 1 pnt  3 3 6  0 0 0  1 1 1  1 0 900  0 shadow_on";
     check(dat(".1 99", strong), PLAIN, "attenuated", "at distance 6.5");
     let dim = "light ID 1 pnt  3 3 6  0 0 0  .001 .001 .001  1 0 0  0 shadow_on";

@@ -157,7 +157,7 @@ impl Record {
     fn complete(&mut self) {
         let is_missing = |entry: &&Entry| entry.is_always && !self.there.contains(&entry.name);
         for entry in ENTRIES.iter().filter(is_missing).collect::<Vec<_>>() {
-            self.refuse(&format!("no {}", entry.name));
+            self.count(format!("{} is missing", entry.name));
         }
         self.rendering.noise.get_or_insert(0.0);
         self.rendering.clamp.get_or_insert(0.0);
@@ -185,14 +185,19 @@ impl Record {
         }
     }
 
-    /// Counts something as not used, such as `spp 0` or `no depth`.
+    /// Counts an entry as not used, such as `spp 0`.
     pub fn refuse(&mut self, what: &str) {
+        let mut shortened: String = what.chars().take(LONGEST).collect();
+        if shortened.len() < what.len() {
+            shortened.push('…');
+        }
+        self.count(shortened);
+    }
+
+    /// Counts something as wrong.
+    fn count(&mut self, what: String) {
         if self.wrong.len() < NAMED {
-            let mut shortened: String = what.chars().take(LONGEST).collect();
-            if shortened.len() < what.len() {
-                shortened.push('…');
-            }
-            self.wrong.push(shortened);
+            self.wrong.push(what);
         } else {
             self.more += 1;
         }
@@ -243,7 +248,9 @@ impl Record {
         let region = region.map_or_else(String::new, |region| format!(" region {region}"));
         self.size = None;
         let is = format!("{}x{}", picture.width, picture.height);
-        self.refuse(&format!("size {width}x{height}{region} of {is}"));
+        self.count(format!(
+            "size {width}x{height}{region} (the picture is {is})"
+        ));
         (picture, None)
     }
 
@@ -280,7 +287,7 @@ mod tests {
     fn what_can_be_used_is_used_and_the_rest_is_named() {
         for (from, to, unused) in [
             ("", "", None),
-            ("depth 2\n", "", Some("no depth")),
+            ("depth 2\n", "", Some("depth is missing")),
             ("depth 2", "depth 4097", Some("depth 4097")),
             ("spp 4", "spp 0", Some("spp 0")),
             ("exposure -1", "exposure inf", Some("exposure inf")),
@@ -347,19 +354,19 @@ mod tests {
                 "none",
                 part.size(),
                 (part.size(), None),
-                Some("size 8x6 of 3x4"),
+                Some("size 8x6 (the picture is 3x4)"),
             ),
             (
                 "1,2,3,4",
                 SIZE,
                 (SIZE, None),
-                Some("size 8x6 region 1,2,3,4 of 8x6"),
+                Some("size 8x6 region 1,2,3,4 (the picture is 8x6)"),
             ),
             (
                 "7,2,3,4",
                 part.size(),
                 (part.size(), None),
-                Some("size 8x6 region 7,2,3,4 of 3x4"),
+                Some("size 8x6 region 7,2,3,4 (the picture is 3x4)"),
             ),
         ] {
             let mut record =

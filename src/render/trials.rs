@@ -100,7 +100,10 @@ impl fmt::Display for Fault {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Black(0) => f.write_str("the picture is black"),
-            Self::Black(most) => write!(f, "the picture is black (at most {most} of 255)"),
+            Self::Black(most) => {
+                let black = "the picture is almost black";
+                write!(f, "{black} (brightest value {most} of 255)")
+            }
             Self::Burnt => f.write_str("more than half of the picture is above 1"),
             Self::Unlit => f.write_str("no surface is lit"),
             Self::WithoutPhotons => f.write_str("lights emit no photons"),

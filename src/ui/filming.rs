@@ -311,7 +311,7 @@ impl Shot {
     }
 }
 
-/// Writes a file of an export to files that are named in this way.
+/// Writes one file of an export whose pattern is `named`.
 fn deliver(
     to: &Destination,
     named: &Path,
@@ -344,7 +344,9 @@ impl From<io::Error> for NotWritten {
 fn check_spared(to: &Destination, files: &[PathBuf]) -> Result<(), Refused> {
     if files.iter().any(|file| file::is_same(&to.path, file)) {
         let path = to.path.display();
-        return Err(format!("cannot overwrite {path}: a scene uses it; name another file").into());
+        return Err(
+            format!("cannot overwrite {path}: the scene uses it; name another file").into(),
+        );
     }
     Ok(())
 }

@@ -84,6 +84,11 @@ impl ReelForm {
 }
 
 impl ReelProgress {
+    /// The frame that is traced, counted from 1, of how many: `2/48`.
+    pub fn place(&self) -> String {
+        format!("{}/{}", self.frame.saturating_add(1), self.count)
+    }
+
     /// The share of all frames that is done, 0 to 1.
     pub fn done(&self) -> f64 {
         (f64::from(self.frame) + self.traced.done) / f64::from(self.count.max(1))

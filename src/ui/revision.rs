@@ -48,7 +48,7 @@ fn text_by(
         return Err(failed(&listed));
     }
     let entry = String::from_utf8_lossy(&listed.output).into_owned();
-    let Blob { id, bytes } = Blob::listed(&entry, &shown)?;
+    let Blob { id, bytes } = Blob::listed(&entry, &name.to_string_lossy(), revision)?;
     check_size(bytes, &shown)?;
     let mut is_checked = bytes <= file::LONG;
     let look = |text: &[u8]| {
@@ -78,21 +78,20 @@ struct Blob<'a> {
 impl<'a> Blob<'a> {
     /// The file in a line of `git ls-tree --long`: mode, kind, name and length of the content, and,
     /// after a tab, the path. The line is empty if there is none.
-    fn listed(entry: &'a str, shown: &str) -> Result<Self, String> {
+    fn listed(entry: &'a str, name: &str, revision: &str) -> Result<Self, String> {
         let fields = entry.split('\t').next().unwrap_or_default();
         let fields: Vec<_> = fields.split_ascii_whitespace().collect();
         match fields[..] {
-            [] => Err(format!(
-                "{shown} does not exist: git does not track it there"
-            )),
+            [] => Err(format!("{name} is not in {revision}")),
             // Links have other modes.
             [mode, "blob", id, length] if mode.starts_with("100") => match length.parse() {
                 Ok(bytes) => Ok(Self { id, bytes }),
                 Err(_) => Err(format!(
-                    "{shown} is missing from the repository, and nothing is fetched (object {id})"
+                    "{name} in {revision} is missing from the repository: it is not fetched \
+                     (object {id})"
                 )),
             },
-            _ => Err(format!("{shown} is not a file")),
+            _ => Err(format!("{name} in {revision} is not a file")),
         }
     }
 }
@@ -102,7 +101,8 @@ fn check_size(bytes: u64, shown: &str) -> Result<(), String> {
     if MOST < bytes {
         let [bytes, most] = [bytes, MOST].map(megabytes);
         return Err(format!(
-            "{shown} is {bytes} long, and git is asked for at most {most}; compare with a file"
+            "{shown} is {bytes}, over the limit of {most} for git; check it out and compare with \
+             the file"
         ));
     }
     let need = || Need {
@@ -131,9 +131,9 @@ fn reason(said: &str, revision: &str, name: &str) -> String {
             _ => format!("git knows no revision {revision}"),
         }
     } else if says(&["not a tree object"]) {
-        format!("{revision} is not a commit, or is missing from the repository: nothing is fetched")
+        format!("{revision} is not a commit, or is missing from the repository: it is not fetched")
     } else if says(MISSING) {
-        format!("{name} in {revision} is missing from the repository, and nothing is fetched")
+        format!("{name} in {revision} is missing from the repository: it is not fetched")
     } else {
         match said.lines().find(|line| !line.starts_with("warning: ")) {
             None | Some("") => "git failed without a reason".to_owned(),

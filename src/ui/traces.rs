@@ -157,7 +157,7 @@ fn is_name(name: &str) -> bool {
     digits.is_some_and(|digits| digits.len() == DIGITS && digits.bytes().all(is_digit))
 }
 
-/// Whether this is the name of a file that was to become a trace.
+/// Whether this is the name of a temporary file left by an unfinished write.
 fn is_left_behind(name: &str, modified: SystemTime) -> bool {
     let meant = name
         .strip_suffix(NEW)
@@ -174,7 +174,10 @@ fn open(folder: &Folder, name: &str) -> io::Result<Option<File>> {
     let mut kind = [0; KIND.len()];
     if file.read_exact(&mut kind).is_err() || kind != KIND.as_bytes() {
         let place = folder.place(name);
-        let reason = format!("{} is not a full-size trace: move it away", place.display());
+        let reason = format!(
+            "{} is not a Halflight trace; move it elsewhere",
+            place.display()
+        );
         return Err(io::Error::new(ErrorKind::InvalidInput, reason));
     }
     file.rewind()?;

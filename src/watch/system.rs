@@ -244,8 +244,8 @@ impl Unwatched {
 
     fn reason(&self) -> String {
         match self {
-            Self::Limit => "the system's limit of file watches is reached".to_owned(),
-            Self::System(error) => format!("the system sends no notifications: {error}"),
+            Self::Limit => "the file-watch limit is reached".to_owned(),
+            Self::System(error) => format!("the system sends no change notifications: {error}"),
             Self::Directory(reason) => format!("the folder cannot be watched: {reason}"),
         }
     }

@@ -50,7 +50,7 @@ impl notify::Watcher for Few {
     }
 }
 
-const LIMIT_REACHED: &str = "the system's limit of file watches is reached";
+const LIMIT_REACHED: &str = "the file-watch limit is reached";
 
 /// A file in a folder of its own, and its path.
 fn scene() -> (tempfile::TempDir, PathBuf) {
@@ -75,7 +75,11 @@ fn above(path: &Path) -> BTreeSet<PathBuf> {
 fn few_watches_go_to_the_folder_of_the_file_and_it_is_polled_until_there_are_more() {
     let (_folder, path) = scene();
     for (limit, reason, held) in [
-        (None, "the system sends no notifications: too many users", 0),
+        (
+            None,
+            "the system sends no change notifications: too many users",
+            0,
+        ),
         (Some(0), LIMIT_REACHED, 0),
         (Some(1), LIMIT_REACHED, 1),
         (Some(2), LIMIT_REACHED, 2),

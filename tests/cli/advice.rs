@@ -1,4 +1,4 @@
-//! What is said of a picture that is black or washed out, by every command that looks at one.
+//! What is said of a picture that is black or overexposed, by every command that looks at one.
 
 use super::*;
 
@@ -48,7 +48,7 @@ fn a_picture_is_judged_alike_by_every_command() {
         (
             "dim.ray",
             &ball("exposure -6", "5 5 9 1 1 1"),
-            "the picture is black (at most 3 of 255); try `--exposure 0`".to_owned(),
+            "the picture is almost black (brightest value 3 of 255); try `--exposure 0`".to_owned(),
         ),
         (
             "far.ray",
@@ -100,8 +100,8 @@ fn the_cause_of_a_black_picture_is_named() {
                 <light type='direct' name='d'><intensity/><direction z='1'/></light>\n\
                 </scene><camera><position z='9'/></camera></xml>";
     place.write("away.xml", away);
-    let cause = "the picture is black: all that is in view faces away from d (direct, line 3); turn the \
-                 direction of d (direct, line 3), or add a light  [away.xml:3:";
+    let cause = "the picture is black: everything in view faces away from d (direct, line 3); turn \
+                 the direction of d (direct, line 3), or add a light  [away.xml:3:";
     for line in [
         "check away.xml",
         "render away.xml -o a.png",
@@ -110,6 +110,11 @@ fn the_cause_of_a_black_picture_is_named() {
         let notes = notes(&place, line);
         assert!(notes.len() == 1 && notes[0].contains(cause), "{notes:?}");
     }
+    place.write("behind.ray", ball("spp 1", "0 0 -9 1 1 1"));
+    let cause = "the picture is black: everything in view faces away from light 1 (line 3); move \
+                 light 1 (line 3) to the camera's side, or add a light  [";
+    let found = notes(&place, "render behind.ray -o a.png");
+    assert!(found.len() == 1 && found[0].contains(cause), "{found:?}");
     place.write("in.ray", ball("spp 1", "0 .5 0 1 1 1"));
     let warning =
         "in.ray:3:9: light 1 is inside object 1 (sphere), which is opaque: the picture is black";
@@ -169,7 +174,7 @@ fn nothing_is_named_that_does_not_help() {
     let wall = "// view: eye 0 0 9 size 80 60 fov 3\n0 0 0 1 0 0 9 9 9 9\n\
                 1 box -9 -9 -1  1 0 0  0 1 0  0 0 1  18 18 1  0 0 0 .7 .7 .7  0 0 0 1  0 0 1\n";
     place.write("wall.ray", wall);
-    let expected = "more than half of the picture is above 1; no single render setting mends that";
+    let expected = "more than half of the picture is above 1; no single render setting fixes that";
     assert_eq!(notes(&place, "render wall.ray -o a.png"), [expected]);
     assert_eq!(
         notes(&place, "check wall.ray"),

@@ -93,9 +93,9 @@ fn a_scene_is_traced_at_the_size_of_the_picture() {
     );
     let assumed = |picture: &str, size: &str, spp: u32| {
         format!(
-            "note: {picture} does not say how it was made: ball.ray is traced with size {size}, depth \
-             8, seed 0, integrator whitted, filter box, transfer linear, exposure 0, falloff none, \
-             gloss none, spp {spp}; options such as --spp change that\n"
+            "note: {picture} records no settings: ball.ray is traced with size {size}, depth 8, seed \
+             0, integrator whitted, filter box, transfer linear, exposure 0, falloff none, gloss \
+             none, spp {spp}; options such as --spp change them\n"
         )
     };
     let its_size = "note: ball.ray is traced at 16x12, the size of the picture; its own is 8x6\n";

@@ -151,7 +151,8 @@ fn the_settings_used_are_said() {
     place.write("dim.ray", BALL.replace("1 1 1\n1 0 9", ".5 .5 .5\n1 0 9"));
     let rest =
         "integrator whitted, filter box, transfer linear, exposure 0, falloff none, gloss none";
-    let recorded = "is traced as a.png says that it was made, where no option says otherwise";
+    let recorded =
+        "is traced with the settings recorded in a.png, except where options override them";
     for (words, code, expected) in [
         (
             "ball.ray a.png",
@@ -167,8 +168,8 @@ fn the_settings_used_are_said() {
             "a.bmp ball.ray",
             1,
             format!(
-                "note: a.bmp does not say how it was made: ball.ray is traced with size 8x6, depth 8, \
-                 seed 0, {rest}, spp 16; options such as --spp change that\n"
+                "note: a.bmp records no settings: ball.ray is traced with size 8x6, depth 8, seed 0, \
+                 {rest}, spp 16; options such as --spp change them\n"
             ),
         ),
     ] {
@@ -218,19 +219,19 @@ fn what_cannot_be_used_of_a_record_is_said() {
         ),
         ("view own", "view target 0 0 5", Some("view target 0 0 5")),
         ("scene 0", "scene \x1b]0;x\x07\nnew 1", Some("new 1")),
-        ("seed 7\n", "", Some("no seed")),
+        ("seed 7\n", "", Some("seed is missing")),
         (
             "falloff none\ngloss none\nspp 4\n",
             "",
-            Some("no falloff, no gloss, no spp"),
+            Some("falloff is missing, gloss is missing, spp is missing"),
         ),
-        ("version 1", &huge, Some("x…, no version")),
+        ("version 1", &huge, Some("x…, version is missing")),
     ] {
         place.write("a.png", forged(&WHOLE.replacen(from, to, 1)));
         let ran = place.run("compare --tolerance 255 ball.ray a.png");
         let notes = String::from_utf8(ran.stderr).expect("text");
         assert_eq!(ran.status.code(), Some(0), "{to:.60}: {notes}");
-        let told = "note: a.png: not used of what it says of itself: ";
+        let told = "note: problems in the record of a.png are ignored: ";
         let found = notes.lines().find_map(|line| line.strip_prefix(told));
         let found = found.map(|found| found.replace(&"x".repeat(40), "x"));
         assert_eq!(found.as_deref(), unused, "{notes}");
@@ -238,7 +239,7 @@ fn what_cannot_be_used_of_a_record_is_said() {
     // A text that is no record at all says nothing.
     place.write("a.png", forged("\u{e9}\n\n\n"));
     let notes = place.stderr("compare --tolerance 255 ball.ray a.png", 0);
-    assert!(notes.contains("note: a.png does not say how"), "{notes}");
+    assert!(notes.contains("note: a.png records no settings"), "{notes}");
 }
 
 /// In the interface a picture is compared in the same way.

@@ -150,10 +150,7 @@ fn forged_origins_control_no_terminal() {
         forged(&format!("version 1\nscene 0\nnew 1\n{origin}")),
     );
     let said = place.stderr("show b.png", 0);
-    assert_eq!(
-        said,
-        "note: b.png: not understood of what it says of itself: new 1\n"
-    );
+    assert_eq!(said, "note: b.png: problems in its record: new 1\n");
     let (_, shown) = place.shown("b.png");
     assert!(shown.ends_with("spp         1\n"), "{shown}");
 }
@@ -277,12 +274,16 @@ fn an_export_is_the_file_of_a_render() {
 fn pictures_that_say_nothing_are_refused() {
     let place = Place::new();
     place.stderr("render ball.ray -o a.bmp --spp 1", 0);
+    place.write("text.png", "a text");
+    place.write("silent.png", forged(""));
     place.write("bad.png", b"\x89PNG\r\n\x1a\nnothing");
     for (picture, code, expected) in [
+        ("a.bmp", 65, "a.bmp is not a PNG or EXR file"),
+        ("text.png", 65, "text.png is not a PNG or EXR file"),
         (
-            "a.bmp",
+            "silent.png",
             65,
-            "a.bmp does not say what it is made from: only PNG and EXR do",
+            "silent.png does not say what it is made from\n",
         ),
         ("bad.png", 65, "bad.png is not a valid picture: "),
         ("none.png", 66, "none.png: no such file"),

@@ -186,7 +186,7 @@ fn a_picture_that_is_alike_all_over_is_mended_by_no_setting() {
         found.unwrap_or_default().to_owned()
     };
     let none =
-        "note: more than half of the picture is above 1; no single render setting mends that";
+        "note: more than half of the picture is above 1; no single render setting fixes that";
     assert_eq!(said(""), none);
     assert_eq!(said("--depth 2"), "");
     assert_eq!(said("--integrator whitted --exposure 3"), none);

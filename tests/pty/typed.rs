@@ -208,7 +208,7 @@ const MORE: u64 = 16;
 #[cfg(target_os = "linux")]
 #[test]
 fn a_signal_does_not_wait_for_a_flood() {
-    const FULL: &str = "a line holds 4096 characters at most";
+    const FULL: &str = "a line is limited to 4096 characters";
     for (opening, flood, sign) in [
         ("\rji", "1", FULL),
         (":", "l", FULL),

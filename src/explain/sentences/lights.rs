@@ -49,8 +49,8 @@ impl Case<'_> {
                 } else {
                     let share = percent(*spot);
                     format!(
-                        "at the edge of the cone of {light_name}: {angle}° off its direction leave \
-                         {share}"
+                        "at the edge of the cone of {light_name}: {angle}° off its direction, \
+                         which leaves {share}"
                     )
                 };
                 let mut sentence = self.sentence("outside-cone", text);
@@ -70,7 +70,7 @@ impl Case<'_> {
                      normal faces the light"
                 );
                 let mut sentence = self.sentence("facet", text);
-                sentence.help = Some("a finer mesh has such facets in a narrower band".to_owned());
+                sentence.help = Some("a finer mesh narrows the band of such facets".to_owned());
                 self.about(names.object_node(*object), &[], sentence)
             }
             Verdict::AtTheLight { light, object } => {
@@ -202,7 +202,7 @@ impl Case<'_> {
         };
         let mut sentence = self.sentence("shadow", text);
         let (_, verb) = self.places(light);
-        sentence.help = Some(format!("{verb} the light, or move what is between"));
+        sentence.help = Some(format!("{verb} the light, or what is in between"));
         self.about(node, &[], sentence)
     }
 

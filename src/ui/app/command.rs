@@ -149,7 +149,7 @@ const TABLE: &[CommandRow] = &[
     row(&["new"], A::Language(C::New), "start a new scene: ray, dat or xml"),
     row(&["recent"], A::Nothing(C::Recent), "list recently used scenes"),
     row(&["history", "undolist"], A::Nothing(C::History), "show the undo history as pictures"),
-    row(&["export"], A::Picture(|order| C::Export(order, Asking::No)), "export a picture of what is shown, or in SEQUENCE all frames"),
+    row(&["export"], A::Picture(|order| C::Export(order, Asking::No)), "export the picture, in SEQUENCE all frames"),
     row(&["export!"], A::Picture(|order| C::Export(order, Asking::Forced)), "export, overwriting an existing file"),
     row(&["export cancel"], A::Nothing(C::ExportCancel), "cancel the export"),
     row(&["render"], A::Nothing(C::Render), "trace at full size"),

@@ -110,7 +110,7 @@ impl App {
             }
             // Git would take it for an option.
             (Some(revision), _) if revision.starts_with('-') => {
-                self.overlays.fail(format!("{revision} is no revision"));
+                self.overlays.fail(format!("{revision} is not a revision"));
                 return Vec::new();
             }
             (Some(revision), Some(own)) => (

@@ -137,9 +137,9 @@ impl App {
         let helps = match fault {
             Fault::Black(_) => cure.unwrap_or_else(|| self.reason_of_black()),
             Fault::Burnt => {
-                let cure = cure.unwrap_or_else(|| "no single render setting mends that".to_owned());
+                let cure = cure.unwrap_or_else(|| "no single render setting fixes that".to_owned());
                 let darker = self.key_for(Action::Expose(-1));
-                format!("{cure}, {darker} darkens the screen only")
+                format!("{cure}; {darker} darkens only the screen")
             }
             // The text's warning says it all.
             Fault::Unlit | Fault::WithoutPhotons => {
@@ -160,7 +160,7 @@ impl App {
             Some(Fault::Black(_)) => self.reason_of_black(),
             Some(Fault::Burnt) => {
                 let darker = self.key_for(Action::Expose(-1));
-                format!("{darker} darkens the screen only")
+                format!("{darker} darkens only the screen")
             }
             // The text's warning says it all.
             Some(Fault::Unlit | Fault::WithoutPhotons) | None => {

@@ -30,7 +30,7 @@ impl App {
                 Polled::Assets => "the scene's files".to_owned(),
                 Polled::Track => "the track".to_owned(),
             };
-            let words = format!("{reason}: polling {files} for changes instead");
+            let words = format!("{reason}: polling {files} instead");
             self.overlays
                 .complain(About::Polling(what), Severity::Warning, &words);
         }

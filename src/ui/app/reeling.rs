@@ -77,7 +77,7 @@ impl App {
         let form = ReelForm::of_path(path).map_err(|reason| {
             let keep = self.keymap.key(Context::In(Mode::Sequence), Action::Accept);
             let keep = keep.map_or_else(String::new, |key| {
-                format!("; {key} keeps this frame, to export it alone")
+                format!("; to export this frame alone, press {key} first")
             });
             format!("{reason}{keep}")
         })?;
@@ -139,7 +139,7 @@ pub(super) fn names_sequence(path: &Path, play: &str) -> Option<String> {
     let is_pattern = matches!(form, ReelForm::Pictures(..));
     (is_pattern || !is_gif).then(|| {
         format!(
-            "{} names a sequence: {play} plays the track, and there :export exports its frames",
+            "{} names a sequence: press {play}, then :export",
             path.display()
         )
     })

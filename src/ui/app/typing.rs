@@ -171,7 +171,7 @@ impl App {
             Some((input, false)) => input.value().chars().count() + more <= line::LONGEST,
         };
         if !has_room {
-            let words = format!("a line holds {} characters at most", line::LONGEST);
+            let words = format!("a line is limited to {} characters", line::LONGEST);
             self.overlays.warn(words);
         }
         has_room

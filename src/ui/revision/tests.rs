@@ -63,17 +63,17 @@ fn complaints_of_git_are_explained() {
         (
             "fatal: transport 'file' not allowed\nfatal: not a tree object\n",
             "HEAD",
-            "HEAD is not a commit, or is missing from the repository: nothing is fetched",
+            "HEAD is not a commit, or is missing from the repository: it is not fetched",
         ),
         (
             "fatal: transport 'ext' not allowed\n",
             "HEAD",
-            "a.ray in HEAD is missing from the repository, and nothing is fetched",
+            "a.ray in HEAD is missing from the repository: it is not fetched",
         ),
         (
             "error: Could not read 786e4612a214aa879ee310c3acbc14ea4146c1dc\n",
             "HEAD",
-            "a.ray in HEAD is missing from the repository, and nothing is fetched",
+            "a.ray in HEAD is missing from the repository: it is not fetched",
         ),
         (
             "fatal: detected dubious ownership in repository at '/x'\nTo add\n",
@@ -124,13 +124,13 @@ fn what_is_no_file_of_the_revision_is_said() {
     commit(folder.path());
     fs::write(at("new.ray"), "").expect("the folder is new");
     for (name, reason) in [
-        ("new.ray", "does not exist: git does not track it there"),
-        ("folder.ray", "is not a file"),
+        ("new.ray", "is not in HEAD"),
+        ("folder.ray", "in HEAD is not a file"),
         #[cfg(unix)]
-        ("link.ray", "is not a file"),
-        ("bytes.ray", "is not UTF-8 text"),
+        ("link.ray", "in HEAD is not a file"),
+        ("bytes.ray", "in HEAD is not UTF-8 text"),
     ] {
-        let said = format!("{name} in HEAD {reason}");
+        let said = format!("{name} {reason}");
         assert_eq!(found("HEAD", &at(name)), Err(said));
     }
 }
@@ -165,7 +165,7 @@ fn the_beginning_of_a_long_scene_decides_whether_the_rest_is_read() {
 fn a_scene_that_is_too_long_is_not_read() {
     for (bytes, is_read) in [(MOST, true), (MOST + 1, false), (u64::MAX, false)] {
         let entry = format!("100644 blob 1234 {bytes}\ta.ray\0");
-        let blob = Blob::listed(&entry, "a.ray in HEAD").expect("a file");
+        let blob = Blob::listed(&entry, "a.ray", "HEAD").expect("a file");
         assert_eq!(blob.bytes, bytes);
         let checked = check_size(bytes, "a.ray in HEAD");
         let is_too_long = |reason: &String| reason.starts_with("a.ray in HEAD is ");

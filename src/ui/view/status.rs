@@ -176,9 +176,9 @@ fn segments(app: &App, glyphs: Glyphs) -> Vec<Segment> {
         say(3, text, theme::WARNING);
     }
     if let Some(export) = &app.jobs.export {
-        let frame = export.reel.map_or_else(String::new, |reel| {
-            format!("frame {}/{} ", reel.frame, reel.count.saturating_sub(1))
-        });
+        let frame = export
+            .reel
+            .map_or_else(String::new, |reel| format!("frame {} ", reel.place()));
         let queued = match app.jobs.queued() {
             0 => String::new(),
             queued => format!(", {queued} more queued"),

@@ -162,7 +162,7 @@ fn what_cannot_be_compared_is_refused_with_a_reason() {
         (":compare<Enter>", nothing),
         ("A", "cannot pin the picture: it is still being traced"),
         ("6A", "a wireframe cannot be pinned: 1 shows a picture"),
-        (":compare git --help<Enter>", "--help is no revision"),
+        (":compare git --help<Enter>", "--help is not a revision"),
     ] {
         let mut app = open(SCENE);
         let effects = press(&mut app, keys);
@@ -309,7 +309,7 @@ fn of_a_record_that_cannot_be_believed_the_rest_is_used() {
     for (record, settings) in [
         (
             "spp 0\ndepth 3\nnew 1\n",
-            "16 spp, whitted, depth 3; not used: spp 0, new 1, no version and 13 more",
+            "16 spp, whitted, depth 3; not used: spp 0, new 1, version is missing and 13 more",
         ),
         ("nonsense", "16 spp, whitted, depth 8; not used: nonsense"),
     ] {

@@ -63,7 +63,7 @@ const BURNT: &str = "more than half of the picture is above 1: ";
 fn a_picture_that_is_too_bright_says_so_once() {
     let (mut app, effects) = opened(&faded());
     let [bright, brighter] =
-        [-1, -2].map(|stops| format!("{BURNT}C sets exposure {stops}, < darkens the screen only"));
+        [-1, -2].map(|stops| format!("{BURNT}C sets exposure {stops}; < darkens only the screen"));
     let again = format!("no errors or warnings in the text, but {bright}");
     let trace = job(&effects, Target::Preview).expect("a preview").clone();
     press(&mut app, "<Esc>");
@@ -168,7 +168,7 @@ fn where_no_trial_helps_that_is_said() {
     // Above 1 in three quarters, whatever the exposure: infinitely bright.
     let (mut app, _) = cured("falloff square", |_| f32::INFINITY);
     let said = shown(&app);
-    let none = format!("{BURNT}no single render setting mends that,");
+    let none = format!("{BURNT}no single render setting fixes that;");
     assert!(said.starts_with(&none), "{said}");
     press(&mut app, "<Esc>C");
     assert_eq!(shown(&app), "there is no render setting to suggest");
@@ -205,7 +205,7 @@ fn a_picture_too_dark_to_be_exported_says_which_exposure_helps() {
         (1e-4, "the picture is black: C sets exposure 13"),
         (
             0.01,
-            "the picture is black (at most 3 of 255): C sets exposure 6.5",
+            "the picture is almost black (brightest value 3 of 255): C sets exposure 6.5",
         ),
         (0.07, ""),
     ] {

@@ -3,7 +3,7 @@
 use super::*;
 use crate::ui::app::line::LONGEST;
 
-const FULL: &str = "a line holds 4096 characters at most";
+const FULL: &str = "a line is limited to 4096 characters";
 
 /// The line that keys are typed into.
 fn line(app: &App) -> &str {

@@ -137,7 +137,7 @@ fn a_message_that_files_are_polled_lasts_until_they_are_watched() {
     let mut app = open(SCENE);
     let reason = "the limit is reached (os error 24)";
     app.update(Msg::Polled(Polled::Scene, Some(reason.to_owned())));
-    let said = "the limit is reached: polling scene.ray for changes instead";
+    let said = "the limit is reached: polling scene.ray instead";
     assert_eq!(shown(&app), said);
     app.update(Msg::Polled(Polled::Track, Some(reason.to_owned())));
     press(&mut app, "jk");

@@ -78,7 +78,7 @@ fn all_frames_of_the_text_without_a_frame_are_exported() {
 
 #[test]
 fn what_no_sequence_can_be_written_to_is_refused_with_the_way_out() {
-    let keep = "; Enter keeps this frame, to export it alone";
+    let keep = "; to export this frame alone, press Enter first";
     for (typed, reason) in [
         (
             "a.png",
@@ -106,9 +106,7 @@ fn what_no_sequence_can_be_written_to_is_refused_with_the_way_out() {
         let mut app = open(SCENE);
         press(&mut app, &format!(":export {typed}<Enter>"));
         assert!(app.jobs.export.is_none());
-        let expected = format!(
-            "{typed} names a sequence: T plays the track, and there :export exports its frames"
-        );
+        let expected = format!("{typed} names a sequence: press T, then :export");
         assert_eq!(words(&app), expected);
     }
 }
@@ -121,6 +119,8 @@ fn progress_covers_all_frames_and_the_end_is_said() {
     app.update(Msg::Filmed(ExportId(1), at(4)));
     let export = app.jobs.export.as_ref().expect("it goes on");
     assert!((export.done() - 0.5).abs() < 1e-9);
+    let place = |number| at(number).place();
+    assert_eq!([0, 4, 8].map(place), ["1/9", "5/9", "9/9"]);
     app.update(exported(ExportId(1), "a.gif", None));
     assert_eq!(words(&app), "wrote a.gif: 9 frames, 32×8, 2 spp");
     assert!(app.jobs.export.is_none());
