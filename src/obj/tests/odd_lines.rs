@@ -327,7 +327,10 @@ fn a_line_of_a_library_that_is_wrong_costs_itself() {
         assert!(a.exponent == 0.0 && a.illumination == 2, "{line}");
         assert_eq!(a.diffuse_map, None, "{line}");
     }
-    // None of these would change the picture.
+}
+
+#[test]
+fn what_would_not_change_the_picture_is_ignored_silently() {
     let others = "newmtl a\nKa x\nKe 0\nd 1\nd -halo 1.0\nTr 0\nbump\nKd spectral x.rfl 1\nKs xyz 1 1\n\
                   map_Kd -bm 1 -mm 0 1 -t 0 0 0 -blendu on -texres 9 a.png\nsharpness 3\n";
     let mesh = format!("mtllib x.mtl\n{SQUARE}f 1 2 3");
