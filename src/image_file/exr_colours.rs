@@ -1,14 +1,18 @@
 //! Reads the colours of `OpenEXR` pictures whose channels are not called R, G and B: those of the first
 //! layer that has colours, or the luminance, as grey.
 
+use std::collections::HashMap;
 use std::io::{BufReader, Read, Seek};
 
-use exr::block;
+use exr::block::{self, reader::Reader};
 use exr::error::Error;
+use exr::image::read::image::ReadLayers;
+use exr::image::read::layers::ReadFirstValidLayer;
 use exr::image::read::specific_channels::ReadSpecificChannel;
+use exr::image::{Layer, SpecificChannels};
 use exr::meta::attribute::{Compression, Text};
 use exr::meta::header::Header;
-use exr::prelude::{ReadChannels, ReadLayers, Vec2, read};
+use exr::prelude::{Vec2, read};
 use image::{DynamicImage, Rgb32FImage};
 
 use super::unreadable::{MAX_MEMORY, Unreadable, check_room, check_size, unsupported};
@@ -16,6 +20,12 @@ use crate::scene::{Image, Size};
 
 /// The name of the format in messages.
 const NAME: &str = "OpenEXR";
+
+/// The most channels of a part of a picture; the largest have some hundreds.
+const MAX_CHANNELS: usize = 1024;
+
+/// The channels of a layer by their names in it: of a layer `beauty`, R is `beauty.R`.
+type Names<'h> = HashMap<String, &'h Text>;
 
 /// The channels that hold the colours of a picture.
 enum Channels {
@@ -64,32 +74,31 @@ pub(super) fn read_colours(
             pixels[3 * at..][..3].copy_from_slice(&colour);
         }
     };
+    let black = move || vec![0_f32; values];
     let levels = read().no_deep_data().largest_resolution_level();
     let channel = levels.specific_channels();
     let pixels = match channels {
         Channels::Plain => return Ok(None),
-        Channels::Layer([red, green, blue]) => channel
-            .required(red)
-            .required(green)
-            .required(blue)
-            .collect_pixels(
-                move |_, _| vec![0_f32; values],
-                move |pixels, at, (r, g, b): (f32, f32, f32)| put(pixels, at, [r, g, b]),
-            )
-            .first_valid_layer()
-            .all_attributes()
-            .from_chunks(reader)
-            .map(|image| image.layer_data.channel_data.pixels),
-        Channels::Luminance(name) => channel
-            .required(name)
-            .collect_pixels(
-                move |_, _| vec![0_f32; values],
+        Channels::Layer([red, green, blue]) => {
+            let channels = channel
+                .required(red)
+                .required(green)
+                .required(blue)
+                .collect_pixels(
+                    move |_, _| black(),
+                    move |pixels, at, (r, g, b): (f32, f32, f32)| {
+                        put(pixels, at, [r, g, b]);
+                    },
+                );
+            collected(channels, reader)
+        }
+        Channels::Luminance(name) => {
+            let channels = channel.required(name).collect_pixels(
+                move |_, _| black(),
                 move |pixels, at, (y,): (f32,)| put(pixels, at, [y; 3]),
-            )
-            .first_valid_layer()
-            .all_attributes()
-            .from_chunks(reader)
-            .map(|image| image.layer_data.channel_data.pixels),
+            );
+            collected(channels, reader)
+        }
     };
     let pixels = pixels.map_err(|error| unreadable(&error))?;
     let image = Rgb32FImage::from_raw(size.width, size.height, pixels);
@@ -102,56 +111,72 @@ pub(super) fn read_colours(
         .ok_or_else(|| Unreadable::Broken("it has no pixels".to_owned()))
 }
 
-/// The part of a picture that has colours, and the channels that hold them.
-fn chosen(headers: &[Header]) -> Result<(&Header, Channels), Unreadable> {
-    let flat = || headers.iter().filter(|header| !header.deep);
-    let has = |header: &Header, name: &Text| header.channels.find_index_of_channel(name).is_some();
-    let plain = ["R", "G", "B"].map(Text::from);
-    if let Some(header) = flat().find(|header| plain.iter().all(|name| has(header, name))) {
-        return Ok((header, Channels::Plain));
-    }
-    let layers = || flat().flat_map(|header| layers(header).map(move |layer| (header, layer)));
-    let channel = |layer: &str, name: &str| Text::from(format!("{layer}{name}").as_str());
-    for (header, layer) in layers() {
-        let names = ["R", "G", "B"].map(|name| channel(&layer, name));
-        if names.iter().all(|name| has(header, name)) {
-            return Ok((header, Channels::Layer(names)));
-        }
-    }
-    for (header, layer) in layers() {
-        let [name, red, blue] = ["Y", "RY", "BY"].map(|name| channel(&layer, name));
-        if !has(header, &name) {
-            continue;
-        }
-        if has(header, &red) || has(header, &blue) {
-            return Err(unsupported(NAME, "luminance and chroma"));
-        }
-        return Ok((header, Channels::Luminance(name)));
-    }
-    Err(unsupported(
-        NAME,
-        if headers.iter().any(|header| header.deep) {
-            "deep pixels"
-        } else {
-            "no channels R, G, B or Y"
-        },
-    ))
+/// The pixels that the channels of a part collect.
+fn collected<C, D>(channels: C, reader: Reader<impl Read + Seek>) -> Result<Vec<f32>, Error>
+where
+    for<'s> ReadFirstValidLayer<C>: ReadLayers<'s, Layers = Layer<SpecificChannels<Vec<f32>, D>>>,
+{
+    let part = ReadFirstValidLayer {
+        read_channels: channels,
+    };
+    let image = part.all_attributes().from_chunks(reader)?;
+    Ok(image.layer_data.channel_data.pixels)
 }
 
-/// What stands before the names of channels, such as `beauty.`: first nothing, then each layer in the
-/// order of its first channel.
-fn layers(header: &Header) -> impl Iterator<Item = String> {
-    let names = header.channels.list.iter();
-    let names = names.map(|channel| channel.name.to_string());
-    let mut layers = vec![String::new()];
-    for name in names {
-        if let Some(dot) = name.rfind('.')
-            && !layers.iter().any(|layer| *layer == name[..=dot])
-        {
-            layers.push(name[..=dot].to_owned());
-        }
+/// The part of a picture that has colours, and the channels that hold them.
+fn chosen(headers: &[Header]) -> Result<(&Header, Channels), Unreadable> {
+    let is_over = |header: &Header| MAX_CHANNELS < header.channels.list.len();
+    if headers.iter().any(is_over) {
+        let feature = format!("more than {MAX_CHANNELS} channels");
+        return Err(unsupported(NAME, &feature));
     }
-    layers.into_iter()
+    let flat = headers.iter().filter(|header| !header.deep);
+    let flat: Vec<_> = flat.map(|header| (header, layers(header))).collect();
+    let is_plain = |layers: &[Names<'_>]| layers.first().and_then(colours).is_some();
+    if let Some((header, _)) = flat.iter().find(|(_, layers)| is_plain(layers)) {
+        return Ok((header, Channels::Plain));
+    }
+    let layers = || {
+        let parts = flat.iter();
+        parts.flat_map(|(header, layers)| layers.iter().map(move |layer| (*header, layer)))
+    };
+    if let Some((header, names)) =
+        layers().find_map(|(header, layer)| Some((header, colours(layer)?)))
+    {
+        return Ok((header, Channels::Layer(names.map(Text::clone))));
+    }
+    let luminance = layers().find_map(|(header, layer)| Some((header, layer, *layer.get("Y")?)));
+    match luminance {
+        Some((_, layer, _)) if layer.contains_key("RY") || layer.contains_key("BY") => {
+            Err(unsupported(NAME, "luminance and chroma"))
+        }
+        Some((header, _, name)) => Ok((header, Channels::Luminance(name.clone()))),
+        None if headers.iter().any(|header| header.deep) => Err(unsupported(NAME, "deep pixels")),
+        None => Err(unsupported(NAME, "no channels R, G, B or Y")),
+    }
+}
+
+/// The channels R, G and B of a layer, if it has them all.
+fn colours<'h>(layer: &Names<'h>) -> Option<[&'h Text; 3]> {
+    let channel = |name| layer.get(name).copied();
+    Some([channel("R")?, channel("G")?, channel("B")?])
+}
+
+/// The layers of a part, each named by what stands before the last dot of its channels: first the one
+/// without a name, then each in the order of its first channel.
+fn layers(header: &Header) -> Vec<Names<'_>> {
+    let mut layers = vec![Names::new()];
+    let mut places = HashMap::from([(String::new(), 0)]);
+    for channel in &header.channels.list {
+        let name = channel.name.to_string();
+        let (layer, own) = name.split_at(name.rfind('.').map_or(0, |dot| dot + 1));
+        let place = *places.entry(layer.to_owned()).or_insert(layers.len());
+        if place == layers.len() {
+            layers.push(Names::new());
+        }
+        layers[place].insert(own.to_owned(), &channel.name);
+    }
+    layers
 }
 
 /// Translates an error of the decoder.

@@ -59,6 +59,10 @@ fn an_exr_has_its_colours_in_the_first_place_that_holds_any() {
         (&[("Y", red)], &grey),
         (&[("Y", red), ("A", other)], &grey),
         (&[("a.Z", other), ("b.Y", red)], &grey),
+        (
+            &[("a.R", other), ("b.G", other), ("c.B", other), ("d.Y", red)],
+            &grey,
+        ),
     ] {
         let image =
             decode(&exr_of(channels)).unwrap_or_else(|error| panic!("{channels:?}: {error}"));
@@ -75,6 +79,11 @@ fn what_an_exr_has_that_cannot_be_read_is_named() {
         bytes[at.expect("it has it") + name.len() + 4] = number;
         bytes
     };
+    let many = |count: usize| {
+        let names: Vec<_> = (0..count).map(|number| format!("{number}.A")).collect();
+        let channels = names.iter().map(|name| (name.as_str(), [0.0; 2]));
+        exr_of(&channels.collect::<Vec<_>>())
+    };
     for (bytes, feature) in [
         (compressed(10), "HTJ2K compression"),
         (compressed(11), "HTJ2K compression"),
@@ -84,6 +93,8 @@ fn what_an_exr_has_that_cannot_be_read_is_named() {
             "luminance and chroma",
         ),
         (exr_of(&[("Z", [0.0; 2])]), "no channels R, G, B or Y"),
+        (many(1024), "no channels R, G, B or Y"),
+        (many(1025), "more than 1024 channels"),
     ] {
         let refused = decode(&bytes).expect_err(feature);
         let expected = format!("is an unsupported kind of OpenEXR ({feature})");
