@@ -10,24 +10,24 @@ use glam::DVec2;
 /// The corners in a leaf of the tree.
 const LEAF: usize = 8;
 
-/// The work allowed per corner, in nodes looked at: stars, combs and spirals of 100,000 corners take a
-/// third of it. What is left of a polygon that takes more, which crosses itself, is cut without looking.
-const EFFORT: usize = 1 << 7;
-
-/// Small polygons may take as much as those of this many corners.
-const SMALL: usize = 100;
-
 /// A polygon being cut.
 struct Outline<'c> {
     corners: &'c [DVec2],
     /// The neighbours of each corner that is left.
     before: Vec<u32>,
     after: Vec<u32>,
-    /// Whether a corner is left and not convex.
-    is_open: Vec<bool>,
-    /// The corners in the order of the leaves, and the place of each in this order.
-    order: Vec<u32>,
+    /// The corners that may be cut, in a ring with its start: those that are left and convex, or where a
+    /// neighbour is. Each has the number of the one before it, and of the one after it.
+    ring: Vec<[u32; 2]>,
+    is_candidate: Vec<bool>,
+    candidates: usize,
+    /// A corner that is left.
+    last: u32,
+    /// The place of each corner in the order of the leaves.
     rank: Vec<u32>,
+    /// In this order: the corners, and whether each is left and not convex.
+    ordered: Vec<DVec2>,
+    is_open: Vec<bool>,
     /// The tree in the order of a binary heap: node i has the children 2i and 2i + 1.
     nodes: Vec<Node>,
     leaves: usize,
@@ -47,32 +47,43 @@ struct Node {
 /// The triangles of a polygon of at least three corners, listed counter-clockwise: two fewer than
 /// corners, each counter-clockwise. A polygon that touches or crosses itself gives as many, of which
 /// some may overlap.
-pub(super) fn triangles(corners: &[DVec2]) -> Vec<[u32; 3]> {
-    let mut outline = Outline::new(corners);
+///
+/// `effort` is the greatest number of nodes to look at; what is left of it is returned there. Once it is
+/// spent, the rest is cut without looking.
+pub(super) fn triangles(corners: &[DVec2], effort: &mut usize) -> Vec<[u32; 3]> {
+    let mut outline = Outline::new(corners, *effort);
     let mut triangles = Vec::with_capacity(corners.len() - 2);
     // Where a fan would begin.
-    let mut tip = 1;
+    let mut tip = outline.candidate(0);
     let mut failed = 0;
     let mut left = corners.len();
-    while 3 < left {
-        let triangle = outline.around(tip);
-        tip = triangle[2];
+    while 3 < left && 0 < outline.effort && 0 < outline.candidates {
         // If there is no ear, the outline crosses itself.
-        if failed == left || outline.effort == 0 || outline.is_ear(triangle) {
-            triangles.push(triangle);
-            outline.cut(triangle);
+        if failed == outline.candidates || outline.is_ear(tip) {
+            triangles.push(outline.around(tip));
+            tip = outline.cut(tip);
             left -= 1;
             failed = 0;
         } else {
+            tip = outline.candidate(tip);
             failed += 1;
         }
+    }
+    *effort = outline.effort;
+    let mut tip = outline.last;
+    while 3 < left {
+        let triangle = outline.around(tip);
+        triangles.push(triangle);
+        outline.link(triangle);
+        tip = triangle[2];
+        left -= 1;
     }
     triangles.push(outline.around(tip));
     triangles
 }
 
 impl<'c> Outline<'c> {
-    fn new(corners: &'c [DVec2]) -> Self {
+    fn new(corners: &'c [DVec2], effort: usize) -> Self {
         let count = corners.len() as u32;
         let leaves = corners.len().div_ceil(LEAF).next_power_of_two();
         let mut order: Vec<_> = (0..count).collect();
@@ -90,15 +101,23 @@ impl<'c> Outline<'c> {
             corners,
             before: (0..count).map(|at| (at + count - 1) % count).collect(),
             after: (0..count).map(|at| (at + 1) % count).collect(),
-            is_open: vec![false; corners.len()],
-            order,
+            ring: vec![[count; 2]; corners.len() + 1],
+            is_candidate: vec![false; corners.len()],
+            candidates: 0,
+            last: 1,
             rank,
+            ordered: order
+                .iter()
+                .map(|&corner| corners[corner as usize])
+                .collect(),
+            is_open: vec![false; corners.len()],
             nodes: vec![nothing; 2 * leaves],
             leaves,
-            effort: EFFORT * corners.len().max(SMALL),
+            effort,
         };
+        let start = count;
         for corner in 0..count {
-            outline.judge(corner);
+            outline.judge(corner, start);
         }
         outline
     }
@@ -113,20 +132,55 @@ impl<'c> Outline<'c> {
         triangle.map(|corner| self.corners[corner as usize])
     }
 
-    /// Notes whether a corner that is left is convex.
-    fn judge(&mut self, corner: u32) {
-        let is_open = !is_left_turn(self.places(self.around(corner)));
+    /// The next corner that may be cut after one, in the order of the outline.
+    fn candidate(&self, after: u32) -> u32 {
+        let start = self.corners.len() as u32;
+        match self.ring[after as usize][1] {
+            next if next == start => self.ring[next as usize][1],
+            next => next,
+        }
+    }
+
+    /// Notes what a corner is that is left. If it may be cut, it gets its place in the ring before
+    /// another.
+    fn judge(&mut self, corner: u32, follower: u32) {
+        let places = self.places(self.around(corner));
+        let [before, place, after] = places;
+        let is_open = !is_left_turn(places);
         self.note(corner, is_open);
+        // A corner where a neighbour is covers nothing.
+        let may_be_cut = !is_open || place == before || place == after;
+        if self.is_candidate[corner as usize] == may_be_cut {
+            return;
+        }
+        if may_be_cut {
+            self.is_candidate[corner as usize] = true;
+            self.candidates += 1;
+            let before = self.ring[follower as usize][0];
+            self.ring[corner as usize] = [before, follower];
+            self.ring[before as usize][1] = corner;
+            self.ring[follower as usize][0] = corner;
+        } else {
+            self.leave_ring(corner);
+        }
+    }
+
+    fn leave_ring(&mut self, corner: u32) {
+        self.is_candidate[corner as usize] = false;
+        self.candidates -= 1;
+        let [before, after] = self.ring[corner as usize];
+        self.ring[before as usize][1] = after;
+        self.ring[after as usize][0] = before;
     }
 
     fn note(&mut self, corner: u32, is_open: bool) {
-        let corner = corner as usize;
-        if self.is_open[corner] == is_open {
+        let rank = self.rank[corner as usize] as usize;
+        if self.is_open[rank] == is_open {
             return;
         }
-        self.is_open[corner] = is_open;
-        let place = self.corners[corner];
-        let mut number = self.leaves + self.rank[corner] as usize / LEAF;
+        self.is_open[rank] = is_open;
+        let place = self.ordered[rank];
+        let mut number = self.leaves + rank / LEAF;
         while 0 < number {
             let node = &mut self.nodes[number];
             if is_open {
@@ -140,24 +194,39 @@ impl<'c> Outline<'c> {
         }
     }
 
-    /// Removes the corner in the middle of a triangle.
-    fn cut(&mut self, [before, tip, after]: [u32; 3]) {
-        self.note(tip, false);
+    /// Removes the corner in the middle of a triangle from the outline.
+    fn link(&mut self, [before, _, after]: [u32; 3]) {
         self.after[before as usize] = after;
         self.before[after as usize] = before;
-        self.judge(before);
-        self.judge(after);
     }
 
-    /// Whether a triangle of three consecutive corners has an area and contains no other corner.
-    fn is_ear(&mut self, triangle: [u32; 3]) -> bool {
-        let places = self.places(triangle);
-        is_left_turn(places) && !self.is_entered(&places, 1)
+    /// Removes a corner that may be cut. Returns the next one that may be.
+    fn cut(&mut self, tip: u32) -> u32 {
+        let triangle = self.around(tip);
+        let [before, _, after] = triangle;
+        self.link(triangle);
+        self.last = after;
+        self.note(tip, false);
+        self.judge(before, tip);
+        self.judge(after, self.ring[tip as usize][1]);
+        let next = self.candidate(tip);
+        self.leave_ring(tip);
+        next
     }
 
-    /// Whether an open corner below a node lies in a triangle, and not at one of its corners.
+    /// Whether the triangle of a corner that may be cut contains no other corner.
+    fn is_ear(&mut self, tip: u32) -> bool {
+        let places = self.places(self.around(tip));
+        !is_left_turn(places) || !self.is_entered(&places, 1)
+    }
+
+    /// Whether an open corner below a node lies in a triangle, and not at one of its corners. It is said
+    /// to once the effort is spent.
     fn is_entered(&mut self, triangle: &[DVec2; 3], number: usize) -> bool {
-        self.effort = self.effort.saturating_sub(1);
+        let Some(left) = self.effort.checked_sub(1) else {
+            return true;
+        };
+        self.effort = left;
         let node = self.nodes[number];
         if node.open == 0 || !node.meets(triangle) {
             return false;
@@ -166,12 +235,11 @@ impl<'c> Outline<'c> {
             return self.is_entered(triangle, 2 * number)
                 || self.is_entered(triangle, 2 * number + 1);
         }
-        let own = self.order.chunks(LEAF).nth(number - self.leaves);
-        own.unwrap_or_default().iter().any(|&corner| {
-            let place = self.corners[corner as usize];
-            self.is_open[corner as usize]
-                && !triangle.contains(&place)
-                && is_within(place, triangle)
+        let first = LEAF * (number - self.leaves);
+        let own = first..self.ordered.len().min(first + LEAF);
+        let mut open = self.ordered[own.clone()].iter().zip(&self.is_open[own]);
+        open.any(|(place, is_open)| {
+            *is_open && !triangle.contains(place) && is_within(*place, triangle)
         })
     }
 }

@@ -1,5 +1,7 @@
 //! Polygons that are not the fans they were read as.
 
+use std::ops::Range;
+
 use glam::{DVec2, DVec3};
 use rayon::prelude::*;
 
@@ -8,6 +10,18 @@ use crate::geometry::MeshParts;
 
 /// The most polygons in a run, so that several threads look at long ones.
 const RUN: u32 = 1 << 12;
+
+/// The work allowed per corner, in nodes that the cutter looks at: stars, combs and spirals of 100,000
+/// corners take a third of it. What is left of a polygon that takes more, which crosses
+/// itself, is cut without looking.
+const EFFORT: usize = 1 << 7;
+
+/// Small polygons may take as much as those of this many corners.
+const SMALL: usize = 100;
+
+/// The work allowed for all polygons of a mesh: a few seconds. Each has the same part of it per corner, so
+/// that what one takes changes nothing about another, whichever is cut first.
+const WHOLE: usize = 1 << 25;
 
 /// A fan may leave its polygon by this fraction of the area, which rounding explains.
 const ROUNDING: f64 = 1e-9;
@@ -57,16 +71,25 @@ impl Polygons {
     /// outside of them. The indices of the mesh must exist.
     pub(super) fn reshape(&self, parts: &mut MeshParts) {
         let (positions, triangles) = (&parts.positions, &parts.triangles);
-        let patches_of = |run: &Run| {
-            let length = run.corners as usize - 2;
-            let first = run.first as usize;
-            let starts = (0..run.count as usize).map(move |number| first + number * length);
-            starts.filter_map(move |start| {
-                let cut = reshaped(positions, &triangles[start..start + length])?;
-                Some((start, cut))
-            })
+        let bent_of = |run: &Run| {
+            let is_bent =
+                |fan: &Range<usize>| View::of(positions, &triangles[fan.clone()]).is_some();
+            run.fans().filter(is_bent)
         };
-        let patches: Vec<Patch> = self.0.par_iter().flat_map_iter(patches_of).collect();
+        let bent: Vec<Range<usize>> = self.0.par_iter().flat_map_iter(bent_of).collect();
+        let all = bent.iter().map(|fan| fan.len() + 2).sum();
+        let patches = bent.into_par_iter().filter_map(|fan| {
+            let first = fan.start;
+            let fan = &triangles[fan];
+            let view = View::of(positions, fan)?;
+            let corners = corners(fan).into_iter();
+            let flat: Vec<_> = corners
+                .map(|corner| view.flat(positions[corner as usize]))
+                .collect();
+            let cut = ears::triangles(&flat, &mut effort(flat.len(), all));
+            Some((first, cut))
+        });
+        let patches: Vec<Patch> = patches.collect();
         for (first, cut) in patches {
             for list in [
                 &mut parts.triangles,
@@ -90,35 +113,62 @@ impl Run {
         let end = self.first + self.count * (self.corners - 2);
         (first, corners) == (end, self.corners) && self.count < RUN
     }
+
+    /// The triangles of each polygon.
+    fn fans(&self) -> impl Iterator<Item = Range<usize>> + use<> {
+        let (first, length) = (self.first as usize, self.corners as usize - 2);
+        let starts = (0..self.count as usize).map(move |number| first + number * length);
+        starts.map(move |start| start..start + length)
+    }
 }
 
-/// The triangles of a polygon by the numbers of its corners; `None` if its fan covers only the
-/// polygon, as it does wherever that is convex.
-fn reshaped(positions: &[DVec3], fan: &[[u32; 3]]) -> Option<Vec<[u32; 3]>> {
-    let position = |corner: u32| positions[corner as usize];
-    let origin = position(fan[0][0]);
-    let reach = |triangle: &[u32; 3]| {
-        let [_, b, c] = triangle.map(|corner| (position(corner) - origin).abs().max_element());
-        b.max(c)
-    };
-    let size = fan.iter().map(reach).fold(0.0, f64::max);
-    if size == 0.0 {
-        return None;
+/// The work allowed for a polygon, where those to be cut have `all` corners: at least what any of four
+/// corners takes.
+pub(super) fn effort(corners: usize, all: usize) -> usize {
+    let share = WHOLE as u64 * corners as u64 / all as u64;
+    (EFFORT * corners.max(SMALL)).min((share as usize).max(2 * corners))
+}
+
+/// How a polygon is seen as one of the plane.
+struct View {
+    origin: DVec3,
+    /// The greatest distance of a corner from the origin along an axis.
+    size: f64,
+    /// The normal of the polygon.
+    normal: DVec3,
+}
+
+impl View {
+    /// The view of a polygon; `None` if its fan covers only the polygon, as it does wherever that is
+    /// convex.
+    fn of(positions: &[DVec3], fan: &[[u32; 3]]) -> Option<Self> {
+        let position = |corner: u32| positions[corner as usize];
+        let origin = position(fan[0][0]);
+        let reach = |triangle: &[u32; 3]| {
+            let [_, b, c] = triangle.map(|corner| (position(corner) - origin).abs().max_element());
+            b.max(c)
+        };
+        let size = fan.iter().map(reach).fold(0.0, f64::max);
+        if size == 0.0 {
+            return None;
+        }
+        // Lengths near 1, so that no product is too large or too small.
+        let place = |corner: u32| (position(corner) - origin) / size;
+        let cross = |triangle: &[u32; 3]| place(triangle[1]).cross(place(triangle[2]));
+        // Twice the area of the polygon.
+        let normal: DVec3 = fan.iter().map(cross).sum();
+        let outside = -ROUNDING * normal.length_squared();
+        let is_covered = fan.iter().all(|part| outside <= cross(part).dot(normal));
+        (!is_covered).then_some(Self {
+            origin,
+            size,
+            normal,
+        })
     }
-    // Lengths near 1, so that no product is too large or too small.
-    let place = |corner: u32| (position(corner) - origin) / size;
-    let cross = |triangle: &[u32; 3]| place(triangle[1]).cross(place(triangle[2]));
-    // Twice the area of the polygon, along its normal.
-    let whole: DVec3 = fan.iter().map(cross).sum();
-    let outside = -ROUNDING * whole.length_squared();
-    if fan.iter().all(|part| outside <= cross(part).dot(whole)) {
-        return None;
+
+    fn flat(&self, position: DVec3) -> DVec2 {
+        along(self.normal, (position - self.origin) / self.size)
     }
-    let flat: Vec<_> = corners(fan)
-        .into_iter()
-        .map(|corner| along(whole, place(corner)))
-        .collect();
-    Some(ears::triangles(&flat))
 }
 
 /// The corners of a polygon that is a fan.

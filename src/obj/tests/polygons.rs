@@ -1,7 +1,10 @@
 //! Polygons that are not convex.
 
 use super::*;
-use crate::obj::ears;
+use crate::obj::{MAX_TRIANGLES, ears, polygons};
+
+/// The work allowed per corner, more than any of these outlines takes that do not cross themselves.
+const EFFORT: usize = 128;
 
 /// Twice the signed area of a polygon of the plane.
 fn area(corners: &[DVec2]) -> f64 {
@@ -12,7 +15,9 @@ fn area(corners: &[DVec2]) -> f64 {
 
 /// Asserts that the ears of a polygon cover its area once.
 fn check(corners: &[DVec2], name: &str) {
-    let triangles = ears::triangles(corners);
+    let mut effort = 64 * corners.len();
+    let triangles = ears::triangles(corners, &mut effort);
+    assert_ne!(effort, 0, "{name}");
     assert_eq!(triangles.len(), corners.len() - 2, "{name}");
     let areas = triangles
         .iter()
@@ -134,6 +139,13 @@ fn ears_cover_large_outlines() {
         .map(|at| DVec2::new(at as f64, [1.0, 9.0][at % 2]));
     let base = [DVec2::ZERO, DVec2::new((count / 2 - 1) as f64, 0.0)];
     check(&base.into_iter().chain(teeth).collect::<Vec<_>>(), "comb");
+    // A square with a round bite: hardly a corner is convex.
+    let bite = (0..count).rev().map(|at| {
+        let angle = std::f64::consts::PI * (at as f64 + 0.5) / count as f64;
+        DVec2::new(2.0 + libm::cos(angle), libm::sin(angle))
+    });
+    let square = [[4.0, 0.0], [4.0, 4.0], [0.0, 4.0], [0.0, 0.0]].map(DVec2::from);
+    check(&bite.chain(square).collect::<Vec<_>>(), "bite");
     // A square with a square hole, joined by a cut that is passed twice.
     let ring = [
         [0, 0],
@@ -156,7 +168,22 @@ fn ears_cover_large_outlines() {
     }
 }
 
-/// An outline that crosses itself everywhere: as many triangles, in bounded time.
+/// Corners that are repeated cover nothing, wherever they stand.
+#[test]
+fn repeated_corners_change_nothing() {
+    let corners = L.map(DVec2::from);
+    for first in 0..6 {
+        let turned = (0..6).map(|at| corners[(first + at) % 6]);
+        check(
+            &turned.flat_map(|corner| [corner; 3]).collect::<Vec<_>>(),
+            "L",
+        );
+    }
+    let mut effort = 0;
+    assert_eq!(ears::triangles(&[DVec2::ONE; 100], &mut effort).len(), 98);
+}
+
+/// An outline that crosses itself everywhere: as many triangles, for the work allowed.
 #[test]
 fn outlines_that_cross_themselves_end() {
     let mut state = 1_u64;
@@ -168,9 +195,36 @@ fn outlines_that_cross_themselves_end() {
     };
     for count in [4, 5, 100, 3_000] {
         let corners: Vec<_> = (0..count).map(|_| DVec2::new(next(), next())).collect();
-        assert_eq!(ears::triangles(&corners).len(), count - 2);
+        for effort in [0, 1, count, EFFORT * count] {
+            let mut left = effort;
+            assert_eq!(ears::triangles(&corners, &mut left).len(), count - 2);
+            assert!(left == 0 || count < 3_000, "{left} of {effort}");
+        }
         let same = vec![DVec2::ONE; count];
-        assert_eq!(ears::triangles(&same).len(), count - 2);
+        let mut left = EFFORT;
+        assert_eq!(ears::triangles(&same, &mut left).len(), count - 2);
+        assert_eq!(left, EFFORT);
+    }
+}
+
+/// However many polygons a mesh has, and of how many corners each.
+#[test]
+fn the_work_for_a_mesh_is_limited() {
+    for (corners, count) in [
+        (4, 1),
+        (4, 1 << 23),
+        (5, 1 << 20),
+        (100, 60_000),
+        (1_000, 1),
+        (100_000, 1),
+        (100_000, 160),
+        (1_000_000, 1),
+        (MAX_TRIANGLES + 2, 1),
+    ] {
+        let effort = polygons::effort(corners, corners * count);
+        assert!(effort * count <= 1 << 26, "{count} of {corners}: {effort}");
+        let least = if corners * count < 500_000 { 64 } else { 2 };
+        assert!(least * corners <= effort, "{count} of {corners}: {effort}");
     }
 }
 
@@ -182,7 +236,7 @@ proptest! {
         corners in prop::collection::vec((0..6_i32, 0..6_i32), 3..40),
     ) {
         let corners: Vec<_> = corners.iter().map(|&(x, y)| DVec2::new(x.into(), y.into())).collect();
-        let triangles = ears::triangles(&corners);
+        let triangles = ears::triangles(&corners, &mut (EFFORT * corners.len()));
         prop_assert_eq!(triangles.len(), corners.len() - 2);
         let sum: f64 = triangles.iter().map(|ear| area(&ear.map(|at| corners[at as usize]))).sum();
         prop_assert_eq!(sum, area(&corners));
