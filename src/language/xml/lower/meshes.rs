@@ -50,7 +50,8 @@ impl<'a> Lowering<'a> {
             Some(_) => Vec::new(),
             None => self.tags(named, model),
         };
-        let affine = self.affine(element, frame?)?;
+        let frame = frame?;
+        let affine = self.affine(element, frame)?;
         let mesh = Arc::clone(&model.mesh);
         let shape = Shape::Mesh(Box::new(Instance::new(mesh, &affine, tags)));
         if !shape.bounds().is_bounded() {
@@ -58,7 +59,7 @@ impl<'a> Lowering<'a> {
             return None;
         }
         if SIZES[1] <= shape.bounds().size().max_element() {
-            self.no_size(element);
+            self.no_size(element, &frame);
             return None;
         }
         Some((shape, material.unwrap_or_else(|| self.white())))

@@ -137,14 +137,14 @@ impl Lowering<'_> {
         }
         let are_sizes = columns.map(|column| Range::Size.contains(column.length()));
         if are_sizes != [true; 3] {
-            self.no_size(element);
+            self.no_size(element, &frame);
             return None;
         }
         affine
     }
 
-    /// Reports an object that its transforms scale too far, at the last of its own that scale it.
-    pub(super) fn no_size(&mut self, element: usize) {
+    /// Reports an object whose size is beyond all bounds, at the last of its own transforms that scale it.
+    pub(super) fn no_size(&mut self, element: usize, frame: &DAffine3) {
         let (name, tree) = (self.display_name(element), self.tree);
         let scales = tree.children(element).filter(|&child| {
             matches!(self.origins.roles[child], Role::Transform(one) if one.element == "scale")
@@ -155,7 +155,13 @@ impl Lowering<'_> {
         };
         let [least, beyond] = SIZES;
         let expected = format!("a size of at least {least:e} and less than {beyond:e}");
-        let message = || format!("{name}: its transforms make it too small or too large");
+        let columns = [frame.x_axis, frame.y_axis, frame.z_axis];
+        let reason = if columns.iter().all(|column| column.is_normalized()) {
+            "it is too large"
+        } else {
+            "its transforms make it too small or too large"
+        };
+        let message = || format!("{name}: {reason}");
         self.error(span, message, &expected);
     }
 

@@ -367,9 +367,20 @@ fn normals_transform_by_the_inverse_transpose() {
 #[test]
 fn an_overflowing_mesh_is_an_error() {
     let meshes = meshes("a.obj", "v 0 0 0\nv 1e200 0 0\nv 0 1e200 0\nf 1 2 3\n", "");
-    let text = around("<object type='obj' name='a.obj'><scale value='1e200'/></object>");
-    let (_, lowered) = read_with(&text, &meshes);
-    let error = "a.obj (obj): its transforms make it too small or too large";
-    assert_eq!(lowered.diagnostics[0].message, error);
-    assert!(lowered.scene.is_none());
+    for (transforms, error) in [
+        (
+            "<scale value='1e200'/>",
+            "its transforms make it too small or too large",
+        ),
+        ("<rotate z='1' angle='30'/>", "it is too large"),
+        ("", "it is too large"),
+    ] {
+        let text = around(&format!(
+            "<object type='obj' name='a.obj'>{transforms}</object>"
+        ));
+        let (_, lowered) = read_with(&text, &meshes);
+        let message = format!("a.obj (obj): {error}");
+        assert_eq!(lowered.diagnostics[0].message, message);
+        assert!(lowered.scene.is_none());
+    }
 }
