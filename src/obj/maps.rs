@@ -57,6 +57,11 @@ pub(super) fn read<'s>(
     let mut is_path_over = false;
     let mut words = statement.words().skip(1).peekable();
     while let Some(word) = words.next() {
+        // A path may begin with `//`.
+        if path.is_some() && word.begins_foreign_comment() {
+            report(Problem::Wrong(Fault::foreign_comment(word)));
+            break;
+        }
         let Some(option) = option(word) else {
             match &mut path {
                 Some((_, last)) if !is_path_over => *last = word,
@@ -115,20 +120,31 @@ impl Map {
                 None
             }
             "-clamp" => {
-                let value = words.next().map(|word| word.text.to_ascii_lowercase());
-                self.edges = match value.as_deref() {
-                    Some(b"on") => Edges::Clamp,
-                    Some(b"off") => Edges::Repeat,
-                    _ => return Some(unusable(option, word, "on or off")),
+                self.edges = match switch(words) {
+                    Some(true) => Edges::Clamp,
+                    Some(false) => Edges::Repeat,
+                    None => return Some(unusable(option, word, "on or off")),
                 };
                 None
             }
             "-bm" => (numbers(words, [1.0]).0 != [1.0]).then_some(ignored),
             "-mm" => (numbers(words, [0.0, 1.0]).0 != [0.0, 1.0]).then_some(ignored),
             "-t" => (numbers(words, [0.0; 3]).0 != [0.0; 3]).then_some(ignored),
+            "-imfchan" => {
+                value(words, &["r", "g", "b", "m", "l", "z"]);
+                Some(ignored)
+            }
+            "-blendu" | "-blendv" | "-cc" => {
+                switch(words);
+                None
+            }
+            "-boost" => {
+                numbers(words, [0.0]);
+                None
+            }
             _ => {
                 words.next();
-                (option == "-imfchan").then_some(ignored)
+                None
             }
         }
     }
@@ -137,6 +153,23 @@ impl Map {
 fn unusable<'s>(option: &str, word: Word<'s>, expected: &str) -> Problem<'s> {
     let message = format!("{option}: expected {expected}");
     Problem::Wrong(Fault::new(word, message, expected).costing("the option is ignored"))
+}
+
+/// The value of a switch, if the next word is one: otherwise it may be the path.
+fn switch<'s>(words: &mut Peekable<impl Iterator<Item = Word<'s>>>) -> Option<bool> {
+    value(words, &["off", "on"]).map(|value| value == 1)
+}
+
+/// The number of the value that is the next word, in any case.
+fn value<'s>(
+    words: &mut Peekable<impl Iterator<Item = Word<'s>>>,
+    values: &[&str],
+) -> Option<usize> {
+    let is_next = |value: &&str| {
+        let is_value = |word: &Word<'_>| value.as_bytes().eq_ignore_ascii_case(word.text);
+        words.next_if(is_value).is_some()
+    };
+    values.iter().position(is_next)
 }
 
 /// Replaces numbers by those that follow, and counts these.

@@ -1,3 +1,4 @@
+mod libraries;
 mod odd_lines;
 mod polygons;
 

@@ -1,0 +1,63 @@
+//! Libraries: what is kept of them, and the options of their maps.
+
+use super::*;
+
+/// What a mesh has of a library whose material a is used.
+fn read_library(library: &str) -> Model {
+    let mesh = format!("mtllib x.mtl\n{SQUARE}usemtl a\nf 1 2 3");
+    let read = read(mesh.as_bytes(), |_| Ok::<_, String>(library));
+    read.expect("a valid mesh")
+}
+
+/// A word that is no value of the option before it may be the path.
+#[test]
+fn an_option_takes_no_word_but_its_value() {
+    let ignored = |place: &str| Some(format!("{place}: map_Kd: `-imfchan` is ignored"));
+    let no_switch = |place: &str| Some(format!("{place}: map_Kd: -clamp: expected on or off"));
+    for (said, warning) in [
+        ("-clamp t.png", no_switch("line 2, column 8")),
+        ("t.png -clamp", no_switch("line 2, column 14")),
+        ("-clamp -s 1 t.png", no_switch("line 2, column 8")),
+        ("-clamp OFF t.png", None),
+        ("-imfchan t.png", ignored("line 2, column 8")),
+        ("-imfchan L t.png", ignored("line 2, column 8")),
+        ("t.png -imfchan z", ignored("line 2, column 14")),
+        ("-blendu t.png", None),
+        ("-blendv t.png", None),
+        ("-cc t.png", None),
+        ("-boost t.png", None),
+        ("-cc on -boost 2 -blendu off t.png", None),
+    ] {
+        let model = read_library(&format!("newmtl a\nmap_Kd {said}\n"));
+        let warning = warning.map(|warning| format!("x.mtl: {warning}"));
+        let expected: Vec<_> = warning.into_iter().collect();
+        assert_eq!(messages(&model.library_warnings), expected, "{said}");
+        let material = model.materials[1].as_ref().expect("it is defined");
+        let path = material.diffuse_map.as_ref().map(|map| &*map.path);
+        assert_eq!(path, Some("t.png"), "{said}");
+    }
+}
+
+#[test]
+fn a_comment_of_other_languages_ends_a_map() {
+    for (said, path, column) in [
+        ("t.png // wood", "t.png", Some(14)),
+        ("wood grain.png //wood", "wood grain.png", Some(23)),
+        ("t.png -s 1 // -clamp off", "t.png", Some(19)),
+        ("-s 1 t.png -clamp off // -x", "t.png", Some(30)),
+        // A path of a network.
+        ("//server/t.png", "//server/t.png", None),
+        ("a//t.png", "a//t.png", None),
+    ] {
+        let model = read_library(&format!("newmtl a\nmap_Kd {said}\n"));
+        let said_first = said.split(' ').find(|word| word.starts_with("//"));
+        let warning = column.zip(said_first).map(|(column, word)| {
+            format!("x.mtl: line 2, column {column}: map_Kd: `{word}` does not begin a comment")
+        });
+        let expected: Vec<_> = warning.into_iter().collect();
+        assert_eq!(messages(&model.library_warnings), expected, "{said}");
+        let material = model.materials[1].as_ref().expect("it is defined");
+        let map = material.diffuse_map.as_ref().expect("it is read");
+        assert_eq!((&*map.path, map.scale), (path, [1.0; 2]), "{said}");
+    }
+}
