@@ -55,7 +55,7 @@ impl Findings {
 
 impl File<'_> {
     fn finding(self, fault: Fault) -> Finding {
-        let Place { line, at } = fault.place;
+        let Place { line, at } = fault.place.place(self.bytes);
         let is_end = |&byte: &u8| byte == b'\n' || byte == b'\r';
         let start = self.bytes[..at].iter().rposition(is_end);
         let start = start.map_or(0, |end| end + 1);

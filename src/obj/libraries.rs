@@ -3,7 +3,7 @@
 use std::collections::HashMap;
 
 use super::findings::{File, Findings};
-use super::lines::{Fault, Place, Statement, Word};
+use super::lines::{Fault, Spot, Statement, Word};
 use super::mtl::{self, Material};
 use super::{Finding, MAX_LIBRARIES};
 use crate::geometry::SlotRun;
@@ -22,7 +22,7 @@ pub(super) struct Libraries {
 /// A name in a mesh.
 struct Named {
     name: String,
-    place: Place,
+    place: Spot,
     /// The length as written, in bytes.
     length: usize,
 }
@@ -134,7 +134,8 @@ impl Libraries {
                 match bytes {
                     Ok(bytes) => {
                         let bytes = bytes.as_ref();
-                        materials.extend(mtl::read(bytes, name, &mut findings));
+                        let is_used = |name: &str| self.slots.contains_key(name);
+                        materials.extend(mtl::read(bytes, name, is_used, &mut findings));
                     }
                     Err(reason) => {
                         let message = format!("cannot read `{}`: {reason}", visible(name));
@@ -146,7 +147,7 @@ impl Libraries {
         }
         let mut by_slot = vec![None];
         for used in &self.used {
-            let material = materials.get(&used.name).cloned();
+            let material = materials.remove(&used.name);
             // The definitions in an unreadable library are not known.
             if material.is_none() && is_complete {
                 let message = format!("no library defines `{}`", visible(&used.name));

@@ -15,8 +15,8 @@ pub(super) struct Statement<'t> {
     text: Cow<'t, [u8]>,
     /// Where it begins.
     start: Place,
-    /// Where its further lines begin: in its text, and in the file.
-    joints: Vec<(usize, usize)>,
+    /// The number of its further lines.
+    joints: usize,
 }
 
 /// A place in a file.
@@ -28,12 +28,23 @@ pub(super) struct Place {
     pub(super) at: usize,
 }
 
+/// A place in a statement. Its line is only looked for when it is asked for: a list of all lines would
+/// take several times the memory of a statement of millions.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Spot {
+    /// Where the statement begins, and the number of its further lines.
+    start: Place,
+    joints: usize,
+    /// The offset in its text.
+    offset: usize,
+}
+
 /// A word of a statement, or the empty place of one that is missing.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Word<'s> {
     pub(super) text: &'s [u8],
     /// The place of the first byte.
-    pub(super) place: Place,
+    pub(super) place: Spot,
 }
 
 /// The lines of a text. They end at a line feed, including all carriage returns directly before it,
@@ -62,20 +73,20 @@ pub(super) fn statements(
     std::iter::from_fn(move || {
         let (start, first) = lines.next()?;
         let mut text = Cow::Borrowed(first);
-        let mut joints = Vec::new();
+        let mut joints = 0;
         let mut scanned = 0;
         while text.ends_with(b"\\") && !has_comment(&text, scanned) {
             scanned = text.len() - 1;
             let whole = text.to_mut();
             whole.pop();
             // Blank lines are not returned, but end a statement.
-            if start.line + joints.len() + 1 != lines.next.line {
+            if start.line + joints + 1 != lines.next.line {
                 break;
             }
-            let Some((place, next)) = lines.next() else {
+            let Some((_, next)) = lines.next() else {
                 break;
             };
-            joints.push((whole.len(), place.at));
+            joints += 1;
             whole.extend_from_slice(next);
         }
         Some(Statement {
@@ -178,22 +189,54 @@ impl Statement<'_> {
 
     /// The number of its last line, from 1.
     pub(super) fn last_line(&self) -> usize {
-        self.start.line + self.joints.len()
+        self.start.line + self.joints
     }
 
     /// A part of the text with its place in the file.
     fn word<'s>(&self, text: &'s [u8]) -> Word<'s> {
         let at = text.as_ptr() as usize - self.text.as_ptr() as usize;
-        let before = self.joints.partition_point(|joint| joint.0 <= at);
-        let (from, there) = match before.checked_sub(1) {
-            Some(last) => self.joints[last],
-            None => (0, self.start.at),
-        };
-        let place = Place {
-            line: self.start.line + before,
-            at: there + at - from,
+        let place = Spot {
+            start: self.start,
+            joints: self.joints,
+            offset: at,
         };
         Word { text, place }
+    }
+}
+
+impl Spot {
+    /// Its line and offset in the file with these bytes. Reads the lines of its statement.
+    pub(super) fn place(self, bytes: &[u8]) -> Place {
+        let mut lines = Lines {
+            bytes,
+            next: self.start,
+            end: bytes.len(),
+        };
+        let mut line = self.start;
+        let mut offset = self.offset;
+        for _ in 0..self.joints {
+            // A line that goes on gives all but its `\`.
+            let length = lines.next().map_or(0, |(_, text)| text.len() - 1);
+            if offset < length {
+                break;
+            }
+            offset -= length;
+            line = lines.next;
+        }
+        Place {
+            line: line.line,
+            at: line.at + offset,
+        }
+    }
+}
+
+impl From<Place> for Spot {
+    fn from(start: Place) -> Self {
+        Self {
+            start,
+            joints: 0,
+            offset: 0,
+        }
     }
 }
 
@@ -242,7 +285,7 @@ impl Word<'_> {
 /// What is wrong with a statement.
 pub(super) struct Fault {
     /// The place of the offending word.
-    pub(super) place: Place,
+    pub(super) place: Spot,
     /// The length of the word in bytes.
     pub(super) length: usize,
     pub(super) message: String,

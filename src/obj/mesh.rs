@@ -7,7 +7,7 @@ use glam::{DVec2, DVec3};
 
 use super::findings::{File, Findings};
 use super::libraries::Libraries;
-use super::lines::{Fault, Place, Statement, statements};
+use super::lines::{Fault, Place, Spot, Statement, statements};
 use super::plain::{self, Chunk, Plain};
 use super::polygons::Polygons;
 use super::{Finding, Model};
@@ -341,10 +341,10 @@ impl<'t> MeshBuilder<'t> {
             }
             Err(message) => {
                 let fault = Fault {
-                    place: Place {
+                    place: Spot::from(Place {
                         line: self.last,
                         at: self.file.bytes.trim_ascii_end().len(),
-                    },
+                    }),
                     length: 0,
                     message,
                     expected: "a line such as f 1 2 3".to_owned(),

@@ -1,6 +1,7 @@
 //! Material libraries.
 
 use std::collections::{HashMap, HashSet};
+use std::sync::Arc;
 
 use super::findings::{File, Findings};
 use super::lines::{Fault, Statement, Word, statements};
@@ -10,7 +11,7 @@ use super::maps::{self, Map, Problem};
 #[derive(Clone, Debug, PartialEq)]
 pub struct Material {
     /// The library as named by the mesh; paths are relative to it.
-    pub library: String,
+    pub library: Arc<str>,
     /// Kd; white by default.
     pub diffuse: [f64; 3],
     /// Ks; black by default.
@@ -32,7 +33,7 @@ pub struct Material {
 }
 
 impl Material {
-    fn new(library: String) -> Self {
+    fn new(library: Arc<str>) -> Self {
         Self {
             library,
             diffuse: [1.0; 3],
@@ -67,11 +68,12 @@ struct Library<'t, 'f> {
     told: HashSet<&'static str>,
 }
 
-/// Reads the materials of a library by name. Of two with the same name the last counts; what follows
-/// a `newmtl` without a name belongs to none.
+/// Reads the materials of a library by name, of those that are used. Of two with the same name the last
+/// counts; what follows a `newmtl` without a name belongs to none.
 pub(super) fn read(
     bytes: &[u8],
     library: &str,
+    is_used: impl Fn(&str) -> bool,
     findings: &mut Findings,
 ) -> HashMap<String, Material> {
     let mut materials = HashMap::new();
@@ -85,10 +87,11 @@ pub(super) fn read(
         findings,
         told: HashSet::new(),
     };
+    let library: Arc<str> = library.into();
     for statement in statements(bytes, 0..bytes.len(), 1) {
         let keyword = statement.keyword();
         if keyword.text.eq_ignore_ascii_case(b"newmtl") {
-            materials.extend(current.take().filter(|(name, _)| !name.is_empty()));
+            materials.extend(current.take().filter(|(name, _)| is_used(name)));
             let name = statement.rest();
             if name.text.is_empty() {
                 let message = "newmtl: the name is missing";
@@ -96,7 +99,7 @@ pub(super) fn read(
                 let cost = "what follows is ignored up to the next newmtl";
                 reader.findings.warn(reader.file, fault.costing(cost));
             }
-            current = Some((name.name(), Material::new(library.to_owned())));
+            current = Some((name.name(), Material::new(Arc::clone(&library))));
             continue;
         }
         let set = match &mut current {
@@ -109,7 +112,7 @@ pub(super) fn read(
             reader.findings.warn(reader.file, fault);
         }
     }
-    materials.extend(current.filter(|(name, _)| !name.is_empty()));
+    materials.extend(current.filter(|(name, _)| is_used(name)));
     materials
 }
 

@@ -64,7 +64,7 @@ fn work_under_any_memory_limit_succeeds_or_is_refused() {
     let mut refused = 0;
     // In kilobytes, from too little for the text to more than enough.
     for limit in (24..=112).step_by(8).map(|limit| limit * 1000) {
-        for line in ["check many.ray", "render many.ray -o -"] {
+        for line in ["check many.ray", "render many.ray --threads 2 -o -"] {
             let output = in_shell(&place, &format!("ulimit -v {limit}"), line);
             let stderr = String::from_utf8_lossy(&output.stderr);
             match output.status.code() {
@@ -141,7 +141,7 @@ fn the_interface_starts_under_any_memory_limit_or_says_why_not() {
     let mut has_started = false;
     // In kilobytes.
     for limit in (8..=60).step_by(4).map(|limit| limit * 10_000) {
-        let line = "ball.ray --keys a.keys --screen 80x24 --dump-frame a.txt";
+        let line = "ball.ray --threads 2 --keys a.keys --screen 80x24 --dump-frame a.txt";
         let output = in_shell(&place, &format!("ulimit -v {limit}"), line);
         let stderr = String::from_utf8_lossy(&output.stderr);
         match output.status.code() {
@@ -153,6 +153,44 @@ fn the_interface_starts_under_any_memory_limit_or_says_why_not() {
         }
     }
     assert!(has_started);
+}
+
+/// The most memory that a command has taken, in bytes.
+#[cfg(target_os = "linux")]
+fn peak(place: &Place, line: &str) -> f64 {
+    let stats = place.run(&format!("{line} --stats -")).stdout;
+    let stats = String::from_utf8(stats).expect("UTF-8");
+    let (_, peak) = stats.split_once("\"peak\":").expect("a peak");
+    let peak = peak.split([',', '}', '\n']).next().expect("a number");
+    peak.trim().parse().expect("a number")
+}
+
+/// Of a line continued a million times, and of a library whose long name each of its materials has.
+#[test]
+#[cfg(target_os = "linux")]
+fn a_mesh_takes_little_more_memory_than_its_files() {
+    let place = Place::new();
+    let scene = "<xml><scene><object type='obj' name='a.obj'/></scene><camera><width value='8'/>\
+                 <height value='6'/></camera></xml>";
+    place.write("a.xml", scene);
+    let taken = |head: &str, tail: &str| {
+        let triangle = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3";
+        place.write("a.obj", format!("{head}{triangle}{tail}"));
+        peak(&place, "render a.xml -o a.ppm --spp 1 --threads 1")
+    };
+    let bare = taken("", "");
+    let continued = taken("", &" \\\n".repeat(1 << 20));
+    let materials = (0..1 << 14).map(|number| format!("newmtl {number}\n"));
+    place.write("a.mtl", materials.collect::<String>());
+    let named = taken(
+        &format!("mtllib {}a.mtl\nusemtl 1\n", "./".repeat(1 << 10)),
+        "",
+    );
+    let stderr = place.stderr("check a.xml", 0);
+    assert!(!stderr.contains("cannot read"), "{stderr}");
+    for peak in [continued, named] {
+        assert!(peak - bare < 12e6, "{bare} {continued} {named}");
+    }
 }
 
 /// At least what is used, and at most half as much again.
@@ -170,12 +208,7 @@ fn the_estimate_of_photons_is_close() {
             let estimate = place.run(&format!("{line} --estimate")).stdout;
             let estimate = String::from_utf8(estimate).expect("UTF-8");
             let estimate: u64 = estimate.trim().trim_end_matches('M').parse().expect("MB");
-            let stats = place.run(&format!("{line} --stats -")).stdout;
-            let stats = String::from_utf8(stats).expect("UTF-8");
-            let (_, peak) = stats.split_once("\"peak\":").expect("a peak");
-            let peak = peak.split([',', '}', '\n']).next().expect("a number");
-            let peak: f64 = peak.trim().parse().expect("a number");
-            let ratio = (estimate << 20) as f64 / peak;
+            let ratio = (estimate << 20) as f64 / peak(&place, &line);
             assert!((1.0..1.5).contains(&ratio), "{name} {size} {spp}: {ratio}");
         }
     }

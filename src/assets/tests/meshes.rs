@@ -133,7 +133,7 @@ fn a_library_that_cannot_be_read_is_a_warning() {
     let white = obj::read(TRIANGLE.as_bytes(), |_| Ok::<_, String>("newmtl a"));
     let white = white.expect("a valid mesh").materials.remove(1);
     let defined = white.map(|white| obj::Material {
-        library: "bad.mtl".to_owned(),
+        library: "bad.mtl".into(),
         ..white
     });
     for (library, warning, material) in [

@@ -61,3 +61,17 @@ fn a_comment_of_other_languages_ends_a_map() {
         assert_eq!((&*map.path, map.scale), (path, [1.0; 2]), "{said}");
     }
 }
+
+/// Its name may be long, and its materials many.
+#[test]
+fn materials_share_the_name_of_their_library() {
+    let text = format!("mtllib x.mtl\n{SQUARE}usemtl a\nf 1 2 3\nusemtl b\nf 1 3 4");
+    let library = "newmtl b\nNi 2\nnewmtl c\nNi 4\nnewmtl a\nNi 3\nnewmtl b\nNi 5";
+    let read = read(text.as_bytes(), |_| Ok::<_, String>(library));
+    let materials = read.expect("a valid mesh").materials;
+    let [None, Some(a), Some(b)] = &materials[..] else {
+        panic!("{materials:?}");
+    };
+    assert_eq!((a.index, b.index), (3.0, 5.0));
+    assert!(Arc::ptr_eq(&a.library, &b.library));
+}

@@ -139,10 +139,53 @@ fn an_index_out_of_range_is_told_with_the_lines_before_it() {
 /// The place is that of the word, on whichever of its lines.
 #[test]
 fn a_continued_line_is_quoted_where_it_is_wrong() {
-    let warnings = model(&format!("{SQUARE}v 0 \\\r\n 1 \\\n é x\nf 1 2 3")).warnings;
-    let cost = "faces that use it are left out";
-    let expected = format!("line 7, column 2: v: `é` is not a number | {cost} |  [é] x");
-    assert_eq!(warnings.iter().map(report).collect::<Vec<_>>(), [expected]);
+    for (lines, place, message, quoted) in [
+        (
+            "v 0 \\\r\n 1 \\\n é x",
+            "line 7, column 2",
+            "`é` is not a number",
+            " [é] x",
+        ),
+        (
+            "v é \\\n 1 \\\n 2",
+            "line 5, column 3",
+            "`é` is not a number",
+            "v [é] \\",
+        ),
+        (
+            "v 0 \\\r\\\r\\\né",
+            "line 8, column 1",
+            "`é` is not a number",
+            "[é]",
+        ),
+        (
+            "v 0 1\\\né 2",
+            "line 5, column 5",
+            "`1é` is not a number",
+            "v 0 [1\\]",
+        ),
+        (
+            "v 0 \\\n 1",
+            "line 6, column 3",
+            "expected 3 numbers, found 2",
+            " 1[]",
+        ),
+        (
+            "v 0 \\\n 1 \\\r\rg",
+            "line 6, column 4",
+            "expected 3 numbers, found 2",
+            " 1 []\\",
+        ),
+    ] {
+        let warnings = model(&format!("{SQUARE}{lines}\nf 1 2 3")).warnings;
+        let cost = "faces that use it are left out";
+        let expected = format!("{place}: v: {message} | {cost} | {quoted}");
+        assert_eq!(
+            warnings.iter().map(report).collect::<Vec<_>>(),
+            [expected],
+            "{lines}"
+        );
+    }
 }
 
 /// Indices of texture coordinates and normals are absent where they cannot be used; so are positions,
