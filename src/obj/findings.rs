@@ -19,6 +19,8 @@ pub(super) struct File<'t> {
 #[derive(Debug, Default)]
 pub(super) struct Findings {
     kept: Vec<Finding>,
+    /// How many of those kept are put first.
+    first: usize,
     /// The number of further ones.
     more: usize,
 }
@@ -28,6 +30,20 @@ impl Findings {
     pub(super) fn warn(&mut self, file: File<'_>, fault: Fault) {
         if self.kept.len() < MAX_FINDINGS {
             self.kept.push(file.finding(fault));
+        } else {
+            self.more += 1;
+        }
+    }
+
+    /// Adds a warning that is kept rather than any added by [`Self::warn`], and stands before these.
+    pub(super) fn warn_first(&mut self, file: File<'_>, fault: Fault) {
+        if self.first < MAX_FINDINGS {
+            if self.kept.len() == MAX_FINDINGS {
+                self.kept.pop();
+                self.more += 1;
+            }
+            self.kept.insert(self.first, file.finding(fault));
+            self.first += 1;
         } else {
             self.more += 1;
         }

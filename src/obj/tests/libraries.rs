@@ -75,3 +75,43 @@ fn materials_share_the_name_of_their_library() {
     assert_eq!((a.index, b.index), (3.0, 5.0));
     assert!(Arc::ptr_eq(&a.library, &b.library));
 }
+
+/// A library that cannot be read costs more than a line that cannot.
+#[test]
+fn unreadable_libraries_are_said_first() {
+    let wrong = "newmtl a\nKd x\n".repeat(8);
+    for (unreadable, more) in [(1, None), (3, Some(1)), (12, Some(10))] {
+        let names = (0..unreadable).map(|number| format!("mtllib no{number}.mtl\n"));
+        let names: String = names.collect();
+        let text = format!("mtllib a.mtl\n{names}{SQUARE}f 1 2 3");
+        let read = read(text.as_bytes(), |name| match name {
+            "a.mtl" => Ok(&wrong),
+            _ => Err("no such file".to_owned()),
+        });
+        let found = read.expect("a valid mesh").library_warnings;
+        let shown = messages(&found);
+        assert_eq!(shown.len(), (unreadable + 8).min(10));
+        for (number, shown) in shown.iter().enumerate() {
+            let line = number + 2;
+            let expected = if number < unreadable {
+                format!("line {line}, column 8: cannot read `no{number}.mtl`: no such file")
+            } else {
+                let line = 2 * (number - unreadable + 1);
+                format!("a.mtl: line {line}, column 4: Kd: `x` is not a number")
+            };
+            assert_eq!(*shown, expected);
+        }
+        let hint = found.last().and_then(|last| last.hint.clone());
+        let hint = hint.unwrap_or_default();
+        let counted = more.map_or(String::new(), |more: usize| {
+            format!(
+                "{more} more problem{} not shown",
+                if more == 1 { "" } else { "s" }
+            )
+        });
+        assert!(
+            hint.ends_with(&counted) && hint.contains("not shown") == more.is_some(),
+            "{hint}"
+        );
+    }
+}
