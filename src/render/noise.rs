@@ -13,12 +13,6 @@ use crate::scene::Rgb;
 /// The difference of means that rounding may cause, as a share of them.
 const ROUNDING: f64 = 1e-10;
 
-/// The variance left by Whitted ray tracing as a share of what its halves tell: its samples differ by
-/// the place in the pixel, on a light and in a cone, over which they are distributed evenly. Denoised
-/// by all of it, pictures of 16 samples have 2 to 13 % more error; paths, whose noise is of many more
-/// dimensions, have up to 9 % more if they are taken to be as even.
-pub(crate) const EVEN: f32 = 0.5;
-
 /// Estimates errors of displayed pixels during a pass that doubles their samples.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Doubling {

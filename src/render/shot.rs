@@ -111,6 +111,20 @@ impl Shot<'_> {
         }
     }
 
+    /// Whether Whitted ray tracing samples more than places in pixels: a lens, lights with a size or
+    /// the spread of rays.
+    pub(crate) fn blurs(&self) -> bool {
+        let mut lights = self.world.lights().iter();
+        let mut materials = self.world.scene.materials.iter();
+        self.projection.has_lens()
+            || lights.any(|light| light.sphere().is_some())
+            || materials.any(|material| {
+                material.mirror.spread != 0.0
+                    || material.dielectric.spread != 0.0
+                    || material.facets(self.world.gloss).is_some()
+            })
+    }
+
     /// The point of a sample on the lens; `None` for its centre.
     fn lens(&self, sampler: Sampler) -> Option<[f64; 2]> {
         match (self.settings.integrator, self.settings.surface()) {

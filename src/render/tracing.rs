@@ -373,7 +373,7 @@ impl<'s, W: Fn() + Sync> Tracing<'s, W> {
         if !is_due {
             return None;
         }
-        let variances = self.film.variances(shot.settings.integrator)?;
+        let variances = self.film.variances(shot)?;
         if variances.iter().all(|&variance| variance == 0.0) {
             return Some(raster.values.clone());
         }

@@ -5,7 +5,7 @@ use rayon::prelude::*;
 use crate::geometry::lanes::WIDTH;
 
 /// Room on either side of a row: the farthest neighbours.
-pub(super) const MARGIN: usize = 32;
+pub(super) const MARGIN: usize = 16;
 
 /// A number of each pixel, laid out as [`Layout`] says.
 pub(super) type Plane = Vec<f32>;
@@ -41,9 +41,14 @@ impl<'c> Layout<'c> {
         }
     }
 
+    /// The place of the first pixel in a row.
+    pub(super) fn row(&self, y: usize) -> usize {
+        y * self.stride + MARGIN
+    }
+
     /// The place of a pixel, given its number in rows.
     pub(super) fn place(&self, pixel: usize) -> usize {
-        pixel / self.width * self.stride + MARGIN + pixel % self.width
+        self.row(pixel / self.width) + pixel % self.width
     }
 
     /// A plane of this number everywhere.

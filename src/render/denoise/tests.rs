@@ -171,11 +171,11 @@ fn textures_stay_sharp() {
 fn noise_shrinks_by_the_weights_of_what_mixes() {
     let noisy = picture(|_, _| WALL, |x, y| [5.0 + noise(x, y); 3], 1e6);
     let mut weights = vec![1.0_f32];
-    for (step, _) in STEPS {
-        let reach = 2 * step;
+    for step in STEPS {
+        let reach = step;
         let mut wider = vec![0.0; weights.len() + 2 * reach];
         for (at, weight) in weights.iter().enumerate() {
-            for tap in -2..=2_isize {
+            for tap in -1..=1_isize {
                 let to = (at + reach).wrapping_add_signed(tap * step as isize);
                 wider[to] += weight * SPLINE[tap.unsigned_abs()];
             }
@@ -217,6 +217,50 @@ fn glints_do_not_glow() {
     let mut after = denoised(&glint);
     after[at] = [0.1; 3];
     assert!(most_apart(&after, &vec![[0.1; 3]; WIDTH * HEIGHT]) < 0.02);
+}
+
+/// The corner of a lamp in a mirror: its noise is not that of the mirror around it, which has none.
+#[test]
+fn images_of_lamps_in_mirrors_do_not_glow() {
+    const MIRROR: Guide = Guide {
+        albedo: [0.0; 3],
+        ..WALL
+    };
+    let mut image = picture(|_, _| MIRROR, |_, _| [0.1; 3], 1e-6);
+    let corner = [30 * WIDTH + 40, 30 * WIDTH + 41, 31 * WIDTH + 40];
+    for at in corner {
+        (image.1[at], image.2[at]) = ([100.0; 3], 2500.0);
+    }
+    let mut after = denoised(&image);
+    for at in corner {
+        after[at] = [0.1; 3];
+    }
+    assert!(most_apart(&after, &vec![[0.1; 3]; WIDTH * HEIGHT]) < 0.01);
+}
+
+/// The soft edge of a shadow, by samples of which each is lit or not: where few are, most pixels seem to
+/// have no noise, and neighbours are several standard deviations apart.
+#[test]
+fn soft_shadows_get_smooth() {
+    const HALF: u32 = 8;
+    let lit = |x: usize| ((x as f32 - 36.0) / 24.0).clamp(0.0, 1.0);
+    let is_lit =
+        |x: usize, y, sample| noise(x, y + HEIGHT * sample) < (2.0 * lit(x) - 1.0) * 3.0_f32.sqrt();
+    let half = |x, y, half: u32| {
+        let samples = half * HALF..(half + 1) * HALF;
+        let lit = samples.filter(|&sample| is_lit(x, y, sample as usize));
+        lit.count() as f32 / HALF as f32
+    };
+    let value = |x, y| [0.5 * (half(x, y, 0) + half(x, y, 1)); 3];
+    let mut noisy = picture(|_, _| WALL, value, 0.0);
+    for (at, variance) in noisy.2.iter_mut().enumerate() {
+        let (x, y) = (at % WIDTH, at / WIDTH);
+        let error = 0.5 * (half(x, y, 0) - half(x, y, 1));
+        *variance = error * error;
+    }
+    let before = squared_error(&noisy.1, |x, _| lit(x));
+    let left = squared_error(&denoised(&noisy), |x, _| lit(x));
+    assert!(left < before / 20.0, "{left} of {before}");
 }
 
 /// A single sample tells nothing of its noise; its neighbours do.
