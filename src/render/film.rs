@@ -432,7 +432,7 @@ impl Film {
         self.develop_rows(0..self.rows(), &mut variances, |tile, at| {
             match (tile.variance(at), shot.settings.integrator) {
                 // What differs from sample to sample is which surfaces they hit, of which neighbours
-                // tell nothing: denoised, pictures of 16 samples had up to a sixth more error.
+                // tell nothing: denoised, pictures of 16 samples have up to a sixth more error.
                 (_, Integrator::Whitted) if !shot.blurs() => 0.0,
                 // A single sample is at the centre of all distributions.
                 (UNKNOWN, Integrator::Whitted) => 0.0,

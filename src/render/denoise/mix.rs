@@ -57,6 +57,11 @@ impl Kernel<'_> {
 /// Mixes the light of each pixel with that of others as far as their patches, the squares of nine
 /// pixels around both, are alike: a single pixel tells little of what noise hides. Where the surfaces of
 /// a patch differ, it tells nothing. The numbers beside the light are its variances.
+///
+/// Comparing single pixels, `lamp.xml` by Whitted with 16 samples has a third more error, and paths have
+/// as much. Patches of 25 pixels, or all within three to five pixels at once instead of in iterations,
+/// leave more where edges are near; going back towards the input as far as Stein's unbiased estimate of
+/// the error advises spoils paths and gains nothing elsewhere.
 pub(super) fn mix(from: &Mixed, features: &Features<'_>, kernel: Kernel<'_>) -> Mixed {
     let layout = features.layout;
     let mut mixed = Mixed::zero(layout);
