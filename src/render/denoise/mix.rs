@@ -200,10 +200,12 @@ impl Compared {
         let tiny = Singles::splat(simd, TINY);
         for at in (0..into[0].len()).step_by(WIDTH) {
             let share = 1.0 / load(simd, &self.weights, at).max_precise(tiny);
-            let shares = [share, share, share, share * share];
-            for (sum, share) in into.iter_mut().zip(shares) {
+            for sum in into.iter_mut() {
                 (load(simd, sum, at) * share).store_slice(&mut sum[at..][..WIDTH]);
             }
+            // Twice in turn: the square of the share of no weights is infinite.
+            let variances = &mut into[3];
+            (load(simd, variances, at) * share).store_slice(&mut variances[at..][..WIDTH]);
         }
     }
 }
