@@ -129,7 +129,6 @@ fn try_render(work: &Render) -> Result<(), Error> {
     }
     times.write = times.lap();
     if let Some(suspect) = traced.suspect {
-        let tracer = || traced.tracer.unwrap_or_else(|| Tracer::new(&work.tracing));
         let text = Text {
             messages,
             path: &work.scene,
@@ -137,7 +136,11 @@ fn try_render(work: &Render) -> Result<(), Error> {
             source: traced.source.as_ref(),
             prospects: &prospects,
         };
-        suspect.print(&text, tracer);
+        suspect.print(&text, |job, trials| {
+            let tracer = traced.tracer;
+            let mut tracer = tracer.unwrap_or_else(|| Tracer::new(&work.tracing));
+            tracer.try_out(job, trials)
+        });
     }
     let Some(output) = &work.stats else {
         return Ok(());
