@@ -3,10 +3,12 @@
 
 mod darkness;
 
+use glam::DVec3;
+
 use super::{Node, Source};
-use crate::geometry::normalise;
+use crate::geometry::{Shape, normalise};
 use crate::scene::{
-    Camera, Emitter, FalloffRule, Integrator, LEAST_ADAPTIVE_SPP, Material, Object, Rendering, Rgb,
+    Camera, Emitter, FalloffRule, Integrator, LEAST_ADAPTIVE_SPP, Light, Material, Rendering, Rgb,
     Scene, Shadows,
 };
 use crate::text::{Diagnostic, Span, concise};
@@ -15,7 +17,7 @@ use crate::text::{Diagnostic, Span, concise};
 /// program.
 const MOST_SEARCHED: usize = 100_000;
 
-/// How much more than it receives a surface may send back by rounding.
+/// The rounding error up to which a surface counts as sending back all that it receives.
 const ROUNDING: f64 = 1e-6;
 
 /// What a text shows of its picture.
@@ -57,7 +59,12 @@ pub fn outlook(source: &Source, scene: &Scene, camera: &Camera, asked: &Renderin
         } else {
             "no object of the scene can be shown"
         };
-        found.push(black(view.nowhere(), message, "an object"));
+        let place = view.nowhere();
+        found.push(if view.is_black_without_objects() {
+            black(place, message, "an object")
+        } else {
+            plain(place, message, "an object")
+        });
         return found;
     }
     found.extend(view.never_adaptive());
@@ -81,40 +88,63 @@ struct Judge<'a> {
 }
 
 impl Judge<'_> {
-    /// Every object is behind the camera, nearer than the near limit or beyond the far limit.
+    /// Every object is behind the camera, nearer than the near limit or beyond the far limit, and
+    /// nothing else is seen.
     fn clipped(&self) -> Option<Outlook> {
-        let Camera {
-            eye,
-            target,
-            depths: [near, far],
-            ..
-        } = *self.camera;
-        let forward = normalise(0.5 * target - 0.5 * eye)?;
-        let depths = |object: &Object| {
-            let bounds = object.shape.bounds();
-            let depth = (bounds.centre() - eye).dot(forward);
-            let half = 0.5 * bounds.size().dot(forward.abs());
-            [depth - half, depth + half]
-        };
-        let all = |is: &dyn Fn([f64; 2]) -> bool| {
-            let mut objects = self.scene.objects.iter();
-            objects.all(|object| object.shape.bounds().is_bounded() && is(depths(object)))
-        };
-        let depths = "a range of depths that includes an object";
-        let (key, side, expected) = if self.scene.objects.is_empty() {
+        if !self.is_black_without_objects() {
             return None;
-        } else if all(&|[_, end]| end < 0.0) {
+        }
+        let [near, far] = self.camera.depths;
+        let forward = forward(self.camera)?;
+        let mut objects = self.scene.objects.iter();
+        let [start, end] = objects.try_fold(
+            [f64::INFINITY, f64::NEG_INFINITY],
+            |[least, most], object| {
+                let [start, end] = self.depths(&object.shape, forward)?;
+                Some([start.min(least), end.max(most)])
+            },
+        )?;
+        let depths = "a range of depths that includes an object";
+        let (key, side, expected) = if end < 0.0 {
             ("target", "behind the camera", "a view toward an object")
-        } else if all(&|[_, end]| end < near) {
+        } else if end < near {
             ("near", "nearer than the near limit", depths)
-        } else if all(&|[start, _]| far < start) {
+        } else if far < start {
             ("far", "beyond the far limit", depths)
         } else {
             return None;
         };
-        let span = self.place(Node::View, key);
+        let view = |camera: &Camera| (camera.eye, camera.target, camera.depths);
+        let span = if view(self.camera) == view(&self.scene.camera) {
+            self.place(Node::View, key)
+        } else {
+            self.nowhere()
+        };
         let message = format!("every object is {side}: the picture is black");
         Some(black(span, &message, expected))
+    }
+
+    /// The least and greatest depth of a shape's box along the view; `None` if they are not known.
+    fn depths(&self, shape: &Shape, forward: DVec3) -> Option<[f64; 2]> {
+        let bounds = shape.bounds();
+        let depth = (bounds.centre() - self.camera.eye).dot(forward);
+        let half = 0.5 * bounds.size().dot(forward.abs());
+        let [start, end] = [depth - half, depth + half];
+        (bounds.is_bounded() && start <= end).then_some([start, end])
+    }
+
+    /// Whether camera rays that meet nothing end in black.
+    fn is_backdrop_black(&self) -> bool {
+        self.scene.setting.background.colour == Rgb::ZERO
+    }
+
+    /// Whether all is black where no object is: lights with a size are seen.
+    fn is_black_without_objects(&self) -> bool {
+        let is_seen = |light: &Light| {
+            let is_ball = matches!(light.emitter, Emitter::Point { radius, .. } if radius != 0.0);
+            is_ball && light.colour != Rgb::ZERO
+        };
+        self.is_backdrop_black() && !self.scene.lights.iter().any(is_seen)
     }
 
     /// The text asks for adaptive sampling, but for so few samples that no pixel can stop early.
@@ -219,6 +249,11 @@ impl Judge<'_> {
         let spans = field.and_then(|placed| placed.spans.iter().copied().reduce(Span::to));
         spans.unwrap_or_else(|| self.source.span(node))
     }
+}
+
+/// The unit vector along a camera's view.
+fn forward(camera: &Camera) -> Option<DVec3> {
+    normalise(0.5 * camera.target - 0.5 * camera.eye)
 }
 
 fn plain(span: Span, message: &str, expected: &str) -> Outlook {

@@ -2,12 +2,11 @@
 
 use glam::DVec3;
 
-use super::{Judge, MOST_SEARCHED, Outlook, Prospect, black, plain};
-use crate::geometry::{Ray, Shape, normalise};
+use super::{Judge, MOST_SEARCHED, Outlook, Prospect, black, forward, plain};
+use crate::geometry::{Aabb, Ray, Shape, Solid, normalise};
 use crate::language::Node;
 use crate::scene::{
     Camera, Emitter, Highlight, Integrator, Lens, Light, Material, Object, Rgb, Shadows, Size,
-    Tinted,
 };
 
 impl Judge<'_> {
@@ -28,8 +27,8 @@ impl Judge<'_> {
         if is_lit {
             return None;
         }
-        let [background, around] = [scene.setting.background, scene.setting.environment]
-            .map(|Tinted { colour, .. }| colour != Rgb::ZERO);
+        let background = !self.is_backdrop_black();
+        let around = scene.setting.environment.colour != Rgb::ZERO;
         // What reflects the light of no light looks the same without any.
         let is_seen_unlit = |material: &Material| {
             let glows = material.emission != Rgb::ZERO;
@@ -67,56 +66,56 @@ impl Judge<'_> {
         })
     }
 
-    /// The materials of objects; all where trees combine several.
-    fn used(&self) -> Box<dyn Iterator<Item = &Material> + '_> {
-        let scene = self.scene;
-        let is_tree = |object: &Object| matches!(object.shape, Shape::Csg(_));
-        if scene.objects.iter().any(is_tree) {
-            return Box::new(scene.materials.iter());
-        }
-        let of_object = |object: &Object| match &object.shape {
+    /// The materials of objects.
+    fn used(&self) -> impl Iterator<Item = &Material> {
+        self.scene.objects.iter().flat_map(|object| self.of(object))
+    }
+
+    /// The materials that an object's surface may have.
+    fn of(&self, object: &Object) -> impl Iterator<Item = &Material> {
+        let numbers: Vec<_> = match &object.shape {
             Shape::Mesh(instance) => {
                 let tags = instance.tags();
                 tags.map(|tag| tag.unwrap_or(object.material)).collect()
             }
-            _ => vec![object.material],
+            Shape::Csg(csg) => csg.tags().collect(),
+            Shape::Solid(_) | Shape::Plane(_) => vec![object.material],
         };
-        let used = scene.objects.iter().flat_map(of_object);
-        Box::new(used.filter_map(|material| scene.materials.get(material as usize)))
+        let materials = &self.scene.materials;
+        let numbers = numbers.into_iter();
+        numbers.filter_map(|number| materials.get(number as usize))
     }
 
     fn has_ambient(&self) -> bool {
         self.scene.ambient_light() != Rgb::ZERO
     }
 
-    /// The camera is inside an opaque solid that no light is in.
+    /// The camera is inside an opaque solid that no light gets into.
     pub(super) fn enclosed(&self) -> Option<Outlook> {
-        let scene = self.scene;
-        let eye = self.camera.eye;
-        if MOST_SEARCHED < scene.objects.len() {
+        let objects = &self.scene.objects;
+        let starts = Starts::of(self.camera)?;
+        let shining = self.scene.lights.iter().filter(|light| shines(light));
+        if MOST_SEARCHED < objects.len() || shining.clone().any(passes_all) {
             return None;
         }
-        let starts = starts(self.camera)?;
-        let is_ambient = self.asked.integrator() == Integrator::Whitted && self.has_ambient();
-        let is_within = |place: DVec3, object: &Object| holds(&object.shape, place);
-        let is_dark = |object: &Object| {
-            let material = scene.materials.get(object.material as usize);
-            let is_opaque = material.is_some_and(|material| {
-                let glows = material.emission != Rgb::ZERO
-                    || is_ambient && material.ambient.unwrap_or(material.diffuse) != Rgb::ZERO;
-                material.dielectric.tint == Rgb::ZERO && !glows
-            });
-            let is_lit = scene.lights.iter().any(|light| match light.emitter {
-                Emitter::Point { position, .. } => is_within(position, object),
-                Emitter::Distant(_) | Emitter::Ambient => false,
-            });
-            is_opaque && !is_lit
+        let is_lit = |object: &Object| {
+            shining.clone().any(|light| gets_into(light, &object.shape))
+                || objects.iter().any(|other| {
+                    let overlap = |other: &Object| {
+                        let [own, other] = [object, other].map(|object| object.shape.bounds());
+                        own.intersection(other)
+                    };
+                    self.glows(other) && !overlap(other).is_empty()
+                })
         };
-        let mut objects = scene.objects.iter().enumerate();
-        let (index, _) = objects.find(|(_, object)| {
-            let is_around = |start: &DVec3| is_within(*start, object);
-            is_within(eye, object) && starts.iter().all(is_around) && is_dark(object)
-        })?;
+        let is_dark = |object: &Object| {
+            holds(&object.shape, self.camera.eye)
+                && starts.are_within(&object.shape)
+                && self.encloses(object)
+                && self.ends_view(&object.shape)
+                && !is_lit(object)
+        };
+        let index = objects.iter().position(is_dark)?;
         let node = Node::Object(self.source.object(index as u32));
         let message = format!(
             "the camera is inside {}, which is opaque and holds no light",
@@ -126,18 +125,42 @@ impl Judge<'_> {
         Some(black(self.nowhere(), &message, expected))
     }
 
+    /// Whether no light passes through any part of an object's surface, and the surface bounds a part
+    /// of space.
+    fn encloses(&self, object: &Object) -> bool {
+        let blocks = |material: &Material| {
+            material.shadow.transmittance() == 0.0 && material.dielectric.tint == Rgb::ZERO
+        };
+        object.shape.bounds().is_bounded() && self.of(object).all(blocks)
+    }
+
+    /// Whether rays within a shape meet it before the far limit, or end in black.
+    fn ends_view(&self, shape: &Shape) -> bool {
+        let [_, far] = self.camera.depths;
+        let depths = forward(self.camera).and_then(|forward| self.depths(shape, forward));
+        self.is_backdrop_black() || depths.is_some_and(|[_, end]| end < far)
+    }
+
+    /// Whether an object is seen without any light that has a place or direction.
+    fn glows(&self, object: &Object) -> bool {
+        let is_ambient = self.asked.integrator() == Integrator::Whitted && self.has_ambient();
+        self.of(object).any(|material| {
+            let reflected = material.ambient.unwrap_or(material.diffuse);
+            material.emission != Rgb::ZERO || is_ambient && reflected != Rgb::ZERO
+        })
+    }
+
     /// Every light that shines is inside an opaque solid that the camera is not in.
     pub(super) fn sealed(&self) -> Option<Outlook> {
         let scene = self.scene;
-        let shines = |light: &&Light| light.colour != Rgb::ZERO && is_lamp(light);
-        let shining = scene.lights.iter().filter(shines).count();
+        let shining = scene.lights.iter().filter(|light| shines(light)).count();
         let searched = scene.objects.len().saturating_mul(shining);
         if MOST_SEARCHED < searched || self.is_seen_without_lights() {
             return None;
         }
         let mut first = None;
         for (index, light) in scene.lights.iter().enumerate() {
-            if shines(&light) {
+            if shines(light) {
                 let solid = self.solid_around(light)?;
                 first.get_or_insert((index, solid));
             }
@@ -160,13 +183,8 @@ impl Judge<'_> {
     /// Whether something can be seen without any light that has a place or direction.
     fn is_seen_without_lights(&self) -> bool {
         let scene = self.scene;
-        let is_ambient = self.asked.integrator() == Integrator::Whitted && self.has_ambient();
-        let around = [scene.setting.background, scene.setting.environment];
-        around.iter().any(|around| around.colour != Rgb::ZERO)
-            || self.used().any(|material| {
-                let reflected = material.ambient.unwrap_or(material.diffuse);
-                material.emission != Rgb::ZERO || is_ambient && reflected != Rgb::ZERO
-            })
+        let around = scene.setting.environment.colour != Rgb::ZERO;
+        around || !self.is_backdrop_black() || scene.objects.iter().any(|object| self.glows(object))
     }
 
     /// The opaque solid that a light without a size is in and the camera is not.
@@ -177,26 +195,22 @@ impl Judge<'_> {
         else {
             return None;
         };
-        if radius != 0.0 || light.shadows == Shadows::Off {
+        if radius != 0.0 || passes_all(light) {
             return None;
         }
-        let is_whitted = self.asked.integrator() == Integrator::Whitted;
-        let blocks = |material: &Material| {
-            let is_clear = material.dielectric.tint != Rgb::ZERO && !is_whitted;
-            material.shadow.transmittance() == 0.0 && !is_clear
+        let starts = Starts::of(self.camera)?;
+        let is_outside = |shape: &Shape| match &starts {
+            Starts::At(eye) => !holds(shape, *eye),
+            Starts::Within(_) => {
+                let [near, _] = self.camera.depths;
+                let depths = forward(self.camera).and_then(|forward| self.depths(shape, forward));
+                depths.is_some_and(|[start, end]| near < start || end < near)
+            }
         };
-        let starts = starts(self.camera)?;
-        let is_outside = |shape: &Shape| {
-            let mut seen = starts.iter().chain([&self.camera.eye]);
-            !seen.any(|start| holds(shape, *start))
-        };
-        self.scene
-            .objects
-            .iter()
-            .position(|Object { shape, material }| {
-                let material = self.scene.materials.get(*material as usize);
-                material.is_some_and(blocks) && holds(shape, position) && is_outside(shape)
-            })
+        self.scene.objects.iter().position(|object| {
+            let shape = &object.shape;
+            holds(shape, position) && self.encloses(object) && is_outside(shape)
+        })
     }
 }
 
@@ -205,28 +219,84 @@ fn is_lamp(light: &Light) -> bool {
     light.emitter != Emitter::Ambient
 }
 
-/// The corners of what the camera sees at its near limit, where its rays start; the eye without a limit.
-/// A convex solid that holds them holds all rays' starts.
-fn starts(camera: &Camera) -> Option<Vec<DVec3>> {
-    let [near, _] = camera.depths;
-    if near == 0.0 {
-        return Some(vec![camera.eye]);
+/// Whether a light adds any that has a place or a direction.
+fn shines(light: &Light) -> bool {
+    is_lamp(light) && light.colour != Rgb::ZERO
+}
+
+/// Whether nothing holds up a light.
+fn passes_all(light: &Light) -> bool {
+    light.shadows == Shadows::Off
+}
+
+/// Whether a light that casts shadows may light the inside of an opaque solid.
+fn gets_into(light: &Light, shape: &Shape) -> bool {
+    match light.emitter {
+        Emitter::Point {
+            position, radius, ..
+        } if radius == 0.0 => holds(shape, position),
+        Emitter::Point {
+            position, radius, ..
+        } => {
+            let ball = Aabb {
+                min: position - radius,
+                max: position + radius,
+            };
+            !ball.intersection(shape.bounds()).is_empty()
+        }
+        Emitter::Distant(_) | Emitter::Ambient => false,
     }
-    let forward = normalise(0.5 * camera.target - 0.5 * camera.eye)?;
-    let right = normalise(forward.cross(camera.up))?;
-    let up = right.cross(forward);
-    let half = match camera.lens {
-        Lens::Perspective(angle) => near * libm::tan(0.5 * angle.to_radians()),
-        Lens::Orthographic(height) => 0.5 * height,
-    };
-    let Size { width, height } = camera.size;
-    let aspect = camera.pixel_aspect * f64::from(width) / f64::from(height);
-    let corner = |x: f64, y: f64| {
-        let aside = x * half * aspect * right + y * half * up;
-        camera.eye + near * forward + aside
-    };
-    let corners = [(1.0, 1.0), (1.0, -1.0), (-1.0, 1.0), (-1.0, -1.0)];
-    Some(corners.map(|(x, y)| corner(x, y)).to_vec())
+}
+
+/// Where the camera's rays start.
+enum Starts {
+    /// At one point.
+    At(DVec3),
+    /// Within a rectangle with these corners.
+    Within([DVec3; 4]),
+}
+
+impl Starts {
+    /// `None` if the camera's axes are not known.
+    fn of(camera: &Camera) -> Option<Self> {
+        let [near, _] = camera.depths;
+        let half = match camera.lens {
+            Lens::Perspective(angle) => near * libm::tan(0.5 * angle.to_radians()),
+            Lens::Orthographic(height) => 0.5 * height,
+        };
+        let around = camera.focus.lens_radius;
+        if half == 0.0 && around == 0.0 {
+            return Some(Self::At(camera.eye));
+        }
+        let forward = forward(camera)?;
+        let right = forward.cross(normalise(camera.up)?);
+        if right.length() < Camera::LEAST_SINE {
+            return None;
+        }
+        let right = normalise(right)?;
+        let up = right.cross(forward);
+        let Size { width, height } = camera.size;
+        let aspect = camera.pixel_aspect * f64::from(width) / f64::from(height);
+        let [right, up] = [(half * aspect + around) * right, (half + around) * up];
+        let middle = camera.eye + near * forward;
+        let corners = [right + up, right - up, up - right, -right - up];
+        Some(Self::Within(corners.map(|corner| middle + corner)))
+    }
+
+    /// Whether all are within a solid; false if that is not known.
+    fn are_within(&self, shape: &Shape) -> bool {
+        match self {
+            Self::At(eye) => holds(shape, *eye),
+            Self::Within(corners) => {
+                let is_convex = match shape {
+                    Shape::Solid(Solid::Quadric(_)) => false,
+                    Shape::Solid(_) => true,
+                    Shape::Csg(_) | Shape::Plane(_) | Shape::Mesh(_) => false,
+                };
+                is_convex && corners.iter().all(|corner| holds(shape, *corner))
+            }
+        }
+    }
 }
 
 /// Whether a closed shape holds a point: the first hit of any ray from it is a back face.

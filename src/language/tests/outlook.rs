@@ -1,8 +1,10 @@
 //! What texts show of their pictures: the warnings, with their places, and what comes of them.
 
+use glam::DVec3;
+
 use super::read_as;
-use crate::language::{Language, Prospect, outlook};
-use crate::scene::{Integrator, Meshes, Rendering};
+use crate::language::{Language, Node, Prospect, outlook};
+use crate::scene::{Camera, Integrator, Meshes, Rendering};
 use crate::text::Position;
 
 const LIT: &str = "0 0 0 1 0 5 5 1 1 1\n";
@@ -197,6 +199,17 @@ fn a_view_away_from_all_objects_is_named() {
     check(Language::Ray, &text("0"), None, &[]);
     let behind = "1:27 every object is behind the camera: the picture is black";
     check(Language::Ray, &text("12"), None, &[behind]);
+    // The view asked for is not the text's, whose target is not to blame.
+    let text = text("0");
+    let (source, lowered) = read_as(Language::Ray, &text, &Meshes::default());
+    let scene = lowered.scene.expect("it has no errors");
+    let away = Camera {
+        target: DVec3::new(0.0, 0.0, 12.0),
+        ..scene.camera
+    };
+    let found = outlook(&source, &scene, &away, &scene.setting.rendering);
+    let spans: Vec<_> = found.iter().map(|found| found.warning.span).collect();
+    assert_eq!(spans, [source.span(Node::View)]);
 }
 
 #[test]

@@ -5,6 +5,7 @@ mod blocks;
 mod cameras;
 mod continuing;
 mod cut_discs;
+mod darkness;
 mod denoising;
 mod edits;
 mod emitters;
