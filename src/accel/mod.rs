@@ -4,7 +4,8 @@
 //! `build` sorts boxes into a tree of [`node::WIDTH`]-wide nodes by the surface area heuristic.
 //! `node` is such a node, `slab` a ray prepared for tests against all its children's boxes at once.
 //! `refit` adapts the tree to moved boxes, `splice` to removed and inserted ones, and `traverse` and
-//! `packet` traverse it, near children first; `packet`, for any hits, large ones first.
+//! `packet` traverse it, near children first; `packet`, for any hits, large ones first. `overlap` finds the
+//! boxes that overlap another.
 //!
 //! # Why no box is missed
 //!
@@ -21,6 +22,7 @@
 
 mod build;
 mod node;
+mod overlap;
 mod packet;
 mod refit;
 mod slab;

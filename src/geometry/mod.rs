@@ -29,6 +29,7 @@ mod plane;
 mod quadric;
 mod ray;
 mod shape;
+mod smooth;
 mod solid;
 mod sphere;
 mod surface;

@@ -2,11 +2,18 @@
 
 use glam::{DVec3, Vec3};
 
-use super::disc::{Disc, SAME};
+use super::disc::{Disc, Extent, SAME};
 use super::path::Vertex;
 use super::photon_map::{Photon, PhotonMap};
 use super::probe::Probe;
 use crate::scene::Rgb;
+
+/// The radius of the smallest disc, as a share of the kernel's: a smaller one has fewer photons.
+const SMALLEST: f64 = 1.0 / 64.0;
+
+/// The same in a gap. Where a ball touches the ground, every disc is hidden, and light that comes through
+/// the ball is as even as beside it.
+const SMALLEST_IN_GAP: f64 = 1.0 / 8.0;
 
 impl<C: Fn() -> bool> Probe<'_, C> {
     /// The light that photons carry to a surface at a bounce, reflected along the path.
@@ -18,25 +25,44 @@ impl<C: Fn() -> bool> Probe<'_, C> {
         if !vertex.bsdf.scatters() || !self.gather.caustics() {
             return Rgb::ZERO;
         }
-        let whole = self.gathered(map, vertex, bounce, |_| 1.0);
-        if whole == Rgb::ZERO {
-            return whole;
+        let mut radius = map.radius;
+        let mut first = None;
+        // Where too little of a disc is left to be measured, a smaller one is taken.
+        loop {
+            let whole = self.gathered((map, radius), vertex, bounce, |_| 1.0);
+            let first = *first.get_or_insert(whole);
+            if whole == Rgb::ZERO {
+                return whole;
+            }
+            let disc = Disc::new(self.world, vertex, radius);
+            let part = disc.part();
+            let is_smallest = |share: f64| radius <= share * map.radius;
+            let sum = part.map_or(Some(whole), |part| {
+                let is_last = match part.extent() {
+                    Extent::Measured => true,
+                    Extent::Hidden { is_gone: true } if is_smallest(SMALLEST_IN_GAP) => {
+                        return Some(first);
+                    }
+                    Extent::Hidden { .. } => is_smallest(SMALLEST_IN_GAP),
+                    Extent::Ended => is_smallest(SMALLEST),
+                };
+                let factor = |photon: &Photon| part.factor(photon);
+                is_last.then(|| self.gathered((map, radius), vertex, bounce, factor))
+            });
+            let rays = disc.rays();
+            self.counts.rays += rays;
+            self.counts.shadow_rays += rays;
+            if let Some(sum) = sum {
+                return sum;
+            }
+            radius *= 0.5;
         }
-        let disc = Disc::new(self.world, &vertex.point, map.radius);
-        let part = disc.part();
-        let sum = part.map_or(whole, |part| {
-            self.gathered(map, vertex, bounce, |photon| part.factor(photon))
-        });
-        let rays = disc.rays();
-        self.counts.rays += rays;
-        self.counts.shadow_rays += rays;
-        sum
     }
 
-    /// The light of photons around a surface, each times a factor.
+    /// The light of photons within a radius around a surface, each times a factor.
     fn gathered(
         &self,
-        map: &PhotonMap,
+        (map, radius): (&PhotonMap, f64),
         vertex: &Vertex<'_>,
         bounce: u32,
         factor: impl Fn(&Photon) -> f64,
@@ -45,7 +71,7 @@ impl<C: Fn() -> bool> Probe<'_, C> {
         let facing = point.side.turn(point.surface.normal);
         let vector = |stored: [f32; 3]| DVec3::from(Vec3::from(stored));
         let mut sum = Rgb::ZERO;
-        map.around(point.surface.point, |photon, kernel| {
+        map.around(point.surface.point, radius, |photon, kernel| {
             let toward = vector(photon.toward);
             let cosine = toward.dot(facing);
             let is_gathered = bounce + u32::from(photon.bounces) <= self.depth

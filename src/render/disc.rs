@@ -12,6 +12,9 @@ use std::f64::consts::TAU;
 use glam::{DMat3, DVec3, Vec3};
 
 use super::bsdf::Bsdf;
+use super::intersect::Nearest;
+use super::nearby::Nearby;
+use super::path::Vertex;
 use super::photon_map::{Photon, hash};
 use super::probe::Point;
 use super::shading::Side;
@@ -33,15 +36,24 @@ const AT_RIM: f64 = 0.97;
 /// uncertainty of 2.5 %, with 32 of 4 %.
 const PLACES: u32 = 64;
 
+/// The share below which a disc is not measured: less than eight places are left, and the inverse of so
+/// rough a share is off in the mean.
+const LEAST_SHARE: f64 = 1.0 / 8.0;
+
 /// How much rays rise above the surface, as a share of their way: the less, the narrower a gap they
 /// pass; the more, the deeper a hollow is one surface.
 const RISE: f64 = 0.1;
 
-/// The share of a disc from which on light is taken to slope across it a little, and that from which on
-/// it may slope as it will. What is left of a disc lies to one side of the point, so that a slope counts
-/// that a whole disc evens out: .3 from a mirror, by a kernel of radius .9, it is 2 % of the light. With
-/// less than half a disc left, making up for it has more than three times the variance, which costs more.
+/// The share of a disc from which on light is taken to slope across it a little, and the share above
+/// which its slope is not restrained. What is left of a disc lies to one side of the point, so that a
+/// slope counts that a whole disc evens out: .3 from a mirror, by a kernel of radius .9, it is 2 % of the
+/// light. With less than half a disc left, making up for it has more than three times the variance,
+/// which costs more.
 const SLOPED: [f64; 2] = [0.5, 0.7];
+
+/// How deep places are searched for the surface, as a share of their way: farther than the steepest slope
+/// of the same surface falls.
+const DEPTH: f64 = 1.5;
 
 /// The golden section of a turn.
 const GOLDEN: f64 = 0.618_033_988_749_894_9;
@@ -52,7 +64,10 @@ const WALLS: usize = 8;
 /// The disc of a radius around a point.
 pub(super) struct Disc<'w> {
     world: &'w World,
+    vertex: &'w Vertex<'w>,
     point: &'w Point,
+    /// All objects that rays to places may meet.
+    nearby: Nearby<'w>,
     /// The geometric normal, on the side that is seen.
     facing: DVec3,
     radius: f64,
@@ -67,9 +82,24 @@ pub(super) struct Disc<'w> {
 /// The part of a disc that lies on its surface.
 pub(super) struct Part<'d> {
     disc: &'d Disc<'d>,
+    /// The share of the disc, by its kernel.
+    share: f64,
+    /// Whether walls hide most of the rest, rather than the surface ending before.
+    is_hidden: bool,
     /// The factor of the kernel at the point, and its changes along the surface per radius.
     factor: DVec3,
     walls: Walls,
+}
+
+/// How much of a disc lies on its surface.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Extent {
+    /// Enough to be measured by its places.
+    Measured,
+    /// Less, or nothing if it is gone: the point is in a gap between walls.
+    Hidden { is_gone: bool },
+    /// Less: the surface is much smaller.
+    Ended,
 }
 
 /// Walls around a point: a point of each, and its normal on that side.
@@ -91,13 +121,18 @@ enum Met {
 
 impl<'w> Disc<'w> {
     /// The disc with a radius above 0.
-    pub(super) fn new(world: &'w World, point: &'w Point, radius: f64) -> Self {
+    pub(super) fn new(world: &'w World, vertex: &'w Vertex<'w>, radius: f64) -> Self {
+        /// Places are searched no farther from the point, in radii: 1.72 is √(1 + (DEPTH − RISE)²).
+        const REACH: f64 = 1.73;
+        let point = &vertex.point;
         let facing = point.side.turn(point.surface.normal);
         let place = (point.surface.point / radius).to_array();
         let bits = hash(place.map(|along| along.to_bits() as i64)) as u64;
         Self {
             world,
+            vertex,
             point,
+            nearby: Nearby::new(world, point.surface.point, REACH * radius),
             facing,
             radius,
             frame: warp::basis(facing),
@@ -113,6 +148,9 @@ impl<'w> Disc<'w> {
 
     /// The part of the disc that lies on the surface; `None` if nothing cuts it.
     pub(super) fn part(&self) -> Option<Part<'_>> {
+        if self.is_surely_whole() {
+            return None;
+        }
         let is_whole = |number| {
             let around = (f64::from(number) + self.turn) / f64::from(RIM);
             matches!(self.met(around, AT_RIM), Met::Surface(..))
@@ -121,6 +159,7 @@ impl<'w> Disc<'w> {
             return None;
         }
         let mut walls = Walls::default();
+        let [mut hidden, mut ended] = [0, 0];
         // Sums of 1, x, y; of x, xx, xy; of y, xy, yy.
         let mut moments = DMat3::ZERO;
         for number in 0..PLACES {
@@ -128,21 +167,42 @@ impl<'w> Disc<'w> {
             let until = (f64::from(number) + self.turn) / f64::from(PLACES);
             let distance = (1.0 - (1.0 - until).sqrt()).sqrt();
             match self.met(f64::from(number) * GOLDEN + self.turn, distance) {
-                Met::Wall(at, normal) => walls.add(self.radius, at, normal),
+                Met::Wall(at, normal) => {
+                    walls.add(self.radius, at, normal);
+                    hidden += 1;
+                }
                 Met::Surface(offset, weight) => {
                     let place = self.place(offset);
                     let each = place.to_array().map(|along| weight * along * place);
                     moments += DMat3::from_cols(each[0], each[1], each[2]);
                 }
-                Met::Nothing => {}
+                Met::Nothing => ended += 1,
             }
         }
         moments *= 1.0 / f64::from(PLACES);
-        factor(&moments).map(|factor| Part {
+        Some(Part {
             disc: self,
-            factor,
+            share: moments.x_axis.x,
+            is_hidden: ended < hidden,
+            factor: factor(&moments),
             walls,
         })
+    }
+
+    /// Whether all places are known to be on the surface, without a ray.
+    fn is_surely_whole(&self) -> bool {
+        let Vertex {
+            nearest: Nearest { object, hit },
+            material,
+            ref bsdf,
+            ..
+        } = *self.vertex;
+        let at = self.point.surface.point;
+        let shape = &self.world.scene.objects[object as usize].shape;
+        material.maps.is_none()
+            && bsdf.takes_photons(self.point)
+            && self.radius <= shape.smooth_within(hit, at)
+            && self.nearby.is_alone(object, at, self.radius)
     }
 
     /// What is met at a place at a part of a turn, at a distance in radii.
@@ -151,8 +211,12 @@ impl<'w> Disc<'w> {
         let [right, up] = self.frame;
         let flat = distance * self.radius;
         let aside = flat * (cosine * right + sine * up);
-        if let Some((at, normal)) = self.wall(aside, flat) {
-            return Met::Wall(at, normal);
+        let (ray, wall) = self.wall(aside, flat);
+        if let Some(nearest) = wall {
+            let shape = &self.world.scene.objects[nearest.object as usize].shape;
+            let surface = shape.surface(&ray, nearest.hit);
+            let side = Side::hit(ray.direction, surface.normal);
+            return Met::Wall(surface.point, side.turn(surface.normal));
         }
         let Some((at, normal)) = self.below(aside, flat) else {
             return Met::Nothing;
@@ -167,25 +231,20 @@ impl<'w> Disc<'w> {
         Met::Surface(offset, weight)
     }
 
-    /// A point of what stands in the way to above a place, and its normal.
-    fn wall(&self, aside: DVec3, flat: f64) -> Option<(DVec3, DVec3)> {
+    /// The ray to above a place, and what stands in its way.
+    fn wall(&self, aside: DVec3, flat: f64) -> (Ray, Option<Nearest>) {
         let way = aside + RISE * flat * self.facing;
         let length = way.length();
         let ray = self.point.leave(way / length);
         self.rays.set(self.rays.get() + 1);
-        let nearest = self.world.nearest(&ray, length)?;
-        let shape = &self.world.scene.objects[nearest.object as usize].shape;
-        let surface = shape.surface(&ray, nearest.hit);
-        let side = Side::hit(ray.direction, surface.normal);
-        Some((surface.point, side.turn(surface.normal)))
+        let wall = self.nearby.nearest(&ray, length);
+        (ray, wall)
     }
 
     /// The surface below a place if photons arrive at it, and its normal.
     fn below(&self, aside: DVec3, flat: f64) -> Option<(DVec3, DVec3)> {
-        /// Farther than the steepest slope of the same surface falls.
-        const DEPTH: f64 = 1.5;
         let ray = self.down(aside, flat);
-        let nearest = self.world.nearest(&ray, DEPTH * flat)?;
+        let nearest = self.nearby.nearest(&ray, DEPTH * flat)?;
         let mut mapped = None;
         let (point, material) = self.world.arrive(&ray, nearest, &mut mapped);
         let bsdf = Bsdf::at(&point, material, self.world.gloss);
@@ -224,9 +283,9 @@ impl<'w> Disc<'w> {
             return true;
         }
         let rounding = 1e-6 * self.radius;
-        self.wall(aside, flat).is_none() && {
+        self.wall(aside, flat).1.is_none() && {
             let ray = self.down(aside, flat);
-            let nearest = self.world.nearest(&ray, RISE * flat - height - rounding);
+            let nearest = self.nearby.nearest(&ray, RISE * flat - height - rounding);
             nearest.is_none()
         }
     }
@@ -245,12 +304,10 @@ impl<'w> Disc<'w> {
 }
 
 /// The factor of the kernel at a point, and its changes across, by which what is left of the disc
-/// stands for all of it; `None` if nothing is left.
-fn factor(moments: &DMat3) -> Option<DVec3> {
-    let share = moments.x_axis.x;
-    if share <= 0.0 {
-        return None;
-    }
+/// stands for all of it. Of what all places miss no more is known than that it is less than one place
+/// stands for.
+fn factor(moments: &DMat3) -> DVec3 {
+    let share = moments.x_axis.x.max(1.0 / f64::from(PLACES));
     let even = DVec3::new(1.0 / share, 0.0, 0.0);
     let [from, to] = SLOPED;
     let sureness = ((share - from) / (to - from)).clamp(0.0, 1.0);
@@ -258,14 +315,27 @@ fn factor(moments: &DMat3) -> Option<DVec3> {
     // "Local Polynomial Modelling and Its Applications", 1996).
     let sloped = moments.inverse() * DVec3::X;
     let is_sloped = 0.0 < sureness && sloped.is_finite();
-    Some(if is_sloped {
+    if is_sloped {
         even.lerp(sloped, sureness)
     } else {
         even
-    })
+    }
 }
 
 impl Part<'_> {
+    /// What it tells about the disc.
+    pub(super) fn extent(&self) -> Extent {
+        if LEAST_SHARE <= self.share {
+            Extent::Measured
+        } else if self.is_hidden {
+            Extent::Hidden {
+                is_gone: self.share <= 0.0,
+            }
+        } else {
+            Extent::Ended
+        }
+    }
+
     /// The factor of a photon within the disc.
     pub(super) fn factor(&self, photon: &Photon) -> f64 {
         let disc = self.disc;

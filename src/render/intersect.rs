@@ -252,6 +252,27 @@ impl World {
         crossed
     }
 
+    /// The same as [`Self::nearest`] if only these objects, in file order, may be hit.
+    pub(crate) fn nearest_of(&self, objects: &[u32], ray: &Ray, limit: f64) -> Option<Nearest> {
+        dispatch!(self.level, simd => {
+            let hit = |&object: &u32, limit| {
+                let hit = self.hit(simd, object, ray, limit, Search::Nearest)?;
+                Some(Nearest { object, hit })
+            };
+            let mut closest = Closest::before(limit, ray.origin.length());
+            for object in objects {
+                if let Some(Nearest { object, hit }) = hit(object, closest.limit) {
+                    closest.offer_one(object, hit);
+                }
+            }
+            if closest.tied == 0.0 {
+                closest.best()
+            } else {
+                objects.iter().find_map(|object| hit(object, closest.limit))
+            }
+        })
+    }
+
     #[inline(always)]
     pub(super) fn nearest_alone<S: Simd>(&self, simd: S, ray: &Ray, limit: f64) -> Option<Nearest> {
         let mut closest = Closest::before(limit, ray.origin.length());

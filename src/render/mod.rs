@@ -75,6 +75,7 @@ mod level;
 mod lights;
 mod lobes;
 mod microfacet;
+mod nearby;
 mod next_event;
 mod next_event_wave;
 mod noise;

@@ -75,13 +75,12 @@ impl PhotonMap {
         self.photons.is_empty()
     }
 
-    /// Visits the photons around a point, each with the kernel's value per unit of area: 2/πr²
-    /// (1 − d²/r²) at distance d (Epanechnikov).
-    pub(crate) fn around(&self, point: DVec3, mut visit: impl FnMut(&Photon, f64)) {
-        let radius = self.radius;
+    /// Visits the photons within a radius of a point, up to the kernel's own, each with the value per
+    /// unit of area of a kernel of that radius: 2/πr² (1 − d²/r²) at distance d (Epanechnikov).
+    pub(crate) fn around(&self, point: DVec3, radius: f64, mut visit: impl FnMut(&Photon, f64)) {
         let square = radius * radius;
         let mask = self.starts.len() - 2;
-        let middle = point * (0.5 / radius);
+        let middle = point * (0.5 / self.radius);
         let [low, high] = [cell(middle - 0.5), cell(middle + 0.5)];
         let mut visited = [usize::MAX; 8];
         for corner in 0..8usize {
@@ -152,7 +151,7 @@ mod tests {
             let map = PhotonMap::new(&photons, radius, 1.0);
             for &at in points.iter().step_by(97) {
                 let mut found = Vec::new();
-                map.around(at, |photon, kernel| {
+                map.around(at, radius, |photon, kernel| {
                     let distance = photon.point.distance(at) / radius;
                     let expected = 2.0 / (std::f64::consts::PI * radius * radius);
                     let expected = expected * (1.0 - distance * distance);
@@ -171,6 +170,6 @@ mod tests {
     fn no_photons_are_none_anywhere() {
         let map = PhotonMap::new(&[], 1.0, 1.0);
         assert!(map.is_empty());
-        map.around(DVec3::ZERO, |_, _| unreachable!("there are none"));
+        map.around(DVec3::ZERO, 1.0, |_, _| unreachable!("there are none"));
     }
 }

@@ -31,7 +31,7 @@ pub(super) const FEW: usize = 4;
 
 /// The same for paths, whose packets spread after the first bounce: without a tree, eight objects take
 /// 8 % less time and twelve 6 % less. More were not measured.
-const FEW_FOR_PATHS: usize = 16;
+pub(super) const FEW_FOR_PATHS: usize = 16;
 
 /// Cancellation is polled once in this many objects.
 const POLLED: usize = 1 << 12;

@@ -1,4 +1,5 @@
 mod build;
+mod overlap;
 mod walk;
 
 use glam::DVec3;

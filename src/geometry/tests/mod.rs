@@ -20,6 +20,7 @@ mod rows;
 mod runs;
 mod scale;
 mod silhouettes;
+mod smooth;
 
 use glam::DVec3;
 

@@ -30,10 +30,8 @@ fn down_at(x: f64) -> Vec<Ray> {
 
 /// The mean over rays and some seeds of what photons bring, as a share of what the image of the light
 /// would bring them.
-fn share(scene: &Scene, x: f64, image: [f64; 3], count: u32) -> f64 {
-    const SEEDS: u32 = 8;
+fn share(scene: &Scene, rays: &[Ray], image: [f64; 3], (count, seeds): (u32, u32)) -> f64 {
     let world = world_by(scene, PHOTONS);
-    let rays = down_at(x);
     let traced = |depth| Traced {
         depth,
         count,
@@ -43,17 +41,17 @@ fn share(scene: &Scene, x: f64, image: [f64; 3], count: u32) -> f64 {
         maps: 1,
         ..traced(0)
     }
-    .mean(&world, &rays, 0)
+    .mean(&world, rays, 0)
     .x;
-    let sum: f64 = (0..SEEDS)
-        .map(|seed| traced(1).mean(&world, &rays, seed).x - direct)
+    let sum: f64 = (0..seeds)
+        .map(|seed| traced(1).mean(&world, rays, seed).x - direct)
         .sum();
     let at = |ray: &Ray| ray.at(-ray.origin.z / ray.direction.z);
     let expected: f64 = rays
         .iter()
         .map(|ray| 8.0 * cosine_over_square(at(ray), image))
         .sum();
-    sum / f64::from(SEEDS) / (expected / rays.len() as f64)
+    sum / f64::from(seeds) / (expected / rays.len() as f64)
 }
 
 /// The kernels of the first maps have a radius of .7. What cuts them turns no light, so that the ground
@@ -77,7 +75,7 @@ fn photons_beside_a_cut_are_as_bright_as_elsewhere() {
         let ground = if cut == "a wall" { "" } else { GROUND };
         let scene = xml(&format!("{OVERHEAD}{ground}{objects}"));
         for (x, error) in [(0.3, 0.01), (0.05, 0.05)] {
-            let share = share(&scene, x, [1.5, 0.0, 7.0], 1 << 10);
+            let share = share(&scene, &down_at(x), [1.5, 0.0, 7.0], (1 << 10, 8));
             assert!((share - 1.0).abs() < error, "{cut} at {x}: {share}");
         }
     }
@@ -93,8 +91,29 @@ fn the_slope_of_light_beside_a_wall_is_made_up_for() {
         <material name='mirror'><diffuse value='0'/><specular value='0'/><reflection value='1'/></material>
         <light type='point'><intensity value='8'/><attenuation value='1'/>
         <position x='2' z='3'/></light>");
-    let share = share(&scene, 0.3, [-2.0, 0.0, 3.0], 1 << 12);
+    let share = share(&scene, &down_at(0.3), [-2.0, 0.0, 3.0], (1 << 12, 8));
     assert!((share - 1.0).abs() < 0.01, "{share}");
+}
+
+/// A table of which some or all places of the disc around its points, with a radius of .7, miss: it is
+/// as bright as it would be as a part of a larger one.
+#[test]
+fn photons_on_what_is_much_smaller_than_the_disc_are_divided_by_that() {
+    for half in [0.05, 0.1] {
+        let scene = xml(&format!(
+            "{OVERHEAD}<object type='plane' material='white'><scale value='{half}'/>
+             <translate x='1.5'/></object>
+             <object type='plane' material='white'><scale value='20'/><translate z='-1'/></object>"
+        ));
+        let ray = |number: u32| {
+            let along = |number: u32| half * (f64::from(number) - 1.5) / 2.0;
+            let (x, y) = (1.5 + along(number % 4), along(number / 4));
+            ray([x + 0.001, y, 0.002], [x, y, 0.0])
+        };
+        let rays: Vec<_> = (0..16).map(ray).collect();
+        let share = share(&scene, &rays, [1.5, 0.0, 7.0], (1 << 10, 24));
+        assert!((share - 1.0).abs() < 0.15, "{half}: {share}");
+    }
 }
 
 /// The light that a small table gets as a whole, all of it near an edge or beside what stands on it, by

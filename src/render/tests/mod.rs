@@ -21,6 +21,7 @@ mod lamps;
 mod looks;
 mod many_lights;
 mod meshes;
+mod nearby;
 mod noise;
 mod optics;
 mod paths;
