@@ -108,7 +108,6 @@ impl<'w> Animated<'w> {
             job: tracing.job(scene, read.images.clone(), frames)?,
             scene: self.text.fingerprint(),
             files: read.files.clone(),
-            prospects: Vec::new(),
         })
     }
 

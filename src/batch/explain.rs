@@ -5,7 +5,7 @@ mod json;
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
 
-use super::finding::{Found, Naming, Suspect, Text, place_after};
+use super::finding::{Naming, Suspect, Text, place_after};
 use super::tracing::Tracer;
 use super::{Error, Messages, Report, Tracing, Warnings, load, stdout};
 use crate::assets;
@@ -64,28 +64,7 @@ fn try_explain(work: &Explain) -> Result<(), Error> {
         camera: &job.camera,
         size,
     };
-    let mut words = words(&explanation, &subject);
-    let text_of_scene = Text {
-        messages: Messages::Text,
-        path: &work.scene,
-        naming: Naming::Implied,
-        source: Some(&loaded.source),
-        prospects: &loaded.prospects,
-    };
-    // Elsewhere the pixel is as it is for a reason of its own.
-    let is_of_picture = words.verdicts[0].may_be_of_picture();
-    let suspect = is_of_picture.then(|| Suspect::of_scene(job.clone(), &loaded.prospects));
-    let found = suspect.flatten().map_or_else(Found::default, |suspect| {
-        suspect.find_out(&text_of_scene, |job, trials| {
-            Tracer::new(&work.tracing).try_out(job, trials)
-        })
-    });
-    if let Some(advice) = &found.advice {
-        words
-            .verdicts
-            .iter_mut()
-            .for_each(|sentence| sentence.heed(advice));
-    }
+    let words = words(&explanation, &subject);
     let report = match work.report {
         Report::Text => text(&work.scene, &explanation, &words),
         Report::Json => {
@@ -94,8 +73,18 @@ fn try_explain(work: &Explain) -> Result<(), Error> {
         }
     };
     stdout::print(&report).map_err(stdout::error)?;
-    if let Some(words) = &found.words {
-        text_of_scene.print(words);
+    let text = Text {
+        messages: Messages::Text,
+        path: &work.scene,
+        naming: Naming::Implied,
+        source: Some(&loaded.source),
+        prospects: &loaded.prospects,
+    };
+    // Elsewhere the pixel is as it is for a reason of its own.
+    let is_of_picture = words.verdicts[0].may_be_of_picture();
+    let suspect = is_of_picture.then(|| Suspect::of_scene(job, &loaded.prospects));
+    if let Some(suspect) = suspect.flatten() {
+        suspect.print(&text, || Tracer::new(&work.tracing));
     }
     Ok(())
 }

@@ -1,15 +1,12 @@
 //! What is wrong with a picture as a whole, and the option that helps.
 
-use std::ops::ControlFlow;
 use std::path::Path;
 
 use super::tracing::Tracer;
 use super::{Loaded, Messages, Tracing};
 use crate::explain::{Place, Subject, cause, fault};
 use crate::language::{Prospect, RenderKey, Source};
-use crate::render::{
-    Advice, Fault, Frame, Frames, Job, Limit, PreparedScene, Settings, Trials, Tried,
-};
+use crate::render::{Advice, Fault, Frame, Frames, Job, Limit, PreparedScene, Settings, Trials};
 use crate::scene::{LEAST_ADAPTIVE_SPP, Rendering};
 
 /// Says that options over the text leave adaptive sampling no pixel to stop.
@@ -30,17 +27,7 @@ pub(super) fn print_without_effect(messages: Messages, over_text: &Rendering, se
 /// A picture with which something may be wrong.
 pub(super) struct Suspect {
     job: Job,
-    /// What is to be traced to find out, or the advice if that is too much work.
-    trials: ControlFlow<Advice, Trials>,
-}
-
-/// What was found out of a picture.
-#[derive(Default)]
-pub(super) struct Found {
-    /// What is wrong, and what helps.
-    pub(super) advice: Option<Advice>,
-    /// The same in words, unless the text's warnings say it all.
-    pub(super) words: Option<String>,
+    trials: Trials,
 }
 
 impl Suspect {
@@ -51,57 +38,45 @@ impl Suspect {
             return None;
         }
         let of_text = fault(prospects);
-        let tried = Trials::of_picture(frame, &job.scene, &job.settings, of_text);
-        Self::of(job, tried)
+        let trials = Trials::of_picture(frame, &job.scene, &job.settings, of_text)?;
+        Some(Self { job, trials })
     }
 
     /// A picture that was not traced; `None` if its scene is large.
     pub(super) fn of_scene(job: Job, prospects: &[Prospect]) -> Option<Self> {
-        let tried = Trials::of_scene(&job.scene, &job.settings, fault(prospects));
-        Self::of(job, tried)
-    }
-
-    fn of(job: Job, tried: Tried) -> Option<Self> {
-        let trials = match tried {
-            ControlFlow::Continue(trials) => ControlFlow::Continue(trials),
-            ControlFlow::Break(advice) => ControlFlow::Break(advice?),
-        };
+        let trials = Trials::of_scene(&job.scene, &job.settings, fault(prospects))?;
         Some(Self { job, trials })
     }
 
-    /// Prints what is wrong with the picture, if anything is, and the option that helps.
-    pub(super) fn print(
-        self,
-        text: &Text<'_>,
-        try_out: impl FnOnce(&Job, Trials) -> Option<Advice>,
-    ) {
-        if let Some(words) = self.find_out(text, try_out).words {
-            text.print(&words);
-        }
-    }
-
-    /// Finds out what is wrong with the picture, if anything is, and the option that helps. Traces small
-    /// pictures for that.
-    pub(super) fn find_out(
-        self,
-        text: &Text<'_>,
-        try_out: impl FnOnce(&Job, Trials) -> Option<Advice>,
-    ) -> Found {
+    /// Prints what is wrong with the picture, if anything is, and the option that helps. Traces small
+    /// pictures to find out.
+    pub(super) fn print(self, text: &Text<'_>, tracer: impl FnOnce() -> Tracer) {
         let Self { job, trials } = self;
-        let advice = match trials {
-            // No time is left for small pictures.
-            ControlFlow::Continue(trials) if matches!(job.limit, Some(Limit::Time(_))) => {
-                return Found {
-                    advice: None,
-                    words: trials.apparent().map(|fault| text.untimed(fault)),
-                };
+        // No time is left for small pictures.
+        if let Some(Limit::Time(_)) = job.limit {
+            if let Some(fault) = trials.fault() {
+                let helps = "without `--time`, what helps is tried";
+                text.print(&format!("{fault}; {helps}"));
             }
-            ControlFlow::Continue(trials) => try_out(&job, trials),
-            ControlFlow::Break(advice) => Some(advice),
+            return;
+        }
+        let Some(Advice { fault, cure }) = tracer().try_out(&job, trials) else {
+            return;
         };
-        Found {
-            advice,
-            words: advice.and_then(|advice| text.words(advice, &job)),
+        let setting = cure.and_then(|cure| RenderKey::stated(&cure).next());
+        match (setting, fault) {
+            (Some((key, value)), _) => {
+                text.print(&format!("{fault}; try `--{} {value}`", key.name()));
+            }
+            (None, Fault::Black(_)) if text.prospects.contains(&Prospect::Black) => {
+                text.print(&format!("{fault}; the warnings above say why"));
+            }
+            (None, Fault::Black(_)) => text.print_cause(fault, &job),
+            (None, Fault::Burnt) => {
+                text.print(&format!("{fault}; no single render setting fixes that"));
+            }
+            // The warning of the text says it all.
+            (None, Fault::Unlit | Fault::WithoutPhotons) => {}
         }
     }
 }
@@ -120,71 +95,26 @@ pub(super) struct Text<'t> {
     pub(super) prospects: &'t [Prospect],
 }
 
-/// How messages say what they are about.
+/// Whether messages say which file they are about.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Naming {
-    /// They name the file: there may be several, none of which is rendered.
+    /// They do: there may be several.
     File,
-    /// They name the frame of a sequence.
-    Frame(u32),
     /// There is only one.
     Implied,
 }
 
 impl Text<'_> {
-    pub(super) fn print(&self, finding: &str) {
+    fn print(&self, finding: &str) {
         let name = match self.naming {
             Naming::File => format!("{}: ", self.path.display()),
-            Naming::Frame(number) => format!("frame {number}: "),
             Naming::Implied => String::new(),
         };
         self.messages.note(&format!("{name}{finding}"));
     }
 
-    /// What is said of a picture for which there was no time to try what helps.
-    fn untimed(&self, fault: Fault) -> String {
-        if self.shows_black(fault) {
-            format!("{fault}; the warnings above say why")
-        } else {
-            format!("{fault}; run it without `--time` to find what helps")
-        }
-    }
-
-    /// Whether the text shows that its picture is black.
-    fn shows_black(&self, fault: Fault) -> bool {
-        matches!(fault, Fault::Black(_)) && self.prospects.contains(&Prospect::Black)
-    }
-
-    /// What is wrong, and what helps.
-    fn words(&self, advice: Advice, job: &Job) -> Option<String> {
-        let Advice {
-            fault,
-            cure,
-            is_tried,
-        } = advice;
-        let setting = cure.and_then(|cure| RenderKey::stated(&cure).next());
-        let helps = match self.naming {
-            Naming::File => "render it with",
-            Naming::Frame(_) | Naming::Implied => "try",
-        };
-        Some(match (setting, fault) {
-            (Some((key, value)), _) => format!("{fault}; {helps} `--{} {value}`", key.name()),
-            (None, Fault::Black(_)) if self.shows_black(fault) => {
-                format!("{fault}; the warnings above say why")
-            }
-            (None, Fault::Black(_)) => self.cause(advice, job),
-            (None, Fault::Burnt) if is_tried => {
-                format!("{fault}; no single render setting fixes that")
-            }
-            (None, Fault::Burnt) => fault.to_string(),
-            // The warning of the text says it all.
-            (None, Fault::Unlit | Fault::WithoutPhotons | Fault::FewerPhotons) => return None,
-        })
-    }
-
-    /// That a picture is black, and why most of it is.
-    fn cause(&self, advice: Advice, job: &Job) -> String {
-        let fault = advice.fault;
+    /// Prints that a picture is black, and why most of it is.
+    fn print_cause(&self, fault: Fault, job: &Job) {
         let size = job.settings.size;
         let prepared = self.source.zip(PreparedScene::new(job, || false));
         let found = prepared.and_then(|(source, prepared)| {
@@ -197,9 +127,8 @@ impl Text<'_> {
             cause(prepared.query(), &subject)
         });
         let name = self.path.to_string_lossy();
-        match found {
-            Some(mut cause) => {
-                cause.heed(&advice);
+        self.print(&match found {
+            Some(cause) => {
                 let help = cause
                     .help
                     .map_or_else(String::new, |help| format!("; {help}"));
@@ -207,27 +136,7 @@ impl Text<'_> {
                 format!("{fault}: {}{help}{place}", cause.text)
             }
             None => format!("{fault}; `halflight explain SCENE X Y` may show why"),
-        }
-    }
-}
-
-/// Prints what is wrong with a frame of a sequence, which was traced from this job.
-pub(super) fn print_of_frame(
-    number: u32,
-    frame: &Frame,
-    (job, prospects): (Job, &[Prospect]),
-    tracer: &mut Tracer,
-    messages: Messages,
-) {
-    let text = Text {
-        messages,
-        path: Path::new(""),
-        naming: Naming::Frame(number),
-        source: None,
-        prospects,
-    };
-    if let Some(suspect) = Suspect::of_picture(frame, job, prospects) {
-        suspect.print(&text, |job, trials| tracer.try_out(job, trials));
+        });
     }
 }
 
@@ -249,9 +158,7 @@ pub(super) fn print_of_scene(path: &Path, loaded: &mut Loaded, tracing: &Tracing
             source: Some(&loaded.source),
             prospects: &loaded.prospects,
         };
-        suspect.print(&text, |job, trials| {
-            Tracer::new(tracing).try_out(job, trials)
-        });
+        suspect.print(&text, || Tracer::new(tracing));
     }
 }
 

@@ -9,7 +9,6 @@ use std::sync::Arc;
 use std::time::Instant;
 
 use super::animated::{Animated, Origin};
-use super::finding::print_of_frame;
 use super::ledger::Ledger;
 use super::lists::{list, lists};
 use super::numbers::Numbers;
@@ -148,8 +147,6 @@ fn pictures(
     let signals = Signals::noted().unwrap_or_default();
     let mut tracer = Tracer::new(&work.tracing).stopped_by(signals.clone());
     let (numbers, mut skipped) = (source.numbers, 0);
-    // One is enough: the others are often alike.
-    let mut is_judged = false;
     let begun = Instant::now();
     for (number, before) in numbers.iter().zip(0..) {
         let stopped = |error| match (error, signals.last()) {
@@ -164,12 +161,7 @@ fn pictures(
             return Err(stopped(Error::Stopped));
         }
         let picture = pattern.path(number);
-        let Still {
-            job,
-            scene,
-            files,
-            prospects,
-        } = source.still(number, format.frames())?;
+        let Still { job, scene, files } = source.still(number, format.frames())?;
         let provenance = work.tracing.provenance(&job, scene);
         let inputs = inputs(&work.tracing, &provenance, format);
         if finished == Finished::Skipped && ledger.has(&inputs, &picture) {
@@ -207,10 +199,6 @@ fn pictures(
             out.write_all(&bytes)
         })?;
         ledger.add(&inputs, &picture, &bytes)?;
-        if !std::mem::replace(&mut is_judged, true) {
-            let messages = work.messages();
-            print_of_frame(number, &frame, (job, &prospects), &mut tracer, messages);
-        }
     }
     if 0 < skipped {
         let was = if skipped == 1 { "was" } else { "were" };
@@ -261,12 +249,7 @@ fn write_movie(
     let begun = Instant::now();
     let numbers = source.numbers;
     let mut next = |(number, before)| {
-        let Still {
-            job,
-            files,
-            prospects,
-            ..
-        } = source.still(number, Frames::Last)?;
+        let Still { job, files, .. } = source.still(number, Frames::Last)?;
         source.check_spared(to, &files)?;
         let place = Place {
             frame: number,
@@ -275,12 +258,7 @@ fn write_movie(
             all: numbers.count,
             begun,
         };
-        let frame = tracer.trace(job.clone(), Some(place), || {})?;
-        if before == 0 {
-            let messages = work.messages();
-            print_of_frame(number, &frame, (job, &prospects), &mut tracer, messages);
-        }
-        Ok(frame)
+        tracer.trace(job, Some(place), || {})
     };
     let mut places = numbers.iter().zip(0..);
     let first = places.next().ok_or(Error::Stopped);
@@ -388,23 +366,13 @@ impl<'w> Source<'w> {
             Shows::Edits(animated) => animated.still(number, &self.work.tracing, frames),
             Shows::Turns { still, count } => {
                 let turn = f64::from(number) / f64::from(*count);
-                let Still {
-                    job,
-                    scene,
-                    files,
-                    prospects,
-                } = (**still).clone();
+                let Still { job, scene, files } = (**still).clone();
                 let job = Job {
                     camera: job.camera.about_target(TAU * turn),
                     frames,
                     ..job
                 };
-                Ok(Still {
-                    job,
-                    scene,
-                    files,
-                    prospects,
-                })
+                Ok(Still { job, scene, files })
             }
         }
     }

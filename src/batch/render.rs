@@ -129,6 +129,7 @@ fn try_render(work: &Render) -> Result<(), Error> {
     }
     times.write = times.lap();
     if let Some(suspect) = traced.suspect {
+        let tracer = || traced.tracer.unwrap_or_else(|| Tracer::new(&work.tracing));
         let text = Text {
             messages,
             path: &work.scene,
@@ -136,11 +137,7 @@ fn try_render(work: &Render) -> Result<(), Error> {
             source: traced.source.as_ref(),
             prospects: &prospects,
         };
-        suspect.print(&text, |job, trials| {
-            let tracer = traced.tracer;
-            let mut tracer = tracer.unwrap_or_else(|| Tracer::new(&work.tracing));
-            tracer.try_out(job, trials)
-        });
+        suspect.print(&text, tracer);
     }
     let Some(output) = &work.stats else {
         return Ok(());

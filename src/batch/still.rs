@@ -4,7 +4,6 @@ use std::path::{Path, PathBuf};
 
 use super::{Error, Messages, Tracing, Warnings, load};
 use crate::assets::fingerprint;
-use crate::language::Prospect;
 use crate::render::{Frames, Job};
 
 /// A picture of a sequence, ready to trace.
@@ -15,8 +14,6 @@ pub(super) struct Still {
     pub(super) scene: String,
     /// The files that its scene references.
     pub(super) files: Vec<PathBuf>,
-    /// What its text shows of its picture.
-    pub(super) prospects: Vec<Prospect>,
 }
 
 impl Still {
@@ -41,7 +38,6 @@ impl Still {
             job,
             scene: fingerprint(loaded.source.text(), &loaded.read.found)?,
             files: loaded.read.files,
-            prospects: loaded.prospects,
         })
     }
 }

@@ -3,7 +3,7 @@
 use super::names::Names;
 use super::{Sentence, Subject, sentences};
 use crate::language::Prospect;
-use crate::render::{Advice, Fault, Query, Verdict};
+use crate::render::{Fault, Query, Verdict};
 use crate::scene::Size;
 
 /// Pixels asked, across and down.
@@ -36,16 +36,6 @@ impl Sentence {
             "not-reflected",
         ];
         NAMES.contains(&self.name)
-    }
-
-    /// Leaves out what would help if trials of the whole picture have shown what does, or that it does not.
-    pub fn heed(&mut self, advice: &Advice) {
-        if advice.cure.is_some() && self.may_be_of_picture() {
-            self.help = None;
-        } else if advice.is_tried && self.name == "no-lights" {
-            // Another integrator was tried.
-            self.help = Some("add a light".to_owned());
-        }
     }
 }
 

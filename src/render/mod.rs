@@ -144,7 +144,7 @@ pub use refusal::{Refusal, check_memory, memory_for, memory_for_blocks, photons_
 pub use region::{NoRegion, Region};
 pub use renderer::{Renderer, Threads};
 pub use shading::Side;
-pub use trials::{Advice, Fault, Trials, Tried};
+pub use trials::{Advice, Fault, Trials};
 pub use wireframe::{WireLine, Wireframe, wireframe};
 
 #[cfg(test)]

@@ -7,12 +7,6 @@ use crate::scene::Rgb;
 /// Half stops above 1 that are told apart: more than exposures permit.
 const HALVES: usize = 256;
 
-/// What the largest channel of a pixel adds to the mean at most.
-const MOST: f64 = 16.0;
-
-/// The parts of 1 in which means are summed, so that sums do not depend on their order.
-const PARTS: f64 = 1024.0;
-
 /// How much of a picture has a channel above 1, where displays clip.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Overexposure {
@@ -23,8 +17,6 @@ pub struct Overexposure {
     pub stops: f64,
     /// The largest finite channel of all pixels; 0 if none is above 0.
     pub brightest: f64,
-    /// The mean of the largest channels of all pixels, each counted as 16 at most.
-    pub mean: f64,
 }
 
 impl Overexposure {
@@ -49,8 +41,6 @@ pub(crate) struct Excess {
     /// The numbers of pixels whose largest channel is above 1, by half stops rounded up.
     counts: [usize; HALVES],
     brightest: f64,
-    /// The sum of the largest channels, in [`PARTS`].
-    sum: u64,
 }
 
 impl Excess {
@@ -60,9 +50,6 @@ impl Excess {
         for value in values.map(Rgb::max_element) {
             if excess.brightest < value && value < f64::INFINITY {
                 excess.brightest = value;
-            }
-            if 0.0 < value {
-                excess.sum += (PARTS * value.min(MOST)) as u64;
             }
             if 1.0 < value {
                 let halves = (2.0 * libm::log2(value)).ceil() as usize;
@@ -76,7 +63,6 @@ impl Excess {
     const NONE: Self = Self {
         counts: [0; HALVES],
         brightest: 0.0,
-        sum: 0,
     };
 
     /// The sum of counts of parts of a picture.
@@ -87,7 +73,6 @@ impl Excess {
                 *sum += part;
             }
             sum.brightest = sum.brightest.max(part.brightest);
-            sum.sum += part.sum;
             sum
         })
     }
@@ -106,7 +91,6 @@ impl Excess {
             share: above as f64 / pixels.max(1) as f64,
             stops: 0.5 * enough.unwrap_or(HALVES) as f64,
             brightest: self.brightest,
-            mean: self.sum as f64 / (PARTS * pixels.max(1) as f64),
         }
     }
 }
@@ -131,19 +115,6 @@ mod tests {
         assert_eq!(with(&[1e9, 1e9, 4.001]), (3.0, 2.5));
         assert_eq!(with(&[f32::INFINITY; 3]), (3.0, 128.0));
         assert_eq!(Overexposure::of(&[]), Overexposure::default());
-    }
-
-    #[test]
-    fn fireflies_add_little_to_the_mean() {
-        for (values, expected) in [
-            (&[0.25, 0.75][..], 0.5),
-            (&[1e9, 0.0, f32::INFINITY, 0.0], 8.0),
-            (&[f32::NAN, -3.0, 1.0, 1.0], 0.5),
-            (&[], 0.0),
-        ] {
-            let values: Vec<_> = values.iter().map(|&value| [0.0, value, -1.0]).collect();
-            assert_eq!(Overexposure::of(&values).mean, expected);
-        }
     }
 
     #[test]

@@ -55,12 +55,6 @@ fn a_picture_is_judged_alike_by_every_command() {
             &ball("falloff square", "50 50 90 1 1 1"),
             "the picture is black; try `--falloff none`".to_owned(),
         ),
-        // Noise hides how dark it is.
-        (
-            "noisy.ray",
-            &ball("falloff square integrator path", "9 9 16 1 1 1"),
-            "the picture is black; try `--falloff none`".to_owned(),
-        ),
         (
             "bright.ray",
             &ball("exposure 0", "5 5 9 90 90 90").replace("fov 30", "fov 9"),
@@ -68,15 +62,13 @@ fn a_picture_is_judged_alike_by_every_command() {
         ),
     ] {
         place.write(name, text);
-        let checked = expected.replace("; try", "; render it with");
         assert_eq!(
             notes(&place, &format!("check {name}")),
-            [format!("{name}: {checked}")]
+            [format!("{name}: {expected}")]
         );
         for more in [
             "",
             "--spp 1",
-            "--spp 4",
             "--spp 64 --seed 7",
             "--size 40x30",
             "--strict",
@@ -188,101 +180,4 @@ fn nothing_is_named_that_does_not_help() {
         notes(&place, "check wall.ray"),
         [format!("wall.ray: {expected}")]
     );
-}
-
-/// `explain` leaves what helps to the finding, and names nothing that was tried in vain.
-#[test]
-fn a_verdict_names_no_other_help_than_the_finding() {
-    let place = Place::new();
-    place.write("growing.xml", GROWING);
-    place.write(
-        "bright.ray",
-        ball("exposure 0", "5 5 9 90 90 90").replace("fov 30", "fov 9"),
-    );
-    // By paths it would be white all over.
-    place.write(
-        "white.xml",
-        WHITE
-            .replace("integrator=\"path\"", "")
-            .replace("<background value=\"1\"/>", ""),
-    );
-    for (line, cure, not) in [
-        (
-            "explain growing.xml 40 30",
-            "try `--depth 2`",
-            "lower the exposure",
-        ),
-        (
-            "explain bright.ray 40 30",
-            "try `--exposure -6.5`",
-            "lower the exposure",
-        ),
-        ("explain white.xml 40 40", "add a light", "trace paths"),
-        ("check white.xml", "add a light", "trace paths"),
-        ("render white.xml -o a.png", "add a light", "trace paths"),
-    ] {
-        let ran = place.command(line).output().expect("it starts");
-        let said = [ran.stdout, ran.stderr].concat();
-        let said = String::from_utf8_lossy(&said);
-        assert!(said.contains(cure) && !said.contains(not), "{line}: {said}");
-    }
-}
-
-/// Each way of rendering says what is wrong; those that have no time left, what to do.
-#[test]
-fn sequences_and_timed_pictures_are_judged() {
-    let place = Place::new();
-    place.write("dim.ray", ball("exposure -6", "5 5 9 1 1 1"));
-    let bright = ball("exposure 0", "5 5 9 90 90 90").replace("fov 30", "fov 9");
-    place.write("bright.ray", &bright);
-    fs::create_dir(place.at("folder")).expect("a folder");
-    place.write("folder/a.ray", &bright);
-    place.write("folder/b.ray", &bright);
-    let still = "frames = 2\n[[track]]\nthing = \"light 1\"\nfield = \"position\"\n\
-                 keys = [{ frame = 0, value = [5, 5, 9] }]\n";
-    place.write("dim.toml", still);
-    let dim = "the picture is black (at most 3 of 255)";
-    let burnt = "more than half of the picture is above 1";
-    let later = "run it without `--time` to find what helps";
-    for (line, expected) in [
-        (
-            "dim.ray -o a.png --time 9 --spp 1",
-            format!("{dim}; {later}"),
-        ),
-        (
-            "bright.ray -o a.png --time 9 --spp 1",
-            format!("{burnt}; {later}"),
-        ),
-        (
-            "folder -o f%d.png",
-            format!("frame 0: {burnt}; try `--exposure -6.5`"),
-        ),
-        (
-            "folder -o f%d.png --frames 1-1 --again",
-            format!("frame 1: {burnt}; try `--exposure -6.5`"),
-        ),
-        (
-            "folder -o f.y4m",
-            format!("frame 0: {burnt}; try `--exposure -6.5`"),
-        ),
-        (
-            "dim.ray --turntable 2 -o t%d.png",
-            format!("frame 0: {dim}; try `--exposure 0`"),
-        ),
-        (
-            "dim.ray --turntable 2 -o u%d.png --time 9 --spp 1",
-            format!("frame 0: {dim}; {later}"),
-        ),
-        (
-            "dim.ray --track dim.toml -o v%d.png",
-            format!("frame 0: {dim}; try `--exposure 0`"),
-        ),
-    ] {
-        let notes = notes(&place, &format!("render {line}"));
-        let found: Vec<_> = notes
-            .iter()
-            .filter(|note| note.contains("picture"))
-            .collect();
-        assert_eq!(found, [&expected], "{line}");
-    }
 }

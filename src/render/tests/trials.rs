@@ -3,8 +3,8 @@
 use std::ops::ControlFlow;
 
 use super::*;
-use crate::render::{Advice, Fault, Trials, Tried};
-use crate::scene::{FalloffRule, Rendering};
+use crate::render::{Advice, Fault, Trials};
+use crate::scene::Rendering;
 
 /// A scene with a material that sends back this much, and this environment.
 fn reflecting(sent_back: f64, around: f64) -> Scene {
@@ -46,33 +46,19 @@ fn picture(size: Size, grey: f32) -> Frame {
     }
 }
 
-/// What is tried where pictures are as bright as `shade` says and a sample takes so many rays, and the
-/// advice.
-fn tried(
-    mut next: Tried,
-    rate: u64,
-    shade: impl Fn(&Settings) -> f32,
-) -> (Vec<Settings>, Option<Advice>) {
-    let mut tried = Vec::new();
-    loop {
-        let trials = match next {
-            ControlFlow::Continue(trials) => trials,
-            ControlFlow::Break(advice) => return (tried, advice),
-        };
-        let settings = trials.settings();
-        assert_eq!((settings.noise, settings.aov), (None, None));
-        tried.push(settings);
-        let mut picture = picture(settings.size, shade(&settings));
-        picture.progress.rays = rate * settings.size.pixels() as u64 * u64::from(settings.spp);
-        next = trials.after(&picture);
-    }
-}
-
 /// The depths of what is tried where pictures are as bright as `shade` says, and the advice.
-fn advice(trials: Tried, shade: impl Fn(&Settings) -> f32) -> (Vec<u32>, Option<Advice>) {
-    let (settings, advice) = tried(trials, 4, shade);
-    let depths = settings.iter().map(|settings| settings.depth);
-    (depths.collect(), advice)
+fn advice(trials: Trials, shade: impl Fn(&Settings) -> f32) -> (Vec<u32>, Option<Advice>) {
+    let mut tried = Vec::new();
+    let mut next = trials;
+    loop {
+        let settings = next.settings();
+        assert_eq!((settings.noise, settings.aov), (None, None));
+        tried.push(settings.depth);
+        match next.after(&picture(settings.size, shade(&settings))) {
+            ControlFlow::Continue(trials) => next = trials,
+            ControlFlow::Break(advice) => return (tried, advice),
+        }
+    }
 }
 
 #[test]
@@ -88,6 +74,7 @@ fn depths_are_tried_where_light_grows_or_comes_back_whole() {
     ] {
         let scene = reflecting(sent_back, around);
         let trials = Trials::of_scene(&scene, &settings(integrator, depth), None);
+        let trials = trials.expect("it is small");
         // Bright only as it is.
         let shade = |settings: &Settings| if settings.depth == depth { 9.0 } else { 0.2 };
         assert_eq!(advice(trials, shade).0, expected, "{sent_back} {around}");
@@ -118,12 +105,9 @@ fn the_best_setting_is_named_and_none_that_does_not_help() {
     ] {
         let scene = reflecting(1.5, 0.0);
         let trials = Trials::of_scene(&scene, &settings(Integrator::Path, 4), None);
+        let trials = trials.expect("it is small");
         let shade = |settings: &Settings| if settings.depth == 4 { now } else { by_depth };
-        let expected = fault.map(|fault| Advice {
-            fault,
-            cure,
-            is_tried: true,
-        });
+        let expected = fault.map(|fault| Advice { fault, cure });
         assert_eq!(advice(trials, shade).1, expected, "{now}");
     }
 }
@@ -142,137 +126,6 @@ fn small_pictures_keep_the_shape() {
             ..settings(Integrator::Path, 4)
         };
         let trials = Trials::of_scene(&reflecting(0.5, 0.0), &settings, None);
-        let ControlFlow::Continue(trials) = trials else {
-            panic!("there is something to trace");
-        };
-        assert_eq!(trials.settings().size, expected);
-    }
-}
-
-/// A scene that white lights light.
-fn lit(lights: usize) -> Scene {
-    let lights = vec![white_light([0.0, 0.0, 9.0]); lights];
-    let mut scene = scene(&[(sphere([0.0; 3], 1.0), grey(0.5))], &lights);
-    scene.ambient = Rgb::ZERO;
-    scene
-}
-
-/// The longer sides and samples of all that is traced of a dark picture, whatever a sample takes.
-#[test]
-fn trials_take_a_limited_number_of_rays() {
-    let (path, whitted, photon) = (Integrator::Path, Integrator::Whitted, Integrator::Photon);
-    for (integrator, depth, lights, rate, expected) in [
-        (whitted, 2, 1, 3, &[(64, 1), (64, 16), (512, 1)][..]),
-        (whitted, 64, 1, 3, &[(4, 1), (64, 1), (64, 16), (512, 1)]),
-        (whitted, 64, 0, 4096, &[(16, 1)]),
-        (whitted, 4096, 9000, 9, &[]),
-        (path, 8, 1, 6, &[(64, 1), (64, 16), (256, 1)]),
-        (path, 4096, 1, 6, &[(4, 1), (64, 1), (64, 16), (256, 1)]),
-        (path, 4096, 1, 200, &[(4, 1), (64, 1), (64, 2)]),
-        (path, 4096, 1, 8000, &[(4, 1)]),
-        (photon, 4096, 1, 6, &[(64, 1), (64, 1), (256, 1)]),
-    ] {
-        let scene = lit(lights);
-        let trials = Trials::of_scene(&scene, &settings(integrator, depth), None);
-        let (settings, _) = tried(trials, rate, |_| 1e-4);
-        let traced = settings.iter().map(|it| (it.size.width, it.spp));
-        assert_eq!(
-            traced.collect::<Vec<_>>(),
-            expected,
-            "{depth} {lights} {rate}"
-        );
-        let samples = settings
-            .iter()
-            .map(|it| it.size.pixels() as u64 * u64::from(it.spp));
-        assert!(samples.sum::<u64>() * rate <= 4_000_000, "{depth} {rate}");
-    }
-}
-
-/// What the picture itself shows is said where nothing can be tried.
-#[test]
-fn a_fault_is_said_without_a_cure_where_trials_take_too_long() {
-    let (scene, settings) = (lit(9000), settings(Integrator::Whitted, 64));
-    for (grey, fault) in [
-        (0.0, Some(Fault::Black(0))),
-        (0.3, None),
-        (2.0, Some(Fault::Burnt)),
-    ] {
-        let frame = picture(settings.size, grey);
-        let (traced, advice) = tried(
-            Trials::of_picture(&frame, &scene, &settings, None),
-            1,
-            |_| 1.0,
-        );
-        let expected = fault.map(|fault| Advice {
-            fault,
-            cure: None,
-            is_tried: false,
-        });
-        assert_eq!((traced.len(), advice), (0, expected), "{grey}");
-    }
-}
-
-/// Pictures of few samples, of which this share is bright and the rest black.
-#[test]
-fn noise_hides_no_fault_from_the_trials() {
-    for (integrator, share, is_judged) in [
-        (Integrator::Path, 0.2, true),
-        (Integrator::Path, 0.3, false),
-        (Integrator::Whitted, 0.009, true),
-        (Integrator::Whitted, 0.02, false),
-    ] {
-        let (scene, settings) = (lit(1), settings(integrator, 8));
-        let mut frame = picture(settings.size, 0.0);
-        let lit = (share * frame.values.len() as f64) as usize;
-        frame.values[..lit].fill([0.9; 3]);
-        let (traced, advice) = tried(
-            Trials::of_picture(&frame, &scene, &settings, None),
-            4,
-            |_| 0.05,
-        );
-        let fault = advice.map(|advice| advice.fault);
-        assert_eq!(fault, is_judged.then_some(Fault::Black(13)), "{share}");
-        assert_eq!(traced.is_empty(), !is_judged);
-    }
-}
-
-/// A picture with a bright pixel in every square.
-#[test]
-fn single_bright_samples_do_not_hide_that_a_picture_is_black() {
-    for (integrator, expected) in [
-        (Integrator::Path, Some(Fault::Black(4))),
-        (Integrator::Whitted, None),
-    ] {
-        let mut next = Trials::of_scene(&lit(1), &settings(integrator, 2), None);
-        let advice = loop {
-            let trials = match next {
-                ControlFlow::Continue(trials) => trials,
-                ControlFlow::Break(advice) => break advice,
-            };
-            let mut picture = picture(trials.settings().size, 0.0);
-            let width = picture.size.width as usize;
-            for (at, value) in picture.values.iter_mut().enumerate() {
-                if (at % width % 8, at / width % 8) == (1, 2) {
-                    *value = [50.0; 3];
-                }
-            }
-            next = trials.after(&picture);
-        };
-        assert_eq!(advice.map(|advice| advice.fault), expected);
-    }
-}
-
-/// What the text shows to be wrong is mended only by what is better than the picture itself.
-#[test]
-fn no_setting_is_named_with_which_a_picture_is_worse() {
-    for (now, by_square, is_named) in [(0.3, 0.1, false), (0.3, 0.4, true)] {
-        let settings = settings(Integrator::Photon, 8);
-        let trials = Trials::of_scene(&lit(1), &settings, Some(Fault::WithoutPhotons));
-        let (_, advice) = tried(trials, 4, |settings| match settings.falloff {
-            FalloffRule::Square => by_square,
-            FalloffRule::None => now,
-        });
-        let cure = advice.and_then(|advice| advice.cure);
-        assert_eq!(cure.is_some(), is_named, "{now} {by_square}: {advice:?}");
+        assert_eq!(trials.expect("it is small").settings().size, expected);
     }
 }

@@ -7,7 +7,7 @@ use super::cures::{Cure, RunningTrials, is_judgeable};
 use super::looking::is_light;
 use crate::explain::fault;
 use crate::language::{Outlook, Prospect, RenderKey, outlook};
-use crate::render::{Advice, Fault, Frame, Frames, Histogram, Job, Settings, Trials, Tried};
+use crate::render::{Advice, Fault, Frame, Frames, Histogram, Job, Overexposure, Settings, Trials};
 use crate::ui::keymap::{Action, Mode};
 use crate::ui::msg::{Effect, Target};
 
@@ -39,13 +39,15 @@ impl App {
         let suspected = self.suspected(frame);
         let trial = match suspected {
             // A scene of this size would keep all else waiting.
-            ControlFlow::Continue(trials) if self.is_large() => {
-                self.say_untried(trials.apparent());
+            Some(trials) if self.is_large() => {
+                let is_burnt = 0.5 < Overexposure::of(&frame.values).share;
+                let burnt = is_burnt.then_some(Fault::Burnt);
+                self.say_untried(trials.fault().or(burnt));
                 None
             }
-            ControlFlow::Continue(trials) => self.try_out(trials),
-            ControlFlow::Break(advice) => {
-                self.say_untried(advice.map(|advice| advice.fault));
+            Some(trials) => self.try_out(trials),
+            None => {
+                self.withdraw_fault();
                 None
             }
         };
@@ -57,12 +59,9 @@ impl App {
     }
 
     /// The trials for a preview, if something may be wrong with it as displayed.
-    fn suspected(&self, frame: &Frame) -> Tried {
-        let nothing = ControlFlow::Break(None);
-        let settings = frame.settings().filter(|settings| settings.aov.is_none());
-        let Some((settings, scene)) = settings.zip(self.scene.as_ref()) else {
-            return nothing;
-        };
+    fn suspected(&self, frame: &Frame) -> Option<Trials> {
+        let settings = frame.settings().filter(|settings| settings.aov.is_none())?;
+        let scene = self.scene.as_ref()?;
         let stops = self.pictures.display.stops();
         let is_darkened = stops < 0.0 && Histogram::of(&frame.values, stops).clipped <= 0.5;
         let settings = Settings {
@@ -71,10 +70,9 @@ impl App {
             ..*settings
         };
         let of_text = fault(&self.cures.prospects);
-        match Trials::of_picture(frame, scene, &settings, of_text) {
-            ControlFlow::Continue(trials) if is_darkened && trials.is_only_bright() => nothing,
-            tried => tried,
-        }
+        let trials = Trials::of_picture(frame, scene, &settings, of_text)?;
+        let is_known = trials.fault().is_some() || of_text.is_some();
+        (is_known || !is_darkened).then_some(trials)
     }
 
     /// Traces the next trial picture.
@@ -117,17 +115,9 @@ impl App {
                 advice
             }
         };
-        match advice {
-            Some(Advice {
-                fault,
-                cure: None,
-                is_tried: false,
-            }) => self.say_untried(Some(fault)),
-            Some(Advice { fault, cure, .. }) => {
-                self.cures.cure = cure.and_then(|cure| RenderKey::stated(&cure).next());
-                self.say_fault(fault);
-            }
-            None => {}
+        if let Some(Advice { fault, cure }) = advice {
+            self.cures.cure = cure.and_then(|cure| RenderKey::stated(&cure).next());
+            self.say_fault(fault);
         }
         vec![Effect::Stop(Target::Trial)]
     }
@@ -137,7 +127,7 @@ impl App {
         let Some(trials) = self.cures.trials.take() else {
             return Vec::new();
         };
-        self.say_untried(trials.next.apparent());
+        self.say_untried(trials.next.fault());
         vec![Effect::Stop(Target::Trial)]
     }
 
@@ -152,7 +142,7 @@ impl App {
                 format!("{cure}; {darker} darkens only the screen")
             }
             // The text's warning says it all.
-            Fault::Unlit | Fault::WithoutPhotons | Fault::FewerPhotons => {
+            Fault::Unlit | Fault::WithoutPhotons => {
                 let Some(cure) = cure else {
                     self.withdraw_fault();
                     return;
@@ -173,7 +163,7 @@ impl App {
                 format!("{darker} darkens only the screen")
             }
             // The text's warning says it all.
-            Some(Fault::Unlit | Fault::WithoutPhotons | Fault::FewerPhotons) | None => {
+            Some(Fault::Unlit | Fault::WithoutPhotons) | None => {
                 self.withdraw_fault();
                 return;
             }

@@ -18,7 +18,7 @@ fn answer(
 ) -> (Vec<Effect>, Vec<Settings>) {
     let mut tried = Vec::new();
     while let Some(trial) = job(&effects, Target::Trial) {
-        assert_eq!(trial.frames, Frames::Live);
+        assert_eq!((trial.frames, trial.settings.spp), (Frames::Live, 16));
         let settings = trial.settings;
         let size = settings.size;
         let grey = shade(&settings);
@@ -147,7 +147,6 @@ fn the_setting_whose_trial_is_best_is_offered() {
     assert_eq!(
         tried.collect::<Vec<_>>(),
         [
-            (FalloffRule::None, 64),
             (FalloffRule::None, 64),
             (FalloffRule::Square, 64),
             (FalloffRule::None, 2)
