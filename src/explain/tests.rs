@@ -259,7 +259,7 @@ fn verdicts_of_dat_scenes() {
     check(dat(".1 99", away), PLAIN, "outside-cone", words);
     let edge = "light ID 1 pnt  0 0 6  .98 0 -.2  1 1 1  1 0 0  AA shadow_on";
     for (exponent, words) in [
-        ("3", "° off its direction, which leaves 0.8 %"),
+        ("3", "° off its direction, which leaves 0.9 %"),
         ("5", "° off its direction, which leaves less than 0.1 %"),
     ] {
         let text = dat(".1 99", &edge.replace("AA", exponent));

@@ -139,7 +139,8 @@ impl Libraries {
                     }
                     Err(reason) => {
                         let message = format!("cannot read `{}`: {reason}", visible(name));
-                        findings.warn_first(mesh, named.fault(message, "a material library (.mtl)"));
+                        findings
+                            .warn_first(mesh, named.fault(message, "a material library (.mtl)"));
                         is_complete = false;
                     }
                 }

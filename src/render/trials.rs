@@ -21,9 +21,12 @@ const SIDE: u32 = 64;
 /// Its samples per pixel.
 const SAMPLES: u32 = 16;
 
-/// The longer side, in pixels, of the picture that tells whether one is black: small ones may miss what
-/// is bright in it.
-const WHOLE_SIDE: u32 = 1024;
+/// The longer side, in pixels, of the picture that tells whether one is black, the first that is not too
+/// much work: small ones may miss what is bright in it.
+const WHOLE_SIDES: [u32; 3] = [1024, 512, 256];
+
+/// The most rays of a picture that is traced unasked: about a second of one core.
+const MOST_RAYS: f64 = 4e6;
 
 /// A picture without a brighter level, of 255, is told as a black one is.
 const BLACK: u8 = 15;
@@ -68,8 +71,8 @@ pub struct Advice {
 enum Trial {
     /// The picture itself, with a sample per pixel.
     Glance,
-    /// The picture itself, large but with a sample per pixel, to tell whether it is black.
-    Whole,
+    /// The picture itself with this longer side, but with a sample per pixel, to tell whether it is black.
+    Whole(u32),
     /// The picture itself.
     Base,
     /// With a setting that may help.
@@ -84,14 +87,18 @@ pub struct Trials {
     next: Trial,
     /// What is known to be wrong.
     fault: Option<Fault>,
-    /// Whether it is known if the picture is black: it was traced.
+    /// Whether the picture itself was traced, so that it is known to be black or not.
     is_traced: bool,
+    /// The rays that a sample takes, as the first small picture shows.
+    rate: f64,
     /// What is wrong if nothing else is.
     of_text: Option<Fault>,
     /// Settings to try, the next one last.
     left: Vec<Rendering>,
     /// The pixels that a setting can change, once they are known.
     shown: Option<Shown>,
+    /// The distance of the picture itself from a good one, if it must be less to be better.
+    most: Option<f64>,
     /// The best setting so far, with the distance of its picture from a good one.
     best: Option<(f64, Rendering)>,
 }
@@ -135,11 +142,13 @@ impl Trials {
         })
     }
 
-    /// Starts the trials for a picture that was not traced; `None` if there is no object, or the scene is
-    /// so large that a small picture takes long.
+    /// Starts the trials for a picture that was not traced; `None` if there is no object, or a small
+    /// picture may take long, because the scene is large or its paths have too many bounces.
     pub fn of_scene(scene: &Scene, settings: &Settings, of_text: Option<Fault>) -> Option<Self> {
-        let is_tried = !scene.objects.is_empty() && is_small(scene);
-        is_tried.then(|| Self::new(scene, settings, of_text))
+        let trials = Self::new(scene, settings, of_text);
+        let longest = f64::from(settings.depth) * trials.settings().size.pixels() as f64;
+        let is_tried = !scene.objects.is_empty() && is_small(scene) && longest <= MOST_RAYS;
+        is_tried.then_some(trials)
     }
 
     fn new(scene: &Scene, settings: &Settings, of_text: Option<Fault>) -> Self {
@@ -148,9 +157,11 @@ impl Trials {
             next: Trial::Glance,
             fault: None,
             is_traced: false,
+            rate: 0.0,
             of_text,
             left: candidates(scene, settings),
             shown: None,
+            most: None,
             best: None,
         }
     }
@@ -164,7 +175,7 @@ impl Trials {
     pub fn settings(&self) -> Settings {
         let (side, spp) = match self.next {
             Trial::Glance => (SIDE, 1),
-            Trial::Whole => (WHOLE_SIDE, 1),
+            Trial::Whole(side) => (side, 1),
             Trial::Base | Trial::With(_) => (SIDE, SAMPLES),
         };
         let plain = Settings {
@@ -179,7 +190,7 @@ impl Trials {
         };
         match self.next {
             Trial::With(change) => changed(plain, &change),
-            Trial::Glance | Trial::Whole | Trial::Base => plain,
+            Trial::Glance | Trial::Whole(_) | Trial::Base => plain,
         }
     }
 
@@ -193,10 +204,11 @@ impl Trials {
                 if is_good && self.of_text.is_none() {
                     return ControlFlow::Break(None);
                 }
+                self.rate = picture.progress.rays as f64 / values.len() as f64;
                 self.next = Trial::Base;
-                return ControlFlow::Continue(self);
+                return self.unless_too_long();
             }
-            Trial::Whole => {
+            Trial::Whole(_) => {
                 self.fault = picture.black().map(Fault::Black).or(self.of_text);
                 if self.fault.is_none() {
                     return ControlFlow::Break(None);
@@ -211,13 +223,19 @@ impl Trials {
                     if now.is_burnt() {
                         self.fault = Some(Fault::Burnt);
                     } else if !self.is_traced && picture.brightest() <= DIM {
-                        self.next = Trial::Whole;
-                        return ControlFlow::Continue(self);
+                        let side = self.whole_side();
+                        return side.map_or(ControlFlow::Break(None), |side| {
+                            self.next = Trial::Whole(side);
+                            ControlFlow::Continue(self)
+                        });
                     } else if self.of_text.is_some() {
                         self.fault = self.of_text;
                     } else {
                         return ControlFlow::Break(None);
                     }
+                }
+                if matches!(self.fault, Some(Fault::Unlit | Fault::WithoutPhotons)) {
+                    self.most = now.distance();
                 }
                 self.shown = Some(shown);
                 self.keep_what_may_help();
@@ -242,6 +260,36 @@ impl Trials {
             })),
             (None, None) => ControlFlow::Break(None),
         }
+    }
+
+    /// Goes on with the next picture; ends without a cure if that would take too many rays.
+    fn unless_too_long(self) -> ControlFlow<Option<Advice>, Self> {
+        if self.permits() {
+            return ControlFlow::Continue(self);
+        }
+        let without_cure = |fault| Advice { fault, cure: None };
+        ControlFlow::Break(self.of_text.map(without_cure))
+    }
+
+    /// Whether the next picture is not too much work.
+    fn permits(&self) -> bool {
+        let Settings { size, spp, .. } = self.settings();
+        self.rate * size.pixels() as f64 * f64::from(spp) <= MOST_RAYS
+    }
+
+    /// The longer side of the picture that tells whether this one is black; `None` if all are too much
+    /// work.
+    fn whole_side(&self) -> Option<u32> {
+        // The emission of photons is not among the rays of a sample.
+        let sides = match self.settings.integrator {
+            Integrator::Photon => &WHOLE_SIDES[2..],
+            Integrator::Whitted | Integrator::Path => &WHOLE_SIDES,
+        };
+        let trial = |side| Self {
+            next: Trial::Whole(side),
+            ..self.clone()
+        };
+        sides.iter().copied().find(|&side| trial(side).permits())
     }
 
     /// Leaves out the candidates that cannot mend what is wrong.
@@ -294,6 +342,7 @@ impl Trials {
             distance < least || undoes && best.exposure.is_some()
         };
         if let Some(distance) = appearance.distance()
+            && self.most.is_none_or(|most| distance < most)
             && self.best.is_none_or(|best| is_better(best, distance))
         {
             self.best = Some((distance, change));

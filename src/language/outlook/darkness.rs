@@ -233,8 +233,10 @@ fn passes_all(light: &Light) -> bool {
 fn gets_into(light: &Light, shape: &Shape) -> bool {
     match light.emitter {
         Emitter::Point {
-            position, radius, ..
-        } if radius == 0.0 => holds(shape, position),
+            position,
+            radius: 0.0,
+            ..
+        } => holds(shape, position),
         Emitter::Point {
             position, radius, ..
         } => {
@@ -289,8 +291,7 @@ impl Starts {
             Self::At(eye) => holds(shape, *eye),
             Self::Within(corners) => {
                 let is_convex = match shape {
-                    Shape::Solid(Solid::Quadric(_)) => false,
-                    Shape::Solid(_) => true,
+                    Shape::Solid(solid) => !matches!(solid, Solid::Quadric(_)),
                     Shape::Csg(_) | Shape::Plane(_) | Shape::Mesh(_) => false,
                 };
                 is_convex && corners.iter().all(|corner| holds(shape, *corner))

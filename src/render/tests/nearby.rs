@@ -14,7 +14,9 @@ fn objects_nearby_are_all_that_short_rays_meet() {
     for count in [3, 12, 60] {
         for _ in 0..count {
             let DVec3 { x, y, z } = random.point(2.0);
-            scene += &format!("{ball}<translate x='{x}' y='{y}' z='{z}'/></object>");
+            let place = format!("<translate x='{x}' y='{y}' z='{z}'/></object>");
+            scene.push_str(ball);
+            scene.push_str(&place);
         }
         let world = world(xml(&scene));
         let mut met = 0;
