@@ -47,8 +47,8 @@ pub(crate) fn bytes(size: Size) -> u64 {
 /// less error and takes two and a half times as long.
 const SPLINE: &[f32] = &[0.5, 0.25];
 
-/// Pixels between those that mix, by iteration.
-const STEPS: [usize; 5] = [1, 2, 4, 8, 16];
+/// Pixels between those that mix, by iteration. A fifth, of 16, changes errors by less than 1 %.
+const STEPS: [usize; 4] = [1, 2, 4, 8];
 
 /// Pixels near each other whose light is this many standard deviations apart or fewer share their
 /// variance: that of a lamp in a mirror is not that of the mirror around it.

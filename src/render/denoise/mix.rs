@@ -12,7 +12,7 @@ use crate::geometry::lanes::{Level, Simd, SimdBase, Singles, WIDTH, dispatch};
 
 /// Rows that are mixed together: with more, fewer are compared twice, and with fewer, they stay in a
 /// processor's cache.
-const ROWS: usize = 8;
+const ROWS: usize = 16;
 
 /// Standard deviations of light that count as one. Any number from 1.5 to 2 does.
 const TOLERANCE: f32 = 1.8;

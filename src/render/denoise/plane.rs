@@ -5,7 +5,7 @@ use rayon::prelude::*;
 use crate::geometry::lanes::WIDTH;
 
 /// Room on either side of a row: the farthest neighbours.
-pub(super) const MARGIN: usize = 16;
+pub(super) const MARGIN: usize = 8;
 
 /// A number of each pixel, laid out as [`Layout`] says.
 pub(super) type Plane = Vec<f32>;
