@@ -201,7 +201,11 @@ fn what_cannot_be_used_of_a_record_is_said() {
         ("", "", None),
         ("spp 4", "spp 4000000000", Some("spp 4000000000")),
         ("depth 2", "depth -1", Some("depth -1")),
-        ("size 1x1", "size 40x30", Some("size 40x30 of 1x1")),
+        (
+            "size 1x1",
+            "size 40x30",
+            Some("size 40x30 (the picture is 1x1)"),
+        ),
         (
             "size 1x1",
             "size 4294967295x4294967295",
@@ -210,7 +214,7 @@ fn what_cannot_be_used_of_a_record_is_said() {
         (
             "region none",
             "region 1,2,3,4",
-            Some("size 1x1 region 1,2,3,4 of 1x1"),
+            Some("size 1x1 region 1,2,3,4 (the picture is 1x1)"),
         ),
         (
             "aov none",

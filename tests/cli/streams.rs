@@ -233,7 +233,9 @@ fn messages_beside_progress_are_objects() {
         ("odd.xml", ["\"odd.obj\"", "5", "5", "\"9\""]),
     ] {
         let said = place.stderr(&format!("render {scene} -o a.ppm --progress json"), 0);
-        let first = said.lines().next().expect("a line");
+        let mut lines = said.lines();
+        let is_of_it = |line: &&str| after(line, "file") == place_of_it[0];
+        let first = lines.find(is_of_it).expect("a line");
         for (key, value) in ["file", "line", "column", "excerpt"]
             .into_iter()
             .zip(place_of_it)

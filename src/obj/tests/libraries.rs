@@ -52,7 +52,7 @@ fn a_comment_of_other_languages_ends_a_map() {
         let model = read_library(&format!("newmtl a\nmap_Kd {said}\n"));
         let said_first = said.split(' ').find(|word| word.starts_with("//"));
         let warning = column.zip(said_first).map(|(column, word)| {
-            format!("x.mtl: line 2, column {column}: map_Kd: `{word}` does not begin a comment")
+            format!("x.mtl: line 2, column {column}: map_Kd: `{word}` is not a comment here")
         });
         let expected: Vec<_> = warning.into_iter().collect();
         assert_eq!(messages(&model.library_warnings), expected, "{said}");

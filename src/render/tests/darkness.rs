@@ -108,8 +108,9 @@ fn cameras_are_enclosed_by_what_lets_nothing_in() {
         (OFF, OPAQUE, "eye 0 -1 0", false),
         (CAST, OPAQUE_CORE, "eye 0 -1 0", true),
         (CAST, CORE, "eye 0 -1 0", false),
+        // All of the solid is before the near limit.
+        (CAST, OPAQUE, "eye 0 -1 0 near 4", true),
         // Starts beyond the solid.
-        (CAST, OPAQUE, "eye 0 -1 0 near 4", false),
         (CAST, OPAQUE, "eye 0 -1 0 lens 4", false),
         (CAST, OPAQUE, "eye 0 -1 0 lens .1", true),
     ] {

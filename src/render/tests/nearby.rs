@@ -20,7 +20,7 @@ fn objects_nearby_are_all_that_short_rays_meet() {
         }
         let world = world(xml(&scene));
         let mut met = 0;
-        for _ in 0..400 {
+        for _ in 0..800 {
             let (at, radius) = (random.point(3.0), random.next());
             let nearby = Nearby::new(&world, at, radius);
             let [from, to] = [0; 2].map(|_: i32| at + random.point(radius / 3f64.sqrt()));

@@ -236,7 +236,7 @@ fn the_scene_is_traced_at_the_size_of_a_picture() {
         assert_eq!(
             words(&app),
             format!(
-                "theirs.png does not say how it was made: compared at {width_of}×{height_of}, 16 spp, \
+                "theirs.png records no settings: traced at {width_of}×{height_of}, 16 spp, \
                  whitted, depth 8; the scene's own size is {width}×{height}"
             )
         );
@@ -290,9 +290,9 @@ fn a_picture_is_compared_as_its_file_says_that_it_was_made() {
     let view = Viewpoint::between(&own, &live.camera).to_string();
     assert_eq!(view, "fov 30");
     assert!(live.denoise && live.frames == Frames::LastWithValues);
-    let said = "compared as theirs.png says that it was made: 8×6, 64 spp, path, depth 2, filter \
-                gaussian, transfer srgb, exposure -1, falloff square, gloss exponent, noise 0.05, \
-                clamp 8; the scene's own size is ";
+    let said = "traced as recorded in theirs.png: its view, 8×6, 64 spp, path, depth 2, region \
+                1,2,3,4, seed 7, filter gaussian, transfer srgb, exposure -1, falloff square, noise \
+                0.05, clamp 8, gloss exponent, denoised; the scene's own size is ";
     assert!(words(&app).starts_with(said), "{}", words(&app));
     // What the user chooses comes first, and an AOV is named as unlike.
     press(&mut app, "PP");
@@ -309,15 +309,14 @@ fn of_a_record_that_cannot_be_believed_the_rest_is_used() {
     for (record, settings) in [
         (
             "spp 0\ndepth 3\nnew 1\n",
-            "16 spp, whitted, depth 3; not used: spp 0, new 1, version is missing and 13 more",
+            "16 spp, whitted, depth 3; ignored: spp 0, new 1, version is missing and 13 more",
         ),
-        ("nonsense", "16 spp, whitted, depth 8; not used: nonsense"),
+        ("nonsense", "16 spp, whitted, depth 8; ignored: nonsense"),
     ] {
         let mut app = unasked();
         let Size { width, height } = app.output();
         read_picture(&mut app, [width, height], Some(record));
-        let expected =
-            format!("compared as theirs.png says that it was made: {width}×{height}, {settings}");
+        let expected = format!("traced as recorded in theirs.png: {width}×{height}, {settings}");
         assert_eq!(words(&app), expected);
     }
 }

@@ -136,7 +136,7 @@ fn the_setting_whose_trial_is_best_is_offered() {
         let (app, _) = cured("integrator path depth 64", by(falloff, depth));
         let said = shown(&app);
         assert!(
-            said.starts_with(&format!("{BURNT}C sets {cure},")),
+            said.starts_with(&format!("{BURNT}C sets {cure};")),
             "{said}"
         );
     }
