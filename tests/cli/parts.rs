@@ -264,6 +264,15 @@ pub(super) fn send(signal: &str, child: &std::process::Child) {
     let _ = kill.stderr(Stdio::null()).status().expect("it is sent");
 }
 
+/// Whether the programs that are run are told if the terminal hangs up; under nohup they are not.
+#[cfg(unix)]
+fn ends_by_hang_up() -> bool {
+    let status = fs::read_to_string("/proc/self/status").unwrap_or_default();
+    let ignored = status.lines().find_map(|line| line.strip_prefix("SigIgn:"));
+    let ignored = ignored.and_then(|signals| u64::from_str_radix(signals.trim(), 16).ok());
+    ignored.is_some_and(|signals| signals & 1 == 0)
+}
+
 #[test]
 #[cfg(unix)]
 fn signals_keep_what_was_traced() {
@@ -271,7 +280,7 @@ fn signals_keep_what_was_traced() {
     let part = place.at("a.part");
     let line = format!("render {SCENE} -o a.bmp --size 64x64 --spp 65536 --resume");
     let signals = [("TERM", 75), ("USR1", 75), ("INT", 130)];
-    let hangs_up = cfg!(target_os = "linux").then_some(("HUP", 75));
+    let hangs_up = ends_by_hang_up().then_some(("HUP", 75));
     for (signal, code) in signals.into_iter().chain(hangs_up) {
         let child = begun(&place, &line, &part, 0);
         send(signal, &child);
