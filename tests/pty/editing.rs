@@ -272,7 +272,18 @@ fn a_scene_is_followed_when_its_folder_is_moved() {
     }
 }
 
-/// As `git switch` does with folders that are not in the other branch.
+/// Waits for the blue ball of the folder that took the place of the scene's, and saves the edit there.
+fn assert_follows(place: &Place, mut session: Session) {
+    wait_for_colour(&mut session, BLUE);
+    session.send(":w\r");
+    session.wait_for("wrote ");
+    assert_eq!(
+        place.read("scenes/balls.ray"),
+        edited().replacen("0 1 0  0", "0 0 1  0", 1)
+    );
+    quit(session);
+}
+
 /// As by `mv scenes old; mv new scenes; rm -r old`.
 #[test]
 fn a_scene_is_followed_to_the_first_place_of_its_folder() {
@@ -294,16 +305,10 @@ fn a_scene_is_followed_to_the_first_place_of_its_folder() {
     session.send(":e\r");
     session.wait_for("balls.ray [+]");
     fs::remove_dir_all(&old).expect("removed");
-    wait_for_colour(&mut session, BLUE);
-    session.send(":w\r");
-    session.wait_for("wrote ");
-    assert_eq!(
-        place.read("scenes/balls.ray"),
-        edited().replacen("0 1 0  0", "0 0 1  0", 1)
-    );
-    quit(session);
+    assert_follows(&place, session);
 }
 
+/// As `git switch` does with folders that are not in the other branch.
 #[test]
 fn a_scene_is_followed_into_the_folder_that_takes_the_place_of_its_own() {
     let place = Place::new();
@@ -329,13 +334,6 @@ fn a_scene_is_followed_into_the_folder_that_takes_the_place_of_its_own() {
             "scenes/balls.ray",
             &BALLS.replacen("0 1 0  0", "0 0 1  0", 1),
         );
-        wait_for_colour(&mut session, BLUE);
-        session.send(":w\r");
-        session.wait_for("wrote ");
-        assert_eq!(
-            place.read("scenes/balls.ray"),
-            edited().replacen("0 1 0  0", "0 0 1  0", 1)
-        );
-        quit(session);
+        assert_follows(&place, session);
     }
 }

@@ -176,9 +176,8 @@ fn segments(app: &App, glyphs: Glyphs) -> Vec<Segment> {
         say(3, text, theme::WARNING);
     }
     if let Some(export) = &app.jobs.export {
-        let frame = export
-            .reel
-            .map_or_else(String::new, |reel| format!("frame {} ", reel.place()));
+        let frame = export.reel.map(|reel| format!("frame {} ", reel.place()));
+        let frame = frame.unwrap_or_default();
         let queued = match app.jobs.queued() {
             0 => String::new(),
             queued => format!(", {queued} more queued"),
@@ -276,13 +275,12 @@ fn text_segments(app: &App, say: &mut impl FnMut(u8, String, Style)) {
 
 /// Adds the frame of the track that is shown, or that values are keyed at.
 fn frame_segment(open: &OpenTrack, is_shown: bool, say: &mut impl FnMut(u8, String, Style)) {
-    let (frame, last) = (open.frame, open.last());
     if !is_shown {
-        say(12, format!("frame {frame}"), theme::DIM);
+        say(12, format!("frame {}", open.frame), theme::DIM);
         return;
     }
     let playing = if open.is_playing { "▶ " } else { "" };
-    let text = format!(" {playing}frame {frame}/{last} ");
+    let text = format!(" {playing}frame {}/{} ", open.frame, open.last());
     say(1, text, theme::chip(theme::ACCENT));
 }
 
