@@ -2,6 +2,7 @@
 
 use std::collections::HashSet;
 use std::fs::{File, OpenOptions};
+use std::hash::{BuildHasher, RandomState};
 use std::io::{self, BufRead, BufReader, Read, Write};
 use std::path::{Path, PathBuf};
 
@@ -12,7 +13,13 @@ use crate::file::{self, Digest, ReadError};
 const HEADER: &str = "halflight frames 1\n";
 
 /// More bytes than any line has: two digests, and a name whose every byte is escaped.
-const LONGEST: u64 = 8 << 10;
+const LONGEST: usize = 8 << 10;
+
+/// Bytes of the digests that begin a line.
+const DIGEST: usize = 64;
+
+/// Bytes read at once.
+const CHUNK: usize = 1 << 18;
 
 /// A list of finished frames beside their pictures: after [`HEADER`] a line `INPUTS PICTURE NAME` for
 /// each, with the SHA-256 of what it was made of and of its file, whose name is escaped as in Rust.
@@ -20,15 +27,13 @@ const LONGEST: u64 = 8 << 10;
 #[derive(Debug)]
 pub(super) struct Ledger {
     path: PathBuf,
-    /// The marks of the lines, of which there may be many millions.
-    finished: HashSet<Mark>,
+    /// The hashes of the lines, of which there may be many millions.
+    finished: HashSet<u64>,
+    hasher: RandomState,
     /// What is to be written before the next line.
     lead: &'static str,
     file: Option<File>,
 }
-
-/// Half of the digest of a line.
-type Mark = u128;
 
 impl Ledger {
     /// Reads a list, which need not exist, to append to it; and what other lists name, as far as they
@@ -38,9 +43,10 @@ impl Ledger {
             path: path.clone(),
             source,
         };
+        let hasher = RandomState::new();
         let mut finished = HashSet::new();
-        let mut learn = |mark| {
-            finished.insert(mark);
+        let mut learn = |line: &[u8]| {
+            finished.insert(hasher.hash_one(line));
         };
         let lead = match learned(&path, &mut learn).map_err(unusable)? {
             // There is none, or a process that was killed at once left a part of the first line.
@@ -61,6 +67,7 @@ impl Ledger {
         Ok(Self {
             path,
             finished,
+            hasher,
             lead,
             file: None,
         })
@@ -74,7 +81,8 @@ impl Ledger {
         }
         Digest::of_file(picture).is_ok_and(|found| {
             let line = format!("{inputs} {found} {}", name_of(picture));
-            self.finished.contains(&mark(line.as_bytes()))
+            self.finished
+                .contains(&self.hasher.hash_one(line.as_bytes()))
         })
     }
 
@@ -112,9 +120,9 @@ enum Found {
     Other,
 }
 
-/// Reads a list, which need not exist, line by line, and calls `learn` with the mark of each line that
-/// names a frame.
-fn learned(path: &Path, mut learn: impl FnMut(Mark)) -> io::Result<Found> {
+/// Reads a list, which need not exist, chunk by chunk, and calls `learn` with each line that names a
+/// frame.
+fn learned(path: &Path, mut learn: impl FnMut(&[u8])) -> io::Result<Found> {
     let file = match file::open(path) {
         Ok(file) => file,
         Err(ReadError::NotFound { .. }) => return Ok(Found::Part(0)),
@@ -126,51 +134,68 @@ fn learned(path: &Path, mut learn: impl FnMut(Mark)) -> io::Result<Found> {
         }
         Err(error) => return Err(io::Error::other(error.to_string())),
     };
-    let mut from = BufReader::new(file);
-    let mut line = Vec::new();
+    let mut from = BufReader::with_capacity(CHUNK, file);
+    let mut header = Vec::new();
     from.by_ref()
         .take(HEADER.len() as u64)
-        .read_to_end(&mut line)?;
-    if line != HEADER.as_bytes() {
-        let is_part = HEADER.as_bytes().starts_with(&line);
+        .read_to_end(&mut header)?;
+    if header != HEADER.as_bytes() {
+        let is_part = HEADER.as_bytes().starts_with(&header);
         return Ok(if is_part {
-            Found::Part(line.len())
+            Found::Part(header.len())
         } else {
             Found::Other
         });
     }
-    let mut is_cut = false;
+    let mut learn = |line: &[u8]| {
+        let line = line.strip_suffix(b"\r").unwrap_or(line);
+        if names_a_frame(line) {
+            learn(line);
+        }
+    };
+    // The first bytes of the line that the chunk before ends in.
+    let mut begun = Vec::new();
     loop {
-        line.clear();
-        from.by_ref().take(LONGEST).read_until(b'\n', &mut line)?;
-        if line.is_empty() {
+        let chunk = from.fill_buf()?;
+        let length = chunk.len();
+        if length == 0 {
+            learn(&begun);
+            let is_cut = !begun.is_empty();
             return Ok(Found::List { is_cut });
         }
-        let is_begun = is_cut;
-        is_cut = !line.ends_with(b"\n");
-        let line = line.strip_suffix(b"\n").unwrap_or(&line);
-        let line = line.strip_suffix(b"\r").unwrap_or(line);
-        // The pieces of a longer line name no frame.
-        if !is_begun && (line.len() as u64) < LONGEST && names_a_frame(line) {
-            learn(mark(line));
+        for piece in chunk.split_inclusive(|byte| *byte == b'\n') {
+            let Some(line) = piece.strip_suffix(b"\n") else {
+                extend(&mut begun, piece);
+                continue;
+            };
+            if begun.is_empty() {
+                learn(line);
+            } else {
+                extend(&mut begun, line);
+                learn(&begun);
+                begun.clear();
+            }
         }
+        from.consume(length);
     }
 }
 
-/// Whether a line begins with two digests.
-fn names_a_frame(line: &[u8]) -> bool {
-    let mut words = line.splitn(3, |&byte| byte == b' ');
-    let mut is_digest = || {
-        let word = words.next();
-        word.is_some_and(|word| word.len() == 64 && word.iter().all(u8::is_ascii_hexdigit))
-    };
-    is_digest() && is_digest() && words.next().is_some()
+/// Extends a line by what can still be of use in it.
+fn extend(line: &mut Vec<u8>, by: &[u8]) {
+    let room = LONGEST.saturating_sub(line.len());
+    line.extend_from_slice(&by[..by.len().min(room)]);
 }
 
-fn mark(line: &[u8]) -> Mark {
-    let mut digest = Digest::default();
-    digest.add(line);
-    digest.half()
+/// Whether a line is two digests and a name.
+fn names_a_frame(line: &[u8]) -> bool {
+    let is_digest = |word: &[u8]| word.iter().all(u8::is_ascii_hexdigit);
+    let name = 2 * (DIGEST + 1);
+    name < line.len()
+        && line.len() < LONGEST
+        && line[DIGEST] == b' '
+        && line[name - 1] == b' '
+        && is_digest(&line[..DIGEST])
+        && is_digest(&line[DIGEST + 1..name - 1])
 }
 
 /// The name of a file, on one line.

@@ -33,13 +33,13 @@ impl Digest {
     }
 
     /// Adds a part.
-    pub fn add(&mut self, bytes: &[u8]) {
+    fn add(&mut self, bytes: &[u8]) {
         self.begin(bytes.len() as u64);
         self.append(bytes);
     }
 
     /// Adds the bytes of a file as a part, without holding all of them.
-    pub fn add_file(&mut self, path: &Path) -> io::Result<()> {
+    fn add_file(&mut self, path: &Path) -> io::Result<()> {
         let mut file = File::open(path)?;
         self.begin(file.metadata()?.len());
         let mut chunk = vec![0; CHUNK];
@@ -53,7 +53,7 @@ impl Digest {
     }
 
     /// The digest, 64 hexadecimal digits.
-    pub fn finish(self) -> String {
+    fn finish(self) -> String {
         use sha2::Digest as _;
         let mut text = String::new();
         for byte in self.0.finalize() {
@@ -61,14 +61,6 @@ impl Digest {
             let _ = write!(text, "{byte:02x}");
         }
         text
-    }
-
-    /// The first half of the digest, as a number: enough to tell parts apart.
-    pub fn half(self) -> u128 {
-        use sha2::Digest as _;
-        let bytes = self.0.finalize();
-        let half = bytes.first_chunk().copied();
-        u128::from_be_bytes(half.expect("SHA-256 has 32 bytes"))
     }
 
     fn begin(&mut self, length: u64) {
