@@ -208,7 +208,7 @@ pub fn missing(parts: &[PathBuf]) -> Result<(Vec<u32>, Vec<Unmerged>), Unmerged>
         }
     }
     match survey {
-        Some(survey) => Ok((survey.lacking(), damaged)),
+        Some(survey) => Ok((survey.lacking().1.into_iter().collect(), damaged)),
         // How many shards there are is not known.
         None => Err(damaged.pop().unwrap_or_else(no_parts)),
     }
@@ -355,25 +355,20 @@ impl Survey {
         self.goals.values().copied().max().unwrap_or(0)
     }
 
-    /// The shard of each block that is not traced to the end.
-    fn unfinished(&self) -> impl Iterator<Item = u32> {
+    /// How many blocks are not traced to the end, and the shards that have to be traced on for them.
+    fn lacking(&self) -> (u32, BTreeSet<u32>) {
         let goal = self.goal();
         let owners = deal(blocks(&self.header), self.header.shard.count);
-        let numbered = (0..).zip(owners);
-        numbered
-            .filter(move |(number, owner)| {
-                let samples = self.samples.get(number).copied().unwrap_or(0);
-                samples < goal || goal == 0 || self.damaged.contains(owner)
-            })
-            .map(|(_, owner)| owner)
-    }
-
-    /// The shards that have to be traced on, in ascending order.
-    fn lacking(&self) -> Vec<u32> {
-        self.unfinished()
-            .collect::<BTreeSet<_>>()
-            .into_iter()
-            .collect()
+        let mut shards = BTreeSet::new();
+        let mut count = 0;
+        for (number, owner) in (0..).zip(owners) {
+            let samples = self.samples.get(&number).copied().unwrap_or(0);
+            if samples < goal || goal == 0 || self.damaged.contains(&owner) {
+                count += 1;
+                shards.insert(owner);
+            }
+        }
+        (count, shards)
     }
 
     /// Fails unless all blocks are traced to the end.
@@ -395,14 +390,14 @@ impl Survey {
                 count,
             });
         }
-        let shards = self.lacking();
-        if shards.is_empty() {
+        let (lacking, shards) = self.lacking();
+        if lacking == 0 {
             return Ok(());
         }
         Err(Unmerged::Holes {
-            blocks: self.unfinished().count() as u32,
+            blocks: lacking,
             all: blocks(&self.header).count(),
-            shards,
+            shards: shards.into_iter().collect(),
             count,
         })
     }
