@@ -7,7 +7,8 @@ use annotate_snippets::{AnnotationKind, Level, Renderer, Snippet};
 use serde_json::{Value, json};
 
 use crate::text::{
-    Diagnostic, Position, Severity, Shown, Span, line_end, line_start, mark_len, visible,
+    Diagnostic, Position, Severity, Shown, Span, first_byte, line_end, line_start, mark_len,
+    visible,
 };
 
 /// Maximum number of characters shown before a span, of it, and after it.
@@ -124,8 +125,10 @@ impl Excerpt {
         let end = span.end().clamp(start, line_end);
         let before = last_chars(&text[line_start..start]);
         let marked = first_chars(&text[start..end]);
-        let rest = text[start + marked.len()..line_end].trim_end();
+        let rest = &text[start + marked.len()..line_end];
         let after = first_chars(rest);
+        let beyond = &rest.as_bytes()[after.len()..];
+        let is_cut = first_byte(beyond, |byte| !byte.is_ascii_whitespace()).is_some();
 
         let mut line = String::new();
         if before.len() < start - line_start {
@@ -137,7 +140,7 @@ impl Excerpt {
         let marked = Span::new(from, line.len());
         line.push_str(&shown(after));
         line.truncate(line.trim_end().len().max(marked.end()));
-        if after.len() < rest.len() {
+        if is_cut {
             line.push('…');
         }
         Self { line, marked }
@@ -255,6 +258,7 @@ warning: meshes/a.obj:12:3: f: too few
         let zeros = "0 ".repeat(30);
         let cut = format!("…{zeros}x{}…", zeros.trim_end());
         check_excerpt(&format!("{long}[x]{}{long}", ""), &cut, "x");
+        check_excerpt(&format!("a [x]{}\nb", " ".repeat(1000)), "a x", "x");
     }
 
     fn check_excerpt(text: &str, line: &str, marked: &str) {

@@ -76,10 +76,15 @@ pub(super) fn white_space(bytes: &[u8]) -> Option<usize> {
 
 /// The span without trailing white space.
 pub(super) fn trim_end(text: &str, span: Span) -> Span {
-    let kept = span
-        .of(text)
-        .trim_end_matches([' ', '\t', '\r', '\n', '\x0B', '\x0C', '\u{A0}', '\u{FEFF}']);
-    Span::new(span.start(), span.start() + kept.len())
+    let mut kept = span.of(text).as_bytes();
+    // Byte by byte: a pattern of characters takes several times as long for blanks without end.
+    loop {
+        kept = match kept {
+            [rest @ .., byte] if is_blank(*byte) => rest,
+            [rest @ .., 0xC2, 0xA0] | [rest @ .., 0xEF, 0xBB, 0xBF] => rest,
+            _ => return Span::new(span.start(), span.start() + kept.len()),
+        };
+    }
 }
 
 /// Whether a byte alone is white space. A pattern would not be compiled to vector instructions.
@@ -110,6 +115,8 @@ mod tests {
             let is_white = |c: char| c.is_ascii_whitespace() || "\x0B\u{A0}\u{FEFF}".contains(c);
             let found = Words::new(&text, Span::new(0, text.len())).map(|word| word.of(&text));
             prop_assert!(found.eq(text.split(is_white).filter(|word| !word.is_empty())));
+            let trimmed = trim_end(&text, Span::new(0, text.len())).of(&text);
+            prop_assert_eq!(trimmed, text.trim_end_matches(is_white));
         }
     }
 }
