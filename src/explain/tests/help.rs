@@ -99,6 +99,9 @@ fn verdicts_of_render_settings() {
         "underexposed",
         words,
     );
+    let dark = ray("0 0 0", LAMP, &[&grey]) + "// render: exposure -12\n";
+    let words = explain(Language::Ray, &dark, [20, 15], PLAIN);
+    assert_eq!(words.verdicts.len(), 1, "no surface is to blame");
     check(
         format!("{lit}// render: exposure 6\n"),
         "too-bright",

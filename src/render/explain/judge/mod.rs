@@ -41,7 +41,11 @@ pub(super) fn judge(case: &Case<'_>) -> Vec<Finding> {
     let judge = Judge::new(case);
     let mut findings = judge.oddities();
     findings.extend(judge.untraced());
-    findings.extend(judge.first_ray());
+    let is_underexposed = |found: &Finding| matches!(found.verdict, Verdict::Underexposed { .. });
+    // Else every surface would be said to reflect too little.
+    if !findings.iter().any(is_underexposed) {
+        findings.extend(judge.first_ray());
+    }
     let mut kept: Vec<Finding> = Vec::new();
     for finding in findings {
         if kept.iter().all(|before| before.verdict != finding.verdict) {
