@@ -169,6 +169,13 @@ impl App {
         }
     }
 
+    /// Takes back that an export has begun or waits.
+    fn withdraw_announcement(&mut self, export: &Export) {
+        for stale in announcements(export.aov, &export.destination.path) {
+            self.overlays.withdraw(&stale);
+        }
+    }
+
     pub(super) fn begin_or_queue(&mut self, pending: Pending) -> Vec<Effect> {
         if self.jobs.export.is_some() {
             self.jobs.queue(pending);
@@ -228,9 +235,7 @@ impl App {
             return Vec::new();
         };
         let mut effects = Vec::new();
-        for stale in announcements(export.aov, &export.destination.path) {
-            self.overlays.withdraw(&stale);
-        }
+        self.withdraw_announcement(&export);
         match outcome {
             Ok(exported) => {
                 let path = exported.path.display();
@@ -258,6 +263,7 @@ impl App {
         let Some(pending) = self.jobs.take_back() else {
             return Vec::new();
         };
+        self.withdraw_announcement(&pending.export);
         let mut effects = pending.export.stop();
         self.overlays.dialog = Some(Dialog::Overwrite(Box::new(pending)));
         if let Some(next) = self.jobs.next_pending() {
@@ -272,6 +278,9 @@ impl App {
             return Vec::new();
         };
         let mut pending = *pending;
+        if existing == Existing::Overwritten {
+            self.announce_export(&pending.export.destination.path);
+        }
         pending.export.id = self.jobs.next_export();
         pending.export.destination.existing = existing;
         pending.asking = Asking::No;

@@ -93,14 +93,15 @@ fn quitting_waits_for_all_exports() {
 #[test]
 fn a_file_that_others_wrote_is_overwritten_or_numbered_as_the_user_decides() {
     let taken = |id| Msg::Taken(ExportId(id), "scene.bmp exists".into());
-    for (answer, expected) in [
-        ("y", Some(Existing::Overwritten)),
-        ("n", Some(Existing::Numbered)),
-        ("<Esc>", None),
+    for (answer, expected, said) in [
+        ("y", Some(Existing::Overwritten), "exporting to scene.bmp"),
+        ("n", Some(Existing::Numbered), ""),
+        ("<Esc>", None, ""),
     ] {
         let mut app = open(SCENE);
         press(&mut app, "b");
         let effects = app.update(taken(1));
+        assert_eq!(words(&app), "");
         assert!(wants(&effects, |e| matches!(
             e,
             Effect::Stop(Target::Export)
@@ -109,6 +110,7 @@ fn a_file_that_others_wrote_is_overwritten_or_numbered_as_the_user_decides() {
         let effects = press(&mut app, answer);
         let existing = started(&effects).map(|(_, _, existing)| existing);
         assert_eq!(existing, expected, "{answer}");
+        assert_eq!(words(&app), said, "{answer}");
         assert_eq!(app.jobs.export.is_some(), expected.is_some());
     }
     // A command names the file, and how to overwrite it.
