@@ -216,7 +216,6 @@ impl<'a> Reader<'a> {
     /// The tokens from here to the first object. A word that is not a keyword counts as an object
     /// at `due`, where one should begin; elsewhere it counts as a number.
     fn run(&self, due: Option<usize>) -> Run {
-        // Keywords begin with an ASCII letter.
         let mut words = self.tokens.words_from(self.at);
         let begins = |&(at, token): &(usize, Span)| self.begins_object(at, token);
         let due = due.and_then(|due| {

@@ -216,6 +216,7 @@ fn the_declared_number_of_lights_must_match() {
         "1 1 1\n2 //~ 1 error: nLights is `2`, but the text has 1 light before `sphere`\n0 5 5 1 1 1 1 sphere 0 0 0 1 MAT",
         "1 1 1\n2 //~ 1 error: nLights is `2`, but the text has 1 light and 3 numbers before `sphere`\n0 5 5 1 1 1 0 0 1 sphere 0 0 0 1 MAT",
         "1 1 1\n1 //~ 1 error: nLights is `1`, but the text has 0 lights before `sphere`\n1 sphere 0 0 0 1 MAT",
+        "1 1 1\n1 //~ 1 error: nLights is `1`, but the text has 0 lights and 5 numbers before `Ϭsphere`\n5 5 1 1 1\nϬsphere //~ 1 error: object 1: unknown type `Ϭsphere`\n0 0 0 1 MAT",
         // Too few lights declared.
         "1 1 1\n1 //~ 1 error: nLights is `1`, but the text has 2 lights before `sphere`\n0 5 5 1 1 1  3 5 5 1 1 1  1 sphere 0 0 0\n0 //~ 1 error: object 1 (sphere) radius\nMAT",
         "1 1 1\n2 //~ 1 error: nLights is `2`, but the text has 1 light and 2 numbers before the text ends\n0 5 5 1 1 1 1 2",

@@ -237,6 +237,7 @@ fn token_end(bytes: &[u8], start: usize) -> usize {
 mod tests {
     use super::*;
     use crate::language::ray::tree::Window;
+    use crate::language::ray::tree::tokens::may_begin_word;
     use crate::text::Edit;
     use proptest::prelude::*;
 
@@ -310,7 +311,7 @@ mod tests {
             let tree = scan(&text, piece);
             prop_assert_eq!(all(&tree.tokens), read_plainly(&text));
             let (tokens, _) = read_plainly(&text);
-            let letters = |&(_, token): &(usize, Span)| text.as_bytes()[token.start()].is_ascii_alphabetic();
+            let letters = |&(_, token): &(usize, Span)| may_begin_word(text.as_bytes()[token.start()]);
             prop_assert_eq!(tree.tokens.len(), tokens.len());
             let words: Vec<_> = tree.tokens.words().collect();
             prop_assert!(words.into_iter().eq((0..).zip(tokens.iter().copied()).filter(letters)));

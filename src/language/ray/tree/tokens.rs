@@ -35,7 +35,7 @@ pub(super) struct TokenBlock {
     steps: Vec<Advance>,
     /// Start of the gap before every [`STRIDE`]th token.
     marks: Vec<u32>,
-    /// Index and start of each token that begins with a letter.
+    /// Index and start of each token that may be a word.
     words: Vec<(u32, u32)>,
     /// Tokens whose gap or length is too large for a step.
     long: Vec<(u32, Span)>,
@@ -48,6 +48,11 @@ pub(super) struct TokenBlock {
 struct Advance {
     gap: u8,
     len: u8,
+}
+
+/// Whether a token with this first byte may be a word.
+pub(super) fn may_begin_word(first: u8) -> bool {
+    first.is_ascii_alphabetic() || !first.is_ascii()
 }
 
 impl TokenBlock {
@@ -81,7 +86,7 @@ impl TokenBlock {
         if LONG <= gap.max(len) {
             self.long.push((number, token));
         }
-        if first.is_ascii_alphabetic() {
+        if may_begin_word(first) {
             self.words.push((number, token.start() as u32));
         }
         self.steps.push(Advance {
@@ -122,7 +127,7 @@ impl TokenBlock {
             .shifted(self.start)
     }
 
-    /// The tokens from one on that begin with a letter, with their indices in the text.
+    /// The tokens from one on that may be words, with their indices in the text.
     fn words(&self, from: usize) -> impl Iterator<Item = (usize, Span)> + '_ {
         let first = self
             .words
@@ -220,7 +225,7 @@ impl Tokens {
         spans
     }
 
-    /// The tokens that begin with an ASCII letter, in order, with their indices.
+    /// The tokens that begin with a letter or outside ASCII, in order, with their indices.
     pub fn words(&self) -> impl ParallelIterator<Item = (usize, Span)> + '_ {
         self.pieces.par_iter().flat_map_iter(|piece| piece.words(0))
     }

@@ -73,7 +73,7 @@ impl<'a> Window<'a> {
         self.spans.get(first..first.checked_add(count)?)
     }
 
-    /// The tokens from one on that begin with an ASCII letter, in order, with their indices.
+    /// The tokens from one on that begin with a letter or outside ASCII, in order, with their indices.
     pub(in crate::language::ray) fn words_from(
         &self,
         token: usize,
