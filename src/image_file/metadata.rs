@@ -40,7 +40,8 @@ pub fn record(file: impl Read + Seek) -> Result<Option<Record>, Unreadable> {
         record.limit(MAX_PIXELS);
         record
     };
-    Ok(text.map(read))
+    let says_something = |record: &Record| !record.is_empty() || record.unused().is_some();
+    Ok(text.map(read).filter(says_something))
 }
 
 fn stored_text(mut file: impl Read + Seek) -> Result<Option<String>, Unreadable> {

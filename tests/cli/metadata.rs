@@ -280,6 +280,7 @@ fn pictures_that_say_nothing_are_refused() {
     place.stderr("render ball.ray -o a.bmp --spp 1", 0);
     place.write("text.png", "a text");
     place.write("silent.png", with_text("Comment", "size 1x1"));
+    place.write("empty.png", with_text("halflight", "\n\n"));
     place.write("bad.png", b"\x89PNG\r\n\x1a\nnothing");
     for (picture, code, expected) in [
         ("a.bmp", 65, "a.bmp is not a PNG or EXR file"),
@@ -288,6 +289,11 @@ fn pictures_that_say_nothing_are_refused() {
             "silent.png",
             65,
             "silent.png does not say what it is made from\n",
+        ),
+        (
+            "empty.png",
+            65,
+            "empty.png does not say what it is made from\n",
         ),
         ("bad.png", 65, "bad.png is not a valid picture: "),
         ("none.png", 66, "none.png: no such file"),
