@@ -60,7 +60,7 @@ impl Ledger {
             Found::List { is_cut: true } => "\n",
             Found::List { is_cut: false } => "",
         };
-        for other in others {
+        for other in others.iter().filter(|other| **other != path) {
             // What cannot be read is no list.
             let _ = learned(other, &mut learn);
         }
