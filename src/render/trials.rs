@@ -87,10 +87,9 @@ pub struct Trials {
     next: Trial,
     /// What is known to be wrong.
     fault: Option<Fault>,
-    /// That the picture is black, if it was traced and is. It counts where no trial can tell, for it
-    /// depends on the samples.
-    seen: Option<Fault>,
-    /// The rays that a sample takes, as the first picture shows.
+    /// Whether the picture itself was traced, so that it is known to be black or not.
+    is_traced: bool,
+    /// The rays that a sample takes, as the first small picture shows.
     rate: f64,
     /// What is wrong if nothing else is.
     of_text: Option<Fault>,
@@ -121,23 +120,23 @@ impl fmt::Display for Fault {
 
 impl Trials {
     /// Starts the trials for a complete picture of light of these settings, of whose scene the text shows a
-    /// fault, or none; `None` if nothing is wrong with it. Whether a dark one is black and a bright one
-    /// too bright, the trials decide.
+    /// fault, or none; `None` if nothing is wrong with it. Whether one that is bright is too bright, the
+    /// trials decide.
     pub fn of_picture(
         frame: &Frame,
         scene: &Scene,
         settings: &Settings,
         of_text: Option<Fault>,
     ) -> Option<Self> {
+        let black = frame.black().map(Fault::Black);
         let share = || match &frame.values[..] {
             [] => frame.overexposure.share,
             values => Overexposure::of(values).share,
         };
-        let is_suspect = frame.brightest() <= DIM || of_text.is_some() || BRIGHT < share();
-        let samples = frame.size.pixels() as f64 * frame.progress.mean_spp;
+        let is_suspect = black.is_some() || of_text.is_some() || BRIGHT < share();
         is_suspect.then(|| Self {
-            seen: frame.black().map(Fault::Black),
-            rate: frame.progress.rays as f64 / samples,
+            fault: black,
+            is_traced: true,
             next: Trial::Base,
             ..Self::new(scene, settings, of_text)
         })
@@ -157,7 +156,7 @@ impl Trials {
             settings: *settings,
             next: Trial::Glance,
             fault: None,
-            seen: None,
+            is_traced: false,
             rate: 0.0,
             of_text,
             left: candidates(scene, settings),
@@ -169,7 +168,7 @@ impl Trials {
 
     /// What is known to be wrong before any trial.
     pub fn fault(&self) -> Option<Fault> {
-        self.fault.or(self.seen)
+        self.fault
     }
 
     /// The settings of the picture to trace next, in [live](super::Frames::Live) frames.
@@ -221,15 +220,17 @@ impl Trials {
                 let shown = Shown::of(picture);
                 let now = Appearance::of(values, &shown, (0.0, self.settings.transfer));
                 if self.fault.is_none() {
-                    let is_dark = !now.is_burnt() && picture.brightest() <= DIM;
-                    if is_dark && let Some(side) = self.whole_side() {
-                        self.next = Trial::Whole(side);
-                        return ControlFlow::Continue(self);
-                    }
-                    let seen = self.seen.filter(|_| is_dark);
-                    let burnt = now.is_burnt().then_some(Fault::Burnt);
-                    self.fault = burnt.or(seen).or(self.of_text);
-                    if self.fault.is_none() {
+                    if now.is_burnt() {
+                        self.fault = Some(Fault::Burnt);
+                    } else if !self.is_traced && picture.brightest() <= DIM {
+                        let side = self.whole_side();
+                        return side.map_or(ControlFlow::Break(None), |side| {
+                            self.next = Trial::Whole(side);
+                            ControlFlow::Continue(self)
+                        });
+                    } else if self.of_text.is_some() {
+                        self.fault = self.of_text;
+                    } else {
                         return ControlFlow::Break(None);
                     }
                 }

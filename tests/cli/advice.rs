@@ -92,24 +92,6 @@ fn a_picture_is_judged_alike_by_every_command() {
     }
 }
 
-/// Balls that each cover a twentieth of a pixel: the more samples, the darker the brightest pixel.
-#[test]
-fn samples_do_not_decide_whether_a_picture_is_black() {
-    let place = Place::new();
-    let balls = (0..100).map(|number| {
-        let [x, y] = [number % 10, number / 10].map(|at| 0.37 * f64::from(at - 5));
-        format!("sphere {x} {y} 0 .01  1 1 1 0 0 0 0 0 0 1 0 0 1\n")
-    });
-    let balls = balls.collect::<String>();
-    let head = "// view: eye 0 0 9 size 80 60 fov 30\n.8 .8 .8 0 100\n";
-    place.write("small.ray", format!("{head}{balls}"));
-    assert_eq!(notes(&place, "check small.ray"), [""; 0]);
-    for more in ["--spp 1", "--spp 4 --seed 3", "--spp 256"] {
-        let line = format!("render small.ray -o a.png {more}");
-        assert_eq!(notes(&place, &line), [""; 0], "{line}");
-    }
-}
-
 /// Why a picture is black that no render setting mends.
 #[test]
 fn the_cause_of_a_black_picture_is_named() {
