@@ -127,8 +127,8 @@ impl Excerpt {
         let marked = first_chars(&text[start..end]);
         let rest = &text[start + marked.len()..line_end];
         let after = first_chars(rest);
-        let beyond = &rest.as_bytes()[after.len()..];
-        let is_cut = first_byte(beyond, |byte| !byte.is_ascii_whitespace()).is_some();
+        let is_cut = !is_blank(&rest[after.len()..]);
+        let after = if is_cut { after } else { after.trim_end() };
 
         let mut line = String::new();
         if before.len() < start - line_start {
@@ -151,6 +151,12 @@ impl Excerpt {
 fn shown(text: &str) -> String {
     let parts: Vec<_> = text.split('\t').map(visible).collect();
     parts.join("    ")
+}
+
+/// Whether a text is white space, of which there may be a gigabyte.
+fn is_blank(text: &str) -> bool {
+    let other = first_byte(text.as_bytes(), |byte| byte != b' ');
+    other.is_none_or(|at| text[at..].trim_start().is_empty())
 }
 
 fn first_chars(text: &str) -> &str {
@@ -258,7 +264,9 @@ warning: meshes/a.obj:12:3: f: too few
         let zeros = "0 ".repeat(30);
         let cut = format!("…{zeros}x{}…", zeros.trim_end());
         check_excerpt(&format!("{long}[x]{}{long}", ""), &cut, "x");
-        check_excerpt(&format!("a [x]{}\nb", " ".repeat(1000)), "a x", "x");
+        for blank in [" ", "\u{a0}", "\x0B", "\u{3000}"] {
+            check_excerpt(&format!("a [x]{}\nb", blank.repeat(1000)), "a x", "x");
+        }
     }
 
     fn check_excerpt(text: &str, line: &str, marked: &str) {

@@ -3,6 +3,7 @@
 use rayon::prelude::*;
 
 use super::Language;
+use super::words::may_begin_word;
 use crate::memory::{self, Need, OutOfMemory, megabytes};
 use crate::text::counted;
 
@@ -14,7 +15,7 @@ const PIECE: usize = 1 << 18;
 pub(super) struct Counts {
     /// Runs between blanks.
     pub(super) tokens: u64,
-    /// Tokens that begin with a letter.
+    /// Tokens that may be words.
     pub(super) words: u64,
     /// Tokens that begin like comments.
     pub(super) comments: u64,
@@ -74,7 +75,7 @@ impl Counts {
         Self {
             tokens: count(bytes, begins),
             words: count(bytes, |before, byte| {
-                begins(before, byte) && byte.is_ascii_alphabetic()
+                begins(before, byte) && may_begin_word(byte)
             }),
             comments: count(bytes, |before, byte| {
                 begins(before, byte) && matches!(byte, b'/' | b'\\' | b'#')
@@ -120,10 +121,10 @@ mod tests {
 
     #[test]
     fn leaves_are_counted() {
-        let text = "sphere 1 2\n// a\r\n<a b='1'> </a>\r";
+        let text = "sphere 1 2 é\n// a\r\n<a b='1'> </a>\r";
         let counted = Counts {
-            tokens: 8,
-            words: 3,
+            tokens: 9,
+            words: 4,
             comments: 1,
             lines: 3,
             openings: 1,

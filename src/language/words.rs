@@ -74,6 +74,11 @@ pub(super) fn white_space(bytes: &[u8]) -> Option<usize> {
     }
 }
 
+/// Whether a token with this first byte may be a word: a letter, or anything outside ASCII.
+pub(super) fn may_begin_word(first: u8) -> bool {
+    first.is_ascii_alphabetic() || !first.is_ascii()
+}
+
 /// The span without trailing white space.
 pub(super) fn trim_end(text: &str, span: Span) -> Span {
     let mut kept = span.of(text).as_bytes();

@@ -146,7 +146,7 @@ impl App {
             Some(frame) => Making::Write(frame),
             None => Making::Trace(Box::new(Job { camera, ..job })),
         };
-        self.announce_export(path);
+        self.announce_export(export.aov, path);
         self.begin_or_queue(Pending {
             export,
             making,
@@ -155,8 +155,8 @@ impl App {
     }
 
     /// Says what is exported, and whether that has to wait.
-    pub(super) fn announce_export(&mut self, path: &Path) {
-        let [begun, queued] = announcements(self.pictures.aov, path);
+    pub(super) fn announce_export(&mut self, aov: Option<Aov>, path: &Path) {
+        let [begun, queued] = announcements(aov, path);
         let words = match self.jobs.export {
             Some(_) => queued,
             None => begun,
@@ -279,7 +279,10 @@ impl App {
         };
         let mut pending = *pending;
         if existing == Existing::Overwritten {
-            self.announce_export(&pending.export.destination.path);
+            let Export {
+                aov, destination, ..
+            } = &pending.export;
+            self.announce_export(*aov, &destination.path);
         }
         pending.export.id = self.jobs.next_export();
         pending.export.destination.existing = existing;

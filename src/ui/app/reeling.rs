@@ -64,7 +64,7 @@ impl App {
             progress: None,
             written_for: 0,
         };
-        self.announce_export(&path);
+        self.announce_export(export.aov, &path);
         self.begin_or_queue(Pending {
             export,
             making: Making::Film(Box::new(reel)),

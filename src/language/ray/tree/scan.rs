@@ -237,7 +237,7 @@ fn token_end(bytes: &[u8], start: usize) -> usize {
 mod tests {
     use super::*;
     use crate::language::ray::tree::Window;
-    use crate::language::ray::tree::tokens::may_begin_word;
+    use crate::language::words::may_begin_word;
     use crate::text::Edit;
     use proptest::prelude::*;
 

@@ -8,6 +8,7 @@ use std::ops::Range;
 use rayon::prelude::*;
 
 use crate::language::partition::partition_point;
+use crate::language::words::may_begin_word;
 use crate::text::Span;
 
 /// Number of tokens between two whose offsets are stored.
@@ -48,11 +49,6 @@ pub(super) struct TokenBlock {
 struct Advance {
     gap: u8,
     len: u8,
-}
-
-/// Whether a token with this first byte may be a word.
-pub(super) fn may_begin_word(first: u8) -> bool {
-    first.is_ascii_alphabetic() || !first.is_ascii()
 }
 
 impl TokenBlock {
