@@ -153,7 +153,7 @@ fn learned(path: &Path, mut learn: impl FnMut(&[u8])) -> io::Result<Found> {
             learn(line);
         }
     };
-    // The first bytes of the line that the chunk before ends in.
+    // What the previous chunk held of a line that it did not end.
     let mut begun = Vec::new();
     loop {
         let chunk = from.fill_buf()?;
@@ -180,7 +180,7 @@ fn learned(path: &Path, mut learn: impl FnMut(&[u8])) -> io::Result<Found> {
     }
 }
 
-/// Extends a line by what can still be of use in it.
+/// Extends a line, but no further than the length from which on it names no frame.
 fn extend(line: &mut Vec<u8>, by: &[u8]) {
     let room = LONGEST.saturating_sub(line.len());
     line.extend_from_slice(&by[..by.len().min(room)]);

@@ -82,7 +82,7 @@ pub(super) fn may_begin_word(first: u8) -> bool {
 /// The span without trailing white space.
 pub(super) fn trim_end(text: &str, span: Span) -> Span {
     let mut kept = span.of(text).as_bytes();
-    // Byte by byte: a pattern of characters takes several times as long for blanks without end.
+    // Byte by byte: on a gigabyte of blanks, a pattern of characters takes several times as long.
     loop {
         kept = match kept {
             [rest @ .., byte] if is_blank(*byte) => rest,

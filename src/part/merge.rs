@@ -208,7 +208,10 @@ pub fn missing(parts: &[PathBuf]) -> Result<(Vec<u32>, Vec<Unmerged>), Unmerged>
         }
     }
     match survey {
-        Some(survey) => Ok((survey.lacking().1.into_iter().collect(), damaged)),
+        Some(survey) => {
+            let (_, shards) = survey.lacking();
+            Ok((shards.into_iter().collect(), damaged))
+        }
         // How many shards there are is not known.
         None => Err(damaged.pop().unwrap_or_else(no_parts)),
     }

@@ -42,7 +42,7 @@ pub(super) fn judge(case: &Case<'_>) -> Vec<Finding> {
     let mut findings = judge.oddities();
     findings.extend(judge.untraced());
     let is_underexposed = |found: &Finding| matches!(found.verdict, Verdict::Underexposed { .. });
-    // Else every surface would be said to reflect too little.
+    // Otherwise every surface would be said to reflect too little.
     if !findings.iter().any(is_underexposed) {
         findings.extend(judge.first_ray());
     }
