@@ -4,19 +4,20 @@ use toml::de::DeValue;
 
 use super::value::{MOST_ERRORS, Name, Value, advised, in_order, kind_of, span_of};
 use crate::text::{Diagnostic, Span, alternatives};
-use crate::ui::keymap::{self, Action, Keymap, Keys, Section, key_names};
+use crate::ui::keymap::{self, Keymap, Keys, Section, key_names};
 
 /// An entry that has been read.
 struct Entry {
     keys: Keys,
-    action: Option<Action>,
+    /// The name of what they do; `None`: nothing.
+    name: Option<&'static str>,
     span: Span,
 }
 
 impl Entry {
     /// Whether both cannot be in one section.
     fn excludes(&self, other: &Self) -> bool {
-        let act = self.action.is_some() && other.action.is_some();
+        let act = self.name.is_some() && other.name.is_some();
         self.keys == other.keys || act && self.keys.collides(other.keys)
     }
 }
@@ -61,7 +62,7 @@ pub(super) fn read(value: &Value<'_>, keymap: &mut Keymap, errors: &mut Vec<Diag
     for (section, entries) in &found {
         // The first of an action's keys is the one that hints show.
         for entry in entries.iter().rev() {
-            keymap.bind(*section, entry.keys, entry.action);
+            keymap.bind(*section, entry.keys, entry.name);
         }
     }
     for (section, entries) in &found {
@@ -71,19 +72,19 @@ pub(super) fn read(value: &Value<'_>, keymap: &mut Keymap, errors: &mut Vec<Diag
 
 fn entry(section: Section, name: &Name<'_>, value: &Value<'_>) -> Result<Entry, Diagnostic> {
     let keys = Keys::parse(name.get_ref()).ok_or_else(|| unknown_key(name))?;
-    let action = action(section, value)?;
-    if let Some(reason) = keymap::refusal(section, keys, action) {
+    let name_of_action = action(section, value)?;
+    if let Some(reason) = keymap::refusal(section, keys, name_of_action) {
         return Err(Diagnostic::error(span_of(name), reason, "another key"));
     }
     Ok(Entry {
         keys,
-        action,
+        name: name_of_action,
         span: span_of(name),
     })
 }
 
-/// The action that a value names; `None` if it is `"none"` or `false`.
-fn action(section: Section, value: &Value<'_>) -> Result<Option<Action>, Diagnostic> {
+/// The name of the action that a value names; `None` if it is `"none"` or `false`.
+fn action(section: Section, value: &Value<'_>) -> Result<Option<&'static str>, Diagnostic> {
     let expected = "the name of an action, or \"none\"";
     let wrong = |message: String| Diagnostic::error(span_of(value), message, expected);
     let name = match value.get_ref() {
@@ -95,7 +96,7 @@ fn action(section: Section, value: &Value<'_>) -> Result<Option<Action>, Diagnos
     let defaults = Keymap::default();
     let here = defaults.actions_in(section);
     if let Some(known) = here.iter().find(|known| known.name == name) {
-        return Ok(Some(known.action));
+        return Ok(Some(known.name));
     }
     let mut others = Section::all();
     let has = |other: &Section| {

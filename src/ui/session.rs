@@ -17,7 +17,6 @@ use super::continuing::TraceEnd;
 use super::effects::Runtime;
 use super::ending::{Ending, Error};
 use super::event::{Event, sending};
-use super::keymap::{Action, Mode};
 use super::msg::{Effect, Msg, Target};
 use super::options::Options;
 use super::reader::Reader;
@@ -210,7 +209,7 @@ impl Session {
         let path = path.map_or_else(String::new, |path| {
             format!(" {}", shell_path(&path.to_string_lossy()))
         });
-        let key = self.app.key_for(Action::Go(Mode::Trace));
+        let key = self.app.key_for("trace");
         let now = self.app.scene.clone().zip(self.app.origin());
         // The end of the process frees a large scene immediately.
         mem::forget(self.app);

@@ -4,13 +4,13 @@ use std::path::Path;
 
 use glam::DVec3;
 
-use super::App;
 use super::inspection::Cross;
 use super::menu::{Entry, Menu, Purpose};
 use super::transform::{decimals_of, round_up};
+use super::{App, Tool};
 use crate::language::{Node, Wish};
 use crate::render::{clearance, pixel_width, surface_under};
-use crate::ui::keymap::{Action, Mode, Tool};
+use crate::ui::keymap::Mode;
 
 /// The fraction of the picture's height that a new thing takes up.
 const SHARE: f64 = 0.2;
@@ -130,7 +130,7 @@ impl App {
         let suited = tools
             .into_iter()
             .filter(|&(tool, _)| self.pose_for(tool, node, &[node]).is_ok())
-            .map(|(tool, does)| format!("{} {does} it", self.key_for(Action::Transform(tool))));
+            .map(|(tool, does)| format!("{} {does} it", self.key_for(tool.name())));
         let suited: Vec<_> = suited.collect();
         let words = match suited.as_slice() {
             [] => done.to_owned(),

@@ -10,7 +10,7 @@ use super::{App, Cursor, List, Next, OnDisk, Overlays, Page};
 use crate::document::Document;
 use crate::file::ReadError;
 use crate::language::{Language, Lowered};
-use crate::ui::keymap::{Action, Mode};
+use crate::ui::keymap::Mode;
 use crate::ui::msg::{Effect, Target};
 use crate::ui::reading::{News, Opened};
 
@@ -163,7 +163,7 @@ impl App {
 
     /// Says that the scene is new and how to write it.
     pub(super) fn announce_new(&mut self) {
-        let save = self.key_for(Action::Save);
+        let save = self.key_for("save");
         self.overlays.say(match self.disk.path.as_deref() {
             Some(path) => format!("{} is new: {save} writes it", name_of(path)),
             None => "a new scene: :w FILE writes it".to_owned(),

@@ -3,12 +3,11 @@
 use super::hsv::Hsv;
 use super::literals::{self, plain};
 use super::picker::{ColourPicker, PickerRow};
-use super::{App, colours};
+use super::{App, Stride, colours};
 use crate::language::Placed;
 use crate::language::table::Kind;
 use crate::scene::Rgb;
 use crate::text::{parse_number, rounded, spell_like};
-use crate::ui::keymap::Stride;
 
 /// The number of the scene's colours offered.
 const SWATCHES: usize = 30;

@@ -16,7 +16,7 @@ use crate::language::{Language, extensions};
 use crate::render::{Aov, MOST_HALF_STOPS};
 use crate::scene::{Camera, Size, Transfer};
 use crate::text::{Severity, nearest_word};
-use crate::ui::keymap::{self, Action, HelpLine, Mode};
+use crate::ui::keymap::{self, HelpLine, Mode};
 use crate::ui::msg::{Effect, Guard};
 use crate::ui::pixels::Pixels;
 use crate::ui::theme::Theme;
@@ -102,6 +102,8 @@ struct CommandRow {
     arguments: Arguments,
     /// Description for the help.
     words: &'static str,
+    /// The name of the keys that do the same.
+    key: Option<&'static str>,
 }
 
 /// The arguments of a command, and how they form its meaning.
@@ -126,6 +128,15 @@ const fn row(
         names,
         arguments,
         words,
+        key: None,
+    }
+}
+
+impl CommandRow {
+    /// Keys with this name do the same.
+    const fn key(mut self, name: &'static str) -> Self {
+        self.key = Some(name);
+        self
     }
 }
 
@@ -140,27 +151,27 @@ use Command as C;
 /// All commands, in the order of the help page.
 #[rustfmt::skip]
 const TABLE: &[CommandRow] = &[
-    row(&["w", "write"], A::File(|file| C::Write(file, Force::No)), "save the scene, or save it as FILE"),
+    row(&["w", "write"], A::File(|file| C::Write(file, Force::No)), "save the scene, or save it as FILE").key("save"),
     row(&["w!", "write!"], A::File(|file| C::Write(file, Force::Yes)), "save, overwriting changes on disk"),
-    row(&["q", "quit"], A::Nothing(C::Quit(Force::No)), "quit"),
+    row(&["q", "quit"], A::Nothing(C::Quit(Force::No)), "quit").key("quit"),
     row(&["q!", "quit!"], A::Nothing(C::Quit(Force::Yes)), "quit without asking"),
     row(&["wq", "x"], A::Nothing(C::WriteQuit), "save and quit"),
     row(&["e", "edit", "reread"], A::File(C::Edit), "open FILE, or reload the scene's own"),
     row(&["new"], A::Language(C::New), "start a new scene: ray, dat or xml"),
     row(&["recent"], A::Nothing(C::Recent), "list recently used scenes"),
-    row(&["history", "undolist"], A::Nothing(C::History), "show the undo history as pictures"),
-    row(&["export"], A::Picture(|order| C::Export(order, Asking::No)), "export the picture, in SEQUENCE all frames"),
+    row(&["history", "undolist"], A::Nothing(C::History), "show the undo history as pictures").key("history"),
+    row(&["export"], A::Picture(|order| C::Export(order, Asking::No)), "export the picture, in SEQUENCE all frames").key("export"),
     row(&["export!"], A::Picture(|order| C::Export(order, Asking::Forced)), "export, overwriting an existing file"),
-    row(&["export cancel"], A::Nothing(C::ExportCancel), "cancel the export"),
-    row(&["render"], A::Nothing(C::Render), "trace at full size"),
-    row(&["compare"], A::File(C::Compare), "compare with a picture or scene FILE, saved, or git [REVISION]"),
+    row(&["export cancel"], A::Nothing(C::ExportCancel), "cancel the export").key("stop"),
+    row(&["render"], A::Nothing(C::Render), "trace at full size").key("trace"),
+    row(&["compare"], A::File(C::Compare), "compare with a picture or scene FILE, saved, or git [REVISION]").key("compare"),
     row(&["until"], A::Said(" [N spp|TIME|noise E]", until), "end the full-size trace at N spp, after 30 s or 5 min, or below noise 0.01"),
-    row(&["region"], A::Said(" [X,Y,W,H|off]", |said| RegionOrder::parse(said).map(C::Region)), "trace only these pixels at full size, or all"),
+    row(&["region"], A::Said(" [X,Y,W,H|off]", |said| RegionOrder::parse(said).map(C::Region)), "trace only these pixels at full size, or all").key("region"),
     row(&["zoom"], A::Said(" [fit|1:1|N]", |said| ScaleOrder::parse(said).map(C::Scale)), "zoom the picture, also the preview"),
-    row(&["track"], A::File(C::Track), "play the track FILE, or the one beside the scene"),
-    row(&["view save"], A::Name(C::ViewSave), "write the view into the scene, or save it as NAME"),
+    row(&["track"], A::File(C::Track), "play the track FILE, or the one beside the scene").key("track"),
+    row(&["view save"], A::Name(C::ViewSave), "write the view into the scene, or save it as NAME").key("write-view"),
     row(&["view light"], A::Nothing(C::ViewLight), "look from the selected light"),
-    row(&["view reset"], A::Nothing(C::ViewReset), "reset to the scene's view"),
+    row(&["view reset"], A::Nothing(C::ViewReset), "reset to the scene's view").key("reset-view"),
     row(&["size"], A::Size(C::Size), "set the picture size in the scene"),
     row(&["set"], A::Said(" KEY [VALUE|default]", |said| SettingOrder::parse(said).map(C::Set)), "write a render setting into the scene, by default the one in use"),
     row(&["mesh"], A::File(C::Mesh), "add the mesh of an .obj FILE, named as from the scene"),
@@ -171,31 +182,14 @@ const TABLE: &[CommandRow] = &[
     row(&["transfer srgb"], A::Nothing(C::Transfer(Some(Transfer::Srgb))), "display light by the sRGB curve"),
     row(&["transfer scene"], A::Nothing(C::Transfer(None)), "display light as the scene says"),
     row(&["falsecolour", "falsecolor"], A::Nothing(C::FalseColour), "display luminances as false colours, or no longer"),
-    row(&["denoise"], A::Nothing(C::Denoise), "reduce the noise of light on screen, or no longer"),
+    row(&["denoise"], A::Nothing(C::Denoise), "reduce the noise of light on screen, or no longer").key("denoise"),
     row(&["histogram"], A::Nothing(C::Histogram), "show or hide the histogram of the light"),
     row(&["mouse"], A::Nothing(C::Mouse), "take the mouse or leave it to the terminal"),
     row(&["theme dark"], A::Nothing(C::Theme(Theme::Dark)), "use colours for dark screens"),
     row(&["theme light"], A::Nothing(C::Theme(Theme::Light)), "use colours for light screens"),
     row(&["theme mono"], A::Nothing(C::Theme(Theme::Mono)), "use no colours except in pictures"),
     row(&["pixels"], A::Pixels(C::Pixels), "set what pixels are drawn with, such as half, octant or auto"),
-    row(&["help"], A::Nothing(C::Help), "show this page"),
-];
-
-/// The keys that do what a command does.
-const KEYS: &[(&str, Action)] = &[
-    ("w", Action::Save),
-    ("q", Action::Quit),
-    ("history", Action::Steps),
-    ("export", Action::Export),
-    ("export cancel", Action::Stop),
-    ("render", Action::Go(Mode::Trace)),
-    ("compare", Action::Go(Mode::Compare)),
-    ("region", Action::Region),
-    ("track", Action::Go(Mode::Sequence)),
-    ("denoise", Action::Denoise),
-    ("view save", Action::SaveView),
-    ("view reset", Action::ResetView),
-    ("help", Action::Help),
+    row(&["help"], A::Nothing(C::Help), "show this page").key("help"),
 ];
 
 /// A command as the palette describes it.
@@ -204,8 +198,8 @@ pub(super) struct Described {
     pub(super) names: &'static [&'static str],
     pub(super) usage: String,
     pub(super) words: &'static str,
-    /// The action of a key that does the same.
-    pub(super) action: Option<Action>,
+    /// The name of the keys that do the same.
+    pub(super) key: Option<&'static str>,
     /// Whether its arguments begin with a file name.
     pub(super) takes_file: bool,
 }
@@ -249,13 +243,12 @@ pub(super) fn begins_command(line: &str) -> bool {
 impl CommandRow {
     fn described(&self) -> Described {
         let name = self.names[0];
-        let key = KEYS.iter().find(|(of, _)| *of == name);
         Described {
             name,
             names: self.names,
             usage: self.usage(),
             words: self.words,
-            action: key.map(|&(_, action)| action),
+            key: self.key,
             takes_file: matches!(self.arguments, A::File(_) | A::Picture(_)),
         }
     }

@@ -10,7 +10,7 @@ use crate::image_file::ImageFormat;
 use crate::render::{Aov, Frame, Frames, Job, Settings};
 use crate::scene::{Camera, Images, Rendering, Scene, Size};
 use crate::text::Severity;
-use crate::ui::keymap::{Action, Context, Mode};
+use crate::ui::keymap::{Context, Mode};
 use crate::ui::msg::{Effect, Target};
 use crate::ui::reference::{ReferenceId, ReferenceRead, ReferenceSource};
 
@@ -27,7 +27,7 @@ impl App {
         let size = pinned.frame.as_ref().map_or_else(String::new, |frame| {
             format!(", {}×{}", frame.size.width, frame.size.height)
         });
-        let how = self.keymap.key(self.context(), Action::Go(Mode::Compare));
+        let how = self.keymap.key(self.context(), "compare");
         let how = how.unwrap_or_else(|| ":compare".to_owned());
         let name = &pinned.name;
         self.overlays
@@ -38,7 +38,7 @@ impl App {
     /// The picture on screen as a reference, or the reason why it cannot be one.
     fn pinned(&self) -> Result<Reference, String> {
         if self.wires().is_some() {
-            let light = self.key_for(Action::Show(None));
+            let light = self.key_for("show-light");
             return Err(format!(
                 "a wireframe cannot be pinned: {light} shows a picture"
             ));
@@ -246,7 +246,7 @@ impl App {
     /// What to trace of the present scene, and of its reference if that is a scene.
     fn comparison(&self) -> Result<(Job, Option<Job>), String> {
         let reference = self.compared.reference.as_ref().ok_or_else(|| {
-            let pin = self.key_for(Action::Pin);
+            let pin = self.key_for("pin");
             format!("nothing to compare with: {pin} pins the picture, :compare FILE loads one")
         })?;
         self.comparison_jobs(reference)
@@ -323,22 +323,13 @@ impl App {
         (live != shows).then(|| format!("{live} against {shows}"))
     }
 
-    /// Performs an action of [`Mode::Compare`].
-    pub(super) fn act_on_comparison(&mut self, action: Action) {
-        let compared = &mut self.compared;
-        let view = match action {
-            Action::Flip => compared.view.flipped(),
-            Action::Wipe => Contrast::Wipe,
-            Action::Difference => compared.view.next_difference(),
-            Action::SlideWipe(cells) => return self.slide_wipe(cells),
-            Action::Worst(step) => return self.go_to_worst(step),
-            _ => return,
-        };
-        compared.look(view, compared.wipe);
+    /// Shows the two pictures in another way.
+    pub(super) fn contrast(&mut self, view: Contrast) {
+        self.compared.look(view, self.compared.wipe);
     }
 
     /// Moves the line of the wipe by some cells to the right.
-    fn slide_wipe(&mut self, cells: i16) {
+    pub(super) fn slide_wipe(&mut self, cells: i16) {
         let Some(((area, halves), sight)) = self.raster().zip(self.sight()) else {
             return;
         };
@@ -350,7 +341,7 @@ impl App {
     }
 
     /// Points at one of the worst pixels.
-    fn go_to_worst(&mut self, step: isize) {
+    pub(super) fn go_to_worst(&mut self, step: isize) {
         if let Err(reason) = self.compared.go_to_worst(step) {
             self.overlays.say(reason);
         } else if let Some(place) = self.cross_on_screen() {

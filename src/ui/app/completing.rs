@@ -10,7 +10,7 @@ use super::command::{self, Described};
 use super::{App, Completion, PromptKind, line};
 use crate::image_file::ImageFormat;
 use crate::language::Language;
-use crate::ui::keymap::{Action, Context, Mode};
+use crate::ui::keymap::{Context, Mode, RowId};
 use crate::ui::msg::Effect;
 
 /// What is completed.
@@ -82,14 +82,14 @@ impl App {
                 self.warn_of_transform();
                 Vec::new()
             }
-            Some((action, context @ Context::In(Mode::Sequence))) => self.act_in(action, context),
-            Some((action, context)) => self.outside_sequence(|app| app.act_in(action, context)),
+            Some((row, context @ Context::In(Mode::Sequence))) => self.act_in(row, context),
+            Some((row, context)) => self.outside_sequence(|app| app.act_in(row, context)),
             None => self.command(line),
         }
     }
 
-    /// Performs the action of a key, in the mode that has it.
-    fn act_in(&mut self, action: Action, context: Context) -> Vec<Effect> {
+    /// Does what a key does, in the mode that has it.
+    fn act_in(&mut self, row: RowId, context: Context) -> Vec<Effect> {
         let mut effects = Vec::new();
         if let Context::In(mode) = context
             && mode != self.mode
@@ -99,7 +99,7 @@ impl App {
                 return effects;
             }
         }
-        effects.extend(self.act(action, context));
+        effects.extend(self.act(row));
         effects
     }
 
@@ -160,7 +160,7 @@ impl App {
             let names = row.names.iter().filter_map(|name| likeness(name, &wanted));
             let by_words = likeness(row.words, &wanted).map(|rank| rank + 1);
             let rank = names.chain(by_words).min();
-            (rank, row.action, self.as_completion(row))
+            (rank, row.key, self.as_completion(row))
         });
         let commands: Vec<_> = commands.filter(|(rank, ..)| rank.is_some()).collect();
         let actions = if self.disk.is_opening() {
@@ -169,8 +169,8 @@ impl App {
             self.keymap.actions(self.mode)
         };
         // A command that is offered does the same.
-        let is_other = |action| commands.iter().all(|(_, other, _)| *other != Some(action));
-        let actions = actions.into_iter().filter(|named| is_other(named.action));
+        let is_other = |name| commands.iter().all(|(_, key, _)| *key != Some(name));
+        let actions = actions.into_iter().filter(|named| is_other(named.name));
         let actions: Vec<_> = actions
             .map(|named| {
                 let keys = match named.context {
@@ -184,7 +184,7 @@ impl App {
                     shown: named.words.to_owned(),
                     words: "",
                     keys,
-                    act: Some((named.action, named.context)),
+                    act: Some((named.row, named.context)),
                 };
                 (likeness(named.words, &wanted), completion)
             })
@@ -243,30 +243,30 @@ impl App {
     fn as_completion(&self, command: Described) -> Completion {
         Completion {
             line: command.name.to_owned(),
-            keys: self.keys_of(command.action),
+            keys: self.keys_of(command.key),
             shown: command.usage,
             words: command.words,
             act: None,
         }
     }
 
-    /// What to press for an action, as messages say it: its first key here or in another mode,
-    /// otherwise its description in the command line.
-    pub fn key_for(&self, action: Action) -> String {
-        let here = self.keymap.key(self.context(), action);
+    /// What to press for what keys with this name do, as messages say it: the first of them here or in
+    /// another mode, otherwise their description in the command line.
+    pub fn key_for(&self, name: &str) -> String {
+        let here = self.keymap.key(self.context(), name);
         let named = || {
             let mut named = self.keymap.actions(self.mode).into_iter();
-            let named = named.find(|named| named.action == action)?;
+            let named = named.find(|named| named.name == name)?;
             let first = named.keys.split(' ').next().filter(|key| !key.is_empty());
             Some(first.map_or_else(|| format!(":{}", named.words), str::to_owned))
         };
         here.or_else(named).unwrap_or_default()
     }
 
-    /// The keys of an action in the present mode, otherwise in any.
-    fn keys_of(&self, action: Option<Action>) -> String {
+    /// The keys with this name in the present mode, otherwise in any.
+    fn keys_of(&self, name: Option<&str>) -> String {
         let mut named = self.keymap.actions(self.mode).into_iter();
-        let named = named.find(|named| Some(named.action) == action);
+        let named = named.find(|named| Some(named.name) == name);
         named.map_or_else(String::new, |named| named.keys)
     }
 

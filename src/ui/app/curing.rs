@@ -8,7 +8,6 @@ use super::looking::is_light;
 use crate::explain::fault;
 use crate::language::{Outlook, Prospect, RenderKey, outlook};
 use crate::render::{Advice, Fault, Frame, Frames, Histogram, Job, Overexposure, Settings, Trials};
-use crate::ui::keymap::{Action, Mode};
 use crate::ui::msg::{Effect, Target};
 
 impl App {
@@ -138,7 +137,7 @@ impl App {
             Fault::Black(_) => cure.unwrap_or_else(|| self.reason_of_black()),
             Fault::Burnt => {
                 let cure = cure.unwrap_or_else(|| "no single render setting fixes that".to_owned());
-                let darker = self.key_for(Action::Expose(-1));
+                let darker = self.key_for("darker");
                 format!("{cure}; {darker} darkens only the screen")
             }
             // The text's warning says it all.
@@ -159,7 +158,7 @@ impl App {
         let helps = match fault {
             Some(Fault::Black(_)) => self.reason_of_black(),
             Some(Fault::Burnt) => {
-                let darker = self.key_for(Action::Expose(-1));
+                let darker = self.key_for("darker");
                 format!("{darker} darkens only the screen")
             }
             // The text's warning says it all.
@@ -189,9 +188,9 @@ impl App {
     /// Where to look for the reason why a picture is black.
     fn reason_of_black(&self) -> String {
         if self.cures.prospects.contains(&Prospect::Black) {
-            format!("{} says why", self.key_for(Action::Errors))
+            format!("{} says why", self.key_for("errors"))
         } else {
-            let inspect = self.key_for(Action::Go(Mode::Inspect));
+            let inspect = self.key_for("inspect");
             format!("{inspect} explains a pixel")
         }
     }
@@ -205,7 +204,7 @@ impl App {
     }
 
     /// Writes the suggested setting into the text.
-    fn cure(&mut self) {
+    pub(super) fn cure(&mut self) {
         if let Some((key, value)) = self.suggested_cure().cloned() {
             self.write_setting(key, Some(value));
             // What is still wrong is said again.
@@ -221,12 +220,8 @@ impl App {
         });
     }
 
-    /// Switches the integrator, or writes the suggested setting.
-    pub(super) fn change_rendering(&mut self, action: Action) {
-        if action == Action::Cure {
-            self.cure();
-            return;
-        }
+    /// Switches the integrator.
+    pub(super) fn next_integrator(&mut self) {
         let words = self.pictures.next_integrator(self.scene.as_deref());
         // It may lack other lights.
         self.judge_text();
@@ -241,6 +236,6 @@ impl App {
     }
 
     fn cure_in_words(&self, (key, value): &Cure) -> String {
-        format!("{} sets {} {value}", self.key_for(Action::Cure), key.name())
+        format!("{} sets {} {value}", self.key_for("cure"), key.name())
     }
 }

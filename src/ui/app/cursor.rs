@@ -11,11 +11,33 @@ use super::trial::Trial;
 use crate::language::{Node, Nodes, Placed, Source};
 use crate::text::{Diagnostic, Edit, Span};
 use crate::ui::arrange::Areas;
-use crate::ui::keymap::Stride;
 use crate::ui::layout;
 
 /// The maximum number of parts listed for a combined object.
 const MAX_PARTS: usize = 32;
+
+/// Size of a nudge.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Stride {
+    /// A tenth of the field's step.
+    Fine,
+    /// The step of the field's table entry.
+    #[default]
+    Plain,
+    /// Ten times the field's step.
+    Coarse,
+}
+
+impl Stride {
+    /// The size of one nudge of a field with this step.
+    pub fn of(self, step: f64) -> f64 {
+        match self {
+            Self::Fine => step / 10.0,
+            Self::Plain => step,
+            Self::Coarse => step * 10.0,
+        }
+    }
+}
 
 /// The selection in the list and in the fields.
 #[derive(Debug)]

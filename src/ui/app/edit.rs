@@ -11,7 +11,7 @@ use crate::assets::{Loaded, Wanted};
 use crate::language::{Lowered, Node, Nodes};
 use crate::scene::Scene;
 use crate::text::{Diagnostic, Edit, Findings, Span, parse_number};
-use crate::ui::keymap::{Action, Mode};
+use crate::ui::keymap::Mode;
 use crate::ui::msg::Effect;
 
 impl App {
@@ -30,7 +30,7 @@ impl App {
         }
         match news.notice {
             Some(Notice::Faults) => {
-                let (severity, words) = self.assets.faults(&self.key_for(Action::Errors));
+                let (severity, words) = self.assets.faults(&self.key_for("errors"));
                 if let Some(severity) = severity {
                     self.overlays.complain(About::Assets, severity, &words);
                 } else {

@@ -2,15 +2,15 @@
 
 use ratatui::layout::Rect;
 
-use super::App;
 use super::cursor::moved;
 use super::inspection::{Cross, Explained};
 use super::rays::{self, RayLine, RayPart, Segment};
+use super::{App, Fold};
 use crate::explain::{Subject, verdicts};
 use crate::language::Node;
 use crate::render::{Explanation, NO_OBJECT, RayEnd};
 use crate::ui::fit::{shorten, wrap};
-use crate::ui::keymap::{Action, Context, Fold};
+use crate::ui::keymap::Context;
 use crate::ui::layout;
 use crate::ui::msg::{Effect, Question};
 
@@ -192,7 +192,7 @@ impl App {
             Some(node @ Node::Light(_)) => self.toggle_solo_of(&[node]),
             _ if self.pictures.solo.is_some() => self.toggle_solo_of(&[]),
             _ => {
-                let solo = self.key_for(Action::Solo);
+                let solo = self.key_for("solo");
                 self.overlays
                     .say(format!("{solo} works on the line of a light"));
             }

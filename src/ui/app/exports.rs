@@ -10,7 +10,7 @@ use crate::image_file::{ImageFormat, known_extensions};
 use crate::render::{Aov, Frame, Frames, Job};
 use crate::scene::{Camera, MAX_SPP, Size, Viewpoint};
 use crate::text::Severity;
-use crate::ui::keymap::{Action, Mode};
+use crate::ui::keymap::Mode;
 use crate::ui::msg::{Destination, Effect, Existing, ExportId, Exported, Origin, Target};
 
 /// The picture to export; fields that are `None` are taken from the scene.
@@ -313,7 +313,7 @@ impl App {
 
     /// The job whose picture an export to `path` writes, or the reason why there is none.
     fn export_job(&self, path: &Path, size: Size, spp: u32) -> Result<Job, String> {
-        let play = self.key_for(Action::Go(Mode::Sequence));
+        let play = self.key_for("track");
         if let Some(reason) = names_sequence(path, &play) {
             return Err(reason);
         }

@@ -6,9 +6,9 @@ use std::collections::BTreeSet;
 use crossterm::event::KeyEvent;
 
 use super::rows::foldable;
-use super::{App, PromptKind, line};
+use super::{App, Fold, PromptKind, line};
 use crate::language::Node;
-use crate::ui::keymap::{Action, Context, Fold, Mode};
+use crate::ui::keymap::{Context, Mode};
 
 impl App {
     /// Opens the line that filters the list; it contains the present filter.
@@ -29,7 +29,7 @@ impl App {
             return;
         };
         if 0 < self.cursor.rows.matches() {
-            self.move_cursor(Context::In(Mode::Select), rows);
+            self.move_cursor_in(Context::In(Mode::Select), rows);
         }
     }
 
@@ -64,7 +64,7 @@ impl App {
         let count = self.cursor.rows.matches();
         match self.cursor.rows.match_at(self.selected_row()) {
             Some(at) => {
-                let back = self.key_for(Action::Back);
+                let back = self.key_for("back");
                 let words = format!("{} of {count}; {back} shows all", at + 1);
                 self.overlays.say(words);
             }
@@ -96,7 +96,7 @@ impl App {
     pub(super) fn search(&mut self, step: isize) {
         let wanted = &self.cursor.searched;
         if wanted.is_empty() {
-            let filter = self.key_for(Action::Search);
+            let filter = self.key_for("search");
             let words = format!("nothing to search for: {filter} filters the list");
             self.overlays.say(words);
             return;
@@ -123,7 +123,7 @@ impl App {
     /// unfolded, goes to the group that holds the selection or to the first thing in it.
     pub(super) fn fold(&mut self, fold: Fold) {
         if !self.cursor.rows.filter().is_empty() {
-            let back = self.key_for(Action::Back);
+            let back = self.key_for("back");
             self.overlays.say(format!(
                 "groups stay unfolded while the list is filtered; {back} shows all"
             ));

@@ -7,14 +7,13 @@ use super::App;
 use super::sequence::complaint;
 use crate::text::apply;
 use crate::track::{self, Keyed, Track};
-use crate::ui::keymap::{Action, Mode, Playback};
 use crate::ui::msg::{Effect, Guard, SaveOutcome};
 
 impl App {
     /// Keys the present value at the frame looked at last: in EDIT the field's, in VIEW the camera's.
     pub(super) fn key_value(&mut self) -> Vec<Effect> {
         let Some(open) = &self.sequence.open else {
-            let track = self.key_for(Action::Go(Mode::Sequence));
+            let track = self.key_for("track");
             self.overlays
                 .fail(format!("no track is open: {track} opens or starts one"));
             return Vec::new();
@@ -141,7 +140,7 @@ impl App {
             }
             SaveOutcome::ChangedOnDisk => {
                 let name = open.name();
-                let key = self.key_for(Action::OnTrack(Playback::Key));
+                let key = self.key_for("key");
                 self.overlays.warn(format!(
                     "{name} has changed on disk and is being read again; then press {key} again"
                 ));

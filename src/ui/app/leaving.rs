@@ -2,7 +2,6 @@
 //! for work under way.
 
 use super::{App, Dialog, Next};
-use crate::ui::keymap::Action;
 use crate::ui::msg::{Effect, Timer};
 
 impl App {
@@ -78,7 +77,7 @@ impl App {
         if self.jobs.next == Some(Next::Quit) && self.jobs.export.is_some() {
             let words = match self.jobs.queued() {
                 0 => {
-                    let stop = self.key_for(Action::Stop);
+                    let stop = self.key_for("stop");
                     format!("will quit once the export finishes; press {stop} to cancel it")
                 }
                 queued => format!("will quit once {} exports finish", queued + 1),

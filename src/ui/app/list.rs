@@ -4,7 +4,7 @@ use super::App;
 use super::cursor::moved;
 use crate::language::Node;
 use crate::ui::arrange::Areas;
-use crate::ui::keymap::{Action, Context, Mode};
+use crate::ui::keymap::{Context, Mode};
 use crate::ui::layout;
 
 impl App {
@@ -15,7 +15,17 @@ impl App {
         self.cursor.select(node, self.document.source());
     }
 
-    pub(super) fn move_cursor(&mut self, context: Context, rows: isize) {
+    /// Moves the cursor of what has the keys by some lines; positive is down.
+    pub(super) fn move_cursor(&mut self, rows: isize) {
+        self.move_cursor_in(self.context(), rows);
+    }
+
+    /// Moves it by some pages.
+    pub(super) fn turn_page(&mut self, pages: isize) {
+        self.move_cursor(pages * self.page());
+    }
+
+    pub(super) fn move_cursor_in(&mut self, context: Context, rows: isize) {
         match context {
             Context::In(Mode::Select) => {
                 if let Some(node) = self.cursor.row_after(rows, self.source()) {
@@ -78,9 +88,9 @@ impl App {
     }
 
     /// The number of lines that Page Down moves.
-    pub(super) fn page(&self, context: Context) -> isize {
+    fn page(&self) -> isize {
         let areas = self.areas();
-        let panel = match context {
+        let panel = match self.context() {
             Context::Help => return (self.help_rows() as isize - 1).max(1),
             Context::Rays => self.ray_panels().map_or(areas.list, |panels| panels.lines),
             Context::Errors => areas.errors,
@@ -147,7 +157,7 @@ impl App {
             return;
         };
         if self.is_disk_wrong() {
-            let editor = self.key_for(Action::Editor);
+            let editor = self.key_for("editor");
             self.overlays.warn(format!(
                 "this is in the file on disk: press {editor} to edit that line"
             ));
@@ -162,7 +172,7 @@ impl App {
             let field = self.cursor.field_at(span);
             self.focus_field(field.unwrap_or(0), 0);
         } else {
-            let editor = self.key_for(Action::Editor);
+            let editor = self.key_for("editor");
             self.overlays.warn(format!(
                 "nothing to select there: press {editor} to edit that line"
             ));

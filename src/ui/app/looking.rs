@@ -8,7 +8,6 @@ use crate::language::Node;
 use crate::render::{Aov, Colours, Frame, Histogram, MOST_HALF_STOPS, denoises, exposes};
 use crate::scene::{Emitter, Transfer};
 use crate::text::{concise, percentage, rounded};
-use crate::ui::keymap::Action;
 use crate::ui::msg::Effect;
 
 impl App {
@@ -27,7 +26,7 @@ impl App {
     fn refuses_display(&mut self) -> bool {
         let refuses = !self.is_exposed();
         if refuses {
-            let light = self.key_for(Action::Show(None));
+            let light = self.key_for("show-light");
             self.overlays.say(format!(
                 "only light and albedo can be exposed; press {light}"
             ));
@@ -88,7 +87,7 @@ impl App {
     /// continue from the samples they have.
     pub(super) fn toggle_denoising(&mut self) -> Vec<Effect> {
         if self.pictures.wires.is_some() || !denoises(self.pictures.aov) {
-            let light = self.key_for(Action::Show(None));
+            let light = self.key_for("show-light");
             let words = format!("only light has noise to reduce; press {light}");
             self.overlays.say(words);
             return Vec::new();

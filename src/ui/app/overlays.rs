@@ -98,12 +98,21 @@ pub enum Outside {
     Kept(Arc<Claim>, Since),
 }
 
+/// Whose text resolves a conflict.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Whose {
+    /// That of the interface: the user's own unsaved edits.
+    Mine,
+    /// That of the file.
+    Theirs,
+}
+
 impl Outside {
-    /// The side with the user's own unsaved edits.
-    pub fn mine(&self) -> Side {
-        match self {
-            Self::File => Side::Mine,
-            Self::Kept(..) => Side::Theirs,
+    /// The side of a merge with somebody's text.
+    pub fn side(&self, whose: Whose) -> Side {
+        match (self, whose) {
+            (Self::File, Whose::Mine) | (Self::Kept(..), Whose::Theirs) => Side::Mine,
+            (Self::File, Whose::Theirs) | (Self::Kept(..), Whose::Mine) => Side::Theirs,
         }
     }
 }
@@ -138,16 +147,13 @@ impl Overlays {
         }
     }
 
-    /// Starts a search of the help page or the other page if it is open; returns whether one is.
-    pub(super) fn open_search(&mut self) -> bool {
+    /// Starts a search of the help page or the other page if it is open.
+    pub(super) fn open_search(&mut self) {
         if let Some(help) = &mut self.help {
             help.focus = PageFocus::Search;
         } else if let Some(page) = &mut self.page {
             page.focus = PageFocus::Search;
-        } else {
-            return false;
         }
-        true
     }
 
     /// Whether keys are typed into a line here.

@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use crate::ui::keymap::{Action, Context};
+use crate::ui::keymap::{Context, RowId};
 
 /// The number of command lines remembered.
 const REMEMBERED: usize = 100;
@@ -34,7 +34,7 @@ pub struct Completion {
     /// Its key, preceded by the mode if that is not the present one.
     pub keys: String,
     /// The action of a key and where that has it; `None` for a command line.
-    pub(super) act: Option<(Action, Context)>,
+    pub(super) act: Option<(RowId, Context)>,
 }
 
 impl Palette {

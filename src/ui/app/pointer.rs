@@ -102,7 +102,7 @@ impl App {
 
     fn wheel(&mut self, at: (u16, u16), down: isize) {
         if self.overlays.help.is_some() {
-            self.move_cursor(Context::Help, WHEEL * down);
+            self.move_cursor_in(Context::Help, WHEEL * down);
             return;
         }
         if self.mode == Mode::Compare {
@@ -115,14 +115,14 @@ impl App {
             .is_some_and(|panel| over(panel.area))
         {
             if self.overlays.errors.is_some() {
-                self.move_cursor(Context::Errors, down);
+                self.move_cursor_in(Context::Errors, down);
             }
         } else if self.context() == Context::Rays {
             self.move_in_rays(down);
         } else if over(areas.list) {
-            self.move_cursor(Context::In(Mode::Select), WHEEL * down);
+            self.move_cursor_in(Context::In(Mode::Select), WHEEL * down);
         } else if over(areas.fields) && self.cursor.typing.is_none() {
-            self.move_cursor(Context::In(Mode::Edit), down);
+            self.move_cursor_in(Context::In(Mode::Edit), down);
         } else if over(areas.picture) && self.mode.moves_camera() {
             let steps = if down < 0 { 1 } else { -1 };
             self.move_camera(|now| match mode {

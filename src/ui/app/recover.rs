@@ -6,7 +6,6 @@ use std::sync::Arc;
 use super::journal::Outcome;
 use super::{App, Dialog, Outside};
 use crate::document::{Adopted, Merge, StepName};
-use crate::ui::keymap::Action;
 use crate::ui::msg::Effect;
 use crate::ui::recovery::{Claim, Found, Offer, Since, Way};
 
@@ -131,7 +130,7 @@ impl App {
             Since::Same => "restored",
             Since::Changed => "restored and merged with what has changed since",
         };
-        let undo = self.key_for(Action::Undo);
+        let undo = self.key_for("undo");
         self.overlays.say(format!("{done}; {undo} undoes it"));
         // The other journal is removed only once this run's journal holds the edits.
         let mut effects = if self.document.is_dirty() {

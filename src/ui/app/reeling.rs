@@ -7,7 +7,7 @@ use super::jobs::{Asking, Making, Pending};
 use super::{App, Export, Stage};
 use crate::image_file::{DEFAULT_RATE, ImageFormat};
 use crate::scene::Size;
-use crate::ui::keymap::{Action, Context, Mode};
+use crate::ui::keymap::{Context, Mode};
 use crate::ui::msg::{Destination, Effect, ExportId};
 use crate::ui::reel::{Reel, ReelForm, ReelProgress, Shot};
 
@@ -75,7 +75,7 @@ impl App {
     /// What a sequence of pictures of this size is written as, or why it cannot be.
     fn form_of(&self, path: &Path, size: Size) -> Result<ReelForm, String> {
         let form = ReelForm::of_path(path).map_err(|reason| {
-            let keep = self.keymap.key(Context::In(Mode::Sequence), Action::Accept);
+            let keep = self.keymap.key(Context::In(Mode::Sequence), "accept");
             let keep = keep.map_or_else(String::new, |key| {
                 format!("; to export this frame alone, press {key} first")
             });

@@ -9,13 +9,12 @@ use super::cursor::SavedCursor;
 use super::disk::{Faulty, Requester, Settle};
 use super::messages::About;
 use super::places::name_of;
-use super::{App, Dialog, OnDisk, Outside, PromptKind};
+use super::{App, Dialog, OnDisk, Outside, PromptKind, Whose};
 use crate::document::{Adopted, Difference, Numbers, StepName};
 use crate::file;
 use crate::file::ReadError;
 use crate::language::{Before, Lowered};
 use crate::text::{Findings, Position, Severity, counted};
-use crate::ui::keymap::Action;
 use crate::ui::msg::{Effect, Guard};
 use crate::ui::reading::{Baseline, News, Reading};
 
@@ -186,7 +185,7 @@ impl App {
             Err(error) => {
                 let (state, hint) = match error {
                     ReadError::NotFound { .. } => {
-                        let save = self.key_for(Action::Save);
+                        let save = self.key_for("save");
                         (OnDisk::Missing, format!("; press {save} to write it again"))
                     }
                     ReadError::NoFolder { .. } => {
@@ -314,7 +313,7 @@ impl App {
         let line = first.map_or(1, |d| Position::of(&text, d.span.start()).line);
         self.jobs.next = None;
         self.disk.state = OnDisk::Faulty(Faulty { text, diagnostics });
-        let editor = self.key_for(Action::Editor);
+        let editor = self.key_for("editor");
         let words = format!(
             "line {line} of the file on disk has an error: press {editor} to edit it, or use :w! to overwrite it"
         );
@@ -366,7 +365,7 @@ impl App {
             let end = match ends {
                 Ends::Plain => String::new(),
                 Ends::Merge => {
-                    let undo = self.key_for(Action::Undo);
+                    let undo = self.key_for("undo");
                     format!("; press {undo} to undo the merge")
                 }
             };
@@ -427,21 +426,22 @@ impl App {
         true
     }
 
-    pub(super) fn decide(&mut self, action: Action) {
-        let Some((merge, at, from)) = self.overlays.conflict() else {
-            return;
-        };
-        let side = match action {
-            Action::Mine | Action::AllMine => from.mine(),
-            _ => from.mine().other(),
-        };
-        if let Action::AllMine | Action::AllTheirs = action {
-            for conflict in &mut merge.conflicts {
-                conflict.decision = Some(side);
-            }
-        } else if let Some(conflict) = merge.conflicts.get_mut(*at) {
-            conflict.decision = Some(side);
+    /// Resolves the conflict under the cursor and goes on to the next.
+    pub(super) fn decide(&mut self, whose: Whose) {
+        if let Some((merge, at, from)) = self.overlays.conflict()
+            && let Some(conflict) = merge.conflicts.get_mut(*at)
+        {
+            conflict.decision = Some(from.side(whose));
             *at = (*at + 1).min(merge.conflicts.len() - 1);
+        }
+    }
+
+    /// Resolves all conflicts.
+    pub(super) fn decide_all(&mut self, whose: Whose) {
+        if let Some((merge, _, from)) = self.overlays.conflict() {
+            for conflict in &mut merge.conflicts {
+                conflict.decision = Some(from.side(whose));
+            }
         }
     }
 
@@ -452,7 +452,7 @@ impl App {
         };
         if let Some(open) = merge.conflicts.iter().position(|c| c.decision.is_none()) {
             *at = open;
-            let (mine, theirs) = (self.key_for(Action::Mine), self.key_for(Action::Theirs));
+            let (mine, theirs) = (self.key_for("mine"), self.key_for("theirs"));
             let words = format!(
                 "resolve all conflicts first: press {mine} for mine, {theirs} for the file's"
             );
@@ -492,7 +492,7 @@ impl App {
         };
         if self.disk.state == OnDisk::New {
             let name = self.disk.name();
-            let (save, editor) = (self.key_for(Action::Save), self.key_for(Action::Editor));
+            let (save, editor) = (self.key_for("save"), self.key_for("editor"));
             self.overlays.warn(format!(
                 "{name} is new: press {save} to write it, then {editor}"
             ));
@@ -501,7 +501,7 @@ impl App {
         // A file that was not taken must be corrected first.
         let is_refused = matches!(self.disk.state, OnDisk::Faulty(_) | OnDisk::Unreadable);
         if self.document.is_dirty() && !is_refused {
-            let (save, editor) = (self.key_for(Action::Save), self.key_for(Action::Editor));
+            let (save, editor) = (self.key_for("save"), self.key_for("editor"));
             self.overlays.warn(format!(
                 "there are unsaved edits: press {save} to save them, then {editor}"
             ));

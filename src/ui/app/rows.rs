@@ -5,6 +5,19 @@ use std::collections::{BTreeSet, HashMap};
 use crate::language::{Node, Source};
 use crate::ui::listing::Listing;
 
+/// Which groups are folded.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Fold {
+    /// The selected one as well.
+    Selected,
+    /// Not the selected one.
+    Unselected,
+    /// All.
+    All,
+    /// None.
+    None,
+}
+
 /// Which nodes the list shows: all, unless some are filtered out or folded away.
 #[derive(Debug, Default)]
 pub struct Rows {

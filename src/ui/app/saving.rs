@@ -5,7 +5,6 @@ use std::sync::Arc;
 
 use super::messages::About;
 use super::{App, OnDisk};
-use crate::ui::keymap::Action;
 use crate::ui::msg::{Effect, Guard, SaveId, SaveOutcome};
 
 impl App {
@@ -33,7 +32,7 @@ impl App {
         if !self.is_view_unwritten() {
             return String::new();
         }
-        let key = self.key_for(Action::SaveView);
+        let key = self.key_for("write-view");
         let place = if self.mode.moves_camera() {
             ""
         } else {

@@ -12,7 +12,7 @@ use crate::document::StepName;
 use crate::file::ReadError;
 use crate::text::Severity;
 use crate::track::{self, Bound, Track};
-use crate::ui::keymap::{Action, Mode, Playback};
+use crate::ui::keymap::Mode;
 use crate::ui::msg::{Effect, Timer};
 use crate::ui::sheet::Sheet;
 
@@ -166,8 +166,8 @@ impl App {
 
     /// How the first value is keyed.
     pub(super) fn how_to_key(&self, open: &OpenTrack) -> String {
-        let edit = self.key_for(Action::Go(Mode::Edit));
-        let key = self.key_for(Action::OnTrack(Playback::Key));
+        let edit = self.key_for("edit");
+        let key = self.key_for("key");
         let name = open.name();
         format!("{name} is new: {edit} edits at this frame, then {key} keys the value")
     }
@@ -248,29 +248,15 @@ impl App {
         self.sequence.open = Some(open);
     }
 
-    /// Plays the track, goes to its frames, or changes it.
-    pub(super) fn act_on_track(&mut self, action: Playback) -> Vec<Effect> {
-        match action {
-            Playback::Play => return self.toggle_playing(),
-            Playback::Frames(frames) => self.step_frames(frames),
-            Playback::NextKey => self.step_keys(true),
-            Playback::PreviousKey => self.step_keys(false),
-            Playback::Key => return self.key_value(),
-            Playback::TakeBack => return self.take_key_back(),
-            Playback::Edit => return self.edit_track(),
-        }
-        Vec::new()
-    }
-
     /// Goes some frames on.
-    fn step_frames(&mut self, frames: i32) {
+    pub(super) fn step_frames(&mut self, frames: i32) {
         if let Some(open) = &self.sequence.open {
             self.show_frame(open.frame_after(frames));
         }
     }
 
     /// Goes to the next or previous frame with a key.
-    fn step_keys(&mut self, is_next: bool) {
+    pub(super) fn step_keys(&mut self, is_next: bool) {
         match self
             .sequence
             .open
@@ -300,7 +286,7 @@ impl App {
     }
 
     /// Plays the track, or stops.
-    fn toggle_playing(&mut self) -> Vec<Effect> {
+    pub(super) fn toggle_playing(&mut self) -> Vec<Effect> {
         let Some(open) = &mut self.sequence.open else {
             return Vec::new();
         };
@@ -374,7 +360,7 @@ impl App {
         let shown = open.shown.take();
         if shown.is_some_and(|shown| shown.trial.is_applied) {
             let words = format!("the scene now has the values of frame {}", open.frame);
-            let undo = self.key_for(Action::Undo);
+            let undo = self.key_for("undo");
             self.overlays.say(format!("{words}; {undo} undoes that"));
         }
         self.keep_trial();

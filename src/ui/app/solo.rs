@@ -7,7 +7,6 @@ use super::App;
 use super::soloed::Solo;
 use crate::language::Node;
 use crate::scene::{Light, Rgb, Scene};
-use crate::ui::keymap::Action;
 
 /// A scene to show, and what its objects are called if it lacks some.
 pub(super) type Part = (Arc<Scene>, Option<Arc<[u32]>>);
@@ -42,13 +41,13 @@ impl App {
         } else if !solo.objects.is_empty() && self.drawn_in(&solo.objects).is_empty() {
             self.pictures.solo = before;
             let name = self.targets_name(targets);
-            let show = self.key_for(Action::Visibility);
+            let show = self.key_for("visibility");
             self.overlays
                 .fail(format!("{name} is not drawn: {show} shows it"));
         } else {
             self.pictures.solo = Some(solo);
             let name = self.targets_name(targets);
-            let solo = self.key_for(Action::Solo);
+            let solo = self.key_for("solo");
             let words = format!("the preview shows only {name}; {solo} shows everything");
             self.overlays.say(words);
         }

@@ -5,7 +5,6 @@ use super::{App, Dialog, PromptKind, naming};
 use crate::document::StepName;
 use crate::language::{Neighbour, Node, StructureError, Visibility};
 use crate::text::{Edit, Span, counted};
-use crate::ui::keymap::{Action, Mode};
 use crate::ui::msg::Effect;
 
 /// The number of items named in a message at most.
@@ -48,7 +47,7 @@ impl App {
         }
         let marks = self.cursor.marks.len();
         let words = counted(marks, "item");
-        let back = self.key_for(Action::Back);
+        let back = self.key_for("back");
         self.overlays
             .say(format!("{words} marked; {back} clears the marks"));
     }
@@ -127,7 +126,7 @@ impl App {
         match self.source().copied(&nodes) {
             Ok(copied) => {
                 let name = self.targets_name(&nodes);
-                let paste = self.key_for(Action::Insert);
+                let paste = self.key_for("paste");
                 let words = format!("copied: {name}; {paste} pastes it");
                 self.overlays.say(words);
                 self.cursor.copied = Some(copied.clone());
@@ -145,7 +144,7 @@ impl App {
         if let Some(copied) = self.cursor.copied.clone() {
             self.insert(&copied);
         } else {
-            let copy = self.key_for(Action::Copy);
+            let copy = self.key_for("copy");
             let words = format!("nothing to paste: {copy} copies the selected item");
             self.overlays.fail(words);
         }
@@ -158,7 +157,7 @@ impl App {
         }
         let placed = self.source().insertion(text, self.cursor.selected());
         if let Err(StructureError::Foreign { reason }) = &placed {
-            let edit = self.key_for(Action::Go(Mode::Edit));
+            let edit = self.key_for("edit");
             let message = format!("{reason}; to paste values into fields, press {edit}");
             self.overlays.fail(message);
             return;
@@ -274,7 +273,7 @@ impl App {
             whole = outer;
         }
         let [part, whole] = [object, whole].map(|object| source.name(Node::Object(object)));
-        let key = self.key_for(Action::Visibility);
+        let key = self.key_for("visibility");
         Some(format!(
             "{part} is part of {whole}: {key} there shows or hides it"
         ))

@@ -9,7 +9,7 @@ use crate::image_file::ImageFormat;
 use crate::render::{Frame, Frames, Job, Region, Settings};
 use crate::scene::{Filter, Integrator, Rendering, Scene, Size};
 use crate::text::Severity;
-use crate::ui::keymap::{Action, Mode};
+use crate::ui::keymap::Mode;
 use crate::ui::msg::{Effect, Recalled, Target};
 use crate::ui::past::NoPicture;
 
@@ -170,7 +170,7 @@ impl App {
         if self.assets.are_awaited() {
             "still reading the scene's files".to_owned()
         } else {
-            let errors = self.key_for(Action::Errors);
+            let errors = self.key_for("errors");
             format!("no picture: the scene has errors; press {errors} to list them")
         }
     }
@@ -344,7 +344,7 @@ impl App {
         if let Some(trace) = seen.filter(|trace| trace.wanted.is_some() && !trace.is_complete()) {
             trace.wanted = None;
             trace.paused = false;
-            let trace = self.key_for(Action::Go(Mode::Trace));
+            let trace = self.key_for("trace");
             self.overlays
                 .say(format!("stopped; press {trace} to continue"));
             return vec![Effect::Halt(Target::Trace)];

@@ -8,7 +8,6 @@ use crate::document::StepName;
 use crate::language::{Along, Motion, Node, Pose};
 use crate::scene::Camera;
 use crate::text::{decimals, rounded};
-use crate::ui::keymap::Tool;
 
 /// The angle of one step, and of the grid of angles, in degrees.
 const ROTATION: [f64; 2] = [1.0, 15.0];
@@ -16,6 +15,28 @@ const ROTATION: [f64; 2] = [1.0, 15.0];
 const SCALE: [f64; 2] = [0.05, 0.25];
 /// Steps of a move in one of the grid.
 const GRID: f64 = 10.0;
+
+/// How things are transformed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Tool {
+    /// Moves.
+    Move,
+    /// Rotates.
+    Rotate,
+    /// Scales.
+    Scale,
+}
+
+impl Tool {
+    /// The name of the keys that start it.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Move => "move",
+            Self::Rotate => "rotate",
+            Self::Scale => "scale",
+        }
+    }
+}
 
 /// The axis that a motion is locked to.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]

@@ -5,12 +5,12 @@ use crossterm::event::{KeyCode, KeyEvent};
 use glam::DVec3;
 
 use super::transform::{Lock, Snap, Transform, decimals_of, round_up};
-use super::{App, line};
+use super::{App, Stride, Tool, line};
 use crate::language::{Along, Language, Motion, Node, Pose, StructureError};
 use crate::render::{axes, pixel_width};
 use crate::scene::{Camera, Size};
 use crate::text::Edit;
-use crate::ui::keymap::{Action, Mode, Stride, Tool, types_amount};
+use crate::ui::keymap::{Mode, types_amount};
 
 /// Decimals with which a motion is tried.
 const TRIED_DECIMALS: usize = 9;
@@ -132,15 +132,15 @@ impl App {
         match (tool, self.document.language()) {
             // Only a comment states a view there, which is written on request.
             (_, Language::Ray) => {
-                let view = self.key_for(Action::Go(Mode::View));
+                let view = self.key_for("camera");
                 Some(format!("{view} moves the camera"))
             }
             (Tool::Scale, _) => {
-                let key = |step| self.key_for(Action::Widen(step));
+                let key = |name| self.key_for(name);
                 Some(format!(
                     "a camera has no size: {} and {} in VIEW change what it sees",
-                    key(-1),
-                    key(1)
+                    key("narrower-view"),
+                    key("wider-view")
                 ))
             }
             (Tool::Move | Tool::Rotate, _) => None,
@@ -216,7 +216,7 @@ impl App {
 
     /// Says what ends the transformation, which other actions have to wait for.
     pub(super) fn warn_of_transform(&mut self) {
-        let (confirm, cancel) = (self.key_for(Action::Accept), self.key_for(Action::Back));
+        let (confirm, cancel) = (self.key_for("accept"), self.key_for("back"));
         let words = format!("{confirm} confirms the change first; {cancel} cancels it");
         self.overlays.warn(words);
     }

@@ -5,10 +5,10 @@ use tui_input::Input;
 
 use super::cursor::Typing;
 use super::typed::Values;
-use super::{App, PageFocus, PromptKind, line, literals, typed};
+use super::{App, PageFocus, PromptKind, Stride, line, literals, typed};
 use crate::language::table::{Field, Kind};
 use crate::text::{Diagnostic, Span, parse_number};
-use crate::ui::keymap::{Context, Mode, Stride};
+use crate::ui::keymap::{Context, Mode};
 use crate::ui::msg::Effect;
 
 impl App {
@@ -94,7 +94,7 @@ impl App {
             KeyCode::Down | KeyCode::Up => {
                 let step = if key.code == KeyCode::Down { 1 } else { -1 };
                 if self.commit() {
-                    self.move_cursor(Context::In(Mode::Edit), step);
+                    self.move_cursor_in(Context::In(Mode::Edit), step);
                 }
             }
             _ => {

@@ -3,14 +3,13 @@
 use crossterm::event::{KeyCode, KeyEvent, KeyModifiers};
 use tui_input::Input;
 
-use super::camera::{advanced, dollied, faced, panned, rolled, stepped, widened};
 use super::cursor::Typing;
 use super::journal::KEPT_AFTER;
-use super::{App, Grid, Help, PageFocus, PromptKind, line};
+use super::{App, Grid, PageFocus, PromptKind, Tool, line};
 use crate::text::Severity;
 use crate::ui::arrange::{Zoom, divided, resized};
-use crate::ui::keymap::{self, Action, Context, Meaning, Mode, Stride, Tool};
-use crate::ui::msg::{Effect, Existing, Msg, Target, Timer};
+use crate::ui::keymap::{self, Context, Meaning, Mode};
+use crate::ui::msg::{Effect, Msg, Target, Timer};
 use crate::ui::terminal::Mouse;
 
 impl App {
@@ -120,10 +119,7 @@ impl App {
         let meaning = self.keymap.meaning(context, before, key);
         let is_line = self.has_input();
         let controls = key.modifiers.contains(KeyModifiers::CONTROL);
-        let reserved = matches!(
-            meaning,
-            Meaning::Action(Action::Interrupt | Action::Suspend | Action::Repaint)
-        );
+        let reserved = matches!(meaning, Meaning::Does(row) if self.keymap.is_reserved(row));
         // Only a dialog takes precedence over a line being typed.
         if is_line && self.overlays.dialog.is_none() && !(reserved && controls) {
             return self.type_key(key);
@@ -132,7 +128,7 @@ impl App {
             return Vec::new();
         }
         match meaning {
-            Meaning::Action(action) => self.act(action, context),
+            Meaning::Does(row) => self.act(row),
             Meaning::Begins => {
                 self.prefix = Some(key);
                 Vec::new()
@@ -200,7 +196,7 @@ impl App {
             (None, Context::In(mode)) => format!("`{name}` is free in {}", mode.name()),
             (None, _) => format!("`{name}` is free here"),
         };
-        let help = match self.keymap.key(context, Action::Help) {
+        let help = match self.keymap.key(context, "help") {
             Some(key) if context != Context::Help => format!("; {key} lists keys"),
             _ => String::new(),
         };
@@ -271,153 +267,12 @@ impl App {
         Vec::new()
     }
 
-    pub(super) fn act(&mut self, action: Action, context: Context) -> Vec<Effect> {
-        match action {
-            Action::Move(rows) => self.move_cursor(context, rows),
-            Action::Page(pages) => self.move_cursor(context, pages * self.page(context)),
-            Action::First => self.move_cursor(context, isize::MIN),
-            Action::Last => self.move_cursor(context, isize::MAX),
-            Action::Cycle(step) => self.cycle(step),
-            Action::Go(mode) => return self.go(mode),
-            Action::Back => return self.back(context),
-            Action::Accept => return self.accept(context),
-            Action::No if context == Context::Overwrite => return self.number_taken(),
-            Action::No => return self.decline(),
-            Action::Search if self.overlays.open_search() => {}
-            Action::Search => self.start_filter(),
-            Action::Fold(fold) if context == Context::Rays => self.fold_ray(fold),
-            Action::Fold(fold) => self.fold(fold),
-            Action::SearchAgain(step) => self.search(step),
-            Action::Command => self.open_palette(),
-            Action::Outline => self.pictures.toggle_outline(),
-            Action::Symbols => self.toggle_symbols(),
-            Action::Visibility => self.toggle_visibility(),
-            Action::Mark => self.toggle_mark(),
-            Action::Delete => self.delete(),
-            Action::Duplicate => self.duplicate(),
-            Action::Reorder(neighbour) => self.reorder(neighbour),
-            Action::Copy => return self.copy(),
-            Action::Insert => self.insert_copied(),
-            Action::Rename => self.start_renaming(),
-            Action::Add => self.open_additions(),
-            Action::Solo if context == Context::Rays => self.solo_explained(),
-            Action::Solo => self.toggle_solo(),
-            Action::Retype => self.open_kinds(),
-            Action::Transform(tool) => self.start_transform(tool),
-            Action::Step(right, up, stride) => self.step_transform(right, up, stride),
-            Action::Lock(axis) => self.lock_axis(axis),
-            Action::Snap => self.toggle_snap(),
-            Action::Choose => self.enter_value(),
-            Action::Type => self.type_current(),
-            Action::Nudge(steps, stride) => self.nudge_in(context, steps, stride),
-            Action::Colour => self.open_picker(),
-            Action::Orthonormalise => self.orthonormalise(),
-            Action::Stride(step) => self.overlays.say(self.cursor.change_stride(step)),
-            Action::Component(step) => self.next_component(step),
-            Action::Orbit(..)
-            | Action::Pan(..)
-            | Action::Dolly(_)
-            | Action::Turn(..)
-            | Action::Advance(_)
-            | Action::Roll(_)
-            | Action::Widen(_) => self.step_camera(action),
-            Action::ResetView => self.pictures.reset_view(),
-            Action::FrameSelected => self.frame_selected(),
-            Action::SaveView => return self.save_view_key(),
-            Action::LightView => self.look_from_light(),
-            Action::SavedViews => self.list_views(),
-            Action::DeleteView => self.delete_view(),
-            Action::Cross(right, down) => self.move_cross(right, down),
-            Action::Explain if self.mode == Mode::Compare => self.explain_compared(),
-            Action::Explain => self.start_explaining(),
-            Action::Sample(step) => self.change_sample(step),
-            Action::Mine | Action::Theirs | Action::AllMine | Action::AllTheirs => {
-                self.decide(action);
-            }
-            Action::OnTrack(action) => return self.act_on_track(action),
-            Action::Undo => return self.undo(),
-            Action::Redo => return self.redo(),
-            Action::Errors => self.toggle_errors(),
-            Action::Steps => self.list_steps(),
-            Action::Messages => self.overlays.history = Some(0),
-            Action::Help => self.overlays.help = Some(Help::default()),
-            Action::Zoom | Action::Resize(_) | Action::Divide(_) => self.act_on_panels(action),
-            Action::Show(aov) => self.show(aov),
-            Action::Share(step) => self.step_share(step),
-            Action::Expose(half_stops) => self.expose(half_stops),
-            Action::Denoise => return self.toggle_denoising(),
-            Action::Wireframe => self.overlays.say(self.pictures.show_wires()),
-            Action::Integrator | Action::Cure => self.change_rendering(action),
-            Action::Pin => return self.pin(),
-            Action::Flip
-            | Action::Wipe
-            | Action::SlideWipe(_)
-            | Action::Difference
-            | Action::Worst(_) => self.act_on_comparison(action),
-            Action::Stop => return self.stop(),
-            Action::Pause => return self.toggle_pause(),
-            Action::Magnify(_)
-            | Action::Scroll(..)
-            | Action::OneToOne
-            | Action::Region
-            | Action::Corner(..)
-            | Action::OtherCorner => self.act_on_window(action),
-            Action::Export => return self.export_default(),
-            Action::Save => return self.save_key(),
-            Action::Editor => return self.open_editor(),
-            Action::Repaint => return vec![Effect::Repaint],
-            Action::Suspend => return vec![Effect::Suspend],
-            Action::Quit if self.mode == Mode::Move => self.warn_of_transform(),
-            Action::Quit => return self.quit(),
-            Action::Interrupt => return self.interrupt(),
+    pub(super) fn quit_key(&mut self) -> Vec<Effect> {
+        if self.mode == Mode::Move {
+            self.warn_of_transform();
+            return Vec::new();
         }
-        Vec::new()
-    }
-
-    /// Moves the camera by steps.
-    fn step_camera(&mut self, action: Action) {
-        self.move_camera(|now| match action {
-            Action::Orbit(left, up) => stepped(now, left, up),
-            Action::Pan(left, up) => panned(now, left, up),
-            Action::Dolly(steps) => dollied(now, steps),
-            Action::Turn(left, up) => faced(now, left, up),
-            Action::Advance(steps) => advanced(now, steps),
-            Action::Roll(left) => rolled(now, left),
-            Action::Widen(steps) => widened(now, steps),
-            _ => now,
-        });
-    }
-
-    fn act_on_panels(&mut self, action: Action) {
-        match action {
-            Action::Resize(step) => self.resize_panels(step),
-            Action::Divide(step) => self.resize_list(step),
-            _ => self.toggle_zoom(),
-        }
-    }
-
-    /// Changes what of the picture is seen, or the region that is drawn.
-    fn act_on_window(&mut self, action: Action) {
-        match action {
-            Action::Magnify(steps) => self.magnify(steps),
-            Action::Scroll(right, down) => self.scroll_picture(right, down),
-            Action::OneToOne => self.toggle_scale(),
-            Action::Region => self.start_region(),
-            Action::Corner(right, down) => self.move_corner(right, down),
-            _ => self.swap_corners(),
-        }
-    }
-
-    fn number_taken(&mut self) -> Vec<Effect> {
-        self.answer_taken(Existing::Numbered)
-    }
-
-    fn nudge_in(&mut self, context: Context, steps: i8, stride: Stride) {
-        if context == Context::Colour {
-            self.step_colour(steps, stride);
-        } else {
-            self.nudge(steps, stride);
-        }
+        self.quit()
     }
 
     pub(super) fn go(&mut self, mode: Mode) -> Vec<Effect> {
@@ -453,68 +308,24 @@ impl App {
         self.jobs.next = None;
     }
 
-    fn back(&mut self, context: Context) -> Vec<Effect> {
-        match context {
-            Context::Help => self.overlays.help = None,
-            Context::Views | Context::Recent | Context::Steps => self.overlays.page = None,
-            Context::Messages => self.overlays.history = None,
+    /// Goes back from what is open, or from the mode; never discards anything.
+    pub(super) fn go_back(&mut self) {
+        match self.context() {
             Context::Errors => self.overlays.errors = None,
-            Context::Delete => self.overlays.dialog = None,
-            Context::Conflict
-            | Context::Quit
-            | Context::Leave
-            | Context::MovedView
-            | Context::Wait
-            | Context::Overwrite
-            | Context::Recover => {
-                return self.put_off();
-            }
-            Context::Opening => {}
-            Context::Colour => self.cancel_colour(),
             Context::Rays => self.inspection.explained = None,
-            Context::Region => self.pictures.drawing = None,
-            Context::In(Mode::Trace) => {
-                self.mode = self.pictures.mode_before();
-            }
+            Context::In(Mode::Trace) => self.mode = self.pictures.mode_before(),
             Context::In(Mode::Compare) => self.end_comparison(),
             Context::In(Mode::Inspect) => self.stop_inspecting(),
             Context::In(Mode::Select) if self.end_filter() => {}
             Context::In(Mode::Select) => self.cursor.marks.clear(),
-            Context::In(Mode::Move) => self.cancel_transform(),
-            Context::In(Mode::Sequence) => {
-                self.leave_sequence();
-            }
-            Context::In(_) => {
+            _ => {
                 self.document.end_step();
                 self.mode = Mode::Select;
             }
         }
-        Vec::new()
     }
 
-    fn accept(&mut self, context: Context) -> Vec<Effect> {
-        match context {
-            Context::Errors => self.go_to_error(),
-            Context::Views | Context::Recent | Context::Steps => return self.choose(),
-            Context::Conflict => return self.adopt(),
-            Context::Quit | Context::Wait | Context::Leave | Context::MovedView => {
-                return self.leave_anyway();
-            }
-            Context::Delete => self.delete_anyway(),
-            Context::Overwrite => return self.answer_taken(Existing::Overwritten),
-            Context::Recover => return self.restore(),
-            Context::In(Mode::Inspect) => self.select_crossed(),
-            Context::Rays => self.select_explained(),
-            Context::In(Mode::Move) => self.confirm_transform(),
-            Context::In(Mode::Sequence) => self.keep_frame(),
-            Context::Colour => self.confirm_colour(),
-            Context::Region => return self.confirm_region(),
-            Context::In(_) | Context::Help | Context::Messages | Context::Opening => {}
-        }
-        Vec::new()
-    }
-
-    fn toggle_zoom(&mut self) {
+    pub(super) fn toggle_zoom(&mut self) {
         self.zoom = match self.zoom {
             Zoom::Panels => Zoom::Picture,
             Zoom::Picture => Zoom::Panels,

@@ -6,7 +6,6 @@ use crate::document::StepName;
 use crate::language::{Node, SavedView, view_name};
 use crate::scene::{Camera, Emitter};
 use crate::text::Severity;
-use crate::ui::keymap::Action;
 
 impl App {
     /// Applies a move, unless the resulting camera would see nothing.
@@ -143,7 +142,7 @@ impl App {
             return;
         };
         let name = views[at].name.clone();
-        let undo = self.key_for(Action::Undo);
+        let undo = self.key_for("undo");
         let done = format!("view {name} is deleted; {undo} undoes it");
         let step = StepName::done(format!("deleted the view {name}"));
         self.edit_saved_view(&name, None, (step, done));

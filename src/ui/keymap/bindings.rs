@@ -1,26 +1,27 @@
-//! The keys in use: the table, as changed by the user.
+//! The keys in use: the rows, as changed by the user.
 
 use crossterm::event::{KeyCode, KeyEvent};
 
-use super::action::{Action, Context, Mode};
 use super::chord::{Chord, Keys};
+use super::context::{Context, Mode};
+use super::key::{Key, Scope};
 use super::section::Section;
-use super::table::{Scope, TABLE};
 
 /// The meanings of keys.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Keymap {
-    /// One for each row of the table, in its order.
     pub(super) rows: Vec<Row>,
 }
 
-/// An action with its keys.
+/// The place of a row among those that a keymap was made of.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct RowId(pub usize);
+
+/// A row of keys, as changed by the user.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct Row {
-    pub(super) scope: Scope,
-    pub(super) action: Action,
-    /// Description of the action.
-    pub(super) words: &'static str,
+    pub(super) key: Key,
+    pub(super) id: RowId,
     /// Its keys where `own` has no others.
     pub(super) keys: Vec<Keys>,
     /// Contexts in which it has other keys.
@@ -30,30 +31,28 @@ pub(super) struct Row {
 /// What a key does.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Meaning {
-    /// Acts at once.
-    Action(Action),
+    /// Does at once what its row does.
+    Does(RowId),
     /// Is the first of two keys.
     Begins,
     /// Nothing.
     None,
 }
 
-impl Default for Keymap {
-    fn default() -> Self {
-        let rows = TABLE.iter().map(|row| Row {
-            scope: row.scope,
-            action: row.action,
-            words: row.words,
-            keys: row.keys(),
+impl Keymap {
+    /// The keys of these rows, the most useful first.
+    pub fn new(keys: impl Iterator<Item = Key>) -> Self {
+        let rows = keys.enumerate().map(|(at, key)| Row {
+            key,
+            id: RowId(at),
+            keys: key.keys(),
             own: Vec::new(),
         });
         Self {
             rows: rows.collect(),
         }
     }
-}
 
-impl Keymap {
     /// The meaning of a key in a context, after another one that began a sequence, if any.
     pub fn meaning(&self, context: Context, before: Option<KeyEvent>, key: KeyEvent) -> Meaning {
         let pressed = Chord::of(key);
@@ -64,11 +63,11 @@ impl Keymap {
         if let Some(before) = before {
             let wanted = Keys::in_turn(Chord::of(before), pressed);
             if let Some((row, _)) = bound().find(|(_, keys)| **keys == wanted) {
-                return Meaning::Action(row.action);
+                return Meaning::Does(row.id);
             }
         }
         match bound().find(|(_, keys)| keys.first == pressed) {
-            Some((row, keys)) if keys.second.is_none() => Meaning::Action(row.action),
+            Some((row, keys)) if keys.second.is_none() => Meaning::Does(row.id),
             Some(_) => Meaning::Begins,
             None => Meaning::None,
         }
@@ -90,15 +89,22 @@ impl Keymap {
             let mut modes = Mode::ALL.into_iter().map(|mode| (mode, Context::In(mode)));
             modes.find(|&(_, mode)| has(row, mode))
         };
-        let mut own = self.rows.iter().filter(|row| !row.is_common());
-        let (words, (mode, _)) = own.find_map(|row| Some((row.words, mode_of(row)?)))?;
-        Some((mode, self.key(context, Action::Go(mode)), words))
+        let mut own = self.rows.iter().filter(|row| !row.key.is_common());
+        let (words, (mode, _)) = own.find_map(|row| Some((row.key.words, mode_of(row)?)))?;
+        let entry = mode.entry().and_then(|name| self.key(context, name));
+        Some((mode, entry, words))
     }
 
-    /// The first key of an action in a context, as the help shows it.
-    pub fn key(&self, context: Context, action: Action) -> Option<String> {
-        let mut rows = self.rows_in(context).filter(|row| row.action == action);
+    /// The first key in a context of the rows with this name, as the help shows it.
+    pub fn key(&self, context: Context, name: &str) -> Option<String> {
+        debug_assert!(self.rows.iter().any(|row| row.key.name == name), "{name}");
+        let mut rows = self.rows_in(context).filter(|row| row.key.name == name);
         rows.find_map(|row| Some(self.keys_of(row, context).next()?.name()))
+    }
+
+    /// Whether a row is active in all contexts, and does the same in each.
+    pub fn is_reserved(&self, id: RowId) -> bool {
+        self.rows[id.0].key.scope == Scope::Always
     }
 
     /// The keys of a row that act in a context: those of the context itself take precedence over
@@ -108,15 +114,15 @@ impl Keymap {
         row: &'k Row,
         context: Context,
     ) -> impl Iterator<Item = &'k Keys> {
-        let own = self.rows.iter().filter(|other| !other.is_common());
+        let own = self.rows.iter().filter(|other| !other.key.is_common());
         let taken = own.flat_map(move |other| other.keys_in(context));
         let is_free = move |keys: &&Keys| {
-            !row.is_common() || taken.clone().all(|other| !other.collides(**keys))
+            !row.key.is_common() || taken.clone().all(|other| !other.collides(**keys))
         };
         row.keys_in(context).iter().filter(is_free)
     }
 
-    /// The two keys of a sequence that has an action anywhere, by its name in the help: `gg`.
+    /// The two keys of a sequence that has a meaning anywhere, by its name in the help: `gg`.
     pub fn sequence_named(&self, name: &str) -> Option<[KeyEvent; 2]> {
         let own = |row: &'_ Row| row.own.iter().flat_map(|(_, keys)| keys.clone()).collect();
         let rows = self.rows.iter();
@@ -125,23 +131,23 @@ impl Keymap {
         Some([keys.first, keys.second?].map(Chord::event))
     }
 
-    /// Gives keys an action in a section instead of what they do there; `None` leaves them without
-    /// one. They become the first keys of the action. An action that the section does not have is
-    /// ignored.
-    pub fn bind(&mut self, section: Section, keys: Keys, action: Option<Action>) {
-        let is_default = |at: usize| TABLE[at].keys().contains(&keys);
+    /// Makes keys do in a section what rows with this name do, instead of what they do there; `None`
+    /// leaves them without a meaning. They become its first keys. A name that the section does not
+    /// have is ignored.
+    pub fn bind(&mut self, section: Section, keys: Keys, name: Option<&str>) {
+        let is_default = |at: usize| self.rows[at].key.keys().contains(&keys);
         let candidates = || {
             let rows = self.rows.iter().enumerate();
-            rows.filter(|(_, row)| section.has(row.scope) && Some(row.action) == action)
+            rows.filter(|(_, row)| row.key.is_in(section) && Some(row.key.name) == name)
                 .map(|(at, _)| at)
         };
-        // Several rows may have one action.
+        // Several rows may have one name.
         let chosen = candidates().find(|&at| is_default(at));
         let chosen = chosen.or_else(|| candidates().next());
         // What acts anywhere keeps them: the keys of a mode itself take precedence.
-        let is_own = chosen.is_some_and(|at| !self.rows[at].is_common());
+        let is_own = chosen.is_some_and(|at| !self.rows[at].key.is_common());
         for (at, row) in self.rows.iter_mut().enumerate() {
-            if section.has(row.scope) && !(is_own && row.is_common()) {
+            if row.key.is_in(section) && !(is_own && row.key.is_common()) {
                 row.change(section, |bound| {
                     bound.retain(|other| !other.collides(keys));
                     if chosen == Some(at) {
@@ -154,27 +160,22 @@ impl Keymap {
 
     /// The rows of a context, those that are not the same everywhere first.
     pub(super) fn rows_in(&self, context: Context) -> impl Iterator<Item = &Row> {
-        let here = move |row: &&Row| row.scope.holds(context);
-        let own = self.rows.iter().filter(|row| !row.is_common());
-        let common = self.rows.iter().filter(|row| row.is_common());
+        let here = move |row: &&Row| row.key.scope.holds(context);
+        let own = self.rows.iter().filter(|row| !row.key.is_common());
+        let common = self.rows.iter().filter(|row| row.key.is_common());
         own.chain(common).filter(here)
     }
 }
 
 impl Row {
-    /// Its keys in a context; none where the action does not exist.
+    /// Its keys in a context; none where it does not act.
     pub(super) fn keys_in(&self, context: Context) -> &[Keys] {
         let own = self.own.iter().find(|(of, _)| *of == context);
         match own {
             Some((_, keys)) => keys,
-            None if self.scope.holds(context) => &self.keys,
+            None if self.key.scope.holds(context) => &self.keys,
             None => &[],
         }
-    }
-
-    /// Whether the action exists in all modes.
-    pub(super) fn is_common(&self) -> bool {
-        !matches!(self.scope, Scope::These(_))
     }
 
     /// Changes its keys in a section.
@@ -215,7 +216,7 @@ pub fn name(event: KeyEvent) -> Option<String> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::ui::keymap::chord::SHIFT;
+    use crossterm::event::KeyModifiers;
 
     const SELECT: Context = Context::In(Mode::Select);
 
@@ -223,7 +224,7 @@ mod tests {
         Chord::parse(name).expect("a key").event()
     }
 
-    fn bound(changes: &[(Section, &str, Option<Action>)]) -> Keymap {
+    fn bound(changes: &[(Section, &str, Option<&str>)]) -> Keymap {
         let mut keymap = Keymap::default();
         for &(section, keys, action) in changes {
             keymap.bind(section, Keys::parse(keys).expect("keys"), action);
@@ -231,23 +232,28 @@ mod tests {
         keymap
     }
 
-    fn check(keymap: &Keymap, context: Context, key: &str, action: Option<Action>) {
-        let meaning = match action {
-            Some(action) => Meaning::Action(action),
-            None => Meaning::None,
-        };
-        assert_eq!(keymap.meaning(context, None, event(key)), meaning, "{key}");
+    /// The name of what keys do.
+    fn does(keymap: &Keymap, meaning: Meaning) -> Option<&'static str> {
+        match meaning {
+            Meaning::Does(id) => Some(keymap.rows[id.0].key.name),
+            Meaning::Begins | Meaning::None => None,
+        }
+    }
+
+    fn check(keymap: &Keymap, context: Context, key: &str, name: Option<&str>) {
+        let found = keymap.meaning(context, None, event(key));
+        assert_eq!(does(keymap, found), name, "{key}");
     }
 
     #[test]
     fn shift_is_part_of_a_character() {
         let keymap = Keymap::default();
         for (key, action) in [
-            (KeyCode::Char('G'), Action::Last),
-            (KeyCode::BackTab, Action::Cycle(-1)),
+            (KeyCode::Char('G'), "last"),
+            (KeyCode::BackTab, "previous-item"),
         ] {
-            let found = keymap.meaning(SELECT, None, KeyEvent::new(key, SHIFT));
-            assert_eq!(found, Meaning::Action(action));
+            let found = keymap.meaning(SELECT, None, KeyEvent::new(key, KeyModifiers::SHIFT));
+            assert_eq!(does(&keymap, found), Some(action));
         }
     }
 
@@ -256,56 +262,55 @@ mod tests {
         let keymap = Keymap::default();
         let after = |before, key| keymap.meaning(SELECT, Some(event(before)), event(key));
         assert_eq!(keymap.meaning(SELECT, None, event("g")), Meaning::Begins);
-        assert_eq!(after("g", "g"), Meaning::Action(Action::First));
-        assert_eq!(after("g", "j"), Meaning::Action(Action::Move(1)));
+        assert_eq!(does(&keymap, after("g", "g")), Some("first"));
+        assert_eq!(does(&keymap, after("g", "j")), Some("down"));
         assert_eq!(after("j", "g"), Meaning::Begins);
     }
 
     #[test]
     fn a_bound_key_changes_its_section_only() {
         let keymap = bound(&[
-            (Section::In(SELECT), "s", Some(Action::Save)),
+            (Section::In(SELECT), "s", Some("save")),
             (Section::In(SELECT), "D", None),
         ]);
-        check(&keymap, SELECT, "s", Some(Action::Save));
-        check(&keymap, SELECT, "w", Some(Action::Save));
+        check(&keymap, SELECT, "s", Some("save"));
+        check(&keymap, SELECT, "w", Some("save"));
         check(&keymap, SELECT, "D", None);
-        assert_eq!(keymap.key(SELECT, Action::Save).as_deref(), Some("s"));
+        assert_eq!(keymap.key(SELECT, "save").as_deref(), Some("s"));
         let edit = Context::In(Mode::Edit);
-        assert_eq!(keymap.key(edit, Action::Save).as_deref(), Some("w"));
-        let scale = Action::Transform(crate::ui::keymap::Tool::Scale);
-        assert_eq!(keymap.key(SELECT, scale), None);
-        check(&keymap, edit, "s", Some(scale));
+        assert_eq!(keymap.key(edit, "save").as_deref(), Some("w"));
+        assert_eq!(keymap.key(SELECT, "scale"), None);
+        check(&keymap, edit, "s", Some("scale"));
     }
 
     #[test]
     fn a_modes_own_key_beats_one_bound_anywhere() {
-        let keymap = bound(&[(Section::Anywhere, "d", Some(Action::Undo))]);
-        check(&keymap, SELECT, "d", Some(Action::Delete));
-        check(&keymap, Context::In(Mode::View), "d", Some(Action::Undo));
+        let keymap = bound(&[(Section::Anywhere, "d", Some("undo"))]);
+        check(&keymap, SELECT, "d", Some("delete"));
+        check(&keymap, Context::In(Mode::View), "d", Some("undo"));
     }
 
     #[test]
     fn a_key_that_a_mode_has_for_itself_is_not_offered_for_what_it_does_anywhere() {
         let keymap = Keymap::default();
         let compare = Context::In(Mode::Compare);
-        check(&keymap, compare, "w", Some(Action::Wipe));
-        assert_eq!(keymap.key(compare, Action::Save), None);
+        check(&keymap, compare, "w", Some("wipe"));
+        assert_eq!(keymap.key(compare, "save"), None);
         let view = Context::In(Mode::View);
-        check(&keymap, view, "=", Some(Action::Dolly(1)));
-        assert_eq!(keymap.key(view, Action::Go(Mode::Compare)), None);
-        let moved = bound(&[(Section::In(compare), "W", Some(Action::Wipe))]);
-        assert_eq!(moved.key(compare, Action::Save), None);
-        let freed = bound(&[(Section::In(compare), "w", Some(Action::Save))]);
-        assert_eq!(freed.key(compare, Action::Save).as_deref(), Some("w"));
+        check(&keymap, view, "=", Some("nearer"));
+        assert_eq!(keymap.key(view, "compare"), None);
+        let moved = bound(&[(Section::In(compare), "W", Some("wipe"))]);
+        assert_eq!(moved.key(compare, "save"), None);
+        let freed = bound(&[(Section::In(compare), "w", Some("save"))]);
+        assert_eq!(freed.key(compare, "save").as_deref(), Some("w"));
     }
 
     #[test]
     fn a_sequence_and_its_first_key_exclude_each_other() {
-        let keymap = bound(&[(Section::In(SELECT), "d d", Some(Action::Delete))]);
+        let keymap = bound(&[(Section::In(SELECT), "d d", Some("delete"))]);
         assert_eq!(keymap.meaning(SELECT, None, event("d")), Meaning::Begins);
-        let keymap = bound(&[(Section::In(SELECT), "g", Some(Action::Outline))]);
-        check(&keymap, SELECT, "g", Some(Action::Outline));
-        assert_eq!(keymap.key(SELECT, Action::First).as_deref(), Some("Home"));
+        let keymap = bound(&[(Section::In(SELECT), "g", Some("outline"))]);
+        check(&keymap, SELECT, "g", Some("outline"));
+        assert_eq!(keymap.key(SELECT, "first").as_deref(), Some("Home"));
     }
 }

@@ -6,7 +6,7 @@ use KeyCode::{BackTab, Char, Down, Left, Right, Up};
 
 /// A key with its modifiers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) struct Chord(pub(super) KeyCode, pub(super) KeyModifiers);
+pub struct Chord(pub(super) KeyCode, pub(super) KeyModifiers);
 
 /// A key, or two keys pressed one after the other.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -70,24 +70,32 @@ impl Keys {
 }
 
 pub(super) const NONE: KeyModifiers = KeyModifiers::NONE;
-pub(super) const SHIFT: KeyModifiers = KeyModifiers::SHIFT;
-pub(super) const ALT: KeyModifiers = KeyModifiers::ALT;
+const SHIFT: KeyModifiers = KeyModifiers::SHIFT;
+const ALT: KeyModifiers = KeyModifiers::ALT;
 pub(super) const CTRL: KeyModifiers = KeyModifiers::CONTROL;
 
 /// A character key. The character already includes Shift.
-pub(super) const fn c(character: char) -> Chord {
+pub const fn c(character: char) -> Chord {
     Chord(Char(character), NONE)
 }
 
-pub(super) const fn ctrl(character: char) -> Chord {
+/// A character key with Ctrl.
+pub const fn ctrl(character: char) -> Chord {
     Chord(Char(character), CTRL)
 }
 
-pub(super) const fn alt(character: char) -> Chord {
-    Chord(Char(character), ALT)
+/// A key with Alt.
+pub const fn alt(code: KeyCode) -> Chord {
+    Chord(code, ALT)
 }
 
-pub(super) const fn key(code: KeyCode) -> Chord {
+/// A key that is no character, with Shift.
+pub const fn shift(code: KeyCode) -> Chord {
+    Chord(code, SHIFT)
+}
+
+/// A key without modifiers.
+pub const fn key(code: KeyCode) -> Chord {
     Chord(code, NONE)
 }
 
@@ -238,9 +246,9 @@ mod tests {
     fn names_are_read_in_any_usual_spelling() {
         for (name, chord) in [
             ("ctrl-r", ctrl('r')),
-            ("Shift-Left", Chord(Left, SHIFT)),
+            ("Shift-Left", shift(Left)),
             ("Shift-g", c('G')),
-            ("alt-l", alt('l')),
+            ("alt-l", alt(Char('l'))),
             ("pagedown", key(KeyCode::PageDown)),
             ("f5", key(KeyCode::F(5))),
             ("-", c('-')),

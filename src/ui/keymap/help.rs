@@ -1,16 +1,9 @@
 //! The key bindings as text: the help page and the line of hints.
 
-use super::action::{Action, Context, Mode, Playback, Stride, Tool};
-use super::bindings::{Keymap, Row, names};
+use super::bindings::{Keymap, Row, RowId, names};
+use super::context::{Context, Mode};
+use super::key::Hint;
 use super::line::{Line, line_hints};
-use super::section::DIALOGS;
-use super::table::Scope;
-use crate::render::Aov;
-
-use Action as A;
-use Mode::{Compare, Edit, Fly, Inspect, Move, Select, Sequence, Trace, View};
-use Playback::{Frames, Key, NextKey, Play, PreviousKey};
-use Stride::Plain;
 
 /// One line of help.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -76,8 +69,9 @@ impl Keymap {
         for other in Mode::ALL.into_iter().filter(|other| *other != mode) {
             add(other.name(), self.entries(Context::In(other)));
         }
-        for (heading, context) in DIALOGS {
-            add(heading, self.entries(context));
+        let others = Context::all().filter(|context| !matches!(context, Context::In(_)));
+        for context in others {
+            add(context.heading(), self.entries(context));
         }
         let owned = |(keys, words): &(&str, &'static str)| ((*keys).to_owned(), *words);
         for (heading, line) in [
@@ -98,89 +92,48 @@ impl Keymap {
     /// Returns the hints that are never omitted in a context: how to get help, to give a command,
     /// and to quit.
     pub fn lasting_hints(&self, context: Context) -> Vec<Entry> {
-        self.described(context, LASTING_HINTS.iter(), |_| true)
+        let hints = self.rows.iter().filter_map(|row| {
+            let words = row.key.lasting?;
+            Some((self.key(context, row.key.name)?, words))
+        });
+        hints.collect()
     }
 
-    /// Returns the hints for a context, the most useful first, of actions that would do something. A
-    /// dialog shows only its own keys.
-    pub fn hints(&self, context: Context, acts: impl Fn(Action) -> bool) -> Vec<Entry> {
-        let own: &[Hint] = match context {
-            Context::In(Select) => SELECT_HINTS,
-            Context::In(Edit) => EDIT_HINTS,
-            Context::In(View) => VIEW_HINTS,
-            Context::In(Fly) => FLY_HINTS,
-            Context::In(Inspect) => INSPECT_HINTS,
-            Context::In(Move) => MOVE_HINTS,
-            Context::In(Trace) => TRACE_HINTS,
-            Context::In(Compare) => COMPARE_HINTS,
-            Context::In(Sequence) => SEQUENCE_HINTS,
-            Context::Errors => ERROR_HINTS,
-            Context::Colour => COLOUR_HINTS,
-            Context::Rays => RAY_HINTS,
-            Context::Region => REGION_HINTS,
-            Context::Opening => &[],
-            Context::Help
-            | Context::Messages
-            | Context::Views
-            | Context::Recent
-            | Context::Steps
-            | Context::Conflict
-            | Context::Quit
-            | Context::Leave
-            | Context::MovedView
-            | Context::Delete
-            | Context::Wait
-            | Context::Overwrite
-            | Context::Recover => {
-                let rows = self.rows.iter();
-                return rows
-                    .filter(|row| row.scope.holds(context) && !row.is_common())
-                    .filter(|row| is_alone(row) || matches!(row.action, A::Move(_)))
-                    .filter(|row| acts(row.action))
-                    .filter_map(|row| Some((row.keys_in(context).first()?.name(), row.words)))
-                    .collect();
+    /// Returns the hints for a context, the most useful first, of keys that would do something. Without
+    /// hints of their own, questions and pages show all of their keys.
+    pub fn hints(&self, context: Context, acts: impl Fn(RowId) -> bool) -> Vec<Entry> {
+        let here = self.rows.iter().filter(|row| row.key.scope.holds(context));
+        let mut own = here.clone().filter(|row| row.key.is_alone());
+        let is_terse = own.any(|row| row.key.hint_of(context).is_some());
+        let hints = here.filter(|row| acts(row.id)).filter_map(|row| {
+            let all = || (!is_terse && row.key.is_alone()).then(|| Hint::new(ALL, row.key.words));
+            let hint = row.key.hint_of(context).or_else(all)?;
+            Some((hint, self.key(context, row.key.name)?))
+        });
+        let mut hints: Vec<_> = hints.collect();
+        hints.sort_by_key(|(hint, _)| hint.rank);
+        let mut entries: Vec<Entry> = Vec::new();
+        for (Hint { words, .. }, key) in hints {
+            match entries.last_mut() {
+                Some((keys, last)) if *last == words => *keys = format!("{keys}/{key}"),
+                _ => entries.push((key, words)),
             }
-        };
-        let is_here =
-            |hint: &&Hint| matches!(context, Context::In(mode) if hint.0 == [A::Go(mode)]);
-        let hints = own
-            .iter()
-            .chain(COMMON_HINTS.iter().filter(|hint| !is_here(hint)));
-        self.described(context, hints, acts)
-    }
-
-    /// The keys of hints in a context, without those that have none there.
-    fn described(
-        &self,
-        context: Context,
-        hints: impl Iterator<Item = &'static Hint>,
-        acts: impl Fn(Action) -> bool,
-    ) -> Vec<Entry> {
-        hints
-            .map(|(actions, words)| {
-                let keys: Vec<_> = actions
-                    .iter()
-                    .filter(|action| acts(**action))
-                    .filter_map(|action| self.key(context, *action))
-                    .collect();
-                (keys.join("/"), *words)
-            })
-            .filter(|(keys, _)| !keys.is_empty())
-            .collect()
+        }
+        entries
     }
 
     /// The keys of a context that are not the same everywhere.
     fn entries(&self, context: Context) -> Vec<Entry> {
         let differs = |row: &Row| row.own.iter().any(|(of, _)| *of == context);
         let rows = self.rows.iter();
-        let rows = rows.filter(|row| row.scope.holds(context));
-        let rows = rows.filter(|row| !row.is_common() || differs(row));
-        with_keys(rows.map(|row| (names(row.keys_in(context)), row.words)))
+        let rows = rows.filter(|row| row.key.scope.holds(context));
+        let rows = rows.filter(|row| !row.key.is_common() || differs(row));
+        with_keys(rows.map(|row| (names(row.keys_in(context)), row.key.words)))
     }
 
     fn common_entries(&self) -> Vec<Entry> {
-        let rows = self.rows.iter().filter(|row| row.is_common());
-        with_keys(rows.map(|row| (names(&row.keys), row.words)))
+        let rows = self.rows.iter().filter(|row| row.key.is_common());
+        with_keys(rows.map(|row| (names(&row.keys), row.key.words)))
     }
 }
 
@@ -207,195 +160,11 @@ pub fn in_columns(lines: Vec<HelpLine>, count: usize) -> Vec<Vec<HelpLine>> {
     columns
 }
 
-/// Actions whose keys are shown together, and their description in a word or two.
-type Hint = (&'static [Action], &'static str);
-
-const SELECT_HINTS: &[Hint] = &[
-    (&[A::Move(1), A::Move(-1)], "move"),
-    (&[A::Go(Edit)], "edit"),
-    (&[A::Add], "add"),
-    (&[A::Transform(Tool::Move)], "move it"),
-    (&[A::Go(View)], "camera"),
-    (&[A::Go(Inspect)], "inspect"),
-    (&[A::Search], "filter"),
-];
-const EDIT_HINTS: &[Hint] = &[
-    (&[A::Move(1), A::Move(-1)], "field"),
-    (&[A::Nudge(-1, Plain), A::Nudge(1, Plain)], "nudge"),
-    (&[A::Stride(-1), A::Stride(1)], "step"),
-    (&[A::Choose], "type"),
-    (&[A::OnTrack(Key)], "key it"),
-    (&[A::Colour], "colour"),
-    (&[A::Orthonormalise], "orthonormalise"),
-    (&[A::Component(1)], "next number"),
-    (&[A::Back], "back"),
-];
-const COLOUR_HINTS: &[Hint] = &[
-    (&[A::Nudge(-1, Plain), A::Nudge(1, Plain)], "change"),
-    (&[A::Move(1), A::Move(-1)], "row"),
-    (&[A::Stride(-1), A::Stride(1)], "step"),
-    (&[A::Accept], "confirm"),
-    (&[A::Back], "cancel"),
-];
-const VIEW_HINTS: &[Hint] = &[
-    (
-        &[
-            A::Orbit(1, 0),
-            A::Orbit(0, -1),
-            A::Orbit(0, 1),
-            A::Orbit(-1, 0),
-        ],
-        "orbit",
-    ),
-    (&[A::Dolly(1), A::Dolly(-1)], "near/far"),
-    (&[A::FrameSelected], "frame"),
-    (&[A::ResetView], "reset"),
-    (&[A::SaveView], "save view"),
-    (&[A::OnTrack(Key)], "key it"),
-    (&[A::Go(Fly)], "fly"),
-    (&[A::Back], "back"),
-];
-const FLY_HINTS: &[Hint] = &[
-    (
-        &[A::Turn(1, 0), A::Turn(0, -1), A::Turn(0, 1), A::Turn(-1, 0)],
-        "turn",
-    ),
-    (
-        &[A::Pan(1, 0), A::Advance(-1), A::Advance(1), A::Pan(-1, 0)],
-        "move",
-    ),
-    (&[A::Roll(1), A::Roll(-1)], "roll"),
-    (&[A::ResetView], "reset"),
-    (&[A::SaveView], "save view"),
-    (&[A::OnTrack(Key)], "key it"),
-    (&[A::Go(View)], "orbit"),
-    (&[A::Back], "back"),
-];
-const MOVE_HINTS: &[Hint] = &[
-    (
-        &[
-            A::Step(-1, 0, Plain),
-            A::Step(0, -1, Plain),
-            A::Step(0, 1, Plain),
-            A::Step(1, 0, Plain),
-        ],
-        "step",
-    ),
-    (&[A::Lock(0), A::Lock(1), A::Lock(2)], "axis"),
-    (&[A::Accept], "confirm"),
-    (&[A::Back], "cancel"),
-    (&[A::Snap], "grid"),
-];
-const SEQUENCE_HINTS: &[Hint] = &[
-    (&[A::OnTrack(Play)], "play"),
-    (&[A::OnTrack(Frames(-1)), A::OnTrack(Frames(1))], "frame"),
-    (&[A::OnTrack(PreviousKey), A::OnTrack(NextKey)], "key"),
-    (&[A::Go(Edit)], "edit"),
-    (&[A::Accept], "keep"),
-    (&[A::Back], "back"),
-];
-const INSPECT_HINTS: &[Hint] = &[
-    (
-        &[
-            A::Cross(-1, 0),
-            A::Cross(0, 1),
-            A::Cross(0, -1),
-            A::Cross(1, 0),
-        ],
-        "move",
-    ),
-    (&[A::Explain], "explain"),
-    (&[A::Accept], "select"),
-    (&[A::Editor], "editor"),
-    (&[A::Back], "back"),
-];
-const RAY_HINTS: &[Hint] = &[
-    (&[A::Move(1), A::Move(-1)], "move"),
-    (&[A::Accept], "select"),
-    (&[A::Editor], "editor"),
-    (&[A::Solo], "solo light"),
-    (&[A::Sample(-1), A::Sample(1)], "sample"),
-    (&[A::Back], "back"),
-];
-const REGION_HINTS: &[Hint] = &[
-    (
-        &[
-            A::Corner(-1, 0),
-            A::Corner(0, 1),
-            A::Corner(0, -1),
-            A::Corner(1, 0),
-        ],
-        "move the corner",
-    ),
-    (&[A::OtherCorner], "other corner"),
-    (&[A::Accept], "trace it"),
-    (&[A::Back], "cancel"),
-];
-const TRACE_HINTS: &[Hint] = &[
-    (&[A::Magnify(1), A::Magnify(-1)], "zoom"),
-    (
-        &[
-            A::Scroll(-1, 0),
-            A::Scroll(0, 1),
-            A::Scroll(0, -1),
-            A::Scroll(1, 0),
-        ],
-        "pan",
-    ),
-    (&[A::OneToOne], "1:1"),
-    (&[A::Pause], "pause"),
-    (&[A::Region], "region"),
-    (&[A::Stop], "stop"),
-    (&[A::Go(Inspect)], "inspect"),
-    (&[A::Back], "back"),
-    (&[A::Integrator], "integrator"),
-    (
-        &[
-            A::Show(None),
-            A::Show(Some(Aov::Depth)),
-            A::Show(Some(Aov::Normal)),
-            A::Show(Some(Aov::Object)),
-            A::Show(Some(Aov::Albedo)),
-        ],
-        "channel",
-    ),
-];
-const COMPARE_HINTS: &[Hint] = &[
-    (&[A::Flip], "flip"),
-    (&[A::Wipe], "wipe (:w saves)"),
-    (&[A::Difference], "difference"),
-    (&[A::Worst(1), A::Worst(-1)], "worst"),
-    (&[A::Explain], "explain"),
-    (&[A::Magnify(1), A::Magnify(-1)], "zoom"),
-    (&[A::Back], "back"),
-    (&[A::Pin], "pin"),
-];
-const ERROR_HINTS: &[Hint] = &[
-    (&[A::Move(1), A::Move(-1)], "move"),
-    (&[A::Accept], "go there"),
-    (&[A::Editor], "editor"),
-    (&[A::Back], "close"),
-];
-const COMMON_HINTS: &[Hint] = &[
-    (&[A::Save], "save"),
-    (&[A::Undo], "undo"),
-    (&[A::Export], "export"),
-    (&[A::Go(Trace)], "trace"),
-];
-/// Hints that are shown even where there is no room for others.
-const LASTING_HINTS: &[Hint] = &[
-    (&[A::Help], "help"),
-    (&[A::Command], "command"),
-    (&[A::Quit], "quit"),
-];
+/// The rank of hints by the words of the help.
+const ALL: u8 = 50;
 
 fn holds(text: &str, lower_case: &str) -> bool {
     text.to_lowercase().contains(lower_case)
-}
-
-/// Whether a binding is active in only one context.
-fn is_alone(row: &Row) -> bool {
-    matches!(row.scope, Scope::These([_]))
 }
 
 #[cfg(test)]
@@ -424,19 +193,19 @@ mod tests {
 
     #[test]
     fn the_keys_of_the_mode_come_first_and_no_key_is_missing() {
-        let lines = lines("", View);
+        let lines = lines("", Mode::View);
         assert_eq!(headings(&lines)[..3], ["VIEW", "anywhere", "SELECT"]);
         assert_eq!(headings(&lines).len(), 35);
         assert!(lines.contains(&entry("gg", "first")));
         for row in Keymap::default().rows {
-            let entry = entry(&names(&row.keys), row.words);
+            let entry = entry(&names(&row.keys), row.key.words);
             assert!(lines.contains(&entry), "{row:?}");
         }
     }
 
     #[test]
     fn columns_hold_whole_sections_and_all_of_them() {
-        let all = lines("", Edit);
+        let all = lines("", Mode::Edit);
         for count in [0, 1, 2, 3, 40] {
             let columns = in_columns(all.clone(), count);
             assert_eq!(columns.len(), count.max(1));
@@ -455,32 +224,34 @@ mod tests {
 
     #[test]
     fn search_matches_any_part_of_a_line() {
-        let redraw = lines("REDRAW", Select);
+        let redraw = lines("REDRAW", Mode::Select);
         let expected = entry("Ctrl-L", "redraw the screen");
         assert_eq!(redraw, [HelpLine::Heading("anywhere"), expected]);
-        assert!(lines("ctrl-r", Select).contains(&entry("Ctrl-R", "redo")));
-        assert_eq!(headings(&lines("mouse", Edit)), ["mouse"]);
-        assert_eq!(headings(&lines("[wxh]", Edit)), ["commands"]);
-        assert!(lines("no such words", Select).is_empty());
+        assert!(lines("ctrl-r", Mode::Select).contains(&entry("Ctrl-R", "redo")));
+        assert_eq!(headings(&lines("mouse", Mode::Edit)), ["mouse"]);
+        assert_eq!(headings(&lines("[wxh]", Mode::Edit)), ["commands"]);
+        assert!(lines("no such words", Mode::Select).is_empty());
     }
 
     #[test]
     fn every_hint_has_a_key() {
-        let modes = Mode::ALL.map(Context::In).into_iter();
-        for context in modes.chain(DIALOGS.map(|(_, context)| context)) {
+        for context in Context::all() {
             for (keys, words) in Keymap::default().hints(context, |_| true) {
                 let whole = keys.split('/').all(|key| !key.is_empty());
                 assert!(keys == "/" || whole, "{context:?} {words}");
             }
         }
-        let hints = Keymap::default().hints(Context::In(View), |_| true);
+        let hints = Keymap::default().hints(Context::In(Mode::View), |_| true);
         assert_eq!(hints[0], ("h/j/k/l".to_owned(), "orbit"));
     }
 
     #[test]
     fn a_question_shows_only_its_answers() {
-        let keys: Vec<_> = Keymap::default()
-            .hints(Context::Quit, |action| action != A::SaveView)
+        let keymap = Keymap::default();
+        let keys: Vec<_> = keymap
+            .hints(Context::Quit, |id| {
+                keymap.rows[id.0].key.name != "write-view"
+            })
             .into_iter()
             .map(|hint| hint.0)
             .collect();

@@ -1,11 +1,8 @@
-//! The keys of each section, with the names and descriptions of their actions.
+//! The keys of each section, with the names and descriptions of what they do.
 
-use super::action::Action;
 use super::bindings::{Keymap, Row};
 use super::chord::Keys;
-use super::names::of_action;
 use super::section::Section;
-use super::table::TABLE;
 
 /// Keys, and what they do in a section.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -21,8 +18,6 @@ pub struct Bound {
 /// An action of a section.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct NamedHere {
-    /// The action.
-    pub action: Action,
     /// Its name, such as `redo`.
     pub name: &'static str,
     /// Its description.
@@ -33,18 +28,17 @@ impl Keymap {
     /// The keys of a section, in the order of the help. Those of [`Section::Anywhere`] are listed in
     /// other sections only where they differ there.
     pub fn bound_in(&self, section: Section) -> Vec<Bound> {
-        let rows = self.rows.iter().enumerate();
-        let rows = rows.filter(|(_, row)| section.lists(row));
+        let rows = self.rows.iter().filter(|row| section.lists(row));
         let keys_of = |row: &Row| match section {
             Section::Anywhere => row.keys.clone(),
             Section::In(context) => row.keys_in(context).to_vec(),
         };
         let mut bound: Vec<Bound> = Vec::new();
         let mut defaults = Vec::new();
-        for (at, row) in rows {
+        for row in rows {
             let default = match section {
-                Section::In(_) if row.is_common() => row.keys.clone(),
-                _ => TABLE[at].keys(),
+                Section::In(_) if row.key.is_common() => row.keys.clone(),
+                _ => row.key.keys(),
             };
             let keys = keys_of(row);
             let is_default = keys == default;
@@ -67,10 +61,10 @@ impl Keymap {
 
     /// The actions that keys of a section can have.
     pub fn actions_in(&self, section: Section) -> Vec<NamedHere> {
-        let rows = self.rows.iter().filter(|row| section.has(row.scope));
+        let rows = self.rows.iter().filter(|row| row.key.is_in(section));
         let mut found: Vec<NamedHere> = Vec::new();
         for row in rows {
-            if found.iter().all(|other| other.action != row.action) {
+            if found.iter().all(|other| other.name != row.key.name) {
                 found.push(named(row));
             }
         }
@@ -82,17 +76,18 @@ impl Section {
     /// Whether the keys of a row are listed in the section.
     fn lists(self, row: &Row) -> bool {
         match self {
-            Self::In(context) if row.is_common() => row.own.iter().any(|(of, _)| *of == context),
-            _ => self.has(row.scope),
+            Self::In(context) if row.key.is_common() => {
+                row.own.iter().any(|(of, _)| *of == context)
+            }
+            _ => row.key.is_in(self),
         }
     }
 }
 
 fn named(row: &Row) -> NamedHere {
     NamedHere {
-        action: row.action,
-        name: of_action(row.action),
-        words: row.words,
+        name: row.key.name,
+        words: row.key.words,
     }
 }
 
@@ -102,25 +97,25 @@ mod tests {
 
     #[test]
     fn changes_made_again_give_the_same_keys() {
-        let changes: [(&str, &str, Option<Action>); 6] = [
-            ("anywhere", "Ctrl-S", Some(Action::Save)),
+        let changes: [(&str, &str, Option<&str>); 6] = [
+            ("anywhere", "Ctrl-S", Some("save")),
             ("anywhere", "u", None),
-            ("select", "s", Some(Action::Save)),
+            ("select", "s", Some("save")),
             ("select", "Ctrl-R", None),
-            ("select", "d d", Some(Action::Delete)),
+            ("select", "d d", Some("delete")),
             ("quit", "y", None),
         ];
         for count in 0..=changes.len() {
             let mut keymap = Keymap::default();
-            for (section, keys, action) in changes.into_iter().take(count) {
+            for (section, keys, name) in changes.into_iter().take(count) {
                 let section = Section::named(section).expect("a section");
-                keymap.bind(section, Keys::parse(keys).expect("keys"), action);
+                keymap.bind(section, Keys::parse(keys).expect("keys"), name);
             }
             let mut again = Keymap::default();
             for section in Section::all() {
                 let bound = keymap.bound_in(section).into_iter().rev();
                 for bound in bound.filter(|bound| !bound.is_default) {
-                    again.bind(section, bound.keys, bound.action.map(|named| named.action));
+                    again.bind(section, bound.keys, bound.action.map(|named| named.name));
                 }
             }
             assert_eq!(again, keymap, "{count} changes");

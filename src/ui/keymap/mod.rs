@@ -1,22 +1,22 @@
-//! The key bindings: one table, as changed by the user, gives the actions of keys, the help page,
-//! the hints and the palette.
+//! The key bindings: rows of keys, as changed by the user, give what keys do, the help page, the
+//! hints, the palette and the printed configuration. What a row does is known to those who have it.
 
-mod action;
 mod bindings;
 mod chord;
+mod context;
 mod help;
+mod key;
 mod line;
 mod listed;
 mod named;
-mod names;
 mod rules;
 mod section;
-mod table;
 
-pub use action::{Action, Context, Fold, Mode, Playback, Stride, Tool};
-pub use bindings::{Keymap, Meaning, name};
-pub use chord::Keys;
+pub use bindings::{Keymap, Meaning, RowId, name};
+pub use chord::{Chord, Keys, alt, c, ctrl, key, shift};
+pub use context::{Context, Mode};
 pub use help::{Entry, HelpLine, in_columns};
+pub use key::{Key, Scope};
 pub use line::{Line, line_hints};
 pub use listed::{Bound, NamedHere};
 pub use named::NamedAction;
@@ -27,7 +27,7 @@ use crossterm::event::KeyEvent;
 
 /// The key with this name, such as `j`, `Ctrl-R` or `Shift-Left`, as the help spells it.
 pub fn key_named(name: &str) -> Option<KeyEvent> {
-    chord::Chord::parse(name).map(chord::Chord::event)
+    Chord::parse(name).map(Chord::event)
 }
 
 /// The names of the keys that are not characters.

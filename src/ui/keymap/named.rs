@@ -1,13 +1,18 @@
 //! The actions of keys by their descriptions, for the palette.
 
-use super::action::{Action, Context, Mode};
-use super::bindings::{Keymap, names};
+use super::bindings::{Keymap, RowId, names};
+use super::context::{Context, Mode};
+
+/// The row that opens the palette.
+const COMMAND: &str = "command";
 
 /// An action of a key, by its description.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct NamedAction {
-    /// The action.
-    pub action: Action,
+    /// The row of its keys.
+    pub row: RowId,
+    /// The name of what they do.
+    pub name: &'static str,
     /// The mode that has the key.
     pub context: Context,
     /// Its keys: `j ↓`; empty if it has none.
@@ -22,18 +27,19 @@ impl Keymap {
         let others = Mode::ALL.into_iter().filter(|other| *other != mode);
         let mut found: Vec<NamedAction> = Vec::new();
         for context in [mode].into_iter().chain(others).map(Context::In) {
-            let rows = self.rows.iter().filter(|row| row.scope.holds(context));
-            for row in rows.filter(|row| row.action != Action::Command) {
+            let rows = self.rows.iter().filter(|row| row.key.scope.holds(context));
+            for row in rows.filter(|row| row.key.name != COMMAND) {
                 let known = found
                     .iter_mut()
-                    .find(|named| named.action == row.action && named.words == row.words);
+                    .find(|named| (named.name, named.words) == (row.key.name, row.key.words));
                 let keys = names(self.keys_of(row, context));
                 match known {
                     None => found.push(NamedAction {
-                        action: row.action,
+                        row: row.id,
+                        name: row.key.name,
                         context,
                         keys,
-                        words: row.words,
+                        words: row.key.words,
                     }),
                     // Another row of the same mode: `gg`, `Home`.
                     Some(named) if named.context == context && !keys.is_empty() => {

@@ -2,9 +2,9 @@
 
 use crossterm::event::KeyCode;
 
-use super::action::{Action, Context, Mode};
 use super::bindings::{Keymap, Row};
 use super::chord::{CTRL, Chord, Keys, NONE};
+use super::context::{Context, Mode};
 use super::section::Section;
 
 /// Control characters that terminals send for other keys.
@@ -22,6 +22,9 @@ const BEGINS_AMOUNT: &str = "0123456789+-.(";
 /// Those that go on typing one.
 const CONTINUES_AMOUNT: &str = "*/^), ";
 
+/// The row that ends the program.
+const INTERRUPT: &str = "interrupt";
+
 /// Whether a character begins to type a value in EDIT.
 pub fn begins_value(character: char) -> bool {
     BEGINS_VALUE.contains(character)
@@ -32,11 +35,11 @@ pub fn types_amount(character: char, typed: &str) -> bool {
     BEGINS_AMOUNT.contains(character) || !typed.is_empty() && CONTINUES_AMOUNT.contains(character)
 }
 
-/// Why keys cannot have an action in a section.
-pub fn refusal(section: Section, keys: Keys, action: Option<Action>) -> Option<String> {
+/// Why keys cannot do what rows with this name do in a section.
+pub fn refusal(section: Section, keys: Keys, name: Option<&str>) -> Option<String> {
     let mut pressed = [Some(keys.first), keys.second].into_iter().flatten();
     let fixed = pressed.find_map(|chord| match chord {
-        Chord(KeyCode::Char('c'), CTRL) if action == Some(Action::Interrupt) => None,
+        Chord(KeyCode::Char('c'), CTRL) if name == Some(INTERRUPT) => None,
         Chord(KeyCode::Char('c'), CTRL) => Some("it always quits".to_owned()),
         Chord(KeyCode::Char(c), CTRL) => {
             let other = SAME_BYTES.iter().find(|(character, _)| *character == c)?;
@@ -78,36 +81,19 @@ impl Keymap {
             Section::Anywhere => row.keys.clone(),
             Section::In(context) => row.keys_in(context).to_vec(),
         };
-        let here = self.rows.iter().filter(|row| section.has(row.scope));
+        let here = self.rows.iter().filter(|row| row.key.is_in(section));
         let mut left = here.map(|row| (row, keys_of(row)));
         left.find_map(|(row, keys)| {
-            let mut others = self.rows.iter().filter(|other| other.action == row.action);
+            let mut others = self
+                .rows
+                .iter()
+                .filter(|other| other.key.name == row.key.name);
             let has_other = |other: &Row| {
-                let is_here = section.has(other.scope);
+                let is_here = other.key.is_in(section);
                 is_here && !keys_of(other).iter().all(belongs_to_terminals)
             };
             let is_lost = keys.iter().all(belongs_to_terminals) && !others.any(has_other);
             keys.first().copied().filter(|_| is_lost)
         })
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::ui::keymap::table::TABLE;
-
-    #[test]
-    fn nothing_in_the_table_is_refused() {
-        for row in TABLE {
-            for section in Section::all().filter(|section| section.has(row.scope)) {
-                for keys in row.keys() {
-                    assert_eq!(refusal(section, keys, Some(row.action)), None);
-                }
-            }
-        }
-        for section in Section::all() {
-            assert_eq!(Keymap::default().unreachable_in(section), None);
-        }
     }
 }

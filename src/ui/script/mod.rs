@@ -224,7 +224,7 @@ mod tests {
         }
         let mut keymap = Keymap::default();
         let keys = Keys::parse("Ctrl-X d").expect("keys");
-        keymap.bind(Section::Anywhere, keys, Some(keymap::Action::Undo));
+        keymap.bind(Section::Anywhere, keys, Some("undo"));
         assert_eq!(keymap.sequence_named("dg"), None);
         let ctrl = keymap
             .sequence_named("Ctrl-X d")

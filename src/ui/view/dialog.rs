@@ -9,7 +9,7 @@ use unicode_width::UnicodeWidthStr;
 use super::row::Row;
 use crate::document::Merge;
 use crate::text::{Position, counted};
-use crate::ui::app::{App, Dialog, Next, OnDisk, Outside};
+use crate::ui::app::{App, Dialog, Next, OnDisk, Outside, Whose};
 use crate::ui::fit::wrap;
 use crate::ui::layout;
 use crate::ui::recovery::{Offer, Since};
@@ -148,8 +148,8 @@ fn conflict(app: &App, merge: &Merge, at: usize, from: &Outside, area: Rect, buf
         let was = Some(was).filter(|_| !conflict.base.trim().is_empty());
         let was = was.filter(|was| was.width() + 2 * SIDE <= row.room());
         let each = (row.room() - was.as_ref().map_or(0, |was| was.width())) / 2;
-        let mine = from.mine();
-        for (side, name) in [(mine, "mine"), (mine.other(), theirs)] {
+        for (whose, name) in [(Whose::Mine, "mine"), (Whose::Theirs, theirs)] {
+            let side = from.side(whose);
             let text = conflict.text(side);
             let chosen = conflict.decision == Some(side);
             let mark = if chosen { "● " } else { "○ " };

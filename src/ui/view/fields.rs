@@ -13,9 +13,9 @@ use crate::language::Node;
 use crate::language::table::{Category, Kind};
 use crate::scene::Rgb;
 use crate::text::{counted, parse_number, without_suffix};
-use crate::ui::app::{App, FieldRow, Provenance, Typing};
+use crate::ui::app::{App, FieldRow, Provenance, Stride, Typing};
 use crate::ui::fit::wrap;
-use crate::ui::keymap::{Action, Mode, Stride};
+use crate::ui::keymap::Mode;
 use crate::ui::layout::{self, marker_at};
 use crate::ui::theme;
 
@@ -241,12 +241,8 @@ fn explain(app: &App, field: &FieldRow, area: Rect, buffer: &mut Buffer) {
     };
     let nudge = match field.field.kind {
         Kind::Choice(_) | Kind::Reference(_) | Kind::Name(_) => {
-            let [list, less, more] = [
-                Action::Choose,
-                Action::Nudge(-1, Stride::Plain),
-                Action::Nudge(1, Stride::Plain),
-            ]
-            .map(|action| app.key_for(action));
+            let [list, less, more] =
+                ["choose", "nudge-down", "nudge-up"].map(|name| app.key_for(name));
             format!(" · {list}: list · {less} {more}: next")
         }
         Kind::Word => String::new(),

@@ -10,7 +10,7 @@ use unicode_width::UnicodeWidthStr;
 use super::row::Row;
 use crate::text::counted;
 use crate::ui::app::{App, PageFocus};
-use crate::ui::keymap::{Action, HelpLine};
+use crate::ui::keymap::HelpLine;
 use crate::ui::layout;
 use crate::ui::theme;
 
@@ -63,7 +63,7 @@ pub(crate) fn render(app: &App, area: Rect, buffer: &mut Buffer) {
     let count = columns.iter().flatten().filter(is_entry).count();
     let found = match help.search.value() {
         "" => {
-            let (search, close) = (app.key_for(Action::Search), app.key_for(Action::Back));
+            let (search, close) = (app.key_for("search"), app.key_for("back"));
             format!("{search} search  {close} close")
         }
         search => format!("{} with “{search}”", counted(count, "line")),

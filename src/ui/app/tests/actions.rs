@@ -6,12 +6,9 @@ mod ray;
 mod xml;
 
 use super::*;
-use crate::language::Neighbour::{Next, Previous};
 use crate::language::Node;
 use crate::ui::app::command;
-use crate::ui::keymap::Action as A;
-use crate::ui::keymap::Stride::{Coarse, Fine, Plain};
-use crate::ui::keymap::Tool::{Move, Rotate, Scale};
+use crate::ui::keymap::{Keymap, NamedHere, Section};
 use Node::{Light, Material, Object, Texture, View};
 
 /// A row of a table: what is selected, and what keys do then.
@@ -25,8 +22,8 @@ struct Row {
 /// What a row is about.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Doing {
-    /// An action of a key.
-    Key(A),
+    /// What keys of this name do.
+    Key(&'static str),
     /// A command of the palette.
     Command(&'static str),
     /// A thing that can be added.
@@ -61,108 +58,200 @@ const LANGUAGES: [(&str, &str, &[Row]); 3] = [
     ("scene.xml", xml::TEXT, xml::ROWS),
 ];
 
-/// Whether an action itself changes the text. What only begins or continues a change belongs to the
-/// rows of that change: adding to those of each thing that can be added. Undo ends every row, and
-/// merges have tests of their own.
-fn edits(action: A) -> bool {
-    match action {
-        A::Visibility
-        | A::Delete
-        | A::Duplicate
-        | A::Reorder(_)
-        | A::Insert
-        | A::Rename
-        | A::Retype
-        | A::Transform(_)
-        | A::Choose
-        | A::Type
-        | A::Colour
-        | A::Orthonormalise
-        | A::Nudge(..)
-        | A::SaveView
-        | A::DeleteView
-        | A::Cure => true,
-        A::Move(_)
-        | A::Page(_)
-        | A::First
-        | A::Last
-        | A::Cycle(_)
-        | A::Go(_)
-        | A::Back
-        | A::Accept
-        | A::Fold(_)
-        | A::Search
-        | A::SearchAgain(_)
-        | A::Command
-        | A::Outline
-        | A::Symbols
-        | A::Mark
-        | A::Add
-        | A::Copy
-        | A::Solo
-        | A::Step(..)
-        | A::Steps
-        | A::Lock(_)
-        | A::Snap
-        | A::Stride(_)
-        | A::Component(_)
-        | A::Orbit(..)
-        | A::Pan(..)
-        | A::Dolly(_)
-        | A::Turn(..)
-        | A::Advance(_)
-        | A::Roll(_)
-        | A::Widen(_)
-        | A::ResetView
-        | A::FrameSelected
-        | A::LightView
-        | A::SavedViews
-        | A::Cross(..)
-        | A::Pin
-        | A::Flip
-        | A::Wipe
-        | A::SlideWipe(_)
-        | A::Difference
-        | A::Worst(_)
-        | A::OnTrack(_)
-        | A::Explain
-        | A::Sample(_)
-        | A::Stop
-        | A::Pause
-        | A::Magnify(_)
-        | A::Scroll(..)
-        | A::OneToOne
-        | A::Region
-        | A::Corner(..)
-        | A::OtherCorner
-        | A::Export
-        | A::Save
-        | A::Undo
-        | A::Redo
-        | A::Editor
-        | A::Errors
-        | A::Messages
-        | A::Help
-        | A::Zoom
-        | A::Resize(_)
-        | A::Divide(_)
-        | A::Show(_)
-        | A::Share(_)
-        | A::Expose(_)
-        | A::Denoise
-        | A::Wireframe
-        | A::Integrator
-        | A::Repaint
-        | A::Suspend
-        | A::Quit
-        | A::Interrupt
-        | A::Mine
-        | A::Theirs
-        | A::AllMine
-        | A::AllTheirs
-        | A::No => false,
-    }
-}
+/// The names of keys that themselves change the text. What only begins or continues a change belongs
+/// to the rows of that change: adding to those of each thing that can be added. Undo ends every row,
+/// and merges have tests of their own.
+const EDITING_KEYS: &[&str] = &[
+    "visibility",
+    "delete",
+    "duplicate",
+    "reorder-up",
+    "reorder-down",
+    "paste",
+    "rename",
+    "change-type",
+    "move",
+    "rotate",
+    "scale",
+    "choose",
+    "type",
+    "pick-colour",
+    "orthonormalise",
+    "nudge-up",
+    "nudge-down",
+    "nudge-up-coarse",
+    "nudge-down-coarse",
+    "nudge-up-fine",
+    "nudge-down-fine",
+    "write-view",
+    "delete-view",
+    "cure",
+];
+/// Those that leave it as it is.
+const OTHER_KEYS: &[&str] = &[
+    "back",
+    "help",
+    "command",
+    "save",
+    "export",
+    "trace",
+    "pin",
+    "compare",
+    "undo",
+    "redo",
+    "history",
+    "errors",
+    "messages",
+    "editor",
+    "track",
+    "key",
+    "panels",
+    "larger-panels",
+    "smaller-panels",
+    "smaller-list",
+    "larger-list",
+    "darker",
+    "brighter",
+    "denoise",
+    "integrator",
+    "redraw",
+    "suspend",
+    "quit",
+    "interrupt",
+    "orbit-left",
+    "orbit-down",
+    "orbit-up",
+    "orbit-right",
+    "nearer",
+    "farther",
+    "pan-left",
+    "pan-down",
+    "pan-up",
+    "pan-right",
+    "fly",
+    "turn-left",
+    "turn-down",
+    "turn-up",
+    "turn-right",
+    "forward",
+    "backward",
+    "camera",
+    "frame-selection",
+    "reset-view",
+    "view-from-light",
+    "saved-views",
+    "narrower-view",
+    "wider-view",
+    "roll-left",
+    "roll-right",
+    "edit",
+    "list",
+    "flip",
+    "wipe",
+    "wipe-left",
+    "wipe-right",
+    "wipe-left-far",
+    "wipe-right-far",
+    "difference",
+    "zoom-in",
+    "zoom-out",
+    "explain",
+    "next-worst",
+    "previous-worst",
+    "show-light",
+    "show-depth",
+    "show-normals",
+    "show-objects",
+    "show-albedo",
+    "show-cost",
+    "show-samples",
+    "show-noise",
+    "next-share",
+    "previous-share",
+    "wireframe",
+    "next-number",
+    "smaller-steps",
+    "larger-steps",
+    "previous-number",
+    "accept",
+    "inspect",
+    "cross-left",
+    "cross-down",
+    "cross-up",
+    "cross-right",
+    "cross-left-far",
+    "cross-down-far",
+    "cross-up-far",
+    "cross-right-far",
+    "solo",
+    "fold",
+    "unfold",
+    "previous-sample",
+    "next-sample",
+    "down",
+    "up",
+    "first",
+    "last",
+    "page-down",
+    "page-up",
+    "search",
+    "mine",
+    "theirs",
+    "all-mine",
+    "all-theirs",
+    "no",
+    "copy",
+    "mark",
+    "add",
+    "next-item",
+    "fold-all",
+    "unfold-all",
+    "outline",
+    "symbols",
+    "next-match",
+    "previous-match",
+    "previous-item",
+    "stop",
+    "play",
+    "next-frame",
+    "previous-frame",
+    "next-key",
+    "previous-key",
+    "frames-forward",
+    "frames-back",
+    "first-frame",
+    "last-frame",
+    "undo-key",
+    "edit-track",
+    "scroll-left",
+    "scroll-down",
+    "scroll-up",
+    "scroll-right",
+    "one-to-one",
+    "pause",
+    "region",
+    "corner-left",
+    "corner-down",
+    "corner-up",
+    "corner-right",
+    "corner-left-far",
+    "corner-down-far",
+    "corner-up-far",
+    "corner-right-far",
+    "other-corner",
+    "step-left",
+    "step-down",
+    "step-up",
+    "step-right",
+    "step-left-far",
+    "step-down-far",
+    "step-up-far",
+    "step-right-far",
+    "lock-x",
+    "lock-y",
+    "lock-z",
+    "snap",
+];
 
 /// Commands that edit the text.
 const EDITING: &[&str] = &["view save", "size", "set", "mesh"];
@@ -252,9 +341,12 @@ fn replaced(text: &str, changes: &[(&str, &str)]) -> String {
 
 #[test]
 fn every_action_and_command_that_edits_has_a_row_in_every_language() {
-    let keys = keymap::Keymap::default().actions(Mode::Select).into_iter();
-    let keys = keys.map(|named| named.action).chain([A::DeleteView]);
-    let keys: Vec<_> = keys.filter(|action| edits(*action)).map(Key).collect();
+    for section in Section::all() {
+        for NamedHere { name, .. } in Keymap::default().actions_in(section) {
+            let is_either = EDITING_KEYS.contains(&name) != OTHER_KEYS.contains(&name);
+            assert!(is_either, "does the key {name} edit the text?");
+        }
+    }
     for command in command::all_described() {
         let name = command.name;
         let is_either = EDITING.contains(&name) != OTHERS.contains(&name);
@@ -265,7 +357,8 @@ fn every_action_and_command_that_edits_has_a_row_in_every_language() {
         let additions = app.source().additions().iter();
         let additions = additions.map(|addition| Add(addition.name));
         let commands = EDITING.iter().map(|&command| Command(command));
-        for doing in keys.iter().copied().chain(commands).chain(additions) {
+        let keys = EDITING_KEYS.iter().map(|&key| Key(key));
+        for doing in keys.chain(commands).chain(additions) {
             let mut doings = rows.iter().map(|row| row.doing);
             assert!(doings.any(|row| row == doing), "{name} lacks {doing:?}");
         }

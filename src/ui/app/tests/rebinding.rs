@@ -1,17 +1,14 @@
 //! Keys that the user has bound.
 
 use super::*;
-use crate::ui::keymap::{Action, HelpLine, Keys, Section};
+use crate::ui::keymap::{HelpLine, Keys, Section};
 
 /// The interface with other keys in sections: `x` for undoing, none for what `u` did.
 fn rebound() -> App {
     let mut app = open(SCENE);
-    let undo = app.keymap.actions_in(Section::Anywhere);
-    let undo = undo.iter().find(|known| known.name == "undo");
-    let undo = undo.map(|known| known.action);
-    for (keys, action) in [("u", None), ("Ctrl-X u", undo)] {
+    for (keys, name) in [("u", None), ("Ctrl-X u", Some("undo"))] {
         let keys = Keys::parse(keys).expect("keys");
-        app.keymap.bind(Section::Anywhere, keys, action);
+        app.keymap.bind(Section::Anywhere, keys, name);
     }
     app
 }
@@ -33,17 +30,13 @@ fn a_bound_key_acts_and_the_one_it_replaces_does_not() {
 fn messages_name_the_bound_keys() {
     let mut app = open(SCENE);
     let select = Section::In(app.context());
-    for (keys, action) in [("x", None), ("F5", None), ("r", None), ("T", Some("trace"))] {
-        let named = app.keymap.actions_in(select).into_iter();
-        let mut action = named
-            .filter(|known| Some(known.name) == action)
-            .map(|known| known.action);
-        app.keymap
-            .bind(select, Keys::parse(keys).expect("keys"), action.next());
+    for (keys, name) in [("x", None), ("F5", None), ("r", None), ("T", Some("trace"))] {
+        let keys = Keys::parse(keys).expect("keys");
+        app.keymap.bind(select, keys, name);
     }
-    assert_eq!(app.key_for(Action::Go(Mode::Trace)), "T");
-    assert_eq!(app.key_for(Action::Redo), "Ctrl-R");
-    assert_eq!(app.key_for(Action::Stop), ":cancel the export");
+    assert_eq!(app.key_for("trace"), "T");
+    assert_eq!(app.key_for("redo"), "Ctrl-R");
+    assert_eq!(app.key_for("stop"), ":cancel the export");
 }
 
 #[test]
@@ -102,12 +95,8 @@ fn what_is_said_after_keys_names_the_bound_ones() {
     ] {
         let mut app = open(SCENE);
         let section = Section::named(section).expect("a section");
-        let named = app.keymap.actions_in(section).into_iter();
-        let mut named = named.filter(|known| known.name == name);
-        let action = named.next().map(|known| known.action);
-        assert!(action.is_some(), "{name}");
-        app.keymap
-            .bind(section, Keys::parse(keys).expect("keys"), action);
+        let keys = Keys::parse(keys).expect("keys");
+        app.keymap.bind(section, keys, Some(name));
         press(&mut app, pressed);
         assert_eq!(words(&app), said, "{pressed}");
     }

@@ -77,186 +77,186 @@ pub(super) const ROWS: &[Row] = &[
         ("    <material type=\"phong\" name=\"n\"/>\n",
             "    <material type=\"phong\" name=\"n\"/>\n    <material type=\"microfacet\" name=\"microfacet\">\n      <color r=\"0.8\" g=\"0.8\" b=\"0.8\"/>\n      <roughness value=\"0.4\"/>\n    </material>\n"),
     ])),
-    row(Key(A::Delete), Object(0), "d", Becomes(&[
+    row(Key("delete"), Object(0), "d", Becomes(&[
         ("    <object type=\"sphere\" name=\"a\" material=\"m\">\n      <translate x=\"1\"/>\n    </object>\n",
             ""),
     ])),
-    row(Key(A::Delete), Light(1), "d", Becomes(&[
+    row(Key("delete"), Light(1), "d", Becomes(&[
         ("    <light type=\"ambient\" name=\"sky\"/>\n",
             ""),
     ])),
-    row(Key(A::Delete), Object(0), "  d", Becomes(&[
+    row(Key("delete"), Object(0), "  d", Becomes(&[
         ("    <object type=\"sphere\" name=\"a\" material=\"m\">\n      <translate x=\"1\"/>\n    </object>\n    <object type=\"plane\" name=\"b\"/>\n",
             ""),
     ])),
-    row(Key(A::Delete), View, "d", Says("view cannot be copied, moved or deleted")),
-    row(Key(A::Delete), Material(0), "dy", Becomes(&[
+    row(Key("delete"), View, "d", Says("view cannot be copied, moved or deleted")),
+    row(Key("delete"), Material(0), "dy", Becomes(&[
         ("name=\"a\" material=\"m\">\n",
             "name=\"a\">\n"),
         ("    <material type=\"blinn\" name=\"m\">\n      <diffuse r=\"1\" g=\"0\" b=\"0\"/>\n    </material>\n",
             ""),
     ])),
-    row(Key(A::Duplicate), Object(0), "D", Becomes(&[
+    row(Key("duplicate"), Object(0), "D", Becomes(&[
         ("    <object type=\"sphere\" name=\"a\" material=\"m\">\n",
             "    <object type=\"sphere\" name=\"a\" material=\"m\">\n      <translate x=\"1\"/>\n    </object>\n    <object type=\"sphere\" name=\"a 2\" material=\"m\">\n"),
     ])),
-    row(Key(A::Duplicate), Light(0), "D", Becomes(&[
+    row(Key("duplicate"), Light(0), "D", Becomes(&[
         ("    </light>\n",
             "    </light>\n    <light type=\"point\" name=\"lamp 2\">\n      <position y=\"5\"/>\n    </light>\n"),
     ])),
-    row(Key(A::Duplicate), Object(0), "  D", Becomes(&[
+    row(Key("duplicate"), Object(0), "  D", Becomes(&[
         ("    <object type=\"plane\" name=\"b\"/>\n",
             "    <object type=\"plane\" name=\"b\"/>\n    <object type=\"sphere\" name=\"a 2\" material=\"m\">\n      <translate x=\"1\"/>\n    </object>\n    <object type=\"plane\" name=\"b 2\"/>\n"),
     ])),
-    row(Key(A::Duplicate), Material(0), "D", Becomes(&[
+    row(Key("duplicate"), Material(0), "D", Becomes(&[
         ("    <material type=\"blinn\" name=\"m\">\n",
             "    <material type=\"blinn\" name=\"m\">\n      <diffuse r=\"1\" g=\"0\" b=\"0\"/>\n    </material>\n    <material type=\"blinn\" name=\"m 2\">\n"),
     ])),
-    row(Key(A::Reorder(Previous)), Object(1), "K", Becomes(&[
+    row(Key("reorder-up"), Object(1), "K", Becomes(&[
         ("    <!-- ball -->\n",
             "    <!-- ball -->\n    <object type=\"plane\" name=\"b\"/>\n"),
         ("    </object>\n    <object type=\"plane\" name=\"b\"/>\n",
             "    </object>\n"),
     ])),
-    row(Key(A::Reorder(Next)), Object(0), "J", Becomes(&[
+    row(Key("reorder-down"), Object(0), "J", Becomes(&[
         ("    <!-- ball -->\n",
             "    <!-- ball -->\n    <object type=\"plane\" name=\"b\"/>\n"),
         ("    </object>\n    <object type=\"plane\" name=\"b\"/>\n",
             "    </object>\n"),
     ])),
-    row(Key(A::Reorder(Next)), Light(0), "J", Becomes(&[
+    row(Key("reorder-down"), Light(0), "J", Becomes(&[
         ("    <material type=\"phong\" name=\"n\"/>\n",
             "    <material type=\"phong\" name=\"n\"/>\n    <light type=\"ambient\" name=\"sky\"/>\n"),
         ("    </light>\n    <light type=\"ambient\" name=\"sky\"/>\n",
             "    </light>\n"),
     ])),
-    row(Key(A::Reorder(Previous)), Object(0), "K", Says("a (sphere) is already the first")),
-    row(Key(A::Reorder(Next)), Material(0), "J", Becomes(&[
+    row(Key("reorder-up"), Object(0), "K", Says("a (sphere) is already the first")),
+    row(Key("reorder-down"), Material(0), "J", Becomes(&[
         ("    <object type=\"plane\" name=\"b\"/>\n",
             "    <object type=\"plane\" name=\"b\"/>\n    <material type=\"phong\" name=\"n\"/>\n"),
         ("    </material>\n    <material type=\"phong\" name=\"n\"/>\n",
             "    </material>\n"),
     ])),
-    row(Key(A::Insert), Object(0), "yjp", Becomes(&[
+    row(Key("paste"), Object(0), "yjp", Becomes(&[
         ("    <object type=\"plane\" name=\"b\"/>\n",
             "    <object type=\"plane\" name=\"b\"/>\n    <object type=\"sphere\" name=\"a 2\" material=\"m\">\n      <translate x=\"1\"/>\n    </object>\n"),
     ])),
-    row(Key(A::Insert), Object(0), "  yp", Becomes(&[
+    row(Key("paste"), Object(0), "  yp", Becomes(&[
         ("    <object type=\"plane\" name=\"b\"/>\n",
             "    <object type=\"plane\" name=\"b\"/>\n    <object type=\"sphere\" name=\"a 2\" material=\"m\">\n      <translate x=\"1\"/>\n    </object>\n    <object type=\"plane\" name=\"b 2\"/>\n"),
     ])),
-    row(Key(A::Insert), Object(0), "p", Says("nothing to paste: y copies the selected item")),
-    row(Key(A::Rename), Object(0), "R<Ctrl-u>9<Enter>", Becomes(&[
+    row(Key("paste"), Object(0), "p", Says("nothing to paste: y copies the selected item")),
+    row(Key("rename"), Object(0), "R<Ctrl-u>9<Enter>", Becomes(&[
         ("name=\"a\" ",
             "name=\"9\" "),
     ])),
-    row(Key(A::Rename), Material(0), "R<Ctrl-u>8<Enter>", Becomes(&[
+    row(Key("rename"), Material(0), "R<Ctrl-u>8<Enter>", Becomes(&[
         ("material=\"m\">\n",
             "material=\"8\">\n"),
         ("name=\"m\">\n",
             "name=\"8\">\n"),
     ])),
-    row(Key(A::Rename), Light(0), "R<Ctrl-u>7<Enter>", Becomes(&[
+    row(Key("rename"), Light(0), "R<Ctrl-u>7<Enter>", Becomes(&[
         ("name=\"lamp\">\n",
             "name=\"7\">\n"),
     ])),
-    row(Key(A::Visibility), Object(0), "h", Says("an .xml scene draws all of its objects")),
-    row(Key(A::Visibility), Object(0), "  h", Says("an .xml scene draws all of its objects")),
-    row(Key(A::Retype), Object(0), "cplane<Enter>", Becomes(&[
+    row(Key("visibility"), Object(0), "h", Says("an .xml scene draws all of its objects")),
+    row(Key("visibility"), Object(0), "  h", Says("an .xml scene draws all of its objects")),
+    row(Key("change-type"), Object(0), "cplane<Enter>", Becomes(&[
         ("type=\"sphere\" ",
             "type=\"plane\" "),
     ])),
-    row(Key(A::Retype), Material(0), "cphong<Enter>", Becomes(&[
+    row(Key("change-type"), Material(0), "cphong<Enter>", Becomes(&[
         ("type=\"blinn\" ",
             "type=\"phong\" "),
     ])),
-    row(Key(A::Retype), Light(0), "cdirect<Enter>", Becomes(&[
+    row(Key("change-type"), Light(0), "cdirect<Enter>", Becomes(&[
         ("type=\"point\" ",
             "type=\"direct\" "),
     ])),
-    row(Key(A::Transform(Move)), Object(0), "mx2<Enter>", Becomes(&[
+    row(Key("move"), Object(0), "mx2<Enter>", Becomes(&[
         ("x=\"1\"/>\n",
             "x=\"3\"/>\n"),
     ])),
-    row(Key(A::Transform(Move)), Object(0), "  my1<Enter>", Becomes(&[
+    row(Key("move"), Object(0), "  my1<Enter>", Becomes(&[
         ("x=\"1\"/>\n",
             "x=\"1\" y=\"1\"/>\n"),
         ("    <object type=\"plane\" name=\"b\"/>\n",
             "    <object type=\"plane\" name=\"b\">\n      <translate y=\"1\"/>\n    </object>\n"),
     ])),
-    row(Key(A::Transform(Move)), Light(0), "mz-5<Enter>", Becomes(&[
+    row(Key("move"), Light(0), "mz-5<Enter>", Becomes(&[
         ("y=\"5\"/>\n",
             "y=\"5\" z=\"-5\"/>\n"),
     ])),
-    row(Key(A::Transform(Move)), Object(0), "ml<Enter>", Becomes(&[
+    row(Key("move"), Object(0), "ml<Enter>", Becomes(&[
         ("x=\"1\"/>\n",
             "x=\"1.2\"/>\n"),
     ])),
-    row(Key(A::Transform(Move)), View, "mx1<Enter>", Becomes(&[
+    row(Key("move"), View, "mx1<Enter>", Becomes(&[
         ("z=\"10\"/>", "z=\"10\" x=\"1\"/>"),
         ("<target value=\"0\"/>", "<target value=\"1\" x=\"1\" y=\"0\" z=\"0\"/>"),
     ])),
-    row(Key(A::Transform(Rotate)), Object(1), "tz90<Enter>", Becomes(&[
+    row(Key("rotate"), Object(1), "tz90<Enter>", Becomes(&[
         ("    <object type=\"plane\" name=\"b\"/>\n",
             "    <object type=\"plane\" name=\"b\">\n      <rotate z=\"1\" angle=\"90\"/>\n    </object>\n"),
     ])),
-    row(Key(A::Transform(Rotate)), Object(0), "  tz90<Enter>", Becomes(&[
+    row(Key("rotate"), Object(0), "  tz90<Enter>", Becomes(&[
         ("      <translate x=\"1\"/>\n",
             "      <rotate z=\"1\" angle=\"90\"/>\n      <translate x=\"0\" y=\"1\"/>\n"),
         ("    <object type=\"plane\" name=\"b\"/>\n",
             "    <object type=\"plane\" name=\"b\">\n      <rotate z=\"1\" angle=\"90\"/>\n    </object>\n"),
     ])),
-    row(Key(A::Transform(Scale)), Object(0), "s2<Enter>", Becomes(&[
+    row(Key("scale"), Object(0), "s2<Enter>", Becomes(&[
         ("    <object type=\"sphere\" name=\"a\" material=\"m\">\n",
             "    <object type=\"sphere\" name=\"a\" material=\"m\">\n      <scale value=\"2\"/>\n"),
     ])),
-    row(Key(A::Transform(Scale)), Object(1), "syy2<Enter>", Becomes(&[
+    row(Key("scale"), Object(1), "syy2<Enter>", Becomes(&[
         ("    <object type=\"plane\" name=\"b\"/>\n",
             "    <object type=\"plane\" name=\"b\">\n      <scale y=\"2\"/>\n    </object>\n"),
     ])),
-    row(Key(A::Transform(Scale)), Object(0), "  s2<Enter>", Becomes(&[
+    row(Key("scale"), Object(0), "  s2<Enter>", Becomes(&[
         ("      <translate x=\"1\"/>\n",
             "      <scale value=\"2\"/>\n      <translate x=\"2\"/>\n"),
         ("    <object type=\"plane\" name=\"b\"/>\n",
             "    <object type=\"plane\" name=\"b\">\n      <scale value=\"2\"/>\n    </object>\n"),
     ])),
-    row(Key(A::Nudge(1, Plain)), Object(0), "ejjjjl", Becomes(&[
+    row(Key("nudge-up"), Object(0), "ejjjjl", Becomes(&[
         ("x=\"1\"/>\n",
             "x=\"1.1\"/>\n"),
     ])),
-    row(Key(A::Nudge(-1, Plain)), Object(0), "ejjjjh", Becomes(&[
+    row(Key("nudge-down"), Object(0), "ejjjjh", Becomes(&[
         ("x=\"1\"/>\n",
             "x=\"0.9\"/>\n"),
     ])),
-    row(Key(A::Nudge(1, Coarse)), Object(0), "ejjjjL", Becomes(&[
+    row(Key("nudge-up-coarse"), Object(0), "ejjjjL", Becomes(&[
         ("x=\"1\"/>\n",
             "x=\"2\"/>\n"),
     ])),
-    row(Key(A::Nudge(-1, Coarse)), Object(0), "ejjjjH", Becomes(&[
+    row(Key("nudge-down-coarse"), Object(0), "ejjjjH", Becomes(&[
         ("x=\"1\"/>\n",
             "x=\"0\"/>\n"),
     ])),
-    row(Key(A::Nudge(1, Fine)), Object(0), "ejjjj<Alt-l>", Becomes(&[
+    row(Key("nudge-up-fine"), Object(0), "ejjjj<Alt-l>", Becomes(&[
         ("x=\"1\"/>\n",
             "x=\"1.01\"/>\n"),
     ])),
-    row(Key(A::Nudge(-1, Fine)), Object(0), "ejjjj<Alt-h>", Becomes(&[
+    row(Key("nudge-down-fine"), Object(0), "ejjjj<Alt-h>", Becomes(&[
         ("x=\"1\"/>\n",
             "x=\"0.99\"/>\n"),
     ])),
-    row(Key(A::Type), Object(0), "ejjjj3<Enter>", Becomes(&[
+    row(Key("type"), Object(0), "ejjjj3<Enter>", Becomes(&[
         ("x=\"1\"/>\n",
             "x=\"3\"/>\n"),
     ])),
-    row(Key(A::Type), Object(0), "ejjjj<Enter><Ctrl-u>1/4<Enter>", Becomes(&[
+    row(Key("type"), Object(0), "ejjjj<Enter><Ctrl-u>1/4<Enter>", Becomes(&[
         ("x=\"1\"/>\n",
             "x=\"0.25\"/>\n"),
     ])),
-    row(Key(A::Type), Object(0), "ejjjj+=1<Enter>", Becomes(&[
+    row(Key("type"), Object(0), "ejjjj+=1<Enter>", Becomes(&[
         ("x=\"1\"/>\n",
             "x=\"2\"/>\n"),
     ])),
-    row(Key(A::Type), Object(0), "  kejj<Enter>n<Enter>", Becomes(&[
+    row(Key("type"), Object(0), "  kejj<Enter>n<Enter>", Becomes(&[
         ("material=\"m\">\n",
             "material=\"n\">\n"),
         ("name=\"b\"/>\n",
@@ -266,25 +266,25 @@ pub(super) const ROWS: &[Row] = &[
         ("material=\"m\">\n",
             "material=\"n\">\n"),
     ])),
-    row(Key(A::Choose), Object(0), "ejj<Enter>n<Enter>", Becomes(&[
+    row(Key("choose"), Object(0), "ejj<Enter>n<Enter>", Becomes(&[
         ("material=\"m\">\n",
             "material=\"n\">\n"),
     ])),
-    row(Key(A::Choose), Object(0), "ejj<Enter>new<Enter>", Becomes(&[
+    row(Key("choose"), Object(0), "ejj<Enter>new<Enter>", Becomes(&[
         ("material=\"m\">", "material=\"new\">"),
         ("name=\"n\"/>\n",
             "name=\"n\"/>\n    <material type=\"blinn\" name=\"new\">\n      <diffuse r=\"0.7\" g=\"0.7\" b=\"0.7\"/>\n      <specular value=\"0.3\"/>\n    </material>\n"),
     ])),
-    row(Key(A::Colour), Material(0), "ejjcjjH<Enter>", Becomes(&[
+    row(Key("pick-colour"), Material(0), "ejjcjjH<Enter>", Becomes(&[
         ("r=\"1\"",
             "r=\"0.8\""),
     ])),
-    row(Key(A::Orthonormalise), Object(0), "eO", Says("a (sphere) has no frame to orthonormalise")),
-    row(Key(A::SaveView), Object(0), "vlS", Becomes(&[
+    row(Key("orthonormalise"), Object(0), "eO", Says("a (sphere) has no frame to orthonormalise")),
+    row(Key("write-view"), Object(0), "vlS", Becomes(&[
         ("z=\"10\"/>\n",
             "z=\"9.9619\" x=\"0.8716\"/>\n"),
     ])),
-    row(Key(A::SaveView), Object(0), "vlqS<Esc>", Becomes(&[
+    row(Key("write-view"), Object(0), "vlqS<Esc>", Becomes(&[
         ("z=\"10\"/>\n",
             "z=\"9.9619\" x=\"0.8716\"/>\n"),
     ])),
@@ -300,12 +300,12 @@ pub(super) const ROWS: &[Row] = &[
         ("    <width value=\"400\"/>\n    <height value=\"300\"/>\n",
             "    <width value=\"320\"/>\n    <height value=\"200\"/>\n"),
     ])),
-    row(Key(A::Cure), Object(0), "C", Says("there is no render setting to suggest")),
+    row(Key("cure"), Object(0), "C", Says("there is no render setting to suggest")),
     row(Command("set"), Object(0), ":set depth 3<Enter>", Becomes(&[
         ("  </camera>\n",
             "  </camera>\n  <render depth=\"3\"/>\n"),
     ])),
-    row(Key(A::DeleteView), Object(0), "vVd<Esc>", Becomes(&[
+    row(Key("delete-view"), Object(0), "vVd<Esc>", Becomes(&[
         ("  <!-- view front: eye 0 0 5 target 0 0 0 up 0 1 0 fov 60 -->\n",
             ""),
     ])),

@@ -1,0 +1,54 @@
+//! Keys of VIEW and of its flying.
+
+use crossterm::event::KeyCode;
+
+use super::Row;
+use crate::ui::app::App;
+use crate::ui::app::camera::{advanced, dollied, faced, panned, rolled, stepped, widened};
+use crate::ui::keymap::{Context, Key, Mode, Scope, c, key, shift};
+
+use Context::In;
+use KeyCode::{Down, Enter, Left, Right, Up};
+use Scope::These;
+
+const VIEW: Scope = These(&[In(Mode::View)]);
+const FLY: Scope = These(&[In(Mode::Fly)]);
+const VIEWS: Scope = These(&[In(Mode::View), In(Mode::Fly)]);
+const ORBITING: &[Context] = &[In(Mode::View)];
+const FLYING: &[Context] = &[In(Mode::Fly)];
+
+/// The most useful first.
+#[rustfmt::skip]
+pub(super) const KEYS: &[Row] = &[
+    Key::new(VIEW, "orbit-left", &[c('h'), key(Left)], "orbit left").hint(0, "orbit").does(|app| app.move_camera(|now| stepped(now, 1, 0))),
+    Key::new(VIEW, "orbit-down", &[c('j'), key(Down)], "orbit down").hint(0, "orbit").does(|app| app.move_camera(|now| stepped(now, 0, -1))),
+    Key::new(VIEW, "orbit-up", &[c('k'), key(Up)], "orbit up").hint(0, "orbit").does(|app| app.move_camera(|now| stepped(now, 0, 1))),
+    Key::new(VIEW, "orbit-right", &[c('l'), key(Right)], "orbit right").hint(0, "orbit").does(|app| app.move_camera(|now| stepped(now, -1, 0))),
+    Key::new(VIEW, "nearer", &[c('+'), c('=')], "nearer").hint(10, "near/far").does(|app| app.move_camera(|now| dollied(now, 1))),
+    Key::new(VIEW, "farther", &[c('-')], "farther").hint(10, "near/far").does(|app| app.move_camera(|now| dollied(now, -1))),
+    Key::new(VIEW, "pan-left", &[c('H'), shift(Left)], "pan left").does(|app| app.move_camera(|now| panned(now, 1, 0))),
+    Key::new(VIEW, "pan-down", &[c('J'), shift(Down)], "pan down").does(|app| app.move_camera(|now| panned(now, 0, -1))),
+    Key::new(VIEW, "pan-up", &[c('K'), shift(Up)], "pan up").does(|app| app.move_camera(|now| panned(now, 0, 1))),
+    Key::new(VIEW, "pan-right", &[c('L'), shift(Right)], "pan right").does(|app| app.move_camera(|now| panned(now, -1, 0))),
+    Key::new(VIEW, "fly", &[c('F')], "fly: turn in place and move").hint(60, "fly").asks(|app| app.go(Mode::Fly)),
+    Key::new(FLY, "turn-left", &[c('h'), key(Left)], "turn left").hint(0, "turn").does(|app| app.move_camera(|now| faced(now, 1, 0))),
+    Key::new(FLY, "turn-down", &[c('j'), key(Down)], "turn down").hint(0, "turn").does(|app| app.move_camera(|now| faced(now, 0, -1))),
+    Key::new(FLY, "turn-up", &[c('k'), key(Up)], "turn up").hint(0, "turn").does(|app| app.move_camera(|now| faced(now, 0, 1))),
+    Key::new(FLY, "turn-right", &[c('l'), key(Right)], "turn right").hint(0, "turn").does(|app| app.move_camera(|now| faced(now, -1, 0))),
+    Key::new(FLY, "forward", &[c('K'), shift(Up), c('+'), c('=')], "forward").hint(12, "move").does(|app| app.move_camera(|now| advanced(now, 1))),
+    Key::new(FLY, "backward", &[c('J'), shift(Down), c('-')], "back").hint(11, "move").does(|app| app.move_camera(|now| advanced(now, -1))),
+    Key::new(FLY, "pan-left", &[c('H'), shift(Left)], "left").hint(10, "move").does(|app| app.move_camera(|now| panned(now, 1, 0))),
+    Key::new(FLY, "pan-right", &[c('L'), shift(Right)], "right").hint(13, "move").does(|app| app.move_camera(|now| panned(now, -1, 0))),
+    Key::new(FLY, "camera", &[c('F')], "move around the target again").hint(60, "orbit").asks(|app| app.go(Mode::View)),
+    Key::new(VIEWS, "frame-selection", &[c('f')], "frame the selected object").hint_in(ORBITING, 20, "frame").does(App::frame_selected),
+    Key::new(VIEWS, "reset-view", &[c('0')], "reset to the scene's view").hint(30, "reset").does(|app| app.pictures.reset_view()).when(|app| app.pictures.view.is_some()),
+    Key::new(VIEWS, "write-view", &[c('S')], "write the view into the scene").hint(40, "save view").asks(App::save_view_key).when(|app| app.pictures.view.is_some()),
+    Key::new(VIEWS, "view-from-light", &[c('o')], "look from the selected light").does(App::look_from_light),
+    Key::new(VIEWS, "saved-views", &[c('V')], "saved views").does(App::list_views),
+    Key::new(VIEWS, "narrower-view", &[c('[')], "narrow the field of view").does(|app| app.move_camera(|now| widened(now, -1))),
+    Key::new(VIEWS, "wider-view", &[c(']')], "widen the field of view").does(|app| app.move_camera(|now| widened(now, 1))),
+    Key::new(VIEWS, "roll-left", &[c(',')], "roll left").hint_in(FLYING, 20, "roll").does(|app| app.move_camera(|now| rolled(now, 1))),
+    Key::new(VIEWS, "roll-right", &[c('.')], "roll right").hint_in(FLYING, 20, "roll").does(|app| app.move_camera(|now| rolled(now, -1))),
+    Key::new(VIEWS, "edit", &[c('e')], "edit fields").asks(|app| app.go(Mode::Edit)).when(|app| !app.cursor.fields().is_empty()),
+    Key::new(VIEWS, "list", &[key(Enter)], "back to the list").asks(|app| app.go(Mode::Select)),
+];

@@ -1,0 +1,63 @@
+//! Keys of everything with lines: the list, the fields, and the pages.
+
+use crossterm::event::KeyCode;
+
+use super::Row;
+use crate::ui::keymap::{Context, Key, Mode, Scope, c, key};
+
+use Context::In;
+use KeyCode::{Down, End, Home, PageDown, PageUp, Up};
+use Scope::These;
+
+/// What has lines.
+const LISTS: Scope = These(&[
+    In(Mode::Select),
+    In(Mode::Edit),
+    Context::Help,
+    Context::Messages,
+    Context::Errors,
+    Context::Views,
+    Context::Recent,
+    Context::Steps,
+    Context::Colour,
+    Context::Conflict,
+    Context::Rays,
+]);
+/// What may have more lines than fit.
+const LONG_LISTS: Scope = These(&[
+    In(Mode::Select),
+    Context::Help,
+    Context::Messages,
+    Context::Errors,
+    Context::Views,
+    Context::Recent,
+    Context::Rays,
+    Context::Steps,
+]);
+const MOVED: &[Context] = &[In(Mode::Select), Context::Errors, Context::Rays];
+const EDIT: &[Context] = &[In(Mode::Edit)];
+const COLOUR: &[Context] = &[Context::Colour];
+const PAGES: &[Context] = &[
+    Context::Help,
+    Context::Messages,
+    Context::Views,
+    Context::Recent,
+    Context::Steps,
+    Context::Conflict,
+];
+
+/// The most useful first.
+#[rustfmt::skip]
+pub(super) const KEYS: &[Row] = &[
+    Key::new(LISTS, "down", &[c('j'), key(Down)], "down")
+        .hint_in(MOVED, 0, "move").hint_in(EDIT, 0, "field").hint_in(COLOUR, 10, "row").hint_in(PAGES, 0, "down")
+        .does(|app| app.move_cursor(1)),
+    Key::new(LISTS, "up", &[c('k'), key(Up)], "up")
+        .hint_in(MOVED, 0, "move").hint_in(EDIT, 0, "field").hint_in(COLOUR, 10, "row").hint_in(PAGES, 0, "up")
+        .does(|app| app.move_cursor(-1)),
+    Key::in_turn(LONG_LISTS, "first", &[c('g'), c('g')], "first").does(|app| app.move_cursor(isize::MIN)),
+    Key::new(LONG_LISTS, "last", &[c('G'), key(End)], "last").does(|app| app.move_cursor(isize::MAX)),
+    Key::new(LONG_LISTS, "first", &[key(Home)], "first").does(|app| app.move_cursor(isize::MIN)),
+    Key::new(LONG_LISTS, "page-down", &[key(PageDown)], "page down").does(|app| app.turn_page(1)),
+    Key::new(LONG_LISTS, "page-up", &[key(PageUp)], "page up").does(|app| app.turn_page(-1)),
+];

@@ -1,0 +1,113 @@
+//! The rows of keys: what each does, whether it would do something now, and what is said of it.
+
+mod anywhere;
+mod camera;
+mod compare;
+mod display;
+mod edit;
+mod inspect;
+mod lists;
+mod pages;
+mod questions;
+mod select;
+mod sequence;
+#[cfg(test)]
+mod tests;
+mod trace;
+mod transform;
+
+use super::App;
+use crate::ui::keymap::{Entry, Key, Keymap, RowId};
+use crate::ui::msg::Effect;
+
+/// A row of keys.
+#[derive(Clone, Copy)]
+struct Row {
+    key: Key,
+    step: Step,
+    /// Whether its hint is shown.
+    acts: fn(&App) -> bool,
+}
+
+/// What keys do.
+#[derive(Clone, Copy)]
+enum Step {
+    Does(fn(&mut App)),
+    /// With effects.
+    Asks(fn(&mut App) -> Vec<Effect>),
+}
+
+/// All rows, a slice for each place where keys have a meaning: of a key that is not bound where it is
+/// pressed, the first is named. Ctrl-H, Ctrl-I, Ctrl-M and Ctrl-[ send
+/// the same bytes as Backspace, Tab, Enter and Esc, and are therefore never bound.
+const ROWS: &[&[Row]] = &[
+    lists::KEYS,
+    questions::KEYS,
+    pages::KEYS,
+    select::KEYS,
+    transform::KEYS,
+    sequence::KEYS,
+    inspect::KEYS,
+    edit::KEYS,
+    camera::KEYS,
+    compare::KEYS,
+    display::KEYS,
+    trace::KEYS,
+    anywhere::KEYS,
+];
+
+impl Key {
+    const fn does(self, step: fn(&mut App)) -> Row {
+        Row::new(self, Step::Does(step))
+    }
+
+    const fn asks(self, step: fn(&mut App) -> Vec<Effect>) -> Row {
+        Row::new(self, Step::Asks(step))
+    }
+}
+
+impl Row {
+    const fn new(key: Key, step: Step) -> Self {
+        Self {
+            key,
+            step,
+            acts: |_| true,
+        }
+    }
+
+    /// Hints at it only while this holds.
+    const fn when(mut self, acts: fn(&App) -> bool) -> Self {
+        self.acts = acts;
+        self
+    }
+}
+
+fn rows() -> impl Iterator<Item = &'static Row> {
+    ROWS.iter().copied().flatten()
+}
+
+impl Default for Keymap {
+    fn default() -> Self {
+        Self::new(rows().map(|row| row.key))
+    }
+}
+
+impl App {
+    /// Does what the keys of a row do.
+    pub(super) fn act(&mut self, RowId(at): RowId) -> Vec<Effect> {
+        match rows().nth(at).map(|row| row.step) {
+            Some(Step::Does(step)) => {
+                step(self);
+                Vec::new()
+            }
+            Some(Step::Asks(step)) => step(self),
+            None => Vec::new(),
+        }
+    }
+
+    /// The hints for the keys that do something now, the most useful first.
+    pub fn hints(&self) -> Vec<Entry> {
+        let acts = |RowId(at): RowId| rows().nth(at).is_some_and(|row| (row.acts)(self));
+        self.keymap.hints(self.context(), acts)
+    }
+}

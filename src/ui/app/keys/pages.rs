@@ -1,0 +1,38 @@
+//! Keys of the pages: errors, saved views, recent scenes, undo history, help and messages.
+
+use crossterm::event::KeyCode;
+
+use super::Row;
+use crate::ui::app::App;
+use crate::ui::keymap::{Context, Key, Scope, c, ctrl, key};
+
+use KeyCode::{Enter, Esc};
+use Scope::These;
+
+const ERRORS: Scope = These(&[Context::Errors]);
+const VIEWS_PAGE: Scope = These(&[Context::Views]);
+const RECENT: Scope = These(&[Context::Recent]);
+const STEPS: Scope = These(&[Context::Steps]);
+const HELP: Scope = These(&[Context::Help]);
+const MESSAGES: Scope = These(&[Context::Messages]);
+
+/// The most useful first.
+#[rustfmt::skip]
+pub(super) const KEYS: &[Row] = &[
+    Key::new(ERRORS, "accept", &[key(Enter)], "go to the item").hint(10, "go there").does(App::go_to_error),
+    Key::new(VIEWS_PAGE, "accept", &[key(Enter)], "go there").asks(App::choose),
+    Key::new(VIEWS_PAGE, "delete-view", &[c('d')], "delete it").does(App::delete_view),
+    Key::new(VIEWS_PAGE, "search", &[c('/')], "filter").does(|app| app.overlays.open_search()),
+    Key::new(VIEWS_PAGE, "back", &[key(Esc), c('q'), c('V')], "close").does(|app| app.overlays.page = None),
+    Key::new(RECENT, "accept", &[key(Enter)], "open it").asks(App::choose),
+    Key::new(RECENT, "search", &[c('/')], "filter").does(|app| app.overlays.open_search()),
+    Key::new(RECENT, "back", &[key(Esc), c('q')], "close").does(|app| app.overlays.page = None),
+    Key::new(STEPS, "accept", &[key(Enter)], "go there").asks(App::choose),
+    Key::new(STEPS, "undo", &[c('u')], "undo").asks(App::undo).when(|app| app.document.undoable().is_some()),
+    Key::new(STEPS, "redo", &[ctrl('r')], "redo").asks(App::redo),
+    Key::new(STEPS, "search", &[c('/')], "filter").does(|app| app.overlays.open_search()),
+    Key::new(STEPS, "back", &[key(Esc), c('q'), c('U')], "close").does(|app| app.overlays.page = None),
+    Key::new(HELP, "search", &[c('/')], "search").does(|app| app.overlays.open_search()),
+    Key::new(MESSAGES, "back", &[key(Esc), c('q'), c('M')], "close").does(|app| app.overlays.history = None),
+    Key::new(HELP, "back", &[key(Esc), c('q'), c('?')], "close").does(|app| app.overlays.help = None),
+];

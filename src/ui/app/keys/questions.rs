@@ -1,0 +1,53 @@
+//! Keys of the questions that must be answered first.
+
+use crossterm::event::KeyCode;
+
+use super::Row;
+use crate::ui::app::{App, Whose};
+use crate::ui::keymap::{Context, Key, Scope, c, key};
+use crate::ui::msg::Existing;
+
+use KeyCode::{Enter, Esc};
+use Scope::These;
+
+const CONFLICT: Scope = These(&[Context::Conflict]);
+const QUIT: Scope = These(&[Context::Quit]);
+const DELETE: Scope = These(&[Context::Delete]);
+const LEAVE: Scope = These(&[Context::Leave]);
+const MOVED_VIEW: Scope = These(&[Context::MovedView]);
+const WAIT: Scope = These(&[Context::Wait]);
+const OVERWRITE: Scope = These(&[Context::Overwrite]);
+const RECOVER: Scope = These(&[Context::Recover]);
+
+/// The most useful first.
+#[rustfmt::skip]
+pub(super) const KEYS: &[Row] = &[
+    Key::new(CONFLICT, "mine", &[c('m')], "keep mine").does(|app| app.decide(Whose::Mine)),
+    Key::new(CONFLICT, "theirs", &[c('t')], "take the file's").does(|app| app.decide(Whose::Theirs)),
+    Key::new(CONFLICT, "accept", &[key(Enter)], "apply the merge").asks(App::adopt),
+    Key::new(CONFLICT, "all-mine", &[c('M')], "keep mine everywhere").does(|app| app.decide_all(Whose::Mine)),
+    Key::new(CONFLICT, "all-theirs", &[c('T')], "take the file's everywhere").does(|app| app.decide_all(Whose::Theirs)),
+    Key::new(CONFLICT, "back", &[key(Esc)], "decide later").asks(App::put_off),
+    Key::new(QUIT, "accept", &[c('y')], "quit anyway").asks(App::leave_anyway),
+    Key::new(QUIT, "save", &[c('w')], "save and quit").asks(App::save_key),
+    Key::new(QUIT, "write-view", &[c('S')], "write the moved view, save and quit").asks(App::save_view_key).when(App::is_view_unwritten),
+    Key::new(QUIT, "back", &[c('n'), key(Esc)], "stay").asks(App::put_off),
+    Key::new(DELETE, "accept", &[c('y'), c('d')], "delete").does(App::delete_anyway),
+    Key::new(DELETE, "back", &[c('n'), key(Esc)], "keep").does(|app| app.overlays.dialog = None),
+    Key::new(LEAVE, "accept", &[c('y')], "discard unsaved changes").asks(App::leave_anyway),
+    Key::new(LEAVE, "save", &[c('w')], "save first").asks(App::save_key),
+    Key::new(LEAVE, "write-view", &[c('S')], "write the moved view and save first").asks(App::save_view_key).when(App::is_view_unwritten),
+    Key::new(LEAVE, "back", &[c('n'), key(Esc)], "stay").asks(App::put_off),
+    Key::new(MOVED_VIEW, "write-view", &[c('S')], "write the moved view and save first").asks(App::save_view_key),
+    Key::new(MOVED_VIEW, "accept", &[c('y')], "leave without it").asks(App::leave_anyway),
+    Key::new(MOVED_VIEW, "back", &[c('n'), key(Esc)], "stay").asks(App::put_off),
+    Key::new(WAIT, "save", &[c('w')], "wait, then quit").asks(App::save_key),
+    Key::new(WAIT, "accept", &[c('y')], "quit now and cancel it").asks(App::leave_anyway),
+    Key::new(WAIT, "back", &[c('n'), key(Esc)], "stay").asks(App::put_off),
+    Key::new(OVERWRITE, "accept", &[c('y')], "overwrite it").asks(|app| app.answer_taken(Existing::Overwritten)),
+    Key::new(OVERWRITE, "no", &[c('n')], "write a numbered file instead").asks(|app| app.answer_taken(Existing::Numbered)),
+    Key::new(OVERWRITE, "back", &[key(Esc)], "cancel the export").asks(App::put_off),
+    Key::new(RECOVER, "accept", &[c('r')], "restore them").asks(App::restore),
+    Key::new(RECOVER, "no", &[c('d')], "discard them").asks(App::decline),
+    Key::new(RECOVER, "back", &[key(Esc)], "decide next time").asks(App::put_off),
+];

@@ -1,0 +1,187 @@
+//! Keys as data: what each row of keys says of itself to the bindings, the help, the hints, the
+//! palette and the configuration.
+
+use super::chord::{Chord, Keys};
+use super::context::{Context, Mode};
+use super::section::Section;
+
+/// The most hints of a row.
+const HINTS: usize = 4;
+
+/// A row of keys: within its scope, each of them does the same.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Key {
+    /// The name by which a configuration refers to what it does; it never changes. Rows with the same
+    /// name do the same in their contexts.
+    pub name: &'static str,
+    /// Description of what it does.
+    pub words: &'static str,
+    pub(super) scope: Scope,
+    chords: &'static [Chord],
+    pressed: Pressed,
+    hints: [Option<Hint>; HINTS],
+    /// The hint that is never omitted.
+    pub(super) lasting: Option<&'static str>,
+}
+
+/// How the keys of a row are pressed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Pressed {
+    /// Any one of them.
+    Each,
+    /// These two, one after the other.
+    InTurn,
+}
+
+/// The contexts of a row.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Scope {
+    /// Active only in these contexts.
+    These(&'static [Context]),
+    /// All modes but [`Mode::Move`] and [`Mode::Sequence`], the list of errors, and the rays behind a pixel.
+    Everywhere,
+    /// [`Self::Everywhere`], while something is being transformed, and while a scene is being opened.
+    Sceneless,
+    /// All contexts, including pages and questions.
+    Always,
+}
+
+/// A hint in the bottom line.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct Hint {
+    /// The contexts of the row that show it; `None`: all.
+    within: Option<&'static [Context]>,
+    /// The less, the further left.
+    pub(super) rank: u8,
+    /// A word or two. Neighbours with the same words are shown as one.
+    pub(super) words: &'static str,
+}
+
+impl Hint {
+    /// A hint in all contexts of a row.
+    pub(super) const fn new(rank: u8, words: &'static str) -> Self {
+        Self {
+            within: None,
+            rank,
+            words,
+        }
+    }
+}
+
+impl Scope {
+    /// Whether a row of this scope is active in a context.
+    pub(super) fn holds(self, context: Context) -> bool {
+        match self {
+            Self::These(contexts) => contexts.contains(&context),
+            // While something is being transformed or a frame is shown, nothing else may change the
+            // text.
+            Self::Everywhere => {
+                matches!(context, Context::In(mode) if !matches!(mode, Mode::Move | Mode::Sequence))
+                    || matches!(context, Context::Errors | Context::Rays)
+            }
+            Self::Sceneless => {
+                let others = [Context::Opening, Context::Errors, Context::Rays];
+                matches!(context, Context::In(_)) || others.contains(&context)
+            }
+            Self::Always => true,
+        }
+    }
+}
+
+impl Key {
+    /// A row of keys that do the same.
+    pub const fn new(
+        scope: Scope,
+        name: &'static str,
+        chords: &'static [Chord],
+        words: &'static str,
+    ) -> Self {
+        Self {
+            name,
+            words,
+            scope,
+            chords,
+            pressed: Pressed::Each,
+            hints: [None; HINTS],
+            lasting: None,
+        }
+    }
+
+    /// A row of two keys that are pressed one after the other.
+    pub const fn in_turn(
+        scope: Scope,
+        name: &'static str,
+        chords: &'static [Chord; 2],
+        words: &'static str,
+    ) -> Self {
+        Self {
+            pressed: Pressed::InTurn,
+            ..Self::new(scope, name, chords, words)
+        }
+    }
+
+    /// Hints at it in all its contexts.
+    pub const fn hint(self, rank: u8, words: &'static str) -> Self {
+        self.with(Hint::new(rank, words))
+    }
+
+    /// Hints at it in these contexts. A row has at most four hints.
+    pub const fn hint_in(self, within: &'static [Context], rank: u8, words: &'static str) -> Self {
+        self.with(Hint {
+            within: Some(within),
+            ..Hint::new(rank, words)
+        })
+    }
+
+    const fn with(mut self, hint: Hint) -> Self {
+        let mut at = 0;
+        while self.hints[at].is_some() {
+            at += 1;
+        }
+        self.hints[at] = Some(hint);
+        self
+    }
+
+    /// Hints at it wherever there is room for a single hint.
+    pub const fn lasting(mut self, words: &'static str) -> Self {
+        self.lasting = Some(words);
+        self
+    }
+
+    /// Each of the keys.
+    pub fn chords(&self) -> &'static [Chord] {
+        self.chords
+    }
+
+    /// Whether it belongs to a section.
+    pub fn is_in(&self, section: Section) -> bool {
+        match section {
+            Section::Anywhere => self.is_common(),
+            Section::In(context) => self.scope.holds(context),
+        }
+    }
+
+    /// The keys, unless the user changes them.
+    pub fn keys(&self) -> Vec<Keys> {
+        match (self.pressed, self.chords) {
+            (Pressed::InTurn, &[first, second]) => vec![Keys::in_turn(first, second)],
+            (_, chords) => chords.iter().copied().map(Keys::one).collect(),
+        }
+    }
+
+    /// Whether it is active in all modes.
+    pub fn is_common(&self) -> bool {
+        !matches!(self.scope, Scope::These(_))
+    }
+
+    /// Whether it is active in only one context.
+    pub(super) fn is_alone(&self) -> bool {
+        matches!(self.scope, Scope::These([_]))
+    }
+
+    /// Its hint in a context.
+    pub(super) fn hint_of(&self, context: Context) -> Option<Hint> {
+        let mut hints = self.hints.iter().flatten().copied();
+        hints.find(|hint| hint.within.is_none_or(|within| within.contains(&context)))
+    }
+}
