@@ -15,6 +15,20 @@ use crate::ui::msg::{Effect, Target};
 use crate::ui::reading::{News, Opened};
 
 impl App {
+    /// Starts a new scene, in the language of the present one if none is given.
+    pub(super) fn start_new(&mut self, language: Option<Language>) -> Vec<Effect> {
+        let language = language.unwrap_or_else(|| self.document.language());
+        self.leave_for(Next::New(language))
+    }
+
+    /// Opens a file, or reads the scene's own again.
+    pub(super) fn edit_file(&mut self, file: Option<PathBuf>) -> Vec<Effect> {
+        match file {
+            Some(path) => self.open_scene(path),
+            None => self.reread(),
+        }
+    }
+
     /// Opens the scene of a file, for `:e FILE`; the scene's own file is read again.
     pub(super) fn open_scene(&mut self, path: PathBuf) -> Vec<Effect> {
         if self.disk.is_own(&path) {

@@ -88,6 +88,14 @@ impl App {
         free.into_iter().collect()
     }
 
+    /// Compares with something else, or with the reference; SEQUENCE is left first for that.
+    pub(super) fn compare_command(&mut self, words: Option<PathBuf>) -> Vec<Effect> {
+        match words {
+            Some(_) => self.compare_with(words),
+            None => self.outside_sequence(|app| app.compare_with(None)),
+        }
+    }
+
     /// Compares with the reference, or reads another one first, for `:compare`.
     pub(super) fn compare_with(&mut self, words: Option<PathBuf>) -> Vec<Effect> {
         let Some(path) = words else {

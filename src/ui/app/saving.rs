@@ -4,10 +4,46 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use super::messages::About;
-use super::{App, OnDisk};
+use super::{App, OnDisk, PromptKind};
+use crate::language::Language;
 use crate::ui::msg::{Effect, Guard, SaveId, SaveOutcome};
 
+/// Whether the file is written even if it has changed meanwhile.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Force {
+    No,
+    Yes,
+}
+
 impl App {
+    /// Saves the text, to its own file if none is given.
+    pub(super) fn write(&mut self, file: Option<PathBuf>, force: Force) -> Vec<Effect> {
+        let own = self.document.language();
+        if let Some(path) = &file
+            && Language::of_path(path) != Ok(own)
+        {
+            let extension = own.extension();
+            let name = path.with_extension(extension);
+            self.overlays
+                .open_prompt_over(PromptKind::Command, &format!("w {}", name.display()));
+            let shown = path.display();
+            self.overlays
+                .fail(format!("{shown}: the name must end in .{extension}"));
+            // The path may not even name a file.
+            return vec![Effect::CheckPlace(path.clone())];
+        }
+        match (file.or_else(|| self.disk.path.clone()), force) {
+            (Some(path), Force::Yes) => self.save_to(&path, Guard::Anything),
+            (Some(path), Force::No) if !self.disk.is_own(&path) => {
+                if self.refuses_errors(&path) {
+                    return Vec::new();
+                }
+                self.save_to(&path, Guard::Absent)
+            }
+            (_, Force::No | Force::Yes) => self.save(),
+        }
+    }
+
     /// Whether the scene's file may be being written: any save may do so, since a file has many names.
     /// What is read of it meanwhile may be half of that, and is not taken: the end of the last save
     /// requests another reading.

@@ -5,8 +5,8 @@ use super::App;
 use super::written::Written;
 use crate::document::StepName;
 use crate::language::{Node, RenderKey};
-use crate::scene::Rendering;
-use crate::text::Span;
+use crate::scene::{Camera, Rendering, Size};
+use crate::text::{Severity, Span};
 
 /// What to set a render setting to.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -47,6 +47,29 @@ impl SettingOrder {
 }
 
 impl App {
+    /// Writes the size of the picture into the text.
+    pub(super) fn set_size(&mut self, size: Size) {
+        let Some(scene) = self.scene.clone().filter(|_| self.error_count() == 0) else {
+            let words = "cannot set the size while the scene has errors";
+            self.overlays.blame_errors(Severity::Error, words);
+            return;
+        };
+        let camera = Camera {
+            size,
+            ..scene.camera
+        };
+        self.document.end_step();
+        match self.write_camera(&camera, &scene.camera) {
+            Ok(()) => {
+                let Size { width, height } = size;
+                let step = StepName::done(format!("set the size to {width}x{height}"));
+                self.document.name_step(step);
+            }
+            Err(refused) => self.overlays.fail(refused.message),
+        }
+        self.document.end_step();
+    }
+
     /// Carries out an order.
     pub(super) fn set_rendering(&mut self, order: &SettingOrder) {
         let value = match &order.to {

@@ -148,6 +148,14 @@ impl App {
         self.edit_saved_view(&name, None, (step, done));
     }
 
+    /// Writes the working view into the text, as a saved view if a name is given.
+    pub(super) fn save_view_named(&mut self, name: Option<String>) {
+        match name {
+            Some(name) => self.save_view_as(&name),
+            None => self.save_view(),
+        }
+    }
+
     /// Saves the view under a name, as an ordinary edit.
     pub(super) fn save_view_as(&mut self, name: &str) {
         let name = match view_name(name) {

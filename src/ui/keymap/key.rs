@@ -121,11 +121,13 @@ impl Key {
     }
 
     /// Hints at it in all its contexts.
+    #[must_use]
     pub const fn hint(self, rank: u8, words: &'static str) -> Self {
         self.with(Hint::new(rank, words))
     }
 
     /// Hints at it in these contexts. A row has at most four hints.
+    #[must_use]
     pub const fn hint_in(self, within: &'static [Context], rank: u8, words: &'static str) -> Self {
         self.with(Hint {
             within: Some(within),
@@ -143,6 +145,7 @@ impl Key {
     }
 
     /// Hints at it wherever there is room for a single hint.
+    #[must_use]
     pub const fn lasting(mut self, words: &'static str) -> Self {
         self.lasting = Some(words);
         self

@@ -1,0 +1,293 @@
+//! The command line after `:`: each command is one row, from which the parser, the help, the palette
+//! and the README come, and which knows what the command does.
+
+mod rows;
+
+use std::path::PathBuf;
+
+use super::App;
+use crate::text::nearest_word;
+use crate::ui::keymap::{self, HelpLine, Mode};
+use crate::ui::msg::Effect;
+use rows::ROWS;
+
+/// A command: one row.
+struct CommandRow {
+    /// One or two words, and alternative spellings.
+    names: &'static [&'static str],
+    arguments: Arguments,
+    /// Description for the help.
+    words: &'static str,
+    /// The name of the keys that do the same.
+    key: Option<&'static str>,
+    runs: Runs,
+}
+
+/// The arguments of a command, and what it does with them.
+enum Arguments {
+    None(fn() -> Run),
+    File(fn(Option<PathBuf>) -> Run),
+    Name(fn(Option<String>) -> Run),
+    /// How they are spelled, and what reads them; the error says what is expected.
+    Said(&'static str, fn(&str) -> Result<Run, String>),
+    /// The same, of a command whose arguments begin with a file name.
+    FileAnd(&'static str, fn(&str) -> Result<Run, String>),
+}
+
+/// When a command runs.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Runs {
+    /// Not while something is transformed or a scene is being opened, and outside of SEQUENCE.
+    OnText,
+    /// In SEQUENCE as well.
+    OnTrack,
+    /// While a scene is being opened as well.
+    WhileOpening,
+    /// Always.
+    Always,
+}
+
+/// What a command line does.
+struct Run(Box<Step>);
+
+type Step = dyn FnOnce(&mut App) -> Vec<Effect>;
+
+impl Run {
+    fn does(step: impl FnOnce(&mut App) + 'static) -> Self {
+        Self::asks(|app| {
+            step(app);
+            Vec::new()
+        })
+    }
+
+    fn asks(step: impl FnOnce(&mut App) -> Vec<Effect> + 'static) -> Self {
+        Self(Box::new(step))
+    }
+}
+
+/// Minimum width of a column of the help page if there are several.
+const HELP_COLUMN: u16 = 56;
+/// Maximum number of columns of the help page.
+const MOST_COLUMNS: usize = 3;
+
+/// A command as the palette describes it.
+pub(super) struct Described {
+    pub(super) name: &'static str,
+    pub(super) names: &'static [&'static str],
+    pub(super) usage: String,
+    pub(super) words: &'static str,
+    /// The name of the keys that do the same.
+    pub(super) key: Option<&'static str>,
+    /// Whether its arguments begin with a file name.
+    pub(super) takes_file: bool,
+}
+
+/// All commands, in the order of the help page.
+pub(super) fn all_described() -> impl Iterator<Item = Described> {
+    ROWS.iter().map(CommandRow::described)
+}
+
+/// The command with exactly this name.
+pub(super) fn described_as(name: &str) -> Option<Described> {
+    let mut rows = ROWS.iter();
+    let row = rows.find(|row| row.names.contains(&name));
+    row.map(CommandRow::described)
+}
+
+/// The command whose name a line begins with, followed by a blank.
+pub(super) fn described_in(line: &str) -> Option<Described> {
+    let begins = |name: &&str| {
+        line.strip_prefix(*name)
+            .is_some_and(|rest| rest.starts_with(' '))
+    };
+    let rows = ROWS.iter().filter(|row| row.names.iter().any(begins));
+    let row = rows.max_by_key(|row| row.names[0].len());
+    row.map(CommandRow::described)
+}
+
+/// Whether a line can be run.
+pub(super) fn is_command(line: &str) -> bool {
+    parse(line).is_ok()
+}
+
+/// Whether the first word of a line is that of a command, whatever follows.
+pub(super) fn begins_command(line: &str) -> bool {
+    let first = |words: &str| words.split_whitespace().next().map(str::to_owned);
+    let wanted = first(line);
+    let mut names = ROWS.iter().flat_map(|row| row.names);
+    names.any(|name| first(name) == wanted)
+}
+
+impl CommandRow {
+    const fn new(
+        names: &'static [&'static str],
+        arguments: Arguments,
+        words: &'static str,
+    ) -> Self {
+        Self {
+            names,
+            arguments,
+            words,
+            key: None,
+            runs: Runs::OnText,
+        }
+    }
+
+    /// Keys with this name do the same.
+    const fn key(mut self, name: &'static str) -> Self {
+        self.key = Some(name);
+        self
+    }
+
+    const fn runs(mut self, runs: Runs) -> Self {
+        self.runs = runs;
+        self
+    }
+
+    fn described(&self) -> Described {
+        Described {
+            name: self.names[0],
+            names: self.names,
+            usage: self.usage(),
+            words: self.words,
+            key: self.key,
+            takes_file: matches!(self.arguments, Arguments::File(_) | Arguments::FileAnd(..)),
+        }
+    }
+
+    /// The spelling with arguments: `:size WxH`.
+    fn usage(&self) -> String {
+        let name = self.names[0];
+        let arguments = match self.arguments {
+            Arguments::None(_) => "",
+            Arguments::File(_) => " [FILE]",
+            Arguments::Name(_) => " [NAME]",
+            Arguments::Said(usage, _) | Arguments::FileAnd(usage, _) => usage,
+        };
+        format!(":{name}{arguments}")
+    }
+
+    /// Parses the arguments; the error says what is expected.
+    fn parse(&self, rest: &str) -> Result<Run, String> {
+        let name = self.names[0];
+        match self.arguments {
+            Arguments::None(run) if rest.is_empty() => Ok(run()),
+            Arguments::None(_) => Err(format!("{name} takes no arguments")),
+            Arguments::File(run) => Ok(run((!rest.is_empty()).then(|| PathBuf::from(rest)))),
+            Arguments::Name(run) => Ok(run((!rest.is_empty()).then(|| rest.to_owned()))),
+            Arguments::Said(_, parse) | Arguments::FileAnd(_, parse) => parse(rest),
+        }
+    }
+}
+
+/// Parses a command line: its row, and what it does. The error says what is expected.
+fn parse(line: &str) -> Result<(&'static CommandRow, Run), String> {
+    let line = line.trim();
+    let (name, rest) = line.split_once(char::is_whitespace).unwrap_or((line, ""));
+    let rest = rest.trim();
+    let called = |name: &str| ROWS.iter().find(|row| row.names.contains(&name));
+    let (second, others) = rest.split_once(char::is_whitespace).unwrap_or((rest, ""));
+    if let Some(row) = called(&format!("{name} {second}")) {
+        return Ok((row, row.parse(others.trim())?));
+    }
+    if let Some(row) = called(name) {
+        return Ok((row, row.parse(rest)?));
+    }
+    let names = ROWS.iter().map(|row| row.names[0]);
+    let longer = names.filter(|longer| longer.split(' ').next() == Some(name));
+    match longer.collect::<Vec<_>>().as_slice() {
+        [] => Err(unknown(name)),
+        longer => Err(format!("{}?", longer.join(", or "))),
+    }
+}
+
+fn unknown(name: &str) -> String {
+    let names: Vec<_> = ROWS.iter().map(|row| row.names[0]).collect();
+    match nearest_word(name, names.iter().copied()) {
+        Some(nearest) => format!("unknown command `{name}`: did you mean {nearest}?"),
+        None => format!(
+            "unknown command `{name}`; the commands are {}",
+            names.join(", ")
+        ),
+    }
+}
+
+impl App {
+    /// The lines of the help page.
+    pub fn help_lines(&self) -> Vec<HelpLine> {
+        let help = self.overlays.help.as_ref();
+        let search = help.map_or("", |help| help.search.value());
+        let commands = ROWS.iter().map(|row| (row.usage(), row.words));
+        self.keymap.help(search, self.mode, commands.collect())
+    }
+
+    /// The columns of the help page on a screen of this width.
+    pub fn help_columns(&self, width: u16) -> Vec<Vec<HelpLine>> {
+        let count = usize::from(width.saturating_sub(2) / HELP_COLUMN).clamp(1, MOST_COLUMNS);
+        keymap::in_columns(self.help_lines(), count)
+    }
+
+    /// Runs a command line.
+    pub(super) fn command(&mut self, line: &str) -> Vec<Effect> {
+        if line.trim().is_empty() {
+            return Vec::new();
+        }
+        match parse(line) {
+            Ok((row, run)) => self.run(row.runs, run),
+            Err(reason) => {
+                self.overlays.fail(reason);
+                Vec::new()
+            }
+        }
+    }
+
+    fn run(&mut self, runs: Runs, Run(step): Run) -> Vec<Effect> {
+        if runs != Runs::Always && self.mode == Mode::Move {
+            self.warn_of_transform();
+            return Vec::new();
+        }
+        if matches!(runs, Runs::OnText | Runs::OnTrack) && self.disk.is_opening() {
+            self.warn_of_opening();
+            return Vec::new();
+        }
+        match runs {
+            Runs::OnText => self.outside_sequence(step),
+            Runs::OnTrack | Runs::WhileOpening | Runs::Always => step(self),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_command_is_in_the_readme() {
+        let readme = include_str!("../../../../README.md");
+        let words = |text: &str| text.split_whitespace().collect::<Vec<_>>().join(" ");
+        let forms: Vec<_> = ROWS
+            .iter()
+            .map(|row| format!("`{}`", row.usage()))
+            .collect();
+        let list = format!("Commands: {}. ", forms.join(", "));
+        assert!(words(readme).contains(&list), "{list}");
+    }
+
+    #[test]
+    fn commands_are_found_by_every_name() {
+        for (index, row) in ROWS.iter().enumerate() {
+            for name in row.names {
+                let argument = match row.arguments {
+                    Arguments::Said(" WxH", _) => " 8x6",
+                    Arguments::Said(" STOPS", _) => " -1.5",
+                    Arguments::Said(" KEY [VALUE|default]", _) => " depth",
+                    Arguments::Said(" MEANS", _) => " half",
+                    _ => "",
+                };
+                assert!(parse(&format!(" {name}{argument} ")).is_ok(), "{name}");
+                let mut others = ROWS[..index].iter().flat_map(|other| other.names);
+                assert!(others.all(|other| other != name), "{name}");
+            }
+        }
+    }
+}
