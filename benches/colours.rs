@@ -22,7 +22,7 @@ use std::time::Instant;
 
 use halflight::render::{Frame, NO_OBJECT};
 use halflight::scene::Size;
-use halflight::ui::app::Shown;
+use halflight::ui::app::CellImage;
 use halflight::ui::msg::{Msg, Target};
 use halflight::ui::terminal::{AnsiBackend, ColourDepth};
 use halflight::ui::view::{self, Inks};
@@ -79,7 +79,7 @@ fn write(path: &Path, width: u32, pixels: &[[u8; 3]]) {
 
 /// Returns a picture, the colours it is drawn in, 2×2 per cell, and the milliseconds that the first
 /// and later drawings take.
-fn ours(scene: &str, depth: ColourDepth) -> (Shown, Vec<[u8; 3]>, [f64; 2]) {
+fn ours(scene: &str, depth: ColourDepth) -> (CellImage, Vec<[u8; 3]>, [f64; 2]) {
     let (mut app, _) = encoding::opened(include_str!("../scenes/default.ray"), TERMINAL);
     let (cells, size) = app.raster().expect("the picture has cells");
     let picture = read(scene).resampled(size);
@@ -88,8 +88,8 @@ fn ours(scene: &str, depth: ColourDepth) -> (Shown, Vec<[u8; 3]>, [f64; 2]) {
         ..Frame::drawn(size, picture.pixels.clone())
     };
     app.update(Msg::Frame(Target::Preview, Arc::new(frame)));
-    let sight = app.sight().expect("the picture has cells");
-    app.picture_mut().advance(&sight, &[], usize::MAX);
+    let frame_window = app.frame_window().expect("the picture has cells");
+    app.picture_mut().advance(&frame_window, &[], usize::MAX);
     let backend = AnsiBackend::new(depth, ratatui::layout::Size::from(TERMINAL));
     let Ok(mut terminal) = ratatui::Terminal::new(backend);
     let mut inks = Inks::for_depth(depth);
@@ -112,7 +112,7 @@ fn ours(scene: &str, depth: ColourDepth) -> (Shown, Vec<[u8; 3]>, [f64; 2]) {
 }
 
 /// The colours of a picture drawn by chafa, if it is installed.
-fn chafa(picture: &Shown, colours: &str) -> Option<Vec<[u8; 3]>> {
+fn chafa(picture: &CellImage, colours: &str) -> Option<Vec<[u8; 3]>> {
     let Size { width, height } = picture.size;
     let path = Path::new(env!("CARGO_TARGET_TMPDIR")).join("colours.ppm");
     write(&path, width, &picture.pixels);
@@ -130,7 +130,7 @@ fn chafa(picture: &Shown, colours: &str) -> Option<Vec<[u8; 3]>> {
 }
 
 /// Reads the rendered picture of a scene.
-fn read(scene: &str) -> Shown {
+fn read(scene: &str) -> CellImage {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("scenes/{scene}.bmp"));
     let bytes = fs::read(path).expect("the scene has a picture");
     let number = |at: usize| {
@@ -143,7 +143,7 @@ fn read(scene: &str) -> Shown {
     // Rows are stored bottom-up, pixels as BGR.
     let pixels = bytes[start..].chunks(stride).take(height as usize).rev();
     let pixels = pixels.flat_map(|row| row.chunks_exact(3).take(width as usize));
-    Shown {
+    CellImage {
         size,
         pixels: pixels.map(|pixel| [pixel[2], pixel[1], pixel[0]]).collect(),
         objects: vec![NO_OBJECT; size.pixels()],
@@ -209,13 +209,13 @@ fn between(behind: [u8; 3], front: [u8; 3], share: f64) -> [u8; 3] {
 }
 
 /// Converts a picture to greys of the same luminance.
-fn greys(picture: &Shown) -> Shown {
+fn greys(picture: &CellImage) -> CellImage {
     let grey = |&pixel: &[u8; 3]| {
         let [red, green, blue] = light(pixel);
         let luminance = 0.2126 * red + 0.7152 * green + 0.0722 * blue;
         between([0; 3], [255; 3], luminance)
     };
-    Shown {
+    CellImage {
         pixels: picture.pixels.iter().map(grey).collect(),
         ..picture.clone()
     }
@@ -251,7 +251,7 @@ fn of_palette(index: u8) -> [u8; 3] {
 }
 
 /// The errors of pixels and of 2×2 means, and the step in flat areas.
-fn errors(picture: &Shown, quarters: &[[u8; 3]]) -> [f64; 3] {
+fn errors(picture: &CellImage, quarters: &[[u8; 3]]) -> [f64; 3] {
     let (width, height) = (picture.size.width as usize, picture.size.height as usize);
     let reference = |x: usize, y: usize| picture.pixels[y * width + x];
     let shown = |x: usize, y: usize| {

@@ -46,7 +46,8 @@
 //! | [`config`] | the user's configuration: reads, checks and prints it | what the settings do |
 //! | [`cli`] | arguments and exit codes | how the work is done |
 //!
-//! `tests/rooms` enforces the dependencies between rooms and forbids cycles between sibling files.
+//! `tests/rooms` enforces the dependencies between rooms, forbids cycles between sibling files, and
+//! holds the ceilings of files, folders and rooms.
 //!
 //! # Invariants
 //!

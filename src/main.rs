@@ -14,7 +14,7 @@ use halflight::{batch, config, ui};
 static ALLOCATOR: Allocator = Allocator;
 
 fn main() -> ExitCode {
-    memory::heap::share();
+    memory::malloc::share();
     #[cfg(unix)]
     survive_file_size_limit();
     ExitCode::from(match cli::parse(std::env::args_os()) {

@@ -103,8 +103,8 @@ fn show(app: &mut App, frames: &[Arc<Frame>], turns: usize) -> Encoded {
         sent.clear();
         let begun = Instant::now();
         app.update(Msg::Frame(Target::Preview, frame));
-        let sight = app.sight().expect("the picture has cells");
-        app.picture_mut().advance(&sight, &[], usize::MAX);
+        let frame_window = app.frame_window().expect("the picture has cells");
+        app.picture_mut().advance(&frame_window, &[], usize::MAX);
         let Ok(_) = terminal.draw(|frame| {
             view::draw(app, &mut inks, frame);
         });

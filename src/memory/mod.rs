@@ -8,7 +8,7 @@
 mod available;
 #[cfg(target_os = "linux")]
 mod cgroup;
-pub mod heap;
+pub mod malloc;
 mod pages;
 #[cfg(target_os = "linux")]
 mod proc;

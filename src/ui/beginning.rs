@@ -7,7 +7,7 @@ use super::app::App;
 use super::ending::Error;
 use super::event::{Event, Work};
 use super::msg::{Effect, Msg};
-use super::reader::Reader;
+use super::scene_loader::SceneLoader;
 
 /// Time for which the terminal is left alone while the scene is read. Most files are read by then
 /// and appear on the first screen; otherwise the first screen shows which file is being opened.
@@ -18,7 +18,7 @@ pub(super) struct Beginning {
     /// State of the interface.
     pub(super) app: App,
     /// The thread that reads the scene.
-    pub(super) reader: Reader,
+    pub(super) reader: SceneLoader,
     /// Effects to perform once there is a terminal.
     pub(super) effects: Vec<Effect>,
     /// The number of pieces of work under way.
@@ -32,7 +32,7 @@ impl Beginning {
     pub(super) fn new(
         app: App,
         effects: Vec<Effect>,
-        reader: Reader,
+        reader: SceneLoader,
         (sender, inbox): (Sender<Event>, &Receiver<Event>),
     ) -> Result<Self, Error> {
         let mut beginning = Self {

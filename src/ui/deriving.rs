@@ -6,8 +6,8 @@ use std::sync::Arc;
 use std::sync::mpsc::Receiver;
 
 use super::event::Work;
+use super::history_scene::{HistoryScene, HistoryText, NoPicture};
 use super::msg::Msg;
-use super::past::{NoPicture, PastScene, PastText};
 use super::service::{Ended, Service};
 use crate::assets::{Assets, Wanted};
 use crate::language;
@@ -15,7 +15,7 @@ use crate::language::Source;
 use crate::memory::OutOfMemory;
 
 /// Handle of the thread. Nothing waits for its end, as it has no work that could be lost.
-pub(super) struct Deriver(Service<(PastText, Work)>);
+pub(super) struct Deriver(Service<(HistoryText, Work)>);
 
 impl Deriver {
     /// Starts the thread, which may read files of scenes in `folders` and calls `send`.
@@ -31,12 +31,12 @@ impl Deriver {
     }
 
     /// Derives a scene; of several pending requests only the last is carried out.
-    pub(super) fn request(&self, text: PastText, work: Work) -> Result<(), Ended> {
+    pub(super) fn request(&self, text: HistoryText, work: Work) -> Result<(), Ended> {
         self.0.request((text, work))
     }
 }
 
-fn follow(inbox: &Receiver<(PastText, Work)>, folders: &[PathBuf], send: impl Fn(Msg)) {
+fn follow(inbox: &Receiver<(HistoryText, Work)>, folders: &[PathBuf], send: impl Fn(Msg)) {
     while let Ok(first) = inbox.recv() {
         let (text, work) = inbox.try_iter().last().unwrap_or(first);
         // Files of other texts are rarely named twice, and may be large.
@@ -49,9 +49,9 @@ fn follow(inbox: &Receiver<(PastText, Work)>, folders: &[PathBuf], send: impl Fn
 
 /// The scene of a text of the history. Files that the present text names as well are not read again.
 fn derive(
-    past: &PastText,
+    past: &HistoryText,
     assets: &mut Assets,
-) -> Result<Result<PastScene, NoPicture>, OutOfMemory> {
+) -> Result<Result<HistoryScene, NoPicture>, OutOfMemory> {
     let language = past.timeline.language;
     let text = past.timeline.text(past.at);
     language::fits(language, &text, 0)?;
@@ -78,7 +78,7 @@ fn derive(
         lowered = source.lower(&files.meshes)?;
     }
     Ok(match lowered.scene {
-        Some(scene) => Ok(PastScene {
+        Some(scene) => Ok(HistoryScene {
             scene: Arc::new(scene),
             images: files.images,
         }),
@@ -92,10 +92,10 @@ mod tests {
     use crate::document::Document;
     use crate::language::{Language, Node};
     use crate::text::{Edit, Span};
-    use crate::ui::past::KnownFiles;
+    use crate::ui::history_scene::KnownFiles;
 
-    fn derived(document: &Document, at: usize) -> Result<PastScene, NoPicture> {
-        let past = PastText {
+    fn derived(document: &Document, at: usize) -> Result<HistoryScene, NoPicture> {
+        let past = HistoryText {
             ticket: 1,
             timeline: document.timeline(),
             at,

@@ -18,16 +18,16 @@ use super::comparer::{Figures, References};
 use super::continuing::{Keeping, TraceEnd, Traced};
 use super::deriving::Deriver;
 use super::editor;
-use super::ending::Patience;
+use super::ending::ShutdownDeadlines;
 use super::event::{Event, Work, sending};
 use super::explaining::Explainer;
+use super::history_scene::NoPicture;
 use super::msg::{Destination, Effect, ExportId, Msg, Origin, SaveOutcome, Target, Timer};
 use super::options::Options;
-use super::past::NoPicture;
-use super::reader::Reader;
 use super::recent::Recent;
 use super::recovery::{self, Edits, End, Keeper, Outcome, Request};
 use super::reel::Reel;
+use super::scene_loader::SceneLoader;
 use super::screen::Screen;
 use super::service::{Ended, Service};
 use super::traces::Traces;
@@ -48,7 +48,7 @@ pub(crate) struct Runtime {
     // watcher end, which may take a moment.
     screen: Screen,
     sender: Sender<Event>,
-    reader: Reader,
+    reader: SceneLoader,
     /// Frees unneeded values: for a large scene this takes longer than a key may wait.
     freeing: Service<Arc<dyn Any + Send + Sync>>,
     writers: Writers,
@@ -88,7 +88,7 @@ impl Runtime {
     /// Takes over the terminal and starts everything that sends messages.
     pub(crate) fn new(
         options: &Options,
-        reader: Reader,
+        reader: SceneLoader,
         sender: Sender<Event>,
     ) -> io::Result<Self> {
         Ok(Self {
@@ -167,17 +167,17 @@ impl Runtime {
     /// its origin, unless the text has errors.
     pub(crate) fn close(
         self,
-        patience: Patience,
+        deadlines: ShutdownDeadlines,
         now: Option<(Arc<Scene>, Origin)>,
     ) -> (End, TraceEnd) {
         let begun = Instant::now();
-        let files = begun + patience.files;
+        let files = begun + deadlines.files;
         let is_kept = self.screen.is_terminal();
         let traced = self.traced.filter(|_| is_kept);
         let keeping = traced
             .zip(self.trace)
-            .map(|(traced, running)| traced.keep(running.renderer, now, begun + patience.trace));
-        self.screen.close(begun + patience.terminal);
+            .map(|(traced, running)| traced.keep(running.renderer, now, begun + deadlines.trace));
+        self.screen.close(begun + deadlines.terminal);
         drop(self.filming);
         let end = self.keeper.finish(files);
         self.writers.finish(files);
@@ -202,7 +202,7 @@ impl Runtime {
     /// Takes the timers that are due, as messages.
     pub(crate) fn due(&mut self, now: Instant) -> Vec<Msg> {
         if self.trim_at.take_if(|at| *at <= now).is_some() {
-            memory::heap::trim();
+            memory::malloc::trim();
         }
         self.timers
             .extract_if(.., |&mut (at, _)| at <= now)

@@ -28,7 +28,7 @@ pub enum Ending {
 
 /// The longest times to wait at the end.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Patience {
+pub(super) struct ShutdownDeadlines {
     /// For restoring the terminal.
     pub(super) terminal: Duration,
     /// For files being written.
@@ -42,13 +42,13 @@ impl Ending {
     /// not wait a second for a terminal that takes no output; a file being saved gets longer. A
     /// terminal that hung up is not waited for. A trace took up to hours and has up to a gigabyte;
     /// whoever sends a signal may soon end the process in another way.
-    pub(super) fn patience(self) -> Patience {
+    pub(super) fn deadlines(self) -> ShutdownDeadlines {
         let (terminal, files, trace) = match self {
             Self::Quit | Self::Interrupted => (700, 2000, 8000),
             Self::Terminated { .. } => (400, 700, 3000),
             Self::HungUp => (100, 700, 8000),
         };
-        Patience {
+        ShutdownDeadlines {
             terminal: Duration::from_millis(terminal),
             files: Duration::from_millis(files),
             trace: Duration::from_millis(trace),

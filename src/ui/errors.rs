@@ -8,8 +8,8 @@ use ratatui::layout::Rect;
 use ratatui::style::Style;
 use unicode_width::{UnicodeWidthChar, UnicodeWidthStr};
 
-use super::fit::{shorten, visible, wrap};
 use super::layout::split_bottom;
+use super::text_width::{shorten, visible, wrap};
 use super::theme;
 use crate::text::{Diagnostic, Findings, Position, Shown, Span, line_end, line_start};
 

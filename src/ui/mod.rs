@@ -15,7 +15,6 @@ pub mod arrange;
 mod assets;
 mod beginning;
 mod comparer;
-mod console;
 mod continuing;
 mod deriving;
 pub mod doctor;
@@ -26,28 +25,29 @@ mod errors;
 mod event;
 mod explaining;
 mod filming;
-pub mod filmstrip;
-mod fit;
+pub mod history_layout;
+pub mod history_scene;
 pub mod keymap;
 pub mod layout;
 pub mod listing;
 pub mod msg;
 mod options;
-pub mod past;
 mod pixels;
-mod reader;
-pub mod reading;
 mod recent;
 pub mod recovery;
 pub mod reel;
 pub mod reference;
+mod scene_loader;
+pub mod scene_reading;
+mod text_width;
+mod tty_session;
 
+mod dope_sheet;
 mod revision;
 mod screen;
 mod script;
 mod service;
 mod session;
-mod sheet;
 mod snapshot;
 mod state;
 mod target;
@@ -72,7 +72,7 @@ pub use ending::{Ending, Error};
 use keymap::Keymap;
 pub use options::{Options, Rehearsal};
 pub use pixels::Pixels;
-use reading::Opened;
+use scene_reading::Opened;
 use script::Script;
 pub use script::parse_screen;
 pub use snapshot::Format as FrameFormat;
@@ -91,7 +91,7 @@ const NEEDED: u64 = 40 << 20;
 /// Runs the interface until the user leaves it. Errors that can be detected without reading the
 /// scene file are returned before the terminal is touched; the file is read on another thread.
 pub fn run(options: &Options) -> Result<Ending, Error> {
-    memory::heap::map_large();
+    memory::malloc::map_large();
     memory::check_address_space(Need {
         what: "the interface and a small picture".to_owned(),
         bytes: NEEDED,
@@ -178,7 +178,7 @@ fn find_scene(named: Option<&Path>) -> Result<(Option<PathBuf>, Language, Openin
     };
     let is_missing = matches!(error, ReadError::NotFound { .. });
     let missing = is_missing
-        .then(|| reader::missing(path, language))
+        .then(|| scene_loader::missing(path, language))
         .flatten();
     let text = match (missing, named) {
         (Some(Opened::Kept(text)), _) => OpeningText::Kept(text),

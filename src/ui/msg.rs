@@ -10,11 +10,11 @@ use std::time::Duration;
 use crossterm::event::{KeyEvent, MouseEvent};
 
 use super::arrange::PanelSizes;
-use super::past::{NoPicture, PastScene, PastText};
-use super::reading::{Baseline, Opened, Reading};
+use super::history_scene::{HistoryScene, HistoryText, NoPicture};
 use super::recovery::{Claim, Found, Sought};
 use super::reel::{Reel, ReelProgress};
 use super::reference::{Pair, ReferenceId, ReferenceRead, ReferenceSource};
+use super::scene_reading::{Baseline, Opened, Reading};
 use super::terminal::{ColourDepth, Mouse};
 use crate::assets::{Loaded, Wanted};
 use crate::compare::Comparison;
@@ -98,7 +98,7 @@ pub enum Msg {
     /// The result of [`Effect::Recall`], if an earlier run left something.
     Recalled(Recalled),
     /// The result of [`Effect::Derive`], by its ticket.
-    Derived(u64, Result<PastScene, NoPicture>),
+    Derived(u64, Result<HistoryScene, NoPicture>),
     /// The result of [`Effect::ReadAssets`].
     AssetsRead(Wanted, Loaded),
     /// A file that the scene names may have changed.
@@ -233,7 +233,7 @@ pub enum Effect {
     /// Continues a paused picture.
     Resume(Target),
     /// Derives the scene of a text of the history, reported by [`Msg::Derived`].
-    Derive(Box<PastText>),
+    Derive(Box<HistoryText>),
     /// Writes a frame to a picture file, reported by [`Msg::Exported`] or
     /// [`Msg::Taken`].
     WriteImage(ExportId, Arc<Frame>, Destination),

@@ -9,17 +9,17 @@ use ratatui::backend::TestBackend;
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 
-use super::console::Console;
 use super::event::Event;
 use super::msg::Msg;
 use super::options::Options;
 use super::terminal::query::Question;
 use super::terminal::{ColourDepth, Means, Mouse, Pixmap};
+use super::tty_session::TtySession;
 
 /// The screen of a session.
 pub(super) enum Screen {
     /// The terminal of the process.
-    Console(Box<Console>),
+    TtySession(Box<TtySession>),
     /// Cells in memory, which nobody watches: everything drawn is taken at once.
     Page(ratatui::Terminal<TestBackend>),
 }
@@ -32,26 +32,26 @@ impl Screen {
             let Ok(page) = ratatui::Terminal::new(TestBackend::new(columns, rows));
             return Ok(Self::Page(page));
         }
-        let console = Console::enter(options, sender)?;
-        Ok(Self::Console(Box::new(console)))
+        let console = TtySession::enter(options, sender)?;
+        Ok(Self::TtySession(Box::new(console)))
     }
 
     /// Whether everything drawn was taken, so that the next frame may be drawn.
     pub(super) fn is_clear(&self) -> bool {
         match self {
-            Self::Console(console) => console.is_clear(),
+            Self::TtySession(console) => console.is_clear(),
             Self::Page(_) => true,
         }
     }
 
     /// Whether it is a terminal, lent or not.
     pub(super) fn is_terminal(&self) -> bool {
-        matches!(self, Self::Console(_))
+        matches!(self, Self::TtySession(_))
     }
 
     /// Whether there is a terminal that is not lent to another program.
     pub(super) fn has_terminal(&self) -> bool {
-        matches!(self, Self::Console(console) if console.is_ours())
+        matches!(self, Self::TtySession(console) if console.is_ours())
     }
 
     /// Draws a frame; returns the number of bytes sent to the terminal. `paint` returns the cells
@@ -62,7 +62,7 @@ impl Screen {
         mut paint: impl FnMut(&mut Frame) -> Option<Rect>,
     ) -> io::Result<usize> {
         match self {
-            Self::Console(console) => console.terminal().draw(pixmap, paint),
+            Self::TtySession(console) => console.terminal().draw(pixmap, paint),
             Self::Page(page) => {
                 let Ok(_) = page.draw(|frame| {
                     paint(frame);
@@ -75,7 +75,7 @@ impl Screen {
     /// The cells on a page; `None` on a terminal.
     pub(super) fn cells(&self) -> Option<&Buffer> {
         match self {
-            Self::Console(_) => None,
+            Self::TtySession(_) => None,
             Self::Page(page) => Some(page.backend().buffer()),
         }
     }
@@ -89,13 +89,13 @@ impl Screen {
 
     /// The next signal that has arrived.
     pub(super) fn next_signal(&self) -> Option<Msg> {
-        self.console().and_then(Console::next_signal)
+        self.console().and_then(TtySession::next_signal)
     }
 
     /// Lets the terminal keep keys apart from the beginnings of sequences.
     pub(super) fn keep_keys_apart(&mut self) -> io::Result<()> {
         match self {
-            Self::Console(console) => console.terminal().keep_keys_apart(),
+            Self::TtySession(console) => console.terminal().keep_keys_apart(),
             Self::Page(_) => Ok(()),
         }
     }
@@ -108,14 +108,14 @@ impl Screen {
 
     /// Sets how pictures are sent from now on; `None` sends none.
     pub(super) fn set_means(&mut self, means: Option<Means>) {
-        if let Self::Console(console) = self {
+        if let Self::TtySession(console) = self {
             console.terminal().set_means(means);
         }
     }
 
     /// Requests a status reply, which arrives after everything sent so far.
     pub(super) fn ask_status(&self) -> io::Result<()> {
-        self.console().map_or(Ok(()), Console::ask_status)
+        self.console().map_or(Ok(()), TtySession::ask_status)
     }
 
     /// Stops expecting answers to queries.
@@ -134,14 +134,14 @@ impl Screen {
 
     /// Uses this colour depth from now on.
     pub(super) fn recolour(&mut self, depth: ColourDepth) {
-        if let Self::Console(console) = self {
+        if let Self::TtySession(console) = self {
             console.terminal().recolour(depth);
         }
     }
 
     /// Draws the next frame in full.
     pub(super) fn repaint(&mut self) {
-        if let Self::Console(console) = self {
+        if let Self::TtySession(console) = self {
             console.terminal().repaint();
         }
     }
@@ -149,7 +149,7 @@ impl Screen {
     /// Takes the mouse or leaves it to the terminal.
     pub(super) fn set_mouse(&mut self, mouse: Mouse) -> io::Result<()> {
         match self {
-            Self::Console(console) => console.terminal().set_mouse(mouse),
+            Self::TtySession(console) => console.terminal().set_mouse(mouse),
             Self::Page(_) => Ok(()),
         }
     }
@@ -157,14 +157,14 @@ impl Screen {
     /// Offers text to the terminal's clipboard.
     pub(super) fn copy(&mut self, text: &str) -> io::Result<()> {
         match self {
-            Self::Console(console) => console.terminal().copy(text),
+            Self::TtySession(console) => console.terminal().copy(text),
             Self::Page(_) => Ok(()),
         }
     }
 
     /// Records whether the current unsaved edits are stored for recovery.
     pub(super) fn note_kept_edits(&mut self, are_kept: bool) {
-        if let Self::Console(console) = self {
+        if let Self::TtySession(console) = self {
             console.terminal().note_kept_edits(are_kept);
         }
     }
@@ -172,7 +172,7 @@ impl Screen {
     /// Returns the panics of other threads since the last call.
     pub(super) fn take_panics(&mut self) -> Vec<String> {
         match self {
-            Self::Console(console) => console.terminal().take_panics(),
+            Self::TtySession(console) => console.terminal().take_panics(),
             Self::Page(_) => Vec::new(),
         }
     }
@@ -180,7 +180,7 @@ impl Screen {
     /// Runs another program on the terminal; the inner result is the program's.
     pub(super) fn lend<T>(&mut self, run: impl FnOnce() -> T) -> io::Result<T> {
         match self {
-            Self::Console(console) => console.lend(run),
+            Self::TtySession(console) => console.lend(run),
             Self::Page(_) => Err(no_terminal()),
         }
     }
@@ -188,7 +188,7 @@ impl Screen {
     /// Takes the terminal back from another program.
     pub(super) fn take(&mut self) -> io::Result<()> {
         match self {
-            Self::Console(console) => console.take(),
+            Self::TtySession(console) => console.take(),
             Self::Page(_) => Ok(()),
         }
     }
@@ -196,21 +196,21 @@ impl Screen {
     /// Stops the process until it is continued.
     pub(super) fn suspend(&mut self) -> io::Result<()> {
         match self {
-            Self::Console(console) => console.suspend(),
+            Self::TtySession(console) => console.suspend(),
             Self::Page(_) => Err(no_terminal()),
         }
     }
 
     /// Restores the terminal, waiting until `deadline` at most.
     pub(super) fn close(self, deadline: Instant) {
-        if let Self::Console(console) = self {
+        if let Self::TtySession(console) = self {
             console.close(deadline);
         }
     }
 
-    fn console(&self) -> Option<&Console> {
+    fn console(&self) -> Option<&TtySession> {
         match self {
-            Self::Console(console) => Some(console),
+            Self::TtySession(console) => Some(console),
             Self::Page(_) => None,
         }
     }

@@ -1,8 +1,8 @@
 //! The main loop: waits for events, performs steps, draws.
 
-mod asking;
 mod pixels;
 mod play;
+mod terminal_queries;
 
 use std::collections::VecDeque;
 use std::io;
@@ -19,8 +19,8 @@ use super::ending::{Ending, Error};
 use super::event::{Event, sending};
 use super::msg::{Effect, Msg, Target};
 use super::options::Options;
-use super::reader::Reader;
 use super::recovery::End;
+use super::scene_loader::SceneLoader;
 use super::script::Script;
 use super::terminal::{self, Budget, Choice, ColourDepth, Link, Reply};
 use super::view::{self, Inks};
@@ -40,7 +40,7 @@ pub(crate) fn run(
     script: Option<Script>,
 ) -> Result<Ending, Error> {
     let (sender, inbox) = mpsc::channel();
-    let reader = Reader::start(options.watching(), sending(&sender))?;
+    let reader = SceneLoader::start(options.watching(), sending(&sender))?;
     if script.is_some() {
         // Nothing else changes the files of a script.
         effects.retain(|effect| !matches!(effect, Effect::Watch(_)));
@@ -213,7 +213,7 @@ impl Session {
         let now = self.app.scene.clone().zip(self.app.origin());
         // The end of the process frees a large scene immediately.
         mem::forget(self.app);
-        let (edits, trace) = self.runtime.close(self.ending.patience(), now);
+        let (edits, trace) = self.runtime.close(self.ending.deadlines(), now);
         let edits = match edits {
             End::Nothing => None,
             End::Kept => Some(format!(
@@ -239,7 +239,7 @@ impl Session {
 
     /// When the rest of a picture may be sent, if there is one and room for it.
     fn rest_at(&self, now: Instant) -> Option<Instant> {
-        if !self.app.picture().is_pending() || self.app.sight().is_none() {
+        if !self.app.picture().is_pending() || self.app.frame_window().is_none() {
             return None;
         }
         Some(self.link.ready_at(now).unwrap_or(now))
@@ -367,10 +367,10 @@ impl Session {
         let is_limited = self.link.is_limited();
         self.app.follow_wires();
         self.app.thumbnails.has_colours = self.inks.have_colours();
-        if let Some(sight) = self.app.sight() {
+        if let Some(frame_window) = self.app.frame_window() {
             let allowance = match urgency {
                 // Nothing of the picture is sent.
-                _ if self.app.wires().is_some() => usize::MAX,
+                _ if self.app.wireframe().is_some() => usize::MAX,
                 // The part that the user is waiting for is sent first, without the picture.
                 Urgency::Now if is_limited => 0,
                 _ => self.link.allowance(now),
@@ -382,7 +382,7 @@ impl Session {
             };
             let marked = self.app.outlined_objects();
             let picture = self.app.picture_mut();
-            picture.advance(&sight, &marked, allowance);
+            picture.advance(&frame_window, &marked, allowance);
             let rests = !picture.is_pending() && picture.is_complete();
             self.app.pictures.net = (is_limited && !rests).then(|| self.link.rate(now));
         }

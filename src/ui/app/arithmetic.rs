@@ -16,7 +16,7 @@ pub(super) struct Fault {
 /// `+ - * / ^`, signs, parentheses and functions of one number. A power binds more tightly than a
 /// sign and groups to the right; other operators group to the left.
 pub(super) fn evaluate(text: &str) -> Result<f64, Fault> {
-    let mut reader = Reader {
+    let mut reader = SceneLoader {
         text: text.chars().collect(),
         at: 0,
         depth: 0,
@@ -58,14 +58,14 @@ fn sin_cos(degrees: f64) -> (f64, f64) {
 }
 
 /// A recursive-descent parser that evaluates what it reads.
-struct Reader {
+struct SceneLoader {
     text: Vec<char>,
     /// The index of the next character.
     at: usize,
     depth: usize,
 }
 
-impl Reader {
+impl SceneLoader {
     /// The next character that is not a blank.
     fn next(&mut self) -> Option<char> {
         while self.text.get(self.at).is_some_and(|c| c.is_whitespace()) {

@@ -9,8 +9,8 @@ use crate::assets::{Loaded, PictureErrors, Wanted};
 use crate::language::Source;
 use crate::scene::{Images, Meshes};
 use crate::text::{Findings, Severity, counted};
+use crate::ui::history_scene::KnownFiles;
 use crate::ui::msg::Effect;
-use crate::ui::past::KnownFiles;
 
 /// The state of the files that the scene names.
 #[derive(Debug, Default)]

@@ -35,7 +35,7 @@ impl App {
         let mut menu = Menu::new(purpose, entries, at);
         // A change of the view may concern the working view, which is not in the text.
         let is_text = node != Node::View;
-        menu.trial = is_text.then(|| self.begin_trial());
+        menu.live_edit = is_text.then(|| self.begin_live_edit());
         self.overlays.menu = Some(menu);
     }
 
@@ -74,9 +74,9 @@ impl App {
     /// Closes the menu and puts back what it has changed.
     pub(super) fn close_menu(&mut self) {
         if let Some(menu) = self.overlays.menu.take()
-            && let Some(trial) = menu.trial
+            && let Some(live_edit) = menu.live_edit
         {
-            self.end_trial(trial);
+            self.end_live_edit(live_edit);
         }
     }
 
@@ -86,19 +86,19 @@ impl App {
         let Some(mut menu) = self.overlays.menu.take() else {
             return false;
         };
-        let Some(mut trial) = menu.trial.take() else {
+        let Some(mut live_edit) = menu.live_edit.take() else {
             self.overlays.menu = Some(menu);
             return true;
         };
-        if self.leaves_trial(&trial, "choice") {
+        if self.leaves_live_edit(&live_edit, "choice") {
             return false;
         }
-        let outcome = self.try_instead(&mut trial, |app| {
+        let outcome = self.try_instead(&mut live_edit, |app| {
             menu.offer = app.offered(&menu);
             let name = menu.chosen().map(|entry| entry.name.as_str());
             name.map_or_else(|| Ok(Vec::new()), |name| app.edits_choosing(name))
         });
-        menu.trial = Some(trial);
+        menu.live_edit = Some(live_edit);
         self.overlays.menu = Some(menu);
         if let Err(reason) = &outcome {
             self.overlays.fail(reason.as_str());
@@ -156,7 +156,7 @@ impl App {
         };
         let (purpose, node) = (menu.purpose, self.cursor.selected());
         // A trial knows what to leave; without one, another program may have changed the value since.
-        let is_untouched = menu.trial.is_none() && menu.opened.as_ref() == Some(&name);
+        let is_untouched = menu.live_edit.is_none() && menu.opened.as_ref() == Some(&name);
         match purpose {
             Purpose::Value(_) | Purpose::Retype if is_untouched => {}
             Purpose::Retype if self.own_kind(node) == Some(&*name) => {}
@@ -179,9 +179,9 @@ impl App {
     /// is refused.
     fn choose_value(&mut self, name: &str) {
         let menu = self.overlays.menu.as_ref();
-        let trial = menu.and_then(|menu| menu.trial.as_ref());
-        let is_kept = if let Some(trial) = trial {
-            trial.is_applied || self.follow_menu()
+        let live_edit = menu.and_then(|menu| menu.live_edit.as_ref());
+        let is_kept = if let Some(live_edit) = live_edit {
+            live_edit.is_applied || self.follow_menu()
         } else {
             let value = (self.cursor.component, name.to_owned());
             let outcome = self.assign_whole(&[vec![value]]);
@@ -191,7 +191,7 @@ impl App {
             outcome.is_ok()
         };
         if is_kept {
-            self.keep_trial();
+            self.keep_live_edit();
             self.overlays.menu = None;
         }
     }

@@ -30,7 +30,7 @@ impl App {
             before,
             swatches: colours::of_scene(self.source(), SWATCHES),
             swatch: None,
-            trial: self.begin_trial(),
+            live_edit: self.begin_live_edit(),
         });
     }
 
@@ -83,13 +83,13 @@ impl App {
     /// Keeps the colour and closes the picker.
     pub(super) fn confirm_colour(&mut self) {
         self.overlays.picker = None;
-        self.keep_trial();
+        self.keep_live_edit();
     }
 
     /// Puts the colour back and closes the picker.
     pub(super) fn cancel_colour(&mut self) {
         if let Some(picker) = self.overlays.picker.take() {
-            self.end_trial(picker.trial);
+            self.end_live_edit(picker.live_edit);
         }
     }
 
@@ -98,12 +98,12 @@ impl App {
         let Some(mut picker) = self.overlays.picker.take() else {
             return;
         };
-        if self.leaves_trial(&picker.trial, "colour") {
+        if self.leaves_live_edit(&picker.live_edit, "colour") {
             return;
         }
         change(&mut picker);
         let colour = picker.colour.rgb();
-        let outcome = self.try_instead(&mut picker.trial, |app| {
+        let outcome = self.try_instead(&mut picker.live_edit, |app| {
             let edits = app.cursor.current().map(|placed| {
                 let values = app.colour_values(placed, colour);
                 app.edits_of(&[(placed, &values)])

@@ -3,8 +3,8 @@
 use std::sync::Arc;
 
 use super::contrast::{Both, Contrast};
+use super::frame_window::Grid;
 use super::picture::Picture;
-use super::sight::Grid;
 use crate::compare::{Comparison, Difference};
 use crate::image_file::in_8_bits;
 use crate::render::{Aov, Frame, NO_OBJECT, Progress};

@@ -37,7 +37,7 @@ impl App {
 
     /// The picture on screen as a reference, or the reason why it cannot be one.
     fn pinned(&self) -> Result<Reference, String> {
-        if self.wires().is_some() {
+        if self.wireframe().is_some() {
             let light = self.key_for("show-light");
             return Err(format!(
                 "a wireframe cannot be pinned: {light} shows a picture"
@@ -338,11 +338,11 @@ impl App {
 
     /// Moves the line of the wipe by some cells to the right.
     pub(super) fn slide_wipe(&mut self, cells: i16) {
-        let Some(((area, halves), sight)) = self.raster().zip(self.sight()) else {
+        let Some(((area, halves), frame_window)) = self.raster().zip(self.frame_window()) else {
             return;
         };
         // The cells across the whole picture.
-        let width = f64::from(area.width) * sight.magnification(halves);
+        let width = f64::from(area.width) * frame_window.magnification(halves);
         let column = (self.compared.wipe.0 * width).round() + f64::from(cells);
         let wipe = Wipe(column.clamp(0.0, width) / width);
         self.compared.look(Contrast::Wipe, wipe);
@@ -385,7 +385,7 @@ impl App {
             scaled(here.x, size.width, halves.width),
             scaled(here.y, size.height, halves.height),
         ];
-        Some(self.sight()?.on_screen(place, halves))
+        Some(self.frame_window()?.on_screen(place, halves))
     }
 
     /// Where the line of the wipe is on screen, in half blocks from the picture's left edge, if it is
@@ -393,7 +393,7 @@ impl App {
     pub fn wipe_on_screen(&self) -> Option<f64> {
         let (_, halves) = self.raster()?;
         let at = self.compared.wipe.0 * f64::from(halves.width);
-        let [column, _] = self.sight()?.on_screen([at, 0.0], halves);
+        let [column, _] = self.frame_window()?.on_screen([at, 0.0], halves);
         (self.compared.view == Contrast::Wipe).then_some(column)
     }
 

@@ -6,8 +6,8 @@ use std::sync::Arc;
 use ratatui::layout::Rect;
 use tui_input::Input;
 
+use super::live_edit::LiveEdit;
 use super::rows::Rows;
-use super::trial::Trial;
 use crate::language::{Node, Nodes, Placed, Source};
 use crate::text::{Diagnostic, Edit, Span};
 use crate::ui::arrange::Areas;
@@ -80,7 +80,7 @@ pub(super) struct Slide {
     /// Its cells.
     pub(super) bar: Rect,
     /// The change of the text.
-    pub(super) trial: Trial,
+    pub(super) live_edit: LiveEdit,
 }
 
 /// A value being typed into a component.

@@ -4,13 +4,13 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::Duration;
 
+use super::after_leaving::name_of;
 use super::journal::Journal;
-use super::next::name_of;
 use crate::file::ReadError;
 use crate::scene::Camera;
 use crate::text::Findings;
 use crate::ui::msg::{Effect, Timer};
-use crate::ui::reading::{Baseline, SceneFolder};
+use crate::ui::scene_reading::{Baseline, SceneFolder};
 
 /// The scene's file, and the state of reading it.
 #[derive(Debug, Default)]

@@ -9,10 +9,10 @@ use super::{App, Fold};
 use crate::explain::{Subject, verdicts};
 use crate::language::Node;
 use crate::render::{Explanation, NO_OBJECT, RayEnd};
-use crate::ui::fit::{shorten, wrap};
 use crate::ui::keymap::Context;
 use crate::ui::layout;
 use crate::ui::msg::{Effect, Question};
+use crate::ui::text_width::{shorten, wrap};
 
 /// Most lines of the verdict.
 const VERDICT: u16 = 3;

@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use super::jobs::{Asking, Making, Pending};
+use super::jobs::{Asking, ExportWork, Pending};
 use super::reeling::names_sequence;
 use super::{App, Dialog, Export, Stage};
 use crate::image_file::{ImageFormat, known_extensions};
@@ -143,8 +143,8 @@ impl App {
         // Frames the view for the size that is written.
         let camera = Camera { size, ..job.camera };
         let making = match traced {
-            Some(frame) => Making::Write(frame),
-            None => Making::Trace(Box::new(Job { camera, ..job })),
+            Some(frame) => ExportWork::Write(frame),
+            None => ExportWork::Trace(Box::new(Job { camera, ..job })),
         };
         self.announce_export(export.aov, path);
         self.begin_or_queue(Pending {

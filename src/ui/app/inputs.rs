@@ -3,7 +3,7 @@
 
 use std::sync::Arc;
 
-use super::{App, OnDisk, Outside};
+use super::{App, MergeSource, OnDisk};
 use crate::document::Adopted;
 
 impl App {
@@ -28,7 +28,7 @@ impl App {
         match self.document.merge_again(before) {
             Adopted::Conflict(merge) => {
                 self.disk.state = OnDisk::Changed;
-                self.overlays.ask_conflict(merge, Outside::File);
+                self.overlays.ask_conflict(merge, MergeSource::File);
             }
             Adopted::Taken if revision != self.document.revision() => self.relower(),
             Adopted::Taken | Adopted::OutOfDate => {}

@@ -108,7 +108,7 @@ impl App {
     /// The size of the picture on screen, whose pixels are inspected.
     fn frame_size(&self) -> Option<Size> {
         let latest = self.picture().latest.as_ref().map(|frame| frame.whole());
-        latest.or_else(|| self.sight().map(|sight| sight.size))
+        latest.or_else(|| self.frame_window().map(|frame_window| frame_window.size))
     }
 
     /// Where a place of the picture is on screen, in cells from the picture's corner; the whole picture
@@ -120,7 +120,7 @@ impl App {
             scaled(x, halves.width, whole.width),
             scaled(y, halves.height, whole.height),
         ];
-        let [column, half] = self.sight()?.on_screen(place, halves);
+        let [column, half] = self.frame_window()?.on_screen(place, halves);
         Some([column, 0.5 * half])
     }
 

@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::Duration;
 
-use super::next::Next;
+use super::after_leaving::AfterLeaving;
 use crate::file::Version;
 use crate::render::{Aov, Frame, Job, Progress};
 use crate::scene::Size;
@@ -28,7 +28,7 @@ pub struct Jobs {
     /// The running export; there is at most one.
     pub export: Option<Export>,
     /// How the running export is made, and whether it asks.
-    making: Option<(Making, Asking)>,
+    making: Option<(ExportWork, Asking)>,
     /// The exports that wait for it, the next one first.
     pending: VecDeque<Pending>,
     /// The ID of the latest export.
@@ -45,7 +45,7 @@ pub struct Jobs {
     /// Whether [`Timer::Writing`] is set.
     ticking: bool,
     /// What follows once everything is done.
-    pub(super) next: Option<Next>,
+    pub(super) next: Option<AfterLeaving>,
     /// Whether Ctrl-C was pressed a moment ago.
     pub(super) interrupt: bool,
 }
@@ -80,13 +80,13 @@ pub struct Export {
 pub struct Pending {
     /// The export as if it were running.
     pub export: Export,
-    pub(super) making: Making,
+    pub(super) making: ExportWork,
     pub(super) asking: Asking,
 }
 
 /// How a picture is made.
 #[derive(Clone, Debug)]
-pub(super) enum Making {
+pub(super) enum ExportWork {
     /// It is traced first.
     Trace(Box<Job>),
     /// It is already traced.
@@ -315,7 +315,7 @@ impl Jobs {
         }
         let destination = destination.clone();
         let effects = match &making {
-            Making::Write(frame) => {
+            ExportWork::Write(frame) => {
                 export.stage = Stage::Writing;
                 let mut effects = vec![Effect::WriteImage(
                     export.id,
@@ -325,7 +325,7 @@ impl Jobs {
                 effects.extend(self.count_seconds());
                 effects
             }
-            Making::Film(reel) => {
+            ExportWork::Film(reel) => {
                 export.stage = Stage::Tracing;
                 let reel = Reel {
                     written: self.written.clone(),
@@ -333,7 +333,7 @@ impl Jobs {
                 };
                 vec![Effect::Film(export.id, Box::new(reel), destination)]
             }
-            Making::Trace(job) => {
+            ExportWork::Trace(job) => {
                 export.stage = Stage::Tracing;
                 vec![
                     Effect::CheckTarget(export.id, destination),

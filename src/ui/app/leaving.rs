@@ -1,7 +1,7 @@
 //! Leaving the scene, to quit or for another one: asks first if something would be lost, and waits
 //! for work under way.
 
-use super::{App, Dialog, Next};
+use super::{AfterLeaving, App, Dialog};
 use crate::ui::msg::{Effect, Timer};
 
 impl App {
@@ -26,11 +26,11 @@ impl App {
     }
 
     pub(super) fn save_and_quit(&mut self) -> Vec<Effect> {
-        self.save_and(Next::Quit)
+        self.save_and(AfterLeaving::Quit)
     }
 
     /// Saves if necessary, then leaves. A scene without a file first gets a name.
-    fn save_and(&mut self, next: Next) -> Vec<Effect> {
+    fn save_and(&mut self, next: AfterLeaving) -> Vec<Effect> {
         self.jobs.next = Some(next);
         if self.is_saved() {
             return self.leave_when_done();
@@ -39,11 +39,11 @@ impl App {
     }
 
     pub(super) fn quit(&mut self) -> Vec<Effect> {
-        self.leave_for(Next::Quit)
+        self.leave_for(AfterLeaving::Quit)
     }
 
     /// Leaves the scene; asks first if something would be lost.
-    pub(super) fn leave_for(&mut self, next: Next) -> Vec<Effect> {
+    pub(super) fn leave_for(&mut self, next: AfterLeaving) -> Vec<Effect> {
         self.leave_sequence();
         if self.losses_before(&next).is_some() {
             self.overlays.dialog = Some(Dialog::Leave(next));
@@ -55,7 +55,7 @@ impl App {
     /// Leaves the scene as asked, regardless of losses.
     pub(super) fn leave_anyway(&mut self) -> Vec<Effect> {
         match self.take_question() {
-            Some(Next::Quit) => self.quit_anyway(),
+            Some(AfterLeaving::Quit) => self.quit_anyway(),
             Some(next) => self.leave(next),
             None => Vec::new(),
         }
@@ -67,14 +67,14 @@ impl App {
         if self.jobs.file_being_saved().is_some() {
             self.quit_keeping_edits()
         } else {
-            self.leave(Next::Quit)
+            self.leave(AfterLeaving::Quit)
         }
     }
 
     /// Leaves as planned once saves and, before quitting, the export are done and nothing would be
     /// lost.
     pub(super) fn leave_when_done(&mut self) -> Vec<Effect> {
-        if self.jobs.next == Some(Next::Quit) && self.jobs.export.is_some() {
+        if self.jobs.next == Some(AfterLeaving::Quit) && self.jobs.export.is_some() {
             let words = match self.jobs.queued() {
                 0 => {
                     let stop = self.key_for("stop");
@@ -102,7 +102,7 @@ impl App {
             return self.quit_keeping_edits();
         }
         self.jobs.interrupt = true;
-        self.overlays.dialog = Some(Dialog::Leave(Next::Quit));
+        self.overlays.dialog = Some(Dialog::Leave(AfterLeaving::Quit));
         vec![Effect::Later(super::INTERRUPT_AGAIN, Timer::Interrupt)]
     }
 
@@ -113,19 +113,19 @@ impl App {
         kept.into_iter().chain([Effect::Quit]).collect()
     }
 
-    fn leave(&mut self, next: Next) -> Vec<Effect> {
+    fn leave(&mut self, next: AfterLeaving) -> Vec<Effect> {
         match next {
-            Next::Quit => {
+            AfterLeaving::Quit => {
                 let forgotten = self.disk.journal.forget();
                 forgotten.into_iter().chain([Effect::Quit]).collect()
             }
-            Next::Open(path) => self.request_scene(path),
-            Next::New(language) => self.start_scene(language),
+            AfterLeaving::Open(path) => self.request_scene(path),
+            AfterLeaving::New(language) => self.start_scene(language),
         }
     }
 
     /// Closes the question whether to leave; returns what was to follow.
-    fn take_question(&mut self) -> Option<Next> {
+    fn take_question(&mut self) -> Option<AfterLeaving> {
         match self.overlays.dialog.take() {
             Some(Dialog::Leave(next)) => Some(next),
             other => {

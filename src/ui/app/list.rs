@@ -140,7 +140,7 @@ impl App {
             Some(_) => None,
             None if self.wrong().findings.is_empty() => {
                 let text = "no errors or warnings";
-                let words = match &self.cures.said {
+                let words = match &self.suggestions.said {
                     Some(of_picture) => format!("{text} in the text, but {of_picture}"),
                     None => text.to_owned(),
                 };

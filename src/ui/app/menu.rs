@@ -2,7 +2,7 @@
 //! it.
 
 use super::filter::Filter;
-use super::trial::Trial;
+use super::live_edit::LiveEdit;
 use crate::language::Node;
 
 /// A menu over the list.
@@ -18,7 +18,7 @@ pub struct Menu {
     /// The typed filter, and the cursor among the entries shown.
     pub filter: Filter,
     /// The change of the text by the entry under the cursor; `None` if that waits for Enter.
-    pub(super) trial: Option<Trial>,
+    pub(super) live_edit: Option<LiveEdit>,
 }
 
 /// An entry of a menu.
@@ -63,7 +63,7 @@ impl Menu {
             entries,
             offer: None,
             filter: Filter::at(present.unwrap_or(0)),
-            trial: None,
+            live_edit: None,
         }
     }
 

@@ -7,7 +7,6 @@ use crossterm::event::KeyEvent;
 
 use super::assets::Assets;
 use super::compared::Compared;
-use super::cures::Cures;
 use super::cursor::Cursor;
 use super::disk::Disk;
 use super::inspection::Inspection;
@@ -16,6 +15,7 @@ use super::overlays::Overlays;
 use super::palette::Palette;
 use super::pictures::Pictures;
 use super::sequence::Sequence;
+use super::suggestions::Suggestions;
 use super::thumbnails::Thumbnails;
 use crate::document::Document;
 use crate::scene::Scene;
@@ -47,7 +47,7 @@ pub struct App {
     /// Those of them that were found in reading the text and its files.
     pub(super) reported: Findings,
     /// The render settings suggested for the picture.
-    pub cures: Cures,
+    pub suggestions: Suggestions,
     /// The scene of the last text without errors, which the pictures show.
     pub scene: Option<Arc<Scene>>,
     /// The files that the scene names.

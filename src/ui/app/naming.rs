@@ -3,7 +3,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use super::App;
-use super::places::name_of;
+use super::location_names::name_of;
 use crate::document::StepName;
 use crate::language::{Node, Placed};
 use crate::text::{Edit, Span, counted};

@@ -9,7 +9,7 @@ use super::cursor::Names;
 use super::inspection::Inspection;
 use super::palette::Palette;
 use super::{
-    App, Cures, Cursor, Disk, FirstReading, Jobs, OnDisk, Overlays, Page, Pictures, Sequence,
+    App, Cursor, Disk, FirstReading, Jobs, OnDisk, Overlays, Page, Pictures, Sequence, Suggestions,
     Thumbnails,
 };
 use crate::document::Document;
@@ -21,7 +21,7 @@ use crate::ui::arrange::{PanelSizes, Zoom};
 use crate::ui::keymap::{Keymap, Mode};
 use crate::ui::msg::Effect;
 use crate::ui::pixels::Pixels;
-use crate::ui::reading::{News, Reading};
+use crate::ui::scene_reading::{News, Reading};
 use crate::ui::terminal::Mouse;
 use crate::ui::theme::Theme;
 
@@ -90,7 +90,7 @@ impl App {
             document: Document::new(opening.language, text),
             diagnostics: Findings::default(),
             reported: Findings::default(),
-            cures: Cures::default(),
+            suggestions: Suggestions::default(),
             scene: None,
             assets: Assets::default(),
             disk: Disk::new(opening.path, state, first),

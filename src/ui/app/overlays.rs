@@ -6,10 +6,10 @@ use std::time::Duration;
 
 use tui_input::Input;
 
+use super::after_leaving::AfterLeaving;
 use super::jobs::Pending;
 use super::menu::Menu;
 use super::messages::{About, Lasts, Message, Messages};
-use super::next::Next;
 use super::page::{Page, PageFocus};
 use super::picker::ColourPicker;
 use crate::document::{Merge, Side};
@@ -71,7 +71,7 @@ pub enum PromptKind {
 #[derive(Debug)]
 pub enum Dialog {
     /// Whether to leave the scene although something would be lost, and what follows then.
-    Leave(Next),
+    Leave(AfterLeaving),
     /// How to resolve a merge in which both texts changed the same places.
     Conflict {
         /// The merge to decide.
@@ -79,7 +79,7 @@ pub enum Dialog {
         /// The index of the conflict under the cursor.
         at: usize,
         /// The origin of the other text.
-        from: Outside,
+        from: MergeSource,
     },
     /// Whether to delete these nodes although others use them.
     Delete(Vec<Node>),
@@ -91,7 +91,7 @@ pub enum Dialog {
 
 /// The origin of a text that is merged with the edited one.
 #[derive(Clone, Debug)]
-pub enum Outside {
+pub enum MergeSource {
     /// The scene's file, changed by another program.
     File,
     /// A recovery journal of an earlier run.
@@ -107,7 +107,7 @@ pub enum Whose {
     Theirs,
 }
 
-impl Outside {
+impl MergeSource {
     /// The side of a merge with somebody's text.
     pub fn side(&self, whose: Whose) -> Side {
         match (self, whose) {
@@ -176,7 +176,7 @@ impl Overlays {
     }
 
     /// The open merge dialog, if any.
-    pub(super) fn conflict(&mut self) -> Option<(&mut Merge, &mut usize, &Outside)> {
+    pub(super) fn conflict(&mut self) -> Option<(&mut Merge, &mut usize, &MergeSource)> {
         match &mut self.dialog {
             Some(Dialog::Conflict { merge, at, from }) => Some((merge, at, from)),
             _ => None,
@@ -184,7 +184,7 @@ impl Overlays {
     }
 
     /// Asks how to resolve a merge.
-    pub(super) fn ask_conflict(&mut self, merge: Merge, from: Outside) {
+    pub(super) fn ask_conflict(&mut self, merge: Merge, from: MergeSource) {
         self.dialog = Some(Dialog::Conflict { merge, at: 0, from });
     }
 

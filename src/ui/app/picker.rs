@@ -1,7 +1,7 @@
 //! The state of the colour picker: hue, saturation and value of a field, and the colours of the scene.
 
 use super::hsv::Hsv;
-use super::trial::Trial;
+use super::live_edit::LiveEdit;
 use crate::scene::Rgb;
 use crate::text::rounded;
 
@@ -25,7 +25,7 @@ pub struct ColourPicker {
     pub swatches: Vec<Rgb>,
     /// The index of the one under the cursor.
     pub swatch: Option<usize>,
-    pub(super) trial: Trial,
+    pub(super) live_edit: LiveEdit,
 }
 
 /// A row of the colour picker.

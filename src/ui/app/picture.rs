@@ -3,8 +3,8 @@
 use std::collections::VecDeque;
 use std::sync::Arc;
 
-use super::shown::{Layer, Shown, border};
-use super::sight::{Reason, Sight};
+use super::cell_image::{CellImage, Layer, border};
+use super::frame_window::{FrameWindow, Reason};
 use super::viewport::Viewport;
 use crate::render::{Frame, NO_OBJECT, Progress, Region};
 use crate::scene::Size;
@@ -32,10 +32,10 @@ pub struct Picture {
     /// What is seen where the newest frame, of a region, shows nothing: the last frame of all.
     under: Option<Arc<Frame>>,
     /// The picture on screen.
-    pub shown: Shown,
-    target: Shown,
+    pub shown: CellImage,
+    target: CellImage,
     /// How the target sees the newest frame; `None` before it does.
-    sight: Option<Sight>,
+    frame_window: Option<FrameWindow>,
     /// The cell to compare next, in row-major order.
     cursor: usize,
     /// The number of cells not yet compared with the target.
@@ -68,7 +68,7 @@ impl Picture {
         } else if let Some(before) = before.filter(|before| is_whole(before)) {
             self.under = Some(before);
         }
-        self.sight = None;
+        self.frame_window = None;
     }
 
     /// Whether something of the picture requested last has arrived.
@@ -116,8 +116,8 @@ impl Picture {
     pub fn forget_objects(&mut self) {
         self.shown.objects.fill(NO_OBJECT);
         self.is_renumbered = true;
-        if let Some(sight) = self.sight {
-            self.outline(&sight, &[]);
+        if let Some(frame_window) = self.frame_window {
+            self.outline(&frame_window, &[]);
         }
     }
 
@@ -140,14 +140,14 @@ impl Picture {
     /// screen until `budget` bytes are spent, and continues there next time; `usize::MAX` copies all
     /// of them. Changes of the outline go first. Over a limited link, pixels of an unfinished frame
     /// that are almost right are skipped; a finished frame is shown exactly.
-    pub fn advance(&mut self, sight: &Sight, outlined: &[u32], budget: usize) {
-        self.aim(sight, outlined);
+    pub fn advance(&mut self, frame_window: &FrameWindow, outlined: &[u32], budget: usize) {
+        self.aim(frame_window, outlined);
         let tolerance = match budget {
             usize::MAX => 0,
             _ if self.latest.as_ref().is_some_and(|f| f.progress.complete) => 0,
             _ => HYSTERESIS,
         };
-        let cells = sight.cells();
+        let cells = frame_window.cells();
         let mut spent = 0;
         while spent < budget {
             let cell = if let Some(cell) = self.outline.pop_front() {
@@ -160,7 +160,7 @@ impl Picture {
             } else {
                 break;
             };
-            if self.bring_cell(sight, cell, tolerance) {
+            if self.bring_cell(frame_window, cell, tolerance) {
                 spent += BYTES_PER_CELL;
             }
         }
@@ -172,16 +172,16 @@ impl Picture {
     }
 
     /// Makes the newest frame the target, with the outline of an object.
-    fn aim(&mut self, sight: &Sight, outlined: &[u32]) {
+    fn aim(&mut self, frame_window: &FrameWindow, outlined: &[u32]) {
         let Some(frame) = &self.latest else {
             return;
         };
-        let size = sight.size;
+        let size = frame_window.size;
         let mut is_stale = self.outlined != outlined;
         if self.shown.size != size {
             is_stale = true;
             self.shown = if self.shown.pixels.is_empty() {
-                Shown {
+                CellImage {
                     size,
                     pixels: vec![[0; 3]; size.pixels()],
                     objects: vec![NO_OBJECT; size.pixels()],
@@ -192,54 +192,57 @@ impl Picture {
             };
             self.cursor = 0;
         }
-        if self.sight != Some(*sight) {
+        if self.frame_window != Some(*frame_window) {
             is_stale = true;
-            let colours = sight.colours(frame);
+            let colours = frame_window.colours(frame);
             let under = self
                 .under
                 .as_deref()
-                .map(|under| (under, sight.colours(under)));
+                .map(|under| (under, frame_window.colours(under)));
             let under = under.as_ref();
             let layers = [(&**frame, &colours)].into_iter();
             let layers = layers.chain(under.map(|(frame, colours)| (*frame, colours)));
             let layers: Vec<_> = layers
                 .map(|(frame, colours)| Layer::of(frame, colours))
                 .collect();
-            self.target = Shown::seen(&layers, sight);
-            self.sight = Some(*sight);
+            self.target = CellImage::seen(&layers, frame_window);
+            self.frame_window = Some(*frame_window);
             // The objects under the pixels cost nothing to send.
             self.shown.objects.clone_from(&self.target.objects);
-            self.left = sight.cells();
+            self.left = frame_window.cells();
         }
         if is_stale {
-            self.outline(sight, outlined);
+            self.outline(frame_window, outlined);
         }
     }
 
     /// Sets the outline of the target.
-    fn outline(&mut self, sight: &Sight, outlined: &[u32]) {
+    fn outline(&mut self, frame_window: &FrameWindow, outlined: &[u32]) {
         self.outlined = outlined.to_vec();
         self.target.outline = match outlined {
             [] => Vec::new(),
             outlined => self.shown.outline_of(outlined),
         };
-        if let Some(marked) = sight.marked.filter(|marked| marked.reason == Reason::Drawn) {
+        if let Some(marked) = frame_window
+            .marked
+            .filter(|marked| marked.reason == Reason::Drawn)
+        {
             self.target.outline.resize(self.shown.size.pixels(), false);
-            for at in border(sight, marked) {
+            for at in border(frame_window, marked) {
                 self.target.outline[at] = true;
             }
         }
         let changes = |cell: &usize| {
-            let mut pixels = sight.grid.pixels(self.shown.size, *cell);
+            let mut pixels = frame_window.grid.pixels(self.shown.size, *cell);
             pixels.any(|at| self.shown.is_outlined(at) != self.target.is_outlined(at))
         };
-        self.outline = (0..sight.cells()).filter(changes).collect();
+        self.outline = (0..frame_window.cells()).filter(changes).collect();
     }
 
     /// Copies the pixels of a cell to the screen and returns whether any changed.
-    fn bring_cell(&mut self, sight: &Sight, cell: usize, tolerance: u8) -> bool {
+    fn bring_cell(&mut self, frame_window: &FrameWindow, cell: usize, tolerance: u8) -> bool {
         let mut changed = false;
-        for at in sight.grid.pixels(self.shown.size, cell) {
+        for at in frame_window.grid.pixels(self.shown.size, cell) {
             let (shown, target) = (self.shown.pixels[at], self.target.pixels[at]);
             let off = |(shown, target): (&u8, &u8)| tolerance < shown.abs_diff(*target);
             if shown.iter().zip(&target).any(off) {
@@ -319,12 +322,12 @@ mod tests {
         let size = size(10, 6);
         let mut picture = Picture::default();
         picture.take(frame(1, size, GREY, true));
-        picture.advance(&Sight::whole(size), &[], 13 * BYTES_PER_CELL);
+        picture.advance(&FrameWindow::whole(size), &[], 13 * BYTES_PER_CELL);
         assert_eq!(rows_shown(&picture, GREY), [10, 10, 3, 3, 0, 0]);
         assert!(picture.is_pending());
-        picture.advance(&Sight::whole(size), &[], 0);
+        picture.advance(&FrameWindow::whole(size), &[], 0);
         assert_eq!(rows_shown(&picture, GREY), [10, 10, 3, 3, 0, 0]);
-        picture.advance(&Sight::whole(size), &[], usize::MAX);
+        picture.advance(&FrameWindow::whole(size), &[], usize::MAX);
         assert_eq!(rows_shown(&picture, GREY), [10; 6]);
         assert!(!picture.is_pending());
     }
@@ -335,11 +338,11 @@ mod tests {
         let newer = [200; 3];
         let mut picture = Picture::default();
         picture.take(frame(1, size, GREY, true));
-        picture.advance(&Sight::whole(size), &[], 10 * BYTES_PER_CELL);
+        picture.advance(&FrameWindow::whole(size), &[], 10 * BYTES_PER_CELL);
         picture.take(frame(2, size, newer, true));
-        picture.advance(&Sight::whole(size), &[], 10 * BYTES_PER_CELL);
+        picture.advance(&FrameWindow::whole(size), &[], 10 * BYTES_PER_CELL);
         assert_eq!(rows_shown(&picture, newer), [0, 0, 10, 10, 0, 0]);
-        picture.advance(&Sight::whole(size), &[], usize::MAX);
+        picture.advance(&FrameWindow::whole(size), &[], usize::MAX);
         assert_eq!(rows_shown(&picture, newer), [10; 6]);
     }
 
@@ -349,9 +352,9 @@ mod tests {
         let shown_after = |pixel, complete, budget| {
             let mut picture = Picture::default();
             picture.take(frame(1, size, GREY, true));
-            picture.advance(&Sight::whole(size), &[], usize::MAX);
+            picture.advance(&FrameWindow::whole(size), &[], usize::MAX);
             picture.take(frame(1, size, pixel, complete));
-            picture.advance(&Sight::whole(size), &[], budget);
+            picture.advance(&FrameWindow::whole(size), &[], budget);
             picture.shown.pixels[0]
         };
         for (pixel, complete, budget, shown) in [
@@ -386,12 +389,12 @@ mod tests {
             (&[8], "........"),
             (&[], "........"),
         ] {
-            picture.advance(&Sight::whole(size(4, 2)), outlined, usize::MAX);
+            picture.advance(&FrameWindow::whole(size(4, 2)), outlined, usize::MAX);
             assert_eq!(outline(&picture), marks, "{outlined:?}");
         }
-        picture.advance(&Sight::whole(size(4, 2)), &[7], usize::MAX);
+        picture.advance(&FrameWindow::whole(size(4, 2)), &[7], usize::MAX);
         picture.forget_objects();
-        picture.advance(&Sight::whole(size(4, 2)), &[7], usize::MAX);
+        picture.advance(&FrameWindow::whole(size(4, 2)), &[7], usize::MAX);
         assert_eq!(outline(&picture), "........");
     }
 
@@ -400,17 +403,17 @@ mod tests {
     fn the_outline_precedes_the_picture_but_needs_a_budget() {
         let mut picture = Picture::default();
         picture.take(half(true));
-        picture.advance(&Sight::whole(size(4, 2)), &[], usize::MAX);
-        picture.advance(&Sight::whole(size(4, 2)), &[7], 0);
+        picture.advance(&FrameWindow::whole(size(4, 2)), &[], usize::MAX);
+        picture.advance(&FrameWindow::whole(size(4, 2)), &[7], 0);
         assert_eq!(outline(&picture), "........");
         assert!(picture.is_pending());
         let mut brighter = Arc::unwrap_or_clone(half(true));
         brighter.pixels.fill([200; 3]);
         picture.take(Arc::new(brighter));
-        picture.advance(&Sight::whole(size(4, 2)), &[7], BYTES_PER_CELL);
+        picture.advance(&FrameWindow::whole(size(4, 2)), &[7], BYTES_PER_CELL);
         assert_eq!(outline(&picture), ".#...#..");
         assert_eq!(rows_shown(&picture, GREY), [3, 3]);
-        picture.advance(&Sight::whole(size(4, 2)), &[7], usize::MAX);
+        picture.advance(&FrameWindow::whole(size(4, 2)), &[7], usize::MAX);
         assert_eq!(rows_shown(&picture, [200; 3]), [4, 4]);
         assert!(!picture.is_pending());
     }
@@ -419,7 +422,7 @@ mod tests {
     fn a_full_size_trace_is_shown_at_the_size_of_the_screen() {
         let mut picture = Picture::default();
         picture.take(frame(1, size(640, 480), GREY, true));
-        picture.advance(&Sight::whole(size(64, 48)), &[], usize::MAX);
+        picture.advance(&FrameWindow::whole(size(64, 48)), &[], usize::MAX);
         assert_eq!(rows_shown(&picture, GREY), [64; 48]);
         assert_eq!(picture.shown.object_at(63, 47), Some(7));
         assert_eq!(picture.shown.object_at(64, 0), None);

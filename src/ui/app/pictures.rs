@@ -3,14 +3,14 @@
 use std::sync::Arc;
 
 use super::drawing::Drawing;
+use super::frame_window::Grid;
+use super::histogram::ShownHistogram;
 use super::picture::Picture;
-use super::sight::Grid;
-use super::soloed::Solo;
-use super::tally::Tally;
+use super::saved_setting::SavedSetting;
+use super::solo::Solo;
 use super::transform::Transform;
 use super::until::Until;
-use super::wires::Wires;
-use super::written::Written;
+use super::wireframe::ShownWireframe;
 use crate::document::StateId;
 use crate::render::{Aov, Display, Frame, Region};
 use crate::scene::{Camera, Integrator, Rendering, Scene};
@@ -29,7 +29,7 @@ pub struct Pictures {
     /// The user's render settings, which take precedence over the scene's.
     pub rendering: Rendering,
     /// The settings that were written into the text.
-    pub(super) written: Vec<Written>,
+    pub(super) written: Vec<SavedSetting>,
     /// Pixels in each cell.
     pub grid: Grid,
     /// What traced pictures show instead of light.
@@ -37,9 +37,9 @@ pub struct Pictures {
     /// How light is displayed.
     pub display: Display,
     /// The histogram, if it is shown.
-    pub tally: Option<Tally>,
+    pub histogram: Option<ShownHistogram>,
     /// The wireframe, if it is shown instead of the preview.
-    pub wires: Option<Wires>,
+    pub wireframe: Option<ShownWireframe>,
     /// Whether the selected object is outlined in SELECT mode.
     pub(super) outline: Outline,
     /// Which symbols are shown of what has no surface.
@@ -100,8 +100,8 @@ impl Pictures {
             grid: Grid::HALF_BLOCKS,
             aov: None,
             display: Display::default(),
-            tally: None,
-            wires: None,
+            histogram: None,
+            wireframe: None,
             outline: Outline::default(),
             symbols: Symbols::default(),
             net: None,
@@ -124,8 +124,8 @@ impl Pictures {
             grid: self.grid,
             aov: self.aov.filter(|aov| !matches!(aov, Aov::Direct(_))),
             display: self.display,
-            tally: self.tally.take().map(|_| Tally::default()),
-            wires: self.wires.take().map(|_| Wires::default()),
+            histogram: self.histogram.take().map(|_| ShownHistogram::default()),
+            wireframe: self.wireframe.take().map(|_| ShownWireframe::default()),
             outline: self.outline,
             symbols: self.symbols,
             net: self.net,
@@ -293,7 +293,7 @@ impl Pictures {
 
     /// Selects what all pictures show, light or an AOV, and returns its description.
     pub(super) fn show(&mut self, aov: Option<Aov>) -> &'static str {
-        self.due |= self.wires.take().is_some() || self.aov != aov;
+        self.due |= self.wireframe.take().is_some() || self.aov != aov;
         self.aov = aov;
         match aov {
             None => "light",
@@ -314,16 +314,16 @@ impl Pictures {
 
     /// Shows the preview as a wireframe, and returns its description. Only the objects under its
     /// pixels are traced, because they can be picked.
-    pub(super) fn show_wires(&mut self) -> &'static str {
-        self.due |= self.wires.is_none();
+    pub(super) fn show_wireframe(&mut self) -> &'static str {
+        self.due |= self.wireframe.is_none();
         self.aov = None;
-        self.wires.get_or_insert_default();
+        self.wireframe.get_or_insert_default();
         "wireframe: the objects' edges and curves"
     }
 
     /// What the preview traces instead of light.
     pub(super) fn preview_aov(&self) -> Option<Aov> {
-        self.wires.as_ref().map(|_| Aov::Object).or(self.aov)
+        self.wireframe.as_ref().map(|_| Aov::Object).or(self.aov)
     }
 
     /// The number of samples per pixel to take if `asked` are requested.

@@ -4,7 +4,7 @@
 use std::sync::Arc;
 
 use super::journal::Outcome;
-use super::{App, Dialog, Outside};
+use super::{App, Dialog, MergeSource};
 use crate::document::{Adopted, Merge, StepName};
 use crate::ui::msg::Effect;
 use crate::ui::recovery::{Claim, Found, Offer, Since, Way};
@@ -68,7 +68,7 @@ impl App {
         let is_other = match &self.overlays.dialog {
             Some(Dialog::Recover(offer)) => !Arc::ptr_eq(&offer.text, &text),
             Some(Dialog::Conflict { merge, from, .. }) => {
-                matches!(from, Outside::Kept(..)) && !merge.is_of(&self.document)
+                matches!(from, MergeSource::Kept(..)) && !merge.is_of(&self.document)
             }
             Some(Dialog::Leave(_) | Dialog::Delete(_) | Dialog::Overwrite(_)) => false,
             None => {
@@ -101,7 +101,7 @@ impl App {
                 self.restore_merged(&merge, claim, since)
             }
             Way::Merge(merge) => {
-                let from = Outside::Kept(claim, since);
+                let from = MergeSource::Kept(claim, since);
                 self.overlays.ask_conflict(merge, from);
                 Vec::new()
             }
@@ -159,7 +159,7 @@ impl App {
         let claim = match self.overlays.dialog.take() {
             Some(Dialog::Recover(offer)) => offer.claim,
             Some(Dialog::Conflict {
-                from: Outside::Kept(claim, _),
+                from: MergeSource::Kept(claim, _),
                 ..
             }) => claim,
             _ => return Vec::new(),

@@ -3,7 +3,7 @@
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 
-use super::jobs::{Asking, Making, Pending};
+use super::jobs::{Asking, ExportWork, Pending};
 use super::{App, Export, Stage};
 use crate::image_file::{DEFAULT_RATE, ImageFormat};
 use crate::scene::Size;
@@ -67,7 +67,7 @@ impl App {
         self.announce_export(export.aov, &path);
         self.begin_or_queue(Pending {
             export,
-            making: Making::Film(Box::new(reel)),
+            making: ExportWork::Film(Box::new(reel)),
             asking,
         })
     }

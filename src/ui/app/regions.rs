@@ -2,7 +2,7 @@
 
 use super::App;
 use super::drawing::{Drawing, Held, RegionOrder};
-use super::sight::{Marked, Reason};
+use super::frame_window::{Marked, Reason};
 use crate::render::Region;
 use crate::text::Severity;
 use crate::ui::keymap::Mode;
@@ -62,8 +62,10 @@ impl App {
     /// Begins to draw a region: the middle of what is on screen.
     pub(super) fn start_region(&mut self) {
         let whole = self.output();
-        let Some(sight) = self.sight() else { return };
-        let part = sight.window_of(whole).part;
+        let Some(frame_window) = self.frame_window() else {
+            return;
+        };
+        let part = frame_window.window_of(whole).part;
         let at = |from: u32, length: u32, quarters: u32| {
             from + (u64::from(length) * u64::from(quarters) / 4).min(u64::from(length) - 1) as u32
         };
@@ -83,8 +85,10 @@ impl App {
     /// Moves the corner by pixels on screen.
     pub(super) fn move_corner(&mut self, right: i32, down: i32) {
         let output = self.output();
-        let Some(sight) = self.sight() else { return };
-        let window = sight.window_of(output);
+        let Some(frame_window) = self.frame_window() else {
+            return;
+        };
+        let window = frame_window.window_of(output);
         let step = |length: u32, fills: u32| i64::from((length / fills.max(1)).max(1));
         let steps = [
             i64::from(right) * step(window.part.width, window.fills.width),

@@ -7,16 +7,16 @@ use std::time::Duration;
 
 use super::cursor::SavedCursor;
 use super::disk::{Faulty, Requester, Settle};
+use super::location_names::name_of;
 use super::messages::About;
-use super::places::name_of;
-use super::{App, Dialog, OnDisk, Outside, PromptKind, Whose};
+use super::{App, Dialog, MergeSource, OnDisk, PromptKind, Whose};
 use crate::document::{Adopted, Difference, Numbers, StepName};
 use crate::file;
 use crate::file::ReadError;
 use crate::language::{Before, Lowered};
 use crate::text::{Findings, Position, Severity, counted};
 use crate::ui::msg::{Effect, Guard};
-use crate::ui::reading::{Baseline, News, Reading};
+use crate::ui::scene_reading::{Baseline, News, Reading};
 
 /// Many programs empty a file before writing it: errors must persist for this long.
 const QUIET: Duration = Duration::from_millis(100);
@@ -232,7 +232,7 @@ impl App {
         let requester = self.disk.take_requester();
         // An undecided merge is obsolete, regardless of what the file holds now.
         if let Some(Dialog::Conflict {
-            from: Outside::File,
+            from: MergeSource::File,
             ..
         }) = self.overlays.dialog
         {
@@ -280,7 +280,7 @@ impl App {
             }
             News::Conflict(merge) => {
                 self.disk.state = OnDisk::Changed;
-                self.overlays.ask_conflict(merge, Outside::File);
+                self.overlays.ask_conflict(merge, MergeSource::File);
                 return Vec::new();
             }
             News::Broken(text, diagnostics) => {
@@ -462,7 +462,7 @@ impl App {
         let Some(Dialog::Conflict { merge, from, .. }) = self.overlays.dialog.take() else {
             return Vec::new();
         };
-        if let Outside::Kept(claim, since) = from {
+        if let MergeSource::Kept(claim, since) = from {
             return self.restore_merged(&merge, claim, since);
         }
         let held = self.cursor.hold(self.document.shared_text());

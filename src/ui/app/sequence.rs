@@ -4,8 +4,8 @@ use std::path::PathBuf;
 use std::sync::Arc;
 use std::time::Duration;
 
-use super::next::name_of;
-use super::trial::Trial;
+use super::after_leaving::name_of;
+use super::live_edit::LiveEdit;
 use crate::text::{Findings, Position};
 use crate::track::{Bound, Track};
 
@@ -51,7 +51,7 @@ pub(super) struct ShownFrame {
     /// The track in the text without the frame.
     pub(super) bound: Bound,
     /// The change of the text.
-    pub(super) trial: Trial,
+    pub(super) live_edit: LiveEdit,
     /// Whether there were unsaved edits before.
     pub(super) was_dirty: bool,
 }

@@ -5,16 +5,16 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use super::App;
+use super::after_leaving::name_of;
 use super::messages::About;
-use super::next::name_of;
 use super::sequence::{OpenTrack, ShownFrame, complaint};
 use crate::document::StepName;
 use crate::file::ReadError;
 use crate::text::Severity;
 use crate::track::{self, Bound, Track};
+use crate::ui::dope_sheet::DopeSheet;
 use crate::ui::keymap::Mode;
 use crate::ui::msg::{Effect, Timer};
-use crate::ui::sheet::Sheet;
 
 impl App {
     /// Reads a track to play: this one, the open one, or that beside the scene.
@@ -199,7 +199,7 @@ impl App {
     pub(super) fn suspend_frame(&mut self) {
         let open = self.sequence.open.as_mut();
         if let Some(shown) = open.and_then(|open| open.shown.take()) {
-            self.end_trial(shown.trial);
+            self.end_live_edit(shown.live_edit);
         }
     }
 
@@ -210,26 +210,26 @@ impl App {
         };
         open.frame = frame.min(open.last());
         let shown = if let Some(shown) = open.shown.take() {
-            (!self.leaves_trial(&shown.trial, "frame")).then_some(shown)
+            (!self.leaves_live_edit(&shown.live_edit, "frame")).then_some(shown)
         } else {
             let text = open.held.clone().unwrap_or_default();
             let bound = self.bound_track(&open.track, &open.name(), &text);
             bound.map(|bound| ShownFrame {
                 bound,
-                trial: self.begin_trial(),
+                live_edit: self.begin_live_edit(),
                 was_dirty: self.document.is_dirty(),
             })
         };
         if let Some(ShownFrame {
             bound,
-            mut trial,
+            mut live_edit,
             was_dirty,
         }) = shown
         {
             let frame = open.frame;
             let edits = |app: &Self| Ok(bound.edits(app.source(), frame));
-            match self.try_instead(&mut trial, edits) {
-                Ok(()) if trial.is_applied => {
+            match self.try_instead(&mut live_edit, edits) {
+                Ok(()) if live_edit.is_applied => {
                     let name = format!("frame {frame} of {}", open.name());
                     self.document.name_step(StepName::done(name));
                 }
@@ -238,7 +238,7 @@ impl App {
             }
             open.shown = Some(ShownFrame {
                 bound,
-                trial,
+                live_edit,
                 was_dirty,
             });
         } else {
@@ -275,7 +275,7 @@ impl App {
         let Some(open) = &mut self.sequence.open else {
             return false;
         };
-        let sheet = Sheet::new(area, open.last());
+        let sheet = DopeSheet::new(area, open.last());
         let frame = sheet.frame(at.0);
         let is_there = sheet.frames.contains(at.into());
         if is_there {
@@ -358,12 +358,12 @@ impl App {
         };
         open.is_playing = false;
         let shown = open.shown.take();
-        if shown.is_some_and(|shown| shown.trial.is_applied) {
+        if shown.is_some_and(|shown| shown.live_edit.is_applied) {
             let words = format!("the scene now has the values of frame {}", open.frame);
             let undo = self.key_for("undo");
             self.overlays.say(format!("{words}; {undo} undoes that"));
         }
-        self.keep_trial();
+        self.keep_live_edit();
         self.mode = Mode::Select;
     }
 

@@ -2,7 +2,7 @@
 //! dropped then, so that the text counts, and brought back by undo.
 
 use super::App;
-use super::written::Written;
+use super::saved_setting::SavedSetting;
 use crate::document::StepName;
 use crate::language::{Node, RenderKey};
 use crate::scene::{Camera, Rendering, Size};
@@ -101,7 +101,9 @@ impl App {
                 self.pictures.rendering = key.cleared(&self.pictures.rendering);
                 let state = self.document.state();
                 if state != before {
-                    self.pictures.written.push(Written { state, key, over });
+                    self.pictures
+                        .written
+                        .push(SavedSetting { state, key, over });
                 }
                 let name = key.name();
                 let words = match value {

@@ -37,8 +37,8 @@ impl App {
         }
         self.mode = Mode::Edit;
         self.focus_field(field, 0);
-        let trial = self.begin_trial();
-        self.cursor.slide = Some(Slide { bar, trial });
+        let live_edit = self.begin_live_edit();
+        self.cursor.slide = Some(Slide { bar, live_edit });
         self.slide_to(column);
         true
     }
@@ -48,12 +48,12 @@ impl App {
         let Some(mut slide) = self.cursor.slide.take() else {
             return false;
         };
-        if self.leaves_trial(&slide.trial, "number") {
+        if self.leaves_live_edit(&slide.live_edit, "number") {
             return true;
         }
         // A hundredth is finer than a cell.
         let share = (100.0 * share_at(slide.bar, column)).round() / 100.0;
-        let outcome = self.try_instead(&mut slide.trial, |app| Ok(app.edits_sliding(share)));
+        let outcome = self.try_instead(&mut slide.live_edit, |app| Ok(app.edits_sliding(share)));
         if let Err(reason) = outcome {
             self.overlays.fail(reason);
         }
@@ -64,7 +64,7 @@ impl App {
     /// Keeps the number of the slider being dragged.
     pub(super) fn end_slide(&mut self) {
         if self.cursor.slide.take().is_some() {
-            self.keep_trial();
+            self.keep_live_edit();
         }
     }
 

@@ -90,7 +90,7 @@ impl App {
         let (Some(scene), Some(camera)) = (&self.scene, self.camera()) else {
             return Vec::new();
         };
-        let Some(((cells, size), sight)) = self.raster().zip(self.sight()) else {
+        let Some(((cells, size), frame_window)) = self.raster().zip(self.frame_window()) else {
             return Vec::new();
         };
         let places: Vec<_> = match kind {
@@ -115,7 +115,7 @@ impl App {
             }
         };
         let symbol = |(node, place)| {
-            let [x, y] = sight.on_screen(pixel_of(place, &camera, size)?, size);
+            let [x, y] = frame_window.on_screen(pixel_of(place, &camera, size)?, size);
             let is_inside =
                 0.0 <= x && 0.0 <= y && x < f64::from(size.width) && y < f64::from(size.height);
             let cell = (x as u16, y as u16 / 2);

@@ -3,11 +3,11 @@
 use std::collections::VecDeque;
 use std::sync::Arc;
 
-use super::shown::Shown;
+use super::cell_image::CellImage;
 use crate::document::StateId;
 use crate::render::Frame;
 use crate::scene::{Camera, Integrator};
-use crate::ui::past::NoPicture;
+use crate::ui::history_scene::NoPicture;
 
 /// The number of pictures kept in rows and at the side: less than 4 MB on a screen of 250×80 cells.
 const KEPT: [usize; 2] = [256, 16];
@@ -33,7 +33,7 @@ pub(super) struct Slot {
 }
 
 /// What is known of a picture.
-pub type Thumbnail = Result<Shown, NoPicture>;
+pub type Thumbnail = Result<CellImage, NoPicture>;
 
 /// The pictures of the history's texts, the last that were needed.
 #[derive(Debug, Default)]
@@ -137,7 +137,7 @@ impl Thumbnails {
         let Some(pending) = self.pending.filter(is_it) else {
             return;
         };
-        let shown = Shown {
+        let shown = CellImage {
             size: frame.size,
             pixels: frame.pixels.clone(),
             objects: frame.objects.clone(),

@@ -8,10 +8,10 @@ use super::steps::Steps;
 use super::thumbnails::{Look, Rank, Slot};
 use crate::render::{Frames, Job, Settings};
 use crate::scene::{Camera, Filter, Integrator, Rendering};
-use crate::ui::filmstrip::Filmstrip;
+use crate::ui::history_layout::HistoryLayout;
+use crate::ui::history_scene::{HistoryScene, HistoryText, NoPicture};
 use crate::ui::layout::{raster, split_bottom};
 use crate::ui::msg::{Effect, Target};
-use crate::ui::past::{NoPicture, PastScene, PastText};
 
 /// Objects and bytes of text beyond which only the selected step has a picture: each one takes a
 /// second or more to derive.
@@ -73,11 +73,11 @@ impl App {
     }
 
     /// The places on the page of the history in an area above the status line.
-    pub fn filmstrip(&self, body: Rect) -> Filmstrip {
+    pub fn history_layout(&self, body: Rect) -> HistoryLayout {
         if self.thumbnails.has_colours {
-            Filmstrip::with_pictures(body)
+            HistoryLayout::with_pictures(body)
         } else {
-            Filmstrip::with_names(body)
+            HistoryLayout::with_names(body)
         }
     }
 
@@ -121,7 +121,7 @@ impl App {
         let Some((page, steps)) = self.open_steps() else {
             return Vec::new();
         };
-        let strip = self.filmstrip(self.body());
+        let strip = self.history_layout(self.body());
         let shown = page.rows();
         let id = |row: usize| {
             let (index, _) = shown.get(row)?;
@@ -150,7 +150,7 @@ impl App {
 
     /// The rows that Page Down moves on the page of the history.
     pub(super) fn step_rows(&self) -> isize {
-        let strip = self.filmstrip(self.body());
+        let strip = self.history_layout(self.body());
         (strip.list.height / strip.height) as isize
     }
 
@@ -181,7 +181,7 @@ impl App {
     fn derive(&self, slot: Slot, ticket: u64) -> Option<Effect> {
         let mut states = self.document.states();
         let at = states.position(|state| state.id == slot.id)?;
-        Some(Effect::Derive(Box::new(PastText {
+        Some(Effect::Derive(Box::new(HistoryText {
             ticket,
             timeline: self.document.timeline(),
             at,
@@ -194,7 +194,7 @@ impl App {
     pub(super) fn derived(
         &mut self,
         ticket: u64,
-        derived: Result<PastScene, NoPicture>,
+        derived: Result<HistoryScene, NoPicture>,
     ) -> Vec<Effect> {
         let slot = self.thumbnails.asked(ticket);
         let job = match (slot, derived) {
@@ -213,7 +213,7 @@ impl App {
 
     /// The job of a picture: as the preview would show the text, from the working view if there is
     /// one, so that pictures differ only by their texts; but always light, as files hold it.
-    fn thumbnail_job(&mut self, slot: Slot, past: PastScene) -> Option<Job> {
+    fn thumbnail_job(&mut self, slot: Slot, past: HistoryScene) -> Option<Job> {
         let own = past.scene.camera;
         let view = self.pictures.view.map(|view| Camera {
             size: own.size,

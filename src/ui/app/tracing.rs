@@ -4,14 +4,14 @@ use std::sync::Arc;
 
 use super::until::Until;
 use super::viewport::{Detail, Screen};
-use super::{App, Grid, Picture, Wires};
+use super::{App, Grid, Picture, ShownWireframe};
 use crate::image_file::ImageFormat;
 use crate::render::{Frame, Frames, Job, Region, Settings};
 use crate::scene::{Filter, Integrator, Rendering, Scene, Size};
 use crate::text::Severity;
+use crate::ui::history_scene::NoPicture;
 use crate::ui::keymap::Mode;
 use crate::ui::msg::{Effect, Recalled, Target};
-use crate::ui::past::NoPicture;
 
 /// Samples per pixel at which the preview stops: by then edges are smooth and the noise of paths is
 /// invisible. Where cells hold more pixels, each needs fewer samples.
@@ -54,7 +54,7 @@ impl App {
         let preview = &self.pictures.preview;
         let viewport = preview.viewport;
         let window = viewport.window(screen, Detail::OnScreen);
-        match window.filter(|_| self.pictures.wires.is_none()) {
+        match window.filter(|_| self.pictures.wireframe.is_none()) {
             Some(window) => (window.whole, Some(window.part)),
             None => (screen.grid.size(screen.halves), None),
         }
@@ -80,9 +80,9 @@ impl App {
     }
 
     /// The wireframe if it is on screen instead of a traced picture.
-    pub fn wires(&self) -> Option<&Wires> {
-        let wires = self.pictures.wires.as_ref();
-        wires.filter(|_| self.seen() == Target::Preview)
+    pub fn wireframe(&self) -> Option<&ShownWireframe> {
+        let wireframe = self.pictures.wireframe.as_ref();
+        wireframe.filter(|_| self.seen() == Target::Preview)
     }
 
     /// Brings the wireframe up to date, if it is on screen.
@@ -91,10 +91,10 @@ impl App {
             return;
         }
         let (camera, raster) = (self.camera(), self.raster());
-        if let (Some(wires), Some(scene)) = (&mut self.pictures.wires, &self.scene)
+        if let (Some(wireframe), Some(scene)) = (&mut self.pictures.wireframe, &self.scene)
             && let (Some(camera), Some((_, size))) = (camera, raster)
         {
-            wires.follow(scene, camera, size);
+            wireframe.follow(scene, camera, size);
         }
     }
 

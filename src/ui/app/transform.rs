@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-use super::trial::Trial;
+use super::live_edit::LiveEdit;
 use super::typed;
 use crate::document::StepName;
 use crate::language::{Along, Motion, Node, Pose};
@@ -88,7 +88,7 @@ pub struct Transform {
     /// The decimals that a step needs.
     pub(super) step_decimals: usize,
     /// The change of the text.
-    pub(super) trial: Trial,
+    pub(super) live_edit: LiveEdit,
 }
 
 impl Transform {

@@ -48,10 +48,12 @@ impl App {
                 return;
             }
         };
-        let magnification = self.sight().map_or(1.0, |sight| sight.magnification(size));
+        let magnification = self
+            .frame_window()
+            .map_or(1.0, |frame_window| frame_window.magnification(size));
         let pixel = pixel_at(pose.centre, &camera, size) / magnification;
         let step = round_up(pixel);
-        let trial = self.begin_trial();
+        let live_edit = self.begin_live_edit();
         self.pictures.transform = Some(Transform {
             tool,
             lock: Lock::default(),
@@ -65,7 +67,7 @@ impl App {
             pixel,
             step,
             step_decimals: decimals_of(step),
-            trial,
+            live_edit,
         });
         self.mode = Mode::Move;
     }
@@ -230,17 +232,19 @@ impl App {
             return;
         }
         match self.pictures.transform.take() {
-            Some(transform) if transform.trial.is_applied => self.overlays.say(transform.words()),
+            Some(transform) if transform.live_edit.is_applied => {
+                self.overlays.say(transform.words());
+            }
             _ => self.overlays.say("nothing has changed"),
         }
-        self.keep_trial();
+        self.keep_live_edit();
         self.mode = Mode::Select;
     }
 
     /// Puts everything back and ends.
     pub(super) fn cancel_transform(&mut self) {
         if let Some(transform) = self.pictures.transform.take() {
-            self.end_trial(transform.trial);
+            self.end_live_edit(transform.live_edit);
         }
         self.mode = Mode::Select;
     }
@@ -250,19 +254,19 @@ impl App {
         let Some(mut transform) = self.pictures.transform.take() else {
             return;
         };
-        if self.leaves_trial(&transform.trial, "transformation") {
+        if self.leaves_live_edit(&transform.live_edit, "transformation") {
             self.mode = Mode::Select;
             return;
         }
         change(&mut transform);
         let own = transform.clone();
-        let outcome = self.try_instead(&mut transform.trial, |app| {
+        let outcome = self.try_instead(&mut transform.live_edit, |app| {
             let edits = app.edits_of_motion(&own);
             edits.map_err(|refused| refused.to_string())
         });
         match outcome {
             Ok(()) => {
-                if transform.trial.is_applied {
+                if transform.live_edit.is_applied {
                     let targets = self.targets_name(&transform.nodes);
                     self.document.name_step(transform.step_name(&targets));
                 }

@@ -52,7 +52,7 @@ impl App {
                 self.pictures.preview.asked = None;
             }
             Msg::Started(Target::Thumbnail, generation) => self.thumbnails.started(generation),
-            Msg::Started(Target::Trial, generation) => self.cures.started(generation),
+            Msg::Started(Target::Trial, generation) => self.suggestions.started(generation),
             Msg::Started(target, generation) => {
                 self.pictures.want(target, Some(generation));
                 self.compared.want(target, Some(generation));

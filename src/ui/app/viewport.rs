@@ -1,6 +1,6 @@
 //! Zoom and pan: which part of a picture is on screen.
 
-use super::sight::{Grid, Window};
+use super::frame_window::{Grid, Window};
 use crate::render::Region;
 use crate::scene::Size;
 

@@ -1,7 +1,7 @@
 //! Zooming and panning the picture on screen.
 
 use super::App;
-use super::sight::Sight;
+use super::frame_window::FrameWindow;
 use super::viewport::{Detail, Screen, Viewport};
 use crate::scene::Size;
 use crate::ui::keymap::Mode;
@@ -36,13 +36,13 @@ impl ScaleOrder {
 
 impl App {
     /// How the picture on screen is seen; `None` if there is no room.
-    pub fn sight(&self) -> Option<Sight> {
+    pub fn frame_window(&self) -> Option<FrameWindow> {
         let screen = self.screen()?;
         let detail = match self.seen() {
             Target::Trace | Target::Compared => Detail::Full,
             _ => Detail::OnScreen,
         };
-        Some(Sight {
+        Some(FrameWindow {
             size: screen.grid.size(screen.halves),
             grid: screen.grid,
             window: self.viewport().window(screen, detail),
@@ -54,7 +54,7 @@ impl App {
     /// Which part of the picture on screen is seen. A wireframe is seen whole.
     pub fn viewport(&self) -> Viewport {
         let viewport = self.picture().viewport;
-        match (self.wires(), self.screen()) {
+        match (self.wireframe(), self.screen()) {
             (Some(_), _) => Viewport::default(),
             (None, Some(screen)) => viewport.on(screen),
             (None, None) => viewport,
@@ -66,12 +66,12 @@ impl App {
     /// finds it in the frame.
     pub fn pixel_at(&self, cell: (u16, u16)) -> Option<[u32; 2]> {
         let frame = self.picture().latest.as_ref()?;
-        self.sight()?.pixel_at(cell, frame.whole())
+        self.frame_window()?.pixel_at(cell, frame.whole())
     }
 
     /// The pixel of the output picture under the upper half of a cell.
     pub(super) fn output_pixel_at(&self, cell: (u16, u16)) -> Option<[u32; 2]> {
-        self.sight()?.pixel_at(cell, self.output())
+        self.frame_window()?.pixel_at(cell, self.output())
     }
 
     /// The pixel of the output picture in the upper left corner of the screen.
@@ -169,7 +169,7 @@ impl App {
     }
 
     fn adjust(&mut self, change: impl FnOnce(Viewport, Screen) -> Viewport) {
-        if self.wires().is_some() {
+        if self.wireframe().is_some() {
             self.overlays.say("a wireframe is shown whole");
             return;
         }

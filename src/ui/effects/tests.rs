@@ -29,7 +29,7 @@ fn page() -> (Runtime, Receiver<Event>) {
         }),
         ..Options::default()
     };
-    let reader = Reader::start(options.watching(), sending(&sender)).expect("a thread");
+    let reader = SceneLoader::start(options.watching(), sending(&sender)).expect("a thread");
     let runtime = Runtime::new(&options, reader, sender).expect("a page");
     (runtime, inbox)
 }
@@ -85,10 +85,10 @@ fn a_page_recalls_and_keeps_no_trace() {
             .is_some_and(|traced| !traced.was_looked_for())
     );
     let none = Duration::ZERO;
-    let patience = Patience {
+    let deadlines = ShutdownDeadlines {
         terminal: none,
         files: none,
         trace: none,
     };
-    assert_eq!(runtime.close(patience, None).1, TraceEnd::Nothing);
+    assert_eq!(runtime.close(deadlines, None).1, TraceEnd::Nothing);
 }

@@ -34,7 +34,7 @@ impl Session {
             pictures.are_awaited()
                 || self.app.compared.is_awaited()
                 || self.app.thumbnails.are_awaited()
-                || self.app.cures.are_awaited()
+                || self.app.suggestions.are_awaited()
                 || self.app.jobs.export.is_some()
         } else {
             pictures.preview.is_coarse()

@@ -5,7 +5,7 @@
 
 use super::dither;
 use super::oklab::light;
-use crate::ui::app::Shown;
+use crate::ui::app::CellImage;
 
 /// Characters, and the coverage of their upper and lower halves: exact for blocks, for the others
 /// an average over common fonts (`DejaVu` Sans Mono, Noto Sans Mono).
@@ -51,7 +51,7 @@ struct Glyph {
 
 impl Characters {
     /// Computes the lightness of a picture's pixels.
-    pub(super) fn of(shown: &Shown) -> Self {
+    pub(super) fn of(shown: &CellImage) -> Self {
         let lights: [f32; 256] = std::array::from_fn(|value| light([value as u8; 3])[0]);
         let lightness = shown.pixels.iter().map(|&pixel| {
             let [red, green, blue] = pixel.map(|value| lights[usize::from(value)]);
@@ -130,7 +130,7 @@ mod tests {
     fn drawn(width: u32, height: u32, grey: impl Fn(u32, u32) -> u8) -> Vec<String> {
         let size = Size { width, height };
         let pixels = (0..height).flat_map(|y| (0..width).map(move |x| (x, y)));
-        let characters = Characters::of(&Shown {
+        let characters = Characters::of(&CellImage {
             size,
             pixels: pixels.map(|(x, y)| [grey(x, y); 3]).collect(),
             objects: vec![NO_OBJECT; size.pixels()],
@@ -197,7 +197,7 @@ mod tests {
                 height: 2,
             };
             let (pixels, objects) = (vec![colour; 2], vec![NO_OBJECT; 2]);
-            let shown = Shown {
+            let shown = CellImage {
                 size,
                 pixels,
                 objects,

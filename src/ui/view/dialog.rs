@@ -9,10 +9,10 @@ use unicode_width::UnicodeWidthStr;
 use super::row::Row;
 use crate::document::Merge;
 use crate::text::{Position, counted};
-use crate::ui::app::{App, Dialog, Next, OnDisk, Outside, Whose};
-use crate::ui::fit::wrap;
+use crate::ui::app::{AfterLeaving, App, Dialog, MergeSource, OnDisk, Whose};
 use crate::ui::layout;
 use crate::ui::recovery::{Offer, Since};
+use crate::ui::text_width::wrap;
 use crate::ui::theme;
 
 /// Minimum width of one side of a conflict, in columns.
@@ -43,11 +43,11 @@ pub(crate) fn render(app: &App, area: Rect, buffer: &mut Buffer) {
 }
 
 /// The title of the question whether to leave the scene.
-fn leaving(next: &Next) -> &'static str {
+fn leaving(next: &AfterLeaving) -> &'static str {
     match next {
-        Next::Quit => " Quit ",
-        Next::Open(_) => " Open ",
-        Next::New(_) => " New ",
+        AfterLeaving::Quit => " Quit ",
+        AfterLeaving::Open(_) => " Open ",
+        AfterLeaving::New(_) => " New ",
     }
 }
 
@@ -107,14 +107,21 @@ fn ask(app: &App, title: &str, text: &str, area: Rect, buffer: &mut Buffer) {
 }
 
 /// Draws the conflicts with their decisions, and both texts of the selected one.
-fn conflict(app: &App, merge: &Merge, at: usize, from: &Outside, area: Rect, buffer: &mut Buffer) {
+fn conflict(
+    app: &App,
+    merge: &Merge,
+    at: usize,
+    from: &MergeSource,
+    area: Rect,
+    buffer: &mut Buffer,
+) {
     let width = area.width.saturating_sub(4).min(90);
     let keys = answers(app, width.saturating_sub(4));
     let conflicts = &merge.conflicts;
     let height = conflicts.len() + keys.len() + 4;
     let (title, theirs) = match from {
-        Outside::File => (" The file changed too ", "file"),
-        Outside::Kept(..) => (" Recover ", text_name(app)),
+        MergeSource::File => (" The file changed too ", "file"),
+        MergeSource::Kept(..) => (" Recover ", text_name(app)),
     };
     let inner = frame(title, (width, height), area, buffer);
     let (list, _) = layout::split_bottom(inner, keys.len() as u16);
@@ -225,14 +232,14 @@ fn one_line(text: &str) -> String {
 #[cfg(test)]
 mod tests {
     use crate::document::{Merge, Side};
-    use crate::ui::app::{App, Dialog, Next, Outside};
+    use crate::ui::app::{AfterLeaving, App, Dialog, MergeSource};
     use crate::ui::view::tests::{SCENE, app, conflict, drawn, retype};
 
     #[test]
     fn quitting_shows_what_would_be_lost_and_how_to_answer() {
         let mut app = app();
         retype(&mut app, " 0.25 //", " 0.5 //");
-        app.overlays.dialog = Some(Dialog::Leave(Next::Quit));
+        app.overlays.dialog = Some(Dialog::Leave(AfterLeaving::Quit));
         let text = drawn(&app, super::render, 80, 24).join("\n");
         for part in [
             "test.ray has unsaved edits",
@@ -254,7 +261,7 @@ mod tests {
         app.overlays.dialog = Some(Dialog::Conflict {
             merge,
             at: 0,
-            from: Outside::File,
+            from: MergeSource::File,
         });
         let lines = drawn(&app, super::render, 80, 24);
         let line = lines.iter().find(|line| line.contains('▸'));
@@ -273,7 +280,7 @@ mod tests {
         app.overlays.dialog = Some(Dialog::Conflict {
             merge,
             at: 0,
-            from: Outside::File,
+            from: MergeSource::File,
         });
         let lines = drawn(&app, super::render, 100, 24);
         let line = lines.into_iter().find(|line| line.contains('▸'));

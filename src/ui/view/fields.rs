@@ -14,9 +14,9 @@ use crate::language::table::{Category, Kind};
 use crate::scene::Rgb;
 use crate::text::{counted, parse_number, without_suffix};
 use crate::ui::app::{App, FieldRow, Provenance, Stride, Typing};
-use crate::ui::fit::wrap;
 use crate::ui::keymap::Mode;
 use crate::ui::layout::{self, marker_at};
+use crate::ui::text_width::wrap;
 use crate::ui::theme;
 
 /// Draws the fields of the selected node and a description of the current one.

@@ -19,10 +19,10 @@ const BARS: [&str; 3] = [" ", "▄", "█"];
 
 /// Draws the histogram in the lower left corner of the picture, if it is on and fits.
 pub(crate) fn render(app: &App, area: Rect, buffer: &mut Buffer) {
-    let Some(tally) = &app.pictures.tally else {
+    let Some(histogram) = &app.pictures.histogram else {
         return;
     };
-    let width = tally
+    let width = histogram
         .histogram
         .as_ref()
         .map_or(24, |shown| shown.bins.len()) as u16
@@ -40,7 +40,7 @@ pub(crate) fn render(app: &App, area: Rect, buffer: &mut Buffer) {
     let panel = panel.intersection(buffer.area);
     Clear.render(panel, buffer);
     title("luminance", "EV", None, panel, buffer);
-    match &tally.histogram {
+    match &histogram.histogram {
         Some(histogram) => chart(histogram, panel, buffer),
         None => {
             Row::new(buffer, panel, 2)
@@ -93,7 +93,7 @@ fn chart(histogram: &Histogram, panel: Rect, buffer: &mut Buffer) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::ui::app::Tally;
+    use crate::ui::app::ShownHistogram;
     use crate::ui::view::tests::{app, drawn};
 
     /// A pixel of each of these luminances and three of ¼; 0.001 is below the scale.
@@ -101,7 +101,7 @@ mod tests {
     fn bars_stand_over_their_stops_and_clipping_is_marked() {
         let values = [0.001, 0.25, 0.25, 0.25, 1.0, 1.0, 4.0, 4.0].map(|grey| [grey; 3]);
         let mut app = app();
-        app.pictures.tally = Some(Tally::of(Histogram::of(&values, 0.0)));
+        app.pictures.histogram = Some(ShownHistogram::of(Histogram::of(&values, 0.0)));
         let lines = drawn(&app, render, 40, 8);
         assert_eq!(
             lines,
@@ -118,7 +118,7 @@ mod tests {
         );
         // Where it does not fit, it is left out.
         assert!(drawn(&app, render, 25, 8).iter().all(String::is_empty));
-        app.pictures.tally = Some(Tally::default());
+        app.pictures.histogram = Some(ShownHistogram::default());
         assert_eq!(drawn(&app, render, 40, 8)[3], " only of light and albedo");
     }
 }

@@ -8,7 +8,7 @@ use ratatui::widgets::{Block, BorderType, Clear, Widget};
 use super::row::Row;
 use crate::text::Severity;
 use crate::ui::app::{App, Message};
-use crate::ui::fit::{visible, wrap};
+use crate::ui::text_width::{visible, wrap};
 use crate::ui::theme;
 
 /// Draws the messages so far, the newest first, if their page is open.

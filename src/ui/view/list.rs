@@ -9,10 +9,10 @@ use super::row::{Row, title};
 use crate::language::Node;
 use crate::scene::Rgb;
 use crate::ui::app::App;
-use crate::ui::fit::{shorten, visible};
 use crate::ui::keymap::Mode;
 use crate::ui::layout;
 use crate::ui::listing::ListLine;
+use crate::ui::text_width::{shorten, visible};
 use crate::ui::theme;
 
 /// The heading of the list.

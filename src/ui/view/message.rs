@@ -6,7 +6,7 @@ use ratatui::widgets::{Clear, Widget};
 
 use super::row::{Row, title};
 use crate::ui::app::Message;
-use crate::ui::fit::{visible, wrap};
+use crate::ui::text_width::{visible, wrap};
 use crate::ui::{layout, theme};
 
 /// Draws as much of a message as fits at the bottom of `area`.

@@ -12,12 +12,12 @@ mod dialog;
 mod dither;
 mod errors;
 mod fields;
+mod graphics_gap;
 mod help;
 mod histogram;
 mod history;
 mod inks;
 mod labelled;
-mod left;
 mod list;
 mod menu;
 mod message;
@@ -51,8 +51,8 @@ use super::arrange::MIN_SIZE;
 use super::keymap::{Context, Mode};
 use super::layout;
 use super::theme;
+pub use graphics_gap::pixmap;
 pub use inks::{Drawing, Inks};
-pub use left::pixmap;
 pub use mosaic::Mosaic;
 
 /// Draws the whole screen. Returns the cells that are left to the terminal's own picture: none if
@@ -69,7 +69,7 @@ pub fn draw(app: &App, inks: &mut Inks, frame: &mut Frame) -> Option<Rect> {
     }
     if let Some(cells) = left {
         left = Some(cells.intersection(buffer.area));
-        left::blank(cells, buffer);
+        graphics_gap::blank(cells, buffer);
     }
     inks.theme(app.theme).apply(buffer);
     left
@@ -84,7 +84,7 @@ fn render(app: &App, inks: &mut Inks, area: Rect, buffer: &mut Buffer) -> Option
         return None;
     }
     let left = picture::render(app, inks, areas.picture, buffer);
-    let left = left.map(|cells| (cells, left::left_in(cells, buffer)));
+    let left = left.map(|cells| (cells, graphics_gap::left_in(cells, buffer)));
     rule(app, areas.rule, buffer);
     if app.context() == Context::Rays {
         rays::render(app, buffer);
@@ -126,7 +126,7 @@ fn render(app: &App, inks: &mut Inks, area: Rect, buffer: &mut Buffer) -> Option
     completions::render(app, body, buffer);
     dialog::render(app, body, buffer);
     let (cells, count) = left?;
-    (left::left_in(cells, buffer) == count).then_some(cells)
+    (graphics_gap::left_in(cells, buffer) == count).then_some(cells)
 }
 
 /// Draws the line between columns, which makes a stale picture obvious.

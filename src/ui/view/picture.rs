@@ -11,13 +11,13 @@ use ratatui::widgets::{Clear, Widget};
 use unicode_width::UnicodeWidthStr;
 
 use super::characters::Characters;
+use super::graphics_gap::leave;
 use super::inks::{Drawing, Glyphs, Inks};
-use super::left::leave;
 use super::row::Row;
 use super::{comparison, pixel, symbols, tiles, values, wireframe};
 use crate::render::{line_of, pixel_of, pixel_width};
 use crate::scene::Size;
-use crate::ui::app::{App, FirstReading, Grid, Shown};
+use crate::ui::app::{App, CellImage, FirstReading, Grid};
 use crate::ui::keymap::{Context, Mode};
 use crate::ui::layout::{self, raster};
 use crate::ui::theme;
@@ -26,8 +26,8 @@ use crate::ui::theme;
 /// the terminal's own picture.
 pub(crate) fn render(app: &App, inks: &mut Inks, area: Rect, buffer: &mut Buffer) -> Option<Rect> {
     let (cells, size) = raster(area, app.output())?;
-    if let Some(wires) = app.wires().and_then(|wires| wires.lines(size)) {
-        wireframe::paint(wires, &app.outlined_objects(), cells, buffer);
+    if let Some(wireframe) = app.wireframe().and_then(|wireframe| wireframe.lines(size)) {
+        wireframe::paint(wireframe, &app.outlined_objects(), cells, buffer);
         overlays(app, inks.glyphs, area, (cells, size), buffer);
         return None;
     }
@@ -56,8 +56,8 @@ pub(crate) fn render(app: &App, inks: &mut Inks, area: Rect, buffer: &mut Buffer
         }
         Drawing::Picture => leave(cells, buffer),
     }
-    if let (Some(frame), Some(sight)) = (&app.picture().latest, app.sight()) {
-        values::render(frame, &sight, cells, buffer);
+    if let (Some(frame), Some(frame_window)) = (&app.picture().latest, app.frame_window()) {
+        values::render(frame, &frame_window, cells, buffer);
     }
     overlays(app, inks.glyphs, area, (cells, size), buffer);
     (inks.drawing == Drawing::Picture).then_some(cells)
@@ -172,8 +172,10 @@ fn axis(app: &App, glyphs: Glyphs, (cells, size): (Rect, Size), buffer: &mut Buf
         return;
     };
     let Some(axis) = transform.axis() else { return };
-    let Some(sight) = app.sight() else { return };
-    let unit = pixel_width(transform.pivot(), &camera, size) / sight.magnification(size);
+    let Some(frame_window) = app.frame_window() else {
+        return;
+    };
+    let unit = pixel_width(transform.pivot(), &camera, size) / frame_window.magnification(size);
     let reach = i64::from(2 * size.width.max(size.height));
     let colour = theme::axis(axis);
     for at in -reach..=reach {
@@ -181,7 +183,7 @@ fn axis(app: &App, glyphs: Glyphs, (cells, size): (Rect, Size), buffer: &mut Buf
         let Some(place) = pixel_of(point, &camera, size) else {
             continue;
         };
-        let [x, y] = sight.on_screen(place, size);
+        let [x, y] = frame_window.on_screen(place, size);
         if y < f64::from(size.height) {
             plot([x, 0.5 * y], (glyphs, colour), cells, buffer);
         }
@@ -248,7 +250,7 @@ fn plot(
 }
 
 /// Draws the pixels of a picture over its cells.
-pub(super) fn paint(shown: &Shown, inks: &mut Inks, area: Rect, buffer: &mut Buffer) {
+pub(super) fn paint(shown: &CellImage, inks: &mut Inks, area: Rect, buffer: &mut Buffer) {
     let width = shown.size.width;
     let pixel = |x: u32, y: u32| -> Option<Pixel> {
         let at = y as usize * width as usize + x as usize;
@@ -319,8 +321,8 @@ mod tests {
     use crate::scene::Size;
     use crate::ui::view::tests::{app_of, drawn};
 
-    fn shown(width: u32, height: u32, pixels: &[[u8; 3]]) -> Shown {
-        Shown {
+    fn shown(width: u32, height: u32, pixels: &[[u8; 3]]) -> CellImage {
+        CellImage {
             size: Size { width, height },
             pixels: pixels.to_vec(),
             objects: vec![NO_OBJECT; pixels.len()],
@@ -328,7 +330,7 @@ mod tests {
         }
     }
 
-    fn painted(shown: &Shown, glyphs: Glyphs) -> Buffer {
+    fn painted(shown: &CellImage, glyphs: Glyphs) -> Buffer {
         let area = Rect::new(
             0,
             0,

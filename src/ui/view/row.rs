@@ -5,7 +5,7 @@ use ratatui::layout::Rect;
 use ratatui::style::Style;
 use unicode_width::{UnicodeWidthChar, UnicodeWidthStr};
 
-use crate::ui::fit::{shorten, visible};
+use crate::ui::text_width::{shorten, visible};
 use crate::ui::theme;
 
 /// A line that is written from left to right, clipped at its end.

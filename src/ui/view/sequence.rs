@@ -6,7 +6,7 @@ use ratatui::style::Style;
 
 use super::row::{self, Row};
 use crate::ui::app::{App, OpenTrack};
-use crate::ui::sheet::Sheet;
+use crate::ui::dope_sheet::DopeSheet;
 use crate::ui::theme;
 
 /// Draws the sheet of the open track.
@@ -17,7 +17,7 @@ pub(crate) fn render(app: &App, area: Rect, buffer: &mut Buffer) {
     let seconds = f64::from(open.frame) / f64::from(open.rate());
     let right = format!("{seconds:.2} s, {} fps", open.rate());
     row::title(&open.name(), &right, Some(theme::ACCENT), area, buffer);
-    let sheet = Sheet::new(area, open.last());
+    let sheet = DopeSheet::new(area, open.last());
     let rows: Vec<_> = open.track.rows().collect();
     let lines = usize::from(sheet.names.height);
     let shown = if lines < rows.len() {
@@ -41,7 +41,7 @@ pub(crate) fn render(app: &App, area: Rect, buffer: &mut Buffer) {
 }
 
 /// Draws the keys of a row, and the line between them.
-fn keys(sheet: &Sheet, frames: &[u32], line: u16, buffer: &mut Buffer) {
+fn keys(sheet: &DopeSheet, frames: &[u32], line: u16, buffer: &mut Buffer) {
     let columns: Vec<u16> = frames.iter().map(|&frame| sheet.column(frame)).collect();
     if let [first, .., last] = columns[..] {
         let mut row = Row::new(buffer, sheet.frames, line);
@@ -56,7 +56,7 @@ fn keys(sheet: &Sheet, frames: &[u32], line: u16, buffer: &mut Buffer) {
 }
 
 /// Marks the column of the frame that is shown, down to the line below the rows.
-fn cursor(sheet: &Sheet, open: &OpenTrack, lines: u16, buffer: &mut Buffer) {
+fn cursor(sheet: &DopeSheet, open: &OpenTrack, lines: u16, buffer: &mut Buffer) {
     let column = sheet.frames.x + sheet.column(open.frame);
     for y in sheet.frames.y..sheet.frames.bottom().min(sheet.frames.y + lines.max(1)) {
         if let Some(cell) = buffer.cell_mut((column, y)) {

@@ -12,8 +12,8 @@ use super::row::Row;
 use crate::render::Progress;
 use crate::text::{counted, percentage};
 use crate::ui::app::{App, Message, OnDisk, OpenTrack, Prompt, PromptKind};
-use crate::ui::fit::visible;
 use crate::ui::keymap::{self, Mode};
+use crate::ui::text_width::visible;
 use crate::ui::theme;
 
 /// Draws the prompt, or as many of the current key hints as fit.
@@ -310,7 +310,7 @@ fn comparison_segments(app: &App, say: &mut impl FnMut(u8, String, Style)) {
 
 /// Adds the auxiliary image shown, or the integrator, with a star if it differs from the scene's.
 fn making_segment(app: &App, say: &mut impl FnMut(u8, String, Style)) {
-    if app.wires().is_some() {
+    if app.wireframe().is_some() {
         say(7, "wireframe".to_owned(), theme::WARNING);
         return;
     }
@@ -428,7 +428,7 @@ mod tests {
     use crate::language::Language;
     use crate::render::{Aov, Frame};
     use crate::scene::{Integrator, Rendering, Size};
-    use crate::ui::app::{Message, Picture, Typing, Wires};
+    use crate::ui::app::{Message, Picture, ShownWireframe, Typing};
     use crate::ui::view::tests::{app, app_of, drawn, retype};
     use tui_input::Input;
 
@@ -468,7 +468,7 @@ mod tests {
         assert_eq!(said(&app), ["path*"]);
         app.pictures.aov = Some(Aov::Depth);
         assert_eq!(said(&app), ["depth"]);
-        app.pictures.wires = Some(Wires::default());
+        app.pictures.wireframe = Some(ShownWireframe::default());
         assert_eq!(said(&app), ["wireframe"]);
         let paths = "<xml><scene/><camera gamma='sRGB'/></xml>";
         assert_eq!(said(&app_of(Language::Xml, paths)), ["path"]);

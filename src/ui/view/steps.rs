@@ -12,9 +12,9 @@ use super::inks::Inks;
 use super::row::Row;
 use super::{page, picture};
 use crate::ui::app::{App, Rank, Steps, Thumbnail};
-use crate::ui::fit::{visible, wrap};
+use crate::ui::history_scene::NoPicture;
 use crate::ui::layout::{centred, raster};
-use crate::ui::past::NoPicture;
+use crate::ui::text_width::{visible, wrap};
 use crate::ui::theme;
 
 /// Draws the page if it is open.
@@ -36,7 +36,7 @@ pub(crate) fn render(app: &App, inks: &mut Inks, area: Rect, buffer: &mut Buffer
         .title(title)
         .title_top(Line::from(present).right_aligned())
         .render(area, buffer);
-    let strip = app.filmstrip(area);
+    let strip = app.history_layout(area);
     let rows = page.rows();
     for (row, place) in strip.rows(page.filter.at, rows.len()) {
         let Some((index, name)) = rows.get(row) else {

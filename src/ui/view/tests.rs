@@ -18,8 +18,9 @@ use crate::render::{Frame, NO_OBJECT, Overexposure, Progress};
 use crate::scene::{Rendering, Size};
 use crate::text::{Edit, Severity, Span};
 use crate::ui::app::{
-    App, Cross, Dialog, Export, Help, List, Message, Names, Next, OnDisk, Opening, OpeningText,
-    Outside, Page, PageFocus, Preferences, Prompt, PromptKind, Sight, Stage, Typing, Wires,
+    AfterLeaving, App, Cross, Dialog, Export, FrameWindow, Help, List, MergeSource, Message, Names,
+    OnDisk, Opening, OpeningText, Page, PageFocus, Preferences, Prompt, PromptKind, ShownWireframe,
+    Stage, Typing,
 };
 use crate::ui::arrange::Zoom;
 use crate::ui::keymap::Mode;
@@ -160,7 +161,7 @@ const STATES: &[(&str, Change)] = &[
     ("picture", |app| {
         app.pictures.preview.take(frame(8, 6));
         app.pictures.preview.advance(
-            &Sight::whole(Size {
+            &FrameWindow::whole(Size {
                 width: 8,
                 height: 6,
             }),
@@ -204,10 +205,10 @@ const STATES: &[(&str, Change)] = &[
         app.overlays.page = Some(page);
     }),
     ("quit", |app| {
-        app.overlays.dialog = Some(Dialog::Leave(Next::Quit));
+        app.overlays.dialog = Some(Dialog::Leave(AfterLeaving::Quit));
     }),
     ("wires", |app| {
-        app.pictures.wires = Some(Wires::default());
+        app.pictures.wireframe = Some(ShownWireframe::default());
         app.update(Msg::Key(KeyCode::Char('O').into()));
     }),
     ("history", |app| {
@@ -241,7 +242,7 @@ const STATES: &[(&str, Change)] = &[
         app.overlays.dialog = Some(Dialog::Conflict {
             merge,
             at: 0,
-            from: Outside::File,
+            from: MergeSource::File,
         });
     }),
     ("typing", |app| {
@@ -490,7 +491,7 @@ fn errors_mark_the_picture_as_stale_and_are_explained() {
     let size = app.raster().expect("there is room").1;
     app.pictures
         .preview
-        .advance(&Sight::whole(size), &[], usize::MAX);
+        .advance(&FrameWindow::whole(size), &[], usize::MAX);
     retype(&mut app, " 0.25 ", " -1 ");
     let text = screen(&mut app, 100, 30).join("\n");
     for part in ["STALE", "1 error", "test.ray:6:18", "^^", "SELECT", "[+]"] {
@@ -522,8 +523,8 @@ fn cells_are_left_to_a_picture_unless_a_panel_is_over_it() {
     let mut app = app();
     assert_eq!(left(&mut app), (None, false), "there is no picture yet");
     app.pictures.preview.take(frame(8, 6));
-    let sight = app.sight().expect("there is room");
-    app.pictures.preview.advance(&sight, &[], usize::MAX);
+    let frame_window = app.frame_window().expect("there is room");
+    app.pictures.preview.advance(&frame_window, &[], usize::MAX);
     let cells = app.raster().map(|(cells, _)| cells);
     assert_eq!(left(&mut app), (cells, false));
     app.overlays.help = Some(Help::default());
@@ -541,7 +542,7 @@ fn a_picture_of_another_size_is_scaled_to_its_place() {
     let mut app = app();
     app.pictures.preview.take(frame(4, 3));
     app.pictures.preview.advance(
-        &Sight::whole(Size {
+        &FrameWindow::whole(Size {
             width: 4,
             height: 3,
         }),

@@ -7,13 +7,13 @@ use ratatui::style::Style;
 use super::inks::Inks;
 use super::mosaic::{MOST, Mosaic};
 use crate::scene::Size;
-use crate::ui::app::Shown;
+use crate::ui::app::CellImage;
 use crate::ui::theme;
 
 /// Draws the pixels of a picture over its cells as a mosaic. Cells that lack pixels at the right or
 /// lower edge repeat the last ones.
 pub(super) fn paint(
-    shown: &Shown,
+    shown: &CellImage,
     mosaic: Mosaic,
     inks: &mut Inks,
     area: Rect,
@@ -62,7 +62,7 @@ mod tests {
             width: 3,
             height: 5,
         };
-        let picture = Shown {
+        let picture = CellImage {
             size,
             pixels: [[a, b, a]; 4]
                 .concat()

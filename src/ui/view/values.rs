@@ -6,7 +6,7 @@ use ratatui::style::{Color, Style};
 
 use super::row::Row;
 use crate::render::Frame;
-use crate::ui::app::{Sight, Window};
+use crate::ui::app::{FrameWindow, Window};
 
 /// The smallest pixel, in cells, into which its 8-bit colour is written.
 const SMALLEST: (u16, u16) = (12, 3);
@@ -15,12 +15,12 @@ const SMALLEST: (u16, u16) = (12, 3);
 const ROOMY: u16 = 5;
 
 /// Writes the values of a frame's pixels into them, if their cells have room.
-pub(super) fn render(frame: &Frame, sight: &Sight, cells: Rect, buffer: &mut Buffer) {
-    let Some(Window { whole, part, fills }) = sight.window else {
+pub(super) fn render(frame: &Frame, frame_window: &FrameWindow, cells: Rect, buffer: &mut Buffer) {
+    let Some(Window { whole, part, fills }) = frame_window.window else {
         return;
     };
-    let width = (fills.width / part.width) as u16 / sight.grid.across;
-    let height = (fills.height / part.height) as u16 / sight.grid.down;
+    let width = (fills.width / part.width) as u16 / frame_window.grid.across;
+    let height = (fills.height / part.height) as u16 / frame_window.grid.down;
     if width < SMALLEST.0 || height < SMALLEST.1 || frame.whole() != whole {
         return;
     }
@@ -31,8 +31,8 @@ pub(super) fn render(frame: &Frame, sight: &Sight, cells: Rect, buffer: &mut Buf
     for (row, y) in (part.y..part.y + part.height).enumerate() {
         for (column, x) in (part.x..part.x + part.width).enumerate() {
             let pixel = Rect {
-                x: cells.x + begin(column, fills.width, part.width, sight.grid.across),
-                y: cells.y + begin(row, fills.height, part.height, sight.grid.down),
+                x: cells.x + begin(column, fills.width, part.width, frame_window.grid.across),
+                y: cells.y + begin(row, fills.height, part.height, frame_window.grid.down),
                 width,
                 height,
             };
@@ -102,16 +102,16 @@ mod tests {
             width: columns.into(),
             height: 2 * u32::from(rows),
         };
-        let sight = Sight {
+        let frame_window = FrameWindow {
             window: Some(Window {
                 whole: size,
                 part: Region::parse(part).expect("a region"),
                 fills,
             }),
-            ..Sight::whole(fills)
+            ..FrameWindow::whole(fills)
         };
         let mut buffer = Buffer::empty(area);
-        render(&frame, &sight, area, &mut buffer);
+        render(&frame, &frame_window, area, &mut buffer);
         let row = |y| (0..columns).map(move |x| (x, y));
         let lines = (0..rows).map(|y| row(y).map(|at| buffer[at].symbol()).collect::<String>());
         lines.map(|line| line.trim_end().to_owned()).collect()
@@ -139,7 +139,7 @@ mod tests {
             width: 1024,
             height: 64,
         };
-        let sight = Sight {
+        let frame_window = FrameWindow {
             window: Some(Window {
                 whole: size,
                 part: Region::whole(size),
@@ -149,11 +149,11 @@ mod tests {
                 across: 5,
                 down: 10,
             },
-            ..Sight::whole(fills)
+            ..FrameWindow::whole(fills)
         };
         let area = Rect::new(0, 0, 205, 6);
         let mut buffer = Buffer::empty(area);
-        render(&frame, &sight, area, &mut buffer);
+        render(&frame, &frame_window, area, &mut buffer);
         for x in 0..205 {
             let Color::Rgb(pixel, ..) = buffer[(x, 2)].bg else {
                 continue;

@@ -1,86 +1,22 @@
 //! The command line after `:`: each command is one row, from which the parser, the help, the palette
 //! and the README come, and which knows what the command does.
 
+mod row;
 mod rows;
-
-use std::path::PathBuf;
 
 use super::App;
 use crate::text::nearest_word;
 use crate::ui::keymap::{self, HelpLine, Mode};
 use crate::ui::msg::Effect;
+use row::{CommandRow, Run, Runs};
 use rows::ROWS;
 
-/// A command: one row.
-struct CommandRow {
-    /// One or two words, and alternative spellings.
-    names: &'static [&'static str],
-    arguments: Arguments,
-    /// Description for the help.
-    words: &'static str,
-    /// The name of the keys that do the same.
-    key: Option<&'static str>,
-    runs: Runs,
-}
-
-/// The arguments of a command, and what it does with them.
-enum Arguments {
-    None(fn() -> Run),
-    File(fn(Option<PathBuf>) -> Run),
-    Name(fn(Option<String>) -> Run),
-    /// How they are spelled, and what reads them; the error says what is expected.
-    Said(&'static str, fn(&str) -> Result<Run, String>),
-    /// The same, of a command whose arguments begin with a file name.
-    FileAnd(&'static str, fn(&str) -> Result<Run, String>),
-}
-
-/// When a command runs.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Runs {
-    /// Not while something is transformed or a scene is being opened, and outside of SEQUENCE.
-    OnText,
-    /// In SEQUENCE as well.
-    OnTrack,
-    /// While a scene is being opened as well.
-    WhileOpening,
-    /// Always.
-    Always,
-}
-
-/// What a command line does.
-struct Run(Box<Step>);
-
-type Step = dyn FnOnce(&mut App) -> Vec<Effect>;
-
-impl Run {
-    fn does(step: impl FnOnce(&mut App) + 'static) -> Self {
-        Self::asks(|app| {
-            step(app);
-            Vec::new()
-        })
-    }
-
-    fn asks(step: impl FnOnce(&mut App) -> Vec<Effect> + 'static) -> Self {
-        Self(Box::new(step))
-    }
-}
+pub(super) use row::Described;
 
 /// Minimum width of a column of the help page if there are several.
 const HELP_COLUMN: u16 = 56;
 /// Maximum number of columns of the help page.
 const MOST_COLUMNS: usize = 3;
-
-/// A command as the palette describes it.
-pub(super) struct Described {
-    pub(super) name: &'static str,
-    pub(super) names: &'static [&'static str],
-    pub(super) usage: String,
-    pub(super) words: &'static str,
-    /// The name of the keys that do the same.
-    pub(super) key: Option<&'static str>,
-    /// Whether its arguments begin with a file name.
-    pub(super) takes_file: bool,
-}
 
 /// All commands, in the order of the help page.
 pub(super) fn all_described() -> impl Iterator<Item = Described> {
@@ -116,68 +52,6 @@ pub(super) fn begins_command(line: &str) -> bool {
     let wanted = first(line);
     let mut names = ROWS.iter().flat_map(|row| row.names);
     names.any(|name| first(name) == wanted)
-}
-
-impl CommandRow {
-    const fn new(
-        names: &'static [&'static str],
-        arguments: Arguments,
-        words: &'static str,
-    ) -> Self {
-        Self {
-            names,
-            arguments,
-            words,
-            key: None,
-            runs: Runs::OnText,
-        }
-    }
-
-    /// Keys with this name do the same.
-    const fn key(mut self, name: &'static str) -> Self {
-        self.key = Some(name);
-        self
-    }
-
-    const fn runs(mut self, runs: Runs) -> Self {
-        self.runs = runs;
-        self
-    }
-
-    fn described(&self) -> Described {
-        Described {
-            name: self.names[0],
-            names: self.names,
-            usage: self.usage(),
-            words: self.words,
-            key: self.key,
-            takes_file: matches!(self.arguments, Arguments::File(_) | Arguments::FileAnd(..)),
-        }
-    }
-
-    /// The spelling with arguments: `:size WxH`.
-    fn usage(&self) -> String {
-        let name = self.names[0];
-        let arguments = match self.arguments {
-            Arguments::None(_) => "",
-            Arguments::File(_) => " [FILE]",
-            Arguments::Name(_) => " [NAME]",
-            Arguments::Said(usage, _) | Arguments::FileAnd(usage, _) => usage,
-        };
-        format!(":{name}{arguments}")
-    }
-
-    /// Parses the arguments; the error says what is expected.
-    fn parse(&self, rest: &str) -> Result<Run, String> {
-        let name = self.names[0];
-        match self.arguments {
-            Arguments::None(run) if rest.is_empty() => Ok(run()),
-            Arguments::None(_) => Err(format!("{name} takes no arguments")),
-            Arguments::File(run) => Ok(run((!rest.is_empty()).then(|| PathBuf::from(rest)))),
-            Arguments::Name(run) => Ok(run((!rest.is_empty()).then(|| rest.to_owned()))),
-            Arguments::Said(_, parse) | Arguments::FileAnd(_, parse) => parse(rest),
-        }
-    }
 }
 
 /// Parses a command line: its row, and what it does. The error says what is expected.
@@ -259,6 +133,7 @@ impl App {
 
 #[cfg(test)]
 mod tests {
+    use super::row::Arguments;
     use super::*;
 
     #[test]

@@ -1,6 +1,6 @@
 //! The commands.
 
-use super::{Arguments, CommandRow, Run, Runs};
+use super::row::{Arguments, CommandRow, Run, Runs};
 use crate::image_file::ImageFormat;
 use crate::language::{Language, extensions};
 use crate::render::{Aov, MOST_HALF_STOPS};

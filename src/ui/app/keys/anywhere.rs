@@ -2,7 +2,7 @@
 
 use crossterm::event::KeyCode;
 
-use super::Row;
+use super::row::Row;
 use crate::ui::app::{App, Help};
 use crate::ui::keymap::{Context, Key, Mode, Scope, alt, c, ctrl, key};
 use crate::ui::msg::Effect;

@@ -1,6 +1,6 @@
 //! Keys for what of a picture is shown.
 
-use super::Row;
+use super::row::Row;
 use crate::render::Aov;
 use crate::ui::keymap::{Context, Key, Mode, Scope, c};
 
@@ -40,5 +40,5 @@ pub(super) const KEYS: &[Row] = &[
     Key::new(PICTURES, "show-noise", &[c('9')], "show noise: estimated error").does(|app| app.show(Some(Aov::Noise))),
     Key::new(PICTURES, "next-share", &[c(')')], "next share of the light").does(|app| app.step_share(1)),
     Key::new(PICTURES, "previous-share", &[c('(')], "previous share of the light").does(|app| app.step_share(-1)),
-    Key::new(PREVIEWS, "wireframe", &[c('6')], "show a wireframe, for slow links").does(|app| app.overlays.say(app.pictures.show_wires())),
+    Key::new(PREVIEWS, "wireframe", &[c('6')], "show a wireframe, for slow links").does(|app| app.overlays.say(app.pictures.show_wireframe())),
 ];

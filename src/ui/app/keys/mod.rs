@@ -9,6 +9,7 @@ mod inspect;
 mod lists;
 mod pages;
 mod questions;
+mod row;
 mod select;
 mod sequence;
 #[cfg(test)]
@@ -17,25 +18,9 @@ mod trace;
 mod transform;
 
 use super::App;
-use crate::ui::keymap::{Entry, Key, Keymap, RowId};
+use crate::ui::keymap::{Entry, Keymap, RowId};
 use crate::ui::msg::Effect;
-
-/// A row of keys.
-#[derive(Clone, Copy)]
-struct Row {
-    key: Key,
-    step: Step,
-    /// Whether its hint is shown.
-    acts: fn(&App) -> bool,
-}
-
-/// What keys do.
-#[derive(Clone, Copy)]
-enum Step {
-    Does(fn(&mut App)),
-    /// With effects.
-    Asks(fn(&mut App) -> Vec<Effect>),
-}
+use row::{Row, Step};
 
 /// All rows, a slice for each place where keys have a meaning: of a key that is not bound where it is
 /// pressed, the first is named. Ctrl-H, Ctrl-I, Ctrl-M and Ctrl-[ send
@@ -55,32 +40,6 @@ const ROWS: &[&[Row]] = &[
     trace::KEYS,
     anywhere::KEYS,
 ];
-
-impl Key {
-    const fn does(self, step: fn(&mut App)) -> Row {
-        Row::new(self, Step::Does(step))
-    }
-
-    const fn asks(self, step: fn(&mut App) -> Vec<Effect>) -> Row {
-        Row::new(self, Step::Asks(step))
-    }
-}
-
-impl Row {
-    const fn new(key: Key, step: Step) -> Self {
-        Self {
-            key,
-            step,
-            acts: |_| true,
-        }
-    }
-
-    /// Hints at it only while this holds.
-    const fn when(mut self, acts: fn(&App) -> bool) -> Self {
-        self.acts = acts;
-        self
-    }
-}
 
 fn rows() -> impl Iterator<Item = &'static Row> {
     ROWS.iter().copied().flatten()

@@ -2,7 +2,7 @@
 
 use crossterm::event::KeyCode;
 
-use super::Row;
+use super::row::Row;
 use crate::ui::app::{App, Whose};
 use crate::ui::keymap::{Context, Key, Scope, c, key};
 use crate::ui::msg::Existing;

@@ -2,7 +2,7 @@
 
 use crossterm::event::KeyCode;
 
-use super::Row;
+use super::row::Row;
 use crate::ui::app::App;
 use crate::ui::keymap::{Context, Key, Mode, Scope, c, key, shift};
 

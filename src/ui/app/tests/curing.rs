@@ -17,9 +17,12 @@ fn answer(
     shade: impl Fn(&Settings) -> f32,
 ) -> (Vec<Effect>, Vec<Settings>) {
     let mut tried = Vec::new();
-    while let Some(trial) = job(&effects, Target::Trial) {
-        assert_eq!((trial.frames, trial.settings.spp), (Frames::Live, 16));
-        let settings = trial.settings;
+    while let Some(live_edit) = job(&effects, Target::Trial) {
+        assert_eq!(
+            (live_edit.frames, live_edit.settings.spp),
+            (Frames::Live, 16)
+        );
+        let settings = live_edit.settings;
         let size = settings.size;
         let grey = shade(&settings);
         let columns = (0..size.pixels()).map(|at| (at as u32 % size.width) * 4 / size.width);

@@ -8,7 +8,7 @@ use super::*;
 use crate::document::Side;
 use crate::file::ReadError;
 use crate::ui::msg::{Guard, SaveId, SaveOutcome, Timer};
-use crate::ui::reading::SceneFolder;
+use crate::ui::scene_reading::SceneFolder;
 
 #[test]
 fn a_save_may_only_replace_what_was_last_seen() {

@@ -65,8 +65,8 @@ fn exposure_changes_the_screen_and_traces_nothing() {
         assert!(job(&effects, Target::Preview).is_none(), "{said}");
         assert_eq!(app.pictures.display.half_stops, half_stops, "{said}");
         assert_eq!(words(&app), told, "{said}");
-        let sight = app.sight().expect("there is room");
-        assert_eq!(sight.display, app.pictures.display);
+        let frame_window = app.frame_window().expect("there is room");
+        assert_eq!(frame_window.display, app.pictures.display);
     }
     assert_eq!(app.display_name().as_deref(), Some("+20 EV"));
     press(&mut app, "2<Esc>>");
@@ -101,8 +101,8 @@ fn noise_is_reduced_on_screen_and_in_no_file() {
     assert!(asked.denoise);
     assert_eq!(words(&app), "noise is reduced, on screen only");
     assert_eq!(app.display_name().as_deref(), Some("denoised"));
-    let sight = app.sight().expect("there is room");
-    assert!(sight.display.denoised);
+    let frame_window = app.frame_window().expect("there is room");
+    assert!(frame_window.display.denoised);
     // A complete picture without is too large for it.
     let arrived = preview(asked, 0.5);
     app.update(Msg::Started(Target::Preview, 1));
@@ -258,8 +258,8 @@ fn the_histogram_follows_picture_and_exposure() {
     press(&mut app, ":histogram<Enter>");
     let pixels = trace.settings.size.pixels() as u32;
     let bin = |app: &App| {
-        let tally = app.pictures.tally.as_ref().expect("it is shown");
-        let histogram = tally.histogram.as_ref().expect("of light");
+        let histogram = app.pictures.histogram.as_ref().expect("it is shown");
+        let histogram = histogram.histogram.as_ref().expect("of light");
         let bin = histogram.bins.iter().position(|count| *count == pixels);
         (bin, histogram.clipped)
     };
@@ -269,5 +269,5 @@ fn the_histogram_follows_picture_and_exposure() {
     app.update(preview(&trace, 0.25));
     assert_eq!(bin(&app), (Some(15), 0.0));
     press(&mut app, ":histogram<Enter>");
-    assert!(app.pictures.tally.is_none());
+    assert!(app.pictures.histogram.is_none());
 }

@@ -53,10 +53,10 @@ use crate::file::Version;
 use crate::language::Language;
 use crate::render::Job;
 use crate::scene::Rendering;
+use crate::ui::dope_sheet::DopeSheet;
 use crate::ui::keymap::{self, Mode};
 use crate::ui::msg::{Effect, ExportId, Exported, Msg, Target};
-use crate::ui::reading::Reading;
-use crate::ui::sheet::Sheet;
+use crate::ui::scene_reading::Reading;
 use crate::ui::terminal::Mouse;
 
 /// Two spheres, far apart, without a view comment.

@@ -102,7 +102,7 @@ fn show_half(app: &mut App) {
         .collect();
     app.update(Msg::Frame(Target::Preview, Arc::new(frame(size, objects))));
     app.picture_mut()
-        .advance(&Sight::whole(size), &[], usize::MAX);
+        .advance(&FrameWindow::whole(size), &[], usize::MAX);
 }
 
 #[test]

@@ -173,7 +173,7 @@ fn no_object_is_outlined_by_an_outdated_number() {
     app.pictures.preview.take(Arc::new(frame(size, vec![1; 8])));
     app.pictures
         .preview
-        .advance(&Sight::whole(size), &[], usize::MAX);
+        .advance(&FrameWindow::whole(size), &[], usize::MAX);
     outside(&mut app, &SCENE.replace("1.5", "1.7"));
     assert_eq!(app.pictures.preview.shown.object_at(0, 0), Some(1));
     let (head, second) = SCENE.split_at(SCENE.rfind("sphere").expect("two of them"));
@@ -286,7 +286,7 @@ fn quitting_asks_about_an_export_and_can_wait_for_it() {
         press(&mut app, "b");
         assert!(!quits(&press(&mut app, said)), "{said}");
         assert!(
-            matches!(app.overlays.dialog, Some(Dialog::Leave(Next::Quit))),
+            matches!(app.overlays.dialog, Some(Dialog::Leave(AfterLeaving::Quit))),
             "{said}"
         );
         assert!(quits(&press(&mut app, "y")));

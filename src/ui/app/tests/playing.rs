@@ -283,7 +283,7 @@ fn frames_are_never_saved_or_kept_unasked() {
 fn the_mouse_goes_to_the_frame_under_the_pointer() {
     let mut app = playing();
     let area = app.areas().fields;
-    let sheet = Sheet::new(area, 8);
+    let sheet = DopeSheet::new(area, 8);
     for frame in [8, 4, 0] {
         let at = (sheet.frames.x + sheet.column(frame), sheet.frames.y);
         click(&mut app, at.0, at.1);

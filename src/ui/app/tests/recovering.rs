@@ -323,7 +323,7 @@ fn one_question_is_asked_at_a_time() {
     app.update(recovered(offer));
     assert!(matches!(
         app.overlays.dialog,
-        Some(Dialog::Leave(Next::Quit))
+        Some(Dialog::Leave(AfterLeaving::Quit))
     ));
     press(&mut app, "n");
     assert!(matches!(app.overlays.dialog, Some(Dialog::Recover(_))));

@@ -6,7 +6,7 @@ use std::sync::Arc;
 use super::*;
 use crate::language::{Language, Node, Source};
 use crate::scene::Meshes;
-use crate::ui::reading::News;
+use crate::ui::scene_reading::News;
 
 /// Objects of a text that is long enough not to be parsed as a whole.
 const OBJECTS: usize = 12_000;

@@ -231,7 +231,7 @@ fn quitting_during_a_save_of_unchanged_text_asks() {
     press(&mut app, ":w copy.ray<Enter>q");
     assert!(matches!(
         app.overlays.dialog,
-        Some(Dialog::Leave(Next::Quit))
+        Some(Dialog::Leave(AfterLeaving::Quit))
     ));
     assert_eq!(
         app.losses().as_deref(),

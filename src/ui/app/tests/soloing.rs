@@ -142,12 +142,12 @@ fn picking_in_a_picture_of_one_object_selects_it() {
     let frame = pictures::frame(size, vec![2; size.pixels()]);
     app.update(Msg::Frame(Target::Preview, Arc::new(frame)));
     app.picture_mut()
-        .advance(&Sight::whole(size), &[], usize::MAX);
+        .advance(&FrameWindow::whole(size), &[], usize::MAX);
     assert_eq!(app.node_at([0, 0]), Ok(Some(Object(2))));
     let nothing = pictures::frame(size, vec![NO_OBJECT; size.pixels()]);
     app.update(Msg::Frame(Target::Preview, Arc::new(nothing)));
     app.picture_mut()
-        .advance(&Sight::whole(size), &[], usize::MAX);
+        .advance(&FrameWindow::whole(size), &[], usize::MAX);
     assert_eq!(app.node_at([0, 0]), Ok(None));
 }
 

@@ -8,7 +8,7 @@ use crate::document::Document;
 use crate::file::ReadError;
 use crate::scene::Meshes;
 use crate::ui::msg::{Guard, Target};
-use crate::ui::reading::{Baseline, Opened};
+use crate::ui::scene_reading::{Baseline, Opened};
 
 /// The interface with a file that does not exist yet.
 fn opened_new(name: &str) -> (App, Vec<Effect>) {

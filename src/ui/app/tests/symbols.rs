@@ -110,7 +110,7 @@ fn symbols_are_where_things_are_and_are_picked_before_objects() {
         let everywhere = pictures::frame(size, vec![0; size.pixels()]);
         app.update(Msg::Frame(Target::Preview, Arc::new(everywhere)));
         app.picture_mut()
-            .advance(&Sight::whole(size), &[], usize::MAX);
+            .advance(&FrameWindow::whole(size), &[], usize::MAX);
         app.select(Object(1));
         press(&mut app, "i");
         let symbols = app.symbols();
@@ -153,7 +153,7 @@ fn without_a_symbol_or_an_object_nothing_is_picked() {
     let nothing = pictures::frame(size, vec![NO_OBJECT; size.pixels()]);
     app.update(Msg::Frame(Target::Preview, Arc::new(nothing)));
     app.picture_mut()
-        .advance(&Sight::whole(size), &[], usize::MAX);
+        .advance(&FrameWindow::whole(size), &[], usize::MAX);
     press(&mut app, "i");
     app.place_cross((0, 0));
     press(&mut app, "<Enter>");

@@ -11,8 +11,8 @@ use crate::language::Source;
 use crate::render::{Frame, Job};
 use crate::scene::{Meshes, Size};
 use crate::text::{Edit, Span};
+use crate::ui::history_scene::{HistoryScene, HistoryText, NoPicture};
 use crate::ui::msg::Target;
-use crate::ui::past::{NoPicture, PastScene, PastText};
 
 /// Opens the scene on a terminal with colours, and makes three steps.
 fn changed() -> App {
@@ -71,12 +71,12 @@ fn traced(generation: u64, size: Size) -> Msg {
     Msg::Frame(Target::Thumbnail, Arc::new(whole))
 }
 
-fn scene_of(past: &PastText) -> Result<PastScene, NoPicture> {
+fn scene_of(past: &HistoryText) -> Result<HistoryScene, NoPicture> {
     let text = past.timeline.text(past.at);
     let mut source = Source::new(past.timeline.language, text);
     let lowered = source.lower(&Meshes::default()).expect("there is memory");
     let scene = lowered.scene.ok_or(NoPicture::Errors)?;
-    Ok(PastScene {
+    Ok(HistoryScene {
         scene: Arc::new(scene),
         images: past.files.images.clone(),
     })

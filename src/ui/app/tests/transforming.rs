@@ -429,7 +429,7 @@ fn added_things_do_not_sink_into_what_is_below() {
     let sphere = pictures::frame(size, vec![0; size.pixels()]);
     app.update(Msg::Frame(Target::Preview, Arc::new(sphere)));
     app.picture_mut()
-        .advance(&Sight::whole(size), &[], usize::MAX);
+        .advance(&FrameWindow::whole(size), &[], usize::MAX);
     press(&mut app, "asphere<Enter>");
     let mut lines = app.document.text().lines();
     let last = lines.find(|line| line.starts_with("obj sphere ID 3"));
@@ -452,7 +452,7 @@ fn added_things_stand_on_the_surface_in_the_middle_of_the_picture() {
     let sphere = pictures::frame(size, vec![0; size.pixels()]);
     app.update(Msg::Frame(Target::Preview, Arc::new(sphere)));
     app.picture_mut()
-        .advance(&Sight::whole(size), &[], usize::MAX);
+        .advance(&FrameWindow::whole(size), &[], usize::MAX);
     press(&mut app, "asphere<Enter>");
     let pose = app.source().pose(app.cursor.selected());
     let centre = pose.expect("it is a sphere").centre;

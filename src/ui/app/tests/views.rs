@@ -100,7 +100,7 @@ fn a_view_that_cannot_be_written_is_asked_about_again() {
     assert!(!quits(&effects) && words(&app).starts_with("cannot save the view"));
     assert!(matches!(
         app.overlays.dialog,
-        Some(Dialog::Leave(Next::Quit))
+        Some(Dialog::Leave(AfterLeaving::Quit))
     ));
 }
 

@@ -31,8 +31,8 @@ fn traced(effects: &[Effect], target: Target) -> Option<Settings> {
 fn lines(app: &mut App) -> Vec<WireLine> {
     app.follow_wires();
     let (_, size) = app.raster().expect("there is room");
-    let wires = app.wires().and_then(|wires| wires.lines(size));
-    wires.map_or_else(Vec::new, |wires| wires.lines.clone())
+    let wireframe = app.wireframe().and_then(|wireframe| wireframe.lines(size));
+    wireframe.map_or_else(Vec::new, |wireframe| wireframe.lines.clone())
 }
 
 #[test]

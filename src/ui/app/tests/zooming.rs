@@ -188,7 +188,7 @@ fn zoomed(app: &mut App, said: &str) -> (Size, Option<Region>) {
 fn a_zoomed_preview_is_traced_at_its_scale() {
     let mut app = open(SCENE);
     let output = app.output();
-    let shown = app.sight().expect("room").size;
+    let shown = app.frame_window().expect("room").size;
     let half = Size {
         width: output.width / 2,
         height: output.height / 2,
@@ -218,7 +218,10 @@ fn the_wheel_zooms_about_the_pointer() {
         let (cells, _) = app.raster().expect("room");
         let cell = (cells.width / 3, cells.height / 3);
         let output = app.output();
-        let under = |app: &App| app.sight().and_then(|sight| sight.pixel_at(cell, output));
+        let under = |app: &App| {
+            app.frame_window()
+                .and_then(|frame_window| frame_window.pixel_at(cell, output))
+        };
         let before = under(&app).expect("a pixel");
         for _ in 0..4 {
             mouse(
@@ -269,10 +272,10 @@ fn cells_find_the_pixels_of_the_newest_frame() {
     let numbers: Vec<_> = (0..size.pixels() as u32).collect();
     app.update(Msg::Frame(Target::Trace, Arc::new(frame(size, numbers))));
     press(&mut app, "+++++++");
-    let sight = app.sight().expect("room");
-    app.picture_mut().advance(&sight, &[], usize::MAX);
+    let frame_window = app.frame_window().expect("room");
+    app.picture_mut().advance(&frame_window, &[], usize::MAX);
     let (cells, _) = app.raster().expect("room");
-    let grid = sight.grid;
+    let grid = frame_window.grid;
     for cell in [(0, 0), (9, 4), (cells.width - 1, cells.height - 1)] {
         let Some([x, y]) = app.pixel_at(cell) else {
             continue;

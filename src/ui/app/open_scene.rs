@@ -3,22 +3,22 @@
 use std::path::PathBuf;
 use std::sync::Arc;
 
+use super::after_leaving::name_of;
 use super::assets::Assets;
 use super::inspection::Inspection;
-use super::next::name_of;
-use super::{App, Cursor, List, Next, OnDisk, Overlays, Page};
+use super::{AfterLeaving, App, Cursor, List, OnDisk, Overlays, Page};
 use crate::document::Document;
 use crate::file::ReadError;
 use crate::language::{Language, Lowered};
 use crate::ui::keymap::Mode;
 use crate::ui::msg::{Effect, Target};
-use crate::ui::reading::{News, Opened};
+use crate::ui::scene_reading::{News, Opened};
 
 impl App {
     /// Starts a new scene, in the language of the present one if none is given.
     pub(super) fn start_new(&mut self, language: Option<Language>) -> Vec<Effect> {
         let language = language.unwrap_or_else(|| self.document.language());
-        self.leave_for(Next::New(language))
+        self.leave_for(AfterLeaving::New(language))
     }
 
     /// Opens a file, or reads the scene's own again.
@@ -38,7 +38,7 @@ impl App {
             self.overlays.fail(unknown.to_string());
             return Vec::new();
         }
-        self.leave_for(Next::Open(path))
+        self.leave_for(AfterLeaving::Open(path))
     }
 
     /// Requests the scene of a file. The present one stays until the other has been read.
@@ -77,7 +77,7 @@ impl App {
             }
         };
         if before != (self.document.revision(), self.pictures.view) {
-            return self.leave_for(Next::Open(path));
+            return self.leave_for(AfterLeaving::Open(path));
         }
         let Ok(language) = Language::of_path(&path) else {
             return Vec::new();
@@ -158,7 +158,7 @@ impl App {
         self.disk.replace(path, state);
         self.assets = Assets::default();
         self.pictures.renew();
-        if std::mem::take(&mut self.cures).are_awaited() {
+        if std::mem::take(&mut self.suggestions).are_awaited() {
             effects.push(Effect::Stop(Target::Trial));
         }
         self.inspection = Inspection::default();

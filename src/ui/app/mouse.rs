@@ -303,7 +303,9 @@ impl App {
         let Some((camera, (_, size))) = self.camera().zip(self.raster()) else {
             return;
         };
-        let magnification = self.sight().map_or(1.0, |sight| sight.magnification(size));
+        let magnification = self
+            .frame_window()
+            .map_or(1.0, |frame_window| frame_window.magnification(size));
         let unit = pixel_width(camera.target, &camera, size) / magnification;
         let [right, up, _] = axes(&camera);
         let moved = |from: u16, to: u16| f64::from(to) - f64::from(from);

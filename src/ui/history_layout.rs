@@ -21,7 +21,7 @@ const TALL: u16 = 35;
 
 /// The places on the page.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Filmstrip {
+pub struct HistoryLayout {
     /// All rows that are shown.
     pub list: Rect,
     /// Lines of a row, of which the last one separates pictures.
@@ -34,7 +34,7 @@ pub struct Filmstrip {
     pub foot: Rect,
 }
 
-impl Filmstrip {
+impl HistoryLayout {
     /// Divides a page, inside its frame.
     pub fn with_pictures(page: Rect) -> Self {
         let plain = Self::with_names(page);
@@ -106,7 +106,7 @@ mod tests {
             ((0, 0), 1, false, false),
         ] {
             let page = Rect::new(3, 2, size.0, size.1);
-            let strip = Filmstrip::with_pictures(page);
+            let strip = HistoryLayout::with_pictures(page);
             let found = (
                 strip.height,
                 strip.thumbnail.is_some(),

@@ -6,7 +6,7 @@ use crate::render::{Frame, Histogram};
 
 /// A histogram on screen.
 #[derive(Debug, Default)]
-pub struct Tally {
+pub struct ShownHistogram {
     /// The frame counted and the exposure of the display, in half stops.
     pub(super) of: (Weak<Frame>, i8),
     /// The counts; `None` without a picture of light or albedo.
@@ -14,7 +14,7 @@ pub struct Tally {
 }
 
 #[cfg(test)]
-impl Tally {
+impl ShownHistogram {
     /// A histogram of no particular frame.
     pub(in crate::ui) fn of(histogram: Histogram) -> Self {
         Self {

@@ -23,7 +23,7 @@ use super::terminal::{Signals, suspend_process};
 const REPLY_PATIENCE: Duration = Duration::from_secs(1);
 
 /// The terminal that the interface runs on.
-pub(super) struct Console {
+pub(super) struct TtySession {
     // First, because fields are dropped in order: the terminal is restored before its threads end.
     terminal: Terminal,
     /// Replies still expected from the terminal.
@@ -37,7 +37,7 @@ pub(super) struct Console {
     sender: Sender<Event>,
 }
 
-impl Console {
+impl TtySession {
     /// Takes over the terminal and starts reading keys and signals.
     pub(super) fn enter(options: &Options, sender: &Sender<Event>) -> io::Result<Self> {
         // Before the terminal is changed: until then the default actions of signals do no harm.

@@ -6,10 +6,10 @@ use std::sync::Arc;
 use ratatui::layout::Rect;
 
 use super::App;
+use super::after_leaving::AfterLeaving;
 use super::colours;
 use super::cursor::row_of;
 use super::disk::OnDisk;
-use super::next::Next;
 use super::overlays::{Dialog, PromptKind};
 use super::page::{List, PageFocus};
 use super::picture::Picture;
@@ -42,8 +42,8 @@ impl App {
             Some(Dialog::Leave(_)) if self.is_saved() && self.is_view_unwritten() => {
                 Context::MovedView
             }
-            Some(Dialog::Leave(Next::Quit)) if self.is_saved() => Context::Wait,
-            Some(Dialog::Leave(Next::Quit)) => Context::Quit,
+            Some(Dialog::Leave(AfterLeaving::Quit)) if self.is_saved() => Context::Wait,
+            Some(Dialog::Leave(AfterLeaving::Quit)) => Context::Quit,
             Some(Dialog::Leave(_)) => Context::Leave,
             Some(Dialog::Delete(_)) => Context::Delete,
             Some(Dialog::Overwrite(_)) => Context::Overwrite,
@@ -215,15 +215,15 @@ impl App {
 
     /// Describes what would be lost by quitting now; `None` if nothing.
     pub fn losses(&self) -> Option<String> {
-        self.losses_before(&Next::Quit)
+        self.losses_before(&AfterLeaving::Quit)
     }
 
     /// Describes what would be lost by leaving the scene now; `None` if nothing. Work under way ends
     /// only with the program.
-    pub fn losses_before(&self, next: &Next) -> Option<String> {
+    pub fn losses_before(&self, next: &AfterLeaving) -> Option<String> {
         let view = self.is_view_unwritten().then(|| LOST_VIEW.to_owned());
         let mut lost: Vec<_> = self.lost_text().into_iter().chain(view).collect();
-        if *next == Next::Quit {
+        if *next == AfterLeaving::Quit {
             lost.extend(self.lost_export());
             if lost.is_empty() {
                 lost.extend(self.lost_save());

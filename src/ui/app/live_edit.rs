@@ -10,7 +10,7 @@ use crate::text::{Edit, Findings};
 /// A change of the text that is being tried out: each attempt replaces the one before, so that the
 /// whole is one undo step.
 #[derive(Clone, Debug)]
-pub(super) struct Trial {
+pub(super) struct LiveEdit {
     /// The text's revision after the last attempt; at another one, it can no longer be replaced.
     pub(super) revision: u64,
     /// Whether the last attempt changed the text.

@@ -3,8 +3,8 @@
 use std::ops::ControlFlow;
 
 use super::App;
-use super::cures::{Cure, RunningTrials, is_judgeable};
-use super::looking::is_light;
+use super::display::is_light;
+use super::suggestions::{RunningTrials, Suggestion, is_judgeable};
 use crate::explain::fault;
 use crate::language::{Outlook, Prospect, RenderKey, outlook};
 use crate::render::{Advice, Fault, Frame, Frames, Histogram, Job, Overexposure, Settings, Trials};
@@ -14,7 +14,7 @@ impl App {
     /// Adds what the text shows of its picture to what was found in reading it.
     pub(super) fn judge_text(&mut self) {
         let mut found = self.reported.clone();
-        self.cures.prospects.clear();
+        self.suggestions.prospects.clear();
         let scene = self.scene.clone().filter(|_| found.errors() == 0);
         let Some(scene) = scene else {
             self.diagnostics = found;
@@ -23,7 +23,7 @@ impl App {
         let asked = self.rendering();
         for Outlook { warning, prospect } in outlook(self.source(), &scene, &scene.camera, &asked) {
             found.warning(|| warning);
-            self.cures.prospects.push(prospect);
+            self.suggestions.prospects.push(prospect);
         }
         self.diagnostics = found.sorted();
     }
@@ -31,10 +31,10 @@ impl App {
     /// Says what is wrong with a preview of light as a whole, and what helps, once trials have
     /// shown it; once, until nothing is wrong.
     pub(super) fn judge_picture(&mut self, target: Target, frame: &Frame) -> Vec<Effect> {
-        if target != Target::Preview || !is_light(frame) || !self.cures.is_to_judge(frame) {
+        if target != Target::Preview || !is_light(frame) || !self.suggestions.is_to_judge(frame) {
             return Vec::new();
         }
-        let under_way = self.cures.trials.take().is_some();
+        let under_way = self.suggestions.trials.take().is_some();
         let suspected = self.suspected(frame);
         let trial = match suspected {
             // A scene of this size would keep all else waiting.
@@ -68,7 +68,7 @@ impl App {
             size: scene.camera.size,
             ..*settings
         };
-        let of_text = fault(&self.cures.prospects);
+        let of_text = fault(&self.suggestions.prospects);
         let trials = Trials::of_picture(frame, scene, &settings, of_text)?;
         let is_known = trials.fault().is_some() || of_text.is_some();
         (is_known || !is_darkened).then_some(trials)
@@ -78,7 +78,7 @@ impl App {
     fn try_out(&mut self, next: Trials) -> Option<Effect> {
         let settings = next.settings();
         let job = self.shown_job(settings.size, settings.spp)?;
-        self.cures.trials = Some(RunningTrials {
+        self.suggestions.trials = Some(RunningTrials {
             next,
             generation: None,
             of: (self.document.revision(), self.rendering()),
@@ -95,7 +95,7 @@ impl App {
     pub(super) fn tried(&mut self, frame: &Frame) -> Vec<Effect> {
         let is_it = |trials: &mut RunningTrials| trials.generation == Some(frame.generation);
         let Some(trials) = self
-            .cures
+            .suggestions
             .trials
             .take_if(|trials| frame.progress.complete && is_it(trials))
         else {
@@ -115,7 +115,7 @@ impl App {
             }
         };
         if let Some(Advice { fault, cure }) = advice {
-            self.cures.cure = cure.and_then(|cure| RenderKey::stated(&cure).next());
+            self.suggestions.cure = cure.and_then(|cure| RenderKey::stated(&cure).next());
             self.say_fault(fault);
         }
         vec![Effect::Stop(Target::Trial)]
@@ -123,7 +123,7 @@ impl App {
 
     /// Ends trials that cannot be traced.
     pub(super) fn end_trials(&mut self) -> Vec<Effect> {
-        let Some(trials) = self.cures.trials.take() else {
+        let Some(trials) = self.suggestions.trials.take() else {
             return Vec::new();
         };
         self.say_untried(trials.next.fault());
@@ -154,7 +154,7 @@ impl App {
 
     /// Says what is wrong with the preview where nothing that may help was tried.
     fn say_untried(&mut self, fault: Option<Fault>) {
-        self.cures.cure = None;
+        self.suggestions.cure = None;
         let helps = match fault {
             Some(Fault::Black(_)) => self.reason_of_black(),
             Some(Fault::Burnt) => {
@@ -175,19 +175,19 @@ impl App {
     /// Says what is wrong with the preview, unless something was said of it. Words that nobody has
     /// dismissed yet are replaced.
     fn say_once(&mut self, words: String) {
-        let is_due = match &self.cures.said {
+        let is_due = match &self.suggestions.said {
             None => true,
             Some(said) => *said != words && self.overlays.withdraw(said),
         };
         if is_due {
             self.overlays.say(words.clone());
         }
-        self.cures.said = Some(words);
+        self.suggestions.said = Some(words);
     }
 
     /// Where to look for the reason why a picture is black.
     fn reason_of_black(&self) -> String {
-        if self.cures.prospects.contains(&Prospect::Black) {
+        if self.suggestions.prospects.contains(&Prospect::Black) {
             format!("{} says why", self.key_for("errors"))
         } else {
             let inspect = self.key_for("inspect");
@@ -197,8 +197,8 @@ impl App {
 
     /// Takes back what was said of a preview with which nothing is wrong any more.
     fn withdraw_fault(&mut self) {
-        self.cures.cure = None;
-        if let Some(said) = self.cures.said.take() {
+        self.suggestions.cure = None;
+        if let Some(said) = self.suggestions.said.take() {
             self.overlays.withdraw(&said);
         }
     }
@@ -208,16 +208,17 @@ impl App {
         if let Some((key, value)) = self.suggested_cure().cloned() {
             self.write_setting(key, Some(value));
             // What is still wrong is said again.
-            self.cures.said = None;
+            self.suggestions.said = None;
             return;
         }
         let progress = self.pictures.preview.progress();
         let is_early = progress.is_some_and(|progress| !is_judgeable(progress));
-        self.overlays.say(if is_early || self.cures.are_awaited() {
-            "no suggestion yet: too little is traced"
-        } else {
-            "there is no render setting to suggest"
-        });
+        self.overlays
+            .say(if is_early || self.suggestions.are_awaited() {
+                "no suggestion yet: too little is traced"
+            } else {
+                "there is no render setting to suggest"
+            });
     }
 
     /// Switches the integrator.
@@ -229,13 +230,13 @@ impl App {
     }
 
     /// The cure, if it is not in use yet.
-    fn suggested_cure(&self) -> Option<&Cure> {
+    fn suggested_cure(&self) -> Option<&Suggestion> {
         let asked = self.rendering();
-        let cure = self.cures.cure.as_ref();
+        let cure = self.suggestions.cure.as_ref();
         cure.filter(|(key, value)| key.value(&asked) != *value)
     }
 
-    fn cure_in_words(&self, (key, value): &Cure) -> String {
+    fn cure_in_words(&self, (key, value): &Suggestion) -> String {
         format!("{} sets {} {value}", self.key_for("cure"), key.name())
     }
 }

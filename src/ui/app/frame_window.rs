@@ -7,7 +7,7 @@ use crate::scene::Size;
 
 /// How a picture is mapped to the screen.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Sight {
+pub struct FrameWindow {
     /// Pixels of the picture on screen.
     pub size: Size,
     /// Pixels in each cell.
@@ -60,7 +60,7 @@ pub struct Grid {
     pub down: u16,
 }
 
-impl Sight {
+impl FrameWindow {
     /// A sight of a whole frame on two pixels a cell.
     pub fn whole(size: Size) -> Self {
         Self {
@@ -241,19 +241,19 @@ mod tests {
     #[test]
     fn cells_find_the_pixels_they_show() {
         let whole = size(40, 30);
-        let sight = |part: &str, fills| Sight {
+        let frame_window = |part: &str, fills| FrameWindow {
             window: Some(Window {
                 whole,
                 part: Region::parse(part).expect("a region"),
                 fills,
             }),
-            ..Sight::whole(size(20, 12))
+            ..FrameWindow::whole(size(20, 12))
         };
-        let all = Sight::whole(size(20, 12));
-        let blocks = sight("8,6,5,3", size(20, 12));
-        let cut = sight("8,6,3,2", size(24, 16));
-        let narrow = sight("8,6,4,3", size(16, 12));
-        for (sight, cell, whole, pixel) in [
+        let all = FrameWindow::whole(size(20, 12));
+        let blocks = frame_window("8,6,5,3", size(20, 12));
+        let cut = frame_window("8,6,3,2", size(24, 16));
+        let narrow = frame_window("8,6,4,3", size(16, 12));
+        for (frame_window, cell, whole, pixel) in [
             (all, (0, 0), whole, Some([1, 1])),
             (all, (19, 5), whole, Some([39, 26])),
             (all, (20, 0), whole, None),
@@ -264,24 +264,28 @@ mod tests {
             (cut, (8, 4), whole, Some([9, 7])),
             (narrow, (16, 0), whole, None),
         ] {
-            assert_eq!(sight.pixel_at(cell, whole), pixel, "{sight:?} {cell:?}");
+            assert_eq!(
+                frame_window.pixel_at(cell, whole),
+                pixel,
+                "{frame_window:?} {cell:?}"
+            );
         }
     }
 
     #[test]
     fn places_move_with_the_window() {
         let halves = size(20, 12);
-        let sight = Sight {
+        let frame_window = FrameWindow {
             window: Some(Window {
                 whole: size(40, 24),
                 part: Region::parse("8,6,5,3").expect("a region"),
                 fills: halves,
             }),
-            ..Sight::whole(halves)
+            ..FrameWindow::whole(halves)
         };
-        assert_eq!(sight.on_screen([4.0, 3.0], halves), [0.0, 0.0]);
-        assert_eq!(sight.on_screen([6.5, 4.5], halves), [20.0, 12.0]);
-        let whole = Sight::whole(halves);
+        assert_eq!(frame_window.on_screen([4.0, 3.0], halves), [0.0, 0.0]);
+        assert_eq!(frame_window.on_screen([6.5, 4.5], halves), [20.0, 12.0]);
+        let whole = FrameWindow::whole(halves);
         assert_eq!(whole.on_screen([4.0, 3.0], halves), [4.0, 3.0]);
     }
 }

@@ -5,15 +5,15 @@ use crate::render::{Frame, Progress, Trials};
 use crate::scene::Rendering;
 
 /// A render setting and its value.
-pub(super) type Cure = (RenderKey, String);
+pub(super) type Suggestion = (RenderKey, String);
 
 /// What is wrong with the picture, and the setting that helps.
 #[derive(Debug, Default)]
-pub struct Cures {
+pub struct Suggestions {
     /// What the text shows of its picture.
     pub(super) prospects: Vec<Prospect>,
     /// What helps, as trials of the preview have shown.
-    pub(super) cure: Option<Cure>,
+    pub(super) cure: Option<Suggestion>,
     /// What was said of a preview with which something is wrong, while it is so.
     pub(super) said: Option<String>,
     /// The trials under way, before that is said.
@@ -40,7 +40,7 @@ pub(super) fn is_judgeable(progress: &Progress) -> bool {
     progress.complete || ENOUGH <= progress.spp
 }
 
-impl Cures {
+impl Suggestions {
     /// Whether a frame of the preview is the first that tells what is wrong with it, or a whole one of
     /// which no earlier frame did.
     pub(super) fn is_to_judge(&mut self, frame: &Frame) -> bool {

@@ -2,13 +2,13 @@
 
 use std::ops::Range;
 
-use super::sight::{Marked, Reason, Sight, Window};
+use super::frame_window::{FrameWindow, Marked, Reason, Window};
 use crate::render::{Frame, NO_OBJECT};
 use crate::scene::Size;
 
 /// Pixels as shown on screen.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Shown {
+pub struct CellImage {
     /// Size in pixels.
     pub size: Size,
     /// RGB, row by row.
@@ -19,7 +19,7 @@ pub struct Shown {
     pub outline: Vec<bool>,
 }
 
-impl Default for Shown {
+impl Default for CellImage {
     fn default() -> Self {
         Self {
             size: Size {
@@ -33,7 +33,7 @@ impl Default for Shown {
     }
 }
 
-impl Shown {
+impl CellImage {
     /// Returns the object under a pixel.
     pub fn object_at(&self, x: u32, y: u32) -> Option<u32> {
         if self.size.width <= x {
@@ -85,19 +85,19 @@ impl Shown {
             corner: [0; 2],
             whole: self.size,
         };
-        Self::seen(&[layer], &Sight::whole(size))
+        Self::seen(&[layer], &FrameWindow::whole(size))
     }
 
     /// The picture as it is seen: from the first of the layers that has what a pixel shows; black
     /// outside all of them. Averages when shrinking, repeats the nearest pixels when enlarging. A
     /// marked region has a dim border.
-    pub(super) fn seen(layers: &[Layer<'_>], sight: &Sight) -> Self {
-        let to = sight.size;
+    pub(super) fn seen(layers: &[Layer<'_>], frame_window: &FrameWindow) -> Self {
+        let to = frame_window.size;
         let Some(first) = layers.first() else {
             return Self::default();
         };
         let is_empty = first.size.pixels() == 0;
-        let is_plain = sight.window.is_none() && sight.marked.is_none();
+        let is_plain = frame_window.window.is_none() && frame_window.marked.is_none();
         if is_empty || is_plain && first.is_whole() && first.size == to {
             return Self {
                 size: first.size,
@@ -106,7 +106,7 @@ impl Shown {
                 outline: Vec::new(),
             };
         }
-        let window = sight.window_of(first.whole);
+        let window = frame_window.window_of(first.whole);
         let placed: Vec<_> = layers
             .iter()
             .map(|layer| (layer, layer.columns(&window, to), layer.rows(&window, to)))
@@ -127,11 +127,11 @@ impl Shown {
                 shown.objects.push(object);
             }
         }
-        if let Some(marked) = sight
+        if let Some(marked) = frame_window
             .marked
             .filter(|marked| marked.reason == Reason::Traced)
         {
-            for at in border(sight, marked) {
+            for at in border(frame_window, marked) {
                 shown.pixels[at] = shown.pixels[at].map(|channel| channel / 2 + 64);
             }
         }
@@ -212,9 +212,9 @@ impl<'f> Layer<'f> {
 }
 
 /// The indices of the pixels on screen around a region.
-pub(super) fn border(sight: &Sight, marked: Marked) -> Vec<usize> {
-    let Size { width, height } = sight.size;
-    let window = sight.window_of(marked.whole);
+pub(super) fn border(frame_window: &FrameWindow, marked: Marked) -> Vec<usize> {
+    let Size { width, height } = frame_window.size;
+    let window = frame_window.window_of(marked.whole);
     let own = |from: u32, length: u32| (from, length);
     let columns = (window.part.x, window.part.width);
     let rows = (window.part.y, window.part.height);
@@ -309,7 +309,7 @@ mod tests {
 
     #[test]
     fn shrinking_averages_and_enlarging_repeats_pixels() {
-        let shown = Shown {
+        let shown = CellImage {
             size: size(2, 2),
             pixels: vec![[0, 0, 0], [100, 0, 0], [0, 50, 0], [101, 51, 8]],
             objects: vec![1, 2, 3, 4],
@@ -350,11 +350,11 @@ mod tests {
             whole,
         };
         let seen = |to, window| {
-            let sight = Sight {
+            let frame_window = FrameWindow {
                 window: Some(window),
-                ..Sight::whole(to)
+                ..FrameWindow::whole(to)
             };
-            Shown::seen(&[layer], &sight).objects
+            CellImage::seen(&[layer], &frame_window).objects
         };
         let part = |fills| window(whole, "1,1,2,2", fills);
         assert_eq!(seen(size(2, 2), part(size(2, 2))), [5, 6, 9, 10]);
@@ -390,8 +390,8 @@ mod tests {
             objects: &[6, 7, 8, 9],
             ..region
         };
-        let sight = Sight::whole(size(4, 4));
-        let seen = Shown::seen(&[region, under], &sight);
+        let frame_window = FrameWindow::whole(size(4, 4));
+        let seen = CellImage::seen(&[region, under], &frame_window);
         let rows: Vec<_> = seen.objects.chunks(4).collect();
         assert_eq!(
             rows,
@@ -402,6 +402,6 @@ mod tests {
             region: Region::parse("2,0,2,2").expect("a region"),
             reason: Reason::Traced,
         };
-        assert_eq!(border(&sight, marked), [1, 5, 9, 10, 11]);
+        assert_eq!(border(&frame_window, marked), [1, 5, 9, 10, 11]);
     }
 }

@@ -6,7 +6,7 @@ use crate::scene::Rendering;
 
 /// A setting that was written into the text.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Written {
+pub(super) struct SavedSetting {
     /// The text after that.
     pub(super) state: StateId,
     pub(super) key: RenderKey,
@@ -14,7 +14,7 @@ pub(super) struct Written {
     pub(super) over: Rendering,
 }
 
-impl Written {
+impl SavedSetting {
     /// The user's render settings on the other side of the step; remembers those on this one.
     pub(super) fn cross(&mut self, rendering: &Rendering) -> Rendering {
         let own = self.key.alone(rendering);

@@ -9,7 +9,7 @@ const MOST: u16 = 22;
 
 /// The places of a sheet.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) struct Sheet {
+pub(super) struct DopeSheet {
     /// The names.
     pub(super) names: Rect,
     /// The frames: the first column is the first frame, the last column the last.
@@ -18,7 +18,7 @@ pub(super) struct Sheet {
     last: u32,
 }
 
-impl Sheet {
+impl DopeSheet {
     /// Divides an area whose first line is a title.
     pub(super) fn new(area: Rect, last: u32) -> Self {
         let title = area.height.min(1);
@@ -62,7 +62,7 @@ mod tests {
     #[test]
     fn columns_are_those_of_their_frames() {
         for (width, last) in [(0, 9), (1, 0), (20, 0), (40, 9), (42, 47), (30, 999_999)] {
-            let sheet = Sheet::new(Rect::new(3, 2, width, 5), last);
+            let sheet = DopeSheet::new(Rect::new(3, 2, width, 5), last);
             let Rect { x, width, .. } = sheet.frames;
             assert_eq!(sheet.names.width + width, sheet.frames.right() - 3);
             for column in x..sheet.frames.right() {

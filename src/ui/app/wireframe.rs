@@ -7,12 +7,12 @@ use crate::scene::{Camera, Scene, Size};
 
 /// The wireframe of the newest scene.
 #[derive(Debug, Default)]
-pub struct Wires {
+pub struct ShownWireframe {
     lines: Wireframe,
     of: Option<(Arc<Scene>, Camera, Size)>,
 }
 
-impl Wires {
+impl ShownWireframe {
     /// The lines, if they are of this size.
     pub fn lines(&self, size: Size) -> Option<&Wireframe> {
         let (.., of) = self.of.as_ref()?;

@@ -9,7 +9,7 @@ use crate::scene::{Images, Meshes, Scene};
 
 /// A text of the history whose scene is wanted.
 #[derive(Clone, Debug)]
-pub struct PastText {
+pub struct HistoryText {
     /// Repeated with the scene.
     pub ticket: u64,
     /// The texts of the history.
@@ -35,7 +35,7 @@ pub struct KnownFiles {
 
 /// The scene of a text, with the pictures that it names.
 #[derive(Clone, Debug)]
-pub struct PastScene {
+pub struct HistoryScene {
     /// The scene.
     pub scene: Arc<Scene>,
     /// The pictures of its textures.

@@ -9,8 +9,8 @@ use std::thread;
 
 use super::event::Work;
 use super::msg::{Msg, Polled};
-use super::reading::{Baseline, Opened, Reading, SceneFolder};
 use super::recovery;
+use super::scene_reading::{Baseline, Opened, Reading, SceneFolder};
 use super::service::{Ended, Service};
 use crate::document::Document;
 use crate::file;
@@ -35,9 +35,9 @@ enum Request {
 
 /// Handle of the thread that watches, reads and lowers the scene file. Nothing else waits for it,
 /// neither a save nor the end of the program.
-pub(super) struct Reader(Service<Request>);
+pub(super) struct SceneLoader(Service<Request>);
 
-impl Reader {
+impl SceneLoader {
     /// Starts the thread. `send` is called on it and on the watcher's thread.
     pub(super) fn start(
         method: Method,
@@ -102,7 +102,7 @@ fn follow(
                 if text.len() < LARGE {
                     return Reading::new(text, baseline);
                 }
-                memory::heap::keep_large();
+                memory::malloc::keep_large();
                 match &*pool {
                     Ok(pool) => pool.install(|| Reading::new(text, baseline)),
                     Err(_) => Reading::new(text, baseline),

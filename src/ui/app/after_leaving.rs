@@ -6,7 +6,7 @@ use crate::language::Language;
 
 /// What follows once the scene is left.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub enum Next {
+pub enum AfterLeaving {
     /// The program ends.
     Quit,
     /// The scene of this file is opened, or a new one if the file does not exist.
@@ -15,7 +15,7 @@ pub enum Next {
     New(Language),
 }
 
-impl Next {
+impl AfterLeaving {
     /// The question whether it should follow.
     pub fn question(&self) -> String {
         match self {

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use super::App;
-use super::tally::Tally;
+use super::histogram::ShownHistogram;
 use crate::language::Node;
 use crate::render::{Aov, Colours, Frame, Histogram, MOST_HALF_STOPS, denoises, exposes};
 use crate::scene::{Emitter, Transfer};
@@ -19,7 +19,7 @@ impl App {
 
     /// Whether the pictures show something that the display changes.
     fn is_exposed(&self) -> bool {
-        self.pictures.wires.is_none() && exposes(self.pictures.aov)
+        self.pictures.wireframe.is_none() && exposes(self.pictures.aov)
     }
 
     /// Says why the display changes nothing here; returns whether that is so.
@@ -86,7 +86,7 @@ impl App {
     /// Reduces the noise of the preview and of the full-size trace on screen, or no longer. Both
     /// continue from the samples they have.
     pub(super) fn toggle_denoising(&mut self) -> Vec<Effect> {
-        if self.pictures.wires.is_some() || !denoises(self.pictures.aov) {
+        if self.pictures.wireframe.is_some() || !denoises(self.pictures.aov) {
             let light = self.key_for("show-light");
             let words = format!("only light has noise to reduce; press {light}");
             self.overlays.say(words);
@@ -155,7 +155,7 @@ impl App {
 
     /// What the colours on screen stand for, where the name of the view does not say it.
     pub fn legend(&self) -> Option<String> {
-        if self.pictures.wires.is_some() {
+        if self.pictures.wireframe.is_some() {
             return None;
         }
         let display = self.pictures.display;
@@ -200,9 +200,9 @@ impl App {
 
     /// Shows the histogram, or hides it.
     pub(super) fn toggle_histogram(&mut self) {
-        self.pictures.tally = match self.pictures.tally.take() {
+        self.pictures.histogram = match self.pictures.histogram.take() {
             Some(_) => None,
-            None => Some(Tally::default()),
+            None => Some(ShownHistogram::default()),
         };
     }
 
@@ -211,17 +211,17 @@ impl App {
         let half_stops = self.pictures.display.half_stops;
         let stops = self.pictures.display.stops();
         let frame = self.picture().latest.clone();
-        let Some(tally) = &mut self.pictures.tally else {
+        let Some(histogram) = &mut self.pictures.histogram else {
             return;
         };
-        let (counted, exposure) = &tally.of;
+        let (counted, exposure) = &histogram.of;
         let newest = frame.as_ref().map(Arc::as_ptr);
         if newest.is_some_and(|newest| newest == counted.as_ptr()) && *exposure == half_stops {
             return;
         }
         let light = frame.as_ref().filter(|frame| is_light(frame));
-        tally.histogram = light.map(|frame| Histogram::of(&frame.values, stops));
-        tally.of = (
+        histogram.histogram = light.map(|frame| Histogram::of(&frame.values, stops));
+        histogram.of = (
             frame.as_ref().map(Arc::downgrade).unwrap_or_default(),
             half_stops,
         );

@@ -1,0 +1,134 @@
+//! A command: its spelling, when it runs, and what it does with its arguments.
+
+use std::path::PathBuf;
+
+use crate::ui::app::App;
+use crate::ui::msg::Effect;
+
+/// A command: one row.
+pub(super) struct CommandRow {
+    /// One or two words, and alternative spellings.
+    pub(super) names: &'static [&'static str],
+    pub(super) arguments: Arguments,
+    /// Description for the help.
+    pub(super) words: &'static str,
+    /// The name of the keys that do the same.
+    key: Option<&'static str>,
+    pub(super) runs: Runs,
+}
+
+/// The arguments of a command, and what it does with them.
+pub(super) enum Arguments {
+    None(fn() -> Run),
+    File(fn(Option<PathBuf>) -> Run),
+    Name(fn(Option<String>) -> Run),
+    /// How they are spelled, and what reads them; the error says what is expected.
+    Said(&'static str, fn(&str) -> Result<Run, String>),
+    /// The same, of a command whose arguments begin with a file name.
+    FileAnd(&'static str, fn(&str) -> Result<Run, String>),
+}
+
+/// When a command runs.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Runs {
+    /// Not while something is transformed or a scene is being opened, and outside of SEQUENCE.
+    OnText,
+    /// In SEQUENCE as well.
+    OnTrack,
+    /// While a scene is being opened as well.
+    WhileOpening,
+    /// Always.
+    Always,
+}
+
+/// What a command line does.
+pub(super) struct Run(pub(super) Box<Step>);
+
+type Step = dyn FnOnce(&mut App) -> Vec<Effect>;
+
+impl Run {
+    pub(super) fn does(step: impl FnOnce(&mut App) + 'static) -> Self {
+        Self::asks(|app| {
+            step(app);
+            Vec::new()
+        })
+    }
+
+    pub(super) fn asks(step: impl FnOnce(&mut App) -> Vec<Effect> + 'static) -> Self {
+        Self(Box::new(step))
+    }
+}
+
+/// A command as the palette describes it.
+pub(in crate::ui::app) struct Described {
+    pub(in crate::ui::app) name: &'static str,
+    pub(in crate::ui::app) names: &'static [&'static str],
+    pub(in crate::ui::app) usage: String,
+    pub(in crate::ui::app) words: &'static str,
+    /// The name of the keys that do the same.
+    pub(in crate::ui::app) key: Option<&'static str>,
+    /// Whether its arguments begin with a file name.
+    pub(in crate::ui::app) takes_file: bool,
+}
+
+impl CommandRow {
+    pub(super) const fn new(
+        names: &'static [&'static str],
+        arguments: Arguments,
+        words: &'static str,
+    ) -> Self {
+        Self {
+            names,
+            arguments,
+            words,
+            key: None,
+            runs: Runs::OnText,
+        }
+    }
+
+    /// Keys with this name do the same.
+    pub(super) const fn key(mut self, name: &'static str) -> Self {
+        self.key = Some(name);
+        self
+    }
+
+    pub(super) const fn runs(mut self, runs: Runs) -> Self {
+        self.runs = runs;
+        self
+    }
+
+    pub(super) fn described(&self) -> Described {
+        Described {
+            name: self.names[0],
+            names: self.names,
+            usage: self.usage(),
+            words: self.words,
+            key: self.key,
+            takes_file: matches!(self.arguments, Arguments::File(_) | Arguments::FileAnd(..)),
+        }
+    }
+
+    /// The spelling with arguments: `:size WxH`.
+    pub(super) fn usage(&self) -> String {
+        let name = self.names[0];
+        let arguments = match self.arguments {
+            Arguments::None(_) => "",
+            Arguments::File(_) => " [FILE]",
+            Arguments::Name(_) => " [NAME]",
+            Arguments::Said(usage, _) | Arguments::FileAnd(usage, _) => usage,
+        };
+        format!(":{name}{arguments}")
+    }
+
+    /// Parses the arguments; the error says what is expected.
+    pub(super) fn parse(&self, rest: &str) -> Result<Run, String> {
+        let name = self.names[0];
+        match self.arguments {
+            Arguments::None(run) if rest.is_empty() => Ok(run()),
+            Arguments::None(_) => Err(format!("{name} takes no arguments")),
+            Arguments::File(run) => Ok(run((!rest.is_empty()).then(|| PathBuf::from(rest)))),
+            Arguments::Name(run) => Ok(run((!rest.is_empty()).then(|| rest.to_owned()))),
+            Arguments::Said(_, parse) | Arguments::FileAnd(_, parse) => parse(rest),
+        }
+    }
+}
