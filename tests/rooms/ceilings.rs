@@ -1,0 +1,170 @@
+//! Ceilings of what grows unnoticed: files of a folder, lines of a file and of a room, and files that
+//! know a mode. A ceiling over the common one may only be lowered, one of a room or a mode raised with a
+//! reason beside it.
+
+use std::collections::BTreeMap;
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use super::sources::Sources;
+use super::{names_after, root};
+
+/// The most files of a folder.
+const FILES: usize = 25;
+
+/// The folders with more, and how many they have.
+const CROWDED: &[(&str, usize)] = &[
+    ("src/batch", 27),
+    ("src/language", 31),
+    ("src/render", 72),
+    ("src/render/tests", 36),
+    ("src/ui", 39),
+    ("src/ui/app", 87),
+    ("src/ui/app/tests", 44),
+    ("src/ui/view", 35),
+];
+
+/// The most lines of a file.
+const LINES: usize = 500;
+
+/// The files with more, and how many they have.
+const LONG: &[(&str, usize)] = &[
+    ("benches/interface.rs", 515),
+    ("src/accel/split.rs", 522),
+    ("src/document/tests/structure.rs", 512),
+    ("src/geometry/tests/quadrics.rs", 530),
+    ("src/language/ray/tests/properties.rs", 513),
+    ("src/language/rendering.rs", 589),
+    ("src/language/tests/structure.rs", 563),
+    ("src/render/film.rs", 531),
+    ("src/render/tests/edits.rs", 505),
+    ("src/render/tests/paths.rs", 504),
+    ("src/render/tests/photons.rs", 506),
+    ("src/render/tile.rs", 503),
+    ("src/ui/app/reload.rs", 549),
+    ("src/ui/app/tests/disk.rs", 599),
+    ("src/ui/app/tests/transforming.rs", 596),
+    ("src/ui/effects.rs", 528),
+    ("src/ui/recovery/tests.rs", 502),
+    ("src/ui/view/status.rs", 600),
+    ("src/ui/view/tests.rs", 569),
+];
+
+/// The lines of code of each room over a thousand, without comments and tests, rounded up to hundreds.
+const ROOMS: &[(&str, usize)] = &[
+    ("accel", 1900),
+    ("batch", 4300),
+    ("cli", 1600),
+    ("document", 1800),
+    ("explain", 1400),
+    ("file", 1600),
+    ("geometry", 5700),
+    ("image_file", 1200),
+    ("language", 18000),
+    ("obj", 2200),
+    ("render", 16200),
+    ("track", 1600),
+    ("ui", 31600),
+];
+
+/// The files of the interface that name each mode. What knows a mode has to be read before it is
+/// changed.
+const MODES: &[(&str, usize)] = &[
+    ("Compare", 13),
+    ("Edit", 16),
+    ("Fly", 7),
+    ("Inspect", 12),
+    ("Move", 14),
+    ("Select", 26),
+    ("Sequence", 12),
+    ("Trace", 11),
+    ("View", 9),
+];
+
+/// All files with sources, from the top.
+fn files(folder: &Path) -> Vec<PathBuf> {
+    let entries = fs::read_dir(folder).expect("source folders are readable");
+    let paths = entries.map(|entry| entry.expect("source folders are readable").path());
+    let mut found = Vec::new();
+    for path in paths {
+        if path.is_dir() {
+            found.extend(files(&path));
+        } else if path.extension().is_some_and(|extension| extension == "rs") {
+            found.push(path);
+        }
+    }
+    found
+}
+
+/// All files of the package, by their paths in it.
+fn all_files() -> impl Iterator<Item = (String, PathBuf)> {
+    let folders = ["src", "tests", "benches"].map(|folder| root().join(folder));
+    folders.into_iter().flat_map(|folder| {
+        files(&folder).into_iter().map(|file| {
+            let inside = file.strip_prefix(root()).expect("it is in the package");
+            (inside.to_string_lossy().into_owned(), file)
+        })
+    })
+}
+
+/// Compares what is over a common ceiling with the list of what is.
+#[track_caller]
+fn check(what: &str, most: usize, found: &BTreeMap<String, usize>, listed: &[(&str, usize)]) {
+    let over = found.iter().filter(|(_, count)| most < **count);
+    let over: Vec<_> = over.map(|(name, &count)| (name.as_str(), count)).collect();
+    assert_eq!(over, listed, "{what}: over {most}, found and listed");
+}
+
+#[test]
+fn no_folder_is_crowded() {
+    let mut folders = BTreeMap::new();
+    for (name, _) in all_files() {
+        let folder = Path::new(&name).parent().expect("it is in a folder");
+        *folders
+            .entry(folder.to_string_lossy().into_owned())
+            .or_default() += 1;
+    }
+    check("files of a folder", FILES, &folders, CROWDED);
+}
+
+#[test]
+fn no_file_is_long() {
+    let lines = |file: &Path| {
+        let text = fs::read_to_string(file).expect("sources are readable");
+        text.lines().count()
+    };
+    let files = all_files().map(|(name, file)| (name, lines(&file)));
+    check("lines of a file", LINES, &files.collect(), LONG);
+}
+
+#[test]
+fn no_room_grows_unseen() {
+    let mut rooms: BTreeMap<String, usize> = BTreeMap::new();
+    for (name, module) in Sources::of("src").iter() {
+        if let Some(room) = name.first() {
+            let lines = module.code.lines().filter(|line| !line.trim().is_empty());
+            *rooms.entry(room.clone()).or_default() += lines.count();
+        }
+    }
+    for lines in rooms.values_mut() {
+        *lines = lines.div_ceil(100) * 100;
+    }
+    check("lines of a room", 1000, &rooms, ROOMS);
+}
+
+#[test]
+fn modes_are_known_where_they_were() {
+    let mut modes: BTreeMap<String, usize> = BTreeMap::new();
+    for (_, module) in Sources::of("src").iter() {
+        let mut named = names_after(&module.code, "Mode::");
+        named.sort();
+        named.dedup();
+        for mode in named
+            .into_iter()
+            .filter(|name| MODES.iter().any(|(mode, _)| mode == name))
+        {
+            *modes.entry(mode).or_default() += 1;
+        }
+    }
+    check("files that name a mode", 0, &modes, MODES);
+}
