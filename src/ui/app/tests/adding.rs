@@ -1,16 +1,6 @@
 //! Adding things in the selected material and into empty texts, and changing the type of lights.
 
-use super::*;
-use crate::language::Node::{self, Light, Material, Object};
-
-#[track_caller]
-fn added(name: &str, text: &str, node: Node, said: &str) -> App {
-    let (mut app, _) = opened_as(name, text);
-    app.select(node);
-    press(&mut app, said);
-    assert_eq!(app.error_count(), 0, "{said}: {}", app.document.text());
-    app
-}
+use super::rows::{scene, scripts};
 
 const RAY: &str = "\
 0.1 0.1 0.1
@@ -43,142 +33,6 @@ const XML: &str = "\
 </xml>
 ";
 
-#[test]
-fn new_things_take_the_material_of_the_selection() {
-    for (name, text, node, written) in [
-        (
-            "a.ray",
-            RAY,
-            Object(1),
-            "0.25 0 0  .5 .4 .3  0.10 0 0  1  0  0  1.50",
-        ),
-        (
-            "a.ray",
-            RAY,
-            Object(0),
-            "0 0 0  .5 .5 .5  0 0 0  1  0  0  1",
-        ),
-        ("a.ray", RAY, Light(0), "0.1 0.1 0.1  0.6 0.6 0.6"),
-        ("a.dat", DAT, Object(0), "obj cylinder ID 4 mat ID 2"),
-        ("a.dat", DAT, Object(2), "obj cylinder ID 4 mat ID 2"),
-        ("a.dat", DAT, Material(0), "obj cylinder ID 4 mat ID 1"),
-    ] {
-        let app = added(name, text, node, "acylinder<Enter>");
-        assert!(
-            app.document.text().contains(written),
-            "{}",
-            app.document.text()
-        );
-    }
-    for (node, written) in [
-        (Object(0), "name=\"plane\" material=\"red\""),
-        (Material(1), "name=\"plane\" material=\"red\""),
-        (Material(0), "name=\"plane\" material=\"grey\""),
-    ] {
-        let app = added("a.xml", XML, node, "aplane<Enter>");
-        assert!(
-            app.document.text().contains(written),
-            "{}",
-            app.document.text()
-        );
-    }
-}
-
-#[test]
-fn no_number_is_written_as_minus_0() {
-    for axis in ["0 0 1", "0 1 0", "1 0 0", "0 0 -1"] {
-        let cylinder = format!("cylinder ID 1 mat ID 2  0 0 0  {axis}  1 2");
-        let text = DAT.replace("sphere ID 1 mat ID 2  0 0 0  1", &cylinder);
-        for kind in ["box", "quadric", "ellipsoid"] {
-            let said = format!("c{kind}<Enter>");
-            let app = added("a.dat", &text, Object(0), &said);
-            let changed = app.document.text();
-            assert!(changed.contains(&format!("obj {kind} ID 1")), "{changed}");
-            assert!(
-                changed.split_whitespace().all(|word| word != "-0"),
-                "{changed}"
-            );
-        }
-    }
-}
-
-#[test]
-fn lights_change_their_type_and_keep_what_both_share() {
-    for (name, text, node, said, old, new) in [
-        (
-            "a.dat",
-            DAT,
-            Light(0),
-            "cinf<Enter>",
-            "ID 1 pnt",
-            "ID 1 inf",
-        ),
-        (
-            "a.dat",
-            DAT,
-            Light(0),
-            "camb<Enter>",
-            "ID 1 pnt",
-            "ID 1 amb",
-        ),
-        (
-            "a.dat",
-            DAT,
-            Light(0),
-            "c<Down><Enter>",
-            "ID 1 pnt",
-            "ID 1 inf",
-        ),
-        // A light without a place or a direction gets a direction.
-        (
-            "a.dat",
-            DAT,
-            Light(1),
-            "cinf<Enter>",
-            "amb  0 0 0  0 0 0",
-            "inf  0 0 0  0 0 -1",
-        ),
-        (
-            "a.xml",
-            XML,
-            Light(0),
-            "cambient<Enter>",
-            "type=\"point\"",
-            "type=\"ambient\"",
-        ),
-    ] {
-        let mut app = added(name, text, node, said);
-        assert_eq!(app.document.text(), text.replacen(old, new, 1), "{said}");
-        press(&mut app, "u");
-        assert_eq!(app.document.text(), text);
-    }
-    let app = added("a.ray", RAY, Light(0), "c");
-    assert_eq!(words(&app), "light 1 has only one type");
-}
-
-#[test]
-fn the_first_thing_brings_a_scene_with_it() {
-    for (name, text, said, node) in [
-        ("a.ray", "", "asphere<Enter>", Object(0)),
-        ("a.ray", "// mine\n", "acone<Enter>", Object(0)),
-        ("a.ray", "\n", "alight<Enter>", Light(0)),
-        ("a.dat", "", "abox<Enter>", Object(0)),
-        ("a.dat", "# mine", "aspot<Enter>", Light(0)),
-        ("a.xml", "", "asphere<Enter>", Object(0)),
-        ("a.xml", "<!-- mine -->", "aphong<Enter>", Material(0)),
-    ] {
-        let mut app = added(name, text, Node::View, said);
-        assert_eq!(app.cursor.selected(), node, "{name} {said}");
-        assert!(app.document.text().starts_with(text.trim_end()), "{name}");
-        press(&mut app, "u");
-        assert_eq!(app.document.text(), text, "{name} {said}");
-    }
-    let (mut app, _) = opened_as("a.dat", "");
-    press(&mut app, "aunion<Enter>");
-    assert_eq!(app.document.text(), "");
-    assert!(words(&app).contains("mark them first"), "{}", words(&app));
-}
-
 /// Solids of several lines, whose lengths and last numbers share lines.
 const LINES: &str = "\
 0.1 0.1 0.1
@@ -197,6 +51,93 @@ const LINES: &str = "\
   0.1 0 1
 ";
 
+scripts! {
+    new_things_take_the_material_of_the_selection: {
+        let script = "[{1}] acylinder<Enter> | text …{2}… | not errors";
+        scene("a.ray", RAY).table(script, r"
+            object 2   | 0.25 0 0  .5 .4 .3  0.10 0 0  1  0  0  1.50
+            object 1   | 0 0 0  .5 .5 .5  0 0 0  1  0  0  1
+            light 1    | 0.1 0.1 0.1  0.6 0.6 0.6
+        ");
+        scene("a.dat", DAT).table(script, r"
+            object 1   | obj cylinder ID 4 mat ID 2
+            object 3   | obj cylinder ID 4 mat ID 2
+            material 1 | obj cylinder ID 4 mat ID 1
+        ");
+        scene("a.xml", XML).table(&script.replace("cylinder", "plane"), r#"
+            object 1   | name="plane" material="red"
+            material 2 | name="plane" material="red"
+            material 1 | name="plane" material="grey"
+        "#)
+    };
+
+    no_number_is_written_as_minus_0: for axis in ["0 0 1", "0 1 0", "1 0 0", "0 0 -1"] {
+        let cylinder = format!("sphere ID 1 mat ID 2  0 0 0  1 => cylinder ID 1 mat ID 2  0 0 0  {axis}  1 2");
+        scene("a.dat", DAT).but(&cylinder).table(r"
+            [object 1] c{1}<Enter> | text …obj {1} ID 1… | not text …\s-0\s… | not text …\s-0\n… | not errors
+        ", r"
+            box
+            quadric
+            ellipsoid
+        ");
+    };
+
+    lights_change_their_type_and_keep_what_both_share: {
+        scene("a.dat", DAT).each(r"
+            [light 1] cinf<Enter>     | becomes ID 1 pnt => ID 1 inf
+            [light 1] camb<Enter>     | becomes ID 1 pnt => ID 1 amb
+            [light 1] c<Down><Enter>  | becomes ID 1 pnt => ID 1 inf
+            // A light without a place or a direction gets a direction.
+            [light 2] cinf<Enter>     | becomes amb  0 0 0  0 0 0 => inf  0 0 0  0 0 -1
+        ");
+        scene("a.xml", XML).each(r#"
+            [light 1] cambient<Enter> | becomes type="point" => type="ambient"
+        "#);
+        scene("a.ray", RAY).each("[light 1] c | says light 1 has only one type")
+    };
+
+    the_first_thing_brings_a_scene_with_it: {
+        for (name, text, said, node) in [
+            ("a.ray", "", "sphere", "object 1"),
+            ("a.ray", "// mine\n", "cone", "object 1"),
+            ("a.ray", "\n", "light", "light 1"),
+            ("a.dat", "", "box", "object 1"),
+            ("a.dat", "# mine", "spot", "light 1"),
+            ("a.xml", "", "sphere", "object 1"),
+            ("a.xml", "<!-- mine -->", "phong", "material 1"),
+        ] {
+            scene(name, text).play(&format!(r"
+                a{said}<Enter> | at {node} | not errors | text {}…
+                u              | text opened
+            ", text.trim_end()));
+        }
+        scene("a.dat", "").play("aunion<Enter> | text opened | says …mark them first…")
+    };
+
+    an_object_and_its_material_open_an_empty_scene_once: for text in
+        ["<xml><scene/></xml>", "<xml>\n  <scene>\n  </scene>\n</xml>\n"]
+    {
+        scene("a.xml", text).play(r#"
+            asphere<Enter> | not errors | text …</scene>… | not text …</scene>…</scene>…
+            | text …material="blinn"… | text …name="blinn"…
+        "#);
+    };
+
+    a_mesh_is_added_once_its_file_is_named: scene("a.xml", XML).play(r"
+        [object 1] amesh<Enter> | text opened | prompt :mesh\s
+    ");
+
+    adding_says_the_keys_that_suit_what_is_added: {
+        scene("a.ray", RAY).each("alight<Enter> | says added: light; m moves it");
+        scene("a.dat", DAT).each(r"
+            asphere<Enter>   | says added: sphere; m moves it, s scales it
+            abox<Enter>      | says added: box; m moves it, t rotates it, s scales it
+            adistant<Enter>  | says added: distant light; t rotates it
+            amaterial<Enter> | says added: material
+        ")
+    };
+}
+
 #[test]
 fn fields_of_new_solids_share_lines_as_in_their_neighbours() {
     let material = "  0 0 0  .5 .5 .5\n  0.2 0.2 0.2\n  20\n  0.1 0 1\n";
@@ -205,62 +146,12 @@ fn fields_of_new_solids_share_lines_as_in_their_neighbours() {
         ("ellipsoid", "  X\n  1 0 0\n  0 1 0\n  0 0 1\n  2 2 2\n"),
         ("sphere", "  X\n  2\n"),
     ] {
-        let app = added("a.ray", LINES, Object(0), &format!("a{kind}<Enter>"));
-        let text = app.document.text();
+        let mut session = scene("a.ray", LINES).session();
+        session.run(&format!("[object 1] a{kind}<Enter> | not errors"));
+        let text = session.app.document.text();
         let object = &text[text.rfind(&format!("  {kind}\n")).expect("it is there")..];
         let centre = object.lines().nth(1).expect("a second line");
         let expected = format!("  {kind}\n{shape}{material}").replace("  X", centre);
         assert_eq!(object, expected);
-    }
-}
-
-#[test]
-fn an_object_and_its_material_open_an_empty_scene_once() {
-    for text in [
-        "<xml><scene/></xml>",
-        "<xml>\n  <scene>\n  </scene>\n</xml>\n",
-    ] {
-        let app = added("a.xml", text, Node::View, "asphere<Enter>");
-        assert_eq!(app.document.text().matches("</scene>").count(), 1, "{text}");
-        assert!(app.document.text().contains("material=\"blinn\""), "{text}");
-        assert!(app.document.text().contains("name=\"blinn\""), "{text}");
-    }
-}
-
-#[test]
-fn a_mesh_is_added_once_its_file_is_named() {
-    let app = added("a.xml", XML, Object(0), "amesh<Enter>");
-    assert_eq!(app.document.text(), XML);
-    let prompt = app.overlays.prompt.as_ref().expect("it is asked for");
-    assert_eq!(prompt.input.value(), "mesh ");
-}
-
-#[test]
-fn adding_says_the_keys_that_suit_what_is_added() {
-    for (name, text, said, words_after) in [
-        ("a.ray", RAY, "alight<Enter>", "added: light; m moves it"),
-        (
-            "a.dat",
-            DAT,
-            "asphere<Enter>",
-            "added: sphere; m moves it, s scales it",
-        ),
-        (
-            "a.dat",
-            DAT,
-            "abox<Enter>",
-            "added: box; m moves it, t rotates it, s scales it",
-        ),
-        (
-            "a.dat",
-            DAT,
-            "adistant<Enter>",
-            "added: distant light; t rotates it",
-        ),
-        ("a.dat", DAT, "amaterial<Enter>", "added: material"),
-    ] {
-        let (mut app, _) = opened_as(name, text);
-        press(&mut app, said);
-        assert_eq!(words(&app), words_after);
     }
 }

@@ -1,8 +1,6 @@
 //! Showing a part of the list: filtering it and folding groups.
 
-use super::*;
-use crate::language::Node;
-use crate::ui::listing::ListLine;
+use super::rows::{scene, scripts};
 
 const RAY: &str = "\
 0.1 0.1 0.1
@@ -36,208 +34,94 @@ const XML: &str = "\
 </scene></xml>
 ";
 
-/// The list's nodes with their marks: of selection and of folded groups, with `|` between them.
-fn list(app: &App) -> String {
-    let lines = (0..app.listing().len()).filter_map(|line| app.listing().get(line));
-    let nodes = lines.filter_map(|line| match line {
-        ListLine::Heading(_) => None,
-        ListLine::Node(_, node) => Some(node),
-    });
-    let marked = nodes.map(|node| {
-        let is_folded = matches!(node, Node::Object(at) if app.cursor.rows.is_folded(at));
-        let fold = if is_folded { "+" } else { "" };
-        let cursor = if node == app.cursor.selected() {
-            ">"
-        } else {
-            ""
-        };
-        format!("{cursor}{fold}{}", app.source().name(node))
-    });
-    marked.collect::<Vec<_>>().join("|")
-}
+const REST: &str = "render, view, ambient, light 1, light 2";
 
-#[track_caller]
-fn check(name: &str, text: &str, cases: &[(&str, &str)]) {
-    let mut app = opened_as(name, text).0;
-    assert_eq!(app.error_count(), 0);
-    for (said, expected) in cases {
-        press(&mut app, said);
-        assert_eq!(list(&app), *expected, "{said}: {}", words(&app));
-    }
-    press(&mut app, ":q");
-    assert_eq!(app.document.text(), text);
-}
+scripts! {
+    the_list_is_filtered_while_typing: scene("a.ray", RAY)
+        .with("first", &format!("{REST}, >object 1 (sphere), object 2 (box), object 3 (sphere)"))
+        .with("second", &format!("{REST}, object 1 (sphere), >object 2 (box), object 3 (sphere)"))
+        .with("third", &format!("{REST}, object 1 (sphere), object 2 (box), >object 3 (sphere)"))
+        .play(r"
+        | list {first}
+        /             | list {first}
+        b             | list ambient, >object 1 (sphere), object 2 (box), object 3 (sphere)
+        ox            | list >object 2 (box)
+        <Back>        | list >object 2 (box)
+        <Back>        | list ambient, >object 1 (sphere), object 2 (box), object 3 (sphere)
+        <Back><Back>  | list {first}
+        // The empty line closes on Backspace; comments count, too.
+        /MOON<Enter>  | list >object 1 (sphere)
+        /sphere       | list >object 1 (sphere), object 3 (sphere)
+        <Down>        | list object 1 (sphere), >object 3 (sphere)
+        <Enter>n      | list >object 1 (sphere), object 3 (sphere)
+        N             | list object 1 (sphere), >object 3 (sphere)
+        kk            | list >object 1 (sphere), object 3 (sphere)
+        <Esc>         | list {first}
+        n             | list {third}
+        /xyz          | not list
+        <Enter>       | list {third}
+        k             | list {second}
+        /light<Esc>   | list {second}
+        :q           | text opened
+    ");
 
-#[test]
-fn the_list_is_filtered_while_typing() {
-    let all =
-        "render|view|ambient|light 1|light 2|object 1 (sphere)|>object 2 (box)|object 3 (sphere)";
-    let first =
-        "render|view|ambient|light 1|light 2|>object 1 (sphere)|object 2 (box)|object 3 (sphere)";
-    check(
-        "a.ray",
-        RAY,
-        &[
-            ("", first),
-            ("/", first),
-            (
-                "b",
-                "ambient|>object 1 (sphere)|object 2 (box)|object 3 (sphere)",
-            ),
-            ("ox", ">object 2 (box)"),
-            ("<Back>", ">object 2 (box)"),
-            (
-                "<Back>",
-                "ambient|>object 1 (sphere)|object 2 (box)|object 3 (sphere)",
-            ),
-            ("<Back><Back>", first),
-            ("", first),
-            // The empty line closes on Backspace; comments count, too.
-            ("/MOON<Enter>", ">object 1 (sphere)"),
-            ("/sphere", ">object 1 (sphere)|object 3 (sphere)"),
-            ("<Down>", "object 1 (sphere)|>object 3 (sphere)"),
-            ("<Enter>n", ">object 1 (sphere)|object 3 (sphere)"),
-            ("N", "object 1 (sphere)|>object 3 (sphere)"),
-            ("kk", ">object 1 (sphere)|object 3 (sphere)"),
-            ("<Esc>", first),
-            (
-                "n",
-                &first.replace('>', "").replace("object 3", ">object 3"),
-            ),
-            ("/xyz", ""),
-            (
-                "<Enter>",
-                &first.replace('>', "").replace("object 3", ">object 3"),
-            ),
-            ("k", all),
-            ("/light<Esc>", all),
-        ],
-    );
-}
+    groups_of_matches_are_listed: scene("a.xml", XML).play(r"
+        /a (     | list pair (group), inner (group), >a (sphere)
+        <Enter>j | list pair (group), inner (group), >a (sphere)
+        k<Left>  | list pair (group), >inner (group), a (sphere)
+    ");
 
-#[test]
-fn groups_of_matches_are_listed() {
-    check(
-        "a.xml",
-        XML,
-        &[
-            ("/a (", "pair (group)|inner (group)|>a (sphere)"),
-            ("<Enter>j", "pair (group)|inner (group)|>a (sphere)"),
-            ("k<Left>", "pair (group)|>inner (group)|a (sphere)"),
-        ],
-    );
-}
+    a_filter_follows_the_text: scene("a.ray", RAY).with("rest", REST).play(r"
+        /sphere<Enter>D | list object 1 (sphere), >object 2 (sphere), object 4 (sphere)
+        d               | list object 1 (sphere), >object 3 (sphere)
+        // Another type no longer matches; the next match is selected.
+        ggj
+        @reads a.ray sphere 0 0 0 1 => box 4 0 0  1 0 0  0 1 0  0 0 1  1 1 1 | list >object 3 (sphere)
+        // Nothing is left of it: all are listed.
+        d               | list {rest}, …
+    ");
 
-#[test]
-fn a_filter_follows_the_text() {
-    let mut app = opened_as("a.ray", RAY).0;
-    press(&mut app, "/sphere<Enter>D");
-    assert_eq!(
-        list(&app),
-        "object 1 (sphere)|>object 2 (sphere)|object 4 (sphere)"
-    );
-    press(&mut app, "d");
-    assert_eq!(list(&app), "object 1 (sphere)|>object 3 (sphere)");
-    // Another type no longer matches; the next match is selected.
-    press(&mut app, "ggj");
-    let retyped = RAY.replace("sphere 0 0 0 1", "box 4 0 0  1 0 0  0 1 0  0 0 1  1 1 1");
-    read(&mut app, "a.ray", &retyped);
-    assert_eq!(list(&app), ">object 3 (sphere)");
-    // Nothing is left of it: all are listed.
-    press(&mut app, "d");
-    assert_eq!(app.cursor.rows.filter(), "");
-    assert_eq!(app.nodes().len(), app.cursor.rows.count(app.source()));
-}
+    selecting_what_the_filter_hides_ends_it: scene("a.ray", RAY).with("rest", REST).play(r"
+        /box<Enter> | list …object 2 (box)…
+        [object 1]  | list {rest}, …
+    ");
 
-#[test]
-fn selecting_what_the_filter_hides_ends_it() {
-    let mut app = opened_as("a.ray", RAY).0;
-    press(&mut app, "/box<Enter>");
-    app.select(Node::Object(0));
-    assert_eq!(app.cursor.rows.filter(), "");
-}
+    groups_are_folded_and_unfolded: scene("a.xml", XML)
+        .with("rest", "render, view, background, environment, ")
+        .play(r"
+        | list {rest}>pair (group), inner (group), a (sphere), b (sphere), c (sphere)
+        <Left>                | list {rest}>+pair (group), c (sphere)
+        j                     | list {rest}+pair (group), >c (sphere)
+        k<Right>j<Left>       | list {rest}pair (group), >+inner (group), b (sphere), c (sphere)
+        // A folded group leads to the one that holds it.
+        <Left><Left>          | list {rest}>+pair (group), c (sphere)
+        <Right><Right>        | list {rest}pair (group), >+inner (group), b (sphere), c (sphere)
+        <Right><Right>        | list {rest}pair (group), inner (group), >a (sphere), b (sphere), c (sphere)
+        <Shift-Left>          | list {rest}>+pair (group), c (sphere)
+        <Shift-Right>         | list {rest}>pair (group), inner (group), a (sphere), b (sphere), c (sphere)
+        :q                    | text opened
+    ");
 
-#[test]
-fn groups_are_folded_and_unfolded() {
-    let rest = "render|view|background|environment|";
-    let xml = |objects: &str| format!("{rest}{objects}");
-    check(
-        "a.xml",
-        XML,
-        &[
-            (
-                "",
-                &xml(">pair (group)|inner (group)|a (sphere)|b (sphere)|c (sphere)"),
-            ),
-            ("<Left>", &xml(">+pair (group)|c (sphere)")),
-            ("j", &xml("+pair (group)|>c (sphere)")),
-            (
-                "k<Right>j<Left>",
-                &xml("pair (group)|>+inner (group)|b (sphere)|c (sphere)"),
-            ),
-            // A folded group leads to the one that holds it.
-            ("<Left><Left>", &xml(">+pair (group)|c (sphere)")),
-            (
-                "<Right><Right>",
-                &xml("pair (group)|>+inner (group)|b (sphere)|c (sphere)"),
-            ),
-            (
-                "<Right><Right>",
-                &xml("pair (group)|inner (group)|>a (sphere)|b (sphere)|c (sphere)"),
-            ),
-            ("<Shift-Left>", &xml(">+pair (group)|c (sphere)")),
-            (
-                "<Shift-Right>",
-                &xml(">pair (group)|inner (group)|a (sphere)|b (sphere)|c (sphere)"),
-            ),
-        ],
-    );
-}
+    combined_objects_are_folded_unless_they_are_drawn_by_themselves: scene("a.dat", DAT)
+        .with("rest", "render, view, material 1, ")
+        .play(r"
+        G<Left>       | list {rest}object 2 (sphere), >+object 5 (CSG)
+        <Right>
+        | list {rest}object 1 (sphere), object 2 (sphere), object 4 (sphere), object 3 (CSG), >object 5 (CSG)
+        <Right><Left> | list {rest}object 2 (sphere), object 4 (sphere), >+object 3 (CSG), object 5 (CSG)
+        :q            | text opened
+    ");
 
-#[test]
-fn combined_objects_are_folded_unless_they_are_drawn_by_themselves() {
-    let listed = |objects: &str| format!("render|view|material 1|{objects}");
-    check(
-        "a.dat",
-        DAT,
-        &[
-            ("G<Left>", &listed("object 2 (sphere)|>+object 5 (CSG)")),
-            (
-                "<Right>",
-                &listed(
-                    "object 1 (sphere)|object 2 (sphere)|object 4 (sphere)|object 3 (CSG)|>object 5 (CSG)",
-                ),
-            ),
-            (
-                "<Right><Left>",
-                &listed("object 2 (sphere)|object 4 (sphere)|>+object 3 (CSG)|object 5 (CSG)"),
-            ),
-        ],
-    );
-}
+    selecting_what_is_folded_unfolds_it_and_folds_outlive_edits: scene("a.xml", XML).play(r"
+        <Left>jD   | list …, +pair (group), c (sphere), >c 2 (sphere)…
+        u          | list …, +pair (group), >c (sphere)…
+        [object 3] | list …, pair (group), inner (group), >a (sphere), …
+    ");
 
-#[test]
-fn selecting_what_is_folded_unfolds_it_and_folds_outlive_edits() {
-    let mut app = opened_as("a.xml", XML).0;
-    press(&mut app, "<Left>jD");
-    assert!(list(&app).contains("|+pair (group)|c (sphere)|>c 2 (sphere)"));
-    press(&mut app, "u");
-    assert!(list(&app).contains("|+pair (group)|>c (sphere)"));
-    app.select(Node::Object(2));
-    assert!(list(&app).contains("|pair (group)|inner (group)|>a (sphere)|"));
-}
-
-#[test]
-fn a_new_name_replaces_the_old_one_unless_that_is_edited() {
-    for (said, name) in [
-        ("Rball<Enter>", "ball"),
-        ("R<Left>x<Enter>", "paixr"),
-        ("R<Back>n<Enter>", "pain"),
-        ("R<Enter>", "pair"),
-    ] {
-        let mut app = opened_as("a.xml", XML).0;
-        press(&mut app, said);
-        let new = XML.replace("'pair'", &format!("'{name}'"));
-        assert_eq!(app.document.text(), new, "{said}");
-    }
+    a_new_name_replaces_the_old_one_unless_that_is_edited: scene("a.xml", XML).each(r"
+        Rball<Enter>     | text 'pair' => 'ball'
+        R<Left>x<Enter>  | text 'pair' => 'paixr'
+        R<Back>n<Enter>  | text 'pair' => 'pain'
+        R<Enter>         | text opened
+    ");
 }

@@ -2,9 +2,9 @@
 
 use std::sync::{Arc, Weak};
 
+use super::rows::{ray, scripts};
 use super::*;
-use crate::render::{Aov, Colours, Frame, Job, Query};
-use crate::scene::Transfer;
+use crate::render::{Aov, Frame, Job, Query};
 use crate::ui::msg::Target;
 
 /// The job of a picture among the effects.
@@ -37,105 +37,100 @@ pub(super) fn preview(job: &Job, grey: f32) -> Msg {
     Msg::Frame(Target::Preview, Arc::new(frame))
 }
 
-#[test]
-fn exposure_changes_the_screen_and_traces_nothing() {
-    let mut app = open(SCENE);
-    for (said, half_stops, told) in [
-        (">", 1, "exposure +0.5 EV, on screen only"),
-        (">>", 3, "exposure +1.5 EV, on screen only"),
-        ("<Lt>", 2, "exposure +1 EV, on screen only"),
-        (
-            ":exposure -2.5<Enter>",
-            -5,
-            "exposure -2.5 EV, on screen only",
-        ),
-        (
-            ":exposure 0.25<Enter>",
-            -5,
-            "exposure takes stops from -20 to 20, in steps of 0.5",
-        ),
-        (":exposure 0<Enter>", 0, "exposure 0"),
-        (
-            ":exposure 20<Enter>>",
-            40,
-            "exposure +20 EV, on screen only",
-        ),
-    ] {
-        let effects = press(&mut app, said);
-        assert!(job(&effects, Target::Preview).is_none(), "{said}");
-        assert_eq!(app.pictures.display.half_stops, half_stops, "{said}");
-        assert_eq!(words(&app), told, "{said}");
-        let frame_window = app.frame_window().expect("there is room");
-        assert_eq!(frame_window.display, app.pictures.display);
-    }
-    assert_eq!(app.display_name().as_deref(), Some("+20 EV"));
-    press(&mut app, "2<Esc>>");
-    let refused = "only light and albedo can be exposed; press 1";
-    assert_eq!((words(&app), app.display_name()), (refused, None));
-    assert_eq!(app.pictures.display.half_stops, 40);
-}
+scripts! {
+    exposure_changes_the_screen_and_traces_nothing: ray().play(r"
+        >                     | exposed 1 | not does trace preview | says exposure +0.5 EV, on screen only
+        >>                    | exposed 3 | not does trace preview | says exposure +1.5 EV, on screen only
+        <Lt>                  | exposed 2 | not does trace preview | says exposure +1 EV, on screen only
+        :exposure -2.5<Enter> | exposed -5 | not does trace preview | says exposure -2.5 EV, on screen only
+        :exposure 0.25<Enter> | exposed -5 | not does trace preview
+        | says exposure takes stops from -20 to 20, in steps of 0.5
+        :exposure 0<Enter>    | exposed 0 | not does trace preview | says exposure 0
+        :exposure 20<Enter>>  | exposed 40 | not does trace preview | says exposure +20 EV, on screen only
+        | exposure +20 EV
+        2<Esc>> | exposed 40 | not exposure | says only light and albedo can be exposed; press 1
+    ");
 
-#[test]
-fn commands_choose_transfer_and_colours_of_the_display() {
-    let mut app = open(SCENE);
-    for (said, name) in [
-        (":transfer srgb<Enter>", Some("sRGB")),
-        (":falsecolour<Enter>", Some("sRGB false colours")),
-        (
-            ":transfer linear<Enter>>",
-            Some("+0.5 EV linear false colours"),
-        ),
-        (":transfer scene<Enter>", Some("+0.5 EV false colours")),
-        (":falsecolor<Enter><Lt>", None),
-    ] {
-        press(&mut app, said);
-        assert_eq!(app.display_name().as_deref(), name, "{said}");
-    }
-}
+    commands_choose_transfer_and_colours_of_the_display: ray().play(r"
+        :transfer srgb<Enter>    | exposure sRGB
+        :falsecolour<Enter>      | exposure sRGB false colours
+        :transfer linear<Enter>> | exposure +0.5 EV linear false colours
+        :transfer scene<Enter>   | exposure +0.5 EV false colours
+        :falsecolor<Enter><Lt>   | not exposure
+    ");
 
-#[test]
-fn noise_is_reduced_on_screen_and_in_no_file() {
-    let mut app = open(SCENE);
-    let effects = press(&mut app, "~");
-    let asked = job(&effects, Target::Preview).expect("it is traced again");
-    assert!(asked.denoise);
-    assert_eq!(words(&app), "noise is reduced, on screen only");
-    assert_eq!(app.display_name().as_deref(), Some("denoised"));
-    let frame_window = app.frame_window().expect("there is room");
-    assert!(frame_window.display.denoised);
-    // A complete picture without is too large for it.
-    let arrived = preview(asked, 0.5);
-    app.update(Msg::Started(Target::Preview, 1));
-    app.update(arrived);
-    assert_eq!(app.display_name().as_deref(), Some("not denoised"));
-    let effects = press(&mut app, "<F5>");
-    assert!(job(&effects, Target::Trace).is_some_and(|job| job.denoise));
-    let effects = press(&mut app, "<Esc>b");
-    let export = job(&effects, Target::Export).expect("a trace");
-    assert!(!export.denoise);
-    // The others show no light.
-    let effects = press(&mut app, "2");
-    assert!(job(&effects, Target::Preview).is_some());
-    assert_eq!(app.display_name(), None);
-    press(&mut app, "~");
-    assert_eq!(words(&app), "only light has noise to reduce; press 1");
-    press(&mut app, "1");
-    let effects = press(&mut app, ":denoise<Enter>");
-    assert!(job(&effects, Target::Preview).is_some_and(|job| !job.denoise));
-    assert_eq!(words(&app), "noise is no longer reduced");
-    assert_eq!(app.display_name(), None);
-}
+    noise_is_reduced_on_screen_and_in_no_file: ray().play(r"
+        ~ | does trace preview | job denoise true | says noise is reduced, on screen only
+        | exposure denoised
+        // A complete picture without is too large for it.
+        @started preview 1
+        @frame preview  | exposure not denoised
+        <F5>            | job denoise true
+        <Esc>
+        b               | does trace export | job denoise false
+        // The others show no light.
+        2               | does trace preview | not exposure
+        ~               | says only light has noise to reduce; press 1
+        1
+        :denoise<Enter> | does trace preview | job denoise false
+        | says noise is no longer reduced | not exposure
+    ");
 
-#[test]
-fn a_trace_continues_when_denoising_is_switched() {
-    let mut app = open(SCENE);
-    press(&mut app, "<F5>");
-    app.update(Msg::Started(Target::Trace, 1));
-    let effects = press(&mut app, "~");
-    let [Effect::Trace(Target::Trace, again)] = &effects[..] else {
-        panic!("{effects:?}");
+    a_trace_continues_when_denoising_is_switched: ray().play(r"
+        <F5>
+        @started full 1
+        ~ | does only trace full | job denoise true
+    ");
+
+    brackets_step_through_the_shares_of_the_light: {
+        let mut session = ray().session();
+        let shares = [
+            (Some(Aov::Direct(0)), "only direct light of light 1"),
+            (Some(Aov::Emission), "emission, ambient light and background alone"),
+            (Some(Aov::Indirect), "indirect light alone: by way of other surfaces"),
+            (None, "light"),
+        ];
+        for (share, told) in shares {
+            session.run(&format!(") | does trace preview | says {told}"));
+            let traced = session.effects.iter().find_map(traced_by).expect("a trace");
+            assert_eq!(traced.1.settings.aov, share);
+        }
+        for (share, _) in [3, 2, 1, 0].map(|at| shares[(at + 3) % 4]) {
+            session.run("(");
+            assert_eq!(session.app.pictures.aov, share);
+        }
+        session.run(") | view-name only light 1")
     };
-    assert!(again.denoise);
+
+    the_share_of_a_light_goes_with_it: ray()
+        .but(r"1\n5 5 5 // the light\n1 1 1\n => 2\n5 5 5 // the light\n1 1 1\n-5 5 5\n1 1 1\n")
+        .with("one", SCENE)
+        .play(r"
+        ))        | view-name only light 2
+        @file one | not errors | not aov | not view-name
+    ");
+
+    legends_say_what_colours_stand_for: {
+        let mut session = ray().session();
+        for (said, name, legend) in [
+            ("7", "view-name cost", "legend 1 to 312 rays a sample"),
+            ("8", "view-name samples", "legend 1 to 312"),
+            ("2", "view-name depth", "legend 1 to 312"),
+            ("3", "view-name normal", "not legend"),
+            (":show uv<Enter>", "view-name uv", "legend u red, v green"),
+            (":show side<Enter>", "view-name side", "legend front blue, back orange"),
+            ("1", "not view-name", "not legend"),
+            (":falsecolour<Enter>", "not view-name", "legend -8 to 0 EV, green below, white above"),
+        ] {
+            session.run(said);
+            if let Some(frame) = job(&session.effects, Target::Preview).map(|job| preview(job, 0.5)) {
+                session.app.update(Msg::Started(Target::Preview, 1));
+                session.app.update(frame);
+            }
+            session.run(&format!("| {name} | {legend}"));
+        }
+        session.run("| exposure false colours")
+    };
 }
 
 /// What is exported is what the scene and the view say, whatever the screen shows.
@@ -174,80 +169,6 @@ fn the_display_never_reaches_a_file() {
         trace.map(|trace| trace.pixels.clone()),
         Some(frame.pixels.clone())
     );
-}
-
-#[test]
-fn brackets_step_through_the_shares_of_the_light() {
-    let mut app = open(SCENE);
-    let shares = [
-        (Some(Aov::Direct(0)), "only direct light of light 1"),
-        (
-            Some(Aov::Emission),
-            "emission, ambient light and background alone",
-        ),
-        (
-            Some(Aov::Indirect),
-            "indirect light alone: by way of other surfaces",
-        ),
-        (None, "light"),
-    ];
-    for (share, told) in shares {
-        let effects = press(&mut app, ")");
-        let traced = job(&effects, Target::Preview).expect("a trace").settings;
-        assert_eq!((traced.aov, words(&app)), (share, told));
-    }
-    for (share, _) in [3, 2, 1, 0].map(|at| shares[(at + 3) % 4]) {
-        press(&mut app, "(");
-        assert_eq!(app.pictures.aov, share);
-    }
-    press(&mut app, ")");
-    assert_eq!(app.view_name().as_deref(), Some("only light 1"));
-}
-
-#[test]
-fn the_share_of_a_light_goes_with_it() {
-    let one = "1\n5 5 5 // the light\n1 1 1\n";
-    let two = "2\n5 5 5 // the light\n1 1 1\n-5 5 5\n1 1 1\n";
-    let mut app = open(&SCENE.replace(one, two));
-    press(&mut app, "))");
-    assert_eq!(app.pictures.aov, Some(Aov::Direct(1)));
-    outside(&mut app, SCENE);
-    assert_eq!(app.error_count(), 0);
-    assert_eq!((app.pictures.aov, app.view_name()), (None, None));
-}
-
-#[test]
-fn legends_say_what_colours_stand_for() {
-    let mut app = open(SCENE);
-    for (said, name, legend) in [
-        ("7", Some("cost"), Some("1 to 312 rays a sample")),
-        ("8", Some("samples"), Some("1 to 312")),
-        ("2", Some("depth"), Some("1 to 312")),
-        ("3", Some("normal"), None),
-        (":show uv<Enter>", Some("uv"), Some("u red, v green")),
-        (
-            ":show side<Enter>",
-            Some("side"),
-            Some("front blue, back orange"),
-        ),
-        ("1", None, None),
-        (
-            ":falsecolour<Enter>",
-            None,
-            Some("-8 to 0 EV, green below, white above"),
-        ),
-    ] {
-        let effects = press(&mut app, said);
-        if let Some(job) = job(&effects, Target::Preview) {
-            let frame = preview(job, 0.5);
-            app.update(Msg::Started(Target::Preview, 1));
-            app.update(frame);
-        }
-        assert_eq!(app.view_name().as_deref(), name, "{said}");
-        assert_eq!(app.legend().as_deref(), legend, "{said}");
-    }
-    assert_eq!(app.pictures.display.colours, Colours::False);
-    assert_eq!(app.pictures.display.transfer, None::<Transfer>);
 }
 
 #[test]

@@ -30,6 +30,7 @@ mod rebinding;
 mod recovering;
 mod reeling;
 mod reloading;
+mod rows;
 mod saving;
 mod sequences;
 mod soloing;
@@ -77,9 +78,6 @@ sphere
 .1 .1 .1 .45 .45 .45 .5 .5 .5
 5 0 0 1
 ";
-
-/// Rows of the list: view, ambient, light 1, object 1, object 2.
-const TO_FIRST_OBJECT: &str = "jjj";
 
 /// Opens the interface with the cursor on the first row of the list.
 fn open(text: &str) -> App {
@@ -148,6 +146,7 @@ fn named(name: &str) -> KeyEvent {
         "Tab" => KeyCode::Tab,
         "Back" => KeyCode::Backspace,
         "F5" => KeyCode::F(5),
+        "Space" => KeyCode::Char(' '),
         "Lt" => KeyCode::Char('<'),
         one => KeyCode::Char(one.chars().next().expect("a key has a name")),
     })
@@ -167,22 +166,6 @@ fn press_all(app: &mut App, said: &str) -> Vec<Effect> {
         .collect()
 }
 
-/// The lines of the text that differ from [`SCENE`]'s.
-fn changed_lines(app: &App) -> Vec<String> {
-    let old: Vec<_> = SCENE.lines().collect();
-    let new = app.document.text().lines();
-    new.filter(|line| !old.contains(line))
-        .map(str::to_owned)
-        .collect()
-}
-
-/// The lines of the text that these keys change.
-fn typed(said: &str) -> String {
-    let mut app = open(SCENE);
-    press(&mut app, said);
-    changed_lines(&app).join("|")
-}
-
 /// The newest message, unless all have been dismissed.
 fn words(app: &App) -> &str {
     let messages = &app.overlays.messages;
@@ -199,16 +182,6 @@ fn shown(app: &App) -> &str {
     message.map_or("", |message| &message.text)
 }
 
-fn outside(app: &mut App, text: &str) -> Vec<Effect> {
-    read(app, "scene.ray", text)
-}
-
-/// Delivers a reading of a file.
-fn read(app: &mut App, path: &str, text: &str) -> Vec<Effect> {
-    let reading = Reading::new(text.to_owned(), app.baseline()).expect("it fits into memory");
-    app.update(Msg::Read(PathBuf::from(path), Ok(reading)))
-}
-
 /// The message that a picture was written.
 fn exported(id: ExportId, path: impl Into<PathBuf>, version: Option<Version>) -> Msg {
     let path = path.into();
@@ -222,12 +195,6 @@ fn traced_by(effect: &Effect) -> Option<(Target, &Job)> {
         Effect::Recall(job, _) => Some((Target::Trace, job)),
         _ => None,
     }
-}
-
-/// Whether the full-size trace is started.
-fn traces_in_full(effects: &[Effect]) -> bool {
-    let mut traced = effects.iter().filter_map(traced_by);
-    traced.any(|(target, _)| target == Target::Trace)
 }
 
 fn wants(effects: &[Effect], wanted: fn(&Effect) -> bool) -> bool {

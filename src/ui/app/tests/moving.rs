@@ -1,196 +1,132 @@
 //! Moving through the list, over the picture and around the scene.
 
-use std::sync::Arc;
-
-use crossterm::event::{MouseButton, MouseEvent, MouseEventKind};
-
-use super::pictures::frame;
+use super::rows::{listed, ray, scene, scripts};
 use super::*;
-use crate::language::Node;
-use crate::render::NO_OBJECT;
-use crate::scene::{Lens, Size};
-use crate::ui::msg::{Target, Timer};
 
-#[test]
-fn keys_without_a_meaning_say_where_they_have_one() {
-    for (said, answer) in [
-        (
-            "S",
-            "`S` in VIEW (v): write the view into the scene; ? lists keys",
-        ),
-        (
-            "jeo",
-            "`o` in SELECT: toggle the outline of the selection; ? lists keys",
-        ),
-        ("vR", "`R` in SELECT (Enter): rename; ? lists keys"),
-        ("vX", "`X` is free in VIEW; ? lists keys"),
-        ("<Ctrl-y>", "`Ctrl-Y` is free in SELECT; ? lists keys"),
-        ("?X", "`X` is free here"),
-        ("je5", ""),
-    ] {
-        let mut app = open(SCENE);
-        press(&mut app, said);
-        assert_eq!(words(&app), answer, "{said}");
-    }
-}
+scripts! {
+    keys_without_a_meaning_say_where_they_have_one: ray().each(r"
+        S        | says `S` in VIEW (v): write the view into the scene; ? lists keys
+        jeo      | says `o` in SELECT: toggle the outline of the selection; ? lists keys
+        vR       | says `R` in SELECT (Enter): rename; ? lists keys
+        vX       | says `X` is free in VIEW; ? lists keys
+        <Ctrl-y> | says `Ctrl-Y` is free in SELECT; ? lists keys
+        ?X       | says `X` is free here
+        je5      | not says
+    ");
 
-#[test]
-fn a_saved_view_is_the_view_on_screen() {
-    let mut app = open(SCENE);
-    press(&mut app, "vhhk+]");
-    let view = app.pictures.view.expect("the camera was moved");
-    assert!(!app.document.is_dirty());
-    press(&mut app, "S");
-    assert!(app.pictures.view.is_none() && app.document.is_dirty());
-    assert_eq!(app.scene.as_ref().expect("a scene").camera, view);
-    let first = app.document.text().lines().next().expect("a line");
-    assert!(first.starts_with("// view: eye "), "{first}");
-    press(&mut app, "u");
-    assert_eq!(app.document.text(), SCENE);
-}
+    a_saved_view_is_the_view_on_screen: ray().play(r"
+        vhhk+]       | moved | not dirty
+        @note seen camera
+        S            | not moved | dirty | camera {seen} | line 1 // view: eye …
+        u            | text opened
+    ");
 
-#[test]
-fn orbiting_back_nearly_restores_the_view_and_never_crosses_the_pole() {
-    let mut app = open(SCENE);
-    let own = app.camera().expect("a camera");
-    press(&mut app, "vhhll");
-    let back = app.camera().expect("a camera");
-    assert!((back.eye - own.eye).length() < 1e-3 * own.eye.length());
-    press(&mut app, &"k".repeat(60));
-    let top = app.camera().expect("a camera");
-    let offset = top.eye - top.target;
-    assert!(0.9 < offset.normalize().y && offset.y < offset.length());
-    press(&mut app, "0");
-    assert_eq!(app.pictures.view, None);
-}
+    orbiting_back_nearly_restores_the_view_and_never_crosses_the_pole: {
+        let mut session = ray().session();
+        let own = session.app.camera().expect("a camera");
+        session.run("vhhll");
+        let back = session.app.camera().expect("a camera");
+        assert!((back.eye - own.eye).length() < 1e-3 * own.eye.length());
+        session.run(&"k".repeat(60));
+        let top = session.app.camera().expect("a camera");
+        let offset = top.eye - top.target;
+        assert!(0.9 < offset.normalize().y && offset.y < offset.length());
+        session.run("0 | not moved")
+    };
 
-#[test]
-fn missing_parts_of_the_view_are_written_when_they_are_set() {
-    let mut app = open(SCENE);
-    press(&mut app, "ejjj40<Enter>");
-    let scene = app.scene.as_ref().expect("a scene");
-    assert_eq!(scene.camera.lens, Lens::Perspective(40.0));
-    press(&mut app, "jll");
-    assert_eq!(
-        app.output(),
-        Size {
-            width: 820,
-            height: 600
-        }
-    );
-    press(&mut app, ":size 64x48<Enter>");
-    assert_eq!(
-        app.output(),
-        Size {
-            width: 64,
-            height: 48
-        }
-    );
-}
+    missing_parts_of_the_view_are_written_when_they_are_set: ray().play(r"
+        ejjj40<Enter>      | camera …Perspective(40.0)…
+        jll                | size 820x600
+        :size 64x48<Enter> | size 64x48
+    ");
 
-/// Shows a finished preview whose left half is object 1; the right half is empty.
-fn show_half(app: &mut App) {
-    let size = app.raster().expect("there is room").1;
-    let objects = (0..size.pixels() as u32)
-        .map(|at| {
-            if at % size.width < size.width / 2 {
-                1
-            } else {
-                NO_OBJECT
-            }
-        })
-        .collect();
-    app.update(Msg::Frame(Target::Preview, Arc::new(frame(size, objects))));
-    app.picture_mut()
-        .advance(&FrameWindow::whole(size), &[], usize::MAX);
-}
+    enter_selects_the_object_under_the_cross: ray().play(r"
+        @shows half
+        iHH<Enter> | mode SELECT | at object 2
+        ggjiLLLLLLLLL
+        <Enter>    | mode INSPECT | at view
+    ");
 
-#[test]
-fn enter_selects_the_object_under_the_cross() {
-    let mut app = open(SCENE);
-    show_half(&mut app);
-    press(&mut app, "iHH<Enter>");
-    assert_eq!(
-        (app.mode, app.cursor.selected()),
-        (Mode::Select, Node::Object(1))
-    );
-    press(&mut app, "ggji");
-    press(&mut app, &"L".repeat(9));
-    press(&mut app, "<Enter>");
-    assert_eq!(
-        (app.mode, app.cursor.selected()),
-        (Mode::Inspect, Node::View)
-    );
-}
+    inspecting_starts_where_the_cross_was_last: {
+        let mut session = ray().session();
+        let corner = "HK".repeat(99);
+        session.run(&format!("
+            @shows half
+            i
+            {corner}
+            <Esc>i | cross 0,0
+            <Esc>i
+            {corner}l
+            <Esc>i | cross 1,0
+        "))
+    };
 
-#[test]
-fn inspecting_starts_where_the_cross_was_last() {
-    let mut app = open(SCENE);
-    show_half(&mut app);
-    for cross in [[0, 0], [1, 0]] {
-        press(&mut app, "i");
-        press(&mut app, &"HK".repeat(99));
-        press(&mut app, &"l".repeat(cross[0] as usize));
-        press(&mut app, "<Esc>i");
-        assert_eq!(app.cross().map(|cross| cross.pixel), Some(cross));
-        press(&mut app, "<Esc>");
-    }
-}
+    the_first_object_is_selected_at_the_start: {
+        scene("scene.ray", SCENE).play("| at object 1 | > el | lines 0.1 0 0");
+        scene("scene.ray", "").play("| at view");
+        scene("scene.ray", "1 1 1").play("| at ambient")
+    };
 
-#[test]
-fn the_first_object_is_selected_at_the_start() {
-    assert_eq!(opened(SCENE).0.cursor.selected(), Node::Object(0));
-    let mut app = opened(SCENE).0;
-    press(&mut app, "el");
-    assert_eq!(changed_lines(&app), ["0.1 0 0"]);
-    assert_eq!(opened("").0.cursor.selected(), Node::View);
-    assert_eq!(opened("1 1 1").0.cursor.selected(), Node::Ambient);
-}
+    a_search_finds_names_and_comments_and_counts_them: ray().play(r"
+        /SPHERE<Enter>n    | says 2 of 2
+        /the light<Enter>  | at light 1 | says 1 of 1; Esc shows all
+    ");
 
-#[test]
-fn a_search_finds_names_and_comments_and_counts_them() {
-    let mut app = open(SCENE);
-    press(&mut app, "/SPHERE<Enter>n");
-    assert_eq!(words(&app), "2 of 2");
-    press(&mut app, "/the light<Enter>");
-    assert_eq!(
-        (app.cursor.selected(), words(&app)),
-        (Node::Light(0), "1 of 1; Esc shows all")
-    );
-}
+    the_list_is_walked_searched_and_cycled: ray().each(r"
+        j                    | at ambient
+        G                    | at object 2
+        Ggg                  | at render
+        Gg                   | at object 2
+        <Tab>                | at light 1
+        <Tab><Tab><Tab><Tab> | at light 1
+        /sphere<Enter>       | at object 1
+        /sphere<Enter>n      | at object 2
+        /SPHERE<Enter>N      | at object 2
+        /amb<Enter>          | at ambient
+        /nothing<Enter>      | at view
+        /amb<Esc>            | at view
+    ");
 
-#[test]
-fn the_list_is_walked_searched_and_cycled() {
-    for (said, selected) in [
-        ("j", Node::Ambient),
-        ("G", Node::Object(1)),
-        ("Ggg", Node::Render),
-        ("Gg", Node::Object(1)),
-        ("<Tab>", Node::Light(0)),
-        ("<Tab><Tab><Tab><Tab>", Node::Light(0)),
-        ("/sphere<Enter>", Node::Object(0)),
-        ("/sphere<Enter>n", Node::Object(1)),
-        ("/SPHERE<Enter>N", Node::Object(1)),
-        ("/amb<Enter>", Node::Ambient),
-        ("/nothing<Enter>", Node::View),
-        ("/amb<Esc>", Node::View),
-    ] {
-        let mut app = open(SCENE);
-        press(&mut app, said);
-        assert_eq!(app.cursor.selected(), selected, "{said}");
-    }
-}
+    a_scene_that_opens_with_errors_has_no_picture_but_can_be_corrected: listed("nonsense")
+        .with("ray", SCENE)
+        .play(r"
+        | not objects | errors
+        v<F5>pb   | not does
+        @file ray | does trace preview
+    ");
 
-#[test]
-fn a_scene_that_opens_with_errors_has_no_picture_but_can_be_corrected() {
-    let mut app = open("nonsense");
-    assert!(app.scene.is_none() && 0 < app.error_count());
-    assert!(press(&mut app, "v<F5>pb").is_empty());
-    let effects = outside(&mut app, SCENE);
-    assert!(wants(&effects, |effect| matches!(
-        effect,
-        Effect::Trace(..)
-    )));
+    /// The working view stays out of the text when only the picture's size is set.
+    setting_the_size_does_not_write_the_working_view: listed(&format!("// view: fov 40\n{SCENE}")).play(r"
+        vhhh<Esc>ggjejjjjl | moved | line 1 // view: fov 40 size 810 600
+    ");
+
+    /// Without the first sphere the second is object 1, but the picture still shows both.
+    picking_works_only_for_the_scene_on_screen: {
+        let from = SCENE.find("sphere").expect("a sphere");
+        let until = SCENE.rfind("sphere").expect("another one");
+        let fewer = SCENE.replacen("\n2\n", "\n1\n", 1);
+        ray().with("fewer", [&fewer[..from], &fewer[until..]].concat()).play(r"
+            @shows half
+            @started preview 1
+            @file fewer       | nodes 5
+            @started preview 2
+            @note selected at
+            @down picture 0,0 | at {selected} | says …does not show the changed scene yet…
+            i<Enter>          | at {selected} | mode INSPECT
+        ")
+    };
+
+    a_click_on_an_error_selects_it_and_nothing_below: {
+        let mut session = ray().session();
+        session.run(r"
+            @shows half
+            @file twice 1.5 // => -1.5 // | errors 1
+            @down picture 0,0             | says …the text has errors…
+            G
+        ");
+        let bottom = session.app.areas().errors.height - 1;
+        session.run(&format!("@down errors 0,{bottom} | at object 1 | field 1"))
+    };
 }
 
 #[test]
@@ -209,68 +145,4 @@ fn no_key_or_size_panics() {
             }
         }
     }
-}
-
-/// The working view stays out of the text when only the picture's size is set.
-#[test]
-fn setting_the_size_does_not_write_the_working_view() {
-    let mut app = open(&format!("// view: fov 40\n{SCENE}"));
-    press(&mut app, "vhhh<Esc>ggjejjjjl");
-    assert!(app.pictures.view.is_some());
-    let first = app.document.text().lines().next();
-    assert_eq!(first, Some("// view: fov 40 size 810 600"));
-}
-
-/// Presses the mouse button over a cell.
-pub(super) fn click(app: &mut App, column: u16, row: u16) {
-    app.update(Msg::Mouse(MouseEvent {
-        kind: MouseEventKind::Down(MouseButton::Left),
-        column,
-        row,
-        modifiers: KeyModifiers::NONE,
-    }));
-}
-
-#[test]
-fn picking_works_only_for_the_scene_on_screen() {
-    let mut app = open(SCENE);
-    show_half(&mut app);
-    app.update(Msg::Started(Target::Preview, 1));
-    let (cells, _) = app.raster().expect("there is room");
-    // Without the first sphere the second is object 1, but the picture still shows both.
-    let from = SCENE.find("sphere").expect("a sphere");
-    let until = SCENE.rfind("sphere").expect("another one");
-    let fewer = SCENE.replacen("\n2\n", "\n1\n", 1);
-    outside(&mut app, &[&fewer[..from], &fewer[until..]].concat());
-    assert_eq!(app.nodes().len(), 5);
-    app.update(Msg::Started(Target::Preview, 2));
-    let selected = app.cursor.selected();
-    click(&mut app, cells.x, cells.y);
-    assert_eq!(app.cursor.selected(), selected);
-    assert!(words(&app).contains("does not show the changed scene yet"));
-    press(&mut app, "i<Enter>");
-    assert_eq!((app.mode, app.cursor.selected()), (Mode::Inspect, selected));
-}
-
-#[test]
-fn a_click_on_an_error_selects_it_and_nothing_below() {
-    let broken = SCENE.replacen("1.5 //", "-1.5 //", 1);
-    let mut app = open(SCENE);
-    show_half(&mut app);
-    for _ in 0..2 {
-        outside(&mut app, &broken);
-        app.update(Msg::Elapsed(Timer::Settled));
-    }
-    assert_eq!(app.error_count(), 1);
-    let (cells, _) = app.raster().expect("there is room");
-    click(&mut app, cells.x, cells.y);
-    assert!(words(&app).contains("the text has errors"));
-    let panel = app.areas().errors;
-    let bottom = panel.bottom() - 1;
-    press(&mut app, "G");
-    click(&mut app, cells.x, bottom);
-    assert_eq!(
-        (app.cursor.selected(), app.cursor.field),
-        (Node::Object(0), 1)
-    );
 }

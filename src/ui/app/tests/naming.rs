@@ -1,7 +1,6 @@
 //! The names of undo steps.
 
-use super::*;
-use crate::document::StepName;
+use super::rows::{ray, scene, scripts};
 
 /// Two spheres that share a material, one of them named.
 const XML: &str = "\
@@ -24,101 +23,50 @@ obj sphere ID 4 mat ID 2  3 0 0  1
 render 2 ID 1 ID 4
 ";
 
-/// The names of the steps that can be undone.
-fn names(app: &App) -> Vec<String> {
-    let past = app.document.states().take(app.document.present() + 1);
-    let names = past.filter_map(|state| state.name.map(StepName::to_string));
-    names.collect()
-}
+scripts! {
+    each_kind_of_action_names_its_step: {
+        let script = r"
+            {1}      | steps {2}
+            u        | says undone: {2}
+            <Ctrl-r> | says redone: {2} | steps {2}
+        ";
+        ray().table(script, r"
+            jjjelll                  | object 1 (sphere) centre x: 0 → 0.3, 3 nudges
+            jjjejl                   | object 1 (sphere) radius: 1.5 → 1.6
+            jjje2 3 4<Enter>         | object 1 (sphere) centre: 0 0 0 → 2 3 4
+            jjjd                     | deleted object 1 (sphere)
+            jjjD                     | duplicated object 1 (sphere)
+            jjjJ                     | moved down: object 2 (sphere)
+            jjjyp                    | pasted: object 2 (sphere)
+            jjjR<Ctrl-u>ball<Enter>  | renamed object 1 (sphere) to ball
+            jjjmx2<Enter>            | moved object 1 (sphere) along x: 2
+            jjjml<Enter>             | moved object 1 (sphere): 0.2 right, 0.0 up
+            jjj<Space><Space>tz30<Enter> | rotated 2 marked items: object 1 (sphere), object 2 (sphere) about z: 30°
+            jjjs2<Enter>             | scaled object 1 (sphere): ×2
+            jjj<Space><Space>ej2<Enter> | changed radius of object 1 (sphere), object 2 (sphere)
+            jjjabox<Enter>           | added box
+            jjjccone<Enter>          | changed to cone: object 1 (cone)
+            vlS                      | wrote the view
+            vl:view save side<Enter> | saved the view side
+            :size 8x6<Enter>         | set the size to 8x6
+            jjjejjjcjL<Enter>        | object 1 (sphere) kd: .45 .45 .45 → .45 .36 .36
+        ");
+        scene("scene.dat", DAT).after("ggj").table(script, "Gh | hidden object 4 (sphere)");
+        scene("scene.xml", XML).after("ggj").table(script, r"
+            Gd                       | deleted other (sphere)
+            GkkRn<Enter>             | renamed m (blinn) to n
+            jjejl                    | changed environment environment
+            jjjejjl                  | changed lamp (point) intensity red
+        ")
+    };
 
-#[test]
-fn each_kind_of_action_names_its_step() {
-    for (scene, said, expected) in [
-        (
-            SCENE,
-            "jjjelll",
-            "object 1 (sphere) centre x: 0 → 0.3, 3 nudges",
-        ),
-        (SCENE, "jjjejl", "object 1 (sphere) radius: 1.5 → 1.6"),
-        (
-            SCENE,
-            "jjje2 3 4<Enter>",
-            "object 1 (sphere) centre: 0 0 0 → 2 3 4",
-        ),
-        (SCENE, "jjjd", "deleted object 1 (sphere)"),
-        (SCENE, "jjjD", "duplicated object 1 (sphere)"),
-        (SCENE, "jjjJ", "moved down: object 2 (sphere)"),
-        (SCENE, "jjjyp", "pasted: object 2 (sphere)"),
-        (
-            SCENE,
-            "jjjR<Ctrl-u>ball<Enter>",
-            "renamed object 1 (sphere) to ball",
-        ),
-        (SCENE, "jjjmx2<Enter>", "moved object 1 (sphere) along x: 2"),
-        (
-            SCENE,
-            "jjjml<Enter>",
-            "moved object 1 (sphere): 0.2 right, 0.0 up",
-        ),
-        (
-            SCENE,
-            "jjj  tz30<Enter>",
-            "rotated 2 marked items: object 1 (sphere), object 2 (sphere) about z: 30°",
-        ),
-        (SCENE, "jjjs2<Enter>", "scaled object 1 (sphere): ×2"),
-        (
-            SCENE,
-            "jjj  ej2<Enter>",
-            "changed radius of object 1 (sphere), object 2 (sphere)",
-        ),
-        (SCENE, "jjjabox<Enter>", "added box"),
-        (SCENE, "jjjccone<Enter>", "changed to cone: object 1 (cone)"),
-        (SCENE, "vlS", "wrote the view"),
-        (SCENE, "vl:view save side<Enter>", "saved the view side"),
-        (SCENE, ":size 8x6<Enter>", "set the size to 8x6"),
-        (
-            SCENE,
-            "jjjejjjcjL<Enter>",
-            "object 1 (sphere) kd: .45 .45 .45 → .45 .36 .36",
-        ),
-        (DAT, "Gh", "hidden object 4 (sphere)"),
-        (XML, "Gd", "deleted other (sphere)"),
-        (XML, "GkkRn<Enter>", "renamed m (blinn) to n"),
-        (XML, "jjejl", "changed environment environment"),
-        (XML, "jjjejjl", "changed lamp (point) intensity red"),
-    ] {
-        let name = match scene {
-            DAT => "scene.dat",
-            XML => "scene.xml",
-            _ => "scene.ray",
-        };
-        let mut app = opened_as(name, scene).0;
-        press(&mut app, "ggj");
-        press(&mut app, said);
-        let named = names(&app);
-        assert_eq!(named, [expected], "{said}: {}", words(&app));
-        press(&mut app, "u");
-        assert_eq!(words(&app), format!("undone: {expected}"));
-        press(&mut app, "<Ctrl-r>");
-        assert_eq!(words(&app), format!("redone: {expected}"));
-        assert_eq!(names(&app), named, "{said}: redone");
-    }
-}
+    merges_are_named_after_what_they_changed: ray().play(r"
+        jjjel<Esc>
+        @file 1.5 // => 2.5 //
+        | steps object 1 (sphere) centre x: 0 → 0.1; merged the file: object 1 (sphere) radius
+        u | says undone: merged the file: object 1 (sphere) radius
 
-#[test]
-fn merges_are_named_after_what_they_changed() {
-    let mut app = open(SCENE);
-    press(&mut app, "jjjel<Esc>");
-    outside(&mut app, &SCENE.replace("1.5 //", "2.5 //"));
-    let expected = [
-        "object 1 (sphere) centre x: 0 → 0.1",
-        "merged the file: object 1 (sphere) radius",
-    ];
-    assert_eq!(names(&app), expected);
-    press(&mut app, "u");
-    assert_eq!(words(&app), format!("undone: {}", expected[1]));
-    // A text taken as it is has no history.
-    let mut app = open(SCENE);
-    outside(&mut app, &SCENE.replace("1.5 //", "2.5 //"));
-    assert_eq!(names(&app), [""; 0]);
+        // A text taken as it is has no history.
+        @file 1.5 // => 2.5 // | not steps
+    ");
 }

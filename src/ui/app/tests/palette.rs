@@ -1,95 +1,68 @@
 //! The command line: completions, actions by name, and history.
 
+use super::rows::{ray, scripts};
 use super::*;
 
-fn line(app: &App) -> &str {
-    app.overlays
-        .prompt
-        .as_ref()
-        .map_or("", |prompt| prompt.input.value())
-}
+scripts! {
+    commands_and_actions_are_offered_by_name_and_description: ray().table("{1} | completed …{2} [{3}]; …", r"
+        :ren      | :render                              | F5 r
+        :write    | :w [FILE]                            | w
+        :outl     | toggle the outline of the selection  | o
+        :undo     | undo                                 | u
+        :orbit l  | orbit left                           | VIEW h ←
+        :view sav | :view save [NAME]                    | S
+    ");
 
-fn offered(app: &App) -> Vec<String> {
-    let found = app.completions().into_iter();
-    found.map(|completion| completion.shown).collect()
-}
+    a_line_with_several_matches_stays_until_one_is_chosen: ray().play(r"
+        :zzz           | not completed
 
-#[test]
-fn commands_and_actions_are_offered_by_name_and_description() {
-    for (said, first, keys) in [
-        (":ren", ":render", "F5 r"),
-        (":write", ":w [FILE]", "w"),
-        (":outl", "toggle the outline of the selection", "o"),
-        (":undo", "undo", "u"),
-        (":orbit l", "orbit left", "VIEW h ←"),
-        (":view sav", ":view save [NAME]", "S"),
-    ] {
-        let mut app = open(SCENE);
-        press(&mut app, said);
-        let found = app.completions();
-        let found = found.iter().find(|completion| completion.shown == first);
-        assert_eq!(
-            found.map(|found| &*found.keys),
-            Some(keys),
-            "{said}: {:?}",
-            offered(&app)
-        );
-    }
-    let mut app = open(SCENE);
-    press(&mut app, ":zzz");
-    assert!(offered(&app).is_empty());
-}
+        :nudge<Enter>  | says several match: Tab chooses | prompt :nudge
+        <Tab><Enter>   | not prompt
 
-#[test]
-fn a_line_with_several_matches_stays_until_one_is_chosen() {
-    let mut app = open(SCENE);
-    press(&mut app, ":nudge<Enter>");
-    assert_eq!(words(&app), "several match: Tab chooses");
-    assert_eq!(line(&app), "nudge");
-    press(&mut app, "<Tab><Enter>");
-    assert!(app.overlays.prompt.is_none());
-    for (said, reason) in [
-        (":view<Enter>", "view save, or view light, or view reset?"),
-        (":size 3<Enter>", "size takes a size such as 800x600"),
-        (":zzz<Enter>", "unknown command `zzz`"),
-    ] {
-        let mut app = open(SCENE);
-        press(&mut app, said);
-        assert!(words(&app).starts_with(reason), "{said}: {}", words(&app));
-    }
-}
+        :view<Enter>   | says view save, or view light, or view reset?…
 
-#[test]
-fn tab_and_arrows_choose_and_the_typed_line_is_among_the_choices() {
-    let mut app = open(SCENE);
-    press(&mut app, ":view ");
-    assert_eq!(offered(&app)[..2], [":view save [NAME]", ":view light"]);
-    for (key, expected) in [
-        ("<Tab>", "view save"),
-        ("<Down>", "view light"),
-        ("<Up>", "view save"),
-        ("<Up>", "view "),
-        ("<Tab><Tab>", "view light"),
-        ("<Back>", "view ligh"),
-    ] {
-        press(&mut app, key);
-        assert_eq!(line(&app), expected, "{key}");
-    }
+        :size 3<Enter> | says size takes a size such as 800x600…
+
+        :zzz<Enter>    | says unknown command `zzz`…
+    ");
+
+    tab_and_arrows_choose_and_the_typed_line_is_among_the_choices: ray().play(r"
+        :view<Space> | completed :view save [NAME] […]; :view light […]; …
+        <Tab>        | prompt :view save
+        <Down>       | prompt :view light
+        <Up>         | prompt :view save
+        <Up>         | prompt :view\s
+        <Tab><Tab>   | prompt :view light
+        <Back>       | prompt :view ligh
+    ");
+
+    actions_run_by_their_descriptions: ray().play(r"
+        :next light<Tab><Enter>  | at light 1
+        // A unique description need not be chosen.
+        :move the camera<Enter>  | mode VIEW
+        // The mode that has the key is entered.
+        <Esc>:orbit left<Enter>  | mode VIEW | moved
+        :render<Enter>           | mode TRACE
+    ");
+
+    themes_are_completed_and_chosen: ray().play(r"
+        :theme<Space> | completed :theme dark […]; :theme light […]; :theme mono […]; …
+        light<Enter>  | theme Light
+    ");
+
+    earlier_lines_return_while_the_line_is_empty_or_unchanged: ray().play(r"
+        :size 8x8<Enter>:view reset<Enter>:view reset<Enter>:
+        <Up>   | prompt :view reset
+        <Up>   | prompt :size 8x8
+        <Up>   | prompt :size 8x8
+        <Down> | prompt :view reset
+        <Down> | prompt :
+        <Down> | prompt :w
+    ");
 }
 
 #[test]
-fn every_action_of_a_key_runs_by_its_description() {
-    let mut app = open(SCENE);
-    press(&mut app, ":next light<Tab><Enter>");
-    assert_eq!(app.selected_row(), 3);
-    // A unique description need not be chosen.
-    press(&mut app, ":move the camera<Enter>");
-    assert_eq!(app.mode, Mode::View);
-    // The mode that has the key is entered.
-    press(&mut app, "<Esc>:orbit left<Enter>");
-    assert!(app.mode == Mode::View && app.pictures.view.is_some());
-    press(&mut app, ":render<Enter>");
-    assert_eq!(app.mode, Mode::Trace);
+fn every_action_of_a_key_is_offered_by_its_description() {
     for named in open(SCENE).keymap.actions(Mode::Select) {
         let mut app = open(SCENE);
         press(&mut app, &format!(":{}", named.words));
@@ -100,37 +73,9 @@ fn every_action_of_a_key_runs_by_its_description() {
     }
 }
 
-#[test]
-fn themes_are_completed_and_chosen() {
-    use crate::ui::theme::Theme;
-    let mut app = open(SCENE);
-    press(&mut app, ":theme ");
-    assert_eq!(
-        offered(&app)[..3],
-        [":theme dark", ":theme light", ":theme mono"]
-    );
-    press(&mut app, "light<Enter>");
-    assert_eq!(app.theme, Theme::Light);
-}
-
-#[test]
-fn earlier_lines_return_while_the_line_is_empty_or_unchanged() {
-    let mut app = open(SCENE);
-    press(
-        &mut app,
-        ":size 8x8<Enter>:view reset<Enter>:view reset<Enter>:",
-    );
-    for (key, expected) in [
-        ("<Up>", "view reset"),
-        ("<Up>", "size 8x8"),
-        ("<Up>", "size 8x8"),
-        ("<Down>", "view reset"),
-        ("<Down>", ""),
-        ("<Down>", "w"),
-    ] {
-        press(&mut app, key);
-        assert_eq!(line(&app), expected, "{key}");
-    }
+fn offered(app: &App) -> Vec<String> {
+    let found = app.completions().into_iter();
+    found.map(|completion| completion.shown).collect()
 }
 
 #[test]
@@ -149,7 +94,8 @@ fn file_names_are_completed_from_their_folder() {
     app.update(Msg::Listed(PathBuf::from("."), names.to_vec()));
     assert_eq!(offered(&app), ["scene.ray", "scenes/"]);
     press(&mut app, "<Tab><Tab>");
-    assert_eq!(line(&app), "w scenes/");
+    let prompt = app.overlays.prompt.as_ref();
+    assert_eq!(prompt.map(|prompt| prompt.input.value()), Some("w scenes/"));
     let effects = press_all(&mut app, "x");
     assert_eq!(listed(&effects), Some(PathBuf::from("scenes/")));
     press(&mut app, "<Esc>:export ");

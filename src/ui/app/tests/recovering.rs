@@ -1,360 +1,169 @@
 //! Keeping unsaved edits, and restoring those of earlier runs.
 
-use std::sync::Arc;
-
+use super::rows::{Stage, listed, ray, scripts};
 use super::*;
-use crate::ui::msg::{Guard, SaveId, SaveOutcome, Timer};
-use crate::ui::recovery::tests::offer;
-use crate::ui::recovery::{Found, Offer};
-
-/// The revision that is to be written, if any.
-fn ordered(effects: &[Effect]) -> Option<u64> {
-    effects.iter().find_map(|effect| match effect {
-        Effect::WriteRecovery { revision, .. } => Some(*revision),
-        _ => None,
-    })
-}
-
-/// The delay of the next attempt to keep edits, in seconds.
-fn put_off(effects: &[Effect]) -> Option<u64> {
-    effects.iter().find_map(|effect| match effect {
-        Effect::Later(time, Timer::Keep) => Some(time.as_secs()),
-        _ => None,
-    })
-}
-
-fn elapse(app: &mut App) -> Vec<Effect> {
-    app.update(Msg::Elapsed(Timer::Keep))
-}
 
 const IS_FULL: &str = "unsaved edits cannot be kept for recovery: it is full";
 
-fn fail(app: &mut App, revision: u64) -> Vec<Effect> {
-    app.update(Msg::Kept(revision, Err("it is full".to_owned())))
-}
-
-fn saved(app: &App) -> Msg {
-    Msg::Saved(
-        SaveId(1),
-        SaveOutcome::Saved {
-            path: PathBuf::from("scene.ray"),
-            text: app.document.shared_text(),
-        },
-    )
-}
-
-#[test]
-fn unsaved_edits_are_kept_once_and_forgotten_when_none_are_left() {
-    let mut app = open(SCENE);
-    assert_eq!(put_off(&press(&mut app, "jjjel")), Some(1));
-    assert_eq!(
-        put_off(&press(&mut app, "l")),
-        None,
-        "a held key waits once"
-    );
-    let effects = elapse(&mut app);
-    let [
-        Effect::WriteRecovery {
-            scene,
-            known,
-            revision,
-        },
-    ] = &effects[..]
-    else {
-        panic!("{effects:?}");
-    };
-    assert_eq!(scene.as_deref(), Some(Path::new("scene.ray")));
-    assert_eq!(
-        (known.saved.as_str(), known.text().as_str()),
-        (SCENE, app.document.text())
-    );
-    assert!(elapse(&mut app).is_empty(), "the answer is awaited");
-    assert!(app.update(Msg::Kept(*revision, Ok(()))).is_empty());
-    assert!(elapse(&mut app).is_empty());
-    assert_eq!(put_off(&press(&mut app, "u")), Some(1));
-    let effects = elapse(&mut app);
-    assert!(matches!(effects[..], [Effect::DropRecovery]));
-}
-
-#[test]
-fn keeping_edits_is_retried_after_a_failure() {
-    let mut app = open(SCENE);
-    press(&mut app, "jjjel");
-    let mut delays = Vec::new();
-    for round in 0..8 {
-        let revision = ordered(&elapse(&mut app)).expect("it is tried again");
-        delays.extend(put_off(&fail(&mut app, revision)));
-        assert!(app.fails_to_keep());
-        assert_eq!(
-            words(&app),
-            if round == 0 { IS_FULL } else { "" },
-            "said once"
-        );
-        app.overlays.message = None;
-    }
-    assert_eq!(delays, [1, 2, 4, 8, 16, 30, 30, 30]);
-    // New edits are not delayed that long.
-    assert_eq!(put_off(&press(&mut app, "l")), Some(1));
-    assert_eq!(
-        put_off(&press(&mut app, "l")),
-        None,
-        "a held key puts nothing off"
-    );
-    let revision = ordered(&elapse(&mut app)).expect("it is tried again");
-    fail(&mut app, revision);
-    // Neither is the end.
-    let revision = ordered(&app.update(Msg::HangUp)).expect("it is tried again");
-    app.update(Msg::Kept(revision, Ok(())));
-    assert!(!app.fails_to_keep());
-}
-
-#[test]
-fn edits_are_kept_once_more_at_the_end() {
-    for end in [Msg::HangUp, Msg::Terminate { signal: 15 }] {
-        let mut app = open(SCENE);
-        press(&mut app, "jjjel");
-        let revision = ordered(&elapse(&mut app)).expect("an edit");
-        app.update(Msg::Kept(revision, Ok(())));
-        assert!(elapse(&mut app).is_empty(), "they are kept");
-        // The journal may have been removed by others.
-        assert_eq!(ordered(&app.update(end)), Some(revision));
-    }
-}
-
-#[test]
-fn messages_about_unkept_edits_disappear_once_they_are_kept() {
-    for (said, left) in [(None, ""), (Some("something else"), "something else")] {
-        let mut app = open(SCENE);
-        press(&mut app, "jjjel");
-        let revision = ordered(&elapse(&mut app)).expect("an edit");
-        fail(&mut app, revision);
-        assert_eq!(words(&app), IS_FULL);
-        if let Some(said) = said {
-            app.overlays.say(said);
-        }
-        let revision = ordered(&elapse(&mut app)).expect("it is tried again");
-        app.update(Msg::Kept(revision, Ok(())));
-        assert_eq!(words(&app), left);
-        assert!(!app.fails_to_keep());
-    }
-}
-
-#[test]
-fn edits_count_as_kept_once_they_are() {
-    let mut app = open(SCENE);
-    press(&mut app, "jjjel");
-    let first = ordered(&elapse(&mut app)).expect("an edit");
-    press(&mut app, "l");
-    let second = ordered(&elapse(&mut app)).expect("another");
-    app.update(Msg::Kept(first, Ok(())));
-    assert!(elapse(&mut app).is_empty(), "the second is on its way");
-    fail(&mut app, second);
-    assert_eq!(ordered(&elapse(&mut app)), Some(second));
-}
-
-#[test]
-fn edits_made_while_the_scene_was_saved_are_kept_at_once() {
-    let mut app = open(SCENE);
-    press(&mut app, "jjjel");
-    let revision = ordered(&elapse(&mut app)).expect("an edit");
-    app.update(Msg::Kept(revision, Ok(())));
-    let outcome = saved(&app);
-    press(&mut app, "l");
-    let effects = app.update(outcome);
-    assert_eq!(ordered(&effects), Some(app.document.revision()));
-    let outcome = saved(&app);
-    let effects = app.update(outcome);
-    assert!(wants(&effects, |effect| matches!(
-        effect,
-        Effect::DropRecovery
-    )));
-}
-
-/// An offer, for the current text, of edits with this base.
-fn kept(app: &App, base: &str, text: &str) -> Offer {
-    offer(
-        app.document.language(),
-        &app.document.shared_text(),
-        base,
-        text,
-    )
-}
-
-fn recovered(offer: Offer) -> Msg {
-    Msg::Recovered(Found {
-        offer: Some(Box::new(offer)),
-        complaints: Vec::new(),
-    })
-}
-
-/// [`SCENE`] with another radius, and the first sphere elsewhere.
-fn variant(radius: &str, x: &str) -> String {
+/// The stage of [`SCENE`] with another radius, and the first sphere elsewhere. Kept edits are of
+/// [`SCENE`].
+fn changed<'s>(radius: &str, x: &str) -> Stage<'s> {
     let scene = SCENE.replace("1.5", radius);
-    scene.replace("sphere\n0 0 0", &format!("sphere\n{x} 0 0"))
+    let scene = scene.replace("sphere\n0 0 0", &format!("sphere\n{x} 0 0"));
+    listed(&scene).with("base", SCENE)
 }
 
-fn looks(effects: &[Effect]) -> bool {
-    wants(effects, |effect| matches!(effect, Effect::LookForKept(_)))
-}
+scripts! {
+    unsaved_edits_are_kept_once_and_forgotten_when_none_are_left: ray().play(r"
+        jjjel         | does wait keep 1000
+        // A held key waits once.
+        l             | not does wait keep
+        @elapsed keep | does only keep edits of scene.ray | writes mine | over opened
+        // The answer is awaited.
+        @elapsed keep | not does
+        @kept         | not does
+        @elapsed keep | not does
+        u             | does wait keep 1000
+        @elapsed keep | does only forget edits
+    ");
 
-#[test]
-fn kept_edits_can_be_restored_and_undone() {
-    let mut app = open(SCENE);
-    let mine = variant("1.7", "0");
-    let offer = kept(&app, SCENE, &mine);
-    app.update(recovered(offer));
-    press(&mut app, "j");
-    assert_eq!(words(&app), "answer the question first: r, d, Esc");
-    let effects = press(&mut app, "r");
-    // The old journal is removed once the new one is written; others may be left.
-    let adopted = |effect: &Effect| matches!(effect, Effect::AdoptKept(_));
-    assert!(wants(&effects, adopted) && ordered(&effects).is_some() && looks(&effects));
-    assert_eq!(app.document.text(), mine);
-    press(&mut app, "u");
-    assert_eq!(app.document.text(), SCENE);
-}
-
-#[test]
-fn kept_edits_can_be_discarded() {
-    let mut app = open(SCENE);
-    let offer = kept(&app, SCENE, &variant("1.7", "0"));
-    app.update(recovered(offer));
-    let effects = press(&mut app, "d");
-    let dropped = |effect: &Effect| matches!(effect, Effect::DropKept(_));
-    assert!(wants(&effects, dropped) && looks(&effects));
-    assert_eq!(app.document.text(), SCENE);
-}
-
-#[test]
-fn postponed_kept_edits_are_left_alone() {
-    let mut app = open(SCENE);
-    let offer = kept(&app, SCENE, &variant("1.7", "0"));
-    let name = offer.claim.name().to_owned();
-    app.update(recovered(offer));
-    let mut effects = press(&mut app, "<Esc>");
-    let [Effect::LookForKept(sought)] = &effects[..] else {
-        panic!("{effects:?}");
-    };
-    assert_eq!(sought.put_off, [name]);
-    effects.extend(press(&mut app, "jjjelw"));
-    effects.extend(app.update(saved(&app)));
-    effects.extend(press(&mut app, "q"));
-    assert!(!wants(&effects, |effect| matches!(
-        effect,
-        Effect::DropKept(_) | Effect::AdoptKept(_)
-    )));
-}
-
-#[test]
-fn a_file_that_has_changed_since_is_merged_with_kept_edits() {
-    let theirs = variant("1.5", "9");
-    let mut app = open(&theirs);
-    let offer = kept(&app, SCENE, &variant("1.7", "0"));
-    assert_eq!((offer.places, offer.conflicts()), (1, 0));
-    app.update(recovered(offer));
-    press(&mut app, "r");
-    assert_eq!(app.document.text(), variant("1.7", "9"));
-    assert!(words(&app).contains("merged"), "{}", words(&app));
-    let effects = press(&mut app, "w");
-    let guard = effects.iter().find_map(|effect| match effect {
-        Effect::Save { guard, .. } => Some(guard.clone()),
-        _ => None,
-    });
-    assert_eq!(guard, Some(Guard::Holding(Arc::new(theirs.clone()))));
-    press(&mut app, "u");
-    assert_eq!(
-        app.document.text(),
-        theirs,
-        "no undo takes the file's change back"
-    );
-}
-
-#[test]
-fn conflicts_between_kept_edits_and_the_file_are_asked_about() {
-    let theirs = variant("1.9", "9");
-    for (keys, left) in [
-        ("r<Enter>", &theirs),
-        ("rm<Enter>", &variant("1.7", "9")),
-        ("rM<Enter>", &variant("1.7", "9")),
-        ("rt<Enter>", &theirs),
-        ("rT<Enter>", &theirs),
-        ("r<Esc>", &theirs),
-    ] {
-        let mut app = open(&theirs);
-        let offer = kept(&app, SCENE, &variant("1.7", "0"));
-        assert_eq!(offer.conflicts(), 1);
-        app.update(recovered(offer));
-        let effects = press(&mut app, keys);
-        assert_eq!(app.document.text(), *left, "{keys}");
-        assert_eq!(app.document.saved().as_str(), theirs, "{keys}");
-        assert_eq!(app.overlays.dialog.is_some(), keys == "r<Enter>", "{keys}");
-        let dropped = wants(&effects, |effect| matches!(effect, Effect::DropKept(_)));
-        assert_eq!(
-            dropped,
-            ["rt<Enter>", "rT<Enter>"].contains(&keys),
-            "{keys}"
-        );
-        if app.document.is_dirty() {
-            press(&mut app, "u");
-            assert_eq!(app.document.text(), theirs, "{keys}");
+    keeping_edits_is_retried_after_a_failure: {
+        let mut session = ray().with("full", IS_FULL).session();
+        session.run("jjjel");
+        for (seconds, says) in [
+            (1, "says {full}"), (2, "not says"), (4, "not says"), (8, "not says"),
+            (16, "not says"), (30, "not says"), (30, "not says"), (30, "not says"),
+        ] {
+            session.run(&format!("
+                @elapsed keep       | does keep edits
+                @unkept it is full  | does wait keep {seconds}000 | unkept | {says}
+                @read-it
+            "));
         }
-    }
-}
-
-#[test]
-fn an_offer_follows_the_file() {
-    for keys in ["", "r"] {
-        let mut app = open(&variant("1.9", "9"));
-        let late = kept(&app, SCENE, &variant("1.7", "0"));
-        app.update(recovered(late.clone()));
-        press(&mut app, keys);
-        let effects = outside(&mut app, &variant("1.6", "9"));
-        assert!(looks(&effects) && app.overlays.dialog.is_none());
-        // The answer is outdated by now.
-        assert!(looks(&app.update(recovered(late))) && app.overlays.dialog.is_none());
-    }
-}
-
-#[test]
-fn one_question_is_asked_at_a_time() {
-    let mut app = open(SCENE);
-    press(&mut app, "jjjelq");
-    let offer = kept(&app, SCENE, &variant("1.7", "0"));
-    app.update(recovered(offer));
-    assert!(matches!(
-        app.overlays.dialog,
-        Some(Dialog::Leave(AfterLeaving::Quit))
-    ));
-    press(&mut app, "n");
-    assert!(matches!(app.overlays.dialog, Some(Dialog::Recover(_))));
-    press(&mut app, "r");
-    assert_eq!(
-        app.document.text(),
-        variant("1.7", "0.1"),
-        "both are in the text"
-    );
-}
-
-#[test]
-fn complaints_about_kept_edits_are_shown() {
-    let mut app = open(SCENE);
-    let mut complain = |complaints: &[&str]| {
-        app.overlays.message = None;
-        app.update(Msg::Recovered(Found {
-            offer: None,
-            complaints: complaints.iter().map(ToString::to_string).collect(),
-        }));
-        app.overlays
-            .message
-            .as_ref()
-            .map(|message| message.text.clone())
+        session.run(r"
+            // New edits are not delayed that long.
+            l                   | does wait keep 1000
+            // A held key puts nothing off.
+            l                   | not does wait keep
+            @elapsed keep       | does keep edits
+            @unkept it is full
+            // Neither is the end.
+            @hangup             | does keep edits
+            @kept               | not unkept
+        ")
     };
-    for (complaints, said) in [
-        (["a is damaged"].as_slice(), Some("a is damaged")),
-        (&["a is damaged"], None),
-        (&["a is damaged", "b is a pipe"], Some("b is a pipe")),
-        (&["c", "d", "e"], Some("e; and 2 more")),
-    ] {
-        assert_eq!(complain(complaints).as_deref(), said);
-    }
+
+    edits_are_kept_once_more_at_the_end: ray().table(r"
+        jjjel
+        @elapsed keep | does keep edits
+        @kept
+        @elapsed keep | not does
+        // The journal may have been removed by others.
+        {1}           | does keep edits | writes mine
+    ", r"
+        @hangup
+        @terminated
+    ");
+
+    messages_about_unkept_edits_disappear_once_they_are_kept: ray().with("full", IS_FULL).table(r"
+        jjjel
+        @elapsed keep
+        @unkept it is full | says {full}
+        {1}
+        @elapsed keep      | does keep edits
+        @kept              | {2} | not unkept
+    ", r"
+        @elapsed message  | not says
+        @says another     | says another
+    ");
+
+    edits_count_as_kept_once_they_are: ray().play(r"
+        jjjel
+        @elapsed keep      | does keep edits
+        l
+        @elapsed keep      | does keep edits
+        @kept 1
+        // The second is on its way.
+        @elapsed keep      | not does
+        @unkept it is full
+        @elapsed keep      | does keep edits | writes mine
+    ");
+
+    edits_made_while_the_scene_was_saved_are_kept_at_once: ray().play(r"
+        jjjel
+        @elapsed keep
+        @kept
+        w
+        l
+        @saved | does keep edits | writes mine
+        w
+        @saved | does forget edits
+    ");
+
+    kept_edits_can_be_restored_and_undone_or_discarded: ray().play(r"
+        @offer 1.5 => 1.7
+        j | says answer the question first: r, d, Esc
+        // The old journal is removed once the new one is written; others may be left.
+        r | does adopt kept, keep edits, look for kept | text 1.5 => 1.7
+        u | text opened
+
+        @offer 1.5 => 1.7
+        d | does drop kept, look for kept | text opened
+    ");
+
+    postponed_kept_edits_are_left_alone: ray().play(r"
+        @offer 1.5 => 1.7
+        <Esc>  | does only look for kept {offered}
+        jjjelw | not does drop kept | not does adopt kept
+        @saved | not does drop kept | not does adopt kept
+        q      | not does drop kept | not does adopt kept
+    ");
+
+    a_file_that_has_changed_since_is_merged_with_kept_edits: changed("1.5", "9").play(r"
+        @offer base & 1.5 => 1.7 | asks recover 1 0
+        r | text 1.5 => 1.7 | says …merged…
+        w | over opened
+        // No undo takes the file's change back.
+        u | text opened
+    ");
+
+    conflicts_between_kept_edits_and_the_file_are_asked_about: changed("1.9", "9").table(r"
+        @offer base & 1.5 => 1.7 | asks recover … 1
+        {1} | text {2} | saved opened | {3} | {4} drop kept
+        u   | text opened
+    ", r"
+        r<Enter>  | opened     | asks     | not does
+        rm<Enter> | 1.9 => 1.7 | not asks | not does
+        rM<Enter> | 1.9 => 1.7 | not asks | not does
+        rt<Enter> | opened     | not asks | does
+        rT<Enter> | opened     | not asks | does
+        r<Esc>    | opened     | not asks | not does
+    ");
+
+    an_offer_follows_the_file: changed("1.9", "9").table(r"
+        @offer base & 1.5 => 1.7
+        {1}
+        @file 1.9 => 1.6 | does look for kept | not asks
+        // The answer is outdated by now.
+        @offer again     | does look for kept | not asks
+    ", r"
+        @elapsed message
+        r
+    ");
+
+    one_question_is_asked_at_a_time: ray().play(r"
+        jjjelq
+        @offer 1.5 => 1.7 | asks quit
+        n | asks recover…
+        r | text 1.5 => 1.7 & \n0 0 0 => \n0.1 0 0
+    ");
+
+    complaints_about_kept_edits_are_shown: ray().play(r"
+        @complains a is damaged                | shown a is damaged
+        @read-it
+        @complains a is damaged                | not shown
+        @complains a is damaged; b is a pipe   | shown b is a pipe
+        @read-it
+        @complains c; d; e                     | shown e; and 2 more
+    ");
 }

@@ -1,11 +1,6 @@
 //! Showing lights and objects alone in the preview.
 
-use std::sync::Arc;
-
-use super::*;
-use crate::language::Node::{self, Light, Object};
-use crate::render::{Job, NO_OBJECT};
-use crate::ui::msg::Target;
+use super::rows::{scene, scripts};
 
 const RAY: &str = "\
 0.1 0.1 0.1
@@ -37,142 +32,64 @@ const XML: &str = "\
 </scene><camera><position z='9'/></camera></xml>
 ";
 
-fn traced(effects: &[Effect]) -> &Job {
-    let job = effects.iter().find_map(|effect| match effect {
-        Effect::Trace(_, job) => Some(job),
-        _ => None,
-    });
-    job.expect("a picture is traced")
-}
-
-/// Presses keys with a node selected; the objects that the last picture shows alone.
-fn solo(name: &str, text: &str, node: Node, said: &str) -> Option<Vec<u32>> {
-    let mut app = opened_as(name, text).0;
-    app.select(node);
-    let effects = press(&mut app, said);
-    let job = traced(&effects);
-    assert_eq!(app.document.text(), text);
-    let numbers = job.numbers.as_ref().map(|numbers| numbers.to_vec());
-    if let Some(numbers) = &numbers {
-        assert_eq!(job.scene.objects.len(), numbers.len());
-    }
-    assert_eq!(app.pictures.solo.is_some(), numbers.is_some());
-    numbers
-}
-
-#[test]
-fn objects_are_shown_alone_by_their_numbers_in_the_scene() {
-    for (name, text, node, said, shown) in [
-        ("a.ray", RAY, Object(1), "l", Some(vec![1])),
-        ("a.ray", RAY, Object(0), "  l", Some(vec![0, 1])),
-        ("a.dat", DAT, Object(2), "l", Some(vec![0])),
-        ("a.dat", DAT, Object(3), "l", Some(vec![1])),
-        ("a.xml", XML, Object(1), "l", Some(vec![1, 2])),
-        ("a.xml", XML, Object(2), "l", Some(vec![1])),
-    ] {
-        assert_eq!(
-            solo(name, text, node, said),
-            shown,
-            "{name} {node:?} {said}"
-        );
-    }
-}
-
-#[test]
-fn l_again_shows_everything() {
-    for (name, text, node) in [
-        ("a.ray", RAY, Object(1)),
-        ("a.dat", DAT, Object(2)),
-        ("a.xml", XML, Object(1)),
-    ] {
-        let mut app = opened_as(name, text).0;
-        app.select(node);
-        press(&mut app, "l");
-        let effects = press(&mut app, "l");
-        assert_eq!(traced(&effects).numbers, None, "{name}");
-        assert_eq!(words(&app), "everything is shown again");
-    }
-}
-
-#[test]
-fn what_is_shown_alone_follows_the_selection_and_ends_with_its_indices() {
-    let mut app = opened_as("a.ray", RAY).0;
-    press(&mut app, "l");
-    let effects = press(&mut app, "jl");
-    assert_eq!(traced(&effects).numbers.as_deref(), Some(&[1][..]));
-    let effects = press(&mut app, "d");
-    assert_eq!(traced(&effects).numbers, None);
-    assert_eq!(app.pictures.solo, None);
-    // The view ends it as well.
-    press(&mut app, "lggl");
-    assert_eq!(app.pictures.solo, None);
-}
-
-#[test]
-fn what_cannot_be_shown_alone_is_said() {
-    for (name, text, node, reason) in [
-        (
-            "a.ray",
-            RAY,
-            Node::View,
-            "only lights, objects and groups can be shown alone",
-        ),
-        (
-            "a.dat",
-            DAT,
-            Object(0),
-            "object 1 (sphere) is not drawn: h shows it",
-        ),
-    ] {
-        let mut app = opened_as(name, text).0;
-        app.select(node);
-        press(&mut app, "l");
-        assert_eq!(words(&app), reason, "{name}");
-        assert_eq!(app.pictures.solo, None);
-    }
-}
-
-#[test]
-fn picking_in_a_picture_of_one_object_selects_it() {
-    let mut app = opened_as("a.ray", RAY).0;
-    app.select(Object(2));
-    press(&mut app, "l");
-    let (_, size) = app.raster().expect("there is room");
-    // The renderer calls the only object by its number.
-    let frame = pictures::frame(size, vec![2; size.pixels()]);
-    app.update(Msg::Frame(Target::Preview, Arc::new(frame)));
-    app.picture_mut()
-        .advance(&FrameWindow::whole(size), &[], usize::MAX);
-    assert_eq!(app.node_at([0, 0]), Ok(Some(Object(2))));
-    let nothing = pictures::frame(size, vec![NO_OBJECT; size.pixels()]);
-    app.update(Msg::Frame(Target::Preview, Arc::new(nothing)));
-    app.picture_mut()
-        .advance(&FrameWindow::whole(size), &[], usize::MAX);
-    assert_eq!(app.node_at([0, 0]), Ok(None));
-}
-
-#[test]
-fn a_light_is_shown_alone_in_the_preview_and_nowhere_else() {
-    let (mut app, _) = opened_as("a.ray", RAY);
-    app.select(Light(1));
-    let colours = |effects: &[Effect]| {
-        let (_, job) = effects
-            .iter()
-            .find_map(traced_by)
-            .expect("a picture is traced");
-        let reds: Vec<_> = job
-            .scene
-            .lights
-            .iter()
-            .map(|light| light.colour.x)
-            .collect();
-        (job.scene.ambient.x, reds)
+scripts! {
+    objects_are_shown_alone_by_their_numbers_in_the_scene: {
+        let script = "[{1}] {2} | alone {3} | job objects {4} | solo | text opened";
+        scene("a.ray", RAY).table(script, r"
+            object 2 | l | 1 | 1
+            object 1 | <Space><Space>l | 0 1 | 2
+        ");
+        scene("a.dat", DAT).table(script, r"
+            object 3 | l | 0 | 1
+            object 4 | l | 1 | 1
+        ");
+        scene("a.xml", XML).table(script, r"
+            object 2 | l | 1 2 | 2
+            object 3 | l | 1 | 1
+        ")
     };
-    assert_eq!(colours(&press(&mut app, "l")), (0.0, vec![0.0, 1.0]));
-    assert_eq!(app.document.text(), RAY);
-    assert_eq!(colours(&press(&mut app, "<F5>")).1, [1.0, 1.0]);
-    press(&mut app, "<Esc>");
-    assert_eq!(colours(&press(&mut app, "l")), (0.1, vec![1.0, 1.0]));
-    press(&mut app, "ld");
-    assert_eq!(app.pictures.solo, None, "the light is gone");
+
+    l_again_shows_everything: for (name, text, node) in [
+        ("a.ray", RAY, "object 2"),
+        ("a.dat", DAT, "object 3"),
+        ("a.xml", XML, "object 2"),
+    ] {
+        scene(name, text).play(&format!(r"
+            [{node}] l
+            l | does trace preview | not alone | says everything is shown again
+        "));
+    };
+
+    what_is_shown_alone_follows_the_selection_and_ends_with_its_indices: scene("a.ray", RAY).play(r"
+        l
+        jl   | alone 1
+        d    | does trace preview | not alone | not solo
+        // The view ends it as well.
+        lggl | not solo
+    ");
+
+    what_cannot_be_shown_alone_is_said: {
+        scene("a.ray", RAY).play(r"
+            [view] l     | says only lights, objects and groups can be shown alone | not solo
+        ");
+        scene("a.dat", DAT).play(r"
+            [object 1] l | says object 1 (sphere) is not drawn: h shows it | not solo
+        ")
+    };
+
+    /// The renderer calls the only object by its number.
+    picking_in_a_picture_of_one_object_selects_it: scene("a.ray", RAY).play(r"
+        [object 3] l
+        @shows 2    | under object 3
+        @shows none | not under
+    ");
+
+    a_light_is_shown_alone_in_the_preview_and_nowhere_else: scene("a.ray", RAY).play(r"
+        [light 2] l | reds 0 0 1 | text opened
+        <F5>        | reds 0.1 1 1
+        <Esc>
+        l           | reds 0.1 1 1
+        // The light is gone.
+        ld          | not solo
+    ");
 }

@@ -1,7 +1,7 @@
 //! Changing the structure of scenes by keys: a text and keys in, a text out.
 
+use super::rows::{Stage, scene, scripts};
 use super::*;
-use crate::language::Node;
 
 /// Three objects and two lights.
 const RAY: &str = "\
@@ -47,384 +47,143 @@ const GROUPED: &str = "\
 </xml>
 ";
 
-/// Opens a text, selects a node, types keys, and returns the interface.
-fn after(name: &str, text: &str, node: Node, said: &str) -> App {
-    let (mut app, _) = opened_as(name, text);
-    assert_eq!(app.error_count(), 0, "{name}");
-    app.select(node);
-    press(&mut app, said);
-    app
-}
-
-/// Checks what keys do to a text by replacements, and that `u` undoes it in one step.
-#[track_caller]
-fn check_in(name: &str, text: &str, node: Node, said: &str, changes: &[(&str, &str)]) {
-    let mut app = after(name, text, node, said);
-    let expected = changes.iter().fold(text.to_owned(), |text, (old, new)| {
-        assert!(text.contains(old), "{old}");
-        text.replacen(old, new, 1)
-    });
-    assert_eq!(app.document.text(), expected, "{said}: {}", words(&app));
-    assert_eq!(app.error_count(), 0);
-    press(&mut app, "u");
-    assert_eq!(app.document.text(), text, "{said}: undone");
-    press(&mut app, "<Ctrl-r>");
-    assert_eq!(app.document.text(), expected, "{said}: redone");
-}
-
-use Node::{Light, Material, Object};
-
 const MOON: &str = "// the moon\nsphere 0 0 0 1  0 0 0 .5 .5 .5 0 0 0 1 0 0 1\n";
 const SECOND: &str = "sphere 4 0 0 1  0 0 0 .5 .5 .5 0 0 0 1 0 0 1\n";
 const THIRD: &str = "sphere 8 0 0 1  0 0 0 .5 .5 .5 0 0 0 1 0 0 1\n";
 
-#[test]
-fn ray_scenes_are_restructured_by_keys() {
-    #[track_caller]
-    fn check(node: Node, said: &str, changes: &[(&str, &str)]) {
-        check_in("scene.ray", RAY, node, said, changes);
-    }
-    check(Object(1), "d", &[(SECOND, ""), ("\n3\n", "\n2\n")]);
-    check(
-        Object(1),
-        "D",
-        &[(SECOND, &format!("{SECOND}\n{SECOND}")), ("\n3\n", "\n4\n")],
-    );
-    check(
-        Object(2),
-        "D",
-        &[(THIRD, &format!("{THIRD}{THIRD}")), ("\n3\n", "\n4\n")],
-    );
-    check(
-        Object(2),
-        "K",
-        &[
-            (SECOND, THIRD),
-            (&format!("\n{THIRD}{THIRD}"), &format!("\n{THIRD}{SECOND}")),
-        ],
-    );
-    check(
-        Object(1),
-        "J",
-        &[
-            (SECOND, THIRD),
-            (&format!("\n{THIRD}{THIRD}"), &format!("\n{THIRD}{SECOND}")),
-        ],
-    );
-    check(
-        Light(1),
-        "d",
-        &[("-5 5 5  1 1 1\n", ""), ("\n2\n", "\n1\n")],
-    );
-    check(
-        Object(1),
-        "yjp",
-        &[(THIRD, &format!("{THIRD}{SECOND}")), ("\n3\n", "\n4\n")],
-    );
-    check(
-        Object(0),
-        "  d",
-        &[(MOON, ""), ("\n3\n", "\n1\n"), (SECOND, "")],
-    );
+/// The stage of [`RAY`] with its objects by name.
+fn ray<'s>() -> Stage<'s> {
+    let stage = scene("scene.ray", RAY).with("moon", MOON);
+    stage.with("second", SECOND).with("third", THIRD)
 }
 
-#[test]
-fn a_field_is_set_in_all_marked_things() {
-    let (mut app, _) = opened_as("scene.ray", RAY);
-    app.select(Object(0));
-    press(&mut app, "  kej2<Enter>");
-    let radii = app
-        .document
-        .text()
-        .replace("0 0 0 1  0 0 0", "0 0 0 2  0 0 0");
-    let expected = RAY
-        .replace("0 0 0 1  0 0 0", "0 0 0 2  0 0 0")
-        .replace("4 0 0 1  0 0 0", "4 0 0 2  0 0 0");
-    assert_eq!((app.document.text(), &*radii), (&*expected, &*expected));
-    press(&mut app, "u");
-    assert_eq!(app.document.text(), RAY);
-}
+scripts! {
+    ray_scenes_are_restructured_by_keys: ray().each(r"
+        [object 2] d   | becomes {second} => & \n3\n => \n2\n
+        [object 2] D   | becomes {second} => {second}\n{second} & \n3\n => \n4\n
+        [object 3] D   | becomes {third} => {third}{third} & \n3\n => \n4\n
+        [object 3] K   | becomes {second} => {third} & \n{third}{third} => \n{third}{second}
+        [object 2] J   | becomes {second} => {third} & \n{third}{third} => \n{third}{second}
+        [light 2] d    | becomes -5 5 5  1 1 1\n => & \n2\n => \n1\n
+        [object 2] yjp | becomes {third} => {third}{second} & \n3\n => \n4\n
+        [object 1] <Space><Space>d | becomes {moon} => & \n3\n => \n1\n & {second} =>
+    ");
 
-#[test]
-fn dat_scenes_are_restructured_by_keys() {
-    #[track_caller]
-    fn check(node: Node, said: &str, changes: &[(&str, &str)]) {
-        check_in("scene.dat", DAT, node, said, changes);
-    }
-    let (first, second) = (
-        "obj sphere ID 1 mat ID 1  0 0 0  1\n",
-        "obj sphere ID 2 mat ID 2  1 0 0  1\n",
-    );
-    let tree = "obj CSG ID 3 union ID 1 ID 2\n";
-    let last = "obj sphere ID 4 mat ID 1  3 0 0  1\n";
-    check(Object(3), "d", &[(last, ""), ("2 ID 3 ID 4", "1 ID 3")]);
-    check(
-        Object(0),
-        "dy",
-        &[(first, ""), (tree, ""), ("2 ID 3 ID 4", "1 ID 4")],
-    );
-    check(
-        Material(1),
-        "dd",
-        &[
-            ("mat ID 2  1 0 0  .3 .5 .2 9  0 0 1\n", ""),
-            (second, ""),
-            (tree, ""),
-            ("2 ID 3 ID 4", "1 ID 4"),
-        ],
-    );
-    check(
-        Object(3),
-        "D",
-        &[
-            (last, &format!("{last}{}", last.replace("ID 4", "ID 5"))),
-            ("2 ID 3 ID 4", "3 ID 3 ID 4 ID 5"),
-        ],
-    );
-    check(
-        Object(0),
-        "R<Ctrl-u>9<Enter>",
-        &[("sphere ID 1", "sphere ID 9"), ("union ID 1", "union ID 9")],
-    );
-    check(Object(3), "h", &[("2 ID 3 ID 4", "1 ID 3")]);
-    check(
-        Object(0),
-        "J",
-        &[(&format!("{first}{second}"), &format!("{second}{first}"))],
-    );
-}
+    a_field_is_set_in_all_marked_things: ray().play(r"
+        [object 1] <Space><Space>kej2<Enter>
+        | text sphere 0 0 0 1 => sphere 0 0 0 2 & 4 0 0 1 => 4 0 0 2 | undoes
+    ");
 
-#[test]
-fn xml_scenes_are_restructured_by_keys() {
-    #[track_caller]
-    fn check(node: Node, said: &str, changes: &[(&str, &str)]) {
-        check_in("scene.xml", XML, node, said, changes);
-    }
-    let (a, b) = (
-        "    <object type=\"sphere\" name=\"a\" material=\"m\"/>\n",
-        "    <object type=\"sphere\" name=\"b\"/>\n",
-    );
-    check(Object(1), "d", &[(b, "")]);
-    check(
-        Material(0),
-        "dy",
-        &[
-            (" material=\"m\"", ""),
-            ("    <material name=\"m\"/>\n", ""),
-        ],
-    );
-    check(
-        Object(1),
-        "D",
-        &[(b, &format!("{b}{}", b.replace("\"b\"", "\"b 2\"")))],
-    );
-    check(Object(0), "J", &[(&format!("{a}{b}"), &format!("{b}{a}"))]);
-    check(
-        Material(0),
-        "R<Right>atte<Enter>",
-        &[
-            ("material=\"m\"", "material=\"matte\""),
-            ("<material name=\"m\"", "<material name=\"matte\""),
-        ],
-    );
-    check(
-        Object(0),
-        "yjp",
-        &[(b, &format!("{b}{}", a.replace("\"a\"", "\"a 2\"")))],
-    );
-}
+    dat_scenes_are_restructured_by_keys: scene("scene.dat", DAT)
+        .with("first", "obj sphere ID 1 mat ID 1  0 0 0  1\n")
+        .with("second", "obj sphere ID 2 mat ID 2  1 0 0  1\n")
+        .with("tree", "obj CSG ID 3 union ID 1 ID 2\n")
+        .with("last", "obj sphere ID 4 mat ID 1  3 0 0  1\n")
+        .each(r"
+        [object 4] d    | becomes {last} => & 2 ID 3 ID 4 => 1 ID 3
+        [object 1] dy   | becomes {first} => & {tree} => & 2 ID 3 ID 4 => 1 ID 4
+        [material 2] dd | becomes mat ID 2  1 0 0  .3 .5 .2 9  0 0 1\n => & {second} => & {tree} => & 2 ID 3 ID 4 => 1 ID 4
+        [object 4] D    | becomes {last} => {last}obj sphere ID 5 mat ID 1  3 0 0  1\n & 2 ID 3 ID 4 => 3 ID 3 ID 4 ID 5
+        [object 1] R<Ctrl-u>9<Enter> | becomes sphere ID 1 => sphere ID 9 & union ID 1 => union ID 9
+        [object 4] h    | becomes 2 ID 3 ID 4 => 1 ID 3
+        [object 1] J    | becomes {first}{second} => {second}{first}
+    ");
 
-#[test]
-fn the_written_thing_is_selected() {
-    for (name, text, node, said, selected) in [
-        ("scene.dat", DAT, Object(2), "D", Object(5)),
-        ("scene.dat", DAT, Object(2), "yGp", Object(6)),
-        ("scene.xml", GROUPED, Object(0), "D", Object(2)),
-        ("scene.xml", GROUPED, Object(1), "D", Object(2)),
-    ] {
-        let app = after(name, text, node, said);
-        assert_eq!(app.cursor.selected(), selected, "{node:?} {said}");
-    }
-    for (node, said, selected) in [
-        (Object(1), "D", Object(2)),
-        (Object(1), "K", Object(0)),
-        (Object(1), "J", Object(2)),
-        (Object(1), "d", Object(1)),
-        (Object(2), "d", Object(1)),
-        (Light(0), "D", Light(1)),
-        (Object(0), "yGp", Object(3)),
-    ] {
-        let app = after("scene.ray", RAY, node, said);
-        assert_eq!(app.cursor.selected(), selected, "{node:?} {said}");
-    }
-}
+    xml_scenes_are_restructured_by_keys: scene("scene.xml", XML)
+        .with("a", "    <object type=\"sphere\" name=\"a\" material=\"m\"/>\n")
+        .with("b", "    <object type=\"sphere\" name=\"b\"/>\n")
+        .each(r#"
+        [object 2] d     | becomes {b} =>
+        [material 1] dy  | becomes \smaterial="m" => & \s   <material name="m"/>\n =>
+        [object 2] D     | becomes {b} => {b}    <object type="sphere" name="b 2"/>\n
+        [object 1] J     | becomes {a}{b} => {b}{a}
+        [material 1] R<Right>atte<Enter> | becomes material="m" => material="matte" & <material name="m" => <material name="matte"
+        [object 1] yjp   | becomes {b} => {b}    <object type="sphere" name="a 2" material="m"/>\n
+    "#);
 
-#[test]
-fn what_cannot_be_done_is_said_and_changes_nothing() {
-    for (name, text, node, said, reason) in [
-        (
-            "a.ray",
-            SCENE,
-            Light(0),
-            "d",
-            "the last light cannot be deleted: a .ray scene needs at least one",
-        ),
-        (
-            "a.ray",
-            RAY,
-            Node::View,
-            "d",
-            "view cannot be copied, moved or deleted",
-        ),
-        (
-            "a.ray",
-            RAY,
-            Node::View,
-            "y",
-            "view cannot be copied, moved or deleted",
-        ),
-        (
-            "a.ray",
-            RAY,
-            Object(0),
-            "K",
-            "object 1 (sphere) is already the first",
-        ),
-        (
-            "a.ray",
-            RAY,
-            Object(0),
-            "p",
-            "nothing to paste: y copies the selected item",
-        ),
-        (
-            "a.ray",
-            RAY,
-            Object(0),
-            "   d",
-            "the last object cannot be deleted: a .ray scene needs at least one",
-        ),
-        (
-            "a.dat",
-            DAT,
-            Object(0),
-            "R<Ctrl-u>2<Enter>",
-            "object 2 already exists",
-        ),
-        (
-            "a.dat",
-            DAT,
-            Object(2),
-            "K",
-            "object 3 (CSG) must stay after object 2 (sphere), which it uses",
-        ),
-        (
-            "a.xml",
-            XML,
-            Object(0),
-            "h",
-            "an .xml scene draws all of its objects",
-        ),
-    ] {
-        let app = after(name, text, node, said);
-        assert_eq!((app.document.text(), words(&app)), (text, reason), "{said}");
-    }
-}
-
-#[test]
-fn deleting_what_others_use_is_asked() {
-    let mut app = after("scene.dat", DAT, Material(1), "d");
-    assert_eq!(
-        app.consequence(&[Material(1)]),
-        "Delete material 2? 2 objects use it and will be deleted too."
-    );
-    press(&mut app, "n");
-    assert_eq!(app.document.text(), DAT);
-    assert!(app.overlays.dialog.is_none());
-}
-
-#[test]
-fn copied_text_goes_to_the_clipboard_and_pasted_text_becomes_things() {
-    let (mut app, _) = opened_as("scene.ray", RAY);
-    app.select(Object(0));
-    let copied = press(&mut app, "y");
-    let moon = MOON.trim_end().to_owned();
-    let is_moon = |effect: &Effect| matches!(effect, Effect::CopyText(text) if *text == moon);
-    assert!(copied.iter().any(is_moon));
-    app.select(Object(2));
-    app.update(Msg::Paste(MOON.to_owned()));
-    assert_eq!(app.nodes().len(), 9);
-    assert!(app.document.text().ends_with(&format!("{THIRD}{MOON}")));
-    app.update(Msg::Paste("1 2 3".to_owned()));
-    assert_eq!(app.nodes().len(), 9);
-}
-
-#[test]
-fn messages_about_marked_things_count_and_name_them() {
-    for (said, done) in [
-        (" d", "deleted: 1 marked item: object 1 (sphere)"),
-        (
-            "  d",
-            "deleted: 2 marked items: object 1 (sphere), object 2 (sphere)",
-        ),
-        (" jD", "duplicated: 1 marked item: object 1 (sphere)"),
-        ("d", "deleted: object 1 (sphere)"),
-    ] {
-        let app = after("scene.ray", RAY, Object(0), said);
-        assert_eq!(words(&app), done, "{said:?}");
-    }
-    let mut app = after("scene.xml", XML, Material(0), "");
-    press(&mut app, " d");
-    let Some(Dialog::Delete(nodes)) = &app.overlays.dialog else {
-        panic!("it is used");
+    the_written_thing_is_selected: {
+        scene("scene.dat", DAT).each(r"
+            [object 3] D   | at object 6
+            [object 3] yGp | at object 7
+        ");
+        scene("scene.xml", GROUPED).each(r"
+            [object 1] D   | at object 3
+            [object 2] D   | at object 3
+        ");
+        ray().each(r"
+            [object 2] D   | at object 3
+            [object 2] K   | at object 1
+            [object 2] J   | at object 3
+            [object 2] d   | at object 2
+            [object 3] d   | at object 2
+            [light 1] D    | at light 2
+            [object 1] yGp | at object 4
+        ")
     };
-    let question = app.consequence(nodes);
-    assert!(
-        question.starts_with("Delete 1 marked item: m"),
-        "{question}"
-    );
-}
 
-#[test]
-fn marks_end_when_their_indices_belong_to_others() {
-    let mut app = after("scene.ray", RAY, Object(1), " ");
-    assert_eq!(app.cursor.marks.len(), 1);
-    press(&mut app, "<Esc>");
-    assert!(app.cursor.marks.is_empty());
-    press(&mut app, " ");
-    outside(&mut app, SCENE);
-    assert!(app.cursor.marks.is_empty());
-}
+    what_cannot_be_done_is_said_and_changes_nothing: {
+        scene("a.ray", SCENE).each(r"
+            [light 1] d | text opened | says the last light cannot be deleted: a .ray scene needs at least one
+        ");
+        ray().each(r"
+            [view] d     | text opened | says view cannot be copied, moved or deleted
+            [view] y     | text opened | says view cannot be copied, moved or deleted
+            [object 1] K | text opened | says object 1 (sphere) is already the first
+            [object 1] p | text opened | says nothing to paste: y copies the selected item
+            [object 1] <Space><Space><Space>d
+            | text opened | says the last object cannot be deleted: a .ray scene needs at least one
+        ");
+        scene("a.dat", DAT).each(r"
+            [object 1] R<Ctrl-u>2<Enter> | text opened | says object 2 already exists
+            [object 3] K | text opened | says object 3 (CSG) must stay after object 2 (sphere), which it uses
+        ");
+        scene("a.xml", XML).each(r"
+            [object 1] h | text opened | says an .xml scene draws all of its objects
+        ")
+    };
 
-#[test]
-fn undo_and_redo_select_the_thing_that_they_change() {
-    for (said, selected, done) in [
-        ("du", Object(1), "undone: deleted object 2 (sphere)"),
-        ("du<Ctrl-r>", Object(1), "redone: deleted object 2 (sphere)"),
-        ("Du", Object(1), "undone: duplicated object 2 (sphere)"),
-        (
-            "Du<Ctrl-r>",
-            Object(2),
-            "redone: duplicated object 2 (sphere)",
-        ),
-    ] {
-        let app = after("scene.ray", RAY, Object(1), said);
-        assert_eq!(app.cursor.selected(), selected, "{said}");
-        assert!(words(&app).starts_with(done), "{said}: {}", words(&app));
-    }
-}
+    deleting_what_others_use_is_asked: scene("scene.dat", DAT).play(r"
+        [material 2] d | asks delete: Delete material 2? 2 objects use it and will be deleted too.
+        n              | text opened | not asks
+    ");
 
-#[test]
-fn a_copied_combination_moves_as_a_whole() {
-    let app = after("scene.dat", DAT, Object(2), "Dmx1<Enter>");
-    let copy = "\
-obj sphere ID 5 mat ID 1  1 0 0  1
-obj sphere ID 6 mat ID 2  2 0 0  1
-obj CSG ID 7 union ID 5 ID 6
-";
-    assert!(
-        app.document.text().contains(copy),
-        "{}",
-        app.document.text()
-    );
+    copied_text_goes_to_the_clipboard_and_pasted_text_becomes_things: ray()
+        .with("copied", MOON.trim_end())
+        .play(r"
+        [object 1] y  | does copy … | writes copied
+        [object 3]
+        @paste {moon} | nodes 9 | text {third} => {third}{moon} & \n3\n => \n4\n
+        @paste 1 2 3  | nodes 9
+    ");
+
+    messages_about_marked_things_count_and_name_them: {
+        ray().each(r"
+            [object 1] <Space>d        | says deleted: 1 marked item: object 1 (sphere)
+            [object 1] <Space><Space>d | says deleted: 2 marked items: object 1 (sphere), object 2 (sphere)
+            [object 1] <Space>jD       | says duplicated: 1 marked item: object 1 (sphere)
+            [object 1] d               | says deleted: object 1 (sphere)
+        ");
+        scene("scene.xml", XML).each(r"
+            [material 1] <Space>d      | asks delete: Delete 1 marked item: m…
+        ")
+    };
+
+    marks_end_when_their_indices_belong_to_others: ray().with("other", SCENE).play(r"
+        [object 2] <Space> | marks 1
+        <Esc>              | not marks
+        <Space>            | marks 1
+        @file other        | not marks
+    ");
+
+    undo_and_redo_select_the_thing_that_they_change: ray().each(r"
+        [object 2] du         | at object 2 | says undone: deleted object 2 (sphere)…
+        [object 2] du<Ctrl-r> | at object 2 | says redone: deleted object 2 (sphere)…
+        [object 2] Du         | at object 2 | says undone: duplicated object 2 (sphere)…
+        [object 2] Du<Ctrl-r> | at object 3 | says redone: duplicated object 2 (sphere)…
+    ");
+
+    a_copied_combination_moves_as_a_whole: scene("scene.dat", DAT).play(r"
+        [object 3] Dmx1<Enter>
+        | text …\nobj sphere ID 5 mat ID 1  1 0 0  1\nobj sphere ID 6 mat ID 2  2 0 0  1\nobj CSG ID 7 union ID 5 ID 6\n…
+    ");
 }

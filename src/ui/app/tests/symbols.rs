@@ -1,13 +1,7 @@
 //! Symbols of lights, cameras and groups: when they are shown, where, and picking them.
 
-use std::sync::Arc;
-
-use super::moving::click;
-use super::*;
+use super::rows::{scene, scripts};
 use crate::language::Node;
-use crate::render::NO_OBJECT;
-use crate::ui::msg::Target;
-use Node::{Light, Object};
 
 const RAY: &str = "\
 // view: eye 0 0 10 target 0 0 0 up 0 1 0 fov 60 size 400 300
@@ -46,132 +40,92 @@ const XML: &str = "\
 </xml>
 ";
 
-/// The symbols that these keys show, after a node is selected.
-fn shown(name: &str, text: &str, node: Node, said: &str) -> Vec<Node> {
-    let (mut app, _) = opened_as(name, text);
-    assert_eq!(app.error_count(), 0, "{name} {:?}", app.diagnostics);
-    app.select(node);
-    press(&mut app, said);
-    app.symbols().iter().map(|symbol| symbol.node).collect()
-}
+scripts! {
+    the_kind_of_the_selected_node_is_shown_and_all_kinds_while_picking: {
+        scene("a.ray", RAY).each(r"
+            | not errors | not symbols
+            [light 1]       | symbols light 1, light 2
+            [object 1]      | not symbols
+            [object 1] i    | symbols light 1, light 2
+            [object 1] O    | symbols light 1, light 2
+            [object 1] OO   | not symbols
+            [light 1] o     | not symbols
+            [light 1] v     | not symbols
+            [light 1] e     | not symbols
+            [light 1] m     | symbols light 1, light 2
+            // The camera is shown where the picture is seen from elsewhere.
+            [view]          | not symbols
+            [view] v-<Esc>  | symbols view
+        ");
+        scene("a.dat", DAT).each(r"
+            | not errors | not symbols
+            [light 1]       | symbols light 1
+            [view] v-<Esc>  | symbols view
+        ");
+        scene("a.xml", XML).each(r"
+            | not errors | not symbols
+            [object 1]      | symbols object 1
+            [light 1]       | symbols light 1
+            [object 2] i    | symbols light 1, object 1
+            [object 2] v-<Esc>O | symbols light 1, view, object 1
+        ")
+    };
 
-#[test]
-fn the_kind_of_the_selected_node_is_shown_and_all_kinds_while_picking() {
-    for (name, text, node, said, expected) in [
-        ("a.ray", RAY, Light(0), "", vec![Light(0), Light(1)]),
-        ("a.ray", RAY, Object(0), "", vec![]),
-        ("a.ray", RAY, Object(0), "i", vec![Light(0), Light(1)]),
-        ("a.ray", RAY, Object(0), "O", vec![Light(0), Light(1)]),
-        ("a.ray", RAY, Object(0), "OO", vec![]),
-        ("a.ray", RAY, Light(0), "o", vec![]),
-        ("a.ray", RAY, Light(0), "v", vec![]),
-        ("a.ray", RAY, Light(0), "e", vec![]),
-        ("a.ray", RAY, Light(0), "m", vec![Light(0), Light(1)]),
-        // The camera is shown where the picture is seen from elsewhere.
-        ("a.ray", RAY, Node::View, "", vec![]),
-        ("a.ray", RAY, Node::View, "v-<Esc>", vec![Node::View]),
-        ("a.dat", DAT, Light(0), "", vec![Light(0)]),
-        ("a.dat", DAT, Node::View, "v-<Esc>", vec![Node::View]),
-        ("a.xml", XML, Object(0), "", vec![Object(0)]),
-        ("a.xml", XML, Light(0), "", vec![Light(0)]),
-        ("a.xml", XML, Object(1), "i", vec![Light(0), Object(0)]),
-        (
-            "a.xml",
-            XML,
-            Object(1),
-            "v-<Esc>O",
-            vec![Light(0), Node::View, Object(0)],
-        ),
-    ] {
-        assert_eq!(
-            shown(name, text, node, said),
-            expected,
-            "{name} {node:?} {said}"
-        );
-    }
-}
+    without_a_symbol_or_an_object_nothing_is_picked: scene("a.ray", RAY).play(r"
+        @shows none
+        i
+        @down picture 0,0
+        <Enter> | says nothing there | mode INSPECT
+    ");
 
-#[test]
-fn nothing_is_shown_before_something_is_selected() {
-    for (name, text) in [("a.ray", RAY), ("a.dat", DAT), ("a.xml", XML)] {
-        assert!(opened_as(name, text).0.symbols().is_empty(), "{name}");
-    }
+    a_symbol_moves_with_its_light: {
+        let mut session = scene("a.ray", RAY).session();
+        session.run("[light 1]");
+        let before = session.app.symbols()[0].cell;
+        session.run("mx1");
+        let moved = session.app.symbols()[0].cell;
+        assert!(before.0 < moved.0 && before.1 == moved.1, "{before:?} {moved:?}");
+        session.run("<Esc>");
+        assert_eq!(session.app.symbols()[0].cell, before)
+    };
 }
 
 #[test]
 fn symbols_are_where_things_are_and_are_picked_before_objects() {
-    for (name, text, node) in [
-        ("a.ray", RAY, Light(0)),
-        ("a.dat", DAT, Light(0)),
-        ("a.xml", XML, Object(0)),
+    for (name, text, node, across) in [
+        ("a.ray", RAY, "light 1", 0.0),
+        ("a.dat", DAT, "light 1", 0.0),
+        ("a.xml", XML, "object 1", 2.0),
     ] {
-        let (mut app, _) = opened_as(name, text);
-        let (cells, size) = app.raster().expect("there is room");
-        let everywhere = pictures::frame(size, vec![0; size.pixels()]);
-        app.update(Msg::Frame(Target::Preview, Arc::new(everywhere)));
-        app.picture_mut()
-            .advance(&FrameWindow::whole(size), &[], usize::MAX);
-        app.select(Object(1));
-        press(&mut app, "i");
-        let symbols = app.symbols();
+        let mut session = scene(name, text).session();
+        session.run("@shows 0");
+        session.app.select(Node::Object(1));
+        session.run("i");
+        let size = session.app.raster().expect("there is room").1;
+        let symbols = session.app.symbols();
         let symbol = symbols
             .iter()
-            .find(|symbol| symbol.node == node)
-            .expect("it is shown");
-        let across = if name == "a.xml" { 2.0 } else { 0.0 };
+            .find(|symbol| symbol.node.to_string() == node);
+        let cell = symbol.expect("it is shown").cell;
         // At the origin the picture is 2 · 10 · tan 30° high.
         let unit = f64::from(size.height) / (20.0 * (30.0_f64).to_radians().tan());
         let column = (f64::from(size.width) / 2.0 + across * unit) as u16;
-        assert_eq!(symbol.cell, (column, size.height as u16 / 4), "{name}");
+        assert_eq!(cell, (column, size.height as u16 / 4), "{name}");
         // Beside the symbol, and then too far from it.
-        for (away, picked) in [(1, node), (2, Object(app.source().object(0)))] {
-            let place = (symbol.cell.0 + away, symbol.cell.1);
-            press(&mut app, "i");
-            app.place_cross(place);
-            press(&mut app, "<Enter>");
-            assert_eq!(
-                (app.cursor.selected(), app.mode),
-                (picked, Mode::Select),
-                "{name}"
-            );
-            press(&mut app, "i");
-            click(&mut app, cells.x + place.0, cells.y + place.1);
-            press(&mut app, "<Enter>");
-            assert_eq!(
-                (app.cursor.selected(), app.mode),
-                (picked, Mode::Select),
-                "{name}"
-            );
+        let object = Node::Object(session.app.source().object(0)).to_string();
+        for (away, picked) in [(1, node), (2, &object)] {
+            let place = (cell.0 + away, cell.1);
+            session.run("i");
+            session.app.place_cross(place);
+            session.run(&format!(
+                r"
+                <Enter> | at {picked} | mode SELECT
+                i
+                @down picture {},{}
+                <Enter> | at {picked} | mode SELECT
+            ",
+                place.0, place.1
+            ));
         }
     }
-}
-
-#[test]
-fn without_a_symbol_or_an_object_nothing_is_picked() {
-    let (mut app, _) = opened_as("a.ray", RAY);
-    let (_, size) = app.raster().expect("there is room");
-    let nothing = pictures::frame(size, vec![NO_OBJECT; size.pixels()]);
-    app.update(Msg::Frame(Target::Preview, Arc::new(nothing)));
-    app.picture_mut()
-        .advance(&FrameWindow::whole(size), &[], usize::MAX);
-    press(&mut app, "i");
-    app.place_cross((0, 0));
-    press(&mut app, "<Enter>");
-    assert_eq!((words(&app), app.mode), ("nothing there", Mode::Inspect));
-}
-
-#[test]
-fn a_symbol_moves_with_its_light() {
-    let (mut app, _) = opened_as("a.ray", RAY);
-    app.select(Light(0));
-    let cell = |app: &App| app.symbols()[0].cell;
-    let before = cell(&app);
-    press(&mut app, "mx1");
-    let moved = cell(&app);
-    assert!(
-        before.0 < moved.0 && before.1 == moved.1,
-        "{before:?} {moved:?}"
-    );
-    press(&mut app, "<Esc>");
-    assert_eq!(cell(&app), before);
 }

@@ -5,6 +5,7 @@ use std::collections::VecDeque;
 use std::sync::Arc;
 
 use super::pictures::frame;
+use super::rows::{Session, ray, scene, scripts};
 use super::*;
 use crate::document::StateId;
 use crate::language::Source;
@@ -14,14 +15,12 @@ use crate::text::{Edit, Span};
 use crate::ui::history_scene::{HistoryScene, HistoryText, NoPicture};
 use crate::ui::msg::Target;
 
-/// Opens the scene on a terminal with colours, and makes three steps.
-fn changed() -> App {
-    let mut app = opened(SCENE).0;
-    app.thumbnails.has_colours = true;
-    press(&mut app, "ggjjjjell<Esc>jDk");
-    press(&mut app, "d");
-    assert_eq!(app.document.present(), 3);
-    app
+/// The scene on a terminal with colours after three steps.
+fn changed() -> Session {
+    let mut session = scene("scene.ray", SCENE).session();
+    session.app.thumbnails.has_colours = true;
+    session.run("ggjjjjell<Esc>jDk\nd | step 3");
+    session
 }
 
 /// What has been asked of the threads behind the page.
@@ -32,10 +31,10 @@ struct Asked {
     stops: usize,
 }
 
-/// Does what these effects and those that follow ask for, as the threads would.
-fn perform(app: &mut App, effects: Vec<Effect>) -> Asked {
+/// Does what the effects of the last step and those that follow ask for, as the threads would.
+fn perform(session: &mut Session) -> Asked {
     let mut asked = Asked::default();
-    let mut left = VecDeque::from(effects);
+    let mut left = VecDeque::from(std::mem::take(&mut session.effects));
     let mut generation = 100;
     while let Some(effect) = left.pop_front() {
         let msgs = match effect {
@@ -57,7 +56,7 @@ fn perform(app: &mut App, effects: Vec<Effect>) -> Asked {
             _ => Vec::new(),
         };
         for msg in msgs {
-            left.extend(app.update(msg));
+            left.extend(session.app.update(msg));
         }
     }
     asked
@@ -82,203 +81,162 @@ fn scene_of(past: &HistoryText) -> Result<HistoryScene, NoPicture> {
     })
 }
 
-fn opens_page(app: &mut App) -> Asked {
-    let effects = press(app, "U");
-    assert_eq!(app.context(), keymap::Context::Steps);
-    perform(app, effects)
+/// Opens the page after other keys.
+fn opens_page(session: &mut Session) -> Asked {
+    session.run("U | context Steps");
+    perform(session)
+}
+
+/// The text that is to be derived.
+fn past(session: &Session) -> Box<HistoryText> {
+    let past = session.effects.iter().find_map(|effect| match effect {
+        Effect::Derive(past) => Some(past.clone()),
+        _ => None,
+    });
+    past.expect("a scene is asked for")
 }
 
 #[test]
 fn the_page_lists_every_step_and_asks_for_each_picture_once() {
-    let mut app = changed();
-    press(&mut app, "u");
-    let asked = opens_page(&mut app);
-    let (page, steps) = app.open_steps().expect("it is open");
+    let mut session = changed();
+    session.run("u");
+    let asked = opens_page(&mut session);
+    let (page, steps) = session.app.open_steps().expect("it is open");
     let rows: Vec<_> = page.rows().into_iter().map(|(_, name)| name).collect();
-    assert_eq!(
-        rows,
-        [
-            "as opened",
-            "object 1 (sphere) centre x: 0 → 0.2, 2 nudges",
-            "duplicated object 2 (sphere)",
-            "deleted object 2 (sphere)",
-        ]
-    );
+    let expected = "as opened|object 1 (sphere) centre x: 0 → 0.2, 2 nudges|\
+                    duplicated object 2 (sphere)|deleted object 2 (sphere)";
+    assert_eq!(rows.join("|"), expected);
     let when: Vec<_> = (0..4).map(|at| steps.when(at)).collect();
     assert_eq!(when, ["2 steps back", "1 step back", "now", "1 step ahead"]);
     assert_eq!(page.filter.at, 2);
     // The present text first, then its neighbours, and at last the large picture.
     assert_eq!(asked.derived, [2, 1, 3, 0, 2]);
-    let objects: Vec<_> = asked
-        .traced
-        .iter()
-        .map(|job| job.scene.objects.len())
-        .collect();
-    assert_eq!(objects, [3, 2, 2, 2, 3]);
+    let objects = asked.traced.iter().map(|job| job.scene.objects.len());
+    assert_eq!(objects.collect::<Vec<_>>(), [3, 2, 2, 2, 3]);
     // Another text is selected: it lacks only the large picture.
-    let effects = press(&mut app, "j");
-    assert_eq!(perform(&mut app, effects).derived, [3]);
-    let effects = press(&mut app, "<Esc>");
-    assert_eq!(perform(&mut app, effects).stops, 0, "nothing is under way");
-    let again = opens_page(&mut app);
+    assert_eq!(perform(session.run("j")).derived, [3]);
+    assert_eq!(
+        perform(session.run("<Esc>")).stops,
+        0,
+        "nothing is under way"
+    );
+    let again = opens_page(&mut session);
     assert_eq!((again.derived.len(), again.traced.len()), (0, 0));
 }
 
 #[test]
 fn closing_the_page_stops_what_is_under_way_and_changes_nothing() {
     for close in ["<Esc>", "q", "U"] {
-        let mut app = changed();
-        let text = app.document.shared_text();
-        let effects = press(&mut app, "U");
-        let past = effects.iter().find_map(|effect| match effect {
-            Effect::Derive(past) => Some(past.clone()),
-            _ => None,
-        });
-        let past = past.expect("a scene is asked for");
-        assert!(app.thumbnails.are_awaited());
-        let effects = press(&mut app, close);
-        assert_eq!(perform(&mut app, effects).stops, 1, "{close}");
-        assert!(!app.thumbnails.are_awaited());
-        let late = app.update(Msg::Derived(past.ticket, scene_of(&past)));
+        let mut session = changed();
+        session.run("@note before text\nU | thumbnails");
+        let past = past(&session);
+        assert_eq!(perform(session.run(close)).stops, 1, "{close}");
+        session.run("| not thumbnails");
+        let late = session
+            .app
+            .update(Msg::Derived(past.ticket, scene_of(&past)));
         assert!(
             matches!(late[..], [Effect::Free(_)]),
             "{close}: nothing is traced: {late:?}"
         );
-        assert!(Arc::ptr_eq(&text, &app.document.shared_text()));
+        session.run("| text before");
     }
-    let mut app = changed();
-    let effects = press(&mut app, "U");
-    let begun = effects.into_iter().find_map(|effect| match effect {
-        Effect::Derive(past) => Some(Msg::Derived(past.ticket, scene_of(&past))),
-        _ => None,
-    });
-    let effects = app.update(begun.expect("a scene is asked for"));
-    assert!(wants(&effects, |effect| matches!(
-        effect,
-        Effect::Trace(Target::Thumbnail, _)
-    )));
-    app.update(Msg::Started(Target::Thumbnail, 7));
-    press(&mut app, "<Esc>");
+    let mut session = changed();
+    session.run("U");
+    let past = past(&session);
+    session.effects = session
+        .app
+        .update(Msg::Derived(past.ticket, scene_of(&past)));
+    session.run("| does trace thumbnail | > @started thumbnail 7 | > <Esc>");
     let size = Size {
         width: 4,
         height: 3,
     };
-    app.update(traced(7, size));
-    let effects = press(&mut app, "U");
-    assert!(
-        wants(&effects, |effect| matches!(effect, Effect::Derive(_))),
-        "a frame after the end is not taken for the picture"
-    );
+    session.app.update(traced(7, size));
+    // A frame after the end is not taken for the picture.
+    session.run("U | does derive");
 }
 
 #[test]
 fn a_text_with_errors_and_a_refused_picture_are_not_asked_for_again() {
-    let mut app = changed();
-    app.document.edit(&[Edit {
+    let mut session = changed();
+    session.app.document.edit(&[Edit {
         span: Span::at(0),
         text: "broken ".to_owned(),
     }]);
-    app.relower();
-    press(&mut app, "u");
-    let asked = opens_page(&mut app);
-    assert!(asked.derived.contains(&4));
-    let (id, _) = app.open_steps().expect("it is open").1.rows[4];
-    assert_eq!(
-        app.thumbnails.get(id, Rank::Row),
-        Some(&Err(NoPicture::Errors))
-    );
-    press(&mut app, "<Esc>");
-    app.thumbnails.forget();
-    let effects = press(&mut app, "U");
-    assert!(wants(&effects, |effect| matches!(
-        effect,
-        Effect::Derive(_)
-    )));
-    let effects = app.update(Msg::Refused(Target::Thumbnail, "no memory".to_owned()));
-    let next = effects.iter().find_map(|effect| match effect {
-        Effect::Derive(past) => Some(past.at),
-        _ => None,
-    });
-    assert_eq!(next, Some(2), "the next picture");
+    session.app.relower();
+    session.run("u");
+    assert!(opens_page(&mut session).derived.contains(&4));
+    let (id, _) = session.app.open_steps().expect("it is open").1.rows[4];
+    let thumbnail = session.app.thumbnails.get(id, Rank::Row);
+    assert_eq!(thumbnail, Some(&Err(NoPicture::Errors)));
+    session.run("<Esc>");
+    session.app.thumbnails.forget();
+    session
+        .run("U | does derive | > @cannot thumbnail no memory | does once derive | does derive 2");
 }
 
 #[test]
 fn pictures_show_the_working_view_and_are_made_again_for_another() {
-    let mut app = changed();
-    let first = opens_page(&mut app);
+    let mut session = changed();
+    let first = opens_page(&mut session);
     let is_own = |job: &Job| job.camera == job.scene.camera;
     assert!(first.traced.iter().all(is_own));
-    press(&mut app, "<Esc>vl<Esc>");
-    let moved = opens_page(&mut app);
+    session.run("<Esc>vl<Esc>");
+    let moved = opens_page(&mut session);
     assert_eq!(moved.traced.len(), first.traced.len());
-    assert!(
-        moved
-            .traced
-            .iter()
-            .all(|job| Some(job.camera) == app.camera())
-    );
-    assert_ne!(app.camera(), app.own_camera());
+    let camera = session.app.camera();
+    assert!(moved.traced.iter().all(|job| Some(job.camera) == camera));
+    assert_ne!(camera, session.app.own_camera());
 }
 
 #[test]
 fn without_colours_and_in_little_room_nothing_is_traced() {
-    let mut app = changed();
-    app.thumbnails.has_colours = false;
-    assert!(opens_page(&mut app).derived.is_empty());
-    press(&mut app, "<Esc>");
-    app.thumbnails.has_colours = true;
-    app.update(Msg::Resize(80, 10));
-    assert!(opens_page(&mut app).derived.is_empty());
+    let mut session = changed();
+    session.app.thumbnails.has_colours = false;
+    assert!(opens_page(&mut session).derived.is_empty());
+    session.run("<Esc>");
+    session.app.thumbnails.has_colours = true;
+    session.run("@resize 80 10");
+    assert!(opens_page(&mut session).derived.is_empty());
 }
 
 #[test]
 fn in_a_large_text_only_the_selected_step_has_a_picture() {
     let comment = "x".repeat(17 << 20);
-    let mut app = opened(&format!("{SCENE}// {comment}\n")).0;
-    app.thumbnails.has_colours = true;
-    press(&mut app, "ggjjjjel<Esc>");
-    assert_eq!(opens_page(&mut app).derived, [1]);
-    let effects = press(&mut app, "k");
-    assert_eq!(perform(&mut app, effects).derived, [0]);
+    let mut session = scene("scene.ray", &format!("{SCENE}// {comment}\n")).session();
+    session.app.thumbnails.has_colours = true;
+    session.run("ggjjjjel<Esc>");
+    assert_eq!(opens_page(&mut session).derived, [1]);
+    assert_eq!(perform(session.run("k")).derived, [0]);
 }
 
-#[test]
-fn enter_goes_to_a_step_and_undo_and_redo_go_on_from_there() {
-    let mut app = changed();
-    let texts: Vec<_> = (0..4).map(|at| app.document.timeline().text(at)).collect();
-    for (keys, at, said) in [
-        ("Ugg<Enter>", 0, "3 steps undone, to: as opened"),
-        (
-            "<Ctrl-r>",
-            1,
-            "redone: object 1 (sphere) centre x: 0 → 0.2, 2 nudges",
-        ),
-        (
-            "UG<Enter>",
-            3,
-            "2 steps redone, to: deleted object 2 (sphere)",
-        ),
-        ("Uk<Enter>", 2, "undone: deleted object 2 (sphere)"),
-        ("U<Enter>", 2, "this is the present text"),
-        ("u", 1, "undone: duplicated object 2 (sphere)"),
-        ("U/dupl<Enter>", 2, "redone: duplicated object 2 (sphere)"),
-        (
-            "Uuu",
-            0,
-            "undone: object 1 (sphere) centre x: 0 → 0.2, 2 nudges",
-        ),
-    ] {
-        press(&mut app, keys);
-        assert_eq!(app.document.text(), texts[at].as_str(), "{keys}");
-        assert_eq!((words(&app), app.document.present()), (said, at), "{keys}");
-        assert_eq!(app.error_count(), 0);
-        let drawn = app.scene.as_ref().map(|scene| scene.objects.len());
-        assert_eq!(drawn, Some([2, 2, 3, 2][at]), "{keys}");
-    }
-    let mut app = open(SCENE);
-    press(&mut app, ":history<Enter>");
-    assert_eq!(words(&app), "nothing has been changed yet");
-    assert!(app.open_steps().is_none());
+scripts! {
+    enter_goes_to_a_step_and_undo_and_redo_go_on_from_there: {
+        let mut session = changed();
+        for at in 0..4 {
+            let text = session.app.document.timeline().text(at).to_string();
+            session.call(&at.to_string(), &text);
+        }
+        session.run(r"
+            Ugg<Enter> | step 0 | text 0 | not errors | objects 2 | says 3 steps undone, to: as opened
+            <Ctrl-r>   | step 1 | text 1 | not errors | objects 2
+            | says redone: object 1 (sphere) centre x: 0 → 0.2, 2 nudges
+            UG<Enter>  | step 3 | text 3 | not errors | objects 2
+            | says 2 steps redone, to: deleted object 2 (sphere)
+            Uk<Enter>  | step 2 | text 2 | not errors | objects 3 | says undone: deleted object 2 (sphere)
+            U<Enter>   | step 2 | text 2 | not errors | objects 3 | says this is the present text
+            u          | step 1 | text 1 | not errors | objects 2 | says undone: duplicated object 2 (sphere)
+            U/dupl<Enter> | step 2 | text 2 | not errors | objects 3
+            | says redone: duplicated object 2 (sphere)
+            Uuu        | step 0 | text 0 | not errors | objects 2
+            | says undone: object 1 (sphere) centre x: 0 → 0.2, 2 nudges
+        ")
+    };
+
+    there_is_no_history_before_the_first_change: ray().play(r"
+        :history<Enter> | says nothing has been changed yet | not page
+    ");
 }
 
 #[test]
@@ -308,11 +266,11 @@ fn a_random_walk_finds_every_text_where_it_was() {
         "Ukk<Enter>",
         "Ujjj<Enter>",
     ];
-    let mut app = changed();
+    let app = &mut changed().app;
     let mut known: BTreeMap<StateId, String> = BTreeMap::new();
     for _ in 0..300 {
         let keys = keys[below(keys.len())];
-        press(&mut app, keys);
+        press(app, keys);
         let ids: Vec<_> = app.document.states().map(|state| state.id).collect();
         let present = app.document.present();
         let text = app.document.text().to_owned();

@@ -1,0 +1,156 @@
+//! How effects are called in scripts.
+
+use super::*;
+use crate::ui::msg::{Destination, Existing, Target, Timer};
+use crate::ui::reel::{Reel, ReelForm};
+use crate::ui::reference::ReferenceSource;
+
+/// The effect in a few words; those that scripts do not name have none.
+pub(super) fn called(effect: &Effect) -> String {
+    let of = |words: &str, path: &Path| format!("{words} {}", path.display());
+    match effect {
+        Effect::Trace(target, _) => format!("trace {}", name(*target)),
+        Effect::Recall(_, origin) => {
+            let view = origin.view.to_string();
+            let from = if view.is_empty() { "" } else { " from " };
+            format!("recall{from}{view}")
+        }
+        Effect::Stop(target) => format!("stop {}", name(*target)),
+        Effect::Halt(target) => format!("halt {}", name(*target)),
+        Effect::Pause(target) => format!("pause {}", name(*target)),
+        Effect::Resume(target) => format!("resume {}", name(*target)),
+        Effect::Explain(question, _) => {
+            let [x, y] = question.pixel;
+            format!("explain {} {x},{y}", name(question.target))
+        }
+        Effect::Derive(past) => format!("derive {}", past.at),
+        Effect::WriteImage(_, _, to) => format!("write {}", place(to)),
+        Effect::Film(_, reel, to) => format!("film {}: {}", place(to), filmed(reel)),
+        Effect::CheckTarget(_, to) => format!("check {}", place(to)),
+        Effect::Read(path, _) => of("read", path),
+        Effect::Open(path, _) => of("open", path),
+        Effect::Free(_) => "free".to_owned(),
+        Effect::Save { path, .. } => of("save", path),
+        Effect::CheckPlace(path) => of("check place", path),
+        Effect::FindBackups(path) => of("find backups", path),
+        Effect::NoteRecent(path) => of("note", path),
+        Effect::ListRecent => "list recent".to_owned(),
+        Effect::KeepPanels(_) => "keep panels".to_owned(),
+        Effect::ListFolder(path) => of("list", path),
+        Effect::Watch(path) => of("watch", path),
+        Effect::ReadAssets(wanted) => {
+            let names = wanted.pictures.iter().chain(&wanted.meshes);
+            let names: Vec<_> = names.map(String::as_str).collect();
+            format!("load [{}]", names.join(" "))
+        }
+        Effect::ReadReference(_, ReferenceSource::File(path)) => of("refer to", path),
+        Effect::ReadReference(_, ReferenceSource::Revision(name, path)) => {
+            format!("{} at {name}", of("refer to", path))
+        }
+        Effect::Compare(_) => "compare".to_owned(),
+        Effect::ReadTrack(path) => of("track", path),
+        Effect::WriteTrack { path, .. } => of("write track", path),
+        Effect::Later(time, timer) => format!("wait {} {}", timed(*timer), time.as_millis()),
+        Effect::WriteRecovery { scene, .. } => of(
+            "keep edits of",
+            scene.as_deref().unwrap_or(Path::new("no file")),
+        ),
+        Effect::DropRecovery => "forget edits".to_owned(),
+        Effect::LookForKept(sought) if sought.put_off.is_empty() => "look for kept".to_owned(),
+        Effect::LookForKept(sought) => format!("look for kept {}", sought.put_off.join(" ")),
+        Effect::AdoptKept(_) => "adopt kept".to_owned(),
+        Effect::DropKept(_) => "drop kept".to_owned(),
+        Effect::OpenEditor { path, line } => format!("{} at {line}", of("edit", path)),
+        Effect::CopyText(text) => format!("copy {text}"),
+        Effect::SetMouse(_) => "set mouse".to_owned(),
+        Effect::Repaint => "repaint".to_owned(),
+        Effect::TakeTerminal => "take terminal".to_owned(),
+        Effect::Suspend => "suspend".to_owned(),
+        Effect::Quit => "quit".to_owned(),
+    }
+}
+
+/// A destination, how a file there is treated, and which are never replaced.
+fn place(to: &Destination) -> String {
+    let spared: Vec<_> = to
+        .scene
+        .iter()
+        .chain(&to.named)
+        .map(|path| path.display())
+        .collect();
+    let spared = spared.iter().map(ToString::to_string).collect::<Vec<_>>();
+    let path = to.path.display();
+    format!(
+        "{path} {} sparing {}",
+        treated(to.existing),
+        spared.join(" ")
+    )
+}
+
+fn filmed(reel: &Reel) -> String {
+    let form = match &reel.form {
+        ReelForm::Pictures(_, format) => format!("{format:?} pictures"),
+        ReelForm::Movie(format) => format!("{format:?}"),
+    };
+    let size = reel
+        .shot
+        .size
+        .map(|size| format!(" of {}x{}", size.width, size.height));
+    let spp = reel.shot.spp.map(|spp| format!(" with {spp} spp"));
+    let [size, spp] = [size, spp].map(Option::unwrap_or_default);
+    format!("{} frames{size}{spp} as {form}", reel.track.frames)
+}
+
+fn treated(existing: Existing) -> &'static str {
+    match existing {
+        Existing::Kept => "kept",
+        Existing::Own(_) => "own",
+        Existing::Overwritten => "overwritten",
+        Existing::Numbered => "numbered",
+    }
+}
+
+const TARGETS: [(&str, Target); 7] = [
+    ("preview", Target::Preview),
+    ("full", Target::Trace),
+    ("export", Target::Export),
+    ("compared", Target::Compared),
+    ("reference", Target::Reference),
+    ("thumbnail", Target::Thumbnail),
+    ("trial", Target::Trial),
+];
+
+const TIMERS: [(&str, Timer); 7] = [
+    ("settled", Timer::Settled),
+    ("interrupt", Timer::Interrupt),
+    ("click", Timer::Click),
+    ("keep", Timer::Keep),
+    ("writing", Timer::Writing),
+    ("frame", Timer::Frame),
+    ("message", Timer::Message),
+];
+
+/// The name of a picture.
+pub(super) fn name(target: Target) -> &'static str {
+    let known = TARGETS.into_iter().find(|(_, known)| *known == target);
+    known.map_or("", |(name, _)| name)
+}
+
+fn timed(timer: Timer) -> &'static str {
+    let known = TIMERS.into_iter().find(|(_, known)| *known == timer);
+    known.map_or("", |(name, _)| name)
+}
+
+/// The picture of this name.
+pub(super) fn target(name: &str) -> Result<Target, String> {
+    let known = TARGETS.into_iter().find(|(known, _)| *known == name);
+    let target = known.map(|(_, target)| target);
+    target.ok_or_else(|| format!("no picture is called {name}"))
+}
+
+/// The timer of this name.
+pub(super) fn timer(name: &str) -> Result<Timer, String> {
+    let known = TIMERS.into_iter().find(|(known, _)| *known == name);
+    let timer = known.map(|(_, timer)| timer);
+    timer.ok_or_else(|| format!("no timer is called {name}"))
+}
