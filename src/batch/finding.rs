@@ -72,7 +72,7 @@ impl Suspect {
                 text.print(&format!("{fault}; the warnings above say why"));
             }
             (None, Fault::Black(_)) => text.print_cause(fault, &job),
-            (None, Fault::Burnt) => {
+            (None, Fault::Overexposed) => {
                 text.print(&format!("{fault}; no single render setting fixes that"));
             }
             // The warning of the text says it all.

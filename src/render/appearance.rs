@@ -89,14 +89,14 @@ impl Appearance {
     }
 
     /// Whether more than half of the picture is above 1.
-    pub(super) fn is_burnt(self) -> bool {
+    pub(super) fn is_overexposed(self) -> bool {
         0.5 < self.above
     }
 
     /// How far the median of a picture that shows something is from the one it is to have, in levels;
     /// `None` if it is too dark, too bright or alike all over.
     pub(super) fn distance(self) -> Option<f64> {
-        let is_good = self.dark <= 0.5 && !self.is_burnt() && ALIKE <= self.contrast;
+        let is_good = self.dark <= 0.5 && !self.is_overexposed() && ALIKE <= self.contrast;
         is_good.then(|| (f64::from(self.median) - GOOD).abs())
     }
 }

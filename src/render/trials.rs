@@ -50,7 +50,7 @@ pub enum Fault {
     /// Nothing in it is brighter than this level, 0 to 15 of 255.
     Black(u8),
     /// More than half of it is above 1 after the exposure.
-    Burnt,
+    Overexposed,
     /// Nothing lights surfaces by this integrator but would by paths, as the text shows.
     Unlit,
     /// Lights emit no photons because they do not fade, as the text shows.
@@ -111,7 +111,7 @@ impl fmt::Display for Fault {
                 let black = "the picture is almost black";
                 write!(f, "{black} (brightest value {most} of 255)")
             }
-            Self::Burnt => f.write_str("more than half of the picture is above 1"),
+            Self::Overexposed => f.write_str("more than half of the picture is above 1"),
             Self::Unlit => f.write_str("no surface is lit"),
             Self::WithoutPhotons => f.write_str("lights emit no photons"),
         }
@@ -220,8 +220,8 @@ impl Trials {
                 let shown = Shown::of(picture);
                 let now = Appearance::of(values, &shown, (0.0, self.settings.transfer));
                 if self.fault.is_none() {
-                    if now.is_burnt() {
-                        self.fault = Some(Fault::Burnt);
+                    if now.is_overexposed() {
+                        self.fault = Some(Fault::Overexposed);
                     } else if !self.is_traced && picture.brightest() <= DIM {
                         let side = self.whole_side();
                         return side.map_or(ControlFlow::Break(None), |side| {
@@ -242,8 +242,8 @@ impl Trials {
                 self.try_exposure(values);
             }
             Trial::With(change) => {
-                let is_burnt = self.consider(change, values, 0.0);
-                if is_burnt && change.depth.is_some() {
+                let is_overexposed = self.consider(change, values, 0.0);
+                if is_overexposed && change.depth.is_some() {
                     // More bounces are brighter still.
                     self.left.retain(|other| other.depth.is_none());
                 }
@@ -301,7 +301,7 @@ impl Trials {
                 Some(Fault::Black(_)) => {
                     change.integrator.is_some() || change.falloff.is_some() && !fades
                 }
-                Some(Fault::Burnt) => change.depth.is_some() || fades,
+                Some(Fault::Overexposed) => change.depth.is_some() || fades,
                 Some(Fault::Unlit) => change.integrator.is_some(),
                 Some(Fault::WithoutPhotons) | None => fades,
             }
@@ -314,7 +314,7 @@ impl Trials {
         let found = Overexposure::of(values);
         let over = match self.fault {
             Some(Fault::Black(_)) if 0.0 < found.brightest => libm::log2(found.brightest),
-            Some(Fault::Burnt) => found.stops,
+            Some(Fault::Overexposed) => found.stops,
             _ => return,
         };
         let own = self.settings.exposure;
@@ -347,7 +347,7 @@ impl Trials {
         {
             self.best = Some((distance, change));
         }
-        appearance.is_burnt()
+        appearance.is_overexposed()
     }
 }
 

@@ -40,11 +40,11 @@ fn notes(place: &Place, line: &str) -> Vec<String> {
 /// The same advice of every command, for any number of samples, at half the size and by any seed.
 #[test]
 fn a_picture_is_judged_alike_by_every_command() {
-    let burnt = "more than half of the picture is above 1; try";
+    let overexposed = "more than half of the picture is above 1; try";
     let place = Place::new();
     for (name, text, expected) in [
-        ("growing.xml", GROWING, format!("{burnt} `--depth 2`")),
-        ("white.xml", WHITE, format!("{burnt} `--depth 1`")),
+        ("growing.xml", GROWING, format!("{overexposed} `--depth 2`")),
+        ("white.xml", WHITE, format!("{overexposed} `--depth 1`")),
         (
             "dim.ray",
             &ball("exposure -6", "5 5 9 1 1 1"),
@@ -58,7 +58,7 @@ fn a_picture_is_judged_alike_by_every_command() {
         (
             "bright.ray",
             &ball("exposure 0", "5 5 9 90 90 90").replace("fov 30", "fov 9"),
-            format!("{burnt} `--exposure -6.5`"),
+            format!("{overexposed} `--exposure -6.5`"),
         ),
     ] {
         place.write(name, text);

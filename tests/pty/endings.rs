@@ -80,9 +80,9 @@ fn an_abort_mentions_stored_edits() {
     // Without an earlier problem, the screen does not show when edits are stored.
     place.write(".local", "in the way");
     let mut session = place.open_edited();
-    session.wait_for("[not kept]");
+    session.wait_for("[no backup]");
     fs::remove_file(place.at(".local")).expect("it is there");
-    wait_until_gone(&mut session, "[not kept]");
+    wait_until_gone(&mut session, "[no backup]");
     kill(session.process_id(), Signal::ABORT);
     assert_aborted(
         session,

@@ -143,9 +143,9 @@ fn edits_are_stored_once_their_folder_can_be_created() {
     session.wait_for("recent scenes cannot be remembered");
     session.send(RADIUS_TO_2);
     session.wait_for("unsaved edits cannot be kept for recovery");
-    session.wait_for("[not kept]");
+    session.wait_for("[no backup]");
     fs::remove_file(place.at(".local/state/halflight")).expect("it is there");
-    wait_until_gone(&mut session, "not kept");
+    wait_until_gone(&mut session, "no backup");
     kill(session.process_id(), Signal::KILL);
     session.end();
     assert_eq!(place.kept_texts(), [edited()]);
@@ -246,7 +246,7 @@ fn edits_that_can_t_be_stored_are_reported_as_lost_at_the_end() {
     let place = Place::new();
     place.write(".local", "in the way");
     let mut session = place.open_edited();
-    session.wait_for("[not kept]");
+    session.wait_for("[no backup]");
     kill(session.process_id(), Signal::TERM);
     assert_eq!(session.end().exit_code(), 143);
     session.assert_restored();
@@ -273,11 +273,11 @@ fn edits_are_stored_once_there_is_space_again() {
         };
         limit(Some(300));
         session.send("3\r");
-        session.wait_for("[not kept]");
+        session.wait_for("[no backup]");
         assert_eq!(place.kept_texts(), [edited()], "the last text is kept");
         limit(None);
         if signal == Signal::KILL {
-            wait_until_gone(&mut session, "[not kept]");
+            wait_until_gone(&mut session, "[no backup]");
         }
         kill(session.process_id(), signal);
         session.end();

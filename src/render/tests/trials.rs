@@ -98,8 +98,8 @@ fn the_best_setting_is_named_and_none_that_does_not_help() {
     for (now, by_depth, fault, cure) in [
         (0.5, 0.2, None, None),
         // Noise may hide that a picture is too bright, or that it is not.
-        (3.0, 0.4, Some(Fault::Burnt), depth(2)),
-        (3.0, 0.01, Some(Fault::Burnt), exposure(-2.0)),
+        (3.0, 0.4, Some(Fault::Overexposed), depth(2)),
+        (3.0, 0.01, Some(Fault::Overexposed), exposure(-2.0)),
         (0.05, 0.4, Some(Fault::Black(13)), exposure(4.0)),
         (0.0, 0.4, Some(Fault::Black(0)), None),
     ] {

@@ -116,7 +116,7 @@ impl App {
         })
     }
 
-    /// Shows the next or previous share of the light: all, that of each light, emission, indirect
+    /// Shows the next or previous light component: all, that of each light, emission, indirect
     /// light.
     pub(super) fn step_share(&mut self, step: isize) {
         let Some(scene) = &self.scene else {

@@ -39,9 +39,9 @@ impl App {
         let trial = match suspected {
             // A scene of this size would keep all else waiting.
             Some(trials) if self.is_large() => {
-                let is_burnt = 0.5 < Overexposure::of(&frame.values).share;
-                let burnt = is_burnt.then_some(Fault::Burnt);
-                self.say_untried(trials.fault().or(burnt));
+                let is_overexposed = 0.5 < Overexposure::of(&frame.values).share;
+                let overexposed = is_overexposed.then_some(Fault::Overexposed);
+                self.say_untried(trials.fault().or(overexposed));
                 None
             }
             Some(trials) => self.try_out(trials),
@@ -135,7 +135,7 @@ impl App {
         let cure = self.suggested_cure().map(|cure| self.cure_in_words(cure));
         let helps = match fault {
             Fault::Black(_) => cure.unwrap_or_else(|| self.reason_of_black()),
-            Fault::Burnt => {
+            Fault::Overexposed => {
                 let cure = cure.unwrap_or_else(|| "no single render setting fixes that".to_owned());
                 let darker = self.key_for("darker");
                 format!("{cure}; {darker} darkens only the screen")
@@ -157,7 +157,7 @@ impl App {
         self.suggestions.cure = None;
         let helps = match fault {
             Some(Fault::Black(_)) => self.reason_of_black(),
-            Some(Fault::Burnt) => {
+            Some(Fault::Overexposed) => {
                 let darker = self.key_for("darker");
                 format!("{darker} darkens only the screen")
             }

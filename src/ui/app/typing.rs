@@ -51,7 +51,7 @@ impl App {
                 "there are no other choices"
             } else if literals::slider_ends(field.usual).is_some_and(|ends| ends.iter().any(is_end))
             {
-                "the usual range ends here: type a number to leave it"
+                "end of the slider; type a value to go on"
             } else {
                 "the step is too small to change this number"
             });

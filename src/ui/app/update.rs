@@ -6,7 +6,7 @@ use tui_input::Input;
 use super::cursor::Typing;
 use super::journal::KEPT_AFTER;
 use super::{App, Grid, PageFocus, PromptKind, Tool, line};
-use crate::text::Severity;
+use crate::text::{Severity, alternatives};
 use crate::ui::arrange::{Zoom, divided, resized};
 use crate::ui::keymap::{self, Context, Meaning, Mode};
 use crate::ui::msg::{Effect, Msg, Target, Timer};
@@ -135,9 +135,8 @@ impl App {
             }
             Meaning::None if self.overlays.dialog.is_some() => {
                 // A user who types on without noticing the question learns why nothing happens.
-                let keys: Vec<_> = self.hints().into_iter().map(|(key, _)| key).collect();
-                self.overlays
-                    .warn(format!("answer the question first: {}", keys.join(", ")));
+                let keys = self.hints().into_iter().map(|(key, _)| key);
+                self.overlays.warn(format!("press {}", alternatives(keys)));
                 Vec::new()
             }
             Meaning::None if context == Context::Opening => {
@@ -193,8 +192,8 @@ impl App {
                 let way = way.map_or_else(String::new, |way| format!(" ({way})"));
                 format!("`{name}` in {}{way}: {words}", mode.name())
             }
-            (None, Context::In(mode)) => format!("`{name}` is free in {}", mode.name()),
-            (None, _) => format!("`{name}` is free here"),
+            (None, Context::In(mode)) => format!("`{name}` is not bound in {}", mode.name()),
+            (None, _) => format!("`{name}` is not bound here"),
         };
         let help = match self.keymap.key(context, "help") {
             Some(key) if context != Context::Help => format!("; {key} lists keys"),

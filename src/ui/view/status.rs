@@ -257,7 +257,7 @@ fn text_segments(app: &App, say: &mut impl FnMut(u8, String, Style)) {
         say(3, "[polling]".to_owned(), theme::WARNING);
     }
     if app.fails_to_keep() {
-        say(3, "[not kept]".to_owned(), theme::WARNING);
+        say(3, "[no backup]".to_owned(), theme::WARNING);
     }
     if app.picture().paused {
         say(3, " PAUSED ".to_owned(), theme::chip(theme::WARNING));

@@ -156,7 +156,7 @@ mod tests {
                     Arguments::Said(" WxH", _) => " 8x6",
                     Arguments::Said(" STOPS", _) => " -1.5",
                     Arguments::Said(" KEY [VALUE|default]", _) => " depth",
-                    Arguments::Said(" MEANS", _) => " half",
+                    Arguments::Said(" MODE", _) => " half",
                     _ => "",
                 };
                 assert!(parse(&format!(" {name}{argument} ")).is_ok(), "{name}");

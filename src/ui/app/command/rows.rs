@@ -68,7 +68,7 @@ pub(super) const ROWS: &[CommandRow] = &[
     row(&["theme dark"], Nothing(|| Run::does(|app| app.theme = Theme::Dark)), "use colours for dark screens").runs(Always),
     row(&["theme light"], Nothing(|| Run::does(|app| app.theme = Theme::Light)), "use colours for light screens").runs(Always),
     row(&["theme mono"], Nothing(|| Run::does(|app| app.theme = Theme::Mono)), "use no colours except in pictures").runs(Always),
-    row(&["pixels"], Said(" MEANS", pixels), "set what pixels are drawn with, such as half, octant or auto").runs(Always),
+    row(&["pixels"], Said(" MODE", pixels), "set what pixels are drawn with, such as half, octant or auto").runs(Always),
     row(&["help"], Nothing(|| Run::does(|app| app.overlays.help = Some(Help::default()))), "show this page").key("help").runs(Always),
 ];
 

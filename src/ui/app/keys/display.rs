@@ -38,7 +38,7 @@ pub(super) const KEYS: &[Row] = &[
     Key::new(PICTURES, "show-cost", &[c('7')], "show cost: rays traced").does(|app| app.show(Some(Aov::Cost))),
     Key::new(PICTURES, "show-samples", &[c('8')], "show samples taken").does(|app| app.show(Some(Aov::Samples))),
     Key::new(PICTURES, "show-noise", &[c('9')], "show noise: estimated error").does(|app| app.show(Some(Aov::Noise))),
-    Key::new(PICTURES, "next-share", &[c(')')], "next share of the light").does(|app| app.step_share(1)),
-    Key::new(PICTURES, "previous-share", &[c('(')], "previous share of the light").does(|app| app.step_share(-1)),
+    Key::new(PICTURES, "next-share", &[c(')')], "next light component").does(|app| app.step_share(1)),
+    Key::new(PICTURES, "previous-share", &[c('(')], "previous light component").does(|app| app.step_share(-1)),
     Key::new(PREVIEWS, "wireframe", &[c('6')], "show a wireframe, for slow links").does(|app| app.overlays.say(app.pictures.show_wireframe())),
 ];

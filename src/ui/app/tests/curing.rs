@@ -60,13 +60,13 @@ fn faded() -> String {
     format!("// render: falloff square\n{SCENE}")
 }
 
-const BURNT: &str = "more than half of the picture is above 1: ";
+const OVEREXPOSED: &str = "more than half of the picture is above 1: ";
 
 #[test]
 fn a_picture_that_is_too_bright_says_so_once() {
     let (mut app, effects) = opened(&faded());
-    let [bright, brighter] =
-        [-1, -2].map(|stops| format!("{BURNT}C sets exposure {stops}; < darkens only the screen"));
+    let [bright, brighter] = [-1, -2]
+        .map(|stops| format!("{OVEREXPOSED}C sets exposure {stops}; < darkens only the screen"));
     let again = format!("no errors or warnings in the text, but {bright}");
     let trace = job(&effects, Target::Preview).expect("a preview").clone();
     press(&mut app, "<Esc>");
@@ -139,7 +139,7 @@ fn the_setting_whose_trial_is_best_is_offered() {
         let (app, _) = cured("integrator path depth 64", by(falloff, depth));
         let said = shown(&app);
         assert!(
-            said.starts_with(&format!("{BURNT}C sets {cure};")),
+            said.starts_with(&format!("{OVEREXPOSED}C sets {cure};")),
             "{said}"
         );
     }
@@ -171,7 +171,7 @@ fn where_no_trial_helps_that_is_said() {
     // Above 1 in three quarters, whatever the exposure: infinitely bright.
     let (mut app, _) = cured("falloff square", |_| f32::INFINITY);
     let said = shown(&app);
-    let none = format!("{BURNT}no single render setting fixes that;");
+    let none = format!("{OVEREXPOSED}no single render setting fixes that;");
     assert!(said.starts_with(&none), "{said}");
     press(&mut app, "<Esc>C");
     assert_eq!(shown(&app), "there is no render setting to suggest");

@@ -93,7 +93,7 @@ scripts! {
         ray().after("ggjjjjejjjjjj").each(r"
             LLLLLLLLLLLLLLL   | lines 5 1.00 0 1
             HHHHHHHHHHHHHHHHl | lines 5 0.05 0 1
-            1<Enter>l         | lines 5 1 0 1 | says the usual range ends here: type a number to leave it
+            1<Enter>l         | lines 5 1 0 1 | says end of the slider; type a value to go on
             1.2<Enter>l       | lines 5 1.25 0 1
             1.02<Enter>h      | lines 5 0.97 0 1
             -.2<Enter>L       | lines 5 .3 0 1

@@ -15,7 +15,7 @@ scripts! {
         // The answer to a key is shown first.
         @says three
         @says four
-        X         | shown …is free…
+        X         | shown …is not bound…
         j         | shown four
     ");
 

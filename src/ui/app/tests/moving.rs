@@ -8,9 +8,9 @@ scripts! {
         S        | says `S` in VIEW (v): write the view into the scene; ? lists keys
         jeo      | says `o` in SELECT: toggle the outline of the selection; ? lists keys
         vR       | says `R` in SELECT (Enter): rename; ? lists keys
-        vX       | says `X` is free in VIEW; ? lists keys
-        <Ctrl-y> | says `Ctrl-Y` is free in SELECT; ? lists keys
-        ?X       | says `X` is free here
+        vX       | says `X` is not bound in VIEW; ? lists keys
+        <Ctrl-y> | says `Ctrl-Y` is not bound in SELECT; ? lists keys
+        ?X       | says `X` is not bound here
         je5      | not says
     ");
 

@@ -102,7 +102,7 @@ scripts! {
 
     kept_edits_can_be_restored_and_undone_or_discarded: ray().play(r"
         @offer 1.5 => 1.7
-        j | says answer the question first: r, d, Esc
+        j | says press r, d or Esc
         // The old journal is removed once the new one is written; others may be left.
         r | does adopt kept, keep edits, look for kept | text 1.5 => 1.7
         u | text opened

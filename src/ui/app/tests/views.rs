@@ -58,7 +58,7 @@ scripts! {
     saving_before_leaving_asks_only_about_the_view_then: ray().play(r"
         vh<Esc>jjjel<Esc>qw
         @saved | not does quit | loses the moved view is not in the text | says wrote scene.ray | answers Syn
-        w      | not does | says answer the question first: S, y, n
+        w      | not does | says press S, y or n
         y      | does quit
     ");
 
