@@ -68,7 +68,7 @@ scripts! {
             object 1   | name="plane" material="red"
             material 2 | name="plane" material="red"
             material 1 | name="plane" material="grey"
-        "#)
+        "#);
     };
 
     no_number_is_written_as_minus_0: for axis in ["0 0 1", "0 1 0", "1 0 0", "0 0 -1"] {
@@ -93,7 +93,7 @@ scripts! {
         scene("a.xml", XML).each(r#"
             [light 1] cambient<Enter> | becomes type="point" => type="ambient"
         "#);
-        scene("a.ray", RAY).each("[light 1] c | says light 1 has only one type")
+        scene("a.ray", RAY).each("[light 1] c | says light 1 has only one type");
     };
 
     the_first_thing_brings_a_scene_with_it: {
@@ -111,7 +111,7 @@ scripts! {
                 u              | text opened
             ", text.trim_end()));
         }
-        scene("a.dat", "").play("aunion<Enter> | text opened | says …mark them first…")
+        scene("a.dat", "").play("aunion<Enter> | text opened | says …mark them first…");
     };
 
     an_object_and_its_material_open_an_empty_scene_once: for text in
@@ -134,7 +134,7 @@ scripts! {
             abox<Enter>      | says added: box; m moves it, t rotates it, s scales it
             adistant<Enter>  | says added: distant light; t rotates it
             amaterial<Enter> | says added: material
-        ")
+        ");
     };
 }
 

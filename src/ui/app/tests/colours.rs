@@ -54,7 +54,7 @@ scripts! {
         scene("a.xml", XML).table(script, r#"
             material 1 | diffuse    | jH | g="0.25" b="0" value => g="0.30" b="0.1" value
             background | background | jH | r="0.2" g="0.4" => r="0.28" g="0.4"
-        "#)
+        "#);
     };
 
     there_and_back_changes_nothing: ray().but(".45 .45 .45 => 0.123456 0.7 .33").table(r"
@@ -127,6 +127,6 @@ scripts! {
             @down screen {},{}      | text .45 .45 .45 => 1.00 1.00 1.00
             @down screen 1,1        | text .45 .45 .45 => 1.00 1.00 1.00 | context In(Edit)
             u                       | text opened
-        ", right - 1, hue.y, swatch.x + 1, swatch.y, beyond = right + 5))
+        ", right - 1, hue.y, swatch.x + 1, swatch.y, beyond = right + 5));
     };
 }

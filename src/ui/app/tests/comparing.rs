@@ -58,7 +58,7 @@ scripts! {
         assert_eq!(session.app.compared.wipe.0, 0.0);
         session.run("n");
         assert_eq!(session.app.compared.cross, Some((0, 0)));
-        session.run("<Esc> | mode SELECT | does stop compared, stop reference")
+        session.run("<Esc> | mode SELECT | does stop compared, stop reference");
     };
 
     a_pixel_is_explained_in_the_present_picture_and_the_comparison_goes_on: {
@@ -76,7 +76,7 @@ scripts! {
         });
         assert_eq!(explained, Some([29; 3]));
         assert_eq!(session.app.seen(), Target::Compared);
-        session.run("<Esc><Esc> | mode COMPARE | first 9")
+        session.run("<Esc><Esc> | mode COMPARE | first 9");
     };
 
     an_undone_edit_is_traced_again_and_its_old_figures_are_not_final: previewed().play(r"
@@ -105,7 +105,7 @@ scripts! {
         ray().opened(|opening| opening.path = None).play(r"
             :compare saved<Enter> | says the scene has no file yet: :w FILE
             :compare HEAD<Enter>  | says the scene has no file yet: :w FILE
-        ")
+        ");
     };
 
     the_command_names_files_the_saved_scene_and_revisions: ray().table(r"
@@ -141,7 +141,7 @@ scripts! {
             A<Esc>:size 64x64<Enter>
             = | does trace compared | job size 800x600
             | past …traced at 800×600, the size of the pinned picture; the scene's own is 64×64…
-        ")
+        ");
     };
 
     of_a_record_that_cannot_be_believed_the_rest_is_used: unasked().table(r"
@@ -164,7 +164,7 @@ scripts! {
             :compare none.png<Enter>
             @reference none none.png: no such file    | reference {pinned} | mode SELECT
             =                                         | mode COMPARE
-        ")
+        ");
     };
 
     different_channels_are_named: previewed().play(r"

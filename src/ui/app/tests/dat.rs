@@ -34,7 +34,7 @@ scripts! {
         dat().play(r"
             [light 1] ei<Back><Back><Back>sun<Enter> | expected …pnt or inf or amb…
             <Esc>uuu | text opened
-        ")
+        ");
     };
 
     the_courses_word_for_an_intersection_is_known_and_kept: dat().but("difference => intersect").table(r"
@@ -87,7 +87,7 @@ scripts! {
             | says object 1 (sphere) is part of object 3 (CSG): h there shows or hides it
 
             [object 4] h<Esc>uuu | text opened
-        ")
+        ");
     };
 
     a_combination_shows_its_parts: dat().each(r"
@@ -104,7 +104,7 @@ scripts! {
         ");
         dat().but("0 -9 0 => 0.123456789 -9 0").play(r"
             v]S | line 1 …\s0.123456789 -9 0  0 0 0 …
-        ")
+        ");
     };
 
     a_scene_keeps_its_language: dat().play(r"

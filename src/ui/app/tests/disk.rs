@@ -166,7 +166,7 @@ scripts! {
             Gejjj7            | typed 7
             @file twice fewer | not typed
             j                 | says …discarded…
-        ")
+        ");
     };
 
     the_list_of_errors_follows_the_text: ray().but(r"1.5 => -1 & \n4 0 0\n1\n => \n4 0 0\n-1\n").play(r"

@@ -101,6 +101,6 @@ scripts! {
         ray().each(r"
             jjjejjHHHH        | lines .0 .1 .1 .45 .45 .45 .5 .5 .5
             jjjejLL           | lines 3.5 // the radius
-        ")
+        ");
     };
 }

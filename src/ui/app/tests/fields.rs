@@ -37,7 +37,7 @@ scripts! {
             [light 1] e<Enter><Enter>          | text opened
             [light 1] e<Enter><Left><Right><Back><Enter> | text opened
         ");
-        scene("scene.xml", XML).play(r"[object 1] ej<Enter>x<Enter> | text ball => x")
+        scene("scene.xml", XML).play(r"[object 1] ej<Enter>x<Enter> | text ball => x");
     };
 
     a_number_keeps_its_text_with_the_cursor_at_the_end: ray().play(r"
@@ -61,7 +61,7 @@ scripts! {
             object 1 | jj<Enter>warm<Ctrl-u><Down>   | material="clay" => material="glass"
             object 2 | jj<Enter>glass                | name="bare" => name="bare" material="glass"
             material 1 | <Enter>ph                   | "blinn" name="clay" => "phong" name="clay"
-        "#)
+        "#);
     };
 
     a_new_name_creates_what_it_names_in_the_same_step: {
@@ -79,7 +79,7 @@ scripts! {
             [object 1] ejj<Enter>a & b   | offered new: create this material
             <Down><Enter>                | text material="clay" => material="a &amp; b" & name="glass"/> => {created}
             u                            | text opened
-        "#)
+        "#);
     };
 
     a_new_texture_stands_before_its_use_and_marked_things_follow: scene("a.dat", dat::SCENE).but(
@@ -130,7 +130,7 @@ scripts! {
             .table(script, r"2 0 0 // vl\n0.5 1 0 0 0 2 => 1 0 0 // vl\n0.0 1 0 0 0 1");
         scene("a.dat", dat::SCENE)
             .but(r"sphere ID 1 mat ID 1  0 0 0  1 => box ID 1 mat ID 1  0 0 0  2 0 0  3 3 0  0 0 -1  1 1 1")
-            .table(script, r"3 3 0  0 0 -1 => 0 4.242640687119285 0  0 0 -1")
+            .table(script, r"3 3 0  0 0 -1 => 0 4.242640687119285 0  0 0 -1");
     };
 
     what_has_no_frame_says_so: for (name, text, named) in [

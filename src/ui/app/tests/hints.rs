@@ -23,7 +23,7 @@ scripts! {
             [view] vh      | hints … save view,…
         ");
         // Words have no steps.
-        scene("scene.dat", dat::SCENE).play("[light 1] e | hints … nudge,… | not hints … step,…")
+        scene("scene.dat", dat::SCENE).play("[light 1] e | hints … nudge,… | not hints … step,…");
     };
 
     an_oblique_frame_hints_how_to_correct_it: ray()

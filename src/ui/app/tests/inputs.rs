@@ -38,7 +38,7 @@ scripts! {
             GR  | "ball" => "globe"                  | <Space><Back>ball<Enter>
             GkR | "red"/> => "crimson"/> & "red"> => "crimson"> | <Enter>
             Gkc | "blinn" => "phong"                 | <Enter>
-        "#)
+        "#);
     };
 
     an_input_that_was_changed_asks_about_what_the_file_has_changed_too: {
@@ -61,7 +61,7 @@ scripts! {
         xml().table(script, r#"
             GR  | "ball" => "globe"         | moon<Enter> | "ball" => "moon"
             GkR | "red"/> => "crimson"/> & "red"> => "crimson"> | blue<Enter> | "red"/> => "blue"/> & "red"> => "blue">
-        "#)
+        "#);
     };
 
     /// A question that was put off returns with the next save, compared with what was seen in the
@@ -90,7 +90,7 @@ scripts! {
             jjjejlw<Enter>
             @saved
             <Ctrl-u>2<Enter> | not asks | lines 2 // the radius
-        ")
+        ");
     };
 
     choosing_the_type_that_something_has_is_no_edit: {
@@ -103,6 +103,6 @@ scripts! {
         "#, r"
             sphere
             plane
-        ")
+        ");
     };
 }

@@ -38,9 +38,9 @@ const REST: &str = "render, view, ambient, light 1, light 2";
 
 scripts! {
     the_list_is_filtered_while_typing: scene("a.ray", RAY)
-        .with("first", &format!("{REST}, >object 1 (sphere), object 2 (box), object 3 (sphere)"))
-        .with("second", &format!("{REST}, object 1 (sphere), >object 2 (box), object 3 (sphere)"))
-        .with("third", &format!("{REST}, object 1 (sphere), object 2 (box), >object 3 (sphere)"))
+        .with("first", format!("{REST}, >object 1 (sphere), object 2 (box), object 3 (sphere)"))
+        .with("second", format!("{REST}, object 1 (sphere), >object 2 (box), object 3 (sphere)"))
+        .with("third", format!("{REST}, object 1 (sphere), object 2 (box), >object 3 (sphere)"))
         .play(r"
         | list {first}
         /             | list {first}

@@ -99,7 +99,7 @@ scripts! {
             session.run("(");
             assert_eq!(session.app.pictures.aov, share);
         }
-        session.run(") | view-name only light 1")
+        session.run(") | view-name only light 1");
     };
 
     the_share_of_a_light_goes_with_it: ray()
@@ -129,7 +129,7 @@ scripts! {
             }
             session.run(&format!("| {name} | {legend}"));
         }
-        session.run("| exposure false colours")
+        session.run("| exposure false colours");
     };
 }
 

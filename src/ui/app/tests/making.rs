@@ -66,7 +66,7 @@ scripts! {
         stage.opened(|opening| opening.rendering.spp = None).play(r"
             <F5>PP | overridden
             b      | job integrator whitted depth 2 spp 8
-        ")
+        ");
     };
 
     a_setting_in_use_is_written_and_no_longer_lies_over_the_text: ray()

@@ -52,7 +52,7 @@ scripts! {
             @fails a: Permission denied (os error 13) | past a: Permission denied; …
             Mjj   | history 2
             <Esc> | not history
-        ")
+        ");
     };
 
     a_message_about_errors_goes_when_they_are_corrected: ray().table(r"

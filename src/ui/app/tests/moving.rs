@@ -31,7 +31,7 @@ scripts! {
         let top = session.app.camera().expect("a camera");
         let offset = top.eye - top.target;
         assert!(0.9 < offset.normalize().y && offset.y < offset.length());
-        session.run("0 | not moved")
+        session.run("0 | not moved");
     };
 
     missing_parts_of_the_view_are_written_when_they_are_set: ray().play(r"
@@ -58,13 +58,13 @@ scripts! {
             <Esc>i
             {corner}l
             <Esc>i | cross 1,0
-        "))
+        "));
     };
 
     the_first_object_is_selected_at_the_start: {
         scene("scene.ray", SCENE).play("| at object 1 | > el | lines 0.1 0 0");
         scene("scene.ray", "").play("| at view");
-        scene("scene.ray", "1 1 1").play("| at ambient")
+        scene("scene.ray", "1 1 1").play("| at ambient");
     };
 
     a_search_finds_names_and_comments_and_counts_them: ray().play(r"
@@ -113,7 +113,7 @@ scripts! {
             @note selected at
             @down picture 0,0 | at {selected} | says …does not show the changed scene yet…
             i<Enter>          | at {selected} | mode INSPECT
-        ")
+        ");
     };
 
     a_click_on_an_error_selects_it_and_nothing_below: {
@@ -125,7 +125,7 @@ scripts! {
             G
         ");
         let bottom = session.app.areas().errors.height - 1;
-        session.run(&format!("@down errors 0,{bottom} | at object 1 | field 1"))
+        session.run(&format!("@down errors 0,{bottom} | at object 1 | field 1"));
     };
 }
 

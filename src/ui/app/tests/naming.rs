@@ -57,7 +57,7 @@ scripts! {
             GkkRn<Enter>             | renamed m (blinn) to n
             jjejl                    | changed environment environment
             jjjejjl                  | changed lamp (point) intensity red
-        ")
+        ");
     };
 
     merges_are_named_after_what_they_changed: ray().play(r"

@@ -21,7 +21,7 @@ scripts! {
             @file "no scene" | fresh | text "no scene" | at view | not opening | not does trace | not dirty
 
             @file ""         | fresh | text "" | at view | not opening | not does trace | not dirty
-        "#)
+        "#);
     };
 
     actions_that_need_a_scene_are_refused_until_it_is_read: {
@@ -36,7 +36,7 @@ scripts! {
             :w<Enter>
             :export a.bmp<Enter>
         ");
-        unread().play("@paste 1 2 3 | shown | not dirty")
+        unread().play("@paste 1 2 3 | shown | not dirty");
     };
 
     help_and_quitting_need_no_scene: unread().each(r"

@@ -18,7 +18,7 @@ scripts! {
             @drag screen 50,3 | panel 60
             z{{               | says there are no panels to resize here
             z                 | panel 60
-        ", session.app.areas().border.x))
+        ", session.app.areas().border.x));
     };
 
     keys_and_mouse_divide_list_and_fields_and_the_sizes_are_kept: {
@@ -32,7 +32,7 @@ scripts! {
         let x = divider.x + 2;
         session.run(&format!("@down screen {x},{}\n@drag screen {x},15\n@up screen {x},15", divider.y));
         assert_eq!(session.app.areas().fields.y, 15);
-        session.run("j | not does keep panels")
+        session.run("j | not does keep panels");
     };
 
     /// Below the title: render, view, ambient, a heading, light 1, a heading, object 1.
@@ -59,6 +59,6 @@ scripts! {
         assert_eq!(panel.area, areas.errors);
         assert_eq!(app.pictures.preview.asked, Some((less, None)));
         session.run("@file opened");
-        assert_eq!(session.app.raster(), before)
+        assert_eq!(session.app.raster(), before);
     };
 }

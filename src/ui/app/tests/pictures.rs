@@ -90,7 +90,7 @@ scripts! {
             @shows 1         | corner 1
             @file 1.5 => 1.7 | corner 1
             @file more       | not errors | not corner
-        ")
+        ");
     };
 
     exports_of_a_text_with_errors_announce_the_last_valid_scene: ray().table(r#"
@@ -149,7 +149,7 @@ scripts! {
 
             bqw
             @unwritten full | not does quit | not leaving | says full
-        ")
+        ");
     };
 
     a_stopped_trace_continues_but_not_a_running_one: ray().play(r"

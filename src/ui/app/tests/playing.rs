@@ -63,7 +63,7 @@ scripts! {
         session.run(r"
             <Space>
             @elapsed frame | not does wait frame | frame 0
-        ")
+        ");
     };
 
     present_values_are_keyed_at_the_frame_looked_at_last: playing().play(r"
@@ -128,7 +128,7 @@ scripts! {
         playing().play(r"
             lll
             @hangup | does quit | text opened
-        ")
+        ");
     };
 
     the_mouse_goes_to_the_frame_under_the_pointer: {
@@ -138,7 +138,7 @@ scripts! {
             let (x, y) = (sheet.frames.x + sheet.column(frame), sheet.frames.y);
             session.run(&format!("@down screen {x},{y} | frame {frame} | mode SEQUENCE"));
         }
-        session.run("@down list 1,2 | mode SELECT | text opened")
+        session.run("@down list 1,2 | mode SELECT | text opened");
     };
 
     what_cannot_be_played_says_why: {
@@ -151,7 +151,7 @@ scripts! {
             T
             @track track & the light => the lihgt | mode SELECT | text opened
             | says scene.toml:5:9: nothing in the scene is called `the lihgt`: expected render, view, ambient, light 1, object 1 or object 2
-        ")
+        ");
     };
 
     what_was_said_of_a_track_goes_once_it_can_be_read: playing().table(r"

@@ -50,7 +50,7 @@ scripts! {
             // Neither is the end.
             @hangup             | does keep edits
             @kept               | not unkept
-        ")
+        ");
     };
 
     edits_are_kept_once_more_at_the_end: ray().table(r"

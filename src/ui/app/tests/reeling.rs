@@ -16,7 +16,7 @@ scripts! {
             G:export a b.y4m<Enter>                | a b.y4m    | as Y4m
             :export a.%03d.png 32x8 2<Enter>       | a.%03d.png | of 32x8 with 2 spp as Png pictures
         ");
-        playing().play("lll:export! a.gif<Enter> | frame 3 | not text opened")
+        playing().play("lll:export! a.gif<Enter> | frame 3 | not text opened");
     };
 
     what_no_sequence_can_be_written_to_is_refused_with_the_way_out: {
@@ -34,7 +34,7 @@ scripts! {
             a.%03d.png
             a%d.bmp
             a.y4m
-        ")
+        ");
     };
 
     progress_covers_all_frames_and_the_end_is_said: {
@@ -43,7 +43,7 @@ scripts! {
             @filmed 4                   | done 0.5
             @exported 1                 | says wrote a.gif: 9 frames, 32×8, 2 spp | not exporting
         ");
-        assert_eq!([0, 4, 8].map(|frame| half_way(frame).place()), ["1/9", "5/9", "9/9"])
+        assert_eq!([0, 4, 8].map(|frame| half_way(frame).place()), ["1/9", "5/9", "9/9"]);
     };
 
     a_sequence_is_cancelled_where_it_is_played: playing().table(r"
@@ -85,15 +85,15 @@ scripts! {
             e a.txt
         ");
         // Elsewhere too.
-        ray().play("e:mesh a.obj<Enter> | mode EDIT")
+        ray().play("e:mesh a.obj<Enter> | mode EDIT");
     };
 
     /// The open one says no more than that it cannot be read either.
-    a_track_that_cannot_be_played_leaves_the_open_one_watched: playing().table(r#"
+    a_track_that_cannot_be_played_leaves_the_open_one_watched: playing().table(r"
         ll:track other.toml<Enter>
         @track other.toml: {1} | does track scene.toml | mode SEQUENCE | frame 2
         @track missing         | not does track
-    "#, r#"
+    ", r#"
         "frames = = 2"
         "frames = 2\n[[track]]\nthing = 'x'\nfield = 'y'\nkeys = []\n"
         broken

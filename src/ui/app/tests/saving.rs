@@ -22,7 +22,7 @@ scripts! {
             // The late outcome no longer changes anything.
             @saved 1 opened    | says wrote stuck.ray | path free.ray | not dirty
             @elapsed writing   | not does wait writing | not writing
-        ")
+        ");
     };
 
     saves_of_one_file_wait_for_each_other: ray().play(r"
@@ -81,7 +81,7 @@ scripts! {
         ray().play(r"
             jjjel:wq<Enter>
             @saved        | does quit
-        ")
+        ");
     };
 
     /// The file was changed by others, so the first `:wq` saves nothing; a later `w` only saves.

@@ -46,7 +46,7 @@ scripts! {
         scene("a.xml", XML).table(script, r"
             object 2 | l | 1 2 | 2
             object 3 | l | 1 | 1
-        ")
+        ");
     };
 
     l_again_shows_everything: for (name, text, node) in [
@@ -74,7 +74,7 @@ scripts! {
         ");
         scene("a.dat", DAT).play(r"
             [object 1] l | says object 1 (sphere) is not drawn: h shows it | not solo
-        ")
+        ");
     };
 
     /// The renderer calls the only object by its number.

@@ -4,7 +4,7 @@ use super::rows::{Stage, ray, scene, scripts};
 use super::*;
 
 /// The stage of a file that does not exist yet.
-fn new<'s>(name: &'s str) -> Stage<'s> {
+fn new(name: &str) -> Stage<'_> {
     let language = Language::of_path(Path::new(name)).expect("a scene's name");
     let stage = scene(name, "")
         .with("name", name)
@@ -60,7 +60,7 @@ scripts! {
                 @saved 2 | does quit
             "));
         }
-        ray().play(":new obj<Enter> | says new takes .ray, .dat or .xml")
+        ray().play(":new obj<Enter> | says new takes .ray, .dat or .xml");
     };
 
     another_scene_replaces_everything_that_belongs_to_this_one: ray().with("dat", dat::SCENE).play(r"
@@ -116,7 +116,7 @@ scripts! {
 
             jjjel<Esc>:e b.ray<Enter>w | does save scene.ray | not does open
             @saved                     | does open b.ray
-        ")
+        ");
     };
 
     an_edit_made_while_another_scene_is_read_is_asked_about: ray().play(r#"
@@ -151,7 +151,7 @@ scripts! {
             w
             @saved      | does once note | does note new.ray
             :new<Enter> | not does note
-        ")
+        ");
     };
 
     recent_scenes_are_listed_filtered_and_opened: {
@@ -180,7 +180,7 @@ scripts! {
             <Enter>  | asks open /a/one.ray
             @recent
             | says no recently used scenes
-        ")
+        ");
     };
 
     recent_scenes_are_offered_over_the_embedded_one: scene("scene.ray", SCENE).opened(|opening| {

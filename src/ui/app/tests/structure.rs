@@ -118,7 +118,7 @@ scripts! {
             [object 3] d   | at object 2
             [light 1] D    | at light 2
             [object 1] yGp | at object 4
-        ")
+        ");
     };
 
     what_cannot_be_done_is_said_and_changes_nothing: {
@@ -139,7 +139,7 @@ scripts! {
         ");
         scene("a.xml", XML).each(r"
             [object 1] h | text opened | says an .xml scene draws all of its objects
-        ")
+        ");
     };
 
     deleting_what_others_use_is_asked: scene("scene.dat", DAT).play(r"
@@ -165,7 +165,7 @@ scripts! {
         ");
         scene("scene.xml", XML).each(r"
             [material 1] <Space>d      | asks delete: Delete 1 marked item: m…
-        ")
+        ");
     };
 
     marks_end_when_their_indices_belong_to_others: ray().with("other", SCENE).play(r"

@@ -68,7 +68,7 @@ scripts! {
             [light 1]       | symbols light 1
             [object 2] i    | symbols light 1, object 1
             [object 2] v-<Esc>O | symbols light 1, view, object 1
-        ")
+        ");
     };
 
     without_a_symbol_or_an_object_nothing_is_picked: scene("a.ray", RAY).play(r"
@@ -86,7 +86,7 @@ scripts! {
         let moved = session.app.symbols()[0].cell;
         assert!(before.0 < moved.0 && before.1 == moved.1, "{before:?} {moved:?}");
         session.run("<Esc>");
-        assert_eq!(session.app.symbols()[0].cell, before)
+        assert_eq!(session.app.symbols()[0].cell, before);
     };
 }
 

@@ -231,7 +231,7 @@ scripts! {
             | says redone: duplicated object 2 (sphere)
             Uuu        | step 0 | text 0 | not errors | objects 2
             | says undone: object 1 (sphere) centre x: 0 → 0.2, 2 nudges
-        ")
+        ");
     };
 
     there_is_no_history_before_the_first_change: ray().play(r"

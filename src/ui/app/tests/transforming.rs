@@ -75,7 +75,7 @@ scripts! {
             [light 1] my-1<Enter>  | becomes <position y="5"/> => <position y="4"/>
             [object 1] tz90<Enter> | becomes <translate => <rotate z="1" angle="90"/>\n      <translate
             [object 1] s2<Enter>   | becomes <translate => <scale value="2"/>\n      <translate
-        "#)
+        "#);
     };
 
     // The picture is about 20 units wide at the box, in some eighty cells.
@@ -144,7 +144,7 @@ scripts! {
         scene("a.dat", LIGHTS).each(r"
             [light 2] tz90<Enter> | becomes 0 0 0  1 0 0  1 1 1 => 0 0 0  0 1 0  1 1 1
             [light 3] tz90<Enter> | becomes 1 0 0  0 0 0  1 1 1 => 0 1 0  0 0 0  1 1 1
-        ")
+        ");
     };
 
     what_cannot_be_moved_is_said: {
@@ -170,7 +170,7 @@ scripts! {
             [light 2] s  | says light 2 cannot be scaled | text opened
             [light 2] m  | says light 2 has no position | text opened
             [light 4] t  | says light 4 has no direction | text opened
-        ")
+        ");
     };
 
     all_marked_things_move_together: two().play(r"
@@ -201,7 +201,7 @@ scripts! {
             [object 1] ccyl<Enter> | named object 1 (cylinder)
             u                      | text opened
             [light 1] c            | says light 1 has only one type
-        ")
+        ");
     };
 
     nothing_is_outlined_until_something_is_selected: {
@@ -213,7 +213,7 @@ scripts! {
         two().play(r"
             [material 1] | outlined 0 1
             o            | not outlined
-        ")
+        ");
     };
 
     a_click_beside_the_picture_confirms_a_motion: scene("a.ray", RAY).play(r"
@@ -240,7 +240,7 @@ scripts! {
         session.run("[view] mll");
         let moved = session.app.camera().expect("there is a camera").eye.x;
         assert!(0.01 < moved && moved < 1.0, "{moved}");
-        session.run("hh | text opened")
+        session.run("hh | text opened");
     };
 
     only_the_mark_moves_where_the_picture_is_seen_from_elsewhere: {
@@ -249,7 +249,7 @@ scripts! {
         let (seen, mark) = (session.app.camera(), session.app.symbols()[0]);
         session.run("mx0.1<Enter> | text 0 0 10  0 0 0 => 0.1 0 10  0.1 0 0");
         assert_eq!(session.app.camera(), seen);
-        assert!(mark.cell.0 < session.app.symbols()[0].cell.0, "{mark:?}")
+        assert!(mark.cell.0 < session.app.symbols()[0].cell.0, "{mark:?}");
     };
 
     a_rotated_ellipsoid_becomes_a_quadric_in_the_same_step: scene("a.dat", DAT)
@@ -278,7 +278,7 @@ scripts! {
             M            | history | > <Esc><Enter> | text box 0 0 0 => box 2 0 0
             :help<Enter> | help | > <Esc><Enter> | text box 0 0 0 => box 2 0 0
             :q!<Enter>   | does quit
-        ")
+        ");
     };
 }
 

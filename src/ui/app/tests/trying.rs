@@ -16,7 +16,7 @@ scripts! {
             mx3           | 4 0 0 => 5 0 0
             ejjjcjL       | 4 0 0 => 5 0 0
         ");
-        scene("a.dat", dat::SCENE).table(script, "e<Enter><Down> | 3 0 0 => 5 0 0")
+        scene("a.dat", dat::SCENE).table(script, "e<Enter><Down> | 3 0 0 => 5 0 0");
     };
 
     what_cannot_be_cancelled_after_a_merge_says_so: ray().play(r"

@@ -27,7 +27,7 @@ scripts! {
             vh0q        | does quit
             vhSuq       | does quit
             vhqn0q      | does quit
-        ")
+        ");
     };
 
     a_view_saved_under_a_name_is_not_lost: {
@@ -42,7 +42,7 @@ scripts! {
             q         | does quit
 
             vV<Enter>lq | not does quit
-        ")
+        ");
     };
 
     the_view_is_written_and_saved_before_leaving_if_asked: ray().table(r"
@@ -97,7 +97,7 @@ scripts! {
         // Never over the pole.
         session.run(&format!("F{}", "k".repeat(60)));
         let top = session.app.camera().expect("a camera");
-        assert!(0.99 < (top.target - top.eye).normalize().y && top.target.z < 4.0)
+        assert!(0.99 < (top.target - top.eye).normalize().y && top.target.z < 4.0);
     };
 
     the_mouse_turns_and_advances_in_flight: {
@@ -108,7 +108,7 @@ scripts! {
         assert_eq!(camera.eye, DVec3::new(0.0, 0.0, 4.0));
         assert!(camera.target.x < -0.1 && camera.target.y.abs() < 1e-9);
         session.run("@up screen 24,10\n@wheel screen 20,10");
-        assert!(session.app.camera().expect("a camera").eye.z < 3.7)
+        assert!(session.app.camera().expect("a camera").eye.z < 3.7);
     };
 
     a_rolled_view_is_written_as_it_is_on_screen: for (name, text) in making::SCENES {
@@ -172,7 +172,7 @@ scripts! {
         assert!((camera.target - bounds.centre()).length() < 1e-3);
         let offset = camera.eye - camera.target;
         assert!(bounds.half_diagonal() < offset.z && offset.x.abs() < 1e-3, "{offset}");
-        session.run("[light 3] o | says ambient light…")
+        session.run("[light 3] o | says ambient light…");
     };
 
     a_list_sets_several_fields_of_the_view_in_one_step: {
@@ -187,7 +187,7 @@ scripts! {
             e1 2 9 0 0 1 0 1 0.5<Enter>
             | text eye 0 0 4.0 target 0 0 0 => eye 1 2 9.0 target 0 0 1 up 0 1 0.5
             <Esc>u                        | text opened
-        ")
+        ");
     };
 
     a_list_sets_several_fields_of_the_moved_view: ahead().play(r"

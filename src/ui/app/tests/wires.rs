@@ -1,9 +1,8 @@
 //! The wireframe: when it is shown, what is traced meanwhile, and that it follows.
 
+use super::rows::scene;
 use super::*;
-use crate::language::Node;
-use crate::render::{Aov, Settings, WireLine};
-use crate::ui::msg::Target;
+use crate::render::WireLine;
 
 const SCENES: [(&str, &str); 3] = [
     (
@@ -22,11 +21,6 @@ const SCENES: [(&str, &str); 3] = [
     ),
 ];
 
-fn traced(effects: &[Effect], target: Target) -> Option<Settings> {
-    let mut traced = effects.iter().filter_map(traced_by);
-    traced.find_map(|(of, job)| (of == target).then_some(job.settings))
-}
-
 /// The lines on screen.
 fn lines(app: &mut App) -> Vec<WireLine> {
     app.follow_wires();
@@ -38,22 +32,25 @@ fn lines(app: &mut App) -> Vec<WireLine> {
 #[test]
 fn the_wireframe_replaces_the_preview_until_another_view_is_chosen() {
     for (name, text) in SCENES {
-        let (mut app, _) = opened_as(name, text);
-        assert!(lines(&mut app).is_empty(), "{name}");
-        let preview = traced(&press(&mut app, "6"), Target::Preview).expect("objects are traced");
-        assert_eq!((preview.aov, preview.spp), (Some(Aov::Object), 1), "{name}");
-        assert!(!lines(&mut app).is_empty(), "{name}");
-        assert!(press(&mut app, "6").is_empty(), "it is shown already");
-        // What is traced at full size, or exported, is light.
-        let full = traced(&press(&mut app, "<F5>"), Target::Trace).expect("it is traced");
-        assert_eq!(full.aov, None);
-        assert!(lines(&mut app).is_empty(), "{name}");
-        press(&mut app, "<Esc>");
-        assert!(!lines(&mut app).is_empty(), "{name}");
-        let preview = traced(&press(&mut app, "2"), Target::Preview).expect("depth is traced");
-        assert_eq!(preview.aov, Some(Aov::Depth), "{name}");
-        assert!(lines(&mut app).is_empty(), "{name}");
-        assert_eq!(app.document.text(), text);
+        let mut session = scene(name, text).session();
+        for (said, has_lines) in [
+            ("| not errors", false),
+            ("6 | does trace preview | job aov object spp 1", true),
+            // It is shown already.
+            ("6 | not does", true),
+            // What is traced at full size, or exported, is light.
+            ("<F5> | does recall | job aov none", false),
+            ("<Esc>", true),
+            ("2 | does trace preview | job aov depth", false),
+        ] {
+            session.run(said);
+            assert_eq!(
+                !lines(&mut session.app).is_empty(),
+                has_lines,
+                "{name} {said}"
+            );
+        }
+        session.run("| text opened");
     }
 }
 
@@ -61,7 +58,7 @@ fn the_wireframe_replaces_the_preview_until_another_view_is_chosen() {
 fn the_wireframe_follows_the_camera_and_the_text_at_once() {
     for (name, text) in SCENES {
         let (mut app, _) = opened_as(name, text);
-        app.select(Node::Object(0));
+        app.select(crate::language::Node::Object(0));
         press(&mut app, "6");
         let mut before = lines(&mut app);
         for said in ["v", "l", "<Esc>mx1", "<Esc>", "v0"] {

@@ -46,7 +46,7 @@ scripts! {
             material 1 | ejji<Back><Back><Back>1<Enter> | <material name="m"/> => <material name="m">\n      <diffuse r="1" g="0.5" b="0.5"/>\n    </material>
             view     | ejjjl   | <target/> => <target/>\n    <fov value="41"/>
             view     | :size 320x210<Enter> | <target/> => <target/>\n    <width value="320"/>\n    <height value="210"/>
-        "#)
+        "#);
     };
 
     nudging_a_material_cycles_through_existing_names: xml()
@@ -61,11 +61,11 @@ scripts! {
 
     a_moved_view_is_saved: xml().play("[view] vllS | not moved | lines …<position z=… x=…");
 
-    a_colour_pasted_onto_a_missing_one_is_written_at_once: xml().play(r##"
+    a_colour_pasted_onto_a_missing_one_is_written_at_once: xml().play(r#"
         [material 1] ejj
         @paste #ff8000 | text …<diffuse r="1" g="0.502" b="0"/>…
         <Esc>u         | text opened
-    "##);
+    "#);
 }
 
 /// A text that is not XML has no nodes, and no key has any effect on it.

@@ -16,7 +16,7 @@ impl Session {
         let files: Vec<_> = files.collect::<Option<_>>().ok_or("no file")?;
         let named = |is_mesh: bool| {
             let names = files.iter().map(|(name, _)| *name);
-            let names = names.filter(move |name| name.ends_with(".obj") == is_mesh);
+            let names = names.filter(move |name| is_of_mesh(name) == is_mesh);
             names.map(str::to_owned).collect()
         };
         let wanted = Wanted {
@@ -30,9 +30,10 @@ impl Session {
             meshes: BTreeSet::new(),
             ..wanted.clone()
         };
-        let mut loaded = match missing.pictures.is_empty() {
-            true => Loaded::default(),
-            false => Assets::new(&[]).read(&missing),
+        let mut loaded = if missing.pictures.is_empty() {
+            Loaded::default()
+        } else {
+            Assets::new(&[]).read(&missing)
         };
         let (mut images, mut meshes) = (Vec::new(), Vec::new());
         for (name, file) in files {
@@ -40,7 +41,7 @@ impl Session {
             if !place.is_empty() {
                 loaded.elsewhere.insert(name.to_owned(), place.into());
             }
-            if name.ends_with(".obj") {
+            if is_of_mesh(name) {
                 meshes.push((name.to_owned(), mesh(file)?));
             } else if let Ok(grey) = file.parse() {
                 images.push((name.to_owned(), image(grey)));
@@ -52,6 +53,12 @@ impl Session {
         loaded.meshes = meshes.into_iter().collect();
         Ok(Msg::AssetsRead(wanted, loaded))
     }
+}
+
+fn is_of_mesh(name: &str) -> bool {
+    Path::new(name)
+        .extension()
+        .is_some_and(|extension| extension == "obj")
 }
 
 /// A picture of one pixel.

@@ -53,7 +53,7 @@ pub(super) fn called(effect: &Effect) -> String {
         Effect::Later(time, timer) => format!("wait {} {}", timed(*timer), time.as_millis()),
         Effect::WriteRecovery { scene, .. } => of(
             "keep edits of",
-            scene.as_deref().unwrap_or(Path::new("no file")),
+            scene.as_deref().unwrap_or_else(|| Path::new("no file")),
         ),
         Effect::DropRecovery => "forget edits".to_owned(),
         Effect::LookForKept(sought) if sought.put_off.is_empty() => "look for kept".to_owned(),

@@ -18,6 +18,7 @@
 
 mod assets;
 mod effects;
+mod screen;
 mod seen;
 mod steps;
 mod values;
@@ -279,15 +280,14 @@ impl Session {
 /// A text after changes such as `old => new & before +> added`.
 fn replaced(text: String, words: &str) -> Result<String, String> {
     words.split(" & ").try_fold(text, |text, words| {
-        let (old, new) = match words.split_once(" +> ") {
-            Some((before, added)) => (unescaped(before), unescaped(&format!("{before}{added}"))),
-            None => {
-                let (old, new) = words.split_once(" =>").ok_or("no replacement")?;
-                (
-                    unescaped(old),
-                    unescaped(new.strip_prefix(' ').unwrap_or(new)),
-                )
-            }
+        let (old, new) = if let Some((before, added)) = words.split_once(" +> ") {
+            (unescaped(before), unescaped(&format!("{before}{added}")))
+        } else {
+            let (old, new) = words.split_once(" =>").ok_or("no replacement")?;
+            (
+                unescaped(old),
+                unescaped(new.strip_prefix(' ').unwrap_or(new)),
+            )
         };
         if !text.contains(&old) {
             return Err(format!("{old:?} is not in\n{text}"));

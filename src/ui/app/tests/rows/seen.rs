@@ -37,9 +37,10 @@ impl Session {
     }
 
     fn is_text(&self, found: &str, words: &str) -> Result<(bool, String), String> {
-        let is_it = match words.contains('…') {
-            true => is_like(found, &unescaped(words)),
-            false => self.text_of(words)? == found,
+        let is_it = if words.contains('…') {
+            is_like(found, &unescaped(words))
+        } else {
+            self.text_of(words)? == found
         };
         Ok((
             is_it,
@@ -111,6 +112,11 @@ impl Session {
         };
         let Size { width, height } = job.camera.size;
         let settings = job.settings.written().into_iter().chain([
+            (
+                "limit",
+                job.limit
+                    .map_or_else(|| "none".to_owned(), |limit| format!("{limit:?}")),
+            ),
             ("spp", job.settings.spp.to_string()),
             ("denoise", job.denoise.to_string()),
             ("camera", format!("{width}x{height}")),

@@ -6,26 +6,22 @@
 //! its number, unless it is the newest: `@saved`, `@refused`, `@exported`, `@taken`, `@kept`.
 //! `@field` goes to a field by its name, and `@note a name` remembers what is seen as a text. `@frame` delivers a complete picture, and `@shows` a preview of one object, which is on screen.
 
-use crossterm::event::{MouseButton, MouseEvent, MouseEventKind};
-
 use super::*;
 use crate::document::Document;
 use crate::file::ReadError;
-use crate::render::{Frame, Job, NO_OBJECT, Progress, Record};
-use crate::scene::{Images, Meshes, Size};
+use crate::render::{Job, Progress};
+use crate::scene::{Meshes, Size};
 use crate::ui::msg::{Recalled, SaveId, SaveOutcome, Timer};
 use crate::ui::recovery::tests::offer;
 use crate::ui::recovery::{Found, Offer};
 use crate::ui::reel::ReelProgress;
-use crate::ui::reference::{Made, ReferenceRead};
-use crate::ui::scene_reading::{Baseline, Opened};
 
 /// What was begun and not answered yet.
 #[derive(Default)]
 pub(super) struct UnderWay {
     saves: BTreeMap<u32, (PathBuf, Arc<String>)>,
     exports: BTreeMap<u32, PathBuf>,
-    jobs: Vec<(Target, Job)>,
+    pub(super) jobs: Vec<(Target, Job)>,
     kept: Vec<u64>,
     offer: Option<Offer>,
     track: Option<(PathBuf, Arc<String>)>,
@@ -57,7 +53,8 @@ impl Session {
         Ok(())
     }
 
-    fn update(&mut self, msg: Msg) {
+    /// Takes a step by a message.
+    pub(super) fn update(&mut self, msg: Msg) {
         self.effects = self.app.update(msg);
         self.note();
     }
@@ -223,7 +220,10 @@ impl Session {
     /// same offer `again`.
     fn offer(&mut self, rest: &str) -> Result<Msg, String> {
         if rest != "again" {
-            let base = self.texts.get("base").unwrap_or(&self.texts["opened"]);
+            let base = self
+                .texts
+                .get("base")
+                .unwrap_or_else(|| &self.texts["opened"]);
             let kept = self.text_of(rest)?;
             let document = &self.app.document;
             let offer = offer(document.language(), &document.shared_text(), base, &kept);
@@ -307,119 +307,6 @@ impl Session {
         Ok(Msg::TrackWritten(SaveOutcome::Saved { path, text }))
     }
 
-    /// A complete frame of what is traced, of this generation or the first; and one of 16 samples
-    /// with another grey in its first pixel.
-    fn frame(&self, target: Target, rest: &str) -> Result<Msg, String> {
-        let mut jobs = self.under_way.jobs.iter().rev();
-        let (_, job) = jobs.find(|(of, _)| *of == target).ok_or("not traced")?;
-        let size = job.settings.size;
-        let mut frame = pictures::frame(size, vec![0; size.pixels()]);
-        let (generation, grey) = rest.split_once(" first ").unwrap_or((rest, ""));
-        if !generation.is_empty() {
-            frame.generation = number(generation)?;
-        }
-        if !grey.is_empty() {
-            frame.progress.spp = 16;
-            frame.pixels[0] = [number(grey)?; 3];
-        }
-        Ok(Msg::Frame(target, Arc::new(frame)))
-    }
-
-    /// The figures of the pictures that are compared.
-    fn measured(&self) -> Result<Msg, String> {
-        let pairs = self.effects.iter().find_map(|effect| match effect {
-            Effect::Compare(pair) => Some(pair.clone()),
-            _ => None,
-        });
-        let pair = pairs.ok_or("nothing is compared")?;
-        let found = pair.compare().ok().map(Arc::new);
-        Ok(Msg::Compared(pair, found))
-    }
-
-    /// What is compared with: `picture WxH`, after which its file says how it was made, a `scene`,
-    /// or why there is none.
-    fn reference(&self, rest: &str) -> Result<Msg, String> {
-        let id = self.app.compared.requested();
-        let (kind, rest) = rest.split_once(' ').unwrap_or((rest, ""));
-        let read = match kind {
-            "picture" => {
-                let (size, record) = rest.split_once(' ').unwrap_or((rest, ""));
-                let (width, height) = size.split_once('x').ok_or("no size")?;
-                let size = Size {
-                    width: number(width)?,
-                    height: number(height)?,
-                };
-                let frame = Frame::drawn(size, vec![[0; 3]; size.pixels()]);
-                let record = (!record.is_empty()).then(|| unescaped(&self.named(record)));
-                let made = Made {
-                    record: record.map(|text| Box::new(Record::read(&text))),
-                    holds_light: false,
-                };
-                Ok(ReferenceRead::Picture(Arc::new(frame), made))
-            }
-            "scene" => {
-                let scene = opened_as("scene.ray", &self.text_of(rest)?).0.scene;
-                let scene = scene.ok_or("it has errors")?;
-                Ok(ReferenceRead::Scene(scene, Images::default()))
-            }
-            _ => Err(rest.to_owned()),
-        };
-        Ok(Msg::ReferenceRead(id, read))
-    }
-
-    /// Shows a complete preview of an object everywhere, of `none`, or of object 1 in its left
-    /// `half`.
-    fn shows(&mut self, what: &str) -> Result<(), String> {
-        let (_, size) = self.app.raster().ok_or("there is no room")?;
-        let object = |at: u32| match what {
-            "half" if at % size.width < size.width / 2 => Ok(1),
-            "half" | "none" => Ok(NO_OBJECT),
-            number_of => number(number_of),
-        };
-        let objects = (0..size.pixels() as u32).map(object);
-        let frame = pictures::frame(size, objects.collect::<Result<_, _>>()?);
-        self.update(Msg::Frame(Target::Preview, Arc::new(frame)));
-        let picture = self.app.picture_mut();
-        picture.advance(&FrameWindow::whole(size), &[], usize::MAX);
-        Ok(())
-    }
-
-    /// A mouse event over a cell of an area, by button or key.
-    fn mouse(&self, name: &str, area: &str, rest: &str) -> Result<Msg, String> {
-        let areas = self.app.areas();
-        let area = match area {
-            "errors" => areas.errors,
-            "list" => areas.list,
-            "fields" => areas.fields,
-            "picture" => self.app.raster().ok_or("there is no room")?.0,
-            "screen" => ratatui::layout::Rect::default(),
-            _ => return Err(format!("no area is called {area}")),
-        };
-        let (cell, held) = rest.split_once(' ').unwrap_or((rest, ""));
-        let (column, row) = cell.split_once(',').ok_or("no cell")?;
-        let button = match held {
-            "right" => MouseButton::Right,
-            "middle" => MouseButton::Middle,
-            _ => MouseButton::Left,
-        };
-        let kind = match name {
-            "down" => MouseEventKind::Down(button),
-            "drag" => MouseEventKind::Drag(button),
-            "up" => MouseEventKind::Up(button),
-            _ => MouseEventKind::ScrollUp,
-        };
-        let modifiers = match held {
-            "ctrl" => KeyModifiers::CONTROL,
-            _ => KeyModifiers::NONE,
-        };
-        Ok(Msg::Mouse(MouseEvent {
-            kind,
-            column: area.x + number::<u16>(column)?,
-            row: area.y + number::<u16>(row)?,
-            modifiers,
-        }))
-    }
-
     /// Remembers what the effects of the last step begin.
     pub(super) fn note(&mut self) {
         let under_way = &mut self.under_way;
@@ -473,7 +360,8 @@ fn recovered(offer: Option<Offer>, complaints: Vec<String>) -> Msg {
     Msg::Recovered(Found { offer, complaints })
 }
 
-fn number<N: std::str::FromStr>(said: &str) -> Result<N, String> {
+/// The number that is said.
+pub(super) fn number<N: std::str::FromStr>(said: &str) -> Result<N, String> {
     let number = said.parse().ok();
     number.ok_or_else(|| format!("not a number: {said:?}"))
 }

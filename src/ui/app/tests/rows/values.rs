@@ -3,6 +3,7 @@
 use super::*;
 use crate::document::StepName;
 use crate::language::Node;
+use crate::render::Aov;
 use crate::scene::Camera;
 use crate::ui::listing::ListLine;
 
@@ -78,7 +79,7 @@ fn settings(app: &App, name: &str) -> Option<String> {
         "integrator" => app.rendering().integrator().name().to_owned(),
         "overridden" => app.is_integrator_changed().words(),
         "rendering" => format!("{:?}", app.rendering()),
-        "aov" => app.pictures.aov.map(|aov| aov.name()).words(),
+        "aov" => app.pictures.aov.map(Aov::name).words(),
         "region" => app.pictures.region.is_some().words(),
         "exposure" => app.display_name().words(),
         "exposed" => app.pictures.display.half_stops.to_string(),
@@ -86,11 +87,10 @@ fn settings(app: &App, name: &str) -> Option<String> {
         "legend" => app.legend().words(),
         "theme" => format!("{:?}", app.theme),
         "panel" => app.areas().border.x.to_string(),
-        "hints" => app
-            .hints()
-            .into_iter()
-            .map(|(key, words)| format!("{key} {words}, "))
-            .collect(),
+        "hints" => {
+            let hints = app.hints().into_iter();
+            ended(hints.map(|(key, words)| format!("{key} {words}")), ", ")
+        }
         "answers" => app.hints().into_iter().map(|(key, _)| key).collect(),
         _ => return None,
     })
@@ -116,9 +116,10 @@ fn overlays(app: &App, name: &str) -> Option<String> {
             .words(),
         "completed" => {
             let found = app.completions().into_iter();
-            found
-                .map(|found| format!("{} [{}]; ", found.shown, found.keys))
-                .collect()
+            ended(
+                found.map(|found| format!("{} [{}]", found.shown, found.keys)),
+                "; ",
+            )
         }
         "menu" => menu.is_some().words(),
         "offers" => joined(entries.iter().map(|entry| &entry.name), ", "),
@@ -154,6 +155,7 @@ fn pictures(app: &App, name: &str) -> Option<String> {
         "picture" => latest.is_some().words(),
         "first" => latest.map(|frame| frame.pixels[0][0]).words(),
         "awaited" => app.picture().wanted.is_some().words(),
+        "paused" => app.picture().paused.words(),
         "traced" => app.pictures.trace.is_some().words(),
         "corner" => app.pictures.preview.shown.object_at(0, 0).words(),
         "under" => match app.node_at([0, 0]) {
@@ -255,6 +257,10 @@ fn count(count: usize) -> String {
         0 => String::new(),
         count => count.to_string(),
     }
+}
+
+fn ended(items: impl Iterator<Item = String>, end: &str) -> String {
+    items.fold(String::new(), |all, item| all + &item + end)
 }
 
 pub(super) fn joined<T: ToString>(items: impl IntoIterator<Item = T>, between: &str) -> String {
