@@ -13,8 +13,7 @@ use std::time::{Duration, Instant};
 use halflight::explain::{Subject, words};
 use halflight::language::{Language, Source};
 use halflight::render::{Frames, Job, PreparedScene, Settings};
-use halflight::scene::{FalloffRule, Filter, GlossRule};
-use halflight::scene::{Images, Integrator, Meshes, Scene};
+use halflight::scene::{Images, Integrator, Meshes, Rendering, Scene};
 
 /// Pixels explained of each scene, on a grid.
 const PIXELS: u32 = 20 * 15;
@@ -69,20 +68,11 @@ fn times(
         images: Images::default(),
         camera: scene.camera,
         settings: Settings {
-            size,
-            region: None,
             spp: 1,
             depth: integrator.default_depth(),
-            seed: 0,
-            aov: None,
             integrator,
-            filter: Filter::Box,
-            transfer: scene.setting.rendering.transfer.unwrap_or_default(),
-            exposure: 0.0,
-            falloff: FalloffRule::None,
-            gloss: GlossRule::None,
-            noise: None,
-            clamp: None,
+            transfer: scene.setting.rendering.transfer(),
+            ..Settings::new(size, &Rendering::default())
         },
         limit: None,
         frames: Frames::Last,

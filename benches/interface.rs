@@ -26,8 +26,7 @@ use std::time::{Duration, Instant};
 
 use halflight::language::{Language, Source};
 use halflight::render::{Frames, Job, Renderer, Settings, Threads};
-use halflight::scene::{DEFAULT_DEPTH, FalloffRule, Filter, GlossRule};
-use halflight::scene::{Images, Integrator, Meshes, Scene, Transfer};
+use halflight::scene::{Images, Meshes, Rendering, Scene};
 use halflight::ui::arrange::Zoom;
 
 use desk::{Desk, Drawn, TERMINAL, difference, picture_cells};
@@ -427,20 +426,8 @@ fn tracing(scene: &Arc<Scene>) -> (Renderer, Receiver<()>) {
         let _ = wake.send(());
     });
     let settings = Settings {
-        size: scene.camera.size,
-        region: None,
         spp: 4096,
-        depth: DEFAULT_DEPTH,
-        seed: 0,
-        aov: None,
-        integrator: Integrator::Whitted,
-        filter: Filter::Box,
-        transfer: Transfer::default(),
-        exposure: 0.0,
-        falloff: FalloffRule::None,
-        gloss: GlossRule::None,
-        noise: None,
-        clamp: None,
+        ..Settings::new(scene.camera.size, &Rendering::default())
     };
     let job = Job {
         scene: Arc::clone(scene),

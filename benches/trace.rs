@@ -19,11 +19,11 @@ use halflight::geometry::{Aabb, Affine, Instance, Mesh, Shape, TriangleRuns};
 use halflight::language::{self, FileKind, Language};
 use halflight::obj;
 use halflight::render::{Frame, Frames, Job, Renderer, Settings, Threads};
+use halflight::scene::DEFAULT_DEPTH;
 use halflight::scene::{
-    Camera, Emitter, FalloffRule, Focus, GlossRule, Images, Integrator, Lens, Light, Material,
-    Meshes, Object, Rgb, Scene, Setting, Size, Transfer,
+    Camera, Emitter, Focus, Images, Lens, Light, Material, Meshes, Object, Rendering, Rgb, Scene,
+    Setting, Size,
 };
-use halflight::scene::{DEFAULT_DEPTH, Filter};
 
 /// The number of timed runs; the median is printed.
 const RUNS: usize = 5;
@@ -256,20 +256,8 @@ fn traced(scene: &Arc<Scene>, threads: usize) -> (Duration, Arc<Frame>) {
     });
     let mut trace = || {
         let settings = Settings {
-            size: SIZE,
-            region: None,
             spp: 1,
-            depth: DEFAULT_DEPTH,
-            seed: 0,
-            aov: None,
-            integrator: Integrator::Whitted,
-            filter: Filter::Box,
-            transfer: Transfer::default(),
-            exposure: 0.0,
-            falloff: FalloffRule::None,
-            gloss: GlossRule::None,
-            noise: None,
-            clamp: None,
+            ..Settings::new(SIZE, &Rendering::default())
         };
         let job = Job {
             scene: Arc::clone(scene),

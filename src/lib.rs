@@ -28,7 +28,7 @@
 //! | [`text`] | spans, edits, numbers and diagnostics | any language |
 //! | [`geometry`] | ray–shape intersection in `f64`, one module per shape | lights, materials, text |
 //! | [`obj`] | parses `.obj` and `.mtl` into meshes | files, scenes |
-//! | [`scene`] | the scene as plain, comparable data | languages, threads, pixels |
+//! | [`scene`] | the scene as plain, comparable data; render settings are rows of `rendering/rows.rs` | languages, threads, pixels |
 //! | [`language`] | one folder per scene language: tree, table of fields, lowering, origins, edits | files, undo |
 //! | [`document`] | sole owner of a source, its undo history and its saved text | individual languages, files |
 //! | [`accel`] | bounding volume hierarchies | what the boxes contain |

@@ -8,8 +8,7 @@ use std::sync::{Arc, mpsc};
 use halflight::assets::Assets;
 use halflight::language::{self, Converted, Language, Source};
 use halflight::render::{Frame, Frames, Job, Renderer, Settings, Threads};
-use halflight::scene::{FalloffRule, Filter, GlossRule};
-use halflight::scene::{Images, Scene, Size};
+use halflight::scene::{Images, Rendering, Scene, Size};
 use halflight::text::Findings;
 
 /// The largest side of a picture.
@@ -137,23 +136,17 @@ fn trace(scene: &Arc<Scene>, images: Images) -> Arc<Frame> {
     let Size { width, height } = scene.camera.size;
     let step = width.max(height).div_ceil(MOST);
     let settings = Settings {
-        size: Size {
-            width: width.div_ceil(step),
-            height: height.div_ceil(step),
-        },
-        region: None,
         spp: 1,
         depth: scene.setting.rendering.integrator().default_depth(),
-        seed: 0,
-        aov: None,
         integrator: scene.setting.rendering.integrator(),
-        filter: Filter::Box,
-        transfer: scene.setting.rendering.transfer.unwrap_or_default(),
-        exposure: 0.0,
-        noise: None,
-        clamp: None,
-        falloff: FalloffRule::None,
-        gloss: GlossRule::None,
+        transfer: scene.setting.rendering.transfer(),
+        ..Settings::new(
+            Size {
+                width: width.div_ceil(step),
+                height: height.div_ceil(step),
+            },
+            &Rendering::default(),
+        )
     };
     let job = Job {
         scene: Arc::clone(scene),

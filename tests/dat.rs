@@ -6,8 +6,7 @@ use std::sync::{Arc, mpsc};
 
 use halflight::language::{Language, Source};
 use halflight::render::{Frame, Frames, Job, Renderer, Settings, Threads};
-use halflight::scene::{DEFAULT_DEPTH, FalloffRule, Filter, GlossRule};
-use halflight::scene::{Image, Images, Integrator, Meshes, Scene, Size, Transfer};
+use halflight::scene::{Image, Images, Meshes, Rendering, Scene, Size};
 
 /// A scene with all lengths multiplied by `s`; squares of lengths and values in reciprocal units
 /// are scaled accordingly.
@@ -121,20 +120,8 @@ fn trace(scene: &Arc<Scene>, threads: usize) -> Arc<Frame> {
             images,
             camera: scene.camera,
             settings: Settings {
-                size: scene.camera.size,
-                region: None,
                 spp: 2,
-                depth: DEFAULT_DEPTH,
-                seed: 0,
-                aov: None,
-                integrator: Integrator::Whitted,
-                filter: Filter::Box,
-                transfer: Transfer::default(),
-                exposure: 0.0,
-                falloff: FalloffRule::None,
-                gloss: GlossRule::None,
-                noise: None,
-                clamp: None,
+                ..Settings::new(scene.camera.size, &Rendering::default())
             },
             limit: None,
             frames: Frames::Last,

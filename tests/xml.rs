@@ -9,8 +9,7 @@ use halflight::assets::{Assets, Wanted};
 use halflight::language::table::Kind;
 use halflight::language::{Language, Lowered, Node, Placed, Source};
 use halflight::render::{Frames, Job, Renderer, Settings, Threads};
-use halflight::scene::{DEFAULT_DEPTH, FalloffRule, Filter, GlossRule};
-use halflight::scene::{Images, Integrator, Meshes, Scene, Transfer};
+use halflight::scene::{Images, Meshes, Rendering, Scene};
 use halflight::text::apply;
 use tempfile::TempDir;
 
@@ -58,20 +57,8 @@ fn the_example_is_white_on_black() {
         images: Images::default(),
         camera: scene.camera,
         settings: Settings {
-            size: scene.camera.size,
-            region: None,
             spp: 1,
-            depth: DEFAULT_DEPTH,
-            seed: 0,
-            aov: None,
-            integrator: Integrator::Whitted,
-            filter: Filter::Box,
-            transfer: Transfer::default(),
-            exposure: 0.0,
-            noise: None,
-            clamp: None,
-            falloff: FalloffRule::None,
-            gloss: GlossRule::None,
+            ..Settings::new(scene.camera.size, &Rendering::default())
         },
         scene,
         limit: None,

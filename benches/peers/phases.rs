@@ -11,8 +11,7 @@ use halflight::assets::{Assets, Wanted};
 use halflight::geometry::Shape;
 use halflight::language::{FileKind, Language, Source};
 use halflight::render::{Frame, Frames, Job, Renderer, Settings, Threads};
-use halflight::scene::{Camera, Images, Meshes, Object, Scene, Size};
-use halflight::scene::{FalloffRule, Filter, GlossRule};
+use halflight::scene::{Camera, Images, Meshes, Object, Rendering, Scene, Size};
 
 use crate::cases::Case;
 use crate::programs::{kilobytes, median};
@@ -262,20 +261,11 @@ impl Stage {
                 ..scene.camera
             },
             settings: Settings {
-                size,
-                region: None,
                 spp,
                 depth: self.depth.unwrap_or_else(|| integrator.default_depth()),
-                seed: 0,
-                aov: None,
                 integrator,
-                filter: Filter::Box,
-                transfer: scene.setting.rendering.transfer.unwrap_or_default(),
-                exposure: 0.0,
-                falloff: FalloffRule::None,
-                gloss: GlossRule::None,
-                noise: None,
-                clamp: None,
+                transfer: scene.setting.rendering.transfer(),
+                ..Settings::new(size, &Rendering::default())
             },
             limit: None,
             frames: Frames::Last,

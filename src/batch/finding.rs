@@ -5,9 +5,9 @@ use std::path::Path;
 use super::tracing::Tracer;
 use super::{Loaded, Messages, Tracing};
 use crate::explain::{Place, Subject, cause, fault};
-use crate::language::{Prospect, RenderKey, Source};
+use crate::language::{Prospect, Source};
 use crate::render::{Advice, Fault, Frame, Frames, Job, Limit, PreparedScene, Settings, Trials};
-use crate::scene::{LEAST_ADAPTIVE_SPP, Rendering};
+use crate::scene::{LEAST_ADAPTIVE_SPP, RenderKey, Rendering};
 
 /// Says that options over the text leave adaptive sampling no pixel to stop.
 pub(super) fn print_without_effect(messages: Messages, over_text: &Rendering, settings: &Settings) {
@@ -15,7 +15,7 @@ pub(super) fn print_without_effect(messages: Messages, over_text: &Rendering, se
         noise, spp, aov, ..
     } = *settings;
     let is_asked = over_text.noise.is_some() || over_text.spp.is_some();
-    if is_asked && noise.is_some() && aov.is_none() && spp <= LEAST_ADAPTIVE_SPP {
+    if is_asked && 0.0 < noise && aov.is_none() && spp <= LEAST_ADAPTIVE_SPP {
         let least = LEAST_ADAPTIVE_SPP;
         let note = format!(
             "`--noise` has no effect: it cannot stop a pixel before {least} samples, and `--spp` is {spp}"

@@ -101,7 +101,7 @@ fn try_render(work: &Render) -> Result<(), Error> {
         &loaded.source,
         loaded.size,
     )?;
-    if work.parts.is_some() && job.settings.aov == Some(Aov::Cost) && job.settings.noise.is_some() {
+    if work.parts.is_some() && job.settings.aov == Some(Aov::Cost) && 0.0 < job.settings.noise {
         let refused = "--shard and --resume cannot sample --aov cost adaptively; use --noise 0";
         return Err(Error::Refused(refused.to_owned()));
     }
@@ -324,9 +324,8 @@ fn finish(work: &Render, frame: &Frame, traced: &Traced) -> Result<(), Error> {
 
 /// Says by what a picture is biased.
 pub(super) fn print_biases(messages: Messages, frame: &Frame, picture: &Provenance) {
-    if let Some(most) = picture.settings.clamp
-        && exposes(picture.settings.aov)
-    {
+    let most = picture.settings.clamp;
+    if 0.0 < most && exposes(picture.settings.aov) {
         messages.note(&format!(
             "samples are clamped to {most:?}; light above that is lost (biased)"
         ));

@@ -61,7 +61,6 @@ pub use form::{Along, Motion};
 pub use node::{FileKind, NamedFile, Node, Nodes};
 pub use outlook::{Outlook, Prospect, outlook};
 pub use placed::{Placed, Wanted};
-pub use rendering::RenderKey;
 pub use roles::{Role, Roles};
 pub use room::fits;
 pub use saved::{SavedView, view_name};

@@ -150,7 +150,7 @@ impl Judge<'_> {
     /// The text asks for adaptive sampling, but for so few samples that no pixel can stop early.
     fn never_adaptive(&self) -> Option<Outlook> {
         let own = &self.scene.setting.rendering;
-        let (noise, spp) = (own.noise()?, own.spp?);
+        let (noise, spp) = (own.noise.filter(|noise| 0.0 < *noise)?, own.spp?);
         let is_used = self.asked.noise == own.noise && self.asked.spp == own.spp;
         if LEAST_ADAPTIVE_SPP < spp || !is_used {
             return None;

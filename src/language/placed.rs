@@ -1,5 +1,7 @@
 //! The places of fields in the text, and the edits that change them.
 
+use std::borrow::Cow;
+
 use super::Answers;
 use super::table::Field;
 use crate::text::{Edit, Span};
@@ -20,7 +22,7 @@ pub struct Placed {
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Implicit {
     /// The default of each component; `None` if the text states it.
-    pub(super) defaults: Vec<Option<&'static str>>,
+    pub(super) defaults: Vec<Option<Cow<'static, str>>>,
     /// The attributes to write, in this order.
     pub(super) attributes: Vec<ImplicitAttribute>,
     /// The element to write them in, if that is missing too.
@@ -30,12 +32,12 @@ pub(super) struct Implicit {
 }
 
 /// A missing attribute.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub(super) struct ImplicitAttribute {
     /// The component it sets.
     pub(super) component: usize,
     pub(super) name: &'static str,
-    pub(super) default: &'static str,
+    pub(super) default: Cow<'static, str>,
     /// Whether it must be written with the others, whose presence would change its default.
     pub(super) is_required: bool,
 }
@@ -74,8 +76,8 @@ impl Placed {
     }
 
     /// The default of a component that the text omits.
-    pub fn default_of(&self, component: usize) -> Option<&'static str> {
-        *self.implicit.as_ref()?.defaults.get(component)?
+    pub fn default_of(&self, component: usize) -> Option<&str> {
+        self.implicit.as_ref()?.defaults.get(component)?.as_deref()
     }
 
     /// Whether the text states any of the components.

@@ -17,7 +17,7 @@
 use std::io::{self, BufRead, Read};
 
 use super::shard::Shard;
-use crate::render::Provenance;
+use crate::render::{Provenance, Record};
 
 /// The first line, with the version of the format.
 const MAGIC: &str = "halflight part 1";
@@ -61,21 +61,12 @@ impl Header {
     }
 
     fn of(text: &str) -> Option<(Self, u32)> {
-        let pairs = text.lines().map(|line| line.split_once(' '));
-        let mut pairs = pairs.collect::<Option<Vec<_>>>()?.into_iter();
-        let mut next = |name: &str| {
-            let (written, value) = pairs.next()?;
-            (written == name).then_some(value)
-        };
-        next("halflight")?;
-        let picture = Provenance::read(pairs.by_ref(), 1)?;
-        let mut next = |name: &str| {
-            let (written, value) = pairs.next()?;
-            (written == name).then_some(value)
-        };
+        let (_, picture) = text.split_once('\n')?;
+        let (picture, behind) = picture.rsplit_once("\nshard ")?;
+        let picture = Record::read(&format!("{picture}\nspp 1\n")).provenance()?;
         let header = Self {
             picture,
-            shard: Shard::parse(next("shard")?)?,
+            shard: Shard::parse(behind.lines().next()?)?,
         };
         // Whatever was read is only right if it is written so.
         let (written, crc) = header.text();

@@ -8,8 +8,7 @@ use tempfile::TempDir;
 
 use super::*;
 use crate::render::{Block, Blocks, Counts, Frames, Provenance, Settings};
-use crate::scene::{FalloffRule, Filter, GlossRule};
-use crate::scene::{Integrator, Size, Transfer, Viewpoint};
+use crate::scene::{Rendering, Size, Viewpoint};
 
 const SIZE: Size = Size {
     width: 40,
@@ -31,20 +30,8 @@ fn picture() -> Provenance {
         layers: Vec::new(),
         denoise: false,
         settings: Settings {
-            size: SIZE,
-            region: None,
             spp: 1,
-            depth: 8,
-            seed: 0,
-            aov: None,
-            integrator: Integrator::Whitted,
-            filter: Filter::Box,
-            transfer: Transfer::Linear,
-            exposure: 0.0,
-            falloff: FalloffRule::None,
-            gloss: GlossRule::None,
-            noise: None,
-            clamp: None,
+            ..Settings::new(SIZE, &Rendering::default())
         },
     }
 }

@@ -121,28 +121,20 @@ mod tests {
 
     use super::*;
     use crate::render::{Query, Settings};
-    use crate::scene::Filter;
-    use crate::scene::{Camera, FalloffRule, Focus, GlossRule, Integrator, Lens, Size};
+    use crate::scene::{Camera, Focus, Lens, Rendering, Size};
 
     fn settings(aov: Option<Aov>) -> Settings {
         Settings {
-            size: Size {
-                width: 4,
-                height: 1,
-            },
             spp: 1,
             depth: 1,
-            seed: 0,
             aov,
-            region: None,
-            integrator: Integrator::Whitted,
-            filter: Filter::Box,
-            transfer: Transfer::Linear,
-            exposure: 0.0,
-            falloff: FalloffRule::None,
-            gloss: GlossRule::None,
-            noise: None,
-            clamp: None,
+            ..Settings::new(
+                Size {
+                    width: 4,
+                    height: 1,
+                },
+                &Rendering::default(),
+            )
         }
     }
 

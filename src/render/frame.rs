@@ -7,71 +7,54 @@ use super::overexposure::Overexposure;
 use super::photons::{PhotonRules, Photons};
 use super::region::Region;
 use super::world::{Rules, World};
-use crate::scene::{
-    Camera, FalloffRule, Filter, GlossRule, Images, Integrator, Rendering, Scene, Size, Transfer,
-};
+use crate::scene::{self, Camera, Images, Integrator, Rendering, Scene, Size, render_settings};
 
 /// Marks a pixel without an object in [`Frame::objects`].
 pub const NO_OBJECT: u32 = u32::MAX;
 
-/// Render settings; with scene, images and camera they determine every pixel.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Settings {
-    /// Resolution of the whole picture; does not affect the framing.
-    pub size: Size,
-    /// The only part of the picture to trace, if not all of it. Its pixels are the same as in the
-    /// whole picture, except that the 8-bit values of depth span the distances in the region.
-    pub region: Option<Region>,
-    /// Samples per pixel, 1 to [`MAX_SPP`](crate::scene::MAX_SPP); at most, if [`Settings::noise`] is
-    /// given.
-    pub spp: u32,
-    /// Maximum number of bounces; primary rays are bounce 0.
-    pub depth: u32,
-    /// Random seed.
-    pub seed: u32,
-    /// The AOV to render instead of light.
-    pub aov: Option<Aov>,
-    /// The integrator.
-    pub integrator: Integrator,
-    /// The pixel reconstruction filter.
-    pub filter: Filter,
-    /// The transfer function from linear colours to 8 bits.
-    pub transfer: Transfer,
-    /// What light and albedo are multiplied by before the transfer, in stops: 2 to this power.
-    pub exposure: f64,
-    /// How point lights fade whose own falloff does not say so.
-    pub falloff: FalloffRule,
-    /// What spreads mirrors and glass.
-    pub gloss: GlossRule,
-    /// The noise, in displayed values from 0 to 1, below which pixels take no more samples; `None`
-    /// if all take as many.
-    pub noise: Option<f64>,
-    /// What the largest channel of each sample of light is limited to, above 0, against fireflies:
-    /// brighter samples are scaled down. `None` leaves them unbiased.
-    pub clamp: Option<f64>,
+macro_rules! settings {
+    ($($(#[$doc:meta])* $key:ident: $type:ty = $default:expr, $setting:expr;)+) => {
+        /// Render settings; with scene, images and camera they determine every pixel.
+        #[derive(Clone, Copy, Debug, PartialEq)]
+        pub struct Settings {
+            /// Resolution of the whole picture; does not affect the framing.
+            pub size: Size,
+            /// The only part of the picture to trace, if not all of it. Its pixels are the same as in
+            /// the whole picture, except that the 8-bit values of depth span the distances in the
+            /// region.
+            pub region: Option<Region>,
+            /// Random seed.
+            pub seed: u32,
+            /// The AOV to render instead of light.
+            pub aov: Option<Aov>,
+            $($(#[$doc])* pub $key: $type,)+
+        }
+
+        impl Settings {
+            /// Those of a whole picture of light, with defaults for what is not asked for.
+            pub fn new(size: Size, asked: &Rendering) -> Self {
+                Self {
+                    size,
+                    region: None,
+                    seed: 0,
+                    aov: None,
+                    $($key: asked.$key(),)+
+                }
+            }
+
+            /// What asks for these settings.
+            pub(super) fn asked(&self) -> Rendering {
+                Rendering {
+                    $($key: Some(self.$key),)+
+                }
+            }
+        }
+    };
 }
 
-impl Settings {
-    /// Those of a whole picture of light, with defaults for what is not asked for.
-    pub fn new(size: Size, asked: &Rendering) -> Self {
-        Self {
-            size,
-            region: None,
-            spp: asked.spp(),
-            depth: asked.depth(),
-            seed: 0,
-            aov: None,
-            integrator: asked.integrator(),
-            filter: asked.filter.unwrap_or_default(),
-            transfer: asked.transfer.unwrap_or_default(),
-            exposure: asked.exposure.unwrap_or_default(),
-            falloff: asked.falloff.unwrap_or_default(),
-            gloss: asked.gloss.unwrap_or_default(),
-            noise: asked.noise(),
-            clamp: asked.clamp(),
-        }
-    }
+render_settings!(settings);
 
+impl Settings {
     /// What is traced: the region, or the whole picture.
     pub fn traced(&self) -> Region {
         self.region.unwrap_or_else(|| Region::whole(self.size))
@@ -112,7 +95,7 @@ impl Settings {
     /// light must add up.
     pub(crate) fn adaptive(&self) -> Option<f64> {
         let is_light = self.aov.is_none_or(Aov::is_of_light);
-        self.noise.filter(|_| is_light)
+        (is_light && 0.0 < self.noise).then_some(self.noise)
     }
 
     /// The settings that a film depends on, apart from the samples, which are 1: what is known from

@@ -1,7 +1,7 @@
 //! What a picture is made from, as text.
 
 use super::frame::{Aov, Frame, Frames, Job, Settings};
-use super::written::{aov_name, aov_of};
+use super::written::aov_name;
 use crate::scene::Viewpoint;
 
 /// What a picture is made from: enough to render the same bytes again.
@@ -71,34 +71,5 @@ impl Provenance {
             .map(|(name, value)| format!("{name} {value}\n"))
             .collect();
         lines.concat()
-    }
-
-    /// Reads entries as [`Provenance::written`], in this order, for `spp` samples; entries after them
-    /// are left. `None` if they are no such entries.
-    pub fn read<'t>(entries: impl Iterator<Item = (&'t str, &'t str)>, spp: u32) -> Option<Self> {
-        let mut entries = entries.peekable();
-        let mut next = |name: &str| {
-            let (written, value) = entries.next()?;
-            (written == name).then_some(value)
-        };
-        let version = next("version")?.to_owned();
-        let scene = next("scene")?.to_owned();
-        let view = match next("view")? {
-            "own" => Viewpoint::default(),
-            view => Viewpoint::parse(view).ok()?,
-        };
-        let layers = match next("layers")? {
-            "none" => Vec::new(),
-            names => names.split(',').map(aov_of).collect::<Option<_>>()?,
-        };
-        let denoise = entries.next_if_eq(&("denoise", "yes")).is_some();
-        Some(Self {
-            version,
-            scene,
-            view,
-            layers,
-            denoise,
-            settings: Settings::read(entries, spp)?,
-        })
     }
 }

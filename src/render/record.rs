@@ -4,11 +4,8 @@
 use super::frame::{Aov, Settings};
 use super::provenance::Provenance;
 use super::region::Region;
-use super::written::{aov_name, aov_of, number_within, one_of, whole_within};
-use crate::scene::{
-    EXPOSURES, FalloffRule, Filter, GlossRule, Integrator, MAX_DEPTH, MAX_SPP, Rendering, Scene,
-    Size, Transfer, Viewpoint,
-};
+use super::written::{self, SAMPLES, aov_name, aov_of, is_added};
+use crate::scene::{MAX_PIXELS, RenderKey, Rendering, Scene, Size, Viewpoint};
 
 /// How a picture was made, as far as its file says and can be believed.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -55,77 +52,63 @@ const LONGEST: usize = 40;
 /// Takes a value into a record; `None` if it is none.
 type Take = fn(&mut Record, &str) -> Option<()>;
 
-/// An entry of a record.
-struct Entry {
-    name: &'static str,
-    /// Whether each picture has it; what others lack is off.
-    is_always: bool,
-    take: Take,
-}
-
-const fn entry(name: &'static str, take: Take) -> Entry {
-    Entry {
-        name,
-        is_always: true,
-        take,
-    }
-}
-
-const fn option(name: &'static str, take: Take) -> Entry {
-    Entry {
-        is_always: false,
-        ..entry(name, take)
-    }
-}
-
 /// Sets what is `None` if the value is none.
 fn set<T>(place: &mut Option<T>, value: Option<T>) -> Option<()> {
     *place = Some(value?);
     Some(())
 }
 
-/// The entries, with the names that [`Provenance::written`] gives them.
+/// The entries before those of the settings, with the names that [`Provenance::written`] gives them.
 #[rustfmt::skip]
-const ENTRIES: &[Entry] = &[
-    entry("version", |to, value| set(&mut to.version, Some(value.to_owned()))),
-    entry("scene", |to, value| set(&mut to.scene, Some(value.to_owned()))),
-    entry("view", |to, value| {
+const PICTURE: &[(&str, Take)] = &[
+    ("version", |to, value| set(&mut to.version, Some(value.to_owned()))),
+    ("scene", |to, value| set(&mut to.scene, Some(value.to_owned()))),
+    ("view", |to, value| {
         if value != "own" {
             to.view = Viewpoint::parse(value).ok()?;
         }
         Some(())
     }),
-    entry("layers", |to, value| {
+    ("layers", |to, value| {
         if value != "none" {
             to.layers = value.split(',').map(aov_of).collect::<Option<_>>()?;
         }
         Some(())
     }),
-    option("denoise", |to, value| {
+    (DENOISE, |to, value| {
         to.denoise = value == "yes";
         to.denoise.then_some(())
     }),
-    entry("size", |to, value| set(&mut to.size, Size::parse(value))),
-    entry("region", |to, value| match value {
+];
+
+/// The entries of settings that are no render settings.
+#[rustfmt::skip]
+const FRAME: &[(&str, Take)] = &[
+    ("size", |to, value| set(&mut to.size, Size::parse(value))),
+    ("region", |to, value| match value {
         "none" => Some(()),
         _ => set(&mut to.region, Region::parse(value)),
     }),
-    entry("depth", |to, value| set(&mut to.rendering.depth, whole_within(0..=MAX_DEPTH, value))),
-    entry("seed", |to, value| set(&mut to.seed, whole_within(0..=u32::MAX, value))),
-    entry("aov", |to, value| match value {
+    ("seed", |to, value| set(&mut to.seed, value.parse().ok())),
+    ("aov", |to, value| match value {
         "none" => Some(()),
         _ => set(&mut to.aov, aov_of(value)),
     }),
-    entry("integrator", |to, value| set(&mut to.rendering.integrator, one_of(&Integrator::ALL, Integrator::name, value))),
-    entry("filter", |to, value| set(&mut to.rendering.filter, one_of(&Filter::ALL, Filter::name, value))),
-    entry("transfer", |to, value| set(&mut to.rendering.transfer, one_of(&Transfer::ALL, Transfer::name, value))),
-    entry("exposure", |to, value| set(&mut to.rendering.exposure, number_within(EXPOSURES, value))),
-    entry("falloff", |to, value| set(&mut to.rendering.falloff, one_of(&FalloffRule::ALL, FalloffRule::name, value))),
-    option("noise", |to, value| set(&mut to.rendering.noise, number_within(0.0..=1.0f64.next_down(), value))),
-    option("clamp", |to, value| set(&mut to.rendering.clamp, number_within(0.0..=f64::MAX, value))),
-    entry("gloss", |to, value| set(&mut to.rendering.gloss, one_of(&GlossRule::ALL, GlossRule::name, value))),
-    entry("spp", |to, value| set(&mut to.rendering.spp, whole_within(1..=MAX_SPP, value))),
 ];
+
+/// The entry of pictures whose noise is reduced.
+const DENOISE: &str = "denoise";
+
+/// The names of all entries, in the order in which they are written.
+fn names() -> impl Iterator<Item = &'static str> {
+    let picture = PICTURE.iter().map(|(name, _)| *name);
+    picture.chain(written::names()).chain([SAMPLES])
+}
+
+/// Whether each picture has this entry; what others lack is off.
+fn is_always(name: &str) -> bool {
+    name != DENOISE && !RenderKey::named(name).is_some_and(is_added)
+}
 
 impl Record {
     /// Reads a record: an entry a line, its name before the first blank. Of an entry given twice the
@@ -134,16 +117,16 @@ impl Record {
         let mut record = Self::default();
         for line in text.lines().filter(|line| !line.is_empty()) {
             let (name, value) = line.split_once(' ').unwrap_or((line, ""));
-            let known = ENTRIES.iter().find(|entry| entry.name == name);
-            if let Some(entry) = known
-                && !record.there.contains(&entry.name)
+            let known = names().find(|known| *known == name);
+            if let Some(name) = known
+                && !record.there.contains(&name)
             {
-                record.there.push(entry.name);
+                record.there.push(name);
             }
-            let is_new = |entry: &&Entry| record.read.iter().all(|(read, _)| *read != entry.name);
-            let new = known.filter(|entry| is_new(entry) && value.len() <= LONGEST_VALUE);
-            match new.filter(|entry| (entry.take)(&mut record, value).is_some()) {
-                Some(entry) => record.read.push((entry.name, value.to_owned())),
+            let is_new = |name: &&str| record.read.iter().all(|(read, _)| read != name);
+            let new = known.filter(|name| is_new(name) && value.len() <= LONGEST_VALUE);
+            match new.filter(|name| record.take(name, value).is_some()) {
+                Some(name) => record.read.push((name, value.to_owned())),
                 None => record.refuse(line),
             }
         }
@@ -153,14 +136,29 @@ impl Record {
         record
     }
 
+    /// Takes the value of an entry; `None` if it is none.
+    fn take(&mut self, name: &str, value: &str) -> Option<()> {
+        let mut own = PICTURE.iter().chain(FRAME);
+        if let Some((_, take)) = own.find(|(own, _)| *own == name) {
+            return take(self, value);
+        }
+        let key = RenderKey::named(name)?;
+        let value = key.setting().values.read(value)?;
+        self.rendering = key.with(value, &self.rendering);
+        Some(())
+    }
+
     /// Names what is missing, and sets what is off if nothing says otherwise.
     fn complete(&mut self) {
-        let is_missing = |entry: &&Entry| entry.is_always && !self.there.contains(&entry.name);
-        for entry in ENTRIES.iter().filter(is_missing).collect::<Vec<_>>() {
-            self.count(format!("{} is missing", entry.name));
+        for name in names().filter(|name| is_always(name)) {
+            if !self.there.contains(&name) {
+                self.count(format!("{name} is missing"));
+            }
         }
-        self.rendering.noise.get_or_insert(0.0);
-        self.rendering.clamp.get_or_insert(0.0);
+        for key in RenderKey::all().filter(|key| is_added(*key)) {
+            let off = key.in_use(&Rendering::default());
+            self.rendering = self.rendering.or(key.with(off, &Rendering::default()));
+        }
     }
 
     /// The name and value of each entry that was read, in the order of the file. May contain control
@@ -213,22 +211,26 @@ impl Record {
         (!self.wrong.is_empty()).then(|| named + &more)
     }
 
-    /// All of it; `None` if anything is missing or wrong.
+    /// All of it; `None` if anything is missing or wrong, or if more than [`MAX_PIXELS`] were traced.
     pub fn provenance(&self) -> Option<Provenance> {
         let size = self.size.filter(|_| self.wrong.is_empty())?;
         let region = self.region.map(|region| region.within(size));
+        let settings = Settings {
+            region: region.transpose().ok()?,
+            seed: self.seed?,
+            aov: self.aov,
+            ..Settings::new(size, &self.rendering)
+        };
+        if MAX_PIXELS < settings.traced().size().pixels() as u64 {
+            return None;
+        }
         Some(Provenance {
             version: self.version.clone()?,
             scene: self.scene.clone()?,
             view: self.view.clone(),
             layers: self.layers.clone(),
             denoise: self.denoise,
-            settings: Settings {
-                region: region.transpose().ok()?,
-                seed: self.seed?,
-                aov: self.aov,
-                ..Settings::new(size, &self.rendering)
-            },
+            settings,
         })
     }
 
@@ -273,6 +275,8 @@ impl Record {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::render::written::AOVS;
+    use crate::scene::Transfer;
 
     const WHOLE: &str = "version 1\nscene 0\nview own\nlayers none\nsize 8x6\nregion none\ndepth 2\n\
                          seed 7\naov none\nintegrator path\nfilter box\ntransfer srgb\nexposure -1\n\
@@ -288,6 +292,11 @@ mod tests {
         for (from, to, unused) in [
             ("", "", None),
             ("depth 2\n", "", Some("depth is missing")),
+            (
+                "falloff none\ngloss none\nspp 4\n",
+                "",
+                Some("falloff is missing, gloss is missing, spp is missing"),
+            ),
             ("depth 2", "depth 4097", Some("depth 4097")),
             ("spp 4", "spp 0", Some("spp 0")),
             ("exposure -1", "exposure inf", Some("exposure inf")),
@@ -337,6 +346,50 @@ mod tests {
         assert_eq!(record.unused(), None);
         let provenance = record.provenance().expect("nothing is wrong");
         assert_eq!(format!("{}spp 4\n", provenance.lines()), other);
+    }
+
+    #[test]
+    fn settings_read_back_as_they_were() {
+        let plain = Settings::new(SIZE, &Rendering::default());
+        let all = RenderKey::all().fold(Rendering::default(), |all, key| {
+            let values = key.setting().values.samples();
+            values.last().map_or(all, |value| key.with(*value, &all))
+        });
+        let other = Settings {
+            region: Some(Region {
+                x: 1,
+                y: 2,
+                width: 3,
+                height: 4,
+            }),
+            seed: u32::MAX,
+            ..Settings::new(SIZE, &all)
+        };
+        let one = RenderKey::all().flat_map(|key| {
+            let values = key.setting().values.samples().into_iter();
+            let asked = values.map(move |value| key.with(value, &Rendering::default()));
+            asked.map(|asked| Settings::new(SIZE, &asked))
+        });
+        let with = |&aov: &Aov| Settings {
+            aov: Some(aov),
+            ..other
+        };
+        let aovs = AOVS.iter().chain(&[Aov::Direct(3)]).map(with);
+        for settings in [plain, other].into_iter().chain(one).chain(aovs) {
+            let provenance = Provenance {
+                settings,
+                ..Record::read(WHOLE).provenance().expect("nothing is wrong")
+            };
+            let text = format!("{}spp {}\n", provenance.lines(), settings.spp);
+            assert_eq!(Record::read(&text).provenance(), Some(provenance), "{text}");
+            // Each name and value is needed.
+            for (name, value) in settings.written() {
+                let entry = format!("\n{name} {value}\n");
+                let wrong = text.replace(&entry, &format!("\n{name} ?\n"));
+                assert_ne!(wrong, text);
+                assert_eq!(Record::read(&wrong).provenance(), None, "{name}");
+            }
+        }
     }
 
     #[test]

@@ -68,7 +68,8 @@ impl<'w, C: Fn() -> bool> Work<'w, C> {
         match shot.settings.surface() {
             None => {
                 tracer.trace(samples, seen);
-                if let Some(most) = shot.settings.clamp {
+                let most = shot.settings.clamp;
+                if 0.0 < most {
                     for seen in seen {
                         seen.radiance = clamped(seen.radiance, most);
                     }

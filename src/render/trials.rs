@@ -185,7 +185,7 @@ impl Trials {
             seed: 0,
             aov: None,
             filter: Filter::Box,
-            noise: None,
+            noise: 0.0,
             ..self.settings
         };
         match self.next {

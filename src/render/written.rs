@@ -1,102 +1,69 @@
-//! Render settings as text, with the names and values of the command line's options.
-
-use std::ops::RangeInclusive;
+//! Settings as text, with the names and values of the command line's options.
 
 use super::frame::{Aov, Settings};
-use super::region::Region;
-use crate::scene::{FalloffRule, Filter, GlossRule, Integrator, MAX_PIXELS, Size, Transfer};
+use crate::scene::{RenderKey, Rendering, Size};
+
+/// The entries of the first version but for the last. Those that were added since stand behind them,
+/// and only where they are not their defaults.
+const FIRST: [&str; 10] = [
+    "size",
+    "region",
+    "depth",
+    "seed",
+    "aov",
+    "integrator",
+    "filter",
+    "transfer",
+    "exposure",
+    "falloff",
+];
+
+/// The last entry.
+const LAST: &str = "gloss";
+
+/// The number of samples, which is written apart from the others.
+pub(super) const SAMPLES: &str = "spp";
+
+/// The names of the entries, in their order.
+pub(super) fn names() -> impl Iterator<Item = &'static str> {
+    let added = RenderKey::all().filter(|key| is_added(*key));
+    let added = added.map(RenderKey::name);
+    FIRST.into_iter().chain(added).chain([LAST])
+}
+
+/// Whether a setting was added since the first version.
+pub(super) fn is_added(key: RenderKey) -> bool {
+    let name = key.name();
+    !FIRST.contains(&name) && ![LAST, SAMPLES].contains(&name)
+}
 
 impl Settings {
-    /// The name and value of each setting but the number of samples, in a fixed order, the noise and the
-    /// clamp only if they are given. Numbers are the shortest that read back as the same bits.
+    /// The name and value of each setting but the number of samples, in a fixed order, what was added
+    /// since the first version only where it is not the default. Numbers are the shortest that read back
+    /// as the same.
     pub fn written(&self) -> Vec<(&'static str, String)> {
-        let Self {
-            size: Size { width, height },
-            region,
-            spp: _,
-            depth,
-            seed,
-            aov,
-            integrator,
-            filter,
-            transfer,
-            exposure,
-            falloff,
-            gloss,
-            noise,
-            clamp,
-        } = *self;
-        let none = || "none".to_owned();
-        let noise = noise.map(|noise| ("noise", noise.to_string()));
-        let clamp = clamp.map(|most| ("clamp", most.to_string()));
-        let always = [
-            ("size", format!("{width}x{height}")),
-            (
-                "region",
-                region.map_or_else(none, |region| region.to_string()),
-            ),
-            ("depth", depth.to_string()),
-            ("seed", seed.to_string()),
-            ("aov", aov.map_or_else(none, aov_name)),
-            ("integrator", integrator.name().to_owned()),
-            ("filter", filter.name().to_owned()),
-            ("transfer", transfer.name().to_owned()),
-            ("exposure", exposure.to_string()),
-            ("falloff", falloff.name().to_owned()),
-        ];
-        let last = ("gloss", gloss.name().to_owned());
-        always
-            .into_iter()
-            .chain(noise)
-            .chain(clamp)
-            .chain([last])
+        let asked = self.asked();
+        names()
+            .filter_map(|name| Some((name, self.entry(name, &asked)?)))
             .collect()
     }
 
-    /// Reads settings as [`Settings::written`], in this order, for `spp` samples. `None` if they are
-    /// no such settings, or of a picture of more than [`MAX_PIXELS`].
-    pub fn read<'t>(pairs: impl IntoIterator<Item = (&'t str, &'t str)>, spp: u32) -> Option<Self> {
-        let mut pairs = pairs.into_iter().peekable();
-        let mut next = |name: &str| {
-            let (written, value) = pairs.next()?;
-            (written == name).then_some(value)
-        };
-        let size = Size::parse(next("size")?)?;
-        let region = match next("region")? {
-            "none" => None,
-            region => Some(Region::parse(region)?.within(size).ok()?),
-        };
-        let mut settings = Self {
-            size,
-            region,
-            spp,
-            depth: next("depth")?.parse().ok()?,
-            seed: next("seed")?.parse().ok()?,
-            aov: match next("aov")? {
-                "none" => None,
-                aov => Some(aov_of(aov)?),
-            },
-            integrator: one_of(&Integrator::ALL, Integrator::name, next("integrator")?)?,
-            filter: one_of(&Filter::ALL, Filter::name, next("filter")?)?,
-            transfer: one_of(&Transfer::ALL, Transfer::name, next("transfer")?)?,
-            exposure: next("exposure")?.parse().ok()?,
-            falloff: one_of(&FalloffRule::ALL, FalloffRule::name, next("falloff")?)?,
-            gloss: GlossRule::None,
-            noise: None,
-            clamp: None,
-        };
-        if let Some((_, noise)) = pairs.next_if(|(name, _)| *name == "noise") {
-            let noise = noise.parse().ok();
-            settings.noise = Some(noise.filter(|noise| 0.0 < *noise && *noise < 1.0)?);
-        }
-        if let Some((_, most)) = pairs.next_if(|(name, _)| *name == "clamp") {
-            let most: Option<f64> = most.parse().ok();
-            settings.clamp = Some(most.filter(|most| 0.0 < *most && most.is_finite())?);
-        }
-        let gloss = pairs.next().filter(|(name, _)| *name == "gloss")?.1;
-        settings.gloss = one_of(&GlossRule::ALL, GlossRule::name, gloss)?;
-        let is_possible = settings.traced().size().pixels() as u64 <= MAX_PIXELS;
-        (is_possible && settings.exposure.is_finite()).then_some(settings)
+    /// The value of an entry; `None` to leave it out.
+    fn entry(&self, name: &str, asked: &Rendering) -> Option<String> {
+        let Size { width, height } = self.size;
+        let none = || "none".to_owned();
+        Some(match name {
+            "size" => format!("{width}x{height}"),
+            "region" => self.region.map_or_else(none, |region| region.to_string()),
+            "seed" => self.seed.to_string(),
+            "aov" => self.aov.map_or_else(none, aov_name),
+            _ => {
+                let key = RenderKey::named(name)?;
+                let value = key.value(asked);
+                let is_left_out = is_added(key) && value == key.value(&Rendering::default());
+                return (!is_left_out).then_some(value);
+            }
+        })
     }
 }
 
@@ -115,24 +82,6 @@ pub(super) const AOVS: &[Aov] = &[
     Aov::Indirect,
 ];
 
-pub(super) fn one_of<T: Copy>(
-    all: &[T],
-    name: impl Fn(T) -> &'static str,
-    written: &str,
-) -> Option<T> {
-    all.iter().copied().find(|&one| name(one) == written)
-}
-
-pub(super) fn whole_within(range: RangeInclusive<u32>, written: &str) -> Option<u32> {
-    let number = written.parse().ok();
-    number.filter(|number| range.contains(number))
-}
-
-pub(super) fn number_within(range: RangeInclusive<f64>, written: &str) -> Option<f64> {
-    let number = written.parse().ok();
-    number.filter(|number| range.contains(number))
-}
-
 pub(super) fn aov_name(aov: Aov) -> String {
     match aov {
         Aov::Direct(light) => format!("direct {light}"),
@@ -143,71 +92,6 @@ pub(super) fn aov_name(aov: Aov) -> String {
 pub(super) fn aov_of(written: &str) -> Option<Aov> {
     match written.strip_prefix("direct ") {
         Some(light) => light.parse().ok().map(Aov::Direct),
-        None => one_of(AOVS, Aov::name, written),
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    const SIZE: Size = Size {
-        width: 64,
-        height: 48,
-    };
-
-    #[test]
-    fn settings_read_back_as_they_were() {
-        let plain = Settings {
-            size: SIZE,
-            region: None,
-            spp: 4,
-            depth: 8,
-            seed: 0,
-            aov: None,
-            integrator: Integrator::Whitted,
-            filter: Filter::Box,
-            transfer: Transfer::Linear,
-            exposure: 0.0,
-            falloff: FalloffRule::None,
-            gloss: GlossRule::None,
-            noise: None,
-            clamp: None,
-        };
-        let region = Region {
-            x: 1,
-            y: 2,
-            width: 3,
-            height: 4,
-        };
-        let other = Settings {
-            region: Some(region),
-            depth: 4096,
-            seed: u32::MAX,
-            integrator: Integrator::Path,
-            filter: Filter::BlackmanHarris,
-            transfer: Transfer::Srgb,
-            exposure: -0.1,
-            noise: Some(0.02),
-            clamp: Some(8.5),
-            ..plain
-        };
-        let with = |&aov: &Aov| Settings {
-            aov: Some(aov),
-            ..other
-        };
-        let aovs = AOVS.iter().chain(&[Aov::Direct(3)]).map(with);
-        for settings in [plain, other].into_iter().chain(aovs) {
-            let written = settings.written();
-            let pairs = written.iter().map(|(name, value)| (*name, value.as_str()));
-            assert_eq!(Settings::read(pairs, 4), Some(settings));
-            // Each name and value is needed.
-            for wrong in 0..written.len() {
-                let pairs = written.iter().enumerate().map(|(at, (name, value))| {
-                    (*name, if at == wrong { "?" } else { value.as_str() })
-                });
-                assert_eq!(Settings::read(pairs, 4), None);
-            }
-        }
+        None => AOVS.iter().copied().find(|aov| aov.name() == written),
     }
 }

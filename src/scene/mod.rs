@@ -20,9 +20,11 @@ pub use material::{
 };
 pub use mesh::{Meshes, NoMesh, beside};
 
+pub(crate) use rendering::render_settings;
 pub use rendering::{
-    DEFAULT_DEPTH, DEFAULT_SPP, EXPOSURES, FalloffRule, Filter, GlossRule, Integrator,
-    LEAST_ADAPTIVE_SPP, MAX_DEPTH, MAX_SPP, Rendering, Transfer,
+    CommandOption, DEFAULT_DEPTH, DEFAULT_SPP, EXPOSURES, FalloffRule, Filter, GlossRule,
+    Integrator, LEAST_ADAPTIVE_SPP, MAX_DEPTH, MAX_SPP, RenderKey, RenderSetting, Rendering,
+    Transfer, Values,
 };
 pub use setting::Setting;
 pub use texture::{Image, Images, Pattern, Side, Texture, Tinted};

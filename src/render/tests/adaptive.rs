@@ -8,7 +8,7 @@ use crate::render::{Aov, Region};
 
 fn adaptive(settings: Settings, limit: f64) -> Settings {
     Settings {
-        noise: Some(limit),
+        noise: limit,
         ..settings
     }
 }
@@ -219,7 +219,7 @@ fn clamped_samples_keep_their_hue() {
         };
         traced(&scene, settings, 1).values[0]
     };
-    assert_eq!(shown(None), [8.0, 2.0, 0.0]);
-    assert_eq!(shown(Some(9.0)), [8.0, 2.0, 0.0]);
-    assert_eq!(shown(Some(2.0)), [2.0, 0.5, 0.0]);
+    assert_eq!(shown(0.0), [8.0, 2.0, 0.0]);
+    assert_eq!(shown(9.0), [8.0, 2.0, 0.0]);
+    assert_eq!(shown(2.0), [2.0, 0.5, 0.0]);
 }

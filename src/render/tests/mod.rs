@@ -52,7 +52,7 @@ use crate::language::coefficients::Coefficients;
 use crate::language::{Language, Source};
 use crate::scene::{
     Camera, FalloffRule, Filter, Focus, GlossRule, Images, Integrator, Lens, Light, Maps, Material,
-    Meshes, Object, Pattern, Rgb, Scene, Setting, Side, Size, Texture, Tinted, Transfer,
+    Meshes, Object, Pattern, Rendering, Rgb, Scene, Setting, Side, Size, Texture, Tinted, Transfer,
 };
 
 impl<C: Fn() -> bool> Tracer<'_, C> {
@@ -317,20 +317,8 @@ fn assert_near(value: f64, expected: f64, tolerance: f64) {
 
 fn settings(width: u32, height: u32, spp: u32) -> Settings {
     Settings {
-        size: Size { width, height },
-        region: None,
         spp,
-        depth: 8,
-        seed: 0,
-        aov: None,
-        integrator: Integrator::Whitted,
-        filter: Filter::Box,
-        transfer: Transfer::default(),
-        exposure: 0.0,
-        falloff: FalloffRule::None,
-        gloss: GlossRule::None,
-        noise: None,
-        clamp: None,
+        ..Settings::new(Size { width, height }, &Rendering::default())
     }
 }
 

@@ -52,7 +52,7 @@ fn advice(trials: Trials, shade: impl Fn(&Settings) -> f32) -> (Vec<u32>, Option
     let mut next = trials;
     loop {
         let settings = next.settings();
-        assert_eq!((settings.noise, settings.aov), (None, None));
+        assert_eq!((settings.noise, settings.aov), (0.0, None));
         tried.push(settings.depth);
         match next.after(&picture(settings.size, shade(&settings))) {
             ControlFlow::Continue(trials) => next = trials,

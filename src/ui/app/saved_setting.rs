@@ -1,8 +1,7 @@
 //! Render settings that were written into the text, and what took precedence over them.
 
 use crate::document::StateId;
-use crate::language::RenderKey;
-use crate::scene::Rendering;
+use crate::scene::{RenderKey, Rendering};
 
 /// A setting that was written into the text.
 #[derive(Clone, Copy, Debug)]

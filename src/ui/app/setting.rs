@@ -4,8 +4,8 @@
 use super::App;
 use super::saved_setting::SavedSetting;
 use crate::document::StepName;
-use crate::language::{Node, RenderKey};
-use crate::scene::{Camera, Rendering, Size};
+use crate::language::Node;
+use crate::scene::{Camera, RenderKey, Rendering, Size};
 use crate::text::{Severity, Span};
 
 /// What to set a render setting to.
@@ -30,8 +30,9 @@ impl SettingOrder {
     /// Parses `KEY [VALUE|default]`; the error says what is expected.
     pub(super) fn parse(said: &str) -> Result<Self, String> {
         let (word, value) = said.split_once(char::is_whitespace).unwrap_or((said, ""));
-        let key = RenderKey::named(word).ok_or_else(|| {
-            let names: Vec<_> = RenderKey::all().map(RenderKey::name).collect();
+        let key = RenderKey::of_text().find(|key| key.name() == word);
+        let key = key.ok_or_else(|| {
+            let names: Vec<_> = RenderKey::of_text().map(RenderKey::name).collect();
             format!(":set takes {}", names.join(", "))
         })?;
         let to = match value.trim() {

@@ -6,8 +6,9 @@ use super::App;
 use super::display::is_light;
 use super::suggestions::{RunningTrials, Suggestion, is_judgeable};
 use crate::explain::fault;
-use crate::language::{Outlook, Prospect, RenderKey, outlook};
+use crate::language::{Outlook, Prospect, outlook};
 use crate::render::{Advice, Fault, Frame, Frames, Histogram, Job, Overexposure, Settings, Trials};
+use crate::scene::RenderKey;
 use crate::ui::msg::{Effect, Target};
 
 impl App {

@@ -1,8 +1,8 @@
 //! The render setting suggested for a picture.
 
-use crate::language::{Prospect, RenderKey};
+use crate::language::Prospect;
 use crate::render::{Frame, Progress, Trials};
-use crate::scene::Rendering;
+use crate::scene::{RenderKey, Rendering};
 
 /// A render setting and its value.
 pub(super) type Suggestion = (RenderKey, String);

@@ -11,8 +11,7 @@ use tempfile::TempDir;
 use super::*;
 use crate::language::{Language, Source};
 use crate::render::{Frames, Renderer, Settings, Threads};
-use crate::scene::{FalloffRule, Filter, GlossRule};
-use crate::scene::{Images, Integrator, Meshes, Size, Viewpoint};
+use crate::scene::{Images, Meshes, Rendering, Size, Viewpoint};
 
 /// A small picture with samples, of the template.
 pub(in crate::ui) fn job(spp: u32) -> Job {
@@ -25,23 +24,16 @@ pub(in crate::ui) fn job(spp: u32) -> Job {
     Job {
         camera: scene.camera,
         settings: Settings {
-            size: Size {
-                width: 5,
-                height: 4,
-            },
-            region: None,
             spp,
             depth: 4,
-            seed: 0,
-            aov: None,
-            integrator: Integrator::Whitted,
-            filter: Filter::Box,
-            transfer: scene.setting.rendering.transfer.unwrap_or_default(),
-            exposure: 0.0,
-            falloff: FalloffRule::None,
-            gloss: GlossRule::None,
-            noise: None,
-            clamp: None,
+            transfer: scene.setting.rendering.transfer(),
+            ..Settings::new(
+                Size {
+                    width: 5,
+                    height: 4,
+                },
+                &Rendering::default(),
+            )
         },
         scene: Arc::new(scene),
         images: Images::default(),

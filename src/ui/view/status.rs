@@ -333,10 +333,10 @@ fn making_segment(app: &App, say: &mut impl FnMut(u8, String, Style)) {
     } else {
         say(28, name.to_owned(), theme::DIM);
     }
-    if app.rendering().noise().is_some() {
+    if 0.0 < app.rendering().noise() {
         say(9, "adaptive, slightly biased".to_owned(), theme::DIM);
     }
-    if app.rendering().clamp.is_some_and(|most| 0.0 < most) {
+    if 0.0 < app.rendering().clamp() {
         say(9, "clamped, biased".to_owned(), theme::DIM);
     }
 }

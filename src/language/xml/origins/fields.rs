@@ -131,11 +131,11 @@ impl Rows<'_> {
             field,
             spans: vec![insertion.span],
             implicit: Some(Box::new(Implicit {
-                defaults: vec![Some(word.missing)],
+                defaults: vec![Some(word.missing.into())],
                 attributes: vec![ImplicitAttribute {
                     component: 0,
                     name: field.key,
-                    default: word.missing,
+                    default: word.missing.into(),
                     is_required: false,
                 }],
                 element: None,
@@ -245,13 +245,13 @@ impl Rows<'_> {
             Box::new(Implicit {
                 defaults: attributes
                     .iter()
-                    .map(|&(_, explicit, default)| explicit.is_none().then_some(default))
+                    .map(|&(_, explicit, default)| explicit.is_none().then(|| default.into()))
                     .collect(),
                 attributes: missing
                     .map(|(component, &(name, _, default))| ImplicitAttribute {
                         component,
                         name,
-                        default,
+                        default: default.into(),
                         is_required: false,
                     })
                     .collect(),
@@ -280,12 +280,16 @@ impl Rows<'_> {
             field: &parameter.field,
             spans: vec![Span::at(insertion.span.start()); parameter.missing.len()],
             implicit: Some(Box::new(Implicit {
-                defaults: parameter.missing.iter().copied().map(Some).collect(),
+                defaults: parameter
+                    .missing
+                    .iter()
+                    .map(|&missing| Some(missing.into()))
+                    .collect(),
                 attributes: attributes
                     .map(|(component, (&name, &default))| ImplicitAttribute {
                         component,
                         name,
-                        default,
+                        default: default.into(),
                         is_required: default != parameter.inside,
                     })
                     .collect(),
