@@ -4,7 +4,6 @@ use clap::ValueEnum;
 
 use crate::batch::ProgressStyle;
 use crate::render::Aov;
-use crate::scene::{FalloffRule, Filter, GlossRule, Integrator, Transfer};
 use crate::ui::terminal::{Choice, ColourDepth};
 use crate::ui::{Pixels, Theme};
 
@@ -162,106 +161,10 @@ impl AovChoice {
     }
 }
 
-/// The integrator.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub(super) enum IntegratorChoice {
-    /// Whitted ray tracing: rays to the lights, reflected and refracted.
-    Whitted,
-    /// Path tracing: light on all paths, sampled at random; more samples reduce noise.
-    Path,
-    /// Path tracing with photon maps: caustics of lights that fall off with the squared distance.
-    Photon,
-}
-
-impl IntegratorChoice {
-    pub(super) fn value(self) -> Integrator {
-        match self {
-            Self::Whitted => Integrator::Whitted,
-            Self::Path => Integrator::Path,
-            Self::Photon => Integrator::Photon,
-        }
-    }
-}
-
-/// The pixel filter.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub(super) enum FilterChoice {
-    /// The pixel's own area.
-    Box,
-    /// A Gaussian three pixels wide, with a standard deviation of half a pixel.
-    Gaussian,
-    /// A Blackman-Harris window three pixels wide, sharper than the Gaussian.
-    BlackmanHarris,
-}
-
-impl FilterChoice {
-    pub(super) fn value(self) -> Filter {
-        match self {
-            Self::Box => Filter::Box,
-            Self::Gaussian => Filter::Gaussian,
-            Self::BlackmanHarris => Filter::BlackmanHarris,
-        }
-    }
-}
-
-/// The transfer curve from colours to 8-bit values.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub(super) enum TransferChoice {
-    /// Linear, without gamma.
-    Linear,
-    /// The sRGB curve.
-    Srgb,
-}
-
-impl TransferChoice {
-    pub(super) fn value(self) -> Transfer {
-        match self {
-            Self::Linear => Transfer::Linear,
-            Self::Srgb => Transfer::Srgb,
-        }
-    }
-}
-
-/// Falloff of point lights that have none of their own.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub(super) enum FalloffChoice {
-    /// No falloff.
-    None,
-    /// By the square of the distance.
-    Square,
-}
-
-impl FalloffChoice {
-    pub(super) fn value(self) -> FalloffRule {
-        match self {
-            Self::None => FalloffRule::None,
-            Self::Square => FalloffRule::Square,
-        }
-    }
-}
-
-/// What spreads the reflection and refraction of blinn materials.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub(super) enum GlossChoice {
-    /// The glossiness of reflection and refraction.
-    None,
-    /// The glossiness of the material.
-    Exponent,
-}
-
-impl GlossChoice {
-    pub(super) fn value(self) -> GlossRule {
-        match self {
-            Self::None => GlossRule::None,
-            Self::Exponent => GlossRule::Exponent,
-        }
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::config::{COLOURS, FILTERS, INTEGRATORS};
+    use crate::config::COLOURS;
 
     /// Checks that the words of an option mean the same in a configuration.
     fn check<C: ValueEnum, V: PartialEq>(configured: &[(&str, V)], value: fn(C) -> V) {
@@ -276,8 +179,6 @@ mod tests {
     #[test]
     fn options_and_settings_have_the_same_words() {
         check(&COLOURS, ColourChoice::value);
-        check(&INTEGRATORS, IntegratorChoice::value);
-        check(&FILTERS, FilterChoice::value);
         let themes = Theme::ALL.map(|theme| (theme.name(), theme));
         check(&themes, ThemeChoice::value);
         let pixels = Pixels::ALL.map(|pixels| (pixels.name(), pixels));

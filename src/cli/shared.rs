@@ -10,7 +10,7 @@ use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use crate::batch::{Output, Warnings};
 use crate::config::MAX_THREADS;
 use crate::image_file::{FORMATS, ImageFormat, known_extensions};
-use crate::scene::{MAX_DEPTH, MAX_SPP};
+use crate::scene::MAX_SPP;
 
 #[derive(Args, Debug)]
 pub(super) struct AssetArguments {
@@ -39,10 +39,6 @@ impl StrictnessArguments {
 
 pub(super) fn spp_range() -> impl TypedValueParser<Value = u32> {
     whole_number(1, MAX_SPP)
-}
-
-pub(super) fn depth_range() -> impl TypedValueParser<Value = u32> {
-    whole_number(0, MAX_DEPTH)
 }
 
 pub(super) fn threads_range() -> impl TypedValueParser<Value = u16> {

@@ -132,8 +132,7 @@ fn render_options_have_defaults() {
         exposure: Some(-1.5),
         falloff: Some(FalloffRule::Square),
         gloss: Some(GlossRule::Exponent),
-        noise: None,
-        clamp: None,
+        ..Rendering::default()
     };
     assert_eq!(given.tracing.rendering, asked);
     assert_eq!(given.output, Output::StdoutTerminal);
