@@ -22,7 +22,7 @@ use crate::ui::Options;
 
 pub use print::{print_config, print_keys};
 pub use read::read;
-pub use settings::{COLOURS, FILTERS, INTEGRATORS, MAX_BANDWIDTH, MAX_THREADS, POLLS};
+pub use settings::{COLOURS, MAX_BANDWIDTH, MAX_THREADS, POLLS};
 
 /// Where the configuration comes from.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]

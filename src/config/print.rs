@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use super::settings::{Kind, SETTINGS, Setting, as_text};
+use super::settings::{Kind, Setting, as_text, as_toml, settings};
 use crate::ui::Options;
 use crate::ui::keymap::{Bound, Keymap, Section};
 
@@ -13,8 +13,8 @@ pub fn print_config(options: &Options) -> String {
         "# Configuration of Halflight. What is commented out is the default. The command line\n\
          # takes precedence over this file, and this file over the environment.\n",
     );
-    for setting in SETTINGS {
-        let line = match value(setting, options) {
+    for setting in settings() {
+        let line = match value(&setting, options) {
             Some(value) => format!("{} = {value}", setting.name),
             None => format!("# {} = {}", setting.name, setting.default),
         };
@@ -73,6 +73,10 @@ fn key_line(bound: &Bound) -> String {
 /// The value of a setting as TOML; `None` if it has its default.
 fn value(setting: &Setting, options: &Options) -> Option<String> {
     match &setting.kind {
+        Kind::Render(key) => {
+            let asked = &options.rendering;
+            key.get(asked).map(|_| as_toml(*key, key.value(asked)))
+        }
         Kind::Integer { get, .. } => get(options).map(|number| number.to_string()),
         Kind::Word { get, .. } => get(options).map(quoted),
         Kind::Switch { get, .. } => get(options).map(|is_on| is_on.to_string()),

@@ -1,10 +1,11 @@
 //! Reads a configuration.
 
-use toml::de::{DeTable, DeValue};
+use toml::de::{DeInteger, DeTable, DeValue};
 
 use super::keys;
-use super::settings::{Kind, SETTINGS, Setting, folder};
+use super::settings::{Kind, Setting, folder, settings};
 use super::value::{MOST_ERRORS, Name, Value, advised, in_order, kind_of, span_of};
+use crate::scene::Values;
 use crate::text::{Diagnostic, Span, alternatives};
 use crate::ui::Options;
 
@@ -44,11 +45,9 @@ pub fn read(text: &str) -> Result<Options, Vec<Diagnostic>> {
 }
 
 fn set(name: &Name<'_>, value: &Value<'_>, options: &mut Options) -> Result<(), Diagnostic> {
-    let named = SETTINGS
-        .iter()
-        .find(|setting| setting.name == name.get_ref());
+    let named = settings().find(|setting| setting.name == name.get_ref());
     let Some(setting) = named else {
-        let names = || SETTINGS.iter().map(|setting| setting.name).chain([KEYS]);
+        let names = || settings().map(|setting| setting.name).chain([KEYS]);
         let message = format!("unknown setting `{}`", name.get_ref());
         let error = Diagnostic::error(span_of(name), message, alternatives(names()));
         return Err(advised(error, name.get_ref(), names()));
@@ -58,15 +57,17 @@ fn set(name: &Name<'_>, value: &Value<'_>, options: &mut Options) -> Result<(), 
         Diagnostic::error(span_of(value), message, setting.expected())
     };
     match (&setting.kind, value.get_ref()) {
+        (Kind::Render(key), value) => {
+            let number = number_for(key.setting().values, value, &wrong)?;
+            options.rendering = key.with(number, &options.rendering);
+        }
         (Kind::Integer { range, set, .. }, DeValue::Integer(number)) => {
-            let parsed = i64::from_str_radix(number.as_str(), number.radix()).ok();
-            let number = parsed.filter(|number| range.contains(number));
+            let number = integer(number).filter(|number| range.contains(number));
             set(options, number.ok_or_else(|| wrong("out of range"))?);
         }
         (Kind::Word { words, set, .. }, DeValue::String(word)) => {
             if !words().contains(&&**word) {
-                let error = wrong(&format!("unknown word `{word}`"));
-                return Err(advised(error, word, words()));
+                return Err(unknown(word, &words(), &wrong));
             }
             set(options, word);
         }
@@ -94,16 +95,51 @@ fn set(name: &Name<'_>, value: &Value<'_>, options: &mut Options) -> Result<(), 
     Ok(())
 }
 
+/// The number that stands for a value of a render setting.
+fn number_for(
+    values: Values,
+    value: &DeValue<'_>,
+    wrong: &impl Fn(&str) -> Diagnostic,
+) -> Result<f64, Diagnostic> {
+    let number = match (values, value) {
+        (Values::Words { names, .. }, DeValue::String(word)) => {
+            let place = values.read(word);
+            return place.ok_or_else(|| unknown(word, names, wrong));
+        }
+        (Values::Words { .. }, _) => None,
+        (_, DeValue::Integer(number)) => {
+            Some(integer(number).and_then(|number| values.read(&number.to_string())))
+        }
+        (Values::Whole(..), _) => None,
+        (_, DeValue::Float(number)) => Some(values.read(number.as_str())),
+        _ => None,
+    };
+    let number = number.ok_or_else(|| wrong(&format!("this is {}", kind_of(value))))?;
+    number.ok_or_else(|| wrong("out of range"))
+}
+
+fn integer(number: &DeInteger<'_>) -> Option<i64> {
+    i64::from_str_radix(number.as_str(), number.radix()).ok()
+}
+
+fn unknown(word: &str, words: &[&str], wrong: &impl Fn(&str) -> Diagnostic) -> Diagnostic {
+    let error = wrong(&format!("unknown word `{word}`"));
+    advised(error, word, words.iter().copied())
+}
+
 impl Setting {
     /// The values that it may have.
     fn expected(&self) -> String {
+        let whole = |least: i64, most: i64| format!("an integer from {least} to {most}");
+        let one_of = |words: &[&str]| alternatives(words.iter().map(|word| format!("\"{word}\"")));
         match &self.kind {
-            Kind::Integer { range, .. } => {
-                format!("an integer from {} to {}", range.start(), range.end())
-            }
-            Kind::Word { words, .. } => {
-                alternatives(words().iter().map(|word| format!("\"{word}\"")))
-            }
+            Kind::Render(key) => match key.setting().values {
+                Values::Words { names, .. } => one_of(names),
+                Values::Whole(least, most) => whole(least.into(), most.into()),
+                values => values.expected(),
+            },
+            Kind::Integer { range, .. } => whole(*range.start(), *range.end()),
+            Kind::Word { words, .. } => one_of(&words()),
             Kind::Switch { .. } => "true or false".to_owned(),
             Kind::Text { .. } => "a string".to_owned(),
             Kind::Folders { .. } => "an array of absolute paths".to_owned(),

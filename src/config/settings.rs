@@ -1,10 +1,11 @@
 //! The table of settings other than keys.
 
+use std::borrow::Cow;
 use std::ops::RangeInclusive;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
-use crate::scene::{Filter, Integrator, MAX_DEPTH, MAX_SPP};
+use crate::scene::{RenderKey, Rendering, Values};
 use crate::ui::terminal::{Choice, ColourDepth, Mouse};
 use crate::ui::{Options, Pixels, Theme};
 
@@ -23,31 +24,23 @@ pub const COLOURS: [(&str, Choice); 5] = [
     ("16", Choice::Fixed(ColourDepth::Palette16)),
     ("mono", Choice::Fixed(ColourDepth::Mono)),
 ];
-/// The words for integrators.
-pub const INTEGRATORS: [(&str, Integrator); 3] = [
-    (Integrator::Whitted.name(), Integrator::Whitted),
-    (Integrator::Path.name(), Integrator::Path),
-    (Integrator::Photon.name(), Integrator::Photon),
-];
-/// The words for pixel filters.
-pub const FILTERS: [(&str, Filter); 3] = [
-    (Filter::Box.name(), Filter::Box),
-    (Filter::Gaussian.name(), Filter::Gaussian),
-    (Filter::BlackmanHarris.name(), Filter::BlackmanHarris),
-];
 
 /// A setting: one declaration for reading, errors and printing.
+#[derive(Clone)]
 pub(super) struct Setting {
     pub(super) name: &'static str,
     /// Description, printed above it.
     pub(super) words: &'static str,
     /// What applies if it is not set, as TOML.
-    pub(super) default: &'static str,
+    pub(super) default: Cow<'static, str>,
     pub(super) kind: Kind,
 }
 
 /// The values of a setting, and where they are kept.
+#[derive(Clone)]
 pub(super) enum Kind {
+    /// A render setting.
+    Render(RenderKey),
     /// A whole number.
     Integer {
         range: RangeInclusive<i64>,
@@ -77,12 +70,12 @@ pub(super) enum Kind {
     },
 }
 
-/// All settings other than keys.
-pub(super) const SETTINGS: &[Setting] = &[
+/// The settings before those of rendering.
+const INTERFACE: &[Setting] = &[
     Setting {
         name: "theme",
         words: "Colours of the interface: \"dark\", \"light\" or \"mono\"",
-        default: "\"dark\"",
+        default: Cow::Borrowed("\"dark\""),
         kind: Kind::Word {
             words: || Theme::ALL.map(Theme::name).to_vec(),
             set: |options, word| options.theme = Theme::named(word),
@@ -92,7 +85,7 @@ pub(super) const SETTINGS: &[Setting] = &[
     Setting {
         name: "color",
         words: "Colour depth of the terminal: \"auto\", \"24\", \"256\", \"16\" or \"mono\"",
-        default: "\"auto\"",
+        default: Cow::Borrowed("\"auto\""),
         kind: Kind::Word {
             words: || COLOURS.map(|(word, _)| word).to_vec(),
             set: |options, word| options.colour = meant(&COLOURS, word),
@@ -103,7 +96,7 @@ pub(super) const SETTINGS: &[Setting] = &[
         name: "pixels",
         words: "What pixels are drawn with: \"half\", \"quadrant\", \"sextant\" or \"octant\" blocks, \"kitty\", \"sixel\"\n\
                 # or \"iterm\" pictures, or \"auto\": pictures if the terminal reports them, otherwise half blocks",
-        default: "\"auto\"",
+        default: Cow::Borrowed("\"auto\""),
         kind: Kind::Word {
             words: || Pixels::ALL.map(Pixels::name).to_vec(),
             set: |options, word| options.pixels = Pixels::named(word),
@@ -113,7 +106,7 @@ pub(super) const SETTINGS: &[Setting] = &[
     Setting {
         name: "mouse",
         words: "Whether to capture the mouse",
-        default: "true",
+        default: Cow::Borrowed("true"),
         kind: Kind::Switch {
             set: |options, is_on| options.mouse = Some(if is_on { Mouse::On } else { Mouse::Off }),
             get: |options| options.mouse.map(|mouse| mouse == Mouse::On),
@@ -122,7 +115,7 @@ pub(super) const SETTINGS: &[Setting] = &[
     Setting {
         name: "editor",
         words: "The editor to open; otherwise that of VISUAL or EDITOR",
-        default: "\"vi\"",
+        default: Cow::Borrowed("\"vi\""),
         kind: Kind::Text {
             set: |options, text| options.editor = Some(text.to_owned()),
             get: |options| options.editor.as_deref(),
@@ -131,7 +124,7 @@ pub(super) const SETTINGS: &[Setting] = &[
     Setting {
         name: "bandwidth",
         words: "Limit of terminal output, in KB/s, 0 for none; otherwise it is measured",
-        default: "128",
+        default: Cow::Borrowed("128"),
         kind: Kind::Integer {
             range: 0..=MAX_BANDWIDTH as i64,
             set: |options, number| options.bandwidth = Some(number as u32 * 1000),
@@ -141,57 +134,21 @@ pub(super) const SETTINGS: &[Setting] = &[
     Setting {
         name: "poll",
         words: "Check files for changes every so many milliseconds instead of being notified",
-        default: "500",
+        default: Cow::Borrowed("500"),
         kind: Kind::Integer {
             range: *POLLS.start() as i64..=*POLLS.end() as i64,
             set: |options, number| options.poll = Some(Duration::from_millis(number as u64)),
             get: |options| options.poll.map(|time| time.as_millis() as i64),
         },
     },
-    Setting {
-        name: "spp",
-        words: "Samples per pixel of full-size traces and exports",
-        default: "16",
-        kind: Kind::Integer {
-            range: 1..=MAX_SPP as i64,
-            set: |options, number| options.rendering.spp = Some(number as u32),
-            get: |options| options.rendering.spp.map(i64::from),
-        },
-    },
-    Setting {
-        name: "depth",
-        words: "Maximum number of bounces; otherwise 8, or 64 with path tracing",
-        default: "8",
-        kind: Kind::Integer {
-            range: 0..=MAX_DEPTH as i64,
-            set: |options, number| options.rendering.depth = Some(number as u32),
-            get: |options| options.rendering.depth.map(i64::from),
-        },
-    },
-    Setting {
-        name: "integrator",
-        words: "Integrator to start with, \"whitted\", \"path\" or \"photon\"; otherwise the scene decides",
-        default: "\"whitted\"",
-        kind: Kind::Word {
-            words: || INTEGRATORS.map(|(word, _)| word).to_vec(),
-            set: |options, word| options.rendering.integrator = meant(&INTEGRATORS, word),
-            get: |options| word_for(&INTEGRATORS, options.rendering.integrator),
-        },
-    },
-    Setting {
-        name: "filter",
-        words: "Pixel filter: \"box\", \"gaussian\" or \"blackman-harris\"",
-        default: "\"box\"",
-        kind: Kind::Word {
-            words: || FILTERS.map(|(word, _)| word).to_vec(),
-            set: |options, word| options.rendering.filter = meant(&FILTERS, word),
-            get: |options| word_for(&FILTERS, options.rendering.filter),
-        },
-    },
+];
+
+/// The settings behind those of rendering.
+const MACHINE: &[Setting] = &[
     Setting {
         name: "threads",
         words: "Number of tracing threads; otherwise one per core, one fewer for the preview",
-        default: "2",
+        default: Cow::Borrowed("2"),
         kind: Kind::Integer {
             range: 1..=MAX_THREADS as i64,
             set: |options, number| options.threads = Some(number as usize),
@@ -201,13 +158,36 @@ pub(super) const SETTINGS: &[Setting] = &[
     Setting {
         name: "assets",
         words: "More folders from which pictures and meshes may be read, as absolute paths",
-        default: "[]",
+        default: Cow::Borrowed("[]"),
         kind: Kind::Folders {
             set: |options, folders| options.assets = folders,
             get: |options| &options.assets,
         },
     },
 ];
+
+/// All settings other than keys.
+pub(super) fn settings() -> impl Iterator<Item = Setting> {
+    let rendering = RenderKey::listed().filter_map(|key| {
+        let default = key.value(&Rendering::default());
+        Some(Setting {
+            name: key.name(),
+            words: key.setting().config?,
+            default: as_toml(key, default).into(),
+            kind: Kind::Render(key),
+        })
+    });
+    let interface = INTERFACE.iter().cloned();
+    interface.chain(rendering).chain(MACHINE.iter().cloned())
+}
+
+/// The value of a render setting as TOML.
+pub(super) fn as_toml(key: RenderKey, value: String) -> String {
+    match key.setting().values {
+        Values::Words { .. } => format!("\"{value}\""),
+        _ => value,
+    }
+}
 
 /// The path of a folder; `None` if it is relative, which would depend on the current folder.
 pub(super) fn folder(text: &str) -> Option<PathBuf> {
