@@ -68,10 +68,9 @@ impl<'w, C: Fn() -> bool> Work<'w, C> {
         match shot.settings.surface() {
             None => {
                 tracer.trace(samples, seen);
-                let most = shot.settings.clamp;
-                if 0.0 < most {
+                if 0.0 < shot.settings.clamp {
                     for seen in seen {
-                        seen.radiance = clamped(seen.radiance, most);
+                        seen.radiance = clamped(seen.radiance, shot.settings.clamp);
                     }
                 }
             }
