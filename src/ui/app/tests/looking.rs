@@ -48,7 +48,7 @@ scripts! {
         :exposure 0<Enter>    | exposed 0 | not does trace preview | says exposure 0
         :exposure 20<Enter>>  | exposed 40 | not does trace preview | says exposure +20 EV, on screen only
         | exposure +20 EV
-        2<Esc>> | exposed 40 | not exposure | says only light and albedo can be exposed; press 1
+        2<Esc>> | not exposure | says only light and albedo can be exposed; press 1
     ");
 
     commands_choose_transfer_and_colours_of_the_display: ray().play(r"
@@ -61,7 +61,7 @@ scripts! {
 
     noise_is_reduced_on_screen_and_in_no_file: ray().play(r"
         ~ | does trace preview | job denoise true | says noise is reduced, on screen only
-        | exposure denoised
+        | exposure denoised | denoised
         // A complete picture without is too large for it.
         @started preview 1
         @frame preview  | exposure not denoised

@@ -15,6 +15,7 @@ use crate::ui::msg::{Recalled, SaveId, SaveOutcome, Timer};
 use crate::ui::recovery::tests::offer;
 use crate::ui::recovery::{Found, Offer};
 use crate::ui::reel::ReelProgress;
+use crate::ui::scene_reading::{Baseline, Opened};
 
 /// What was begun and not answered yet.
 #[derive(Default)]

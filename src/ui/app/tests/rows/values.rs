@@ -82,7 +82,16 @@ fn settings(app: &App, name: &str) -> Option<String> {
         "aov" => app.pictures.aov.map(Aov::name).words(),
         "region" => app.pictures.region.is_some().words(),
         "exposure" => app.display_name().words(),
-        "exposed" => app.pictures.display.half_stops.to_string(),
+        "exposed" => {
+            let window = app.frame_window();
+            window
+                .map(|window| window.display.half_stops.to_string())
+                .words()
+        }
+        "denoised" => {
+            let window = app.frame_window();
+            window.is_some_and(|window| window.display.denoised).words()
+        }
         "view-name" => app.view_name().words(),
         "legend" => app.legend().words(),
         "theme" => format!("{:?}", app.theme),
