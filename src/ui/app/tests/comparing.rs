@@ -61,6 +61,18 @@ scripts! {
         session.run("<Esc> | mode SELECT | does stop compared, stop reference");
     };
 
+    /// In two tiles, of which each lists one pixel.
+    the_worst_pixels_are_walked_through_from_the_worst_on: previewed().play(r"
+        A=
+        @started compared 7
+        @frame compared 7 first 19 40 99
+        @measured
+        n | compared-at 40,0
+        n | compared-at 0,0
+        n | compared-at 40,0
+        N | compared-at 0,0
+    ");
+
     a_pixel_is_explained_in_the_present_picture_and_the_comparison_goes_on: {
         let mut session = previewed().session();
         session.run(r"

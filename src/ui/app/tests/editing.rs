@@ -13,6 +13,9 @@ scripts! {
         jjje,l              | lines 0.01 0 0
         jjje;l              | lines 1 0 0
         jjje,;l             | lines 0.1 0 0
+        // A key with a step of its own keeps that.
+        jjje,L              | lines 1 0 0
+        jjje;<Alt-l>        | lines 0.01 0 0
         jjje<Tab>l          | lines 0 0.1 0
         jjjejl              | lines 1.6 // the radius
         // A nudge below the minimum is refused.

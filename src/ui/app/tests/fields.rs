@@ -119,6 +119,15 @@ scripts! {
         @down screen 1,1 | not menu | text mat ID 1  0 0 0 => mat ID 7  0 0 0
     ");
 
+    a_second_click_on_a_number_types_if_it_comes_soon: scene("scene.ray", SCENE).play(r"
+        @down fields 1,2 | mode EDIT | field 1 | not inputs
+        @down fields 1,2 | inputs
+
+        @down fields 1,2 | field 1 | not inputs
+        @elapsed click
+        @down fields 1,2 | not inputs
+    ");
+
     a_frame_is_orthonormalised_in_one_undo_step: {
         let script = r"
             [object 1] eO | text {1}

@@ -85,6 +85,12 @@ scripts! {
             // What is typed back to what it was is no change.
             jjjej1       | 1.5 // => 1.7 // | .5<Enter>        | 1.7 // the radius
         ");
+        // What an input that was given up has seen says nothing of the next one.
+        ray().play(r"
+            jjjej<Enter> | inputs
+            @file 1.5 // => 1.7 //
+            <Esc><Enter><Ctrl-u>2<Enter> | not asks | lines 2 // the radius
+        ");
         // Nor is what a save wrote meanwhile a change of another program.
         ray().play(r"
             jjjejlw<Enter>

@@ -1,9 +1,21 @@
-//! Lines that keys are typed into, when they are full.
+//! Lines that keys are typed into, when they are full, and what the search of the help shows first.
 
+use super::rows::{ray, scripts};
 use super::*;
 use crate::ui::app::line::LONGEST;
 
 const FULL: &str = "a line is limited to 4096 characters";
+
+scripts! {
+    a_search_of_the_help_begins_at_its_top: ray().play(r"
+        ?jjj     | help-top 3
+        /        | help-top 3
+        u        | help-top 0
+        <Esc>jj  | help-top 2
+        /
+        @paste n | help-top 0
+    ");
+}
 
 /// The line that keys are typed into.
 fn line(app: &App) -> &str {

@@ -15,7 +15,7 @@ scripts! {
         // The answer to a key is shown first.
         @says three
         @says four
-        X         | shown …is not bound…
+        X         | shown …is not bound… | past four; …
         j         | shown four
     ");
 
@@ -32,6 +32,12 @@ scripts! {
         @elapsed message      | shown saved | not does wait message
         @elapsed message      | shown saved | not does wait message
     ");
+
+    a_long_message_is_not_shown_forever: {
+        let mut session = ray().session();
+        session.run(&format!("@says {}", "x".repeat(5000)));
+        session.run("@says next\n@resize 120 40 | does wait message 8000");
+    };
 
     a_timer_set_for_another_message_does_not_turn_this_one: ray().play(r"
         @says one

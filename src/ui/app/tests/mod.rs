@@ -141,6 +141,8 @@ fn named(name: &str) -> KeyEvent {
         "Left" => KeyCode::Left,
         "Down" => KeyCode::Down,
         "Up" => KeyCode::Up,
+        "PageDown" => KeyCode::PageDown,
+        "PageUp" => KeyCode::PageUp,
         "Enter" => KeyCode::Enter,
         "Esc" => KeyCode::Esc,
         "Tab" => KeyCode::Tab,

@@ -1,6 +1,7 @@
 //! The sizes of the panels and of the picture.
 
-use super::rows::{ray, scripts};
+use super::rows::{listed, ray, scripts};
+use crate::ui::layout::contents;
 
 scripts! {
     keys_and_mouse_resize_the_panels: {
@@ -30,9 +31,24 @@ scripts! {
         assert_eq!(session.app.areas().list.height, before - 1);
         let divider = session.app.areas().divider();
         let x = divider.x + 2;
-        session.run(&format!("@down screen {x},{}\n@drag screen {x},15\n@up screen {x},15", divider.y));
+        session.run(&format!(r"
+            @down screen {x},{}
+            @drag screen {x},15 | not does keep panels
+            @up screen {x},15   | does keep panels
+        ", divider.y));
         assert_eq!(session.app.areas().fields.y, 15);
         session.run("j | not does keep panels");
+    };
+
+    a_page_of_the_list_keeps_a_row_of_the_one_before: {
+        let sphere = "sphere 0 0 0 1  0 0 0 .5 .5 .5 0 0 0 1 0 0 1\n";
+        let many = format!("0 0 0  0  99\n{}", sphere.repeat(99));
+        let mut session = listed(&many).session();
+        session.run("G | at object 99");
+        let step = usize::from(contents(session.app.areas().list).height) - 1;
+        for (said, object) in [("<PageUp>", 99 - step), ("<PageUp>", 99 - 2 * step), ("<PageDown>", 99 - step)] {
+            session.run(&format!("{said} | at object {object}"));
+        }
     };
 
     /// Below the title: render, view, ambient, a heading, light 1, a heading, object 1.

@@ -32,6 +32,7 @@ scripts! {
         llh        | 1 | 5 6 5 // the light
         h          | 0 | 5 5 5 // the light
         L          | 8 | 5 13 5 // the light
+        Gl         | 8 | 5 13 5 // the light
         GH         | 0 | 5 5 5 // the light
         ]          | 8 | 5 13 5 // the light
         G[         | 0 | 5 5 5 // the light
@@ -127,6 +128,7 @@ scripts! {
         ");
         playing().play(r"
             lll
+            @elapsed keep | does only wait keep
             @hangup | does quit | text opened
         ");
     };
@@ -138,6 +140,11 @@ scripts! {
             let (x, y) = (sheet.frames.x + sheet.column(frame), sheet.frames.y);
             session.run(&format!("@down screen {x},{y} | frame {frame} | mode SEQUENCE"));
         }
+        let first = (sheet.frames.x, sheet.frames.y);
+        session.run(&format!(
+            "<Space>\n@elapsed frame | does wait frame\n@down screen {},{}\n@elapsed frame | not does wait frame",
+            first.0, first.1
+        ));
         session.run("@down list 1,2 | mode SELECT | text opened");
     };
 

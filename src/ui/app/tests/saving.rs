@@ -112,9 +112,15 @@ scripts! {
         :w copy.ray<Enter>q | asks quit | loses copy.ray is still being written
     ");
 
+    conflicts_are_decided_one_after_the_other: ray().play(r"
+        jjjeljl
+        @file sphere\n0 0 0 => sphere\n9 0 0 & 1.5 => 1.9 | asks conflict …
+        mt<Enter> | lines 0.1 0 0, 1.9 // the radius
+    ");
+
     another_failure_does_not_hide_why_a_save_failed: ray().play(r"
         jjjelw
-        @failed scene.ray: no space left
+        @failed scene.ray: no space left | dirty
         @fails the unsaved edits cannot be kept
         | says scene.ray: no space left; the unsaved edits cannot be kept
     ");

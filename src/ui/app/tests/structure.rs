@@ -170,6 +170,8 @@ scripts! {
 
     marks_end_when_their_indices_belong_to_others: ray().with("other", SCENE).play(r"
         [object 2] <Space> | marks 1
+        // The first Esc only shows all rows again.
+        /sphere<Enter><Esc> | marks 1
         <Esc>              | not marks
         <Space>            | marks 1
         @file other        | not marks

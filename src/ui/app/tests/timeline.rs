@@ -231,6 +231,8 @@ scripts! {
             | says redone: duplicated object 2 (sphere)
             Uuu        | step 0 | text 0 | not errors | objects 2
             | says undone: object 1 (sphere) centre x: 0 → 0.2, 2 nudges
+            // The cursor of the page has gone along.
+            <Ctrl-r><Enter> | step 1 | text 1 | says this is the present text
         ");
     };
 

@@ -101,6 +101,7 @@ scripts! {
         [object 1] mx1.5<Enter> | says move along x: 1.5
         [object 1] mll          | says move: 1.0 right, 0.0 up
         [object 1] mllg         | says move: 0.0 right, 0.0 up on the grid
+        [object 1] mxxxll       | says move: 1.0 right, 0.0 up
         [object 1] tzzl         | says rotate about own z: 1.00°
         [object 1] tl           | says rotate in the picture: 1.00°
         [object 1] sk           | says scale: ×1.05

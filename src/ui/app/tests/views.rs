@@ -74,6 +74,11 @@ scripts! {
         @saved | says wrote scene.ray; the moved view is not in the text: S in VIEW writes it
     ");
 
+    a_camera_that_would_see_nothing_stays_and_says_so: listed(&format!(
+        "// view: eye 0 0 9 target 5 5 5\n{SCENE}"
+    ))
+    .play("jjvo | says the camera cannot move any further | not view-name");
+
     flying_turns_in_place_moves_along_and_rolls: ahead().each(r"
         // By 5°: 4 · sin 5° is 0.3486, and 4 − 4 · cos 5° is 0.0152.
         vFh  | view eye 0 0 4 target -0.3486 0 0.0152 up 0 1 0

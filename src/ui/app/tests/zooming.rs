@@ -6,6 +6,7 @@ use std::time::Duration;
 use crossterm::event::{MouseButton, MouseEvent, MouseEventKind};
 
 use super::pictures::frame;
+use super::rows::{ray, scripts};
 use super::*;
 use crate::render::{Job, Limit, Region};
 use crate::scene::MAX_SPP;
@@ -40,6 +41,39 @@ fn mouse(
         row,
         modifiers,
     }))
+}
+
+scripts! {
+    a_trace_ends_in_the_mode_that_it_was_called_from: ray().table(r"
+        {1}   | mode {2}
+        <F5>  | mode TRACE
+        <Esc> | mode {2}
+    ", r"
+        j  | SELECT
+        e  | EDIT
+        v  | VIEW
+        vF | VIEW FLY
+    ");
+}
+
+#[test]
+fn keys_zoom_about_the_middle() {
+    let mut app = tracing();
+    let (cells, _) = app.raster().expect("room");
+    let (middle, output) = ((cells.width / 2, cells.height / 2), app.output());
+    let under = |app: &App| {
+        let window = app.frame_window();
+        window.and_then(|window| window.pixel_at(middle, output))
+    };
+    let before = under(&app).expect("a pixel");
+    for said in ["+++++", "--"] {
+        press(&mut app, said);
+        assert!(!app.viewport().is_fit());
+        let after = under(&app).expect("a pixel");
+        // A pixel of the screen was several of the picture before.
+        let near = |axis: usize| before[axis].abs_diff(after[axis]) <= 8;
+        assert!(near(0) && near(1), "{said}: {before:?} {after:?}");
+    }
 }
 
 #[test]

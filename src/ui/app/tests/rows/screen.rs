@@ -10,7 +10,7 @@ use crate::ui::reference::{Made, ReferenceRead};
 
 impl Session {
     /// A complete frame of what is traced, of this generation or the first; and one of 16 samples
-    /// with another grey in its first pixel.
+    /// with another grey in its first pixel, and in others by their numbers.
     pub(super) fn frame(&self, target: Target, rest: &str) -> Result<Msg, String> {
         let mut jobs = self.under_way.jobs.iter().rev();
         let (_, job) = jobs.find(|(of, _)| *of == target).ok_or("not traced")?;
@@ -21,8 +21,12 @@ impl Session {
             frame.generation = number(generation)?;
         }
         if !grey.is_empty() {
+            let words: Vec<_> = grey.split(' ').collect();
             frame.progress.spp = 16;
-            frame.pixels[0] = [number(grey)?; 3];
+            frame.pixels[0] = [number(words[0])?; 3];
+            for pixel in words[1..].chunks_exact(2) {
+                frame.pixels[number::<usize>(pixel[0])?] = [number(pixel[1])?; 3];
+            }
         }
         Ok(Msg::Frame(target, Arc::new(frame)))
     }

@@ -134,6 +134,7 @@ fn overlays(app: &App, name: &str) -> Option<String> {
         "offers" => joined(entries.iter().map(|entry| &entry.name), ", "),
         "offered" => entries.last().map(|entry| &entry.words).words(),
         "help" => help.is_some().words(),
+        "help-top" => help.map(|help| help.top).words(),
         "search" => help.map(|help| help.search.value()).words(),
         "history" => overlays.history.words(),
         "page" => overlays.page.is_some().words(),
@@ -171,6 +172,10 @@ fn pictures(app: &App, name: &str) -> Option<String> {
             Ok(node) => node.words(),
             Err(_) => "unknown".to_owned(),
         },
+        "compared-at" => {
+            let cross = app.compared.cross;
+            cross.map(|(x, y)| format!("{x},{y}")).words()
+        }
         "cross" => app.cross().map(|cross| joined(cross.pixel, ",")).words(),
         "outlined" => joined(app.outlined_objects(), " "),
         "symbols" => joined(app.symbols().iter().map(|symbol| symbol.node), ", "),
