@@ -9,12 +9,13 @@
 //! ```
 //!
 //! A step is keys, `[object 1]` before them to select that first, an event (see [`steps`]), or
-//! nothing. A check is the name of what is seen (see [`seen`] and [`values`]) and how it reads, where `…` stands
-//! for anything; without that, that there is any; after `not`, the opposite. `undoes` says that the
-//! changes are one step without errors, and `becomes` what text it leads to, in SELECT. Texts are replacements (and additions, `before +> added`) in the text as it was opened, or in
-//! one of another name before them: `mine`, which is edited, `file`, which was read last, and those
-//! of the stage, which also stand for their names in braces. `\n` and `\s` are a new line and a
-//! space.
+//! nothing. A check is the name of what is seen (see [`seen`] and [`values`]) and how it reads,
+//! where `…` stands for anything; without that, that there is any; after `not`, the opposite.
+//! `undoes` says that the changes are one step without errors, and `becomes` what text it leads
+//! to, in SELECT. Texts are replacements (and additions, `before +> added`) in the text as it was
+//! opened, or in one of another name before them: `mine`, which is edited, `file`, which was read
+//! last, and those of the stage, which also stand for their names in braces. `\n` and `\s` are a
+//! new line and a space.
 
 mod assets;
 mod effects;

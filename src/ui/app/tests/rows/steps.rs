@@ -1,10 +1,12 @@
 //! The steps of scripts: keys, and events after `@`.
 //!
-//! `@file TEXT` is a reading of the scene's file, and `@file twice TEXT` two, with the time between
-//! them that makes errors count; `@missing` and `@unreadable` are readings that fail, also `twice`.
-//! `@reading TEXT` begins one and `@arrives` ends it. Answers of effects name the one they answer by
-//! its number, unless it is the newest: `@saved`, `@refused`, `@exported`, `@taken`, `@kept`.
-//! `@field` goes to a field by its name, and `@note a name` remembers what is seen as a text. `@frame` delivers a complete picture, and `@shows` a preview of one object, which is on screen.
+//! `@file TEXT` is a reading of the scene's file, and `@file twice TEXT` two, with the time
+//! between them that makes errors count; `@missing` and `@unreadable` are readings that fail, also
+//! `twice`. `@reading TEXT` begins one and `@arrives` ends it. Answers of effects name the one
+//! they answer by its number, unless it is the newest: `@saved`, `@refused`, `@exported`,
+//! `@taken`, `@kept`. `@field` goes to a field by its name, and `@note a name` remembers what is
+//! seen as a text. `@frame` delivers a complete picture, and `@shows` a preview of one object,
+//! which is on screen.
 
 use super::*;
 use crate::document::Document;
