@@ -19,7 +19,7 @@ pub struct RenderSetting {
     pub option: Option<CommandOption>,
     /// A description in configurations, if they may set it.
     pub config: Option<&'static str>,
-    /// What help says behind the default: when it is another.
+    /// What help adds after the default where another may apply.
     pub else_default: &'static str,
 }
 
@@ -75,7 +75,7 @@ pub enum Values {
 }
 
 impl Values {
-    /// Reads a value as [`Values::spelled`], and any other spelling of a number that Rust has; `None`
+    /// Reads a value as [`Values::spelled`] writes it, or a number in any form that Rust parses; `None`
     /// if it is none of these values.
     pub fn read(self, word: &str) -> Option<f64> {
         let number = || word.parse().ok().filter(|number: &f64| number.is_finite());
@@ -178,7 +178,7 @@ impl RenderKey {
         Self::all().filter_map(stated)
     }
 
-    /// The value that is asked for, as a number; `None` if it is not.
+    /// The value that is asked for, as a number; `None` if none is.
     pub fn get(self, asked: &Rendering) -> Option<f64> {
         (self.row().get)(asked)
     }
@@ -193,7 +193,7 @@ impl RenderKey {
         (self.row().in_use)(asked)
     }
 
-    /// These settings with this one of its [`Values`].
+    /// These settings with this one set to one of its [`Values`].
     #[must_use]
     pub fn with(self, value: f64, asked: &Rendering) -> Rendering {
         let mut asked = *asked;

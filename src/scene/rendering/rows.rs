@@ -1,6 +1,5 @@
-//! The table of render settings. A row is all that a setting needs besides the place where it has its
-//! effect: texts, the command line, configurations, records of pictures and the renderer's settings
-//! follow.
+//! The table of render settings. Texts, the command line, configurations, records of pictures and the
+//! renderer's settings follow from a row; the place where a setting has its effect does not.
 
 /// Passes the table to a macro: for each setting its documentation, key, type and default, which may
 /// depend on what is asked for otherwise, and its [`RenderSetting`](super::RenderSetting).

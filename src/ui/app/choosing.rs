@@ -155,7 +155,7 @@ impl App {
             return;
         };
         let (purpose, node) = (menu.purpose, self.cursor.selected());
-        // A trial knows what to leave; without one, another program may have changed the value since.
+        // A live edit knows what to leave; without one, another program may have changed the value since.
         let is_untouched = menu.live_edit.is_none() && menu.opened.as_ref() == Some(&name);
         match purpose {
             Purpose::Value(_) | Purpose::Retype if is_untouched => {}

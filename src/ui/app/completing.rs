@@ -88,7 +88,7 @@ impl App {
         }
     }
 
-    /// Does what a key does, in the mode that has it.
+    /// Does what a key does, after going to the mode that has it.
     fn act_in(&mut self, row: RowId, context: Context) -> Vec<Effect> {
         let mut effects = Vec::new();
         if let Context::In(mode) = context

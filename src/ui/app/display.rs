@@ -1,4 +1,4 @@
-//! What pictures show, and how light is displayed: views, shares of the light, exposure.
+//! What pictures show, and how light is displayed: views, light components, exposure.
 
 use std::sync::Arc;
 

@@ -61,7 +61,7 @@ pub struct Grid {
 }
 
 impl FrameWindow {
-    /// A sight of a whole frame on two pixels a cell.
+    /// A window over a whole frame on two pixels a cell.
     pub fn whole(size: Size) -> Self {
         Self {
             size,

@@ -17,7 +17,7 @@ pub(super) struct LiveEdit {
     pub(super) is_applied: bool,
     /// The marked nodes, whose marks go if an attempt adds a node.
     pub(super) marks: BTreeSet<Node>,
-    /// What the text before the trial means, if it has no errors.
+    /// What the text before the live edit means, if it has no errors.
     pub(super) base: Option<Meaning>,
     /// What takes the last attempt back after a merge.
     pub(super) back: Option<TakenBack>,

@@ -19,7 +19,7 @@ impl App {
         }
     }
 
-    /// Leaves a trial if something else has changed the text since the last attempt, which then
+    /// Leaves a live edit if something else has changed the text since the last attempt, which then
     /// stays, and says so by what was tried; returns whether it did.
     pub(super) fn leaves_live_edit(&mut self, live_edit: &LiveEdit, tried: &str) -> bool {
         let is_overtaken = self.is_overtaken(live_edit);
@@ -31,7 +31,7 @@ impl App {
         is_overtaken
     }
 
-    /// Replaces the last attempt by another one, whose edits are those of the text before the trial;
+    /// Replaces the last attempt by another one, whose edits are those of the text before the live edit;
     /// without edits that is restored. On failure, with the reason, as well.
     pub(super) fn try_instead(
         &mut self,
@@ -67,7 +67,7 @@ impl App {
         self.document.end_step();
     }
 
-    /// Puts the text back as it was before the trial. After a merge, that takes back the trial alone,
+    /// Puts the text back as it was before the live edit. After a merge, that takes back the live edit alone,
     /// unless both changed the same places.
     pub(super) fn end_live_edit(&mut self, mut live_edit: LiveEdit) {
         if !self.is_overtaken(&live_edit) {
@@ -91,13 +91,13 @@ impl App {
         live_edit.revision != self.document.revision()
     }
 
-    /// Takes a merge with the file, after which trials can still be taken back; returns the old
+    /// Takes a merge with the file, after which live edits can still be taken back; returns the old
     /// document.
     #[must_use = "freeing it may take long"]
     pub(super) fn take_merged(&mut self, merged: Merged) -> Document {
         let before = self.document.revision();
         let menu = self.overlays.menu.as_mut();
-        let trials = [
+        let live_edits = [
             self.pictures
                 .transform
                 .as_mut()
@@ -105,7 +105,7 @@ impl App {
             self.overlays.picker.as_mut().map(|own| &mut own.live_edit),
             menu.and_then(|menu| menu.live_edit.as_mut()),
         ];
-        let applied = trials.into_iter().flatten();
+        let applied = live_edits.into_iter().flatten();
         let applied =
             applied.filter(|live_edit| live_edit.is_applied && live_edit.revision == before);
         for live_edit in applied {

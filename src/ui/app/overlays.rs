@@ -101,9 +101,9 @@ pub enum MergeSource {
 /// Whose text resolves a conflict.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Whose {
-    /// That of the interface: the user's own unsaved edits.
+    /// The user's own unsaved edits, in the interface or kept by an earlier run.
     Mine,
-    /// That of the file.
+    /// What they are merged with.
     Theirs,
 }
 

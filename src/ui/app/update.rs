@@ -317,10 +317,12 @@ impl App {
             Context::In(Mode::Inspect) => self.stop_inspecting(),
             Context::In(Mode::Select) if self.end_filter() => {}
             Context::In(Mode::Select) => self.cursor.marks.clear(),
-            _ => {
+            Context::In(Mode::Edit | Mode::View | Mode::Fly) => {
                 self.document.end_step();
                 self.mode = Mode::Select;
             }
+            // They have keys of their own for that.
+            _ => {}
         }
     }
 

@@ -83,7 +83,7 @@ impl Keymap {
         let pressed = Chord::of(key);
         let has = |row: &Row, mode| {
             let mut keys = row.keys_in(mode).iter();
-            mode != context && keys.any(|keys| keys.first == pressed)
+            mode != context && keys.any(|keys| *keys == Keys::one(pressed))
         };
         let mode_of = |row: &Row| {
             let mut modes = Mode::ALL.into_iter().map(|mode| (mode, Context::In(mode)));

@@ -5,6 +5,9 @@ use super::context::{Context, Mode};
 use super::key::Hint;
 use super::line::{Line, line_hints};
 
+/// The rank of keys without a hint, where all are shown.
+const UNHINTED: u8 = 50;
+
 /// One line of help.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum HelpLine {
@@ -106,7 +109,8 @@ impl Keymap {
         let mut own = here.clone().filter(|row| row.key.is_alone());
         let is_terse = own.any(|row| row.key.hint_of(context).is_some());
         let hints = here.filter(|row| acts(row.id)).filter_map(|row| {
-            let all = || (!is_terse && row.key.is_alone()).then(|| Hint::new(ALL, row.key.words));
+            let all =
+                || (!is_terse && row.key.is_alone()).then(|| Hint::new(UNHINTED, row.key.words));
             let hint = row.key.hint_of(context).or_else(all)?;
             Some((hint, self.key(context, row.key.name)?))
         });
@@ -159,9 +163,6 @@ pub fn in_columns(lines: Vec<HelpLine>, count: usize) -> Vec<Vec<HelpLine>> {
     }
     columns
 }
-
-/// The rank of hints by the words of the help.
-const ALL: u8 = 50;
 
 fn holds(text: &str, lower_case: &str) -> bool {
     text.to_lowercase().contains(lower_case)

@@ -11,8 +11,8 @@ const HINTS: usize = 4;
 /// A row of keys: within its scope, each of them does the same.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Key {
-    /// The name by which a configuration refers to what it does; it never changes. Rows with the same
-    /// name do the same in their contexts.
+    /// The name by which a configuration refers to what it does; it never changes. Rows of
+    /// one name do corresponding things, each in its contexts.
     pub name: &'static str,
     /// Description of what it does.
     pub words: &'static str,
@@ -51,7 +51,7 @@ pub enum Scope {
 pub(super) struct Hint {
     /// The contexts of the row that show it; `None`: all.
     within: Option<&'static [Context]>,
-    /// The less, the further left.
+    /// Lower ranks stand further left.
     pub(super) rank: u8,
     /// A word or two. Neighbours with the same words are shown as one.
     pub(super) words: &'static str,
@@ -144,7 +144,7 @@ impl Key {
         self
     }
 
-    /// Hints at it wherever there is room for a single hint.
+    /// Hints at it everywhere, even where there is no room for other hints.
     #[must_use]
     pub const fn lasting(mut self, words: &'static str) -> Self {
         self.lasting = Some(words);

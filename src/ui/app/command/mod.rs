@@ -1,5 +1,5 @@
-//! The command line after `:`: each command is one row, from which the parser, the help, the palette
-//! and the README come, and which knows what the command does.
+//! The command line after `:`: each command is one row, from which the parser, the help and the palette
+//! come, and which says what the command does. A test holds the README to the rows.
 
 mod row;
 mod rows;

@@ -19,7 +19,7 @@ pub(super) struct CommandRow {
 
 /// The arguments of a command, and what it does with them.
 pub(super) enum Arguments {
-    None(fn() -> Run),
+    Nothing(fn() -> Run),
     File(fn(Option<PathBuf>) -> Run),
     Name(fn(Option<String>) -> Run),
     /// How they are spelled, and what reads them; the error says what is expected.
@@ -48,13 +48,13 @@ type Step = dyn FnOnce(&mut App) -> Vec<Effect>;
 
 impl Run {
     pub(super) fn does(step: impl FnOnce(&mut App) + 'static) -> Self {
-        Self::asks(|app| {
+        Self::requests(|app| {
             step(app);
             Vec::new()
         })
     }
 
-    pub(super) fn asks(step: impl FnOnce(&mut App) -> Vec<Effect> + 'static) -> Self {
+    pub(super) fn requests(step: impl FnOnce(&mut App) -> Vec<Effect> + 'static) -> Self {
         Self(Box::new(step))
     }
 }
@@ -112,7 +112,7 @@ impl CommandRow {
     pub(super) fn usage(&self) -> String {
         let name = self.names[0];
         let arguments = match self.arguments {
-            Arguments::None(_) => "",
+            Arguments::Nothing(_) => "",
             Arguments::File(_) => " [FILE]",
             Arguments::Name(_) => " [NAME]",
             Arguments::Said(usage, _) | Arguments::FileAnd(usage, _) => usage,
@@ -124,8 +124,8 @@ impl CommandRow {
     pub(super) fn parse(&self, rest: &str) -> Result<Run, String> {
         let name = self.names[0];
         match self.arguments {
-            Arguments::None(run) if rest.is_empty() => Ok(run()),
-            Arguments::None(_) => Err(format!("{name} takes no arguments")),
+            Arguments::Nothing(run) if rest.is_empty() => Ok(run()),
+            Arguments::Nothing(_) => Err(format!("{name} takes no arguments")),
             Arguments::File(run) => Ok(run((!rest.is_empty()).then(|| PathBuf::from(rest)))),
             Arguments::Name(run) => Ok(run((!rest.is_empty()).then(|| rest.to_owned()))),
             Arguments::Said(_, parse) | Arguments::FileAnd(_, parse) => parse(rest),

@@ -17,59 +17,51 @@ use crate::ui::msg::Effect;
 use crate::ui::pixels::Pixels;
 use crate::ui::theme::Theme;
 
-use Arguments::{File, FileAnd, Name, None as Nothing, Said};
+use Arguments::{File, FileAnd, Name, Nothing, Said};
 use Runs::{Always, OnTrack, WhileOpening};
-
-const fn row(
-    names: &'static [&'static str],
-    arguments: Arguments,
-    words: &'static str,
-) -> CommandRow {
-    CommandRow::new(names, arguments, words)
-}
 
 /// All commands, in the order of the help page.
 #[rustfmt::skip]
 pub(super) const ROWS: &[CommandRow] = &[
-    row(&["w", "write"], File(|file| Run::asks(|app| app.write(file, Force::No))), "save the scene, or save it as FILE").key("save"),
-    row(&["w!", "write!"], File(|file| Run::asks(|app| app.write(file, Force::Yes))), "save, overwriting changes on disk"),
-    row(&["q", "quit"], Nothing(|| Run::asks(App::quit)), "quit").key("quit").runs(WhileOpening),
-    row(&["q!", "quit!"], Nothing(|| Run::asks(App::quit_anyway)), "quit without asking").runs(Always),
-    row(&["wq", "x"], Nothing(|| Run::asks(App::save_and_quit)), "save and quit"),
-    row(&["e", "edit", "reread"], File(|file| Run::asks(|app| app.edit_file(file))), "open FILE, or reload the scene's own"),
-    row(&["new"], Said(" [LANGUAGE]", new), "start a new scene: ray, dat or xml"),
-    row(&["recent"], Nothing(|| Run::asks(|_| vec![Effect::ListRecent])), "list recently used scenes"),
-    row(&["history", "undolist"], Nothing(|| Run::does(App::list_steps)), "show the undo history as pictures").key("history"),
-    row(&["export"], FileAnd(PICTURE, |said| export(said, Asking::No)), "export the picture, in SEQUENCE all frames").key("export").runs(OnTrack),
-    row(&["export!"], FileAnd(PICTURE, |said| export(said, Asking::Forced)), "export, overwriting an existing file").runs(OnTrack),
-    row(&["export cancel"], Nothing(|| Run::asks(App::cancel_export)), "cancel the export").key("stop").runs(OnTrack),
-    row(&["render"], Nothing(|| Run::asks(App::start_trace)), "trace at full size").key("trace"),
-    row(&["compare"], File(|file| Run::asks(|app| app.compare_command(file))), "compare with a picture or scene FILE, saved, or git [REVISION]").key("compare").runs(OnTrack),
-    row(&["until"], Said(" [N spp|TIME|noise E]", until), "end the full-size trace at N spp, after 30 s or 5 min, or below noise 0.01"),
-    row(&["region"], Said(" [X,Y,W,H|off]", region), "trace only these pixels at full size, or all").key("region"),
-    row(&["zoom"], Said(" [fit|1:1|N]", zoom), "zoom the picture, also the preview"),
-    row(&["track"], File(|file| Run::asks(|app| app.open_track(file))), "play the track FILE, or the one beside the scene").key("track").runs(OnTrack),
-    row(&["view save"], Name(|name| Run::does(|app| app.save_view_named(name))), "write the view into the scene, or save it as NAME").key("write-view"),
-    row(&["view light"], Nothing(|| Run::does(App::look_from_light)), "look from the selected light"),
-    row(&["view reset"], Nothing(|| Run::does(|app| app.pictures.reset_view())), "reset to the scene's view").key("reset-view"),
-    row(&["size"], Said(" WxH", size), "set the picture size in the scene"),
-    row(&["set"], Said(" KEY [VALUE|default]", set), "write a render setting into the scene, by default the one in use"),
-    row(&["mesh"], File(|file| Run::does(move |app| app.add_mesh(file.as_deref()))), "add the mesh of an .obj FILE, named as from the scene"),
-    row(&["show uv"], Nothing(|| Run::does(|app| app.show(Some(Aov::Uv)))), "show texture coordinates: u red, v green"),
-    row(&["show side"], Nothing(|| Run::does(|app| app.show(Some(Aov::Side)))), "show sides of surfaces: front blue, back orange"),
-    row(&["exposure"], Said(" STOPS", exposure), "set the exposure of the display, in stops"),
-    row(&["transfer linear"], Nothing(|| Run::does(|app| app.set_transfer(Some(Transfer::Linear)))), "display light linearly"),
-    row(&["transfer srgb"], Nothing(|| Run::does(|app| app.set_transfer(Some(Transfer::Srgb)))), "display light by the sRGB curve"),
-    row(&["transfer scene"], Nothing(|| Run::does(|app| app.set_transfer(None))), "display light as the scene says"),
-    row(&["falsecolour", "falsecolor"], Nothing(|| Run::does(App::toggle_false_colours)), "display luminances as false colours, or no longer"),
-    row(&["denoise"], Nothing(|| Run::asks(App::toggle_denoising)), "reduce the noise of light on screen, or no longer").key("denoise"),
-    row(&["histogram"], Nothing(|| Run::does(App::toggle_histogram)), "show or hide the histogram of the light"),
-    row(&["mouse"], Nothing(|| Run::asks(App::toggle_mouse)), "take the mouse or leave it to the terminal").runs(Always),
-    row(&["theme dark"], Nothing(|| Run::does(|app| app.theme = Theme::Dark)), "use colours for dark screens").runs(Always),
-    row(&["theme light"], Nothing(|| Run::does(|app| app.theme = Theme::Light)), "use colours for light screens").runs(Always),
-    row(&["theme mono"], Nothing(|| Run::does(|app| app.theme = Theme::Mono)), "use no colours except in pictures").runs(Always),
-    row(&["pixels"], Said(" MODE", pixels), "set what pixels are drawn with, such as half, octant or auto").runs(Always),
-    row(&["help"], Nothing(|| Run::does(|app| app.overlays.help = Some(Help::default()))), "show this page").key("help").runs(Always),
+    CommandRow::new(&["w", "write"], File(|file| Run::requests(|app| app.write(file, Force::No))), "save the scene, or save it as FILE").key("save"),
+    CommandRow::new(&["w!", "write!"], File(|file| Run::requests(|app| app.write(file, Force::Yes))), "save, overwriting changes on disk"),
+    CommandRow::new(&["q", "quit"], Nothing(|| Run::requests(App::quit)), "quit").key("quit").runs(WhileOpening),
+    CommandRow::new(&["q!", "quit!"], Nothing(|| Run::requests(App::quit_anyway)), "quit without asking").runs(Always),
+    CommandRow::new(&["wq", "x"], Nothing(|| Run::requests(App::save_and_quit)), "save and quit"),
+    CommandRow::new(&["e", "edit", "reread"], File(|file| Run::requests(|app| app.edit_file(file))), "open FILE, or reload the scene's own"),
+    CommandRow::new(&["new"], Said(" [LANGUAGE]", new), "start a new scene: ray, dat or xml"),
+    CommandRow::new(&["recent"], Nothing(|| Run::requests(|_| vec![Effect::ListRecent])), "list recently used scenes"),
+    CommandRow::new(&["history", "undolist"], Nothing(|| Run::does(App::list_steps)), "show the undo history as pictures").key("history"),
+    CommandRow::new(&["export"], FileAnd(PICTURE, |said| export(said, Asking::No)), "export the picture, in SEQUENCE all frames").key("export").runs(OnTrack),
+    CommandRow::new(&["export!"], FileAnd(PICTURE, |said| export(said, Asking::Forced)), "export, overwriting an existing file").runs(OnTrack),
+    CommandRow::new(&["export cancel"], Nothing(|| Run::requests(App::cancel_export)), "cancel the export").key("stop").runs(OnTrack),
+    CommandRow::new(&["render"], Nothing(|| Run::requests(App::start_trace)), "trace at full size").key("trace"),
+    CommandRow::new(&["compare"], File(|file| Run::requests(|app| app.compare_command(file))), "compare with a picture or scene FILE, saved, or git [REVISION]").key("compare").runs(OnTrack),
+    CommandRow::new(&["until"], Said(" [N spp|TIME|noise E]", until), "end the full-size trace at N spp, after 30 s or 5 min, or below noise 0.01"),
+    CommandRow::new(&["region"], Said(" [X,Y,W,H|off]", region), "trace only these pixels at full size, or all").key("region"),
+    CommandRow::new(&["zoom"], Said(" [fit|1:1|N]", zoom), "zoom the picture, also the preview"),
+    CommandRow::new(&["track"], File(|file| Run::requests(|app| app.open_track(file))), "play the track FILE, or the one beside the scene").key("track").runs(OnTrack),
+    CommandRow::new(&["view save"], Name(|name| Run::does(|app| app.save_view_named(name))), "write the view into the scene, or save it as NAME").key("write-view"),
+    CommandRow::new(&["view light"], Nothing(|| Run::does(App::look_from_light)), "look from the selected light"),
+    CommandRow::new(&["view reset"], Nothing(|| Run::does(|app| app.pictures.reset_view())), "reset to the scene's view").key("reset-view"),
+    CommandRow::new(&["size"], Said(" WxH", size), "set the picture size in the scene"),
+    CommandRow::new(&["set"], Said(" KEY [VALUE|default]", set), "write a render setting into the scene, by default the one in use"),
+    CommandRow::new(&["mesh"], File(|file| Run::does(move |app| app.add_mesh(file.as_deref()))), "add the mesh of an .obj FILE, named as from the scene"),
+    CommandRow::new(&["show uv"], Nothing(|| Run::does(|app| app.show(Some(Aov::Uv)))), "show texture coordinates: u red, v green"),
+    CommandRow::new(&["show side"], Nothing(|| Run::does(|app| app.show(Some(Aov::Side)))), "show sides of surfaces: front blue, back orange"),
+    CommandRow::new(&["exposure"], Said(" STOPS", exposure), "set the exposure of the display, in stops"),
+    CommandRow::new(&["transfer linear"], Nothing(|| Run::does(|app| app.set_transfer(Some(Transfer::Linear)))), "display light linearly"),
+    CommandRow::new(&["transfer srgb"], Nothing(|| Run::does(|app| app.set_transfer(Some(Transfer::Srgb)))), "display light by the sRGB curve"),
+    CommandRow::new(&["transfer scene"], Nothing(|| Run::does(|app| app.set_transfer(None))), "display light as the scene says"),
+    CommandRow::new(&["falsecolour", "falsecolor"], Nothing(|| Run::does(App::toggle_false_colours)), "display luminances as false colours, or no longer"),
+    CommandRow::new(&["denoise"], Nothing(|| Run::requests(App::toggle_denoising)), "reduce the noise of light on screen, or no longer").key("denoise"),
+    CommandRow::new(&["histogram"], Nothing(|| Run::does(App::toggle_histogram)), "show or hide the histogram of the light"),
+    CommandRow::new(&["mouse"], Nothing(|| Run::requests(App::toggle_mouse)), "take the mouse or leave it to the terminal").runs(Always),
+    CommandRow::new(&["theme dark"], Nothing(|| Run::does(|app| app.theme = Theme::Dark)), "use colours for dark screens").runs(Always),
+    CommandRow::new(&["theme light"], Nothing(|| Run::does(|app| app.theme = Theme::Light)), "use colours for light screens").runs(Always),
+    CommandRow::new(&["theme mono"], Nothing(|| Run::does(|app| app.theme = Theme::Mono)), "use no colours except in pictures").runs(Always),
+    CommandRow::new(&["pixels"], Said(" MODE", pixels), "set what pixels are drawn with, such as half, octant or auto").runs(Always),
+    CommandRow::new(&["help"], Nothing(|| Run::does(|app| app.overlays.help = Some(Help::default()))), "show this page").key("help").runs(Always),
 ];
 
 const PICTURE: &str = " [FILE] [WxH] [SPP]";
@@ -79,23 +71,23 @@ fn new(said: &str) -> Result<Run, String> {
     if language.is_none() && !said.is_empty() {
         return Err(format!("new takes {}", extensions()));
     }
-    Ok(Run::asks(move |app| app.start_new(language)))
+    Ok(Run::requests(move |app| app.start_new(language)))
 }
 
 fn export(said: &str, asking: Asking) -> Result<Run, String> {
     let order = ExportOrder::parse(said)?;
-    Ok(Run::asks(move |app| app.export(order, asking)))
+    Ok(Run::requests(move |app| app.export(order, asking)))
 }
 
 /// Reads when a trace ends; nothing asks when it does.
 fn until(said: &str) -> Result<Run, String> {
     let until = (!said.is_empty()).then(|| Until::parse(said)).transpose()?;
-    Ok(Run::asks(move |app| app.trace_until(until)))
+    Ok(Run::requests(move |app| app.trace_until(until)))
 }
 
 fn region(said: &str) -> Result<Run, String> {
     let order = RegionOrder::parse(said)?;
-    Ok(Run::asks(move |app| app.order_region(order)))
+    Ok(Run::requests(move |app| app.order_region(order)))
 }
 
 fn zoom(said: &str) -> Result<Run, String> {

@@ -13,7 +13,7 @@ use Scope::These;
 
 const VIEW: Scope = These(&[In(Mode::View)]);
 const FLY: Scope = These(&[In(Mode::Fly)]);
-const VIEWS: Scope = These(&[In(Mode::View), In(Mode::Fly)]);
+const BOTH: Scope = These(&[In(Mode::View), In(Mode::Fly)]);
 const ORBITING: &[Context] = &[In(Mode::View)];
 const FLYING: &[Context] = &[In(Mode::Fly)];
 
@@ -30,7 +30,7 @@ pub(super) const KEYS: &[Row] = &[
     Key::new(VIEW, "pan-down", &[c('J'), shift(Down)], "pan down").does(|app| app.move_camera(|now| panned(now, 0, -1))),
     Key::new(VIEW, "pan-up", &[c('K'), shift(Up)], "pan up").does(|app| app.move_camera(|now| panned(now, 0, 1))),
     Key::new(VIEW, "pan-right", &[c('L'), shift(Right)], "pan right").does(|app| app.move_camera(|now| panned(now, -1, 0))),
-    Key::new(VIEW, "fly", &[c('F')], "fly: turn in place and move").hint(60, "fly").asks(|app| app.go(Mode::Fly)),
+    Key::new(VIEW, "fly", &[c('F')], "fly: turn in place and move").hint(60, "fly").requests(|app| app.go(Mode::Fly)),
     Key::new(FLY, "turn-left", &[c('h'), key(Left)], "turn left").hint(0, "turn").does(|app| app.move_camera(|now| faced(now, 1, 0))),
     Key::new(FLY, "turn-down", &[c('j'), key(Down)], "turn down").hint(0, "turn").does(|app| app.move_camera(|now| faced(now, 0, -1))),
     Key::new(FLY, "turn-up", &[c('k'), key(Up)], "turn up").hint(0, "turn").does(|app| app.move_camera(|now| faced(now, 0, 1))),
@@ -39,16 +39,16 @@ pub(super) const KEYS: &[Row] = &[
     Key::new(FLY, "backward", &[c('J'), shift(Down), c('-')], "back").hint(11, "move").does(|app| app.move_camera(|now| advanced(now, -1))),
     Key::new(FLY, "pan-left", &[c('H'), shift(Left)], "left").hint(10, "move").does(|app| app.move_camera(|now| panned(now, 1, 0))),
     Key::new(FLY, "pan-right", &[c('L'), shift(Right)], "right").hint(13, "move").does(|app| app.move_camera(|now| panned(now, -1, 0))),
-    Key::new(FLY, "camera", &[c('F')], "move around the target again").hint(60, "orbit").asks(|app| app.go(Mode::View)),
-    Key::new(VIEWS, "frame-selection", &[c('f')], "frame the selected object").hint_in(ORBITING, 20, "frame").does(App::frame_selected),
-    Key::new(VIEWS, "reset-view", &[c('0')], "reset to the scene's view").hint(30, "reset").does(|app| app.pictures.reset_view()).when(|app| app.pictures.view.is_some()),
-    Key::new(VIEWS, "write-view", &[c('S')], "write the view into the scene").hint(40, "save view").asks(App::save_view_key).when(|app| app.pictures.view.is_some()),
-    Key::new(VIEWS, "view-from-light", &[c('o')], "look from the selected light").does(App::look_from_light),
-    Key::new(VIEWS, "saved-views", &[c('V')], "saved views").does(App::list_views),
-    Key::new(VIEWS, "narrower-view", &[c('[')], "narrow the field of view").does(|app| app.move_camera(|now| widened(now, -1))),
-    Key::new(VIEWS, "wider-view", &[c(']')], "widen the field of view").does(|app| app.move_camera(|now| widened(now, 1))),
-    Key::new(VIEWS, "roll-left", &[c(',')], "roll left").hint_in(FLYING, 20, "roll").does(|app| app.move_camera(|now| rolled(now, 1))),
-    Key::new(VIEWS, "roll-right", &[c('.')], "roll right").hint_in(FLYING, 20, "roll").does(|app| app.move_camera(|now| rolled(now, -1))),
-    Key::new(VIEWS, "edit", &[c('e')], "edit fields").asks(|app| app.go(Mode::Edit)).when(|app| !app.cursor.fields().is_empty()),
-    Key::new(VIEWS, "list", &[key(Enter)], "back to the list").asks(|app| app.go(Mode::Select)),
+    Key::new(FLY, "camera", &[c('F')], "move around the target again").hint(60, "orbit").requests(|app| app.go(Mode::View)),
+    Key::new(BOTH, "frame-selection", &[c('f')], "frame the selected object").hint_in(ORBITING, 20, "frame").does(App::frame_selected),
+    Key::new(BOTH, "reset-view", &[c('0')], "reset to the scene's view").hint(30, "reset").does(|app| app.pictures.reset_view()).when(|app| app.pictures.view.is_some()),
+    Key::new(BOTH, "write-view", &[c('S')], "write the view into the scene").hint(40, "save view").requests(App::save_view_key).when(|app| app.pictures.view.is_some()),
+    Key::new(BOTH, "view-from-light", &[c('o')], "look from the selected light").does(App::look_from_light),
+    Key::new(BOTH, "saved-views", &[c('V')], "saved views").does(App::list_views),
+    Key::new(BOTH, "narrower-view", &[c('[')], "narrow the field of view").does(|app| app.move_camera(|now| widened(now, -1))),
+    Key::new(BOTH, "wider-view", &[c(']')], "widen the field of view").does(|app| app.move_camera(|now| widened(now, 1))),
+    Key::new(BOTH, "roll-left", &[c(',')], "roll left").hint_in(FLYING, 20, "roll").does(|app| app.move_camera(|now| rolled(now, 1))),
+    Key::new(BOTH, "roll-right", &[c('.')], "roll right").hint_in(FLYING, 20, "roll").does(|app| app.move_camera(|now| rolled(now, -1))),
+    Key::new(BOTH, "edit", &[c('e')], "edit fields").requests(|app| app.go(Mode::Edit)),
+    Key::new(BOTH, "list", &[key(Enter)], "back to the list").requests(|app| app.go(Mode::Select)),
 ];

@@ -31,7 +31,7 @@ pub(super) const KEYS: &[Row] = &[
     Key::new(EDIT, "larger-steps", &[c(';')], "larger steps").hint(20, "step").does(|app| app.overlays.say(app.cursor.change_stride(1))).when(App::has_number),
     Key::new(EDIT, "previous-number", &[key(BackTab)], "previous number").does(|app| app.next_component(-1)),
     Key::new(EDIT, "orthonormalise", &[c('O')], "orthonormalise the frame").hint(60, "orthonormalise").does(App::orthonormalise).when(App::has_oblique_frame),
-    Key::new(EDIT, "camera", &[c('v')], "move the camera").asks(|app| app.go(Mode::View)),
+    Key::new(EDIT, "camera", &[c('v')], "move the camera").requests(|app| app.go(Mode::View)),
     Key::new(COLOUR, "nudge-up", &[c('l'), key(Right)], "nudge up").hint(1, "change").does(|app| app.step_colour(1, Plain)),
     Key::new(COLOUR, "nudge-down", &[c('h'), key(Left)], "nudge down").hint(0, "change").does(|app| app.step_colour(-1, Plain)),
     Key::new(COLOUR, "nudge-up-coarse", &[c('L'), shift(Right)], "nudge up ten steps").does(|app| app.step_colour(1, Coarse)),

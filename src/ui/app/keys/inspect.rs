@@ -26,7 +26,7 @@ const TRACE: &[Context] = &[In(Mode::Trace)];
 /// The most useful first.
 #[rustfmt::skip]
 pub(super) const KEYS: &[Row] = &[
-    Key::new(INSPECTABLE, "inspect", &[c('i')], "inspect a pixel of the picture").hint_in(SELECT, 50, "inspect").hint_in(TRACE, 60, "inspect").asks(|app| app.go(Mode::Inspect)),
+    Key::new(INSPECTABLE, "inspect", &[c('i')], "inspect a pixel of the picture").hint_in(SELECT, 50, "inspect").hint_in(TRACE, 60, "inspect").requests(|app| app.go(Mode::Inspect)),
     Key::new(INSPECT, "cross-left", &[c('h'), key(Left)], "left").hint(0, "move").does(|app| app.move_cross(-1, 0)),
     Key::new(INSPECT, "cross-down", &[c('j'), key(Down)], "down").hint(0, "move").does(|app| app.move_cross(0, 1)),
     Key::new(INSPECT, "cross-up", &[c('k'), key(Up)], "up").hint(0, "move").does(|app| app.move_cross(0, -1)),

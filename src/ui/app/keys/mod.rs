@@ -22,9 +22,9 @@ use crate::ui::keymap::{Entry, Keymap, RowId};
 use crate::ui::msg::Effect;
 use row::{Row, Step};
 
-/// All rows, a slice for each place where keys have a meaning: of a key that is not bound where it is
-/// pressed, the first is named. Ctrl-H, Ctrl-I, Ctrl-M and Ctrl-[ send
-/// the same bytes as Backspace, Tab, Enter and Esc, and are therefore never bound.
+/// All rows, one slice a file. A key that is not bound where it is pressed is answered with the first
+/// row that has it elsewhere, so that their order matters. Ctrl-H, Ctrl-I, Ctrl-M and Ctrl-[ send the
+/// same bytes as Backspace, Tab, Enter and Esc, and are therefore never bound.
 const ROWS: &[&[Row]] = &[
     lists::KEYS,
     questions::KEYS,
@@ -59,7 +59,7 @@ impl App {
                 step(self);
                 Vec::new()
             }
-            Some(Step::Asks(step)) => step(self),
+            Some(Step::Requests(step)) => step(self),
             None => Vec::new(),
         }
     }

@@ -16,9 +16,10 @@ pub(super) struct Row {
 /// What keys do.
 #[derive(Clone, Copy)]
 pub(super) enum Step {
+    /// Without effects.
     Does(fn(&mut App)),
     /// With effects.
-    Asks(fn(&mut App) -> Vec<Effect>),
+    Requests(fn(&mut App) -> Vec<Effect>),
 }
 
 impl Key {
@@ -26,8 +27,8 @@ impl Key {
         Row::new(self, Step::Does(step))
     }
 
-    pub(super) const fn asks(self, step: fn(&mut App) -> Vec<Effect>) -> Row {
-        Row::new(self, Step::Asks(step))
+    pub(super) const fn requests(self, step: fn(&mut App) -> Vec<Effect>) -> Row {
+        Row::new(self, Step::Requests(step))
     }
 }
 

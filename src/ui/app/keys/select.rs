@@ -18,11 +18,11 @@ const SELECT_AND_FIELDS: Scope = These(&[In(Mode::Select), In(Mode::Edit)]);
 /// The most useful first.
 #[rustfmt::skip]
 pub(super) const KEYS: &[Row] = &[
-    Key::new(SELECT, "edit", &[key(Enter), c('e')], "edit its fields").hint(10, "edit").asks(|app| app.go(Mode::Edit)).when(|app| !app.cursor.fields().is_empty()),
-    Key::new(SELECT, "camera", &[c('v')], "move the camera").hint(40, "camera").asks(|app| app.go(Mode::View)),
+    Key::new(SELECT, "edit", &[key(Enter), c('e')], "edit its fields").hint(10, "edit").requests(|app| app.go(Mode::Edit)).when(|app| !app.cursor.fields().is_empty()),
+    Key::new(SELECT, "camera", &[c('v')], "move the camera").hint(40, "camera").requests(|app| app.go(Mode::View)),
     Key::new(SELECT, "delete", &[c('d')], "delete").does(App::delete),
     Key::new(SELECT, "duplicate", &[c('D')], "duplicate").does(App::duplicate),
-    Key::new(SELECT, "copy", &[c('y')], "copy the text").asks(App::copy),
+    Key::new(SELECT, "copy", &[c('y')], "copy the text").requests(App::copy),
     Key::new(SELECT, "paste", &[c('p')], "paste").does(App::insert_copied),
     Key::new(SELECT, "mark", &[c(' ')], "mark or unmark").does(App::toggle_mark),
     Key::new(SELECT, "rename", &[c('R')], "rename").does(App::start_renaming),
@@ -46,5 +46,5 @@ pub(super) const KEYS: &[Row] = &[
     Key::new(SELECT, "next-match", &[c('n')], "next match").does(|app| app.search(1)),
     Key::new(SELECT, "previous-match", &[c('N')], "previous match").does(|app| app.search(-1)),
     Key::new(SELECT, "previous-item", &[key(BackTab)], "previous light or object").does(|app| app.cycle(-1)),
-    Key::new(SELECT, "stop", &[c('x')], "cancel the export").asks(App::stop),
+    Key::new(SELECT, "stop", &[c('x')], "cancel the export").requests(App::stop),
 ];

@@ -1,4 +1,4 @@
-//! Views, shares of the light, the exposure of the display, and the histogram.
+//! Views, light components, the exposure of the display, and the histogram.
 
 use std::sync::{Arc, Weak};
 

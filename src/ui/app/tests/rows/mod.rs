@@ -115,7 +115,8 @@ impl<'s> Stage<'s> {
         }
     }
 
-    /// Runs a script whose every line is a session, except that a line may begin with a bar.
+    /// Runs a script in which each line is a session of its own; lines that begin with a bar continue
+    /// the one before.
     #[track_caller]
     pub(super) fn each(&self, script: &str) {
         let mut session = None;

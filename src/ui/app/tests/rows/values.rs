@@ -1,4 +1,4 @@
-//! What can be seen by a name. Nothing, none and no are empty texts.
+//! What can be seen by a name. What is absent, and `false`, reads as an empty text.
 
 use super::*;
 use crate::document::StepName;
