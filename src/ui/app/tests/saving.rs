@@ -81,6 +81,11 @@ scripts! {
         ray().play(r"
             jjjel:wq<Enter>
             @saved        | does quit
+
+            // Whoever stays gives up what was to follow.
+            jjjel:wq<Enter>
+            <Ctrl-c><Esc>
+            @saved        | not does quit
         ");
     };
 

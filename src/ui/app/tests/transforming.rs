@@ -219,7 +219,7 @@ scripts! {
 
     a_click_beside_the_picture_confirms_a_motion: scene("a.ray", RAY).play(r"
         [object 1] mx2
-        @down list 3,2 | becomes box 0 0 0 => box 2 0 0
+        @down list 3,2 | not transforms | becomes box 0 0 0 => box 2 0 0
     ");
 
     the_camera_is_moved_and_rotated_in_its_own_record: {

@@ -88,6 +88,7 @@ fn settings(app: &App, name: &str) -> Option<String> {
                 .map(|window| window.display.half_stops.to_string())
                 .words()
         }
+        "transforms" => app.pictures.transform.is_some().words(),
         "denoised" => {
             let window = app.frame_window();
             window.is_some_and(|window| window.display.denoised).words()
