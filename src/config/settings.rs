@@ -143,7 +143,7 @@ const INTERFACE: &[Setting] = &[
     },
 ];
 
-/// The settings behind those of rendering.
+/// The settings that follow those of rendering.
 const MACHINE: &[Setting] = &[
     Setting {
         name: "threads",

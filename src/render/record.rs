@@ -81,7 +81,7 @@ const PICTURE: &[(&str, Take)] = &[
     }),
 ];
 
-/// The entries of settings that are no render settings.
+/// The entries of settings that are not render settings.
 #[rustfmt::skip]
 const FRAME: &[(&str, Take)] = &[
     ("size", |to, value| set(&mut to.size, Size::parse(value))),

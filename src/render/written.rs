@@ -3,7 +3,7 @@
 use super::frame::{Aov, Settings};
 use crate::scene::{RenderKey, Rendering, Size};
 
-/// The entries of the first version but for the last. Those that were added since stand behind them,
+/// The entries of the first version but for the last. Those added since follow them,
 /// and only where they are not their defaults.
 const FIRST: [&str; 10] = [
     "size",
@@ -24,7 +24,7 @@ const LAST: &str = "gloss";
 /// The number of samples, which is written apart from the others.
 pub(super) const SAMPLES: &str = "spp";
 
-/// The names of the entries, in their order.
+/// The names of the entries, in order.
 pub(super) fn names() -> impl Iterator<Item = &'static str> {
     let added = RenderKey::all().filter(|key| is_added(*key));
     let added = added.map(RenderKey::name);

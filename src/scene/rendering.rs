@@ -37,7 +37,7 @@ pub const MAX_DEPTH: u32 = 4096;
 /// The exposures that can be asked for, in stops: beyond, single precision overflows soon.
 pub const EXPOSURES: RangeInclusive<f64> = -100.0..=100.0;
 
-/// A type of values of settings: a number stands for each.
+/// A type of setting values, each of which a number stands for.
 trait Value: Copy {
     fn number(self) -> f64;
 

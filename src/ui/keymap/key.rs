@@ -38,9 +38,10 @@ enum Pressed {
 pub enum Scope {
     /// Active only in these contexts.
     These(&'static [Context]),
-    /// All modes but [`Mode::Move`] and [`Mode::Sequence`], the list of errors, and the rays behind a pixel.
+    /// All modes but [`Mode::Move`] and [`Mode::Sequence`], the list of errors, and the rays behind a
+    /// pixel.
     Everywhere,
-    /// [`Self::Everywhere`], while something is being transformed, and while a scene is being opened.
+    /// [`Self::Everywhere`], and while something is being transformed or a scene is being opened.
     Sceneless,
     /// All contexts, including pages and questions.
     Always,

@@ -36,9 +36,9 @@ const CAMERA: &[Context] = &[In(Mode::View), In(Mode::Fly)];
 const TRACE: &[Context] = &[In(Mode::Trace)];
 const COMPARE: &[Context] = &[In(Mode::Compare)];
 const ERRORS: &[Context] = &[Context::Errors];
-/// Where the selected thing is in the text.
+/// Where the editor is worth a hint: it opens at what is under the cursor.
 const WITH_EDITOR: &[Context] = &[In(Mode::Inspect), Context::Rays, Context::Errors];
-/// What Esc leaves for something else.
+/// What Esc leaves.
 const LEAVABLE: &[Context] = &[
     In(Mode::Edit),
     In(Mode::View),
