@@ -81,15 +81,17 @@ fn write(path: &Path, width: u32, pixels: &[[u8; 3]]) {
 /// and later drawings take.
 fn ours(scene: &str, depth: ColourDepth) -> (CellImage, Vec<[u8; 3]>, [f64; 2]) {
     let (mut app, _) = encoding::opened(include_str!("../scenes/default.ray"), TERMINAL);
-    let (cells, size) = app.raster().expect("the picture has cells");
+    let (cells, size) = app.shared.raster().expect("the picture has cells");
     let picture = read(scene).resampled(size);
     let frame = Frame {
         objects: picture.objects.clone(),
         ..Frame::drawn(size, picture.pixels.clone())
     };
     app.update(Msg::Frame(Target::Preview, Arc::new(frame)));
-    let frame_window = app.frame_window().expect("the picture has cells");
-    app.picture_mut().advance(&frame_window, &[], usize::MAX);
+    let frame_window = app.shared.frame_window().expect("the picture has cells");
+    app.shared
+        .picture_mut()
+        .advance(&frame_window, &[], usize::MAX);
     let backend = AnsiBackend::new(depth, ratatui::layout::Size::from(TERMINAL));
     let Ok(mut terminal) = ratatui::Terminal::new(backend);
     let mut inks = Inks::for_depth(depth);

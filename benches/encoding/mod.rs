@@ -91,7 +91,7 @@ fn traced(job: Job) -> Arc<Frame> {
 }
 
 fn show(app: &mut App, frames: &[Arc<Frame>], turns: usize) -> Encoded {
-    let (columns, rows) = app.terminal;
+    let (columns, rows) = app.shared.terminal;
     let depth = ColourDepth::TrueColour;
     let backend = AnsiBackend::new(depth, Size::new(columns, rows));
     let Ok(mut terminal) = ratatui::Terminal::new(backend);
@@ -103,8 +103,10 @@ fn show(app: &mut App, frames: &[Arc<Frame>], turns: usize) -> Encoded {
         sent.clear();
         let begun = Instant::now();
         app.update(Msg::Frame(Target::Preview, frame));
-        let frame_window = app.frame_window().expect("the picture has cells");
-        app.picture_mut().advance(&frame_window, &[], usize::MAX);
+        let frame_window = app.shared.frame_window().expect("the picture has cells");
+        app.shared
+            .picture_mut()
+            .advance(&frame_window, &[], usize::MAX);
         let Ok(_) = terminal.draw(|frame| {
             view::draw(app, &mut inks, frame);
         });

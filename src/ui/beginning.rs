@@ -44,7 +44,7 @@ impl Beginning {
         };
         beginning.perform(effects);
         let deadline = Instant::now() + PATIENCE;
-        while beginning.app.disk.is_opening() {
+        while beginning.app.shared.disk.is_opening() {
             let left = deadline.saturating_duration_since(Instant::now());
             match inbox.recv_timeout(left) {
                 Ok(Event::Msg(msg)) => beginning.step(msg),
@@ -52,7 +52,7 @@ impl Beginning {
                 Ok(Event::Done) => beginning.at_work -= 1,
                 _ => break,
             }
-            if let Some(error) = beginning.app.disk.take_failure() {
+            if let Some(error) = beginning.app.shared.disk.take_failure() {
                 return Err(error.into());
             }
         }

@@ -42,7 +42,6 @@ pub mod scene_reading;
 mod text_width;
 mod tty_session;
 
-mod dope_sheet;
 mod revision;
 mod screen;
 mod script;

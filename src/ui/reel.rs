@@ -94,3 +94,18 @@ impl ReelProgress {
         (f64::from(self.frame) + self.traced.done) / f64::from(self.count.max(1))
     }
 }
+
+/// Why a picture of this name cannot be exported outside of SEQUENCE mode, if it names a sequence.
+pub(super) fn names_sequence(path: &Path, play: &str) -> Option<String> {
+    let is_gif = path
+        .extension()
+        .is_some_and(|extension| extension.eq_ignore_ascii_case("gif"));
+    let form = ReelForm::of_path(path).ok()?;
+    let is_pattern = matches!(form, ReelForm::Pictures(..));
+    (is_pattern || !is_gif).then(|| {
+        format!(
+            "{} names a sequence: press {play}, then :export",
+            path.display()
+        )
+    })
+}

@@ -204,13 +204,13 @@ impl Session {
     /// Restores the terminal and prints there what became of unsaved edits and of the full-size
     /// trace.
     fn close(mut self) -> Result<Ending, Error> {
-        let unreadable = self.app.disk.take_failure();
-        let path = self.app.disk.path.as_deref();
+        let unreadable = self.app.shared.disk.take_failure();
+        let path = self.app.shared.disk.path.as_deref();
         let path = path.map_or_else(String::new, |path| {
             format!(" {}", shell_path(&path.to_string_lossy()))
         });
-        let key = self.app.key_for("trace");
-        let now = self.app.scene.clone().zip(self.app.origin());
+        let key = self.app.shared.key_for("trace");
+        let now = self.app.shared.scene.clone().zip(self.app.shared.origin());
         // The end of the process frees a large scene immediately.
         mem::forget(self.app);
         let (edits, trace) = self.runtime.close(self.ending.deadlines(), now);
@@ -239,7 +239,7 @@ impl Session {
 
     /// When the rest of a picture may be sent, if there is one and room for it.
     fn rest_at(&self, now: Instant) -> Option<Instant> {
-        if !self.app.picture().is_pending() || self.app.frame_window().is_none() {
+        if !self.app.shared.picture().is_pending() || self.app.shared.frame_window().is_none() {
             return None;
         }
         Some(self.link.ready_at(now).unwrap_or(now))
@@ -318,7 +318,9 @@ impl Session {
 
     fn urgency_of(&self, msg: &Msg) -> Urgency {
         match msg {
-            Msg::Frame(Target::Preview, frame) if self.app.pictures.preview.is_first(frame) => {
+            Msg::Frame(Target::Preview, frame)
+                if self.app.shared.pictures.preview.is_first(frame) =>
+            {
                 Urgency::Now
             }
             Msg::Frame(..) => Urgency::Soon,
@@ -332,7 +334,7 @@ impl Session {
         }
         let effects = self.app.update(msg);
         self.perform(effects);
-        let are_kept = self.app.has_kept_edits();
+        let are_kept = self.app.shared.has_kept_edits();
         self.runtime.screen().note_kept_edits(are_kept);
     }
 
@@ -365,12 +367,12 @@ impl Session {
         let now = Instant::now();
         self.fit_pixels()?;
         let is_limited = self.link.is_limited();
-        self.app.follow_wires();
-        self.app.thumbnails.has_colours = self.inks.have_colours();
-        if let Some(frame_window) = self.app.frame_window() {
+        self.app.shared.follow_wires();
+        self.app.shared.thumbnails.has_colours = self.inks.have_colours();
+        if let Some(frame_window) = self.app.shared.frame_window() {
             let allowance = match urgency {
                 // Nothing of the picture is sent.
-                _ if self.app.wireframe().is_some() => usize::MAX,
+                _ if self.app.shared.wireframe().is_some() => usize::MAX,
                 // The part that the user is waiting for is sent first, without the picture.
                 Urgency::Now if is_limited => 0,
                 _ => self.link.allowance(now),
@@ -380,14 +382,14 @@ impl Session {
                 (Manner::Picture(_), 1..) => usize::MAX,
                 (_, allowance) => allowance,
             };
-            let marked = self.app.outlined_objects();
-            let picture = self.app.picture_mut();
+            let marked = self.app.shared.outlined_objects();
+            let picture = self.app.shared.picture_mut();
             picture.advance(&frame_window, &marked, allowance);
             let rests = !picture.is_pending() && picture.is_complete();
-            self.app.pictures.net = (is_limited && !rests).then(|| self.link.rate(now));
+            self.app.shared.pictures.net = (is_limited && !rests).then(|| self.link.rate(now));
         }
         let (app, inks) = (&self.app, &mut self.inks);
-        let mut area = app.terminal;
+        let mut area = app.shared.terminal;
         let pixmap = self.manner.means().map(|_| view::pixmap(app));
         let bytes = self.runtime.screen().draw(pixmap.as_ref(), |frame| {
             area = (frame.area().width, frame.area().height);
@@ -397,7 +399,7 @@ impl Session {
         if !self.runtime.screen().is_clear() {
             self.waiting = Some((now, bytes));
         }
-        if area != self.app.terminal {
+        if area != self.app.shared.terminal {
             self.step(Msg::Resize(area.0, area.1));
             return self.draw(urgency);
         }

@@ -18,8 +18,8 @@ const CROWDED: &[(&str, usize)] = &[
     ("src/language", 31),
     ("src/render", 72),
     ("src/render/tests", 36),
-    ("src/ui", 40),
-    ("src/ui/app", 90),
+    ("src/ui", 39),
+    ("src/ui/app", 88),
     ("src/ui/app/tests", 44),
     ("src/ui/view", 35),
 ];
@@ -40,11 +40,11 @@ const LONG: &[(&str, usize)] = &[
     ("src/render/tests/paths.rs", 504),
     ("src/render/tests/photons.rs", 506),
     ("src/render/tile.rs", 503),
-    ("src/ui/app/reload.rs", 549),
+    ("src/ui/app/reload.rs", 547),
     ("src/ui/effects.rs", 528),
     ("src/ui/recovery/tests.rs", 502),
-    ("src/ui/view/status.rs", 600),
-    ("src/ui/view/tests.rs", 569),
+    ("src/ui/view/status.rs", 565),
+    ("src/ui/view/tests.rs", 552),
 ];
 
 /// The lines of code of each room over a thousand, without comments and tests, rounded up to hundreds.
@@ -62,19 +62,21 @@ const ROOMS: &[(&str, usize)] = &[
     ("render", 16100),
     ("scene", 1300),
     ("track", 1600),
-    ("ui", 31600),
+    // A mode that is a room names the state that its steps see, and what all modes share.
+    ("ui", 31900),
 ];
 
-/// The files of the interface that name each mode. What knows a mode has to be read before it is
-/// changed.
+/// The files of the interface that name each mode, outside of a folder of its own. What knows a mode has
+/// to be read before it is changed.
 const MODES: &[(&str, usize)] = &[
     ("Compare", 13),
     ("Edit", 16),
-    ("Fly", 7),
+    // SEQUENCE says itself where its track is played and keyed: here, in EDIT, SELECT and VIEW.
+    ("Fly", 8),
     ("Inspect", 12),
     ("Move", 14),
-    ("Select", 26),
-    ("Sequence", 12),
+    ("Select", 27),
+    ("Sequence", 9),
     ("Trace", 11),
     ("View", 9),
 ];
@@ -153,8 +155,11 @@ fn no_room_grows_unseen() {
 #[test]
 fn modes_are_known_where_they_were() {
     let mut modes: BTreeMap<String, usize> = BTreeMap::new();
-    for (_, module) in Sources::of("src").iter() {
+    for (name, module) in Sources::of("src").iter() {
         let mut named = names_after(&module.code, "Mode::");
+        // `ui/app/MODE/FILE`.
+        let own = name.get(2).filter(|_| 3 < name.len());
+        named.retain(|mode| own != Some(&mode.to_lowercase()));
         named.sort();
         named.dedup();
         for mode in named

@@ -7,7 +7,7 @@ use glam::DVec3;
 use super::inspection::Cross;
 use super::menu::{Entry, Menu, Purpose};
 use super::transform::{decimals_of, round_up};
-use super::{App, Tool};
+use super::{Shared, Tool};
 use crate::language::{Node, Wish};
 use crate::render::{clearance, pixel_width, surface_under};
 use crate::ui::keymap::Mode;
@@ -15,7 +15,7 @@ use crate::ui::keymap::Mode;
 /// The fraction of the picture's height that a new thing takes up.
 const SHARE: f64 = 0.2;
 
-impl App {
+impl Shared {
     /// Opens the menu of what can be added.
     pub(super) fn open_additions(&mut self) {
         if !self.source().is_blank() && self.refuses_structure() {

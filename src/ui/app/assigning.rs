@@ -1,6 +1,6 @@
 //! Setting fields: of the selected and the marked nodes in the text, and of the working view.
 
-use super::App;
+use super::Shared;
 use super::typed::Values;
 use crate::language::{Node, Placed};
 use crate::scene::Camera;
@@ -9,7 +9,7 @@ use crate::text::{Diagnostic, Edit, Span};
 /// A field, its index among those of the selected node, and the components to set.
 type Wanted<'a> = (usize, &'a Placed, &'a [(usize, String)]);
 
-impl App {
+impl Shared {
     /// Sets components of the current field and, with the further values, of those below it, in one
     /// edit.
     pub(super) fn assign(&mut self, values: &[Values]) -> Result<(), Diagnostic> {

@@ -4,12 +4,12 @@
 use crossterm::event::{KeyCode, KeyEvent};
 
 use super::menu::{Entry, Menu, Purpose};
-use super::{App, colours};
+use super::{Shared, colours};
 use crate::language::table::{Category, Kind};
 use crate::language::{Node, Placed, Source};
 use crate::text::Edit;
 
-impl App {
+impl Shared {
     /// Opens the list of the values of the current field if it has one, otherwise starts typing a
     /// value.
     pub(super) fn enter_value(&mut self) {
@@ -93,10 +93,10 @@ impl App {
         if self.leaves_live_edit(&live_edit, "choice") {
             return false;
         }
-        let outcome = self.try_instead(&mut live_edit, |app| {
-            menu.offer = app.offered(&menu);
+        let outcome = self.try_instead(&mut live_edit, |shared| {
+            menu.offer = shared.offered(&menu);
             let name = menu.chosen().map(|entry| entry.name.as_str());
-            name.map_or_else(|| Ok(Vec::new()), |name| app.edits_choosing(name))
+            name.map_or_else(|| Ok(Vec::new()), |name| shared.edits_choosing(name))
         });
         menu.live_edit = Some(live_edit);
         self.overlays.menu = Some(menu);

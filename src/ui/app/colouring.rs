@@ -3,7 +3,7 @@
 use super::hsv::Hsv;
 use super::literals::{self, plain};
 use super::picker::{ColourPicker, PickerRow};
-use super::{App, Stride, colours};
+use super::{Shared, Stride, colours};
 use crate::language::Placed;
 use crate::language::table::Kind;
 use crate::scene::Rgb;
@@ -12,7 +12,7 @@ use crate::text::{parse_number, rounded, spell_like};
 /// The number of the scene's colours offered.
 const SWATCHES: usize = 30;
 
-impl App {
+impl Shared {
     /// Opens the colour picker at the current field.
     pub(super) fn open_picker(&mut self) {
         let Some(row) = self.field_row(self.cursor.field) else {
@@ -103,10 +103,10 @@ impl App {
         }
         change(&mut picker);
         let colour = picker.colour.rgb();
-        let outcome = self.try_instead(&mut picker.live_edit, |app| {
-            let edits = app.cursor.current().map(|placed| {
-                let values = app.colour_values(placed, colour);
-                app.edits_of(&[(placed, &values)])
+        let outcome = self.try_instead(&mut picker.live_edit, |shared| {
+            let edits = shared.cursor.current().map(|placed| {
+                let values = shared.colour_values(placed, colour);
+                shared.edits_of(&[(placed, &values)])
             });
             Ok(edits.unwrap_or_default())
         });

@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use super::compared::{LIGHT, Origin, Reference, Wipe};
 use super::contrast::Contrast;
-use super::{App, Cross};
+use super::{Cross, Shared};
 use crate::image_file::ImageFormat;
 use crate::render::{Aov, Frame, Frames, Job, Settings};
 use crate::scene::{Camera, Images, Rendering, Scene, Size};
@@ -14,7 +14,7 @@ use crate::ui::keymap::{Context, Mode};
 use crate::ui::msg::{Effect, Target};
 use crate::ui::reference::{ReferenceId, ReferenceRead, ReferenceSource};
 
-impl App {
+impl Shared {
     /// Makes the picture on screen the reference.
     pub(super) fn pin(&mut self) -> Vec<Effect> {
         let pinned = match self.pinned() {
@@ -90,10 +90,13 @@ impl App {
 
     /// Compares with something else, or with the reference; SEQUENCE is left first for that.
     pub(super) fn compare_command(&mut self, words: Option<PathBuf>) -> Vec<Effect> {
-        match words {
-            Some(_) => self.compare_with(words),
-            None => self.outside_sequence(|app| app.compare_with(None)),
+        if words.is_some() {
+            return self.compare_with(words);
         }
+        let mode = self.step_outside();
+        let effects = self.compare_with(None);
+        self.stay_if_failed(mode);
+        effects
     }
 
     /// Compares with the reference, or reads another one first, for `:compare`.
@@ -174,7 +177,7 @@ impl App {
         } else if !is_free {
             self.overlays.say(format!(":compare compares with {name}"));
         } else if self.mode != Mode::Compare {
-            self.leave_sequence();
+            self.leave_passing();
             effects.extend(self.go(Mode::Compare));
         }
         if !how.is_empty() {

@@ -7,7 +7,7 @@ use crossterm::event::{KeyCode, KeyEvent};
 use tui_input::Input;
 
 use super::command::{self, Described};
-use super::{App, Completion, PromptKind, line};
+use super::{App, Completion, PromptKind, Shared, line};
 use crate::image_file::ImageFormat;
 use crate::language::Language;
 use crate::ui::keymap::{Context, Mode, RowId};
@@ -22,6 +22,55 @@ enum Wanted<'a> {
 }
 
 impl App {
+    /// Runs the command line: the action chosen or uniquely described, otherwise a command.
+    pub(super) fn run_line(&mut self, line: &str) -> Vec<Effect> {
+        // A colon typed once more is no part of the command, as in vi.
+        let line = line.trim_start().trim_start_matches(':');
+        let found = self.shared.completions();
+        let chosen = self.shared.palette.chosen;
+        let is_typed = chosen.is_none() && !line.trim().is_empty();
+        if is_typed && 1 < found.len() && !command::begins_command(line) {
+            self.shared.overlays.warn("several match: Tab chooses");
+            return Vec::new();
+        }
+        self.shared.palette.reset();
+        self.shared.overlays.prompt = None;
+        self.shared.palette.remember(line);
+        let described = match (chosen, found.as_slice()) {
+            (Some(at), found) => found.get(at),
+            (None, [only]) if !command::is_command(line) => Some(only),
+            (None, _) => None,
+        };
+        match described.and_then(|completion| completion.act) {
+            Some((_, context))
+                if self.shared.mode == Mode::Move && context != Context::In(Mode::Move) =>
+            {
+                self.shared.warn_of_transform();
+                Vec::new()
+            }
+            Some((row, context @ Context::In(Mode::Sequence))) => self.act_in(row, context),
+            Some((row, context)) => self.outside(|app| app.act_in(row, context)),
+            None => self.command(line),
+        }
+    }
+
+    /// Does what a key does, after going to the mode that has it.
+    fn act_in(&mut self, row: RowId, context: Context) -> Vec<Effect> {
+        let mut effects = Vec::new();
+        if let Context::In(mode) = context
+            && mode != self.shared.mode
+        {
+            effects = self.go(mode);
+            if self.shared.mode != mode {
+                return effects;
+            }
+        }
+        effects.extend(self.act(row));
+        effects
+    }
+}
+
+impl Shared {
     /// Opens the command line.
     pub(super) fn open_palette(&mut self) {
         self.open_palette_with("");
@@ -56,51 +105,6 @@ impl App {
     pub(super) fn palette_pasted(&mut self) -> Vec<Effect> {
         self.palette.reset();
         self.list_folder()
-    }
-
-    /// Runs the command line: the action chosen or uniquely described, otherwise a command.
-    pub(super) fn run_line(&mut self, line: &str) -> Vec<Effect> {
-        // A colon typed once more is no part of the command, as in vi.
-        let line = line.trim_start().trim_start_matches(':');
-        let found = self.completions();
-        let chosen = self.palette.chosen;
-        let is_typed = chosen.is_none() && !line.trim().is_empty();
-        if is_typed && 1 < found.len() && !command::begins_command(line) {
-            self.overlays.warn("several match: Tab chooses");
-            return Vec::new();
-        }
-        self.palette.reset();
-        self.overlays.prompt = None;
-        self.palette.remember(line);
-        let described = match (chosen, found.as_slice()) {
-            (Some(at), found) => found.get(at),
-            (None, [only]) if !command::is_command(line) => Some(only),
-            (None, _) => None,
-        };
-        match described.and_then(|completion| completion.act) {
-            Some((_, context)) if self.mode == Mode::Move && context != Context::In(Mode::Move) => {
-                self.warn_of_transform();
-                Vec::new()
-            }
-            Some((row, context @ Context::In(Mode::Sequence))) => self.act_in(row, context),
-            Some((row, context)) => self.outside_sequence(|app| app.act_in(row, context)),
-            None => self.command(line),
-        }
-    }
-
-    /// Does what a key does, after going to the mode that has it.
-    fn act_in(&mut self, row: RowId, context: Context) -> Vec<Effect> {
-        let mut effects = Vec::new();
-        if let Context::In(mode) = context
-            && mode != self.mode
-        {
-            effects = self.go(mode);
-            if self.mode != mode {
-                return effects;
-            }
-        }
-        effects.extend(self.act(row));
-        effects
     }
 
     /// Takes the names in a folder.

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use super::App;
+use super::Shared;
 use super::histogram::ShownHistogram;
 use crate::language::Node;
 use crate::render::{Aov, Colours, Frame, Histogram, MOST_HALF_STOPS, denoises, exposes};
@@ -10,7 +10,7 @@ use crate::scene::{Emitter, Transfer};
 use crate::text::{concise, percentage, rounded};
 use crate::ui::msg::Effect;
 
-impl App {
+impl Shared {
     /// Shows light or an AOV.
     pub(super) fn show(&mut self, aov: Option<Aov>) {
         let words = self.pictures.show(aov);

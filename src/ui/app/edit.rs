@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use super::App;
+use super::Shared;
 use super::assets::Notice;
 use super::cursor::Names;
 use super::live_edit::Meaning;
@@ -14,7 +14,7 @@ use crate::text::{Diagnostic, Edit, Findings, Span, parse_number};
 use crate::ui::keymap::Mode;
 use crate::ui::msg::Effect;
 
-impl App {
+impl Shared {
     /// Takes files of the scene that were read.
     pub(super) fn assets_read(&mut self, wanted: &Wanted, loaded: Loaded) {
         let Some(news) = self.assets.take(wanted, loaded) else {
@@ -115,14 +115,14 @@ impl App {
         self.try_edits_after(before.as_ref(), edits)
     }
 
-    /// As [`App::try_edits`], given what the text before the edits means; the scene may be that of other
+    /// As [`Shared::try_edits`], given what the text before the edits means; the scene may be that of other
     /// edits, which were taken back.
     pub(super) fn try_edits_after(
         &mut self,
         before: Option<&Meaning>,
         edits: &[Edit],
     ) -> Result<(), Diagnostic> {
-        self.attempt(edits, |app| app.lowered_after(before))
+        self.attempt(edits, |shared| shared.lowered_after(before))
     }
 
     fn attempt(

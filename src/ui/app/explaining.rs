@@ -5,7 +5,7 @@ use ratatui::layout::Rect;
 use super::cursor::moved;
 use super::inspection::{Cross, Explained};
 use super::rays::{self, RayLine, RayPart, Segment};
-use super::{App, Fold};
+use super::{Fold, Shared};
 use crate::explain::{Subject, verdicts};
 use crate::language::Node;
 use crate::render::{Explanation, NO_OBJECT, RayEnd};
@@ -39,7 +39,7 @@ pub struct RayPanels {
     pub is_over_picture: bool,
 }
 
-impl App {
+impl Shared {
     /// Explains a pixel of the picture on screen.
     pub(super) fn explain_at(&mut self, pixel: Cross) {
         self.start_inspecting();

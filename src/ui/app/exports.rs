@@ -4,21 +4,20 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use super::jobs::{Asking, ExportWork, Pending};
-use super::reeling::names_sequence;
-use super::{App, Dialog, Export, Stage};
+use super::{Dialog, Export, Shared, Stage};
 use crate::image_file::{ImageFormat, known_extensions};
 use crate::render::{Aov, Frame, Frames, Job};
 use crate::scene::{Camera, MAX_SPP, Size, Viewpoint};
 use crate::text::Severity;
-use crate::ui::keymap::Mode;
 use crate::ui::msg::{Destination, Effect, Existing, ExportId, Exported, Origin, Target};
+use crate::ui::reel::names_sequence;
 
 /// The picture to export; fields that are `None` are taken from the scene.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub(super) struct ExportOrder {
-    path: Option<PathBuf>,
-    size: Option<Size>,
-    spp: Option<u32>,
+    pub(super) path: Option<PathBuf>,
+    pub(super) size: Option<Size>,
+    pub(super) spp: Option<u32>,
 }
 
 impl ExportOrder {
@@ -67,19 +66,16 @@ fn wrong_word(words: &[&str]) -> Option<String> {
     }
 }
 
-impl App {
+impl Shared {
     /// Exports to the scene's folder under the scene's name. If another program has written that
     /// file, the user is asked.
     pub(super) fn export_default(&mut self) -> Vec<Effect> {
         self.export(ExportOrder::default(), Asking::Yes)
     }
 
-    /// Exports what is seen, or the sequence that is played.
+    /// Exports what is seen.
     pub(super) fn export(&mut self, order: ExportOrder, asking: Asking) -> Vec<Effect> {
         let ExportOrder { path, size, spp } = order;
-        if self.mode == Mode::Sequence {
-            return self.export_sequence(path, size, spp, asking);
-        }
         let path = path.unwrap_or_else(|| self.export_path());
         self.start_export(&path, size, spp, asking)
     }

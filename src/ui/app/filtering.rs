@@ -6,11 +6,11 @@ use std::collections::BTreeSet;
 use crossterm::event::KeyEvent;
 
 use super::rows::foldable;
-use super::{App, Fold, PromptKind, line};
+use super::{Fold, PromptKind, Shared, line};
 use crate::language::Node;
 use crate::ui::keymap::{Context, Mode};
 
-impl App {
+impl Shared {
     /// Opens the line that filters the list; it contains the present filter.
     pub(super) fn start_filter(&mut self) {
         let kind = PromptKind::Filter(self.cursor.selected());

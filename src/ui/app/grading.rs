@@ -1,13 +1,13 @@
 //! What corresponds to a picture file that the scene is compared with: traced as that was, if its file
 //! says how.
 
-use super::App;
+use super::Shared;
 use crate::image_file::ImageFormat;
 use crate::render::{Aov, Frames, Job, Record, Region, Settings, denoises};
 use crate::scene::{Camera, Rendering, Size};
 use crate::ui::reference::Made;
 
-impl App {
+impl Shared {
     /// The job that corresponds to a picture of this size. What the user has set comes before what the
     /// picture's file says, and that before the scene. The view is that of the picture.
     pub(super) fn graded_job(&self, made: &Made, picture: Size) -> Result<Job, String> {

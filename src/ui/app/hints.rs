@@ -1,10 +1,10 @@
 //! Whether keys would do something: the others are not hinted.
 
-use super::{App, Tool};
+use super::{Shared, Tool};
 use crate::language::Node;
 use crate::language::table::Kind;
 
-impl App {
+impl Shared {
     /// Whether the field under the cursor is a colour.
     pub(super) fn has_colour(&self) -> bool {
         let row = self.field_row(self.cursor.field);

@@ -3,10 +3,10 @@
 
 use std::sync::Arc;
 
-use super::{App, MergeSource, OnDisk};
+use super::{MergeSource, OnDisk, Shared};
 use crate::document::Adopted;
 
-impl App {
+impl Shared {
     /// Whether keys are typed into a line, or choose from a menu.
     pub(super) fn has_input(&self) -> bool {
         self.cursor.typing.is_some() || self.overlays.has_line()

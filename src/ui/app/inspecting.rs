@@ -1,6 +1,6 @@
 //! Inspecting: a cross over the picture, and what is under it.
 
-use super::App;
+use super::Shared;
 use super::inspection::Cross;
 use crate::language::Node;
 use crate::scene::Size;
@@ -8,7 +8,7 @@ use crate::text::{Position, Severity};
 use crate::ui::keymap::{Context, Mode};
 use crate::ui::layout::Side;
 
-impl App {
+impl Shared {
     /// Starts inspecting where the cross was last if that is on screen, otherwise in the middle.
     pub(super) fn start_inspecting(&mut self) {
         let Some((cells, _)) = self.raster() else {

@@ -1,10 +1,10 @@
 //! Leaving the scene, to quit or for another one: asks first if something would be lost, and waits
 //! for work under way.
 
-use super::{AfterLeaving, App, Dialog};
+use super::{AfterLeaving, Dialog, Shared};
 use crate::ui::msg::{Effect, Timer};
 
-impl App {
+impl Shared {
     /// `w`, which in the question whether to leave saves and then leaves.
     pub(super) fn save_key(&mut self) -> Vec<Effect> {
         match self.take_question() {
@@ -44,7 +44,7 @@ impl App {
 
     /// Leaves the scene; asks first if something would be lost.
     pub(super) fn leave_for(&mut self, next: AfterLeaving) -> Vec<Effect> {
-        self.leave_sequence();
+        self.leave_passing();
         if self.losses_before(&next).is_some() {
             self.overlays.dialog = Some(Dialog::Leave(next));
             return Vec::new();
@@ -97,7 +97,7 @@ impl App {
     }
 
     pub(super) fn interrupt(&mut self) -> Vec<Effect> {
-        self.leave_sequence();
+        self.leave_passing();
         if self.jobs.interrupt || self.losses().is_none() {
             return self.quit_keeping_edits();
         }
@@ -108,7 +108,7 @@ impl App {
 
     /// Quits with unsaved edits kept, written once more in case the journal was removed.
     pub(super) fn quit_keeping_edits(&mut self) -> Vec<Effect> {
-        self.leave_sequence();
+        self.leave_passing();
         let kept = self.keep_the_rest();
         kept.into_iter().chain([Effect::Quit]).collect()
     }

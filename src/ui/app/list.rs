@@ -1,13 +1,13 @@
 //! Moving cursors: in the list, the fields, the help and the errors.
 
-use super::App;
+use super::Shared;
 use super::cursor::moved;
 use crate::language::Node;
 use crate::ui::arrange::Areas;
 use crate::ui::keymap::{Context, Mode};
 use crate::ui::layout;
 
-impl App {
+impl Shared {
     /// Selects a node; ends the current undo step.
     pub(super) fn select(&mut self, node: Node) {
         self.document.end_step();

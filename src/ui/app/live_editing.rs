@@ -1,12 +1,12 @@
 //! Trying out changes of the text.
 
-use super::App;
+use super::Shared;
 use super::cursor::Names;
-use super::live_edit::{LiveEdit, TakenBack};
+use super::live_edit::{LiveEdit, PassingEdit, TakenBack};
 use crate::document::{Document, Merged};
 use crate::text::Edit;
 
-impl App {
+impl Shared {
     /// Begins to try out changes of the present text.
     pub(super) fn begin_live_edit(&mut self) -> LiveEdit {
         self.document.end_step();
@@ -85,6 +85,27 @@ impl App {
             }
         }
         self.document.end_step();
+    }
+
+    /// Begins a change of the present text that passes with the mode.
+    pub(super) fn begin_passing(&mut self) -> PassingEdit {
+        PassingEdit {
+            live_edit: self.begin_live_edit(),
+            was_dirty: self.document.is_dirty(),
+        }
+    }
+
+    /// Puts the text back as it was before what passes with the mode.
+    pub(super) fn put_back(&mut self) {
+        if let Some(passing) = self.passing.take() {
+            self.end_live_edit(passing.live_edit);
+        }
+    }
+
+    /// Whether there are unsaved edits, apart from what passes with the mode.
+    pub fn has_edits(&self) -> bool {
+        let passing = self.passing.as_ref();
+        passing.map_or_else(|| self.document.is_dirty(), |passing| passing.was_dirty)
     }
 
     fn is_overtaken(&self, live_edit: &LiveEdit) -> bool {

@@ -2,14 +2,14 @@
 
 use std::collections::BTreeMap;
 
-use super::App;
+use super::Shared;
 use crate::language::{Node, Source};
 use crate::text::{Position, Span};
 
 /// Up to this many nodes are named; more are counted.
 const NAMED: usize = 2;
 
-impl App {
+impl Shared {
     /// The name of a place in the text, such as `object 4 (sphere) centre x`, or of the nodes that
     /// it covers; `None` if there are none.
     pub fn place_name(&self, span: Span) -> Option<String> {

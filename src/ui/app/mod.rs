@@ -1,9 +1,11 @@
 //! The interface's state and its transitions: a pure step from (state, message) to (state,
 //! effects).
 //!
-//! [`App`] is the text and one part for each concern: cursor, disk, assets, pictures, overlays,
-//! jobs. A part owns its state and knows no other; the steps, which handle messages, pass between
-//! them what they need. Nothing here touches files, threads or clocks.
+//! [`App`] is what all modes share, and each mode's own state. [`Shared`] is the text and one part for
+//! each concern: cursor, disk, assets, pictures, overlays, jobs. A part owns its state and knows no
+//! other; the steps, which handle messages, pass between them what they need. A mode that is a room
+//! stands in a folder, which no other knows: its state, its keys, its steps; one line of
+//! [`modes`](self::modes) joins it to the rest. Nothing here touches files, threads or clocks.
 
 mod adding;
 mod after_leaving;
@@ -39,7 +41,6 @@ mod inspecting;
 mod inspection;
 mod jobs;
 mod journal;
-mod keying;
 mod keys;
 mod leaving;
 mod line;
@@ -50,7 +51,7 @@ mod live_editing;
 mod location_names;
 mod menu;
 mod messages;
-mod model;
+mod modes;
 mod mouse;
 mod naming;
 mod open_scene;
@@ -66,16 +67,16 @@ mod polling;
 mod queries;
 mod rays;
 mod recover;
-mod reeling;
 mod regions;
 mod reload;
+mod room;
 mod rows;
 mod saved_setting;
 mod saved_views;
 mod saving;
 mod sequence;
-mod sequencing;
 mod setting;
+mod shared;
 mod sliding;
 mod solo;
 mod soloing;
@@ -116,7 +117,7 @@ pub use inspection::{Cross, Explained, Inspection};
 pub use jobs::{Export, Jobs, Pending, Stage};
 pub use menu::{Entry, Menu, Purpose};
 pub use messages::{Message, Messages};
-pub use model::App;
+pub use modes::App;
 pub use opening::{Opening, OpeningText, Preferences};
 pub use overlays::{Dialog, Help, MergeSource, Overlays, Prompt, PromptKind, Whose};
 pub use page::{List, Page, PageFocus};
@@ -128,7 +129,9 @@ pub use pixel::Pixel;
 pub use queries::{FieldRow, Provenance};
 pub use rays::{RayLine, RayPart};
 pub use rows::{Fold, Rows};
+pub(super) use sequence::DopeSheet;
 pub use sequence::{OpenTrack, Sequence};
+pub use shared::Shared;
 pub use solo::Solo;
 pub use steps::Steps;
 pub use suggestions::Suggestions;

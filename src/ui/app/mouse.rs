@@ -4,8 +4,8 @@ use crossterm::event::{KeyModifiers, MouseButton, MouseEvent, MouseEventKind};
 
 use super::camera::{advanced, dollied, orbited, shifted, turned};
 use super::drawing::Held;
-use super::model::Border;
-use super::{App, PickerRow};
+use super::shared::Border;
+use super::{App, PickerRow, Shared};
 use crate::render::{axes, pixel_width};
 use crate::ui::keymap::{Context, Mode};
 use crate::ui::layout::{
@@ -19,9 +19,40 @@ const DRAG: (f64, f64) = (2.0, 4.0);
 /// The number of lines that one notch of the wheel scrolls.
 const WHEEL: isize = 3;
 
+/// What is left of a mouse event after what is the same in all modes.
+enum Pointed {
+    /// Nothing.
+    Done(Vec<Effect>),
+    /// A press of the left button.
+    Press((u16, u16)),
+    /// Dragging with the left button.
+    Drag((u16, u16)),
+}
+
 impl App {
     /// Handles a mouse event. Ignored while a dialog or a line is open or the scene is being read.
     pub(super) fn pointer(&mut self, event: MouseEvent) -> Vec<Effect> {
+        match self.shared.point(event) {
+            Pointed::Done(effects) => effects,
+            Pointed::Press(at) => {
+                let taken = self.press(at);
+                taken.unwrap_or_else(|| self.shared.press(at))
+            }
+            Pointed::Drag(at) => {
+                let taken = self.drag(at);
+                taken.unwrap_or_else(|| {
+                    self.shared.drag(at);
+                    Vec::new()
+                })
+            }
+        }
+    }
+}
+
+impl Shared {
+    /// Does what a mouse event does in all modes; nothing while a dialog or a line is open or the scene is
+    /// being read.
+    fn point(&mut self, event: MouseEvent) -> Pointed {
         let at = (event.column, event.row);
         let waits = self.overlays.dialog.is_some()
             || self.overlays.prompt.is_some()
@@ -53,15 +84,22 @@ impl App {
             MouseEventKind::Down(MouseButton::Left) if self.overlays.menu.is_some() => {
                 self.press_menu(at);
             }
-            MouseEventKind::Down(MouseButton::Left) => return self.press(at),
+            MouseEventKind::Down(MouseButton::Left) if !self.begin_press(at) => {
+                return Pointed::Press(at);
+            }
+            MouseEventKind::Down(MouseButton::Left) => {}
             MouseEventKind::Down(_) => self.press_to_pan(at),
             MouseEventKind::Drag(MouseButton::Left)
-                if !event.modifiers.contains(KeyModifiers::CONTROL) =>
+                if !event.modifiers.contains(KeyModifiers::CONTROL) && !self.drag_border(at) =>
             {
-                self.drag(at);
+                return Pointed::Drag(at);
             }
+            MouseEventKind::Drag(MouseButton::Left)
+                if !event.modifiers.contains(KeyModifiers::CONTROL) => {}
             MouseEventKind::Drag(_) => self.drag_to_pan(at),
-            MouseEventKind::Up(_) if self.is_drawing_region() => return self.confirm_region(),
+            MouseEventKind::Up(_) if self.is_drawing_region() => {
+                return Pointed::Done(self.confirm_region());
+            }
             MouseEventKind::Up(_) => {
                 self.pictures.drag = None;
                 self.resizing = None;
@@ -69,7 +107,7 @@ impl App {
             }
             _ => {}
         }
-        Vec::new()
+        Pointed::Done(Vec::new())
     }
 
     /// Whether the wheel zooms the picture here.
@@ -176,7 +214,8 @@ impl App {
         }
     }
 
-    fn press(&mut self, at: (u16, u16)) -> Vec<Effect> {
+    /// Begins a press of the left button; returns whether it took hold of a border.
+    fn begin_press(&mut self, at: (u16, u16)) -> bool {
         self.overlays.clear_message();
         self.cursor.typing = None;
         self.end_slide();
@@ -186,21 +225,17 @@ impl App {
         }
         if areas.border.contains(at.into()) {
             self.resizing = Some(Border::Panels);
-            return Vec::new();
-        }
-        if areas.divider().contains(at.into()) {
+        } else if areas.divider().contains(at.into()) {
             self.resizing = Some(Border::List);
-            return Vec::new();
         }
+        self.resizing.is_some()
+    }
+
+    fn press(&mut self, at: (u16, u16)) -> Vec<Effect> {
+        let areas = self.areas();
         if self.mode == Mode::Compare {
             self.press_comparison(at);
             return Vec::new();
-        }
-        if self.mode == Mode::Sequence {
-            if self.scrub_to(at) || areas.picture.contains(at.into()) {
-                return Vec::new();
-            }
-            self.leave_sequence();
         }
         if self.context() == Context::Rays
             && let Some(panels) = self.ray_panels()
@@ -315,18 +350,19 @@ impl App {
         self.pictures.drag = Some(at);
     }
 
-    fn drag(&mut self, at: (u16, u16)) {
+    /// Drags the border that was pressed; returns whether there is one.
+    fn drag_border(&mut self, at: (u16, u16)) -> bool {
         match self.resizing {
-            Some(Border::Panels) => return self.resize_panels(self.areas().dragged(at)),
-            Some(Border::List) => return self.resize_list(self.areas().divided_at(at)),
-            None => {}
+            Some(Border::Panels) => self.resize_panels(self.areas().dragged(at)),
+            Some(Border::List) => self.resize_list(self.areas().divided_at(at)),
+            None => return false,
         }
+        true
+    }
+
+    fn drag(&mut self, at: (u16, u16)) {
         if self.mode == Mode::Compare {
             return self.press_comparison(at);
-        }
-        if self.mode == Mode::Sequence {
-            self.scrub_to(at);
-            return;
         }
         if self.slide_to(at.0) {
             return;

@@ -2,7 +2,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use super::App;
+use super::Shared;
 use super::location_names::name_of;
 use crate::document::StepName;
 use crate::language::{Node, Placed};
@@ -14,7 +14,7 @@ const MOST_READ: usize = 64;
 /// The number of characters shown of a value.
 const MOST_SHOWN: usize = 24;
 
-impl App {
+impl Shared {
     /// The name of a step that makes these edits of the present text, if they set one field.
     pub(super) fn name_of_value(&self, edits: &[Edit]) -> Option<StepName> {
         let text = self.document.text();

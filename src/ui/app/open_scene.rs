@@ -6,7 +6,7 @@ use std::sync::Arc;
 use super::after_leaving::name_of;
 use super::assets::Assets;
 use super::inspection::Inspection;
-use super::{AfterLeaving, App, Cursor, List, OnDisk, Overlays, Page};
+use super::{AfterLeaving, Cursor, List, OnDisk, Overlays, Page, Shared};
 use crate::document::Document;
 use crate::file::ReadError;
 use crate::language::{Language, Lowered};
@@ -14,7 +14,7 @@ use crate::ui::keymap::Mode;
 use crate::ui::msg::{Effect, Target};
 use crate::ui::scene_reading::{News, Opened};
 
-impl App {
+impl Shared {
     /// Starts a new scene, in the language of the present one if none is given.
     pub(super) fn start_new(&mut self, language: Option<Language>) -> Vec<Effect> {
         let language = language.unwrap_or_else(|| self.document.language());
@@ -162,7 +162,9 @@ impl App {
             effects.push(Effect::Stop(Target::Trial));
         }
         self.inspection = Inspection::default();
-        self.sequence = super::Sequence::default();
+        self.passing = None;
+        self.awaits_reading = false;
+        self.is_replaced = true;
         self.thumbnails.forget();
         self.cursor = Cursor::default();
         self.overlays = Overlays::default();

@@ -9,7 +9,7 @@ use super::cursor::Names;
 use super::inspection::Inspection;
 use super::palette::Palette;
 use super::{
-    App, Cursor, Disk, FirstReading, Jobs, OnDisk, Overlays, Page, Pictures, Sequence, Suggestions,
+    Cursor, Disk, FirstReading, Jobs, OnDisk, Overlays, Page, Pictures, Shared, Suggestions,
     Thumbnails,
 };
 use crate::document::Document;
@@ -72,7 +72,7 @@ pub enum OpeningText {
     New,
 }
 
-impl App {
+impl Shared {
     /// Creates the interface, and the effects to start with.
     pub fn open(opening: Opening) -> (Self, Vec<Effect>) {
         let (text, state, first) = match opening.text {
@@ -86,7 +86,7 @@ impl App {
                 (String::new(), OnDisk::Known, FirstReading::Pending(bytes))
             }
         };
-        let mut app = Self {
+        let mut shared = Self {
             document: Document::new(opening.language, text),
             diagnostics: Findings::default(),
             reported: Findings::default(),
@@ -98,7 +98,9 @@ impl App {
             pictures: Pictures::new(opening.rendering),
             compared: Compared::default(),
             inspection: Inspection::default(),
-            sequence: Sequence::default(),
+            passing: None,
+            awaits_reading: false,
+            is_replaced: false,
             thumbnails: Thumbnails::default(),
             overlays: Overlays::default(),
             polled: BTreeMap::new(),
@@ -116,14 +118,14 @@ impl App {
             mouse: opening.mouse,
             terminal: opening.terminal,
         };
-        app.overlays.page = Page::recent(opening.recent);
-        let mut effects = app.watch();
-        let lowered = app.lowered();
-        if !app.disk.is_opening() {
-            effects.extend(app.begin(lowered));
-            effects.extend(app.follow());
+        shared.overlays.page = Page::recent(opening.recent);
+        let mut effects = shared.watch();
+        let lowered = shared.lowered();
+        if !shared.disk.is_opening() {
+            effects.extend(shared.begin(lowered));
+            effects.extend(shared.follow());
         }
-        (app, effects)
+        (shared, effects)
     }
 
     /// Takes the scene's first text; if it could not be read, the interface ends.

@@ -120,7 +120,7 @@ impl MergeSource {
 /// The state of the help page.
 #[derive(Debug, Default)]
 pub struct Help {
-    /// The first line shown; at most the last of [`App::help_lines`](super::App::help_lines).
+    /// The first line shown; at most the last of [`Shared::help_lines`](super::Shared::help_lines).
     pub top: usize,
     /// Only lines containing this text are shown.
     pub search: Input,

@@ -1,6 +1,6 @@
 //! What the picture shows at a pixel.
 
-use super::App;
+use super::Shared;
 use crate::language::Node;
 use crate::render::{Aov, FirstHit};
 use crate::scene::Size;
@@ -35,7 +35,7 @@ pub struct Pixel {
     pub first: Option<FirstHit>,
 }
 
-impl App {
+impl Shared {
     /// What is known of the pixel under the cross.
     pub fn pixel(&self) -> Option<Pixel> {
         let cross = self.cross()?;

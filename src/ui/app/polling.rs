@@ -1,11 +1,11 @@
 //! Files that are polled, because the system cannot notify of their changes.
 
-use super::App;
+use super::Shared;
 use super::messages::About;
 use crate::text::Severity;
 use crate::ui::msg::Polled;
 
-impl App {
+impl Shared {
     /// Whether files are polled although the system was to notify of changes.
     pub fn polls(&self) -> bool {
         !self.polled.is_empty()

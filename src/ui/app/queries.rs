@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use ratatui::layout::Rect;
 
-use super::App;
+use super::Shared;
 use super::after_leaving::AfterLeaving;
 use super::colours;
 use super::cursor::row_of;
@@ -35,7 +35,7 @@ const NO_SCENE: Size = Size {
 /// The loss of the working view.
 const LOST_VIEW: &str = "the moved view is not in the text";
 
-impl App {
+impl Shared {
     /// The context whose keys are active; keys typed into a line take precedence.
     pub fn context(&self) -> Context {
         match &self.overlays.dialog {
@@ -414,7 +414,7 @@ impl App {
     }
 }
 
-/// A field of the selected node as shown; see [`App::fields`].
+/// A field of the selected node as shown; see [`Shared::fields`].
 #[derive(Clone, Debug, PartialEq)]
 pub struct FieldRow {
     /// Its description in the language's table.

@@ -4,12 +4,12 @@
 use std::sync::Arc;
 
 use super::journal::Outcome;
-use super::{App, Dialog, MergeSource};
+use super::{Dialog, MergeSource, Shared};
 use crate::document::{Adopted, Merge, StepName};
 use crate::ui::msg::Effect;
 use crate::ui::recovery::{Claim, Found, Offer, Since, Way};
 
-impl App {
+impl Shared {
     /// Looks for undecided edits that earlier runs kept.
     pub(super) fn look_for_kept(&self) -> Effect {
         let scene = self.disk.path.clone();

@@ -1,6 +1,6 @@
 //! The region of the full-size trace: drawing it, and tracing it alone.
 
-use super::App;
+use super::Shared;
 use super::drawing::{Drawing, Held, RegionOrder};
 use super::frame_window::{Marked, Reason};
 use crate::render::Region;
@@ -8,7 +8,7 @@ use crate::text::Severity;
 use crate::ui::keymap::Mode;
 use crate::ui::msg::Effect;
 
-impl App {
+impl Shared {
     /// The region to mark in the full-size trace.
     pub(super) fn marked(&self) -> Option<Marked> {
         if self.mode != Mode::Trace {

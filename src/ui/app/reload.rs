@@ -9,7 +9,7 @@ use super::cursor::SavedCursor;
 use super::disk::{Faulty, Requester, Settle};
 use super::location_names::name_of;
 use super::messages::About;
-use super::{App, Dialog, MergeSource, OnDisk, PromptKind, Whose};
+use super::{Dialog, MergeSource, OnDisk, PromptKind, Shared, Whose};
 use crate::document::{Adopted, Difference, Numbers, StepName};
 use crate::file;
 use crate::file::ReadError;
@@ -61,7 +61,7 @@ const SAME_NOW: Wording = Wording {
     ends: Ends::Plain,
 };
 
-impl App {
+impl Shared {
     /// Reads a file that changed while there were unsaved edits, once there are none: nothing is left to
     /// be decided.
     pub(super) fn catch_up(&mut self) -> Vec<Effect> {
@@ -77,8 +77,10 @@ impl App {
         if self.is_being_saved() {
             return Vec::new();
         }
-        self.suspend_frame();
-        self.disk.read_again(self.baseline())
+        self.put_back();
+        let effects = self.disk.read_again(self.baseline());
+        self.awaits_reading = !effects.is_empty();
+        effects
     }
 
     /// Reads the file and accepts what it holds; not while it is being saved.
@@ -155,9 +157,7 @@ impl App {
         }
         let effects = self.take_read(read);
         let reads = |effect: &Effect| matches!(effect, Effect::Read(..));
-        if !effects.iter().any(reads) {
-            self.resume_frame();
-        }
+        self.awaits_reading = effects.iter().any(reads);
         effects
     }
 
@@ -527,9 +527,7 @@ impl App {
         if let Err(reason) = outcome {
             self.overlays.fail(reason);
         }
-        let mut effects = self.read_again();
-        effects.extend(self.reread_track());
-        effects
+        self.read_again()
     }
 
     /// Watches the scene's file, and reads it once more in case it changed before the watch began.

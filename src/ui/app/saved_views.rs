@@ -1,13 +1,13 @@
 //! The working view: moving it, and writing it into the text.
 
 use super::camera::{framed, settled};
-use super::{App, List, Page};
+use super::{List, Page, Shared};
 use crate::document::StepName;
 use crate::language::{Node, SavedView, view_name};
 use crate::scene::{Camera, Emitter};
 use crate::text::Severity;
 
-impl App {
+impl Shared {
     /// Applies a move, unless the resulting camera would see nothing.
     pub(super) fn move_camera(&mut self, change: impl FnOnce(Camera) -> Camera) {
         let Some(camera) = self.camera() else {

@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use super::messages::About;
-use super::{App, OnDisk, PromptKind};
+use super::{OnDisk, PromptKind, Shared};
 use crate::language::Language;
 use crate::ui::msg::{Effect, Guard, SaveId, SaveOutcome};
 
@@ -15,7 +15,7 @@ pub(super) enum Force {
     Yes,
 }
 
-impl App {
+impl Shared {
     /// Saves the text, to its own file if none is given.
     pub(super) fn write(&mut self, file: Option<PathBuf>, force: Force) -> Vec<Effect> {
         let own = self.document.language();

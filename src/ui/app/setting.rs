@@ -1,7 +1,7 @@
 //! Render settings written into the text. What the command line or the interface chose instead is
 //! dropped then, so that the text counts, and brought back by undo.
 
-use super::App;
+use super::Shared;
 use super::saved_setting::SavedSetting;
 use crate::document::StepName;
 use crate::language::Node;
@@ -47,7 +47,7 @@ impl SettingOrder {
     }
 }
 
-impl App {
+impl Shared {
     /// Writes the size of the picture into the text.
     pub(super) fn set_size(&mut self, size: Size) {
         let Some(scene) = self.scene.clone().filter(|_| self.error_count() == 0) else {

@@ -3,13 +3,13 @@
 use ratatui::layout::Rect;
 
 use super::cursor::Slide;
-use super::{App, colours};
+use super::{Shared, colours};
 use crate::language::Node;
 use crate::text::{Edit, parse_number, spell_like};
 use crate::ui::keymap::Mode;
 use crate::ui::layout::{field_rows, share_at, slider_cells};
 
-impl App {
+impl Shared {
     /// The cells of a field's slider in its line; `None` for other fields, and if there is no room.
     pub fn slider(&self, field: usize, line: Rect) -> Option<Rect> {
         let row = self.field_row(field)?;
@@ -53,7 +53,9 @@ impl App {
         }
         // A hundredth is finer than a cell.
         let share = (100.0 * share_at(slide.bar, column)).round() / 100.0;
-        let outcome = self.try_instead(&mut slide.live_edit, |app| Ok(app.edits_sliding(share)));
+        let outcome = self.try_instead(&mut slide.live_edit, |shared| {
+            Ok(shared.edits_sliding(share))
+        });
         if let Err(reason) = outcome {
             self.overlays.fail(reason);
         }

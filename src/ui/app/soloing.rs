@@ -3,7 +3,7 @@
 use std::collections::BTreeSet;
 use std::sync::Arc;
 
-use super::App;
+use super::Shared;
 use super::solo::Solo;
 use crate::language::Node;
 use crate::scene::{Light, Rgb, Scene};
@@ -11,7 +11,7 @@ use crate::scene::{Light, Rgb, Scene};
 /// A scene to show, and what its objects are called if it lacks some.
 pub(super) type Part = (Arc<Scene>, Option<Arc<[u32]>>);
 
-impl App {
+impl Shared {
     /// Shows the targets alone in the preview, or everything again.
     pub(super) fn toggle_solo(&mut self) {
         self.toggle_solo_of(&self.targets());

@@ -1,7 +1,7 @@
 //! Changing the structure of the scene: deleting, duplicating, reordering, copying, pasting, naming
 //! and marking things. Each change is one edit of the text and one undo step.
 
-use super::{App, Dialog, PromptKind, naming};
+use super::{Dialog, PromptKind, Shared, naming};
 use crate::document::StepName;
 use crate::language::{Neighbour, Node, StructureError, Visibility};
 use crate::text::{Edit, Span, counted};
@@ -10,7 +10,7 @@ use crate::ui::msg::Effect;
 /// The number of items named in a message at most.
 const MOST_NAMED: usize = 3;
 
-impl App {
+impl Shared {
     /// The marked nodes, otherwise the selected one.
     pub(super) fn targets(&self) -> Vec<Node> {
         if self.cursor.marks.is_empty() {

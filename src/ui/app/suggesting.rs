@@ -2,7 +2,7 @@
 
 use std::ops::ControlFlow;
 
-use super::App;
+use super::Shared;
 use super::display::is_light;
 use super::suggestions::{RunningTrials, Suggestion, is_judgeable};
 use crate::explain::fault;
@@ -11,7 +11,7 @@ use crate::render::{Advice, Fault, Frame, Frames, Histogram, Job, Overexposure, 
 use crate::scene::RenderKey;
 use crate::ui::msg::{Effect, Target};
 
-impl App {
+impl Shared {
     /// Adds what the text shows of its picture to what was found in reading it.
     pub(super) fn judge_text(&mut self) {
         let mut found = self.reported.clone();

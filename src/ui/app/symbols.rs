@@ -1,6 +1,6 @@
 //! Symbols of what has no surface in the picture: lights, the camera and groups.
 
-use super::App;
+use super::Shared;
 use super::pictures::{Outline, Symbols};
 use crate::language::Node;
 use crate::render::pixel_of;
@@ -35,7 +35,7 @@ pub enum SymbolKind {
     Group,
 }
 
-impl App {
+impl Shared {
     /// The symbols over the picture: of the kind of the selected node once the user has selected
     /// something; all of them while picking or on request.
     pub fn symbols(&self) -> Vec<Symbol> {

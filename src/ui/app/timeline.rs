@@ -2,7 +2,7 @@
 
 use ratatui::layout::Rect;
 
-use super::App;
+use super::Shared;
 use super::page::{List, Page};
 use super::steps::Steps;
 use super::thumbnails::{Look, Rank, Slot};
@@ -22,7 +22,7 @@ const MOST_BYTES: usize = 16 << 20;
 const WHITTED_SAMPLES: [u32; 2] = [4, 16];
 const PATH_SAMPLES: [u32; 2] = [64, 128];
 
-impl App {
+impl Shared {
     /// Opens the page of the undo history at the present text.
     pub(super) fn list_steps(&mut self) {
         self.document.end_step();

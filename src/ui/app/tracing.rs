@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use super::until::Until;
 use super::viewport::{Detail, Screen};
-use super::{App, Grid, Picture, ShownWireframe};
+use super::{Grid, Picture, Shared, ShownWireframe};
 use crate::image_file::ImageFormat;
 use crate::render::{Frame, Frames, Job, Region, Settings};
 use crate::scene::{Filter, Integrator, Rendering, Scene, Size};
@@ -24,7 +24,7 @@ fn preview_samples(integrator: Integrator, grid: Grid) -> u32 {
     samples / density.clamp(1, 4)
 }
 
-impl App {
+impl Shared {
     /// Restarts pictures that no longer show the scene.
     pub(super) fn follow(&mut self) -> Vec<Effect> {
         let mut effects = self.assets.follow();

@@ -5,7 +5,7 @@ use crossterm::event::{KeyCode, KeyEvent};
 use glam::DVec3;
 
 use super::transform::{Lock, Snap, Transform, decimals_of, round_up};
-use super::{App, Stride, Tool, line};
+use super::{Shared, Stride, Tool, line};
 use crate::language::{Along, Language, Motion, Node, Pose, StructureError};
 use crate::render::{axes, pixel_width};
 use crate::scene::{Camera, Size};
@@ -15,7 +15,7 @@ use crate::ui::keymap::{Mode, types_amount};
 /// Decimals with which a motion is tried.
 const TRIED_DECIMALS: usize = 9;
 
-impl App {
+impl Shared {
     /// Starts to move, rotate or scale the targets.
     pub(super) fn start_transform(&mut self, tool: Tool) {
         if self.refuses_structure() {
@@ -260,8 +260,8 @@ impl App {
         }
         change(&mut transform);
         let own = transform.clone();
-        let outcome = self.try_instead(&mut transform.live_edit, |app| {
-            let edits = app.edits_of_motion(&own);
+        let outcome = self.try_instead(&mut transform.live_edit, |shared| {
+            let edits = shared.edits_of_motion(&own);
             edits.map_err(|refused| refused.to_string())
         });
         match outcome {

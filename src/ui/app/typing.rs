@@ -5,13 +5,13 @@ use tui_input::Input;
 
 use super::cursor::Typing;
 use super::typed::Values;
-use super::{App, PageFocus, PromptKind, Stride, line, literals, typed};
+use super::{PageFocus, PromptKind, Shared, Stride, line, literals, typed};
 use crate::language::table::{Field, Kind};
 use crate::text::{Diagnostic, Span, parse_number};
 use crate::ui::keymap::{Context, Mode};
 use crate::ui::msg::Effect;
 
-impl App {
+impl Shared {
     /// The current component's field and its literal as shown.
     fn current(&self) -> Option<(&'static Field, String)> {
         let row = self.field_row(self.cursor.field)?;

@@ -5,7 +5,8 @@ use tui_input::Input;
 
 use super::cursor::Typing;
 use super::journal::KEPT_AFTER;
-use super::{App, Grid, PageFocus, PromptKind, Tool, line};
+use super::sequence;
+use super::{App, Grid, PageFocus, PromptKind, Shared, Tool, line};
 use crate::text::{Severity, alternatives};
 use crate::ui::arrange::{Zoom, divided, resized};
 use crate::ui::keymap::{self, Context, Meaning, Mode};
@@ -15,23 +16,174 @@ use crate::ui::terminal::Mouse;
 impl App {
     /// Processes a message and returns the resulting effects.
     pub fn update(&mut self, msg: Msg) -> Vec<Effect> {
-        self.overlays.begin_step();
-        let had_errors = 0 < self.error_count();
+        self.shared.overlays.begin_step();
+        let had_errors = 0 < self.shared.error_count();
         let mut effects = self.take(msg);
-        if had_errors && self.error_count() == 0 {
-            self.overlays.forgive_errors();
+        if had_errors && self.shared.error_count() == 0 {
+            self.shared.overlays.forgive_errors();
         }
-        self.overlays.end_step();
-        self.follow_input();
-        self.follow_sequence();
+        self.shared.overlays.end_step();
+        self.shared.follow_input();
+        self.settle();
+        effects.extend(self.shared.follow_step());
+        effects
+    }
+
+    fn take(&mut self, msg: Msg) -> Vec<Effect> {
+        let (sequence, shared) = (&mut self.sequence, &mut self.shared);
+        match msg {
+            Msg::Key(key) => self.key(key),
+            Msg::Mouse(event) => self.pointer(event),
+            Msg::TrackRead(path, read) => sequence::track_read(sequence, shared, path, read),
+            Msg::TrackChanged => sequence::reread(sequence).into_iter().collect(),
+            Msg::TrackWritten(outcome) => sequence::written(sequence, shared, outcome),
+            Msg::Elapsed(Timer::Frame) => sequence::play_on(sequence, shared),
+            Msg::EditorClosed(outcome) => {
+                let mut effects = shared.editor_closed(outcome);
+                effects.extend(sequence::reread(sequence));
+                effects
+            }
+            msg => shared.take(msg),
+        }
+    }
+
+    fn key(&mut self, key: KeyEvent) -> Vec<Effect> {
+        self.shared.overlays.clear_message();
+        self.shared.end_slide();
+        let context = self.shared.context();
+        let before = self.shared.prefix.take();
+        let meaning = self.shared.keymap.meaning(context, before, key);
+        let is_line = self.shared.has_input();
+        let controls = key.modifiers.contains(KeyModifiers::CONTROL);
+        let reserved = matches!(meaning, Meaning::Does(row) if self.shared.keymap.is_reserved(row));
+        // Only a dialog takes precedence over a line being typed.
+        if is_line && self.shared.overlays.dialog.is_none() && !(reserved && controls) {
+            return self.type_key(key);
+        }
+        if context == Context::In(Mode::Move) && self.shared.type_amount(key) {
+            return Vec::new();
+        }
+        match meaning {
+            Meaning::Does(row) => self.act(row),
+            Meaning::Begins => {
+                self.shared.prefix = Some(key);
+                Vec::new()
+            }
+            Meaning::None if self.shared.overlays.dialog.is_some() => {
+                // A user who types on without noticing the question learns why nothing happens.
+                let keys = self.hints().into_iter().map(|(key, _)| key);
+                self.shared
+                    .overlays
+                    .warn(format!("press {}", alternatives(keys)));
+                Vec::new()
+            }
+            Meaning::None if context == Context::Opening => {
+                self.shared.warn_of_opening();
+                Vec::new()
+            }
+            Meaning::None
+                if matches!(context, Context::Views | Context::Recent | Context::Steps) =>
+            {
+                self.shared.filter_with(key);
+                Vec::new()
+            }
+            Meaning::None => self.shared.start_typing_with(context, key),
+        }
+    }
+
+    fn type_key(&mut self, key: KeyEvent) -> Vec<Effect> {
+        if line::types(key) && !self.shared.has_room(1) {
+            return Vec::new();
+        }
+        if self.shared.overlays.prompt.is_some() {
+            return self.prompt_key(key);
+        }
+        if self.shared.overlays.menu.is_some() {
+            self.shared.menu_key(key);
+            return Vec::new();
+        }
+        if self.shared.cursor.typing.is_some() {
+            self.shared.typing_key(key);
+        } else if let Some(help) = &mut self.shared.overlays.help {
+            match key.code {
+                KeyCode::Enter | KeyCode::Esc => help.focus = PageFocus::Lines,
+                _ => line::edit(&mut help.search, key),
+            }
+            help.top = 0;
+        } else if let Some(page) = &mut self.shared.overlays.page {
+            match key.code {
+                KeyCode::Enter => return self.shared.choose(),
+                KeyCode::Esc => page.focus = PageFocus::Lines,
+                _ => {
+                    let count = page.rows().len();
+                    page.filter.key(key, count);
+                }
+            }
+        }
+        Vec::new()
+    }
+
+    fn prompt_key(&mut self, key: KeyEvent) -> Vec<Effect> {
+        let Some(prompt) = &mut self.shared.overlays.prompt else {
+            return Vec::new();
+        };
+        match key.code {
+            KeyCode::Esc => self.shared.close_prompt(),
+            // As in other programs, Backspace in an empty line closes it.
+            KeyCode::Backspace if prompt.input.value().is_empty() => self.shared.close_prompt(),
+            KeyCode::Enter => {
+                let (kind, typed) = (prompt.kind, prompt.input.value().to_owned());
+                let is_untouched = typed.trim() == prompt.opened.trim();
+                match kind {
+                    PromptKind::Command => return self.run_line(&typed),
+                    PromptKind::Name if is_untouched => self.shared.close_prompt(),
+                    PromptKind::Name => {
+                        self.shared.overlays.prompt = None;
+                        self.shared.rename(&typed);
+                    }
+                    PromptKind::Filter(from) => self.shared.keep_filter(from),
+                }
+            }
+            _ => match prompt.kind {
+                PromptKind::Command => return self.shared.palette_key(key),
+                PromptKind::Filter(from) => self.shared.filter_key(key, from),
+                PromptKind::Name => {
+                    line::edit_over(&mut prompt.input, &mut prompt.is_selected, key);
+                }
+            },
+        }
+        Vec::new()
+    }
+
+    /// Does something outside of SEQUENCE, and stays there if it fails.
+    pub(super) fn outside(&mut self, act: impl FnOnce(&mut Self) -> Vec<Effect>) -> Vec<Effect> {
+        let mode = self.shared.step_outside();
+        let effects = act(self);
+        self.shared.stay_if_failed(mode);
+        effects
+    }
+
+    /// Goes to a mode, if it can be entered now.
+    pub(super) fn go(&mut self, mode: Mode) -> Vec<Effect> {
+        match mode {
+            Mode::Sequence => sequence::open_track(&mut self.sequence, &mut self.shared, None),
+            mode => self.shared.go(mode),
+        }
+    }
+}
+
+impl Shared {
+    /// Follows a step with what depends on all of the state: scrolling, pictures, the journal, the
+    /// panels.
+    pub(super) fn follow_step(&mut self) -> Vec<Effect> {
         let areas = self.areas();
         self.scroll(&areas);
         self.follow_views();
-        effects.extend(self.follow());
+        let mut effects = self.follow();
         self.follow_histogram();
         effects.extend(self.follow_explained());
         effects.extend(self.follow_steps());
-        if self.mode != Mode::Sequence {
+        if self.passing.is_none() {
             effects.extend(self.disk.journal.follow(&self.document));
         }
         effects.extend(self.follow_kept());
@@ -43,9 +195,7 @@ impl App {
 
     fn take(&mut self, msg: Msg) -> Vec<Effect> {
         match msg {
-            Msg::Key(key) => return self.key(key),
             Msg::Paste(text) => return self.paste(&text),
-            Msg::Mouse(event) => return self.pointer(event),
             Msg::Resize(columns, rows) => self.terminal = (columns, rows),
             Msg::Grid { across, down } => {
                 self.pictures.grid = Grid { across, down };
@@ -76,26 +226,21 @@ impl App {
             Msg::Elapsed(Timer::Interrupt) => self.jobs.interrupt = false,
             Msg::Elapsed(Timer::Click) => self.cursor.forget_click(),
             Msg::Elapsed(Timer::Message) => self.overlays.turn_message(),
-            // It would keep a frame.
-            Msg::Elapsed(timer @ Timer::Keep) if self.mode == Mode::Sequence => {
+            // It would keep what passes.
+            Msg::Elapsed(timer @ Timer::Keep) if self.passing.is_some() => {
                 return vec![Effect::Later(KEPT_AFTER, timer)];
             }
-            Msg::Elapsed(Timer::Frame) => return self.play_on(),
             Msg::Elapsed(Timer::Keep) => return self.keep_edits().into_iter().collect(),
             Msg::Elapsed(Timer::Writing) => return self.tick(),
             Msg::Saved(id, outcome) => return self.was_saved(id, outcome),
             Msg::BackupsFound(copies) => self.backups_found(&copies),
             Msg::Exported(id, outcome) => return self.exported(id, outcome),
-            Msg::Filmed(id, progress) => self.filmed(id, progress),
+            Msg::Filmed(id, progress) => sequence::filmed(self, id, progress),
             Msg::FrameExported(exported) => self.jobs.note_export(exported),
             Msg::Listed(folder, names) => self.folder_listed(folder, names),
             Msg::Taken(id, reason) => return self.is_taken(id, reason),
             Msg::ReferenceRead(id, read) => return self.reference_read(id, read),
             Msg::Compared(pair, found) => self.compared.measured(pair, found),
-            Msg::TrackRead(path, read) => return self.track_read(path, read),
-            Msg::TrackChanged => return self.reread_track().into_iter().collect(),
-            Msg::TrackWritten(outcome) => return self.track_written(outcome),
-            Msg::EditorClosed(outcome) => return self.editor_closed(outcome),
             Msg::RecentListed(scenes) => self.show_recent(scenes),
             Msg::Recovered(found) => self.found_kept(found),
             Msg::Kept(revision, outcome) => {
@@ -107,50 +252,10 @@ impl App {
             Msg::Terminate { .. } | Msg::HangUp => return self.quit_keeping_edits(),
             Msg::FewColours(depth) => self.overlays.suggest(depth.cure()),
             Msg::Failed(reason) => self.overlays.fail_too(&reason),
+            // The rest belongs to modes.
+            _ => {}
         }
         Vec::new()
-    }
-
-    fn key(&mut self, key: KeyEvent) -> Vec<Effect> {
-        self.overlays.clear_message();
-        self.end_slide();
-        let context = self.context();
-        let before = self.prefix.take();
-        let meaning = self.keymap.meaning(context, before, key);
-        let is_line = self.has_input();
-        let controls = key.modifiers.contains(KeyModifiers::CONTROL);
-        let reserved = matches!(meaning, Meaning::Does(row) if self.keymap.is_reserved(row));
-        // Only a dialog takes precedence over a line being typed.
-        if is_line && self.overlays.dialog.is_none() && !(reserved && controls) {
-            return self.type_key(key);
-        }
-        if context == Context::In(Mode::Move) && self.type_amount(key) {
-            return Vec::new();
-        }
-        match meaning {
-            Meaning::Does(row) => self.act(row),
-            Meaning::Begins => {
-                self.prefix = Some(key);
-                Vec::new()
-            }
-            Meaning::None if self.overlays.dialog.is_some() => {
-                // A user who types on without noticing the question learns why nothing happens.
-                let keys = self.hints().into_iter().map(|(key, _)| key);
-                self.overlays.warn(format!("press {}", alternatives(keys)));
-                Vec::new()
-            }
-            Meaning::None if context == Context::Opening => {
-                self.warn_of_opening();
-                Vec::new()
-            }
-            Meaning::None
-                if matches!(context, Context::Views | Context::Recent | Context::Steps) =>
-            {
-                self.filter_with(key);
-                Vec::new()
-            }
-            Meaning::None => self.start_typing_with(context, key),
-        }
     }
 
     /// Starts typing a value on a digit, sign, operator, `.` or `(`. Other keys without a meaning are
@@ -202,76 +307,34 @@ impl App {
         self.overlays.answer(format!("{words}{help}"));
     }
 
-    fn type_key(&mut self, key: KeyEvent) -> Vec<Effect> {
-        if line::types(key) && !self.has_room(1) {
-            return Vec::new();
-        }
-        if self.overlays.prompt.is_some() {
-            return self.prompt_key(key);
-        }
-        if self.overlays.menu.is_some() {
-            self.menu_key(key);
-            return Vec::new();
-        }
-        if self.cursor.typing.is_some() {
-            self.typing_key(key);
-        } else if let Some(help) = &mut self.overlays.help {
-            match key.code {
-                KeyCode::Enter | KeyCode::Esc => help.focus = PageFocus::Lines,
-                _ => line::edit(&mut help.search, key),
-            }
-            help.top = 0;
-        } else if let Some(page) = &mut self.overlays.page {
-            match key.code {
-                KeyCode::Enter => return self.choose(),
-                KeyCode::Esc => page.focus = PageFocus::Lines,
-                _ => {
-                    let count = page.rows().len();
-                    page.filter.key(key, count);
-                }
-            }
-        }
-        Vec::new()
-    }
-
-    fn prompt_key(&mut self, key: KeyEvent) -> Vec<Effect> {
-        let Some(prompt) = &mut self.overlays.prompt else {
-            return Vec::new();
-        };
-        match key.code {
-            KeyCode::Esc => self.close_prompt(),
-            // As in other programs, Backspace in an empty line closes it.
-            KeyCode::Backspace if prompt.input.value().is_empty() => self.close_prompt(),
-            KeyCode::Enter => {
-                let (kind, typed) = (prompt.kind, prompt.input.value().to_owned());
-                let is_untouched = typed.trim() == prompt.opened.trim();
-                match kind {
-                    PromptKind::Command => return self.run_line(&typed),
-                    PromptKind::Name if is_untouched => self.close_prompt(),
-                    PromptKind::Name => {
-                        self.overlays.prompt = None;
-                        self.rename(&typed);
-                    }
-                    PromptKind::Filter(from) => self.keep_filter(from),
-                }
-            }
-            _ => match prompt.kind {
-                PromptKind::Command => return self.palette_key(key),
-                PromptKind::Filter(from) => self.filter_key(key, from),
-                PromptKind::Name => {
-                    line::edit_over(&mut prompt.input, &mut prompt.is_selected, key);
-                }
-            },
-        }
-        Vec::new()
-    }
-
     pub(super) fn quit_key(&mut self) -> Vec<Effect> {
         if self.mode == Mode::Move {
             self.warn_of_transform();
             return Vec::new();
         }
         self.quit()
+    }
+
+    /// Puts the text back, and leaves SEQUENCE.
+    pub(super) fn leave_passing(&mut self) {
+        self.put_back();
+        if self.mode == Mode::Sequence {
+            self.mode = Mode::Select;
+        }
+    }
+
+    /// Leaves SEQUENCE for something that is done outside of it; returns the mode before.
+    pub(super) fn step_outside(&mut self) -> Mode {
+        let mode = self.mode;
+        self.leave_passing();
+        mode
+    }
+
+    /// Stays in SEQUENCE if what was done outside of it failed.
+    pub(super) fn stay_if_failed(&mut self, mode: Mode) {
+        if mode == Mode::Sequence && self.overlays.has_failed() {
+            self.mode = mode;
+        }
     }
 
     pub(super) fn go(&mut self, mode: Mode) -> Vec<Effect> {
@@ -287,11 +350,8 @@ impl App {
             }
             Mode::Inspect => self.start_inspecting(),
             Mode::Move => self.start_transform(Tool::Move),
-            Mode::Sequence => return self.open_track(None),
-            Mode::Edit | Mode::View if self.mode == Mode::Sequence => {
-                self.keep_frame();
-                self.mode = mode;
-            }
+            // It is entered once its track is read.
+            Mode::Sequence => {}
             Mode::Select | Mode::View | Mode::Fly | Mode::Edit => self.mode = mode,
         }
         Vec::new()

@@ -1,6 +1,6 @@
 //! Zooming and panning the picture on screen.
 
-use super::App;
+use super::Shared;
 use super::frame_window::FrameWindow;
 use super::viewport::{Detail, Screen, Viewport};
 use crate::scene::Size;
@@ -34,7 +34,7 @@ impl ScaleOrder {
     }
 }
 
-impl App {
+impl Shared {
     /// How the picture on screen is seen; `None` if there is no room.
     pub fn frame_window(&self) -> Option<FrameWindow> {
         let screen = self.screen()?;

@@ -29,13 +29,13 @@ impl Session {
         }
         let next = self.script.as_ref().and_then(Script::peek);
         let is_last = matches!(next, None | Some(Step::Wait | Step::Dump(..)));
-        let pictures = &self.app.pictures;
+        let pictures = &self.app.shared.pictures;
         let is_busy = if is_last {
             pictures.are_awaited()
-                || self.app.compared.is_awaited()
-                || self.app.thumbnails.are_awaited()
-                || self.app.suggestions.are_awaited()
-                || self.app.jobs.export.is_some()
+                || self.app.shared.compared.is_awaited()
+                || self.app.shared.thumbnails.are_awaited()
+                || self.app.shared.suggestions.are_awaited()
+                || self.app.shared.jobs.export.is_some()
         } else {
             pictures.preview.is_coarse()
         };
@@ -115,14 +115,25 @@ impl Session {
     /// Whether a file is one that the scene uses. That of a text with errors is not known to the
     /// interface, which does not read its files.
     fn uses(&self, path: &Path) -> bool {
-        if self.app.files().any(|used| file::is_same(path, used)) {
+        if self
+            .app
+            .shared
+            .files()
+            .any(|used| file::is_same(path, used))
+        {
             return true;
         }
-        let (Some(scene), 1.., true) = (&self.app.disk.path, self.app.error_count(), path.exists())
-        else {
+        let (Some(scene), 1.., true) = (
+            &self.app.shared.disk.path,
+            self.app.shared.error_count(),
+            path.exists(),
+        ) else {
             return false;
         };
-        let (language, text) = (self.app.source().language(), self.app.source().text());
+        let (language, text) = (
+            self.app.shared.source().language(),
+            self.app.shared.source().text(),
+        );
         let name = path.file_name().unwrap_or_default();
         let is_named = name.to_str().is_some_and(|name| text.contains(name));
         let mut source = Source::new(language, Arc::clone(text));
@@ -132,7 +143,7 @@ impl Session {
     }
 
     fn dump(&mut self, path: &Path, format: snapshot::Format) -> Result<(), Error> {
-        let theme = self.app.theme;
+        let theme = self.app.shared.theme;
         let is_used = self.uses(path);
         let Some(cells) = self.runtime.screen().cells() else {
             return Ok(());

@@ -25,7 +25,7 @@ impl Session {
 
     /// Whether the terminal is still to be asked how it shows pictures.
     fn wants_answers(&self) -> bool {
-        let is_open = match self.app.pixels {
+        let is_open = match self.app.shared.pixels {
             Pixels::Auto => self.shows_pictures(),
             Pixels::Kitty | Pixels::Sixel | Pixels::Iterm => true,
             Pixels::Half | Pixels::Quadrant | Pixels::Sextant | Pixels::Octant => false,
@@ -62,7 +62,7 @@ impl Session {
     pub(super) fn wanted_manner(&mut self) -> Manner {
         let is_page = !self.runtime.screen().is_terminal();
         let cell = terminal::cell_size().filter(|_| !is_page);
-        let choice = match self.app.pixels {
+        let choice = match self.app.shared.pixels {
             // A page has cells only.
             Pixels::Kitty | Pixels::Sixel | Pixels::Iterm | Pixels::Auto if is_page => Pixels::Half,
             Pixels::Auto if !self.shows_pictures() => Pixels::Half,
@@ -85,7 +85,7 @@ impl Session {
                 self.runtime.screen().set_means(after);
             }
         }
-        let choice = self.app.pixels;
+        let choice = self.app.shared.pixels;
         if self.known.refused != Some(choice)
             && let Some(reason) = self.known.refusal(choice, manner)
             && self.runtime.screen().is_terminal()
@@ -98,8 +98,8 @@ impl Session {
         } else {
             Limited::No
         };
-        let (across, down) = manner.grid(self.app.terminal, limited);
-        let grid = self.app.pictures.grid;
+        let (across, down) = manner.grid(self.app.shared.terminal, limited);
+        let grid = self.app.shared.pictures.grid;
         if (grid.across, grid.down) != (across, down) {
             self.step(Msg::Grid { across, down });
         }

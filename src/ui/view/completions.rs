@@ -7,16 +7,16 @@ use ratatui::widgets::{Clear, Widget};
 use unicode_width::UnicodeWidthStr;
 
 use super::row::{Row, title};
-use crate::ui::app::{App, Completion};
+use crate::ui::app::{Completion, Shared};
 use crate::ui::{layout, theme};
 
 /// Maximum number of completions shown.
 const SHOWN: usize = 12;
 
 /// Draws the palette at the bottom of `area` while a command is typed.
-pub(crate) fn render(app: &App, area: Rect, buffer: &mut Buffer) {
-    let found = app.completions();
-    let typed = app.command_typed();
+pub(crate) fn render(shared: &Shared, area: Rect, buffer: &mut Buffer) {
+    let found = shared.completions();
+    let typed = shared.command_typed();
     let rows = found.len().min(SHOWN) + usize::from(typed.is_some());
     // At least half of the screen stays visible.
     let rows = rows.min(usize::from(area.height / 2).saturating_sub(1));
@@ -25,7 +25,7 @@ pub(crate) fn render(app: &App, area: Rect, buffer: &mut Buffer) {
     }
     let (_, panel) = layout::split_bottom(area, rows as u16 + 1);
     Clear.render(panel.intersection(buffer.area), buffer);
-    let chosen = app.palette.chosen;
+    let chosen = shared.palette.chosen;
     let place = match found.len() {
         0 => String::new(),
         count => format!("{}/{count}", chosen.map_or(0, |at| at + 1)),
@@ -101,9 +101,14 @@ mod tests {
     fn commands_are_shown_with_their_help_and_key() {
         let mut app = app();
         typed(&mut app, ":vie");
-        let kind = app.overlays.prompt.as_ref().map(|prompt| prompt.kind);
+        let kind = app
+            .shared
+            .overlays
+            .prompt
+            .as_ref()
+            .map(|prompt| prompt.kind);
         assert_eq!(kind, Some(PromptKind::Command));
-        let lines = drawn(&app, super::render, 70, 24);
+        let lines = drawn(&app.shared, super::render, 70, 24);
         let line = lines.iter().find(|line| line.contains(":view save"));
         let line = line.expect("it is offered");
         assert!(line.contains("write the view into the scene"), "{line}");
@@ -114,7 +119,7 @@ mod tests {
     fn the_arguments_of_a_command_are_shown_while_they_are_typed() {
         let mut app = app();
         typed(&mut app, ":size 8");
-        let lines = drawn(&app, super::render, 70, 24);
+        let lines = drawn(&app.shared, super::render, 70, 24);
         assert!(lines[23].contains(":size WxH"), "{lines:#?}");
     }
 }

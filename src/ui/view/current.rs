@@ -8,7 +8,7 @@ use unicode_width::UnicodeWidthStr;
 use super::fields::typed;
 use super::row::Row;
 use crate::text::Severity;
-use crate::ui::app::{App, FieldRow, Message};
+use crate::ui::app::{FieldRow, Message, Shared};
 use crate::ui::arrange::Areas;
 use crate::ui::keymap::Mode;
 use crate::ui::layout::split_right;
@@ -22,11 +22,11 @@ const TYPED: usize = 16;
 
 /// Draws the current field: its name and its numbers, and what is typed. Returns the cells that are
 /// left of the status line.
-pub(crate) fn render(app: &App, areas: &Areas, buffer: &mut Buffer) -> Rect {
-    let Some(field) = field(app, areas) else {
+pub(crate) fn render(shared: &Shared, areas: &Areas, buffer: &mut Buffer) -> Rect {
+    let Some(field) = field(shared, areas) else {
         return areas.status;
     };
-    let component = app.cursor.component;
+    let component = shared.cursor.component;
     let most = areas.status.width.saturating_sub(MODE);
     let value = field.literals.get(component).map_or("", String::as_str);
     let name = named(
@@ -35,8 +35,8 @@ pub(crate) fn render(app: &App, areas: &Areas, buffer: &mut Buffer) -> Rect {
         component,
     );
     let whole = field.field.key.width() + 1 + width_of(&field.literals);
-    let is_whole = app.cursor.typing.is_none() && whole < usize::from(most);
-    let alone = match &app.cursor.typing {
+    let is_whole = shared.cursor.typing.is_none() && whole < usize::from(most);
+    let alone = match &shared.cursor.typing {
         Some(typing) => (typing.input.value().width() + 1).max(TYPED),
         None => value.width(),
     };
@@ -66,7 +66,7 @@ pub(crate) fn render(app: &App, areas: &Areas, buffer: &mut Buffer) -> Rect {
     // The value is the last to be cut.
     let room = row.room().saturating_sub(alone + 1);
     row.put_in(&name, room, theme::BOLD);
-    match &app.cursor.typing {
+    match &shared.cursor.typing {
         Some(typing) => {
             row.skip(1);
             let area = Rect {
@@ -84,9 +84,9 @@ pub(crate) fn render(app: &App, areas: &Areas, buffer: &mut Buffer) -> Rect {
 }
 
 /// Why the value being typed was refused, where no panel says so.
-pub(crate) fn refusal(app: &App, areas: &Areas) -> Option<Message> {
-    field(app, areas)?;
-    let refused = app.cursor.typing.as_ref()?.refused.as_ref()?;
+pub(crate) fn refusal(shared: &Shared, areas: &Areas) -> Option<Message> {
+    field(shared, areas)?;
+    let refused = shared.cursor.typing.as_ref()?.refused.as_ref()?;
     Some(Message {
         severity: Some(Severity::Error),
         text: refused.message.clone(),
@@ -94,10 +94,10 @@ pub(crate) fn refusal(app: &App, areas: &Areas) -> Option<Message> {
 }
 
 /// The current field, if it is edited where there are no panels.
-fn field(app: &App, areas: &Areas) -> Option<FieldRow> {
-    let is_blind = app.mode == Mode::Edit && areas.fields.is_empty();
-    let mut fields = app.fields().into_iter();
-    fields.nth(app.cursor.field).filter(|_| is_blind)
+fn field(shared: &Shared, areas: &Areas) -> Option<FieldRow> {
+    let is_blind = shared.mode == Mode::Edit && areas.fields.is_empty();
+    let mut fields = shared.fields().into_iter();
+    fields.nth(shared.cursor.field).filter(|_| is_blind)
 }
 
 /// The name of a field with that of its component: `centre x`.

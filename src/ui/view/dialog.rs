@@ -20,15 +20,21 @@ const SIDE: usize = 12;
 
 /// Draws the open question, if any.
 pub(crate) fn render(app: &App, area: Rect, buffer: &mut Buffer) {
-    match &app.overlays.dialog {
+    match &app.shared.overlays.dialog {
         None => {}
         Some(Dialog::Leave(next)) => {
-            let losses = app.losses_before(next).unwrap_or_default();
+            let losses = app.shared.losses_before(next).unwrap_or_default();
             let text = format!("{losses}. {}", next.question());
             ask(app, leaving(next), &text, area, buffer);
         }
         Some(Dialog::Delete(nodes)) => {
-            ask(app, " Delete ", &app.consequence(nodes), area, buffer);
+            ask(
+                app,
+                " Delete ",
+                &app.shared.consequence(nodes),
+                area,
+                buffer,
+            );
         }
         Some(Dialog::Overwrite(pending)) => {
             let path = pending.export.destination.path.display();
@@ -79,13 +85,15 @@ fn offered(app: &App, offer: &Offer) -> String {
     format!(
         "{} has unsaved edits from an earlier run: {places} {differ} from the {text}.{since}{damage} \
          Restore them?",
-        app.disk.name(),
+        app.shared.disk.name(),
     )
 }
 
 /// The name of the text that recovered edits are merged with.
 fn text_name(app: &App) -> &'static str {
-    if app.document.is_dirty() || matches!(app.disk.state, OnDisk::Missing | OnDisk::New) {
+    if app.shared.document.is_dirty()
+        || matches!(app.shared.disk.state, OnDisk::Missing | OnDisk::New)
+    {
         "text"
     } else {
         "file"
@@ -135,7 +143,7 @@ fn conflict(
     let rows = usize::from(list.height);
     let top = layout::first_shown(0, at, conflicts.len(), rows);
     for (index, conflict) in conflicts.iter().enumerate().skip(top).take(rows) {
-        let line = Position::of(app.document.text(), conflict.span.start()).line;
+        let line = Position::of(app.shared.document.text(), conflict.span.start()).line;
         let mut row = Row::new(buffer, list, (index - top) as u16);
         let here = if index == at {
             theme::BOLD
@@ -145,7 +153,7 @@ fn conflict(
         row.put(if index == at { "▸ " } else { "  " }, here);
         // What is now at the place of a deletion is not what was deleted.
         let is_deleted = conflict.mine.trim().is_empty();
-        let place = app.place_name(conflict.span).filter(|_| !is_deleted);
+        let place = app.shared.place_name(conflict.span).filter(|_| !is_deleted);
         let place = place.map_or_else(
             || format!("line {line}"),
             |name| format!("{name} (line {line})"),
@@ -239,7 +247,7 @@ mod tests {
     fn quitting_shows_what_would_be_lost_and_how_to_answer() {
         let mut app = app();
         retype(&mut app, " 0.25 //", " 0.5 //");
-        app.overlays.dialog = Some(Dialog::Leave(AfterLeaving::Quit));
+        app.shared.overlays.dialog = Some(Dialog::Leave(AfterLeaving::Quit));
         let text = drawn(&app, super::render, 80, 24).join("\n");
         for part in [
             "test.ray has unsaved edits",
@@ -258,7 +266,7 @@ mod tests {
         let theirs = SCENE.replace(" 0.25 //", " 0.75 //");
         let mut merge = conflict(&app, &theirs);
         merge.conflicts[0].decision = Some(Side::Theirs);
-        app.overlays.dialog = Some(Dialog::Conflict {
+        app.shared.overlays.dialog = Some(Dialog::Conflict {
             merge,
             at: 0,
             from: MergeSource::File,
@@ -277,7 +285,7 @@ mod tests {
 
     /// The line of the first conflict with the file.
     fn drawn_conflict(mut app: App, merge: Merge) -> String {
-        app.overlays.dialog = Some(Dialog::Conflict {
+        app.shared.overlays.dialog = Some(Dialog::Conflict {
             merge,
             at: 0,
             from: MergeSource::File,

@@ -6,21 +6,21 @@ use ratatui::widgets::{Clear, Widget};
 
 use super::row::{Row, title};
 use crate::text::counted;
-use crate::ui::app::App;
+use crate::ui::app::Shared;
 use crate::ui::errors::StyledLine;
 use crate::ui::theme;
 
 /// Draws the diagnostics below the picture, if there are any to show.
-pub(crate) fn render(app: &App, area: Rect, buffer: &mut Buffer) {
-    let Some(panel) = app.errors_panel(area) else {
+pub(crate) fn render(shared: &Shared, area: Rect, buffer: &mut Buffer) {
+    let Some(panel) = shared.errors_panel(area) else {
         return;
     };
     Clear.render(panel.area.intersection(buffer.area), buffer);
-    let count = app.wrong().findings.len();
+    let count = shared.wrong().findings.len();
     title(
-        &heading(app),
+        &heading(shared),
         &format!("{}/{count}", (panel.first + 1).min(count)),
-        app.overlays.errors.map(|_| theme::ACCENT),
+        shared.overlays.errors.map(|_| theme::ACCENT),
         panel.area,
         buffer,
     );
@@ -34,10 +34,10 @@ pub(crate) fn render(app: &App, area: Rect, buffer: &mut Buffer) {
     }
 }
 
-fn heading(app: &App) -> String {
-    let diagnostics = app.wrong().findings;
+fn heading(shared: &Shared) -> String {
+    let diagnostics = shared.wrong().findings;
     let (errors, warnings) = (diagnostics.errors(), diagnostics.warnings());
-    if app.is_disk_wrong() {
+    if shared.is_disk_wrong() {
         return format!("{} in the file on disk", counted(errors, "error"));
     }
     let kinds = [(errors, "error"), (warnings, "warning")];
@@ -59,6 +59,7 @@ fn heading(app: &App) -> String {
 mod tests {
     use super::*;
     use crate::text::Findings;
+    use crate::ui::app::App;
     use crate::ui::view::inks::Glyphs;
     use crate::ui::view::tests::{app, drawn, retype};
 
@@ -66,11 +67,12 @@ mod tests {
     fn an_error_shows_its_position_message_and_hint() {
         let mut app = app();
         retype(&mut app, " 0.25 //", " -0.25 //");
-        let radius = app.diagnostics[0].clone();
-        app.diagnostics = Findings::default();
-        app.diagnostics
+        let radius = app.shared.diagnostics[0].clone();
+        app.shared.diagnostics = Findings::default();
+        app.shared
+            .diagnostics
             .error(|| radius.with_hint("sizes count outward"));
-        let lines = drawn(&app, render, 70, 10);
+        let lines = drawn(&app.shared, render, 70, 10);
         let text = lines.join("\n");
         for part in [
             "1 error ─",
@@ -88,7 +90,7 @@ mod tests {
         let mut app = app();
         let wrong = "sphere 0 0 0 -1  0 0 0  0 0 0  0 0 0  1 0 0 1\n".repeat(250);
         retype(&mut app, "box", &format!("{wrong}box"));
-        let title = drawn(&app, render, 70, 10).swap_remove(0);
+        let title = drawn(&app.shared, render, 70, 10).swap_remove(0);
         assert!(title.starts_with("251 errors, 100 listed ─"), "{title}");
         let status = |app: &App, area: Rect, buffer: &mut Buffer| {
             super::super::status::render(app, Glyphs::HalfBlocks, area, buffer);

@@ -13,44 +13,49 @@ use crate::language::Node;
 use crate::language::table::{Category, Kind};
 use crate::scene::Rgb;
 use crate::text::{counted, parse_number, without_suffix};
-use crate::ui::app::{App, FieldRow, Provenance, Stride, Typing};
+use crate::ui::app::{FieldRow, Provenance, Shared, Stride, Typing};
 use crate::ui::keymap::Mode;
 use crate::ui::layout::{self, marker_at};
 use crate::ui::text_width::wrap;
 use crate::ui::theme;
 
 /// Draws the fields of the selected node and a description of the current one.
-pub(crate) fn render(app: &App, area: Rect, buffer: &mut Buffer) {
-    let focused = app.mode == Mode::Edit;
-    let stride = match app.cursor.stride {
+pub(crate) fn render(shared: &Shared, area: Rect, buffer: &mut Buffer) {
+    let focused = shared.mode == Mode::Edit;
+    let stride = match shared.cursor.stride {
         Stride::Fine => Some("step × 0.1".to_owned()),
         Stride::Plain => None,
         Stride::Coarse => Some("step × 10".to_owned()),
     };
-    let selected = app.cursor.selected();
-    let name = app.source().name(selected);
+    let selected = shared.cursor.selected();
+    let name = shared.source().name(selected);
     row::title(
         &name,
-        &stride.or_else(|| users(app, selected)).unwrap_or_default(),
+        &stride
+            .or_else(|| users(shared, selected))
+            .unwrap_or_default(),
         focused.then_some(theme::ACCENT),
         area,
         buffer,
     );
 
-    let fields = app.fields();
+    let fields = shared.fields();
     let lines = layout::field_rows(area);
     let rows = usize::from(lines.height);
-    let top = app.cursor.field_top.min(fields.len().saturating_sub(rows));
+    let top = shared
+        .cursor
+        .field_top
+        .min(fields.len().saturating_sub(rows));
     for (line, (index, field)) in fields.iter().enumerate().skip(top).take(rows).enumerate() {
         let line = Rect {
             y: lines.y + line as u16,
             height: 1,
             ..lines
         };
-        let cursor = (focused && index == app.cursor.field).then_some(app.cursor.component);
-        field_line(app, field, cursor, line, buffer);
-        if let Some(bar) = app.slider(index, line)
-            && (cursor.is_none() || app.cursor.typing.is_none())
+        let cursor = (focused && index == shared.cursor.field).then_some(shared.cursor.component);
+        field_line(shared, field, cursor, line, buffer);
+        if let Some(bar) = shared.slider(index, line)
+            && (cursor.is_none() || shared.cursor.typing.is_none())
         {
             let style = match cursor {
                 _ if !field.is_all(Provenance::Text) => theme::DIM,
@@ -59,7 +64,7 @@ pub(crate) fn render(app: &App, area: Rect, buffer: &mut Buffer) {
             };
             slider(field, style, bar, buffer);
         }
-        if let Some(found) = app.field_finding(index) {
+        if let Some(found) = shared.field_finding(index) {
             // The last cell of the name is otherwise a gap.
             let (name, _) = layout::field_columns(line, field.literals.len());
             let mut row = Row::new(buffer, name, 0);
@@ -68,26 +73,26 @@ pub(crate) fn render(app: &App, area: Rect, buffer: &mut Buffer) {
         }
     }
     let below = fields.len().saturating_sub(top);
-    for (line, (depth, part)) in (below..rows).zip(app.cursor.parts().iter().copied()) {
+    for (line, (depth, part)) in (below..rows).zip(shared.cursor.parts().iter().copied()) {
         let mut row = Row::new(buffer, lines, line as u16);
         row.skip(1 + 2 * depth.min(usize::from(lines.width)) as u16);
-        row.put(&part_name(app, part), theme::DIM);
+        row.put(&part_name(shared, part), theme::DIM);
     }
-    if let Some(field) = fields.get(app.cursor.field).filter(|_| focused) {
-        explain(app, field, layout::field_notes(area), buffer);
+    if let Some(field) = fields.get(shared.cursor.field).filter(|_| focused) {
+        explain(shared, field, layout::field_notes(area), buffer);
     }
 }
 
 /// What else uses the material or texture that the current field names.
-fn shared(app: &App) -> Option<String> {
-    let node = app.referred_to()?;
-    let name = app.source().name(node);
-    Some(format!("{name} {}", users(app, node)?))
+fn users_of(shared: &Shared) -> Option<String> {
+    let node = shared.referred_to()?;
+    let name = shared.source().name(node);
+    Some(format!("{name} {}", users(shared, node)?))
 }
 
 /// The number of objects that use a node, if it is a material or texture.
-pub(super) fn users(app: &App, node: Node) -> Option<String> {
-    let objects = || counted(app.source().users(node), "object");
+pub(super) fn users(shared: &Shared, node: Node) -> Option<String> {
+    let objects = || counted(shared.source().users(node), "object");
     match node {
         Node::Material(_) => Some(format!("colours {}", objects())),
         Node::Texture(_) => Some(format!("on {}", objects())),
@@ -96,26 +101,32 @@ pub(super) fn users(app: &App, node: Node) -> Option<String> {
 }
 
 /// The name of a part of a combined object, with its operation if it is a combination itself.
-fn part_name(app: &App, part: Node) -> String {
-    let name = app.source().name(part);
+fn part_name(shared: &Shared, part: Node) -> String {
+    let name = shared.source().name(part);
     let operation = match part {
-        Node::Object(object) => app.source().operation(object),
+        Node::Object(object) => shared.source().operation(object),
         _ => None,
     };
     [&name, operation.unwrap_or_default()].join(" ")
 }
 
 /// Draws a field: its name and its literals in columns, with the one under the cursor marked.
-fn field_line(app: &App, field: &FieldRow, cursor: Option<usize>, line: Rect, buffer: &mut Buffer) {
+fn field_line(
+    shared: &Shared,
+    field: &FieldRow,
+    cursor: Option<usize>,
+    line: Rect,
+    buffer: &mut Buffer,
+) {
     let (name, columns) = layout::field_columns(line, field.literals.len());
     let mut row = Row::new(buffer, name, 0);
     let selected = cursor.map_or(Style::new(), |_| theme::BOLD);
     row.put(if cursor.is_some() { "▸" } else { " " }, selected);
     row.put_in(field.field.key, row.room().saturating_sub(2), selected);
     row.skip_to(name.right().saturating_sub(2));
-    match dot(app, field) {
+    match dot(shared, field) {
         _ if field.is_all(Provenance::WorkingView) => row.put("*", theme::WARNING),
-        Some(colour) => row.put("●", app.theme.swatch(colour)),
+        Some(colour) => row.put("●", shared.theme.swatch(colour)),
         None => row.put(" ", Style::new()),
     };
     let literals = field.literals.iter().zip(&field.sources);
@@ -138,7 +149,7 @@ fn field_line(app: &App, field: &FieldRow, cursor: Option<usize>, line: Rect, bu
         }
     }
     let current = cursor.and_then(|component| Some((component, field.literals.get(component)?)));
-    if let Some((component, literal)) = current.filter(|_| app.cursor.typing.is_none()) {
+    if let Some((component, literal)) = current.filter(|_| shared.cursor.typing.is_none()) {
         let span = layout::widened(&columns, component, literal.width(), line);
         if let Some(area) = span {
             Clear.render(area.intersection(buffer.area), buffer);
@@ -156,7 +167,7 @@ fn field_line(app: &App, field: &FieldRow, cursor: Option<usize>, line: Rect, bu
             );
         }
     }
-    if let (Some(component), Some(typing)) = (cursor, &app.cursor.typing)
+    if let (Some(component), Some(typing)) = (cursor, &shared.cursor.typing)
         && let Some(column) = columns.get(component)
     {
         // The last cell keeps a gap to the next number. A long text covers the numbers after it.
@@ -171,12 +182,12 @@ fn field_line(app: &App, field: &FieldRow, cursor: Option<usize>, line: Rect, bu
 }
 
 /// The colour of a field, or of the material that it names.
-fn dot(app: &App, field: &FieldRow) -> Option<Rgb> {
-    let named = || match (field.field.kind, app.cursor.selected()) {
+fn dot(shared: &Shared, field: &FieldRow) -> Option<Rgb> {
+    let named = || match (field.field.kind, shared.cursor.selected()) {
         (
             Kind::Reference(Category::Material) | Kind::Name(Category::Material),
             Node::Object(object),
-        ) => swatch(app, Node::Material(app.source().material(object)?)),
+        ) => swatch(shared, Node::Material(shared.source().material(object)?)),
         _ => None,
     };
     field.colour().or_else(named)
@@ -210,13 +221,13 @@ pub(super) fn typed(typing: &Typing, area: Rect, buffer: &mut Buffer) {
 }
 
 /// Draws below the fields why a value was refused, its valid range, and its effect.
-fn explain(app: &App, field: &FieldRow, area: Rect, buffer: &mut Buffer) {
+fn explain(shared: &Shared, field: &FieldRow, area: Rect, buffer: &mut Buffer) {
     let width = usize::from(area.width.saturating_sub(1));
     let mut lines: Vec<(String, Style)> = Vec::new();
     let mut say = |text: &str, style| {
         lines.extend(wrap(text, width).into_iter().map(|line| (line, style)));
     };
-    if let Some(refused) = app
+    if let Some(refused) = shared
         .cursor
         .typing
         .as_ref()
@@ -224,14 +235,17 @@ fn explain(app: &App, field: &FieldRow, area: Rect, buffer: &mut Buffer) {
     {
         say(&refused.message, theme::ERROR);
     }
-    if let Some(found) = app.field_finding(app.cursor.field) {
+    if let Some(found) = shared.field_finding(shared.cursor.field) {
         say(
             &found.message_with_file(),
             theme::severity(Some(found.severity)),
         );
     }
     let names = field.field.kind.component_names();
-    let component = names.get(app.cursor.component).copied().unwrap_or_default();
+    let component = names
+        .get(shared.cursor.component)
+        .copied()
+        .unwrap_or_default();
     let expected = field.field.advice();
     let what = [component, &expected].join(if component.is_empty() { "" } else { ": " });
     let unit = if field.field.unit.is_empty() {
@@ -242,18 +256,18 @@ fn explain(app: &App, field: &FieldRow, area: Rect, buffer: &mut Buffer) {
     let nudge = match field.field.kind {
         Kind::Choice(_) | Kind::Reference(_) | Kind::Name(_) => {
             let [list, less, more] =
-                ["choose", "nudge-down", "nudge-up"].map(|name| app.key_for(name));
+                ["choose", "nudge-down", "nudge-up"].map(|name| shared.key_for(name));
             format!(" · {list}: list · {less} {more}: next")
         }
         Kind::Word => String::new(),
-        _ => format!(" · step {}{unit}", app.step(field.field)),
+        _ => format!(" · step {}{unit}", shared.step(field.field)),
     };
     say(&format!("{what}{nudge}"), Style::new());
-    if let Some(users) = shared(app) {
+    if let Some(users) = users_of(shared) {
         say(&users, theme::DIM);
     }
     say(field.field.doc, theme::DIM);
-    match field.sources.get(app.cursor.component) {
+    match field.sources.get(shared.cursor.component) {
         Some(Provenance::Default) => say("Not in the text: this is the default.", theme::DIM),
         Some(Provenance::WorkingView) => {
             say("The working view differs from the text.", theme::WARNING);
@@ -271,19 +285,20 @@ fn explain(app: &App, field: &FieldRow, area: Rect, buffer: &mut Buffer) {
 mod tests {
     use super::*;
     use crate::text::{Diagnostic, Span};
-    use crate::ui::view::tests::{app, drawn, retype};
+    use crate::ui::app::App;
+    use crate::ui::view::tests::{app, drawn, retype, select};
     use tui_input::Input;
 
     fn editing(selected: Node) -> App {
         let mut app = app();
-        app.mode = Mode::Edit;
-        app.cursor.select(selected, app.document.source());
+        app.shared.mode = Mode::Edit;
+        select(&mut app, selected);
         app
     }
 
     #[test]
     fn literals_are_shown_as_in_the_text() {
-        let lines = drawn(&editing(Node::Object(0)), render, 34, 20);
+        let lines = drawn(&editing(Node::Object(0)).shared, render, 34, 20);
         assert!(lines[0].starts_with("object 1 (sphere) ─"), "{}", lines[0]);
         assert_eq!(lines[1], "▸centre    0      .5     -1e0");
         assert_eq!(lines[2], " radius    0.25");
@@ -292,15 +307,15 @@ mod tests {
 
     #[test]
     fn missing_parts_of_the_view_are_shown_as_defaults() {
-        let lines = drawn(&editing(Node::View), render, 34, 20);
+        let lines = drawn(&editing(Node::View).shared, render, 34, 20);
         assert_eq!(lines[4], " fov       45  (default)");
     }
 
     #[test]
     fn a_refused_value_stays_and_is_explained() {
         let mut app = editing(Node::Object(0));
-        app.cursor.field = 1;
-        app.cursor.typing = Some(Typing {
+        app.shared.cursor.field = 1;
+        app.shared.cursor.typing = Some(Typing {
             input: Input::new("-3".to_owned()),
             refused: Some(Diagnostic::error(
                 Span::at(0),
@@ -309,7 +324,7 @@ mod tests {
             )),
             ..Typing::default()
         });
-        let lines = drawn(&app, render, 34, 20);
+        let lines = drawn(&app.shared, render, 34, 20);
         assert_eq!(lines[2], "▸radius    -3");
         assert_eq!(lines[16], " radius: must be greater than 0");
         assert!(lines[17].starts_with(" a number greater than 0 · step"));
@@ -322,8 +337,8 @@ mod tests {
             (0, " x: a number · step"),
             (2, " red: a number, usually from 0 to 1 · step"),
         ] {
-            app.cursor.field = field;
-            let lines = drawn(&app, render, 50, 20);
+            app.shared.cursor.field = field;
+            let lines = drawn(&app.shared, render, 50, 20);
             assert!(lines[16].starts_with(shown), "{}", lines[16]);
         }
     }
@@ -336,8 +351,8 @@ mod tests {
             "0.5 0 0  0 0 0  1 0 0 1\nbox",
             "1.5 0 0  0 0 0  1 0 0 1\nbox",
         );
-        app.cursor.field = 3;
-        let lines = drawn(&app, render, 50, 20);
+        app.shared.cursor.field = 3;
+        let lines = drawn(&app.shared, render, 50, 20);
         assert!(
             lines[4].starts_with("▸kd") && lines[4].contains("●!"),
             "{}",
@@ -354,12 +369,12 @@ mod tests {
     #[test]
     fn the_other_components_stay_while_one_is_being_typed() {
         let mut app = editing(Node::Object(0));
-        app.cursor.component = 1;
-        app.cursor.typing = Some(Typing {
+        app.shared.cursor.component = 1;
+        app.shared.cursor.typing = Some(Typing {
             input: Input::new("0.123".to_owned()),
             ..Typing::default()
         });
-        let line = drawn(&app, render, 34, 20)[1].clone();
+        let line = drawn(&app.shared, render, 34, 20)[1].clone();
         assert_eq!(line, "▸centre    0      0.123  -1e0");
     }
 
@@ -371,12 +386,12 @@ mod tests {
             (1, "▸centre    0      0.123456789"),
             (2, "▸centre    0      .5     3456789"),
         ] {
-            app.cursor.component = component;
-            app.cursor.typing = Some(Typing {
+            app.shared.cursor.component = component;
+            app.shared.cursor.typing = Some(Typing {
                 input: Input::new("0.123456789".to_owned()),
                 ..Typing::default()
             });
-            assert_eq!(drawn(&app, render, 34, 20)[1], shown);
+            assert_eq!(drawn(&app.shared, render, 34, 20)[1], shown);
         }
     }
 
@@ -389,18 +404,18 @@ mod tests {
             (1, "▸centre  0.2  -0.12345"),
             (2, "▸centre  0.2   -3.25e-2"),
         ] {
-            app.cursor.component = component;
-            assert_eq!(drawn(&app, render, 24, 8)[1], shown, "{component}");
+            app.shared.cursor.component = component;
+            assert_eq!(drawn(&app.shared, render, 24, 8)[1], shown, "{component}");
         }
     }
 
     #[test]
     fn the_cursor_is_on_one_component() {
         let mut app = editing(Node::Object(0));
-        app.cursor.component = 1;
+        app.shared.cursor.component = 1;
         let area = Rect::new(0, 0, 34, 20);
         let mut buffer = Buffer::empty(area);
-        render(&app, area, &mut buffer);
+        render(&app.shared, area, &mut buffer);
         let reversed: Vec<u16> = (0..34)
             .filter(|&x| buffer[(x, 1)].modifier.contains(Modifier::REVERSED))
             .collect();

@@ -27,7 +27,7 @@ pub(super) fn blank(cells: Rect, buffer: &mut Buffer) {
 
 /// The current picture with its outline, for a terminal that shows pictures.
 pub fn pixmap(app: &App) -> Pixmap {
-    let shown = &app.picture().shown;
+    let shown = &app.shared.picture().shown;
     let pixels = shown.pixels.iter().enumerate().map(|(at, &pixel)| {
         if shown.is_outlined(at) {
             theme::OUTLINE
@@ -46,5 +46,58 @@ pub(super) fn leave(cells: Rect, buffer: &mut Buffer) {
     for at in cells.intersection(buffer.area).positions() {
         buffer[at].reset();
         buffer[at].set_symbol(LEFT);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use ratatui::Terminal;
+    use ratatui::backend::TestBackend;
+    use ratatui::layout::Rect;
+
+    use crate::ui::app::{App, Help};
+    use crate::ui::view::inks::Glyphs;
+    use crate::ui::view::tests::{app, frame, lines, retype};
+    use crate::ui::view::{Drawing, Inks, draw};
+
+    /// The cells left to a picture by the terminal, and whether any half blocks are drawn.
+    fn left(app: &mut App) -> (Option<Rect>, bool) {
+        let (width, height) = (100, 30);
+        app.shared.terminal = (width, height);
+        let mut inks = Inks::new(Glyphs::HalfBlocks);
+        inks.draw_with(Drawing::Picture);
+        let mut terminal = Terminal::new(TestBackend::new(width, height)).expect("cannot fail");
+        let mut left = None;
+        terminal
+            .draw(|frame| left = draw(app, &mut inks, frame))
+            .expect("cannot fail");
+        let text = lines(terminal.backend().buffer()).join("");
+        assert!(
+            !text.contains('\u{f8ff}'),
+            "the mark of what is left is not shown"
+        );
+        (left, text.contains('▀'))
+    }
+
+    #[test]
+    fn cells_are_left_to_a_picture_unless_a_panel_is_over_it() {
+        let mut app = app();
+        assert_eq!(left(&mut app), (None, false), "there is no picture yet");
+        app.shared.pictures.preview.take(frame(8, 6));
+        let frame_window = app.shared.frame_window().expect("there is room");
+        app.shared
+            .pictures
+            .preview
+            .advance(&frame_window, &[], usize::MAX);
+        let cells = app.shared.raster().map(|(cells, _)| cells);
+        assert_eq!(left(&mut app), (cells, false));
+        app.shared.overlays.help = Some(Help::default());
+        assert_eq!(left(&mut app), (None, true));
+        app.shared.overlays.help = None;
+        assert_eq!(left(&mut app), (cells, false));
+        // A few words over it are drawn on top.
+        retype(&mut app, " 0.25 ", " -1 ");
+        let (place, has_blocks) = left(&mut app);
+        assert!(place.is_some() && !has_blocks);
     }
 }

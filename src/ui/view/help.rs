@@ -9,17 +9,17 @@ use unicode_width::UnicodeWidthStr;
 
 use super::row::Row;
 use crate::text::counted;
-use crate::ui::app::{App, PageFocus};
+use crate::ui::app::{PageFocus, Shared};
 use crate::ui::keymap::HelpLine;
 use crate::ui::layout;
 use crate::ui::theme;
 
 /// Draws the help page if it is open.
-pub(crate) fn render(app: &App, area: Rect, buffer: &mut Buffer) {
-    let Some(help) = &app.overlays.help else {
+pub(crate) fn render(shared: &Shared, area: Rect, buffer: &mut Buffer) {
+    let Some(help) = &shared.overlays.help else {
         return;
     };
-    let columns = app.help_columns(area.width);
+    let columns = shared.help_columns(area.width);
     let count = columns.len() as u16;
     let width = if count == 1 { 76 } else { area.width };
     let page = layout::centred(area, Rect::new(0, 0, width, area.height));
@@ -63,7 +63,7 @@ pub(crate) fn render(app: &App, area: Rect, buffer: &mut Buffer) {
     let count = columns.iter().flatten().filter(is_entry).count();
     let found = match help.search.value() {
         "" => {
-            let (search, close) = (app.key_for("search"), app.key_for("back"));
+            let (search, close) = (shared.key_for("search"), shared.key_for("back"));
             format!("{search} search  {close} close")
         }
         search => format!("{} with “{search}”", counted(count, "line")),
@@ -104,12 +104,12 @@ mod tests {
     #[test]
     fn a_wide_page_has_columns_and_starts_with_the_present_mode() {
         let mut app = app();
-        app.overlays.help = Some(Help::default());
-        let wide = drawn(&app, render, 120, 30);
+        app.shared.overlays.help = Some(Help::default());
+        let wide = drawn(&app.shared, render, 120, 30);
         assert!(wide[1].starts_with("│ SELECT"), "{}", wide[1]);
         let headings = wide[1].matches("anywhere").count();
         assert_eq!(headings, 1, "{}", wide[1]);
-        let narrow = drawn(&app, render, 80, 30);
+        let narrow = drawn(&app.shared, render, 80, 30);
         assert!(!narrow[1].contains("anywhere"));
     }
 
@@ -130,11 +130,11 @@ mod tests {
     #[test]
     fn only_matching_lines_are_shown() {
         let mut app = app();
-        app.overlays.help = Some(Help {
+        app.shared.overlays.help = Some(Help {
             search: Input::new("ORBIT".to_owned()),
             ..Help::default()
         });
-        let lines = drawn(&app, render, 80, 24);
+        let lines = drawn(&app.shared, render, 80, 24);
         let found = lines.iter().filter(|line| line.contains("orbit")).count();
         // Four keys and the mouse, under two headings.
         assert!(lines[0].contains("1–7 of 7"), "{}", lines[0]);

@@ -8,7 +8,7 @@ use ratatui::widgets::{Clear, Widget};
 use super::row::{Row, title};
 use crate::render::{HISTOGRAM_STOPS, Histogram};
 use crate::text::percentage;
-use crate::ui::app::App;
+use crate::ui::app::Shared;
 use crate::ui::theme;
 
 /// Lines of its bars.
@@ -18,8 +18,8 @@ const HEIGHT: u16 = 4;
 const BARS: [&str; 3] = [" ", "▄", "█"];
 
 /// Draws the histogram in the lower left corner of the picture, if it is on and fits.
-pub(crate) fn render(app: &App, area: Rect, buffer: &mut Buffer) {
-    let Some(histogram) = &app.pictures.histogram else {
+pub(crate) fn render(shared: &Shared, area: Rect, buffer: &mut Buffer) {
+    let Some(histogram) = &shared.pictures.histogram else {
         return;
     };
     let width = histogram
@@ -101,8 +101,8 @@ mod tests {
     fn bars_stand_over_their_stops_and_clipping_is_marked() {
         let values = [0.001, 0.25, 0.25, 0.25, 1.0, 1.0, 4.0, 4.0].map(|grey| [grey; 3]);
         let mut app = app();
-        app.pictures.histogram = Some(ShownHistogram::of(Histogram::of(&values, 0.0)));
-        let lines = drawn(&app, render, 40, 8);
+        app.shared.pictures.histogram = Some(ShownHistogram::of(Histogram::of(&values, 0.0)));
+        let lines = drawn(&app.shared, render, 40, 8);
         assert_eq!(
             lines,
             [
@@ -117,8 +117,15 @@ mod tests {
             ]
         );
         // Where it does not fit, it is left out.
-        assert!(drawn(&app, render, 25, 8).iter().all(String::is_empty));
-        app.pictures.histogram = Some(ShownHistogram::default());
-        assert_eq!(drawn(&app, render, 40, 8)[3], " only of light and albedo");
+        assert!(
+            drawn(&app.shared, render, 25, 8)
+                .iter()
+                .all(String::is_empty)
+        );
+        app.shared.pictures.histogram = Some(ShownHistogram::default());
+        assert_eq!(
+            drawn(&app.shared, render, 40, 8)[3],
+            " only of light and albedo"
+        );
     }
 }

@@ -7,16 +7,16 @@ use ratatui::widgets::{Block, BorderType, Clear, Widget};
 
 use super::row::Row;
 use crate::text::Severity;
-use crate::ui::app::{App, Message};
+use crate::ui::app::{Message, Shared};
 use crate::ui::text_width::{visible, wrap};
 use crate::ui::theme;
 
 /// Draws the messages so far, the newest first, if their page is open.
-pub(crate) fn render(app: &App, area: Rect, buffer: &mut Buffer) {
-    let Some(top) = app.overlays.history else {
+pub(crate) fn render(shared: &Shared, area: Rect, buffer: &mut Buffer) {
+    let Some(top) = shared.overlays.history else {
         return;
     };
-    let past = &app.overlays.messages;
+    let past = &shared.overlays.messages;
     let count = past.past().len();
     let top = top.min(count.saturating_sub(1));
     let page = area.intersection(buffer.area);
@@ -66,10 +66,10 @@ mod tests {
         let mut app = app();
         for reason in ["one", "two words"] {
             app.update(Msg::Failed(reason.to_owned()));
-            app.overlays.message = None;
+            app.shared.overlays.message = None;
         }
-        app.overlays.history = Some(0);
-        let shown = |app: &App| drawn(app, super::render, 18, 6);
+        app.shared.overlays.history = Some(0);
+        let shown = |app: &App| drawn(&app.shared, super::render, 18, 6);
         let lines = shown(&app);
         let inside = |line: &str| line.trim_matches('│').trim().to_owned();
         let texts: Vec<_> = lines[1..4].iter().map(|line| inside(line)).collect();
@@ -78,7 +78,7 @@ mod tests {
             ["error    two", "words", "error    one"],
             "{lines:#?}"
         );
-        app.overlays.history = Some(1);
+        app.shared.overlays.history = Some(1);
         assert_eq!(inside(&shown(&app)[1]), "error    one");
     }
 }

@@ -8,7 +8,7 @@ use unicode_width::UnicodeWidthStr;
 use super::row::{Row, title};
 use crate::language::Node;
 use crate::scene::Rgb;
-use crate::ui::app::App;
+use crate::ui::app::Shared;
 use crate::ui::keymap::Mode;
 use crate::ui::layout;
 use crate::ui::listing::ListLine;
@@ -22,13 +22,13 @@ const TITLE: &str = "scene";
 const COMMENT: usize = 6;
 
 /// Draws the list of lights and objects with names and comments.
-pub(crate) fn render(app: &App, area: Rect, buffer: &mut Buffer) {
-    let selected = app.selected_row();
-    let rows = &app.cursor.rows;
-    let count = rows.count(app.source());
-    let focused = matches!(app.mode, Mode::Select | Mode::Move);
+pub(crate) fn render(shared: &Shared, area: Rect, buffer: &mut Buffer) {
+    let selected = shared.selected_row();
+    let rows = &shared.cursor.rows;
+    let count = rows.count(shared.source());
+    let focused = matches!(shared.mode, Mode::Select | Mode::Move);
     let place = format!("{}/{count}", (rows.place_of(selected) + 1).min(count));
-    let place = match app.cursor.marks.len() {
+    let place = match shared.cursor.marks.len() {
         0 => place,
         marks => format!("{marks} marked  {place}"),
     };
@@ -49,10 +49,10 @@ pub(crate) fn render(app: &App, area: Rect, buffer: &mut Buffer) {
 
     let lines = layout::contents(area);
     let rows = usize::from(lines.height);
-    let listing = app.listing();
-    let top = app.cursor.list_top;
+    let listing = shared.listing();
+    let top = shared.cursor.list_top;
     let top = top.min(listing.len().saturating_sub(rows));
-    let marked = marked(app);
+    let marked = marked(shared);
     let shown = (top..listing.len()).take(rows);
     for (line, shown) in shown.filter_map(|line| listing.get(line)).enumerate() {
         let (index, node) = match shown {
@@ -66,7 +66,7 @@ pub(crate) fn render(app: &App, area: Rect, buffer: &mut Buffer) {
         let is_drawn = match node {
             // A group is drawn if its parts are.
             Node::Object(index) => {
-                app.source().drawn(index).is_some() || app.source().is_group(index)
+                shared.source().drawn(index).is_some() || shared.source().is_group(index)
             }
             _ => true,
         };
@@ -77,29 +77,29 @@ pub(crate) fn render(app: &App, area: Rect, buffer: &mut Buffer) {
             (false, _) => theme::DIM,
         };
         let mut row = Row::new(buffer, lines, line as u16);
-        let sign = match (is_selected, app.cursor.marks.contains(&node)) {
+        let sign = match (is_selected, shared.cursor.marks.contains(&node)) {
             (true, true) => "▸✓",
             (true, false) => "▸ ",
             (false, true) => " ✓",
             (false, false) => "  ",
         };
         row.put(sign, style);
-        let fold = fold_sign(app, node);
-        let swatch = swatch(app, node);
+        let fold = fold_sign(shared, node);
+        let swatch = swatch(shared, node);
         match swatch {
             // Not reversed with the selected line, so that the dot shows its own colour.
-            Some(colour) if is_drawn => row.put("● ", app.theme.swatch(colour)),
-            Some(colour) => row.put("○ ", app.theme.swatch(colour)),
+            Some(colour) if is_drawn => row.put("● ", shared.theme.swatch(colour)),
+            Some(colour) => row.put("○ ", shared.theme.swatch(colour)),
             None if let Some(sign) = fold => row.put(sign, style),
             None if !is_drawn => row.put("○ ", style),
             None => row.put("  ", style),
         };
         let fold = fold.filter(|_| swatch.is_some()).unwrap_or_default();
-        let name = indented(app, node, fold, usize::from(lines.width));
+        let name = indented(shared, node, fold, usize::from(lines.width));
         let mark = marked.iter().find(|(at, _)| *at == node);
         let end = if mark.is_some() { "! " } else { "" };
         let room = row.room().saturating_sub(end.len());
-        let comment = app.source().comment(node);
+        let comment = shared.source().comment(node);
         let comment = comment.filter(|_| name.width() + 2 + COMMENT <= room);
         row.put_in(&name, room, style);
         let room = room.saturating_sub(name.width());
@@ -111,27 +111,27 @@ pub(crate) fn render(app: &App, area: Rect, buffer: &mut Buffer) {
 }
 
 /// The sign of an object that holds others: whether they are listed.
-fn fold_sign(app: &App, node: Node) -> Option<&'static str> {
+fn fold_sign(shared: &Shared, node: Node) -> Option<&'static str> {
     match node {
-        Node::Object(object) if app.cursor.rows.is_folded(object) => Some("▸ "),
-        Node::Object(object) if app.source().is_foldable(object) => Some("▾ "),
+        Node::Object(object) if shared.cursor.rows.is_folded(object) => Some("▸ "),
+        Node::Object(object) if shared.source().is_foldable(object) => Some("▾ "),
         _ => None,
     }
 }
 
 /// The name of a node after a sign, indented by two columns per level of nesting, up to a third of
 /// the width.
-fn indented(app: &App, node: Node, sign: &str, width: usize) -> String {
-    let indent = (2 * app.source().depth(node)).min(width / 3);
-    format!("{:indent$}{sign}{}", "", app.source().name(node))
+fn indented(shared: &Shared, node: Node, sign: &str, width: usize) -> String {
+    let indent = (2 * shared.source().depth(node)).min(width / 3);
+    format!("{:indent$}{sign}{}", "", shared.source().name(node))
 }
 
 /// Nodes with diagnostics, styled by severity, the most severe first.
-fn marked(app: &App) -> Vec<(Node, Style)> {
-    let mut marked: Vec<_> = app
+fn marked(shared: &Shared) -> Vec<(Node, Style)> {
+    let mut marked: Vec<_> = shared
         .diagnostics
         .iter()
-        .filter_map(|d| Some((app.source().node_at(d.span)?, d.severity)))
+        .filter_map(|d| Some((shared.source().node_at(d.span)?, d.severity)))
         .collect();
     marked.sort_by_key(|&(_, severity)| std::cmp::Reverse(severity));
     marked
@@ -141,8 +141,8 @@ fn marked(app: &App) -> Vec<(Node, Style)> {
 }
 
 /// The colour that identifies a node: the colour of a light, the diffuse colour of an object.
-pub(super) fn swatch(app: &App, node: Node) -> Option<Rgb> {
-    let scene = app.scene.as_ref()?;
+pub(super) fn swatch(shared: &Shared, node: Node) -> Option<Rgb> {
+    let scene = shared.scene.as_ref()?;
     match node {
         Node::View | Node::Render | Node::Texture(_) => None,
         Node::Ambient => Some(scene.ambient),
@@ -151,8 +151,8 @@ pub(super) fn swatch(app: &App, node: Node) -> Option<Rgb> {
         Node::Light(index) => Some(scene.lights.get(index)?.colour),
         Node::Material(index) => Some(scene.materials.get(index)?.colour()),
         Node::Object(index) => {
-            let material = app.source().material(index).or_else(|| {
-                let drawn = app.source().drawn(index)?;
+            let material = shared.source().material(index).or_else(|| {
+                let drawn = shared.source().drawn(index)?;
                 Some(scene.objects.get(drawn as usize)?.material as usize)
             });
             Some(scene.materials.get(material?)?.colour())
@@ -172,7 +172,7 @@ mod tests {
             "<xml><scene><object name='all'><object type='sphere' name='ball'/></object>
             </scene><camera><position z='9'/></camera></xml>",
         );
-        let lines = drawn(&app, super::render, 30, 10);
+        let lines = drawn(&app.shared, super::render, 30, 10);
         let listed = [
             "    render",
             "▸   view",
@@ -187,7 +187,7 @@ mod tests {
 
     #[test]
     fn nodes_are_listed_and_the_selected_one_is_marked() {
-        let lines = drawn(&app(), super::render, 26, 9);
+        let lines = drawn(&app().shared, super::render, 26, 9);
         assert_eq!(lines[0], "scene ──────────────── 2/6");
         assert_eq!(lines[1], "    render");
         assert_eq!(lines[2], "▸   view");
@@ -201,8 +201,8 @@ mod tests {
     #[test]
     fn the_heading_counts_marked_nodes() {
         let mut app = app();
-        app.cursor.marks = [Node::Light(0), Node::Object(1)].into();
-        let lines = drawn(&app, super::render, 26, 9);
+        app.shared.cursor.marks = [Node::Light(0), Node::Object(1)].into();
+        let lines = drawn(&app.shared, super::render, 26, 9);
         assert_eq!(lines[0], "scene ────── 2 marked  2/6");
         assert_eq!(lines[5], " ✓● light 1");
     }
@@ -210,11 +210,11 @@ mod tests {
     #[test]
     fn a_comment_follows_the_name_if_there_is_room() {
         let mut app = app();
-        let lines = drawn(&app, super::render, 40, 9);
+        let lines = drawn(&app.shared, super::render, 40, 9);
         assert_eq!(lines[7], "  ● object 1 (sphere)  the first");
         retype(&mut app, "0 5 5   1 1 .5\n", "0 5 5 // sun\n1 1 .5\n");
         retype(&mut app, "box", "box // the\u{1b} large one\n");
-        let lines = drawn(&app, super::render, 32, 9);
+        let lines = drawn(&app.shared, super::render, 32, 9);
         assert_eq!(lines[5], "  ● light 1  sun");
         assert_eq!(lines[8], "  ● object 2 (box)  the␛ large …");
     }
@@ -223,7 +223,7 @@ mod tests {
     fn a_node_with_an_error_is_marked() {
         let mut app = app();
         retype(&mut app, " 0.25 //", " -0.25 //");
-        let lines = drawn(&app, super::render, 26, 9);
+        let lines = drawn(&app.shared, super::render, 26, 9);
         assert_eq!(lines[7], "  ● object 1 (sphere)   !");
     }
 }

@@ -9,13 +9,13 @@ use unicode_width::UnicodeWidthStr;
 use super::fields::users;
 use super::list::swatch;
 use super::row::{Row, title};
-use crate::ui::app::{App, Entry, Purpose};
+use crate::ui::app::{Entry, Purpose, Shared};
 use crate::ui::layout;
 use crate::ui::theme;
 
 /// Draws the open menu over the list, or over everything if there is no list.
-pub(crate) fn render(app: &App, list: Rect, body: Rect, buffer: &mut Buffer) {
-    let Some(menu) = &app.overlays.menu else {
+pub(crate) fn render(shared: &Shared, list: Rect, body: Rect, buffer: &mut Buffer) {
+    let Some(menu) = &shared.overlays.menu else {
         return;
     };
     let area = if list.is_empty() { body } else { list };
@@ -55,7 +55,7 @@ pub(crate) fn render(app: &App, list: Rect, body: Rect, buffer: &mut Buffer) {
         } else {
             ("  ", Style::new())
         };
-        draw_entry(app, entry, columns, look, line, buffer);
+        draw_entry(shared, entry, columns, look, line, buffer);
     }
     if shown.is_empty() {
         Row::new(buffer, entries, 0).put("  no match", theme::DIM);
@@ -73,7 +73,7 @@ struct Columns {
 
 /// Draws an entry: a dot in the colour of what it refers to, its name, and what it is.
 fn draw_entry(
-    app: &App,
+    shared: &Shared,
     entry: &Entry,
     columns: Columns,
     (sign, style): (&str, Style),
@@ -85,14 +85,14 @@ fn draw_entry(
     row.put(&blank, style);
     let mut row = Row::new(buffer, line, 0);
     row.put(sign, style);
-    if let Some(colour) = entry.node.and_then(|node| swatch(app, node)) {
-        row.put("●", app.theme.swatch(colour));
+    if let Some(colour) = entry.node.and_then(|node| swatch(shared, node)) {
+        row.put("●", shared.theme.swatch(colour));
     }
     row.skip_to(line.x + 2 + columns.dots);
     let words = line.x + 2 + columns.dots + columns.names as u16 + 2;
     row.put_in(&entry.name, columns.names, style.patch(theme::BOLD));
     row.skip_to(words);
-    let users = entry.node.and_then(|node| users(app, node));
+    let users = entry.node.and_then(|node| users(shared, node));
     match &users {
         Some(users) if entry.words.is_empty() => row.put(users, style.patch(theme::DIM)),
         _ => row.put(&entry.words, style.patch(theme::DIM)),

@@ -46,7 +46,7 @@ use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 use ratatui::style::Style;
 
-use super::app::App;
+use super::app::{App, Shared};
 use super::arrange::MIN_SIZE;
 use super::keymap::{Context, Mode};
 use super::layout;
@@ -71,40 +71,40 @@ pub fn draw(app: &App, inks: &mut Inks, frame: &mut Frame) -> Option<Rect> {
         left = Some(cells.intersection(buffer.area));
         graphics_gap::blank(cells, buffer);
     }
-    inks.theme(app.theme).apply(buffer);
+    inks.theme(app.shared.theme).apply(buffer);
     left
 }
 
 /// Draws the whole screen; returns the cells that are left to a picture if nothing is over it.
 fn render(app: &App, inks: &mut Inks, area: Rect, buffer: &mut Buffer) -> Option<Rect> {
     let area = area.intersection(buffer.area);
-    let areas = app.areas_in(area, app.zoom_now());
+    let areas = app.shared.areas_in(area, app.shared.zoom_now());
     if areas.status.is_empty() {
         too_small(area, buffer);
         return None;
     }
-    let left = picture::render(app, inks, areas.picture, buffer);
+    let left = picture::render(&app.shared, inks, areas.picture, buffer);
     let left = left.map(|cells| (cells, graphics_gap::left_in(cells, buffer)));
-    rule(app, areas.rule, buffer);
-    if app.context() == Context::Rays {
-        rays::render(app, buffer);
-    } else if !areas.list.is_empty() && app.mode == Mode::Compare {
-        comparison::render(app, inks, areas.list.union(areas.fields), buffer);
-    } else if !areas.list.is_empty() && !app.disk.is_opening() {
-        list::render(app, areas.list, buffer);
-        match app.mode {
-            Mode::Inspect => pixel::render(app, areas.fields, buffer),
+    rule(&app.shared, areas.rule, buffer);
+    if app.shared.context() == Context::Rays {
+        rays::render(&app.shared, buffer);
+    } else if !areas.list.is_empty() && app.shared.mode == Mode::Compare {
+        comparison::render(&app.shared, inks, areas.list.union(areas.fields), buffer);
+    } else if !areas.list.is_empty() && !app.shared.disk.is_opening() {
+        list::render(&app.shared, areas.list, buffer);
+        match app.shared.mode {
+            Mode::Inspect => pixel::render(&app.shared, areas.fields, buffer),
             Mode::Sequence => sequence::render(app, areas.fields, buffer),
-            _ => fields::render(app, areas.fields, buffer),
+            _ => fields::render(&app.shared, areas.fields, buffer),
         }
-    } else if app.mode == Mode::Inspect {
-        pixel::render_over(app, areas.picture, buffer);
+    } else if app.shared.mode == Mode::Inspect {
+        pixel::render_over(&app.shared, areas.picture, buffer);
     }
-    histogram::render(app, areas.picture, buffer);
-    errors::render(app, areas.errors, buffer);
-    let status = current::render(app, &areas, buffer);
+    histogram::render(&app.shared, areas.picture, buffer);
+    errors::render(&app.shared, areas.errors, buffer);
+    let status = current::render(&app.shared, &areas, buffer);
     status::render(app, inks.glyphs, status, buffer);
-    match &app.overlays.prompt {
+    match &app.shared.overlays.prompt {
         Some(prompt) if areas.hint.is_empty() => {
             status::render_prompt(prompt, areas.status, buffer);
         }
@@ -114,24 +114,24 @@ fn render(app: &App, inks: &mut Inks, area: Rect, buffer: &mut Buffer) -> Option
     let (body, _) = layout::split_bottom(area, bars);
     page::render(app, body, buffer);
     steps::render(app, inks, body, buffer);
-    help::render(app, body, buffer);
-    history::render(app, body, buffer);
-    if let Some(refused) = current::refusal(app, &areas) {
+    help::render(&app.shared, body, buffer);
+    history::render(&app.shared, body, buffer);
+    if let Some(refused) = current::refusal(&app.shared, &areas) {
         message::render(&refused, body, buffer);
     } else if let Some(message) = status::long_message(app, inks.glyphs, status.width) {
         message::render(message, body, buffer);
     }
-    menu::render(app, areas.list, body, buffer);
-    picker::render(app, inks, areas.list, body, buffer);
-    completions::render(app, body, buffer);
+    menu::render(&app.shared, areas.list, body, buffer);
+    picker::render(&app.shared, inks, areas.list, body, buffer);
+    completions::render(&app.shared, body, buffer);
     dialog::render(app, body, buffer);
     let (cells, count) = left?;
     (graphics_gap::left_in(cells, buffer) == count).then_some(cells)
 }
 
 /// Draws the line between columns, which makes a stale picture obvious.
-fn rule(app: &App, area: Rect, buffer: &mut Buffer) {
-    let style = if 0 < app.error_count() {
+fn rule(shared: &Shared, area: Rect, buffer: &mut Buffer) {
+    let style = if 0 < shared.error_count() {
         theme::WARNING
     } else {
         theme::DIM

@@ -13,7 +13,7 @@ use crate::ui::theme;
 
 /// Draws the page if one is open.
 pub(crate) fn render(app: &App, area: Rect, buffer: &mut Buffer) {
-    let Some(page) = &app.overlays.page else {
+    let Some(page) = &app.shared.overlays.page else {
         return;
     };
     let rows = page.rows();
@@ -83,7 +83,7 @@ mod tests {
         let paths = ["/a/one.ray", "/a/two.dat", "/b/three.xml"].map(PathBuf::from);
         let mut page = Page::new(List::Recent(paths.into()));
         page.filter.at = 1;
-        app.overlays.page = Some(page);
+        app.shared.overlays.page = Some(page);
         let text = drawn(&app, super::render, 80, 24).join("\n");
         for part in [
             "Recent scenes",
@@ -94,7 +94,7 @@ mod tests {
         ] {
             assert!(text.contains(part), "{part} in\n{text}");
         }
-        let page = app.overlays.page.as_mut().expect("it is open");
+        let page = app.shared.overlays.page.as_mut().expect("it is open");
         (page.filter.at, page.filter.input) = (0, Input::new("B/".to_owned()));
         let text = drawn(&app, super::render, 80, 24).join("\n");
         assert!(

@@ -11,13 +11,19 @@ use super::inks::Glyphs;
 use super::row::{Row, title};
 use crate::scene::Rgb;
 use crate::text::rounded;
-use crate::ui::app::{App, ColourPicker, Hsv, PickerRow};
+use crate::ui::app::{ColourPicker, Hsv, PickerRow, Shared};
 use crate::ui::layout::{PickerLines, marker_at, picker_lines, swatch_cells};
 use crate::ui::theme;
 
 /// Draws the open colour picker over the list, or over everything if there is no list.
-pub(crate) fn render(app: &App, inks: &mut Inks, list: Rect, body: Rect, buffer: &mut Buffer) {
-    let Some(picker) = &app.overlays.picker else {
+pub(crate) fn render(
+    shared: &Shared,
+    inks: &mut Inks,
+    list: Rect,
+    body: Rect,
+    buffer: &mut Buffer,
+) {
+    let Some(picker) = &shared.overlays.picker else {
         return;
     };
     let area = if list.is_empty() { body } else { list };
@@ -181,15 +187,16 @@ fn short(number: f64, decimals: usize) -> String {
 mod tests {
     use super::*;
     use crate::language::Node;
+    use crate::ui::app::App;
     use crate::ui::keymap::Mode;
     use crate::ui::msg::Msg;
-    use crate::ui::view::tests::{app, drawn};
+    use crate::ui::view::tests::{app, drawn, select};
     use crossterm::event::KeyCode;
 
     fn picking(keys: &str) -> App {
         let mut app = app();
-        app.cursor.select(Node::Object(0), app.document.source());
-        app.mode = Mode::Edit;
+        select(&mut app, Node::Object(0));
+        app.shared.mode = Mode::Edit;
         for c in keys.chars() {
             app.update(Msg::Key(KeyCode::Char(c).into()));
         }
@@ -197,10 +204,10 @@ mod tests {
     }
 
     fn shown(app: &App, glyphs: Glyphs) -> Vec<String> {
-        let panel = |app: &App, area: Rect, buffer: &mut Buffer| {
-            render(app, &mut Inks::new(glyphs), area, area, buffer);
+        let panel = |shared: &Shared, area: Rect, buffer: &mut Buffer| {
+            render(shared, &mut Inks::new(glyphs), area, area, buffer);
         };
-        drawn(app, panel, 34, 14)
+        drawn(&app.shared, panel, 34, 14)
     }
 
     #[test]

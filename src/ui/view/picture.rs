@@ -17,26 +17,34 @@ use super::row::Row;
 use super::{comparison, pixel, symbols, tiles, values, wireframe};
 use crate::render::{line_of, pixel_of, pixel_width};
 use crate::scene::Size;
-use crate::ui::app::{App, CellImage, FirstReading, Grid};
+use crate::ui::app::{CellImage, FirstReading, Grid, Shared};
 use crate::ui::keymap::{Context, Mode};
 use crate::ui::layout::{self, raster};
 use crate::ui::theme;
 
 /// Draws the current picture, letterboxed, with its symbols. Returns its cells if they are left to
 /// the terminal's own picture.
-pub(crate) fn render(app: &App, inks: &mut Inks, area: Rect, buffer: &mut Buffer) -> Option<Rect> {
-    let (cells, size) = raster(area, app.output())?;
-    if let Some(wireframe) = app.wireframe().and_then(|wireframe| wireframe.lines(size)) {
-        wireframe::paint(wireframe, &app.outlined_objects(), cells, buffer);
-        overlays(app, inks.glyphs, area, (cells, size), buffer);
+pub(crate) fn render(
+    shared: &Shared,
+    inks: &mut Inks,
+    area: Rect,
+    buffer: &mut Buffer,
+) -> Option<Rect> {
+    let (cells, size) = raster(area, shared.output())?;
+    if let Some(wireframe) = shared
+        .wireframe()
+        .and_then(|wireframe| wireframe.lines(size))
+    {
+        wireframe::paint(wireframe, &shared.outlined_objects(), cells, buffer);
+        overlays(shared, inks.glyphs, area, (cells, size), buffer);
         return None;
     }
-    let shown = &app.picture().shown;
+    let shown = &shared.picture().shown;
     if shown.size.pixels() == 0 || shown.pixels.len() != shown.size.pixels() {
-        if app.is_empty() {
+        if shared.is_empty() {
             invitation(area, buffer);
         } else {
-            notice(app, area, buffer);
+            notice(shared, area, buffer);
         }
         return None;
     }
@@ -56,36 +64,36 @@ pub(crate) fn render(app: &App, inks: &mut Inks, area: Rect, buffer: &mut Buffer
         }
         Drawing::Picture => leave(cells, buffer),
     }
-    if let (Some(frame), Some(frame_window)) = (&app.picture().latest, app.frame_window()) {
+    if let (Some(frame), Some(frame_window)) = (&shared.picture().latest, shared.frame_window()) {
         values::render(frame, &frame_window, cells, buffer);
     }
-    overlays(app, inks.glyphs, area, (cells, size), buffer);
+    overlays(shared, inks.glyphs, area, (cells, size), buffer);
     (inks.drawing == Drawing::Picture).then_some(cells)
 }
 
 /// Draws what lies over the picture.
 fn overlays(
-    app: &App,
+    shared: &Shared,
     glyphs: Glyphs,
     area: Rect,
     (cells, size): (Rect, Size),
     buffer: &mut Buffer,
 ) {
-    if app.mode == Mode::Move {
-        axis(app, glyphs, (cells, size), buffer);
+    if shared.mode == Mode::Move {
+        axis(shared, glyphs, (cells, size), buffer);
     }
-    symbols::render(app, glyphs, cells, buffer);
-    if app.mode == Mode::Inspect {
-        path(app, glyphs, cells, buffer);
-        cross(app, cells, buffer);
+    symbols::render(shared, glyphs, cells, buffer);
+    if shared.mode == Mode::Inspect {
+        path(shared, glyphs, cells, buffer);
+        cross(shared, cells, buffer);
     }
-    if app.mode == Mode::Compare {
-        comparison::mark(app, cells, buffer);
+    if shared.mode == Mode::Compare {
+        comparison::mark(shared, cells, buffer);
     }
-    if app.is_empty() {
+    if shared.is_empty() {
         invitation(area, buffer);
     }
-    if 0 < app.error_count() {
+    if 0 < shared.error_count() {
         let chip = " STALE ";
         let left = area.width.saturating_sub(chip.len() as u16);
         Row::new(buffer, area, 0)
@@ -95,9 +103,9 @@ fn overlays(
 }
 
 /// Draws the reason why there is no picture.
-fn notice(app: &App, area: Rect, buffer: &mut Buffer) {
-    let text = match (&app.disk.first, &app.scene, app.picture().wanted) {
-        (FirstReading::Pending(bytes), ..) => opening(&app.disk.name(), *bytes),
+fn notice(shared: &Shared, area: Rect, buffer: &mut Buffer) {
+    let text = match (&shared.disk.first, &shared.scene, shared.picture().wanted) {
+        (FirstReading::Pending(bytes), ..) => opening(&shared.disk.name(), *bytes),
         (_, Some(_), Some(_)) => "tracing…".to_owned(),
         (_, Some(_), None) => "no picture".to_owned(),
         (_, None, _) => "no picture: the scene has errors".to_owned(),
@@ -145,8 +153,8 @@ fn opening(name: &str, bytes: u64) -> String {
 }
 
 /// Marks the cell of the inspected pixel and says what is there.
-fn cross(app: &App, cells: Rect, buffer: &mut Buffer) {
-    let Some((column, row)) = app.cross_cell() else {
+fn cross(shared: &Shared, cells: Rect, buffer: &mut Buffer) {
+    let Some((column, row)) = shared.cross_cell() else {
         return;
     };
     let (x, y) = (cells.x.saturating_add(column), cells.y.saturating_add(row));
@@ -156,23 +164,23 @@ fn cross(app: &App, cells: Rect, buffer: &mut Buffer) {
         cell.set_symbol("┼").set_style(Style::reset());
         cell.set_style(theme::chip(Style::new()));
     }
-    if app.context() == Context::Rays {
+    if shared.context() == Context::Rays {
         return;
     }
-    let words = match app.symbol_at((column, row)) {
-        Some(node) => app.source().name(node),
-        None => pixel::in_short(app),
+    let words = match shared.symbol_at((column, row)) {
+        Some(node) => shared.source().name(node),
+        None => pixel::in_short(shared),
     };
     Row::new(buffer, cells, 0).put(&format!(" {words} "), theme::chip(theme::ACCENT));
 }
 
 /// Draws the axis that a transformation is locked to, through what is being transformed.
-fn axis(app: &App, glyphs: Glyphs, (cells, size): (Rect, Size), buffer: &mut Buffer) {
-    let (Some(transform), Some(camera)) = (&app.pictures.transform, app.camera()) else {
+fn axis(shared: &Shared, glyphs: Glyphs, (cells, size): (Rect, Size), buffer: &mut Buffer) {
+    let (Some(transform), Some(camera)) = (&shared.pictures.transform, shared.camera()) else {
         return;
     };
     let Some(axis) = transform.axis() else { return };
-    let Some(frame_window) = app.frame_window() else {
+    let Some(frame_window) = shared.frame_window() else {
         return;
     };
     let unit = pixel_width(transform.pivot(), &camera, size) / frame_window.magnification(size);
@@ -191,15 +199,15 @@ fn axis(app: &App, glyphs: Glyphs, (cells, size): (Rect, Size), buffer: &mut Buf
 }
 
 /// Draws the path of light that is explained.
-fn path(app: &App, glyphs: Glyphs, cells: Rect, buffer: &mut Buffer) {
-    let Some(frame) = &app.picture().latest else {
+fn path(shared: &Shared, glyphs: Glyphs, cells: Rect, buffer: &mut Buffer) {
+    let Some(frame) = &shared.picture().latest else {
         return;
     };
     let Some(camera) = frame.query.as_ref().map(|query| query.camera) else {
         return;
     };
     let whole = frame.whole();
-    for segment in app.ray_path() {
+    for segment in shared.ray_path() {
         let colour = if segment.is_dark {
             theme::BLOCKED
         } else {
@@ -208,7 +216,7 @@ fn path(app: &App, glyphs: Glyphs, cells: Rect, buffer: &mut Buffer) {
         let Some(ends) = line_of(segment.ends, &camera, whole) else {
             continue;
         };
-        let places = ends.map(|end| app.place_on_screen(end, whole));
+        let places = ends.map(|end| shared.place_on_screen(end, whole));
         let [Some(from), Some(to)] = places else {
             continue;
         };
@@ -344,12 +352,12 @@ mod tests {
 
     #[test]
     fn an_empty_scene_says_what_to_press() {
-        let panel = |app: &App, area: Rect, buffer: &mut Buffer| {
-            render(app, &mut Inks::new(Glyphs::HalfBlocks), area, buffer);
+        let panel = |shared: &Shared, area: Rect, buffer: &mut Buffer| {
+            render(shared, &mut Inks::new(Glyphs::HalfBlocks), area, buffer);
         };
         let text = |language, text: &str| {
             let app = app_of(language, text);
-            drawn(&app, panel, 40, 12).join("\n")
+            drawn(&app.shared, panel, 40, 12).join("\n")
         };
         for (language, empty) in [
             (Language::Ray, ""),

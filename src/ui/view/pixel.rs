@@ -9,7 +9,7 @@ use super::labelled::{self, Value, numbers};
 use super::row;
 use crate::explain::number;
 use crate::render::{self, Aov, FirstHit};
-use crate::ui::app::{App, Pixel};
+use crate::ui::app::{Pixel, Shared};
 use crate::ui::layout::{Side, contents};
 use crate::ui::theme;
 
@@ -19,9 +19,9 @@ const WIDTH: u16 = 36;
 const UNKNOWN: &str = "…";
 
 /// Draws the values in a panel.
-pub(super) fn render(app: &App, area: Rect, buffer: &mut Buffer) {
-    if let Some(pixel) = app.pixel() {
-        panel(&pixel, &values(app, &pixel), area, buffer);
+pub(super) fn render(shared: &Shared, area: Rect, buffer: &mut Buffer) {
+    if let Some(pixel) = shared.pixel() {
+        panel(&pixel, &values(shared, &pixel), area, buffer);
     }
 }
 
@@ -37,15 +37,15 @@ fn panel(pixel: &Pixel, values: &[Value], area: Rect, buffer: &mut Buffer) {
 }
 
 /// Draws the values over the picture on the side away from the cross, if there is room.
-pub(super) fn render_over(app: &App, area: Rect, buffer: &mut Buffer) {
-    let Some(pixel) = app.pixel() else { return };
-    let values = values(app, &pixel);
+pub(super) fn render_over(shared: &Shared, area: Rect, buffer: &mut Buffer) {
+    let Some(pixel) = shared.pixel() else { return };
+    let values = values(shared, &pixel);
     let height = 1 + values.len() as u16;
     if area.width < 2 * WIDTH || area.height < height + 3 {
         return;
     }
     let over = Rect {
-        x: match app.free_side() {
+        x: match shared.free_side() {
             Side::Right => area.right() - WIDTH,
             Side::Left => area.x,
         },
@@ -59,26 +59,26 @@ pub(super) fn render_over(app: &App, area: Rect, buffer: &mut Buffer) {
 }
 
 /// The most important values in a few words, for a line over the picture.
-pub(super) fn in_short(app: &App) -> String {
-    let Some(pixel) = app.pixel() else {
+pub(super) fn in_short(shared: &Shared) -> String {
+    let Some(pixel) = shared.pixel() else {
         return String::new();
     };
     let [x, y] = pixel.at;
     let value = pixel.value.map_or_else(String::new, |value| {
         format!("  {}", value_of(pixel.aov, value))
     });
-    format!("{}  {x} {y}{value}", name(app, &pixel))
+    format!("{}  {x} {y}{value}", name(shared, &pixel))
 }
 
-fn values(app: &App, pixel: &Pixel) -> Vec<Value> {
+fn values(shared: &Shared, pixel: &Pixel) -> Vec<Value> {
     let first = pixel.first.as_ref();
     let surface = first.and_then(|first| first.surface);
-    let mut values = vec![Value::new("object", name(app, pixel))];
+    let mut values = vec![Value::new("object", name(shared, pixel))];
     if let Some(material) = pixel.material {
-        values.push(Value::new("material", app.source().name(material)));
+        values.push(Value::new("material", shared.source().name(material)));
     }
     if let Some(at) = pixel.line {
-        values.push(Value::new("source", source(app, at)));
+        values.push(Value::new("source", source(shared, at)));
     }
     values.extend(surface.map(|at| Value::new("side", side(at.side, at.solid))));
     let label = pixel.aov.map_or("linear", Aov::name);
@@ -97,9 +97,9 @@ fn values(app: &App, pixel: &Pixel) -> Vec<Value> {
 }
 
 /// A line of the text, with the name of its file.
-pub(super) fn source(app: &App, line: usize) -> String {
-    match app.disk.path {
-        Some(_) => format!("{}:{line}", app.disk.name()),
+pub(super) fn source(shared: &Shared, line: usize) -> String {
+    match shared.disk.path {
+        Some(_) => format!("{}:{line}", shared.disk.name()),
         None => format!("line {line}"),
     }
 }
@@ -130,11 +130,11 @@ fn surface_values(first: Option<&FirstHit>) -> Vec<Value> {
 }
 
 /// The name of what is under the cross, or why it is not known.
-fn name(app: &App, pixel: &Pixel) -> String {
+fn name(shared: &Shared, pixel: &Pixel) -> String {
     match pixel.node {
-        Ok(Some(node)) => app.source().name(node),
+        Ok(Some(node)) => shared.source().name(node),
         Ok(None) => "nothing".to_owned(),
-        Err(_) if app.picture().is_outdated() => UNKNOWN.to_owned(),
+        Err(_) if shared.picture().is_outdated() => UNKNOWN.to_owned(),
         Err(reason) => reason.to_owned(),
     }
 }

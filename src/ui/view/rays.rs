@@ -13,7 +13,7 @@ use crate::render::{
     Dark, Densities, EmitterTerm, Explanation, LightTerm, RayEnd, RayKind, Shading, Stop,
 };
 use crate::scene::Rgb;
-use crate::ui::app::{App, RayLine, RayPart};
+use crate::ui::app::{RayLine, RayPart, Shared};
 use crate::ui::layout::contents;
 use crate::ui::theme;
 
@@ -21,8 +21,8 @@ use crate::ui::theme;
 const WIDE: u16 = 50;
 
 /// Draws the tree and the numbers of its current line.
-pub(super) fn render(app: &App, buffer: &mut Buffer) {
-    let Some(panels) = app.ray_panels() else {
+pub(super) fn render(shared: &Shared, buffer: &mut Buffer) {
+    let Some(panels) = shared.ray_panels() else {
         return;
     };
     if panels.is_over_picture {
@@ -30,38 +30,42 @@ pub(super) fn render(app: &App, buffer: &mut Buffer) {
             Clear.render(area.intersection(buffer.area), buffer);
         }
     }
-    tree(app, panels.tree, panels.verdict, panels.lines, buffer);
-    if let (Some(explanation), Some(line)) = (app.explanation(), app.ray_line()) {
-        let words = words(app, explanation, &line);
+    tree(shared, panels.tree, panels.verdict, panels.lines, buffer);
+    if let (Some(explanation), Some(line)) = (shared.explanation(), shared.ray_line()) {
+        let words = words(shared, explanation, &line);
         title(&words, "", None, panels.values, buffer);
-        let values = values_of(app, explanation, &line);
+        let values = values_of(shared, explanation, &line);
         labelled::render(&values, contents(panels.values), buffer);
     } else {
         title("", "", None, panels.values, buffer);
     }
 }
 
-fn tree(app: &App, area: Rect, verdict: Rect, lines: Rect, buffer: &mut Buffer) {
-    let Some(explained) = &app.inspection.explained else {
+fn tree(shared: &Shared, area: Rect, verdict: Rect, lines: Rect, buffer: &mut Buffer) {
+    let Some(explained) = &shared.inspection.explained else {
         return;
     };
     let sample = explained.sample;
-    let place = format!("sample {sample} of {}", app.sample_count());
-    let pixel = app.cross().map_or_else(String::new, |cross| {
+    let place = format!("sample {sample} of {}", shared.sample_count());
+    let pixel = shared.cross().map_or_else(String::new, |cross| {
         let [x, y] = cross.pixel;
         format!("why {x} {y}")
     });
     title(&pixel, &place, Some(theme::ACCENT), area, buffer);
-    let Some(explanation) = app.explanation() else {
+    let Some(explanation) = shared.explanation() else {
         Row::new(buffer, lines, 0).skip(1).put("…", theme::DIM);
         return;
     };
-    for (index, words) in (0..).zip(app.verdict_lines(verdict.width)) {
+    for (index, words) in (0..).zip(shared.verdict_lines(verdict.width)) {
         Row::new(buffer, verdict, index)
             .skip(1)
             .put(&words, theme::WARNING);
     }
-    let shown = app.ray_lines().into_iter().enumerate().skip(explained.top);
+    let shown = shared
+        .ray_lines()
+        .into_iter()
+        .enumerate()
+        .skip(explained.top);
     for (index, (at, line)) in (0..lines.height).zip(shown) {
         let style = if at == explained.at {
             theme::CURSOR.add_modifier(Modifier::BOLD)
@@ -80,7 +84,7 @@ fn tree(app: &App, area: Rect, verdict: Rect, lines: Rect, buffer: &mut Buffer) 
         // Deep rays keep most of the line for their words.
         let deepest = usize::from(lines.width) / 6;
         let indent = " ".repeat(2 * line.depth.min(deepest));
-        let words = format!("{indent}{sign}{}", words(app, explanation, &line));
+        let words = format!("{indent}{sign}{}", words(shared, explanation, &line));
         let room = row.room().saturating_sub(adds.len() + 1);
         row.put_in(&format!("{words:room$}"), room, style);
         row.put(&format!(" {adds}"), style);
@@ -105,9 +109,9 @@ fn adds(radiance: Rgb, width: u16) -> String {
 }
 
 /// The name of a line.
-fn words(app: &App, explanation: &Explanation, line: &RayLine) -> String {
-    let node = app.ray_node(*line);
-    let name = || node.map_or_else(|| "…".to_owned(), |node| app.source().name(node));
+fn words(shared: &Shared, explanation: &Explanation, line: &RayLine) -> String {
+    let node = shared.ray_node(*line);
+    let name = || node.map_or_else(|| "…".to_owned(), |node| shared.source().name(node));
     let ray = line.ray(explanation);
     match line.part {
         RayPart::Whole => {
@@ -187,28 +191,28 @@ fn reason(dark: Dark) -> &'static str {
 }
 
 /// The object that blocks a light.
-fn blocker(app: &App, light: &LightTerm) -> Option<Node> {
+fn blocker(shared: &Shared, light: &LightTerm) -> Option<Node> {
     let mut crossed = light.crossed.iter();
     let blocking = crossed.find(|crossing| crossing.transmittance == 0.0)?;
-    app.object_named(blocking.object)
+    shared.object_named(blocking.object)
 }
 
 /// The numbers of a line.
-fn values_of(app: &App, explanation: &Explanation, line: &RayLine) -> Vec<Value> {
+fn values_of(shared: &Shared, explanation: &Explanation, line: &RayLine) -> Vec<Value> {
     let ray = line.ray(explanation);
     let name = match line.part {
         RayPart::Whole => "total",
         _ => "adds",
     };
     let mut values = vec![Value::new(name, colour(line.adds(explanation)))];
-    if let Some(node) = app.ray_node(*line) {
-        let source = super::pixel::source(app, app.line_of(node));
+    if let Some(node) = shared.ray_node(*line) {
+        let source = super::pixel::source(shared, shared.line_of(node));
         values.push(Value::new("source", source));
     }
     match (line.part, &ray.end) {
         (RayPart::Light(_), _) => {
             if let Some(light) = line.light(explanation) {
-                values.extend(light_values(app, light));
+                values.extend(light_values(shared, light));
             }
         }
         (RayPart::Emitter(_), _) => {
@@ -263,9 +267,9 @@ fn surface_values(shading: &Shading) -> Vec<Value> {
     values
 }
 
-fn light_values(app: &App, light: &LightTerm) -> Vec<Value> {
-    let visible = match (light.transmittance, blocker(app, light)) {
-        (_, Some(node)) => format!("no: {}", app.source().name(node)),
+fn light_values(shared: &Shared, light: &LightTerm) -> Vec<Value> {
+    let visible = match (light.transmittance, blocker(shared, light)) {
+        (_, Some(node)) => format!("no: {}", shared.source().name(node)),
         (Some(share), None) => percent(share),
         (None, None) => "not traced".to_owned(),
     };

@@ -9,20 +9,22 @@ use unicode_width::UnicodeWidthStr;
 
 use super::inks::Glyphs;
 use super::row::Row;
+use super::{comparison, sequence};
 use crate::render::Progress;
 use crate::text::{counted, percentage};
-use crate::ui::app::{App, Message, OnDisk, OpenTrack, Prompt, PromptKind};
+use crate::ui::app::{App, Message, OnDisk, Prompt, PromptKind, Shared};
 use crate::ui::keymap::{self, Mode};
 use crate::ui::text_width::visible;
 use crate::ui::theme;
 
 /// Draws the prompt, or as many of the current key hints as fit.
 pub(crate) fn render_hint(app: &App, area: Rect, buffer: &mut Buffer) {
-    if let Some(prompt) = &app.overlays.prompt {
+    let shared = &app.shared;
+    if let Some(prompt) = &shared.overlays.prompt {
         render_prompt(prompt, area, buffer);
         return;
     }
-    let (hints, lasting) = match app.typed_line() {
+    let (hints, lasting) = match shared.typed_line() {
         Some(line) => {
             let hints = keymap::line_hints(line).iter();
             (
@@ -30,7 +32,7 @@ pub(crate) fn render_hint(app: &App, area: Rect, buffer: &mut Buffer) {
                 Vec::new(),
             )
         }
-        None => (app.hints(), app.keymap.lasting_hints(app.context())),
+        None => (app.hints(), shared.keymap.lasting_hints(shared.context())),
     };
     let mut row = Row::new(buffer, area, 0);
     row.skip(1);
@@ -100,7 +102,8 @@ struct Segment {
 
 /// The message, if the status line cannot show all of it.
 pub(crate) fn long_message(app: &App, glyphs: Glyphs, width: u16) -> Option<&Message> {
-    let message = app.overlays.message.as_ref()?;
+    let shared = &app.shared;
+    let message = shared.overlays.message.as_ref()?;
     is_message_long(&segments(app, glyphs), usize::from(width)).then_some(message)
 }
 
@@ -166,46 +169,47 @@ const DIRTY: u8 = 2;
 const MESSAGE: u8 = 4;
 
 fn segments(app: &App, glyphs: Glyphs) -> Vec<Segment> {
+    let shared = &app.shared;
     let mut all = Vec::new();
     let mut say = |rank, text: String, style| all.push(Segment { rank, text, style });
     text_segments(app, &mut say);
-    let still_writing = app.jobs.still_writing();
+    let still_writing = shared.jobs.still_writing();
     if let Some((path, seconds)) = still_writing {
         let name = path.file_name().unwrap_or_default().to_string_lossy();
         let text = format!("still writing {name}, {seconds} s");
         say(3, text, theme::WARNING);
     }
-    if let Some(export) = &app.jobs.export {
+    if let Some(export) = &shared.jobs.export {
         let frame = export.reel.map(|reel| format!("frame {} ", reel.place()));
         let frame = frame.unwrap_or_default();
-        let queued = match app.jobs.queued() {
+        let queued = match shared.jobs.queued() {
             0 => String::new(),
             queued => format!(", {queued} more queued"),
         };
         let text = format!("export {frame}{}{queued}", percent(export.done()));
         say(6, text, theme::ACCENT);
     }
-    if app.assets.are_awaited() {
+    if shared.assets.are_awaited() {
         say(7, "reading files".to_owned(), theme::ACCENT);
     }
-    if let Some(progress) = app.picture().progress() {
+    if let Some(progress) = shared.picture().progress() {
         progress_segments(progress, &mut say);
     }
-    if app.scene.is_some() {
-        making_segment(app, &mut say);
+    if shared.scene.is_some() {
+        making_segment(shared, &mut say);
     }
-    if let Some(frame) = &app.picture().latest {
+    if let Some(frame) = &shared.picture().latest {
         let size = format!("{}×{}", frame.size.width, frame.size.height);
         say(30, size, theme::DIM);
         say(31, glyphs.name().to_owned(), theme::DIM);
     }
-    zoom_segment(app, &mut say);
-    if let Some(bytes) = app.pictures.net {
+    zoom_segment(shared, &mut say);
+    if let Some(bytes) = shared.pictures.net {
         say(8, format!("net {} KB/s", bytes.div_ceil(1000)), theme::DIM);
     }
-    if let Some(message) = &app.overlays.message {
+    if let Some(message) = &shared.overlays.message {
         let style = theme::severity(message.severity);
-        let more = match app.overlays.messages.waiting() {
+        let more = match shared.overlays.messages.waiting() {
             0 => String::new(),
             waiting => format!(" (+{waiting}, M)"),
         };
@@ -217,32 +221,28 @@ fn segments(app: &App, glyphs: Glyphs) -> Vec<Segment> {
 
 /// Adds the mode and the state of the text.
 fn text_segments(app: &App, say: &mut impl FnMut(u8, String, Style)) {
-    let (mode, style) = if app.disk.is_opening() {
+    let shared = &app.shared;
+    let (mode, style) = if shared.disk.is_opening() {
         ("OPENING", theme::ACCENT)
     } else {
-        (app.mode.name(), mode_style(app.mode))
+        (shared.mode.name(), mode_style(shared.mode))
     };
     say(0, format!(" {mode} "), theme::chip(style));
-    if app.mode == Mode::Compare {
-        comparison_segments(app, say);
+    if shared.mode == Mode::Compare {
+        comparison::chips(shared, say);
     }
-    if let Some(open) = &app.sequence.open {
-        frame_segment(open, app.mode == Mode::Sequence, say);
-        if open.is_refused {
-            say(3, "[track refused]".to_owned(), theme::WARNING);
-        }
-    }
-    let errors = app.error_count();
-    let warnings = app.diagnostics.warnings();
+    sequence::chips(app, say);
+    let errors = shared.error_count();
+    let warnings = shared.diagnostics.warnings();
     if 0 < errors {
         let text = format!(" {} ", counted(errors, "error"));
         say(1, text, theme::chip(theme::ERROR));
     }
-    say(5, app.disk.name(), theme::BOLD);
-    if app.has_edits() {
+    say(5, shared.disk.name(), theme::BOLD);
+    if shared.has_edits() {
         say(DIRTY, "[+]".to_owned(), theme::BOLD);
     }
-    let disk = match &app.disk.state {
+    let disk = match &shared.disk.state {
         OnDisk::Known => None,
         OnDisk::Changed => Some("[disk changed]"),
         OnDisk::Faulty(_) => Some("[errors on disk]"),
@@ -253,19 +253,19 @@ fn text_segments(app: &App, say: &mut impl FnMut(u8, String, Style)) {
     if let Some(disk) = disk {
         say(3, disk.to_owned(), theme::WARNING);
     }
-    if app.polls() {
+    if shared.polls() {
         say(3, "[polling]".to_owned(), theme::WARNING);
     }
-    if app.fails_to_keep() {
+    if shared.fails_to_keep() {
         say(3, "[no backup]".to_owned(), theme::WARNING);
     }
-    if app.picture().paused {
+    if shared.picture().paused {
         say(3, " PAUSED ".to_owned(), theme::chip(theme::WARNING));
     }
-    if app.pictures.solo.is_some() {
+    if shared.pictures.solo.is_some() {
         say(3, " SOLO ".to_owned(), theme::chip(theme::WARNING));
     }
-    if app.pictures.view.is_some() {
+    if shared.pictures.view.is_some() {
         say(7, "view*".to_owned(), theme::WARNING);
     }
     if 0 < warnings {
@@ -273,86 +273,51 @@ fn text_segments(app: &App, say: &mut impl FnMut(u8, String, Style)) {
     }
 }
 
-/// Adds the frame of the track that is shown, or that values are keyed at.
-fn frame_segment(open: &OpenTrack, is_shown: bool, say: &mut impl FnMut(u8, String, Style)) {
-    if !is_shown {
-        say(12, format!("frame {}", open.frame), theme::DIM);
-        return;
-    }
-    let playing = if open.is_playing { "▶ " } else { "" };
-    let text = format!(" {playing}frame {}/{} ", open.frame, open.last());
-    say(1, text, theme::chip(theme::ACCENT));
-}
-
-/// Adds what is seen of the pictures that are compared and, without a panel, how they differ.
-fn comparison_segments(app: &App, say: &mut impl FnMut(u8, String, Style)) {
-    let view = app.compared.view.name().to_uppercase();
-    say(1, format!(" {view} "), theme::chip(theme::ACCENT));
-    if let Some(unlike) = app.compares_unlike() {
-        say(3, unlike, theme::WARNING);
-    }
-    if let Some(found) = app
-        .compared
-        .figures()
-        .filter(|_| app.areas().list.is_empty())
-    {
-        let (psnr, flip) = (found.psnr(), found.flip);
-        let differing = counted(found.differing, "pixel");
-        let text = format!("{differing} differ, {psnr:.2} dB, FLIP {flip:.5}");
-        let style = if app.compared.are_figures_final() {
-            Style::new()
-        } else {
-            theme::DIM
-        };
-        say(6, text, style);
-    }
-}
-
 /// Adds the auxiliary image shown, or the integrator, with a star if it differs from the scene's.
-fn making_segment(app: &App, say: &mut impl FnMut(u8, String, Style)) {
-    if app.wireframe().is_some() {
+fn making_segment(shared: &Shared, say: &mut impl FnMut(u8, String, Style)) {
+    if shared.wireframe().is_some() {
         say(7, "wireframe".to_owned(), theme::WARNING);
         return;
     }
-    if let Some(display) = app.display_name() {
+    if let Some(display) = shared.display_name() {
         say(3, format!(" {display} "), theme::chip(theme::WARNING));
     }
-    let view = app.view_name();
+    let view = shared.view_name();
     if let Some(view) = &view {
         say(7, view.clone(), theme::WARNING);
     }
-    if let Some(legend) = app.legend() {
+    if let Some(legend) = shared.legend() {
         say(10, legend, theme::DIM);
     }
     if view.is_some() {
         return;
     }
-    let name = app.rendering().integrator().name();
-    if app.is_integrator_changed() {
+    let name = shared.rendering().integrator().name();
+    if shared.is_integrator_changed() {
         say(7, format!("{name}*"), theme::WARNING);
     } else {
         say(28, name.to_owned(), theme::DIM);
     }
-    if 0.0 < app.rendering().noise() {
+    if 0.0 < shared.rendering().noise() {
         say(9, "adaptive, slightly biased".to_owned(), theme::DIM);
     }
-    if 0.0 < app.rendering().clamp() {
+    if 0.0 < shared.rendering().clamp() {
         say(9, "clamped, biased".to_owned(), theme::DIM);
     }
 }
 
 /// Adds the region being drawn, or the scale of the picture and its place in the window.
-fn zoom_segment(app: &App, say: &mut impl FnMut(u8, String, Style)) {
-    if let Some(region) = app.region_drawn() {
+fn zoom_segment(shared: &Shared, say: &mut impl FnMut(u8, String, Style)) {
+    if let Some(region) = shared.region_drawn() {
         say(6, format!("region {region}"), theme::ACCENT);
         return;
     }
-    let viewport = app.viewport();
-    if app.mode != Mode::Trace && viewport.is_fit() {
+    let viewport = shared.viewport();
+    if shared.mode != Mode::Trace && viewport.is_fit() {
         return;
     }
     let name = viewport.name();
-    let place = app.pixel_in_corner().filter(|_| !viewport.is_fit());
+    let place = shared.pixel_in_corner().filter(|_| !viewport.is_fit());
     let place = place.map_or_else(String::new, |[x, y]| format!(" at {x},{y}"));
     say(10, format!("{name}{place}"), theme::ACCENT);
 }
@@ -436,7 +401,7 @@ mod tests {
     fn the_least_important_segments_are_omitted() {
         let mut app = app();
         retype(&mut app, " 0.25 //", " 0.5 //");
-        app.overlays.message = Some(Message {
+        app.shared.overlays.message = Some(Message {
             severity: None,
             text: "took the file's changes".to_owned(),
         });
@@ -451,7 +416,7 @@ mod tests {
         assert_eq!(line(&app, 40), " SELECT  [+]  took the file's changes");
         assert_eq!(line(&app, 25), " SELECT  test.ray [+]");
         assert_eq!(line(&app, 5), " SEL…");
-        app.disk.state = OnDisk::Unreadable;
+        app.shared.disk.state = OnDisk::Unreadable;
         assert_eq!(line(&app, 40), " SELECT  [+]  [cannot read file]");
     }
 
@@ -460,15 +425,15 @@ mod tests {
         let mut app = app();
         let said = |app: &App| {
             let mut words = Vec::new();
-            making_segment(app, &mut |_, text, _| words.push(text));
+            making_segment(&app.shared, &mut |_, text, _| words.push(text));
             words
         };
         assert_eq!(said(&app), ["whitted"]);
-        app.pictures.rendering.integrator = Some(Integrator::Path);
+        app.shared.pictures.rendering.integrator = Some(Integrator::Path);
         assert_eq!(said(&app), ["path*"]);
-        app.pictures.aov = Some(Aov::Depth);
+        app.shared.pictures.aov = Some(Aov::Depth);
         assert_eq!(said(&app), ["depth"]);
-        app.pictures.wireframe = Some(ShownWireframe::default());
+        app.shared.pictures.wireframe = Some(ShownWireframe::default());
         assert_eq!(said(&app), ["wireframe"]);
         let paths = "<xml><scene/><camera gamma='sRGB'/></xml>";
         assert_eq!(said(&app_of(Language::Xml, paths)), ["path"]);
@@ -521,38 +486,38 @@ mod tests {
         progress_segments(&progress, &mut |_, text, _| words.push(text));
         assert_eq!(words, ["41 of 256 spp"]);
         let mut app = app();
-        app.pictures.rendering.noise = Some(0.01);
+        app.shared.pictures.rendering.noise = Some(0.01);
         words.clear();
-        making_segment(&app, &mut |_, text, _| words.push(text));
+        making_segment(&app.shared, &mut |_, text, _| words.push(text));
         assert_eq!(words, ["whitted", "adaptive, slightly biased"]);
-        app.pictures.rendering = Rendering {
+        app.shared.pictures.rendering = Rendering {
             clamp: Some(2.0),
             ..Rendering::default()
         };
         words.clear();
-        making_segment(&app, &mut |_, text, _| words.push(text));
+        making_segment(&app.shared, &mut |_, text, _| words.push(text));
         assert_eq!(words, ["whitted", "clamped, biased"]);
-        app.pictures.rendering.clamp = Some(0.0);
+        app.shared.pictures.rendering.clamp = Some(0.0);
         words.clear();
-        making_segment(&app, &mut |_, text, _| words.push(text));
+        making_segment(&app.shared, &mut |_, text, _| words.push(text));
         assert_eq!(words, ["whitted"], "0 turns it off");
     }
 
     #[test]
     fn the_scale_and_a_pause_are_told() {
         let mut app = app();
-        app.terminal = (80, 24);
+        app.shared.terminal = (80, 24);
         let said = |app: &App| {
             let mut words = Vec::new();
-            zoom_segment(app, &mut |_, text, _| words.push(text));
+            zoom_segment(&app.shared, &mut |_, text, _| words.push(text));
             text_segments(app, &mut |_, text, _| words.push(text.trim().to_owned()));
             words.join(" · ")
         };
         assert!(!said(&app).contains("fit"));
-        app.mode = Mode::Trace;
-        app.pictures.trace = Some(Picture::default());
+        app.shared.mode = Mode::Trace;
+        app.shared.pictures.trace = Some(Picture::default());
         assert!(said(&app).starts_with("fit · TRACE"), "{}", said(&app));
-        app.picture_mut().paused = true;
+        app.shared.picture_mut().paused = true;
         assert!(said(&app).contains("PAUSED"), "{}", said(&app));
     }
 
@@ -575,7 +540,7 @@ mod tests {
         );
         assert_eq!(hint(&app, 40), " j/k move     ? help  : command  q quit");
         assert_eq!(hint(&app, 20), " ? : q");
-        app.cursor.typing = Some(Typing::default());
+        app.shared.cursor.typing = Some(Typing::default());
         assert!(hint(&app, 80).starts_with(" Enter keep  Esc cancel  Tab keep, next number"));
         assert_eq!(hint(&app, 30), " Enter keep  Esc cancel");
     }
@@ -589,7 +554,7 @@ mod tests {
                 && hint.ends_with("? help  : command  q quit"),
             "{hint}"
         );
-        app.overlays.prompt = Some(Prompt {
+        app.shared.overlays.prompt = Some(Prompt {
             kind: PromptKind::Command,
             is_selected: false,
             input: Input::new("export a.bmp".to_owned()),

@@ -11,7 +11,7 @@ use unicode_width::UnicodeWidthStr;
 use super::inks::Inks;
 use super::row::Row;
 use super::{page, picture};
-use crate::ui::app::{App, Rank, Steps, Thumbnail};
+use crate::ui::app::{App, Rank, Shared, Steps, Thumbnail};
 use crate::ui::history_scene::NoPicture;
 use crate::ui::layout::{centred, raster};
 use crate::ui::text_width::{visible, wrap};
@@ -19,13 +19,14 @@ use crate::ui::theme;
 
 /// Draws the page if it is open.
 pub(crate) fn render(app: &App, inks: &mut Inks, area: Rect, buffer: &mut Buffer) {
-    let Some((page, steps)) = app.open_steps() else {
+    let shared = &app.shared;
+    let Some((page, steps)) = shared.open_steps() else {
         return;
     };
     let area = area.intersection(buffer.area);
     Clear.render(area, buffer);
     let present = format!(" {} of {} ", steps.present, steps.rows.len() - 1);
-    let title = if app.pictures.view.is_some() {
+    let title = if shared.pictures.view.is_some() {
         " Undo history, from the moved view "
     } else {
         " Undo history "
@@ -36,7 +37,7 @@ pub(crate) fn render(app: &App, inks: &mut Inks, area: Rect, buffer: &mut Buffer
         .title(title)
         .title_top(Line::from(present).right_aligned())
         .render(area, buffer);
-    let strip = app.history_layout(area);
+    let strip = shared.history_layout(area);
     let rows = page.rows();
     for (row, place) in strip.rows(page.filter.at, rows.len()) {
         let Some((index, name)) = rows.get(row) else {
@@ -50,7 +51,7 @@ pub(crate) fn render(app: &App, inks: &mut Inks, area: Rect, buffer: &mut Buffer
         let known = steps
             .rows
             .get(*index)
-            .and_then(|(id, _)| app.thumbnails.get(*id, Rank::Row));
+            .and_then(|(id, _)| shared.thumbnails.get(*id, Rank::Row));
         let thumbnail = strip.thumbnail.map(|(width, height)| Rect {
             x: place.x + 2,
             width: width.min(place.width.saturating_sub(2)),
@@ -58,7 +59,7 @@ pub(crate) fn render(app: &App, inks: &mut Inks, area: Rect, buffer: &mut Buffer
             ..place
         });
         if let Some(thumbnail) = thumbnail {
-            show(app, known, thumbnail, inks, buffer);
+            show(shared, known, thumbnail, inks, buffer);
         }
         let indent = thumbnail.map_or(2, |thumbnail| thumbnail.right() + 1 - place.x);
         entry.render(steps, indent, place, buffer);
@@ -67,8 +68,8 @@ pub(crate) fn render(app: &App, inks: &mut Inks, area: Rect, buffer: &mut Buffer
     let chosen = chosen.and_then(|index| steps.rows.get(index));
     if let (Some(large), Some((id, _))) = (strip.large, chosen) {
         show(
-            app,
-            app.thumbnails.get(*id, Rank::Large),
+            shared,
+            shared.thumbnails.get(*id, Rank::Large),
             large,
             inks,
             buffer,
@@ -125,7 +126,13 @@ impl Entry<'_> {
 }
 
 /// Draws a picture, or why there is none.
-fn show(app: &App, known: Option<&Thumbnail>, place: Rect, inks: &mut Inks, buffer: &mut Buffer) {
+fn show(
+    shared: &Shared,
+    known: Option<&Thumbnail>,
+    place: Rect,
+    inks: &mut Inks,
+    buffer: &mut Buffer,
+) {
     let words = match known {
         Some(Ok(shown)) => {
             if let Some((cells, size)) = raster(place, shown.size) {
@@ -135,7 +142,7 @@ fn show(app: &App, known: Option<&Thumbnail>, place: Rect, inks: &mut Inks, buff
         }
         Some(Err(NoPicture::Errors)) => "errors",
         Some(Err(NoPicture::Failed(reason))) => reason,
-        None if app.is_large() => "",
+        None if shared.is_large() => "",
         None => "…",
     };
     let width = words.width().min(usize::from(place.width)) as u16;
@@ -162,7 +169,7 @@ mod tests {
     /// The page after a duplication, which was undone, and a nudge that is then undone as well.
     fn lines(has_colours: bool, width: u16, height: u16) -> Vec<String> {
         let mut app = app();
-        app.thumbnails.has_colours = has_colours;
+        app.shared.thumbnails.has_colours = has_colours;
         for key in ['j', 'j', 'j', 'D', 'e', 'l', 'l', 'u', 'U'] {
             app.update(Msg::Key(KeyCode::Char(key).into()));
         }

@@ -5,12 +5,12 @@ use ratatui::layout::Rect;
 use ratatui::style::{Color, Style};
 
 use super::inks::Glyphs;
-use crate::ui::app::{App, SymbolKind};
+use crate::ui::app::{Shared, SymbolKind};
 use crate::ui::theme;
 
 /// Draws the symbols over the cells of the picture; that of the selected node stands out.
-pub(super) fn render(app: &App, glyphs: Glyphs, cells: Rect, buffer: &mut Buffer) {
-    for symbol in app.symbols() {
+pub(super) fn render(shared: &Shared, glyphs: Glyphs, cells: Rect, buffer: &mut Buffer) {
+    for symbol in shared.symbols() {
         let (sign, plain, style) = match symbol.kind {
             SymbolKind::Light => ("✶", "*", theme::WARNING),
             SymbolKind::Camera => ("◎", "@", theme::ACCENT),
@@ -24,7 +24,7 @@ pub(super) fn render(app: &App, glyphs: Glyphs, cells: Rect, buffer: &mut Buffer
         let Some(cell) = buffer.cell_mut(place) else {
             continue;
         };
-        let style = if app.cursor.selected() == symbol.node {
+        let style = if shared.cursor.selected() == symbol.node {
             theme::chip(style)
         } else {
             style.bg(Color::Black)
@@ -65,10 +65,10 @@ sphere 0 0 0 1  0 0 0 .5 .5 .5 0 0 0 1 0 0 1
             for key in ['j', 'j'] {
                 app.update(Msg::Key(crossterm::event::KeyCode::Char(key).into()));
             }
-            assert_eq!(app.cursor.selected(), Node::Light(0));
-            let (cells, _) = app.raster().expect("there is room");
+            assert_eq!(app.shared.cursor.selected(), Node::Light(0));
+            let (cells, _) = app.shared.raster().expect("there is room");
             let mut buffer = Buffer::empty(cells);
-            render(&app, glyphs, cells, &mut buffer);
+            render(&app.shared, glyphs, cells, &mut buffer);
             let signs = buffer.content.iter().filter(|cell| cell.symbol() == sign);
             let reversed: Vec<_> = signs
                 .map(|cell| cell.modifier.contains(Modifier::REVERSED))

@@ -11,7 +11,7 @@ use ratatui::layout::Rect;
 use tui_input::Input;
 
 use super::inks::Glyphs;
-use super::{Drawing, Inks, draw};
+use super::{Inks, draw};
 use crate::document::{Document, Merge, Side};
 use crate::language::{Language, Node};
 use crate::render::{Frame, NO_OBJECT, Overexposure, Progress};
@@ -58,47 +58,65 @@ pub(super) fn app_of(language: Language, text: &str) -> App {
         recent: Vec::new(),
         terminal: (80, 24),
     });
-    app.cursor.select(Node::View, app.document.source());
+    select(&mut app, Node::View);
     app
 }
 
 /// Replaces the first `old` in the text by `new`, as an edit.
 pub(super) fn retype(app: &mut App, old: &str, new: &str) {
-    let at = app.document.text().find(old).expect("the text has it");
-    app.document.edit(&[Edit {
+    let at = app
+        .shared
+        .document
+        .text()
+        .find(old)
+        .expect("the text has it");
+    app.shared.document.edit(&[Edit {
         span: Span::new(at, at + old.len()),
         text: new.to_owned(),
     }]);
     let lowered = app
+        .shared
         .document
-        .lower(&app.assets.meshes)
+        .lower(&app.shared.assets.meshes)
         .expect("there is memory");
-    app.diagnostics = lowered.diagnostics;
-    app.cursor.renew(app.document.source(), Names::Changed);
+    app.shared.diagnostics = lowered.diagnostics;
+    app.shared
+        .cursor
+        .renew(app.shared.document.source(), Names::Changed);
 }
 
 /// The conflict between the text and a text from outside.
 pub(super) fn conflict(app: &App, theirs: &str) -> Merge {
-    let theirs = Document::new(app.document.language(), theirs.to_owned());
-    let merged = app.document.snapshot().merge(theirs, &app.assets.meshes);
+    let theirs = Document::new(app.shared.document.language(), theirs.to_owned());
+    let merged = app
+        .shared
+        .document
+        .snapshot()
+        .merge(theirs, &app.shared.assets.meshes);
     let merged = merged.expect("there is memory");
     merged.expect_err("both changed the same place")
 }
 
+/// Selects a row of the list.
+pub(super) fn select(app: &mut App, node: Node) {
+    let source = app.shared.document.source();
+    app.shared.cursor.select(node, source);
+}
+
 /// The lines of a panel without trailing spaces.
-pub(super) fn drawn(
-    app: &App,
-    panel: impl Fn(&App, Rect, &mut Buffer),
+pub(super) fn drawn<S>(
+    state: &S,
+    panel: impl Fn(&S, Rect, &mut Buffer),
     width: u16,
     height: u16,
 ) -> Vec<String> {
     let area = Rect::new(0, 0, width, height);
     let mut buffer = Buffer::empty(area);
-    panel(app, area, &mut buffer);
+    panel(state, area, &mut buffer);
     lines(&buffer)
 }
 
-fn lines(buffer: &Buffer) -> Vec<String> {
+pub(super) fn lines(buffer: &Buffer) -> Vec<String> {
     let line = |y| {
         let cells = (0..buffer.area.width).map(|x| buffer[(x, y)].symbol());
         cells.collect::<String>().trim_end().to_owned()
@@ -108,8 +126,8 @@ fn lines(buffer: &Buffer) -> Vec<String> {
 
 /// The lines of the whole screen.
 fn screen(app: &mut App, width: u16, height: u16) -> Vec<String> {
-    app.terminal = (width, height);
-    app.follow_wires();
+    app.shared.terminal = (width, height);
+    app.shared.follow_wires();
     let mut terminal = Terminal::new(TestBackend::new(width, height)).expect("cannot fail");
     terminal
         .draw(|frame| {
@@ -120,7 +138,7 @@ fn screen(app: &mut App, width: u16, height: u16) -> Vec<String> {
 }
 
 /// A grey frame with object 1 in its right half.
-fn frame(width: u32, height: u32) -> Arc<Frame> {
+pub(super) fn frame(width: u32, height: u32) -> Arc<Frame> {
     let size = Size { width, height };
     let under = |at: u32| u32::from(width / 2 <= at % width);
     Arc::new(Frame {
@@ -159,8 +177,8 @@ type Change = fn(&mut App);
 const STATES: &[(&str, Change)] = &[
     ("nothing", |_| {}),
     ("picture", |app| {
-        app.pictures.preview.take(frame(8, 6));
-        app.pictures.preview.advance(
+        app.shared.pictures.preview.take(frame(8, 6));
+        app.shared.pictures.preview.advance(
             &FrameWindow::whole(Size {
                 width: 8,
                 height: 6,
@@ -168,31 +186,33 @@ const STATES: &[(&str, Change)] = &[
             &[],
             usize::MAX,
         );
-        app.cursor.select(Node::Object(1), app.document.source());
+        select(app, Node::Object(1));
     }),
-    ("picture alone", |app| app.zoom = Zoom::Picture),
+    ("picture alone", |app| app.shared.zoom = Zoom::Picture),
     ("errors", |app| {
         retype(app, "sphere", "\u{1b}[2Jsphäre 界\t");
         retype(app, "0.5 0 0", "0.5 x -");
-        app.disk.state = OnDisk::Unreadable;
+        app.shared.disk.state = OnDisk::Unreadable;
     }),
     ("list of errors", |app| {
         retype(app, " 0.25 ", " -1 ");
-        app.overlays.errors = Some(7);
+        app.shared.overlays.errors = Some(7);
     }),
-    ("no errors", |app| app.overlays.errors = Some(0)),
+    ("no errors", |app| app.shared.overlays.errors = Some(0)),
     ("nothing at all", |app| {
         retype(app, SCENE, "");
-        app.scene = None;
-        app.cursor.select(Node::Object(9), app.document.source());
-        app.cursor.field = 99;
-        app.cursor.component = 99;
-        app.cursor.list_top = 99;
-        app.cursor.field_top = 99;
+        app.shared.scene = None;
+        select(app, Node::Object(9));
+        app.shared.cursor.field = 99;
+        app.shared.cursor.component = 99;
+        app.shared.cursor.list_top = 99;
+        app.shared.cursor.field_top = 99;
     }),
-    ("help", |app| app.overlays.help = Some(Help::default())),
+    ("help", |App { shared, .. }| {
+        shared.overlays.help = Some(Help::default());
+    }),
     ("help, far down", |app| {
-        app.overlays.help = Some(Help {
+        app.shared.overlays.help = Some(Help {
             top: usize::MAX,
             search: Input::new("界 nowhere".to_owned()),
             focus: PageFocus::Search,
@@ -202,70 +222,70 @@ const STATES: &[(&str, Change)] = &[
         let paths = (0..99).map(|at| PathBuf::from(format!("/界/{at}.ray")));
         let mut page = Page::new(List::Recent(paths.collect()));
         page.filter.at = 98;
-        app.overlays.page = Some(page);
+        app.shared.overlays.page = Some(page);
     }),
     ("quit", |app| {
-        app.overlays.dialog = Some(Dialog::Leave(AfterLeaving::Quit));
+        app.shared.overlays.dialog = Some(Dialog::Leave(AfterLeaving::Quit));
     }),
     ("wires", |app| {
-        app.pictures.wireframe = Some(ShownWireframe::default());
+        app.shared.pictures.wireframe = Some(ShownWireframe::default());
         app.update(Msg::Key(KeyCode::Char('O').into()));
     }),
     ("history", |app| {
-        app.overlays.history = Some(usize::MAX);
+        app.shared.overlays.history = Some(usize::MAX);
         app.update(Msg::Failed("界\u{1b}]52;c;界\u{7}".repeat(20)));
     }),
     ("undo history", |app| {
-        app.mode = Mode::Select;
-        app.thumbnails.has_colours = true;
-        app.cursor.select(Node::Object(0), app.document.source());
+        app.shared.mode = Mode::Select;
+        app.shared.thumbnails.has_colours = true;
+        select(app, Node::Object(0));
         for key in ['D', 'D', 'd', 'u', 'U', 'k'] {
             app.update(Msg::Key(KeyCode::Char(key).into()));
         }
-        assert!(app.open_steps().is_some());
+        assert!(app.shared.open_steps().is_some());
     }),
     ("overwrite", |app| {
         app.update(Msg::Key(KeyCode::Char('b').into()));
         app.update(Msg::Taken(ExportId(1), "it exists".to_owned()));
-        assert!(app.overlays.dialog.is_some());
+        assert!(app.shared.overlays.dialog.is_some());
     }),
     ("recover", |app| {
-        let text = app.document.shared_text();
+        let text = app.shared.document.shared_text();
         let kept = SCENE.replace(" 0.25 ", " 0.75 ");
-        let offer = offer(app.document.language(), &text, SCENE, &kept);
-        app.overlays.dialog = Some(Dialog::Recover(Box::new(offer)));
+        let offer = offer(app.shared.document.language(), &text, SCENE, &kept);
+        app.shared.overlays.dialog = Some(Dialog::Recover(Box::new(offer)));
     }),
     ("conflict", |app| {
         retype(app, " 0.25 ", " 0.5 ");
         let mut merge = conflict(app, &SCENE.replace(" 0.25 ", " 0.75 "));
         merge.conflicts[0].decision = Some(Side::Mine);
-        app.overlays.dialog = Some(Dialog::Conflict {
+        app.shared.overlays.dialog = Some(Dialog::Conflict {
             merge,
             at: 0,
             from: MergeSource::File,
         });
     }),
     ("typing", |app| {
-        app.cursor.select(Node::Object(0), app.document.source());
-        app.cursor.typing = Some(Typing {
+        select(app, Node::Object(0));
+        app.shared.cursor.typing = Some(Typing {
             input: Input::new("1234567890123456789012345678901234567890".to_owned()),
             ..Typing::default()
         });
     }),
     ("menu", |app| {
-        app.mode = Mode::Select;
+        app.shared.mode = Mode::Select;
         for key in ['a', 's'] {
             app.update(Msg::Key(KeyCode::Char(key).into()));
         }
-        assert!(app.overlays.menu.is_some());
+        assert!(app.shared.overlays.menu.is_some());
     }),
     ("colour picker", |app| {
-        app.mode = Mode::Select;
-        app.cursor.select(Node::Object(0), app.document.source());
+        app.shared.mode = Mode::Select;
+        select(app, Node::Object(0));
         for key in ['e', 'j', 'j', 'c', 'l'] {
             app.update(Msg::Key(KeyCode::Char(key).into()));
         }
-        assert!(app.overlays.picker.is_some());
+        assert!(app.shared.overlays.picker.is_some());
     }),
     ("palette", |app| {
         for key in [':', 'e'] {
@@ -274,7 +294,7 @@ const STATES: &[(&str, Change)] = &[
         app.update(Msg::Key(KeyCode::Tab.into()));
     }),
     ("prompt", |app| {
-        app.overlays.prompt = Some(Prompt {
+        app.shared.overlays.prompt = Some(Prompt {
             kind: PromptKind::Filter(Node::View),
             is_selected: false,
             input: Input::new("界界界界界界界界界界界界界界界界".to_owned()).with_cursor(3),
@@ -282,14 +302,14 @@ const STATES: &[(&str, Change)] = &[
         });
     }),
     ("message", |app| {
-        app.overlays.message = Some(Message {
+        app.shared.overlays.message = Some(Message {
             severity: Some(Severity::Warning),
             text: "界\u{1b}]52;c;界\u{7}".repeat(20),
         });
-        app.pictures.net = Some(86_000);
-        app.pictures.view = app.camera();
-        app.disk.state = OnDisk::Changed;
-        app.jobs.export = Some(Export {
+        app.shared.pictures.net = Some(86_000);
+        app.shared.pictures.view = app.shared.camera();
+        app.shared.disk.state = OnDisk::Changed;
+        app.shared.jobs.export = Some(Export {
             id: ExportId::default(),
             stage: Stage::Tracing,
             destination: Destination {
@@ -340,8 +360,8 @@ fn every_screen_can_be_drawn_at_every_size() {
     for (name, change) in STATES {
         for mode in MODES {
             let mut app = app();
-            app.mode = mode;
-            app.inspection.cross = Some(Cross {
+            app.shared.mode = mode;
+            app.shared.inspection.cross = Some(Cross {
                 pixel: [3, 300],
                 size: Size {
                     width: 4,
@@ -361,9 +381,9 @@ fn every_screen_can_be_drawn_at_every_size() {
 /// The last line while a field of the first object is edited on a screen without panels.
 fn last_line(size: (u16, u16), field: usize, change: fn(&mut App)) -> String {
     let mut app = app();
-    app.mode = Mode::Edit;
-    app.cursor.select(Node::Object(0), app.document.source());
-    (app.cursor.field, app.cursor.component) = (field, usize::from(field != 1));
+    app.shared.mode = Mode::Edit;
+    select(&mut app, Node::Object(0));
+    (app.shared.cursor.field, app.shared.cursor.component) = (field, usize::from(field != 1));
     change(&mut app);
     let lines = screen(&mut app, size.0, size.1);
     let words = lines.last().map(|line| line.split_whitespace());
@@ -376,7 +396,7 @@ fn the_current_field_is_shown_where_there_are_no_panels() {
     assert_eq!(shown((30, 10), 0), "EDIT centre 0 .5 -1e0");
     assert_eq!(shown((50, 14), 1), "EDIT test.ray whitted radius 0.25");
     assert_eq!(shown((20, 6), 0), "EDIT centre y .5");
-    let zoomed = last_line((100, 30), 2, |app| app.zoom = Zoom::Picture);
+    let zoomed = last_line((100, 30), 2, |app| app.shared.zoom = Zoom::Picture);
     assert!(zoomed.ends_with("ka 0.1 0.1 0.1"), "{zoomed}");
     let panels = shown((80, 24), 0);
     assert!(!panels.contains("centre"), "{panels}");
@@ -385,7 +405,7 @@ fn the_current_field_is_shown_where_there_are_no_panels() {
 #[test]
 fn what_is_typed_is_shown_where_there_are_no_panels() {
     let typing: fn(&mut App) = |app| {
-        app.cursor.typing = Some(Typing {
+        app.shared.cursor.typing = Some(Typing {
             input: Input::new("2.75".to_owned()),
             ..Typing::default()
         });
@@ -393,7 +413,7 @@ fn what_is_typed_is_shown_where_there_are_no_panels() {
     let line = last_line((40, 12), 0, typing);
     assert_eq!(line, "EDIT centre y 2.75");
     let long: fn(&mut App) = |app| {
-        app.cursor.typing = Some(Typing {
+        app.shared.cursor.typing = Some(Typing {
             input: Input::new("123456789012345678".to_owned()),
             ..Typing::default()
         });
@@ -401,8 +421,8 @@ fn what_is_typed_is_shown_where_there_are_no_panels() {
     assert!(last_line((20, 6), 0, long).ends_with('8'));
 
     let mut app = app();
-    app.mode = Mode::Edit;
-    app.cursor.select(Node::Object(0), app.document.source());
+    app.shared.mode = Mode::Edit;
+    select(&mut app, Node::Object(0));
     for key in ["j", "-", "3"] {
         let key = key.chars().next().map(KeyCode::Char);
         app.update(Msg::Key(key.expect("a key").into()));
@@ -434,7 +454,7 @@ fn a_message_longer_than_the_status_line_is_shown_in_full() {
     ] {
         for width in [20, 40, 80, 150] {
             let mut app = app();
-            app.overlays.message = Some(Message {
+            app.shared.overlays.message = Some(Message {
                 severity: Some(Severity::Error),
                 text: text.to_owned(),
             });
@@ -450,9 +470,9 @@ fn a_message_longer_than_the_status_line_is_shown_in_full() {
 fn the_changes_in_recovered_edits_are_counted() {
     let shown = |change: fn(&str) -> String, follow: fn(Offer) -> Offer| {
         let mut app = app();
-        let text = app.document.shared_text();
+        let text = app.shared.document.shared_text();
         let offer = follow(offer(Language::Ray, &text, SCENE, &change(SCENE)));
-        app.overlays.dialog = Some(Dialog::Recover(Box::new(offer)));
+        app.shared.overlays.dialog = Some(Dialog::Recover(Box::new(offer)));
         let lines = screen(&mut app, 100, 30);
         let words: Vec<_> = lines.iter().flat_map(|line| line.split('│')).collect();
         words
@@ -476,7 +496,7 @@ fn the_changes_in_recovered_edits_are_counted() {
 fn a_picture_that_is_not_being_traced_is_not_announced() {
     let mut app = app();
     let mut says = |wanted, words| {
-        app.pictures.preview.wanted = wanted;
+        app.shared.pictures.preview.wanted = wanted;
         let text = screen(&mut app, 80, 24).join("\n");
         assert!(text.contains(words), "{words:?} in\n{text}");
     };
@@ -487,9 +507,10 @@ fn a_picture_that_is_not_being_traced_is_not_announced() {
 #[test]
 fn errors_mark_the_picture_as_stale_and_are_explained() {
     let mut app = app();
-    app.pictures.preview.take(frame(8, 6));
-    let size = app.raster().expect("there is room").1;
-    app.pictures
+    app.shared.pictures.preview.take(frame(8, 6));
+    let size = app.shared.raster().expect("there is room").1;
+    app.shared
+        .pictures
         .preview
         .advance(&FrameWindow::whole(size), &[], usize::MAX);
     retype(&mut app, " 0.25 ", " -1 ");
@@ -499,49 +520,11 @@ fn errors_mark_the_picture_as_stale_and_are_explained() {
     }
 }
 
-/// The cells left to a picture by the terminal, and whether any half blocks are drawn.
-fn left(app: &mut App) -> (Option<Rect>, bool) {
-    let (width, height) = (100, 30);
-    app.terminal = (width, height);
-    let mut inks = Inks::new(Glyphs::HalfBlocks);
-    inks.draw_with(Drawing::Picture);
-    let mut terminal = Terminal::new(TestBackend::new(width, height)).expect("cannot fail");
-    let mut left = None;
-    terminal
-        .draw(|frame| left = draw(app, &mut inks, frame))
-        .expect("cannot fail");
-    let text = lines(terminal.backend().buffer()).join("");
-    assert!(
-        !text.contains('\u{f8ff}'),
-        "the mark of what is left is not shown"
-    );
-    (left, text.contains('▀'))
-}
-
-#[test]
-fn cells_are_left_to_a_picture_unless_a_panel_is_over_it() {
-    let mut app = app();
-    assert_eq!(left(&mut app), (None, false), "there is no picture yet");
-    app.pictures.preview.take(frame(8, 6));
-    let frame_window = app.frame_window().expect("there is room");
-    app.pictures.preview.advance(&frame_window, &[], usize::MAX);
-    let cells = app.raster().map(|(cells, _)| cells);
-    assert_eq!(left(&mut app), (cells, false));
-    app.overlays.help = Some(Help::default());
-    assert_eq!(left(&mut app), (None, true));
-    app.overlays.help = None;
-    assert_eq!(left(&mut app), (cells, false));
-    // A few words over it are drawn on top.
-    retype(&mut app, " 0.25 ", " -1 ");
-    let (place, has_blocks) = left(&mut app);
-    assert!(place.is_some() && !has_blocks);
-}
-
 #[test]
 fn a_picture_of_another_size_is_scaled_to_its_place() {
     let mut app = app();
-    app.pictures.preview.take(frame(4, 3));
-    app.pictures.preview.advance(
+    app.shared.pictures.preview.take(frame(4, 3));
+    app.shared.pictures.preview.advance(
         &FrameWindow::whole(Size {
             width: 4,
             height: 3,

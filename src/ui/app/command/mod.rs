@@ -4,7 +4,7 @@
 mod row;
 mod rows;
 
-use super::App;
+use super::{App, Shared};
 use crate::text::nearest_word;
 use crate::ui::keymap::{self, HelpLine, Mode};
 use crate::ui::msg::Effect;
@@ -86,7 +86,7 @@ fn unknown(name: &str) -> String {
     }
 }
 
-impl App {
+impl Shared {
     /// The lines of the help page.
     pub fn help_lines(&self) -> Vec<HelpLine> {
         let help = self.overlays.help.as_ref();
@@ -100,7 +100,9 @@ impl App {
         let count = usize::from(width.saturating_sub(2) / HELP_COLUMN).clamp(1, MOST_COLUMNS);
         keymap::in_columns(self.help_lines(), count)
     }
+}
 
+impl App {
     /// Runs a command line.
     pub(super) fn command(&mut self, line: &str) -> Vec<Effect> {
         if line.trim().is_empty() {
@@ -109,23 +111,23 @@ impl App {
         match parse(line) {
             Ok((row, run)) => self.run(row.runs, run),
             Err(reason) => {
-                self.overlays.fail(reason);
+                self.shared.overlays.fail(reason);
                 Vec::new()
             }
         }
     }
 
     fn run(&mut self, runs: Runs, Run(step): Run) -> Vec<Effect> {
-        if runs != Runs::Always && self.mode == Mode::Move {
-            self.warn_of_transform();
+        if runs != Runs::Always && self.shared.mode == Mode::Move {
+            self.shared.warn_of_transform();
             return Vec::new();
         }
-        if matches!(runs, Runs::OnText | Runs::OnTrack) && self.disk.is_opening() {
-            self.warn_of_opening();
+        if matches!(runs, Runs::OnText | Runs::OnTrack) && self.shared.disk.is_opening() {
+            self.shared.warn_of_opening();
             return Vec::new();
         }
         match runs {
-            Runs::OnText => self.outside_sequence(step),
+            Runs::OnText => self.outside(step),
             Runs::OnTrack | Runs::WhileOpening | Runs::Always => step(self),
         }
     }

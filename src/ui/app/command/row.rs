@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use crate::ui::app::App;
+use crate::ui::app::{App, Shared};
 use crate::ui::msg::Effect;
 
 /// A command: one row.
@@ -47,14 +47,19 @@ pub(super) struct Run(pub(super) Box<Step>);
 type Step = dyn FnOnce(&mut App) -> Vec<Effect>;
 
 impl Run {
-    pub(super) fn does(step: impl FnOnce(&mut App) + 'static) -> Self {
+    pub(super) fn does(step: impl FnOnce(&mut Shared) + 'static) -> Self {
         Self::requests(|app| {
             step(app);
             Vec::new()
         })
     }
 
-    pub(super) fn requests(step: impl FnOnce(&mut App) -> Vec<Effect> + 'static) -> Self {
+    pub(super) fn requests(step: impl FnOnce(&mut Shared) -> Vec<Effect> + 'static) -> Self {
+        Self::within(|app| step(&mut app.shared))
+    }
+
+    /// What a mode does.
+    pub(super) fn within(step: impl FnOnce(&mut App) -> Vec<Effect> + 'static) -> Self {
         Self(Box::new(step))
     }
 }

@@ -12,7 +12,8 @@ use crate::ui::app::saving::Force;
 use crate::ui::app::setting::SettingOrder;
 use crate::ui::app::until::Until;
 use crate::ui::app::zooming::ScaleOrder;
-use crate::ui::app::{App, Help};
+use crate::ui::app::{Help, Shared, sequence};
+use crate::ui::keymap::Mode;
 use crate::ui::msg::Effect;
 use crate::ui::pixels::Pixels;
 use crate::ui::theme::Theme;
@@ -25,24 +26,24 @@ use Runs::{Always, OnTrack, WhileOpening};
 pub(super) const ROWS: &[CommandRow] = &[
     CommandRow::new(&["w", "write"], File(|file| Run::requests(|app| app.write(file, Force::No))), "save the scene, or save it as FILE").key("save"),
     CommandRow::new(&["w!", "write!"], File(|file| Run::requests(|app| app.write(file, Force::Yes))), "save, overwriting changes on disk"),
-    CommandRow::new(&["q", "quit"], Nothing(|| Run::requests(App::quit)), "quit").key("quit").runs(WhileOpening),
-    CommandRow::new(&["q!", "quit!"], Nothing(|| Run::requests(App::quit_anyway)), "quit without asking").runs(Always),
-    CommandRow::new(&["wq", "x"], Nothing(|| Run::requests(App::save_and_quit)), "save and quit"),
+    CommandRow::new(&["q", "quit"], Nothing(|| Run::requests(Shared::quit)), "quit").key("quit").runs(WhileOpening),
+    CommandRow::new(&["q!", "quit!"], Nothing(|| Run::requests(Shared::quit_anyway)), "quit without asking").runs(Always),
+    CommandRow::new(&["wq", "x"], Nothing(|| Run::requests(Shared::save_and_quit)), "save and quit"),
     CommandRow::new(&["e", "edit", "reread"], File(|file| Run::requests(|app| app.edit_file(file))), "open FILE, or reload the scene's own"),
     CommandRow::new(&["new"], Said(" [LANGUAGE]", new), "start a new scene: ray, dat or xml"),
     CommandRow::new(&["recent"], Nothing(|| Run::requests(|_| vec![Effect::ListRecent])), "list recently used scenes"),
-    CommandRow::new(&["history", "undolist"], Nothing(|| Run::does(App::list_steps)), "show the undo history as pictures").key("history"),
+    CommandRow::new(&["history", "undolist"], Nothing(|| Run::does(Shared::list_steps)), "show the undo history as pictures").key("history"),
     CommandRow::new(&["export"], FileAnd(PICTURE, |said| export(said, Asking::No)), "export the picture, in SEQUENCE all frames").key("export").runs(OnTrack),
     CommandRow::new(&["export!"], FileAnd(PICTURE, |said| export(said, Asking::Forced)), "export, overwriting an existing file").runs(OnTrack),
-    CommandRow::new(&["export cancel"], Nothing(|| Run::requests(App::cancel_export)), "cancel the export").key("stop").runs(OnTrack),
-    CommandRow::new(&["render"], Nothing(|| Run::requests(App::start_trace)), "trace at full size").key("trace"),
+    CommandRow::new(&["export cancel"], Nothing(|| Run::requests(Shared::cancel_export)), "cancel the export").key("stop").runs(OnTrack),
+    CommandRow::new(&["render"], Nothing(|| Run::requests(Shared::start_trace)), "trace at full size").key("trace"),
     CommandRow::new(&["compare"], File(|file| Run::requests(|app| app.compare_command(file))), "compare with a picture or scene FILE, saved, or git [REVISION]").key("compare").runs(OnTrack),
     CommandRow::new(&["until"], Said(" [N spp|TIME|noise E]", until), "end the full-size trace at N spp, after 30 s or 5 min, or below noise 0.01"),
     CommandRow::new(&["region"], Said(" [X,Y,W,H|off]", region), "trace only these pixels at full size, or all").key("region"),
     CommandRow::new(&["zoom"], Said(" [fit|1:1|N]", zoom), "zoom the picture, also the preview"),
-    CommandRow::new(&["track"], File(|file| Run::requests(|app| app.open_track(file))), "play the track FILE, or the one beside the scene").key("track").runs(OnTrack),
+    CommandRow::new(&["track"], File(|file| Run::within(|app| sequence::open_track(&mut app.sequence, &mut app.shared, file))), "play the track FILE, or the one beside the scene").key("track").runs(OnTrack),
     CommandRow::new(&["view save"], Name(|name| Run::does(|app| app.save_view_named(name))), "write the view into the scene, or save it as NAME").key("write-view"),
-    CommandRow::new(&["view light"], Nothing(|| Run::does(App::look_from_light)), "look from the selected light"),
+    CommandRow::new(&["view light"], Nothing(|| Run::does(Shared::look_from_light)), "look from the selected light"),
     CommandRow::new(&["view reset"], Nothing(|| Run::does(|app| app.pictures.reset_view())), "reset to the scene's view").key("reset-view"),
     CommandRow::new(&["size"], Said(" WxH", size), "set the picture size in the scene"),
     CommandRow::new(&["set"], Said(" KEY [VALUE|default]", set), "write a render setting into the scene, by default the one in use"),
@@ -53,10 +54,10 @@ pub(super) const ROWS: &[CommandRow] = &[
     CommandRow::new(&["transfer linear"], Nothing(|| Run::does(|app| app.set_transfer(Some(Transfer::Linear)))), "display light linearly"),
     CommandRow::new(&["transfer srgb"], Nothing(|| Run::does(|app| app.set_transfer(Some(Transfer::Srgb)))), "display light by the sRGB curve"),
     CommandRow::new(&["transfer scene"], Nothing(|| Run::does(|app| app.set_transfer(None))), "display light as the scene says"),
-    CommandRow::new(&["falsecolour", "falsecolor"], Nothing(|| Run::does(App::toggle_false_colours)), "display luminances as false colours, or no longer"),
-    CommandRow::new(&["denoise"], Nothing(|| Run::requests(App::toggle_denoising)), "reduce the noise of light on screen, or no longer").key("denoise"),
-    CommandRow::new(&["histogram"], Nothing(|| Run::does(App::toggle_histogram)), "show or hide the histogram of the light"),
-    CommandRow::new(&["mouse"], Nothing(|| Run::requests(App::toggle_mouse)), "take the mouse or leave it to the terminal").runs(Always),
+    CommandRow::new(&["falsecolour", "falsecolor"], Nothing(|| Run::does(Shared::toggle_false_colours)), "display luminances as false colours, or no longer"),
+    CommandRow::new(&["denoise"], Nothing(|| Run::requests(Shared::toggle_denoising)), "reduce the noise of light on screen, or no longer").key("denoise"),
+    CommandRow::new(&["histogram"], Nothing(|| Run::does(Shared::toggle_histogram)), "show or hide the histogram of the light"),
+    CommandRow::new(&["mouse"], Nothing(|| Run::requests(Shared::toggle_mouse)), "take the mouse or leave it to the terminal").runs(Always),
     CommandRow::new(&["theme dark"], Nothing(|| Run::does(|app| app.theme = Theme::Dark)), "use colours for dark screens").runs(Always),
     CommandRow::new(&["theme light"], Nothing(|| Run::does(|app| app.theme = Theme::Light)), "use colours for light screens").runs(Always),
     CommandRow::new(&["theme mono"], Nothing(|| Run::does(|app| app.theme = Theme::Mono)), "use no colours except in pictures").runs(Always),
@@ -76,7 +77,13 @@ fn new(said: &str) -> Result<Run, String> {
 
 fn export(said: &str, asking: Asking) -> Result<Run, String> {
     let order = ExportOrder::parse(said)?;
-    Ok(Run::requests(move |app| app.export(order, asking)))
+    Ok(Run::within(move |app| {
+        if app.shared.mode == Mode::Sequence {
+            sequence::export(&app.sequence, &mut app.shared, order, asking)
+        } else {
+            app.shared.export(order, asking)
+        }
+    }))
 }
 
 /// Reads when a trace ends; nothing asks when it does.

@@ -3,7 +3,7 @@
 use crossterm::event::KeyCode;
 
 use super::row::Row;
-use crate::ui::app::{App, Help};
+use crate::ui::app::{Help, Shared};
 use crate::ui::keymap::{Context, Key, Mode, Scope, alt, c, ctrl, key};
 use crate::ui::msg::Effect;
 
@@ -11,15 +11,6 @@ use Context::In;
 use KeyCode::{Char, Esc, F};
 use Scope::{Always, Everywhere, Sceneless, These};
 
-/// Where a track can be played.
-const PLAYED: Scope = These(&[
-    In(Mode::Select),
-    In(Mode::Edit),
-    In(Mode::View),
-    In(Mode::Fly),
-]);
-/// Where present values are keyed.
-const KEYED: Scope = These(&[In(Mode::Edit), In(Mode::View), In(Mode::Fly)]);
 /// Where panels are on screen or can be.
 const PANELS: Scope = These(&[
     In(Mode::Select),
@@ -31,8 +22,6 @@ const PANELS: Scope = These(&[
     Context::Errors,
     In(Mode::Sequence),
 ]);
-const EDIT: &[Context] = &[In(Mode::Edit)];
-const CAMERA: &[Context] = &[In(Mode::View), In(Mode::Fly)];
 const TRACE: &[Context] = &[In(Mode::Trace)];
 const COMPARE: &[Context] = &[In(Mode::Compare)];
 const ERRORS: &[Context] = &[Context::Errors];
@@ -62,35 +51,33 @@ const OUTSIDE_TRACE: &[Context] = &[
 
 /// The most useful first.
 #[rustfmt::skip]
-pub(super) const KEYS: &[Row] = &[
-    Key::new(Everywhere, "back", &[key(Esc)], "back").hint_in(LEAVABLE, 80, "back").hint_in(ERRORS, 80, "close").does(App::go_back),
-    Key::new(Sceneless, "help", &[c('?')], "help").lasting("help").does(|app| app.overlays.help = Some(Help::default())),
-    Key::new(Sceneless, "command", &[c(':')], "command").lasting("command").does(App::open_palette),
-    Key::new(Everywhere, "save", &[c('w')], "save the scene").hint(100, "save").requests(App::save_key).when(|app| !app.is_saved()),
-    Key::new(Everywhere, "export", &[c('b')], "export what is shown").hint(120, "export").requests(App::export_default),
-    Key::new(Everywhere, "trace", &[key(F(5)), c('r')], "trace at full size").hint_in(OUTSIDE_TRACE, 130, "trace").requests(|app| app.go(Mode::Trace)),
-    Key::new(Everywhere, "pin", &[c('A')], "pin the picture, to compare with it").hint_in(COMPARE, 90, "pin").requests(App::pin),
-    Key::new(Everywhere, "compare", &[c('=')], "compare with the reference").requests(|app| app.go(Mode::Compare)),
-    Key::new(Everywhere, "undo", &[c('u')], "undo").hint(110, "undo").requests(App::undo).when(|app| app.document.undoable().is_some()),
-    Key::new(Everywhere, "redo", &[ctrl('r')], "redo").requests(App::redo),
-    Key::new(Everywhere, "history", &[c('U')], "undo history as pictures").does(App::list_steps),
-    Key::new(Everywhere, "errors", &[c('!')], "errors and warnings").does(App::toggle_errors),
-    Key::new(Sceneless, "messages", &[c('M')], "messages so far").does(|app| app.overlays.history = Some(0)),
-    Key::new(Everywhere, "editor", &[c('E')], "open the editor at the selected item").hint_in(WITH_EDITOR, 30, "editor").requests(App::open_editor),
-    Key::new(PLAYED, "track", &[c('T')], "play the track").requests(|app| app.go(Mode::Sequence)),
-    Key::new(KEYED, "key", &[c('I')], "key the value, or in VIEW the camera, in the track").hint_in(EDIT, 40, "key it").hint_in(CAMERA, 50, "key it").requests(App::key_value).when(|app| app.sequence.open.is_some()),
-    Key::new(PANELS, "panels", &[c('z')], "show or hide the panels").does(App::toggle_zoom),
-    Key::new(Everywhere, "larger-panels", &[c('{')], "larger panels").does(|app| app.resize_panels(2)),
-    Key::new(Everywhere, "smaller-panels", &[c('}')], "smaller panels").does(|app| app.resize_panels(-2)),
-    Key::new(Everywhere, "smaller-list", &[alt(Char('{'))], "smaller list, larger fields").does(|app| app.resize_list(-1)),
-    Key::new(Everywhere, "larger-list", &[alt(Char('}'))], "larger list, smaller fields").does(|app| app.resize_list(1)),
-    Key::new(Everywhere, "darker", &[c('<')], "darker display, by half a stop").does(|app| app.expose(-1)),
-    Key::new(Everywhere, "brighter", &[c('>')], "brighter display").does(|app| app.expose(1)),
-    Key::new(Everywhere, "denoise", &[c('~')], "reduce noise on screen, or no longer").requests(App::toggle_denoising),
-    Key::new(Everywhere, "integrator", &[c('P')], "next integrator: Whitted, paths, photons").hint_in(TRACE, 90, "integrator").does(App::next_integrator),
-    Key::new(Everywhere, "cure", &[c('C')], "apply the suggested render setting").does(App::cure),
+pub(in crate::ui::app) const KEYS: &[Row] = &[
+    Key::new(Everywhere, "back", &[key(Esc)], "back").hint_in(LEAVABLE, 80, "back").hint_in(ERRORS, 80, "close").does(Shared::go_back),
+    Key::new(Sceneless, "help", &[c('?')], "help").lasting("help").does(|shared| shared.overlays.help = Some(Help::default())),
+    Key::new(Sceneless, "command", &[c(':')], "command").lasting("command").does(Shared::open_palette),
+    Key::new(Everywhere, "save", &[c('w')], "save the scene").hint(100, "save").requests(Shared::save_key).when(|shared| !shared.is_saved()),
+    Key::new(Everywhere, "export", &[c('b')], "export what is shown").hint(120, "export").requests(Shared::export_default),
+    Key::new(Everywhere, "trace", &[key(F(5)), c('r')], "trace at full size").hint_in(OUTSIDE_TRACE, 130, "trace").requests(|shared| shared.go(Mode::Trace)),
+    Key::new(Everywhere, "pin", &[c('A')], "pin the picture, to compare with it").hint_in(COMPARE, 90, "pin").requests(Shared::pin),
+    Key::new(Everywhere, "compare", &[c('=')], "compare with the reference").requests(|shared| shared.go(Mode::Compare)),
+    Key::new(Everywhere, "undo", &[c('u')], "undo").hint(110, "undo").requests(Shared::undo).when(|shared| shared.document.undoable().is_some()),
+    Key::new(Everywhere, "redo", &[ctrl('r')], "redo").requests(Shared::redo),
+    Key::new(Everywhere, "history", &[c('U')], "undo history as pictures").does(Shared::list_steps),
+    Key::new(Everywhere, "errors", &[c('!')], "errors and warnings").does(Shared::toggle_errors),
+    Key::new(Sceneless, "messages", &[c('M')], "messages so far").does(|shared| shared.overlays.history = Some(0)),
+    Key::new(Everywhere, "editor", &[c('E')], "open the editor at the selected item").hint_in(WITH_EDITOR, 30, "editor").requests(Shared::open_editor),
+    Key::new(PANELS, "panels", &[c('z')], "show or hide the panels").does(Shared::toggle_zoom),
+    Key::new(Everywhere, "larger-panels", &[c('{')], "larger panels").does(|shared| shared.resize_panels(2)),
+    Key::new(Everywhere, "smaller-panels", &[c('}')], "smaller panels").does(|shared| shared.resize_panels(-2)),
+    Key::new(Everywhere, "smaller-list", &[alt(Char('{'))], "smaller list, larger fields").does(|shared| shared.resize_list(-1)),
+    Key::new(Everywhere, "larger-list", &[alt(Char('}'))], "larger list, smaller fields").does(|shared| shared.resize_list(1)),
+    Key::new(Everywhere, "darker", &[c('<')], "darker display, by half a stop").does(|shared| shared.expose(-1)),
+    Key::new(Everywhere, "brighter", &[c('>')], "brighter display").does(|shared| shared.expose(1)),
+    Key::new(Everywhere, "denoise", &[c('~')], "reduce noise on screen, or no longer").requests(Shared::toggle_denoising),
+    Key::new(Everywhere, "integrator", &[c('P')], "next integrator: Whitted, paths, photons").hint_in(TRACE, 90, "integrator").does(Shared::next_integrator),
+    Key::new(Everywhere, "cure", &[c('C')], "apply the suggested render setting").does(Shared::cure),
     Key::new(Always, "redraw", &[ctrl('l')], "redraw the screen").requests(|_| vec![Effect::Repaint]),
     Key::new(Always, "suspend", &[ctrl('z')], "suspend").requests(|_| vec![Effect::Suspend]),
-    Key::new(Sceneless, "quit", &[c('q')], "quit").lasting("quit").requests(App::quit_key),
-    Key::new(Always, "interrupt", &[ctrl('c')], "quit; press twice to quit at once").requests(App::interrupt),
+    Key::new(Sceneless, "quit", &[c('q')], "quit").lasting("quit").requests(Shared::quit_key),
+    Key::new(Always, "interrupt", &[ctrl('c')], "quit; press twice to quit at once").requests(Shared::interrupt),
 ];

@@ -3,7 +3,7 @@
 use crossterm::event::KeyCode;
 
 use super::row::Row;
-use crate::ui::app::App;
+use crate::ui::app::Shared;
 use crate::ui::app::camera::{advanced, dollied, faced, panned, rolled, stepped, widened};
 use crate::ui::keymap::{Context, Key, Mode, Scope, c, key, shift};
 
@@ -19,36 +19,36 @@ const FLYING: &[Context] = &[In(Mode::Fly)];
 
 /// The most useful first.
 #[rustfmt::skip]
-pub(super) const KEYS: &[Row] = &[
-    Key::new(VIEW, "orbit-left", &[c('h'), key(Left)], "orbit left").hint(0, "orbit").does(|app| app.move_camera(|now| stepped(now, 1, 0))),
-    Key::new(VIEW, "orbit-down", &[c('j'), key(Down)], "orbit down").hint(0, "orbit").does(|app| app.move_camera(|now| stepped(now, 0, -1))),
-    Key::new(VIEW, "orbit-up", &[c('k'), key(Up)], "orbit up").hint(0, "orbit").does(|app| app.move_camera(|now| stepped(now, 0, 1))),
-    Key::new(VIEW, "orbit-right", &[c('l'), key(Right)], "orbit right").hint(0, "orbit").does(|app| app.move_camera(|now| stepped(now, -1, 0))),
-    Key::new(VIEW, "nearer", &[c('+'), c('=')], "nearer").hint(10, "near/far").does(|app| app.move_camera(|now| dollied(now, 1))),
-    Key::new(VIEW, "farther", &[c('-')], "farther").hint(10, "near/far").does(|app| app.move_camera(|now| dollied(now, -1))),
-    Key::new(VIEW, "pan-left", &[c('H'), shift(Left)], "pan left").does(|app| app.move_camera(|now| panned(now, 1, 0))),
-    Key::new(VIEW, "pan-down", &[c('J'), shift(Down)], "pan down").does(|app| app.move_camera(|now| panned(now, 0, -1))),
-    Key::new(VIEW, "pan-up", &[c('K'), shift(Up)], "pan up").does(|app| app.move_camera(|now| panned(now, 0, 1))),
-    Key::new(VIEW, "pan-right", &[c('L'), shift(Right)], "pan right").does(|app| app.move_camera(|now| panned(now, -1, 0))),
-    Key::new(VIEW, "fly", &[c('F')], "fly: turn in place and move").hint(60, "fly").requests(|app| app.go(Mode::Fly)),
-    Key::new(FLY, "turn-left", &[c('h'), key(Left)], "turn left").hint(0, "turn").does(|app| app.move_camera(|now| faced(now, 1, 0))),
-    Key::new(FLY, "turn-down", &[c('j'), key(Down)], "turn down").hint(0, "turn").does(|app| app.move_camera(|now| faced(now, 0, -1))),
-    Key::new(FLY, "turn-up", &[c('k'), key(Up)], "turn up").hint(0, "turn").does(|app| app.move_camera(|now| faced(now, 0, 1))),
-    Key::new(FLY, "turn-right", &[c('l'), key(Right)], "turn right").hint(0, "turn").does(|app| app.move_camera(|now| faced(now, -1, 0))),
-    Key::new(FLY, "forward", &[c('K'), shift(Up), c('+'), c('=')], "forward").hint(12, "move").does(|app| app.move_camera(|now| advanced(now, 1))),
-    Key::new(FLY, "backward", &[c('J'), shift(Down), c('-')], "back").hint(11, "move").does(|app| app.move_camera(|now| advanced(now, -1))),
-    Key::new(FLY, "pan-left", &[c('H'), shift(Left)], "left").hint(10, "move").does(|app| app.move_camera(|now| panned(now, 1, 0))),
-    Key::new(FLY, "pan-right", &[c('L'), shift(Right)], "right").hint(13, "move").does(|app| app.move_camera(|now| panned(now, -1, 0))),
-    Key::new(FLY, "camera", &[c('F')], "move around the target again").hint(60, "orbit").requests(|app| app.go(Mode::View)),
-    Key::new(BOTH, "frame-selection", &[c('f')], "frame the selected object").hint_in(ORBITING, 20, "frame").does(App::frame_selected),
-    Key::new(BOTH, "reset-view", &[c('0')], "reset to the scene's view").hint(30, "reset").does(|app| app.pictures.reset_view()).when(|app| app.pictures.view.is_some()),
-    Key::new(BOTH, "write-view", &[c('S')], "write the view into the scene").hint(40, "save view").requests(App::save_view_key).when(|app| app.pictures.view.is_some()),
-    Key::new(BOTH, "view-from-light", &[c('o')], "look from the selected light").does(App::look_from_light),
-    Key::new(BOTH, "saved-views", &[c('V')], "saved views").does(App::list_views),
-    Key::new(BOTH, "narrower-view", &[c('[')], "narrow the field of view").does(|app| app.move_camera(|now| widened(now, -1))),
-    Key::new(BOTH, "wider-view", &[c(']')], "widen the field of view").does(|app| app.move_camera(|now| widened(now, 1))),
-    Key::new(BOTH, "roll-left", &[c(',')], "roll left").hint_in(FLYING, 20, "roll").does(|app| app.move_camera(|now| rolled(now, 1))),
-    Key::new(BOTH, "roll-right", &[c('.')], "roll right").hint_in(FLYING, 20, "roll").does(|app| app.move_camera(|now| rolled(now, -1))),
-    Key::new(BOTH, "edit", &[c('e')], "edit fields").requests(|app| app.go(Mode::Edit)),
-    Key::new(BOTH, "list", &[key(Enter)], "back to the list").requests(|app| app.go(Mode::Select)),
+pub(in crate::ui::app) const KEYS: &[Row] = &[
+    Key::new(VIEW, "orbit-left", &[c('h'), key(Left)], "orbit left").hint(0, "orbit").does(|shared| shared.move_camera(|now| stepped(now, 1, 0))),
+    Key::new(VIEW, "orbit-down", &[c('j'), key(Down)], "orbit down").hint(0, "orbit").does(|shared| shared.move_camera(|now| stepped(now, 0, -1))),
+    Key::new(VIEW, "orbit-up", &[c('k'), key(Up)], "orbit up").hint(0, "orbit").does(|shared| shared.move_camera(|now| stepped(now, 0, 1))),
+    Key::new(VIEW, "orbit-right", &[c('l'), key(Right)], "orbit right").hint(0, "orbit").does(|shared| shared.move_camera(|now| stepped(now, -1, 0))),
+    Key::new(VIEW, "nearer", &[c('+'), c('=')], "nearer").hint(10, "near/far").does(|shared| shared.move_camera(|now| dollied(now, 1))),
+    Key::new(VIEW, "farther", &[c('-')], "farther").hint(10, "near/far").does(|shared| shared.move_camera(|now| dollied(now, -1))),
+    Key::new(VIEW, "pan-left", &[c('H'), shift(Left)], "pan left").does(|shared| shared.move_camera(|now| panned(now, 1, 0))),
+    Key::new(VIEW, "pan-down", &[c('J'), shift(Down)], "pan down").does(|shared| shared.move_camera(|now| panned(now, 0, -1))),
+    Key::new(VIEW, "pan-up", &[c('K'), shift(Up)], "pan up").does(|shared| shared.move_camera(|now| panned(now, 0, 1))),
+    Key::new(VIEW, "pan-right", &[c('L'), shift(Right)], "pan right").does(|shared| shared.move_camera(|now| panned(now, -1, 0))),
+    Key::new(VIEW, "fly", &[c('F')], "fly: turn in place and move").hint(60, "fly").requests(|shared| shared.go(Mode::Fly)),
+    Key::new(FLY, "turn-left", &[c('h'), key(Left)], "turn left").hint(0, "turn").does(|shared| shared.move_camera(|now| faced(now, 1, 0))),
+    Key::new(FLY, "turn-down", &[c('j'), key(Down)], "turn down").hint(0, "turn").does(|shared| shared.move_camera(|now| faced(now, 0, -1))),
+    Key::new(FLY, "turn-up", &[c('k'), key(Up)], "turn up").hint(0, "turn").does(|shared| shared.move_camera(|now| faced(now, 0, 1))),
+    Key::new(FLY, "turn-right", &[c('l'), key(Right)], "turn right").hint(0, "turn").does(|shared| shared.move_camera(|now| faced(now, -1, 0))),
+    Key::new(FLY, "forward", &[c('K'), shift(Up), c('+'), c('=')], "forward").hint(12, "move").does(|shared| shared.move_camera(|now| advanced(now, 1))),
+    Key::new(FLY, "backward", &[c('J'), shift(Down), c('-')], "back").hint(11, "move").does(|shared| shared.move_camera(|now| advanced(now, -1))),
+    Key::new(FLY, "pan-left", &[c('H'), shift(Left)], "left").hint(10, "move").does(|shared| shared.move_camera(|now| panned(now, 1, 0))),
+    Key::new(FLY, "pan-right", &[c('L'), shift(Right)], "right").hint(13, "move").does(|shared| shared.move_camera(|now| panned(now, -1, 0))),
+    Key::new(FLY, "camera", &[c('F')], "move around the target again").hint(60, "orbit").requests(|shared| shared.go(Mode::View)),
+    Key::new(BOTH, "frame-selection", &[c('f')], "frame the selected object").hint_in(ORBITING, 20, "frame").does(Shared::frame_selected),
+    Key::new(BOTH, "reset-view", &[c('0')], "reset to the scene's view").hint(30, "reset").does(|shared| shared.pictures.reset_view()).when(|shared| shared.pictures.view.is_some()),
+    Key::new(BOTH, "write-view", &[c('S')], "write the view into the scene").hint(40, "save view").requests(Shared::save_view_key).when(|shared| shared.pictures.view.is_some()),
+    Key::new(BOTH, "view-from-light", &[c('o')], "look from the selected light").does(Shared::look_from_light),
+    Key::new(BOTH, "saved-views", &[c('V')], "saved views").does(Shared::list_views),
+    Key::new(BOTH, "narrower-view", &[c('[')], "narrow the field of view").does(|shared| shared.move_camera(|now| widened(now, -1))),
+    Key::new(BOTH, "wider-view", &[c(']')], "widen the field of view").does(|shared| shared.move_camera(|now| widened(now, 1))),
+    Key::new(BOTH, "roll-left", &[c(',')], "roll left").hint_in(FLYING, 20, "roll").does(|shared| shared.move_camera(|now| rolled(now, 1))),
+    Key::new(BOTH, "roll-right", &[c('.')], "roll right").hint_in(FLYING, 20, "roll").does(|shared| shared.move_camera(|now| rolled(now, -1))),
+    Key::new(BOTH, "edit", &[c('e')], "edit fields").requests(|shared| shared.go(Mode::Edit)),
+    Key::new(BOTH, "list", &[key(Enter)], "back to the list").requests(|shared| shared.go(Mode::Select)),
 ];

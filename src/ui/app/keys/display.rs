@@ -29,16 +29,16 @@ const TRACE: &[Context] = &[In(Mode::Trace)];
 
 /// The most useful first.
 #[rustfmt::skip]
-pub(super) const KEYS: &[Row] = &[
-    Key::new(PICTURES, "show-light", &[c('1')], "show light").hint_in(TRACE, 91, "channel").does(|app| app.show(None)),
-    Key::new(PICTURES, "show-depth", &[c('2')], "show depth, nearest white").hint_in(TRACE, 91, "channel").does(|app| app.show(Some(Aov::Depth))),
-    Key::new(PICTURES, "show-normals", &[c('3')], "show normals").hint_in(TRACE, 91, "channel").does(|app| app.show(Some(Aov::Normal))),
-    Key::new(PICTURES, "show-objects", &[c('4')], "show objects, one colour each").hint_in(TRACE, 91, "channel").does(|app| app.show(Some(Aov::Object))),
-    Key::new(PICTURES, "show-albedo", &[c('5')], "show unlit colours").hint_in(TRACE, 91, "channel").does(|app| app.show(Some(Aov::Albedo))),
-    Key::new(PICTURES, "show-cost", &[c('7')], "show cost: rays traced").does(|app| app.show(Some(Aov::Cost))),
-    Key::new(PICTURES, "show-samples", &[c('8')], "show samples taken").does(|app| app.show(Some(Aov::Samples))),
-    Key::new(PICTURES, "show-noise", &[c('9')], "show noise: estimated error").does(|app| app.show(Some(Aov::Noise))),
-    Key::new(PICTURES, "next-share", &[c(')')], "next light component").does(|app| app.step_share(1)),
-    Key::new(PICTURES, "previous-share", &[c('(')], "previous light component").does(|app| app.step_share(-1)),
-    Key::new(PREVIEWS, "wireframe", &[c('6')], "show a wireframe, for slow links").does(|app| app.overlays.say(app.pictures.show_wireframe())),
+pub(in crate::ui::app) const KEYS: &[Row] = &[
+    Key::new(PICTURES, "show-light", &[c('1')], "show light").hint_in(TRACE, 91, "channel").does(|shared| shared.show(None)),
+    Key::new(PICTURES, "show-depth", &[c('2')], "show depth, nearest white").hint_in(TRACE, 91, "channel").does(|shared| shared.show(Some(Aov::Depth))),
+    Key::new(PICTURES, "show-normals", &[c('3')], "show normals").hint_in(TRACE, 91, "channel").does(|shared| shared.show(Some(Aov::Normal))),
+    Key::new(PICTURES, "show-objects", &[c('4')], "show objects, one colour each").hint_in(TRACE, 91, "channel").does(|shared| shared.show(Some(Aov::Object))),
+    Key::new(PICTURES, "show-albedo", &[c('5')], "show unlit colours").hint_in(TRACE, 91, "channel").does(|shared| shared.show(Some(Aov::Albedo))),
+    Key::new(PICTURES, "show-cost", &[c('7')], "show cost: rays traced").does(|shared| shared.show(Some(Aov::Cost))),
+    Key::new(PICTURES, "show-samples", &[c('8')], "show samples taken").does(|shared| shared.show(Some(Aov::Samples))),
+    Key::new(PICTURES, "show-noise", &[c('9')], "show noise: estimated error").does(|shared| shared.show(Some(Aov::Noise))),
+    Key::new(PICTURES, "next-share", &[c(')')], "next light component").does(|shared| shared.step_share(1)),
+    Key::new(PICTURES, "previous-share", &[c('(')], "previous light component").does(|shared| shared.step_share(-1)),
+    Key::new(PREVIEWS, "wireframe", &[c('6')], "show a wireframe, for slow links").does(|shared| shared.overlays.say(shared.pictures.show_wireframe())),
 ];

@@ -3,7 +3,7 @@
 use crossterm::event::KeyCode;
 
 use super::row::Row;
-use crate::ui::app::{App, Fold};
+use crate::ui::app::{Fold, Shared};
 use crate::ui::keymap::{Context, Key, Mode, Scope, c, key, shift};
 
 use Context::In;
@@ -25,22 +25,22 @@ const TRACE: &[Context] = &[In(Mode::Trace)];
 
 /// The most useful first.
 #[rustfmt::skip]
-pub(super) const KEYS: &[Row] = &[
-    Key::new(INSPECTABLE, "inspect", &[c('i')], "inspect a pixel of the picture").hint_in(SELECT, 50, "inspect").hint_in(TRACE, 60, "inspect").requests(|app| app.go(Mode::Inspect)),
-    Key::new(INSPECT, "cross-left", &[c('h'), key(Left)], "left").hint(0, "move").does(|app| app.move_cross(-1, 0)),
-    Key::new(INSPECT, "cross-down", &[c('j'), key(Down)], "down").hint(0, "move").does(|app| app.move_cross(0, 1)),
-    Key::new(INSPECT, "cross-up", &[c('k'), key(Up)], "up").hint(0, "move").does(|app| app.move_cross(0, -1)),
-    Key::new(INSPECT, "cross-right", &[c('l'), key(Right)], "right").hint(0, "move").does(|app| app.move_cross(1, 0)),
-    Key::new(INSPECT, "cross-left-far", &[c('H'), shift(Left)], "left 8 pixels").does(|app| app.move_cross(-8, 0)),
-    Key::new(INSPECT, "cross-down-far", &[c('J'), shift(Down)], "down 8 pixels").does(|app| app.move_cross(0, 8)),
-    Key::new(INSPECT, "cross-up-far", &[c('K'), shift(Up)], "up 8 pixels").does(|app| app.move_cross(0, -8)),
-    Key::new(INSPECT, "cross-right-far", &[c('L'), shift(Right)], "right 8 pixels").does(|app| app.move_cross(8, 0)),
-    Key::new(INSPECT, "accept", &[key(Enter)], "select what is there").hint(20, "select").does(App::select_crossed),
-    Key::new(INSPECT, "explain", &[c('e')], "explain the pixel").hint(10, "explain").does(App::start_explaining),
-    Key::new(RAYS, "accept", &[key(Enter)], "select its object or light").hint(10, "select").does(App::select_explained).when(|app| app.explained_node().is_some()),
-    Key::new(RAYS, "solo", &[c('l')], "show only its light in the preview").hint(40, "solo light").does(App::solo_explained).when(App::explains_light),
-    Key::new(RAYS, "fold", &[key(Left)], "fold it, or go to what it is in").does(|app| app.fold_ray(Fold::Selected)),
-    Key::new(RAYS, "unfold", &[key(Right)], "unfold it, or go into it").does(|app| app.fold_ray(Fold::Unselected)),
-    Key::new(RAYS, "previous-sample", &[c(',')], "previous sample").hint(50, "sample").does(|app| app.change_sample(-1)).when(|app| 1 < app.sample_count()),
-    Key::new(RAYS, "next-sample", &[c('.')], "next sample").hint(50, "sample").does(|app| app.change_sample(1)).when(|app| 1 < app.sample_count()),
+pub(in crate::ui::app) const KEYS: &[Row] = &[
+    Key::new(INSPECTABLE, "inspect", &[c('i')], "inspect a pixel of the picture").hint_in(SELECT, 50, "inspect").hint_in(TRACE, 60, "inspect").requests(|shared| shared.go(Mode::Inspect)),
+    Key::new(INSPECT, "cross-left", &[c('h'), key(Left)], "left").hint(0, "move").does(|shared| shared.move_cross(-1, 0)),
+    Key::new(INSPECT, "cross-down", &[c('j'), key(Down)], "down").hint(0, "move").does(|shared| shared.move_cross(0, 1)),
+    Key::new(INSPECT, "cross-up", &[c('k'), key(Up)], "up").hint(0, "move").does(|shared| shared.move_cross(0, -1)),
+    Key::new(INSPECT, "cross-right", &[c('l'), key(Right)], "right").hint(0, "move").does(|shared| shared.move_cross(1, 0)),
+    Key::new(INSPECT, "cross-left-far", &[c('H'), shift(Left)], "left 8 pixels").does(|shared| shared.move_cross(-8, 0)),
+    Key::new(INSPECT, "cross-down-far", &[c('J'), shift(Down)], "down 8 pixels").does(|shared| shared.move_cross(0, 8)),
+    Key::new(INSPECT, "cross-up-far", &[c('K'), shift(Up)], "up 8 pixels").does(|shared| shared.move_cross(0, -8)),
+    Key::new(INSPECT, "cross-right-far", &[c('L'), shift(Right)], "right 8 pixels").does(|shared| shared.move_cross(8, 0)),
+    Key::new(INSPECT, "accept", &[key(Enter)], "select what is there").hint(20, "select").does(Shared::select_crossed),
+    Key::new(INSPECT, "explain", &[c('e')], "explain the pixel").hint(10, "explain").does(Shared::start_explaining),
+    Key::new(RAYS, "accept", &[key(Enter)], "select its object or light").hint(10, "select").does(Shared::select_explained).when(|shared| shared.explained_node().is_some()),
+    Key::new(RAYS, "solo", &[c('l')], "show only its light in the preview").hint(40, "solo light").does(Shared::solo_explained).when(Shared::explains_light),
+    Key::new(RAYS, "fold", &[key(Left)], "fold it, or go to what it is in").does(|shared| shared.fold_ray(Fold::Selected)),
+    Key::new(RAYS, "unfold", &[key(Right)], "unfold it, or go into it").does(|shared| shared.fold_ray(Fold::Unselected)),
+    Key::new(RAYS, "previous-sample", &[c(',')], "previous sample").hint(50, "sample").does(|shared| shared.change_sample(-1)).when(|shared| 1 < shared.sample_count()),
+    Key::new(RAYS, "next-sample", &[c('.')], "next sample").hint(50, "sample").does(|shared| shared.change_sample(1)).when(|shared| 1 < shared.sample_count()),
 ];

@@ -3,7 +3,7 @@
 use crossterm::event::KeyCode;
 
 use super::row::Row;
-use crate::ui::app::App;
+use crate::ui::app::Shared;
 use crate::ui::keymap::{Context, Key, Scope, c, ctrl, key};
 
 use KeyCode::{Enter, Esc};
@@ -18,21 +18,21 @@ const MESSAGES: Scope = These(&[Context::Messages]);
 
 /// The most useful first.
 #[rustfmt::skip]
-pub(super) const KEYS: &[Row] = &[
-    Key::new(ERRORS, "accept", &[key(Enter)], "go to the item").hint(10, "go there").does(App::go_to_error),
-    Key::new(VIEWS_PAGE, "accept", &[key(Enter)], "go there").requests(App::choose),
-    Key::new(VIEWS_PAGE, "delete-view", &[c('d')], "delete it").does(App::delete_view),
-    Key::new(VIEWS_PAGE, "search", &[c('/')], "filter").does(|app| app.overlays.open_search()),
-    Key::new(VIEWS_PAGE, "back", &[key(Esc), c('q'), c('V')], "close").does(|app| app.overlays.page = None),
-    Key::new(RECENT, "accept", &[key(Enter)], "open it").requests(App::choose),
-    Key::new(RECENT, "search", &[c('/')], "filter").does(|app| app.overlays.open_search()),
-    Key::new(RECENT, "back", &[key(Esc), c('q')], "close").does(|app| app.overlays.page = None),
-    Key::new(STEPS, "accept", &[key(Enter)], "go there").requests(App::choose),
-    Key::new(STEPS, "undo", &[c('u')], "undo").requests(App::undo).when(|app| app.document.undoable().is_some()),
-    Key::new(STEPS, "redo", &[ctrl('r')], "redo").requests(App::redo),
-    Key::new(STEPS, "search", &[c('/')], "filter").does(|app| app.overlays.open_search()),
-    Key::new(STEPS, "back", &[key(Esc), c('q'), c('U')], "close").does(|app| app.overlays.page = None),
-    Key::new(HELP, "search", &[c('/')], "search").does(|app| app.overlays.open_search()),
-    Key::new(MESSAGES, "back", &[key(Esc), c('q'), c('M')], "close").does(|app| app.overlays.history = None),
-    Key::new(HELP, "back", &[key(Esc), c('q'), c('?')], "close").does(|app| app.overlays.help = None),
+pub(in crate::ui::app) const KEYS: &[Row] = &[
+    Key::new(ERRORS, "accept", &[key(Enter)], "go to the item").hint(10, "go there").does(Shared::go_to_error),
+    Key::new(VIEWS_PAGE, "accept", &[key(Enter)], "go there").requests(Shared::choose),
+    Key::new(VIEWS_PAGE, "delete-view", &[c('d')], "delete it").does(Shared::delete_view),
+    Key::new(VIEWS_PAGE, "search", &[c('/')], "filter").does(|shared| shared.overlays.open_search()),
+    Key::new(VIEWS_PAGE, "back", &[key(Esc), c('q'), c('V')], "close").does(|shared| shared.overlays.page = None),
+    Key::new(RECENT, "accept", &[key(Enter)], "open it").requests(Shared::choose),
+    Key::new(RECENT, "search", &[c('/')], "filter").does(|shared| shared.overlays.open_search()),
+    Key::new(RECENT, "back", &[key(Esc), c('q')], "close").does(|shared| shared.overlays.page = None),
+    Key::new(STEPS, "accept", &[key(Enter)], "go there").requests(Shared::choose),
+    Key::new(STEPS, "undo", &[c('u')], "undo").requests(Shared::undo).when(|shared| shared.document.undoable().is_some()),
+    Key::new(STEPS, "redo", &[ctrl('r')], "redo").requests(Shared::redo),
+    Key::new(STEPS, "search", &[c('/')], "filter").does(|shared| shared.overlays.open_search()),
+    Key::new(STEPS, "back", &[key(Esc), c('q'), c('U')], "close").does(|shared| shared.overlays.page = None),
+    Key::new(HELP, "search", &[c('/')], "search").does(|shared| shared.overlays.open_search()),
+    Key::new(MESSAGES, "back", &[key(Esc), c('q'), c('M')], "close").does(|shared| shared.overlays.history = None),
+    Key::new(HELP, "back", &[key(Esc), c('q'), c('?')], "close").does(|shared| shared.overlays.help = None),
 ];

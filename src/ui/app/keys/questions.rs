@@ -3,7 +3,7 @@
 use crossterm::event::KeyCode;
 
 use super::row::Row;
-use crate::ui::app::{App, Whose};
+use crate::ui::app::{Shared, Whose};
 use crate::ui::keymap::{Context, Key, Scope, c, key};
 use crate::ui::msg::Existing;
 
@@ -21,33 +21,33 @@ const RECOVER: Scope = These(&[Context::Recover]);
 
 /// The most useful first.
 #[rustfmt::skip]
-pub(super) const KEYS: &[Row] = &[
-    Key::new(CONFLICT, "mine", &[c('m')], "keep mine").does(|app| app.decide(Whose::Mine)),
-    Key::new(CONFLICT, "theirs", &[c('t')], "take the file's").does(|app| app.decide(Whose::Theirs)),
-    Key::new(CONFLICT, "accept", &[key(Enter)], "apply the merge").requests(App::adopt),
-    Key::new(CONFLICT, "all-mine", &[c('M')], "keep mine everywhere").does(|app| app.decide_all(Whose::Mine)),
-    Key::new(CONFLICT, "all-theirs", &[c('T')], "take the file's everywhere").does(|app| app.decide_all(Whose::Theirs)),
-    Key::new(CONFLICT, "back", &[key(Esc)], "decide later").requests(App::put_off),
-    Key::new(QUIT, "accept", &[c('y')], "quit anyway").requests(App::leave_anyway),
-    Key::new(QUIT, "save", &[c('w')], "save and quit").requests(App::save_key),
-    Key::new(QUIT, "write-view", &[c('S')], "write the moved view, save and quit").requests(App::save_view_key).when(App::is_view_unwritten),
-    Key::new(QUIT, "back", &[c('n'), key(Esc)], "stay").requests(App::put_off),
-    Key::new(DELETE, "accept", &[c('y'), c('d')], "delete").does(App::delete_anyway),
-    Key::new(DELETE, "back", &[c('n'), key(Esc)], "keep").does(|app| app.overlays.dialog = None),
-    Key::new(LEAVE, "accept", &[c('y')], "discard unsaved changes").requests(App::leave_anyway),
-    Key::new(LEAVE, "save", &[c('w')], "save first").requests(App::save_key),
-    Key::new(LEAVE, "write-view", &[c('S')], "write the moved view and save first").requests(App::save_view_key).when(App::is_view_unwritten),
-    Key::new(LEAVE, "back", &[c('n'), key(Esc)], "stay").requests(App::put_off),
-    Key::new(MOVED_VIEW, "write-view", &[c('S')], "write the moved view and save first").requests(App::save_view_key),
-    Key::new(MOVED_VIEW, "accept", &[c('y')], "leave without it").requests(App::leave_anyway),
-    Key::new(MOVED_VIEW, "back", &[c('n'), key(Esc)], "stay").requests(App::put_off),
-    Key::new(WAIT, "save", &[c('w')], "wait, then quit").requests(App::save_key),
-    Key::new(WAIT, "accept", &[c('y')], "quit now and cancel it").requests(App::leave_anyway),
-    Key::new(WAIT, "back", &[c('n'), key(Esc)], "stay").requests(App::put_off),
-    Key::new(OVERWRITE, "accept", &[c('y')], "overwrite it").requests(|app| app.answer_taken(Existing::Overwritten)),
-    Key::new(OVERWRITE, "no", &[c('n')], "write a numbered file instead").requests(|app| app.answer_taken(Existing::Numbered)),
-    Key::new(OVERWRITE, "back", &[key(Esc)], "cancel the export").requests(App::put_off),
-    Key::new(RECOVER, "accept", &[c('r')], "restore them").requests(App::restore),
-    Key::new(RECOVER, "no", &[c('d')], "discard them").requests(App::decline),
-    Key::new(RECOVER, "back", &[key(Esc)], "decide next time").requests(App::put_off),
+pub(in crate::ui::app) const KEYS: &[Row] = &[
+    Key::new(CONFLICT, "mine", &[c('m')], "keep mine").does(|shared| shared.decide(Whose::Mine)),
+    Key::new(CONFLICT, "theirs", &[c('t')], "take the file's").does(|shared| shared.decide(Whose::Theirs)),
+    Key::new(CONFLICT, "accept", &[key(Enter)], "apply the merge").requests(Shared::adopt),
+    Key::new(CONFLICT, "all-mine", &[c('M')], "keep mine everywhere").does(|shared| shared.decide_all(Whose::Mine)),
+    Key::new(CONFLICT, "all-theirs", &[c('T')], "take the file's everywhere").does(|shared| shared.decide_all(Whose::Theirs)),
+    Key::new(CONFLICT, "back", &[key(Esc)], "decide later").requests(Shared::put_off),
+    Key::new(QUIT, "accept", &[c('y')], "quit anyway").requests(Shared::leave_anyway),
+    Key::new(QUIT, "save", &[c('w')], "save and quit").requests(Shared::save_key),
+    Key::new(QUIT, "write-view", &[c('S')], "write the moved view, save and quit").requests(Shared::save_view_key).when(Shared::is_view_unwritten),
+    Key::new(QUIT, "back", &[c('n'), key(Esc)], "stay").requests(Shared::put_off),
+    Key::new(DELETE, "accept", &[c('y'), c('d')], "delete").does(Shared::delete_anyway),
+    Key::new(DELETE, "back", &[c('n'), key(Esc)], "keep").does(|shared| shared.overlays.dialog = None),
+    Key::new(LEAVE, "accept", &[c('y')], "discard unsaved changes").requests(Shared::leave_anyway),
+    Key::new(LEAVE, "save", &[c('w')], "save first").requests(Shared::save_key),
+    Key::new(LEAVE, "write-view", &[c('S')], "write the moved view and save first").requests(Shared::save_view_key).when(Shared::is_view_unwritten),
+    Key::new(LEAVE, "back", &[c('n'), key(Esc)], "stay").requests(Shared::put_off),
+    Key::new(MOVED_VIEW, "write-view", &[c('S')], "write the moved view and save first").requests(Shared::save_view_key),
+    Key::new(MOVED_VIEW, "accept", &[c('y')], "leave without it").requests(Shared::leave_anyway),
+    Key::new(MOVED_VIEW, "back", &[c('n'), key(Esc)], "stay").requests(Shared::put_off),
+    Key::new(WAIT, "save", &[c('w')], "wait, then quit").requests(Shared::save_key),
+    Key::new(WAIT, "accept", &[c('y')], "quit now and cancel it").requests(Shared::leave_anyway),
+    Key::new(WAIT, "back", &[c('n'), key(Esc)], "stay").requests(Shared::put_off),
+    Key::new(OVERWRITE, "accept", &[c('y')], "overwrite it").requests(|shared| shared.answer_taken(Existing::Overwritten)),
+    Key::new(OVERWRITE, "no", &[c('n')], "write a numbered file instead").requests(|shared| shared.answer_taken(Existing::Numbered)),
+    Key::new(OVERWRITE, "back", &[key(Esc)], "cancel the export").requests(Shared::put_off),
+    Key::new(RECOVER, "accept", &[c('r')], "restore them").requests(Shared::restore),
+    Key::new(RECOVER, "no", &[c('d')], "discard them").requests(Shared::decline),
+    Key::new(RECOVER, "back", &[key(Esc)], "decide next time").requests(Shared::put_off),
 ];

@@ -3,7 +3,7 @@
 use crossterm::event::KeyCode;
 
 use super::row::Row;
-use crate::ui::app::App;
+use crate::ui::app::Shared;
 use crate::ui::keymap::{Context, Key, Mode, Scope, c, key, shift};
 
 use Context::In;
@@ -15,26 +15,26 @@ const REGION: Scope = These(&[Context::Region]);
 
 /// The most useful first.
 #[rustfmt::skip]
-pub(super) const KEYS: &[Row] = &[
-    Key::new(TRACE, "scroll-left", &[c('h'), key(Left)], "pan left").hint(10, "pan").does(|app| app.scroll_picture(-1, 0)).when(|app| !app.viewport().is_fit()),
-    Key::new(TRACE, "scroll-down", &[c('j'), key(Down)], "pan down").hint(10, "pan").does(|app| app.scroll_picture(0, 1)).when(|app| !app.viewport().is_fit()),
-    Key::new(TRACE, "scroll-up", &[c('k'), key(Up)], "pan up").hint(10, "pan").does(|app| app.scroll_picture(0, -1)).when(|app| !app.viewport().is_fit()),
-    Key::new(TRACE, "scroll-right", &[c('l'), key(Right)], "pan right").hint(10, "pan").does(|app| app.scroll_picture(1, 0)).when(|app| !app.viewport().is_fit()),
-    Key::new(TRACE, "zoom-in", &[c('+')], "zoom in").hint(0, "zoom").does(|app| app.magnify(1)),
-    Key::new(TRACE, "zoom-out", &[c('-')], "zoom out").hint(0, "zoom").does(|app| app.magnify(-1)),
-    Key::new(TRACE, "one-to-one", &[c('z')], "zoom to 1:1, or fit the picture").hint(20, "1:1").does(App::toggle_scale),
-    Key::new(TRACE, "pause", &[c(' ')], "pause or continue").hint(30, "pause").requests(App::toggle_pause).when(|app| app.picture().is_awaited()),
-    Key::new(TRACE, "region", &[c('R')], "draw a region to trace alone").hint(40, "region").does(App::start_region),
-    Key::new(TRACE, "stop", &[c('x')], "stop").hint(50, "stop").requests(App::stop).when(|app| app.picture().is_awaited()),
-    Key::new(REGION, "corner-left", &[c('h'), key(Left)], "corner left").hint(0, "move the corner").does(|app| app.move_corner(-1, 0)),
-    Key::new(REGION, "corner-down", &[c('j'), key(Down)], "corner down").hint(0, "move the corner").does(|app| app.move_corner(0, 1)),
-    Key::new(REGION, "corner-up", &[c('k'), key(Up)], "corner up").hint(0, "move the corner").does(|app| app.move_corner(0, -1)),
-    Key::new(REGION, "corner-right", &[c('l'), key(Right)], "corner right").hint(0, "move the corner").does(|app| app.move_corner(1, 0)),
-    Key::new(REGION, "corner-left-far", &[c('H'), shift(Left)], "corner left 8 pixels").does(|app| app.move_corner(-8, 0)),
-    Key::new(REGION, "corner-down-far", &[c('J'), shift(Down)], "corner down 8 pixels").does(|app| app.move_corner(0, 8)),
-    Key::new(REGION, "corner-up-far", &[c('K'), shift(Up)], "corner up 8 pixels").does(|app| app.move_corner(0, -8)),
-    Key::new(REGION, "corner-right-far", &[c('L'), shift(Right)], "corner right 8 pixels").does(|app| app.move_corner(8, 0)),
-    Key::new(REGION, "other-corner", &[key(Tab)], "other corner").hint(10, "other corner").does(App::swap_corners),
-    Key::new(REGION, "accept", &[key(Enter)], "trace the region").hint(20, "trace it").requests(App::confirm_region),
-    Key::new(REGION, "back", &[key(Esc)], "cancel").hint(30, "cancel").does(|app| app.pictures.drawing = None),
+pub(in crate::ui::app) const KEYS: &[Row] = &[
+    Key::new(TRACE, "scroll-left", &[c('h'), key(Left)], "pan left").hint(10, "pan").does(|shared| shared.scroll_picture(-1, 0)).when(|shared| !shared.viewport().is_fit()),
+    Key::new(TRACE, "scroll-down", &[c('j'), key(Down)], "pan down").hint(10, "pan").does(|shared| shared.scroll_picture(0, 1)).when(|shared| !shared.viewport().is_fit()),
+    Key::new(TRACE, "scroll-up", &[c('k'), key(Up)], "pan up").hint(10, "pan").does(|shared| shared.scroll_picture(0, -1)).when(|shared| !shared.viewport().is_fit()),
+    Key::new(TRACE, "scroll-right", &[c('l'), key(Right)], "pan right").hint(10, "pan").does(|shared| shared.scroll_picture(1, 0)).when(|shared| !shared.viewport().is_fit()),
+    Key::new(TRACE, "zoom-in", &[c('+')], "zoom in").hint(0, "zoom").does(|shared| shared.magnify(1)),
+    Key::new(TRACE, "zoom-out", &[c('-')], "zoom out").hint(0, "zoom").does(|shared| shared.magnify(-1)),
+    Key::new(TRACE, "one-to-one", &[c('z')], "zoom to 1:1, or fit the picture").hint(20, "1:1").does(Shared::toggle_scale),
+    Key::new(TRACE, "pause", &[c(' ')], "pause or continue").hint(30, "pause").requests(Shared::toggle_pause).when(|shared| shared.picture().is_awaited()),
+    Key::new(TRACE, "region", &[c('R')], "draw a region to trace alone").hint(40, "region").does(Shared::start_region),
+    Key::new(TRACE, "stop", &[c('x')], "stop").hint(50, "stop").requests(Shared::stop).when(|shared| shared.picture().is_awaited()),
+    Key::new(REGION, "corner-left", &[c('h'), key(Left)], "corner left").hint(0, "move the corner").does(|shared| shared.move_corner(-1, 0)),
+    Key::new(REGION, "corner-down", &[c('j'), key(Down)], "corner down").hint(0, "move the corner").does(|shared| shared.move_corner(0, 1)),
+    Key::new(REGION, "corner-up", &[c('k'), key(Up)], "corner up").hint(0, "move the corner").does(|shared| shared.move_corner(0, -1)),
+    Key::new(REGION, "corner-right", &[c('l'), key(Right)], "corner right").hint(0, "move the corner").does(|shared| shared.move_corner(1, 0)),
+    Key::new(REGION, "corner-left-far", &[c('H'), shift(Left)], "corner left 8 pixels").does(|shared| shared.move_corner(-8, 0)),
+    Key::new(REGION, "corner-down-far", &[c('J'), shift(Down)], "corner down 8 pixels").does(|shared| shared.move_corner(0, 8)),
+    Key::new(REGION, "corner-up-far", &[c('K'), shift(Up)], "corner up 8 pixels").does(|shared| shared.move_corner(0, -8)),
+    Key::new(REGION, "corner-right-far", &[c('L'), shift(Right)], "corner right 8 pixels").does(|shared| shared.move_corner(8, 0)),
+    Key::new(REGION, "other-corner", &[key(Tab)], "other corner").hint(10, "other corner").does(Shared::swap_corners),
+    Key::new(REGION, "accept", &[key(Enter)], "trace the region").hint(20, "trace it").requests(Shared::confirm_region),
+    Key::new(REGION, "back", &[key(Esc)], "cancel").hint(30, "cancel").does(|shared| shared.pictures.drawing = None),
 ];

@@ -3,7 +3,7 @@
 use crossterm::event::KeyCode;
 
 use super::row::Row;
-use crate::ui::app::{App, Stride};
+use crate::ui::app::{Shared, Stride};
 use crate::ui::keymap::{Context, Key, Mode, Scope, c, key, shift};
 
 use Context::In;
@@ -15,19 +15,19 @@ const MOVE: Scope = These(&[In(Mode::Move)]);
 
 /// The most useful first.
 #[rustfmt::skip]
-pub(super) const KEYS: &[Row] = &[
-    Key::new(MOVE, "step-left", &[c('h'), key(Left)], "left; less").hint(0, "step").does(|app| app.step_transform(-1, 0, Plain)),
-    Key::new(MOVE, "step-down", &[c('j'), key(Down)], "down; less").hint(0, "step").does(|app| app.step_transform(0, -1, Plain)),
-    Key::new(MOVE, "step-up", &[c('k'), key(Up)], "up; more").hint(0, "step").does(|app| app.step_transform(0, 1, Plain)),
-    Key::new(MOVE, "step-right", &[c('l'), key(Right)], "right; more").hint(0, "step").does(|app| app.step_transform(1, 0, Plain)),
-    Key::new(MOVE, "step-left-far", &[c('H'), shift(Left)], "left ten steps").does(|app| app.step_transform(-1, 0, Coarse)),
-    Key::new(MOVE, "step-down-far", &[c('J'), shift(Down)], "down ten steps").does(|app| app.step_transform(0, -1, Coarse)),
-    Key::new(MOVE, "step-up-far", &[c('K'), shift(Up)], "up ten steps").does(|app| app.step_transform(0, 1, Coarse)),
-    Key::new(MOVE, "step-right-far", &[c('L'), shift(Right)], "right ten steps").does(|app| app.step_transform(1, 0, Coarse)),
-    Key::new(MOVE, "lock-x", &[c('x')], "lock to x; again: its own x").hint(10, "axis").does(|app| app.lock_axis(0)),
-    Key::new(MOVE, "lock-y", &[c('y')], "lock to y; again: its own y").hint(10, "axis").does(|app| app.lock_axis(1)),
-    Key::new(MOVE, "lock-z", &[c('z')], "lock to z; again: its own z").hint(10, "axis").does(|app| app.lock_axis(2)),
-    Key::new(MOVE, "snap", &[c('g')], "snap to a grid").hint(40, "grid").does(App::toggle_snap),
-    Key::new(MOVE, "accept", &[key(Enter)], "confirm").hint(20, "confirm").does(App::confirm_transform),
-    Key::new(MOVE, "back", &[key(Esc)], "cancel").hint(30, "cancel").does(App::cancel_transform),
+pub(in crate::ui::app) const KEYS: &[Row] = &[
+    Key::new(MOVE, "step-left", &[c('h'), key(Left)], "left; less").hint(0, "step").does(|shared| shared.step_transform(-1, 0, Plain)),
+    Key::new(MOVE, "step-down", &[c('j'), key(Down)], "down; less").hint(0, "step").does(|shared| shared.step_transform(0, -1, Plain)),
+    Key::new(MOVE, "step-up", &[c('k'), key(Up)], "up; more").hint(0, "step").does(|shared| shared.step_transform(0, 1, Plain)),
+    Key::new(MOVE, "step-right", &[c('l'), key(Right)], "right; more").hint(0, "step").does(|shared| shared.step_transform(1, 0, Plain)),
+    Key::new(MOVE, "step-left-far", &[c('H'), shift(Left)], "left ten steps").does(|shared| shared.step_transform(-1, 0, Coarse)),
+    Key::new(MOVE, "step-down-far", &[c('J'), shift(Down)], "down ten steps").does(|shared| shared.step_transform(0, -1, Coarse)),
+    Key::new(MOVE, "step-up-far", &[c('K'), shift(Up)], "up ten steps").does(|shared| shared.step_transform(0, 1, Coarse)),
+    Key::new(MOVE, "step-right-far", &[c('L'), shift(Right)], "right ten steps").does(|shared| shared.step_transform(1, 0, Coarse)),
+    Key::new(MOVE, "lock-x", &[c('x')], "lock to x; again: its own x").hint(10, "axis").does(|shared| shared.lock_axis(0)),
+    Key::new(MOVE, "lock-y", &[c('y')], "lock to y; again: its own y").hint(10, "axis").does(|shared| shared.lock_axis(1)),
+    Key::new(MOVE, "lock-z", &[c('z')], "lock to z; again: its own z").hint(10, "axis").does(|shared| shared.lock_axis(2)),
+    Key::new(MOVE, "snap", &[c('g')], "snap to a grid").hint(40, "grid").does(Shared::toggle_snap),
+    Key::new(MOVE, "accept", &[key(Enter)], "confirm").hint(20, "confirm").does(Shared::confirm_transform),
+    Key::new(MOVE, "back", &[key(Esc)], "cancel").hint(30, "cancel").does(Shared::cancel_transform),
 ];

@@ -302,7 +302,7 @@ fn every_action_and_command_that_edits_has_a_row_in_every_language() {
     }
     for (name, text, table) in LANGUAGES {
         let (app, _) = opened_as(name, text);
-        let additions = app.source().additions().iter();
+        let additions = app.shared.source().additions().iter();
         let additions = additions.map(|addition| format!("add {}", addition.name));
         let commands = EDITING.iter().map(|command| format!(":{command}"));
         let keys = EDITING_KEYS.iter().map(ToString::to_string);

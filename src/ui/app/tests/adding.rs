@@ -148,7 +148,7 @@ fn fields_of_new_solids_share_lines_as_in_their_neighbours() {
     ] {
         let mut session = scene("a.ray", LINES).session();
         session.run(&format!("[object 1] a{kind}<Enter> | not errors"));
-        let text = session.app.document.text();
+        let text = session.app.shared.document.text();
         let object = &text[text.rfind(&format!("  {kind}\n")).expect("it is there")..];
         let centre = object.lines().nth(1).expect("a second line");
         let expected = format!("  {kind}\n{shape}{material}").replace("  X", centre);

@@ -114,7 +114,7 @@ scripts! {
     the_mouse_drags_bars_takes_swatches_and_confirms_beside_them: {
         let mut session = scene("a.ray", SCENE).session();
         session.run("[object 1] e\n@field kd\nc");
-        let lines = picker_lines(session.app.areas().list);
+        let lines = picker_lines(session.app.shared.areas().list);
         let [[_, hue], [_, saturation], _] = lines.bars;
         let swatch = swatch_cells(lines.swatches, 1).expect("there are two");
         let (left, right, y) = (saturation.x, saturation.right(), saturation.y);

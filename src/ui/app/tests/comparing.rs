@@ -40,7 +40,7 @@ scripts! {
         let [live, reference] = [&pair.live, &pair.reference].map(|it| image(it).expect("pixels"));
         let expected = Comparison::of(&live, &reference, 0);
         session.run("@measured | figures");
-        assert_eq!(session.app.compared.figures(), expected.as_ref().ok());
+        assert_eq!(session.app.shared.compared.figures(), expected.as_ref().ok());
         session.run(r"
             | contrast live | first 29
             f | contrast reference | first 9
@@ -53,11 +53,11 @@ scripts! {
             d | contrast difference | first 20
             h | contrast wipe | first 29
         ");
-        let width = session.app.raster().expect("there is room").0.width;
+        let width = session.app.shared.raster().expect("there is room").0.width;
         session.run(&"h".repeat(width.into())).run("| first 9");
-        assert_eq!(session.app.compared.wipe.0, 0.0);
+        assert_eq!(session.app.shared.compared.wipe.0, 0.0);
         session.run("n");
-        assert_eq!(session.app.compared.cross, Some((0, 0)));
+        assert_eq!(session.app.shared.compared.cross, Some((0, 0)));
         session.run("<Esc> | mode SELECT | does stop compared, stop reference");
     };
 
@@ -87,7 +87,7 @@ scripts! {
             _ => None,
         });
         assert_eq!(explained, Some([29; 3]));
-        assert_eq!(session.app.seen(), Target::Compared);
+        assert_eq!(session.app.shared.seen(), Target::Compared);
         session.run("<Esc><Esc> | mode COMPARE | first 9");
     };
 
@@ -140,7 +140,7 @@ scripts! {
                 @reference picture {size} | does trace compared | job size {size} camera {size} | mode COMPARE
                 | says theirs.png records no settings: traced at {}, 16 spp, whitted, depth 8; the scene's own size is 800×600
             ", size.replace('x', "×")));
-            let (cells, halves) = session.app.raster().expect("there is room");
+            let (cells, halves) = session.app.shared.raster().expect("there is room");
             let shown = f64::from(halves.width) / f64::from(halves.height);
             let own = if size == "64x64" { 1.0 } else { 4.0 / 3.0 };
             assert!((shown / own - 1.0).abs() < 0.1, "{cells:?} {halves:?}");
@@ -218,7 +218,7 @@ fn a_picture_is_compared_as_its_file_says_that_it_was_made() {
         let line = format!("{name} {value}\n");
         assert!(RECORD.contains(&line), "{line}");
     }
-    let own = session.app.scene.as_ref().expect("a scene").camera;
+    let own = session.app.shared.scene.as_ref().expect("a scene").camera;
     let view = Viewpoint::between(&own, &live.camera).to_string();
     assert_eq!(view, "fov 30");
     assert!(live.denoise && live.frames == Frames::LastWithValues);
@@ -246,7 +246,7 @@ fn a_scene_is_traced_with_the_same_settings_and_edits_of_the_present_one_are_not
             .1
     };
     let (live, reference) = (job(Target::Compared), job(Target::Reference));
-    assert_eq!(reference.scene, open(SCENE).scene.expect("a scene"));
+    assert_eq!(reference.scene, open(SCENE).shared.scene.expect("a scene"));
     assert_ne!(live.scene, reference.scene);
     assert_eq!(live.settings, reference.settings);
     session.run(

@@ -97,7 +97,7 @@ fn what_is_wrong_with_a_picture_is_said_after_other_messages_while_it_is_so() {
     let trace = job(&effects, Target::Preview).expect("a preview").clone();
     press(&mut app, "<Esc>");
     for (last, told) in [(1.5, "more than half of the picture is above 1"), (0.9, "")] {
-        app.overlays.say("something else");
+        app.shared.overlays.say("something else");
         judged(&mut app, &trace, 1.5, |_| 1.5);
         judged(&mut app, &trace, last, |_| last);
         assert_eq!(shown(&app), "something else");
@@ -155,15 +155,15 @@ fn the_setting_whose_trial_is_best_is_offered() {
             (FalloffRule::None, 2)
         ]
     );
-    let before = app.document.text().to_owned();
+    let before = app.shared.document.text().to_owned();
     press(&mut app, "C");
-    let text = app.document.text();
+    let text = app.shared.document.text();
     assert!(
         text.starts_with("// render: integrator path depth 64 falloff square\n"),
         "{text}"
     );
     press(&mut app, "u");
-    assert_eq!(app.document.text(), before);
+    assert_eq!(app.shared.document.text(), before);
 }
 
 #[test]
@@ -225,21 +225,22 @@ fn a_black_picture_says_what_helps() {
                <environment value=\"1\"/></scene><camera><position z=\"9\"/></camera></xml>";
     let (mut app, effects) = opened_as("scene.xml", sky);
     let trace = job(&effects, Target::Preview).expect("a preview").clone();
-    assert_eq!(app.diagnostics.len(), 1);
+    assert_eq!(app.shared.diagnostics.len(), 1);
     let path = |settings: &Settings| f32::from(settings.integrator == Integrator::Path);
     judged(&mut app, &trace, 0.0, path);
     assert_eq!(shown(&app), "the picture is black: C sets integrator path");
     press(&mut app, "P");
-    assert_eq!(app.diagnostics.len(), 0, "by path it is lit");
+    assert_eq!(app.shared.diagnostics.len(), 0, "by path it is lit");
     press(&mut app, "PP");
     judged(&mut app, &trace, 0.0, path);
     press(&mut app, "C");
     assert!(
-        app.document
+        app.shared
+            .document
             .text()
             .contains("<render integrator=\"path\"/>")
     );
-    assert_eq!(app.diagnostics.len(), 0);
+    assert_eq!(app.shared.diagnostics.len(), 0);
     press(&mut app, "<Esc>C");
     assert_eq!(shown(&app), "there is no render setting to suggest");
     // What glows is seen, but lights nothing.

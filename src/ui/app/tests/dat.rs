@@ -74,9 +74,9 @@ scripts! {
     objects_are_hidden_and_shown_by_the_render_record: {
         let mut session = dat().session();
         session.run("[object 4] h | lines render 1 ID 3 | says hidden: object 4 (sphere) | objects 1");
-        assert_eq!(session.app.source().drawn(3), None);
+        assert_eq!(session.app.shared.source().drawn(3), None);
         session.run("h");
-        assert_eq!(session.app.source().drawn(3), Some(1));
+        assert_eq!(session.app.shared.source().drawn(3), Some(1));
         session.run(r"
             h
             [object 3] h | says the last visible object cannot be hidden
@@ -128,7 +128,7 @@ fn square_pixels_stay_square() {
         .but(r"resolution .01 .01\nviewport 40 30 => viewport 400 300")
         .session();
     session.run("v]S");
-    let text = session.app.document.text();
+    let text = session.app.shared.document.text();
     let said = text
         .lines()
         .find_map(|line| line.strip_prefix("resolution "));

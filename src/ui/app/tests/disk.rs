@@ -251,8 +251,8 @@ fn a_moved_or_replaced_folder_is_reported() {
     ] {
         let mut app = open(SCENE);
         let mut read = |text: &str, place| {
-            app.overlays.message = None;
-            let reading = Reading::new(text.to_owned(), app.baseline()).expect("it fits");
+            app.shared.overlays.message = None;
+            let reading = Reading::new(text.to_owned(), app.shared.baseline()).expect("it fits");
             let reading = Reading { place, ..reading };
             app.update(Msg::Read(PathBuf::from("scene.ray"), Ok(reading)));
             words(&app).to_owned()
@@ -299,7 +299,7 @@ fn a_value_being_typed_survives_a_reload() {
             let mut session = stage.session();
             session.run(dirty).run("Ge<Tab>42");
             session.run(&format!("@file {theirs}"));
-            if session.app.overlays.dialog.is_some() {
+            if session.app.shared.overlays.dialog.is_some() {
                 session.run("T<Enter>");
             }
             session.run(r"| mode EDIT | > <Enter> | text …sphere\n4 42 0\n…");

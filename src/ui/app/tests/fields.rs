@@ -201,15 +201,19 @@ fn a_slider_is_dragged_in_one_undo_step() {
         let mut session = stage.session();
         session.run(&format!("[{node}]"));
         let app = &session.app;
-        let field = app.fields().iter().position(|row| row.field.key == key);
+        let field = app
+            .shared
+            .fields()
+            .iter()
+            .position(|row| row.field.key == key);
         let field = field.expect("it has this field");
-        let lines = field_rows(app.areas().fields);
+        let lines = field_rows(app.shared.areas().fields);
         let line = ratatui::layout::Rect {
-            y: lines.y + (field - app.cursor.field_top) as u16,
+            y: lines.y + (field - app.shared.cursor.field_top) as u16,
             height: 1,
             ..lines
         };
-        let bar = app.slider(field, line).expect("it is a slider");
+        let bar = app.shared.slider(field, line).expect("it is a slider");
         let [left, inside, right, beyond] = [bar.x, bar.x + 2, bar.right() - 1, bar.right() + 9]
             .map(|x| format!("screen {x},{}", bar.y));
         session.run(&format!(
@@ -222,7 +226,7 @@ fn a_slider_is_dragged_in_one_undo_step() {
             @drag {left}        | text {last} | mode EDIT",
             bar.y
         ));
-        assert_eq!(session.app.cursor.field, field);
+        assert_eq!(session.app.shared.cursor.field, field);
         if last != "opened" {
             session.run("u");
         }

@@ -84,8 +84,8 @@ impl Inspected {
 
     /// Moves the cursor to the first line that is about a node.
     fn go_to(&mut self, node: Node) -> &mut Self {
-        let lines = self.app.ray_lines();
-        let is = |line: &RayLine| self.app.ray_node(*line) == Some(node);
+        let lines = self.app.shared.ray_lines();
+        let is = |line: &RayLine| self.app.shared.ray_node(*line) == Some(node);
         let at = lines.iter().position(is).expect("a line about it");
         self.press(&"j".repeat(at))
     }
@@ -101,15 +101,23 @@ fn inspecting_begins_and_ends_where_it_was_called() {
     ] {
         let mut app = Inspected::of("a.ray", MIRROR).app;
         press(&mut app, before);
-        let seen = app.seen();
+        let seen = app.shared.seen();
         press(&mut app, "i");
-        assert_eq!((app.mode, app.seen()), (Mode::Inspect, seen), "{before}");
+        assert_eq!(
+            (app.shared.mode, app.shared.seen()),
+            (Mode::Inspect, seen),
+            "{before}"
+        );
         press(&mut app, "<Esc>");
-        assert_eq!((app.mode, app.seen()), (mode, seen), "{before}");
+        assert_eq!(
+            (app.shared.mode, app.shared.seen()),
+            (mode, seen),
+            "{before}"
+        );
     }
     let mut app = Inspected::of("a.ray", MIRROR).app;
     press(&mut app, "ei");
-    assert_eq!(app.mode, Mode::Edit);
+    assert_eq!(app.shared.mode, Mode::Edit);
 }
 
 #[test]
@@ -117,7 +125,7 @@ fn the_pixel_under_the_cross_is_described() {
     let mut inspected = Inspected::of("a.ray", MIRROR);
     let app = &mut inspected.app;
     press(app, "i");
-    let pixel = app.pixel().expect("there is a picture");
+    let pixel = app.shared.pixel().expect("there is a picture");
     let Size { width, height } = pixel.size;
     assert_eq!(pixel.at, [width / 2, height / 2]);
     assert_eq!(pixel.node, Ok(Some(Node::Object(0))));
@@ -128,10 +136,10 @@ fn the_pixel_under_the_cross_is_described() {
     );
     let first = pixel.first.and_then(|first| first.surface);
     assert_eq!(first.map(|surface| surface.object), Some(0));
-    let output = app.output();
+    let output = app.shared.output();
     assert_eq!(pixel.output.map(|(_, size)| size), Some(output));
     press(app, &"L".repeat(99));
-    let pixel = app.pixel().expect("there is a picture");
+    let pixel = app.shared.pixel().expect("there is a picture");
     assert_eq!((pixel.at[0], pixel.node), (width - 1, Ok(None)));
 }
 
@@ -140,7 +148,7 @@ fn the_cross_follows_keys_and_the_mouse() {
     let mut inspected = Inspected::of("a.ray", MIRROR);
     let app = &mut inspected.app;
     press(app, "i");
-    let [x, y] = app.cross().expect("a picture").pixel;
+    let [x, y] = app.shared.cross().expect("a picture").pixel;
     for (said, expected) in [
         ("l", [x + 1, y]),
         ("j", [x + 1, y + 1]),
@@ -150,12 +158,12 @@ fn the_cross_follows_keys_and_the_mouse() {
     ] {
         press(app, said);
         assert_eq!(
-            app.cross().map(|cross| cross.pixel),
+            app.shared.cross().map(|cross| cross.pixel),
             Some(expected),
             "{said}"
         );
     }
-    let (cells, _) = app.raster().expect("a picture");
+    let (cells, _) = app.shared.raster().expect("a picture");
     let left = MouseButton::Left;
     for (kind, cell) in [
         (MouseEventKind::Down(left), (3, 2)),
@@ -168,8 +176,8 @@ fn the_cross_follows_keys_and_the_mouse() {
             row,
             modifiers: KeyModifiers::NONE,
         }));
-        assert_eq!(app.cross_cell(), Some(cell));
-        assert_eq!(app.mode, Mode::Inspect);
+        assert_eq!(app.shared.cross_cell(), Some(cell));
+        assert_eq!(app.shared.mode, Mode::Inspect);
     }
 }
 
@@ -178,13 +186,13 @@ fn a_zoomed_picture_follows_the_cross() {
     let mut inspected = Inspected::of("a.ray", MIRROR);
     let app = &mut inspected.app;
     press(app, ":zoom 4<Enter>i");
-    let edge = app.pixel_in_corner();
+    let edge = app.shared.pixel_in_corner();
     for said in ["h", "L"] {
         for _ in 0..99 {
             press(app, said);
-            assert!(app.cross_cell().is_some());
+            assert!(app.shared.cross_cell().is_some());
         }
-        assert_ne!(app.pixel_in_corner(), edge, "{said}");
+        assert_ne!(app.shared.pixel_in_corner(), edge, "{said}");
     }
 }
 
@@ -192,20 +200,20 @@ fn a_zoomed_picture_follows_the_cross() {
 fn an_explanation_is_asked_for_once_and_only_the_newest_is_shown() {
     let mut inspected = Inspected::of("a.ray", MIRROR);
     inspected.press("ie");
-    assert_eq!(inspected.app.context(), Context::Rays);
+    assert_eq!(inspected.app.shared.context(), Context::Rays);
     assert_eq!(inspected.asked.len(), 1);
     let (old, frame) = inspected.asked.pop().expect("a question");
     inspected.press("jk");
     assert!(inspected.asked.is_empty());
     inspected.press("<Esc>lle");
     inspected.answer_to(old, &frame);
-    assert!(inspected.app.explanation().is_none());
+    assert!(inspected.app.shared.explanation().is_none());
     inspected.answer();
-    let cross = inspected.app.cross().map(|cross| cross.pixel);
-    let explanation = inspected.app.explanation();
+    let cross = inspected.app.shared.cross().map(|cross| cross.pixel);
+    let explanation = inspected.app.shared.explanation();
     assert_eq!(explanation.map(|explanation| explanation.pixel), cross);
     inspected.press("<Esc>");
-    assert_eq!(inspected.app.context(), Context::In(Mode::Inspect));
+    assert_eq!(inspected.app.shared.context(), Context::In(Mode::Inspect));
 }
 
 #[test]
@@ -219,7 +227,7 @@ fn a_line_selects_its_object_or_light_or_opens_its_place() {
         let mut inspected = Inspected::of("a.ray", MIRROR);
         // Right of the middle, the mirror shows the second sphere.
         inspected.press("iLe").answer().go_to(node);
-        let line = inspected.app.line_of(node);
+        let line = inspected.app.shared.line_of(node);
         let effects = press(&mut inspected.app, "E");
         assert!(matches!(
             effects[..],
@@ -227,7 +235,10 @@ fn a_line_selects_its_object_or_light_or_opens_its_place() {
         ));
         inspected.press("<Enter>");
         let app = &inspected.app;
-        assert_eq!((app.mode, app.cursor.selected()), (Mode::Select, node));
+        assert_eq!(
+            (app.shared.mode, app.shared.cursor.selected()),
+            (Mode::Select, node)
+        );
     }
 }
 
@@ -235,10 +246,16 @@ fn a_line_selects_its_object_or_light_or_opens_its_place() {
 fn the_light_of_a_line_is_soloed_and_explained_again() {
     let mut inspected = Inspected::of("a.ray", MIRROR);
     inspected.press("iLe").answer().press("l");
-    assert!(inspected.app.pictures.solo.is_none());
+    assert!(inspected.app.shared.pictures.solo.is_none());
     assert!(words(&inspected.app).contains("works on the line of a light"));
     inspected.go_to(Node::Light(1)).press("l");
-    let solo = inspected.app.pictures.solo.as_ref().expect("a light alone");
+    let solo = inspected
+        .app
+        .shared
+        .pictures
+        .solo
+        .as_ref()
+        .expect("a light alone");
     assert!(solo.lights.contains(&1) && solo.objects.is_empty());
 }
 
@@ -246,13 +263,21 @@ fn the_light_of_a_line_is_soloed_and_explained_again() {
 fn rays_are_folded_and_walked_through() {
     let mut inspected = Inspected::of("a.ray", MIRROR);
     inspected.press("iLe").answer();
-    let all = inspected.app.ray_lines().len();
+    let all = inspected.app.shared.ray_lines().len();
     assert!(5 < all);
     inspected.press("<Left>");
-    assert_eq!(inspected.app.ray_lines().len(), 1);
+    assert_eq!(inspected.app.shared.ray_lines().len(), 1);
     inspected.press("<Right><Right>");
-    assert_eq!(inspected.app.ray_lines().len(), all);
-    let at = |inspected: &Inspected| inspected.app.inspection.explained.as_ref().map(|of| of.at);
+    assert_eq!(inspected.app.shared.ray_lines().len(), all);
+    let at = |inspected: &Inspected| {
+        inspected
+            .app
+            .shared
+            .inspection
+            .explained
+            .as_ref()
+            .map(|of| of.at)
+    };
     assert_eq!(at(&inspected), Some(1));
     inspected.press("<Left>");
     assert_eq!(at(&inspected), Some(0));
@@ -270,13 +295,18 @@ fn every_language_has_a_verdict_and_its_sum() {
         let mut inspected = Inspected::of(name, text);
         inspected.press("ie").answer();
         let app = &inspected.app;
-        let explained = app.inspection.explained.as_ref().expect("it is wanted");
+        let explained = app
+            .shared
+            .inspection
+            .explained
+            .as_ref()
+            .expect("it is wanted");
         assert!(explained.verdict.is_some(), "{name}");
-        let explanation = app.explanation().expect("an answer");
-        let root = app.ray_lines()[0];
+        let explanation = app.shared.explanation().expect("an answer");
+        let root = app.shared.ray_lines()[0];
         let sum = root.adds(explanation);
         assert!((sum - explanation.radiance).length() < 1e-12, "{name}");
-        assert!(!app.ray_path().is_empty(), "{name}");
+        assert!(!app.shared.ray_path().is_empty(), "{name}");
     }
 }
 
@@ -291,7 +321,7 @@ fn samples_are_walked_through_as_far_as_there_are_some() {
         .update(Msg::Frame(Target::Preview, Arc::new(frame)));
     for (said, sample) in [(".", 1), ("..", 2), (",", 1), (",,,", 0)] {
         inspected.press(said).answer();
-        let explanation = inspected.app.explanation().expect("an answer");
+        let explanation = inspected.app.shared.explanation().expect("an answer");
         assert_eq!(explanation.sample, sample, "{said}");
     }
 }

@@ -19,8 +19,18 @@ scripts! {
 
 /// The line that keys are typed into.
 fn line(app: &App) -> &str {
-    let typing = app.cursor.typing.as_ref().map(|typing| &typing.input);
-    let line = app.overlays.line().map(|(input, _)| input).or(typing);
+    let typing = app
+        .shared
+        .cursor
+        .typing
+        .as_ref()
+        .map(|typing| &typing.input);
+    let line = app
+        .shared
+        .overlays
+        .line()
+        .map(|(input, _)| input)
+        .or(typing);
     line.expect("a line is open").value()
 }
 
@@ -65,6 +75,6 @@ fn long_pastes_are_refused_at_once_everywhere() {
             "{opening}: {} bytes",
             words.len()
         );
-        assert_eq!(app.document.text(), SCENE, "{opening}");
+        assert_eq!(app.shared.document.text(), SCENE, "{opening}");
     }
 }

@@ -97,7 +97,7 @@ scripts! {
         }
         for (share, _) in [3, 2, 1, 0].map(|at| shares[(at + 3) % 4]) {
             session.run("(");
-            assert_eq!(session.app.pictures.aov, share);
+            assert_eq!(session.app.shared.pictures.aov, share);
         }
         session.run(") | view-name only light 1");
     };
@@ -161,6 +161,7 @@ fn the_display_never_reaches_a_file() {
         "it is traced already"
     );
     let trace = app
+        .shared
         .pictures
         .trace
         .as_ref()
@@ -179,7 +180,7 @@ fn the_histogram_follows_picture_and_exposure() {
     press(&mut app, ":histogram<Enter>");
     let pixels = trace.settings.size.pixels() as u32;
     let bin = |app: &App| {
-        let histogram = app.pictures.histogram.as_ref().expect("it is shown");
+        let histogram = app.shared.pictures.histogram.as_ref().expect("it is shown");
         let histogram = histogram.histogram.as_ref().expect("of light");
         let bin = histogram.bins.iter().position(|count| *count == pixels);
         (bin, histogram.clipped)
@@ -190,5 +191,5 @@ fn the_histogram_follows_picture_and_exposure() {
     app.update(preview(&trace, 0.25));
     assert_eq!(bin(&app), (Some(15), 0.0));
     press(&mut app, ":histogram<Enter>");
-    assert!(app.pictures.histogram.is_none());
+    assert!(app.shared.pictures.histogram.is_none());
 }

@@ -52,7 +52,7 @@ scripts! {
         for number in 0..60 {
             session.run(&format!("@fails message {number}\nj"));
         }
-        assert_eq!(session.app.overlays.messages.past().count(), 50);
+        assert_eq!(session.app.shared.overlays.messages.past().count(), 50);
         session.run(r"
             | past message 59; message 58; …
             @fails a: Permission denied (os error 13) | past a: Permission denied; …

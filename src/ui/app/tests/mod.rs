@@ -54,7 +54,6 @@ use crate::file::Version;
 use crate::language::Language;
 use crate::render::Job;
 use crate::scene::Rendering;
-use crate::ui::dope_sheet::DopeSheet;
 use crate::ui::keymap::{self, Mode};
 use crate::ui::msg::{Effect, ExportId, Exported, Msg, Target};
 use crate::ui::scene_reading::Reading;
@@ -170,9 +169,9 @@ fn press_all(app: &mut App, said: &str) -> Vec<Effect> {
 
 /// The newest message, unless all have been dismissed.
 fn words(app: &App) -> &str {
-    let messages = &app.overlays.messages;
+    let messages = &app.shared.overlays.messages;
     let newest = match messages.waiting() {
-        0 => app.overlays.message.as_ref(),
+        0 => app.shared.overlays.message.as_ref(),
         _ => messages.past().next(),
     };
     newest.map_or("", |message| &message.text)
@@ -180,7 +179,7 @@ fn words(app: &App) -> &str {
 
 /// The message in the status line.
 fn shown(app: &App) -> &str {
-    let message = app.overlays.message.as_ref();
+    let message = app.shared.overlays.message.as_ref();
     message.map_or("", |message| &message.text)
 }
 

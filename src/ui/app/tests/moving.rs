@@ -23,12 +23,12 @@ scripts! {
 
     orbiting_back_nearly_restores_the_view_and_never_crosses_the_pole: {
         let mut session = ray().session();
-        let own = session.app.camera().expect("a camera");
+        let own = session.app.shared.camera().expect("a camera");
         session.run("vhhll");
-        let back = session.app.camera().expect("a camera");
+        let back = session.app.shared.camera().expect("a camera");
         assert!((back.eye - own.eye).length() < 1e-3 * own.eye.length());
         session.run(&"k".repeat(60));
-        let top = session.app.camera().expect("a camera");
+        let top = session.app.shared.camera().expect("a camera");
         let offset = top.eye - top.target;
         assert!(0.9 < offset.normalize().y && offset.y < offset.length());
         session.run("0 | not moved");
@@ -124,7 +124,7 @@ scripts! {
             @down picture 0,0             | says …the text has errors…
             G
         ");
-        let bottom = session.app.areas().errors.height - 1;
+        let bottom = session.app.shared.areas().errors.height - 1;
         session.run(&format!("@down errors 0,{bottom} | at object 1 | field 1"));
     };
 }

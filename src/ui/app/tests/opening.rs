@@ -62,6 +62,6 @@ scripts! {
 fn an_unreadable_scene_ends_the_interface() {
     let mut session = unread().session();
     session.run("@missing | does only quit");
-    let failure = session.app.disk.take_failure();
+    let failure = session.app.shared.disk.take_failure();
     assert!(matches!(failure, Some(ReadError::NotFound { .. })));
 }

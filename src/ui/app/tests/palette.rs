@@ -63,10 +63,14 @@ scripts! {
 
 #[test]
 fn every_action_of_a_key_is_offered_by_its_description() {
-    for named in open(SCENE).keymap.actions(Mode::Select) {
+    for named in open(SCENE).shared.keymap.actions(Mode::Select) {
         let mut app = open(SCENE);
         press(&mut app, &format!(":{}", named.words));
-        let mut found = app.completions().into_iter().chain(app.command_typed());
+        let mut found = app
+            .shared
+            .completions()
+            .into_iter()
+            .chain(app.shared.command_typed());
         let is_offered =
             |found: Completion| found.shown == named.words || found.keys.ends_with(&named.keys);
         assert!(found.any(is_offered), "{named:?}");
@@ -74,7 +78,7 @@ fn every_action_of_a_key_is_offered_by_its_description() {
 }
 
 fn offered(app: &App) -> Vec<String> {
-    let found = app.completions().into_iter();
+    let found = app.shared.completions().into_iter();
     found.map(|completion| completion.shown).collect()
 }
 
@@ -94,7 +98,7 @@ fn file_names_are_completed_from_their_folder() {
     app.update(Msg::Listed(PathBuf::from("."), names.to_vec()));
     assert_eq!(offered(&app), ["scene.ray", "scenes/"]);
     press(&mut app, "<Tab><Tab>");
-    let prompt = app.overlays.prompt.as_ref();
+    let prompt = app.shared.overlays.prompt.as_ref();
     assert_eq!(prompt.map(|prompt| prompt.input.value()), Some("w scenes/"));
     let effects = press_all(&mut app, "x");
     assert_eq!(listed(&effects), Some(PathBuf::from("scenes/")));

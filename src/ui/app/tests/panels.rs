@@ -6,11 +6,11 @@ use crate::ui::layout::contents;
 scripts! {
     keys_and_mouse_resize_the_panels: {
         let mut session = ray().session();
-        let before = session.app.areas().list.width;
+        let before = session.app.shared.areas().list.width;
         session.run("{");
-        assert_eq!(session.app.areas().list.width, before + 2);
+        assert_eq!(session.app.shared.areas().list.width, before + 2);
         session.run("}}");
-        assert_eq!(session.app.areas().list.width, before - 2);
+        assert_eq!(session.app.shared.areas().list.width, before - 2);
         session.run(&format!(r"
             @down screen {},9
             @drag screen 60,3 | panel 60
@@ -19,24 +19,24 @@ scripts! {
             @drag screen 50,3 | panel 60
             z{{               | says there are no panels to resize here
             z                 | panel 60
-        ", session.app.areas().border.x));
+        ", session.app.shared.areas().border.x));
     };
 
     keys_and_mouse_divide_list_and_fields_and_the_sizes_are_kept: {
         let mut session = ray().session();
-        let before = session.app.areas().list.height;
+        let before = session.app.shared.areas().list.height;
         session.run("<Alt-}> | does keep panels");
-        assert_eq!(session.app.areas().list.height, before + 1);
+        assert_eq!(session.app.shared.areas().list.height, before + 1);
         session.run("<Alt-{><Alt-{>");
-        assert_eq!(session.app.areas().list.height, before - 1);
-        let divider = session.app.areas().divider();
+        assert_eq!(session.app.shared.areas().list.height, before - 1);
+        let divider = session.app.shared.areas().divider();
         let x = divider.x + 2;
         session.run(&format!(r"
             @down screen {x},{}
             @drag screen {x},15 | not does keep panels
             @up screen {x},15   | does keep panels
         ", divider.y));
-        assert_eq!(session.app.areas().fields.y, 15);
+        assert_eq!(session.app.shared.areas().fields.y, 15);
         session.run("j | not does keep panels");
     };
 
@@ -45,7 +45,7 @@ scripts! {
         let many = format!("0 0 0  0  99\n{}", sphere.repeat(99));
         let mut session = listed(&many).session();
         session.run("G | at object 99");
-        let step = usize::from(contents(session.app.areas().list).height) - 1;
+        let step = usize::from(contents(session.app.shared.areas().list).height) - 1;
         for (said, object) in [("<PageUp>", 99 - step), ("<PageUp>", 99 - 2 * step), ("<PageDown>", 99 - step)] {
             session.run(&format!("{said} | at object {object}"));
         }
@@ -64,17 +64,17 @@ scripts! {
     errors_take_lines_from_the_picture_and_return_them: {
         let mut session = ray().session();
         session.run("@resize 80 24");
-        let before = session.app.raster();
+        let before = session.app.shared.raster();
         session.run("@file twice 1.5 => -1.5 | errors 1");
         let app = &session.app;
-        let areas = app.areas();
-        let (smaller, less) = app.raster().expect("there is room");
+        let areas = app.shared.areas();
+        let (smaller, less) = app.shared.raster().expect("there is room");
         assert!(less.pixels() < before.expect("there is room").1.pixels());
         assert!(smaller.bottom() <= areas.errors.y);
-        let panel = app.errors_panel(areas.errors).expect("an error");
+        let panel = app.shared.errors_panel(areas.errors).expect("an error");
         assert_eq!(panel.area, areas.errors);
-        assert_eq!(app.pictures.preview.asked, Some((less, None)));
+        assert_eq!(app.shared.pictures.preview.asked, Some((less, None)));
         session.run("@file opened");
-        assert_eq!(session.app.raster(), before);
+        assert_eq!(session.app.shared.raster(), before);
     };
 }

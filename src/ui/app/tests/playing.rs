@@ -135,7 +135,7 @@ scripts! {
 
     the_mouse_goes_to_the_frame_under_the_pointer: {
         let mut session = playing().session();
-        let sheet = DopeSheet::new(session.app.areas().fields, 8);
+        let sheet = DopeSheet::new(session.app.shared.areas().fields, 8);
         for frame in [8, 4, 0] {
             let (x, y) = (sheet.frames.x + sheet.column(frame), sheet.frames.y);
             session.run(&format!("@down screen {x},{y} | frame {frame} | mode SEQUENCE"));

@@ -8,7 +8,7 @@ fn rebound() -> App {
     let mut app = open(SCENE);
     for (keys, name) in [("u", None), ("Ctrl-X u", Some("undo"))] {
         let keys = Keys::parse(keys).expect("keys");
-        app.keymap.bind(Section::Anywhere, keys, name);
+        app.shared.keymap.bind(Section::Anywhere, keys, name);
     }
     app
 }
@@ -17,26 +17,26 @@ fn rebound() -> App {
 fn a_bound_key_acts_and_the_one_it_replaces_does_not() {
     let mut app = rebound();
     press(&mut app, "jjjjd");
-    let deleted = app.document.text().to_owned();
+    let deleted = app.shared.document.text().to_owned();
     press(&mut app, "u");
-    assert_eq!(app.document.text(), deleted);
+    assert_eq!(app.shared.document.text(), deleted);
     let words_of_u = "`u` in SEQUENCE (T): undo the last key; ? lists keys";
     assert_eq!(words(&app), words_of_u);
     press(&mut app, "<Ctrl-x>u");
-    assert_eq!(app.document.text(), SCENE);
+    assert_eq!(app.shared.document.text(), SCENE);
 }
 
 #[test]
 fn messages_name_the_bound_keys() {
     let mut app = open(SCENE);
-    let select = Section::In(app.context());
+    let select = Section::In(app.shared.context());
     for (keys, name) in [("x", None), ("F5", None), ("r", None), ("T", Some("trace"))] {
         let keys = Keys::parse(keys).expect("keys");
-        app.keymap.bind(select, keys, name);
+        app.shared.keymap.bind(select, keys, name);
     }
-    assert_eq!(app.key_for("trace"), "T");
-    assert_eq!(app.key_for("redo"), "Ctrl-R");
-    assert_eq!(app.key_for("stop"), ":cancel the export");
+    assert_eq!(app.shared.key_for("trace"), "T");
+    assert_eq!(app.shared.key_for("redo"), "Ctrl-R");
+    assert_eq!(app.shared.key_for("stop"), ":cancel the export");
 }
 
 #[test]
@@ -96,7 +96,7 @@ fn what_is_said_after_keys_names_the_bound_ones() {
         let mut app = open(SCENE);
         let section = Section::named(section).expect("a section");
         let keys = Keys::parse(keys).expect("keys");
-        app.keymap.bind(section, keys, Some(name));
+        app.shared.keymap.bind(section, keys, Some(name));
         press(&mut app, pressed);
         assert_eq!(words(&app), said, "{pressed}");
     }
@@ -109,12 +109,12 @@ fn help_hints_and_palette_show_the_bound_keys() {
         keys: "Ctrl-X u".to_owned(),
         words: "undo",
     };
-    assert!(app.help_lines().contains(&undo));
+    assert!(app.shared.help_lines().contains(&undo));
     press(&mut app, "jjjD");
     let hints = app.hints();
     assert!(hints.contains(&("Ctrl-X u".to_owned(), "undo")));
     press(&mut app, ":undo");
-    let found = app.completions().into_iter();
+    let found = app.shared.completions().into_iter();
     let keys = found
         .filter(|found| found.shown == "undo")
         .map(|found| found.keys);

@@ -28,7 +28,7 @@ fn long() -> String {
 
 /// Delivers a text, again where the application asks for it; returns how often.
 fn deliver(app: &mut App, text: &str) -> usize {
-    let mut baseline = app.baseline();
+    let mut baseline = app.shared.baseline();
     for times in 1..4 {
         let reading = Reading::new(text.to_owned(), baseline).expect("it fits into memory");
         let effects = app.update(Msg::Read(PathBuf::from("scene.ray"), Ok(reading)));
@@ -44,17 +44,17 @@ fn deliver(app: &mut App, text: &str) -> usize {
 
 /// Whether the state is that of a text just opened.
 fn assert_opened(app: &App, text: &str) {
-    assert_eq!(app.document.text(), text);
-    assert_eq!(**app.document.saved(), text);
-    assert!(!app.document.is_dirty());
-    assert_eq!(app.document.undoable(), None);
+    assert_eq!(app.shared.document.text(), text);
+    assert_eq!(**app.shared.document.saved(), text);
+    assert!(!app.shared.document.is_dirty());
+    assert_eq!(app.shared.document.undoable(), None);
     let mut source = Source::new(Language::Ray, Arc::new(text.to_owned()));
     let lowered = source
         .lower(&Meshes::default())
         .expect("it fits into memory");
-    assert_eq!(app.scene.as_deref(), lowered.scene.as_ref());
+    assert_eq!(app.shared.scene.as_deref(), lowered.scene.as_ref());
     let last = Node::Object(OBJECTS - 1);
-    assert_eq!(app.source().fields(last), source.fields(last));
+    assert_eq!(app.shared.source().fields(last), source.fields(last));
 }
 
 #[test]
@@ -79,14 +79,15 @@ fn numbers_of_one_object_are_taken_without_parsing_the_rest() {
         ),
     ] {
         text = text.replacen(old, new, 1);
-        let reading = Reading::new(text.clone(), app.baseline()).expect("it fits into memory");
+        let reading =
+            Reading::new(text.clone(), app.shared.baseline()).expect("it fits into memory");
         let news = reading.news.as_deref();
         assert!(matches!(news, Some(News::Numbers(_))), "{new}");
         assert_eq!(deliver(&mut app, &text), 1, "{new}");
         assert_eq!(words(&app), format!("reloaded: {place}"));
         assert_opened(&app, &text);
     }
-    let reading = Reading::new(text, app.baseline()).expect("it fits into memory");
+    let reading = Reading::new(text, app.shared.baseline()).expect("it fits into memory");
     assert!(reading.news.is_none(), "nothing is new");
 }
 
@@ -106,11 +107,12 @@ fn changes_of_more_than_numbers_of_one_object_are_taken() {
         ("sphere 9 0", "Sphere 9 0", false),
     ] {
         text = text.replacen(old, new, 1);
-        let reading = Reading::new(text.clone(), app.baseline()).expect("it fits into memory");
+        let reading =
+            Reading::new(text.clone(), app.shared.baseline()).expect("it fits into memory");
         let are_numbers = matches!(reading.news.as_deref(), Some(News::Numbers(_)));
         assert_eq!(are_numbers, is_numbers, "{new}");
         assert_eq!(deliver(&mut app, &text), 1, "{new}");
-        assert_eq!(app.document.text(), text);
+        assert_eq!(app.shared.document.text(), text);
     }
     // A number with an error: the text is read as a whole, and waits for a correction.
     let broken = text.replacen("sphere 7 0 0 0.75", "sphere 7 0 0 -1", 1);
@@ -126,6 +128,6 @@ fn numbers_are_merged_with_unsaved_edits() {
     let theirs = text.replacen("sphere 7 0 0 0.75", "sphere 7 0 0 0.5", 1);
     assert_eq!(deliver(&mut app, &theirs), 1);
     assert!(words(&app).starts_with("merged"), "{}", words(&app));
-    assert!(app.document.text().contains("sphere 7 0 0 0.5"));
-    assert!(app.document.is_dirty());
+    assert!(app.shared.document.text().contains("sphere 7 0 0 0.5"));
+    assert!(app.shared.document.is_dirty());
 }

@@ -65,24 +65,24 @@ fn random_sequences_by_keys_leave_no_error_and_are_undone_to_the_byte() {
         for _ in 0..SEQUENCES {
             let (mut app, _) = opened_as(name, text);
             for _ in 0..CHANGES {
-                let node = app.nodes().get(below(app.nodes().len()));
-                app.select(node.expect("there is a view"));
+                let node = app.shared.nodes().get(below(app.shared.nodes().len()));
+                app.shared.select(node.expect("there is a view"));
                 let keys = KEYS[below(KEYS.len())];
-                let before = app.document.shared_text();
+                let before = app.shared.document.shared_text();
                 press(&mut app, keys);
                 settle(&mut app);
-                if *before != app.document.text() {
+                if *before != app.shared.document.text() {
                     changed += 1;
                     check_text(&app, &format!("{name} {node:?} {keys}"));
                 }
             }
-            let last = app.document.shared_text();
+            let last = app.shared.document.shared_text();
             to_the_end(&mut app, "u", "nothing to undo");
-            assert_eq!(app.document.text(), text, "{name}: undone");
+            assert_eq!(app.shared.document.text(), text, "{name}: undone");
             to_the_end(&mut app, "<Ctrl-r>", "nothing to redo");
             // What was undone on the way is ahead of the last text.
-            while app.document.text() != *last && app.document.undo().is_some() {}
-            assert_eq!(app.document.text(), *last, "{name}: redone");
+            while app.shared.document.text() != *last && app.shared.document.undo().is_some() {}
+            assert_eq!(app.shared.document.text(), *last, "{name}: redone");
         }
     }
     let least = SCENES.len() * SEQUENCES * CHANGES / 3;
@@ -95,16 +95,16 @@ fn settle(app: &mut App) {
     for _ in 0..4 {
         press(app, "<Esc>");
     }
-    assert_eq!(app.context(), keymap::Context::In(Mode::Select));
-    assert_eq!(app.typed_line(), None);
+    assert_eq!(app.shared.context(), keymap::Context::In(Mode::Select));
+    assert_eq!(app.shared.typed_line(), None);
 }
 
 /// Checks that the text has no error, also if it is read anew.
 #[track_caller]
 fn check_text(app: &App, said: &str) {
-    let text = app.document.shared_text();
-    assert_eq!(app.error_count(), 0, "{said}\n{text}");
-    let mut source = Source::new(app.document.language(), Arc::clone(&text));
+    let text = app.shared.document.shared_text();
+    assert_eq!(app.shared.error_count(), 0, "{said}\n{text}");
+    let mut source = Source::new(app.shared.document.language(), Arc::clone(&text));
     let lowered = source.lower(&Meshes::default());
     let found = lowered.expect("there is memory").diagnostics;
     assert_eq!(found.errors(), 0, "{said}\n{text}");
@@ -114,6 +114,11 @@ fn check_text(app: &App, said: &str) {
 fn to_the_end(app: &mut App, key: &str, end: &str) {
     while words(app) != end {
         press(app, key);
-        assert_eq!(app.error_count(), 0, "{}", app.document.text());
+        assert_eq!(
+            app.shared.error_count(),
+            0,
+            "{}",
+            app.shared.document.text()
+        );
     }
 }

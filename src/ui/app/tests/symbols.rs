@@ -81,12 +81,12 @@ scripts! {
     a_symbol_moves_with_its_light: {
         let mut session = scene("a.ray", RAY).session();
         session.run("[light 1]");
-        let before = session.app.symbols()[0].cell;
+        let before = session.app.shared.symbols()[0].cell;
         session.run("mx1");
-        let moved = session.app.symbols()[0].cell;
+        let moved = session.app.shared.symbols()[0].cell;
         assert!(before.0 < moved.0 && before.1 == moved.1, "{before:?} {moved:?}");
         session.run("<Esc>");
-        assert_eq!(session.app.symbols()[0].cell, before);
+        assert_eq!(session.app.shared.symbols()[0].cell, before);
     };
 }
 
@@ -99,10 +99,10 @@ fn symbols_are_where_things_are_and_are_picked_before_objects() {
     ] {
         let mut session = scene(name, text).session();
         session.run("@shows 0");
-        session.app.select(Node::Object(1));
+        session.app.shared.select(Node::Object(1));
         session.run("i");
-        let size = session.app.raster().expect("there is room").1;
-        let symbols = session.app.symbols();
+        let size = session.app.shared.raster().expect("there is room").1;
+        let symbols = session.app.shared.symbols();
         let symbol = symbols
             .iter()
             .find(|symbol| symbol.node.to_string() == node);
@@ -112,11 +112,11 @@ fn symbols_are_where_things_are_and_are_picked_before_objects() {
         let column = (f64::from(size.width) / 2.0 + across * unit) as u16;
         assert_eq!(cell, (column, size.height as u16 / 4), "{name}");
         // Beside the symbol, and then too far from it.
-        let object = Node::Object(session.app.source().object(0)).to_string();
+        let object = Node::Object(session.app.shared.source().object(0)).to_string();
         for (away, picked) in [(1, node), (2, &object)] {
             let place = (cell.0 + away, cell.1);
             session.run("i");
-            session.app.place_cross(place);
+            session.app.shared.place_cross(place);
             session.run(&format!(
                 r"
                 <Enter> | at {picked} | mode SELECT

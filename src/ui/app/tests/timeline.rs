@@ -18,7 +18,7 @@ use crate::ui::msg::Target;
 /// The scene on a terminal with colours after three steps.
 fn changed() -> Session {
     let mut session = scene("scene.ray", SCENE).session();
-    session.app.thumbnails.has_colours = true;
+    session.app.shared.thumbnails.has_colours = true;
     session.run("ggjjjjell<Esc>jDk\nd | step 3");
     session
 }
@@ -101,7 +101,7 @@ fn the_page_lists_every_step_and_asks_for_each_picture_once() {
     let mut session = changed();
     session.run("u");
     let asked = opens_page(&mut session);
-    let (page, steps) = session.app.open_steps().expect("it is open");
+    let (page, steps) = session.app.shared.open_steps().expect("it is open");
     let rows: Vec<_> = page.rows().into_iter().map(|(_, name)| name).collect();
     let expected = "as opened|object 1 (sphere) centre x: 0 → 0.2, 2 nudges|\
                     duplicated object 2 (sphere)|deleted object 2 (sphere)";
@@ -160,18 +160,18 @@ fn closing_the_page_stops_what_is_under_way_and_changes_nothing() {
 #[test]
 fn a_text_with_errors_and_a_refused_picture_are_not_asked_for_again() {
     let mut session = changed();
-    session.app.document.edit(&[Edit {
+    session.app.shared.document.edit(&[Edit {
         span: Span::at(0),
         text: "broken ".to_owned(),
     }]);
-    session.app.relower();
+    session.app.shared.relower();
     session.run("u");
     assert!(opens_page(&mut session).derived.contains(&4));
-    let (id, _) = session.app.open_steps().expect("it is open").1.rows[4];
-    let thumbnail = session.app.thumbnails.get(id, Rank::Row);
+    let (id, _) = session.app.shared.open_steps().expect("it is open").1.rows[4];
+    let thumbnail = session.app.shared.thumbnails.get(id, Rank::Row);
     assert_eq!(thumbnail, Some(&Err(NoPicture::Errors)));
     session.run("<Esc>");
-    session.app.thumbnails.forget();
+    session.app.shared.thumbnails.forget();
     session
         .run("U | does derive | > @cannot thumbnail no memory | does once derive | does derive 2");
 }
@@ -185,18 +185,18 @@ fn pictures_show_the_working_view_and_are_made_again_for_another() {
     session.run("<Esc>vl<Esc>");
     let moved = opens_page(&mut session);
     assert_eq!(moved.traced.len(), first.traced.len());
-    let camera = session.app.camera();
+    let camera = session.app.shared.camera();
     assert!(moved.traced.iter().all(|job| Some(job.camera) == camera));
-    assert_ne!(camera, session.app.own_camera());
+    assert_ne!(camera, session.app.shared.own_camera());
 }
 
 #[test]
 fn without_colours_and_in_little_room_nothing_is_traced() {
     let mut session = changed();
-    session.app.thumbnails.has_colours = false;
+    session.app.shared.thumbnails.has_colours = false;
     assert!(opens_page(&mut session).derived.is_empty());
     session.run("<Esc>");
-    session.app.thumbnails.has_colours = true;
+    session.app.shared.thumbnails.has_colours = true;
     session.run("@resize 80 10");
     assert!(opens_page(&mut session).derived.is_empty());
 }
@@ -205,7 +205,7 @@ fn without_colours_and_in_little_room_nothing_is_traced() {
 fn in_a_large_text_only_the_selected_step_has_a_picture() {
     let comment = "x".repeat(17 << 20);
     let mut session = scene("scene.ray", &format!("{SCENE}// {comment}\n")).session();
-    session.app.thumbnails.has_colours = true;
+    session.app.shared.thumbnails.has_colours = true;
     session.run("ggjjjjel<Esc>");
     assert_eq!(opens_page(&mut session).derived, [1]);
     assert_eq!(perform(session.run("k")).derived, [0]);
@@ -215,7 +215,7 @@ scripts! {
     enter_goes_to_a_step_and_undo_and_redo_go_on_from_there: {
         let mut session = changed();
         for at in 0..4 {
-            let text = session.app.document.timeline().text(at).to_string();
+            let text = session.app.shared.document.timeline().text(at).to_string();
             session.call(&at.to_string(), &text);
         }
         session.run(r"
@@ -273,10 +273,10 @@ fn a_random_walk_finds_every_text_where_it_was() {
     for _ in 0..300 {
         let keys = keys[below(keys.len())];
         press(app, keys);
-        let ids: Vec<_> = app.document.states().map(|state| state.id).collect();
-        let present = app.document.present();
-        let text = app.document.text().to_owned();
-        let timeline = app.document.timeline();
+        let ids: Vec<_> = app.shared.document.states().map(|state| state.id).collect();
+        let present = app.shared.document.present();
+        let text = app.shared.document.text().to_owned();
+        let timeline = app.shared.document.timeline();
         for (at, id) in ids.iter().enumerate() {
             let text = timeline.text(at);
             let before = known.entry(*id).or_insert_with(|| text.to_string());
@@ -284,9 +284,13 @@ fn a_random_walk_finds_every_text_where_it_was() {
         }
         assert_eq!(known[&ids[present]], text, "{keys}");
         let far = below(ids.len());
-        app.go_to_state(far);
-        assert_eq!(app.document.text(), known[&ids[far]], "{keys}: to {far}");
-        app.go_to_state(present);
-        assert_eq!(app.document.text(), text, "{keys}: back");
+        app.shared.go_to_state(far);
+        assert_eq!(
+            app.shared.document.text(),
+            known[&ids[far]],
+            "{keys}: to {far}"
+        );
+        app.shared.go_to_state(present);
+        assert_eq!(app.shared.document.text(), text, "{keys}: back");
     }
 }

@@ -188,9 +188,9 @@ scripts! {
     menus_add_things_and_change_their_kind: {
         for (name, text) in [("a.ray", RAY), ("a.dat", DAT), ("a.xml", XML)] {
             let mut session = scene(name, text).session();
-            let before = session.app.nodes().len();
+            let before = session.app.shared.nodes().len();
             session.run("asphere<Enter> | named …sphere…");
-            assert!(before < session.app.nodes().len(), "{name}");
+            assert!(before < session.app.shared.nodes().len(), "{name}");
             session.run(r"
                 u           | text opened
                 a<Esc>      | not menu
@@ -239,7 +239,7 @@ scripts! {
         // Steps are as long as a cell shows at the target, and each starts from the camera before.
         let mut session = stage.session();
         session.run("[view] mll");
-        let moved = session.app.camera().expect("there is a camera").eye.x;
+        let moved = session.app.shared.camera().expect("there is a camera").eye.x;
         assert!(0.01 < moved && moved < 1.0, "{moved}");
         session.run("hh | text opened");
     };
@@ -247,10 +247,10 @@ scripts! {
     only_the_mark_moves_where_the_picture_is_seen_from_elsewhere: {
         let mut session = scene("a.dat", DAT).session();
         session.run("[view] v-<Esc>");
-        let (seen, mark) = (session.app.camera(), session.app.symbols()[0]);
+        let (seen, mark) = (session.app.shared.camera(), session.app.shared.symbols()[0]);
         session.run("mx0.1<Enter> | text 0 0 10  0 0 0 => 0.1 0 10  0.1 0 0");
-        assert_eq!(session.app.camera(), seen);
-        assert!(mark.cell.0 < session.app.symbols()[0].cell.0, "{mark:?}");
+        assert_eq!(session.app.shared.camera(), seen);
+        assert!(mark.cell.0 < session.app.shared.symbols()[0].cell.0, "{mark:?}");
     };
 
     a_rotated_ellipsoid_becomes_a_quadric_in_the_same_step: scene("a.dat", DAT)
@@ -295,7 +295,7 @@ fn added_things_stand_on_what_is_below_or_in_the_middle_of_the_picture() {
         r"0 0 0  1\n => 0 0 0  1\nobj box ID 2 mat ID 1  0 -1.5 0  1 0 0  0 1 0  0 0 1  90 2 90\n";
     let mut session = scene("a.dat", DAT).but(table).session();
     session.run("@shows 0\nasphere<Enter>");
-    let text = session.app.document.text();
+    let text = session.app.shared.document.text();
     let sphere = text
         .split_once("obj sphere ID 3 mat ID 1  ")
         .expect("a sphere")
@@ -317,7 +317,7 @@ fn added_things_stand_on_what_is_below_or_in_the_middle_of_the_picture() {
         .session();
     session.run("@shows 0\nasphere<Enter>");
     let app = &session.app;
-    let pose = app.source().pose(app.cursor.selected());
+    let pose = app.shared.source().pose(app.shared.cursor.selected());
     let centre = pose.expect("it is a sphere").centre;
     // The sphere there has the radius 1.
     assert!(1.0 < centre.z && centre.z < 4.0, "{centre}");

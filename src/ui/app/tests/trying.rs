@@ -45,7 +45,7 @@ fn an_attempt_keeps_nothing_of_the_one_before() {
     let light = || put("0 5 5", "0 5.25 5");
     let [first, second] = [put("1 0 0 1", "2 0 0 1"), put("4 0 0 1", "5 0 0 1")];
     let mut app = open(text);
-    let mut live_edit = app.begin_live_edit();
+    let mut live_edit = app.shared.begin_live_edit();
     for edits in [
         vec![eye(), first.clone()],
         vec![eye()],
@@ -55,11 +55,13 @@ fn an_attempt_keeps_nothing_of_the_one_before() {
         vec![second],
         vec![eye()],
     ] {
-        let tried = app.try_instead(&mut live_edit, |_| Ok(edits.clone()));
+        let tried = app
+            .shared
+            .try_instead(&mut live_edit, |_| Ok(edits.clone()));
         assert_eq!(tried, Ok(()));
-        let fresh = open(app.document.text());
-        assert_eq!(app.scene, fresh.scene, "{edits:?}");
+        let fresh = open(app.shared.document.text());
+        assert_eq!(app.shared.scene, fresh.shared.scene, "{edits:?}");
     }
-    app.end_live_edit(live_edit);
-    assert_eq!(app.scene, open(text).scene);
+    app.shared.end_live_edit(live_edit);
+    assert_eq!(app.shared.scene, open(text).shared.scene);
 }

@@ -37,7 +37,7 @@ scripts! {
             w
             @saved                 | does quit
         ");
-        listed(session.app.document.text()).play(r"
+        listed(session.app.shared.document.text()).play(r"
             vV<Enter> | moved
             q         | does quit
 
@@ -101,27 +101,27 @@ scripts! {
         ");
         // Never over the pole.
         session.run(&format!("F{}", "k".repeat(60)));
-        let top = session.app.camera().expect("a camera");
+        let top = session.app.shared.camera().expect("a camera");
         assert!(0.99 < (top.target - top.eye).normalize().y && top.target.z < 4.0);
     };
 
     the_mouse_turns_and_advances_in_flight: {
         let mut session = ahead().session();
         session.run("vF\n@down screen 20,10\n@drag screen 24,10");
-        let camera = session.app.camera().expect("a camera");
+        let camera = session.app.shared.camera().expect("a camera");
         // The picture follows the pointer to the right.
         assert_eq!(camera.eye, DVec3::new(0.0, 0.0, 4.0));
         assert!(camera.target.x < -0.1 && camera.target.y.abs() < 1e-9);
         session.run("@up screen 24,10\n@wheel screen 20,10");
-        assert!(session.app.camera().expect("a camera").eye.z < 3.7);
+        assert!(session.app.shared.camera().expect("a camera").eye.z < 3.7);
     };
 
     a_rolled_view_is_written_as_it_is_on_screen: for (name, text) in making::SCENES {
         let mut session = scene(name, text).session();
         session.run("v,,hF.kK | moved");
-        let view = session.app.camera().expect("it was moved");
+        let view = session.app.shared.camera().expect("it was moved");
         session.run("S | not moved");
-        let own = session.app.camera().expect("a scene");
+        let own = session.app.shared.camera().expect("a scene");
         for (on_screen, written) in
             [(view.eye, own.eye), (view.target, own.target), (view.up, own.up)]
         {
@@ -172,8 +172,8 @@ scripts! {
         let text = text.replace("1 pnt  6 -5 8    0 0 0", "1 inf  0 0 0 0 0 -1");
         let mut session = scene("scene.dat", &text).session();
         session.run("[light 1] vo");
-        let camera = session.app.camera().expect("a camera");
-        let bounds = session.app.scene.as_ref().expect("a scene").bounds();
+        let camera = session.app.shared.camera().expect("a camera");
+        let bounds = session.app.shared.scene.as_ref().expect("a scene").bounds();
         assert!((camera.target - bounds.centre()).length() < 1e-3);
         let offset = camera.eye - camera.target;
         assert!(bounds.half_diagonal() < offset.z && offset.x.abs() < 1e-3, "{offset}");
@@ -207,10 +207,10 @@ fn dragging_with_another_button_or_ctrl_pans_so_that_the_scene_follows() {
     for button in ["right", "middle", "ctrl"] {
         let mut session = ray().session();
         session.run("v");
-        let before = session.app.camera().expect("there is a camera");
-        let (cells, size) = session.app.raster().expect("there is room");
+        let before = session.app.shared.camera().expect("there is a camera");
+        let (cells, size) = session.app.shared.raster().expect("there is room");
         let seen = |session: &Session| {
-            let camera = session.app.camera().expect("there is a camera");
+            let camera = session.app.shared.camera().expect("there is a camera");
             crate::render::pixel_of(before.target, &camera, size).expect("it is in front")
         };
         let [x, y] = seen(&session);
@@ -223,7 +223,7 @@ fn dragging_with_another_button_or_ctrl_pans_so_that_the_scene_follows() {
         // Two pixels in a row of cells.
         let off = (after_x - x - 6.0).abs().max((after_y - y - 6.0).abs());
         assert!(off < 0.05, "{button} {off}");
-        let after = session.app.camera().expect("there is a camera");
+        let after = session.app.shared.camera().expect("there is a camera");
         let turned = (after.eye - after.target) - (before.eye - before.target);
         assert!(turned.length() < 1e-3, "{button} {turned}");
     }

@@ -23,9 +23,12 @@ const SCENES: [(&str, &str); 3] = [
 
 /// The lines on screen.
 fn lines(app: &mut App) -> Vec<WireLine> {
-    app.follow_wires();
-    let (_, size) = app.raster().expect("there is room");
-    let wireframe = app.wireframe().and_then(|wireframe| wireframe.lines(size));
+    app.shared.follow_wires();
+    let (_, size) = app.shared.raster().expect("there is room");
+    let wireframe = app
+        .shared
+        .wireframe()
+        .and_then(|wireframe| wireframe.lines(size));
     wireframe.map_or_else(Vec::new, |wireframe| wireframe.lines.clone())
 }
 
@@ -58,7 +61,7 @@ fn the_wireframe_replaces_the_preview_until_another_view_is_chosen() {
 fn the_wireframe_follows_the_camera_and_the_text_at_once() {
     for (name, text) in SCENES {
         let (mut app, _) = opened_as(name, text);
-        app.select(crate::language::Node::Object(0));
+        app.shared.select(crate::language::Node::Object(0));
         press(&mut app, "6");
         let mut before = lines(&mut app);
         for said in ["v", "l", "<Esc>mx1", "<Esc>", "v0"] {
@@ -78,7 +81,7 @@ fn the_wireframe_follows_the_camera_and_the_text_at_once() {
 fn the_edges_of_a_unit_cube_are_at_known_pixels() {
     let (mut app, _) = opened_as(SCENES[0].0, SCENES[0].1);
     press(&mut app, "6");
-    let (_, size) = app.raster().expect("there is room");
+    let (_, size) = app.shared.raster().expect("there is room");
     // At the origin the picture is 2 · 10 · tan 30° high.
     let unit = f64::from(size.height) / (20.0 * (30.0_f64).to_radians().tan());
     let middle = [f64::from(size.width), f64::from(size.height)].map(|side| side / 2.0);

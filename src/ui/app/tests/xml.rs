@@ -28,7 +28,7 @@ scripts! {
     defaults_are_shown_and_written_when_typed: {
         let mut session = xml().session();
         session.run("[object 2]");
-        let rows = session.app.fields();
+        let rows = session.app.shared.fields();
         let scale = rows.iter().find(|row| row.field.key == "scale");
         let scale = scale.expect("it is scaled");
         assert_eq!(scale.literals, ["1", "1", "1", "2"]);
@@ -73,7 +73,10 @@ scripts! {
 fn a_text_that_is_not_xml_does_no_harm() {
     for text in ["", "<xml>", "<xml><scene></xml>", "<scene/>"] {
         let mut app = opened_as("scene.xml", text).0;
-        assert!(app.nodes().is_empty() && 0 < app.error_count(), "{text}");
+        assert!(
+            app.shared.nodes().is_empty() && 0 < app.shared.error_count(),
+            "{text}"
+        );
         for keys in [
             "jkgG",
             "e",
@@ -99,9 +102,13 @@ fn a_text_that_is_not_xml_does_no_harm() {
             "<Esc>",
         ] {
             press(&mut app, keys);
-            assert!(app.fields().is_empty() && app.cursor.parts().is_empty());
-            let _ = (app.areas(), app.raster(), app.outlined_objects());
+            assert!(app.shared.fields().is_empty() && app.shared.cursor.parts().is_empty());
+            let _ = (
+                app.shared.areas(),
+                app.shared.raster(),
+                app.shared.outlined_objects(),
+            );
         }
-        assert_eq!(app.document.text(), text);
+        assert_eq!(app.shared.document.text(), text);
     }
 }

@@ -59,16 +59,16 @@ scripts! {
 #[test]
 fn keys_zoom_about_the_middle() {
     let mut app = tracing();
-    let (cells, _) = app.raster().expect("room");
-    let (middle, output) = ((cells.width / 2, cells.height / 2), app.output());
+    let (cells, _) = app.shared.raster().expect("room");
+    let (middle, output) = ((cells.width / 2, cells.height / 2), app.shared.output());
     let under = |app: &App| {
-        let window = app.frame_window();
+        let window = app.shared.frame_window();
         window.and_then(|window| window.pixel_at(middle, output))
     };
     let before = under(&app).expect("a pixel");
     for said in ["+++++", "--"] {
         press(&mut app, said);
-        assert!(!app.viewport().is_fit());
+        assert!(!app.shared.viewport().is_fit());
         let after = under(&app).expect("a pixel");
         // A pixel of the screen was several of the picture before.
         let near = |axis: usize| before[axis].abs_diff(after[axis]) <= 8;
@@ -88,16 +88,16 @@ fn a_trace_is_paused_and_continued() {
             _ => false,
         };
         assert!(is_right, "{said}: {effects:?}");
-        assert_eq!(app.picture().paused, pauses);
+        assert_eq!(app.shared.picture().paused, pauses);
     }
     assert!(matches!(
         press(&mut app, " x")[..],
         [Pause(_), Halt(Target::Trace)]
     ));
-    assert!(!app.picture().paused);
+    assert!(!app.shared.picture().paused);
     assert!(job(&press(&mut app, " "), Target::Trace).is_some());
     app.update(Msg::Started(Target::Trace, 2));
-    let size = app.output();
+    let size = app.shared.output();
     let mut done = frame(size, vec![0; size.pixels()]);
     done.generation = 2;
     app.update(Msg::Frame(Target::Trace, Arc::new(done)));
@@ -109,10 +109,10 @@ fn a_trace_is_paused_and_continued() {
 #[test]
 fn a_paused_trace_is_not_awaited() {
     let mut app = tracing();
-    app.pictures.preview.wanted = None;
-    assert!(app.pictures.are_awaited());
+    app.shared.pictures.preview.wanted = None;
+    assert!(app.shared.pictures.are_awaited());
     press(&mut app, " ");
-    assert!(!app.pictures.are_awaited());
+    assert!(!app.shared.pictures.are_awaited());
 }
 
 #[test]
@@ -148,7 +148,7 @@ fn a_region_is_traced_alone_and_exports_are_of_all_of_the_picture() {
     let asked = Region::parse("10,20,64,48");
     let effects = press(&mut app, ":region 10,20,64,48<Enter>");
     assert_eq!(region(&effects), Some(asked));
-    assert_eq!(app.mode, Mode::Trace);
+    assert_eq!(app.shared.mode, Mode::Trace);
     app.update(Msg::Started(Target::Trace, 1));
     let effects = press(&mut app, "b");
     let export = job(&effects, Target::Export).expect("an export");
@@ -161,14 +161,14 @@ fn a_region_is_traced_alone_and_exports_are_of_all_of_the_picture() {
         words(&app)
     );
     // The middle half of all of the picture.
-    let Size { width, height } = app.output();
+    let Size { width, height } = app.shared.output();
     let effects = press(&mut app, "R<Enter>");
     let drawn = region(&effects).flatten().expect("a region");
     assert_eq!((drawn.x, drawn.y), (width / 4, height / 4));
     assert_eq!((drawn.width, drawn.height), (width / 2 + 1, height / 2 + 1));
     assert!(press(&mut app, "Rh<Tab>LJ<Esc>").is_empty());
     assert_eq!(
-        (app.mode, app.context()),
+        (app.shared.mode, app.shared.context()),
         (Mode::Trace, Context::In(Mode::Trace))
     );
 }
@@ -178,9 +178,9 @@ fn corners_of_a_region_are_moved_by_pixels_of_the_screen() {
     let mut app = tracing();
     press(&mut app, "+++++");
     press(&mut app, "R");
-    let before = app.region_drawn().expect("a region");
+    let before = app.shared.region_drawn().expect("a region");
     press(&mut app, "lJ<Tab>h");
-    let after = app.region_drawn().expect("a region");
+    let after = app.shared.region_drawn().expect("a region");
     let wider = (before.width + 2, before.height + 8);
     assert_eq!((after.width, after.height), wider);
     assert_eq!((after.x, after.y), (before.x - 1, before.y));
@@ -193,9 +193,9 @@ fn a_region_is_dragged_with_the_mouse() {
     let none = KeyModifiers::NONE;
     let mut app = tracing();
     press(&mut app, "z");
-    let (cells, _) = app.raster().expect("room");
+    let (cells, _) = app.shared.raster().expect("room");
     let at = |column, row| (cells.x + column, cells.y + row);
-    let corner = app.pixel_in_corner().expect("a pixel");
+    let corner = app.shared.pixel_in_corner().expect("a pixel");
     press(&mut app, "R");
     mouse(&mut app, Down(left), at(9, 9), none);
     mouse(&mut app, Drag(left), at(4, 7), none);
@@ -221,8 +221,8 @@ fn zoomed(app: &mut App, said: &str) -> (Size, Option<Region>) {
 #[test]
 fn a_zoomed_preview_is_traced_at_its_scale() {
     let mut app = open(SCENE);
-    let output = app.output();
-    let shown = app.frame_window().expect("room").size;
+    let output = app.shared.output();
+    let shown = app.shared.frame_window().expect("room").size;
     let half = Size {
         width: output.width / 2,
         height: output.height / 2,
@@ -249,11 +249,12 @@ fn the_wheel_zooms_about_the_pointer() {
         (tracing(), KeyModifiers::NONE),
         (open(SCENE), KeyModifiers::CONTROL),
     ] {
-        let (cells, _) = app.raster().expect("room");
+        let (cells, _) = app.shared.raster().expect("room");
         let cell = (cells.width / 3, cells.height / 3);
-        let output = app.output();
+        let output = app.shared.output();
         let under = |app: &App| {
-            app.frame_window()
+            app.shared
+                .frame_window()
                 .and_then(|frame_window| frame_window.pixel_at(cell, output))
         };
         let before = under(&app).expect("a pixel");
@@ -266,7 +267,7 @@ fn the_wheel_zooms_about_the_pointer() {
             );
         }
         let after = under(&app).expect("a pixel");
-        assert!(!app.viewport().is_fit());
+        assert!(!app.shared.viewport().is_fit());
         // A pixel of the screen was several of the picture before.
         let near = |axis: usize| before[axis].abs_diff(after[axis]) <= 8;
         assert!(near(0) && near(1), "{before:?} {after:?}");
@@ -277,12 +278,12 @@ fn the_wheel_zooms_about_the_pointer() {
 fn a_zoomed_trace_is_panned_by_keys_and_by_dragging() {
     let mut app = tracing();
     press(&mut app, "z");
-    let corner = |app: &App| app.pixel_in_corner().expect("a pixel");
+    let corner = |app: &App| app.shared.pixel_in_corner().expect("a pixel");
     let before = corner(&app);
     press(&mut app, "lj");
     let after = corner(&app);
     assert!(before[0] < after[0] && before[1] < after[1]);
-    let (cells, _) = app.raster().expect("room");
+    let (cells, _) = app.shared.raster().expect("room");
     let (from, to) = ((cells.x + 20, cells.y + 10), (cells.x + 17, cells.y + 11));
     let left = MouseButton::Left;
     mouse(
@@ -293,28 +294,30 @@ fn a_zoomed_trace_is_panned_by_keys_and_by_dragging() {
     );
     mouse(&mut app, MouseEventKind::Drag(left), to, KeyModifiers::NONE);
     assert_eq!(corner(&app), [after[0] + 3, after[1] - 2]);
-    assert_eq!(app.mode, Mode::Trace);
+    assert_eq!(app.shared.mode, Mode::Trace);
     press(&mut app, "z");
-    assert!(app.viewport().is_fit());
+    assert!(app.shared.viewport().is_fit());
 }
 
 /// The objects under the pixels on screen are those of the part that is seen.
 #[test]
 fn cells_find_the_pixels_of_the_newest_frame() {
     let mut app = tracing();
-    let size = app.output();
+    let size = app.shared.output();
     let numbers: Vec<_> = (0..size.pixels() as u32).collect();
     app.update(Msg::Frame(Target::Trace, Arc::new(frame(size, numbers))));
     press(&mut app, "+++++++");
-    let frame_window = app.frame_window().expect("room");
-    app.picture_mut().advance(&frame_window, &[], usize::MAX);
-    let (cells, _) = app.raster().expect("room");
+    let frame_window = app.shared.frame_window().expect("room");
+    app.shared
+        .picture_mut()
+        .advance(&frame_window, &[], usize::MAX);
+    let (cells, _) = app.shared.raster().expect("room");
     let grid = frame_window.grid;
     for cell in [(0, 0), (9, 4), (cells.width - 1, cells.height - 1)] {
-        let Some([x, y]) = app.pixel_at(cell) else {
+        let Some([x, y]) = app.shared.pixel_at(cell) else {
             continue;
         };
-        let shown = &app.picture().shown;
+        let shown = &app.shared.picture().shown;
         let under = shown.object_at(cell.0.into(), u32::from(cell.1 * grid.down));
         assert_eq!(under, Some(y * size.width + x), "{cell:?}");
     }

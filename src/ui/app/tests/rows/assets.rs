@@ -20,7 +20,7 @@ impl Session {
             names.map(str::to_owned).collect()
         };
         let wanted = Wanted {
-            scene: self.app.disk.path.clone().ok_or("no path")?,
+            scene: self.app.shared.disk.path.clone().ok_or("no path")?,
             pictures: named(false),
             meshes: named(true),
         };

@@ -152,7 +152,7 @@ impl<'s> Stage<'s> {
         let mut texts: BTreeMap<_, _> = texts
             .map(|(name, text)| ((*name).to_owned(), text.clone()))
             .collect();
-        texts.insert("opened".to_owned(), app.document.text().to_owned());
+        texts.insert("opened".to_owned(), app.shared.document.text().to_owned());
         let mut session = Session {
             app,
             effects,
@@ -220,11 +220,11 @@ impl Session {
     /// Whether there are no errors, one undo leads to the text as it was opened, and a redo back.
     fn undoes(&mut self) -> Result<(), String> {
         let (_, errors) = self.holds("errors")?;
-        let changed = self.app.document.shared_text();
+        let changed = self.app.shared.document.shared_text();
         self.step("u")?;
-        let is_undone = self.app.document.text() == self.texts["opened"];
+        let is_undone = self.app.shared.document.text() == self.texts["opened"];
         self.step("<Ctrl-r>")?;
-        let is_redone = self.app.document.text() == changed.as_str();
+        let is_redone = self.app.shared.document.text() == changed.as_str();
         match (errors.as_str(), is_undone, is_redone) {
             ("", true, true) => Ok(()),
             found => Err(format!("undoes (errors, undone, redone): {found:?}")),
@@ -266,7 +266,7 @@ impl Session {
 
     fn text_called(&self, name: &str) -> Result<String, String> {
         if name == "mine" {
-            return Ok(self.app.document.text().to_owned());
+            return Ok(self.app.shared.document.text().to_owned());
         }
         if let Some(literal) = name
             .strip_prefix('"')

@@ -45,7 +45,7 @@ impl Session {
     /// What is compared with: `picture WxH`, after which its file says how it was made, a `scene`,
     /// or why there is none.
     pub(super) fn reference(&self, rest: &str) -> Result<Msg, String> {
-        let id = self.app.compared.requested();
+        let id = self.app.shared.compared.requested();
         let (kind, rest) = rest.split_once(' ').unwrap_or((rest, ""));
         let read = match kind {
             "picture" => {
@@ -64,7 +64,7 @@ impl Session {
                 Ok(ReferenceRead::Picture(Arc::new(frame), made))
             }
             "scene" => {
-                let scene = opened_as("scene.ray", &self.text_of(rest)?).0.scene;
+                let scene = opened_as("scene.ray", &self.text_of(rest)?).0.shared.scene;
                 let scene = scene.ok_or("it has errors")?;
                 Ok(ReferenceRead::Scene(scene, Images::default()))
             }
@@ -76,7 +76,7 @@ impl Session {
     /// Shows a complete preview of an object everywhere, of `none`, or of object 1 in its left
     /// `half`.
     pub(super) fn shows(&mut self, what: &str) -> Result<(), String> {
-        let (_, size) = self.app.raster().ok_or("there is no room")?;
+        let (_, size) = self.app.shared.raster().ok_or("there is no room")?;
         let object = |at: u32| match what {
             "half" if at % size.width < size.width / 2 => Ok(1),
             "half" | "none" => Ok(NO_OBJECT),
@@ -85,19 +85,19 @@ impl Session {
         let objects = (0..size.pixels() as u32).map(object);
         let frame = pictures::frame(size, objects.collect::<Result<_, _>>()?);
         self.update(Msg::Frame(Target::Preview, Arc::new(frame)));
-        let picture = self.app.picture_mut();
+        let picture = self.app.shared.picture_mut();
         picture.advance(&FrameWindow::whole(size), &[], usize::MAX);
         Ok(())
     }
 
     /// A mouse event over a cell of an area, by button or key.
     pub(super) fn mouse(&self, name: &str, area: &str, rest: &str) -> Result<Msg, String> {
-        let areas = self.app.areas();
+        let areas = self.app.shared.areas();
         let area = match area {
             "errors" => areas.errors,
             "list" => areas.list,
             "fields" => areas.fields,
-            "picture" => self.app.raster().ok_or("there is no room")?.0,
+            "picture" => self.app.shared.raster().ok_or("there is no room")?.0,
             "screen" => ratatui::layout::Rect::default(),
             _ => return Err(format!("no area is called {area}")),
         };

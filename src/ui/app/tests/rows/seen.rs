@@ -15,8 +15,8 @@ impl Session {
         let (name, pattern) = check.split_once(' ').unwrap_or((check, ""));
         let pattern = &self.named(pattern);
         Ok(match name {
-            "text" => return self.is_text(self.app.document.text(), pattern),
-            "saved" => return self.is_text(self.app.document.saved(), pattern),
+            "text" => return self.is_text(self.app.shared.document.text(), pattern),
+            "saved" => return self.is_text(self.app.shared.document.saved(), pattern),
             "writes" => return self.is_text(self.written()?, pattern),
             "over" => match self.guard()? {
                 Guard::Holding(text) => return self.is_text(&text, pattern),
@@ -44,7 +44,7 @@ impl Session {
         };
         Ok((
             is_it,
-            format!("{:?} in\n{found}", self.app.overlays.message),
+            format!("{:?} in\n{found}", self.app.shared.overlays.message),
         ))
     }
 
@@ -135,7 +135,7 @@ impl Session {
 
     /// What is seen under a name; nothing is an empty text.
     pub(super) fn seen(&self, name: &str, pattern: &str) -> Result<String, String> {
-        let text = self.app.document.text();
+        let text = self.app.shared.document.text();
         Ok(match name {
             "line" => {
                 let (line, _) = pattern.split_once(' ').ok_or("which line?")?;
@@ -168,8 +168,9 @@ impl Session {
 
     /// Whether the scene and the findings are those of the text as if it were just opened.
     fn is_fresh(&self) -> bool {
-        let name = format!("scene.{}", self.app.document.language().extension());
-        let fresh = opened_as(&name, self.app.document.text()).0;
-        self.app.scene == fresh.scene && self.app.diagnostics == fresh.diagnostics
+        let name = format!("scene.{}", self.app.shared.document.language().extension());
+        let fresh = opened_as(&name, self.app.shared.document.text()).0;
+        self.app.shared.scene == fresh.shared.scene
+            && self.app.shared.diagnostics == fresh.shared.diagnostics
     }
 }

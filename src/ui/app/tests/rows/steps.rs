@@ -45,10 +45,11 @@ impl Session {
         if let Some((node, rest)) = said.strip_prefix('[').and_then(|s| s.split_once(']')) {
             let found = self
                 .app
+                .shared
                 .nodes()
                 .iter()
                 .find(|found| found.to_string() == node);
-            self.app.select(found.ok_or("no such node")?);
+            self.app.shared.select(found.ok_or("no such node")?);
             said = rest.trim_start();
         }
         self.effects = press(&mut self.app, said);
@@ -107,11 +108,11 @@ impl Session {
             "paste" => Msg::Paste(unescaped(&self.named(rest))),
             "fails" => Msg::Failed(rest.to_owned()),
             "says" => {
-                self.app.overlays.say(rest);
+                self.app.shared.overlays.say(rest);
                 return Ok(());
             }
             "read-it" => {
-                self.app.overlays.clear_message();
+                self.app.shared.overlays.clear_message();
                 return Ok(());
             }
             "hangup" => Msg::HangUp,
@@ -130,10 +131,11 @@ impl Session {
             "field" => {
                 let field = self
                     .app
+                    .shared
                     .fields()
                     .iter()
                     .position(|row| row.field.key == rest);
-                self.app.cursor.field = field.ok_or("no such field")?;
+                self.app.shared.cursor.field = field.ok_or("no such field")?;
                 return Ok(());
             }
             "shows" => return self.shows(rest),
@@ -168,12 +170,12 @@ impl Session {
     }
 
     fn own_path(&self) -> PathBuf {
-        let path = self.app.disk.path.clone();
+        let path = self.app.shared.disk.path.clone();
         path.unwrap_or_else(|| PathBuf::from("scene.ray"))
     }
 
     fn reading(&self, path: PathBuf, text: String) -> Msg {
-        let reading = Reading::new(text, self.app.baseline()).expect("it fits into memory");
+        let reading = Reading::new(text, self.app.shared.baseline()).expect("it fits into memory");
         Msg::Read(path, Ok(reading))
     }
 
@@ -228,7 +230,7 @@ impl Session {
                 .get("base")
                 .unwrap_or_else(|| &self.texts["opened"]);
             let kept = self.text_of(rest)?;
-            let document = &self.app.document;
+            let document = &self.app.shared.document;
             let offer = offer(document.language(), &document.shared_text(), base, &kept);
             let name = offer.claim.name().to_owned();
             self.under_way.offer = Some(offer);

@@ -32,71 +32,84 @@ pub(super) fn seen(app: &App, name: &str) -> Option<String> {
 
 /// What is edited, and the cursor in it.
 fn text(app: &App, name: &str) -> Option<String> {
-    let typing = app.cursor.typing.as_ref();
+    let typing = app.shared.cursor.typing.as_ref();
     let refused = typing.and_then(|typing| typing.refused.as_ref());
-    let past = app.document.states().take(app.document.present() + 1);
+    let past = app
+        .shared
+        .document
+        .states()
+        .take(app.shared.document.present() + 1);
     let steps = past.filter_map(|state| state.name.map(StepName::to_string));
     Some(match name {
-        "text" => app.document.text().to_owned(),
-        "dirty" => app.document.is_dirty().words(),
-        "language" => app.document.language().extension().to_owned(),
-        "undoable" => app.document.undoable().words(),
+        "text" => app.shared.document.text().to_owned(),
+        "dirty" => app.shared.document.is_dirty().words(),
+        "language" => app.shared.document.language().extension().to_owned(),
+        "undoable" => app.shared.document.undoable().words(),
         "steps" => joined(steps, "; "),
-        "step" => app.document.present().to_string(),
-        "errors" => count(app.error_count()),
-        "reported" => count(app.reported.len()),
+        "step" => app.shared.document.present().to_string(),
+        "errors" => count(app.shared.error_count()),
+        "reported" => count(app.shared.reported.len()),
         "wrong" => findings(app),
-        "at" => app.cursor.selected().to_string(),
-        "named" => app.source().name(app.cursor.selected()),
-        "field" => app.cursor.field.to_string(),
+        "at" => app.shared.cursor.selected().to_string(),
+        "named" => app.shared.source().name(app.shared.cursor.selected()),
+        "field" => app.shared.cursor.field.to_string(),
         "typed" => typing.map(|typing| typing.input.value()).words(),
         "refused" => refused.map(|refused| &refused.message).words(),
         "expected" => refused.map(|refused| &refused.expected).words(),
         "parts" => {
-            let parts = app.cursor.parts().iter();
+            let parts = app.shared.cursor.parts().iter();
             joined(parts.map(|(depth, node)| format!("{depth} {node}")), ", ")
         }
-        "inputs" => app.has_input().words(),
-        "marks" => count(app.cursor.marks.len()),
-        "nodes" => count(app.nodes().len()),
+        "inputs" => app.shared.has_input().words(),
+        "marks" => count(app.shared.cursor.marks.len()),
+        "nodes" => count(app.shared.nodes().len()),
         "list" => list(app),
         "views" => joined(
-            app.source().saved_views().into_iter().map(|view| view.name),
+            app.shared
+                .source()
+                .saved_views()
+                .into_iter()
+                .map(|view| view.name),
             ", ",
         ),
-        "objects" => app.scene.as_ref().map(|scene| scene.objects.len()).words(),
+        "objects" => app
+            .shared
+            .scene
+            .as_ref()
+            .map(|scene| scene.objects.len())
+            .words(),
         _ => return None,
     })
 }
 
 /// Settings of pictures, and what is on screen.
 fn settings(app: &App, name: &str) -> Option<String> {
-    let output = app.output();
+    let output = app.shared.output();
     Some(match name {
-        "mode" => app.mode.name().to_owned(),
-        "context" => format!("{:?}", app.context()),
+        "mode" => app.shared.mode.name().to_owned(),
+        "context" => format!("{:?}", app.shared.context()),
         "size" => format!("{}x{}", output.width, output.height),
-        "integrator" => app.rendering().integrator().name().to_owned(),
-        "overridden" => app.is_integrator_changed().words(),
-        "rendering" => format!("{:?}", app.rendering()),
-        "aov" => app.pictures.aov.map(Aov::name).words(),
-        "region" => app.pictures.region.is_some().words(),
-        "exposure" => app.display_name().words(),
+        "integrator" => app.shared.rendering().integrator().name().to_owned(),
+        "overridden" => app.shared.is_integrator_changed().words(),
+        "rendering" => format!("{:?}", app.shared.rendering()),
+        "aov" => app.shared.pictures.aov.map(Aov::name).words(),
+        "region" => app.shared.pictures.region.is_some().words(),
+        "exposure" => app.shared.display_name().words(),
         "exposed" => {
-            let window = app.frame_window();
+            let window = app.shared.frame_window();
             window
                 .map(|window| window.display.half_stops.to_string())
                 .words()
         }
-        "transforms" => app.pictures.transform.is_some().words(),
+        "transforms" => app.shared.pictures.transform.is_some().words(),
         "denoised" => {
-            let window = app.frame_window();
+            let window = app.shared.frame_window();
             window.is_some_and(|window| window.display.denoised).words()
         }
-        "view-name" => app.view_name().words(),
-        "legend" => app.legend().words(),
-        "theme" => format!("{:?}", app.theme),
-        "panel" => app.areas().border.x.to_string(),
+        "view-name" => app.shared.view_name().words(),
+        "legend" => app.shared.legend().words(),
+        "theme" => format!("{:?}", app.shared.theme),
+        "panel" => app.shared.areas().border.x.to_string(),
         "hints" => {
             let hints = app.hints().into_iter();
             ended(hints.map(|(key, words)| format!("{key} {words}")), ", ")
@@ -108,7 +121,7 @@ fn settings(app: &App, name: &str) -> Option<String> {
 
 /// Messages, questions, prompts, menus and pages.
 fn overlays(app: &App, name: &str) -> Option<String> {
-    let overlays = &app.overlays;
+    let overlays = &app.shared.overlays;
     let (menu, help) = (overlays.menu.as_ref(), overlays.help.as_ref());
     let past = overlays.messages.past().map(|message| &message.text);
     let failed = overlays.message.as_ref().filter(|_| overlays.has_failed());
@@ -120,12 +133,12 @@ fn overlays(app: &App, name: &str) -> Option<String> {
         "past" => joined(past, "; "),
         "fault" => failed.map(|message| &message.text).words(),
         "asks" => question(app),
-        "loses" => app.losses().words(),
+        "loses" => app.shared.losses().words(),
         "prompt" => prompt
             .map(|prompt| format!(":{}", prompt.input.value()))
             .words(),
         "completed" => {
-            let found = app.completions().into_iter();
+            let found = app.shared.completions().into_iter();
             ended(
                 found.map(|found| format!("{} [{}]", found.shown, found.keys)),
                 "; ",
@@ -146,7 +159,7 @@ fn overlays(app: &App, name: &str) -> Option<String> {
 
 /// The working view: `camera` in full, `stands` and `target` exactly, and `view` rounded.
 fn camera(app: &App, name: &str) -> Option<String> {
-    let camera = app.camera();
+    let camera = app.shared.camera();
     Some(match name {
         "camera" => format!("{camera:?}"),
         "stands" => camera
@@ -154,68 +167,78 @@ fn camera(app: &App, name: &str) -> Option<String> {
             .words(),
         "target" => camera.map(|camera| camera.target).words(),
         "view" => camera.map(|camera| rounded(&camera)).words(),
-        "moved" => app.pictures.view.is_some().words(),
+        "moved" => app.shared.pictures.view.is_some().words(),
         _ => return None,
     })
 }
 
 /// The pictures, and what is over them.
 fn pictures(app: &App, name: &str) -> Option<String> {
-    let latest = app.picture().latest.as_ref();
+    let latest = app.shared.picture().latest.as_ref();
     Some(match name {
         "picture" => latest.is_some().words(),
         "first" => latest.map(|frame| frame.pixels[0][0]).words(),
-        "awaited" => app.picture().wanted.is_some().words(),
-        "paused" => app.picture().paused.words(),
-        "traced" => app.pictures.trace.is_some().words(),
-        "corner" => app.pictures.preview.shown.object_at(0, 0).words(),
-        "under" => match app.node_at([0, 0]) {
+        "awaited" => app.shared.picture().wanted.is_some().words(),
+        "paused" => app.shared.picture().paused.words(),
+        "traced" => app.shared.pictures.trace.is_some().words(),
+        "corner" => app.shared.pictures.preview.shown.object_at(0, 0).words(),
+        "under" => match app.shared.node_at([0, 0]) {
             Ok(node) => node.words(),
             Err(_) => "unknown".to_owned(),
         },
         "compared-at" => {
-            let cross = app.compared.cross;
+            let cross = app.shared.compared.cross;
             cross.map(|(x, y)| format!("{x},{y}")).words()
         }
-        "cross" => app.cross().map(|cross| joined(cross.pixel, ",")).words(),
-        "outlined" => joined(app.outlined_objects(), " "),
-        "symbols" => joined(app.symbols().iter().map(|symbol| symbol.node), ", "),
-        "solo" => app.pictures.solo.is_some().words(),
-        "thumbnails" => app.thumbnails.are_awaited().words(),
+        "cross" => app
+            .shared
+            .cross()
+            .map(|cross| joined(cross.pixel, ","))
+            .words(),
+        "outlined" => joined(app.shared.outlined_objects(), " "),
+        "symbols" => joined(app.shared.symbols().iter().map(|symbol| symbol.node), ", "),
+        "solo" => app.shared.pictures.solo.is_some().words(),
+        "thumbnails" => app.shared.thumbnails.are_awaited().words(),
         _ => return None,
     })
 }
 
 /// The comparison with a reference.
 fn comparison(app: &App, name: &str) -> Option<String> {
-    let compared = &app.compared;
+    let compared = &app.shared.compared;
     Some(match name {
         "contrast" => compared.view.name().into_owned(),
         "figures" => compared.are_figures_final().words(),
         "differing" => compared.figures().map(|found| found.differing).words(),
         "reference" => compared.reference.as_ref().map(|found| &found.name).words(),
         "comparing" => compared.is_awaited().words(),
-        "unlike" => app.compares_unlike().words(),
+        "unlike" => app.shared.compares_unlike().words(),
         _ => return None,
     })
 }
 
 /// Files, saves, exports and the track.
 fn work(app: &App, name: &str) -> Option<String> {
-    let export = app.jobs.export.as_ref();
+    let export = app.shared.jobs.export.as_ref();
     let track = app.sequence.open.as_ref();
-    let writing = app.jobs.still_writing();
+    let writing = app.shared.jobs.still_writing();
     Some(match name {
         "disk" => {
-            let state = format!("{:?}", app.disk.state).to_lowercase();
+            let state = format!("{:?}", app.shared.disk.state).to_lowercase();
             state.split('(').next().map(str::to_owned).words()
         }
-        "path" => app.disk.path.as_ref().map(|path| path.display()).words(),
-        "polls" => app.polls().words(),
-        "unkept" => app.fails_to_keep().words(),
-        "awaits" => app.assets.are_awaited().words(),
-        "opening" => app.disk.is_opening().words(),
-        "leaving" => app.jobs.next.is_some().words(),
+        "path" => app
+            .shared
+            .disk
+            .path
+            .as_ref()
+            .map(|path| path.display())
+            .words(),
+        "polls" => app.shared.polls().words(),
+        "unkept" => app.shared.fails_to_keep().words(),
+        "awaits" => app.shared.assets.are_awaited().words(),
+        "opening" => app.shared.disk.is_opening().words(),
+        "leaving" => app.shared.jobs.next.is_some().words(),
         "writing" => writing
             .map(|(path, time)| format!("{} {time}", path.display()))
             .words(),
@@ -223,7 +246,7 @@ fn work(app: &App, name: &str) -> Option<String> {
             .map(|export| export.destination.path.display())
             .words(),
         "done" => export.map(Export::done).words(),
-        "queued" => count(app.jobs.queued()),
+        "queued" => count(app.shared.jobs.queued()),
         "frame" => track.map(|open| open.frame).words(),
         "plays" => track.is_some_and(|open| open.is_playing).words(),
         "held" => track.and_then(|open| open.held.as_ref()).words(),
@@ -233,7 +256,7 @@ fn work(app: &App, name: &str) -> Option<String> {
 
 /// What is found wrong, and where.
 fn findings(app: &App) -> String {
-    let wrong = app.wrong();
+    let wrong = app.shared.wrong();
     let found = wrong.findings.iter().map(|found| {
         let place = found.span.of(wrong.text);
         format!("{} at {place}", found.message_with_file())
@@ -244,7 +267,7 @@ fn findings(app: &App) -> String {
 /// The question that is open; of a conflict the base, mine and theirs of each place, and the
 /// decision.
 fn question(app: &App) -> String {
-    match &app.overlays.dialog {
+    match &app.shared.overlays.dialog {
         None => String::new(),
         Some(Dialog::Leave(AfterLeaving::Quit)) => "quit".to_owned(),
         Some(Dialog::Leave(AfterLeaving::Open(path))) => format!("open {}", path.display()),
@@ -258,7 +281,7 @@ fn question(app: &App) -> String {
             });
             format!("conflict {}", joined(each, ", "))
         }
-        Some(Dialog::Delete(nodes)) => format!("delete: {}", app.consequence(nodes)),
+        Some(Dialog::Delete(nodes)) => format!("delete: {}", app.shared.consequence(nodes)),
         Some(Dialog::Overwrite(_)) => "overwrite".to_owned(),
         Some(Dialog::Recover(offer)) => {
             format!("recover {} {}", offer.places, offer.conflicts())
@@ -302,17 +325,17 @@ fn rounded(camera: &Camera) -> String {
 
 /// The list's nodes with their marks: of selection and of folded groups, with a comma between them.
 fn list(app: &App) -> String {
-    let lines = (0..app.listing().len()).filter_map(|line| app.listing().get(line));
+    let lines = (0..app.shared.listing().len()).filter_map(|line| app.shared.listing().get(line));
     let nodes = lines.filter_map(|line| match line {
         ListLine::Heading(_) => None,
         ListLine::Node(_, node) => Some(node),
     });
     let marked = nodes.map(|node| {
-        let is_folded = matches!(node, Node::Object(at) if app.cursor.rows.is_folded(at));
+        let is_folded = matches!(node, Node::Object(at) if app.shared.cursor.rows.is_folded(at));
         let fold = if is_folded { "+" } else { "" };
-        let is_selected = node == app.cursor.selected();
+        let is_selected = node == app.shared.cursor.selected();
         let cursor = if is_selected { ">" } else { "" };
-        format!("{cursor}{fold}{}", app.source().name(node))
+        format!("{cursor}{fold}{}", app.shared.source().name(node))
     });
     joined(marked, ", ")
 }

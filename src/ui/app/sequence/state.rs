@@ -1,18 +1,17 @@
-//! A track over the scene, as the interface holds it.
+//! The state of SEQUENCE: the track over the scene, and the frame that is looked at.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::Duration;
 
-use super::after_leaving::name_of;
-use super::live_edit::LiveEdit;
 use crate::text::{Findings, Position};
 use crate::track::{Bound, Track};
+use crate::ui::app::after_leaving::name_of;
 
 /// Frames per second of a track that does not say how many.
 const RATE: u32 = 24;
 
-/// What SEQUENCE mode plays.
+/// What SEQUENCE plays.
 #[derive(Debug, Default)]
 pub struct Sequence {
     /// The track that is open.
@@ -29,7 +28,7 @@ pub struct OpenTrack {
     /// Path of its file.
     pub path: PathBuf,
     /// The text of the file, as read or written last; `None` as long as there is no file.
-    pub(super) held: Option<Arc<String>>,
+    pub(in crate::ui::app) held: Option<Arc<String>>,
     /// Whether the file holds by now what cannot be played.
     pub is_refused: bool,
     /// What the text says.
@@ -38,29 +37,16 @@ pub struct OpenTrack {
     pub frame: u32,
     /// Whether the frames follow each other by themselves.
     pub is_playing: bool,
-    /// The frame in the text of the scene; `None` outside of SEQUENCE mode, and while the scene's
-    /// file is read.
-    pub(super) shown: Option<ShownFrame>,
+    /// The track in the text without the frame; `None` until a frame is shown.
+    pub(super) bound: Option<Bound>,
     /// The texts before each key written, the newest last.
     pub(super) before: Vec<Arc<String>>,
 }
 
-/// A frame in the text of the scene.
-#[derive(Debug)]
-pub(super) struct ShownFrame {
-    /// The track in the text without the frame.
-    pub(super) bound: Bound,
-    /// The change of the text.
-    pub(super) live_edit: LiveEdit,
-    /// Whether there were unsaved edits before.
-    pub(super) was_dirty: bool,
-}
-
 impl Sequence {
-    /// Whether the text that a frame is shown in had unsaved edits; `None` without such a frame.
-    pub(super) fn was_dirty(&self) -> Option<bool> {
-        let shown = self.open.as_ref()?.shown.as_ref()?;
-        Some(shown.was_dirty)
+    /// The open track, if it is this file.
+    pub(super) fn open_at(&mut self, path: &Path) -> Option<&mut OpenTrack> {
+        self.open.as_mut().filter(|open| open.path == path)
     }
 }
 

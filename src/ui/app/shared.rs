@@ -1,4 +1,4 @@
-//! The state of the interface.
+//! What all modes share.
 
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -11,10 +11,10 @@ use super::cursor::Cursor;
 use super::disk::Disk;
 use super::inspection::Inspection;
 use super::jobs::Jobs;
+use super::live_edit::PassingEdit;
 use super::overlays::Overlays;
 use super::palette::Palette;
 use super::pictures::Pictures;
-use super::sequence::Sequence;
 use super::suggestions::Suggestions;
 use super::thumbnails::Thumbnails;
 use crate::document::Document;
@@ -36,10 +36,10 @@ pub(super) enum Border {
     List,
 }
 
-/// The whole state of the interface: the text, its meaning, and one part for each concern, which
-/// owns its own state.
+/// What all modes share: the text, its meaning, and one part for each concern, which owns its own
+/// state.
 #[derive(Debug)]
-pub struct App {
+pub struct Shared {
     /// The text under edit, its history and its saved version.
     pub document: Document,
     /// The errors and warnings of the current text.
@@ -62,8 +62,12 @@ pub struct App {
     pub compared: Compared,
     /// The pixel that is inspected.
     pub inspection: Inspection,
-    /// The track that SEQUENCE mode plays.
-    pub sequence: Sequence,
+    /// The change of the text that passes with the mode.
+    pub(super) passing: Option<PassingEdit>,
+    /// Whether the scene's file is being read, which is compared with the text without that change.
+    pub(super) awaits_reading: bool,
+    /// Whether another scene was opened in this step.
+    pub(super) is_replaced: bool,
     /// Pictures of the texts in the undo history.
     pub thumbnails: Thumbnails,
     /// Dialogs, help, errors, the line being typed, and messages.

@@ -1,0 +1,166 @@
+//! The modes that are rooms, one line each, and what follows from the list: the state of the interface,
+//! who is asked about a step, a press or a key, and the table of all keys.
+
+use super::keys::{self, ModeRow, Row};
+use super::opening::Opening;
+use super::room::Room;
+use super::sequence::{self, Sequence};
+use super::shared::Shared;
+use crate::ui::keymap::{Entry, Key, Keymap, Mode, RowId};
+use crate::ui::msg::Effect;
+
+/// Declares the modes that are rooms: the name of the state in [`App`], its type, and the mode.
+macro_rules! modes {
+    ($($(#[$doc:meta])* $field:ident: $state:ident, $mode:ident;)+) => {
+        /// The whole state of the interface: what all modes share, and each mode's own.
+        #[derive(Debug)]
+        pub struct App {
+            /// What all modes share.
+            pub shared: Shared,
+            $($(#[$doc])* pub $field: $state,)+
+        }
+
+        impl App {
+            /// Creates the interface, and the effects to start with.
+            pub fn open(opening: Opening) -> (Self, Vec<Effect>) {
+                let (shared, effects) = Shared::open(opening);
+                let app = Self {
+                    shared,
+                    $($field: $state::default(),)+
+                };
+                (app, effects)
+            }
+
+            /// Lets each mode follow a step; with another scene it begins anew.
+            pub(super) fn settle(&mut self) {
+                let is_replaced = std::mem::take(&mut self.shared.is_replaced);
+                $(
+                    if is_replaced {
+                        self.$field = $state::default();
+                    }
+                    self.$field.settle(&mut self.shared);
+                )+
+            }
+
+            /// Presses the left button in the present mode; `None` if that is left to what all modes
+            /// share.
+            pub(super) fn press(&mut self, at: (u16, u16)) -> Option<Vec<Effect>> {
+                match self.shared.mode {
+                    $(Mode::$mode => self.$field.press(&mut self.shared, at),)+
+                    _ => None,
+                }
+            }
+
+            /// The same of dragging with the left button.
+            pub(super) fn drag(&mut self, at: (u16, u16)) -> Option<Vec<Effect>> {
+                match self.shared.mode {
+                    $(Mode::$mode => self.$field.drag(&mut self.shared, at),)+
+                    _ => None,
+                }
+            }
+        }
+
+        /// Rows of keys, by what their steps see.
+        enum Rows {
+            /// What all modes share.
+            Shared(&'static [Row]),
+            $($(#[$doc])* $mode(&'static [ModeRow<$state>]),)+
+        }
+
+        impl Rows {
+            /// What the rows say of themselves.
+            fn keys(&self) -> Vec<Key> {
+                match self {
+                    Self::Shared(rows) => rows.iter().map(|row| row.key).collect(),
+                    $(Self::$mode(rows) => rows.iter().map(|row| row.key).collect(),)+
+                }
+            }
+
+            const fn count(&self) -> usize {
+                match self {
+                    Self::Shared(rows) => rows.len(),
+                    $(Self::$mode(rows) => rows.len(),)+
+                }
+            }
+
+            /// Does what the keys of a row do.
+            fn act(&self, at: usize, app: &mut App) -> Vec<Effect> {
+                match self {
+                    Self::Shared(rows) => rows[at].act(&mut app.shared),
+                    $(Self::$mode(rows) => rows[at].act(&mut app.$field, &mut app.shared),)+
+                }
+            }
+
+            /// Whether the keys of a row would do something now.
+            fn acts(&self, at: usize, app: &App) -> bool {
+                match self {
+                    Self::Shared(rows) => (rows[at].acts)(&app.shared),
+                    $(Self::$mode(rows) => (rows[at].acts)(&app.$field, &app.shared),)+
+                }
+            }
+        }
+    };
+}
+
+modes! {
+    /// The track that SEQUENCE plays.
+    sequence: Sequence, Sequence;
+}
+
+/// All rows, one slice a file. A key that is not bound where it is pressed is answered with the first
+/// row that has it elsewhere, so that their order matters. Ctrl-H, Ctrl-I, Ctrl-M and Ctrl-[ send the
+/// same bytes as Backspace, Tab, Enter and Esc, and are therefore never bound.
+const ROWS: &[Rows] = &[
+    Rows::Shared(keys::lists::KEYS),
+    Rows::Shared(keys::questions::KEYS),
+    Rows::Shared(keys::pages::KEYS),
+    Rows::Shared(keys::select::KEYS),
+    Rows::Shared(keys::transform::KEYS),
+    Rows::Sequence(sequence::KEYS),
+    Rows::Shared(keys::inspect::KEYS),
+    Rows::Shared(keys::edit::KEYS),
+    Rows::Shared(keys::camera::KEYS),
+    Rows::Shared(keys::compare::KEYS),
+    Rows::Shared(keys::display::KEYS),
+    Rows::Shared(keys::trace::KEYS),
+    Rows::Sequence(sequence::ENTRIES),
+    Rows::Shared(keys::anywhere::KEYS),
+];
+
+/// What all rows say of themselves.
+fn all_keys() -> impl Iterator<Item = Key> {
+    ROWS.iter().flat_map(Rows::keys)
+}
+
+/// The slice of a row, and its place there.
+fn row(RowId(mut at): RowId) -> Option<(&'static Rows, usize)> {
+    for rows in ROWS {
+        match at.checked_sub(rows.count()) {
+            None => return Some((rows, at)),
+            Some(rest) => at = rest,
+        }
+    }
+    None
+}
+
+impl Default for Keymap {
+    fn default() -> Self {
+        Self::new(all_keys())
+    }
+}
+
+impl App {
+    /// Does what the keys of a row do.
+    pub(super) fn act(&mut self, id: RowId) -> Vec<Effect> {
+        row(id).map_or_else(Vec::new, |(rows, at)| rows.act(at, self))
+    }
+
+    /// The hints for the keys that do something now, the most useful first.
+    pub fn hints(&self) -> Vec<Entry> {
+        let acts = |id: RowId| row(id).is_some_and(|(rows, at)| rows.acts(at, self));
+        self.shared.keymap.hints(self.shared.context(), acts)
+    }
+}
+
+#[cfg(test)]
+mod tests;

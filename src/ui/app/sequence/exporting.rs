@@ -1,0 +1,149 @@
+//! Exporting the track that is played, all frames of it.
+
+use std::collections::HashMap;
+use std::path::{Path, PathBuf};
+
+use super::playing::how_to_key;
+use super::state::Sequence;
+use crate::image_file::{DEFAULT_RATE, ImageFormat};
+use crate::scene::Size;
+use crate::ui::app::exports::ExportOrder;
+use crate::ui::app::jobs::{Asking, Export, ExportWork, Pending, Stage};
+use crate::ui::app::shared::Shared;
+use crate::ui::keymap::{Context, Mode};
+use crate::ui::msg::{Destination, Effect, ExportId};
+use crate::ui::reel::{Reel, ReelForm, ReelProgress, Shot};
+
+/// Exports to the scene's folder under the scene's name; asks if another program has written that file.
+pub(super) fn export_default(sequence: &mut Sequence, shared: &mut Shared) -> Vec<Effect> {
+    export(sequence, shared, ExportOrder::default(), Asking::Yes)
+}
+
+/// The scene's path with the extension of a file that holds a sequence.
+fn reel_path(shared: &Shared) -> PathBuf {
+    shared.export_path().with_extension("gif")
+}
+
+/// Exports the sequence that is played, after the exports that were started before.
+pub(in crate::ui::app) fn export(
+    sequence: &Sequence,
+    shared: &mut Shared,
+    order: ExportOrder,
+    asking: Asking,
+) -> Vec<Effect> {
+    let ExportOrder { path, size, spp } = order;
+    let path = path.unwrap_or_else(|| reel_path(shared));
+    let wanted = size.unwrap_or_else(|| shared.output());
+    let reel = form_of(sequence, shared, &path, wanted).and_then(|form| {
+        let shot = Shot {
+            rendering: shared.pictures.rendering,
+            aov: shared.pictures.aov,
+            view: shared.pictures.view,
+            size,
+            spp,
+        };
+        reel_of(sequence, shared, form, shot)
+    });
+    let reel = match reel {
+        Ok(reel) => reel,
+        Err(reason) => {
+            shared.overlays.fail(reason);
+            return Vec::new();
+        }
+    };
+    let track = sequence.open.as_ref().map(|open| open.path.clone());
+    let samples = spp.unwrap_or_else(|| shared.rendering().spp());
+    let export = Export {
+        id: shared.jobs.next_export(),
+        stage: Stage::Tracing,
+        destination: Destination {
+            path: path.clone(),
+            existing: asking.existing(),
+            scene: shared.disk.path.clone(),
+            named: shared.assets.files().iter().cloned().chain(track).collect(),
+            origin: None,
+        },
+        size: wanted,
+        spp: shared.pictures.samples(samples),
+        aov: shared.pictures.aov,
+        frames: Some(reel.track.frames),
+        reel: None,
+        progress: None,
+        written_for: 0,
+    };
+    shared.announce_export(export.aov, &path);
+    shared.begin_or_queue(Pending {
+        export,
+        making: ExportWork::Film(Box::new(reel)),
+        asking,
+    })
+}
+
+/// What a sequence of pictures of this size is written as, or why it cannot be.
+fn form_of(
+    sequence: &Sequence,
+    shared: &Shared,
+    path: &Path,
+    size: Size,
+) -> Result<ReelForm, String> {
+    let form = ReelForm::of_path(path).map_err(|reason| {
+        let keep = shared.keymap.key(Context::In(Mode::Sequence), "accept");
+        let keep = keep.map_or_else(String::new, |key| {
+            format!("; to export this frame alone, press {key} first")
+        });
+        format!("{reason}{keep}")
+    })?;
+    let rate = sequence.open.as_ref().and_then(|open| open.track.rate);
+    let refused = match &form {
+        ReelForm::Movie(format) => format
+            .refuses(rate.unwrap_or(DEFAULT_RATE))
+            .or_else(|| ImageFormat::Gif.refuses(size)),
+        ReelForm::Pictures(_, format) => format.refuses(size),
+    };
+    refused.map_or(Ok(form), Err)
+}
+
+/// The sequence that is played, with the text as it is without a frame.
+fn reel_of(
+    sequence: &Sequence,
+    shared: &mut Shared,
+    form: ReelForm,
+    shot: Shot,
+) -> Result<Reel, String> {
+    if shared.assets.are_awaited() {
+        return Err(shared.no_picture());
+    }
+    let open = sequence.open.as_ref().ok_or("no track is open")?;
+    if open.is_refused {
+        return Err(format!(
+            "{} cannot be played as it is on disk: correct it first",
+            open.name()
+        ));
+    }
+    if open.held.is_none() {
+        return Err(format!(
+            "nothing to export yet: {}",
+            how_to_key(open, shared)
+        ));
+    }
+    let track = open.track.clone();
+    shared.put_back();
+    let text = shared.document.shared_text();
+    Ok(Reel {
+        language: shared.document.language(),
+        text,
+        scene: shared.disk.path.clone().unwrap_or_default(),
+        track,
+        form,
+        shot,
+        written: HashMap::new(),
+    })
+}
+
+/// Takes how far the export of a sequence is.
+pub(in crate::ui::app) fn filmed(shared: &mut Shared, id: ExportId, progress: ReelProgress) {
+    let running = shared.jobs.export.as_mut();
+    if let Some(export) = running.filter(|export| export.id == id) {
+        export.reel = Some(progress);
+    }
+}

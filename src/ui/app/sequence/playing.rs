@@ -1,0 +1,325 @@
+//! Playing a track: its frames are tried in the text of the scene, one after the other.
+
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use super::dope_sheet::DopeSheet;
+use super::state::{OpenTrack, Sequence, complaint};
+use crate::document::StepName;
+use crate::file::ReadError;
+use crate::text::Severity;
+use crate::track::{self, Bound, Track};
+use crate::ui::app::after_leaving::name_of;
+use crate::ui::app::messages::About;
+use crate::ui::app::shared::Shared;
+use crate::ui::keymap::Mode;
+use crate::ui::msg::{Effect, Timer};
+
+/// Reads a track to play: this one, the open one, or that beside the scene.
+pub(in crate::ui::app) fn open_track(
+    sequence: &mut Sequence,
+    shared: &mut Shared,
+    file: Option<PathBuf>,
+) -> Vec<Effect> {
+    let open = sequence.open.as_ref().map(|open| open.path.clone());
+    let beside = || {
+        let scene = shared.disk.path.as_ref()?;
+        Some(scene.with_extension("toml"))
+    };
+    let Some(path) = file.or(open).or_else(beside) else {
+        shared
+            .overlays
+            .fail("this scene has no file: name a track, as in :track FILE");
+        return Vec::new();
+    };
+    if path.extension().is_none_or(|extension| extension != "toml") {
+        let name = path.display();
+        shared
+            .overlays
+            .fail(format!("{name}: the name of a track ends in .toml"));
+        return Vec::new();
+    }
+    if !has_sound_scene(shared) {
+        return Vec::new();
+    }
+    sequence.asked = Some(path.clone());
+    vec![Effect::ReadTrack(path)]
+}
+
+/// Whether there is a scene without errors; says so if there is not.
+pub(super) fn has_sound_scene(shared: &mut Shared) -> bool {
+    let is_sound = shared.scene.is_some() && shared.error_count() == 0;
+    if !is_sound {
+        shared.refuse_picture(Severity::Error, &shared.no_picture());
+    }
+    is_sound
+}
+
+/// Takes the text of a track file, `None` if there is no such file, and plays it if asked.
+pub(in crate::ui::app) fn track_read(
+    sequence: &mut Sequence,
+    shared: &mut Shared,
+    path: PathBuf,
+    read: Result<Option<String>, ReadError>,
+) -> Vec<Effect> {
+    let is_open = sequence.open_at(&path).is_some();
+    if is_open && sequence.writing.is_some() {
+        // It may be half of what is being written, after which the file is read again.
+        return Vec::new();
+    }
+    let asked = sequence.asked.take_if(|asked| *asked == path);
+    let is_asked = asked.is_some();
+    let text = match read {
+        Ok(text) if is_asked || is_open => {
+            shared.overlays.end_complaint(About::Track);
+            if text.is_none() && !is_asked {
+                // Many programs move the old file away before the new one exists.
+                return Vec::new();
+            }
+            text
+        }
+        Ok(_) => return Vec::new(),
+        Err(error) => {
+            complain(shared, &error.to_string());
+            return refuse(sequence, &path);
+        }
+    };
+    if let Some(open) = sequence.open_at(&path)
+        && open.held.as_deref() == text.as_ref()
+    {
+        open.is_refused = false;
+        return if is_asked {
+            enter(sequence, shared)
+        } else {
+            Vec::new()
+        };
+    }
+    let (track, findings) = track::read(text.as_deref().unwrap_or(track::BEGUN));
+    if 0 < findings.errors() {
+        let text = text.unwrap_or_default();
+        complain(shared, &complaint(&name_of(&path), &text, &findings));
+        return refuse(sequence, &path);
+    }
+    if is_asked && !has_sound_scene(shared) {
+        return follow_open(sequence, &path);
+    }
+    shared.put_back();
+    let text_of = text.as_deref().unwrap_or_default();
+    if shared.error_count() == 0 && bind(shared, &track, &name_of(&path), text_of).is_none() {
+        resume(sequence, shared);
+        return refuse(sequence, &path);
+    }
+    let before = sequence.open.take_if(|open| open.path == path);
+    let is_known = before.is_some();
+    let last = track.frames.saturating_sub(1);
+    sequence.open = Some(OpenTrack {
+        path,
+        held: text.map(Arc::new),
+        is_refused: false,
+        frame: before.as_ref().map_or(0, |open| open.frame.min(last)),
+        is_playing: before.is_some_and(|open| open.is_playing),
+        track,
+        bound: None,
+        before: Vec::new(),
+    });
+    if is_asked {
+        return enter(sequence, shared);
+    }
+    resume(sequence, shared);
+    if is_known && shared.mode == Mode::Sequence {
+        shared.overlays.say("track reloaded");
+    }
+    Vec::new()
+}
+
+/// Shows the present frame of the track.
+fn enter(sequence: &mut Sequence, shared: &mut Shared) -> Vec<Effect> {
+    if !has_sound_scene(shared) {
+        return Vec::new();
+    }
+    // Frames are never kept for recovery; edits before them are.
+    let kept = shared.keep_edits();
+    let before = std::mem::replace(&mut shared.mode, Mode::Sequence);
+    resume(sequence, shared);
+    let Some(open) = sequence.open.as_ref().filter(|_| shared.passing.is_some()) else {
+        shared.mode = before;
+        return kept.into_iter().collect();
+    };
+    let moves = open.bound.as_ref().is_some_and(Bound::moves_camera);
+    if moves && shared.pictures.view.is_some() {
+        shared.pictures.reset_view();
+    }
+    if open.held.is_none() {
+        let words = how_to_key(open, shared);
+        shared.overlays.say(words);
+    }
+    kept.into_iter().collect()
+}
+
+/// How the first value is keyed.
+pub(super) fn how_to_key(open: &OpenTrack, shared: &Shared) -> String {
+    let edit = shared.key_for("edit");
+    let key = shared.key_for("key");
+    let name = open.name();
+    format!("{name} is new: {edit} edits at this frame, then {key} keys the value")
+}
+
+/// Relates a track to the present text; reports errors in it.
+pub(super) fn bind(shared: &mut Shared, track: &Track, name: &str, text: &str) -> Option<Bound> {
+    let camera = shared.scene.as_ref()?.camera;
+    let (bound, findings) = track::bind(track, shared.source(), &camera);
+    if 0 < findings.errors() {
+        complain(shared, &complaint(name, text, &findings));
+        return None;
+    }
+    Some(bound)
+}
+
+fn complain(shared: &mut Shared, words: &str) {
+    shared
+        .overlays
+        .complain(About::Track, Severity::Error, words);
+}
+
+/// Puts the present frame into the text, unless one is there or a question or a reading waits for the
+/// text without it.
+pub(super) fn resume(sequence: &mut Sequence, shared: &mut Shared) {
+    let waits = shared.overlays.dialog.is_some() || shared.awaits_reading;
+    if shared.mode == Mode::Sequence && !waits && shared.passing.is_none() {
+        let frame = sequence.open.as_ref().map_or(0, |open| open.frame);
+        show(sequence, shared, frame);
+    }
+}
+
+/// Puts a frame into the text in place of the one before.
+fn show(sequence: &mut Sequence, shared: &mut Shared, frame: u32) {
+    let Some(open) = &mut sequence.open else {
+        return;
+    };
+    open.frame = frame.min(open.last());
+    let frame = open.frame;
+    let shown = if let Some(before) = shared.passing.take().zip(open.bound.take()) {
+        (!shared.leaves_live_edit(&before.0.live_edit, "frame")).then_some(before)
+    } else {
+        let text = open.held.clone().unwrap_or_default();
+        let bound = bind(shared, &open.track, &open.name(), &text);
+        bound.map(|bound| (shared.begin_passing(), bound))
+    };
+    let Some((mut passing, bound)) = shown else {
+        open.is_playing = false;
+        shared.mode = Mode::Select;
+        return;
+    };
+    let edits = |shared: &Shared| Ok(bound.edits(shared.source(), frame));
+    match shared.try_instead(&mut passing.live_edit, edits) {
+        Ok(()) if passing.live_edit.is_applied => {
+            let name = format!("frame {frame} of {}", open.name());
+            shared.document.name_step(StepName::done(name));
+        }
+        Ok(()) => {}
+        Err(reason) => shared.overlays.fail(format!("frame {frame}: {reason}")),
+    }
+    open.bound = Some(bound);
+    shared.passing = Some(passing);
+}
+
+/// Goes some frames on.
+pub(super) fn step_frames(sequence: &mut Sequence, shared: &mut Shared, frames: i32) {
+    if let Some(open) = &sequence.open {
+        let frame = open.frame_after(frames);
+        show(sequence, shared, frame);
+    }
+}
+
+/// Goes to the next or previous frame with a key.
+pub(super) fn step_keys(sequence: &mut Sequence, shared: &mut Shared, is_next: bool) {
+    let open = sequence.open.as_ref();
+    match open.and_then(|open| open.key_after(is_next)) {
+        Some(frame) => show(sequence, shared, frame),
+        None if is_next => shared.overlays.say("there are no later keys"),
+        None => shared.overlays.say("there are no earlier keys"),
+    }
+}
+
+/// Goes to the frame that is pointed at on the sheet; returns whether there is one.
+pub(super) fn scrub_to(sequence: &mut Sequence, shared: &mut Shared, at: (u16, u16)) -> bool {
+    let Some(open) = &mut sequence.open else {
+        return false;
+    };
+    let sheet = DopeSheet::new(shared.areas().fields, open.last());
+    let frame = sheet.frame(at.0);
+    let is_there = sheet.frames.contains(at.into());
+    if is_there {
+        open.is_playing = false;
+        show(sequence, shared, frame);
+    }
+    is_there
+}
+
+/// Plays the track, or stops.
+pub(super) fn toggle(sequence: &mut Sequence, _: &mut Shared) -> Vec<Effect> {
+    let Some(open) = &mut sequence.open else {
+        return Vec::new();
+    };
+    open.is_playing = !open.is_playing;
+    let timer = Effect::Later(open.period(), Timer::Frame);
+    if open.is_playing {
+        vec![timer]
+    } else {
+        Vec::new()
+    }
+}
+
+/// Shows the next frame once something of the one before was seen: a scene that takes longer to
+/// trace plays more slowly.
+pub(in crate::ui::app) fn play_on(sequence: &mut Sequence, shared: &mut Shared) -> Vec<Effect> {
+    let open = sequence.open.as_ref();
+    let Some(open) = open.filter(|open| open.is_playing && shared.mode == Mode::Sequence) else {
+        return Vec::new();
+    };
+    let timer = Effect::Later(open.period(), Timer::Frame);
+    if shared.passing.is_some() && shared.pictures.preview.shows_wanted() {
+        step_frames(sequence, shared, 1);
+    }
+    vec![timer]
+}
+
+/// Leaves SEQUENCE with the values of the frame in the text, as one undo step.
+pub(super) fn keep_frame(sequence: &mut Sequence, shared: &mut Shared) {
+    let Some(open) = &mut sequence.open else {
+        return;
+    };
+    open.is_playing = false;
+    let shown = shared.passing.take();
+    if shown.is_some_and(|shown| shown.live_edit.is_applied) {
+        let words = format!("the scene now has the values of frame {}", open.frame);
+        let undo = shared.key_for("undo");
+        shared.overlays.say(format!("{words}; {undo} undoes that"));
+    }
+    shared.keep_live_edit();
+    shared.mode = Mode::Select;
+}
+
+/// Goes on with the open track after a file was read that cannot be played, its own or another.
+fn refuse(sequence: &mut Sequence, read: &Path) -> Vec<Effect> {
+    if let Some(open) = sequence.open_at(read) {
+        open.is_refused = true;
+    }
+    follow_open(sequence, read)
+}
+
+/// Watches the open track again after another one was read in vain.
+fn follow_open(sequence: &Sequence, read: &Path) -> Vec<Effect> {
+    let again = reread(sequence);
+    let is_other = |effect: &Effect| !matches!(effect, Effect::ReadTrack(path) if path == read);
+    again.filter(is_other).into_iter().collect()
+}
+
+/// Reads the open track again, if there is one and it is not being written.
+pub(in crate::ui::app) fn reread(sequence: &Sequence) -> Option<Effect> {
+    let open = sequence.open.as_ref()?;
+    sequence
+        .writing
+        .is_none()
+        .then(|| Effect::ReadTrack(open.path.clone()))
+}

@@ -1,0 +1,36 @@
+//! What SEQUENCE makes of what happens to the interface.
+
+use super::{Sequence, playing};
+use crate::ui::app::room::Room;
+use crate::ui::app::shared::Shared;
+use crate::ui::keymap::Mode;
+use crate::ui::msg::Effect;
+
+impl Room for Sequence {
+    /// Keeps a frame in the text while the mode lasts, except under a question and while the scene's
+    /// file is read.
+    fn settle(&mut self, shared: &mut Shared) {
+        if shared.mode == Mode::Sequence {
+            playing::resume(self, shared);
+        } else {
+            if let Some(open) = &mut self.open {
+                open.is_playing = false;
+            }
+            shared.put_back();
+        }
+    }
+
+    fn press(&mut self, shared: &mut Shared, at: (u16, u16)) -> Option<Vec<Effect>> {
+        let is_taken =
+            playing::scrub_to(self, shared, at) || shared.areas().picture.contains(at.into());
+        if !is_taken {
+            shared.leave_passing();
+        }
+        is_taken.then(Vec::new)
+    }
+
+    fn drag(&mut self, shared: &mut Shared, at: (u16, u16)) -> Option<Vec<Effect>> {
+        playing::scrub_to(self, shared, at);
+        Some(Vec::new())
+    }
+}
