@@ -368,7 +368,7 @@ impl Session {
         self.fit_pixels()?;
         let is_limited = self.link.is_limited();
         self.app.shared.follow_wires();
-        self.app.shared.thumbnails.has_colours = self.inks.have_colours();
+        self.app.shared.has_colours = self.inks.have_colours();
         if let Some(frame_window) = self.app.shared.frame_window() {
             let allowance = match urgency {
                 // Nothing of the picture is sent.

@@ -19,6 +19,8 @@ pub struct Assets {
     pub images: Images,
     /// The meshes of its objects that have been read.
     pub meshes: Meshes,
+    /// How often files have changed what pictures show.
+    pub(super) changes: u64,
     /// The files requested last: those of the last text without errors.
     asked: Option<Wanted>,
     /// Whether the request is still to be made.

@@ -22,7 +22,7 @@ impl Shared {
         };
         self.pictures.due |= news.images;
         if news.images || news.meaning {
-            self.thumbnails.forget();
+            self.assets.changes += 1;
         }
         if news.meaning {
             // Meshes may name pictures, which are requested then.

@@ -1,17 +1,19 @@
-//! The modes that are rooms, one line each, and what follows from the list: the state of the interface,
+//! The modes and pages that are rooms, one line each, and what follows from the list: the state of the interface,
 //! who is asked about a step, a press or a key, and the table of all keys.
 
+use super::history::Thumbnails;
 use super::keys::{self, ModeRow, Row};
 use super::opening::Opening;
 use super::room::Room;
 use super::sequence::{self, Sequence};
 use super::shared::Shared;
-use crate::ui::keymap::{Entry, Key, Keymap, Mode, RowId};
+use crate::ui::keymap::{Entry, Key, Keymap, RowId};
 use crate::ui::msg::Effect;
 
-/// Declares the modes that are rooms: the name of the state in [`App`], its type, and the mode.
+/// Declares the modes and pages that are rooms: the name of the state in [`App`], its type, and that of
+/// its rows of keys, if it has its own.
 macro_rules! modes {
-    ($($(#[$doc:meta])* $field:ident: $state:ident, $mode:ident;)+) => {
+    ($($(#[$doc:meta])* $field:ident: $state:ident $(, $rows:ident)?;)+) => {
         /// The whole state of the interface: what all modes share, and each mode's own.
         #[derive(Debug)]
         pub struct App {
@@ -36,27 +38,31 @@ macro_rules! modes {
                 let is_replaced = std::mem::take(&mut self.shared.is_replaced);
                 $(
                     if is_replaced {
-                        self.$field = $state::default();
+                        self.$field.renew();
                     }
                     self.$field.settle(&mut self.shared);
                 )+
             }
 
-            /// Presses the left button in the present mode; `None` if that is left to what all modes
-            /// share.
+            /// Lets each mode and page request what it is to show.
+            pub(super) fn follow(&mut self) -> Vec<Effect> {
+                let mut effects = Vec::new();
+                $(effects.extend(self.$field.follow(&mut self.shared));)+
+                effects
+            }
+
+            /// Presses the left button; `None` if no mode takes that.
             pub(super) fn press(&mut self, at: (u16, u16)) -> Option<Vec<Effect>> {
-                match self.shared.mode {
-                    $(Mode::$mode => self.$field.press(&mut self.shared, at),)+
-                    _ => None,
-                }
+                let taken = None;
+                $(let taken = taken.or_else(|| self.$field.press(&mut self.shared, at));)+
+                taken
             }
 
             /// The same of dragging with the left button.
             pub(super) fn drag(&mut self, at: (u16, u16)) -> Option<Vec<Effect>> {
-                match self.shared.mode {
-                    $(Mode::$mode => self.$field.drag(&mut self.shared, at),)+
-                    _ => None,
-                }
+                let taken = None;
+                $(let taken = taken.or_else(|| self.$field.drag(&mut self.shared, at));)+
+                taken
             }
         }
 
@@ -64,7 +70,7 @@ macro_rules! modes {
         enum Rows {
             /// What all modes share.
             Shared(&'static [Row]),
-            $($(#[$doc])* $mode(&'static [ModeRow<$state>]),)+
+            $($($rows(&'static [ModeRow<$state>]),)?)+
         }
 
         impl Rows {
@@ -72,14 +78,14 @@ macro_rules! modes {
             fn keys(&self) -> Vec<Key> {
                 match self {
                     Self::Shared(rows) => rows.iter().map(|row| row.key).collect(),
-                    $(Self::$mode(rows) => rows.iter().map(|row| row.key).collect(),)+
+                    $($(Self::$rows(rows) => rows.iter().map(|row| row.key).collect(),)?)+
                 }
             }
 
             const fn count(&self) -> usize {
                 match self {
                     Self::Shared(rows) => rows.len(),
-                    $(Self::$mode(rows) => rows.len(),)+
+                    $($(Self::$rows(rows) => rows.len(),)?)+
                 }
             }
 
@@ -87,7 +93,7 @@ macro_rules! modes {
             fn act(&self, at: usize, app: &mut App) -> Vec<Effect> {
                 match self {
                     Self::Shared(rows) => rows[at].act(&mut app.shared),
-                    $(Self::$mode(rows) => rows[at].act(&mut app.$field, &mut app.shared),)+
+                    $($(Self::$rows(rows) => rows[at].act(&mut app.$field, &mut app.shared),)?)+
                 }
             }
 
@@ -95,7 +101,7 @@ macro_rules! modes {
             fn acts(&self, at: usize, app: &App) -> bool {
                 match self {
                     Self::Shared(rows) => (rows[at].acts)(&app.shared),
-                    $(Self::$mode(rows) => (rows[at].acts)(&app.$field, &app.shared),)+
+                    $($(Self::$rows(rows) => (rows[at].acts)(&app.$field, &app.shared),)?)+
                 }
             }
         }
@@ -105,6 +111,8 @@ macro_rules! modes {
 modes! {
     /// The track that SEQUENCE plays.
     sequence: Sequence, Sequence;
+    /// The pictures on the page of the undo history.
+    thumbnails: Thumbnails;
 }
 
 /// All rows, one slice a file. A key that is not bound where it is pressed is answered with the first

@@ -165,7 +165,6 @@ impl Shared {
         self.passing = None;
         self.awaits_reading = false;
         self.is_replaced = true;
-        self.thumbnails.forget();
         self.cursor = Cursor::default();
         self.overlays = Overlays::default();
         self.jobs.abandon_saves();

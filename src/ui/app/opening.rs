@@ -10,7 +10,6 @@ use super::inspection::Inspection;
 use super::palette::Palette;
 use super::{
     Cursor, Disk, FirstReading, Jobs, OnDisk, Overlays, Page, Pictures, Shared, Suggestions,
-    Thumbnails,
 };
 use crate::document::Document;
 use crate::file::ReadError;
@@ -101,7 +100,6 @@ impl Shared {
             passing: None,
             awaits_reading: false,
             is_replaced: false,
-            thumbnails: Thumbnails::default(),
             overlays: Overlays::default(),
             polled: BTreeMap::new(),
             jobs: Jobs::default(),
@@ -116,6 +114,7 @@ impl Shared {
             kept_panels: opening.preferences.panels,
             resizing: None,
             mouse: opening.mouse,
+            has_colours: false,
             terminal: opening.terminal,
         };
         shared.overlays.page = Page::recent(opening.recent);

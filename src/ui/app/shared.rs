@@ -16,7 +16,6 @@ use super::overlays::Overlays;
 use super::palette::Palette;
 use super::pictures::Pictures;
 use super::suggestions::Suggestions;
-use super::thumbnails::Thumbnails;
 use crate::document::Document;
 use crate::scene::Scene;
 use crate::text::Findings;
@@ -68,8 +67,6 @@ pub struct Shared {
     pub(super) awaits_reading: bool,
     /// Whether another scene was opened in this step.
     pub(super) is_replaced: bool,
-    /// Pictures of the texts in the undo history.
-    pub thumbnails: Thumbnails,
     /// Dialogs, help, errors, the line being typed, and messages.
     pub overlays: Overlays,
     /// Why files are polled that the system was to watch.
@@ -98,6 +95,8 @@ pub struct Shared {
     pub(super) resizing: Option<Border>,
     /// Who receives mouse events.
     pub mouse: Mouse,
+    /// Whether the terminal shows pictures in colours.
+    pub has_colours: bool,
     /// Size of the terminal in cells.
     pub terminal: (u16, u16),
 }

@@ -9,7 +9,6 @@ use crate::image_file::ImageFormat;
 use crate::render::{Frame, Frames, Job, Region, Settings};
 use crate::scene::{Filter, Integrator, Rendering, Scene, Size};
 use crate::text::Severity;
-use crate::ui::history_scene::NoPicture;
 use crate::ui::keymap::Mode;
 use crate::ui::msg::{Effect, Recalled, Target};
 
@@ -297,16 +296,12 @@ impl Shared {
     pub(super) fn frame(&mut self, target: Target, frame: Arc<Frame>) -> Vec<Effect> {
         match target {
             Target::Export => return self.export_frame(frame),
-            Target::Thumbnail => {
-                self.thumbnails.take(&frame);
-                return Vec::new();
-            }
             Target::Trial => return self.tried(&frame),
             Target::Compared | Target::Reference => {
                 self.compared.take(target, frame);
                 return Vec::new();
             }
-            Target::Preview | Target::Trace => {}
+            Target::Preview | Target::Trace | Target::Thumbnail => {}
         }
         // Without a scene, it is of one that was left.
         if self.scene.is_some() {
@@ -321,12 +316,12 @@ impl Shared {
     pub(super) fn ended(&mut self, target: Target, reason: impl Into<String>) -> Vec<Effect> {
         match target {
             Target::Export => return self.export_ended(reason.into()),
-            Target::Thumbnail => {
-                self.thumbnails.fail(NoPicture::Failed(reason.into()));
-                return Vec::new();
-            }
             Target::Trial => return self.end_trials(),
-            Target::Preview | Target::Trace | Target::Compared | Target::Reference => {}
+            Target::Preview
+            | Target::Trace
+            | Target::Compared
+            | Target::Reference
+            | Target::Thumbnail => {}
         }
         self.pictures.want(target, None);
         self.compared.want(target, None);

@@ -4,14 +4,19 @@ use crossterm::event::{KeyCode, KeyEvent, KeyModifiers};
 use tui_input::Input;
 
 use super::cursor::Typing;
+use super::history;
 use super::journal::KEPT_AFTER;
 use super::sequence;
 use super::{App, Grid, PageFocus, PromptKind, Shared, Tool, line};
 use crate::text::{Severity, alternatives};
 use crate::ui::arrange::{Zoom, divided, resized};
+use crate::ui::history_scene::NoPicture;
 use crate::ui::keymap::{self, Context, Meaning, Mode};
 use crate::ui::msg::{Effect, Msg, Target, Timer};
 use crate::ui::terminal::Mouse;
+
+/// Why a renderer has ended that was not stopped.
+const STOPPED: &str = "the renderer stopped early";
 
 impl App {
     /// Processes a message and returns the resulting effects.
@@ -26,14 +31,33 @@ impl App {
         self.shared.follow_input();
         self.settle();
         effects.extend(self.shared.follow_step());
+        effects.extend(self.follow());
         effects
     }
 
     fn take(&mut self, msg: Msg) -> Vec<Effect> {
-        let (sequence, shared) = (&mut self.sequence, &mut self.shared);
+        let shared = &mut self.shared;
+        let (sequence, thumbnails) = (&mut self.sequence, &mut self.thumbnails);
         match msg {
             Msg::Key(key) => self.key(key),
             Msg::Mouse(event) => self.pointer(event),
+            Msg::Started(Target::Thumbnail, generation) => {
+                thumbnails.started(generation);
+                Vec::new()
+            }
+            Msg::Frame(Target::Thumbnail, frame) => {
+                thumbnails.take(&frame);
+                Vec::new()
+            }
+            Msg::Refused(Target::Thumbnail, reason) => {
+                thumbnails.fail(NoPicture::Failed(reason));
+                Vec::new()
+            }
+            Msg::Ended(Target::Thumbnail) => {
+                thumbnails.fail(NoPicture::Failed(STOPPED.to_owned()));
+                Vec::new()
+            }
+            Msg::Derived(ticket, derived) => history::derived(thumbnails, shared, ticket, derived),
             Msg::TrackRead(path, read) => sequence::track_read(sequence, shared, path, read),
             Msg::TrackChanged => sequence::reread(sequence).into_iter().collect(),
             Msg::TrackWritten(outcome) => sequence::written(sequence, shared, outcome),
@@ -182,7 +206,6 @@ impl Shared {
         let mut effects = self.follow();
         self.follow_histogram();
         effects.extend(self.follow_explained());
-        effects.extend(self.follow_steps());
         if self.passing.is_none() {
             effects.extend(self.disk.journal.follow(&self.document));
         }
@@ -201,18 +224,16 @@ impl Shared {
                 self.pictures.grid = Grid { across, down };
                 self.pictures.preview.asked = None;
             }
-            Msg::Started(Target::Thumbnail, generation) => self.thumbnails.started(generation),
             Msg::Started(Target::Trial, generation) => self.suggestions.started(generation),
             Msg::Started(target, generation) => {
                 self.pictures.want(target, Some(generation));
                 self.compared.want(target, Some(generation));
             }
             Msg::Recalled(recalled) => self.recalled(recalled),
-            Msg::Derived(ticket, derived) => return self.derived(ticket, derived),
             Msg::Frame(target, frame) => return self.frame(target, frame),
             Msg::Refused(target, reason) => return self.ended(target, reason),
             Msg::Explained(question, answer) => self.explained(question, answer),
-            Msg::Ended(target) => return self.ended(target, "the renderer stopped early"),
+            Msg::Ended(target) => return self.ended(target, STOPPED),
             Msg::FileChanged => return self.read_again(),
             Msg::Polled(what, reason) => self.polled(what, reason),
             // The scene may have been given another name since the request.

@@ -33,7 +33,7 @@ impl Session {
         let is_busy = if is_last {
             pictures.are_awaited()
                 || self.app.shared.compared.is_awaited()
-                || self.app.shared.thumbnails.are_awaited()
+                || self.app.thumbnails.are_awaited()
                 || self.app.shared.suggestions.are_awaited()
                 || self.app.shared.jobs.export.is_some()
         } else {

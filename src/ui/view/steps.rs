@@ -51,7 +51,7 @@ pub(crate) fn render(app: &App, inks: &mut Inks, area: Rect, buffer: &mut Buffer
         let known = steps
             .rows
             .get(*index)
-            .and_then(|(id, _)| shared.thumbnails.get(*id, Rank::Row));
+            .and_then(|(id, _)| app.thumbnails.get(*id, Rank::Row));
         let thumbnail = strip.thumbnail.map(|(width, height)| Rect {
             x: place.x + 2,
             width: width.min(place.width.saturating_sub(2)),
@@ -69,7 +69,7 @@ pub(crate) fn render(app: &App, inks: &mut Inks, area: Rect, buffer: &mut Buffer
     if let (Some(large), Some((id, _))) = (strip.large, chosen) {
         show(
             shared,
-            shared.thumbnails.get(*id, Rank::Large),
+            app.thumbnails.get(*id, Rank::Large),
             large,
             inks,
             buffer,
@@ -169,7 +169,7 @@ mod tests {
     /// The page after a duplication, which was undone, and a nudge that is then undone as well.
     fn lines(has_colours: bool, width: u16, height: u16) -> Vec<String> {
         let mut app = app();
-        app.shared.thumbnails.has_colours = has_colours;
+        app.shared.has_colours = has_colours;
         for key in ['j', 'j', 'j', 'D', 'e', 'l', 'l', 'u', 'U'] {
             app.update(Msg::Key(KeyCode::Char(key).into()));
         }

@@ -237,7 +237,7 @@ const STATES: &[(&str, Change)] = &[
     }),
     ("undo history", |app| {
         app.shared.mode = Mode::Select;
-        app.shared.thumbnails.has_colours = true;
+        app.shared.has_colours = true;
         select(app, Node::Object(0));
         for key in ['D', 'D', 'd', 'u', 'U', 'k'] {
             app.update(Msg::Key(KeyCode::Char(key).into()));

@@ -21,6 +21,9 @@ impl Room for Sequence {
     }
 
     fn press(&mut self, shared: &mut Shared, at: (u16, u16)) -> Option<Vec<Effect>> {
+        if shared.mode != Mode::Sequence {
+            return None;
+        }
         let is_taken =
             playing::scrub_to(self, shared, at) || shared.areas().picture.contains(at.into());
         if !is_taken {
@@ -30,6 +33,9 @@ impl Room for Sequence {
     }
 
     fn drag(&mut self, shared: &mut Shared, at: (u16, u16)) -> Option<Vec<Effect>> {
+        if shared.mode != Mode::Sequence {
+            return None;
+        }
         playing::scrub_to(self, shared, at);
         Some(Vec::new())
     }

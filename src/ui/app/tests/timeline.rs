@@ -18,7 +18,7 @@ use crate::ui::msg::Target;
 /// The scene on a terminal with colours after three steps.
 fn changed() -> Session {
     let mut session = scene("scene.ray", SCENE).session();
-    session.app.shared.thumbnails.has_colours = true;
+    session.app.shared.has_colours = true;
     session.run("ggjjjjell<Esc>jDk\nd | step 3");
     session
 }
@@ -168,10 +168,10 @@ fn a_text_with_errors_and_a_refused_picture_are_not_asked_for_again() {
     session.run("u");
     assert!(opens_page(&mut session).derived.contains(&4));
     let (id, _) = session.app.shared.open_steps().expect("it is open").1.rows[4];
-    let thumbnail = session.app.shared.thumbnails.get(id, Rank::Row);
+    let thumbnail = session.app.thumbnails.get(id, Rank::Row);
     assert_eq!(thumbnail, Some(&Err(NoPicture::Errors)));
     session.run("<Esc>");
-    session.app.shared.thumbnails.forget();
+    session.app.thumbnails.forget();
     session
         .run("U | does derive | > @cannot thumbnail no memory | does once derive | does derive 2");
 }
@@ -193,10 +193,10 @@ fn pictures_show_the_working_view_and_are_made_again_for_another() {
 #[test]
 fn without_colours_and_in_little_room_nothing_is_traced() {
     let mut session = changed();
-    session.app.shared.thumbnails.has_colours = false;
+    session.app.shared.has_colours = false;
     assert!(opens_page(&mut session).derived.is_empty());
     session.run("<Esc>");
-    session.app.shared.thumbnails.has_colours = true;
+    session.app.shared.has_colours = true;
     session.run("@resize 80 10");
     assert!(opens_page(&mut session).derived.is_empty());
 }
@@ -205,7 +205,7 @@ fn without_colours_and_in_little_room_nothing_is_traced() {
 fn in_a_large_text_only_the_selected_step_has_a_picture() {
     let comment = "x".repeat(17 << 20);
     let mut session = scene("scene.ray", &format!("{SCENE}// {comment}\n")).session();
-    session.app.shared.thumbnails.has_colours = true;
+    session.app.shared.has_colours = true;
     session.run("ggjjjjel<Esc>");
     assert_eq!(opens_page(&mut session).derived, [1]);
     assert_eq!(perform(session.run("k")).derived, [0]);

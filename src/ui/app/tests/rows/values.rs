@@ -198,7 +198,7 @@ fn pictures(app: &App, name: &str) -> Option<String> {
         "outlined" => joined(app.shared.outlined_objects(), " "),
         "symbols" => joined(app.shared.symbols().iter().map(|symbol| symbol.node), ", "),
         "solo" => app.shared.pictures.solo.is_some().words(),
-        "thumbnails" => app.shared.thumbnails.are_awaited().words(),
+        "thumbnails" => app.thumbnails.are_awaited().words(),
         _ => return None,
     })
 }

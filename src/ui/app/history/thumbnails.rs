@@ -3,10 +3,10 @@
 use std::collections::VecDeque;
 use std::sync::Arc;
 
-use super::cell_image::CellImage;
 use crate::document::StateId;
 use crate::render::Frame;
 use crate::scene::{Camera, Integrator};
+use crate::ui::app::cell_image::CellImage;
 use crate::ui::history_scene::NoPicture;
 
 /// The number of pictures kept in rows and at the side: less than 4 MB on a screen of 250×80 cells.
@@ -38,8 +38,6 @@ pub type Thumbnail = Result<CellImage, NoPicture>;
 /// The pictures of the history's texts, the last that were needed.
 #[derive(Debug, Default)]
 pub struct Thumbnails {
-    /// Whether the terminal can show them.
-    pub has_colours: bool,
     /// What they depend on besides the texts.
     look: Look,
     /// For each slot its picture; those of newer requests last.
@@ -51,11 +49,13 @@ pub struct Thumbnails {
 }
 
 /// What all pictures depend on besides their texts: the working view, from which all are seen as the
-/// preview would be, and the user's integrator.
+/// preview would be, the user's integrator, and the files that the scene names.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct Look {
     pub(super) view: Option<Camera>,
     pub(super) integrator: Option<Integrator>,
+    /// How often files have changed.
+    pub(super) files: u64,
 }
 
 #[derive(Clone, Copy, Debug)]
@@ -79,8 +79,8 @@ impl Thumbnails {
         self.pending.is_some()
     }
 
-    /// Forgets all pictures: files of the scene have changed.
-    pub(super) fn forget(&mut self) {
+    /// Forgets all pictures.
+    pub(in crate::ui::app) fn forget(&mut self) {
         self.kept.clear();
     }
 
@@ -125,14 +125,14 @@ impl Thumbnails {
     }
 
     /// Notes the generation of the picture that is being traced.
-    pub(super) fn started(&mut self, generation: u64) {
+    pub(in crate::ui::app) fn started(&mut self, generation: u64) {
         if let Some(pending) = &mut self.pending {
             pending.generation = Some(generation);
         }
     }
 
     /// Takes a frame of the picture under way.
-    pub(super) fn take(&mut self, frame: &Arc<Frame>) {
+    pub(in crate::ui::app) fn take(&mut self, frame: &Arc<Frame>) {
         let is_it = |pending: &Pending| pending.generation == Some(frame.generation);
         let Some(pending) = self.pending.filter(is_it) else {
             return;
@@ -150,7 +150,7 @@ impl Thumbnails {
     }
 
     /// Records why the picture under way does not exist.
-    pub(super) fn fail(&mut self, reason: NoPicture) {
+    pub(in crate::ui::app) fn fail(&mut self, reason: NoPicture) {
         if let Some(pending) = self.pending.take() {
             self.keep(pending.slot, Err(reason));
         }

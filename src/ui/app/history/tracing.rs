@@ -1,0 +1,179 @@
+//! Pictures of the texts on the page of the undo history: what is wanted, derived and traced.
+
+use ratatui::layout::Rect;
+
+use super::thumbnails::{Look, Rank, Slot, Thumbnails};
+use crate::render::{Frames, Job, Settings};
+use crate::scene::{Camera, Filter, Integrator, Rendering};
+use crate::ui::app::page::List;
+use crate::ui::app::room::Room;
+use crate::ui::app::shared::Shared;
+use crate::ui::app::steps::Steps;
+use crate::ui::history_scene::{HistoryScene, HistoryText, NoPicture};
+use crate::ui::layout::raster;
+use crate::ui::msg::{Effect, Target};
+
+/// Samples per pixel of the pictures in rows and of the large one.
+const WHITTED_SAMPLES: [u32; 2] = [4, 16];
+const PATH_SAMPLES: [u32; 2] = [64, 128];
+
+impl Room for Thumbnails {
+    /// A ticket is never given twice, whatever scene it was for.
+    fn renew(&mut self) {
+        self.forget();
+    }
+
+    fn follow(&mut self, shared: &mut Shared) -> Vec<Effect> {
+        follow(self, shared)
+    }
+}
+
+/// Brings the page of the history up to date, and requests the next picture on it. Stops tracing
+/// if the page is closed.
+fn follow(thumbnails: &mut Thumbnails, shared: &mut Shared) -> Vec<Effect> {
+    let Some((page, steps)) = shared.open_steps() else {
+        let is_under_way = thumbnails.cancel();
+        let stop = is_under_way.then_some(Effect::Stop(Target::Thumbnail));
+        return stop.into_iter().collect();
+    };
+    if steps.revision != shared.document.revision() {
+        let was_here = page.chosen() == Some(steps.present);
+        let steps = Steps::of(&shared.document);
+        let present = steps.present;
+        if let Some(page) = &mut shared.overlays.page {
+            page.list = List::Steps(steps);
+            if was_here {
+                page.choose(present);
+            }
+            page.go(0);
+        }
+    }
+    if shared.assets.are_awaited() {
+        return Vec::new();
+    }
+    thumbnails.look(Look {
+        view: shared.pictures.view,
+        integrator: shared.pictures.rendering.integrator,
+        files: shared.assets.changes,
+    });
+    let wanted = wanted_slots(shared);
+    match thumbnails.next(&wanted) {
+        Some((slot, ticket)) => derive(shared, slot, ticket).into_iter().collect(),
+        None => Vec::new(),
+    }
+}
+
+/// The pictures on the page, the most urgent first: those in rows from the selected one outwards,
+/// which take less time, then the large one.
+fn wanted_slots(shared: &Shared) -> Vec<Slot> {
+    let Some((page, steps)) = shared.open_steps() else {
+        return Vec::new();
+    };
+    let strip = shared.history_layout(shared.body());
+    let shown = page.rows();
+    let id = |row: usize| {
+        let (index, _) = shown.get(row)?;
+        steps.rows.get(*index).map(|(id, _)| *id)
+    };
+    let at = page.filter.at;
+    let large = strip.large.and_then(|large| {
+        Some(Slot {
+            id: id(at)?,
+            rank: Rank::Large,
+            room: (large.width, large.height),
+        })
+    });
+    let thumbnail = strip.thumbnail.filter(|_| !shared.is_large());
+    let mut rows: Vec<_> = strip.rows(at, shown.len()).map(|(row, _)| row).collect();
+    rows.sort_by_key(|row| row.abs_diff(at));
+    let rows = rows.into_iter().filter_map(|row| {
+        Some(Slot {
+            id: id(row)?,
+            rank: Rank::Row,
+            room: thumbnail?,
+        })
+    });
+    rows.chain(large).collect()
+}
+
+/// Requests the scene of a text, which takes too long to be derived here.
+fn derive(shared: &Shared, slot: Slot, ticket: u64) -> Option<Effect> {
+    let mut states = shared.document.states();
+    let at = states.position(|state| state.id == slot.id)?;
+    Some(Effect::Derive(Box::new(HistoryText {
+        ticket,
+        timeline: shared.document.timeline(),
+        at,
+        scene: shared.disk.path.clone(),
+        files: shared.assets.known(),
+    })))
+}
+
+/// Traces a scene that was derived for a picture of the history.
+pub(in crate::ui::app) fn derived(
+    thumbnails: &mut Thumbnails,
+    shared: &Shared,
+    ticket: u64,
+    derived: Result<HistoryScene, NoPicture>,
+) -> Vec<Effect> {
+    let slot = thumbnails.asked(ticket);
+    let job = match (slot, derived) {
+        (Some(slot), Ok(past)) => thumbnail_job(thumbnails, shared, slot, past),
+        (Some(_), Err(reason)) => {
+            thumbnails.fail(reason);
+            return Vec::new();
+        }
+        (None, Ok(past)) => return vec![Effect::Free(past.scene)],
+        (None, Err(_)) => return Vec::new(),
+    };
+    job.map(|job| Effect::Trace(Target::Thumbnail, job))
+        .into_iter()
+        .collect()
+}
+
+/// The job of a picture: as the preview would show the text, from the working view if there is
+/// one, so that pictures differ only by their texts; but always light, as files hold it.
+fn thumbnail_job(
+    thumbnails: &mut Thumbnails,
+    shared: &Shared,
+    slot: Slot,
+    past: HistoryScene,
+) -> Option<Job> {
+    let own = past.scene.camera;
+    let view = shared.pictures.view.map(|view| Camera {
+        size: own.size,
+        ..view
+    });
+    let camera = view.unwrap_or(own);
+    let room = Rect::new(0, 0, slot.room.0, slot.room.1);
+    let Some((_, size)) = raster(room, camera.size) else {
+        thumbnails.fail(NoPicture::Failed("there is no room".to_owned()));
+        return None;
+    };
+    let rendering = shared.pictures.rendering(Some(&past.scene));
+    let rendering = Rendering {
+        spp: Some(samples(rendering.integrator(), slot.rank)),
+        filter: Some(Filter::Box),
+        ..rendering
+    };
+    Some(Job {
+        settings: Settings::new(size, &rendering),
+        scene: past.scene,
+        images: past.images,
+        camera,
+        limit: None,
+        frames: Frames::Live,
+        denoise: false,
+        numbers: None,
+    })
+}
+fn samples(integrator: Integrator, rank: Rank) -> u32 {
+    let [row, large] = match integrator {
+        Integrator::Whitted => WHITTED_SAMPLES,
+        Integrator::Path | Integrator::Photon => PATH_SAMPLES,
+    };
+    match rank {
+        Rank::Row => row,
+        Rank::Large => large,
+    }
+}
