@@ -1,0 +1,173 @@
+//! Whether a picture may be written to a file.
+
+use std::path::Path;
+
+use crate::file::{self, Version};
+use crate::ui::msg::{Destination, Existing, ExportId, Msg};
+
+/// Why a picture is not written.
+#[derive(Debug, PartialEq, Eq)]
+pub(super) struct Refused {
+    pub(super) reason: String,
+    /// Whether the only obstacle is a file that others wrote.
+    pub(super) is_taken: bool,
+}
+
+impl Refused {
+    /// What to report of an export.
+    pub(super) fn report(self, id: ExportId) -> Msg {
+        if self.is_taken {
+            Msg::Taken(id, self.reason)
+        } else {
+            Msg::Exported(id, Err(self.reason))
+        }
+    }
+}
+
+impl From<String> for Refused {
+    fn from(reason: String) -> Self {
+        Self {
+            reason,
+            is_taken: false,
+        }
+    }
+}
+
+/// Resolves [`Existing::Numbered`]: adds the first free number, from 2, to the name.
+pub(super) fn numbered(to: Destination) -> Destination {
+    if to.existing != Existing::Numbered {
+        return to;
+    }
+    let name =
+        |part: Option<&std::ffi::OsStr>| part.unwrap_or_default().to_string_lossy().into_owned();
+    let (stem, extension) = (name(to.path.file_stem()), name(to.path.extension()));
+    let free = (2..10_000)
+        .map(|number| {
+            to.path
+                .with_file_name(format!("{stem}-{number}.{extension}"))
+        })
+        .find(|path| path.symlink_metadata().is_err());
+    Destination {
+        path: free.unwrap_or_else(|| to.path.clone()),
+        existing: Existing::Kept,
+        ..to
+    }
+}
+
+/// Checks whether a picture may be written there; the error is the reason why not.
+pub(super) fn check_target(to: &Destination) -> Result<(), Refused> {
+    check_target_of(&to.path, to)
+}
+
+/// As [`check_target`], for one frame of an export whose pattern is `named`.
+pub(super) fn check_target_of(named: &Path, to: &Destination) -> Result<(), Refused> {
+    let (path, shown) = (&to.path, to.path.display());
+    let scene = to.scene.as_deref();
+    if scene.is_some_and(|scene| file::is_same(path, scene)) {
+        return Err(
+            format!("cannot overwrite {shown}: it is the scene itself; name another file").into(),
+        );
+    }
+    if to.named.iter().any(|named| file::is_same(path, named)) {
+        return Err(
+            format!("cannot overwrite {shown}: the scene uses it; name another file").into(),
+        );
+    }
+    let reason = match to.existing {
+        Existing::Kept | Existing::Numbered => Some("exists"),
+        Existing::Own(version) if Version::of(path).ok() != Some(version) => {
+            Some("has changed since it was exported")
+        }
+        Existing::Own(_) | Existing::Overwritten => None,
+    };
+    if let Some(reason) = reason.filter(|_| path.symlink_metadata().is_ok()) {
+        return Err(Refused {
+            reason: format!(
+                "{shown} {reason}: use :export! {} to overwrite it",
+                named.display()
+            ),
+            is_taken: true,
+        });
+    }
+    file::check_target(path).map_err(|error| format!("{shown}: {error}").into())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_picture_does_not_replace_a_file_of_its_scene() {
+        let place = tempfile::tempdir().expect("a folder");
+        let texture = place.path().join("bricks.png");
+        std::fs::write(&texture, "").expect("the folder is new");
+        for existing in [Existing::Kept, Existing::Overwritten] {
+            let to = Destination {
+                path: texture.clone(),
+                existing,
+                scene: Some(place.path().join("a.ray")),
+                named: vec![place.path().join("x/../bricks.png"), texture.clone()],
+                origin: None,
+            };
+            let refused = check_target(&to).expect_err("one file");
+            assert!(refused.reason.contains("the scene uses it"), "{refused:?}");
+        }
+    }
+
+    /// A destination unrelated to any scene.
+    fn destination(path: &Path, existing: Existing) -> Destination {
+        Destination {
+            path: path.to_owned(),
+            existing,
+            scene: None,
+            named: Vec::new(),
+            origin: None,
+        }
+    }
+
+    #[test]
+    fn a_picture_written_by_another_program_is_kept() {
+        let place = tempfile::tempdir().expect("a folder");
+        let path = place.path().join("a.bmp");
+        let to = |existing| destination(&path, existing);
+        assert_eq!(check_target(&to(Existing::Kept)), Ok(()));
+        std::fs::write(&path, "").expect("the folder is new");
+        let refused = check_target(&to(Existing::Kept)).expect_err("it exists");
+        assert!(refused.reason.contains(":export! "), "{refused:?}");
+        assert_eq!(check_target(&to(Existing::Overwritten)), Ok(()));
+        let exported = Version::of(&path).expect("a file");
+        assert_eq!(check_target(&to(Existing::Own(exported))), Ok(()));
+        std::fs::write(&path, "theirs").expect("it is ours");
+        let refused = check_target(&to(Existing::Own(exported))).expect_err("it was changed");
+        assert!(
+            refused
+                .reason
+                .contains("has changed since it was exported: use :export! "),
+            "{refused:?}"
+        );
+        std::fs::remove_file(&path).expect("it is there");
+        assert_eq!(check_target(&to(Existing::Own(exported))), Ok(()));
+    }
+
+    #[test]
+    fn a_picture_does_not_replace_its_scene() {
+        let place = tempfile::tempdir().expect("a folder");
+        let (scene, linked) = (place.path().join("a.ray"), place.path().join("a.bmp"));
+        std::fs::write(&scene, "").expect("the folder is new");
+        std::fs::hard_link(&scene, &linked).expect("on one file system");
+        for existing in [Existing::Kept, Existing::Overwritten] {
+            let to = Destination {
+                path: linked.clone(),
+                existing,
+                scene: Some(scene.clone()),
+                named: Vec::new(),
+                origin: None,
+            };
+            let refused = check_target(&to).expect_err("one file");
+            assert!(
+                refused.reason.contains("is the scene itself"),
+                "{refused:?}"
+            );
+        }
+    }
+}

@@ -1,0 +1,133 @@
+//! Explains pixels on a thread of its own: a ray tree may take longer than a key may wait.
+
+use std::cell::RefCell;
+use std::io;
+use std::sync::Arc;
+
+use super::queue::{Ended, Service};
+use crate::render::Frame;
+use crate::ui::msg::{Msg, Question};
+use crate::ui::shell::event::Work;
+
+/// Handle of the thread that explains pixels.
+pub(crate) struct Explainer(Service<Request>);
+
+/// A question, the frame that it is about, and the work that is done with the answer.
+struct Request {
+    question: Question,
+    frame: Arc<Frame>,
+    _work: Work,
+}
+
+impl Explainer {
+    /// Starts the thread; `send` takes its answers.
+    pub(crate) fn start(send: impl Fn(Msg) + Send + 'static) -> io::Result<Self> {
+        let service = Service::start("explaining", "explains pixels", move |inbox| {
+            let newer = RefCell::new(None);
+            let is_outdated = || {
+                let newest: Option<Request> = inbox.try_iter().last();
+                let mut newer = newer.borrow_mut();
+                if newest.is_some() {
+                    *newer = newest;
+                }
+                newer.is_some()
+            };
+            while let Some(request) = newer.take().or_else(|| inbox.recv().ok()) {
+                let Request {
+                    question, frame, ..
+                } = &request;
+                let Question { pixel, sample, .. } = *question;
+                let query = frame.query.as_ref();
+                let answer = query.and_then(|query| query.explain(pixel, sample, is_outdated));
+                if !is_outdated() {
+                    send(Msg::Explained(*question, answer.map(Box::new)));
+                }
+            }
+        })?;
+        Ok(Self(service))
+    }
+
+    /// Asks a question in place of those not answered yet.
+    pub(crate) fn ask(
+        &self,
+        question: Question,
+        frame: Arc<Frame>,
+        work: Work,
+    ) -> Result<(), Ended> {
+        self.0.request(Request {
+            question,
+            frame,
+            _work: work,
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::sync::mpsc;
+
+    use super::*;
+    use crate::language::{Language, Source};
+    use crate::render::{Frames, Job, NO_OBJECT, PreparedScene, Settings};
+    use crate::scene::{Images, Meshes, Rendering, Size};
+    use crate::ui::app::tests::pictures;
+    use crate::ui::msg::Target;
+
+    fn job() -> Job {
+        let text = Arc::new(Language::Ray.template().to_owned());
+        let mut source = Source::new(Language::Ray, text);
+        let lowered = source.lower(&Meshes::default()).expect("there is memory");
+        let scene = Arc::new(lowered.scene.expect("a valid scene"));
+        Job {
+            images: Images::default(),
+            camera: scene.camera,
+            settings: Settings {
+                spp: 1,
+                ..Settings::new(
+                    Size {
+                        width: 8,
+                        height: 6,
+                    },
+                    &Rendering::default(),
+                )
+            },
+            scene,
+            frames: Frames::Live,
+            denoise: false,
+            numbers: None,
+            limit: None,
+        }
+    }
+
+    #[test]
+    fn the_last_question_is_answered() {
+        let job = job();
+        let prepared = PreparedScene::new(&job, || false).expect("it is not cancelled");
+        let size = job.settings.size;
+        let mut frame = pictures::frame(size, vec![NO_OBJECT; size.pixels()]);
+        frame.query = Some(prepared.query().clone());
+        let frame = Arc::new(frame);
+        let (sender, answers) = mpsc::channel();
+        let (events, _inbox) = mpsc::channel();
+        let explainer = Explainer::start(move |msg| {
+            let _ = sender.send(msg);
+        });
+        let explainer = explainer.expect("a thread");
+        for sample in 0..20 {
+            let question = Question {
+                target: Target::Preview,
+                generation: frame.generation,
+                pixel: [4, 3],
+                sample,
+            };
+            let asked = explainer.ask(question, Arc::clone(&frame), Work::begin(&events));
+            asked.expect("the thread runs");
+        }
+        drop(explainer);
+        let last = answers.iter().last();
+        let Some(Msg::Explained(question, Some(answer))) = last else {
+            panic!("{last:?}");
+        };
+        assert_eq!((question.sample, answer.sample), (19, 19));
+    }
+}

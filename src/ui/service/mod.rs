@@ -1,0 +1,16 @@
+//! Background work: threads that read, write, watch, compare and explain, so that no key waits for
+//! them.
+
+pub mod assets;
+pub mod comparer;
+pub mod deriving;
+pub mod destination;
+pub mod explaining;
+pub mod filming;
+pub mod queue;
+pub mod recent;
+pub mod reference;
+pub mod revision;
+pub mod scene_loader;
+pub mod tracks;
+pub mod writing;

@@ -1,0 +1,293 @@
+//! What sessions remember for later ones: the sizes of panels, in `halflight/panels` in the state
+//! folder, and recently used scenes: absolute paths, one a line and the newest first, in `halflight/recent` in
+//! the state folder. Sessions that end up there at the same moment may lose one of their entries.
+
+use std::convert::Infallible;
+use std::fs;
+use std::io;
+use std::path::{Component, Path, PathBuf};
+use std::sync::mpsc::{self, Receiver};
+use std::time::Instant;
+
+use super::queue::{Ended, Service};
+use crate::file;
+use crate::ui::arrange::PanelSizes;
+use crate::ui::state::{self, Folder, Part};
+
+/// Names of the files.
+const SCENES: &str = "recent";
+const PANELS: &str = "panels";
+
+/// The maximum number of scenes remembered.
+const MOST: usize = 20;
+
+/// The maximum length of the file, in bytes.
+const LONGEST: u64 = 1 << 20;
+
+/// A request to the thread.
+enum Request {
+    /// Put this scene first.
+    Note(PathBuf),
+    /// Report the scenes.
+    List,
+    /// Keep the sizes of the panels.
+    Panels(PanelSizes),
+}
+
+/// Handle of the thread that remembers scenes.
+pub(crate) struct Recent {
+    service: Service<Request>,
+    /// Disconnected when the thread ends.
+    end: Receiver<Infallible>,
+}
+
+impl Recent {
+    /// Starts the thread, which calls `report` with lists and `complain` with failures to remember a
+    /// scene, each reason once.
+    pub(crate) fn start(
+        report: impl Fn(Vec<PathBuf>) + Send + 'static,
+        complain: impl Fn(String) + Send + 'static,
+    ) -> io::Result<Self> {
+        let (at_work, end) = mpsc::channel();
+        let service = Service::start("recent", "remembers scenes", move |inbox| {
+            let _at_work = at_work;
+            let mut last = None;
+            for request in inbox {
+                match request {
+                    Request::List => report(list()),
+                    Request::Panels(sizes) => {
+                        // The loss is too small to interrupt anyone.
+                        let _ = state::state().and_then(|state| keep_in(&state, sizes));
+                    }
+                    Request::Note(scene) => {
+                        let noted = state::state().and_then(|state| note_in(&state, &scene));
+                        let reason = noted.err().map(|error| error.to_string());
+                        if let Some(reason) = reason.filter(|reason| last.as_ref() != Some(reason))
+                        {
+                            complain(format!("recent scenes cannot be remembered: {reason}"));
+                            last = Some(reason);
+                        }
+                    }
+                }
+            }
+        });
+        Ok(Self {
+            service: service?,
+            end,
+        })
+    }
+
+    /// Puts a scene first.
+    pub(crate) fn note(&self, scene: PathBuf) -> Result<(), Ended> {
+        self.service.request(Request::Note(scene))
+    }
+
+    /// Requests the scenes, the newest first.
+    pub(crate) fn list(&self) -> Result<(), Ended> {
+        self.service.request(Request::List)
+    }
+
+    /// Keeps the sizes of the panels.
+    pub(crate) fn keep_panels(&self, sizes: PanelSizes) -> Result<(), Ended> {
+        self.service.request(Request::Panels(sizes))
+    }
+
+    /// Waits until all scenes are remembered, at most until `deadline`.
+    pub(crate) fn finish(self, deadline: Instant) {
+        drop(self.service);
+        let patience = deadline.saturating_duration_since(Instant::now());
+        // Nothing is ever sent: the end of the thread ends the wait.
+        let _ = self.end.recv_timeout(patience);
+    }
+}
+
+/// The recently used scenes that still exist, the newest first; empty if that is unknown.
+pub(crate) fn list() -> Vec<PathBuf> {
+    state::state().map_or_else(|_| Vec::new(), |state| list_in(&state))
+}
+
+/// The sizes of the panels that were kept last; the default ones if that is unknown.
+pub(crate) fn panels() -> PanelSizes {
+    state::state().map_or_else(|_| PanelSizes::default(), |state| panels_in(&state))
+}
+
+fn panels_in(state: &Path) -> PanelSizes {
+    PanelSizes::of_text(&text_of(state, PANELS))
+}
+
+fn keep_in(state: &Path, sizes: PanelSizes) -> io::Result<()> {
+    write(state, PANELS, &sizes.to_text())
+}
+
+fn list_in(state: &Path) -> Vec<PathBuf> {
+    let mut scenes: Vec<PathBuf> = Vec::new();
+    for scene in read(state).iter().map(|scene| normal(scene)) {
+        if scene.is_file() && !scenes.contains(&scene) {
+            scenes.push(scene);
+        }
+    }
+    scenes
+}
+
+/// An absolute path without `.` and `..`. Links of folders before a `..` are followed, as it is
+/// relative to what they point to; others stay as the user knows them.
+fn normal(scene: &Path) -> PathBuf {
+    let plain: PathBuf = scene.components().collect();
+    if !plain.components().any(|part| part == Component::ParentDir) {
+        return plain;
+    }
+    let folder = fs::canonicalize(file::directory_of(&plain));
+    match (folder, plain.file_name()) {
+        (Ok(folder), Some(name)) => folder.join(name),
+        _ => plain,
+    }
+}
+
+fn note_in(state: &Path, scene: &Path) -> io::Result<()> {
+    let scene = normal(&file::absolute(scene));
+    // Such a path cannot be a line of text.
+    if scene
+        .to_str()
+        .is_none_or(|path| path.contains(['\n', '\r']))
+    {
+        return Ok(());
+    }
+    let mut scenes = read(state);
+    if scenes.first() == Some(&scene) {
+        return Ok(());
+    }
+    scenes.retain(|other| normal(other) != scene);
+    scenes.insert(0, scene);
+    scenes.truncate(MOST);
+    let lines: Vec<_> = scenes.iter().filter_map(|scene| scene.to_str()).collect();
+    write(state, SCENES, &format!("{}\n", lines.join("\n")))
+}
+
+fn write(state: &Path, name: &str, text: &str) -> io::Result<()> {
+    let folder = Folder::make(state, Part::Sessions)?;
+    folder.replace(name, |out| out.write_all(text.as_bytes()))
+}
+
+/// The scenes in the file; none if it cannot be read.
+fn read(state: &Path) -> Vec<PathBuf> {
+    let text = text_of(state, SCENES);
+    let scenes = text.lines().map(PathBuf::from);
+    let mut scenes: Vec<_> = scenes.filter(|scene| scene.is_absolute()).collect();
+    scenes.truncate(MOST);
+    scenes
+}
+
+/// The text of a file; empty if it cannot be read.
+fn text_of(state: &Path, name: &str) -> String {
+    let read = || {
+        let folder = Folder::find(state, Part::Sessions).ok()??;
+        let file = folder.open(name).ok()??;
+        let bytes = file::read_opened(&file, &folder.place(name), LONGEST).ok()?;
+        String::from_utf8(bytes).ok()
+    };
+    read().unwrap_or_default()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn place(state: &Path, name: &str) -> PathBuf {
+        state.join("halflight").join(name)
+    }
+
+    #[test]
+    fn the_newest_scenes_that_still_exist_are_listed_once() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let (state, at) = (folder.path().join("state"), |name: &str| {
+            folder.path().join(name)
+        });
+        assert_eq!(list_in(&state), [] as [PathBuf; 0]);
+        for name in ["a.ray", "b.ray", "c.dat"] {
+            fs::write(at(name), "").expect("the folder is new");
+        }
+        for name in [
+            "a.ray",
+            "b.ray",
+            "gone.ray",
+            "c.dat",
+            "state/.././a.ray",
+            "new\nline.ray",
+        ] {
+            note_in(&state, &at(name)).expect("it can be written");
+        }
+        assert_eq!(list_in(&state), ["a.ray", "c.dat", "b.ray"].map(at));
+        for number in 0..MOST {
+            note_in(&state, &at(&format!("{number}.ray"))).expect("it can be written");
+        }
+        assert_eq!(read(&state).len(), MOST);
+        assert_eq!(list_in(&state), [] as [PathBuf; 0]);
+    }
+
+    #[test]
+    fn sizes_of_panels_are_kept() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let state = folder.path().join("state");
+        assert_eq!(panels_in(&state), PanelSizes::default());
+        let sizes = PanelSizes {
+            beside: Some(40),
+            list_height: Some(9),
+            ..PanelSizes::default()
+        };
+        keep_in(&state, sizes).expect("it can be written");
+        assert_eq!(panels_in(&state), sizes);
+        fs::write(
+            place(&state, PANELS),
+            "beside\nbelow -3\nlist-width 99999999\n\u{7}",
+        )
+        .expect("written");
+        assert_eq!(panels_in(&state), PanelSizes::default());
+    }
+
+    #[test]
+    fn a_file_of_another_kind_lists_nothing_and_is_replaced() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let scene = folder.path().join("a.ray");
+        fs::write(&scene, "").expect("the folder is new");
+        fs::create_dir(folder.path().join("halflight")).expect("the folder is new");
+        let long = "a".repeat(2 << 20);
+        for content in [b"\xff\xfe", b"relative.ray\n\n" as &[u8], long.as_bytes()] {
+            fs::write(place(folder.path(), SCENES), content).expect("written");
+            assert_eq!(list_in(folder.path()), [] as [PathBuf; 0]);
+        }
+        note_in(folder.path(), &scene).expect("it can be written");
+        assert_eq!(list_in(folder.path()), [scene]);
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn nothing_outside_the_folder_is_read_or_written() {
+        use std::os::unix::fs::symlink;
+        type Plant = fn(&Path, &Path) -> io::Result<()>;
+        let links: [Plant; 2] = [|to, at| symlink(to, at), |to, at| fs::hard_link(to, at)];
+        for (number, plant) in links.into_iter().enumerate() {
+            let folder = tempfile::tempdir().expect("a folder");
+            let (state, victim) = (folder.path().join("state"), folder.path().join("a.ray"));
+            let held = format!("{}\n", victim.display());
+            fs::write(&victim, &held).expect("the folder is new");
+            fs::create_dir_all(state.join("halflight")).expect("the folder is new");
+            for name in [SCENES, PANELS] {
+                plant(&victim, &place(&state, name)).expect("the folder is new");
+            }
+            if number == 0 {
+                assert_eq!(list_in(&state), [] as [PathBuf; 0]);
+            }
+            note_in(&state, &folder.path().join("b.ray")).expect("it is replaced");
+            keep_in(&state, PanelSizes::default()).expect("it is replaced");
+            assert_eq!(fs::read_to_string(&victim).expect("a text"), held);
+        }
+        // A folder that leads elsewhere is refused.
+        let folder = tempfile::tempdir().expect("a folder");
+        symlink(folder.path(), folder.path().join("halflight")).expect("the folder is new");
+        let scene = folder.path().join("a.ray");
+        let refused = note_in(folder.path(), &scene).expect_err("it is a link");
+        assert!(refused.to_string().contains("symbolic link"), "{refused}");
+        keep_in(folder.path(), PanelSizes::default()).expect_err("it is a link");
+        assert_eq!(fs::read_dir(folder.path()).expect("a folder").count(), 1);
+    }
+}

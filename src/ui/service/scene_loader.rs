@@ -1,0 +1,288 @@
+//! The thread that reads, parses and lowers the scene file: for a text with millions of objects
+//! this takes longer than a key may wait.
+
+use std::cell::LazyCell;
+use std::io;
+use std::path::{Path, PathBuf};
+use std::sync::mpsc::Receiver;
+use std::thread;
+
+use super::queue::{Ended, Service};
+use crate::document::Document;
+use crate::file;
+use crate::file::ReadError;
+use crate::language::{self, Language};
+use crate::memory;
+use crate::scene::Meshes;
+use crate::ui::msg::{Msg, Polled};
+use crate::ui::recovery;
+use crate::ui::scene_reading::{Baseline, Opened, Reading, SceneFolder};
+use crate::ui::shell::event::Work;
+use crate::watch::{Method, Notice, Watcher};
+
+/// Length in bytes from which a text is lowered on several threads.
+const LARGE: usize = 1 << 20;
+
+/// A request to the thread.
+enum Request {
+    /// Watch this file instead of the previous one.
+    Watch(PathBuf),
+    /// Read this file and compare it with the baseline.
+    Read(PathBuf, Baseline, Work),
+    /// Read the scene of this file, in place of another.
+    Open(PathBuf, Language, Work),
+}
+
+/// Handle of the thread that watches, reads and lowers the scene file. Nothing else waits for it,
+/// neither a save nor the end of the program.
+pub(crate) struct SceneLoader(Service<Request>);
+
+impl SceneLoader {
+    /// Starts the thread. `send` is called on it and on the watcher's thread.
+    pub(crate) fn start(
+        method: Method,
+        send: impl Fn(Msg) + Clone + Send + 'static,
+    ) -> io::Result<Self> {
+        let service = Service::start("reading", "reads scenes", move |inbox| {
+            let mut watcher = None;
+            let watch = |path: PathBuf| watch(&path, method, &mut watcher, &send);
+            follow(inbox, watch, file::read_text, &send);
+        });
+        service.map(Self)
+    }
+
+    /// Watches a file from now on, reported by [`Msg::FileChanged`].
+    pub(crate) fn watch(&self, path: PathBuf) -> Result<(), Ended> {
+        self.0.request(Request::Watch(path))
+    }
+
+    /// Reads a file, reported by [`Msg::Read`]. Of several pending requests only the last is
+    /// carried out.
+    pub(crate) fn read(&self, path: PathBuf, baseline: Baseline, work: Work) -> Result<(), Ended> {
+        self.0.request(Request::Read(path, baseline, work))
+    }
+
+    /// Reads another scene, reported by [`Msg::Opened`]; takes the place of a pending request.
+    pub(crate) fn open(&self, path: PathBuf, language: Language, work: Work) -> Result<(), Ended> {
+        self.0.request(Request::Open(path, language, work))
+    }
+}
+
+/// Carries out requests until the sender is gone. A file that changes while being read is not
+/// lowered but read again.
+fn follow(
+    inbox: &Receiver<Request>,
+    mut watch: impl FnMut(PathBuf),
+    read: impl Fn(&Path) -> Result<String, ReadError>,
+    send: impl Fn(Msg),
+) {
+    // An edit may lower a large scene on the shared thread pool, which would delay the work here.
+    let pool = LazyCell::new(|| {
+        let cores = thread::available_parallelism().map_or(1, usize::from);
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(memory::threads(cores));
+        pool.build()
+    });
+    while let Ok(first) = inbox.recv() {
+        let mut requests = vec![first];
+        requests.extend(inbox.try_iter());
+        while let Some(request) = last(requests, &mut watch) {
+            let path = request.path().to_owned();
+            file::regain_folder();
+            let read = read(&path);
+            requests = inbox.try_iter().collect();
+            if !requests.iter().all(Request::is_watch) {
+                continue;
+            }
+            let (baseline, language, work) = match request {
+                Request::Watch(_) => continue,
+                Request::Read(_, baseline, work) => (baseline, None, work),
+                Request::Open(_, language, work) => (nothing(language), Some(language), work),
+            };
+            let understand = |text: String| {
+                if text.len() < LARGE {
+                    return Reading::new(text, baseline);
+                }
+                memory::malloc::keep_large();
+                match &*pool {
+                    Ok(pool) => pool.install(|| Reading::new(text, baseline)),
+                    Err(_) => Reading::new(text, baseline),
+                }
+            };
+            let reading = read.and_then(|text| {
+                let place = SceneFolder::of(&path);
+                let understood = understand(text).map_err(|reason| ReadError::NoMemory {
+                    path: path.clone(),
+                    reason,
+                });
+                understood.map(|reading| Reading { place, ..reading })
+            });
+            send(match language {
+                None => {
+                    let reading = reading.map_err(|error| without_folder(error, &path));
+                    Msg::Read(path, reading)
+                }
+                Some(language) => {
+                    let opened = opened(reading, &path, language);
+                    Msg::Opened(path, opened)
+                }
+            });
+            drop(work);
+        }
+    }
+}
+
+impl Request {
+    fn path(&self) -> &Path {
+        let (Self::Watch(path) | Self::Read(path, ..) | Self::Open(path, ..)) = self;
+        path
+    }
+
+    fn is_watch(&self) -> bool {
+        matches!(self, Self::Watch(_))
+    }
+}
+
+/// Carries out the requests to watch and returns the last one to read a file.
+fn last(requests: Vec<Request>, mut watch: impl FnMut(PathBuf)) -> Option<Request> {
+    let mut last = None;
+    for request in requests {
+        match request {
+            // Before the file is read, so that no later change is missed.
+            Request::Watch(path) => watch(path),
+            request => last = Some(request),
+        }
+    }
+    last
+}
+
+/// The baseline of a scene that is read for the first time.
+fn nothing(language: Language) -> Baseline {
+    Baseline {
+        scene: Document::new(language, String::new()).snapshot(),
+        saves: 0,
+        meshes: Meshes::default(),
+        is_sound: false,
+    }
+}
+
+/// Tells a scene that does not exist yet from one that cannot be read.
+fn opened(
+    reading: Result<Reading, ReadError>,
+    path: &Path,
+    language: Language,
+) -> Result<Opened, ReadError> {
+    match reading {
+        Ok(reading) => Ok(Opened::Read(reading)),
+        Err(ReadError::NotFound { .. }) => {
+            let missing = missing(path, language);
+            missing.ok_or_else(|| ReadError::NotFound {
+                path: path.to_owned(),
+            })
+        }
+        Err(error) => Err(error),
+    }
+}
+
+/// Tells a missing file from a missing folder.
+fn without_folder(error: ReadError, path: &Path) -> ReadError {
+    if matches!(error, ReadError::NotFound { .. }) && !file::has_folder(path) {
+        let folder = file::absolute(file::directory_of(path));
+        return ReadError::NoFolder {
+            folder: folder.components().collect(),
+        };
+    }
+    error
+}
+
+/// How to open a scene whose file is missing: from edits that were kept of it, or as a new one.
+/// `None` if its folder is missing too.
+pub(crate) fn missing(path: &Path, language: Language) -> Option<Opened> {
+    let fits = |text: &String| language::fits(language, text, text.len()).is_ok();
+    match recovery::base_of(Some(path), language).filter(fits) {
+        // Edits of a template that was never written.
+        Some(text) if text != language.template() => Some(Opened::Kept(text)),
+        _ => file::directory_of(path).is_dir().then_some(Opened::New),
+    }
+}
+
+fn watch(
+    path: &PathBuf,
+    method: Method,
+    watcher: &mut Option<Watcher>,
+    send: &(impl Fn(Msg) + Clone + Send + 'static),
+) {
+    // The old watcher ends first, so that its notices are not taken for the new file's.
+    if watcher.take().is_some() {
+        send(Msg::Polled(Polled::Scene, None));
+    }
+    let notify = send.clone();
+    let notify = move |notice| {
+        notify(match notice {
+            Notice::Changed => Msg::FileChanged,
+            Notice::Polled(reason) => Msg::Polled(Polled::Scene, reason),
+        });
+    };
+    match Watcher::new(std::slice::from_ref(path), method, notify) {
+        Ok(new) => *watcher = Some(new),
+        Err(error) => send(Msg::Failed(format!(
+            "{}: cannot watch for changes: {error}",
+            path.display()
+        ))),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::cell::{Cell, RefCell};
+    use std::sync::mpsc;
+
+    fn request(name: &str) -> Request {
+        let (sender, _) = mpsc::channel();
+        let work = Work::begin(&sender);
+        Request::Read(name.into(), nothing(Language::Ray), work)
+    }
+
+    /// The files read and the files reported, if `during` is requested while the first one is being
+    /// read.
+    fn followed(before: &[&str], during: Option<&str>) -> (Vec<PathBuf>, Vec<PathBuf>) {
+        let (requests, inbox) = mpsc::channel();
+        for name in before {
+            requests.send(request(name)).expect("it is there");
+        }
+        let requests = Cell::new(Some(requests));
+        let (read, sent) = (RefCell::new(Vec::new()), RefCell::new(Vec::new()));
+        let reads = |path: &Path| {
+            if let (Some(requests), Some(name)) = (requests.take(), during) {
+                requests.send(request(name)).expect("it is there");
+            }
+            read.borrow_mut().push(path.to_owned());
+            Ok(String::new())
+        };
+        follow(
+            &inbox,
+            |_| {},
+            reads,
+            |msg| match msg {
+                Msg::Read(path, Ok(_)) => sent.borrow_mut().push(path),
+                msg => panic!("{msg:?}"),
+            },
+        );
+        (read.into_inner(), sent.into_inner())
+    }
+
+    #[test]
+    fn only_the_last_of_several_pending_files_is_read() {
+        let paths = |names: &[&str]| names.iter().map(PathBuf::from).collect::<Vec<_>>();
+        assert_eq!(
+            followed(&["a", "b", "a"], None),
+            (paths(&["a"]), paths(&["a"]))
+        );
+    }
+
+    #[test]
+    fn a_file_that_changed_while_being_read_is_not_lowered() {
+        let (read, sent) = followed(&["a"], Some("a"));
+        assert_eq!((read.len(), sent.len()), (2, 1));
+    }
+}

@@ -1,0 +1,170 @@
+//! What is recalled, and what the picture that is kept is said to be made from.
+
+use std::collections::BTreeMap;
+use std::fs;
+
+use super::*;
+use crate::scene::Viewpoint;
+use crate::ui::shell::traces::tests::{Place, far, job, traced};
+
+/// The origin of a text that the file names.
+fn origin(place: &tempfile::TempDir, text: &str) -> Origin {
+    let found = BTreeMap::from([("a.ppm".to_owned(), place.path().join("a.ppm"))]);
+    Origin {
+        text: Arc::new(text.to_owned()),
+        found,
+        view: Viewpoint::default(),
+    }
+}
+
+struct Test {
+    place: Place,
+    files: tempfile::TempDir,
+    job: Job,
+}
+
+impl Test {
+    fn new() -> Self {
+        let files = tempfile::tempdir().expect("a folder");
+        fs::write(files.path().join("a.ppm"), "P3").expect("the folder is new");
+        Self {
+            place: Place::new(),
+            files,
+            job: job(4),
+        }
+    }
+
+    /// What is reported to be left of a text, once nothing more comes, and whether it is brought.
+    fn recall(&self, text: &str) -> (Traced, Option<Recalled>, bool) {
+        let (report, reported) = mpsc::channel();
+        let report = move |recalled| report.send(recalled).expect("it is awaited");
+        let traces = Some(self.place.traces.clone());
+        let found = Traced::recall(&self.job, origin(&self.files, text), traces, report);
+        let (traced, recalled) = found.expect("a thread");
+        let is_brought = recalled.recv().is_ok();
+        (traced, reported.recv().ok(), is_brought)
+    }
+
+    fn store(&self, traced: Traced, now: Option<(Arc<Scene>, Origin)>) -> Result<TraceEnd, String> {
+        let kept = self::traced(&self.job);
+        traced.store(&self.place.traces, &kept, now, far())
+    }
+
+    fn now(&self, text: &str) -> (Arc<Scene>, Origin) {
+        (Arc::clone(&self.job.scene), origin(&self.files, text))
+    }
+}
+
+const KEPT: TraceEnd = TraceEnd::Kept {
+    spp: 4,
+    goal: Some(4),
+};
+
+/// How a trace began.
+enum Begun {
+    Recalled,
+    /// It goes on after an edit.
+    Restarted,
+}
+
+/// The text at the end.
+enum Now {
+    /// That of the scene that is traced.
+    Traced(&'static str),
+    /// That of another scene.
+    Other(&'static str),
+    Errors,
+}
+
+#[test]
+fn a_trace_is_kept_with_the_text_that_the_next_run_opens() {
+    for (number, (begun, now, expected)) in [
+        (Begun::Recalled, Now::Traced("first"), Some("first")),
+        (Begun::Recalled, Now::Traced("commented"), Some("commented")),
+        (Begun::Recalled, Now::Other("other"), Some("first")),
+        (Begun::Recalled, Now::Errors, Some("first")),
+        (Begun::Restarted, Now::Traced("edited"), Some("edited")),
+        (Begun::Restarted, Now::Errors, None),
+    ]
+    .into_iter()
+    .enumerate()
+    {
+        let test = Test::new();
+        let traced = match begun {
+            Begun::Recalled => test.recall("first").0,
+            Begun::Restarted => Traced::of(&test.job),
+        };
+        let now = match now {
+            Now::Traced(text) => Some(test.now(text)),
+            Now::Other(text) => {
+                let (scene, origin) = test.now(text);
+                Some((Arc::new(Scene::clone(&scene)), origin))
+            }
+            Now::Errors => None,
+        };
+        let end = test.store(traced, now);
+        let Some(expected) = expected else {
+            assert_eq!(end, Err("the text has errors".to_owned()));
+            continue;
+        };
+        assert_eq!(end, Ok(KEPT), "{number}");
+        for text in ["first", "commented", "edited", "other"] {
+            let (_, reported, is_brought) = test.recall(text);
+            let is_expected = text == expected;
+            let continued = Some(Recalled::Continued(4)).filter(|_| is_expected);
+            assert_eq!((reported, is_brought), (continued, is_expected), "{number}");
+        }
+    }
+}
+
+#[test]
+fn files_count_as_they_were_when_the_trace_began() {
+    let test = Test::new();
+    let (traced, ..) = test.recall("first");
+    let picture = test.files.path().join("a.ppm");
+    fs::write(&picture, "P6").expect("it is ours");
+    assert_eq!(test.store(traced, Some(test.now("first"))), Ok(KEPT));
+    assert_eq!(test.recall("first").1, None, "the picture is another");
+    fs::write(&picture, "P3").expect("it is ours");
+    assert_eq!(test.recall("first").1, Some(Recalled::Continued(4)));
+    fs::remove_file(&picture).expect("it is there");
+    assert_eq!(test.recall("first").1, None, "the picture is gone");
+}
+
+#[test]
+fn what_cannot_be_continued_is_reported() {
+    let mut test = Test::new();
+    test.store(test.recall("first").0, None)
+        .expect("it is kept");
+    test.job.settings.spp = 2;
+    let (_, reported, is_brought) = test.recall("first");
+    assert_eq!((reported, is_brought), (Some(Recalled::More(4)), false));
+    test.job.settings.spp = 4;
+    fs::write(test.place.files().remove(0), "damaged").expect("it is ours");
+    let (_, reported, is_brought) = test.recall("first");
+    assert!(matches!(reported, Some(Recalled::Unreadable(_))) && !is_brought);
+}
+
+#[test]
+fn the_cost_is_seen_of_the_picture_of_light() {
+    use crate::render::Aov;
+    let mut test = Test::new();
+    test.store(test.recall("first").0, None)
+        .expect("it is kept");
+    for aov in [Aov::Cost, Aov::Noise] {
+        test.job.settings.aov = Some(aov);
+        assert_eq!(test.recall("first").1, Some(Recalled::Continued(4)));
+    }
+    test.job.settings.aov = Some(Aov::Albedo);
+    assert_eq!(test.recall("first").1, None);
+}
+
+/// A trace that took seconds only is not worth a file.
+#[test]
+fn a_short_trace_is_not_kept() {
+    let test = Test::new();
+    let mut renderer = Renderer::new(crate::render::Threads::Exactly(1), || {});
+    renderer.restart(test.job.clone()).expect("the worker runs");
+    let keeping = Traced::of(&test.job).keep(renderer, Some(test.now("first")), far());
+    assert_eq!(keeping.finish(), TraceEnd::Nothing);
+}

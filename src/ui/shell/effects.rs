@@ -1,0 +1,528 @@
+//! Performs effects: owns the terminal, the renderers, the timers, and the handles of the threads
+//! that read, write, watch and store files. Nothing here waits for a file.
+
+mod others;
+
+use std::any::Any;
+use std::convert::Infallible;
+use std::io;
+use std::num::NonZero;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+use std::sync::mpsc::{self, Receiver, Sender};
+use std::thread;
+use std::time::{Duration, Instant};
+
+use super::continuing::{Keeping, TraceEnd, Traced};
+use super::editor;
+use super::ending::ShutdownDeadlines;
+use super::event::{Event, Work, sending};
+use super::screen::Screen;
+use super::traces::Traces;
+use crate::memory;
+use crate::render::{Job, Kept, Refusal, Renderer, Threads};
+use crate::scene::Scene;
+use crate::ui::history_scene::NoPicture;
+use crate::ui::msg::{Destination, Effect, ExportId, Msg, Origin, SaveOutcome, Target, Timer};
+use crate::ui::options::Options;
+use crate::ui::recovery::{self, Edits, End, Keeper, Outcome, Request};
+use crate::ui::reel::Reel;
+use crate::ui::service::assets::AssetReader;
+use crate::ui::service::comparer::{Figures, References};
+use crate::ui::service::deriving::Deriver;
+use crate::ui::service::explaining::Explainer;
+use crate::ui::service::queue::{Ended, Service};
+use crate::ui::service::recent::Recent;
+use crate::ui::service::scene_loader::SceneLoader;
+use crate::ui::service::tracks::TrackReader;
+use crate::ui::service::writing::Writers;
+use others::{reaches_others, without_others};
+
+/// Time for which memory freed by pictures is kept for the next ones.
+const TRIM_TIME: Duration = Duration::from_secs(30);
+
+/// State that outlives a step: the terminal, the renderers, the timers, and the threads that read
+/// and watch scenes and assets, write scenes and pictures, and store unsaved edits.
+pub(crate) struct Runtime {
+    // First, because fields are dropped in order: the terminal is restored before renderers and the
+    // watcher end, which may take a moment.
+    screen: Screen,
+    sender: Sender<Event>,
+    reader: SceneLoader,
+    /// Frees unneeded values: for a large scene this takes longer than a key may wait.
+    freeing: Service<Arc<dyn Any + Send + Sync>>,
+    writers: Writers,
+    keeper: Keeper,
+    recent: Recent,
+    assets: AssetReader,
+    tracks: TrackReader,
+    references: References,
+    figures: Figures,
+    explainer: Explainer,
+    deriver: Deriver,
+    threads: Option<usize>,
+    /// The command line of the editor that is configured.
+    editor: Option<String>,
+    preview: Option<Numbered>,
+    trace: Option<Numbered>,
+    /// What the full-size trace is made from.
+    traced: Option<Traced>,
+    export: Option<Numbered>,
+    /// Dropping it cancels the sequence that is exported.
+    filming: Option<Sender<Infallible>>,
+    /// The folders that files of scenes may be read from besides those around the scene.
+    folders: Vec<PathBuf>,
+    compared: Option<Numbered>,
+    reference: Option<Numbered>,
+    thumbnail: Option<Numbered>,
+    trial: Option<Numbered>,
+    /// Number of renderers started so far.
+    renderers: u64,
+    timers: Vec<(Instant, Timer)>,
+    /// When memory freed by pictures is returned to the system.
+    trim_at: Option<Instant>,
+    ended: bool,
+}
+
+impl Runtime {
+    /// Takes over the terminal and starts everything that sends messages.
+    pub(crate) fn new(
+        options: &Options,
+        reader: SceneLoader,
+        sender: Sender<Event>,
+    ) -> io::Result<Self> {
+        Ok(Self {
+            screen: Screen::new(options, &sender)?,
+            reader,
+            freeing: Service::start("freeing", "frees memory", |inbox| {
+                inbox.iter().for_each(drop);
+            })?,
+            writers: Writers::new(sender.clone()),
+            keeper: Keeper::start(keeping(&sender))?,
+            recent: remembering(&sender)?,
+            assets: AssetReader::start(&options.assets, options.watching(), sending(&sender))?,
+            tracks: TrackReader::start(options.watching(), sending(&sender))?,
+            references: References::start(&options.assets, sending(&sender))?,
+            figures: Figures::start(sending(&sender))?,
+            deriver: Deriver::start(&options.assets, sending(&sender))?,
+            explainer: Explainer::start(sending(&sender))?,
+            threads: options.threads,
+            editor: options.editor.clone(),
+            preview: None,
+            trace: None,
+            traced: None,
+            export: None,
+            filming: None,
+            folders: options.assets.clone(),
+            compared: None,
+            reference: None,
+            thumbnail: None,
+            trial: None,
+            renderers: 0,
+            timers: Vec::new(),
+            trim_at: None,
+            ended: false,
+            sender,
+        })
+    }
+
+    /// The screen to draw on.
+    pub(crate) fn screen(&mut self) -> &mut Screen {
+        &mut self.screen
+    }
+
+    /// Whether the program should end.
+    pub(crate) fn is_over(&self) -> bool {
+        self.ended
+    }
+
+    /// Converts an event to a message; `None` if its frame was already taken.
+    pub(crate) fn message(&mut self, event: Event) -> Option<Msg> {
+        match event {
+            Event::Msg(msg) => Some(msg),
+            Event::Ready(target) => {
+                self.trim_at
+                    .get_or_insert_with(|| Instant::now() + TRIM_TIME);
+                let mut frame = self.numbered(target)?.renderer.latest()?;
+                if matches!(self.screen, Screen::Page(_)) {
+                    // A page shows the same on every machine.
+                    Arc::make_mut(&mut frame).progress.elapsed = Duration::ZERO;
+                }
+                Some(Msg::Frame(target, frame))
+            }
+            Event::Ended(target, number) => {
+                // A renderer that was stopped or replaced has ended as expected.
+                let ended = self.numbered(target)?.number == number;
+                ended.then_some(Msg::Ended(target))
+            }
+            Event::Typed(event, _) => self.message(*event),
+            Event::Cleared | Event::Replied(..) | Event::Begun | Event::Done | Event::Signalled => {
+                None
+            }
+        }
+    }
+
+    /// Restores the terminal and waits for files being written, each within its time limit; returns
+    /// the state of unsaved edits, and that of the full-size trace. `now` is the present scene with
+    /// its origin, unless the text has errors.
+    pub(crate) fn close(
+        self,
+        deadlines: ShutdownDeadlines,
+        now: Option<(Arc<Scene>, Origin)>,
+    ) -> (End, TraceEnd) {
+        let begun = Instant::now();
+        let files = begun + deadlines.files;
+        let is_kept = self.screen.is_terminal();
+        let traced = self.traced.filter(|_| is_kept);
+        let keeping = traced
+            .zip(self.trace)
+            .map(|(traced, running)| traced.keep(running.renderer, now, begun + deadlines.trace));
+        self.screen.close(begun + deadlines.terminal);
+        drop(self.filming);
+        let end = self.keeper.finish(files);
+        self.writers.finish(files);
+        self.recent.finish(files);
+        (end, keeping.map_or(TraceEnd::Nothing, Keeping::finish))
+    }
+
+    /// When the next timer is due.
+    pub(crate) fn next_timer(&self) -> Option<Instant> {
+        let timers = self.timers.iter().map(|&(at, _)| at);
+        timers.chain(self.trim_at).min()
+    }
+
+    /// Removes the earliest timer that `of` accepts, whether or not it is due. Returns its message.
+    pub(crate) fn next_elapsed(&mut self, of: impl Fn(Timer) -> bool) -> Option<Msg> {
+        let first = self.timers.iter().enumerate();
+        let first = first.filter(|&(_, &(_, timer))| of(timer));
+        let (first, _) = first.min_by_key(|&(_, &(at, _))| at)?;
+        Some(Msg::Elapsed(self.timers.remove(first).1))
+    }
+
+    /// Takes the timers that are due, as messages.
+    pub(crate) fn due(&mut self, now: Instant) -> Vec<Msg> {
+        if self.trim_at.take_if(|at| *at <= now).is_some() {
+            memory::malloc::trim();
+        }
+        self.timers
+            .extract_if(.., |&mut (at, _)| at <= now)
+            .map(|(_, timer)| Msg::Elapsed(timer))
+            .collect()
+    }
+
+    /// Performs an effect and returns its immediate result, if any.
+    pub(crate) fn perform(&mut self, effect: Effect) -> Option<Msg> {
+        let performed = self.try_perform(effect);
+        performed.unwrap_or_else(|failure| Some(Msg::Failed(failure.to_string())))
+    }
+
+    fn try_perform(&mut self, effect: Effect) -> Result<Option<Msg>, Failure> {
+        if matches!(self.screen, Screen::Page(_)) && reaches_others(&effect) {
+            return Ok(without_others(&effect));
+        }
+        match effect {
+            Effect::Trace(target, job) => {
+                if target == Target::Trace {
+                    self.traced = Some(Traced::of(&job));
+                }
+                return Ok(Some(self.trace(target, job, None)));
+            }
+            Effect::Recall(job, origin) => return Ok(Some(self.trace_on(job, origin))),
+            Effect::Stop(target) => self.stop(target),
+            Effect::Explain(..)
+            | Effect::Read(..)
+            | Effect::Open(..)
+            | Effect::ReadAssets(_)
+            | Effect::ReadReference(..)
+            | Effect::Compare(_) => self.ask_service(effect)?,
+            Effect::Halt(target) => self.with_renderer(target, Renderer::stop),
+            Effect::Pause(target) => self.with_renderer(target, Renderer::pause),
+            Effect::Resume(target) => self.with_renderer(target, Renderer::resume),
+            Effect::Derive(past) => {
+                let (ticket, work) = (past.ticket, Work::begin(&self.sender));
+                let begun = self.deriver.request(*past, work);
+                let refused = begun
+                    .err()
+                    .map(|ended| NoPicture::Failed(ended.to_string()));
+                return Ok(refused.map(|reason| Msg::Derived(ticket, Err(reason))));
+            }
+            Effect::WriteImage(id, frame, to) => {
+                return Ok(not_exported(id, self.writers.export(id, frame, to)));
+            }
+            Effect::Film(id, reel, to) => return Ok(not_exported(id, self.film((id, *reel), to))),
+            Effect::CheckTarget(id, to) => self.writers.check(id, to)?,
+            Effect::CheckPlace(path) => self.writers.check_place(path)?,
+            Effect::ListFolder(folder) => self.writers.list_folder(folder)?,
+            Effect::FindBackups(scene) => self.writers.find_backups(scene)?,
+            Effect::Free(unneeded) => self.freeing.request(unneeded)?,
+            Effect::Save {
+                id,
+                path,
+                text,
+                guard,
+            } => {
+                let started = self.writers.save(id, path, text, guard);
+                let refused = started.err().map(|error| error.to_string());
+                return Ok(refused.map(|reason| Msg::Saved(id, SaveOutcome::Failed(reason))));
+            }
+            Effect::NoteRecent(scene) => self.recent.note(scene)?,
+            Effect::ListRecent => self.recent.list()?,
+            Effect::KeepPanels(sizes) => self.recent.keep_panels(sizes)?,
+            Effect::Watch(path) => self.reader.watch(path)?,
+            Effect::ReadTrack(path) => self.tracks.read(path, Work::begin(&self.sender))?,
+            Effect::WriteTrack { path, text, guard } => {
+                let started = self.writers.write_track(path, text, guard);
+                let refused = started
+                    .err()
+                    .map(|error| SaveOutcome::Failed(error.to_string()));
+                return Ok(refused.map(Msg::TrackWritten));
+            }
+            Effect::Later(time, timer) => {
+                self.timers.retain(|&(_, set)| set != timer);
+                self.timers.push((Instant::now() + time, timer));
+            }
+            Effect::WriteRecovery {
+                scene,
+                known,
+                revision,
+            } => self
+                .keeper
+                .request(Request::Keep(revision, Edits { scene, known }))?,
+            Effect::DropRecovery => self.keeper.request(Request::Forget)?,
+            Effect::LookForKept(sought) => {
+                let send = sending(&self.sender);
+                let looking = recovery::look_for(sought, move |found| send(Msg::Recovered(found)));
+                looking.map_err(Failure::Recovery)?;
+            }
+            Effect::AdoptKept(claim) => self.keeper.request(Request::Adopt(claim))?,
+            Effect::DropKept(claim) => self.keeper.request(Request::Discard(claim))?,
+            Effect::OpenEditor { path, line } => {
+                let outcome = self.open_editor(&path, line);
+                let outcome = outcome.map_err(|failure| failure.to_string());
+                return Ok(Some(Msg::EditorClosed(outcome)));
+            }
+            Effect::CopyText(text) => {
+                let copied = self.screen.copy(&text);
+                copied.map_err(Failure::Terminal)?;
+            }
+            Effect::SetMouse(mouse) => {
+                let set = self.screen.set_mouse(mouse);
+                set.map_err(Failure::Terminal)?;
+            }
+            Effect::Repaint => self.screen.repaint(),
+            Effect::TakeTerminal => self.screen.take().map_err(Failure::Terminal)?,
+            Effect::Suspend => self.screen.suspend().map_err(Failure::Terminal)?,
+            Effect::Quit => self.ended = true,
+        }
+        Ok(None)
+    }
+
+    /// Asks a service, whose answer arrives in the inbox.
+    fn ask_service(&self, effect: Effect) -> Result<(), Failure> {
+        let work = Work::begin(&self.sender);
+        match effect {
+            Effect::Explain(question, frame) => self.explainer.ask(question, frame, work)?,
+            Effect::Read(path, baseline) => self.reader.read(path, baseline, work)?,
+            Effect::Open(path, language) => self.reader.open(path, language, work)?,
+            Effect::ReadAssets(wanted) => self.assets.request(wanted, work)?,
+            Effect::ReadReference(id, source) => self.references.request(id, source, work)?,
+            Effect::Compare(pair) => self.figures.request(pair, work)?,
+            _ => {}
+        }
+        Ok(())
+    }
+
+    fn numbered(&self, target: Target) -> Option<&Numbered> {
+        match target {
+            Target::Preview => self.preview.as_ref(),
+            Target::Trace => self.trace.as_ref(),
+            Target::Export => self.export.as_ref(),
+            Target::Compared => self.compared.as_ref(),
+            Target::Reference => self.reference.as_ref(),
+            Target::Thumbnail => self.thumbnail.as_ref(),
+            Target::Trial => self.trial.as_ref(),
+        }
+    }
+
+    /// Starts the full-size trace from what an earlier run left of it.
+    fn trace_on(&mut self, job: Job, origin: Origin) -> Msg {
+        let is_page = matches!(self.screen, Screen::Page(_));
+        let send = sending(&self.sender);
+        let report = move |recalled| send(Msg::Recalled(recalled));
+        let traces = Traces::of_user().ok();
+        let recall = (!is_page).then(|| Traced::recall(&job, origin, traces, report));
+        let (traced, recalled) = match recall {
+            Some(Ok((traced, recalled))) => (traced, Some(recalled)),
+            // Without a thread it is traced anew.
+            Some(Err(_)) | None => (Traced::of(&job), None),
+        };
+        self.traced = Some(traced);
+        self.trace(Target::Trace, job, recalled)
+    }
+
+    fn trace(&mut self, target: Target, job: Job, recalled: Option<Receiver<Kept>>) -> Msg {
+        let threads = match (target, self.threads) {
+            (Target::Preview, None) => Threads::Preview,
+            (Target::Preview, Some(count)) => Threads::Exactly(count),
+            (Target::Thumbnail | Target::Trial, _) => Threads::Background(1),
+            (_, count) => Threads::Background(count.unwrap_or_else(cores)),
+        };
+        let (sender, renderers) = (&self.sender, &mut self.renderers);
+        let mut start = || {
+            *renderers += 1;
+            let waker = Waker {
+                sender: sender.clone(),
+                target,
+                number: *renderers,
+            };
+            Numbered {
+                number: *renderers,
+                renderer: Renderer::new(threads, move || waker.wake()),
+            }
+        };
+        let slot = match target {
+            Target::Preview => &mut self.preview,
+            Target::Trace => &mut self.trace,
+            Target::Export => &mut self.export,
+            Target::Compared => &mut self.compared,
+            Target::Reference => &mut self.reference,
+            Target::Thumbnail => &mut self.thumbnail,
+            Target::Trial => &mut self.trial,
+        };
+        let running = slot.get_or_insert_with(&mut start);
+        let restarted = match recalled {
+            Some(recalled) => running.renderer.restart_from(job.clone(), recalled),
+            None => running.renderer.restart(job.clone()),
+        };
+        let started = match restarted {
+            // A worker ended by a panic is replaced: the panic costs only one picture.
+            Err(Refusal::Ended) => slot.insert(start()).renderer.restart(job),
+            started => started,
+        };
+        if let Err(Refusal::Threads { .. }) = started {
+            // The next job tries again.
+            *slot = None;
+        }
+        match started {
+            Ok(generation) => Msg::Started(target, generation),
+            Err(refusal) => Msg::Refused(target, refusal.to_string()),
+        }
+    }
+
+    /// Exports a sequence in place of one that is being exported.
+    fn film(&mut self, reel: (ExportId, Reel), to: Destination) -> io::Result<()> {
+        let (alive, cancelled) = mpsc::channel();
+        self.filming = Some(alive);
+        let threads = self.threads.unwrap_or_else(cores);
+        let folders = self.folders.clone();
+        self.writers.film(reel, to, (folders, threads), cancelled)
+    }
+
+    fn stop(&mut self, target: Target) {
+        if target == Target::Export {
+            self.filming = None;
+        }
+        // The preview stops by itself.
+        if target != Target::Preview {
+            *self.slot(target) = None;
+        }
+    }
+
+    fn with_renderer(&mut self, target: Target, act: impl FnOnce(&mut Renderer)) {
+        if let Some(running) = self.slot(target) {
+            act(&mut running.renderer);
+        }
+    }
+
+    fn slot(&mut self, target: Target) -> &mut Option<Numbered> {
+        match target {
+            Target::Preview => &mut self.preview,
+            Target::Trace => &mut self.trace,
+            Target::Export => &mut self.export,
+            Target::Compared => &mut self.compared,
+            Target::Reference => &mut self.reference,
+            Target::Thumbnail => &mut self.thumbnail,
+            Target::Trial => &mut self.trial,
+        }
+    }
+
+    fn open_editor(&mut self, path: &Path, line: usize) -> Result<(), Failure> {
+        let configured = self.editor.as_deref();
+        let ran = self.screen.lend(|| editor::run(configured, path, line));
+        ran.map_err(Failure::Terminal)?.map_err(Failure::Editor)
+    }
+}
+
+fn cores() -> usize {
+    thread::available_parallelism().map_or(1, NonZero::get)
+}
+
+/// Reason why an effect cannot be performed.
+#[derive(Debug, thiserror::Error)]
+enum Failure {
+    #[error(transparent)]
+    Ended(#[from] Ended),
+    /// A thread cannot be started.
+    #[error(transparent)]
+    Thread(#[from] io::Error),
+    #[error("cannot look for unsaved edits of earlier runs: {0}")]
+    Recovery(io::Error),
+    #[error("terminal: {0}")]
+    Terminal(io::Error),
+    #[error("{0}")]
+    Editor(String),
+}
+
+/// A renderer and its serial number.
+struct Numbered {
+    number: u64,
+    renderer: Renderer,
+}
+
+/// Announces new frames of a renderer; dropping it announces that the worker has ended.
+struct Waker {
+    sender: Sender<Event>,
+    target: Target,
+    number: u64,
+}
+
+impl Waker {
+    fn wake(&self) {
+        let _ = self.sender.send(Event::Ready(self.target));
+    }
+}
+
+impl Drop for Waker {
+    fn drop(&mut self) {
+        let _ = self.sender.send(Event::Ended(self.target, self.number));
+    }
+}
+
+/// What becomes of an export that could not be started.
+fn not_exported(id: ExportId, started: io::Result<()>) -> Option<Msg> {
+    let error = started.err()?;
+    Some(Msg::Exported(id, Err(error.to_string())))
+}
+
+/// Announces the results of storing unsaved edits.
+fn keeping(sender: &Sender<Event>) -> impl Fn(Outcome) + Send + 'static {
+    let send = sending(sender);
+    move |outcome| {
+        send(match outcome {
+            Outcome::Kept(revision, outcome) => Msg::Kept(revision, outcome),
+            Outcome::Failed(reason) => Msg::Failed(reason),
+        });
+    }
+}
+
+/// Remembers scenes, and announces lists of them.
+fn remembering(sender: &Sender<Event>) -> io::Result<Recent> {
+    let (report, complain) = (sending(sender), sending(sender));
+    Recent::start(
+        move |scenes| report(Msg::RecentListed(scenes)),
+        move |reason| complain(Msg::Failed(reason)),
+    )
+}
+
+#[cfg(test)]
+mod tests;

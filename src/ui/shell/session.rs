@@ -1,0 +1,418 @@
+//! The main loop: waits for events, performs steps, draws.
+
+mod pixels;
+mod play;
+mod terminal_queries;
+
+use std::collections::VecDeque;
+use std::io;
+use std::mem;
+use std::path::PathBuf;
+use std::sync::mpsc::{self, Receiver, RecvTimeoutError};
+use std::time::{Duration, Instant};
+
+use super::beginning::Beginning;
+use super::continuing::TraceEnd;
+use super::effects::Runtime;
+use super::ending::{Ending, Error};
+use super::event::{Event, sending};
+use super::script::Script;
+use crate::text::{self, shell_path};
+use crate::ui::app::App;
+use crate::ui::msg::{Effect, Msg, Target};
+use crate::ui::options::Options;
+use crate::ui::recovery::End;
+use crate::ui::service::scene_loader::SceneLoader;
+use crate::ui::terminal::{self, Budget, Choice, ColourDepth, Link, Reply};
+use crate::ui::view::{self, Inks};
+use pixels::{Known, Manner};
+
+/// Minimum time between two drawings that only refine the picture.
+const FRAME_TIME: Duration = Duration::from_millis(33);
+
+/// Runs the interface until it ends.
+///
+/// With a script, the keys come from it instead of the terminal.
+pub(crate) fn run(
+    options: &Options,
+    app: App,
+    mut effects: Vec<Effect>,
+    script: Option<Script>,
+) -> Result<Ending, Error> {
+    let (sender, inbox) = mpsc::channel();
+    let reader = SceneLoader::start(options.watching(), sending(&sender))?;
+    if script.is_some() {
+        // Nothing else changes the files of a script.
+        effects.retain(|effect| !matches!(effect, Effect::Watch(_)));
+    }
+    let beginning = Beginning::new(app, effects, reader, (sender.clone(), &inbox))?;
+    let budget = match (options.bandwidth, &script) {
+        (_, Some(_)) => Budget::Fixed(0),
+        (Some(bandwidth), None) => Budget::Fixed(bandwidth),
+        (None, None) => Budget::of_environment(|name| std::env::var(name).ok()),
+    };
+    let mut session = Session {
+        app: beginning.app,
+        runtime: Runtime::new(options, beginning.reader, sender)?,
+        link: Link::new(budget),
+        waiting: None,
+        inks: Inks::for_depth(options.colours()),
+        asked: None,
+        choice: options.colour(),
+        depth: options.colours(),
+        known: Known::asked_nothing(),
+        manner: Manner::Half,
+        inbox,
+        script,
+        is_played: false,
+        assets: options.assets.clone(),
+        failed: None,
+        at_work: beginning.at_work,
+        refined: None,
+        ending: Ending::Quit,
+    };
+    session.ask_at_start()?;
+    session.perform(beginning.effects);
+    session.run();
+    let finished = session.finish(options.rehearsal.as_ref());
+    let ending = session.close()?;
+    finished.map(|()| ending)
+}
+
+struct Session {
+    app: App,
+    runtime: Runtime,
+    link: Link,
+    /// When the frame that the terminal has not fully taken yet was sent, and its size in bytes.
+    waiting: Option<(Instant, usize)>,
+    inks: Inks,
+    /// The colour depth in use, and the deadline for an answer of the terminal that it has more.
+    asked: Option<(ColourDepth, Instant)>,
+    /// The user's choice of colours, and the depth in use.
+    choice: Choice,
+    depth: ColourDepth,
+    /// What the terminal has answered about pictures.
+    known: Known,
+    /// What pixels are drawn with.
+    manner: Manner,
+    inbox: Receiver<Event>,
+    /// Where the keys come from, if not from the terminal.
+    script: Option<Script>,
+    /// Whether the step to play next has shown a frame of a sequence that plays.
+    is_played: bool,
+    /// Folders that the scene's files may be in, besides those around it.
+    assets: Vec<PathBuf>,
+    /// Why the script was not played to its end.
+    failed: Option<Error>,
+    /// The number of pieces of work under way whose results arrive in the inbox.
+    at_work: usize,
+    /// When a refined frame was last awaited and drawn.
+    refined: Option<Instant>,
+    /// Why the program ends.
+    ending: Ending,
+}
+
+/// How soon the screen must be drawn.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+enum Urgency {
+    /// Nothing changed: no drawing is due.
+    Never,
+    /// The picture was refined.
+    Soon,
+    /// The user is waiting; includes the first frame of a picture.
+    Now,
+}
+
+impl Session {
+    /// Handles a reply of the terminal. A report of 24-bit colour counts only within the deadline.
+    fn replied(&mut self, reply: Reply, at: Instant) -> Urgency {
+        if reply == Reply::Status {
+            self.link.replied(at);
+        }
+        if reply == Reply::KeysApart {
+            // A terminal that is gone is noticed by the next frame.
+            let _ = self.runtime.screen().keep_keys_apart();
+        }
+        self.known.take(reply);
+        let before = self.manner;
+        let changed = if self.wanted_manner() == before {
+            Urgency::Never
+        } else {
+            Urgency::Now
+        };
+        let is_in_time = |&(_, until): &(ColourDepth, Instant)| at < until;
+        if reply != Reply::TrueColour || self.asked.take_if(|asked| is_in_time(asked)).is_none() {
+            return changed;
+        }
+        self.depth = ColourDepth::TrueColour;
+        self.inks = Inks::for_depth(self.depth);
+        self.inks.draw_with(self.manner.drawing());
+        self.runtime.screen().recolour(ColourDepth::TrueColour);
+        Urgency::Now
+    }
+
+    /// Shows how to force 24-bit colour once no answer can arrive any more.
+    fn give_up_on_colours(&mut self) -> Urgency {
+        let now = Instant::now();
+        if self.known.until.take_if(|until| *until <= now).is_some() {
+            self.runtime.screen().give_up_answers();
+        }
+        match self.asked.take_if(|&mut (_, until)| until <= now) {
+            Some((depth, _)) => {
+                self.step(Msg::FewColours(depth));
+                Urgency::Now
+            }
+            None => Urgency::Never,
+        }
+    }
+
+    fn run(&mut self) {
+        let mut urgency = Urgency::Now;
+        while !self.runtime.is_over() {
+            let now = Instant::now();
+            let draw_at = match urgency {
+                Urgency::Now => Some(now),
+                Urgency::Soon => {
+                    let next = self.refined.map_or(now, |refined| refined + FRAME_TIME);
+                    self.link.ready_at(now).max(Some(next))
+                }
+                Urgency::Never => self.rest_at(now),
+            };
+            // One frame is in flight at a time; the next one waits.
+            let is_clear = self.runtime.screen().is_clear();
+            let draw_at = draw_at.filter(|_| is_clear);
+            if is_clear && let Some((sent, bytes)) = self.waiting.take() {
+                self.link.waited(bytes, now - sent, now);
+            }
+            let is_due = draw_at.is_some_and(|at| at <= now);
+            if is_due && urgency == Urgency::Soon {
+                self.refined = Some(now);
+            }
+            if is_clear && self.ask(now).is_err() || is_due && self.draw(urgency).is_err() {
+                // A terminal that cannot be written to is gone; what must survive is saved.
+                self.step(Msg::HangUp);
+                return;
+            }
+            urgency = if is_due {
+                Urgency::Never
+            } else {
+                urgency.max(self.wait(draw_at, is_clear))
+            };
+        }
+    }
+
+    /// Restores the terminal and prints there what became of unsaved edits and of the full-size
+    /// trace.
+    fn close(mut self) -> Result<Ending, Error> {
+        let unreadable = self.app.shared.disk.take_failure();
+        let path = self.app.shared.disk.path.as_deref();
+        let path = path.map_or_else(String::new, |path| {
+            format!(" {}", shell_path(&path.to_string_lossy()))
+        });
+        let key = self.app.shared.key_for("trace");
+        let now = self.app.shared.scene.clone().zip(self.app.shared.origin());
+        // The end of the process frees a large scene immediately.
+        mem::forget(self.app);
+        let (edits, trace) = self.runtime.close(self.ending.deadlines(), now);
+        let edits = match edits {
+            End::Nothing => None,
+            End::Kept => Some(format!(
+                "unsaved edits are kept; run halflight{path} to restore them"
+            )),
+            End::Lost(reason) => Some(format!("not all unsaved edits are kept: {reason}")),
+        };
+        let trace = match trace {
+            TraceEnd::Nothing => None,
+            TraceEnd::Kept { spp, goal } => {
+                let of = goal.map_or_else(String::new, |goal| format!(" of {goal}"));
+                Some(format!(
+                    "the full-size trace is kept ({spp}{of} spp); {key} continues it"
+                ))
+            }
+            TraceEnd::Lost(reason) => Some(format!("the full-size trace is not kept: {reason}")),
+        };
+        for words in edits.into_iter().chain(trace) {
+            terminal::complain(text::visible(&text::without_codes(&words)).into_owned());
+        }
+        unreadable.map_or(Ok(self.ending), |error| Err(error.into()))
+    }
+
+    /// When the rest of a picture may be sent, if there is one and room for it.
+    fn rest_at(&self, now: Instant) -> Option<Instant> {
+        if !self.app.shared.picture().is_pending() || self.app.shared.frame_window().is_none() {
+            return None;
+        }
+        Some(self.link.ready_at(now).unwrap_or(now))
+    }
+
+    /// Waits for input until `deadline` and handles everything that has arrived.
+    fn wait(&mut self, deadline: Option<Instant>, is_clear: bool) -> Urgency {
+        if self.script.is_some() {
+            return self.play();
+        }
+        let has_terminal = self.runtime.screen().has_terminal();
+        let others = [
+            self.runtime.next_timer(),
+            self.link.gives_up_at(),
+            self.link.asks_at().filter(|_| is_clear && has_terminal),
+            self.asked.map(|(_, until)| until),
+            self.known.until,
+        ];
+        let deadline = others.into_iter().chain([deadline]).flatten().min();
+        let first = match deadline {
+            None => self
+                .inbox
+                .recv()
+                .map_err(|_| RecvTimeoutError::Disconnected),
+            Some(deadline) => {
+                let time = deadline.saturating_duration_since(Instant::now());
+                self.inbox.recv_timeout(time)
+            }
+        };
+        let mut urgency = Urgency::Never;
+        let events: Vec<_> = first.into_iter().chain(self.inbox.try_iter()).collect();
+        for event in events {
+            while let Some(msg) = self.runtime.screen().next_signal() {
+                urgency = Urgency::Now;
+                self.step(msg);
+            }
+            if self.runtime.is_over() {
+                break;
+            }
+            urgency = urgency.max(self.take(event));
+        }
+        let now = Instant::now();
+        if self.link.give_up(now) {
+            self.runtime.screen().give_up_replies();
+        }
+        for msg in self.runtime.due(now) {
+            urgency = Urgency::Now;
+            self.step(msg);
+        }
+        urgency = urgency.max(self.give_up_on_colours());
+        for panic in self.runtime.screen().take_panics() {
+            urgency = Urgency::Now;
+            self.step(Msg::Failed(panic));
+        }
+        urgency
+    }
+
+    /// Handles an event.
+    fn take(&mut self, event: Event) -> Urgency {
+        match event {
+            // Counts as unread until it is handled.
+            Event::Typed(event, _unread) => return self.take(*event),
+            Event::Replied(reply, at) => return self.replied(reply, at),
+            Event::Begun => self.at_work += 1,
+            Event::Done => self.at_work -= 1,
+            event => {
+                if let Some(msg) = self.runtime.message(event) {
+                    let urgency = self.urgency_of(&msg);
+                    self.step(msg);
+                    return urgency;
+                }
+            }
+        }
+        Urgency::Never
+    }
+
+    fn urgency_of(&self, msg: &Msg) -> Urgency {
+        match msg {
+            Msg::Frame(Target::Preview, frame)
+                if self.app.shared.pictures.preview.is_first(frame) =>
+            {
+                Urgency::Now
+            }
+            Msg::Frame(..) => Urgency::Soon,
+            _ => Urgency::Now,
+        }
+    }
+
+    fn step(&mut self, msg: Msg) {
+        if !self.runtime.is_over() {
+            self.ending = ending(&msg);
+        }
+        let effects = self.app.update(msg);
+        self.perform(effects);
+        let are_kept = self.app.shared.has_kept_edits();
+        self.runtime.screen().note_kept_edits(are_kept);
+    }
+
+    fn perform(&mut self, effects: Vec<Effect>) {
+        let mut left = VecDeque::from(effects);
+        while let Some(effect) = left.pop_front() {
+            if matches!(
+                effect,
+                Effect::OpenEditor { .. } | Effect::Suspend | Effect::TakeTerminal
+            ) {
+                // The time another program had the terminal is no measure of the link.
+                self.waiting = None;
+            }
+            if let Some(msg) = self.runtime.perform(effect) {
+                left.extend(self.app.update(msg));
+            }
+        }
+    }
+
+    /// Requests a reply of the terminal if the link should be measured.
+    fn ask(&mut self, now: Instant) -> io::Result<()> {
+        if self.runtime.screen().has_terminal() && self.link.has_question(now) {
+            self.runtime.screen().ask_status()?;
+            self.link.asked(now);
+        }
+        Ok(())
+    }
+
+    fn draw(&mut self, urgency: Urgency) -> io::Result<()> {
+        let now = Instant::now();
+        self.fit_pixels()?;
+        let is_limited = self.link.is_limited();
+        self.app.shared.follow_wires();
+        self.app.shared.has_colours = self.inks.have_colours();
+        if let Some(frame_window) = self.app.shared.frame_window() {
+            let allowance = match urgency {
+                // Nothing of the picture is sent.
+                _ if self.app.shared.wireframe().is_some() => usize::MAX,
+                // The part that the user is waiting for is sent first, without the picture.
+                Urgency::Now if is_limited => 0,
+                _ => self.link.allowance(now),
+            };
+            let allowance = match (self.manner, allowance) {
+                // A picture is sent as a whole, and later ones wait until its bytes are paid.
+                (Manner::Picture(_), 1..) => usize::MAX,
+                (_, allowance) => allowance,
+            };
+            let marked = self.app.shared.outlined_objects();
+            let picture = self.app.shared.picture_mut();
+            picture.advance(&frame_window, &marked, allowance);
+            let rests = !picture.is_pending() && picture.is_complete();
+            self.app.shared.pictures.net = (is_limited && !rests).then(|| self.link.rate(now));
+        }
+        let (app, inks) = (&self.app, &mut self.inks);
+        let mut area = app.shared.terminal;
+        let pixmap = self.manner.means().map(|_| view::pixmap(app));
+        let bytes = self.runtime.screen().draw(pixmap.as_ref(), |frame| {
+            area = (frame.area().width, frame.area().height);
+            view::draw(app, inks, frame)
+        })?;
+        self.link.spent(bytes, now);
+        if !self.runtime.screen().is_clear() {
+            self.waiting = Some((now, bytes));
+        }
+        if area != self.app.shared.terminal {
+            self.step(Msg::Resize(area.0, area.1));
+            return self.draw(urgency);
+        }
+        Ok(())
+    }
+}
+
+/// The ending that results if this message ends the program.
+fn ending(msg: &Msg) -> Ending {
+    match msg {
+        Msg::Interrupt => Ending::Interrupted,
+        Msg::Terminate { signal } => Ending::Terminated { signal: *signal },
+        Msg::HangUp => Ending::HungUp,
+        _ => Ending::Quit,
+    }
+}

@@ -1,0 +1,161 @@
+//! Plays a script of keys: each step follows once everything before it is done, so that the outcome
+//! does not depend on time.
+
+use std::io;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use crossterm::event::{KeyModifiers, MouseButton, MouseEvent, MouseEventKind};
+
+use super::{Session, Urgency};
+use crate::assets::Assets;
+use crate::file;
+use crate::language::Source;
+use crate::ui::msg::{Effect, Msg, Timer};
+use crate::ui::options::Rehearsal;
+use crate::ui::shell::ending::Error;
+use crate::ui::shell::script::{Script, Step};
+use crate::ui::shell::snapshot;
+
+impl Session {
+    /// Handles what has arrived or, if nothing more will, plays the next step of the script.
+    ///
+    /// A key waits for files, and for one sample of each pixel of the preview, below which it may
+    /// pick an object. Waits and dumps also wait for complete pictures, exports and timers. A
+    /// sequence that plays has no end: a wait shows its next frame.
+    pub(super) fn play(&mut self) -> Urgency {
+        if let Ok(event) = self.inbox.try_recv() {
+            return self.take(event);
+        }
+        let next = self.script.as_ref().and_then(Script::peek);
+        let is_last = matches!(next, None | Some(Step::Wait | Step::Dump(..)));
+        let pictures = &self.app.shared.pictures;
+        let is_busy = if is_last {
+            pictures.are_awaited()
+                || self.app.shared.compared.is_awaited()
+                || self.app.thumbnails.are_awaited()
+                || self.app.shared.suggestions.are_awaited()
+                || self.app.shared.jobs.export.is_some()
+        } else {
+            pictures.preview.is_coarse()
+        };
+        if is_busy || 0 < self.at_work {
+            return match self.inbox.recv() {
+                Ok(event) => self.take(event),
+                Err(_) => Urgency::Never,
+            };
+        }
+        let is_played = self.is_played || next != Some(&Step::Wait);
+        let is_awaited = |timer| timer != Timer::Frame || !is_played;
+        if is_last && let Some(elapsed) = self.runtime.next_elapsed(is_awaited) {
+            self.is_played |= matches!(elapsed, Msg::Elapsed(Timer::Frame));
+            self.step(elapsed);
+            return Urgency::Now;
+        }
+        self.is_played = false;
+        // A page is always written to.
+        let _ = self.draw(Urgency::Now);
+        match self.script.as_mut().and_then(Script::next) {
+            Some(step) => self.act(step),
+            None => self.perform(vec![Effect::Quit]),
+        }
+        Urgency::Never
+    }
+
+    /// Writes the last screen; fails if a step could not be played.
+    pub(super) fn finish(&mut self, rehearsal: Option<&Rehearsal>) -> Result<(), Error> {
+        if let Some(error) = self.failed.take() {
+            return Err(error);
+        }
+        if let Some(script) = &self.script
+            && let Some(unplayed) = script.unplayed()
+        {
+            return Err(Error::Faulty {
+                name: script.name.clone(),
+                text: script.text.clone(),
+                errors: vec![unplayed],
+            });
+        }
+        for path in rehearsal.iter().flat_map(|rehearsal| &rehearsal.frames) {
+            let format = snapshot::Format::of_path(path).unwrap_or(snapshot::Format::Text);
+            self.dump(path, format)?;
+        }
+        Ok(())
+    }
+
+    fn act(&mut self, step: Step) {
+        match step {
+            Step::Key(key) => self.step(Msg::Key(key)),
+            Step::Paste(text) => self.step(Msg::Paste(text)),
+            Step::Click(column, row) => {
+                let left = MouseButton::Left;
+                for kind in [MouseEventKind::Down(left), MouseEventKind::Up(left)] {
+                    self.step(Msg::Mouse(MouseEvent {
+                        kind,
+                        column,
+                        row,
+                        modifiers: KeyModifiers::NONE,
+                    }));
+                }
+            }
+            Step::Resize(columns, rows) => {
+                self.runtime.screen().resize((columns, rows));
+                self.step(Msg::Resize(columns, rows));
+            }
+            Step::Wait => {}
+            Step::Dump(path, format) => {
+                if let Err(error) = self.dump(&path, format) {
+                    self.failed = Some(error);
+                    self.perform(vec![Effect::Quit]);
+                }
+            }
+        }
+    }
+
+    /// Whether a file is one that the scene uses. That of a text with errors is not known to the
+    /// interface, which does not read its files.
+    fn uses(&self, path: &Path) -> bool {
+        if self
+            .app
+            .shared
+            .files()
+            .any(|used| file::is_same(path, used))
+        {
+            return true;
+        }
+        let (Some(scene), 1.., true) = (
+            &self.app.shared.disk.path,
+            self.app.shared.error_count(),
+            path.exists(),
+        ) else {
+            return false;
+        };
+        let (language, text) = (
+            self.app.shared.source().language(),
+            self.app.shared.source().text(),
+        );
+        let name = path.file_name().unwrap_or_default();
+        let is_named = name.to_str().is_some_and(|name| text.contains(name));
+        let mut source = Source::new(language, Arc::clone(text));
+        let read = Assets::new(&self.assets).lower(scene, &mut source);
+        let is_same = |used: &PathBuf| file::is_same(path, used);
+        is_named || read.map_or(true, |(_, read)| read.files.iter().any(is_same))
+    }
+
+    fn dump(&mut self, path: &Path, format: snapshot::Format) -> Result<(), Error> {
+        let theme = self.app.shared.theme;
+        let is_used = self.uses(path);
+        let Some(cells) = self.runtime.screen().cells() else {
+            return Ok(());
+        };
+        let written = if is_used {
+            Err(io::Error::other("the scene uses it; name another file"))
+        } else {
+            snapshot::write(cells, path, format, theme)
+        };
+        written.map_err(|source| Error::Frame {
+            path: path.to_owned(),
+            source,
+        })
+    }
+}

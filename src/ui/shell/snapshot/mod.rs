@@ -1,0 +1,74 @@
+//! Writes a screen to a file: as text, as text with escape codes, or as a picture.
+
+mod font;
+mod picture;
+
+use std::io;
+use std::path::Path;
+
+use ratatui::buffer::Buffer;
+use unicode_width::UnicodeWidthStr;
+
+use crate::file;
+use crate::image_file;
+use crate::ui::terminal;
+use crate::ui::theme::Theme;
+
+/// The format of a written screen.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Format {
+    /// `.txt`: the characters, without spaces at the ends of lines.
+    Text,
+    /// `.ansi`: the characters with escape codes for 24-bit colour, to print in a terminal.
+    Ansi,
+    /// `.png`: a picture of the screen.
+    Picture,
+}
+
+impl Format {
+    /// The format for a file name's extension.
+    pub fn of_path(path: &Path) -> Option<Self> {
+        match path.extension()?.to_str()? {
+            "txt" => Some(Self::Text),
+            "ansi" => Some(Self::Ansi),
+            "png" => Some(Self::Picture),
+            _ => None,
+        }
+    }
+}
+
+/// Writes a screen. Replaces an existing file.
+pub(super) fn write(cells: &Buffer, path: &Path, format: Format, theme: Theme) -> io::Result<()> {
+    let confirm = || Ok::<(), io::Error>(());
+    let bytes = match format {
+        Format::Text => text(cells).into_bytes(),
+        Format::Ansi => terminal::printed(cells),
+        Format::Picture => {
+            return image_file::save(
+                image_file::Picture::of(&picture::drawn(cells, theme)),
+                path,
+                confirm,
+            )
+            .map(drop);
+        }
+    };
+    file::deliver(path, |out| out.write_all(&bytes), confirm).map(drop)
+}
+
+/// The characters of a screen, one line for each row.
+fn text(cells: &Buffer) -> String {
+    let mut text = String::new();
+    for y in 0..cells.area.height {
+        let start = text.len();
+        let mut x = 0;
+        while x < cells.area.width {
+            let symbol = cells[(x, y)].symbol();
+            text.push_str(symbol);
+            // The cells below the rest of a wide character are not shown.
+            x += (symbol.width() as u16).max(1);
+        }
+        text.truncate(start + text[start..].trim_end().len());
+        text.push('\n');
+    }
+    text
+}
