@@ -1,7 +1,7 @@
 //! The terminal: the only room that knows ratatui and crossterm.
 //!
 //! ```text
-//! input, signals, watcher, renderers ──Msg──▶ inbox ──▶ App::update ──Effect──▶ World::perform
+//! input, signals, watcher, renderers ──Msg──▶ inbox ──▶ App::update ──Effect──▶ Runtime::perform
 //!                                                          │                        │
 //!                                                          ▼                        └──Msg──▶ inbox
 //!                                                      view::draw ──▶ cells
@@ -9,6 +9,16 @@
 //!
 //! There is a single inbox. [`App::update`] is a pure step; effects perform all I/O; drawing only
 //! reads the app.
+//!
+//! | room | what it is for |
+//! |---|---|
+//! | [`app`] | the state and its steps: what all modes share, and a folder for each mode or page that is a room |
+//! | [`keymap`] | what rows of keys say: bindings, help, hints, configuration |
+//! | [`view`] | drawing the state |
+//! | `shell` | the loop: inbox, effects, the screen, scripts of keys |
+//! | [`service`] | work in the background: reading, writing, comparing, explaining, deriving |
+//! | [`recovery`] | unsaved edits, kept for a later run |
+//! | [`terminal`] | bytes from and to the terminal |
 
 pub mod app;
 pub mod arrange;
@@ -27,10 +37,9 @@ pub mod reel;
 pub mod scene_reading;
 pub mod service;
 mod shell;
-mod text_width;
-
 mod state;
 pub mod terminal;
+mod text_width;
 mod theme;
 pub mod view;
 

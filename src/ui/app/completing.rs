@@ -163,7 +163,8 @@ impl Shared {
         let commands = command::all_described().map(|row| {
             let names = row.names.iter().filter_map(|name| likeness(name, &wanted));
             let by_words = likeness(row.words, &wanted).map(|rank| rank + 1);
-            let rank = names.chain(by_words).min();
+            let by_synonyms = likeness(row.synonyms, &wanted).map(|rank| rank + 2);
+            let rank = names.chain(by_words).chain(by_synonyms).min();
             (rank, row.key, self.as_completion(row))
         });
         let commands: Vec<_> = commands.filter(|(rank, ..)| rank.is_some()).collect();
@@ -190,7 +191,11 @@ impl Shared {
                     keys,
                     act: Some((named.row, named.context)),
                 };
-                (likeness(named.words, &wanted), completion)
+                let by_synonyms = likeness(named.synonyms, &wanted).map(|rank| rank + 1);
+                let ranks = likeness(named.words, &wanted)
+                    .into_iter()
+                    .chain(by_synonyms);
+                (ranks.min(), completion)
             })
             .collect();
         let mut found: Vec<_> = commands

@@ -2,7 +2,7 @@
 
 use super::bindings::{Keymap, Row, RowId, names};
 use super::context::{Context, Mode};
-use super::key::Hint;
+use super::key::{Hint, Key};
 use super::line::{Line, line_hints};
 
 /// The rank of keys without a hint, where all are shown.
@@ -49,18 +49,25 @@ const MOUSE: [(&str, &str); 15] = [
 /// An input and its description.
 pub type Entry = (String, &'static str);
 
+/// The same, and everyday words for it.
+pub(super) type FoundEntry = (String, &'static str, &'static str);
+
 impl Keymap {
     /// Returns the help for someone in `mode`, whose keys come first: sections of lines whose keys,
-    /// description or heading contain `search`, ignoring case.
-    pub fn help(&self, search: &str, mode: Mode, commands: Vec<Entry>) -> Vec<HelpLine> {
+    /// description, synonyms or heading contain `search`, ignoring case.
+    pub fn help(&self, search: &str, mode: Mode, commands: Vec<FoundEntry>) -> Vec<HelpLine> {
         let search = search.to_lowercase();
         let mut lines = Vec::new();
-        let mut add = |heading: &'static str, entries: Vec<Entry>| {
+        let mut add = |heading: &'static str, entries: Vec<FoundEntry>| {
             let all = holds(heading, &search);
             let found = entries
                 .into_iter()
-                .filter(|(keys, words)| all || holds(keys, &search) || holds(words, &search))
-                .map(|(keys, words)| HelpLine::Entry { keys, words });
+                .filter(|(keys, words, synonyms)| {
+                    all || [keys.as_str(), words, synonyms]
+                        .iter()
+                        .any(|text| holds(text, &search))
+                })
+                .map(|(keys, words, _)| HelpLine::Entry { keys, words });
             let start = lines.len();
             lines.extend(found);
             if start < lines.len() {
@@ -76,7 +83,7 @@ impl Keymap {
         for context in others {
             add(context.heading(), self.entries(context));
         }
-        let owned = |(keys, words): &(&str, &'static str)| ((*keys).to_owned(), *words);
+        let owned = |(keys, words): &(&str, &'static str)| ((*keys).to_owned(), *words, "");
         for (heading, line) in [
             ("while a value is typed", Line::Value),
             ("in a menu, where typing filters", Line::Filter),
@@ -127,22 +134,25 @@ impl Keymap {
     }
 
     /// The keys of a context that are not the same everywhere.
-    fn entries(&self, context: Context) -> Vec<Entry> {
+    fn entries(&self, context: Context) -> Vec<FoundEntry> {
         let differs = |row: &Row| row.own.iter().any(|(of, _)| *of == context);
         let rows = self.rows.iter();
         let rows = rows.filter(|row| row.key.scope.holds(context));
         let rows = rows.filter(|row| !row.key.is_common() || differs(row));
-        with_keys(rows.map(|row| (names(row.keys_in(context)), row.key.words)))
+        with_keys(rows.map(|row| (names(row.keys_in(context)), &row.key)))
     }
 
-    fn common_entries(&self) -> Vec<Entry> {
+    fn common_entries(&self) -> Vec<FoundEntry> {
         let rows = self.rows.iter().filter(|row| row.key.is_common());
-        with_keys(rows.map(|row| (names(&row.keys), row.key.words)))
+        with_keys(rows.map(|row| (names(&row.keys), &row.key)))
     }
 }
 
-fn with_keys(entries: impl Iterator<Item = Entry>) -> Vec<Entry> {
-    entries.filter(|(keys, _)| !keys.is_empty()).collect()
+fn with_keys<'a>(rows: impl Iterator<Item = (String, &'a Key)>) -> Vec<FoundEntry> {
+    let bound = rows.filter(|(keys, _)| !keys.is_empty());
+    bound
+        .map(|(keys, row)| (keys, row.words, row.synonyms))
+        .collect()
 }
 
 /// Distributes sections of help over columns of about the same height, each section in one column
@@ -174,7 +184,11 @@ mod tests {
 
     fn lines(search: &str, mode: Mode) -> Vec<HelpLine> {
         let keymap = Keymap::default();
-        keymap.help(search, mode, vec![(":export [WxH]".to_owned(), "write")])
+        keymap.help(
+            search,
+            mode,
+            vec![(":export [WxH]".to_owned(), "write", "screenshot")],
+        )
     }
 
     fn headings(lines: &[HelpLine]) -> Vec<&'static str> {
@@ -231,6 +245,11 @@ mod tests {
         assert!(lines("ctrl-r", Mode::Select).contains(&entry("Ctrl-R", "redo")));
         assert_eq!(headings(&lines("mouse", Mode::Edit)), ["mouse"]);
         assert_eq!(headings(&lines("[wxh]", Mode::Edit)), ["commands"]);
+        let found = lines("screenshot", Mode::Select);
+        assert!(
+            found.contains(&entry(":export [WxH]", "write")),
+            "{found:?}"
+        );
         assert!(lines("no such words", Mode::Select).is_empty());
     }
 

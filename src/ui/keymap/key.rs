@@ -16,6 +16,8 @@ pub struct Key {
     pub name: &'static str,
     /// Description of what it does.
     pub words: &'static str,
+    /// Everyday words for it, by which it is found as well.
+    pub(super) synonyms: &'static str,
     pub(super) scope: Scope,
     chords: &'static [Chord],
     pressed: Pressed,
@@ -100,6 +102,7 @@ impl Key {
         Self {
             name,
             words,
+            synonyms: "",
             scope,
             chords,
             pressed: Pressed::Each,
@@ -142,6 +145,13 @@ impl Key {
             at += 1;
         }
         self.hints[at] = Some(hint);
+        self
+    }
+
+    /// Is found by these everyday words as well.
+    #[must_use]
+    pub const fn also(mut self, synonyms: &'static str) -> Self {
+        self.synonyms = synonyms;
         self
     }
 

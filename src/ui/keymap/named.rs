@@ -19,6 +19,8 @@ pub struct NamedAction {
     pub keys: String,
     /// Its description.
     pub words: &'static str,
+    /// Everyday words for it.
+    pub synonyms: &'static str,
 }
 
 impl Keymap {
@@ -40,6 +42,7 @@ impl Keymap {
                         context,
                         keys,
                         words: row.key.words,
+                        synonyms: row.key.synonyms,
                     }),
                     // Another row of the same mode: `gg`, `Home`.
                     Some(named) if named.context == context && !keys.is_empty() => {

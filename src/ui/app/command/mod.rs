@@ -91,7 +91,9 @@ impl Shared {
     pub fn help_lines(&self) -> Vec<HelpLine> {
         let help = self.overlays.help.as_ref();
         let search = help.map_or("", |help| help.search.value());
-        let commands = ROWS.iter().map(|row| (row.usage(), row.words));
+        let commands = ROWS
+            .iter()
+            .map(|row| (row.usage(), row.words, row.synonyms));
         self.keymap.help(search, self.mode, commands.collect())
     }
 

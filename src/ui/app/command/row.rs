@@ -12,6 +12,8 @@ pub(super) struct CommandRow {
     pub(super) arguments: Arguments,
     /// Description for the help.
     pub(super) words: &'static str,
+    /// Everyday words for it, by which it is found as well.
+    pub(super) synonyms: &'static str,
     /// The name of the keys that do the same.
     key: Option<&'static str>,
     pub(super) runs: Runs,
@@ -70,6 +72,7 @@ pub(in crate::ui::app) struct Described {
     pub(in crate::ui::app) names: &'static [&'static str],
     pub(in crate::ui::app) usage: String,
     pub(in crate::ui::app) words: &'static str,
+    pub(in crate::ui::app) synonyms: &'static str,
     /// The name of the keys that do the same.
     pub(in crate::ui::app) key: Option<&'static str>,
     /// Whether its arguments begin with a file name.
@@ -86,9 +89,16 @@ impl CommandRow {
             names,
             arguments,
             words,
+            synonyms: "",
             key: None,
             runs: Runs::OnText,
         }
+    }
+
+    /// Is found by these everyday words as well.
+    pub(super) const fn also(mut self, synonyms: &'static str) -> Self {
+        self.synonyms = synonyms;
+        self
     }
 
     /// Keys with this name do the same.
@@ -108,6 +118,7 @@ impl CommandRow {
             names: self.names,
             usage: self.usage(),
             words: self.words,
+            synonyms: self.synonyms,
             key: self.key,
             takes_file: matches!(self.arguments, Arguments::File(_) | Arguments::FileAnd(..)),
         }

@@ -21,7 +21,7 @@ pub(in crate::ui::app) const KEYS: &[Row] = &[
     Key::new(EDIT, "nudge-down", &[c('h'), key(Left)], "nudge down").hint(10, "nudge").does(|shared| shared.nudge(-1, Plain)).when(Shared::has_steps),
     Key::new(EDIT, "choose", &[key(Enter)], "choose from a list, or type a number").hint(30, "type").does(Shared::enter_value),
     Key::new(EDIT, "type", &[c('i')], "type a value (or press a digit or #)").does(Shared::type_current),
-    Key::new(EDIT, "pick-colour", &[c('c')], "pick a colour").hint(50, "colour").does(Shared::open_picker).when(Shared::has_colour),
+    Key::new(EDIT, "pick-colour", &[c('c')], "pick a colour").also("color material").hint(50, "colour").does(Shared::open_picker).when(Shared::has_colour),
     Key::new(EDIT, "next-number", &[key(Tab)], "next number").hint(70, "next number").does(|shared| shared.next_component(1)).when(Shared::has_components),
     Key::new(EDIT, "nudge-up-coarse", &[c('L'), shift(Right)], "nudge up ten steps").does(|shared| shared.nudge(1, Coarse)),
     Key::new(EDIT, "nudge-down-coarse", &[c('H'), shift(Left)], "nudge down ten steps").does(|shared| shared.nudge(-1, Coarse)),

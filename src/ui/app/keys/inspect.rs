@@ -36,7 +36,7 @@ pub(in crate::ui::app) const KEYS: &[Row] = &[
     Key::new(INSPECT, "cross-up-far", &[c('K'), shift(Up)], "up 8 pixels").does(|shared| shared.move_cross(0, -8)),
     Key::new(INSPECT, "cross-right-far", &[c('L'), shift(Right)], "right 8 pixels").does(|shared| shared.move_cross(8, 0)),
     Key::new(INSPECT, "accept", &[key(Enter)], "select what is there").hint(20, "select").does(Shared::select_crossed),
-    Key::new(INSPECT, "explain", &[c('e')], "explain the pixel").hint(10, "explain").does(Shared::start_explaining),
+    Key::new(INSPECT, "explain", &[c('e')], "explain the pixel").also("why shadow dark").hint(10, "explain").does(Shared::start_explaining),
     Key::new(RAYS, "accept", &[key(Enter)], "select its object or light").hint(10, "select").does(Shared::select_explained).when(|shared| shared.explained_node().is_some()),
     Key::new(RAYS, "solo", &[c('l')], "show only its light in the preview").hint(40, "solo light").does(Shared::solo_explained).when(Shared::explains_light),
     Key::new(RAYS, "fold", &[key(Left)], "fold it, or go to what it is in").does(|shared| shared.fold_ray(Fold::Selected)),

@@ -59,11 +59,19 @@ enum Step {
 
 impl Key {
     pub(super) const fn does(self, step: fn(&mut Shared)) -> Row {
-        Row::new(self, Step::Does(step))
+        Row {
+            key: self,
+            step: Step::Does(step),
+            acts: |_| true,
+        }
     }
 
     pub(super) const fn requests(self, step: fn(&mut Shared) -> Vec<Effect>) -> Row {
-        Row::new(self, Step::Requests(step))
+        Row {
+            key: self,
+            step: Step::Requests(step),
+            acts: |_| true,
+        }
     }
 }
 
@@ -99,14 +107,6 @@ impl Row {
                 Vec::new()
             }
             Step::Requests(step) => step(shared),
-        }
-    }
-
-    const fn new(key: Key, step: Step) -> Self {
-        Self {
-            key,
-            step,
-            acts: |_| true,
         }
     }
 

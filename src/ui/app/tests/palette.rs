@@ -13,6 +13,25 @@ scripts! {
         :view sav | :view save [NAME]                    | S
     ");
 
+    everyday_words_find_what_they_mean: ray().table("{1} | completed …{2} […]; …", r"
+        :screenshot | :export [FILE] [WxH] [SPP]
+        :gif        | :export [FILE] [WxH] [SPP]
+        :image      | :export [FILE] [WxH] [SPP]
+        :video      | :export [FILE] [WxH] [SPP]
+        :video      | :track [FILE]
+        :turntable  | :track [FILE]
+        :animation  | :track [FILE]
+        :gamma      | :transfer srgb
+        :resolution | :size WxH
+        :material   | edit its fields
+        :color      | pick a colour
+        :exit       | :q
+        :brightness | :exposure STOPS
+        :why        | explain the pixel
+        :shadow     | explain the pixel
+        :remove     | delete
+    ");
+
     a_line_with_several_matches_stays_until_one_is_chosen: ray().play(r"
         :zzz           | not completed
 
