@@ -19,7 +19,7 @@ const SELECT_AND_FIELDS: Scope = These(&[In(Mode::Select), In(Mode::Edit)]);
 #[rustfmt::skip]
 pub(in crate::ui::app) const KEYS: &[Row] = &[
     Key::new(SELECT, "edit", &[key(Enter), c('e')], "edit its fields").also("material color properties").hint(10, "edit").requests(|shared| shared.go(Mode::Edit)).when(|shared| !shared.cursor.fields().is_empty()),
-    Key::new(SELECT, "camera", &[c('v')], "move the camera").also("orbit view").hint(40, "camera").requests(|shared| shared.go(Mode::View)),
+    Key::new(SELECT, "camera", &[c('v')], "move the camera").also("viewpoint").hint(40, "camera").requests(|shared| shared.go(Mode::View)),
     Key::new(SELECT, "delete", &[c('d')], "delete").also("remove erase").does(Shared::delete),
     Key::new(SELECT, "duplicate", &[c('D')], "duplicate").also("clone").does(Shared::duplicate),
     Key::new(SELECT, "copy", &[c('y')], "copy the text").requests(Shared::copy),
