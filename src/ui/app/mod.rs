@@ -5,7 +5,7 @@
 //! each concern: cursor, disk, assets, pictures, overlays, jobs. A part owns its state and knows no
 //! other; the steps, which handle messages, pass between them what they need. A mode that is a room
 //! stands in a folder, which no other knows: its state, its keys, its steps; one line of
-//! [`modes`](self::modes) joins it to the rest. Nothing here touches files, threads or clocks.
+//! [`modes`] joins it to the rest. Nothing here touches files, threads or clocks.
 
 mod adding;
 mod after_leaving;
