@@ -62,7 +62,7 @@ const ROOMS: &[(&str, usize)] = &[
     ("scene", 1300),
     ("track", 1600),
     // A mode that is a room names the state that its steps see, and what all modes share.
-    ("ui", 31900),
+    ("ui", 32000),
 ];
 
 /// The files of the interface that name each mode, outside of a folder of its own. What knows a mode has

@@ -11,7 +11,7 @@ use crate::render::{Aov, Frame, NO_OBJECT, Progress};
 use crate::scene::{Images, Scene, Size};
 use crate::ui::keymap::Mode;
 use crate::ui::msg::Target;
-use crate::ui::service::reference::{Made, Pair, ReferenceId, ReferenceRead};
+use crate::ui::reference::{Made, Pair, ReferenceId, ReferenceRead};
 
 /// What pictures are compared with, and in [`Mode::Compare`] the comparison.
 #[derive(Debug, Default)]

@@ -12,7 +12,7 @@ use crate::scene::{Camera, Images, Rendering, Scene, Size};
 use crate::text::Severity;
 use crate::ui::keymap::{Context, Mode};
 use crate::ui::msg::{Effect, Target};
-use crate::ui::service::reference::{ReferenceId, ReferenceRead, ReferenceSource};
+use crate::ui::reference::{ReferenceId, ReferenceRead, ReferenceSource};
 
 impl Shared {
     /// Makes the picture on screen the reference.

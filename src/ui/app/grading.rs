@@ -5,7 +5,7 @@ use super::Shared;
 use crate::image_file::ImageFormat;
 use crate::render::{Aov, Frames, Job, Record, Region, Settings, denoises};
 use crate::scene::{Camera, Rendering, Size};
-use crate::ui::service::reference::Made;
+use crate::ui::reference::Made;
 
 impl Shared {
     /// The job that corresponds to a picture of this size. What the user has set comes before what the

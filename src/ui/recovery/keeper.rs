@@ -8,7 +8,7 @@ use std::time::Instant;
 
 use super::claim::Claim;
 use super::journal::{Edits, Journal};
-use crate::ui::service::queue::{Ended, Service};
+use crate::ui::queue::{Ended, Service};
 use crate::ui::state;
 
 /// A request for the thread.

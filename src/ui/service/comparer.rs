@@ -5,11 +5,11 @@ use std::io;
 use std::path::PathBuf;
 use std::sync::Arc;
 
-use super::queue::{Ended, Service};
-use super::reference::{Pair, ReferenceId, ReferenceSource};
 use crate::assets::Assets;
+use crate::ui::event::Work;
 use crate::ui::msg::Msg;
-use crate::ui::shell::event::Work;
+use crate::ui::queue::{Ended, Service};
+use crate::ui::reference::{Pair, ReferenceId, ReferenceSource};
 
 /// Handle of the thread that reads references. Nothing waits for its end, as it has no work that
 /// could be lost.

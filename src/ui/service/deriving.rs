@@ -5,14 +5,14 @@ use std::path::PathBuf;
 use std::sync::Arc;
 use std::sync::mpsc::Receiver;
 
-use super::queue::{Ended, Service};
 use crate::assets::{Assets, Wanted};
 use crate::language;
 use crate::language::Source;
 use crate::memory::OutOfMemory;
+use crate::ui::event::Work;
 use crate::ui::history_scene::{HistoryScene, HistoryText, NoPicture};
 use crate::ui::msg::Msg;
-use crate::ui::shell::event::Work;
+use crate::ui::queue::{Ended, Service};
 
 /// Handle of the thread. Nothing waits for its end, as it has no work that could be lost.
 pub(crate) struct Deriver(Service<(HistoryText, Work)>);

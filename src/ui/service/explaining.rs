@@ -4,10 +4,10 @@ use std::cell::RefCell;
 use std::io;
 use std::sync::Arc;
 
-use super::queue::{Ended, Service};
 use crate::render::Frame;
+use crate::ui::event::Work;
 use crate::ui::msg::{Msg, Question};
-use crate::ui::shell::event::Work;
+use crate::ui::queue::{Ended, Service};
 
 /// Handle of the thread that explains pixels.
 pub(crate) struct Explainer(Service<Request>);

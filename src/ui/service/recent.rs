@@ -9,9 +9,9 @@ use std::path::{Component, Path, PathBuf};
 use std::sync::mpsc::{self, Receiver};
 use std::time::Instant;
 
-use super::queue::{Ended, Service};
 use crate::file;
 use crate::ui::arrange::PanelSizes;
+use crate::ui::queue::{Ended, Service};
 use crate::ui::state::{self, Folder, Part};
 
 /// Names of the files.

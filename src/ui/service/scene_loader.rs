@@ -7,17 +7,17 @@ use std::path::{Path, PathBuf};
 use std::sync::mpsc::Receiver;
 use std::thread;
 
-use super::queue::{Ended, Service};
 use crate::document::Document;
 use crate::file;
 use crate::file::ReadError;
 use crate::language::{self, Language};
 use crate::memory;
 use crate::scene::Meshes;
+use crate::ui::event::Work;
 use crate::ui::msg::{Msg, Polled};
+use crate::ui::queue::{Ended, Service};
 use crate::ui::recovery;
 use crate::ui::scene_reading::{Baseline, Opened, Reading, SceneFolder};
-use crate::ui::shell::event::Work;
 use crate::watch::{Method, Notice, Watcher};
 
 /// Length in bytes from which a text is lowered on several threads.

@@ -5,10 +5,10 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::mpsc::Receiver;
 
-use super::queue::{Ended, Service};
 use crate::file::{self, ReadError};
+use crate::ui::event::Work;
 use crate::ui::msg::{Msg, Polled};
-use crate::ui::shell::event::Work;
+use crate::ui::queue::{Ended, Service};
 use crate::watch::{Method, Notice, Watcher};
 
 /// Handle of the thread. Nothing waits for its end, as it has no work that could be lost.

@@ -15,9 +15,9 @@ use crate::assets::fingerprint;
 use crate::file::{self, ReadError};
 use crate::image_file::{self, Picture};
 use crate::render::{Frame, Provenance};
+use crate::ui::event::{Event, Work, sending};
 use crate::ui::msg::{Destination, ExportId, Exported, Guard, Msg, SaveId, SaveOutcome};
 use crate::ui::reel::Reel;
-use crate::ui::shell::event::{Event, Work, sending};
 
 /// Starts a thread for each file to write, and waits for all of them at the end.
 pub(crate) struct Writers {

@@ -4,8 +4,8 @@ use std::sync::mpsc::{Receiver, Sender};
 use std::time::{Duration, Instant};
 
 use super::ending::Error;
-use super::event::{Event, Work};
 use crate::ui::app::App;
+use crate::ui::event::{Event, Work};
 use crate::ui::msg::{Effect, Msg};
 use crate::ui::service::scene_loader::SceneLoader;
 

@@ -6,7 +6,6 @@ mod continuing;
 mod editor;
 mod effects;
 pub(crate) mod ending;
-pub(crate) mod event;
 mod screen;
 pub(crate) mod script;
 pub(crate) mod session;

@@ -9,8 +9,8 @@ use ratatui::backend::TestBackend;
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 
-use super::event::Event;
 use super::tty_session::TtySession;
+use crate::ui::event::Event;
 use crate::ui::msg::Msg;
 use crate::ui::options::Options;
 use crate::ui::terminal::query::Question;

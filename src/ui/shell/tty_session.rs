@@ -9,7 +9,7 @@ use std::sync::mpsc::{self, Receiver};
 use std::thread;
 use std::time::{Duration, Instant};
 
-use super::event::Event;
+use crate::ui::event::Event;
 use crate::ui::msg::Msg;
 use crate::ui::options::Options;
 use crate::ui::terminal::query::Question;

@@ -5,7 +5,7 @@ use super::*;
 use crate::compare::Comparison;
 use crate::render::{Frame, Frames};
 use crate::scene::{Image, Viewpoint};
-use crate::ui::service::reference::ReferenceId;
+use crate::ui::reference::ReferenceId;
 
 /// The stage of a complete preview, whose first pixel has the grey 9.
 fn previewed<'s>() -> Stage<'s> {

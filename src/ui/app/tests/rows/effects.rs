@@ -3,7 +3,7 @@
 use super::*;
 use crate::ui::msg::{Destination, Existing, Target, Timer};
 use crate::ui::reel::{Reel, ReelForm};
-use crate::ui::service::reference::ReferenceSource;
+use crate::ui::reference::ReferenceSource;
 
 /// The effect in a few words; those that scripts do not name have none.
 pub(super) fn called(effect: &Effect) -> String {

@@ -6,7 +6,7 @@ use super::steps::number;
 use super::*;
 use crate::render::{Frame, NO_OBJECT, Record};
 use crate::scene::{Images, Size};
-use crate::ui::service::reference::{Made, ReferenceRead};
+use crate::ui::reference::{Made, ReferenceRead};
 
 impl Session {
     /// A complete frame of what is traced, of this generation or the first; and one of 16 samples
