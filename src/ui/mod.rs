@@ -15,7 +15,7 @@
 //! | [`app`] | the state and its steps: what all modes share, and a folder for each mode or page that is a room |
 //! | [`keymap`] | what rows of keys say: bindings, help, hints, configuration |
 //! | [`view`] | drawing the state |
-//! | `shell` | the loop: inbox, effects, the screen, scripts of keys |
+//! | `shell` | the event loop: inbox, effects, the screen, scripts of keys |
 //! | [`service`] | work in the background: reading, writing, comparing, explaining, deriving |
 //! | [`recovery`] | unsaved edits, kept for a later run |
 //! | [`terminal`] | bytes from and to the terminal |

@@ -61,7 +61,7 @@ const ROOMS: &[(&str, usize)] = &[
     ("render", 16100),
     ("scene", 1300),
     ("track", 1600),
-    // A mode that is a room names the state that its steps see, and what all modes share.
+    // Code says whose state it uses: a mode's own, or what all modes share.
     ("ui", 32000),
 ];
 
@@ -70,7 +70,7 @@ const ROOMS: &[(&str, usize)] = &[
 const MODES: &[(&str, usize)] = &[
     ("Compare", 13),
     ("Edit", 16),
-    // SEQUENCE says itself where its track is played and keyed: here, in EDIT, SELECT and VIEW.
+    // SEQUENCE's own rows of keys list the modes that they act in.
     ("Fly", 8),
     ("Inspect", 12),
     ("Move", 14),

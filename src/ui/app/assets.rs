@@ -19,7 +19,7 @@ pub struct Assets {
     pub images: Images,
     /// The meshes of its objects that have been read.
     pub meshes: Meshes,
-    /// How often files have changed what pictures show.
+    /// How many readings have changed what pictures show.
     pub(super) changes: u64,
     /// The files requested last: those of the last text without errors.
     asked: Option<Wanted>,
@@ -170,9 +170,13 @@ impl Assets {
         self.picture_errors = loaded.picture_errors;
         self.found = loaded.found;
         self.files = loaded.files;
+        let meaning = meshes || faults;
+        if images || meaning {
+            self.changes += 1;
+        }
         Some(News {
             images,
-            meaning: meshes || faults,
+            meaning,
             notice,
         })
     }

@@ -95,7 +95,7 @@ impl Shared {
         }
         let mode = self.step_outside();
         let effects = self.compare_with(None);
-        self.stay_if_failed(mode);
+        self.return_if_failed(mode);
         effects
     }
 
@@ -177,7 +177,7 @@ impl Shared {
         } else if !is_free {
             self.overlays.say(format!(":compare compares with {name}"));
         } else if self.mode != Mode::Compare {
-            self.leave_passing();
+            self.leave_sequence();
             effects.extend(self.go(Mode::Compare));
         }
         if !how.is_empty() {

@@ -21,9 +21,6 @@ impl Shared {
             return;
         };
         self.pictures.due |= news.images;
-        if news.images || news.meaning {
-            self.assets.changes += 1;
-        }
         if news.meaning {
             // Meshes may name pictures, which are requested then.
             self.relower();

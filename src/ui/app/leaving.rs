@@ -44,7 +44,7 @@ impl Shared {
 
     /// Leaves the scene; asks first if something would be lost.
     pub(super) fn leave_for(&mut self, next: AfterLeaving) -> Vec<Effect> {
-        self.leave_passing();
+        self.leave_sequence();
         if self.losses_before(&next).is_some() {
             self.overlays.dialog = Some(Dialog::Leave(next));
             return Vec::new();
@@ -97,7 +97,7 @@ impl Shared {
     }
 
     pub(super) fn interrupt(&mut self) -> Vec<Effect> {
-        self.leave_passing();
+        self.leave_sequence();
         if self.jobs.interrupt || self.losses().is_none() {
             return self.quit_keeping_edits();
         }
@@ -108,7 +108,7 @@ impl Shared {
 
     /// Quits with unsaved edits kept, written once more in case the journal was removed.
     pub(super) fn quit_keeping_edits(&mut self) -> Vec<Effect> {
-        self.leave_passing();
+        self.leave_sequence();
         let kept = self.keep_the_rest();
         kept.into_iter().chain([Effect::Quit]).collect()
     }

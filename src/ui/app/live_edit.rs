@@ -23,10 +23,10 @@ pub(super) struct LiveEdit {
     pub(super) back: Option<TakenBack>,
 }
 
-/// A live edit that lasts as long as a mode does, in which the text itself is not edited: a frame of a
-/// track. It is taken back before anything else reads or changes the text.
+/// A live edit that only shows something, such as a frame of a track, and is reverted before anything
+/// else reads or changes the text.
 #[derive(Clone, Debug)]
-pub(super) struct PassingEdit {
+pub(super) struct TransientEdit {
     pub(super) live_edit: LiveEdit,
     /// Whether there were unsaved edits before.
     pub(super) was_dirty: bool,

@@ -2,7 +2,7 @@
 
 use super::Shared;
 use super::cursor::Names;
-use super::live_edit::{LiveEdit, PassingEdit, TakenBack};
+use super::live_edit::{LiveEdit, TakenBack, TransientEdit};
 use crate::document::{Document, Merged};
 use crate::text::Edit;
 
@@ -87,25 +87,25 @@ impl Shared {
         self.document.end_step();
     }
 
-    /// Begins a change of the present text that passes with the mode.
-    pub(super) fn begin_passing(&mut self) -> PassingEdit {
-        PassingEdit {
+    /// Begins an edit of the present text that will be reverted.
+    pub(super) fn begin_transient(&mut self) -> TransientEdit {
+        TransientEdit {
             live_edit: self.begin_live_edit(),
             was_dirty: self.document.is_dirty(),
         }
     }
 
-    /// Puts the text back as it was before what passes with the mode.
-    pub(super) fn put_back(&mut self) {
-        if let Some(passing) = self.passing.take() {
-            self.end_live_edit(passing.live_edit);
+    /// Restores the text from before the transient edit, if there is one.
+    pub(super) fn revert_transient(&mut self) {
+        if let Some(edit) = self.transient.take() {
+            self.end_live_edit(edit.live_edit);
         }
     }
 
-    /// Whether there are unsaved edits, apart from what passes with the mode.
+    /// Whether there are unsaved edits, apart from a transient one.
     pub fn has_edits(&self) -> bool {
-        let passing = self.passing.as_ref();
-        passing.map_or_else(|| self.document.is_dirty(), |passing| passing.was_dirty)
+        let transient = self.transient.as_ref();
+        transient.map_or_else(|| self.document.is_dirty(), |edit| edit.was_dirty)
     }
 
     fn is_overtaken(&self, live_edit: &LiveEdit) -> bool {

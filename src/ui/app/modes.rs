@@ -1,8 +1,8 @@
-//! The modes and pages that are rooms, one line each, and what follows from the list: the state of the interface,
-//! who is asked about a step, a press or a key, and the table of all keys.
+//! The modes and pages that are rooms, one line each, and what the list generates: the state of the
+//! interface, and who handles a step, a press or a key. Then the table of all keys.
 
 use super::history::Thumbnails;
-use super::keys::{self, ModeRow, Row};
+use super::keys::{self, Row};
 use super::opening::Opening;
 use super::room::Room;
 use super::sequence::{self, Sequence};
@@ -33,7 +33,7 @@ macro_rules! modes {
                 (app, effects)
             }
 
-            /// Lets each mode follow a step; with another scene it begins anew.
+            /// Lets each room react to a step; once another scene is open, each starts afresh.
             pub(super) fn settle(&mut self) {
                 let is_replaced = std::mem::take(&mut self.shared.is_replaced);
                 $(
@@ -44,21 +44,21 @@ macro_rules! modes {
                 )+
             }
 
-            /// Lets each mode and page request what it is to show.
+            /// Lets each room request what it shows.
             pub(super) fn follow(&mut self) -> Vec<Effect> {
                 let mut effects = Vec::new();
                 $(effects.extend(self.$field.follow(&mut self.shared));)+
                 effects
             }
 
-            /// Presses the left button; `None` if no mode takes that.
+            /// Offers a press of the left button to each room; `None` if none handles it.
             pub(super) fn press(&mut self, at: (u16, u16)) -> Option<Vec<Effect>> {
                 let taken = None;
                 $(let taken = taken.or_else(|| self.$field.press(&mut self.shared, at));)+
                 taken
             }
 
-            /// The same of dragging with the left button.
+            /// The same for dragging with the left button.
             pub(super) fn drag(&mut self, at: (u16, u16)) -> Option<Vec<Effect>> {
                 let taken = None;
                 $(let taken = taken.or_else(|| self.$field.drag(&mut self.shared, at));)+
@@ -66,11 +66,11 @@ macro_rules! modes {
             }
         }
 
-        /// Rows of keys, by what their steps see.
+        /// Rows of keys, by the state that their steps see.
         enum Rows {
-            /// What all modes share.
+            /// Only what all modes share.
             Shared(&'static [Row]),
-            $($($rows(&'static [ModeRow<$state>]),)?)+
+            $($($rows(&'static [Row<$state>]),)?)+
         }
 
         impl Rows {
@@ -92,7 +92,7 @@ macro_rules! modes {
             /// Does what the keys of a row do.
             fn act(&self, at: usize, app: &mut App) -> Vec<Effect> {
                 match self {
-                    Self::Shared(rows) => rows[at].act(&mut app.shared),
+                    Self::Shared(rows) => rows[at].act(&mut (), &mut app.shared),
                     $($(Self::$rows(rows) => rows[at].act(&mut app.$field, &mut app.shared),)?)+
                 }
             }
@@ -100,8 +100,8 @@ macro_rules! modes {
             /// Whether the keys of a row would do something now.
             fn acts(&self, at: usize, app: &App) -> bool {
                 match self {
-                    Self::Shared(rows) => (rows[at].acts)(&app.shared),
-                    $($(Self::$rows(rows) => (rows[at].acts)(&app.$field, &app.shared),)?)+
+                    Self::Shared(rows) => rows[at].acts(&(), &app.shared),
+                    $($(Self::$rows(rows) => rows[at].acts(&app.$field, &app.shared),)?)+
                 }
             }
         }

@@ -162,7 +162,7 @@ impl Shared {
             effects.push(Effect::Stop(Target::Trial));
         }
         self.inspection = Inspection::default();
-        self.passing = None;
+        self.transient = None;
         self.awaits_reading = false;
         self.is_replaced = true;
         self.cursor = Cursor::default();

@@ -97,7 +97,7 @@ impl Shared {
             pictures: Pictures::new(opening.rendering),
             compared: Compared::default(),
             inspection: Inspection::default(),
-            passing: None,
+            transient: None,
             awaits_reading: false,
             is_replaced: false,
             overlays: Overlays::default(),

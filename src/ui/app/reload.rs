@@ -77,7 +77,7 @@ impl Shared {
         if self.is_being_saved() {
             return Vec::new();
         }
-        self.put_back();
+        self.revert_transient();
         let effects = self.disk.read_again(self.baseline());
         self.awaits_reading = !effects.is_empty();
         effects

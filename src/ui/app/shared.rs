@@ -11,7 +11,7 @@ use super::cursor::Cursor;
 use super::disk::Disk;
 use super::inspection::Inspection;
 use super::jobs::Jobs;
-use super::live_edit::PassingEdit;
+use super::live_edit::TransientEdit;
 use super::overlays::Overlays;
 use super::palette::Palette;
 use super::pictures::Pictures;
@@ -61,9 +61,10 @@ pub struct Shared {
     pub compared: Compared,
     /// The pixel that is inspected.
     pub inspection: Inspection,
-    /// The change of the text that passes with the mode.
-    pub(super) passing: Option<PassingEdit>,
-    /// Whether the scene's file is being read, which is compared with the text without that change.
+    /// The edit of the text that will be reverted: the frame that SEQUENCE shows.
+    pub(super) transient: Option<TransientEdit>,
+    /// Whether the scene's file is being read; what it holds is compared with the text without a
+    /// transient edit.
     pub(super) awaits_reading: bool,
     /// Whether another scene was opened in this step.
     pub(super) is_replaced: bool,

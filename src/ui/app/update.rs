@@ -179,11 +179,11 @@ impl App {
         Vec::new()
     }
 
-    /// Does something outside of SEQUENCE, and stays there if it fails.
+    /// Does something outside of SEQUENCE, and returns there if it fails.
     pub(super) fn outside(&mut self, act: impl FnOnce(&mut Self) -> Vec<Effect>) -> Vec<Effect> {
         let mode = self.shared.step_outside();
         let effects = act(self);
-        self.shared.stay_if_failed(mode);
+        self.shared.return_if_failed(mode);
         effects
     }
 
@@ -197,7 +197,7 @@ impl App {
 }
 
 impl Shared {
-    /// Follows a step with what depends on all of the state: scrolling, pictures, the journal, the
+    /// Updates what depends on the whole state after a step: scrolling, pictures, the journal, the
     /// panels.
     pub(super) fn follow_step(&mut self) -> Vec<Effect> {
         let areas = self.areas();
@@ -206,7 +206,7 @@ impl Shared {
         let mut effects = self.follow();
         self.follow_histogram();
         effects.extend(self.follow_explained());
-        if self.passing.is_none() {
+        if self.transient.is_none() {
             effects.extend(self.disk.journal.follow(&self.document));
         }
         effects.extend(self.follow_kept());
@@ -247,8 +247,8 @@ impl Shared {
             Msg::Elapsed(Timer::Interrupt) => self.jobs.interrupt = false,
             Msg::Elapsed(Timer::Click) => self.cursor.forget_click(),
             Msg::Elapsed(Timer::Message) => self.overlays.turn_message(),
-            // It would keep what passes.
-            Msg::Elapsed(timer @ Timer::Keep) if self.passing.is_some() => {
+            // The transient edit would be stored as well.
+            Msg::Elapsed(timer @ Timer::Keep) if self.transient.is_some() => {
                 return vec![Effect::Later(KEPT_AFTER, timer)];
             }
             Msg::Elapsed(Timer::Keep) => return self.keep_edits().into_iter().collect(),
@@ -273,8 +273,15 @@ impl Shared {
             Msg::Terminate { .. } | Msg::HangUp => return self.quit_keeping_edits(),
             Msg::FewColours(depth) => self.overlays.suggest(depth.cure()),
             Msg::Failed(reason) => self.overlays.fail_too(&reason),
-            // The rest belongs to modes.
-            _ => {}
+            // Taken by [`App`] and the rooms.
+            Msg::Key(_)
+            | Msg::Mouse(_)
+            | Msg::Derived(..)
+            | Msg::TrackRead(..)
+            | Msg::TrackChanged
+            | Msg::TrackWritten(_)
+            | Msg::EditorClosed(_)
+            | Msg::Elapsed(Timer::Frame) => {}
         }
         Vec::new()
     }
@@ -336,9 +343,9 @@ impl Shared {
         self.quit()
     }
 
-    /// Puts the text back, and leaves SEQUENCE.
-    pub(super) fn leave_passing(&mut self) {
-        self.put_back();
+    /// Leaves SEQUENCE, if that is the mode, with the text as it was before the frame.
+    pub(super) fn leave_sequence(&mut self) {
+        self.revert_transient();
         if self.mode == Mode::Sequence {
             self.mode = Mode::Select;
         }
@@ -347,12 +354,12 @@ impl Shared {
     /// Leaves SEQUENCE for something that is done outside of it; returns the mode before.
     pub(super) fn step_outside(&mut self) -> Mode {
         let mode = self.mode;
-        self.leave_passing();
+        self.leave_sequence();
         mode
     }
 
-    /// Stays in SEQUENCE if what was done outside of it failed.
-    pub(super) fn stay_if_failed(&mut self, mode: Mode) {
+    /// Returns to SEQUENCE if that was the mode and what was done outside of it failed.
+    pub(super) fn return_if_failed(&mut self, mode: Mode) {
         if mode == Mode::Sequence && self.overlays.has_failed() {
             self.mode = mode;
         }

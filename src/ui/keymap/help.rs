@@ -49,16 +49,16 @@ const MOUSE: [(&str, &str); 15] = [
 /// An input and its description.
 pub type Entry = (String, &'static str);
 
-/// The same, and everyday words for it.
-pub(super) type FoundEntry = (String, &'static str, &'static str);
+/// The same, and everyday words that find it too.
+pub(super) type SearchedEntry = (String, &'static str, &'static str);
 
 impl Keymap {
     /// Returns the help for someone in `mode`, whose keys come first: sections of lines whose keys,
     /// description, synonyms or heading contain `search`, ignoring case.
-    pub fn help(&self, search: &str, mode: Mode, commands: Vec<FoundEntry>) -> Vec<HelpLine> {
+    pub fn help(&self, search: &str, mode: Mode, commands: Vec<SearchedEntry>) -> Vec<HelpLine> {
         let search = search.to_lowercase();
         let mut lines = Vec::new();
-        let mut add = |heading: &'static str, entries: Vec<FoundEntry>| {
+        let mut add = |heading: &'static str, entries: Vec<SearchedEntry>| {
             let all = holds(heading, &search);
             let found = entries
                 .into_iter()
@@ -134,7 +134,7 @@ impl Keymap {
     }
 
     /// The keys of a context that are not the same everywhere.
-    fn entries(&self, context: Context) -> Vec<FoundEntry> {
+    fn entries(&self, context: Context) -> Vec<SearchedEntry> {
         let differs = |row: &Row| row.own.iter().any(|(of, _)| *of == context);
         let rows = self.rows.iter();
         let rows = rows.filter(|row| row.key.scope.holds(context));
@@ -142,13 +142,13 @@ impl Keymap {
         with_keys(rows.map(|row| (names(row.keys_in(context)), &row.key)))
     }
 
-    fn common_entries(&self) -> Vec<FoundEntry> {
+    fn common_entries(&self) -> Vec<SearchedEntry> {
         let rows = self.rows.iter().filter(|row| row.key.is_common());
         with_keys(rows.map(|row| (names(&row.keys), &row.key)))
     }
 }
 
-fn with_keys<'a>(rows: impl Iterator<Item = (String, &'a Key)>) -> Vec<FoundEntry> {
+fn with_keys<'a>(rows: impl Iterator<Item = (String, &'a Key)>) -> Vec<SearchedEntry> {
     let bound = rows.filter(|(keys, _)| !keys.is_empty());
     bound
         .map(|(keys, row)| (keys, row.words, row.synonyms))

@@ -16,7 +16,7 @@ pub struct Key {
     pub name: &'static str,
     /// Description of what it does.
     pub words: &'static str,
-    /// Everyday words for it, by which it is found as well.
+    /// Everyday words that find it too.
     pub(super) synonyms: &'static str,
     pub(super) scope: Scope,
     chords: &'static [Chord],
@@ -148,7 +148,7 @@ impl Key {
         self
     }
 
-    /// Is found by these everyday words as well.
+    /// Lets these everyday words find it too.
     #[must_use]
     pub const fn also(mut self, synonyms: &'static str) -> Self {
         self.synonyms = synonyms;

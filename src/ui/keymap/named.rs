@@ -19,7 +19,7 @@ pub struct NamedAction {
     pub keys: String,
     /// Its description.
     pub words: &'static str,
-    /// Everyday words for it.
+    /// Everyday words that find it too.
     pub synonyms: &'static str,
 }
 

@@ -1,5 +1,5 @@
-//! Background work: threads that read, write, watch, compare and explain, so that no key waits for
-//! them.
+//! Background work: threads that read, write, watch, compare and explain, so that no key press
+//! waits for them.
 
 pub mod assets;
 pub mod comparer;

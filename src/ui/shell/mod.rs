@@ -1,5 +1,5 @@
-//! The loop: waits in the inbox, performs steps and their effects, and draws; the terminal, or a page
-//! for scripts of keys; how it begins and how it ends.
+//! The event loop: takes messages from the inbox, performs the effects of steps, and draws, to the
+//! terminal or, for scripts of keys, to a page; how it starts and how it ends.
 
 mod beginning;
 mod continuing;

@@ -12,7 +12,7 @@ pub(super) struct CommandRow {
     pub(super) arguments: Arguments,
     /// Description for the help.
     pub(super) words: &'static str,
-    /// Everyday words for it, by which it is found as well.
+    /// Everyday words that find it too.
     pub(super) synonyms: &'static str,
     /// The name of the keys that do the same.
     key: Option<&'static str>,
@@ -60,7 +60,7 @@ impl Run {
         Self::within(|app| step(&mut app.shared))
     }
 
-    /// What a mode does.
+    /// A step that needs a mode's own state.
     pub(super) fn within(step: impl FnOnce(&mut App) -> Vec<Effect> + 'static) -> Self {
         Self(Box::new(step))
     }
@@ -95,7 +95,7 @@ impl CommandRow {
         }
     }
 
-    /// Is found by these everyday words as well.
+    /// Lets these everyday words find it too.
     pub(super) const fn also(mut self, synonyms: &'static str) -> Self {
         self.synonyms = synonyms;
         self

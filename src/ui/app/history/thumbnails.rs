@@ -54,7 +54,7 @@ pub struct Thumbnails {
 pub(super) struct Look {
     pub(super) view: Option<Camera>,
     pub(super) integrator: Option<Integrator>,
-    /// How often files have changed.
+    /// How many readings of files have changed what pictures show.
     pub(super) files: u64,
 }
 

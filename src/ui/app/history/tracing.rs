@@ -167,6 +167,7 @@ fn thumbnail_job(
         numbers: None,
     })
 }
+
 fn samples(integrator: Integrator, rank: Rank) -> u32 {
     let [row, large] = match integrator {
         Integrator::Whitted => WHITTED_SAMPLES,

@@ -15,4 +15,4 @@ pub(super) mod select;
 pub(super) mod trace;
 pub(super) mod transform;
 
-pub(super) use row::{ModeRow, Row};
+pub(super) use row::Row;

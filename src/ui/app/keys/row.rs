@@ -4,115 +4,94 @@ use crate::ui::app::Shared;
 use crate::ui::keymap::Key;
 use crate::ui::msg::Effect;
 
-/// A row of keys.
-#[derive(Clone, Copy)]
-pub(in crate::ui::app) struct Row {
+/// A row of keys. Its step sees what all modes share and, in the rows of a room, the room's state `S`.
+pub(in crate::ui::app) struct Row<S = ()> {
     pub(in crate::ui::app) key: Key,
-    step: Step,
-    /// Whether its hint is shown.
-    pub(in crate::ui::app) acts: fn(&Shared) -> bool,
+    step: Step<S>,
+    acts: Acts<S>,
 }
 
-/// A row of keys of a mode, whose step sees the mode's state and what all modes share.
-pub(in crate::ui::app) struct ModeRow<S> {
-    pub(in crate::ui::app) key: Key,
-    pub(in crate::ui::app) step: ModeStep<S>,
-    /// Whether its hint is shown.
-    pub(in crate::ui::app) acts: fn(&S, &Shared) -> bool,
+/// What keys do, with or without the room's state and effects.
+enum Step<S> {
+    Does(fn(&mut Shared)),
+    Requests(fn(&mut Shared) -> Vec<Effect>),
+    DoesIn(fn(&mut S, &mut Shared)),
+    RequestsIn(fn(&mut S, &mut Shared) -> Vec<Effect>),
 }
 
-/// What keys of a mode do.
-pub(in crate::ui::app) enum ModeStep<S> {
-    /// Without effects.
-    Moves(fn(&mut S, &mut Shared)),
-    /// With effects.
-    Steps(fn(&mut S, &mut Shared) -> Vec<Effect>),
+/// When the hint of a row is shown.
+enum Acts<S> {
+    Always,
+    When(fn(&Shared) -> bool),
+    WhenIn(fn(&S, &Shared) -> bool),
 }
 
-impl<S> ModeRow<S> {
+impl Key {
+    /// A row whose step needs no room's state and has no effects.
+    pub(in crate::ui::app) const fn does<S>(self, step: fn(&mut Shared)) -> Row<S> {
+        self.with_step(Step::Does(step))
+    }
+
+    /// A row whose step needs no room's state.
+    pub(in crate::ui::app) const fn requests<S>(
+        self,
+        step: fn(&mut Shared) -> Vec<Effect>,
+    ) -> Row<S> {
+        self.with_step(Step::Requests(step))
+    }
+
+    /// A row of a room whose step has no effects.
+    pub(in crate::ui::app) const fn does_in<S>(self, step: fn(&mut S, &mut Shared)) -> Row<S> {
+        self.with_step(Step::DoesIn(step))
+    }
+
+    /// A row of a room.
+    pub(in crate::ui::app) const fn requests_in<S>(
+        self,
+        step: fn(&mut S, &mut Shared) -> Vec<Effect>,
+    ) -> Row<S> {
+        self.with_step(Step::RequestsIn(step))
+    }
+
+    const fn with_step<S>(self, step: Step<S>) -> Row<S> {
+        Row {
+            key: self,
+            step,
+            acts: Acts::Always,
+        }
+    }
+}
+
+impl<S> Row<S> {
+    /// Hints at it only while this holds.
+    pub(in crate::ui::app) const fn when(mut self, acts: fn(&Shared) -> bool) -> Self {
+        self.acts = Acts::When(acts);
+        self
+    }
+
+    /// Hints at it only while this holds of the room's state.
+    pub(in crate::ui::app) const fn when_in(mut self, acts: fn(&S, &Shared) -> bool) -> Self {
+        self.acts = Acts::WhenIn(acts);
+        self
+    }
+
     /// Does what its keys do.
     pub(in crate::ui::app) fn act(&self, state: &mut S, shared: &mut Shared) -> Vec<Effect> {
         match self.step {
-            ModeStep::Moves(step) => {
-                step(state, shared);
-                Vec::new()
-            }
-            ModeStep::Steps(step) => step(state, shared),
+            Step::Does(step) => step(shared),
+            Step::DoesIn(step) => step(state, shared),
+            Step::Requests(step) => return step(shared),
+            Step::RequestsIn(step) => return step(state, shared),
         }
+        Vec::new()
     }
 
-    /// Hints at it only while this holds.
-    pub(in crate::ui::app) const fn when(mut self, acts: fn(&S, &Shared) -> bool) -> Self {
-        self.acts = acts;
-        self
-    }
-}
-
-/// What keys do.
-#[derive(Clone, Copy)]
-enum Step {
-    /// Without effects.
-    Does(fn(&mut Shared)),
-    /// With effects.
-    Requests(fn(&mut Shared) -> Vec<Effect>),
-}
-
-impl Key {
-    pub(super) const fn does(self, step: fn(&mut Shared)) -> Row {
-        Row {
-            key: self,
-            step: Step::Does(step),
-            acts: |_| true,
+    /// Whether its keys would do something now.
+    pub(in crate::ui::app) fn acts(&self, state: &S, shared: &Shared) -> bool {
+        match self.acts {
+            Acts::Always => true,
+            Acts::When(acts) => acts(shared),
+            Acts::WhenIn(acts) => acts(state, shared),
         }
-    }
-
-    pub(super) const fn requests(self, step: fn(&mut Shared) -> Vec<Effect>) -> Row {
-        Row {
-            key: self,
-            step: Step::Requests(step),
-            acts: |_| true,
-        }
-    }
-}
-
-impl Key {
-    /// A row of a mode whose step has no effects.
-    pub(in crate::ui::app) const fn moves<S>(self, step: fn(&mut S, &mut Shared)) -> ModeRow<S> {
-        ModeRow {
-            key: self,
-            step: ModeStep::Moves(step),
-            acts: |_, _| true,
-        }
-    }
-
-    /// A row of a mode.
-    pub(in crate::ui::app) const fn steps<S>(
-        self,
-        step: fn(&mut S, &mut Shared) -> Vec<Effect>,
-    ) -> ModeRow<S> {
-        ModeRow {
-            key: self,
-            step: ModeStep::Steps(step),
-            acts: |_, _| true,
-        }
-    }
-}
-
-impl Row {
-    /// Does what its keys do.
-    pub(in crate::ui::app) fn act(&self, shared: &mut Shared) -> Vec<Effect> {
-        match self.step {
-            Step::Does(step) => {
-                step(shared);
-                Vec::new()
-            }
-            Step::Requests(step) => step(shared),
-        }
-    }
-
-    /// Hints at it only while this holds.
-    pub(super) const fn when(mut self, acts: fn(&Shared) -> bool) -> Self {
-        self.acts = acts;
-        self
     }
 }

@@ -127,7 +127,7 @@ fn reel_of(
         ));
     }
     let track = open.track.clone();
-    shared.put_back();
+    shared.revert_transient();
     let text = shared.document.shared_text();
     Ok(Reel {
         language: shared.document.language(),

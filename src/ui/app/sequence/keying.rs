@@ -149,7 +149,7 @@ fn take_written(sequence: &mut Sequence, shared: &mut Shared, outcome: SaveOutco
             open.held = Some(text);
             shared.overlays.say(words);
             // The frame is shown anew.
-            shared.put_back();
+            shared.revert_transient();
         }
         SaveOutcome::ChangedOnDisk => {
             let name = open.name();

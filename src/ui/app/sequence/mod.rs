@@ -1,6 +1,6 @@
 //! SEQUENCE: plays a track over the scene, frame by frame, keys values in it, and exports all frames.
 //!
-//! Each frame is tried in the text of the scene as a [passing edit](super::live_edit::PassingEdit), so
+//! Each frame is tried in the text of the scene as a [transient edit](super::live_edit::TransientEdit), so
 //! that it is a scene like any other.
 
 mod dope_sheet;

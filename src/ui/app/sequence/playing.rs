@@ -103,7 +103,7 @@ pub(in crate::ui::app) fn track_read(
     if is_asked && !has_sound_scene(shared) {
         return follow_open(sequence, &path);
     }
-    shared.put_back();
+    shared.revert_transient();
     let text_of = text.as_deref().unwrap_or_default();
     if shared.error_count() == 0 && bind(shared, &track, &name_of(&path), text_of).is_none() {
         resume(sequence, shared);
@@ -141,7 +141,11 @@ fn enter(sequence: &mut Sequence, shared: &mut Shared) -> Vec<Effect> {
     let kept = shared.keep_edits();
     let before = std::mem::replace(&mut shared.mode, Mode::Sequence);
     resume(sequence, shared);
-    let Some(open) = sequence.open.as_ref().filter(|_| shared.passing.is_some()) else {
+    let Some(open) = sequence
+        .open
+        .as_ref()
+        .filter(|_| shared.transient.is_some())
+    else {
         shared.mode = before;
         return kept.into_iter().collect();
     };
@@ -185,7 +189,7 @@ fn complain(shared: &mut Shared, words: &str) {
 /// text without it.
 pub(super) fn resume(sequence: &mut Sequence, shared: &mut Shared) {
     let waits = shared.overlays.dialog.is_some() || shared.awaits_reading;
-    if shared.mode == Mode::Sequence && !waits && shared.passing.is_none() {
+    if shared.mode == Mode::Sequence && !waits && shared.transient.is_none() {
         let frame = sequence.open.as_ref().map_or(0, |open| open.frame);
         show(sequence, shared, frame);
     }
@@ -198,21 +202,21 @@ fn show(sequence: &mut Sequence, shared: &mut Shared, frame: u32) {
     };
     open.frame = frame.min(open.last());
     let frame = open.frame;
-    let shown = if let Some(before) = shared.passing.take().zip(open.bound.take()) {
+    let shown = if let Some(before) = shared.transient.take().zip(open.bound.take()) {
         (!shared.leaves_live_edit(&before.0.live_edit, "frame")).then_some(before)
     } else {
         let text = open.held.clone().unwrap_or_default();
         let bound = bind(shared, &open.track, &open.name(), &text);
-        bound.map(|bound| (shared.begin_passing(), bound))
+        bound.map(|bound| (shared.begin_transient(), bound))
     };
-    let Some((mut passing, bound)) = shown else {
+    let Some((mut transient, bound)) = shown else {
         open.is_playing = false;
         shared.mode = Mode::Select;
         return;
     };
     let edits = |shared: &Shared| Ok(bound.edits(shared.source(), frame));
-    match shared.try_instead(&mut passing.live_edit, edits) {
-        Ok(()) if passing.live_edit.is_applied => {
+    match shared.try_instead(&mut transient.live_edit, edits) {
+        Ok(()) if transient.live_edit.is_applied => {
             let name = format!("frame {frame} of {}", open.name());
             shared.document.name_step(StepName::done(name));
         }
@@ -220,7 +224,7 @@ fn show(sequence: &mut Sequence, shared: &mut Shared, frame: u32) {
         Err(reason) => shared.overlays.fail(format!("frame {frame}: {reason}")),
     }
     open.bound = Some(bound);
-    shared.passing = Some(passing);
+    shared.transient = Some(transient);
 }
 
 /// Goes some frames on.
@@ -278,26 +282,40 @@ pub(in crate::ui::app) fn play_on(sequence: &mut Sequence, shared: &mut Shared) 
         return Vec::new();
     };
     let timer = Effect::Later(open.period(), Timer::Frame);
-    if shared.passing.is_some() && shared.pictures.preview.shows_wanted() {
+    if shared.transient.is_some() && shared.pictures.preview.shows_wanted() {
         step_frames(sequence, shared, 1);
     }
     vec![timer]
 }
 
 /// Leaves SEQUENCE with the values of the frame in the text, as one undo step.
-pub(super) fn keep_frame(sequence: &mut Sequence, shared: &mut Shared) {
+pub(super) fn accept(sequence: &mut Sequence, shared: &mut Shared) {
+    keep_frame(sequence, shared);
+    shared.mode = Mode::Select;
+}
+
+/// Goes to another mode with the values of the frame in the text. Stays if that mode cannot be entered.
+pub(super) fn keep_and_go(sequence: &mut Sequence, shared: &mut Shared, mode: Mode) -> Vec<Effect> {
+    let effects = shared.go(mode);
+    if shared.mode == mode {
+        keep_frame(sequence, shared);
+    }
+    effects
+}
+
+/// Keeps the values of the frame in the text, as one undo step.
+fn keep_frame(sequence: &mut Sequence, shared: &mut Shared) {
     let Some(open) = &mut sequence.open else {
         return;
     };
     open.is_playing = false;
-    let shown = shared.passing.take();
+    let shown = shared.transient.take();
     if shown.is_some_and(|shown| shown.live_edit.is_applied) {
         let words = format!("the scene now has the values of frame {}", open.frame);
         let undo = shared.key_for("undo");
         shared.overlays.say(format!("{words}; {undo} undoes that"));
     }
     shared.keep_live_edit();
-    shared.mode = Mode::Select;
 }
 
 /// Goes on with the open track after a file was read that cannot be played, its own or another.

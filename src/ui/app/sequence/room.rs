@@ -1,4 +1,4 @@
-//! What SEQUENCE makes of what happens to the interface.
+//! What SEQUENCE does about what happens to the interface.
 
 use super::{Sequence, playing};
 use crate::ui::app::room::Room;
@@ -16,7 +16,7 @@ impl Room for Sequence {
             if let Some(open) = &mut self.open {
                 open.is_playing = false;
             }
-            shared.put_back();
+            shared.revert_transient();
         }
     }
 
@@ -27,7 +27,7 @@ impl Room for Sequence {
         let is_taken =
             playing::scrub_to(self, shared, at) || shared.areas().picture.contains(at.into());
         if !is_taken {
-            shared.leave_passing();
+            shared.leave_sequence();
         }
         is_taken.then(Vec::new)
     }
