@@ -22,7 +22,7 @@ use std::time::Instant;
 
 use halflight::render::{Frame, NO_OBJECT};
 use halflight::scene::Size;
-use halflight::ui::app::CellImage;
+use halflight::ui::app::{CellImage, display};
 use halflight::ui::msg::{Msg, Target};
 use halflight::ui::terminal::{AnsiBackend, ColourDepth};
 use halflight::ui::view::{self, Inks};
@@ -88,7 +88,7 @@ fn ours(scene: &str, depth: ColourDepth) -> (CellImage, Vec<[u8; 3]>, [f64; 2]) 
         ..Frame::drawn(size, picture.pixels.clone())
     };
     app.update(Msg::Frame(Target::Preview, Arc::new(frame)));
-    let frame_window = app.shared.frame_window().expect("the picture has cells");
+    let frame_window = display::frame_window(&app.shared).expect("the picture has cells");
     app.shared
         .picture_mut()
         .advance(&frame_window, &[], usize::MAX);

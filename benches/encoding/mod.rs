@@ -10,7 +10,7 @@ use crossterm::event::{KeyCode, KeyEvent};
 use halflight::language::Language;
 use halflight::render::{Frame, Job, Renderer, Threads};
 use halflight::scene::Rendering;
-use halflight::ui::app::{App, Opening, OpeningText, Preferences};
+use halflight::ui::app::{App, Opening, OpeningText, Preferences, display};
 use halflight::ui::msg::{Effect, Msg, Target};
 use halflight::ui::terminal::{AnsiBackend, ColourDepth, Mouse};
 use halflight::ui::view::{self, Inks};
@@ -103,7 +103,7 @@ fn show(app: &mut App, frames: &[Arc<Frame>], turns: usize) -> Encoded {
         sent.clear();
         let begun = Instant::now();
         app.update(Msg::Frame(Target::Preview, frame));
-        let frame_window = app.shared.frame_window().expect("the picture has cells");
+        let frame_window = display::frame_window(&app.shared).expect("the picture has cells");
         app.shared
             .picture_mut()
             .advance(&frame_window, &[], usize::MAX);

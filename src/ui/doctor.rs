@@ -12,8 +12,7 @@ use super::state::{self, Part};
 use super::terminal::interview::{self, Answers};
 use super::terminal::{self, Budget, Choice, ColourDepth, Protocol, query, tmux};
 use crate::assets::Assets;
-use crate::memory;
-use crate::memory::Available;
+use crate::memory::{self, Available};
 use crate::render::{CAP, CAPS, vectors};
 use crate::text::{alternatives, counted, visible};
 

@@ -25,7 +25,7 @@ use crate::render::{Explanation, Frame, Job};
 use crate::scene::Viewpoint;
 
 /// The picture that a frame belongs to.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Target {
     /// The preview beside the list.
     Preview,

@@ -4,8 +4,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use crate::document::{Difference, Document, Merge, Merged, Numbers, Snapshot};
-use crate::file;
-use crate::file::FileId;
+use crate::file::{self, FileId};
 use crate::language::{self, Lowered};
 use crate::memory::OutOfMemory;
 use crate::scene::Meshes;

@@ -3,8 +3,8 @@
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use super::jobs::{Asking, ExportWork, Pending};
-use super::{Dialog, Export, Shared, Stage};
+use super::shared::jobs::{Asking, ExportWork, Pending};
+use super::{Dialog, Export, Shared, Stage, display, files};
 use crate::image_file::{ImageFormat, known_extensions};
 use crate::render::{Aov, Frame, Frames, Job};
 use crate::scene::{Camera, MAX_SPP, Size, Viewpoint};
@@ -14,15 +14,15 @@ use crate::ui::reel::names_sequence;
 
 /// The picture to export; fields that are `None` are taken from the scene.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub(super) struct ExportOrder {
-    pub(super) path: Option<PathBuf>,
-    pub(super) size: Option<Size>,
-    pub(super) spp: Option<u32>,
+pub(crate) struct ExportOrder {
+    pub(crate) path: Option<PathBuf>,
+    pub(crate) size: Option<Size>,
+    pub(crate) spp: Option<u32>,
 }
 
 impl ExportOrder {
     /// Parses `[FILE] [WxH] [SPP]`; the file name may contain blanks.
-    pub(super) fn parse(said: &str) -> Result<Self, String> {
+    pub(crate) fn parse(said: &str) -> Result<Self, String> {
         let mut words: Vec<_> = said.split_whitespace().collect();
         let mut spp = None;
         if let Some(count) = words.last().and_then(|word| word.parse().ok()) {
@@ -66,295 +66,291 @@ fn wrong_word(words: &[&str]) -> Option<String> {
     }
 }
 
-impl Shared {
-    /// Exports to the scene's folder under the scene's name. If another program has written that
-    /// file, the user is asked.
-    pub(super) fn export_default(&mut self) -> Vec<Effect> {
-        self.export(ExportOrder::default(), Asking::Yes)
-    }
+/// Exports to the scene's folder under the scene's name. If another program has written that
+/// file, the user is asked.
+pub(crate) fn export_default(shared: &mut Shared) -> Vec<Effect> {
+    export(shared, ExportOrder::default(), Asking::Yes)
+}
 
-    /// Exports what is seen.
-    pub(super) fn export(&mut self, order: ExportOrder, asking: Asking) -> Vec<Effect> {
-        let ExportOrder { path, size, spp } = order;
-        let path = path.unwrap_or_else(|| self.export_path());
-        self.start_export(&path, size, spp, asking)
-    }
+/// Exports what is seen.
+pub(crate) fn export(shared: &mut Shared, order: ExportOrder, asking: Asking) -> Vec<Effect> {
+    let ExportOrder { path, size, spp } = order;
+    let path = path.unwrap_or_else(|| export_path(shared));
+    start_export(shared, &path, size, spp, asking)
+}
 
-    /// The scene's path with a picture's extension, distinct for each AOV so that they don't
-    /// overwrite each other.
-    pub(super) fn export_path(&self) -> PathBuf {
-        let extension = self
-            .pictures
-            .aov
-            .map_or_else(|| "bmp".to_owned(), |aov| format!("{}.bmp", aov.name()));
-        let scene = self
-            .disk
-            .path
-            .as_deref()
-            .unwrap_or_else(|| Path::new("halflight"));
-        scene.with_extension(extension)
-    }
+/// The scene's path with a picture's extension, distinct for each AOV so that they don't
+/// overwrite each other.
+pub(crate) fn export_path(shared: &Shared) -> PathBuf {
+    let extension = shared
+        .pictures
+        .aov
+        .map_or_else(|| "bmp".to_owned(), |aov| format!("{}.bmp", aov.name()));
+    let scene = shared
+        .disk
+        .path
+        .as_deref()
+        .unwrap_or_else(|| Path::new("halflight"));
+    scene.with_extension(extension)
+}
 
-    /// Exports the scene as currently seen, after the exports that were started before. Unless
-    /// forced, files written by others are kept.
-    pub(super) fn start_export(
-        &mut self,
-        path: &Path,
-        size: Option<Size>,
-        spp: Option<u32>,
-        asking: Asking,
-    ) -> Vec<Effect> {
-        let size = size.unwrap_or_else(|| self.output());
-        let spp = self
-            .pictures
-            .samples(spp.unwrap_or_else(|| self.rendering().spp()));
-        let job = match self.export_job(path, size, spp) {
-            Ok(job) => job,
-            Err(reason) => {
-                self.refuse_picture(Severity::Error, &reason);
-                return Vec::new();
-            }
-        };
-        let traced = self
-            .traced(size, spp)
-            .filter(|_| job.frames == Frames::Last);
-        let export = Export {
-            id: self.jobs.next_export(),
-            stage: Stage::Tracing,
-            destination: Destination {
-                path: path.to_owned(),
-                existing: asking.existing(),
-                scene: self.disk.path.clone(),
-                named: self.assets.files().to_vec(),
-                origin: self.origin_in(path),
-            },
-            size,
-            spp,
-            aov: self.pictures.aov,
-            frames: None,
-            reel: None,
-            progress: traced.as_ref().map(|frame| frame.progress),
-            written_for: 0,
-        };
-        // Frames the view for the size that is written.
-        let camera = Camera { size, ..job.camera };
-        let making = match traced {
-            Some(frame) => ExportWork::Write(frame),
-            None => ExportWork::Trace(Box::new(Job { camera, ..job })),
-        };
-        self.announce_export(export.aov, path);
-        self.begin_or_queue(Pending {
+/// Exports the scene as currently seen, after the exports that were started before. Unless
+/// forced, files written by others are kept.
+fn start_export(
+    shared: &mut Shared,
+    path: &Path,
+    size: Option<Size>,
+    spp: Option<u32>,
+    asking: Asking,
+) -> Vec<Effect> {
+    let size = size.unwrap_or_else(|| shared.output());
+    let spp = shared
+        .pictures
+        .samples(spp.unwrap_or_else(|| shared.rendering().spp()));
+    let job = match export_job(shared, path, size, spp) {
+        Ok(job) => job,
+        Err(reason) => {
+            shared.refuse_picture(Severity::Error, &reason);
+            return Vec::new();
+        }
+    };
+    let traced = traced(shared, size, spp).filter(|_| job.frames == Frames::Last);
+    let export = Export {
+        id: shared.jobs.next_export(),
+        stage: Stage::Tracing,
+        destination: Destination {
+            path: path.to_owned(),
+            existing: asking.existing(),
+            scene: shared.disk.path.clone(),
+            named: shared.assets.files().to_vec(),
+            origin: origin_in(shared, path),
+        },
+        size,
+        spp,
+        aov: shared.pictures.aov,
+        frames: None,
+        reel: None,
+        progress: traced.as_ref().map(|frame| frame.progress),
+        written_for: 0,
+    };
+    // Frames the view for the size that is written.
+    let camera = Camera { size, ..job.camera };
+    let making = match traced {
+        Some(frame) => ExportWork::Write(frame),
+        None => ExportWork::Trace(Box::new(Job { camera, ..job })),
+    };
+    announce_export(shared, export.aov, path);
+    begin_or_queue(
+        shared,
+        Pending {
             export,
             making,
             asking,
-        })
-    }
+        },
+    )
+}
 
-    /// Says what is exported, and whether that has to wait.
-    pub(super) fn announce_export(&mut self, aov: Option<Aov>, path: &Path) {
-        let [begun, queued] = announcements(aov, path);
-        let words = match self.jobs.export {
-            Some(_) => queued,
-            None => begun,
-        };
-        if self.error_count() == 0 {
-            self.overlays.say(words);
+/// Says what is exported, and whether that has to wait.
+pub(crate) fn announce_export(shared: &mut Shared, aov: Option<Aov>, path: &Path) {
+    let [begun, queued] = announcements(aov, path);
+    let words = match shared.jobs.export {
+        Some(_) => queued,
+        None => begun,
+    };
+    if shared.error_count() == 0 {
+        shared.say(words);
+    } else {
+        let why = "the text has errors: this is the last valid scene";
+        shared.warn(format!("{words}; {why}"));
+    }
+}
+
+/// Takes back that an export has begun or waits.
+fn withdraw_announcement(shared: &mut Shared, export: &Export) {
+    for stale in announcements(export.aov, &export.destination.path) {
+        shared.overlays.withdraw(&stale);
+    }
+}
+
+pub(crate) fn begin_or_queue(shared: &mut Shared, pending: Pending) -> Vec<Effect> {
+    if shared.jobs.export.is_some() {
+        shared.jobs.queue(pending);
+        return Vec::new();
+    }
+    shared.jobs.begin_export(pending)
+}
+
+/// Starts the next export that waits, or performs a pending quit if there is none.
+fn next_export(shared: &mut Shared) -> Vec<Effect> {
+    match shared.jobs.next_pending() {
+        Some(pending) => shared.jobs.begin_export(pending),
+        None => files::leave_when_done(shared),
+    }
+}
+
+pub(crate) fn export_frame(shared: &mut Shared, frame: Arc<Frame>) -> Vec<Effect> {
+    let Some(export) = &mut shared.jobs.export else {
+        return Vec::new();
+    };
+    export.progress = Some(frame.progress);
+    if !frame.progress.complete {
+        return Vec::new();
+    }
+    export.stage = Stage::Writing;
+    let mut effects = vec![
+        Effect::WriteImage(export.id, frame, export.destination.clone()),
+        Effect::Stop(Target::Export),
+    ];
+    effects.extend(shared.jobs.count_seconds());
+    effects
+}
+
+/// Records that the picture of an export will not be finished.
+pub(crate) fn export_ended(shared: &mut Shared, reason: String) -> Vec<Effect> {
+    let traced = |export: &mut Export| export.stage == Stage::Tracing;
+    if shared.jobs.export.take_if(traced).is_none() {
+        return Vec::new();
+    }
+    shared.jobs.next = None;
+    shared.fail(reason);
+    next_export(shared)
+}
+
+pub(crate) fn exported(
+    shared: &mut Shared,
+    id: ExportId,
+    outcome: Result<Exported, String>,
+) -> Vec<Effect> {
+    let Some(export) = shared.jobs.export.take_if(|export| export.id == id) else {
+        // A cancelled export: nobody waits for it, but its file exists now.
+        if let Ok(exported) = outcome {
+            shared.say(format!("wrote {} anyway", exported.path.display()));
+            shared.jobs.note_export(exported);
+        }
+        return Vec::new();
+    };
+    let mut effects = Vec::new();
+    withdraw_announcement(shared, &export);
+    match outcome {
+        Ok(exported) => {
+            let path = exported.path.display();
+            shared.say(format!("wrote {path}{}", export.summary()));
+            shared.jobs.note_export(exported);
+        }
+        Err(reason) => {
+            shared.jobs.next = None;
+            shared.fail(reason);
+            effects = export.stop();
+        }
+    }
+    effects.extend(next_export(shared));
+    effects
+}
+
+/// Handles that another program has written the file of an export: asks whether to overwrite
+/// it, or reports that it is kept.
+pub(crate) fn is_taken(shared: &mut Shared, id: ExportId, reason: String) -> Vec<Effect> {
+    let asks = shared.jobs.is_asking() && shared.overlays.dialog.is_none();
+    if !asks || shared.jobs.export.as_ref().map(|export| export.id) != Some(id) {
+        return exported(shared, id, Err(reason));
+    }
+    let Some(pending) = shared.jobs.take_back() else {
+        return Vec::new();
+    };
+    withdraw_announcement(shared, &pending.export);
+    let mut effects = pending.export.stop();
+    shared.overlays.dialog = Some(Dialog::Overwrite(Box::new(pending)));
+    if let Some(next) = shared.jobs.next_pending() {
+        effects.extend(shared.jobs.begin_export(next));
+    }
+    effects
+}
+
+/// Exports after all, to the file that another program has written or to a numbered one.
+pub(crate) fn answer_taken(shared: &mut Shared, existing: Existing) -> Vec<Effect> {
+    let Some(Dialog::Overwrite(pending)) = shared.overlays.dialog.take() else {
+        return Vec::new();
+    };
+    let mut pending = *pending;
+    if existing == Existing::Overwritten {
+        let Export {
+            aov, destination, ..
+        } = &pending.export;
+        announce_export(shared, *aov, &destination.path);
+    }
+    pending.export.id = shared.jobs.next_export();
+    pending.export.destination.existing = existing;
+    pending.asking = Asking::No;
+    begin_or_queue(shared, pending)
+}
+
+/// What a picture to be written there is made from, if its file says that.
+fn origin_in(shared: &Shared, path: &Path) -> Option<Origin> {
+    let is_said = ImageFormat::of_path(path).is_some_and(ImageFormat::has_metadata);
+    is_said.then(|| origin(shared)).flatten()
+}
+
+/// What the present picture is made from. A text with errors has none: the picture is of an
+/// earlier one.
+pub(crate) fn origin(shared: &Shared) -> Option<Origin> {
+    if 0 < shared.error_count() {
+        return None;
+    }
+    let own = shared.scene.as_ref()?.camera;
+    let camera = shared.camera()?;
+    Some(Origin {
+        text: shared.document.shared_text(),
+        found: shared.assets.found().clone(),
+        view: Viewpoint::between(&own, &camera),
+    })
+}
+
+/// The job whose picture an export to `path` writes, or the reason why there is none.
+fn export_job(shared: &Shared, path: &Path, size: Size, spp: u32) -> Result<Job, String> {
+    let play = shared.key_for("track");
+    if let Some(reason) = names_sequence(path, &play) {
+        return Err(reason);
+    }
+    let format = ImageFormat::of_path(path).ok_or_else(|| {
+        let (name, known) = (path.display(), known_extensions());
+        format!("{name}: picture files end in {known}")
+    })?;
+    let job = display::final_job(shared, size, spp)?;
+    let frames = format.frames();
+    format.refuses(size).map_or(Ok(Job { frames, ..job }), Err)
+}
+
+/// The full-size trace, if it is complete and exactly what is to be exported.
+fn traced(shared: &Shared, size: Size, spp: u32) -> Option<Arc<Frame>> {
+    let trace = shared.pictures.trace.as_ref()?;
+    let frame = trace.latest.as_ref().filter(|_| trace.is_complete())?;
+    let same = frame.size == size
+        && size == shared.output()
+        && spp == shared.pictures.samples(shared.rendering().spp());
+    same.then(|| Arc::clone(frame))
+}
+
+/// Cancels the running export; those that wait go on.
+pub(crate) fn cancel_export(shared: &mut Shared) -> Vec<Effect> {
+    let Some(export) = shared.jobs.export.take() else {
+        shared.say("nothing is running");
+        return Vec::new();
+    };
+    shared.jobs.next = None;
+    match export.stage {
+        Stage::Tracing => shared.say(if export.has_written_frames() {
+            "export cancelled; the frames already written are kept"
         } else {
-            let why = "the text has errors: this is the last valid scene";
-            self.overlays.warn(format!("{words}; {why}"));
+            "export cancelled"
+        }),
+        Stage::Writing => {
+            let path = export.destination.path.display();
+            shared.warn(format!("too late to cancel: {path} is being written"));
         }
     }
-
-    /// Takes back that an export has begun or waits.
-    fn withdraw_announcement(&mut self, export: &Export) {
-        for stale in announcements(export.aov, &export.destination.path) {
-            self.overlays.withdraw(&stale);
-        }
-    }
-
-    pub(super) fn begin_or_queue(&mut self, pending: Pending) -> Vec<Effect> {
-        if self.jobs.export.is_some() {
-            self.jobs.queue(pending);
-            return Vec::new();
-        }
-        self.jobs.begin_export(pending)
-    }
-
-    /// Starts the next export that waits, or performs a pending quit if there is none.
-    fn next_export(&mut self) -> Vec<Effect> {
-        match self.jobs.next_pending() {
-            Some(pending) => self.jobs.begin_export(pending),
-            None => self.leave_when_done(),
-        }
-    }
-
-    pub(super) fn export_frame(&mut self, frame: Arc<Frame>) -> Vec<Effect> {
-        let Some(export) = &mut self.jobs.export else {
-            return Vec::new();
-        };
-        export.progress = Some(frame.progress);
-        if !frame.progress.complete {
-            return Vec::new();
-        }
-        export.stage = Stage::Writing;
-        let mut effects = vec![
-            Effect::WriteImage(export.id, frame, export.destination.clone()),
-            Effect::Stop(Target::Export),
-        ];
-        effects.extend(self.jobs.count_seconds());
-        effects
-    }
-
-    /// Records that the picture of an export will not be finished.
-    pub(super) fn export_ended(&mut self, reason: String) -> Vec<Effect> {
-        let traced = |export: &mut Export| export.stage == Stage::Tracing;
-        if self.jobs.export.take_if(traced).is_none() {
-            return Vec::new();
-        }
-        self.jobs.next = None;
-        self.overlays.fail(reason);
-        self.next_export()
-    }
-
-    pub(super) fn exported(
-        &mut self,
-        id: ExportId,
-        outcome: Result<Exported, String>,
-    ) -> Vec<Effect> {
-        let Some(export) = self.jobs.export.take_if(|export| export.id == id) else {
-            // A cancelled export: nobody waits for it, but its file exists now.
-            if let Ok(exported) = outcome {
-                self.overlays
-                    .say(format!("wrote {} anyway", exported.path.display()));
-                self.jobs.note_export(exported);
-            }
-            return Vec::new();
-        };
-        let mut effects = Vec::new();
-        self.withdraw_announcement(&export);
-        match outcome {
-            Ok(exported) => {
-                let path = exported.path.display();
-                self.overlays
-                    .say(format!("wrote {path}{}", export.summary()));
-                self.jobs.note_export(exported);
-            }
-            Err(reason) => {
-                self.jobs.next = None;
-                self.overlays.fail(reason);
-                effects = export.stop();
-            }
-        }
-        effects.extend(self.next_export());
-        effects
-    }
-
-    /// Handles that another program has written the file of an export: asks whether to overwrite
-    /// it, or reports that it is kept.
-    pub(super) fn is_taken(&mut self, id: ExportId, reason: String) -> Vec<Effect> {
-        let asks = self.jobs.is_asking() && self.overlays.dialog.is_none();
-        if !asks || self.jobs.export.as_ref().map(|export| export.id) != Some(id) {
-            return self.exported(id, Err(reason));
-        }
-        let Some(pending) = self.jobs.take_back() else {
-            return Vec::new();
-        };
-        self.withdraw_announcement(&pending.export);
-        let mut effects = pending.export.stop();
-        self.overlays.dialog = Some(Dialog::Overwrite(Box::new(pending)));
-        if let Some(next) = self.jobs.next_pending() {
-            effects.extend(self.jobs.begin_export(next));
-        }
-        effects
-    }
-
-    /// Exports after all, to the file that another program has written or to a numbered one.
-    pub(super) fn answer_taken(&mut self, existing: Existing) -> Vec<Effect> {
-        let Some(Dialog::Overwrite(pending)) = self.overlays.dialog.take() else {
-            return Vec::new();
-        };
-        let mut pending = *pending;
-        if existing == Existing::Overwritten {
-            let Export {
-                aov, destination, ..
-            } = &pending.export;
-            self.announce_export(*aov, &destination.path);
-        }
-        pending.export.id = self.jobs.next_export();
-        pending.export.destination.existing = existing;
-        pending.asking = Asking::No;
-        self.begin_or_queue(pending)
-    }
-
-    /// What a picture to be written there is made from, if its file says that.
-    fn origin_in(&self, path: &Path) -> Option<Origin> {
-        let is_said = ImageFormat::of_path(path).is_some_and(ImageFormat::has_metadata);
-        is_said.then(|| self.origin()).flatten()
-    }
-
-    /// What the present picture is made from. A text with errors has none: the picture is of an
-    /// earlier one.
-    pub fn origin(&self) -> Option<Origin> {
-        if 0 < self.error_count() {
-            return None;
-        }
-        let own = self.scene.as_ref()?.camera;
-        let camera = self.camera()?;
-        Some(Origin {
-            text: self.document.shared_text(),
-            found: self.assets.found().clone(),
-            view: Viewpoint::between(&own, &camera),
-        })
-    }
-
-    /// The job whose picture an export to `path` writes, or the reason why there is none.
-    fn export_job(&self, path: &Path, size: Size, spp: u32) -> Result<Job, String> {
-        let play = self.key_for("track");
-        if let Some(reason) = names_sequence(path, &play) {
-            return Err(reason);
-        }
-        let format = ImageFormat::of_path(path).ok_or_else(|| {
-            let (name, known) = (path.display(), known_extensions());
-            format!("{name}: picture files end in {known}")
-        })?;
-        let job = self.final_job(size, spp)?;
-        let frames = format.frames();
-        format.refuses(size).map_or(Ok(Job { frames, ..job }), Err)
-    }
-
-    /// The full-size trace, if it is complete and exactly what is to be exported.
-    fn traced(&self, size: Size, spp: u32) -> Option<Arc<Frame>> {
-        let trace = self.pictures.trace.as_ref()?;
-        let frame = trace.latest.as_ref().filter(|_| trace.is_complete())?;
-        let same = frame.size == size
-            && size == self.output()
-            && spp == self.pictures.samples(self.rendering().spp());
-        same.then(|| Arc::clone(frame))
-    }
-
-    /// Cancels the running export; those that wait go on.
-    pub(super) fn cancel_export(&mut self) -> Vec<Effect> {
-        let Some(export) = self.jobs.export.take() else {
-            self.overlays.say("nothing is running");
-            return Vec::new();
-        };
-        self.jobs.next = None;
-        match export.stage {
-            Stage::Tracing => self.overlays.say(if export.has_written_frames() {
-                "export cancelled; the frames already written are kept"
-            } else {
-                "export cancelled"
-            }),
-            Stage::Writing => {
-                let path = export.destination.path.display();
-                self.overlays
-                    .warn(format!("too late to cancel: {path} is being written"));
-            }
-        }
-        let mut effects = export.stop();
-        effects.extend(self.next_export());
-        effects
-    }
+    let mut effects = export.stop();
+    effects.extend(next_export(shared));
+    effects
 }
 
 /// The messages that an export of an AOV to a file has begun, and that it waits for others.

@@ -1,12 +1,16 @@
 //! The modes and pages that are rooms, one line each, and what the list generates: the state of the
 //! interface, and who handles a step, a press or a key. Then the table of all keys.
 
+use super::compare::Compare;
+use super::files::Opening;
 use super::history::Thumbnails;
-use super::keys::{self, Row};
-use super::opening::Opening;
 use super::room::Room;
-use super::sequence::{self, Sequence};
+use super::room::Row;
+use super::sequence::Sequence;
 use super::shared::Shared;
+use super::{
+    camera, compare, display, edit, files, inspect, keys, select, sequence, trace, transform,
+};
 use crate::ui::keymap::{Entry, Key, Keymap, RowId};
 use crate::ui::msg::Effect;
 
@@ -25,7 +29,7 @@ macro_rules! modes {
         impl App {
             /// Creates the interface, and the effects to start with.
             pub fn open(opening: Opening) -> (Self, Vec<Effect>) {
-                let (shared, effects) = Shared::open(opening);
+                let (shared, effects) = files::open(opening);
                 let app = Self {
                     shared,
                     $($field: $state::default(),)+
@@ -34,7 +38,7 @@ macro_rules! modes {
             }
 
             /// Lets each room react to a step; once another scene is open, each starts afresh.
-            pub(super) fn settle(&mut self) {
+            pub(crate) fn settle(&mut self) {
                 let is_replaced = std::mem::take(&mut self.shared.is_replaced);
                 $(
                     if is_replaced {
@@ -45,21 +49,21 @@ macro_rules! modes {
             }
 
             /// Lets each room request what it shows.
-            pub(super) fn follow(&mut self) -> Vec<Effect> {
+            pub(crate) fn follow(&mut self) -> Vec<Effect> {
                 let mut effects = Vec::new();
                 $(effects.extend(self.$field.follow(&mut self.shared));)+
                 effects
             }
 
             /// Offers a press of the left button to each room; `None` if none handles it.
-            pub(super) fn press(&mut self, at: (u16, u16)) -> Option<Vec<Effect>> {
+            pub(crate) fn press(&mut self, at: (u16, u16)) -> Option<Vec<Effect>> {
                 let taken = None;
                 $(let taken = taken.or_else(|| self.$field.press(&mut self.shared, at));)+
                 taken
             }
 
             /// The same for dragging with the left button.
-            pub(super) fn drag(&mut self, at: (u16, u16)) -> Option<Vec<Effect>> {
+            pub(crate) fn drag(&mut self, at: (u16, u16)) -> Option<Vec<Effect>> {
                 let taken = None;
                 $(let taken = taken.or_else(|| self.$field.drag(&mut self.shared, at));)+
                 taken
@@ -111,6 +115,8 @@ macro_rules! modes {
 modes! {
     /// The track that SEQUENCE plays.
     sequence: Sequence, Sequence;
+    /// What pictures are compared with, and the comparison.
+    compare: Compare, Compare;
     /// The pictures on the page of the undo history.
     thumbnails: Thumbnails;
 }
@@ -122,16 +128,17 @@ const ROWS: &[Rows] = &[
     Rows::Shared(keys::lists::KEYS),
     Rows::Shared(keys::questions::KEYS),
     Rows::Shared(keys::pages::KEYS),
-    Rows::Shared(keys::select::KEYS),
-    Rows::Shared(keys::transform::KEYS),
+    Rows::Shared(select::KEYS),
+    Rows::Shared(transform::KEYS),
     Rows::Sequence(sequence::KEYS),
-    Rows::Shared(keys::inspect::KEYS),
-    Rows::Shared(keys::edit::KEYS),
-    Rows::Shared(keys::camera::KEYS),
-    Rows::Shared(keys::compare::KEYS),
-    Rows::Shared(keys::display::KEYS),
-    Rows::Shared(keys::trace::KEYS),
+    Rows::Shared(inspect::KEYS),
+    Rows::Shared(edit::KEYS),
+    Rows::Shared(camera::KEYS),
+    Rows::Compare(compare::KEYS),
+    Rows::Shared(display::KEYS),
+    Rows::Shared(trace::KEYS),
     Rows::Sequence(sequence::ENTRIES),
+    Rows::Compare(compare::ENTRIES),
     Rows::Shared(keys::anywhere::KEYS),
 ];
 
@@ -159,7 +166,7 @@ impl Default for Keymap {
 
 impl App {
     /// Does what the keys of a row do.
-    pub(super) fn act(&mut self, id: RowId) -> Vec<Effect> {
+    pub(crate) fn act(&mut self, id: RowId) -> Vec<Effect> {
         row(id).map_or_else(Vec::new, |(rows, at)| rows.act(at, self))
     }
 

@@ -1,11 +1,15 @@
 //! The mouse.
 
+use std::time::Duration;
+
 use crossterm::event::{KeyModifiers, MouseButton, MouseEvent, MouseEventKind};
 
 use super::camera::{advanced, dollied, orbited, shifted, turned};
-use super::drawing::Held;
+use super::pictures::drawing::Held;
 use super::shared::Border;
-use super::{App, PickerRow, Shared};
+use super::{
+    App, PickerRow, Shared, camera, display, edit, inspect, list, panels, trace, transform,
+};
 use crate::render::{axes, pixel_width};
 use crate::ui::keymap::{Context, Mode};
 use crate::ui::layout::{
@@ -16,6 +20,9 @@ use crate::ui::msg::{Effect, Timer};
 
 /// Angles of orbit, in degrees, for dragging across a cell, which is twice as high as wide.
 const DRAG: (f64, f64) = (2.0, 4.0);
+/// A second click within this time counts as a double click.
+const DOUBLE_CLICK: Duration = Duration::from_millis(400);
+
 /// The number of lines that one notch of the wheel scrolls.
 const WHEEL: isize = 3;
 
@@ -31,17 +38,17 @@ enum Pointed {
 
 impl App {
     /// Handles a mouse event. Ignored while a dialog or a line is open or the scene is being read.
-    pub(super) fn pointer(&mut self, event: MouseEvent) -> Vec<Effect> {
-        match self.shared.point(event) {
+    pub(crate) fn pointer(&mut self, event: MouseEvent) -> Vec<Effect> {
+        match point(&mut self.shared, event) {
             Pointed::Done(effects) => effects,
             Pointed::Press(at) => {
                 let taken = self.press(at);
-                taken.unwrap_or_else(|| self.shared.press(at))
+                taken.unwrap_or_else(|| press(&mut self.shared, at))
             }
             Pointed::Drag(at) => {
                 let taken = self.drag(at);
                 taken.unwrap_or_else(|| {
-                    self.shared.drag(at);
+                    drag(&mut self.shared, at);
                     Vec::new()
                 })
             }
@@ -49,362 +56,352 @@ impl App {
     }
 }
 
-impl Shared {
-    /// Does what a mouse event does in all modes; nothing while a dialog or a line is open or the scene is
-    /// being read.
-    fn point(&mut self, event: MouseEvent) -> Pointed {
-        let at = (event.column, event.row);
-        let waits = self.overlays.dialog.is_some()
-            || self.overlays.prompt.is_some()
-            || self.overlays.page.is_some()
-            || self.disk.is_opening() && self.overlays.help.is_none();
-        match event.kind {
-            _ if waits => {}
-            MouseEventKind::ScrollUp | MouseEventKind::ScrollDown
-                if self.overlays.menu.is_some() || self.overlays.picker.is_some() => {}
-            MouseEventKind::ScrollUp | MouseEventKind::ScrollDown
-                if self.zooms(at, event.modifiers) =>
-            {
-                let steps = if event.kind == MouseEventKind::ScrollUp {
-                    1
-                } else {
-                    -1
-                };
-                self.magnify_at(steps, at);
-            }
-            MouseEventKind::ScrollUp => self.wheel(at, -1),
-            MouseEventKind::ScrollDown => self.wheel(at, 1),
-            _ if self.overlays.help.is_some() => {}
-            MouseEventKind::Down(MouseButton::Left) if self.overlays.picker.is_some() => {
-                self.press_picker(at);
-            }
-            MouseEventKind::Drag(MouseButton::Left) if self.overlays.picker.is_some() => {
-                self.drag_picker(at.0);
-            }
-            MouseEventKind::Down(MouseButton::Left) if self.overlays.menu.is_some() => {
-                self.press_menu(at);
-            }
-            MouseEventKind::Down(MouseButton::Left) if !self.begin_press(at) => {
-                return Pointed::Press(at);
-            }
-            MouseEventKind::Down(MouseButton::Left) => {}
-            MouseEventKind::Down(_) => self.press_to_pan(at),
-            MouseEventKind::Drag(MouseButton::Left)
-                if !event.modifiers.contains(KeyModifiers::CONTROL) && !self.drag_border(at) =>
-            {
-                return Pointed::Drag(at);
-            }
-            MouseEventKind::Drag(MouseButton::Left)
-                if !event.modifiers.contains(KeyModifiers::CONTROL) => {}
-            MouseEventKind::Drag(_) => self.drag_to_pan(at),
-            MouseEventKind::Up(_) if self.is_drawing_region() => {
-                return Pointed::Done(self.confirm_region());
-            }
-            MouseEventKind::Up(_) => {
-                self.pictures.drag = None;
-                self.resizing = None;
-                self.end_slide();
-            }
-            _ => {}
-        }
-        Pointed::Done(Vec::new())
-    }
-
-    /// Whether the wheel zooms the picture here.
-    fn zooms(&self, at: (u16, u16), modifiers: KeyModifiers) -> bool {
-        let asked = self.mode == Mode::Trace || modifiers.contains(KeyModifiers::CONTROL);
-        asked && self.overlays.help.is_none() && self.areas().picture.contains(at.into())
-    }
-
-    /// Whether the pointer is drawing a region.
-    fn is_drawing_region(&self) -> bool {
-        let drawing = self.pictures.drawing;
-        drawing.is_some_and(|drawing| drawing.held == Held::ByPointer)
-    }
-
-    /// The cell of the picture at this cell of the screen, or the nearest one.
-    fn cell_near(&self, at: (u16, u16)) -> Option<(u16, u16)> {
-        let (cells, _) = self.raster()?;
-        let near =
-            |at: u16, from: u16, length: u16| at.saturating_sub(from).min(length.saturating_sub(1));
-        Some((
-            near(at.0, cells.x, cells.width),
-            near(at.1, cells.y, cells.height),
-        ))
-    }
-
-    /// Whether dragging pans the picture on screen.
-    fn pans(&self) -> bool {
-        !self.viewport().is_fit() && !self.mode.moves_camera() && self.mode != Mode::Move
-    }
-
-    fn wheel(&mut self, at: (u16, u16), down: isize) {
-        if self.overlays.help.is_some() {
-            self.move_cursor_in(Context::Help, WHEEL * down);
-            return;
-        }
-        if self.mode == Mode::Compare {
-            return;
-        }
-        let (areas, mode) = (self.areas(), self.mode);
-        let over = |area: ratatui::layout::Rect| area.contains(at.into());
-        if self
-            .errors_panel(areas.errors)
-            .is_some_and(|panel| over(panel.area))
+/// Does what a mouse event does in all modes; nothing while a dialog or a line is open or the scene is
+/// being read.
+fn point(shared: &mut Shared, event: MouseEvent) -> Pointed {
+    let at = (event.column, event.row);
+    let waits = shared.overlays.dialog.is_some()
+        || shared.overlays.prompt.is_some()
+        || shared.overlays.page.is_some()
+        || shared.disk.is_opening() && shared.overlays.help.is_none();
+    match event.kind {
+        _ if waits => {}
+        MouseEventKind::ScrollUp | MouseEventKind::ScrollDown
+            if shared.overlays.menu.is_some() || shared.overlays.picker.is_some() => {}
+        MouseEventKind::ScrollUp | MouseEventKind::ScrollDown
+            if zooms(shared, at, event.modifiers) =>
         {
-            if self.overlays.errors.is_some() {
-                self.move_cursor_in(Context::Errors, down);
-            }
-        } else if self.context() == Context::Rays {
-            self.move_in_rays(down);
-        } else if over(areas.list) {
-            self.move_cursor_in(Context::In(Mode::Select), WHEEL * down);
-        } else if over(areas.fields) && self.cursor.typing.is_none() {
-            self.move_cursor_in(Context::In(Mode::Edit), down);
-        } else if over(areas.picture) && self.mode.moves_camera() {
-            let steps = if down < 0 { 1 } else { -1 };
-            self.move_camera(|now| match mode {
-                Mode::Fly => advanced(now, steps),
-                _ => dollied(now, steps),
-            });
-        }
-    }
-
-    /// Chooses in the menu; beside it, closes it.
-    fn press_menu(&mut self, at: (u16, u16)) {
-        let list = self.areas().list;
-        let lines = contents(contents(list));
-        match &self.overlays.menu {
-            Some(menu) if lines.contains(at.into()) => {
-                let rows = usize::from(lines.height);
-                let top = first_shown(0, menu.filter.at, menu.shown().len(), rows);
-                self.click_menu(top + usize::from(at.1 - lines.y));
-            }
-            _ if list.contains(at.into()) => {}
-            _ => self.close_menu(),
-        }
-    }
-
-    /// Sets a bar of the colour picker or takes one of its colours; a click beside it confirms.
-    fn press_picker(&mut self, at: (u16, u16)) {
-        let list = self.areas().list;
-        let lines = picker_lines(list);
-        let mut bars = PickerRow::BARS.into_iter().zip(lines.bars);
-        if let Some((row, [_, bar])) = bars.find(|(_, [line, _])| line.contains(at.into())) {
-            self.place_colour(row, share_at(bar, at.0));
-        } else if lines.swatches.contains(at.into()) {
-            let is_under = |index: &usize| {
-                swatch_cells(lines.swatches, *index).is_some_and(|cells| cells.contains(at.into()))
+            let steps = if event.kind == MouseEventKind::ScrollUp {
+                1
+            } else {
+                -1
             };
-            if let Some(index) = (0..lines.swatches.area() as usize).find(is_under) {
-                self.take_swatch(index);
-            }
-        } else if !list.contains(at.into()) {
-            self.confirm_colour();
+            display::magnify_at(shared, steps, at);
         }
-    }
-
-    /// Moves the marker of the bar that was pressed.
-    fn drag_picker(&mut self, column: u16) {
-        let bars = picker_lines(self.areas().list).bars;
-        let row = self.overlays.picker.as_ref().map(|picker| picker.row);
-        let mut bars = PickerRow::BARS.into_iter().zip(bars);
-        if let Some((row, [_, bar])) = bars.find(|(bar, _)| Some(*bar) == row) {
-            self.place_colour(row, share_at(bar, column));
+        MouseEventKind::ScrollUp => wheel(shared, at, -1),
+        MouseEventKind::ScrollDown => wheel(shared, at, 1),
+        _ if shared.overlays.help.is_some() => {}
+        MouseEventKind::Down(MouseButton::Left) if shared.overlays.picker.is_some() => {
+            press_picker(shared, at);
         }
-    }
-
-    /// Begins a press of the left button; returns whether it took hold of a border.
-    fn begin_press(&mut self, at: (u16, u16)) -> bool {
-        self.overlays.clear_message();
-        self.cursor.typing = None;
-        self.end_slide();
-        let areas = self.areas();
-        if self.mode == Mode::Move && !areas.picture.contains(at.into()) {
-            self.confirm_transform();
+        MouseEventKind::Drag(MouseButton::Left) if shared.overlays.picker.is_some() => {
+            drag_picker(shared, at.0);
         }
-        if areas.border.contains(at.into()) {
-            self.resizing = Some(Border::Panels);
-        } else if areas.divider().contains(at.into()) {
-            self.resizing = Some(Border::List);
+        MouseEventKind::Down(MouseButton::Left) if shared.overlays.menu.is_some() => {
+            press_menu(shared, at);
         }
-        self.resizing.is_some()
-    }
-
-    fn press(&mut self, at: (u16, u16)) -> Vec<Effect> {
-        let areas = self.areas();
-        if self.mode == Mode::Compare {
-            self.press_comparison(at);
-            return Vec::new();
+        MouseEventKind::Down(MouseButton::Left) if !begin_press(shared, at) => {
+            return Pointed::Press(at);
         }
-        if self.context() == Context::Rays
-            && let Some(panels) = self.ray_panels()
-            && (panels.tree.contains(at.into()) || panels.values.contains(at.into()))
+        MouseEventKind::Down(MouseButton::Left) => {}
+        MouseEventKind::Down(_) => press_to_pan(shared, at),
+        MouseEventKind::Drag(MouseButton::Left)
+            if !event.modifiers.contains(KeyModifiers::CONTROL) && !drag_border(shared, at) =>
         {
-            self.click_ray(&panels, at);
-            return Vec::new();
+            return Pointed::Drag(at);
         }
-        if let Some(line) = list_row_at(areas.list, self.cursor.list_top, at.0, at.1) {
-            let line = self.listing().get(line);
-            if let Some(ListLine::Node(_, node)) = line {
-                self.select(node);
-                self.overlays.errors = None;
-                self.mode = Mode::Select;
-            }
-            return Vec::new();
+        MouseEventKind::Drag(MouseButton::Left)
+            if !event.modifiers.contains(KeyModifiers::CONTROL) => {}
+        MouseEventKind::Drag(_) => drag_to_pan(shared, at),
+        MouseEventKind::Up(_) if is_drawing_region(shared) => {
+            return Pointed::Done(trace::confirm_region(shared));
         }
-        if let Some(panel) = self.errors_panel(areas.errors)
-            && panel.area.contains(at.into())
-        {
-            let clicked = panel.diagnostic_at(at.1);
-            self.overlays.errors = clicked.or(self.overlays.errors);
-            if clicked.is_some() {
-                self.go_to_error();
-            }
-            return Vec::new();
+        MouseEventKind::Up(_) => {
+            shared.pictures.drag = None;
+            shared.resizing = None;
+            edit::end_slide(shared);
         }
-        if self.mode != Mode::Inspect && self.press_slider(at) {
-            return Vec::new();
-        }
-        let fields = self.cursor.fields();
-        let components = |field: usize| Some(fields.get(field)?.field.kind.components());
-        if self.mode != Mode::Inspect
-            && let Some(clicked) = field_at(areas.fields, self.cursor.field_top, components, at)
-        {
-            return self.press_field(clicked);
-        }
-        let is_over = areas.picture.contains(at.into());
-        if is_over && self.context() == Context::Region {
-            if let Some(cell) = self.cell_near(at) {
-                self.press_region(cell);
-            }
-            return Vec::new();
-        }
-        let drags = self.mode.moves_camera()
-            || self.mode == Mode::Move
-            || self.mode == Mode::Trace && self.pans();
-        if drags && areas.picture.contains(at.into()) {
-            self.pictures.drag = Some(at);
-        } else if let Some(cell) = self.picture_cell(at) {
-            if self.mode == Mode::Inspect {
-                self.place_cross(cell);
-            } else if !self.pick_symbol(cell)
-                && let Some(pixel) = self.pixel_at(cell)
-            {
-                self.pick(self.node_at(pixel));
-            }
-        }
-        Vec::new()
+        _ => {}
     }
+    Pointed::Done(Vec::new())
+}
 
-    /// The cell of the picture under the pointer, from the picture's corner.
-    fn picture_cell(&self, at: (u16, u16)) -> Option<(u16, u16)> {
-        let (cells, _) = self.raster()?;
-        let is_inside = cells.contains(at.into());
-        is_inside.then(|| (at.0 - cells.x, at.1 - cells.y))
+/// Whether the wheel zooms the picture here.
+fn zooms(shared: &Shared, at: (u16, u16), modifiers: KeyModifiers) -> bool {
+    let asked = shared.mode == Mode::Trace || modifiers.contains(KeyModifiers::CONTROL);
+    asked && shared.overlays.help.is_none() && shared.areas().picture.contains(at.into())
+}
+
+/// Whether the pointer is drawing a region.
+fn is_drawing_region(shared: &Shared) -> bool {
+    let drawing = shared.pictures.drawing;
+    drawing.is_some_and(|drawing| drawing.held == Held::ByPointer)
+}
+
+/// The cell of the picture at this cell of the screen, or the nearest one.
+fn cell_near(shared: &Shared, at: (u16, u16)) -> Option<(u16, u16)> {
+    let (cells, _) = shared.raster()?;
+    let near =
+        |at: u16, from: u16, length: u16| at.saturating_sub(from).min(length.saturating_sub(1));
+    Some((
+        near(at.0, cells.x, cells.width),
+        near(at.1, cells.y, cells.height),
+    ))
+}
+
+/// Whether dragging pans the picture on screen.
+fn pans(shared: &Shared) -> bool {
+    !display::viewport(shared).is_fit() && !shared.mode.moves_camera() && shared.mode != Mode::Move
+}
+
+fn wheel(shared: &mut Shared, at: (u16, u16), down: isize) {
+    if shared.overlays.help.is_some() {
+        list::move_cursor_in(shared, Context::Help, WHEEL * down);
+        return;
     }
-
-    /// The first click moves the cursor there, the second starts typing.
-    fn press_field(&mut self, (field, component): (usize, usize)) -> Vec<Effect> {
-        self.mode = Mode::Edit;
-        self.focus_field(field, component);
-        if self.cursor.click((field, component)) {
-            self.enter_value();
-            return Vec::new();
+    if shared.mode == Mode::Compare {
+        return;
+    }
+    let (areas, mode) = (shared.areas(), shared.mode);
+    let over = |area: ratatui::layout::Rect| area.contains(at.into());
+    if shared
+        .errors_panel(areas.errors)
+        .is_some_and(|panel| over(panel.area))
+    {
+        if shared.overlays.errors.is_some() {
+            list::move_cursor_in(shared, Context::Errors, down);
         }
-        vec![Effect::Later(super::DOUBLE_CLICK, Timer::Click)]
+    } else if shared.context() == Context::Rays {
+        inspect::move_in_rays(shared, down);
+    } else if over(areas.list) {
+        list::move_cursor_in(shared, Context::In(Mode::Select), WHEEL * down);
+    } else if over(areas.fields) && shared.cursor.typing.is_none() {
+        list::move_cursor_in(shared, Context::In(Mode::Edit), down);
+    } else if over(areas.picture) && shared.mode.moves_camera() {
+        let steps = if down < 0 { 1 } else { -1 };
+        camera::move_camera(shared, |now| match mode {
+            Mode::Fly => advanced(now, steps),
+            _ => dollied(now, steps),
+        });
     }
+}
 
-    fn press_to_pan(&mut self, at: (u16, u16)) {
-        let drags = self.mode.moves_camera() || self.pans();
-        if drags && self.areas().picture.contains(at.into()) {
-            self.pictures.drag = Some(at);
+/// Chooses in the menu; beside it, closes it.
+fn press_menu(shared: &mut Shared, at: (u16, u16)) {
+    let list = shared.areas().list;
+    let lines = contents(contents(list));
+    match &shared.overlays.menu {
+        Some(menu) if lines.contains(at.into()) => {
+            let rows = usize::from(lines.height);
+            let top = first_shown(0, menu.filter.at, menu.shown().len(), rows);
+            edit::click_menu(shared, top + usize::from(at.1 - lines.y));
         }
+        _ if list.contains(at.into()) => {}
+        _ => edit::close_menu(shared),
     }
+}
 
-    /// Pans so that what is at the distance of the target follows the pointer.
-    fn drag_to_pan(&mut self, at: (u16, u16)) {
-        let Some(from) = self.pictures.drag else {
-            return;
+/// Sets a bar of the colour picker or takes one of its colours; a click beside it confirms.
+fn press_picker(shared: &mut Shared, at: (u16, u16)) {
+    let list = shared.areas().list;
+    let lines = picker_lines(list);
+    let mut bars = PickerRow::BARS.into_iter().zip(lines.bars);
+    if let Some((row, [_, bar])) = bars.find(|(_, [line, _])| line.contains(at.into())) {
+        edit::place_colour(shared, row, share_at(bar, at.0));
+    } else if lines.swatches.contains(at.into()) {
+        let is_under = |index: &usize| {
+            swatch_cells(lines.swatches, *index).is_some_and(|cells| cells.contains(at.into()))
         };
-        if self.pans() {
-            self.drag_picture(from, at);
-            self.pictures.drag = Some(at);
-            return;
+        if let Some(index) = (0..lines.swatches.area() as usize).find(is_under) {
+            edit::take_swatch(shared, index);
         }
-        if !self.mode.moves_camera() {
-            return;
+    } else if !list.contains(at.into()) {
+        edit::confirm_colour(shared);
+    }
+}
+
+/// Moves the marker of the bar that was pressed.
+fn drag_picker(shared: &mut Shared, column: u16) {
+    let bars = picker_lines(shared.areas().list).bars;
+    let row = shared.overlays.picker.as_ref().map(|picker| picker.row);
+    let mut bars = PickerRow::BARS.into_iter().zip(bars);
+    if let Some((row, [_, bar])) = bars.find(|(bar, _)| Some(*bar) == row) {
+        edit::place_colour(shared, row, share_at(bar, column));
+    }
+}
+
+/// Begins a press of the left button; returns whether it took hold of a border.
+fn begin_press(shared: &mut Shared, at: (u16, u16)) -> bool {
+    shared.overlays.clear_message();
+    shared.cursor.typing = None;
+    edit::end_slide(shared);
+    let areas = shared.areas();
+    if shared.mode == Mode::Move && !areas.picture.contains(at.into()) {
+        transform::confirm(shared);
+    }
+    if areas.border.contains(at.into()) {
+        shared.resizing = Some(Border::Panels);
+    } else if areas.divider().contains(at.into()) {
+        shared.resizing = Some(Border::List);
+    }
+    shared.resizing.is_some()
+}
+
+fn press(shared: &mut Shared, at: (u16, u16)) -> Vec<Effect> {
+    let areas = shared.areas();
+    if shared.context() == Context::Rays
+        && let Some(panels) = inspect::ray_panels(shared)
+        && (panels.tree.contains(at.into()) || panels.values.contains(at.into()))
+    {
+        inspect::click_ray(shared, &panels, at);
+        return Vec::new();
+    }
+    if let Some(line) = list_row_at(areas.list, shared.cursor.list_top, at.0, at.1) {
+        let line = shared.listing().get(line);
+        if let Some(ListLine::Node(_, node)) = line {
+            shared.select(node);
+            shared.overlays.errors = None;
+            shared.mode = Mode::Select;
         }
-        let Some((camera, (_, size))) = self.camera().zip(self.raster()) else {
-            return;
-        };
-        let magnification = self
-            .frame_window()
-            .map_or(1.0, |frame_window| frame_window.magnification(size));
-        let unit = pixel_width(camera.target, &camera, size) / magnification;
-        let [right, up, _] = axes(&camera);
-        let moved = |from: u16, to: u16| f64::from(to) - f64::from(from);
+        return Vec::new();
+    }
+    if let Some(panel) = shared.errors_panel(areas.errors)
+        && panel.area.contains(at.into())
+    {
+        let clicked = panel.diagnostic_at(at.1);
+        shared.overlays.errors = clicked.or(shared.overlays.errors);
+        if clicked.is_some() {
+            list::go_to_error(shared);
+        }
+        return Vec::new();
+    }
+    if shared.mode != Mode::Inspect && edit::press_slider(shared, at) {
+        return Vec::new();
+    }
+    let fields = shared.cursor.fields();
+    let components = |field: usize| Some(fields.get(field)?.field.kind.components());
+    if shared.mode != Mode::Inspect
+        && let Some(clicked) = field_at(areas.fields, shared.cursor.field_top, components, at)
+    {
+        return press_field(shared, clicked);
+    }
+    let is_over = areas.picture.contains(at.into());
+    if is_over && shared.context() == Context::Region {
+        if let Some(cell) = cell_near(shared, at) {
+            trace::press_region(shared, cell);
+        }
+        return Vec::new();
+    }
+    let drags = shared.mode.moves_camera()
+        || shared.mode == Mode::Move
+        || shared.mode == Mode::Trace && pans(shared);
+    if drags && areas.picture.contains(at.into()) {
+        shared.pictures.drag = Some(at);
+    } else if let Some(cell) = picture_cell(shared, at) {
+        if shared.mode == Mode::Inspect {
+            inspect::place_cross(shared, cell);
+        } else if !inspect::pick_symbol(shared, cell)
+            && let Some(pixel) = display::pixel_at(shared, cell)
+        {
+            inspect::pick(shared, inspect::node_at(shared, pixel));
+        }
+    }
+    Vec::new()
+}
+
+/// The cell of the picture under the pointer, from the picture's corner.
+fn picture_cell(shared: &Shared, at: (u16, u16)) -> Option<(u16, u16)> {
+    let (cells, _) = shared.raster()?;
+    let is_inside = cells.contains(at.into());
+    is_inside.then(|| (at.0 - cells.x, at.1 - cells.y))
+}
+
+/// The first click moves the cursor there, the second starts typing.
+fn press_field(shared: &mut Shared, (field, component): (usize, usize)) -> Vec<Effect> {
+    shared.mode = Mode::Edit;
+    shared.focus_field(field, component);
+    if shared.cursor.click((field, component)) {
+        edit::enter_value(shared);
+        return Vec::new();
+    }
+    vec![Effect::Later(DOUBLE_CLICK, Timer::Click)]
+}
+
+fn press_to_pan(shared: &mut Shared, at: (u16, u16)) {
+    let drags = shared.mode.moves_camera() || pans(shared);
+    if drags && shared.areas().picture.contains(at.into()) {
+        shared.pictures.drag = Some(at);
+    }
+}
+
+/// Pans so that what is at the distance of the target follows the pointer.
+fn drag_to_pan(shared: &mut Shared, at: (u16, u16)) {
+    let Some(from) = shared.pictures.drag else {
+        return;
+    };
+    if pans(shared) {
+        display::drag_picture(shared, from, at);
+        shared.pictures.drag = Some(at);
+        return;
+    }
+    if !shared.mode.moves_camera() {
+        return;
+    }
+    let Some((camera, (_, size))) = shared.camera().zip(shared.raster()) else {
+        return;
+    };
+    let magnification =
+        display::frame_window(shared).map_or(1.0, |frame_window| frame_window.magnification(size));
+    let unit = pixel_width(camera.target, &camera, size) / magnification;
+    let [right, up, _] = axes(&camera);
+    let moved = |from: u16, to: u16| f64::from(to) - f64::from(from);
+    // A cell shows two pixels, one above the other.
+    let by = 2.0 * moved(from.1, at.1) * up - moved(from.0, at.0) * right;
+    camera::move_camera(shared, |now| shifted(now, unit * by));
+    shared.pictures.drag = Some(at);
+}
+
+/// Drags the border that was pressed; returns whether there is one.
+fn drag_border(shared: &mut Shared, at: (u16, u16)) -> bool {
+    match shared.resizing {
+        Some(Border::Panels) => panels::resize_panels(shared, shared.areas().dragged(at)),
+        Some(Border::List) => panels::resize_list(shared, shared.areas().divided_at(at)),
+        None => return false,
+    }
+    true
+}
+
+fn drag(shared: &mut Shared, at: (u16, u16)) {
+    if edit::slide_to(shared, at.0) {
+        return;
+    }
+    if is_drawing_region(shared) {
+        if let Some(cell) = cell_near(shared, at) {
+            trace::drag_region(shared, cell);
+        }
+        return;
+    }
+    if shared.mode == Mode::Inspect {
+        if let Some(cell) = picture_cell(shared, at) {
+            inspect::place_cross(shared, cell);
+        }
+        return;
+    }
+    let Some(from) = shared.pictures.drag else {
+        return;
+    };
+    if shared.mode == Mode::Trace {
+        display::drag_picture(shared, from, at);
+        shared.pictures.drag = Some(at);
+        return;
+    }
+    let moved = |from: u16, to: u16| f64::from(to) - f64::from(from);
+    if shared.mode == Mode::Move {
         // A cell shows two pixels, one above the other.
-        let by = 2.0 * moved(from.1, at.1) * up - moved(from.0, at.0) * right;
-        self.move_camera(|now| shifted(now, unit * by));
-        self.pictures.drag = Some(at);
+        let (right, down) = (moved(from.0, at.0), 2.0 * moved(from.1, at.1));
+        transform::drag(shared, right, -down);
+        shared.pictures.drag = Some(at);
+        return;
     }
-
-    /// Drags the border that was pressed; returns whether there is one.
-    fn drag_border(&mut self, at: (u16, u16)) -> bool {
-        match self.resizing {
-            Some(Border::Panels) => self.resize_panels(self.areas().dragged(at)),
-            Some(Border::List) => self.resize_list(self.areas().divided_at(at)),
-            None => return false,
-        }
-        true
+    if !shared.mode.moves_camera() {
+        return;
     }
-
-    fn drag(&mut self, at: (u16, u16)) {
-        if self.mode == Mode::Compare {
-            return self.press_comparison(at);
-        }
-        if self.slide_to(at.0) {
-            return;
-        }
-        if self.is_drawing_region() {
-            if let Some(cell) = self.cell_near(at) {
-                self.drag_region(cell);
-            }
-            return;
-        }
-        if self.mode == Mode::Inspect {
-            if let Some(cell) = self.picture_cell(at) {
-                self.place_cross(cell);
-            }
-            return;
-        }
-        let Some(from) = self.pictures.drag else {
-            return;
-        };
-        if self.mode == Mode::Trace {
-            self.drag_picture(from, at);
-            self.pictures.drag = Some(at);
-            return;
-        }
-        let moved = |from: u16, to: u16| f64::from(to) - f64::from(from);
-        if self.mode == Mode::Move {
-            // A cell shows two pixels, one above the other.
-            let (right, down) = (moved(from.0, at.0), 2.0 * moved(from.1, at.1));
-            self.drag_transform(right, -down);
-            self.pictures.drag = Some(at);
-            return;
-        }
-        if !self.mode.moves_camera() {
-            return;
-        }
-        // The scene follows the pointer, so the camera moves the opposite way.
-        let (left, up) = (DRAG.0 * moved(from.0, at.0), DRAG.1 * moved(from.1, at.1));
-        match self.mode {
-            // About the angle of a cell, so that the picture follows the pointer.
-            Mode::Fly => self.move_camera(|now| turned(now, left / 4.0, up / 4.0)),
-            _ => self.move_camera(|now| orbited(now, left, up)),
-        }
-        self.pictures.drag = Some(at);
+    // The scene follows the pointer, so the camera moves the opposite way.
+    let (left, up) = (DRAG.0 * moved(from.0, at.0), DRAG.1 * moved(from.1, at.1));
+    match shared.mode {
+        // About the angle of a cell, so that the picture follows the pointer.
+        Mode::Fly => camera::move_camera(shared, |now| turned(now, left / 4.0, up / 4.0)),
+        _ => camera::move_camera(shared, |now| orbited(now, left, up)),
     }
+    shared.pictures.drag = Some(at);
 }

@@ -3,42 +3,30 @@
 use std::io;
 use std::path::PathBuf;
 use std::sync::Arc;
-use std::sync::mpsc::Receiver;
 
+use super::answering::Answering;
 use crate::assets::{Assets, Wanted};
 use crate::file;
-use crate::ui::event::Work;
 use crate::ui::msg::{Msg, Polled};
-use crate::ui::queue::{Ended, Service};
 use crate::watch::{Method, Notice, Watcher};
 
-/// Handle of the thread. Nothing waits for its end, as it has no work that could be lost.
-pub(crate) struct AssetReader(Service<(Wanted, Work)>);
-
-impl AssetReader {
-    /// Starts the thread. `send` is called on it and on the watcher's thread.
-    pub(crate) fn start(
-        folders: &[PathBuf],
-        method: Method,
-        send: impl Fn(Msg) + Send + Sync + 'static,
-    ) -> io::Result<Self> {
-        let work = AssetThread {
-            assets: Assets::new(folders),
-            method,
-            watched: Vec::new(),
-            watcher: None,
-            send: Arc::new(send),
-        };
-        let service = Service::start("assets", "reads the scene's files", |inbox| {
-            work.follow(inbox);
-        });
-        service.map(Self)
-    }
-
-    /// Reads files; of several pending requests only the last is carried out.
-    pub(crate) fn request(&self, wanted: Wanted, work: Work) -> Result<(), Ended> {
-        self.0.request((wanted, work))
-    }
+/// Starts the thread. `send` is called on it and on the watcher's thread. Nothing waits for its end, as it
+/// has no work that could be lost.
+pub(crate) fn assets(
+    folders: &[PathBuf],
+    method: Method,
+    send: impl Fn(Msg) + Send + Sync + 'static,
+) -> io::Result<Answering<Wanted>> {
+    let mut thread = AssetThread {
+        assets: Assets::new(folders),
+        method,
+        watched: Vec::new(),
+        watcher: None,
+        send: Arc::new(send),
+    };
+    Answering::latest("assets", "reads the scene's files", move |wanted| {
+        thread.answer(&wanted);
+    })
 }
 
 /// State of the thread.
@@ -53,18 +41,14 @@ struct AssetThread<S> {
 }
 
 impl<S: Fn(Msg) + Send + Sync + 'static> AssetThread<S> {
-    fn follow(mut self, inbox: &Receiver<(Wanted, Work)>) {
-        while let Ok(first) = inbox.recv() {
-            let (wanted, work) = inbox.try_iter().last().unwrap_or(first);
-            file::regain_folder();
-            self.watch(&wanted);
-            self.read(&wanted);
-            // Reading has revealed the material libraries of the meshes. They are read again,
-            // because they may have changed before they were watched.
-            if self.watch(&wanted) {
-                self.read(&wanted);
-            }
-            drop(work);
+    fn answer(&mut self, wanted: &Wanted) {
+        file::regain_folder();
+        self.watch(wanted);
+        self.read(wanted);
+        // Reading has revealed the material libraries of the meshes. They are read again, because they
+        // may have changed before they were watched.
+        if self.watch(wanted) {
+            self.read(wanted);
         }
     }
 

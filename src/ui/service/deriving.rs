@@ -3,48 +3,32 @@
 use std::io;
 use std::path::PathBuf;
 use std::sync::Arc;
-use std::sync::mpsc::Receiver;
 
+use super::answering::Answering;
 use crate::assets::{Assets, Wanted};
-use crate::language;
-use crate::language::Source;
+use crate::language::{self, Source};
 use crate::memory::OutOfMemory;
-use crate::ui::event::Work;
 use crate::ui::history_scene::{HistoryScene, HistoryText, NoPicture};
 use crate::ui::msg::Msg;
-use crate::ui::queue::{Ended, Service};
 
-/// Handle of the thread. Nothing waits for its end, as it has no work that could be lost.
-pub(crate) struct Deriver(Service<(HistoryText, Work)>);
-
-impl Deriver {
-    /// Starts the thread, which may read files of scenes in `folders` and calls `send`.
-    pub(crate) fn start(
-        folders: &[PathBuf],
-        send: impl Fn(Msg) + Send + 'static,
-    ) -> io::Result<Self> {
-        let folders = folders.to_vec();
-        let service = Service::start("history", "derives earlier scenes", move |inbox| {
-            follow(inbox, &folders, send);
-        });
-        service.map(Self)
-    }
-
-    /// Derives a scene; of several pending requests only the last is carried out.
-    pub(crate) fn request(&self, text: HistoryText, work: Work) -> Result<(), Ended> {
-        self.0.request((text, work))
-    }
-}
-
-fn follow(inbox: &Receiver<(HistoryText, Work)>, folders: &[PathBuf], send: impl Fn(Msg)) {
-    while let Ok(first) = inbox.recv() {
-        let (text, work) = inbox.try_iter().last().unwrap_or(first);
-        // Files of other texts are rarely named twice, and may be large.
-        let derived = derive(&text, &mut Assets::new(folders));
-        let derived = derived.unwrap_or_else(|refused| Err(NoPicture::Failed(refused.to_string())));
-        send(Msg::Derived(text.ticket, derived));
-        drop(work);
-    }
+/// Starts the thread, which may read files of scenes in `folders` and calls `send`. Nothing waits for its
+/// end, as it has no work that could be lost.
+pub(crate) fn history_scenes(
+    folders: &[PathBuf],
+    send: impl Fn(Msg) + Send + 'static,
+) -> io::Result<Answering<HistoryText>> {
+    let folders = folders.to_vec();
+    Answering::latest(
+        "history",
+        "derives earlier scenes",
+        move |text: HistoryText| {
+            // Files of other texts are rarely named twice, and may be large.
+            let derived = derive(&text, &mut Assets::new(&folders));
+            let derived =
+                derived.unwrap_or_else(|refused| Err(NoPicture::Failed(refused.to_string())));
+            send(Msg::Derived(text.ticket, derived));
+        },
+    )
 }
 
 /// The scene of a text of the history. Files that the present text names as well are not read again.

@@ -4,62 +4,38 @@ use std::cell::RefCell;
 use std::io;
 use std::sync::Arc;
 
+use super::answering::Answering;
 use crate::render::Frame;
 use crate::ui::event::Work;
 use crate::ui::msg::{Msg, Question};
-use crate::ui::queue::{Ended, Service};
 
-/// Handle of the thread that explains pixels.
-pub(crate) struct Explainer(Service<Request>);
+/// A question, and the frame that it is about.
+type Request = (Question, Arc<Frame>);
 
-/// A question, the frame that it is about, and the work that is done with the answer.
-struct Request {
-    question: Question,
-    frame: Arc<Frame>,
-    _work: Work,
-}
-
-impl Explainer {
-    /// Starts the thread; `send` takes its answers.
-    pub(crate) fn start(send: impl Fn(Msg) + Send + 'static) -> io::Result<Self> {
-        let service = Service::start("explaining", "explains pixels", move |inbox| {
-            let newer = RefCell::new(None);
-            let is_outdated = || {
-                let newest: Option<Request> = inbox.try_iter().last();
-                let mut newer = newer.borrow_mut();
-                if newest.is_some() {
-                    *newer = newest;
-                }
-                newer.is_some()
-            };
-            while let Some(request) = newer.take().or_else(|| inbox.recv().ok()) {
-                let Request {
-                    question, frame, ..
-                } = &request;
-                let Question { pixel, sample, .. } = *question;
-                let query = frame.query.as_ref();
-                let answer = query.and_then(|query| query.explain(pixel, sample, is_outdated));
-                if !is_outdated() {
-                    send(Msg::Explained(*question, answer.map(Box::new)));
-                }
+/// Starts the thread; `send` takes its answers. A question takes the place of those not answered yet, also
+/// of one that is being answered.
+pub(crate) fn explanations(send: impl Fn(Msg) + Send + 'static) -> io::Result<Answering<Request>> {
+    Answering::start("explaining", "explains pixels", move |inbox| {
+        let newer = RefCell::new(None);
+        let is_outdated = || {
+            let newest: Option<(Request, Work)> = inbox.try_iter().last();
+            let mut newer = newer.borrow_mut();
+            if newest.is_some() {
+                *newer = newest;
             }
-        })?;
-        Ok(Self(service))
-    }
-
-    /// Asks a question in place of those not answered yet.
-    pub(crate) fn ask(
-        &self,
-        question: Question,
-        frame: Arc<Frame>,
-        work: Work,
-    ) -> Result<(), Ended> {
-        self.0.request(Request {
-            question,
-            frame,
-            _work: work,
-        })
-    }
+            newer.is_some()
+        };
+        while let Some(request) = newer.take().or_else(|| inbox.recv().ok()) {
+            let ((question, frame), work) = request;
+            let Question { pixel, sample, .. } = question;
+            let query = frame.query.as_ref();
+            let answer = query.and_then(|query| query.explain(pixel, sample, is_outdated));
+            if !is_outdated() {
+                send(Msg::Explained(question, answer.map(Box::new)));
+            }
+            drop(work);
+        }
+    })
 }
 
 #[cfg(test)]
@@ -70,7 +46,7 @@ mod tests {
     use crate::language::{Language, Source};
     use crate::render::{Frames, Job, NO_OBJECT, PreparedScene, Settings};
     use crate::scene::{Images, Meshes, Rendering, Size};
-    use crate::ui::app::tests::pictures;
+    use crate::ui::app::tests::frame_of;
     use crate::ui::msg::Target;
 
     fn job() -> Job {
@@ -104,12 +80,12 @@ mod tests {
         let job = job();
         let prepared = PreparedScene::new(&job, || false).expect("it is not cancelled");
         let size = job.settings.size;
-        let mut frame = pictures::frame(size, vec![NO_OBJECT; size.pixels()]);
+        let mut frame = frame_of(size, vec![NO_OBJECT; size.pixels()]);
         frame.query = Some(prepared.query().clone());
         let frame = Arc::new(frame);
         let (sender, answers) = mpsc::channel();
         let (events, _inbox) = mpsc::channel();
-        let explainer = Explainer::start(move |msg| {
+        let explainer = explanations(move |msg| {
             let _ = sender.send(msg);
         });
         let explainer = explainer.expect("a thread");
@@ -120,7 +96,7 @@ mod tests {
                 pixel: [4, 3],
                 sample,
             };
-            let asked = explainer.ask(question, Arc::clone(&frame), Work::begin(&events));
+            let asked = explainer.ask((question, Arc::clone(&frame)), Work::begin(&events));
             asked.expect("the thread runs");
         }
         drop(explainer);

@@ -1,13 +1,21 @@
 //! Background work: threads that read, write, watch, compare and explain, so that no key press
 //! waits for them.
 
-pub mod assets;
-pub mod comparer;
-pub mod deriving;
+mod answering;
+mod assets;
+mod comparer;
+mod deriving;
 pub mod destination;
-pub mod explaining;
+mod explaining;
 pub mod filming;
 pub mod recent;
 pub mod scene_loader;
-pub mod tracks;
+mod tracks;
 pub mod writing;
+
+pub(crate) use answering::Answering;
+pub(crate) use assets::assets;
+pub(crate) use comparer::{figures, references};
+pub(crate) use deriving::history_scenes;
+pub(crate) use explaining::explanations;
+pub(crate) use tracks::tracks;

@@ -8,8 +8,7 @@ use std::sync::mpsc::Receiver;
 use std::thread;
 
 use crate::document::Document;
-use crate::file;
-use crate::file::ReadError;
+use crate::file::{self, ReadError};
 use crate::language::{self, Language};
 use crate::memory;
 use crate::scene::Meshes;

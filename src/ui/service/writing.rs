@@ -331,7 +331,7 @@ fn provenance(frame: &Frame, to: &Destination) -> Result<Option<Provenance>, Rea
 mod tests {
     use super::*;
     use crate::scene::Size;
-    use crate::ui::app::tests::pictures::frame;
+    use crate::ui::app::tests::frame_of;
     use crate::ui::msg::Existing;
 
     #[test]
@@ -420,7 +420,7 @@ mod tests {
             width: 1,
             height: 1,
         };
-        let exported = export(&frame(size, Vec::new()), to).expect("there is a name");
+        let exported = export(&frame_of(size, Vec::new()), to).expect("there is a name");
         assert_eq!(exported.path, place.path().join("a.depth-3.bmp"));
         let to = destination(&path, Existing::Kept);
         assert!(check_target(&to).expect_err("it exists").is_taken);
@@ -435,7 +435,7 @@ mod tests {
             width: 1,
             height: 1,
         };
-        let frame = frame(size, Vec::new());
+        let frame = frame_of(size, Vec::new());
         let first = export(&frame, to(Existing::Kept)).expect("it is new");
         let own = Existing::Own(first.version.expect("a file"));
         let second = export(&frame, to(own)).expect("it is ours");

@@ -4,6 +4,7 @@
 mod others;
 
 use std::any::Any;
+use std::collections::BTreeMap;
 use std::convert::Infallible;
 use std::io;
 use std::num::NonZero;
@@ -18,24 +19,24 @@ use super::editor;
 use super::ending::ShutdownDeadlines;
 use super::screen::Screen;
 use super::traces::Traces;
+use crate::assets::Wanted;
 use crate::memory;
-use crate::render::{Job, Kept, Refusal, Renderer, Threads};
+use crate::render::{Frame, Job, Kept, Refusal, Renderer, Threads};
 use crate::scene::Scene;
 use crate::ui::event::{Event, Work, sending};
-use crate::ui::history_scene::NoPicture;
-use crate::ui::msg::{Destination, Effect, ExportId, Msg, Origin, SaveOutcome, Target, Timer};
+use crate::ui::history_scene::{HistoryText, NoPicture};
+use crate::ui::msg::{
+    Destination, Effect, ExportId, Msg, Origin, Question, SaveOutcome, Target, Timer,
+};
 use crate::ui::options::Options;
 use crate::ui::queue::{Ended, Service};
 use crate::ui::recovery::{self, Edits, End, Keeper, Outcome, Request};
 use crate::ui::reel::Reel;
-use crate::ui::service::assets::AssetReader;
-use crate::ui::service::comparer::{Figures, References};
-use crate::ui::service::deriving::Deriver;
-use crate::ui::service::explaining::Explainer;
+use crate::ui::reference::{Pair, ReferenceId, ReferenceSource};
 use crate::ui::service::recent::Recent;
 use crate::ui::service::scene_loader::SceneLoader;
-use crate::ui::service::tracks::TrackReader;
 use crate::ui::service::writing::Writers;
+use crate::ui::service::{self, Answering};
 use others::{reaches_others, without_others};
 
 /// Time for which memory freed by pictures is kept for the next ones.
@@ -54,30 +55,25 @@ pub(crate) struct Runtime {
     writers: Writers,
     keeper: Keeper,
     recent: Recent,
-    assets: AssetReader,
-    tracks: TrackReader,
-    references: References,
-    figures: Figures,
-    explainer: Explainer,
-    deriver: Deriver,
+    assets: Answering<Wanted>,
+    tracks: Answering<PathBuf>,
+    references: Answering<(ReferenceId, ReferenceSource)>,
+    figures: Answering<Pair>,
+    explanations: Answering<(Question, Arc<Frame>)>,
+    history_scenes: Answering<HistoryText>,
     threads: Option<usize>,
     /// The command line of the editor that is configured.
     editor: Option<String>,
-    preview: Option<Numbered>,
-    trace: Option<Numbered>,
+    /// A renderer for each picture that is traced.
+    renderers: BTreeMap<Target, Numbered>,
+    /// Number of renderers started so far.
+    started: u64,
     /// What the full-size trace is made from.
     traced: Option<Traced>,
-    export: Option<Numbered>,
     /// Dropping it cancels the sequence that is exported.
     filming: Option<Sender<Infallible>>,
     /// The folders that files of scenes may be read from besides those around the scene.
     folders: Vec<PathBuf>,
-    compared: Option<Numbered>,
-    reference: Option<Numbered>,
-    thumbnail: Option<Numbered>,
-    trial: Option<Numbered>,
-    /// Number of renderers started so far.
-    renderers: u64,
     timers: Vec<(Instant, Timer)>,
     /// When memory freed by pictures is returned to the system.
     trim_at: Option<Instant>,
@@ -100,25 +96,19 @@ impl Runtime {
             writers: Writers::new(sender.clone()),
             keeper: Keeper::start(keeping(&sender))?,
             recent: remembering(&sender)?,
-            assets: AssetReader::start(&options.assets, options.watching(), sending(&sender))?,
-            tracks: TrackReader::start(options.watching(), sending(&sender))?,
-            references: References::start(&options.assets, sending(&sender))?,
-            figures: Figures::start(sending(&sender))?,
-            deriver: Deriver::start(&options.assets, sending(&sender))?,
-            explainer: Explainer::start(sending(&sender))?,
+            assets: service::assets(&options.assets, options.watching(), sending(&sender))?,
+            tracks: service::tracks(options.watching(), sending(&sender))?,
+            references: service::references(&options.assets, sending(&sender))?,
+            figures: service::figures(sending(&sender))?,
+            history_scenes: service::history_scenes(&options.assets, sending(&sender))?,
+            explanations: service::explanations(sending(&sender))?,
             threads: options.threads,
             editor: options.editor.clone(),
-            preview: None,
-            trace: None,
+            renderers: BTreeMap::new(),
+            started: 0,
             traced: None,
-            export: None,
             filming: None,
             folders: options.assets.clone(),
-            compared: None,
-            reference: None,
-            thumbnail: None,
-            trial: None,
-            renderers: 0,
             timers: Vec::new(),
             trim_at: None,
             ended: false,
@@ -143,7 +133,7 @@ impl Runtime {
             Event::Ready(target) => {
                 self.trim_at
                     .get_or_insert_with(|| Instant::now() + TRIM_TIME);
-                let mut frame = self.numbered(target)?.renderer.latest()?;
+                let mut frame = self.renderers.get(&target)?.renderer.latest()?;
                 if matches!(self.screen, Screen::Page(_)) {
                     // A page shows the same on every machine.
                     Arc::make_mut(&mut frame).progress.elapsed = Duration::ZERO;
@@ -152,7 +142,7 @@ impl Runtime {
             }
             Event::Ended(target, number) => {
                 // A renderer that was stopped or replaced has ended as expected.
-                let ended = self.numbered(target)?.number == number;
+                let ended = self.renderers.get(&target)?.number == number;
                 ended.then_some(Msg::Ended(target))
             }
             Event::Typed(event, _) => self.message(*event),
@@ -166,7 +156,7 @@ impl Runtime {
     /// the state of unsaved edits, and that of the full-size trace. `now` is the present scene with
     /// its origin, unless the text has errors.
     pub(crate) fn close(
-        self,
+        mut self,
         deadlines: ShutdownDeadlines,
         now: Option<(Arc<Scene>, Origin)>,
     ) -> (End, TraceEnd) {
@@ -175,7 +165,7 @@ impl Runtime {
         let is_kept = self.screen.is_terminal();
         let traced = self.traced.filter(|_| is_kept);
         let keeping = traced
-            .zip(self.trace)
+            .zip(self.renderers.remove(&Target::Trace))
             .map(|(traced, running)| traced.keep(running.renderer, now, begun + deadlines.trace));
         self.screen.close(begun + deadlines.terminal);
         drop(self.filming);
@@ -229,18 +219,21 @@ impl Runtime {
             }
             Effect::Recall(job, origin) => return Ok(Some(self.trace_on(job, origin))),
             Effect::Stop(target) => self.stop(target),
-            Effect::Explain(..)
-            | Effect::Read(..)
-            | Effect::Open(..)
-            | Effect::ReadAssets(_)
-            | Effect::ReadReference(..)
-            | Effect::Compare(_) => self.ask_service(effect)?,
+            Effect::Explain(question, frame) => {
+                self.explanations.ask((question, frame), self.work())?;
+            }
+            Effect::Read(path, baseline) => self.reader.read(path, baseline, self.work())?,
+            Effect::Open(path, language) => self.reader.open(path, language, self.work())?,
+            Effect::ReadAssets(wanted) => self.assets.ask(wanted, self.work())?,
+            Effect::ReadReference(id, source) => self.references.ask((id, source), self.work())?,
+            Effect::Compare(pair) => self.figures.ask(pair, self.work())?,
+            Effect::ReadTrack(path) => self.tracks.ask(path, self.work())?,
             Effect::Halt(target) => self.with_renderer(target, Renderer::stop),
             Effect::Pause(target) => self.with_renderer(target, Renderer::pause),
             Effect::Resume(target) => self.with_renderer(target, Renderer::resume),
             Effect::Derive(past) => {
-                let (ticket, work) = (past.ticket, Work::begin(&self.sender));
-                let begun = self.deriver.request(*past, work);
+                let ticket = past.ticket;
+                let begun = self.history_scenes.ask(*past, self.work());
                 let refused = begun
                     .err()
                     .map(|ended| NoPicture::Failed(ended.to_string()));
@@ -269,7 +262,6 @@ impl Runtime {
             Effect::ListRecent => self.recent.list()?,
             Effect::KeepPanels(sizes) => self.recent.keep_panels(sizes)?,
             Effect::Watch(path) => self.reader.watch(path)?,
-            Effect::ReadTrack(path) => self.tracks.read(path, Work::begin(&self.sender))?,
             Effect::WriteTrack { path, text, guard } => {
                 let started = self.writers.write_track(path, text, guard);
                 let refused = started
@@ -317,31 +309,9 @@ impl Runtime {
         Ok(None)
     }
 
-    /// Asks a service, whose answer arrives in the inbox.
-    fn ask_service(&self, effect: Effect) -> Result<(), Failure> {
-        let work = Work::begin(&self.sender);
-        match effect {
-            Effect::Explain(question, frame) => self.explainer.ask(question, frame, work)?,
-            Effect::Read(path, baseline) => self.reader.read(path, baseline, work)?,
-            Effect::Open(path, language) => self.reader.open(path, language, work)?,
-            Effect::ReadAssets(wanted) => self.assets.request(wanted, work)?,
-            Effect::ReadReference(id, source) => self.references.request(id, source, work)?,
-            Effect::Compare(pair) => self.figures.request(pair, work)?,
-            _ => {}
-        }
-        Ok(())
-    }
-
-    fn numbered(&self, target: Target) -> Option<&Numbered> {
-        match target {
-            Target::Preview => self.preview.as_ref(),
-            Target::Trace => self.trace.as_ref(),
-            Target::Export => self.export.as_ref(),
-            Target::Compared => self.compared.as_ref(),
-            Target::Reference => self.reference.as_ref(),
-            Target::Thumbnail => self.thumbnail.as_ref(),
-            Target::Trial => self.trial.as_ref(),
-        }
+    /// Counts a request as work until its answer is in the inbox.
+    fn work(&self) -> Work {
+        Work::begin(&self.sender)
     }
 
     /// Starts the full-size trace from what an earlier run left of it.
@@ -367,41 +337,35 @@ impl Runtime {
             (Target::Thumbnail | Target::Trial, _) => Threads::Background(1),
             (_, count) => Threads::Background(count.unwrap_or_else(cores)),
         };
-        let (sender, renderers) = (&self.sender, &mut self.renderers);
+        let (sender, number) = (&self.sender, &mut self.started);
         let mut start = || {
-            *renderers += 1;
+            *number += 1;
             let waker = Waker {
                 sender: sender.clone(),
                 target,
-                number: *renderers,
+                number: *number,
             };
             Numbered {
-                number: *renderers,
+                number: *number,
                 renderer: Renderer::new(threads, move || waker.wake()),
             }
         };
-        let slot = match target {
-            Target::Preview => &mut self.preview,
-            Target::Trace => &mut self.trace,
-            Target::Export => &mut self.export,
-            Target::Compared => &mut self.compared,
-            Target::Reference => &mut self.reference,
-            Target::Thumbnail => &mut self.thumbnail,
-            Target::Trial => &mut self.trial,
-        };
-        let running = slot.get_or_insert_with(&mut start);
+        let running = self.renderers.entry(target).or_insert_with(&mut start);
         let restarted = match recalled {
             Some(recalled) => running.renderer.restart_from(job.clone(), recalled),
             None => running.renderer.restart(job.clone()),
         };
         let started = match restarted {
             // A worker ended by a panic is replaced: the panic costs only one picture.
-            Err(Refusal::Ended) => slot.insert(start()).renderer.restart(job),
+            Err(Refusal::Ended) => {
+                *running = start();
+                running.renderer.restart(job)
+            }
             started => started,
         };
         if let Err(Refusal::Threads { .. }) = started {
             // The next job tries again.
-            *slot = None;
+            self.renderers.remove(&target);
         }
         match started {
             Ok(generation) => Msg::Started(target, generation),
@@ -424,25 +388,13 @@ impl Runtime {
         }
         // The preview stops by itself.
         if target != Target::Preview {
-            *self.slot(target) = None;
+            self.renderers.remove(&target);
         }
     }
 
     fn with_renderer(&mut self, target: Target, act: impl FnOnce(&mut Renderer)) {
-        if let Some(running) = self.slot(target) {
+        if let Some(running) = self.renderers.get_mut(&target) {
             act(&mut running.renderer);
-        }
-    }
-
-    fn slot(&mut self, target: Target) -> &mut Option<Numbered> {
-        match target {
-            Target::Preview => &mut self.preview,
-            Target::Trace => &mut self.trace,
-            Target::Export => &mut self.export,
-            Target::Compared => &mut self.compared,
-            Target::Reference => &mut self.reference,
-            Target::Thumbnail => &mut self.thumbnail,
-            Target::Trial => &mut self.trial,
         }
     }
 

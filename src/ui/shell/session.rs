@@ -5,11 +5,12 @@ mod play;
 mod terminal_queries;
 
 use std::collections::VecDeque;
-use std::io;
-use std::mem;
 use std::path::PathBuf;
 use std::sync::mpsc::{self, Receiver, RecvTimeoutError};
 use std::time::{Duration, Instant};
+use std::{io, mem};
+
+use pixels::{Known, Manner};
 
 use super::beginning::Beginning;
 use super::continuing::TraceEnd;
@@ -17,15 +18,15 @@ use super::effects::Runtime;
 use super::ending::{Ending, Error};
 use super::script::Script;
 use crate::text::{self, shell_path};
-use crate::ui::app::App;
+use crate::ui::app::{App, display, exports, files};
 use crate::ui::event::{Event, sending};
 use crate::ui::msg::{Effect, Msg, Target};
 use crate::ui::options::Options;
 use crate::ui::recovery::End;
 use crate::ui::service::scene_loader::SceneLoader;
-use crate::ui::terminal::{self, Budget, Choice, ColourDepth, Link, Reply};
-use crate::ui::view::{self, Inks};
-use pixels::{Known, Manner};
+use crate::ui::terminal::{Budget, Choice, ColourDepth, Link, Reply};
+use crate::ui::view::Inks;
+use crate::ui::{terminal, view};
 
 /// Minimum time between two drawings that only refine the picture.
 const FRAME_TIME: Duration = Duration::from_millis(33);
@@ -210,7 +211,12 @@ impl Session {
             format!(" {}", shell_path(&path.to_string_lossy()))
         });
         let key = self.app.shared.key_for("trace");
-        let now = self.app.shared.scene.clone().zip(self.app.shared.origin());
+        let now = self
+            .app
+            .shared
+            .scene
+            .clone()
+            .zip(exports::origin(&self.app.shared));
         // The end of the process frees a large scene immediately.
         mem::forget(self.app);
         let (edits, trace) = self.runtime.close(self.ending.deadlines(), now);
@@ -239,7 +245,9 @@ impl Session {
 
     /// When the rest of a picture may be sent, if there is one and room for it.
     fn rest_at(&self, now: Instant) -> Option<Instant> {
-        if !self.app.shared.picture().is_pending() || self.app.shared.frame_window().is_none() {
+        if !self.app.shared.picture().is_pending()
+            || display::frame_window(&self.app.shared).is_none()
+        {
             return None;
         }
         Some(self.link.ready_at(now).unwrap_or(now))
@@ -334,7 +342,7 @@ impl Session {
         }
         let effects = self.app.update(msg);
         self.perform(effects);
-        let are_kept = self.app.shared.has_kept_edits();
+        let are_kept = files::has_kept_edits(&self.app.shared);
         self.runtime.screen().note_kept_edits(are_kept);
     }
 
@@ -367,9 +375,9 @@ impl Session {
         let now = Instant::now();
         self.fit_pixels()?;
         let is_limited = self.link.is_limited();
-        self.app.shared.follow_wires();
+        display::follow_wires(&mut self.app.shared);
         self.app.shared.has_colours = self.inks.have_colours();
-        if let Some(frame_window) = self.app.shared.frame_window() {
+        if let Some(frame_window) = display::frame_window(&self.app.shared) {
             let allowance = match urgency {
                 // Nothing of the picture is sent.
                 _ if self.app.shared.wireframe().is_some() => usize::MAX,
@@ -382,7 +390,7 @@ impl Session {
                 (Manner::Picture(_), 1..) => usize::MAX,
                 (_, allowance) => allowance,
             };
-            let marked = self.app.shared.outlined_objects();
+            let marked = display::outlined_objects(&self.app.shared);
             let picture = self.app.shared.picture_mut();
             picture.advance(&frame_window, &marked, allowance);
             let rests = !picture.is_pending() && picture.is_complete();

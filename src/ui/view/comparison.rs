@@ -9,17 +9,17 @@ use super::Inks;
 use super::row::{Row, title};
 use crate::compare::{Comparison, Difference};
 use crate::text::counted;
-use crate::ui::app::Shared;
+use crate::ui::app::{App, compare};
 use crate::ui::theme;
 
 /// Width of the names of the panel, with a gap.
 const NAMES: u16 = 11;
 
 /// Draws what is compared, how it differs, and the worst pixels.
-pub(super) fn render(shared: &Shared, inks: &mut Inks, area: Rect, buffer: &mut Buffer) {
+pub(super) fn render(app: &App, inks: &mut Inks, area: Rect, buffer: &mut Buffer) {
     let area = area.intersection(buffer.area);
     Clear.render(area, buffer);
-    let (compared, view) = (&shared.compared, shared.compared.view.name());
+    let (compared, view) = (&app.compare, app.compare.view.name());
     title("comparison", &view, Some(theme::ACCENT), area, buffer);
     let mut lines = Lines {
         area,
@@ -30,13 +30,13 @@ pub(super) fn render(shared: &Shared, inks: &mut Inks, area: Rect, buffer: &mut 
     let spp = spp.map_or_else(String::new, |spp| format!(", {spp} spp"));
     lines.put(
         "live",
-        &format!("{}{spp}", shared.disk.name()),
+        &format!("{}{spp}", app.shared.disk.name()),
         Style::new(),
     );
     if let Some(reference) = &compared.reference {
         lines.put("reference", &reference.name, Style::new());
     }
-    if let Some(unlike) = shared.compares_unlike() {
+    if let Some(unlike) = compare::unlike(&app.compare, &app.shared) {
         lines.put("", &unlike, theme::WARNING);
     }
     lines.at += 1;
@@ -55,25 +55,25 @@ pub(super) fn render(shared: &Shared, inks: &mut Inks, area: Rect, buffer: &mut 
         lines.put(name, &figure, style);
     }
     lines.at += 1;
-    worst(shared, found, &mut lines, inks);
+    worst(app, found, &mut lines, inks);
 }
 
 /// Adds what is seen of the pictures that are compared and, without a panel, how they differ.
-pub(super) fn chips(shared: &Shared, say: &mut impl FnMut(u8, String, Style)) {
-    let view = shared.compared.view.name().to_uppercase();
+pub(super) fn chips(app: &App, say: &mut impl FnMut(u8, String, Style)) {
+    let view = app.compare.view.name().to_uppercase();
     say(1, format!(" {view} "), theme::chip(theme::ACCENT));
-    if let Some(unlike) = shared.compares_unlike() {
+    if let Some(unlike) = compare::unlike(&app.compare, &app.shared) {
         say(3, unlike, theme::WARNING);
     }
-    if let Some(found) = shared
-        .compared
+    if let Some(found) = app
+        .compare
         .figures()
-        .filter(|_| shared.areas().list.is_empty())
+        .filter(|_| app.shared.areas().list.is_empty())
     {
         let (psnr, flip) = (found.psnr(), found.flip);
         let differing = counted(found.differing, "pixel");
         let text = format!("{differing} differ, {psnr:.2} dB, FLIP {flip:.5}");
-        let style = if shared.compared.are_figures_final() {
+        let style = if app.compare.are_figures_final() {
             Style::new()
         } else {
             theme::DIM
@@ -107,7 +107,7 @@ impl Lines<'_> {
 }
 
 /// Draws the worst pixels with their colours in both pictures.
-fn worst(shared: &Shared, found: &Comparison, lines: &mut Lines, inks: &mut Inks) {
+fn worst(app: &App, found: &Comparison, lines: &mut Lines, inks: &mut Inks) {
     if found.worst.is_empty() {
         lines.put("", "no pixel differs", theme::GOOD);
         return;
@@ -115,7 +115,7 @@ fn worst(shared: &Shared, found: &Comparison, lines: &mut Lines, inks: &mut Inks
     let mut row = lines.row();
     row.skip(1).put("worst pixels", theme::DIM);
     for worst in &found.worst {
-        let is_here = shared.compared.cross == Some((worst.x, worst.y));
+        let is_here = app.compare.cross == Some((worst.x, worst.y));
         let style = if is_here { theme::BOLD } else { Style::new() };
         let column = lines.area.x + NAMES;
         let mut row = lines.row();
@@ -131,13 +131,13 @@ fn worst(shared: &Shared, found: &Comparison, lines: &mut Lines, inks: &mut Inks
 }
 
 /// Draws the line of a wipe, and the cross with the colours there, over the cells of the picture.
-pub(super) fn mark(shared: &Shared, cells: Rect, buffer: &mut Buffer) {
+pub(super) fn mark(app: &App, cells: Rect, buffer: &mut Buffer) {
     let cell = |[column, row]: [f64; 2]| {
         let inside = |at: f64, cells: u16| (0.0..f64::from(cells)).contains(&at);
         let is_inside = inside(column, cells.width) && inside(row / 2.0, cells.height);
         is_inside.then_some((cells.x + column as u16, cells.y + (row / 2.0) as u16))
     };
-    if let Some(column) = shared.wipe_on_screen() {
+    if let Some(column) = compare::wipe_on_screen(&app.compare, &app.shared) {
         // At the right edge it is beyond the last cell.
         let column = column.round().min(f64::from(cells.width) - 1.0);
         let place = cell([column, 0.0]);
@@ -150,10 +150,10 @@ pub(super) fn mark(shared: &Shared, cells: Rect, buffer: &mut Buffer) {
             }
         }
     }
-    let Some(Difference { x, y, colours }) = shared.compared.at_cross() else {
+    let Some(Difference { x, y, colours }) = app.compare.at_cross() else {
         return;
     };
-    if let Some(place) = shared.cross_on_screen().and_then(cell)
+    if let Some(place) = compare::cross_on_screen(&app.compare, &app.shared).and_then(cell)
         && let Some(cell) = buffer.cell_mut(place)
     {
         cell.set_symbol("┼").set_style(Style::reset());

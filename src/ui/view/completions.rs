@@ -7,7 +7,7 @@ use ratatui::widgets::{Clear, Widget};
 use unicode_width::UnicodeWidthStr;
 
 use super::row::{Row, title};
-use crate::ui::app::{Completion, Shared};
+use crate::ui::app::{Completion, Shared, command};
 use crate::ui::{layout, theme};
 
 /// Maximum number of completions shown.
@@ -15,8 +15,8 @@ const SHOWN: usize = 12;
 
 /// Draws the palette at the bottom of `area` while a command is typed.
 pub(crate) fn render(shared: &Shared, area: Rect, buffer: &mut Buffer) {
-    let found = shared.completions();
-    let typed = shared.command_typed();
+    let found = command::completions(shared);
+    let typed = command::command_typed(shared);
     let rows = found.len().min(SHOWN) + usize::from(typed.is_some());
     // At least half of the screen stays visible.
     let rows = rows.min(usize::from(area.height / 2).saturating_sub(1));

@@ -9,11 +9,10 @@ use unicode_width::UnicodeWidthStr;
 use super::row::Row;
 use crate::document::Merge;
 use crate::text::{Position, counted};
-use crate::ui::app::{AfterLeaving, App, Dialog, MergeSource, OnDisk, Whose};
-use crate::ui::layout;
+use crate::ui::app::{AfterLeaving, App, Dialog, MergeSource, OnDisk, Whose, files, select, text};
 use crate::ui::recovery::{Offer, Since};
 use crate::ui::text_width::wrap;
-use crate::ui::theme;
+use crate::ui::{layout, theme};
 
 /// Minimum width of one side of a conflict, in columns.
 const SIDE: usize = 12;
@@ -23,7 +22,7 @@ pub(crate) fn render(app: &App, area: Rect, buffer: &mut Buffer) {
     match &app.shared.overlays.dialog {
         None => {}
         Some(Dialog::Leave(next)) => {
-            let losses = app.shared.losses_before(next).unwrap_or_default();
+            let losses = files::losses_before(&app.shared, next).unwrap_or_default();
             let text = format!("{losses}. {}", next.question());
             ask(app, leaving(next), &text, area, buffer);
         }
@@ -31,7 +30,7 @@ pub(crate) fn render(app: &App, area: Rect, buffer: &mut Buffer) {
             ask(
                 app,
                 " Delete ",
-                &app.shared.consequence(nodes),
+                &select::consequence(&app.shared, nodes),
                 area,
                 buffer,
             );
@@ -153,7 +152,7 @@ fn conflict(
         row.put(if index == at { "▸ " } else { "  " }, here);
         // What is now at the place of a deletion is not what was deleted.
         let is_deleted = conflict.mine.trim().is_empty();
-        let place = app.shared.place_name(conflict.span).filter(|_| !is_deleted);
+        let place = text::place_name(&app.shared, conflict.span).filter(|_| !is_deleted);
         let place = place.map_or_else(
             || format!("line {line}"),
             |name| format!("{name} (line {line})"),

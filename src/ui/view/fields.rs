@@ -13,11 +13,11 @@ use crate::language::Node;
 use crate::language::table::{Category, Kind};
 use crate::scene::Rgb;
 use crate::text::{counted, parse_number, without_suffix};
-use crate::ui::app::{FieldRow, Provenance, Shared, Stride, Typing};
+use crate::ui::app::{FieldRow, Provenance, Shared, Stride, Typing, edit};
 use crate::ui::keymap::Mode;
-use crate::ui::layout::{self, marker_at};
+use crate::ui::layout::marker_at;
 use crate::ui::text_width::wrap;
-use crate::ui::theme;
+use crate::ui::{layout, theme};
 
 /// Draws the fields of the selected node and a description of the current one.
 pub(crate) fn render(shared: &Shared, area: Rect, buffer: &mut Buffer) {
@@ -54,7 +54,7 @@ pub(crate) fn render(shared: &Shared, area: Rect, buffer: &mut Buffer) {
         };
         let cursor = (focused && index == shared.cursor.field).then_some(shared.cursor.component);
         field_line(shared, field, cursor, line, buffer);
-        if let Some(bar) = shared.slider(index, line)
+        if let Some(bar) = edit::slider(shared, index, line)
             && (cursor.is_none() || shared.cursor.typing.is_none())
         {
             let style = match cursor {
@@ -85,7 +85,7 @@ pub(crate) fn render(shared: &Shared, area: Rect, buffer: &mut Buffer) {
 
 /// What else uses the material or texture that the current field names.
 fn users_of(shared: &Shared) -> Option<String> {
-    let node = shared.referred_to()?;
+    let node = edit::referred_to(shared)?;
     let name = shared.source().name(node);
     Some(format!("{name} {}", users(shared, node)?))
 }

@@ -51,6 +51,7 @@ pub(super) fn leave(cells: Rect, buffer: &mut Buffer) {
 
 #[cfg(test)]
 mod tests {
+    use crate::ui::app::display;
     use ratatui::Terminal;
     use ratatui::backend::TestBackend;
     use ratatui::layout::Rect;
@@ -84,7 +85,7 @@ mod tests {
         let mut app = app();
         assert_eq!(left(&mut app), (None, false), "there is no picture yet");
         app.shared.pictures.preview.take(frame(8, 6));
-        let frame_window = app.shared.frame_window().expect("there is room");
+        let frame_window = display::frame_window(&app.shared).expect("there is room");
         app.shared
             .pictures
             .preview

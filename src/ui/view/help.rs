@@ -9,17 +9,16 @@ use unicode_width::UnicodeWidthStr;
 
 use super::row::Row;
 use crate::text::counted;
-use crate::ui::app::{PageFocus, Shared};
+use crate::ui::app::{PageFocus, Shared, command};
 use crate::ui::keymap::HelpLine;
-use crate::ui::layout;
-use crate::ui::theme;
+use crate::ui::{layout, theme};
 
 /// Draws the help page if it is open.
 pub(crate) fn render(shared: &Shared, area: Rect, buffer: &mut Buffer) {
     let Some(help) = &shared.overlays.help else {
         return;
     };
-    let columns = shared.help_columns(area.width);
+    let columns = command::help_columns(shared, area.width);
     let count = columns.len() as u16;
     let width = if count == 1 { 76 } else { area.width };
     let page = layout::centred(area, Rect::new(0, 0, width, area.height));

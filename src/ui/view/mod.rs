@@ -83,13 +83,13 @@ fn render(app: &App, inks: &mut Inks, area: Rect, buffer: &mut Buffer) -> Option
         too_small(area, buffer);
         return None;
     }
-    let left = picture::render(&app.shared, inks, areas.picture, buffer);
+    let left = picture::render(app, inks, areas.picture, buffer);
     let left = left.map(|cells| (cells, graphics_gap::left_in(cells, buffer)));
     rule(&app.shared, areas.rule, buffer);
     if app.shared.context() == Context::Rays {
         rays::render(&app.shared, buffer);
     } else if !areas.list.is_empty() && app.shared.mode == Mode::Compare {
-        comparison::render(&app.shared, inks, areas.list.union(areas.fields), buffer);
+        comparison::render(app, inks, areas.list.union(areas.fields), buffer);
     } else if !areas.list.is_empty() && !app.shared.disk.is_opening() {
         list::render(&app.shared, areas.list, buffer);
         match app.shared.mode {

@@ -17,26 +17,22 @@ use super::row::Row;
 use super::{comparison, pixel, symbols, tiles, values, wireframe};
 use crate::render::{line_of, pixel_of, pixel_width};
 use crate::scene::Size;
-use crate::ui::app::{CellImage, FirstReading, Grid, Shared};
+use crate::ui::app::{App, CellImage, FirstReading, Grid, Shared, display, inspect};
 use crate::ui::keymap::{Context, Mode};
-use crate::ui::layout::{self, raster};
-use crate::ui::theme;
+use crate::ui::layout::raster;
+use crate::ui::{layout, theme};
 
 /// Draws the current picture, letterboxed, with its symbols. Returns its cells if they are left to
 /// the terminal's own picture.
-pub(crate) fn render(
-    shared: &Shared,
-    inks: &mut Inks,
-    area: Rect,
-    buffer: &mut Buffer,
-) -> Option<Rect> {
-    let (cells, size) = raster(area, shared.output())?;
+pub(crate) fn render(app: &App, inks: &mut Inks, area: Rect, buffer: &mut Buffer) -> Option<Rect> {
+    let shared = &app.shared;
+    let (cells, size) = raster(area, shared.framed())?;
     if let Some(wireframe) = shared
         .wireframe()
         .and_then(|wireframe| wireframe.lines(size))
     {
-        wireframe::paint(wireframe, &shared.outlined_objects(), cells, buffer);
-        overlays(shared, inks.glyphs, area, (cells, size), buffer);
+        wireframe::paint(wireframe, &display::outlined_objects(shared), cells, buffer);
+        overlays(app, inks.glyphs, area, (cells, size), buffer);
         return None;
     }
     let shown = &shared.picture().shown;
@@ -64,21 +60,24 @@ pub(crate) fn render(
         }
         Drawing::Picture => leave(cells, buffer),
     }
-    if let (Some(frame), Some(frame_window)) = (&shared.picture().latest, shared.frame_window()) {
+    if let (Some(frame), Some(frame_window)) =
+        (&shared.picture().latest, display::frame_window(shared))
+    {
         values::render(frame, &frame_window, cells, buffer);
     }
-    overlays(shared, inks.glyphs, area, (cells, size), buffer);
+    overlays(app, inks.glyphs, area, (cells, size), buffer);
     (inks.drawing == Drawing::Picture).then_some(cells)
 }
 
 /// Draws what lies over the picture.
 fn overlays(
-    shared: &Shared,
+    app: &App,
     glyphs: Glyphs,
     area: Rect,
     (cells, size): (Rect, Size),
     buffer: &mut Buffer,
 ) {
+    let shared = &app.shared;
     if shared.mode == Mode::Move {
         axis(shared, glyphs, (cells, size), buffer);
     }
@@ -88,7 +87,7 @@ fn overlays(
         cross(shared, cells, buffer);
     }
     if shared.mode == Mode::Compare {
-        comparison::mark(shared, cells, buffer);
+        comparison::mark(app, cells, buffer);
     }
     if shared.is_empty() {
         invitation(area, buffer);
@@ -154,7 +153,7 @@ fn opening(name: &str, bytes: u64) -> String {
 
 /// Marks the cell of the inspected pixel and says what is there.
 fn cross(shared: &Shared, cells: Rect, buffer: &mut Buffer) {
-    let Some((column, row)) = shared.cross_cell() else {
+    let Some((column, row)) = inspect::cross_cell(shared) else {
         return;
     };
     let (x, y) = (cells.x.saturating_add(column), cells.y.saturating_add(row));
@@ -167,7 +166,7 @@ fn cross(shared: &Shared, cells: Rect, buffer: &mut Buffer) {
     if shared.context() == Context::Rays {
         return;
     }
-    let words = match shared.symbol_at((column, row)) {
+    let words = match display::symbol_at(shared, (column, row)) {
         Some(node) => shared.source().name(node),
         None => pixel::in_short(shared),
     };
@@ -176,11 +175,11 @@ fn cross(shared: &Shared, cells: Rect, buffer: &mut Buffer) {
 
 /// Draws the axis that a transformation is locked to, through what is being transformed.
 fn axis(shared: &Shared, glyphs: Glyphs, (cells, size): (Rect, Size), buffer: &mut Buffer) {
-    let (Some(transform), Some(camera)) = (&shared.pictures.transform, shared.camera()) else {
+    let (Some(transform), Some(camera)) = (&shared.transform, shared.camera()) else {
         return;
     };
     let Some(axis) = transform.axis() else { return };
-    let Some(frame_window) = shared.frame_window() else {
+    let Some(frame_window) = display::frame_window(shared) else {
         return;
     };
     let unit = pixel_width(transform.pivot(), &camera, size) / frame_window.magnification(size);
@@ -207,7 +206,7 @@ fn path(shared: &Shared, glyphs: Glyphs, cells: Rect, buffer: &mut Buffer) {
         return;
     };
     let whole = frame.whole();
-    for segment in shared.ray_path() {
+    for segment in inspect::ray_path(shared) {
         let colour = if segment.is_dark {
             theme::BLOCKED
         } else {
@@ -216,7 +215,7 @@ fn path(shared: &Shared, glyphs: Glyphs, cells: Rect, buffer: &mut Buffer) {
         let Some(ends) = line_of(segment.ends, &camera, whole) else {
             continue;
         };
-        let places = ends.map(|end| shared.place_on_screen(end, whole));
+        let places = ends.map(|end| inspect::place_on_screen(shared, end, whole));
         let [Some(from), Some(to)] = places else {
             continue;
         };
@@ -352,13 +351,10 @@ mod tests {
 
     #[test]
     fn an_empty_scene_says_what_to_press() {
-        let panel = |shared: &Shared, area: Rect, buffer: &mut Buffer| {
-            render(shared, &mut Inks::new(Glyphs::HalfBlocks), area, buffer);
+        let panel = |app: &App, area: Rect, buffer: &mut Buffer| {
+            render(app, &mut Inks::new(Glyphs::HalfBlocks), area, buffer);
         };
-        let text = |language, text: &str| {
-            let app = app_of(language, text);
-            drawn(&app.shared, panel, 40, 12).join("\n")
-        };
+        let text = |language, text: &str| drawn(&app_of(language, text), panel, 40, 12).join("\n");
         for (language, empty) in [
             (Language::Ray, ""),
             (Language::Dat, "\n  \n"),

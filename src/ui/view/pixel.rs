@@ -5,11 +5,11 @@ use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 use ratatui::widgets::{Clear, Widget};
 
-use super::labelled::{self, Value, numbers};
-use super::row;
+use super::labelled::{Value, numbers};
+use super::{labelled, row};
 use crate::explain::number;
 use crate::render::{self, Aov, FirstHit};
-use crate::ui::app::{Pixel, Shared};
+use crate::ui::app::{Pixel, Shared, inspect};
 use crate::ui::layout::{Side, contents};
 use crate::ui::theme;
 
@@ -20,7 +20,7 @@ const UNKNOWN: &str = "…";
 
 /// Draws the values in a panel.
 pub(super) fn render(shared: &Shared, area: Rect, buffer: &mut Buffer) {
-    if let Some(pixel) = shared.pixel() {
+    if let Some(pixel) = inspect::pixel(shared) {
         panel(&pixel, &values(shared, &pixel), area, buffer);
     }
 }
@@ -38,14 +38,16 @@ fn panel(pixel: &Pixel, values: &[Value], area: Rect, buffer: &mut Buffer) {
 
 /// Draws the values over the picture on the side away from the cross, if there is room.
 pub(super) fn render_over(shared: &Shared, area: Rect, buffer: &mut Buffer) {
-    let Some(pixel) = shared.pixel() else { return };
+    let Some(pixel) = inspect::pixel(shared) else {
+        return;
+    };
     let values = values(shared, &pixel);
     let height = 1 + values.len() as u16;
     if area.width < 2 * WIDTH || area.height < height + 3 {
         return;
     }
     let over = Rect {
-        x: match shared.free_side() {
+        x: match inspect::free_side(shared) {
             Side::Right => area.right() - WIDTH,
             Side::Left => area.x,
         },
@@ -60,7 +62,7 @@ pub(super) fn render_over(shared: &Shared, area: Rect, buffer: &mut Buffer) {
 
 /// The most important values in a few words, for a line over the picture.
 pub(super) fn in_short(shared: &Shared) -> String {
-    let Some(pixel) = shared.pixel() else {
+    let Some(pixel) = inspect::pixel(shared) else {
         return String::new();
     };
     let [x, y] = pixel.at;

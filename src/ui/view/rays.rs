@@ -13,7 +13,7 @@ use crate::render::{
     Dark, Densities, EmitterTerm, Explanation, LightTerm, RayEnd, RayKind, Shading, Stop,
 };
 use crate::scene::Rgb;
-use crate::ui::app::{RayLine, RayPart, Shared};
+use crate::ui::app::{RayLine, RayPart, Shared, inspect};
 use crate::ui::layout::contents;
 use crate::ui::theme;
 
@@ -22,7 +22,7 @@ const WIDE: u16 = 50;
 
 /// Draws the tree and the numbers of its current line.
 pub(super) fn render(shared: &Shared, buffer: &mut Buffer) {
-    let Some(panels) = shared.ray_panels() else {
+    let Some(panels) = inspect::ray_panels(shared) else {
         return;
     };
     if panels.is_over_picture {
@@ -31,7 +31,9 @@ pub(super) fn render(shared: &Shared, buffer: &mut Buffer) {
         }
     }
     tree(shared, panels.tree, panels.verdict, panels.lines, buffer);
-    if let (Some(explanation), Some(line)) = (shared.explanation(), shared.ray_line()) {
+    if let (Some(explanation), Some(line)) =
+        (inspect::explanation(shared), inspect::ray_line(shared))
+    {
         let words = words(shared, explanation, &line);
         title(&words, "", None, panels.values, buffer);
         let values = values_of(shared, explanation, &line);
@@ -46,23 +48,22 @@ fn tree(shared: &Shared, area: Rect, verdict: Rect, lines: Rect, buffer: &mut Bu
         return;
     };
     let sample = explained.sample;
-    let place = format!("sample {sample} of {}", shared.sample_count());
-    let pixel = shared.cross().map_or_else(String::new, |cross| {
+    let place = format!("sample {sample} of {}", inspect::sample_count(shared));
+    let pixel = inspect::cross(shared).map_or_else(String::new, |cross| {
         let [x, y] = cross.pixel;
         format!("why {x} {y}")
     });
     title(&pixel, &place, Some(theme::ACCENT), area, buffer);
-    let Some(explanation) = shared.explanation() else {
+    let Some(explanation) = inspect::explanation(shared) else {
         Row::new(buffer, lines, 0).skip(1).put("…", theme::DIM);
         return;
     };
-    for (index, words) in (0..).zip(shared.verdict_lines(verdict.width)) {
+    for (index, words) in (0..).zip(inspect::verdict_lines(shared, verdict.width)) {
         Row::new(buffer, verdict, index)
             .skip(1)
             .put(&words, theme::WARNING);
     }
-    let shown = shared
-        .ray_lines()
+    let shown = inspect::ray_lines(shared)
         .into_iter()
         .enumerate()
         .skip(explained.top);
@@ -110,7 +111,7 @@ fn adds(radiance: Rgb, width: u16) -> String {
 
 /// The name of a line.
 fn words(shared: &Shared, explanation: &Explanation, line: &RayLine) -> String {
-    let node = shared.ray_node(*line);
+    let node = inspect::ray_node(shared, *line);
     let name = || node.map_or_else(|| "…".to_owned(), |node| shared.source().name(node));
     let ray = line.ray(explanation);
     match line.part {
@@ -194,7 +195,7 @@ fn reason(dark: Dark) -> &'static str {
 fn blocker(shared: &Shared, light: &LightTerm) -> Option<Node> {
     let mut crossed = light.crossed.iter();
     let blocking = crossed.find(|crossing| crossing.transmittance == 0.0)?;
-    shared.object_named(blocking.object)
+    inspect::object_named(shared, blocking.object)
 }
 
 /// The numbers of a line.
@@ -205,8 +206,8 @@ fn values_of(shared: &Shared, explanation: &Explanation, line: &RayLine) -> Vec<
         _ => "adds",
     };
     let mut values = vec![Value::new(name, colour(line.adds(explanation)))];
-    if let Some(node) = shared.ray_node(*line) {
-        let source = super::pixel::source(shared, shared.line_of(node));
+    if let Some(node) = inspect::ray_node(shared, *line) {
+        let source = super::pixel::source(shared, inspect::line_of(shared, node));
         values.push(Value::new("source", source));
     }
     match (line.part, &ray.end) {

@@ -12,10 +12,10 @@ use super::row::Row;
 use super::{comparison, sequence};
 use crate::render::Progress;
 use crate::text::{counted, percentage};
-use crate::ui::app::{App, Message, OnDisk, Prompt, PromptKind, Shared};
-use crate::ui::keymap::{self, Mode};
+use crate::ui::app::{App, Message, OnDisk, Prompt, PromptKind, Shared, display, files, text};
+use crate::ui::keymap::Mode;
 use crate::ui::text_width::visible;
-use crate::ui::theme;
+use crate::ui::{keymap, theme};
 
 /// Draws the prompt, or as many of the current key hints as fit.
 pub(crate) fn render_hint(app: &App, area: Rect, buffer: &mut Buffer) {
@@ -229,7 +229,7 @@ fn text_segments(app: &App, say: &mut impl FnMut(u8, String, Style)) {
     };
     say(0, format!(" {mode} "), theme::chip(style));
     if shared.mode == Mode::Compare {
-        comparison::chips(shared, say);
+        comparison::chips(app, say);
     }
     sequence::chips(app, say);
     let errors = shared.error_count();
@@ -239,7 +239,7 @@ fn text_segments(app: &App, say: &mut impl FnMut(u8, String, Style)) {
         say(1, text, theme::chip(theme::ERROR));
     }
     say(5, shared.disk.name(), theme::BOLD);
-    if shared.has_edits() {
+    if text::has_edits(shared) {
         say(DIRTY, "[+]".to_owned(), theme::BOLD);
     }
     let disk = match &shared.disk.state {
@@ -253,10 +253,10 @@ fn text_segments(app: &App, say: &mut impl FnMut(u8, String, Style)) {
     if let Some(disk) = disk {
         say(3, disk.to_owned(), theme::WARNING);
     }
-    if shared.polls() {
+    if files::polls(shared) {
         say(3, "[polling]".to_owned(), theme::WARNING);
     }
-    if shared.fails_to_keep() {
+    if files::fails_to_keep(shared) {
         say(3, "[no backup]".to_owned(), theme::WARNING);
     }
     if shared.picture().paused {
@@ -279,14 +279,14 @@ fn making_segment(shared: &Shared, say: &mut impl FnMut(u8, String, Style)) {
         say(7, "wireframe".to_owned(), theme::WARNING);
         return;
     }
-    if let Some(display) = shared.display_name() {
+    if let Some(display) = display::display_name(shared) {
         say(3, format!(" {display} "), theme::chip(theme::WARNING));
     }
-    let view = shared.view_name();
+    let view = display::view_name(shared);
     if let Some(view) = &view {
         say(7, view.clone(), theme::WARNING);
     }
-    if let Some(legend) = shared.legend() {
+    if let Some(legend) = display::legend(shared) {
         say(10, legend, theme::DIM);
     }
     if view.is_some() {
@@ -312,12 +312,12 @@ fn zoom_segment(shared: &Shared, say: &mut impl FnMut(u8, String, Style)) {
         say(6, format!("region {region}"), theme::ACCENT);
         return;
     }
-    let viewport = shared.viewport();
+    let viewport = display::viewport(shared);
     if shared.mode != Mode::Trace && viewport.is_fit() {
         return;
     }
     let name = viewport.name();
-    let place = shared.pixel_in_corner().filter(|_| !viewport.is_fit());
+    let place = display::pixel_in_corner(shared).filter(|_| !viewport.is_fit());
     let place = place.map_or_else(String::new, |[x, y]| format!(" at {x},{y}"));
     say(10, format!("{name}{place}"), theme::ACCENT);
 }

@@ -11,7 +11,7 @@ use unicode_width::UnicodeWidthStr;
 use super::inks::Inks;
 use super::row::Row;
 use super::{page, picture};
-use crate::ui::app::{App, Rank, Shared, Steps, Thumbnail};
+use crate::ui::app::{App, Rank, Shared, Steps, Thumbnail, history};
 use crate::ui::history_scene::NoPicture;
 use crate::ui::layout::{centred, raster};
 use crate::ui::text_width::{visible, wrap};
@@ -20,7 +20,7 @@ use crate::ui::theme;
 /// Draws the page if it is open.
 pub(crate) fn render(app: &App, inks: &mut Inks, area: Rect, buffer: &mut Buffer) {
     let shared = &app.shared;
-    let Some((page, steps)) = shared.open_steps() else {
+    let Some((page, steps)) = history::open_steps(shared) else {
         return;
     };
     let area = area.intersection(buffer.area);
@@ -37,7 +37,7 @@ pub(crate) fn render(app: &App, inks: &mut Inks, area: Rect, buffer: &mut Buffer
         .title(title)
         .title_top(Line::from(present).right_aligned())
         .render(area, buffer);
-    let strip = shared.history_layout(area);
+    let strip = history::history_layout(shared, area);
     let rows = page.rows();
     for (row, place) in strip.rows(page.filter.at, rows.len()) {
         let Some((index, name)) = rows.get(row) else {

@@ -5,12 +5,12 @@ use ratatui::layout::Rect;
 use ratatui::style::{Color, Style};
 
 use super::inks::Glyphs;
-use crate::ui::app::{Shared, SymbolKind};
+use crate::ui::app::{Shared, SymbolKind, display};
 use crate::ui::theme;
 
 /// Draws the symbols over the cells of the picture; that of the selected node stands out.
 pub(super) fn render(shared: &Shared, glyphs: Glyphs, cells: Rect, buffer: &mut Buffer) {
-    for symbol in shared.symbols() {
+    for symbol in display::symbols(shared) {
         let (sign, plain, style) = match symbol.kind {
             SymbolKind::Light => ("✶", "*", theme::WARNING),
             SymbolKind::Camera => ("◎", "@", theme::ACCENT),

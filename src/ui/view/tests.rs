@@ -20,7 +20,7 @@ use crate::text::{Edit, Severity, Span};
 use crate::ui::app::{
     AfterLeaving, App, Cross, Dialog, Export, FrameWindow, Help, List, MergeSource, Message, Names,
     OnDisk, Opening, OpeningText, Page, PageFocus, Preferences, Prompt, PromptKind, ShownWireframe,
-    Stage, Typing,
+    Stage, Typing, display, history,
 };
 use crate::ui::arrange::Zoom;
 use crate::ui::keymap::Mode;
@@ -127,7 +127,7 @@ pub(super) fn lines(buffer: &Buffer) -> Vec<String> {
 /// The lines of the whole screen.
 fn screen(app: &mut App, width: u16, height: u16) -> Vec<String> {
     app.shared.terminal = (width, height);
-    app.shared.follow_wires();
+    display::follow_wires(&mut app.shared);
     let mut terminal = Terminal::new(TestBackend::new(width, height)).expect("cannot fail");
     terminal
         .draw(|frame| {
@@ -242,7 +242,7 @@ const STATES: &[(&str, Change)] = &[
         for key in ['D', 'D', 'd', 'u', 'U', 'k'] {
             app.update(Msg::Key(KeyCode::Char(key).into()));
         }
-        assert!(app.shared.open_steps().is_some());
+        assert!(history::open_steps(&app.shared).is_some());
     }),
     ("overwrite", |app| {
         app.update(Msg::Key(KeyCode::Char('b').into()));

@@ -1,17 +1,20 @@
 //! The command line after `:`: each command is one row, from which the parser, the help and the palette
 //! come, and which says what the command does. A test holds the README to the rows.
 
+mod completing;
 mod row;
 mod rows;
 
-use super::{App, Shared};
-use crate::text::nearest_word;
-use crate::ui::keymap::{self, HelpLine, Mode};
-use crate::ui::msg::Effect;
 use row::{CommandRow, Run, Runs};
 use rows::ROWS;
 
-pub(super) use row::Described;
+use crate::text::nearest_word;
+use crate::ui::app::{App, Shared};
+use crate::ui::keymap::{self, HelpLine, Mode};
+use crate::ui::msg::Effect;
+
+pub(crate) use completing::{command_typed, completions, folder_listed, list_folder, palette_key};
+pub(crate) use row::Described;
 
 /// Minimum width of a column of the help page if there are several.
 const HELP_COLUMN: u16 = 56;
@@ -19,19 +22,19 @@ const HELP_COLUMN: u16 = 56;
 const MOST_COLUMNS: usize = 3;
 
 /// All commands, in the order of the help page.
-pub(super) fn all_described() -> impl Iterator<Item = Described> {
+pub(crate) fn all_described() -> impl Iterator<Item = Described> {
     ROWS.iter().map(CommandRow::described)
 }
 
 /// The command with exactly this name.
-pub(super) fn described_as(name: &str) -> Option<Described> {
+pub(crate) fn described_as(name: &str) -> Option<Described> {
     let mut rows = ROWS.iter();
     let row = rows.find(|row| row.names.contains(&name));
     row.map(CommandRow::described)
 }
 
 /// The command whose name a line begins with, followed by a blank.
-pub(super) fn described_in(line: &str) -> Option<Described> {
+pub(crate) fn described_in(line: &str) -> Option<Described> {
     let begins = |name: &&str| {
         line.strip_prefix(*name)
             .is_some_and(|rest| rest.starts_with(' '))
@@ -42,12 +45,12 @@ pub(super) fn described_in(line: &str) -> Option<Described> {
 }
 
 /// Whether a line can be run.
-pub(super) fn is_command(line: &str) -> bool {
+pub(crate) fn is_command(line: &str) -> bool {
     parse(line).is_ok()
 }
 
 /// Whether the first word of a line is that of a command, whatever follows.
-pub(super) fn begins_command(line: &str) -> bool {
+pub(crate) fn begins_command(line: &str) -> bool {
     let first = |words: &str| words.split_whitespace().next().map(str::to_owned);
     let wanted = first(line);
     let mut names = ROWS.iter().flat_map(|row| row.names);
@@ -86,34 +89,45 @@ fn unknown(name: &str) -> String {
     }
 }
 
-impl Shared {
-    /// The lines of the help page.
-    pub fn help_lines(&self) -> Vec<HelpLine> {
-        let help = self.overlays.help.as_ref();
-        let search = help.map_or("", |help| help.search.value());
-        let commands = ROWS
-            .iter()
-            .map(|row| (row.usage(), row.words, row.synonyms));
-        self.keymap.help(search, self.mode, commands.collect())
-    }
+/// The lines of the help page.
+pub(crate) fn help_lines(shared: &Shared) -> Vec<HelpLine> {
+    let help = shared.overlays.help.as_ref();
+    let search = help.map_or("", |help| help.search.value());
+    let commands = ROWS
+        .iter()
+        .map(|row| (row.usage(), row.words, row.synonyms));
+    shared.keymap.help(search, shared.mode, commands.collect())
+}
 
-    /// The columns of the help page on a screen of this width.
-    pub fn help_columns(&self, width: u16) -> Vec<Vec<HelpLine>> {
-        let count = usize::from(width.saturating_sub(2) / HELP_COLUMN).clamp(1, MOST_COLUMNS);
-        keymap::in_columns(self.help_lines(), count)
+/// Scrolls the help page no further than to its end.
+pub(crate) fn scroll_help(shared: &mut Shared) {
+    if shared.overlays.help.is_none() {
+        return;
     }
+    let columns = help_columns(shared, shared.terminal.0);
+    let longest = columns.iter().map(Vec::len).max().unwrap_or(0);
+    let last = longest.saturating_sub(shared.help_rows());
+    if let Some(help) = &mut shared.overlays.help {
+        help.top = help.top.min(last);
+    }
+}
+
+/// The columns of the help page on a screen of this width.
+pub(crate) fn help_columns(shared: &Shared, width: u16) -> Vec<Vec<HelpLine>> {
+    let count = usize::from(width.saturating_sub(2) / HELP_COLUMN).clamp(1, MOST_COLUMNS);
+    keymap::in_columns(help_lines(shared), count)
 }
 
 impl App {
     /// Runs a command line.
-    pub(super) fn command(&mut self, line: &str) -> Vec<Effect> {
+    pub(crate) fn command(&mut self, line: &str) -> Vec<Effect> {
         if line.trim().is_empty() {
             return Vec::new();
         }
         match parse(line) {
             Ok((row, run)) => self.run(row.runs, run),
             Err(reason) => {
-                self.shared.overlays.fail(reason);
+                self.shared.fail(reason);
                 Vec::new()
             }
         }

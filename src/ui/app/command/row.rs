@@ -6,21 +6,21 @@ use crate::ui::app::{App, Shared};
 use crate::ui::msg::Effect;
 
 /// A command: one row.
-pub(super) struct CommandRow {
+pub(crate) struct CommandRow {
     /// One or two words, and alternative spellings.
-    pub(super) names: &'static [&'static str],
-    pub(super) arguments: Arguments,
+    pub(crate) names: &'static [&'static str],
+    pub(crate) arguments: Arguments,
     /// Description for the help.
-    pub(super) words: &'static str,
+    pub(crate) words: &'static str,
     /// Everyday words that find it too.
-    pub(super) synonyms: &'static str,
+    pub(crate) synonyms: &'static str,
     /// The name of the keys that do the same.
     key: Option<&'static str>,
-    pub(super) runs: Runs,
+    pub(crate) runs: Runs,
 }
 
 /// The arguments of a command, and what it does with them.
-pub(super) enum Arguments {
+pub(crate) enum Arguments {
     Nothing(fn() -> Run),
     File(fn(Option<PathBuf>) -> Run),
     Name(fn(Option<String>) -> Run),
@@ -32,7 +32,7 @@ pub(super) enum Arguments {
 
 /// When a command runs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Runs {
+pub(crate) enum Runs {
     /// Not while something is transformed or a scene is being opened, and outside of SEQUENCE.
     OnText,
     /// In SEQUENCE as well.
@@ -44,43 +44,43 @@ pub(super) enum Runs {
 }
 
 /// What a command line does.
-pub(super) struct Run(pub(super) Box<Step>);
+pub(crate) struct Run(pub(crate) Box<Step>);
 
 type Step = dyn FnOnce(&mut App) -> Vec<Effect>;
 
 impl Run {
-    pub(super) fn does(step: impl FnOnce(&mut Shared) + 'static) -> Self {
+    pub(crate) fn does(step: impl FnOnce(&mut Shared) + 'static) -> Self {
         Self::requests(|app| {
             step(app);
             Vec::new()
         })
     }
 
-    pub(super) fn requests(step: impl FnOnce(&mut Shared) -> Vec<Effect> + 'static) -> Self {
+    pub(crate) fn requests(step: impl FnOnce(&mut Shared) -> Vec<Effect> + 'static) -> Self {
         Self::within(|app| step(&mut app.shared))
     }
 
     /// A step that needs a mode's own state.
-    pub(super) fn within(step: impl FnOnce(&mut App) -> Vec<Effect> + 'static) -> Self {
+    pub(crate) fn within(step: impl FnOnce(&mut App) -> Vec<Effect> + 'static) -> Self {
         Self(Box::new(step))
     }
 }
 
 /// A command as the palette describes it.
-pub(in crate::ui::app) struct Described {
-    pub(in crate::ui::app) name: &'static str,
-    pub(in crate::ui::app) names: &'static [&'static str],
-    pub(in crate::ui::app) usage: String,
-    pub(in crate::ui::app) words: &'static str,
-    pub(in crate::ui::app) synonyms: &'static str,
+pub(crate) struct Described {
+    pub(crate) name: &'static str,
+    pub(crate) names: &'static [&'static str],
+    pub(crate) usage: String,
+    pub(crate) words: &'static str,
+    pub(crate) synonyms: &'static str,
     /// The name of the keys that do the same.
-    pub(in crate::ui::app) key: Option<&'static str>,
+    pub(crate) key: Option<&'static str>,
     /// Whether its arguments begin with a file name.
-    pub(in crate::ui::app) takes_file: bool,
+    pub(crate) takes_file: bool,
 }
 
 impl CommandRow {
-    pub(super) const fn new(
+    pub(crate) const fn new(
         names: &'static [&'static str],
         arguments: Arguments,
         words: &'static str,
@@ -96,23 +96,23 @@ impl CommandRow {
     }
 
     /// Lets these everyday words find it too.
-    pub(super) const fn also(mut self, synonyms: &'static str) -> Self {
+    pub(crate) const fn also(mut self, synonyms: &'static str) -> Self {
         self.synonyms = synonyms;
         self
     }
 
     /// Keys with this name do the same.
-    pub(super) const fn key(mut self, name: &'static str) -> Self {
+    pub(crate) const fn key(mut self, name: &'static str) -> Self {
         self.key = Some(name);
         self
     }
 
-    pub(super) const fn runs(mut self, runs: Runs) -> Self {
+    pub(crate) const fn runs(mut self, runs: Runs) -> Self {
         self.runs = runs;
         self
     }
 
-    pub(super) fn described(&self) -> Described {
+    pub(crate) fn described(&self) -> Described {
         Described {
             name: self.names[0],
             names: self.names,
@@ -125,7 +125,7 @@ impl CommandRow {
     }
 
     /// The spelling with arguments: `:size WxH`.
-    pub(super) fn usage(&self) -> String {
+    pub(crate) fn usage(&self) -> String {
         let name = self.names[0];
         let arguments = match self.arguments {
             Arguments::Nothing(_) => "",
@@ -137,7 +137,7 @@ impl CommandRow {
     }
 
     /// Parses the arguments; the error says what is expected.
-    pub(super) fn parse(&self, rest: &str) -> Result<Run, String> {
+    pub(crate) fn parse(&self, rest: &str) -> Result<Run, String> {
         let name = self.names[0];
         match self.arguments {
             Arguments::Nothing(run) if rest.is_empty() => Ok(run()),

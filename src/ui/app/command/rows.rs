@@ -5,14 +5,16 @@ use crate::image_file::ImageFormat;
 use crate::language::{Language, extensions};
 use crate::render::{Aov, MOST_HALF_STOPS};
 use crate::scene::{Size, Transfer};
-use crate::ui::app::drawing::RegionOrder;
+use crate::ui::app::display::ScaleOrder;
 use crate::ui::app::exports::ExportOrder;
-use crate::ui::app::jobs::Asking;
-use crate::ui::app::saving::Force;
-use crate::ui::app::setting::SettingOrder;
-use crate::ui::app::until::Until;
-use crate::ui::app::zooming::ScaleOrder;
-use crate::ui::app::{Help, Shared, sequence};
+use crate::ui::app::files::Force;
+use crate::ui::app::pictures::drawing::RegionOrder;
+use crate::ui::app::pictures::until::Until;
+use crate::ui::app::shared::jobs::Asking;
+use crate::ui::app::text::SettingOrder;
+use crate::ui::app::{
+    Help, camera, compare, display, exports, files, history, panels, select, sequence, text, trace,
+};
 use crate::ui::keymap::Mode;
 use crate::ui::msg::Effect;
 use crate::ui::pixels::Pixels;
@@ -23,46 +25,46 @@ use Runs::{Always, OnTrack, WhileOpening};
 
 /// All commands, in the order of the help page.
 #[rustfmt::skip]
-pub(super) const ROWS: &[CommandRow] = &[
-    CommandRow::new(&["w", "write"], File(|file| Run::requests(|app| app.write(file, Force::No))), "save the scene, or save it as FILE").key("save"),
-    CommandRow::new(&["w!", "write!"], File(|file| Run::requests(|app| app.write(file, Force::Yes))), "save, overwriting changes on disk"),
-    CommandRow::new(&["q", "quit"], Nothing(|| Run::requests(Shared::quit)), "quit").also("exit").key("quit").runs(WhileOpening),
-    CommandRow::new(&["q!", "quit!"], Nothing(|| Run::requests(Shared::quit_anyway)), "quit without asking").runs(Always),
-    CommandRow::new(&["wq", "x"], Nothing(|| Run::requests(Shared::save_and_quit)), "save and quit"),
-    CommandRow::new(&["e", "edit", "reread"], File(|file| Run::requests(|app| app.edit_file(file))), "open FILE, or reload the scene's own"),
+pub(crate) const ROWS: &[CommandRow] = &[
+    CommandRow::new(&["w", "write"], File(|file| Run::requests(|shared| files::write(shared, file, Force::No))), "save the scene, or save it as FILE").key("save"),
+    CommandRow::new(&["w!", "write!"], File(|file| Run::requests(|shared| files::write(shared, file, Force::Yes))), "save, overwriting changes on disk"),
+    CommandRow::new(&["q", "quit"], Nothing(|| Run::requests(files::quit)), "quit").also("exit").key("quit").runs(WhileOpening),
+    CommandRow::new(&["q!", "quit!"], Nothing(|| Run::requests(files::quit_anyway)), "quit without asking").runs(Always),
+    CommandRow::new(&["wq", "x"], Nothing(|| Run::requests(files::save_and_quit)), "save and quit"),
+    CommandRow::new(&["e", "edit", "reread"], File(|file| Run::requests(|shared| files::edit_file(shared, file))), "open FILE, or reload the scene's own"),
     CommandRow::new(&["new"], Said(" [LANGUAGE]", new), "start a new scene: ray, dat or xml"),
     CommandRow::new(&["recent"], Nothing(|| Run::requests(|_| vec![Effect::ListRecent])), "list recently used scenes"),
-    CommandRow::new(&["history", "undolist"], Nothing(|| Run::does(Shared::list_steps)), "show the undo history as pictures").key("history"),
+    CommandRow::new(&["history", "undolist"], Nothing(|| Run::does(history::list_steps)), "show the undo history as pictures").key("history"),
     CommandRow::new(&["export"], FileAnd(PICTURE, |said| export(said, Asking::No)), "export the picture, in SEQUENCE all frames").also("screenshot image save png gif video movie").key("export").runs(OnTrack),
     CommandRow::new(&["export!"], FileAnd(PICTURE, |said| export(said, Asking::Forced)), "export, overwriting an existing file").runs(OnTrack),
-    CommandRow::new(&["export cancel"], Nothing(|| Run::requests(Shared::cancel_export)), "cancel the export").key("stop").runs(OnTrack),
-    CommandRow::new(&["render"], Nothing(|| Run::requests(Shared::start_trace)), "trace at full size").also("final quality").key("trace"),
-    CommandRow::new(&["compare"], File(|file| Run::requests(|app| app.compare_command(file))), "compare with a picture or scene FILE, saved, or git [REVISION]").key("compare").runs(OnTrack),
+    CommandRow::new(&["export cancel"], Nothing(|| Run::requests(exports::cancel_export)), "cancel the export").key("stop").runs(OnTrack),
+    CommandRow::new(&["render"], Nothing(|| Run::requests(trace::start)), "trace at full size").also("final quality").key("trace"),
+    CommandRow::new(&["compare"], File(|file| Run::within(|app| compare::compare_command(&mut app.compare, &mut app.shared, file))), "compare with a picture or scene FILE, saved, or git [REVISION]").key("compare").runs(OnTrack),
     CommandRow::new(&["until"], Said(" [N spp|TIME|noise E]", until), "end the full-size trace at N spp, after 30 s or 5 min, or below noise 0.01"),
     CommandRow::new(&["region"], Said(" [X,Y,W,H|off]", region), "trace only these pixels at full size, or all").key("region"),
     CommandRow::new(&["zoom"], Said(" [fit|1:1|N]", zoom), "zoom the picture, also the preview"),
     CommandRow::new(&["track"], File(|file| Run::within(|app| sequence::open_track(&mut app.sequence, &mut app.shared, file))), "play the track FILE, or the one beside the scene").also("animation turntable video movie timeline keyframes").key("track").runs(OnTrack),
-    CommandRow::new(&["view save"], Name(|name| Run::does(|app| app.save_view_named(name))), "write the view into the scene, or save it as NAME").key("write-view"),
-    CommandRow::new(&["view light"], Nothing(|| Run::does(Shared::look_from_light)), "look from the selected light"),
-    CommandRow::new(&["view reset"], Nothing(|| Run::does(|app| app.pictures.reset_view())), "reset to the scene's view").key("reset-view"),
+    CommandRow::new(&["view save"], Name(|name| Run::does(|shared| camera::save_view_named(shared, name))), "write the view into the scene, or save it as NAME").key("write-view"),
+    CommandRow::new(&["view light"], Nothing(|| Run::does(camera::look_from_light)), "look from the selected light"),
+    CommandRow::new(&["view reset"], Nothing(|| Run::does(|shared| shared.pictures.reset_view())), "reset to the scene's view").key("reset-view"),
     CommandRow::new(&["size"], Said(" WxH", size), "set the picture size in the scene").also("resolution dimensions width height"),
     CommandRow::new(&["set"], Said(" KEY [VALUE|default]", set), "write a render setting into the scene, by default the one in use"),
-    CommandRow::new(&["mesh"], File(|file| Run::does(move |app| app.add_mesh(file.as_deref()))), "add the mesh of an .obj FILE, named as from the scene").also("model import"),
-    CommandRow::new(&["show uv"], Nothing(|| Run::does(|app| app.show(Some(Aov::Uv)))), "show texture coordinates: u red, v green"),
-    CommandRow::new(&["show side"], Nothing(|| Run::does(|app| app.show(Some(Aov::Side)))), "show sides of surfaces: front blue, back orange"),
+    CommandRow::new(&["mesh"], File(|file| Run::does(move |shared| select::add_mesh(shared, file.as_deref()))), "add the mesh of an .obj FILE, named as from the scene").also("model import"),
+    CommandRow::new(&["show uv"], Nothing(|| Run::does(|shared| display::show(shared, Some(Aov::Uv)))), "show texture coordinates: u red, v green"),
+    CommandRow::new(&["show side"], Nothing(|| Run::does(|shared| display::show(shared, Some(Aov::Side)))), "show sides of surfaces: front blue, back orange"),
     CommandRow::new(&["exposure"], Said(" STOPS", exposure), "set the exposure of the display, in stops").also("brightness"),
-    CommandRow::new(&["transfer linear"], Nothing(|| Run::does(|app| app.set_transfer(Some(Transfer::Linear)))), "display light linearly").also("gamma tone mapping"),
-    CommandRow::new(&["transfer srgb"], Nothing(|| Run::does(|app| app.set_transfer(Some(Transfer::Srgb)))), "display light by the sRGB curve").also("gamma tone mapping"),
-    CommandRow::new(&["transfer scene"], Nothing(|| Run::does(|app| app.set_transfer(None))), "display light as the scene says"),
-    CommandRow::new(&["falsecolour", "falsecolor"], Nothing(|| Run::does(Shared::toggle_false_colours)), "display luminances as false colours, or no longer").also("heatmap"),
-    CommandRow::new(&["denoise"], Nothing(|| Run::requests(Shared::toggle_denoising)), "reduce the noise of light on screen, or no longer").key("denoise"),
-    CommandRow::new(&["histogram"], Nothing(|| Run::does(Shared::toggle_histogram)), "show or hide the histogram of the light"),
-    CommandRow::new(&["mouse"], Nothing(|| Run::requests(Shared::toggle_mouse)), "take the mouse or leave it to the terminal").runs(Always),
-    CommandRow::new(&["theme dark"], Nothing(|| Run::does(|app| app.theme = Theme::Dark)), "use colours for dark screens").also("color scheme").runs(Always),
-    CommandRow::new(&["theme light"], Nothing(|| Run::does(|app| app.theme = Theme::Light)), "use colours for light screens").also("color scheme").runs(Always),
-    CommandRow::new(&["theme mono"], Nothing(|| Run::does(|app| app.theme = Theme::Mono)), "use no colours except in pictures").runs(Always),
+    CommandRow::new(&["transfer linear"], Nothing(|| Run::does(|shared| display::set_transfer(shared, Some(Transfer::Linear)))), "display light linearly").also("gamma tone mapping"),
+    CommandRow::new(&["transfer srgb"], Nothing(|| Run::does(|shared| display::set_transfer(shared, Some(Transfer::Srgb)))), "display light by the sRGB curve").also("gamma tone mapping"),
+    CommandRow::new(&["transfer scene"], Nothing(|| Run::does(|shared| display::set_transfer(shared, None))), "display light as the scene says"),
+    CommandRow::new(&["falsecolour", "falsecolor"], Nothing(|| Run::does(display::toggle_false_colours)), "display luminances as false colours, or no longer").also("heatmap"),
+    CommandRow::new(&["denoise"], Nothing(|| Run::requests(display::toggle_denoising)), "reduce the noise of light on screen, or no longer").key("denoise"),
+    CommandRow::new(&["histogram"], Nothing(|| Run::does(display::toggle_histogram)), "show or hide the histogram of the light"),
+    CommandRow::new(&["mouse"], Nothing(|| Run::requests(panels::toggle_mouse)), "take the mouse or leave it to the terminal").runs(Always),
+    CommandRow::new(&["theme dark"], Nothing(|| Run::does(|shared| shared.theme = Theme::Dark)), "use colours for dark screens").also("color scheme").runs(Always),
+    CommandRow::new(&["theme light"], Nothing(|| Run::does(|shared| shared.theme = Theme::Light)), "use colours for light screens").also("color scheme").runs(Always),
+    CommandRow::new(&["theme mono"], Nothing(|| Run::does(|shared| shared.theme = Theme::Mono)), "use no colours except in pictures").runs(Always),
     CommandRow::new(&["pixels"], Said(" MODE", pixels), "set what pixels are drawn with, such as half, octant or auto").runs(Always),
-    CommandRow::new(&["help"], Nothing(|| Run::does(|app| app.overlays.help = Some(Help::default()))), "show this page").key("help").runs(Always),
+    CommandRow::new(&["help"], Nothing(|| Run::does(|shared| shared.overlays.help = Some(Help::default()))), "show this page").key("help").runs(Always),
 ];
 
 const PICTURE: &str = " [FILE] [WxH] [SPP]";
@@ -72,7 +74,9 @@ fn new(said: &str) -> Result<Run, String> {
     if language.is_none() && !said.is_empty() {
         return Err(format!("new takes {}", extensions()));
     }
-    Ok(Run::requests(move |app| app.start_new(language)))
+    Ok(Run::requests(move |shared| {
+        files::start_new(shared, language)
+    }))
 }
 
 fn export(said: &str, asking: Asking) -> Result<Run, String> {
@@ -81,7 +85,7 @@ fn export(said: &str, asking: Asking) -> Result<Run, String> {
         if app.shared.mode == Mode::Sequence {
             sequence::export(&app.sequence, &mut app.shared, order, asking)
         } else {
-            app.shared.export(order, asking)
+            exports::export(&mut app.shared, order, asking)
         }
     }))
 }
@@ -89,31 +93,35 @@ fn export(said: &str, asking: Asking) -> Result<Run, String> {
 /// Reads when a trace ends; nothing asks when it does.
 fn until(said: &str) -> Result<Run, String> {
     let until = (!said.is_empty()).then(|| Until::parse(said)).transpose()?;
-    Ok(Run::requests(move |app| app.trace_until(until)))
+    Ok(Run::requests(move |shared| {
+        trace::trace_until(shared, until)
+    }))
 }
 
 fn region(said: &str) -> Result<Run, String> {
     let order = RegionOrder::parse(said)?;
-    Ok(Run::requests(move |app| app.order_region(order)))
+    Ok(Run::requests(move |shared| {
+        trace::order_region(shared, order)
+    }))
 }
 
 fn zoom(said: &str) -> Result<Run, String> {
     let order = ScaleOrder::parse(said)?;
-    Ok(Run::does(move |app| app.order_scale(order)))
+    Ok(Run::does(move |shared| display::order_scale(shared, order)))
 }
 
 fn size(said: &str) -> Result<Run, String> {
     let size = Size::parse(said).ok_or("size takes a size such as 800x600")?;
     // The format with the highest limit.
     match ImageFormat::Ppm.refuses(size) {
-        None => Ok(Run::does(move |app| app.set_size(size))),
+        None => Ok(Run::does(move |shared| text::set_size(shared, size))),
         Some(reason) => Err(reason),
     }
 }
 
 fn set(said: &str) -> Result<Run, String> {
     let order = SettingOrder::parse(said)?;
-    Ok(Run::does(move |app| app.set_rendering(&order)))
+    Ok(Run::does(move |shared| text::set_rendering(shared, &order)))
 }
 
 /// Reads the exposure of the display.
@@ -124,7 +132,9 @@ fn exposure(said: &str) -> Result<Run, String> {
     };
     let most = MOST_HALF_STOPS / 2;
     match half_stops.filter(is_known) {
-        Some(half_stops) => Ok(Run::does(move |app| app.set_exposure(half_stops as i8))),
+        Some(half_stops) => Ok(Run::does(move |shared| {
+            display::set_exposure(shared, half_stops as i8);
+        })),
         None => Err(format!(
             "exposure takes stops from -{most} to {most}, in steps of 0.5"
         )),
@@ -133,7 +143,7 @@ fn exposure(said: &str) -> Result<Run, String> {
 
 fn pixels(said: &str) -> Result<Run, String> {
     match Pixels::named(said) {
-        Some(pixels) => Ok(Run::does(move |app| app.pixels = pixels)),
+        Some(pixels) => Ok(Run::does(move |shared| shared.pixels = pixels)),
         None => Err(format!("pixels takes {}", Pixels::names())),
     }
 }

@@ -1,7 +1,12 @@
 //! The page of the undo history: a picture of the text after each step.
 
+mod timeline;
+mod undoing;
+
 mod thumbnails;
 mod tracing;
 
 pub use thumbnails::{Rank, Thumbnail, Thumbnails};
-pub(super) use tracing::derived;
+pub(crate) use timeline::{go_to_state, history_layout, list_steps, open_steps, step_rows};
+pub(crate) use tracing::derived;
+pub(crate) use undoing::{redo, undo};

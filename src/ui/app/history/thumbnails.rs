@@ -6,7 +6,7 @@ use std::sync::Arc;
 use crate::document::StateId;
 use crate::render::Frame;
 use crate::scene::{Camera, Integrator};
-use crate::ui::app::cell_image::CellImage;
+use crate::ui::app::pictures::cell_image::CellImage;
 use crate::ui::history_scene::NoPicture;
 
 /// The number of pictures kept in rows and at the side: less than 4 MB on a screen of 250×80 cells.
@@ -23,13 +23,13 @@ pub enum Rank {
 
 /// A picture that the page shows.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) struct Slot {
+pub(crate) struct Slot {
     /// The text.
-    pub(super) id: StateId,
+    pub(crate) id: StateId,
     /// What it is for.
-    pub(super) rank: Rank,
+    pub(crate) rank: Rank,
     /// Columns and lines that it must fit into.
-    pub(super) room: (u16, u16),
+    pub(crate) room: (u16, u16),
 }
 
 /// What is known of a picture.
@@ -51,11 +51,11 @@ pub struct Thumbnails {
 /// What all pictures depend on besides their texts: the working view, from which all are seen as the
 /// preview would be, the user's integrator, and the files that the scene names.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub(super) struct Look {
-    pub(super) view: Option<Camera>,
-    pub(super) integrator: Option<Integrator>,
+pub(crate) struct Look {
+    pub(crate) view: Option<Camera>,
+    pub(crate) integrator: Option<Integrator>,
     /// How many readings of files have changed what pictures show.
-    pub(super) files: u64,
+    pub(crate) files: u64,
 }
 
 #[derive(Clone, Copy, Debug)]
@@ -80,12 +80,12 @@ impl Thumbnails {
     }
 
     /// Forgets all pictures.
-    pub(in crate::ui::app) fn forget(&mut self) {
+    pub(crate) fn forget(&mut self) {
         self.kept.clear();
     }
 
     /// Forgets all pictures if they look otherwise now.
-    pub(super) fn look(&mut self, look: Look) {
+    pub(crate) fn look(&mut self, look: Look) {
         if self.look != look {
             self.look = look;
             self.kept.clear();
@@ -96,7 +96,7 @@ impl Thumbnails {
 
     /// The slot to request next, of those wanted, the most urgent first; `None` while one of them is
     /// under way, or if all are known.
-    pub(super) fn next(&mut self, wanted: &[Slot]) -> Option<(Slot, u64)> {
+    pub(crate) fn next(&mut self, wanted: &[Slot]) -> Option<(Slot, u64)> {
         let is_wanted = |pending: &Pending| wanted.contains(&pending.slot);
         if self.pending.as_ref().is_some_and(is_wanted) {
             return None;
@@ -114,25 +114,25 @@ impl Thumbnails {
     }
 
     /// Gives up what is under way; returns whether anything was.
-    pub(super) fn cancel(&mut self) -> bool {
+    pub(crate) fn cancel(&mut self) -> bool {
         self.pending.take().is_some()
     }
 
     /// The slot that a scene was derived for, unless that is no longer wanted.
-    pub(super) fn asked(&self, ticket: u64) -> Option<Slot> {
+    pub(crate) fn asked(&self, ticket: u64) -> Option<Slot> {
         let pending = self.pending.filter(|pending| pending.ticket == ticket);
         pending.map(|pending| pending.slot)
     }
 
     /// Notes the generation of the picture that is being traced.
-    pub(in crate::ui::app) fn started(&mut self, generation: u64) {
+    pub(crate) fn started(&mut self, generation: u64) {
         if let Some(pending) = &mut self.pending {
             pending.generation = Some(generation);
         }
     }
 
     /// Takes a frame of the picture under way.
-    pub(in crate::ui::app) fn take(&mut self, frame: &Arc<Frame>) {
+    pub(crate) fn take(&mut self, frame: &Arc<Frame>) {
         let is_it = |pending: &Pending| pending.generation == Some(frame.generation);
         let Some(pending) = self.pending.filter(is_it) else {
             return;
@@ -150,7 +150,7 @@ impl Thumbnails {
     }
 
     /// Records why the picture under way does not exist.
-    pub(in crate::ui::app) fn fail(&mut self, reason: NoPicture) {
+    pub(crate) fn fail(&mut self, reason: NoPicture) {
         if let Some(pending) = self.pending.take() {
             self.keep(pending.slot, Err(reason));
         }

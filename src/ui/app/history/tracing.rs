@@ -3,12 +3,13 @@
 use ratatui::layout::Rect;
 
 use super::thumbnails::{Look, Rank, Slot, Thumbnails};
+use super::timeline::{body, history_layout, open_steps};
 use crate::render::{Frames, Job, Settings};
 use crate::scene::{Camera, Filter, Integrator, Rendering};
-use crate::ui::app::page::List;
 use crate::ui::app::room::Room;
 use crate::ui::app::shared::Shared;
-use crate::ui::app::steps::Steps;
+use crate::ui::app::shared::page::List;
+use crate::ui::app::shared::steps::Steps;
 use crate::ui::history_scene::{HistoryScene, HistoryText, NoPicture};
 use crate::ui::layout::raster;
 use crate::ui::msg::{Effect, Target};
@@ -31,7 +32,7 @@ impl Room for Thumbnails {
 /// Brings the page of the history up to date, and requests the next picture on it. Stops tracing
 /// if the page is closed.
 fn follow(thumbnails: &mut Thumbnails, shared: &mut Shared) -> Vec<Effect> {
-    let Some((page, steps)) = shared.open_steps() else {
+    let Some((page, steps)) = open_steps(shared) else {
         let is_under_way = thumbnails.cancel();
         let stop = is_under_way.then_some(Effect::Stop(Target::Thumbnail));
         return stop.into_iter().collect();
@@ -66,10 +67,10 @@ fn follow(thumbnails: &mut Thumbnails, shared: &mut Shared) -> Vec<Effect> {
 /// The pictures on the page, the most urgent first: those in rows from the selected one outwards,
 /// which take less time, then the large one.
 fn wanted_slots(shared: &Shared) -> Vec<Slot> {
-    let Some((page, steps)) = shared.open_steps() else {
+    let Some((page, steps)) = open_steps(shared) else {
         return Vec::new();
     };
-    let strip = shared.history_layout(shared.body());
+    let strip = history_layout(shared, body(shared));
     let shown = page.rows();
     let id = |row: usize| {
         let (index, _) = shown.get(row)?;
@@ -110,7 +111,7 @@ fn derive(shared: &Shared, slot: Slot, ticket: u64) -> Option<Effect> {
 }
 
 /// Traces a scene that was derived for a picture of the history.
-pub(in crate::ui::app) fn derived(
+pub(crate) fn derived(
     thumbnails: &mut Thumbnails,
     shared: &Shared,
     ticket: u64,

@@ -2,8 +2,10 @@
 
 use crossterm::event::KeyCode;
 
-use super::row::Row;
-use crate::ui::app::{Help, Shared};
+use crate::ui::app::room::Row;
+use crate::ui::app::{
+    Help, Shared, back, display, exports, files, history, list, panels, suggesting, trace,
+};
 use crate::ui::keymap::{Context, Key, Mode, Scope, alt, c, ctrl, key};
 use crate::ui::msg::Effect;
 
@@ -23,7 +25,6 @@ const PANELS: Scope = These(&[
     In(Mode::Sequence),
 ]);
 const TRACE: &[Context] = &[In(Mode::Trace)];
-const COMPARE: &[Context] = &[In(Mode::Compare)];
 const ERRORS: &[Context] = &[Context::Errors];
 /// Where the editor is worth a hint: it opens at what is under the cursor.
 const WITH_EDITOR: &[Context] = &[In(Mode::Inspect), Context::Rays, Context::Errors];
@@ -51,33 +52,31 @@ const OUTSIDE_TRACE: &[Context] = &[
 
 /// The most useful first.
 #[rustfmt::skip]
-pub(in crate::ui::app) const KEYS: &[Row] = &[
-    Key::new(Everywhere, "back", &[key(Esc)], "back").hint_in(LEAVABLE, 80, "back").hint_in(ERRORS, 80, "close").does(Shared::go_back),
+pub(crate) const KEYS: &[Row] = &[
+    Key::new(Everywhere, "back", &[key(Esc)], "back").hint_in(LEAVABLE, 80, "back").hint_in(ERRORS, 80, "close").does(back::go_back),
     Key::new(Sceneless, "help", &[c('?')], "help").lasting("help").does(|shared| shared.overlays.help = Some(Help::default())),
     Key::new(Sceneless, "command", &[c(':')], "command").lasting("command").does(Shared::open_palette),
-    Key::new(Everywhere, "save", &[c('w')], "save the scene").hint(100, "save").requests(Shared::save_key).when(|shared| !shared.is_saved()),
-    Key::new(Everywhere, "export", &[c('b')], "export what is shown").hint(120, "export").requests(Shared::export_default),
-    Key::new(Everywhere, "trace", &[key(F(5)), c('r')], "trace at full size").hint_in(OUTSIDE_TRACE, 130, "trace").requests(|shared| shared.go(Mode::Trace)),
-    Key::new(Everywhere, "pin", &[c('A')], "pin the picture, to compare with it").hint_in(COMPARE, 90, "pin").requests(Shared::pin),
-    Key::new(Everywhere, "compare", &[c('=')], "compare with the reference").requests(|shared| shared.go(Mode::Compare)),
-    Key::new(Everywhere, "undo", &[c('u')], "undo").also("revert").hint(110, "undo").requests(Shared::undo).when(|shared| shared.document.undoable().is_some()),
-    Key::new(Everywhere, "redo", &[ctrl('r')], "redo").requests(Shared::redo),
-    Key::new(Everywhere, "history", &[c('U')], "undo history as pictures").does(Shared::list_steps),
-    Key::new(Everywhere, "errors", &[c('!')], "errors and warnings").does(Shared::toggle_errors),
+    Key::new(Everywhere, "save", &[c('w')], "save the scene").hint(100, "save").requests(files::save_key).when(|shared| !shared.is_saved()),
+    Key::new(Everywhere, "export", &[c('b')], "export what is shown").hint(120, "export").requests(exports::export_default),
+    Key::new(Everywhere, "trace", &[key(F(5)), c('r')], "trace at full size").hint_in(OUTSIDE_TRACE, 130, "trace").requests(trace::start),
+    Key::new(Everywhere, "undo", &[c('u')], "undo").also("revert").hint(110, "undo").requests(history::undo).when(|shared| shared.document.undoable().is_some()),
+    Key::new(Everywhere, "redo", &[ctrl('r')], "redo").requests(history::redo),
+    Key::new(Everywhere, "history", &[c('U')], "undo history as pictures").does(history::list_steps),
+    Key::new(Everywhere, "errors", &[c('!')], "errors and warnings").does(list::toggle_errors),
     Key::new(Sceneless, "messages", &[c('M')], "messages so far").does(|shared| shared.overlays.history = Some(0)),
-    Key::new(Everywhere, "editor", &[c('E')], "open the editor at the selected item").hint_in(WITH_EDITOR, 30, "editor").requests(Shared::open_editor),
-    Key::new(PANELS, "panels", &[c('z')], "show or hide the panels").does(Shared::toggle_zoom),
-    Key::new(Everywhere, "larger-panels", &[c('{')], "larger panels").does(|shared| shared.resize_panels(2)),
-    Key::new(Everywhere, "smaller-panels", &[c('}')], "smaller panels").does(|shared| shared.resize_panels(-2)),
-    Key::new(Everywhere, "smaller-list", &[alt(Char('{'))], "smaller list, larger fields").does(|shared| shared.resize_list(-1)),
-    Key::new(Everywhere, "larger-list", &[alt(Char('}'))], "larger list, smaller fields").does(|shared| shared.resize_list(1)),
-    Key::new(Everywhere, "darker", &[c('<')], "darker display, by half a stop").also("brightness exposure").does(|shared| shared.expose(-1)),
-    Key::new(Everywhere, "brighter", &[c('>')], "brighter display").also("brightness exposure").does(|shared| shared.expose(1)),
-    Key::new(Everywhere, "denoise", &[c('~')], "reduce noise on screen, or no longer").requests(Shared::toggle_denoising),
-    Key::new(Everywhere, "integrator", &[c('P')], "next integrator: Whitted, paths, photons").hint_in(TRACE, 90, "integrator").does(Shared::next_integrator),
-    Key::new(Everywhere, "cure", &[c('C')], "apply the suggested render setting").does(Shared::cure),
+    Key::new(Everywhere, "editor", &[c('E')], "open the editor at the selected item").hint_in(WITH_EDITOR, 30, "editor").requests(files::open_editor),
+    Key::new(PANELS, "panels", &[c('z')], "show or hide the panels").does(panels::toggle_zoom),
+    Key::new(Everywhere, "larger-panels", &[c('{')], "larger panels").does(|shared| panels::resize_panels(shared, 2)),
+    Key::new(Everywhere, "smaller-panels", &[c('}')], "smaller panels").does(|shared| panels::resize_panels(shared, -2)),
+    Key::new(Everywhere, "smaller-list", &[alt(Char('{'))], "smaller list, larger fields").does(|shared| panels::resize_list(shared, -1)),
+    Key::new(Everywhere, "larger-list", &[alt(Char('}'))], "larger list, smaller fields").does(|shared| panels::resize_list(shared, 1)),
+    Key::new(Everywhere, "darker", &[c('<')], "darker display, by half a stop").also("brightness exposure").does(|shared| display::expose(shared, -1)),
+    Key::new(Everywhere, "brighter", &[c('>')], "brighter display").also("brightness exposure").does(|shared| display::expose(shared, 1)),
+    Key::new(Everywhere, "denoise", &[c('~')], "reduce noise on screen, or no longer").requests(display::toggle_denoising),
+    Key::new(Everywhere, "integrator", &[c('P')], "next integrator: Whitted, paths, photons").hint_in(TRACE, 90, "integrator").does(suggesting::next_integrator),
+    Key::new(Everywhere, "cure", &[c('C')], "apply the suggested render setting").does(suggesting::cure),
     Key::new(Always, "redraw", &[ctrl('l')], "redraw the screen").requests(|_| vec![Effect::Repaint]),
     Key::new(Always, "suspend", &[ctrl('z')], "suspend").requests(|_| vec![Effect::Suspend]),
-    Key::new(Sceneless, "quit", &[c('q')], "quit").lasting("quit").requests(Shared::quit_key),
-    Key::new(Always, "interrupt", &[ctrl('c')], "quit; press twice to quit at once").requests(Shared::interrupt),
+    Key::new(Sceneless, "quit", &[c('q')], "quit").lasting("quit").requests(back::quit_key),
+    Key::new(Always, "interrupt", &[ctrl('c')], "quit; press twice to quit at once").requests(files::interrupt),
 ];

@@ -2,7 +2,8 @@
 
 use crossterm::event::KeyCode;
 
-use super::row::Row;
+use crate::ui::app::list;
+use crate::ui::app::room::Row;
 use crate::ui::keymap::{Context, Key, Mode, Scope, c, key};
 
 use Context::In;
@@ -48,16 +49,16 @@ const PAGES: &[Context] = &[
 
 /// The most useful first.
 #[rustfmt::skip]
-pub(in crate::ui::app) const KEYS: &[Row] = &[
+pub(crate) const KEYS: &[Row] = &[
     Key::new(LISTS, "down", &[c('j'), key(Down)], "down")
         .hint_in(MOVED, 0, "move").hint_in(EDIT, 0, "field").hint_in(COLOUR, 10, "row").hint_in(PAGES, 0, "down")
-        .does(|shared| shared.move_cursor(1)),
+        .does(|shared| list::move_cursor(shared, 1)),
     Key::new(LISTS, "up", &[c('k'), key(Up)], "up")
         .hint_in(MOVED, 0, "move").hint_in(EDIT, 0, "field").hint_in(COLOUR, 10, "row").hint_in(PAGES, 0, "up")
-        .does(|shared| shared.move_cursor(-1)),
-    Key::in_turn(LONG_LISTS, "first", &[c('g'), c('g')], "first").does(|shared| shared.move_cursor(isize::MIN)),
-    Key::new(LONG_LISTS, "last", &[c('G'), key(End)], "last").does(|shared| shared.move_cursor(isize::MAX)),
-    Key::new(LONG_LISTS, "first", &[key(Home)], "first").does(|shared| shared.move_cursor(isize::MIN)),
-    Key::new(LONG_LISTS, "page-down", &[key(PageDown)], "page down").does(|shared| shared.turn_page(1)),
-    Key::new(LONG_LISTS, "page-up", &[key(PageUp)], "page up").does(|shared| shared.turn_page(-1)),
+        .does(|shared| list::move_cursor(shared, -1)),
+    Key::in_turn(LONG_LISTS, "first", &[c('g'), c('g')], "first").does(|shared| list::move_cursor(shared, isize::MIN)),
+    Key::new(LONG_LISTS, "last", &[c('G'), key(End)], "last").does(|shared| list::move_cursor(shared, isize::MAX)),
+    Key::new(LONG_LISTS, "first", &[key(Home)], "first").does(|shared| list::move_cursor(shared, isize::MIN)),
+    Key::new(LONG_LISTS, "page-down", &[key(PageDown)], "page down").does(|shared| list::turn_page(shared, 1)),
+    Key::new(LONG_LISTS, "page-up", &[key(PageUp)], "page up").does(|shared| list::turn_page(shared, -1)),
 ];

@@ -2,8 +2,8 @@
 
 use crossterm::event::KeyCode;
 
-use super::row::Row;
-use crate::ui::app::Shared;
+use crate::ui::app::room::Row;
+use crate::ui::app::{camera, history, list};
 use crate::ui::keymap::{Context, Key, Scope, c, ctrl, key};
 
 use KeyCode::{Enter, Esc};
@@ -18,18 +18,18 @@ const MESSAGES: Scope = These(&[Context::Messages]);
 
 /// The most useful first.
 #[rustfmt::skip]
-pub(in crate::ui::app) const KEYS: &[Row] = &[
-    Key::new(ERRORS, "accept", &[key(Enter)], "go to the item").hint(10, "go there").does(Shared::go_to_error),
-    Key::new(VIEWS_PAGE, "accept", &[key(Enter)], "go there").requests(Shared::choose),
-    Key::new(VIEWS_PAGE, "delete-view", &[c('d')], "delete it").does(Shared::delete_view),
+pub(crate) const KEYS: &[Row] = &[
+    Key::new(ERRORS, "accept", &[key(Enter)], "go to the item").hint(10, "go there").does(list::go_to_error),
+    Key::new(VIEWS_PAGE, "accept", &[key(Enter)], "go there").requests(list::choose),
+    Key::new(VIEWS_PAGE, "delete-view", &[c('d')], "delete it").does(camera::delete_view),
     Key::new(VIEWS_PAGE, "search", &[c('/')], "filter").does(|shared| shared.overlays.open_search()),
     Key::new(VIEWS_PAGE, "back", &[key(Esc), c('q'), c('V')], "close").does(|shared| shared.overlays.page = None),
-    Key::new(RECENT, "accept", &[key(Enter)], "open it").requests(Shared::choose),
+    Key::new(RECENT, "accept", &[key(Enter)], "open it").requests(list::choose),
     Key::new(RECENT, "search", &[c('/')], "filter").does(|shared| shared.overlays.open_search()),
     Key::new(RECENT, "back", &[key(Esc), c('q')], "close").does(|shared| shared.overlays.page = None),
-    Key::new(STEPS, "accept", &[key(Enter)], "go there").requests(Shared::choose),
-    Key::new(STEPS, "undo", &[c('u')], "undo").requests(Shared::undo).when(|shared| shared.document.undoable().is_some()),
-    Key::new(STEPS, "redo", &[ctrl('r')], "redo").requests(Shared::redo),
+    Key::new(STEPS, "accept", &[key(Enter)], "go there").requests(list::choose),
+    Key::new(STEPS, "undo", &[c('u')], "undo").requests(history::undo).when(|shared| shared.document.undoable().is_some()),
+    Key::new(STEPS, "redo", &[ctrl('r')], "redo").requests(history::redo),
     Key::new(STEPS, "search", &[c('/')], "filter").does(|shared| shared.overlays.open_search()),
     Key::new(STEPS, "back", &[key(Esc), c('q'), c('U')], "close").does(|shared| shared.overlays.page = None),
     Key::new(HELP, "search", &[c('/')], "search").does(|shared| shared.overlays.open_search()),

@@ -9,18 +9,18 @@ const MOST: u16 = 22;
 
 /// The places of a sheet.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(in crate::ui) struct DopeSheet {
+pub(crate) struct DopeSheet {
     /// The names.
-    pub(in crate::ui) names: Rect,
+    pub(crate) names: Rect,
     /// The frames: the first column is the first frame, the last column the last.
-    pub(in crate::ui) frames: Rect,
+    pub(crate) frames: Rect,
     /// The number of the last frame.
     last: u32,
 }
 
 impl DopeSheet {
     /// Divides an area whose first line is a title.
-    pub(in crate::ui) fn new(area: Rect, last: u32) -> Self {
+    pub(crate) fn new(area: Rect, last: u32) -> Self {
         let title = area.height.min(1);
         let names = Rect {
             y: area.y + title,
@@ -40,7 +40,7 @@ impl DopeSheet {
     }
 
     /// The column of a frame within those of the frames.
-    pub(in crate::ui) fn column(&self, frame: u32) -> u16 {
+    pub(crate) fn column(&self, frame: u32) -> u16 {
         let most = u64::from(self.frames.width.saturating_sub(1));
         let last = u64::from(self.last.max(1));
         let frame = u64::from(frame.min(self.last));
@@ -48,7 +48,7 @@ impl DopeSheet {
     }
 
     /// The frame in a column of the screen, or the nearest one.
-    pub(in crate::ui) fn frame(&self, column: u16) -> u32 {
+    pub(crate) fn frame(&self, column: u16) -> u32 {
         let most = u64::from(self.frames.width.saturating_sub(1).max(1));
         let column = u64::from(column.saturating_sub(self.frames.x)).min(most);
         ((column * u64::from(self.last) + most / 2) / most) as u32

@@ -8,24 +8,25 @@ use super::state::Sequence;
 use crate::image_file::{DEFAULT_RATE, ImageFormat};
 use crate::scene::Size;
 use crate::ui::app::exports::ExportOrder;
-use crate::ui::app::jobs::{Asking, Export, ExportWork, Pending, Stage};
 use crate::ui::app::shared::Shared;
+use crate::ui::app::shared::jobs::{Asking, Export, ExportWork, Pending, Stage};
+use crate::ui::app::{exports, text};
 use crate::ui::keymap::{Context, Mode};
 use crate::ui::msg::{Destination, Effect, ExportId};
 use crate::ui::reel::{Reel, ReelForm, ReelProgress, Shot};
 
 /// Exports to the scene's folder under the scene's name; asks if another program has written that file.
-pub(super) fn export_default(sequence: &mut Sequence, shared: &mut Shared) -> Vec<Effect> {
+pub(crate) fn export_default(sequence: &mut Sequence, shared: &mut Shared) -> Vec<Effect> {
     export(sequence, shared, ExportOrder::default(), Asking::Yes)
 }
 
 /// The scene's path with the extension of a file that holds a sequence.
 fn reel_path(shared: &Shared) -> PathBuf {
-    shared.export_path().with_extension("gif")
+    exports::export_path(shared).with_extension("gif")
 }
 
 /// Exports the sequence that is played, after the exports that were started before.
-pub(in crate::ui::app) fn export(
+pub(crate) fn export(
     sequence: &Sequence,
     shared: &mut Shared,
     order: ExportOrder,
@@ -47,7 +48,7 @@ pub(in crate::ui::app) fn export(
     let reel = match reel {
         Ok(reel) => reel,
         Err(reason) => {
-            shared.overlays.fail(reason);
+            shared.fail(reason);
             return Vec::new();
         }
     };
@@ -71,12 +72,15 @@ pub(in crate::ui::app) fn export(
         progress: None,
         written_for: 0,
     };
-    shared.announce_export(export.aov, &path);
-    shared.begin_or_queue(Pending {
-        export,
-        making: ExportWork::Film(Box::new(reel)),
-        asking,
-    })
+    exports::announce_export(shared, export.aov, &path);
+    exports::begin_or_queue(
+        shared,
+        Pending {
+            export,
+            making: ExportWork::Film(Box::new(reel)),
+            asking,
+        },
+    )
 }
 
 /// What a sequence of pictures of this size is written as, or why it cannot be.
@@ -127,7 +131,7 @@ fn reel_of(
         ));
     }
     let track = open.track.clone();
-    shared.revert_transient();
+    text::revert_transient(shared);
     let text = shared.document.shared_text();
     Ok(Reel {
         language: shared.document.language(),
@@ -141,7 +145,7 @@ fn reel_of(
 }
 
 /// Takes how far the export of a sequence is.
-pub(in crate::ui::app) fn filmed(shared: &mut Shared, id: ExportId, progress: ReelProgress) {
+pub(crate) fn filmed(shared: &mut Shared, id: ExportId, progress: ReelProgress) {
     let running = shared.jobs.export.as_mut();
     if let Some(export) = running.filter(|export| export.id == id) {
         export.reel = Some(progress);

@@ -8,21 +8,18 @@ use super::state::{Sequence, complaint};
 use crate::text::apply;
 use crate::track::{self, Keyed, Track};
 use crate::ui::app::shared::Shared;
+use crate::ui::app::text;
 use crate::ui::msg::{Effect, Guard, SaveOutcome};
 
 /// Keys the present value at the frame looked at last: in EDIT the field's, in VIEW the camera's.
-pub(super) fn key_value(sequence: &mut Sequence, shared: &mut Shared) -> Vec<Effect> {
+pub(crate) fn key_value(sequence: &mut Sequence, shared: &mut Shared) -> Vec<Effect> {
     let Some(open) = &sequence.open else {
         let track = shared.key_for("track");
-        shared
-            .overlays
-            .fail(format!("no track is open: {track} opens or starts one"));
+        shared.fail(format!("no track is open: {track} opens or starts one"));
         return Vec::new();
     };
     if sequence.writing.is_some() {
-        shared
-            .overlays
-            .warn("the previous key is still being written");
+        shared.warn("the previous key is still being written");
         return Vec::new();
     }
     let (frame, name, path) = (open.frame, open.name(), open.path.clone());
@@ -37,7 +34,7 @@ pub(super) fn key_value(sequence: &mut Sequence, shared: &mut Shared) -> Vec<Eff
     let Keyed { edits, what } = match keyed {
         Ok(keyed) => keyed,
         Err(reason) => {
-            shared.overlays.fail(reason.to_string());
+            shared.fail(reason.to_string());
             return Vec::new();
         }
     };
@@ -45,16 +42,14 @@ pub(super) fn key_value(sequence: &mut Sequence, shared: &mut Shared) -> Vec<Eff
     apply(&mut text, &edits);
     let (track, findings) = track::read(&text);
     if 0 < findings.errors() {
-        shared.overlays.fail(complaint(&name, &text, &findings));
+        shared.fail(complaint(&name, &text, &findings));
         return Vec::new();
     }
     if bind(shared, &track, &name, &text).is_none() {
         return Vec::new();
     }
     if edits.is_empty() {
-        shared
-            .overlays
-            .say(format!("{what} already has this key at frame {frame}"));
+        shared.say(format!("{what} already has this key at frame {frame}"));
         return Vec::new();
     }
     let words = format!("{what} keyed at frame {frame} in {name}");
@@ -90,11 +85,11 @@ fn keyed(
 }
 
 /// Takes back the key that was written last.
-pub(super) fn take_key_back(sequence: &mut Sequence, shared: &mut Shared) -> Vec<Effect> {
+pub(crate) fn take_key_back(sequence: &mut Sequence, shared: &mut Shared) -> Vec<Effect> {
     let open = sequence.open.as_ref();
     let last = open.and_then(|open| Some((open, open.before.last()?)));
     let (Some((open, before)), None) = (last, &sequence.writing) else {
-        shared.overlays.say("there is no key to undo");
+        shared.say("there is no key to undo");
         return Vec::new();
     };
     let guard = Guard::Holding(open.held.clone().unwrap_or_default());
@@ -118,7 +113,7 @@ fn write(
 }
 
 /// Takes the outcome of writing a track file.
-pub(in crate::ui::app) fn written(
+pub(crate) fn written(
     sequence: &mut Sequence,
     shared: &mut Shared,
     outcome: SaveOutcome,
@@ -147,34 +142,33 @@ fn take_written(sequence: &mut Sequence, shared: &mut Shared, outcome: SaveOutco
                 open.before.push(open.held.take().unwrap_or_else(begun));
             }
             open.held = Some(text);
-            shared.overlays.say(words);
+            shared.say(words);
             // The frame is shown anew.
-            shared.revert_transient();
+            text::revert_transient(shared);
         }
         SaveOutcome::ChangedOnDisk => {
             let name = open.name();
             let key = shared.key_for("key");
-            shared.overlays.warn(format!(
+            shared.warn(format!(
                 "{name} has changed on disk and is being read again; then press {key} again"
             ));
         }
         SaveOutcome::NoFolder(reason) | SaveOutcome::Failed(reason) => {
-            shared.overlays.fail(reason);
+            shared.fail(reason);
         }
     }
 }
 
 /// Opens the editor on the track file.
-pub(super) fn edit_track(sequence: &mut Sequence, shared: &mut Shared) -> Vec<Effect> {
+pub(crate) fn edit_track(sequence: &mut Sequence, shared: &mut Shared) -> Vec<Effect> {
     let Some(open) = &sequence.open else {
         return Vec::new();
     };
     if open.held.is_none() {
-        let words = format!(
+        shared.warn(format!(
             "{} does not exist yet: the first key creates it",
             open.name()
-        );
-        shared.overlays.warn(words);
+        ));
         return Vec::new();
     }
     let path = open.path.clone();

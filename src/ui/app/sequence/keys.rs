@@ -6,8 +6,8 @@ use super::exporting::export_default;
 use super::keying::{edit_track, key_value, take_key_back};
 use super::playing::{accept, keep_and_go, open_track, step_frames, step_keys, toggle};
 use super::state::Sequence;
-use crate::ui::app::keys::Row;
-use crate::ui::app::shared::Shared;
+use crate::ui::app::room::Row;
+use crate::ui::app::{text, trace};
 use crate::ui::keymap::{Context, Key, Mode, Scope, c, key, shift};
 
 use Context::In;
@@ -29,30 +29,30 @@ const CAMERA: &[Context] = &[In(Mode::View), In(Mode::Fly)];
 
 /// The most useful first.
 #[rustfmt::skip]
-pub(in crate::ui::app) const KEYS: &[Row<Sequence>] = &[
+pub(crate) const KEYS: &[Row<Sequence>] = &[
     Key::new(SEQUENCE, "play", &[c(' ')], "play or stop").hint(0, "play").requests_in(toggle),
     Key::new(SEQUENCE, "next-frame", &[c('l'), key(Right)], "next frame").hint(11, "frame").does_in(|sequence, shared| step_frames(sequence, shared, 1)),
     Key::new(SEQUENCE, "previous-frame", &[c('h'), key(Left)], "previous frame").hint(10, "frame").does_in(|sequence, shared| step_frames(sequence, shared, -1)),
     Key::new(SEQUENCE, "next-key", &[c(']')], "next key").hint(21, "key").does_in(|sequence, shared| step_keys(sequence, shared, true)),
     Key::new(SEQUENCE, "previous-key", &[c('[')], "previous key").hint(20, "key").does_in(|sequence, shared| step_keys(sequence, shared, false)),
-    Key::new(SEQUENCE, "edit", &[c('e')], "keep the frame and edit fields").hint(30, "edit").requests_in(|sequence, shared| keep_and_go(sequence, shared, Mode::Edit)).when(|shared| !shared.cursor.fields().is_empty()),
-    Key::new(SEQUENCE, "camera", &[c('v')], "keep the frame and go to VIEW").requests_in(|sequence, shared| keep_and_go(sequence, shared, Mode::View)),
+    Key::new(SEQUENCE, "edit", &[c('e')], "keep the frame and edit fields").hint(30, "edit").does_in(|sequence, shared| keep_and_go(sequence, shared, Mode::Edit)).when(|shared| !shared.cursor.fields().is_empty()),
+    Key::new(SEQUENCE, "camera", &[c('v')], "keep the frame and go to VIEW").does_in(|sequence, shared| keep_and_go(sequence, shared, Mode::View)),
     Key::new(SEQUENCE, "accept", &[key(Enter)], "keep the frame in the text").hint(40, "keep").does_in(accept),
-    Key::new(SEQUENCE, "back", &[key(Esc)], "back to the scene").hint(50, "back").does(Shared::leave_sequence),
+    Key::new(SEQUENCE, "back", &[key(Esc)], "back to the scene").hint(50, "back").does(text::leave_sequence),
     Key::new(SEQUENCE, "frames-forward", &[c('L'), shift(Right)], "ten frames forward").does_in(|sequence, shared| step_frames(sequence, shared, 10)),
     Key::new(SEQUENCE, "frames-back", &[c('H'), shift(Left)], "ten frames back").does_in(|sequence, shared| step_frames(sequence, shared, -10)),
     Key::in_turn(SEQUENCE, "first-frame", &[c('g'), c('g')], "first frame").does_in(|sequence, shared| step_frames(sequence, shared, i32::MIN)),
     Key::new(SEQUENCE, "first-frame", &[key(Home)], "first frame").does_in(|sequence, shared| step_frames(sequence, shared, i32::MIN)),
     Key::new(SEQUENCE, "last-frame", &[c('G'), key(End)], "last frame").does_in(|sequence, shared| step_frames(sequence, shared, i32::MAX)),
     Key::new(SEQUENCE, "export", &[c('b')], "export all frames").hint(120, "export").requests_in(export_default),
-    Key::new(SEQUENCE, "stop", &[c('x')], "cancel the export").requests(Shared::stop),
+    Key::new(SEQUENCE, "stop", &[c('x')], "cancel the export").requests(trace::stop),
     Key::new(SEQUENCE, "undo-key", &[c('u')], "undo the last key").requests_in(take_key_back),
     Key::new(SEQUENCE, "edit-track", &[c('E')], "open the editor on the track").requests_in(edit_track),
 ];
 
 /// Keys of other modes.
 #[rustfmt::skip]
-pub(in crate::ui::app) const ENTRIES: &[Row<Sequence>] = &[
+pub(crate) const ENTRIES: &[Row<Sequence>] = &[
     Key::new(PLAYED, "track", &[c('T')], "play the track").requests_in(|sequence, shared| open_track(sequence, shared, None)),
     Key::new(KEYED, "key", &[c('I')], "key the value, or in VIEW the camera, in the track").hint_in(EDIT, 40, "key it").hint_in(CAMERA, 50, "key it").requests_in(key_value).when_in(|sequence, _| sequence.open.is_some()),
 ];

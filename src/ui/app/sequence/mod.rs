@@ -1,6 +1,6 @@
 //! SEQUENCE: plays a track over the scene, frame by frame, keys values in it, and exports all frames.
 //!
-//! Each frame is tried in the text of the scene as a [transient edit](super::live_edit::TransientEdit), so
+//! Each frame is tried in the text of the scene as a [transient edit](crate::ui::app::shared::live_edit::TransientEdit), so
 //! that it is a scene like any other.
 
 mod dope_sheet;
@@ -11,9 +11,9 @@ mod playing;
 mod room;
 mod state;
 
-pub(in crate::ui) use dope_sheet::DopeSheet;
-pub(super) use exporting::{export, filmed};
-pub(super) use keying::written;
-pub(super) use keys::{ENTRIES, KEYS};
-pub(super) use playing::{open_track, play_on, reread, track_read};
+pub(crate) use dope_sheet::DopeSheet;
+pub(crate) use exporting::{export, filmed};
+pub(crate) use keying::written;
+pub(crate) use keys::{ENTRIES, KEYS};
+pub(crate) use playing::{open_track, play_on, reread, track_read};
 pub use state::{OpenTrack, Sequence};

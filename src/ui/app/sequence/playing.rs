@@ -9,14 +9,15 @@ use crate::document::StepName;
 use crate::file::ReadError;
 use crate::text::Severity;
 use crate::track::{self, Bound, Track};
-use crate::ui::app::after_leaving::name_of;
-use crate::ui::app::messages::About;
 use crate::ui::app::shared::Shared;
+use crate::ui::app::shared::after_leaving::name_of;
+use crate::ui::app::shared::messages::About;
+use crate::ui::app::{files, text};
 use crate::ui::keymap::Mode;
 use crate::ui::msg::{Effect, Timer};
 
 /// Reads a track to play: this one, the open one, or that beside the scene.
-pub(in crate::ui::app) fn open_track(
+pub(crate) fn open_track(
     sequence: &mut Sequence,
     shared: &mut Shared,
     file: Option<PathBuf>,
@@ -27,16 +28,12 @@ pub(in crate::ui::app) fn open_track(
         Some(scene.with_extension("toml"))
     };
     let Some(path) = file.or(open).or_else(beside) else {
-        shared
-            .overlays
-            .fail("this scene has no file: name a track, as in :track FILE");
+        shared.fail("this scene has no file: name a track, as in :track FILE");
         return Vec::new();
     };
     if path.extension().is_none_or(|extension| extension != "toml") {
         let name = path.display();
-        shared
-            .overlays
-            .fail(format!("{name}: the name of a track ends in .toml"));
+        shared.fail(format!("{name}: the name of a track ends in .toml"));
         return Vec::new();
     }
     if !has_sound_scene(shared) {
@@ -47,7 +44,7 @@ pub(in crate::ui::app) fn open_track(
 }
 
 /// Whether there is a scene without errors; says so if there is not.
-pub(super) fn has_sound_scene(shared: &mut Shared) -> bool {
+pub(crate) fn has_sound_scene(shared: &mut Shared) -> bool {
     let is_sound = shared.scene.is_some() && shared.error_count() == 0;
     if !is_sound {
         shared.refuse_picture(Severity::Error, &shared.no_picture());
@@ -56,7 +53,7 @@ pub(super) fn has_sound_scene(shared: &mut Shared) -> bool {
 }
 
 /// Takes the text of a track file, `None` if there is no such file, and plays it if asked.
-pub(in crate::ui::app) fn track_read(
+pub(crate) fn track_read(
     sequence: &mut Sequence,
     shared: &mut Shared,
     path: PathBuf,
@@ -103,7 +100,7 @@ pub(in crate::ui::app) fn track_read(
     if is_asked && !has_sound_scene(shared) {
         return follow_open(sequence, &path);
     }
-    shared.revert_transient();
+    text::revert_transient(shared);
     let text_of = text.as_deref().unwrap_or_default();
     if shared.error_count() == 0 && bind(shared, &track, &name_of(&path), text_of).is_none() {
         resume(sequence, shared);
@@ -127,7 +124,7 @@ pub(in crate::ui::app) fn track_read(
     }
     resume(sequence, shared);
     if is_known && shared.mode == Mode::Sequence {
-        shared.overlays.say("track reloaded");
+        shared.say("track reloaded");
     }
     Vec::new()
 }
@@ -138,7 +135,7 @@ fn enter(sequence: &mut Sequence, shared: &mut Shared) -> Vec<Effect> {
         return Vec::new();
     }
     // Frames are never kept for recovery; edits before them are.
-    let kept = shared.keep_edits();
+    let kept = files::keep_edits(shared);
     let before = std::mem::replace(&mut shared.mode, Mode::Sequence);
     resume(sequence, shared);
     let Some(open) = sequence
@@ -155,13 +152,13 @@ fn enter(sequence: &mut Sequence, shared: &mut Shared) -> Vec<Effect> {
     }
     if open.held.is_none() {
         let words = how_to_key(open, shared);
-        shared.overlays.say(words);
+        shared.say(words);
     }
     kept.into_iter().collect()
 }
 
 /// How the first value is keyed.
-pub(super) fn how_to_key(open: &OpenTrack, shared: &Shared) -> String {
+pub(crate) fn how_to_key(open: &OpenTrack, shared: &Shared) -> String {
     let edit = shared.key_for("edit");
     let key = shared.key_for("key");
     let name = open.name();
@@ -169,7 +166,7 @@ pub(super) fn how_to_key(open: &OpenTrack, shared: &Shared) -> String {
 }
 
 /// Relates a track to the present text; reports errors in it.
-pub(super) fn bind(shared: &mut Shared, track: &Track, name: &str, text: &str) -> Option<Bound> {
+pub(crate) fn bind(shared: &mut Shared, track: &Track, name: &str, text: &str) -> Option<Bound> {
     let camera = shared.scene.as_ref()?.camera;
     let (bound, findings) = track::bind(track, shared.source(), &camera);
     if 0 < findings.errors() {
@@ -187,7 +184,7 @@ fn complain(shared: &mut Shared, words: &str) {
 
 /// Puts the present frame into the text, unless one is there or a question or a reading waits for the
 /// text without it.
-pub(super) fn resume(sequence: &mut Sequence, shared: &mut Shared) {
+pub(crate) fn resume(sequence: &mut Sequence, shared: &mut Shared) {
     let waits = shared.overlays.dialog.is_some() || shared.awaits_reading;
     if shared.mode == Mode::Sequence && !waits && shared.transient.is_none() {
         let frame = sequence.open.as_ref().map_or(0, |open| open.frame);
@@ -203,11 +200,11 @@ fn show(sequence: &mut Sequence, shared: &mut Shared, frame: u32) {
     open.frame = frame.min(open.last());
     let frame = open.frame;
     let shown = if let Some(before) = shared.transient.take().zip(open.bound.take()) {
-        (!shared.leaves_live_edit(&before.0.live_edit, "frame")).then_some(before)
+        (!text::leaves_live_edit(shared, &before.0.live_edit, "frame")).then_some(before)
     } else {
         let text = open.held.clone().unwrap_or_default();
         let bound = bind(shared, &open.track, &open.name(), &text);
-        bound.map(|bound| (shared.begin_transient(), bound))
+        bound.map(|bound| (text::begin_transient(shared), bound))
     };
     let Some((mut transient, bound)) = shown else {
         open.is_playing = false;
@@ -215,20 +212,20 @@ fn show(sequence: &mut Sequence, shared: &mut Shared, frame: u32) {
         return;
     };
     let edits = |shared: &Shared| Ok(bound.edits(shared.source(), frame));
-    match shared.try_instead(&mut transient.live_edit, edits) {
+    match text::try_instead(shared, &mut transient.live_edit, edits) {
         Ok(()) if transient.live_edit.is_applied => {
             let name = format!("frame {frame} of {}", open.name());
             shared.document.name_step(StepName::done(name));
         }
         Ok(()) => {}
-        Err(reason) => shared.overlays.fail(format!("frame {frame}: {reason}")),
+        Err(reason) => shared.fail(format!("frame {frame}: {reason}")),
     }
     open.bound = Some(bound);
     shared.transient = Some(transient);
 }
 
 /// Goes some frames on.
-pub(super) fn step_frames(sequence: &mut Sequence, shared: &mut Shared, frames: i32) {
+pub(crate) fn step_frames(sequence: &mut Sequence, shared: &mut Shared, frames: i32) {
     if let Some(open) = &sequence.open {
         let frame = open.frame_after(frames);
         show(sequence, shared, frame);
@@ -236,17 +233,17 @@ pub(super) fn step_frames(sequence: &mut Sequence, shared: &mut Shared, frames: 
 }
 
 /// Goes to the next or previous frame with a key.
-pub(super) fn step_keys(sequence: &mut Sequence, shared: &mut Shared, is_next: bool) {
+pub(crate) fn step_keys(sequence: &mut Sequence, shared: &mut Shared, is_next: bool) {
     let open = sequence.open.as_ref();
     match open.and_then(|open| open.key_after(is_next)) {
         Some(frame) => show(sequence, shared, frame),
-        None if is_next => shared.overlays.say("there are no later keys"),
-        None => shared.overlays.say("there are no earlier keys"),
+        None if is_next => shared.say("there are no later keys"),
+        None => shared.say("there are no earlier keys"),
     }
 }
 
 /// Goes to the frame that is pointed at on the sheet; returns whether there is one.
-pub(super) fn scrub_to(sequence: &mut Sequence, shared: &mut Shared, at: (u16, u16)) -> bool {
+pub(crate) fn scrub_to(sequence: &mut Sequence, shared: &mut Shared, at: (u16, u16)) -> bool {
     let Some(open) = &mut sequence.open else {
         return false;
     };
@@ -261,7 +258,7 @@ pub(super) fn scrub_to(sequence: &mut Sequence, shared: &mut Shared, at: (u16, u
 }
 
 /// Plays the track, or stops.
-pub(super) fn toggle(sequence: &mut Sequence, _: &mut Shared) -> Vec<Effect> {
+pub(crate) fn toggle(sequence: &mut Sequence, _: &mut Shared) -> Vec<Effect> {
     let Some(open) = &mut sequence.open else {
         return Vec::new();
     };
@@ -276,7 +273,7 @@ pub(super) fn toggle(sequence: &mut Sequence, _: &mut Shared) -> Vec<Effect> {
 
 /// Shows the next frame once something of the one before was seen: a scene that takes longer to
 /// trace plays more slowly.
-pub(in crate::ui::app) fn play_on(sequence: &mut Sequence, shared: &mut Shared) -> Vec<Effect> {
+pub(crate) fn play_on(sequence: &mut Sequence, shared: &mut Shared) -> Vec<Effect> {
     let open = sequence.open.as_ref();
     let Some(open) = open.filter(|open| open.is_playing && shared.mode == Mode::Sequence) else {
         return Vec::new();
@@ -289,18 +286,17 @@ pub(in crate::ui::app) fn play_on(sequence: &mut Sequence, shared: &mut Shared) 
 }
 
 /// Leaves SEQUENCE with the values of the frame in the text, as one undo step.
-pub(super) fn accept(sequence: &mut Sequence, shared: &mut Shared) {
+pub(crate) fn accept(sequence: &mut Sequence, shared: &mut Shared) {
     keep_frame(sequence, shared);
     shared.mode = Mode::Select;
 }
 
-/// Goes to another mode with the values of the frame in the text. Stays if that mode cannot be entered.
-pub(super) fn keep_and_go(sequence: &mut Sequence, shared: &mut Shared, mode: Mode) -> Vec<Effect> {
-    let effects = shared.go(mode);
+/// Goes to EDIT or VIEW with the values of the frame in the text. Stays if that mode cannot be entered.
+pub(crate) fn keep_and_go(sequence: &mut Sequence, shared: &mut Shared, mode: Mode) {
+    shared.enter(mode);
     if shared.mode == mode {
         keep_frame(sequence, shared);
     }
-    effects
 }
 
 /// Keeps the values of the frame in the text, as one undo step.
@@ -313,9 +309,9 @@ fn keep_frame(sequence: &mut Sequence, shared: &mut Shared) {
     if shown.is_some_and(|shown| shown.live_edit.is_applied) {
         let words = format!("the scene now has the values of frame {}", open.frame);
         let undo = shared.key_for("undo");
-        shared.overlays.say(format!("{words}; {undo} undoes that"));
+        shared.say(format!("{words}; {undo} undoes that"));
     }
-    shared.keep_live_edit();
+    text::keep_live_edit(shared);
 }
 
 /// Goes on with the open track after a file was read that cannot be played, its own or another.
@@ -334,7 +330,7 @@ fn follow_open(sequence: &Sequence, read: &Path) -> Vec<Effect> {
 }
 
 /// Reads the open track again, if there is one and it is not being written.
-pub(in crate::ui::app) fn reread(sequence: &Sequence) -> Option<Effect> {
+pub(crate) fn reread(sequence: &Sequence) -> Option<Effect> {
     let open = sequence.open.as_ref()?;
     sequence
         .writing

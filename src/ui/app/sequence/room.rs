@@ -3,6 +3,7 @@
 use super::{Sequence, playing};
 use crate::ui::app::room::Room;
 use crate::ui::app::shared::Shared;
+use crate::ui::app::text;
 use crate::ui::keymap::Mode;
 use crate::ui::msg::Effect;
 
@@ -16,7 +17,7 @@ impl Room for Sequence {
             if let Some(open) = &mut self.open {
                 open.is_playing = false;
             }
-            shared.revert_transient();
+            text::revert_transient(shared);
         }
     }
 
@@ -27,7 +28,7 @@ impl Room for Sequence {
         let is_taken =
             playing::scrub_to(self, shared, at) || shared.areas().picture.contains(at.into());
         if !is_taken {
-            shared.leave_sequence();
+            text::leave_sequence(shared);
         }
         is_taken.then(Vec::new)
     }

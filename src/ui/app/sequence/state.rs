@@ -6,7 +6,7 @@ use std::time::Duration;
 
 use crate::text::{Findings, Position};
 use crate::track::{Bound, Track};
-use crate::ui::app::after_leaving::name_of;
+use crate::ui::app::shared::after_leaving::name_of;
 
 /// Frames per second of a track that does not say how many.
 const RATE: u32 = 24;
@@ -17,9 +17,9 @@ pub struct Sequence {
     /// The track that is open.
     pub open: Option<OpenTrack>,
     /// The track file that is being read in order to be opened.
-    pub(super) asked: Option<PathBuf>,
+    pub(crate) asked: Option<PathBuf>,
     /// The text being written to the track file, and what to say once it is.
-    pub(super) writing: Option<(Arc<String>, String)>,
+    pub(crate) writing: Option<(Arc<String>, String)>,
 }
 
 /// A track, and the frame that is looked at.
@@ -28,7 +28,7 @@ pub struct OpenTrack {
     /// Path of its file.
     pub path: PathBuf,
     /// The text of the file, as read or written last; `None` as long as there is no file.
-    pub(in crate::ui::app) held: Option<Arc<String>>,
+    pub(crate) held: Option<Arc<String>>,
     /// Whether the file holds by now what cannot be played.
     pub is_refused: bool,
     /// What the text says.
@@ -38,14 +38,14 @@ pub struct OpenTrack {
     /// Whether the frames follow each other by themselves.
     pub is_playing: bool,
     /// The track in the text without the frame; `None` until a frame is shown.
-    pub(super) bound: Option<Bound>,
+    pub(crate) bound: Option<Bound>,
     /// The texts before each key written, the newest last.
-    pub(super) before: Vec<Arc<String>>,
+    pub(crate) before: Vec<Arc<String>>,
 }
 
 impl Sequence {
     /// The open track, if it is this file.
-    pub(super) fn open_at(&mut self, path: &Path) -> Option<&mut OpenTrack> {
+    pub(crate) fn open_at(&mut self, path: &Path) -> Option<&mut OpenTrack> {
         self.open.as_mut().filter(|open| open.path == path)
     }
 }
@@ -67,13 +67,13 @@ impl OpenTrack {
     }
 
     /// The time of a frame.
-    pub(super) fn period(&self) -> Duration {
+    pub(crate) fn period(&self) -> Duration {
         Duration::from_secs(1) / self.rate()
     }
 
     /// The frame some frames on; the last one is followed by the first while it plays, and by none
     /// otherwise.
-    pub(super) fn frame_after(&self, frames: i32) -> u32 {
+    pub(crate) fn frame_after(&self, frames: i32) -> u32 {
         let next = i64::from(self.frame) + i64::from(frames);
         if self.is_playing {
             next.rem_euclid(i64::from(self.last()) + 1) as u32
@@ -83,7 +83,7 @@ impl OpenTrack {
     }
 
     /// The next or previous frame with a key.
-    pub(super) fn key_after(&self, is_next: bool) -> Option<u32> {
+    pub(crate) fn key_after(&self, is_next: bool) -> Option<u32> {
         let frames = self.track.rows().flat_map(|(_, frames)| frames);
         let frames = frames.filter(|&frame| frame <= self.last());
         if is_next {
@@ -95,7 +95,7 @@ impl OpenTrack {
 }
 
 /// The first error in a track file in a line, and how many more there are.
-pub(super) fn complaint(name: &str, text: &str, findings: &Findings) -> String {
+pub(crate) fn complaint(name: &str, text: &str, findings: &Findings) -> String {
     let Some(error) = findings.first_error() else {
         return String::new();
     };

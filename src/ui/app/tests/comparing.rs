@@ -40,7 +40,7 @@ scripts! {
         let [live, reference] = [&pair.live, &pair.reference].map(|it| image(it).expect("pixels"));
         let expected = Comparison::of(&live, &reference, 0);
         session.run("@measured | figures");
-        assert_eq!(session.app.shared.compared.figures(), expected.as_ref().ok());
+        assert_eq!(session.app.compare.figures(), expected.as_ref().ok());
         session.run(r"
             | contrast live | first 29
             f | contrast reference | first 9
@@ -55,9 +55,9 @@ scripts! {
         ");
         let width = session.app.shared.raster().expect("there is room").0.width;
         session.run(&"h".repeat(width.into())).run("| first 9");
-        assert_eq!(session.app.shared.compared.wipe.0, 0.0);
+        assert_eq!(session.app.compare.wipe.0, 0.0);
         session.run("n");
-        assert_eq!(session.app.shared.compared.cross, Some((0, 0)));
+        assert_eq!(session.app.compare.cross, Some((0, 0)));
         session.run("<Esc> | mode SELECT | does stop compared, stop reference");
     };
 

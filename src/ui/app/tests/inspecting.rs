@@ -8,6 +8,7 @@ use super::*;
 use crate::language::Node;
 use crate::render::{Frame, NO_OBJECT, PreparedScene};
 use crate::scene::Size;
+use crate::ui::app::{display, inspect};
 use crate::ui::keymap::Context;
 use crate::ui::msg::{Question, Target};
 
@@ -46,7 +47,7 @@ impl Inspected {
             Some(first.surface?.object)
         };
         let objects = (0..size.pixels()).map(|at| object(at).unwrap_or(NO_OBJECT));
-        let mut frame = pictures::frame(size, objects.collect());
+        let mut frame = frame_of(size, objects.collect());
         frame.query = Some(prepared.query().clone());
         frame.values = vec![[0.5, 0.25, 2.0]; size.pixels()];
         app.update(Msg::Started(Target::Preview, frame.generation));
@@ -84,8 +85,8 @@ impl Inspected {
 
     /// Moves the cursor to the first line that is about a node.
     fn go_to(&mut self, node: Node) -> &mut Self {
-        let lines = self.app.shared.ray_lines();
-        let is = |line: &RayLine| self.app.shared.ray_node(*line) == Some(node);
+        let lines = inspect::ray_lines(&self.app.shared);
+        let is = |line: &RayLine| inspect::ray_node(&self.app.shared, *line) == Some(node);
         let at = lines.iter().position(is).expect("a line about it");
         self.press(&"j".repeat(at))
     }
@@ -125,7 +126,7 @@ fn the_pixel_under_the_cross_is_described() {
     let mut inspected = Inspected::of("a.ray", MIRROR);
     let app = &mut inspected.app;
     press(app, "i");
-    let pixel = app.shared.pixel().expect("there is a picture");
+    let pixel = inspect::pixel(&app.shared).expect("there is a picture");
     let Size { width, height } = pixel.size;
     assert_eq!(pixel.at, [width / 2, height / 2]);
     assert_eq!(pixel.node, Ok(Some(Node::Object(0))));
@@ -139,7 +140,7 @@ fn the_pixel_under_the_cross_is_described() {
     let output = app.shared.output();
     assert_eq!(pixel.output.map(|(_, size)| size), Some(output));
     press(app, &"L".repeat(99));
-    let pixel = app.shared.pixel().expect("there is a picture");
+    let pixel = inspect::pixel(&app.shared).expect("there is a picture");
     assert_eq!((pixel.at[0], pixel.node), (width - 1, Ok(None)));
 }
 
@@ -148,7 +149,7 @@ fn the_cross_follows_keys_and_the_mouse() {
     let mut inspected = Inspected::of("a.ray", MIRROR);
     let app = &mut inspected.app;
     press(app, "i");
-    let [x, y] = app.shared.cross().expect("a picture").pixel;
+    let [x, y] = inspect::cross(&app.shared).expect("a picture").pixel;
     for (said, expected) in [
         ("l", [x + 1, y]),
         ("j", [x + 1, y + 1]),
@@ -158,7 +159,7 @@ fn the_cross_follows_keys_and_the_mouse() {
     ] {
         press(app, said);
         assert_eq!(
-            app.shared.cross().map(|cross| cross.pixel),
+            inspect::cross(&app.shared).map(|cross| cross.pixel),
             Some(expected),
             "{said}"
         );
@@ -176,7 +177,7 @@ fn the_cross_follows_keys_and_the_mouse() {
             row,
             modifiers: KeyModifiers::NONE,
         }));
-        assert_eq!(app.shared.cross_cell(), Some(cell));
+        assert_eq!(inspect::cross_cell(&app.shared), Some(cell));
         assert_eq!(app.shared.mode, Mode::Inspect);
     }
 }
@@ -186,13 +187,13 @@ fn a_zoomed_picture_follows_the_cross() {
     let mut inspected = Inspected::of("a.ray", MIRROR);
     let app = &mut inspected.app;
     press(app, ":zoom 4<Enter>i");
-    let edge = app.shared.pixel_in_corner();
+    let edge = display::pixel_in_corner(&app.shared);
     for said in ["h", "L"] {
         for _ in 0..99 {
             press(app, said);
-            assert!(app.shared.cross_cell().is_some());
+            assert!(inspect::cross_cell(&app.shared).is_some());
         }
-        assert_ne!(app.shared.pixel_in_corner(), edge, "{said}");
+        assert_ne!(display::pixel_in_corner(&app.shared), edge, "{said}");
     }
 }
 
@@ -207,10 +208,10 @@ fn an_explanation_is_asked_for_once_and_only_the_newest_is_shown() {
     assert!(inspected.asked.is_empty());
     inspected.press("<Esc>lle");
     inspected.answer_to(old, &frame);
-    assert!(inspected.app.shared.explanation().is_none());
+    assert!(inspect::explanation(&inspected.app.shared).is_none());
     inspected.answer();
-    let cross = inspected.app.shared.cross().map(|cross| cross.pixel);
-    let explanation = inspected.app.shared.explanation();
+    let cross = inspect::cross(&inspected.app.shared).map(|cross| cross.pixel);
+    let explanation = inspect::explanation(&inspected.app.shared);
     assert_eq!(explanation.map(|explanation| explanation.pixel), cross);
     inspected.press("<Esc>");
     assert_eq!(inspected.app.shared.context(), Context::In(Mode::Inspect));
@@ -227,7 +228,7 @@ fn a_line_selects_its_object_or_light_or_opens_its_place() {
         let mut inspected = Inspected::of("a.ray", MIRROR);
         // Right of the middle, the mirror shows the second sphere.
         inspected.press("iLe").answer().go_to(node);
-        let line = inspected.app.shared.line_of(node);
+        let line = inspect::line_of(&inspected.app.shared, node);
         let effects = press(&mut inspected.app, "E");
         assert!(matches!(
             effects[..],
@@ -263,12 +264,12 @@ fn the_light_of_a_line_is_soloed_and_explained_again() {
 fn rays_are_folded_and_walked_through() {
     let mut inspected = Inspected::of("a.ray", MIRROR);
     inspected.press("iLe").answer();
-    let all = inspected.app.shared.ray_lines().len();
+    let all = inspect::ray_lines(&inspected.app.shared).len();
     assert!(5 < all);
     inspected.press("<Left>");
-    assert_eq!(inspected.app.shared.ray_lines().len(), 1);
+    assert_eq!(inspect::ray_lines(&inspected.app.shared).len(), 1);
     inspected.press("<Right><Right>");
-    assert_eq!(inspected.app.shared.ray_lines().len(), all);
+    assert_eq!(inspect::ray_lines(&inspected.app.shared).len(), all);
     let at = |inspected: &Inspected| {
         inspected
             .app
@@ -302,11 +303,11 @@ fn every_language_has_a_verdict_and_its_sum() {
             .as_ref()
             .expect("it is wanted");
         assert!(explained.verdict.is_some(), "{name}");
-        let explanation = app.shared.explanation().expect("an answer");
-        let root = app.shared.ray_lines()[0];
+        let explanation = inspect::explanation(&app.shared).expect("an answer");
+        let root = inspect::ray_lines(&app.shared)[0];
         let sum = root.adds(explanation);
         assert!((sum - explanation.radiance).length() < 1e-12, "{name}");
-        assert!(!app.shared.ray_path().is_empty(), "{name}");
+        assert!(!inspect::ray_path(&app.shared).is_empty(), "{name}");
     }
 }
 
@@ -321,7 +322,7 @@ fn samples_are_walked_through_as_far_as_there_are_some() {
         .update(Msg::Frame(Target::Preview, Arc::new(frame)));
     for (said, sample) in [(".", 1), ("..", 2), (",", 1), (",,,", 0)] {
         inspected.press(said).answer();
-        let explanation = inspected.app.shared.explanation().expect("an answer");
+        let explanation = inspect::explanation(&inspected.app.shared).expect("an answer");
         assert_eq!(explanation.sample, sample, "{said}");
     }
 }

@@ -1,59 +1,37 @@
 //! Tests of the interface: keys, pastes and files in; text, state and effects out.
 
 mod actions;
-mod adding;
-mod assets;
-mod colours;
 mod comparing;
-mod curing;
 mod dat;
-mod disk;
-mod editing;
+mod display;
+mod edit;
 mod exports;
-mod fields;
+mod files;
 mod hints;
-mod inputs;
 mod inspecting;
-mod lines;
-mod listing;
-mod looking;
-mod making;
 mod messages;
-mod moving;
-mod naming;
-mod opening;
 mod palette;
 mod panels;
-pub(in crate::ui) mod pictures;
-mod playing;
 mod rebinding;
-mod recovering;
-mod reeling;
-mod reloading;
 mod rows;
-mod saving;
-mod sequences;
-mod soloing;
-mod starting;
-mod structure;
-mod symbols;
+mod select;
+mod sequence;
+mod text;
 mod timeline;
 mod transforming;
-mod trying;
 mod views;
-mod wires;
 mod xml;
-mod zooming;
 
 use std::path::{Path, PathBuf};
+use std::time::Duration;
 
 use crossterm::event::{KeyCode, KeyEvent, KeyModifiers};
 
-use super::*;
 use crate::file::Version;
 use crate::language::Language;
-use crate::render::Job;
-use crate::scene::Rendering;
+use crate::render::{Frame, Job, Overexposure, Progress};
+use crate::scene::{Rendering, Size};
+use crate::ui::app::*;
 use crate::ui::keymap::{self, Mode};
 use crate::ui::msg::{Effect, ExportId, Exported, Msg, Target};
 use crate::ui::scene_reading::Reading;
@@ -77,6 +55,13 @@ sphere
 .1 .1 .1 .45 .45 .45 .5 .5 .5
 5 0 0 1
 ";
+
+/// A scene in each language.
+const SCENES: [(&str, &str); 3] = [
+    ("scene.ray", SCENE),
+    ("scene.dat", dat::SCENE),
+    ("scene.xml", include_str!("../../../../scenes/spheres.xml")),
+];
 
 /// Opens the interface with the cursor on the first row of the list.
 fn open(text: &str) -> App {
@@ -181,6 +166,36 @@ fn words(app: &App) -> &str {
 fn shown(app: &App) -> &str {
     let message = app.shared.overlays.message.as_ref();
     message.map_or("", |message| &message.text)
+}
+
+/// A frame of grey pixels that belong to these objects.
+pub(crate) fn frame_of(size: Size, objects: Vec<u32>) -> Frame {
+    Frame {
+        generation: 1,
+        size,
+        corner: [0; 2],
+        pixels: vec![[9; 3]; size.pixels()],
+        objects,
+        values: Vec::new(),
+        denoised: Vec::new(),
+        errors: Vec::new(),
+        range: None,
+        overexposure: Overexposure::default(),
+        progress: Progress {
+            pass: 1,
+            passes: 1,
+            spp: 1,
+            mean_spp: 1.0,
+            done: 1.0,
+            elapsed: Duration::ZERO,
+            rays: 1,
+            shadow_rays: 0,
+            over_budget: 0,
+            noise: None,
+            complete: true,
+        },
+        query: None,
+    }
 }
 
 /// The message that a picture was written.

@@ -2,6 +2,7 @@
 
 use super::rows::{ray, scripts};
 use super::*;
+use crate::ui::app::command;
 
 scripts! {
     commands_and_actions_are_offered_by_name_and_description: ray().table("{1} | completed …{2} [{3}]; …", r"
@@ -85,11 +86,9 @@ fn every_action_of_a_key_is_offered_by_its_description() {
     for named in open(SCENE).shared.keymap.actions(Mode::Select) {
         let mut app = open(SCENE);
         press(&mut app, &format!(":{}", named.words));
-        let mut found = app
-            .shared
-            .completions()
+        let mut found = command::completions(&app.shared)
             .into_iter()
-            .chain(app.shared.command_typed());
+            .chain(command::command_typed(&app.shared));
         let is_offered =
             |found: Completion| found.shown == named.words || found.keys.ends_with(&named.keys);
         assert!(found.any(is_offered), "{named:?}");
@@ -97,7 +96,7 @@ fn every_action_of_a_key_is_offered_by_its_description() {
 }
 
 fn offered(app: &App) -> Vec<String> {
-    let found = app.shared.completions().into_iter();
+    let found = command::completions(&app.shared).into_iter();
     found.map(|completion| completion.shown).collect()
 }
 

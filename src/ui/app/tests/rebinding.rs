@@ -1,6 +1,7 @@
 //! Keys that the user has bound.
 
 use super::*;
+use crate::ui::app::command;
 use crate::ui::keymap::{HelpLine, Keys, Section};
 
 /// The interface with other keys in sections: `x` for undoing, none for what `u` did.
@@ -109,12 +110,12 @@ fn help_hints_and_palette_show_the_bound_keys() {
         keys: "Ctrl-X u".to_owned(),
         words: "undo",
     };
-    assert!(app.shared.help_lines().contains(&undo));
+    assert!(command::help_lines(&app.shared).contains(&undo));
     press(&mut app, "jjjD");
     let hints = app.hints();
     assert!(hints.contains(&("Ctrl-X u".to_owned(), "undo")));
     press(&mut app, ":undo");
-    let found = app.shared.completions().into_iter();
+    let found = command::completions(&app.shared).into_iter();
     let keys = found
         .filter(|found| found.shown == "undo")
         .map(|found| found.keys);

@@ -1,10 +1,8 @@
 //! The page of the undo history.
 
-use std::collections::BTreeMap;
-use std::collections::VecDeque;
+use std::collections::{BTreeMap, VecDeque};
 use std::sync::Arc;
 
-use super::pictures::frame;
 use super::rows::{Session, ray, scene, scripts};
 use super::*;
 use crate::document::StateId;
@@ -12,6 +10,7 @@ use crate::language::Source;
 use crate::render::{Frame, Job};
 use crate::scene::{Meshes, Size};
 use crate::text::{Edit, Span};
+use crate::ui::app::{history, text};
 use crate::ui::history_scene::{HistoryScene, HistoryText, NoPicture};
 use crate::ui::msg::Target;
 
@@ -65,7 +64,7 @@ fn perform(session: &mut Session) -> Asked {
 fn traced(generation: u64, size: Size) -> Msg {
     let whole = Frame {
         generation,
-        ..frame(size, vec![0; size.pixels()])
+        ..frame_of(size, vec![0; size.pixels()])
     };
     Msg::Frame(Target::Thumbnail, Arc::new(whole))
 }
@@ -101,7 +100,7 @@ fn the_page_lists_every_step_and_asks_for_each_picture_once() {
     let mut session = changed();
     session.run("u");
     let asked = opens_page(&mut session);
-    let (page, steps) = session.app.shared.open_steps().expect("it is open");
+    let (page, steps) = history::open_steps(&session.app.shared).expect("it is open");
     let rows: Vec<_> = page.rows().into_iter().map(|(_, name)| name).collect();
     let expected = "as opened|object 1 (sphere) centre x: 0 → 0.2, 2 nudges|\
                     duplicated object 2 (sphere)|deleted object 2 (sphere)";
@@ -164,10 +163,13 @@ fn a_text_with_errors_and_a_refused_picture_are_not_asked_for_again() {
         span: Span::at(0),
         text: "broken ".to_owned(),
     }]);
-    session.app.shared.relower();
+    text::relower(&mut session.app.shared);
     session.run("u");
     assert!(opens_page(&mut session).derived.contains(&4));
-    let (id, _) = session.app.shared.open_steps().expect("it is open").1.rows[4];
+    let (id, _) = history::open_steps(&session.app.shared)
+        .expect("it is open")
+        .1
+        .rows[4];
     let thumbnail = session.app.thumbnails.get(id, Rank::Row);
     assert_eq!(thumbnail, Some(&Err(NoPicture::Errors)));
     session.run("<Esc>");
@@ -284,13 +286,13 @@ fn a_random_walk_finds_every_text_where_it_was() {
         }
         assert_eq!(known[&ids[present]], text, "{keys}");
         let far = below(ids.len());
-        app.shared.go_to_state(far);
+        history::go_to_state(&mut app.shared, far);
         assert_eq!(
             app.shared.document.text(),
             known[&ids[far]],
             "{keys}: to {far}"
         );
-        app.shared.go_to_state(present);
+        history::go_to_state(&mut app.shared, present);
         assert_eq!(app.shared.document.text(), text, "{keys}: back");
     }
 }

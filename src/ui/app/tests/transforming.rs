@@ -2,6 +2,7 @@
 
 use super::rows::{Stage, scene, scripts};
 use super::*;
+use crate::ui::app::display;
 
 const RAY: &str = "\
 // view: eye 0 0 10 target 0 0 0 up 0 1 0 fov 90 size 400 300
@@ -247,10 +248,10 @@ scripts! {
     only_the_mark_moves_where_the_picture_is_seen_from_elsewhere: {
         let mut session = scene("a.dat", DAT).session();
         session.run("[view] v-<Esc>");
-        let (seen, mark) = (session.app.shared.camera(), session.app.shared.symbols()[0]);
+        let (seen, mark) = (session.app.shared.camera(), display::symbols(&session.app.shared)[0]);
         session.run("mx0.1<Enter> | text 0 0 10  0 0 0 => 0.1 0 10  0.1 0 0");
         assert_eq!(session.app.shared.camera(), seen);
-        assert!(mark.cell.0 < session.app.shared.symbols()[0].cell.0, "{mark:?}");
+        assert!(mark.cell.0 < display::symbols(&session.app.shared)[0].cell.0, "{mark:?}");
     };
 
     a_rotated_ellipsoid_becomes_a_quadric_in_the_same_step: scene("a.dat", DAT)

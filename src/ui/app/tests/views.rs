@@ -116,7 +116,7 @@ scripts! {
         assert!(session.app.shared.camera().expect("a camera").eye.z < 3.7);
     };
 
-    a_rolled_view_is_written_as_it_is_on_screen: for (name, text) in making::SCENES {
+    a_rolled_view_is_written_as_it_is_on_screen: for (name, text) in SCENES {
         let mut session = scene(name, text).session();
         session.run("v,,hF.kK | moved");
         let view = session.app.shared.camera().expect("it was moved");
@@ -130,7 +130,7 @@ scripts! {
         session.run("u | text opened");
     };
 
-    views_are_saved_listed_visited_and_deleted: for (name, text) in making::SCENES {
+    views_are_saved_listed_visited_and_deleted: for (name, text) in SCENES {
         scene(name, text).play(r"
             @note own camera
             vV            | says no saved views: :view save NAME saves this one

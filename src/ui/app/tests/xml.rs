@@ -2,7 +2,7 @@
 
 use super::rows::{Stage, scene, scripts};
 use super::*;
-use crate::ui::app::Provenance;
+use crate::ui::app::{Provenance, display};
 
 const SCENE: &str = r#"<xml>
   <scene>
@@ -106,7 +106,7 @@ fn a_text_that_is_not_xml_does_no_harm() {
             let _ = (
                 app.shared.areas(),
                 app.shared.raster(),
-                app.shared.outlined_objects(),
+                display::outlined_objects(&app.shared),
             );
         }
         assert_eq!(app.shared.document.text(), text);

@@ -73,7 +73,7 @@ fn a_page_recalls_and_keeps_no_trace() {
     let job = endless();
     let origin = Origin {
         text: Arc::default(),
-        found: std::collections::BTreeMap::new(),
+        found: BTreeMap::new(),
         view: crate::scene::Viewpoint::default(),
     };
     let started = runtime.perform(Effect::Recall(job, origin));

@@ -32,7 +32,7 @@ impl Session {
         let pictures = &self.app.shared.pictures;
         let is_busy = if is_last {
             pictures.are_awaited()
-                || self.app.shared.compared.is_awaited()
+                || self.app.compare.is_awaited()
                 || self.app.thumbnails.are_awaited()
                 || self.app.shared.suggestions.are_awaited()
                 || self.app.shared.jobs.export.is_some()

@@ -15,7 +15,7 @@ impl Session {
         let mut jobs = self.under_way.jobs.iter().rev();
         let (_, job) = jobs.find(|(of, _)| *of == target).ok_or("not traced")?;
         let size = job.settings.size;
-        let mut frame = pictures::frame(size, vec![0; size.pixels()]);
+        let mut frame = frame_of(size, vec![0; size.pixels()]);
         let (generation, grey) = rest.split_once(" first ").unwrap_or((rest, ""));
         if !generation.is_empty() {
             frame.generation = number(generation)?;
@@ -45,7 +45,7 @@ impl Session {
     /// What is compared with: `picture WxH`, after which its file says how it was made, a `scene`,
     /// or why there is none.
     pub(super) fn reference(&self, rest: &str) -> Result<Msg, String> {
-        let id = self.app.shared.compared.requested();
+        let id = self.app.compare.requested();
         let (kind, rest) = rest.split_once(' ').unwrap_or((rest, ""));
         let read = match kind {
             "picture" => {
@@ -83,7 +83,7 @@ impl Session {
             number_of => number(number_of),
         };
         let objects = (0..size.pixels() as u32).map(object);
-        let frame = pictures::frame(size, objects.collect::<Result<_, _>>()?);
+        let frame = frame_of(size, objects.collect::<Result<_, _>>()?);
         self.update(Msg::Frame(Target::Preview, Arc::new(frame)));
         let picture = self.app.shared.picture_mut();
         picture.advance(&FrameWindow::whole(size), &[], usize::MAX);

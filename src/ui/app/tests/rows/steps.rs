@@ -13,6 +13,7 @@ use crate::document::Document;
 use crate::file::ReadError;
 use crate::render::{Job, Progress};
 use crate::scene::{Meshes, Size};
+use crate::ui::app::files;
 use crate::ui::msg::{Recalled, SaveId, SaveOutcome, Timer};
 use crate::ui::recovery::tests::offer;
 use crate::ui::recovery::{Found, Offer};
@@ -108,7 +109,7 @@ impl Session {
             "paste" => Msg::Paste(unescaped(&self.named(rest))),
             "fails" => Msg::Failed(rest.to_owned()),
             "says" => {
-                self.app.shared.overlays.say(rest);
+                self.app.shared.say(rest);
                 return Ok(());
             }
             "read-it" => {
@@ -175,7 +176,8 @@ impl Session {
     }
 
     fn reading(&self, path: PathBuf, text: String) -> Msg {
-        let reading = Reading::new(text, self.app.shared.baseline()).expect("it fits into memory");
+        let reading =
+            Reading::new(text, files::baseline(&self.app.shared)).expect("it fits into memory");
         Msg::Read(path, Ok(reading))
     }
 
@@ -351,7 +353,7 @@ pub(in crate::ui::app::tests) fn half_way(frame: u32) -> ReelProgress {
     };
     let traced = Progress {
         done: 0.5,
-        ..pictures::frame(size, vec![0; size.pixels()]).progress
+        ..frame_of(size, vec![0; size.pixels()]).progress
     };
     ReelProgress {
         frame,

@@ -5,6 +5,7 @@ use crate::document::StepName;
 use crate::language::Node;
 use crate::render::Aov;
 use crate::scene::Camera;
+use crate::ui::app::{command, compare, display, files, inspect, select, text};
 use crate::ui::listing::ListLine;
 
 /// Something in words.
@@ -60,7 +61,7 @@ fn text(app: &App, name: &str) -> Option<String> {
             let parts = app.shared.cursor.parts().iter();
             joined(parts.map(|(depth, node)| format!("{depth} {node}")), ", ")
         }
-        "inputs" => app.shared.has_input().words(),
+        "inputs" => text::has_input(&app.shared).words(),
         "marks" => count(app.shared.cursor.marks.len()),
         "nodes" => count(app.shared.nodes().len()),
         "list" => list(app),
@@ -94,20 +95,20 @@ fn settings(app: &App, name: &str) -> Option<String> {
         "rendering" => format!("{:?}", app.shared.rendering()),
         "aov" => app.shared.pictures.aov.map(Aov::name).words(),
         "region" => app.shared.pictures.region.is_some().words(),
-        "exposure" => app.shared.display_name().words(),
+        "exposure" => display::display_name(&app.shared).words(),
         "exposed" => {
-            let window = app.shared.frame_window();
+            let window = display::frame_window(&app.shared);
             window
                 .map(|window| window.display.half_stops.to_string())
                 .words()
         }
-        "transforms" => app.shared.pictures.transform.is_some().words(),
+        "transforms" => app.shared.transform.is_some().words(),
         "denoised" => {
-            let window = app.shared.frame_window();
+            let window = display::frame_window(&app.shared);
             window.is_some_and(|window| window.display.denoised).words()
         }
-        "view-name" => app.shared.view_name().words(),
-        "legend" => app.shared.legend().words(),
+        "view-name" => display::view_name(&app.shared).words(),
+        "legend" => display::legend(&app.shared).words(),
         "theme" => format!("{:?}", app.shared.theme),
         "panel" => app.shared.areas().border.x.to_string(),
         "hints" => {
@@ -133,12 +134,12 @@ fn overlays(app: &App, name: &str) -> Option<String> {
         "past" => joined(past, "; "),
         "fault" => failed.map(|message| &message.text).words(),
         "asks" => question(app),
-        "loses" => app.shared.losses().words(),
+        "loses" => files::losses(&app.shared).words(),
         "prompt" => prompt
             .map(|prompt| format!(":{}", prompt.input.value()))
             .words(),
         "completed" => {
-            let found = app.shared.completions().into_iter();
+            let found = command::completions(&app.shared).into_iter();
             ended(
                 found.map(|found| format!("{} [{}]", found.shown, found.keys)),
                 "; ",
@@ -182,21 +183,24 @@ fn pictures(app: &App, name: &str) -> Option<String> {
         "paused" => app.shared.picture().paused.words(),
         "traced" => app.shared.pictures.trace.is_some().words(),
         "corner" => app.shared.pictures.preview.shown.object_at(0, 0).words(),
-        "under" => match app.shared.node_at([0, 0]) {
+        "under" => match inspect::node_at(&app.shared, [0, 0]) {
             Ok(node) => node.words(),
             Err(_) => "unknown".to_owned(),
         },
         "compared-at" => {
-            let cross = app.shared.compared.cross;
+            let cross = app.compare.cross;
             cross.map(|(x, y)| format!("{x},{y}")).words()
         }
-        "cross" => app
-            .shared
-            .cross()
+        "cross" => inspect::cross(&app.shared)
             .map(|cross| joined(cross.pixel, ","))
             .words(),
-        "outlined" => joined(app.shared.outlined_objects(), " "),
-        "symbols" => joined(app.shared.symbols().iter().map(|symbol| symbol.node), ", "),
+        "outlined" => joined(display::outlined_objects(&app.shared), " "),
+        "symbols" => joined(
+            display::symbols(&app.shared)
+                .iter()
+                .map(|symbol| symbol.node),
+            ", ",
+        ),
         "solo" => app.shared.pictures.solo.is_some().words(),
         "thumbnails" => app.thumbnails.are_awaited().words(),
         _ => return None,
@@ -205,14 +209,14 @@ fn pictures(app: &App, name: &str) -> Option<String> {
 
 /// The comparison with a reference.
 fn comparison(app: &App, name: &str) -> Option<String> {
-    let compared = &app.shared.compared;
+    let compared = &app.compare;
     Some(match name {
         "contrast" => compared.view.name().into_owned(),
         "figures" => compared.are_figures_final().words(),
         "differing" => compared.figures().map(|found| found.differing).words(),
         "reference" => compared.reference.as_ref().map(|found| &found.name).words(),
         "comparing" => compared.is_awaited().words(),
-        "unlike" => app.shared.compares_unlike().words(),
+        "unlike" => compare::unlike(&app.compare, &app.shared).words(),
         _ => return None,
     })
 }
@@ -234,8 +238,8 @@ fn work(app: &App, name: &str) -> Option<String> {
             .as_ref()
             .map(|path| path.display())
             .words(),
-        "polls" => app.shared.polls().words(),
-        "unkept" => app.shared.fails_to_keep().words(),
+        "polls" => files::polls(&app.shared).words(),
+        "unkept" => files::fails_to_keep(&app.shared).words(),
         "awaits" => app.shared.assets.are_awaited().words(),
         "opening" => app.shared.disk.is_opening().words(),
         "leaving" => app.shared.jobs.next.is_some().words(),
@@ -281,7 +285,9 @@ fn question(app: &App) -> String {
             });
             format!("conflict {}", joined(each, ", "))
         }
-        Some(Dialog::Delete(nodes)) => format!("delete: {}", app.shared.consequence(nodes)),
+        Some(Dialog::Delete(nodes)) => {
+            format!("delete: {}", select::consequence(&app.shared, nodes))
+        }
         Some(Dialog::Overwrite(_)) => "overwrite".to_owned(),
         Some(Dialog::Recover(offer)) => {
             format!("recover {} {}", offer.places, offer.conflicts())

@@ -1,0 +1,320 @@
+//! The palette over the command line: completes commands, their file names, and the actions of
+//! keys by their descriptions; recalls command lines.
+
+use std::path::{Path, PathBuf};
+
+use crossterm::event::{KeyCode, KeyEvent};
+use tui_input::Input;
+
+use super::Described;
+use crate::image_file::ImageFormat;
+use crate::language::Language;
+use crate::ui::app::shared::line;
+use crate::ui::app::{App, Completion, PromptKind, Shared, command};
+use crate::ui::keymap::{Context, Mode, RowId};
+use crate::ui::msg::Effect;
+
+/// What is completed.
+enum Wanted<'a> {
+    /// A command or an action that begins like this or contains this.
+    Command(&'a str),
+    /// A file name, of which this is typed, of a command; the whole line comes first.
+    File(&'a str, Described, &'a str),
+}
+
+impl App {
+    /// Runs the command line: the action chosen or uniquely described, otherwise a command.
+    pub(crate) fn run_line(&mut self, line: &str) -> Vec<Effect> {
+        // A colon typed once more is no part of the command, as in vi.
+        let line = line.trim_start().trim_start_matches(':');
+        let found = completions(&self.shared);
+        let chosen = self.shared.palette.chosen;
+        let is_typed = chosen.is_none() && !line.trim().is_empty();
+        if is_typed && 1 < found.len() && !command::begins_command(line) {
+            self.shared.warn("several match: Tab chooses");
+            return Vec::new();
+        }
+        self.shared.palette.reset();
+        self.shared.overlays.prompt = None;
+        self.shared.palette.remember(line);
+        let described = match (chosen, found.as_slice()) {
+            (Some(at), found) => found.get(at),
+            (None, [only]) if !command::is_command(line) => Some(only),
+            (None, _) => None,
+        };
+        match described.and_then(|completion| completion.act) {
+            Some((_, context))
+                if self.shared.mode == Mode::Move && context != Context::In(Mode::Move) =>
+            {
+                self.shared.warn_of_transform();
+                Vec::new()
+            }
+            Some((row, context @ Context::In(Mode::Sequence))) => self.act_in(row, context),
+            Some((row, context)) => self.outside(|app| app.act_in(row, context)),
+            None => self.command(line),
+        }
+    }
+
+    /// Does what a key does, after going to the mode that has it.
+    fn act_in(&mut self, row: RowId, context: Context) -> Vec<Effect> {
+        let mut effects = Vec::new();
+        if let Context::In(mode) = context
+            && mode != self.shared.mode
+        {
+            effects = self.go(mode);
+            if self.shared.mode != mode {
+                return effects;
+            }
+        }
+        effects.extend(self.act(row));
+        effects
+    }
+}
+
+/// Handles a key in the command line other than those that end it.
+pub(crate) fn palette_key(shared: &mut Shared, key: KeyEvent) -> Vec<Effect> {
+    match key.code {
+        KeyCode::Up if recall(shared, true) => {}
+        KeyCode::Down if recall(shared, false) => {}
+        KeyCode::BackTab | KeyCode::Up => choose_completion(shared, -1),
+        KeyCode::Tab | KeyCode::Down => choose_completion(shared, 1),
+        _ => {
+            if let Some(prompt) = &mut shared.overlays.prompt
+                && line::edit_over(&mut prompt.input, &mut prompt.is_selected, key)
+            {
+                shared.palette.reset();
+            }
+        }
+    }
+    list_folder(shared)
+}
+
+/// Takes the names in a folder.
+pub(crate) fn folder_listed(shared: &mut Shared, folder: PathBuf, names: Vec<String>) {
+    shared.palette.folder = Some((folder, names));
+}
+
+/// The command whose arguments are being typed.
+pub(crate) fn command_typed(shared: &Shared) -> Option<Completion> {
+    let described = match wanted(shared)? {
+        Wanted::File(_, described, _) => described,
+        Wanted::Command(typed) => command::described_in(typed)?,
+    };
+    Some(as_completion(shared, described))
+}
+
+/// The ways to complete the command line, the best first.
+pub(crate) fn completions(shared: &Shared) -> Vec<Completion> {
+    match wanted(shared) {
+        None => Vec::new(),
+        Some(Wanted::Command(typed)) => commands_like(shared, typed.trim_start()),
+        Some(Wanted::File(line, described, typed)) => {
+            // The line may begin something else: `export cancel`.
+            let mut found = commands_like(shared, line);
+            let begins =
+                |other: &Completion| other.line.starts_with(line) || other.words.starts_with(line);
+            found.retain(|other| other.line != described.name && begins(other));
+            found.extend(files_like(shared, described.name, typed));
+            found
+        }
+    }
+}
+
+fn wanted(shared: &Shared) -> Option<Wanted<'_>> {
+    let prompt = shared.overlays.prompt.as_ref()?;
+    if prompt.kind != PromptKind::Command {
+        return None;
+    }
+    let typed = match shared.palette.chosen {
+        Some(_) => &shared.palette.typed,
+        None => prompt.input.value(),
+    };
+    let typed = typed.trim_start();
+    let file = typed.split_once(' ').and_then(|(name, rest)| {
+        let described = command::described_as(name).filter(|row| row.takes_file)?;
+        // `export cancel` is a command of its own.
+        let is_other = command::described_as(typed).is_some();
+        (!is_other).then_some(Wanted::File(typed, described, rest.trim_start()))
+    });
+    Some(file.unwrap_or(Wanted::Command(typed)))
+}
+
+fn commands_like(shared: &Shared, typed: &str) -> Vec<Completion> {
+    let wanted = typed.trim_end().to_lowercase();
+    let commands = command::all_described().map(|row| {
+        let names = row.names.iter().filter_map(|name| likeness(name, &wanted));
+        let by_words = likeness(row.words, &wanted).map(|rank| rank + 1);
+        let by_synonyms = likeness(row.synonyms, &wanted).map(|rank| rank + 2);
+        let rank = names.chain(by_words).chain(by_synonyms).min();
+        (rank, row.key, as_completion(shared, row))
+    });
+    let commands: Vec<_> = commands.filter(|(rank, ..)| rank.is_some()).collect();
+    let actions = if shared.disk.is_opening() {
+        Vec::new()
+    } else {
+        shared.keymap.actions(shared.mode)
+    };
+    // A command that is offered does the same.
+    let is_other = |name| commands.iter().all(|(_, key, _)| *key != Some(name));
+    let actions = actions.into_iter().filter(|named| is_other(named.name));
+    let actions: Vec<_> = actions
+        .map(|named| {
+            let keys = match named.context {
+                Context::In(mode) if mode != shared.mode && !named.keys.is_empty() => {
+                    format!("{} {}", mode.name(), named.keys)
+                }
+                _ => named.keys,
+            };
+            let completion = Completion {
+                line: named.words.to_owned(),
+                shown: named.words.to_owned(),
+                words: "",
+                keys,
+                act: Some((named.row, named.context)),
+            };
+            let by_synonyms = likeness(named.synonyms, &wanted).map(|rank| rank + 1);
+            let ranks = likeness(named.words, &wanted)
+                .into_iter()
+                .chain(by_synonyms);
+            (ranks.min(), completion)
+        })
+        .collect();
+    let mut found: Vec<_> = commands
+        .into_iter()
+        .map(|(rank, _, completion)| (rank, completion))
+        .chain(actions)
+        .filter_map(|(rank, completion)| Some((rank?, completion)))
+        .collect();
+    found.sort_by_key(|&(rank, _)| rank);
+    found
+        .into_iter()
+        .map(|(_, completion)| completion)
+        .collect()
+}
+
+/// The names in the listed folder that a command may take and that begin as typed.
+fn files_like(shared: &Shared, command: &str, typed: &str) -> Vec<Completion> {
+    let (folder, start) = parted(typed);
+    let names = match &shared.palette.folder {
+        Some((listed, names)) if *listed == folder_of(folder) => &names[..],
+        _ => &[],
+    };
+    let own = shared.document.language().extension();
+    let is_wanted = |name: &str| {
+        let path = Path::new(name);
+        name.ends_with('/')
+            || if command.starts_with('w') {
+                path.extension().is_some_and(|extension| extension == own)
+            } else {
+                let is_scene = command == "compare" && Language::of_path(path).is_ok();
+                is_scene || ImageFormat::of_path(path).is_some()
+            }
+    };
+    let matching = names.iter().filter(|name| name.starts_with(start));
+    let others = match (command, folder) {
+        ("compare", "") => &["saved", "git"][..],
+        _ => &[],
+    };
+    let others = others.iter().filter(|word| word.starts_with(start));
+    let files = matching.filter(|name| is_wanted(name));
+    others
+        .map(|word| (*word).to_owned())
+        .chain(files.map(|name| format!("{folder}{name}")))
+        .map(|shown| Completion {
+            line: format!("{command} {shown}"),
+            shown,
+            words: "",
+            keys: String::new(),
+            act: None,
+        })
+        .collect()
+}
+
+fn as_completion(shared: &Shared, command: Described) -> Completion {
+    Completion {
+        line: command.name.to_owned(),
+        keys: keys_of(shared, command.key),
+        shown: command.usage,
+        words: command.words,
+        act: None,
+    }
+}
+
+/// The keys with this name in the present mode, otherwise in any.
+fn keys_of(shared: &Shared, name: Option<&str>) -> String {
+    let mut named = shared.keymap.actions(shared.mode).into_iter();
+    let named = named.find(|named| Some(named.name) == name);
+    named.map_or_else(String::new, |named| named.keys)
+}
+
+/// Puts another completion into the line, wrapping around through the line as typed.
+fn choose_completion(shared: &mut Shared, step: isize) {
+    let found = completions(shared);
+    if shared.palette.chosen.is_none()
+        && let Some(prompt) = &shared.overlays.prompt
+    {
+        prompt.input.value().clone_into(&mut shared.palette.typed);
+    }
+    let count = found.len() as isize + 1;
+    let at = shared.palette.chosen.map_or(0, |at| at as isize + 1);
+    let at = (at + step).rem_euclid(count);
+    shared.palette.chosen = usize::try_from(at - 1).ok();
+    let line = match shared.palette.chosen.and_then(|at| found.get(at)) {
+        Some(completion) => &completion.line,
+        None => &shared.palette.typed,
+    };
+    if let Some(prompt) = &mut shared.overlays.prompt {
+        prompt.input = Input::from(line.as_str());
+    }
+}
+
+/// Puts another line of the history into the line; returns whether there was one.
+fn recall(shared: &mut Shared, older: bool) -> bool {
+    let Some(prompt) = &mut shared.overlays.prompt else {
+        return false;
+    };
+    let Some(line) = shared.palette.recall(prompt.input.value(), older) else {
+        return false;
+    };
+    prompt.input = Input::from(line);
+    true
+}
+
+/// Requests the names in the folder whose files are completed, unless they are known.
+pub(crate) fn list_folder(shared: &mut Shared) -> Vec<Effect> {
+    let Some(Wanted::File(.., typed)) = wanted(shared) else {
+        return Vec::new();
+    };
+    let folder = folder_of(parted(typed).0);
+    if shared.palette.folder.as_ref().map(|(listed, _)| listed) == Some(&folder) {
+        return Vec::new();
+    }
+    // Nothing is offered until the names arrive, and nothing is requested twice.
+    shared.palette.folder = Some((folder.clone(), Vec::new()));
+    vec![Effect::ListFolder(folder)]
+}
+
+/// The folder and the start of the name in a typed path.
+fn parted(typed: &str) -> (&str, &str) {
+    typed.split_at(typed.rfind('/').map_or(0, |slash| slash + 1))
+}
+
+fn folder_of(typed: &str) -> PathBuf {
+    PathBuf::from(if typed.is_empty() { "." } else { typed })
+}
+
+/// How well a text answers what was typed, in lower case; 0 is best. `None` if it does not contain
+/// all of the words.
+fn likeness(text: &str, wanted: &str) -> Option<u8> {
+    let text = text.to_lowercase();
+    let begins_word = |at: usize| text[..at].ends_with([' ', '-']);
+    if text.starts_with(wanted) {
+        Some(0)
+    } else if text.match_indices(wanted).any(|(at, _)| begins_word(at)) {
+        Some(1)
+    } else if wanted.split_whitespace().all(|word| text.contains(word)) {
+        Some(2)
+    } else {
+        None
+    }
+}

@@ -1,0 +1,316 @@
+//! Comparing pictures: traces what corresponds to the reference, and looks at both.
+
+use std::sync::Arc;
+
+use super::contrast::Contrast;
+use super::grading::{graded_aov, graded_job};
+use super::state::{Compare, Origin, Reference, Wipe, shown};
+use crate::image_file::ImageFormat;
+use crate::render::{Frame, Frames, Job, Settings};
+use crate::scene::{Camera, Images, Rendering, Scene, Size};
+use crate::text::Severity;
+use crate::ui::app::pictures::picture::Picture;
+use crate::ui::app::{Cross, Shared, display, inspect};
+use crate::ui::keymap::Mode;
+use crate::ui::msg::{Effect, Target};
+
+/// Starts to compare, or stops.
+pub(crate) fn start(compare: &mut Compare, shared: &mut Shared) -> Vec<Effect> {
+    if shared.mode == Mode::Compare {
+        end(shared);
+        return Vec::new();
+    }
+    shared.document.end_step();
+    if let Err(reason) = comparison(compare, shared) {
+        shared.refuse_picture(Severity::Error, &reason);
+        return Vec::new();
+    }
+    shared.pictures.before_comparison = Some(shared.mode);
+    shared.mode = Mode::Compare;
+    compare.due = true;
+    let own = shared.output();
+    let pinned = compare.pinned_size();
+    if let Some(size) = pinned.filter(|size| *size != own) {
+        let [theirs, own] = [size, own].map(|Size { width, height }| format!("{width}×{height}"));
+        shared.say(format!(
+            "traced at {theirs}, the size of the pinned picture; the scene's own is {own}"
+        ));
+    }
+    Vec::new()
+}
+
+/// Returns to the mode before the comparison.
+pub(crate) fn end(shared: &mut Shared) {
+    shared.mode = shared
+        .pictures
+        .before_comparison
+        .take()
+        .unwrap_or(Mode::Select);
+}
+
+/// Traces what is compared if it is not up to date, and nothing outside of [`Mode::Compare`].
+pub(crate) fn follow(compare: &mut Compare, shared: &mut Shared) -> Vec<Effect> {
+    if shared.assets.are_awaited() {
+        return Vec::new();
+    }
+    if shared.seen() != Target::Compared {
+        return if compare.end() {
+            shared.pictures.compared = Picture::default();
+            vec![
+                Effect::Stop(Target::Compared),
+                Effect::Stop(Target::Reference),
+            ]
+        } else {
+            Vec::new()
+        };
+    }
+    if compare.inspect(shared.mode == Mode::Inspect) {
+        show(compare, shared);
+    }
+    if !std::mem::take(&mut compare.due) && !shared.pictures.has_changed {
+        return measure(compare);
+    }
+    match comparison(compare, shared) {
+        Ok((live, reference)) => {
+            compare.begin();
+            let other = match reference {
+                Some(job) => Effect::Trace(Target::Reference, job),
+                None => Effect::Stop(Target::Reference),
+            };
+            vec![Effect::Trace(Target::Compared, live), other]
+        }
+        Err(reason) => {
+            shared.refuse_picture(Severity::Error, &reason);
+            end(shared);
+            follow(compare, shared)
+        }
+    }
+}
+
+fn measure(compare: &mut Compare) -> Vec<Effect> {
+    let pair = compare.next_to_measure();
+    pair.map(Effect::Compare).into_iter().collect()
+}
+
+/// What to trace of the present scene, and of its reference if that is a scene.
+fn comparison(compare: &Compare, shared: &Shared) -> Result<(Job, Option<Job>), String> {
+    let reference = compare.reference.as_ref().ok_or_else(|| {
+        let pin = shared.key_for("pin");
+        format!("nothing to compare with: {pin} pins the picture, :compare FILE loads one")
+    })?;
+    comparison_jobs(shared, reference)
+}
+
+/// What to trace of the present scene, and of a reference if that is a scene; the error says why
+/// they cannot be compared.
+pub(super) fn comparison_jobs(
+    shared: &Shared,
+    reference: &Reference,
+) -> Result<(Job, Option<Job>), String> {
+    let (size, spp) = match (&reference.origin, &reference.frame) {
+        (&Origin::Preview(halves, grid, spp, size), _) => {
+            let job = display::shown_job(shared, grid.size(halves), spp);
+            let job = job.ok_or_else(|| shared.no_picture())?;
+            let camera = Camera { size, ..job.camera };
+            return Ok((Job { camera, ..job }, None));
+        }
+        (Origin::File(made), Some(frame)) => {
+            return Ok((graded_job(shared, made, frame.size)?, None));
+        }
+        (Origin::Traced(spp), Some(frame)) => (frame.size, *spp),
+        _ => (shared.output(), shared.rendering().spp()),
+    };
+    if let Some(reason) = ImageFormat::Bmp.refuses(size) {
+        return Err(reason);
+    }
+    let live = display::final_job(shared, size, spp)?;
+    // As exports of this size are framed.
+    let camera = Camera {
+        size,
+        ..live.camera
+    };
+    let live = Job { camera, ..live };
+    let other = match &reference.origin {
+        Origin::Scene(scene, images, _) => Some(reference_job(shared, scene, images, &live)),
+        Origin::Preview(..) | Origin::Traced(_) | Origin::File(_) => None,
+    };
+    Ok((live, other))
+}
+
+/// What to trace of a scene that is compared with the present one: the same, except for what the
+/// scene itself says.
+fn reference_job(shared: &Shared, scene: &Arc<Scene>, images: &Images, live: &Job) -> Job {
+    let rendering = Rendering {
+        spp: Some(live.settings.spp),
+        ..shared.pictures.rendering(Some(scene))
+    };
+    let camera = shared.pictures.view.unwrap_or(scene.camera);
+    Job {
+        scene: Arc::clone(scene),
+        images: images.clone(),
+        camera: Camera {
+            size: live.settings.size,
+            ..camera
+        },
+        settings: Settings {
+            aov: live.settings.aov,
+            ..Settings::new(live.settings.size, &rendering)
+        },
+        limit: None,
+        frames: Frames::Live,
+        denoise: false,
+        numbers: None,
+    }
+}
+
+/// What is unlike about the two pictures, if they show different things: `light against depth`.
+pub(crate) fn unlike(compare: &Compare, shared: &Shared) -> Option<String> {
+    let reference = compare.reference.as_ref()?;
+    let shows = reference.shows?;
+    let aov = match &reference.origin {
+        Origin::File(made) => graded_aov(shared, made),
+        _ => shared.pictures.aov,
+    };
+    let live = shown(aov);
+    (live != shows).then(|| format!("{live} against {shows}"))
+}
+
+/// Records the generation of a picture, or `None` if it will not be finished.
+pub(crate) fn want(
+    compare: &mut Compare,
+    shared: &mut Shared,
+    target: Target,
+    generation: Option<u64>,
+) {
+    compare.want(target, generation);
+    if target == Target::Compared {
+        shared.pictures.compared.wanted = generation;
+    }
+}
+
+/// Takes a frame of either picture.
+pub(crate) fn take_frame(
+    compare: &mut Compare,
+    shared: &mut Shared,
+    target: Target,
+    frame: Arc<Frame>,
+) {
+    if compare.take(target, frame) {
+        show(compare, shared);
+    }
+}
+
+/// Selects what of both pictures is seen.
+fn look(compare: &mut Compare, shared: &mut Shared, view: Contrast, wipe: Wipe) {
+    if compare.look(view, wipe) {
+        show(compare, shared);
+    }
+}
+
+/// Puts what is seen of both pictures on screen.
+fn show(compare: &Compare, shared: &mut Shared) {
+    shared.pictures.compared_size = compare.framed();
+    if let Some(seen) = compare.seen() {
+        shared.pictures.compared.take(seen);
+    }
+}
+
+/// Zooms by doublings about the pixel that is pointed at, otherwise about the middle.
+pub(super) fn magnify(compare: &Compare, shared: &mut Shared, steps: i8) {
+    let pointed = cross_on_screen(compare, shared);
+    display::magnify_about(shared, steps, pointed);
+}
+
+/// Shows the two pictures in another way.
+pub(super) fn contrast(compare: &mut Compare, shared: &mut Shared, view: Contrast) {
+    look(compare, shared, view, compare.wipe);
+}
+
+/// Moves the line of the wipe by some cells to the right.
+pub(super) fn slide_wipe(compare: &mut Compare, shared: &mut Shared, cells: i16) {
+    let Some(((area, halves), frame_window)) = shared.raster().zip(display::frame_window(shared))
+    else {
+        return;
+    };
+    // The cells across the whole picture.
+    let width = f64::from(area.width) * frame_window.magnification(halves);
+    let column = (compare.wipe.0 * width).round() + f64::from(cells);
+    let wipe = Wipe(column.clamp(0.0, width) / width);
+    look(compare, shared, Contrast::Wipe, wipe);
+}
+
+/// Points at one of the worst pixels.
+pub(super) fn go_to_worst(compare: &mut Compare, shared: &mut Shared, step: isize) {
+    if let Err(reason) = compare.go_to_worst(step) {
+        shared.say(reason);
+    } else if let Some(place) = cross_on_screen(compare, shared) {
+        display::centre_on(shared, place);
+    }
+}
+
+/// Explains the pixel of the present picture that is pointed at, otherwise the worst one.
+pub(super) fn explain(compare: &mut Compare, shared: &mut Shared) {
+    if compare.cross.is_none() {
+        go_to_worst(compare, shared, 1);
+    }
+    let place = compare.live().map(|live| (live.corner, live.whole()));
+    if let Some(((x, y), ([left, top], size))) = compare.cross.zip(place) {
+        if compare.inspect(true) {
+            show(compare, shared);
+        }
+        inspect::explain_at(
+            shared,
+            Cross {
+                pixel: [left + x, top + y],
+                size,
+            },
+        );
+    }
+}
+
+/// Where the pixel that is pointed at is on screen, in half blocks from the picture's upper left
+/// corner.
+pub(crate) fn cross_on_screen(compare: &Compare, shared: &Shared) -> Option<[f64; 2]> {
+    let here = compare.at_cross()?;
+    let size = compare.pair()?.size()?;
+    let (_, halves) = shared.raster()?;
+    let scaled = |at: u32, pixels: u32, shown: u32| {
+        (f64::from(at) + 0.5) / f64::from(pixels) * f64::from(shown)
+    };
+    let place = [
+        scaled(here.x, size.width, halves.width),
+        scaled(here.y, size.height, halves.height),
+    ];
+    Some(display::frame_window(shared)?.on_screen(place, halves))
+}
+
+/// Where the line of the wipe is on screen, in half blocks from the picture's left edge, if it is
+/// seen.
+pub(crate) fn wipe_on_screen(compare: &Compare, shared: &Shared) -> Option<f64> {
+    let (_, halves) = shared.raster()?;
+    let at = compare.wipe.0 * f64::from(halves.width);
+    let [column, _] = display::frame_window(shared)?.on_screen([at, 0.0], halves);
+    (compare.view == Contrast::Wipe).then_some(column)
+}
+
+/// Moves the line of the wipe to a cell of the screen; in other views, points at the pixel there.
+pub(crate) fn press(compare: &mut Compare, shared: &mut Shared, at: (u16, u16)) {
+    let Some((cells, _)) = shared
+        .raster()
+        .filter(|(cells, _)| cells.contains(at.into()))
+    else {
+        return;
+    };
+    let cell = (at.0 - cells.x, at.1 - cells.y);
+    let Some([x, y]) = display::pixel_at(shared, cell) else {
+        return;
+    };
+    let seen = shared.pictures.compared.latest.as_ref();
+    match (compare.view, seen) {
+        (Contrast::Wipe, Some(seen)) => {
+            let wipe = Wipe(f64::from(x) / f64::from(seen.size.width));
+            look(compare, shared, Contrast::Wipe, wipe);
+        }
+        _ => compare.cross = Some((x, y)),
+    }
+}

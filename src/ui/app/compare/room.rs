@@ -1,0 +1,33 @@
+//! What COMPARE does about what happens to the interface.
+
+use super::comparing::{follow, press};
+use super::state::Compare;
+use crate::ui::app::room::Room;
+use crate::ui::app::shared::Shared;
+use crate::ui::keymap::Mode;
+use crate::ui::msg::Effect;
+
+impl Room for Compare {
+    /// The reference stays, to be compared with another scene as well.
+    fn renew(&mut self) {}
+
+    fn settle(&mut self, shared: &mut Shared) {
+        shared.pictures.compared_size = self.framed();
+    }
+
+    fn follow(&mut self, shared: &mut Shared) -> Vec<Effect> {
+        follow(self, shared)
+    }
+
+    fn press(&mut self, shared: &mut Shared, at: (u16, u16)) -> Option<Vec<Effect>> {
+        if shared.mode != Mode::Compare {
+            return None;
+        }
+        press(self, shared, at);
+        Some(Vec::new())
+    }
+
+    fn drag(&mut self, shared: &mut Shared, at: (u16, u16)) -> Option<Vec<Effect>> {
+        self.press(shared, at)
+    }
+}

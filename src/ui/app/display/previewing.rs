@@ -1,0 +1,176 @@
+//! What the preview and the full-size trace are asked for.
+
+use std::sync::Arc;
+
+use super::soloing::preview_scene;
+use super::zooming::preview_screen;
+use crate::render::{Frames, Job, Region, Settings};
+use crate::scene::{Filter, Integrator, Rendering, Scene, Size};
+use crate::ui::app::Shared;
+use crate::ui::app::pictures::frame_window::Grid;
+use crate::ui::app::pictures::viewport::{Detail, Screen};
+use crate::ui::msg::{Effect, Target};
+
+/// Samples per pixel at which the preview stops: by then edges are smooth and the noise of paths is
+/// invisible. Where cells hold more pixels, each needs fewer samples.
+fn preview_samples(integrator: Integrator, grid: Grid) -> u32 {
+    let density = u32::from(grid.across) * u32::from(grid.down) / 2;
+    let samples = match integrator {
+        Integrator::Whitted => 64,
+        Integrator::Path | Integrator::Photon => 1024,
+    };
+    samples / density.clamp(1, 4)
+}
+
+/// Requests the files that the scene needs, and restarts the full-size trace if it no longer shows the
+/// scene.
+pub(crate) fn follow_scene(shared: &mut Shared) -> Vec<Effect> {
+    let mut effects = shared.assets.follow();
+    // A picture without these files would be seen only for a moment.
+    let is_due = !shared.assets.are_awaited() && std::mem::take(&mut shared.pictures.due);
+    shared.pictures.has_changed = is_due;
+    if is_due {
+        shared.pictures.preview.asked = None;
+        effects.extend(follow_trace(shared));
+    }
+    effects
+}
+
+/// Restarts the preview if it is on screen and no longer shows the scene.
+pub(crate) fn follow_preview(shared: &mut Shared) -> Option<Effect> {
+    if shared.assets.are_awaited() || shared.seen() != Target::Preview {
+        return None;
+    }
+    let screen = preview_screen(shared);
+    let asked = screen.map(|screen| preview_asked(shared, screen));
+    if shared.pictures.preview.asked == asked {
+        return None;
+    }
+    shared.pictures.preview.asked = asked;
+    let (screen, asked) = screen.zip(asked)?;
+    let job = preview_job(shared, screen, asked)?;
+    Some(Effect::Trace(Target::Preview, job))
+}
+
+/// The size of the preview, and the part of it that is on screen.
+fn preview_asked(shared: &Shared, screen: Screen) -> (Size, Option<Region>) {
+    let preview = &shared.pictures.preview;
+    let viewport = preview.viewport;
+    let window = viewport.window(screen, Detail::OnScreen);
+    match window.filter(|_| shared.pictures.wireframe.is_none()) {
+        Some(window) => (window.whole, Some(window.part)),
+        None => (screen.grid.size(screen.halves), None),
+    }
+}
+
+fn preview_job(
+    shared: &Shared,
+    screen: Screen,
+    (size, region): (Size, Option<Region>),
+) -> Option<Job> {
+    let spp = preview_samples(shared.rendering().integrator(), screen.grid);
+    let mut job = shown_job(shared, size, spp)?;
+    job.settings.region = region;
+    job.denoise = shared.pictures.display.denoised;
+    job.settings.aov = shared.pictures.preview_aov();
+    if let Some(aov) = job.settings.aov {
+        job.settings.spp = aov.samples(spp);
+    }
+    Some(job)
+}
+
+/// The job of what the preview shows of the scene.
+pub(crate) fn shown_job(shared: &Shared, size: Size, spp: u32) -> Option<Job> {
+    let (scene, numbers) = preview_scene(shared)?;
+    let job = job_of(shared, scene, size, spp, Some(Filter::Box))?;
+    Some(Job { numbers, ..job })
+}
+
+/// Brings the wireframe up to date, if it is on screen.
+pub(crate) fn follow_wires(shared: &mut Shared) {
+    if shared.seen() != Target::Preview {
+        return;
+    }
+    let (camera, raster) = (shared.camera(), shared.raster());
+    if let (Some(wireframe), Some(scene)) = (&mut shared.pictures.wireframe, &shared.scene)
+        && let (Some(camera), Some((_, size))) = (camera, raster)
+    {
+        wireframe.follow(scene, camera, size);
+    }
+}
+
+fn follow_trace(shared: &mut Shared) -> Vec<Effect> {
+    match shared.pictures.trace {
+        None => Vec::new(),
+        Some(_) if shared.seen() == Target::Trace => restart_trace(shared),
+        Some(_) => {
+            shared.pictures.trace = None;
+            vec![Effect::Stop(Target::Trace)]
+        }
+    }
+}
+
+/// Restarts the full-size trace if it is running; it continues from the pixels that stay valid.
+pub(crate) fn retrace(shared: &mut Shared) -> Vec<Effect> {
+    if shared.pictures.is_tracing() {
+        restart_trace(shared)
+    } else {
+        Vec::new()
+    }
+}
+
+fn restart_trace(shared: &mut Shared) -> Vec<Effect> {
+    let Ok(job) = trace_job(shared) else {
+        return Vec::new();
+    };
+    if let Some(trace) = &mut shared.pictures.trace {
+        trace.paused = false;
+    }
+    vec![Effect::Trace(Target::Trace, job)]
+}
+
+/// The job that traces a scene, with this pixel filter if another than that asked for.
+fn job_of(
+    shared: &Shared,
+    scene: Arc<Scene>,
+    size: Size,
+    spp: u32,
+    filter: Option<Filter>,
+) -> Option<Job> {
+    let asked = shared.pictures.rendering(Some(&scene));
+    let rendering = Rendering {
+        spp: Some(shared.pictures.samples(spp)),
+        filter: filter.or(asked.filter),
+        ..asked
+    };
+    Some(Job {
+        scene,
+        images: shared.assets.images.clone(),
+        camera: shared.camera()?,
+        settings: Settings {
+            aov: shared.pictures.aov,
+            ..Settings::new(size, &rendering)
+        },
+        limit: None,
+        frames: Frames::Live,
+        denoise: false,
+        numbers: None,
+    })
+}
+
+/// The job of a picture in the quality of exports, or the reason why there is none.
+pub(crate) fn final_job(shared: &Shared, size: Size, spp: u32) -> Result<Job, String> {
+    let scene = shared.scene.as_ref().map(Arc::clone);
+    let job = scene.and_then(|scene| job_of(shared, scene, size, spp, None));
+    job.filter(|_| !shared.assets.are_awaited())
+        .ok_or_else(|| shared.no_picture())
+}
+
+pub(crate) fn trace_job(shared: &Shared) -> Result<Job, String> {
+    let (spp, limit) = shared.until().limits();
+    let mut job = final_job(shared, shared.output(), spp)?;
+    job.limit = limit;
+    job.denoise = shared.pictures.display.denoised;
+    job.settings.region = shared.region();
+    Ok(job)
+}

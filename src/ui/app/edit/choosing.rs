@@ -1,0 +1,238 @@
+//! Choosing from menus: what to add, what to change to, and the value of a field. A value is tried
+//! out while the cursor is on it.
+
+use crossterm::event::{KeyCode, KeyEvent};
+
+use super::typing::{assign_whole, type_current};
+use crate::language::table::{Category, Kind};
+use crate::language::{Node, Placed, Source};
+use crate::text::Edit;
+use crate::ui::app::shared::menu::{Entry, Menu, Purpose};
+use crate::ui::app::values::colours;
+use crate::ui::app::{Shared, select, text};
+
+/// Opens the list of the values of the current field if it has one, otherwise starts typing a
+/// value.
+pub(crate) fn enter_value(shared: &mut Shared) {
+    let Some(row) = shared.field_row(shared.cursor.field) else {
+        return;
+    };
+    let node = shared.cursor.selected();
+    let entries = match row.field.kind {
+        Kind::Choice(words) => words.iter().map(|&word| Entry::new(word, "")).collect(),
+        Kind::Reference(category) | Kind::Name(category) => {
+            referred(shared.source(), node, category)
+        }
+        _ => {
+            type_current(shared);
+            return;
+        }
+    };
+    let present = row.literals.get(shared.cursor.component);
+    let present = present.map_or("", String::as_str);
+    let present = row.field.chosen(present).map_or(present, |(_, word)| word);
+    let at = entries.iter().position(|entry| entry.name == present);
+    let purpose = Purpose::Value(row.field.key);
+    let mut menu = Menu::new(purpose, entries, at);
+    // A change of the view may concern the working view, which is not in the text.
+    let is_text = node != Node::View;
+    menu.live_edit = is_text.then(|| text::begin_live_edit(shared));
+    shared.overlays.menu = Some(menu);
+}
+
+/// Handles a key while a menu is open.
+pub(crate) fn menu_key(shared: &mut Shared, key: KeyEvent) {
+    let Some(menu) = &mut shared.overlays.menu else {
+        return;
+    };
+    match key.code {
+        KeyCode::Esc => close_menu(shared),
+        KeyCode::Enter => choose_entry(shared),
+        _ => {
+            let count = menu.shown().len();
+            menu.filter.key(key, count);
+            follow_menu(shared);
+        }
+    }
+}
+
+/// Moves the cursor of the menu to a row; a second time chooses the entry there.
+pub(crate) fn click_menu(shared: &mut Shared, row: usize) {
+    let Some(menu) = &mut shared.overlays.menu else {
+        return;
+    };
+    if menu.shown().len() <= row {
+        return;
+    }
+    if menu.filter.at == row {
+        choose_entry(shared);
+    } else {
+        menu.filter.at = row;
+        follow_menu(shared);
+    }
+}
+
+/// Closes the menu and puts back what it has changed.
+pub(crate) fn close_menu(shared: &mut Shared) {
+    if let Some(menu) = shared.overlays.menu.take()
+        && let Some(live_edit) = menu.live_edit
+    {
+        text::end_live_edit(shared, live_edit);
+    }
+}
+
+/// Tries out the entry under the cursor of a menu of values; returns whether nothing speaks
+/// against it.
+pub(crate) fn follow_menu(shared: &mut Shared) -> bool {
+    let Some(mut menu) = shared.overlays.menu.take() else {
+        return false;
+    };
+    let Some(mut live_edit) = menu.live_edit.take() else {
+        shared.overlays.menu = Some(menu);
+        return true;
+    };
+    if text::leaves_live_edit(shared, &live_edit, "choice") {
+        return false;
+    }
+    let outcome = text::try_instead(shared, &mut live_edit, |shared| {
+        menu.offer = offered(shared, &menu);
+        let name = menu.chosen().map(|entry| entry.name.as_str());
+        name.map_or_else(|| Ok(Vec::new()), |name| edits_choosing(shared, name))
+    });
+    menu.live_edit = Some(live_edit);
+    shared.overlays.menu = Some(menu);
+    if let Err(reason) = &outcome {
+        shared.fail(reason.as_str());
+    }
+    outcome.is_ok()
+}
+
+/// Offers to create what the typed name would refer to.
+fn offered(shared: &Shared, menu: &Menu) -> Option<Entry> {
+    let name = menu.filter.input.value().trim();
+    let category = shared.cursor.current().and_then(category)?;
+    if name.is_empty() || menu.has(name) || 0 < shared.error_count() {
+        return None;
+    }
+    let user = shared.cursor.selected();
+    let created = shared.source().creation(category, name, user);
+    let words = format!("new: create this {}", category.word());
+    created.is_ok().then(|| Entry::new(name, words))
+}
+
+/// The edits that set the current component to a name, and those that create what it names.
+fn edits_choosing(shared: &Shared, name: &str) -> Result<Vec<Edit>, String> {
+    let Some(placed) = shared.cursor.current() else {
+        return Ok(Vec::new());
+    };
+    let node = shared.cursor.selected();
+    let component = shared.cursor.component;
+    let present = colours::literals(shared.source(), placed);
+    let is_present = present
+        .get(component)
+        .is_some_and(|present| present == name);
+    if is_present && !text::sets_marked(shared) {
+        return Ok(Vec::new());
+    }
+    let mut edits = text::edits_of(shared, &[(placed, &[(component, name.to_owned())])]);
+    let category = category(placed);
+    let known = category.map(|category| shared.source().references(node, category));
+    if let (Some(category), Some(known)) = (category, known)
+        && known.iter().all(|(literal, _)| literal != name)
+    {
+        let created = shared.source().creation(category, name, node);
+        edits.extend(created.map_err(|refused| refused.to_string())?.edits);
+        Edit::sort(&mut edits);
+    }
+    Ok(edits)
+}
+
+/// Chooses the entry under the cursor and closes the menu.
+fn choose_entry(shared: &mut Shared) {
+    let Some(menu) = &shared.overlays.menu else {
+        return;
+    };
+    let Some(name) = menu.chosen().map(|entry| entry.name.clone()) else {
+        return;
+    };
+    let (purpose, node) = (menu.purpose, shared.cursor.selected());
+    // A live edit knows what to leave; without one, another program may have changed the value since.
+    let is_untouched = menu.live_edit.is_none() && menu.opened.as_ref() == Some(&name);
+    match purpose {
+        Purpose::Value(_) | Purpose::Retype if is_untouched => {}
+        Purpose::Retype if select::own_kind(shared, node) == Some(&*name) => {}
+        Purpose::Value(_) => {
+            choose_value(shared, &name);
+            return;
+        }
+        Purpose::Add => select::add(shared, &name),
+        Purpose::Retype => {
+            let edits = shared.source().retyping(node, &name);
+            if select::restructure(shared, edits, None, &format!("changed to {name}")) {
+                text::merge_input(shared);
+            }
+        }
+    }
+    shared.overlays.menu = None;
+}
+
+/// Keeps the value that is tried out, or sets one that could not be; the menu stays open if that
+/// is refused.
+fn choose_value(shared: &mut Shared, name: &str) {
+    let menu = shared.overlays.menu.as_ref();
+    let live_edit = menu.and_then(|menu| menu.live_edit.as_ref());
+    let is_kept = if let Some(live_edit) = live_edit {
+        live_edit.is_applied || follow_menu(shared)
+    } else {
+        let value = (shared.cursor.component, name.to_owned());
+        let outcome = assign_whole(shared, &[vec![value]]);
+        if let Err(refused) = &outcome {
+            shared.fail(refused.message.as_str());
+        }
+        outcome.is_ok()
+    };
+    if is_kept {
+        text::keep_live_edit(shared);
+        shared.overlays.menu = None;
+    }
+}
+
+/// The material or texture that the current field refers to.
+pub(crate) fn referred_to(shared: &Shared) -> Option<Node> {
+    let category = category(shared.cursor.current()?)?;
+    // Others may be very many.
+    let is_shared = matches!(category, Category::Material | Category::Texture);
+    let row = shared.field_row(shared.cursor.field)?;
+    let literal = row.literals.first()?;
+    let node = shared.cursor.selected();
+    let known = is_shared.then(|| shared.source().references(node, category));
+    let mut known = known.into_iter().flatten();
+    Some(known.find(|(name, _)| name == literal)?.1)
+}
+
+/// The category of what a field refers to.
+fn category(placed: &Placed) -> Option<Category> {
+    match placed.field.kind {
+        Kind::Reference(category) | Kind::Name(category) => Some(category),
+        _ => None,
+    }
+}
+
+/// The nodes that a field of a node can refer to, with the comments on them, or their names where
+/// these say more than their values.
+fn referred(source: &Source, node: Node, category: Category) -> Vec<Entry> {
+    let references = source.references(node, category).into_iter();
+    let entry = |(literal, node): (String, Node)| {
+        let words = match (source.comment(node), node) {
+            (Some(comment), _) => comment.to_owned(),
+            (None, Node::Object(_)) => source.name(node),
+            (None, _) => String::new(),
+        };
+        Entry {
+            name: literal,
+            words,
+            node: Some(node),
+        }
+    };
+    references.map(entry).collect()
+}

@@ -1,0 +1,51 @@
+//! Keys of EDIT and of the colour picker.
+
+use crossterm::event::KeyCode;
+
+use super::choosing::enter_value;
+use super::colouring::{cancel_colour, confirm_colour, open_picker, step_colour};
+use super::typing::{
+    change_stride, has_colour, has_components, has_number, has_oblique_frame, has_steps,
+    next_component, nudge, type_current,
+};
+use crate::ui::app::room::Row;
+use crate::ui::app::{Stride, select};
+use crate::ui::keymap::{Context, Key, Mode, Scope, alt, c, key, shift};
+
+use Context::In;
+use KeyCode::{BackTab, Char, Enter, Esc, Left, Right, Tab};
+use Scope::These;
+use Stride::{Coarse, Fine, Plain};
+
+const EDIT: Scope = These(&[In(Mode::Edit)]);
+const COLOUR: Scope = These(&[Context::Colour]);
+
+/// The most useful first.
+#[rustfmt::skip]
+pub(crate) const KEYS: &[Row] = &[
+    Key::new(EDIT, "nudge-up", &[c('l'), key(Right)], "nudge up").hint(11, "nudge").does(|shared| nudge(shared, 1, Plain)).when(has_steps),
+    Key::new(EDIT, "nudge-down", &[c('h'), key(Left)], "nudge down").hint(10, "nudge").does(|shared| nudge(shared, -1, Plain)).when(has_steps),
+    Key::new(EDIT, "choose", &[key(Enter)], "choose from a list, or type a number").hint(30, "type").does(enter_value),
+    Key::new(EDIT, "type", &[c('i')], "type a value (or press a digit or #)").does(type_current),
+    Key::new(EDIT, "pick-colour", &[c('c')], "pick a colour").also("color material").hint(50, "colour").does(open_picker).when(has_colour),
+    Key::new(EDIT, "next-number", &[key(Tab)], "next number").hint(70, "next number").does(|shared| next_component(shared, 1)).when(has_components),
+    Key::new(EDIT, "nudge-up-coarse", &[c('L'), shift(Right)], "nudge up ten steps").does(|shared| nudge(shared, 1, Coarse)),
+    Key::new(EDIT, "nudge-down-coarse", &[c('H'), shift(Left)], "nudge down ten steps").does(|shared| nudge(shared, -1, Coarse)),
+    Key::new(EDIT, "nudge-up-fine", &[alt(Char('l')), alt(Right)], "nudge up a tenth").does(|shared| nudge(shared, 1, Fine)),
+    Key::new(EDIT, "nudge-down-fine", &[alt(Char('h')), alt(Left)], "nudge down a tenth").does(|shared| nudge(shared, -1, Fine)),
+    Key::new(EDIT, "smaller-steps", &[c(',')], "smaller steps").hint(20, "step").does(|shared| change_stride(shared, -1)).when(has_number),
+    Key::new(EDIT, "larger-steps", &[c(';')], "larger steps").hint(20, "step").does(|shared| change_stride(shared, 1)).when(has_number),
+    Key::new(EDIT, "previous-number", &[key(BackTab)], "previous number").does(|shared| next_component(shared, -1)),
+    Key::new(EDIT, "orthonormalise", &[c('O')], "orthonormalise the frame").hint(60, "orthonormalise").does(select::orthonormalise).when(has_oblique_frame),
+    Key::new(EDIT, "camera", &[c('v')], "move the camera").does(|shared| shared.enter(Mode::View)),
+    Key::new(COLOUR, "nudge-up", &[c('l'), key(Right)], "nudge up").hint(1, "change").does(|shared| step_colour(shared, 1, Plain)),
+    Key::new(COLOUR, "nudge-down", &[c('h'), key(Left)], "nudge down").hint(0, "change").does(|shared| step_colour(shared, -1, Plain)),
+    Key::new(COLOUR, "nudge-up-coarse", &[c('L'), shift(Right)], "nudge up ten steps").does(|shared| step_colour(shared, 1, Coarse)),
+    Key::new(COLOUR, "nudge-down-coarse", &[c('H'), shift(Left)], "nudge down ten steps").does(|shared| step_colour(shared, -1, Coarse)),
+    Key::new(COLOUR, "nudge-up-fine", &[alt(Char('l')), alt(Right)], "nudge up a tenth").does(|shared| step_colour(shared, 1, Fine)),
+    Key::new(COLOUR, "nudge-down-fine", &[alt(Char('h')), alt(Left)], "nudge down a tenth").does(|shared| step_colour(shared, -1, Fine)),
+    Key::new(COLOUR, "smaller-steps", &[c(',')], "smaller steps").hint(20, "step").does(|shared| change_stride(shared, -1)),
+    Key::new(COLOUR, "larger-steps", &[c(';')], "larger steps").hint(20, "step").does(|shared| change_stride(shared, 1)),
+    Key::new(COLOUR, "accept", &[key(Enter)], "confirm").hint(30, "confirm").does(confirm_colour),
+    Key::new(COLOUR, "back", &[key(Esc)], "cancel").hint(40, "cancel").does(cancel_colour),
+];

@@ -1,0 +1,55 @@
+//! The external editor.
+
+use super::reading::read_again;
+use crate::text::Position;
+use crate::ui::app::{OnDisk, Shared, inspect};
+use crate::ui::msg::Effect;
+
+/// Opens the user's editor at the cursor, or at what is inspected.
+pub(crate) fn open_editor(shared: &mut Shared) -> Vec<Effect> {
+    let Some(path) = shared.disk.path.clone() else {
+        shared.fail("this scene has no file yet: use :w FILE to create one");
+        return Vec::new();
+    };
+    if shared.disk.state == OnDisk::New {
+        let name = shared.disk.name();
+        let (save, editor) = (shared.key_for("save"), shared.key_for("editor"));
+        shared.warn(format!(
+            "{name} is new: press {save} to write it, then {editor}"
+        ));
+        return Vec::new();
+    }
+    // A file that was not taken must be corrected first.
+    let is_refused = matches!(shared.disk.state, OnDisk::Faulty(_) | OnDisk::Unreadable);
+    if shared.document.is_dirty() && !is_refused {
+        let (save, editor) = (shared.key_for("save"), shared.key_for("editor"));
+        shared.warn(format!(
+            "there are unsaved edits: press {save} to save them, then {editor}"
+        ));
+        return Vec::new();
+    }
+    let wrong = shared.wrong();
+    let error = match wrong.at {
+        Some(at) => wrong.findings.get(at),
+        None if shared.is_disk_wrong() => wrong.findings.iter().find(|d| d.is_error()),
+        None => None,
+    };
+    let cited = error.and_then(|error| error.cited.as_deref());
+    let cited = cited.and_then(|cited| Some((shared.assets.file(&cited.file)?, cited.line)));
+    if let Some((path, line)) = cited {
+        return vec![Effect::OpenEditor { path, line }];
+    }
+    let span = error.map_or_else(
+        || shared.source().span(inspect::node_in_focus(shared)),
+        |d| d.span,
+    );
+    let line = Position::of(wrong.text, span.start()).line;
+    vec![Effect::OpenEditor { path, line }]
+}
+
+pub(crate) fn editor_closed(shared: &mut Shared, outcome: Result<(), String>) -> Vec<Effect> {
+    if let Err(reason) = outcome {
+        shared.fail(reason);
+    }
+    read_again(shared)
+}

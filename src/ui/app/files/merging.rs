@@ -1,0 +1,67 @@
+//! Resolving what the file and the text changed in the same places.
+
+use super::reading::{self, show_reload};
+use super::recover::restore_merged;
+use crate::document::{Adopted, Difference};
+use crate::ui::app::{Dialog, MergeSource, OnDisk, Shared, Whose, text};
+use crate::ui::msg::Effect;
+
+/// Resolves the conflict under the cursor and goes on to the next.
+pub(crate) fn decide(shared: &mut Shared, whose: Whose) {
+    if let Some((merge, at, from)) = shared.overlays.conflict()
+        && let Some(conflict) = merge.conflicts.get_mut(*at)
+    {
+        conflict.decision = Some(from.side(whose));
+        *at = (*at + 1).min(merge.conflicts.len() - 1);
+    }
+}
+
+/// Resolves all conflicts.
+pub(crate) fn decide_all(shared: &mut Shared, whose: Whose) {
+    if let Some((merge, _, from)) = shared.overlays.conflict() {
+        for conflict in &mut merge.conflicts {
+            conflict.decision = Some(from.side(whose));
+        }
+    }
+}
+
+/// Applies a merge once every conflict is decided.
+pub(crate) fn adopt(shared: &mut Shared) -> Vec<Effect> {
+    let Some((merge, at, _)) = shared.overlays.conflict() else {
+        return Vec::new();
+    };
+    if let Some(open) = merge.conflicts.iter().position(|c| c.decision.is_none()) {
+        *at = open;
+        let (mine, theirs) = (shared.key_for("mine"), shared.key_for("theirs"));
+        shared.warn(format!(
+            "resolve all conflicts first: press {mine} for mine, {theirs} for the file's"
+        ));
+        return Vec::new();
+    }
+    let Some(Dialog::Conflict { merge, from, .. }) = shared.overlays.dialog.take() else {
+        return Vec::new();
+    };
+    if let MergeSource::Kept(claim, since) = from {
+        return restore_merged(shared, &merge, claim, since);
+    }
+    let held = shared.cursor.hold(shared.document.shared_text());
+    match shared.document.adopt(merge) {
+        Adopted::Conflict(merge) => {
+            shared.overlays.ask_conflict(merge, from);
+        }
+        Adopted::Taken => {
+            shared.disk.state = OnDisk::Known;
+            let difference = Difference::of(&held.text, shared.document.text());
+            let lowered = text::lowered(shared);
+            show_reload(
+                shared,
+                &held,
+                difference.as_ref(),
+                lowered,
+                &reading::ADOPTED,
+            );
+        }
+        Adopted::OutOfDate => shared.warn("the file was saved meanwhile: nothing was merged"),
+    }
+    Vec::new()
+}

@@ -1,0 +1,34 @@
+//! The files of the scene: opened, watched, merged, saved, recovered, left.
+
+mod editor;
+mod leaving;
+mod merging;
+mod open_scene;
+mod opening;
+mod polling;
+mod reading;
+mod recover;
+mod replacing;
+mod saving;
+
+pub(crate) use editor::{editor_closed, open_editor};
+pub(crate) use leaving::{
+    interrupt, leave_anyway, leave_when_done, losses_before, quit, quit_anyway, quit_keeping_edits,
+    save_and_quit, save_key, save_view_key, was_saved,
+};
+pub(crate) use merging::{adopt, decide, decide_all};
+pub(crate) use open_scene::{edit_file, open_scene, scene_read, show_recent, start_new};
+pub(crate) use opening::{open, opened};
+pub(crate) use polling::{polled, polls};
+pub(crate) use reading::{backups_found, catch_up, read_again, settled, was_read};
+pub(crate) use recover::{
+    decline, fails_to_keep, follow_kept, found_kept, has_kept_edits, keep_edits, kept, put_off,
+    restore,
+};
+pub(crate) use saving::{Force, tick, write};
+
+#[cfg(test)]
+pub(crate) use leaving::losses;
+pub use opening::{Opening, OpeningText, Preferences};
+#[cfg(test)]
+pub(crate) use reading::baseline;

@@ -1,0 +1,93 @@
+//! Asking for another scene: from a file, or a new one.
+
+use std::path::PathBuf;
+use std::sync::Arc;
+
+use super::leaving::leave_for;
+use super::reading::read_again;
+use super::reading::reread;
+use super::replacing::replace_scene;
+use crate::document::Document;
+use crate::file::ReadError;
+use crate::language::Language;
+use crate::ui::app::{AfterLeaving, OnDisk, Page, Shared};
+use crate::ui::msg::Effect;
+use crate::ui::scene_reading::{News, Opened};
+
+/// Starts a new scene, in the language of the present one if none is given.
+pub(crate) fn start_new(shared: &mut Shared, language: Option<Language>) -> Vec<Effect> {
+    let language = language.unwrap_or_else(|| shared.document.language());
+    leave_for(shared, AfterLeaving::New(language))
+}
+
+/// Opens a file, or reads the scene's own again.
+pub(crate) fn edit_file(shared: &mut Shared, file: Option<PathBuf>) -> Vec<Effect> {
+    match file {
+        Some(path) => open_scene(shared, path),
+        None => reread(shared),
+    }
+}
+
+/// Opens the scene of a file, for `:e FILE`; the scene's own file is read again.
+pub(crate) fn open_scene(shared: &mut Shared, path: PathBuf) -> Vec<Effect> {
+    if shared.disk.is_own(&path) {
+        return reread(shared);
+    }
+    if let Err(unknown) = Language::of_path(&path) {
+        shared.fail(unknown.to_string());
+        return Vec::new();
+    }
+    leave_for(shared, AfterLeaving::Open(path))
+}
+
+/// Takes a scene that was requested; if it cannot be read, the present one stays. Asks again if
+/// this one has been changed meanwhile.
+pub(crate) fn scene_read(
+    shared: &mut Shared,
+    path: PathBuf,
+    opened: Result<Opened, ReadError>,
+) -> Vec<Effect> {
+    let Some(before) = shared.disk.take_request(&path) else {
+        return vec![Effect::Free(Arc::new(opened))];
+    };
+    let opened = match opened {
+        Ok(opened) => opened,
+        Err(error) => {
+            shared.fail(error.to_string());
+            // Its changes were not read meanwhile.
+            return read_again(shared);
+        }
+    };
+    if before != (shared.document.revision(), shared.pictures.view) {
+        return leave_for(shared, AfterLeaving::Open(path));
+    }
+    let Ok(language) = Language::of_path(&path) else {
+        return Vec::new();
+    };
+    let (text, state) = match opened {
+        Opened::Read(reading) => {
+            let (document, lowered) = match reading.news.map(|news| *news) {
+                Some(News::Text(document, meaning)) => (document, Some(meaning.lowered)),
+                // Only an empty file changes nothing.
+                _ => (Document::new(language, String::new()), None),
+            };
+            let effects = replace_scene(shared, Some(path), document, OnDisk::Known, lowered);
+            if let Some(place) = reading.place {
+                shared.disk.move_to(place);
+            }
+            return effects;
+        }
+        Opened::Kept(text) => (text, OnDisk::Missing),
+        Opened::New => (language.template().to_owned(), OnDisk::New),
+    };
+    let document = Document::new(language, text);
+    replace_scene(shared, Some(path), document, state, None)
+}
+
+/// Shows recently used scenes.
+pub(crate) fn show_recent(shared: &mut Shared, scenes: Vec<PathBuf>) {
+    shared.overlays.page = Page::recent(scenes);
+    if shared.overlays.page.is_none() {
+        shared.say("no recently used scenes");
+    }
+}

@@ -1,0 +1,173 @@
+//! Unsaved edits: keeping them for the next run, and offering, restoring and merging those of
+//! earlier runs.
+
+use std::sync::Arc;
+
+use crate::document::{Adopted, Merge, StepName};
+use crate::ui::app::shared::journal::Outcome;
+use crate::ui::app::{Dialog, MergeSource, Shared, text};
+use crate::ui::msg::Effect;
+use crate::ui::recovery::{Claim, Found, Offer, Since, Way};
+
+/// Looks for undecided edits that earlier runs kept.
+pub(super) fn look_for_kept(shared: &Shared) -> Effect {
+    let scene = shared.disk.path.clone();
+    shared.disk.journal.look(&shared.document, scene)
+}
+
+pub(crate) fn found_kept(shared: &mut Shared, found: Found) {
+    if let Some(complaint) = shared.disk.journal.found(found) {
+        shared.warn(complaint);
+    }
+}
+
+/// Whether the journal holds the unsaved edits as they are.
+pub(crate) fn has_kept_edits(shared: &Shared) -> bool {
+    shared.disk.journal.holds(&shared.document)
+}
+
+/// Whether unsaved edits that should be kept by now would be lost with the program.
+pub(crate) fn fails_to_keep(shared: &Shared) -> bool {
+    shared.disk.journal.fails(&shared.document)
+}
+
+pub(crate) fn keep_edits(shared: &mut Shared) -> Option<Effect> {
+    let scene = shared.disk.path.clone();
+    shared.disk.journal.keep(&shared.document, scene)
+}
+
+pub(super) fn keep_the_rest(shared: &mut Shared) -> Option<Effect> {
+    let scene = shared.disk.path.clone();
+    shared.disk.journal.keep_the_rest(&shared.document, scene)
+}
+
+/// Takes the outcome of an attempt to keep edits.
+pub(crate) fn kept(
+    shared: &mut Shared,
+    revision: u64,
+    outcome: Result<(), String>,
+) -> Option<Effect> {
+    match shared.disk.journal.kept(revision, outcome) {
+        Outcome::OutOfDate => None,
+        Outcome::Kept(trouble) => {
+            if let Some(trouble) = trouble {
+                shared.overlays.withdraw(&trouble);
+            }
+            None
+        }
+        Outcome::Failed(trouble, again) => {
+            if let Some(trouble) = trouble {
+                shared.fail(trouble);
+            }
+            Some(*again)
+        }
+    }
+}
+
+/// Offers kept edits once no other question is open; examines them again if the text that they
+/// would be restored into has changed.
+pub(crate) fn follow_kept(shared: &mut Shared) -> Option<Effect> {
+    let text = shared.document.shared_text();
+    let is_other = match &shared.overlays.dialog {
+        Some(Dialog::Recover(offer)) => !Arc::ptr_eq(&offer.text, &text),
+        Some(Dialog::Conflict { merge, from, .. }) => {
+            matches!(from, MergeSource::Kept(..)) && !merge.is_of(&shared.document)
+        }
+        Some(Dialog::Leave(_) | Dialog::Delete(_) | Dialog::Overwrite(_)) => false,
+        None => {
+            let offer = shared.disk.journal.offer.take()?;
+            shared.overlays.dialog = Some(Dialog::Recover(offer));
+            return follow_kept(shared);
+        }
+    };
+    is_other.then(|| {
+        shared.overlays.dialog = None;
+        look_for_kept(shared)
+    })
+}
+
+/// Restores the edits of an earlier run as an ordinary edit; asks first where the text has
+/// changed in the same places since.
+pub(crate) fn restore(shared: &mut Shared) -> Vec<Effect> {
+    let Some(Dialog::Recover(offer)) = shared.overlays.dialog.take() else {
+        return Vec::new();
+    };
+    let Offer {
+        claim, way, since, ..
+    } = *offer;
+    match way {
+        Way::Edit(edit) => {
+            shared.document.edit(&[edit]);
+            restored(shared, claim, since)
+        }
+        Way::Merge(merge) if merge.conflicts.is_empty() => {
+            restore_merged(shared, &merge, claim, since)
+        }
+        Way::Merge(merge) => {
+            let from = MergeSource::Kept(claim, since);
+            shared.overlays.ask_conflict(merge, from);
+            Vec::new()
+        }
+    }
+}
+
+/// Restores kept edits after their conflicts with the text have been decided.
+pub(super) fn restore_merged(
+    shared: &mut Shared,
+    merge: &Merge,
+    claim: Arc<Claim>,
+    since: Since,
+) -> Vec<Effect> {
+    match shared.document.restore(merge) {
+        Adopted::Taken => restored(shared, claim, since),
+        // The text has changed: the edits are examined again.
+        Adopted::Conflict(_) | Adopted::OutOfDate => vec![look_for_kept(shared)],
+    }
+}
+
+fn restored(shared: &mut Shared, claim: Arc<Claim>, since: Since) -> Vec<Effect> {
+    shared
+        .document
+        .name_step(StepName::done("restored unsaved edits"));
+    text::relower(shared);
+    let done = match since {
+        Since::Same => "restored",
+        Since::Changed => "restored and merged with what has changed since",
+    };
+    let undo = shared.key_for("undo");
+    shared.say(format!("{done}; {undo} undoes it"));
+    // The other journal is removed only once this run's journal holds the edits.
+    let mut effects = if shared.document.is_dirty() {
+        vec![Effect::AdoptKept(claim)]
+    } else {
+        vec![Effect::DropKept(claim)]
+    };
+    effects.extend(keep_edits(shared));
+    effects.push(look_for_kept(shared));
+    effects
+}
+
+/// Discards the edits of an earlier run.
+pub(crate) fn decline(shared: &mut Shared) -> Vec<Effect> {
+    match shared.overlays.dialog.take() {
+        Some(Dialog::Recover(offer)) => {
+            vec![Effect::DropKept(offer.claim), look_for_kept(shared)]
+        }
+        _ => Vec::new(),
+    }
+}
+
+/// Closes a question that may be asked again: about kept edits, in the next run.
+pub(crate) fn put_off(shared: &mut Shared) -> Vec<Effect> {
+    shared.jobs.next = None;
+    let claim = match shared.overlays.dialog.take() {
+        Some(Dialog::Recover(offer)) => offer.claim,
+        Some(Dialog::Conflict {
+            from: MergeSource::Kept(claim, _),
+            ..
+        }) => claim,
+        _ => return Vec::new(),
+    };
+    shared.disk.journal.put_off(&claim);
+    vec![look_for_kept(shared)]
+}

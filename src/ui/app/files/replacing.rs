@@ -1,0 +1,76 @@
+//! Replacing the scene, once nothing would be lost: by one from a file, or by a new one.
+
+use std::path::PathBuf;
+use std::sync::Arc;
+
+use super::opening::begin;
+use super::reading::watch;
+use crate::document::Document;
+use crate::language::{Language, Lowered};
+use crate::ui::app::shared::assets::Assets;
+use crate::ui::app::shared::inspection::Inspection;
+use crate::ui::app::{Cursor, OnDisk, Overlays, Shared, text};
+use crate::ui::keymap::Mode;
+use crate::ui::msg::{Effect, Target};
+
+/// Requests the scene of a file. The present one stays until the other has been read.
+pub(super) fn request_scene(shared: &mut Shared, path: PathBuf) -> Vec<Effect> {
+    let Ok(language) = Language::of_path(&path) else {
+        return Vec::new();
+    };
+    // It may be this very file, under another name.
+    if let Some(saved) = shared.jobs.file_being_saved() {
+        let saved = saved.display();
+        shared.warn(format!(
+            "{saved} is still being written: open another scene after that"
+        ));
+        return Vec::new();
+    }
+    let now = (shared.document.revision(), shared.pictures.view);
+    shared.disk.request(path.clone(), now);
+    vec![Effect::Open(path, language)]
+}
+
+/// Starts a new scene without a file.
+pub(super) fn start_scene(shared: &mut Shared, language: Language) -> Vec<Effect> {
+    let document = Document::new(language, language.template().to_owned());
+    replace_scene(shared, None, document, OnDisk::New, None)
+}
+
+/// Replaces the scene, with everything that belongs to it: selection, history, view, pictures
+/// and journal. Exports go on; the outcomes of saves are only reported.
+pub(super) fn replace_scene(
+    shared: &mut Shared,
+    path: Option<PathBuf>,
+    document: Document,
+    state: OnDisk,
+    lowered: Option<Lowered>,
+) -> Vec<Effect> {
+    let forgotten = shared.disk.journal.forget();
+    let mut effects: Vec<_> = forgotten.into_iter().collect();
+    if shared.pictures.is_tracing() {
+        effects.push(Effect::Stop(Target::Trace));
+    }
+    let former = (shared.document.load(document), shared.scene.take());
+    effects.push(Effect::Free(Arc::new(former)));
+    shared.disk.replace(path, state);
+    shared.assets = Assets::default();
+    shared.pictures.renew();
+    if std::mem::take(&mut shared.suggestions).are_awaited() {
+        effects.push(Effect::Stop(Target::Trial));
+    }
+    shared.inspection = Inspection::default();
+    shared.transform = None;
+    shared.transient = None;
+    shared.awaits_reading = false;
+    shared.is_replaced = true;
+    shared.cursor = Cursor::default();
+    shared.overlays = Overlays::default();
+    shared.jobs.abandon_saves();
+    shared.mode = Mode::Select;
+    shared.prefix = None;
+    effects.extend(watch(shared));
+    let lowered = lowered.unwrap_or_else(|| text::lowered(shared));
+    effects.extend(begin(shared, lowered));
+    effects
+}

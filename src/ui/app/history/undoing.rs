@@ -1,0 +1,68 @@
+//! Undoing and redoing steps.
+
+use crate::language::Nodes;
+use crate::text::Span;
+use crate::ui::app::{Shared, files, text};
+use crate::ui::msg::Effect;
+
+pub(crate) fn undo(shared: &mut Shared) -> Vec<Effect> {
+    let done = step_back(shared);
+    shared.say(done.as_deref().unwrap_or("nothing to undo"));
+    files::catch_up(shared)
+}
+
+pub(crate) fn redo(shared: &mut Shared) -> Vec<Effect> {
+    let done = step_forward(shared);
+    shared.say(done.as_deref().unwrap_or("nothing to redo"));
+    files::catch_up(shared)
+}
+
+/// Undoes a step and selects what it changed; returns what to say, or `None` without a step.
+pub(crate) fn step_back(shared: &mut Shared) -> Option<String> {
+    let (before, step) = (shared.nodes(), shared.document.undoable());
+    let done = step.map(|step| format!("undone: {step}"));
+    let changed = text::undo_text(shared);
+    show_change(shared, &before, changed);
+    done
+}
+
+/// Redoes a step and selects what it changed; returns what to say, or `None` without a step.
+pub(crate) fn step_forward(shared: &mut Shared) -> Option<String> {
+    let (before, step) = (shared.nodes(), shared.document.redoable());
+    let done = step.map(|step| format!("redone: {step}"));
+    let changed = text::redo_text(shared);
+    show_change(shared, &before, changed);
+    done
+}
+
+/// Lowers the text after an undo or redo, and selects the changed node, given the nodes before.
+fn show_change(shared: &mut Shared, before: &Nodes, changed: Option<Span>) {
+    let Some(span) = changed else {
+        return;
+    };
+    let meaning = shared.meaning();
+    let lowered = text::lowered_after(shared, meaning.as_ref());
+    text::install(shared, lowered);
+    let node_at = |at: usize| shared.source().node_at(Span::at(at));
+    if *before != shared.nodes() || node_at(span.start()) != node_at(span.end()) {
+        select_restructured(shared);
+        return;
+    }
+    if let Some(node) = shared.source().node_at(span)
+        && node != shared.cursor.selected()
+    {
+        shared.select(node);
+    }
+    if let Some(field) = shared.cursor.field_at(span) {
+        shared.cursor.focus(field, shared.cursor.component);
+    }
+}
+
+/// Selects what an undone or redone change of several places was about.
+fn select_restructured(shared: &mut Shared) {
+    let span = shared.document.longest_change();
+    let written = shared.first_node_in(span);
+    if let Some(node) = written.or_else(|| shared.source().node_at(span)) {
+        shared.select(node);
+    }
+}

@@ -1,0 +1,172 @@
+//! The keyboard.
+
+use crossterm::event::{KeyCode, KeyEvent, KeyModifiers};
+use tui_input::Input;
+
+use super::shared::cursor::Typing;
+use super::shared::line;
+use super::{
+    App, PageFocus, PromptKind, Shared, back, command, edit, list, select, text, transform,
+};
+use crate::text::alternatives;
+use crate::ui::keymap::{self, Context, Meaning, Mode};
+use crate::ui::msg::Effect;
+
+impl App {
+    pub(crate) fn key(&mut self, key: KeyEvent) -> Vec<Effect> {
+        self.shared.overlays.clear_message();
+        edit::end_slide(&mut self.shared);
+        let context = self.shared.context();
+        let before = self.shared.prefix.take();
+        let meaning = self.shared.keymap.meaning(context, before, key);
+        let is_line = text::has_input(&self.shared);
+        let controls = key.modifiers.contains(KeyModifiers::CONTROL);
+        let reserved = matches!(meaning, Meaning::Does(row) if self.shared.keymap.is_reserved(row));
+        // Only a dialog takes precedence over a line being typed.
+        if is_line && self.shared.overlays.dialog.is_none() && !(reserved && controls) {
+            return self.type_key(key);
+        }
+        if context == Context::In(Mode::Move) && transform::type_amount(&mut self.shared, key) {
+            return Vec::new();
+        }
+        match meaning {
+            Meaning::Does(row) => self.act(row),
+            Meaning::Begins => {
+                self.shared.prefix = Some(key);
+                Vec::new()
+            }
+            Meaning::None if self.shared.overlays.dialog.is_some() => {
+                // A user who types on without noticing the question learns why nothing happens.
+                let keys = self.hints().into_iter().map(|(key, _)| key);
+                self.shared.warn(format!("press {}", alternatives(keys)));
+                Vec::new()
+            }
+            Meaning::None if context == Context::Opening => {
+                self.shared.warn_of_opening();
+                Vec::new()
+            }
+            Meaning::None
+                if matches!(context, Context::Views | Context::Recent | Context::Steps) =>
+            {
+                filter_with(&mut self.shared, key);
+                Vec::new()
+            }
+            Meaning::None => start_typing_with(&mut self.shared, context, key),
+        }
+    }
+
+    fn type_key(&mut self, key: KeyEvent) -> Vec<Effect> {
+        if line::types(key) && !edit::has_room(&mut self.shared, 1) {
+            return Vec::new();
+        }
+        if self.shared.overlays.prompt.is_some() {
+            return self.prompt_key(key);
+        }
+        if self.shared.overlays.menu.is_some() {
+            edit::menu_key(&mut self.shared, key);
+            return Vec::new();
+        }
+        if self.shared.cursor.typing.is_some() {
+            edit::typing_key(&mut self.shared, key);
+        } else if let Some(help) = &mut self.shared.overlays.help {
+            match key.code {
+                KeyCode::Enter | KeyCode::Esc => help.focus = PageFocus::Lines,
+                _ => line::edit(&mut help.search, key),
+            }
+            help.top = 0;
+        } else if let Some(page) = &mut self.shared.overlays.page {
+            match key.code {
+                KeyCode::Enter => return list::choose(&mut self.shared),
+                KeyCode::Esc => page.focus = PageFocus::Lines,
+                _ => {
+                    let count = page.rows().len();
+                    page.filter.key(key, count);
+                }
+            }
+        }
+        Vec::new()
+    }
+
+    fn prompt_key(&mut self, key: KeyEvent) -> Vec<Effect> {
+        let Some(prompt) = &mut self.shared.overlays.prompt else {
+            return Vec::new();
+        };
+        match key.code {
+            KeyCode::Esc => back::close_prompt(&mut self.shared),
+            // As in other programs, Backspace in an empty line closes it.
+            KeyCode::Backspace if prompt.input.value().is_empty() => {
+                back::close_prompt(&mut self.shared);
+            }
+            KeyCode::Enter => {
+                let (kind, typed) = (prompt.kind, prompt.input.value().to_owned());
+                let is_untouched = typed.trim() == prompt.opened.trim();
+                match kind {
+                    PromptKind::Command => return self.run_line(&typed),
+                    PromptKind::Name if is_untouched => back::close_prompt(&mut self.shared),
+                    PromptKind::Name => {
+                        self.shared.overlays.prompt = None;
+                        select::rename(&mut self.shared, &typed);
+                    }
+                    PromptKind::Filter(from) => select::keep_filter(&mut self.shared, from),
+                }
+            }
+            _ => match prompt.kind {
+                PromptKind::Command => return command::palette_key(&mut self.shared, key),
+                PromptKind::Filter(from) => select::filter_key(&mut self.shared, key, from),
+                PromptKind::Name => {
+                    line::edit_over(&mut prompt.input, &mut prompt.is_selected, key);
+                }
+            },
+        }
+        Vec::new()
+    }
+}
+
+/// Starts typing a value on a digit, sign, operator, `.` or `(`. Other keys without a meaning are
+/// answered.
+fn start_typing_with(shared: &mut Shared, context: Context, key: KeyEvent) -> Vec<Effect> {
+    if let (Context::In(Mode::Edit), KeyCode::Char(first)) = (context, key.code)
+        && keymap::begins_value(first)
+    {
+        shared.cursor.typing = Some(Typing {
+            input: Input::from(first.to_string()),
+            ..Typing::default()
+        });
+    } else {
+        answer_unknown(shared, context, key);
+    }
+    Vec::new()
+}
+
+/// Starts filtering the open page with a character that is no key of it.
+fn filter_with(shared: &mut Shared, key: KeyEvent) {
+    if let (Some(page), KeyCode::Char(_)) = (&mut shared.overlays.page, key.code) {
+        page.focus = PageFocus::Search;
+        page.filter.key(key, 0);
+    }
+}
+
+/// Says where a key has a meaning that has none here.
+fn answer_unknown(shared: &mut Shared, context: Context, key: KeyEvent) {
+    let Some(name) = keymap::name(key) else {
+        return;
+    };
+    let selects = shared.keymap.meaning(Context::In(Mode::Select), None, key);
+    if context == Context::In(Mode::Move) && selects != Meaning::None {
+        shared.warn_of_transform();
+        return;
+    }
+    let words = match (shared.keymap.elsewhere(context, key), context) {
+        (Some((mode, way, words)), _) => {
+            let way = way.map_or_else(String::new, |way| format!(" ({way})"));
+            format!("`{name}` in {}{way}: {words}", mode.name())
+        }
+        (None, Context::In(mode)) => format!("`{name}` is not bound in {}", mode.name()),
+        (None, _) => format!("`{name}` is not bound here"),
+    };
+    let help = match shared.keymap.key(context, "help") {
+        Some(key) if context != Context::Help => format!("; {key} lists keys"),
+        _ => String::new(),
+    };
+    shared.overlays.answer(format!("{words}{help}"));
+}

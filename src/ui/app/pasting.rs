@@ -1,0 +1,93 @@
+//! Texts that are pasted.
+
+use super::shared::line;
+use super::values::typed::Values;
+use super::{PageFocus, PromptKind, Shared, command, edit, select};
+use crate::ui::keymap::Mode;
+use crate::ui::msg::Effect;
+
+pub(crate) fn paste(shared: &mut Shared, text: &str) -> Vec<Effect> {
+    let is_open = shared.overlays.line().is_some() && shared.overlays.dialog.is_none();
+    if is_open && !edit::has_room(shared, text.trim_end().chars().count()) {
+        return Vec::new();
+    }
+    if let Some(prompt) = &mut shared.overlays.prompt
+        && shared.overlays.dialog.is_none()
+    {
+        line::insert_over(&mut prompt.input, &mut prompt.is_selected, text);
+        if let PromptKind::Filter(from) = prompt.kind {
+            select::filter_list(shared, from);
+        }
+        return palette_pasted(shared);
+    }
+    paste_value(shared, text);
+    Vec::new()
+}
+
+fn paste_value(shared: &mut Shared, text: &str) {
+    let pasted = text.trim();
+    if shared.overlays.dialog.is_some() {
+        return;
+    }
+    if let Some(help) = &mut shared.overlays.help {
+        if help.focus == PageFocus::Search {
+            line::insert(&mut help.search, text);
+            help.top = 0;
+        }
+        return;
+    }
+    if let Some(page) = &mut shared.overlays.page {
+        page.filter.insert(text);
+        return;
+    }
+    if let Some(menu) = &mut shared.overlays.menu {
+        menu.filter.insert(text);
+        edit::follow_menu(shared);
+        return;
+    }
+    if shared.disk.is_opening() {
+        shared.warn_of_opening();
+        return;
+    }
+    if shared.overlays.picker.is_some() {
+        edit::paste_colour(shared, pasted);
+        return;
+    }
+    if shared.mode == Mode::Select {
+        select::insert(shared, text);
+        return;
+    }
+    if shared.mode != Mode::Edit {
+        shared.say("items are pasted in SELECT, values in EDIT");
+        return;
+    }
+    let values = edit::literals_of(shared, pasted);
+    let count = |values: &Vec<Values>| values.iter().map(Vec::len).sum::<usize>();
+    let is_whole = values.as_ref().is_ok_and(|values| 1 < count(values));
+    let is_typed = shared.cursor.typing.is_some() && !is_whole;
+    if is_typed && !edit::has_room(shared, text.trim_end().chars().count()) {
+        return;
+    }
+    if let (Some(typing), false) = (&mut shared.cursor.typing, is_whole) {
+        typing.refused = None;
+        line::insert_over(&mut typing.input, &mut typing.is_selected, text);
+        return;
+    }
+    let values = match values {
+        Ok(values) => values,
+        Err(reason) => {
+            shared.fail(format!("cannot paste this: {reason}"));
+            return;
+        }
+    };
+    shared.cursor.typing = None;
+    if let Err(refused) = edit::assign_whole(shared, &values) {
+        shared.fail(refused.message);
+    }
+}
+
+/// Records a text pasted into the command line.
+fn palette_pasted(shared: &mut Shared) -> Vec<Effect> {
+    shared.palette.reset();
+    command::list_folder(shared)
+}

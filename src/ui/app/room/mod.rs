@@ -1,0 +1,36 @@
+//! What a mode or a page does about what happens to the interface.
+
+mod row;
+
+use crate::ui::app::shared::Shared;
+use crate::ui::msg::Effect;
+
+/// The state of a mode or a page. A step sees that state and what all modes share, and no other mode.
+pub(crate) trait Room: Default {
+    /// Starts afresh, for another scene.
+    fn renew(&mut self) {
+        *self = Self::default();
+    }
+
+    /// Reacts to a step, whatever it was, before anything is laid out: leaves what all modes share as the
+    /// mode needs it, or as it was without the mode.
+    fn settle(&mut self, _shared: &mut Shared) {}
+
+    /// Requests what it shows, once everything shared is up to date.
+    fn follow(&mut self, _shared: &mut Shared) -> Vec<Effect> {
+        Vec::new()
+    }
+
+    /// Handles a press of the left button at a cell of the screen; `None` leaves it to the code that all
+    /// modes share.
+    fn press(&mut self, _shared: &mut Shared, _at: (u16, u16)) -> Option<Vec<Effect>> {
+        None
+    }
+
+    /// The same for dragging with the left button.
+    fn drag(&mut self, _shared: &mut Shared, _at: (u16, u16)) -> Option<Vec<Effect>> {
+        None
+    }
+}
+
+pub(crate) use row::Row;

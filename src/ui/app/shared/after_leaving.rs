@@ -1,0 +1,42 @@
+//! What follows once the scene is left.
+
+use std::path::{Path, PathBuf};
+
+use crate::language::Language;
+
+/// What follows once the scene is left.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum AfterLeaving {
+    /// The program ends.
+    Quit,
+    /// The scene of this file is opened, or a new one if the file does not exist.
+    Open(PathBuf),
+    /// A new scene without a file is started.
+    New(Language),
+}
+
+impl AfterLeaving {
+    /// The question whether it should follow.
+    pub fn question(&self) -> String {
+        match self {
+            Self::Quit => "Quit?".to_owned(),
+            Self::Open(path) => format!("Open {}?", path.display()),
+            Self::New(_) => "Start a new scene?".to_owned(),
+        }
+    }
+
+    /// The announcement that it will follow, up to the reason for the delay.
+    pub(crate) fn announcement(&self) -> String {
+        match self {
+            Self::Quit => "will quit".to_owned(),
+            Self::Open(path) => format!("will open {}", name_of(path)),
+            Self::New(_) => "will start a new scene".to_owned(),
+        }
+    }
+}
+
+/// The name of a file without its folder.
+pub(crate) fn name_of(path: &Path) -> String {
+    let name = path.file_name().unwrap_or(path.as_os_str());
+    name.to_string_lossy().into_owned()
+}

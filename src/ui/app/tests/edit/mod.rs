@@ -1,0 +1,9 @@
+//! Fields: nudged, typed, chosen, slid and picked.
+
+mod colours;
+mod fields;
+mod inputs;
+mod lines;
+mod nudging;
+
+use super::*;

@@ -1,0 +1,11 @@
+//! The files of the scene.
+
+mod assets;
+mod disk;
+mod opening;
+mod recovering;
+mod reloading;
+mod saving;
+mod starting;
+
+use super::*;

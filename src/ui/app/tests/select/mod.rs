@@ -1,0 +1,9 @@
+//! The list, and what is done with the selected things.
+
+mod adding;
+mod listing;
+mod moving;
+mod soloing;
+mod structure;
+
+use super::*;

@@ -1,0 +1,6 @@
+//! Tracks: played, keyed and exported.
+
+mod exporting;
+mod playing;
+
+use super::*;

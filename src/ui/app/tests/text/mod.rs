@@ -1,0 +1,7 @@
+//! Changes of the text as a whole.
+
+mod live_edits;
+mod naming;
+mod sequences;
+
+use super::*;

@@ -1,0 +1,149 @@
+//! Setting fields: of the selected and the marked nodes in the text, and of the working view.
+
+use super::edit::try_edits;
+use crate::language::{Node, Placed};
+use crate::scene::Camera;
+use crate::text::{Diagnostic, Edit, Span};
+use crate::ui::app::Shared;
+use crate::ui::app::values::typed::Values;
+
+/// A field, its index among those of the selected node, and the components to set.
+type Wanted<'a> = (usize, &'a Placed, &'a [(usize, String)]);
+
+/// Sets components of the current field and, with the further values, of those below it, in one
+/// edit.
+pub(crate) fn assign(shared: &mut Shared, values: &[Values]) -> Result<(), Diagnostic> {
+    let fields = shared.cursor.fields().to_vec();
+    let below = fields.iter().enumerate().skip(shared.cursor.field);
+    let wanted: Vec<Wanted> = below
+        .zip(values)
+        .map(|((at, placed), values)| (at, placed, values.as_slice()))
+        .collect();
+    if shared.cursor.selected() == Node::View {
+        return assign_view(shared, &wanted);
+    }
+    try_edits(shared, &edits_of(shared, &unnumbered(&wanted)))
+}
+
+/// Whether a field is set in all marked nodes, as the selected one is one of them.
+pub(crate) fn sets_marked(shared: &Shared) -> bool {
+    shared.cursor.marks.contains(&shared.cursor.selected())
+}
+
+/// The edits that set components of fields of the selected node or, if it is marked, of all
+/// marked nodes that have them.
+pub(crate) fn edits_of(shared: &Shared, wanted: &[(&Placed, &[(usize, String)])]) -> Vec<Edit> {
+    let source = shared.source();
+    if !sets_marked(shared) {
+        let owned = |&(placed, values): &(_, &[_])| (placed, values.to_vec());
+        return source.edits(&wanted.iter().map(owned).collect::<Vec<_>>());
+    }
+    let fields = shared.cursor.marks.iter().map(|&node| source.fields(node));
+    let found = fields.flatten().filter_map(|placed| {
+        let is_meant = |(wanted, _): &&(&Placed, _)| {
+            wanted.field.key == placed.field.key && wanted.field.kind == placed.field.kind
+        };
+        let (_, values) = wanted.iter().find(is_meant)?;
+        Some((placed, values.to_vec()))
+    });
+    let found: Vec<_> = found.collect();
+    let wanted = found
+        .iter()
+        .map(|(placed, values)| (placed, values.clone()));
+    source.edits(&wanted.collect::<Vec<_>>())
+}
+
+/// Sets components of fields of the view: of the working view, of parts that the text omits, and
+/// in the text.
+fn assign_view(shared: &mut Shared, wanted: &[Wanted]) -> Result<(), Diagnostic> {
+    let own = shared.own_camera();
+    let parts = own.map_or(0, |own| shared.source().view_literals(&own).len());
+    let is_working = |&(at, placed, _): &Wanted| {
+        // The picture's size exists only in the text.
+        shared.pictures.view.is_some() && at < parts && !placed.field.kind.is_size()
+    };
+    let (working, written): (Vec<_>, Vec<_>) = wanted.iter().copied().partition(is_working);
+    let moved = match shared.pictures.view {
+        Some(view) if !working.is_empty() => Some(camera_with(shared, Some(view), &working)?),
+        _ => None,
+    };
+    let edits = edits_of_view(shared, parts, &written)?;
+    if !edits.is_empty() {
+        try_edits(shared, &edits)?;
+    }
+    if let Some(moved) = moved {
+        let size = shared.own_camera().map_or(moved.size, |own| own.size);
+        let own = shared.own_camera();
+        shared.pictures.set_view(Camera { size, ..moved }, own);
+    }
+    Ok(())
+}
+
+/// The edits that set fields of the view, of which the first `parts` are those of the camera.
+fn edits_of_view(
+    shared: &Shared,
+    parts: usize,
+    wanted: &[Wanted],
+) -> Result<Vec<Edit>, Diagnostic> {
+    let is_omitted = |(_, placed, _): &Wanted| placed.spans.is_empty();
+    if !wanted.iter().any(is_omitted) {
+        return Ok(edits_of(shared, &unnumbered(wanted)));
+    }
+    let is_camera = |wanted: &Wanted| wanted.0 < parts || is_omitted(wanted);
+    let (camera, others): (Vec<_>, Vec<_>) = wanted.iter().copied().partition(is_camera);
+    let own = shared.own_camera();
+    let after = camera_with(shared, own, &camera)?;
+    let mut edits = edits_of(shared, &unnumbered(&others));
+    edits.extend(own.map_or_else(Vec::new, |own| shared.source().view_edits(&own, &after)));
+    Edit::sort(&mut edits);
+    Ok(edits)
+}
+
+/// A camera with components of fields changed.
+fn camera_with(
+    shared: &Shared,
+    camera: Option<Camera>,
+    wanted: &[Wanted],
+) -> Result<Camera, Diagnostic> {
+    let refuse = |placed: &Placed, reason: &str| {
+        let message = format!("view {}: {reason}", placed.field.key);
+        Diagnostic::error(Span::at(0), message, placed.field.allowed.words())
+    };
+    let mut camera = camera.filter(|_| shared.error_count() == 0);
+    for &(at, placed, values) in wanted {
+        let Some(camera) = &mut camera else {
+            return Err(refuse(placed, "cannot be set while the scene has errors"));
+        };
+        for (component, literal) in values {
+            *camera = shared
+                .source()
+                .view_with(camera, (at, *component), literal)
+                .map_err(|limits| refuse(placed, &format!("must be {limits}")))?;
+        }
+    }
+    match (camera, wanted.last()) {
+        (Some(camera), Some((_, placed, _))) if camera.eye == camera.target => {
+            Err(refuse(placed, "eye and target must differ"))
+        }
+        (Some(camera), _) => Ok(camera),
+        (None, _) => Err(Diagnostic::error(Span::at(0), shared.no_picture(), "")),
+    }
+}
+
+/// Writes a camera into the text where it differs from the text's own.
+pub(crate) fn write_camera(
+    shared: &mut Shared,
+    camera: &Camera,
+    before: &Camera,
+) -> Result<(), Diagnostic> {
+    let edits = shared.source().view_edits(before, camera);
+    try_edits(shared, &edits)
+}
+
+/// The fields without their indices.
+fn unnumbered<'a>(wanted: &[Wanted<'a>]) -> Vec<(&'a Placed, &'a [(usize, String)])> {
+    let fields = wanted.iter();
+    fields
+        .map(|&(_, placed, values)| (placed, values))
+        .collect()
+}

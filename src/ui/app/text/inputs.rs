@@ -1,0 +1,43 @@
+//! Inputs that were opened before the file was read: what is typed there is meant as a change of what
+//! they were opened with.
+
+use std::sync::Arc;
+
+use super::edit::relower;
+use crate::document::Adopted;
+use crate::ui::app::{MergeSource, OnDisk, Shared};
+
+/// Whether keys are typed into a line, or choose from a menu.
+pub(crate) fn has_input(shared: &Shared) -> bool {
+    shared.cursor.typing.is_some() || shared.overlays.has_line()
+}
+
+/// Records the saved text before one was taken from the file, if an input is open.
+pub(crate) fn note_before_input(shared: &mut Shared, saved: Arc<String>) {
+    if has_input(shared) {
+        shared.disk.before_input.get_or_insert(saved);
+    }
+}
+
+/// Asks about what an input has changed if the file has changed it too since the input was opened.
+pub(crate) fn merge_input(shared: &mut Shared) {
+    let Some(before) = shared.disk.before_input.take() else {
+        return;
+    };
+    let revision = shared.document.revision();
+    match shared.document.merge_again(before) {
+        Adopted::Conflict(merge) => {
+            shared.disk.state = OnDisk::Changed;
+            shared.overlays.ask_conflict(merge, MergeSource::File);
+        }
+        Adopted::Taken if revision != shared.document.revision() => relower(shared),
+        Adopted::Taken | Adopted::OutOfDate => {}
+    }
+}
+
+/// Forgets the text before the input once that is closed.
+pub(crate) fn follow_input(shared: &mut Shared) {
+    if !has_input(shared) {
+        shared.disk.before_input = None;
+    }
+}

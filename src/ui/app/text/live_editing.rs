@@ -1,0 +1,164 @@
+//! Trying out changes of the text.
+
+use super::edit::{install, lowered_after, try_edits, try_edits_after};
+use crate::document::{Document, Merged};
+use crate::text::Edit;
+use crate::ui::app::Shared;
+use crate::ui::app::shared::cursor::Names;
+use crate::ui::app::shared::live_edit::{LiveEdit, TakenBack, TransientEdit};
+use crate::ui::keymap::Mode;
+
+/// Begins to try out changes of the present text.
+pub(crate) fn begin_live_edit(shared: &mut Shared) -> LiveEdit {
+    shared.document.end_step();
+    LiveEdit {
+        revision: shared.document.revision(),
+        is_applied: false,
+        marks: shared.cursor.marks.clone(),
+        base: shared.meaning(),
+        back: None,
+    }
+}
+
+/// Leaves a live edit if something else has changed the text since the last attempt, which then
+/// stays, and says so by what was tried; returns whether it did.
+pub(crate) fn leaves_live_edit(shared: &mut Shared, live_edit: &LiveEdit, tried: &str) -> bool {
+    let is_overtaken = is_overtaken(shared, live_edit);
+    if is_overtaken {
+        shared.warn(format!(
+            "the scene has changed on disk; the {tried} so far is kept"
+        ));
+    }
+    is_overtaken
+}
+
+/// Replaces the last attempt by another one, whose edits are those of the text before the live edit;
+/// without edits that is restored. On failure, with the reason, as well.
+pub(crate) fn try_instead(
+    shared: &mut Shared,
+    live_edit: &mut LiveEdit,
+    edits: impl FnOnce(&Shared) -> Result<Vec<Edit>, String>,
+) -> Result<(), String> {
+    let was_applied = std::mem::take(&mut live_edit.is_applied);
+    if was_applied {
+        shared.document.reject();
+        shared
+            .cursor
+            .renew(shared.document.source(), Names::Changed);
+        shared.cursor.marks.clone_from(&live_edit.marks);
+    }
+    let outcome = edits(shared).and_then(|edits| {
+        live_edit.is_applied = !edits.is_empty();
+        let made = if live_edit.is_applied {
+            try_edits_after(shared, live_edit.base.as_ref(), &edits)
+        } else {
+            Ok(())
+        };
+        made.map_err(|refused| refused.message)
+    });
+    live_edit.is_applied &= outcome.is_ok();
+    if was_applied && !live_edit.is_applied {
+        let lowered = lowered_after(shared, live_edit.base.as_ref());
+        install(shared, lowered);
+    }
+    live_edit.revision = shared.document.revision();
+    outcome
+}
+
+/// Keeps the last attempt as one undo step.
+pub(crate) fn keep_live_edit(shared: &mut Shared) {
+    shared.document.end_step();
+}
+
+/// Puts the text back as it was before the live edit. After a merge, that takes back the live edit alone,
+/// unless both changed the same places.
+pub(crate) fn end_live_edit(shared: &mut Shared, mut live_edit: LiveEdit) {
+    if !is_overtaken(shared, &live_edit) {
+        let _ = try_instead(shared, &mut live_edit, |_| Ok(Vec::new()));
+    } else if live_edit.is_applied {
+        let revision = shared.document.revision();
+        let back = live_edit.back.filter(|back| back.revision == revision);
+        match back.map(|back| try_edits(shared, &back.edits)) {
+            Some(Ok(())) => shared.say("cancelled; changes merged from the file are kept"),
+            Some(Err(_)) | None => shared.warn(
+                "the scene has changed on disk; the change so far is kept: u undoes the merge, then the change",
+            ),
+        }
+    }
+    shared.document.end_step();
+}
+
+/// Begins an edit of the present text that will be reverted.
+pub(crate) fn begin_transient(shared: &mut Shared) -> TransientEdit {
+    TransientEdit {
+        live_edit: begin_live_edit(shared),
+        was_dirty: shared.document.is_dirty(),
+    }
+}
+
+/// Restores the text from before the transient edit, if there is one.
+pub(crate) fn revert_transient(shared: &mut Shared) {
+    if let Some(edit) = shared.transient.take() {
+        end_live_edit(shared, edit.live_edit);
+    }
+}
+
+/// Whether there are unsaved edits, apart from a transient one.
+pub(crate) fn has_edits(shared: &Shared) -> bool {
+    let transient = shared.transient.as_ref();
+    transient.map_or_else(|| shared.document.is_dirty(), |edit| edit.was_dirty)
+}
+
+fn is_overtaken(shared: &Shared, live_edit: &LiveEdit) -> bool {
+    live_edit.revision != shared.document.revision()
+}
+
+/// Takes a merge with the file, after which live edits can still be taken back; returns the old
+/// document.
+#[must_use = "freeing it may take long"]
+pub(crate) fn take_merged(shared: &mut Shared, merged: Merged) -> Document {
+    let before = shared.document.revision();
+    let menu = shared.overlays.menu.as_mut();
+    let live_edits = [
+        shared.transform.as_mut().map(|own| &mut own.live_edit),
+        shared
+            .overlays
+            .picker
+            .as_mut()
+            .map(|own| &mut own.live_edit),
+        menu.and_then(|menu| menu.live_edit.as_mut()),
+    ];
+    let applied = live_edits.into_iter().flatten();
+    let applied = applied.filter(|live_edit| live_edit.is_applied && live_edit.revision == before);
+    for live_edit in applied {
+        let edits = shared.document.taken_back(&merged);
+        live_edit.back = edits.map(|edits| TakenBack {
+            // Taking the merge is one change.
+            revision: before + 1,
+            edits,
+        });
+    }
+    shared.document.take(merged)
+}
+
+/// Leaves SEQUENCE, if that is the mode, with the text as it was before the frame.
+pub(crate) fn leave_sequence(shared: &mut Shared) {
+    revert_transient(shared);
+    if shared.mode == Mode::Sequence {
+        shared.mode = Mode::Select;
+    }
+}
+
+/// Leaves SEQUENCE for something that is done outside of it; returns the mode before.
+pub(crate) fn step_outside(shared: &mut Shared) -> Mode {
+    let mode = shared.mode;
+    leave_sequence(shared);
+    mode
+}
+
+/// Returns to SEQUENCE if that was the mode and what was done outside of it failed.
+pub(crate) fn return_if_failed(shared: &mut Shared, mode: Mode) {
+    if mode == Mode::Sequence && shared.overlays.has_failed() {
+        shared.mode = mode;
+    }
+}

@@ -1,0 +1,24 @@
+//! Changes of the text: every one is an edit, tried out or kept, named, and undone as one step.
+
+mod assigning;
+mod edit;
+mod inputs;
+mod live_editing;
+mod location_names;
+mod naming;
+mod setting;
+
+pub(crate) use assigning::{assign, edits_of, sets_marked, write_camera};
+pub(crate) use edit::{
+    assets_read, install, judge_text, lowered, lowered_after, relower, spans_after, try_edits,
+};
+pub(crate) use inputs::{follow_input, has_input, merge_input, note_before_input};
+pub(crate) use live_editing::{
+    begin_live_edit, begin_transient, end_live_edit, has_edits, keep_live_edit, leave_sequence,
+    leaves_live_edit, return_if_failed, revert_transient, step_outside, take_merged, try_instead,
+};
+pub(crate) use location_names::{error_place, name_of, place_name};
+pub(crate) use naming::done;
+pub(crate) use setting::{
+    SettingOrder, redo_text, set_rendering, set_size, undo_text, write_setting,
+};

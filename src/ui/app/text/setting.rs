@@ -1,0 +1,143 @@
+//! Render settings written into the text. What the command line or the interface chose instead is
+//! dropped then, so that the text counts, and brought back by undo.
+
+use super::assigning::write_camera;
+use super::edit::try_edits;
+use crate::document::StepName;
+use crate::language::Node;
+use crate::scene::{Camera, RenderKey, Rendering, Size};
+use crate::text::{Severity, Span};
+use crate::ui::app::Shared;
+use crate::ui::app::pictures::saved_setting::SavedSetting;
+
+/// What to set a render setting to.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(crate) struct SettingOrder {
+    key: RenderKey,
+    to: To,
+}
+
+/// The value of a setting in the text.
+#[derive(Clone, Debug, PartialEq, Eq)]
+enum To {
+    /// The one in use.
+    InUse,
+    /// None: the text no longer states it.
+    Default,
+    /// This one.
+    Value(String),
+}
+
+impl SettingOrder {
+    /// Parses `KEY [VALUE|default]`; the error says what is expected.
+    pub(crate) fn parse(said: &str) -> Result<Self, String> {
+        let (word, value) = said.split_once(char::is_whitespace).unwrap_or((said, ""));
+        let key = RenderKey::of_text().find(|key| key.name() == word);
+        let key = key.ok_or_else(|| {
+            let names: Vec<_> = RenderKey::of_text().map(RenderKey::name).collect();
+            format!(":set takes {}", names.join(", "))
+        })?;
+        let to = match value.trim() {
+            "" => To::InUse,
+            "default" => To::Default,
+            value if value.contains(char::is_whitespace) => {
+                return Err(format!(":set {word} takes one value"));
+            }
+            value => To::Value(value.to_owned()),
+        };
+        Ok(Self { key, to })
+    }
+}
+
+/// Writes the size of the picture into the text.
+pub(crate) fn set_size(shared: &mut Shared, size: Size) {
+    let Some(scene) = shared.scene.clone().filter(|_| shared.error_count() == 0) else {
+        let words = "cannot set the size while the scene has errors";
+        shared.overlays.blame_errors(Severity::Error, words);
+        return;
+    };
+    let camera = Camera {
+        size,
+        ..scene.camera
+    };
+    shared.document.end_step();
+    match write_camera(shared, &camera, &scene.camera) {
+        Ok(()) => {
+            let Size { width, height } = size;
+            let step = StepName::done(format!("set the size to {width}x{height}"));
+            shared.document.name_step(step);
+        }
+        Err(refused) => shared.fail(refused.message),
+    }
+    shared.document.end_step();
+}
+
+/// Carries out an order.
+pub(crate) fn set_rendering(shared: &mut Shared, order: &SettingOrder) {
+    let value = match &order.to {
+        To::Value(value) => Some(value.clone()),
+        To::InUse => Some(order.key.value(&shared.rendering())),
+        To::Default => None,
+    };
+    write_setting(shared, order.key, value);
+}
+
+/// Writes a value of a render setting into the text, or removes the setting there, and drops what
+/// took precedence over it.
+pub(crate) fn write_setting(shared: &mut Shared, key: RenderKey, value: Option<String>) {
+    shared.document.end_step();
+    let before = shared.document.state();
+    let edits = match &value {
+        Some(value) => {
+            let fields = shared.source().fields(Node::Render);
+            let placed = fields.iter().find(|placed| placed.field.key == key.name());
+            let own = |values| placed.map(|placed| placed.edits(&**shared.source(), values));
+            own(&[(0, value.clone())]).unwrap_or_default()
+        }
+        None => shared.source().render_removal(key.name()),
+    };
+    match try_edits(shared, &edits) {
+        Ok(()) => {
+            let over = key.alone(&shared.pictures.rendering);
+            shared.pictures.due |= over != Rendering::default();
+            shared.pictures.rendering = key.cleared(&shared.pictures.rendering);
+            let state = shared.document.state();
+            if state != before {
+                shared
+                    .pictures
+                    .written
+                    .push(SavedSetting { state, key, over });
+            }
+            let name = key.name();
+            let words = match value {
+                Some(value) => format!("set {name} {value}"),
+                None => format!("set {name} to its default"),
+            };
+            shared.say(words.clone());
+            shared.document.name_step(StepName::done(words));
+        }
+        Err(refused) => shared.fail(refused.message_with_hint()),
+    }
+    shared.document.end_step();
+}
+
+/// Undoes a step of the text; if it wrote a setting, what took precedence over that setting before
+/// does again.
+pub(crate) fn undo_text(shared: &mut Shared) -> Option<Span> {
+    let left = shared.document.state();
+    let changed = shared.document.undo();
+    if changed.is_some() {
+        shared.pictures.cross(left);
+    }
+    changed
+}
+
+/// Redoes a step of the text; if it wrote a setting, what took precedence over that setting when it
+/// was undone does again.
+pub(crate) fn redo_text(shared: &mut Shared) -> Option<Span> {
+    let changed = shared.document.redo();
+    if changed.is_some() {
+        shared.pictures.cross(shared.document.state());
+    }
+    changed
+}

@@ -1,0 +1,150 @@
+//! The region of the full-size trace: drawing it, and tracing it alone.
+
+use super::tracing::{enter, start};
+use crate::render::Region;
+use crate::text::Severity;
+use crate::ui::app::pictures::drawing::{Drawing, Held, RegionOrder};
+use crate::ui::app::{Shared, display};
+use crate::ui::msg::Effect;
+
+pub(crate) fn order_region(shared: &mut Shared, order: RegionOrder) -> Vec<Effect> {
+    match order {
+        RegionOrder::Tell => {
+            let words = shared.region().map_or_else(
+                || "the full-size trace has no region".to_owned(),
+                |region| format!("the full-size trace is of the region {region}"),
+            );
+            shared.say(words);
+            Vec::new()
+        }
+        RegionOrder::Off => {
+            shared.pictures.region = None;
+            shared.say("the full-size trace covers the whole picture");
+            display::retrace(shared)
+        }
+        RegionOrder::Trace(region) => trace_region(shared, region),
+    }
+}
+
+/// Begins to draw a region: the middle of what is on screen.
+pub(super) fn start_region(shared: &mut Shared) {
+    let whole = shared.output();
+    let Some(frame_window) = display::frame_window(shared) else {
+        return;
+    };
+    let part = frame_window.window_of(whole).part;
+    let at = |from: u32, length: u32, quarters: u32| {
+        from + (u64::from(length) * u64::from(quarters) / 4).min(u64::from(length) - 1) as u32
+    };
+    let corner = |quarters| {
+        [
+            at(part.x, part.width, quarters),
+            at(part.y, part.height, quarters),
+        ]
+    };
+    shared.pictures.drawing = Some(Drawing {
+        fixed: corner(1),
+        moving: corner(3),
+        held: Held::ByKeys,
+    });
+}
+
+/// Moves the corner by pixels on screen.
+pub(super) fn move_corner(shared: &mut Shared, right: i32, down: i32) {
+    let output = shared.output();
+    let Some(frame_window) = display::frame_window(shared) else {
+        return;
+    };
+    let window = frame_window.window_of(output);
+    let step = |length: u32, fills: u32| i64::from((length / fills.max(1)).max(1));
+    let steps = [
+        i64::from(right) * step(window.part.width, window.fills.width),
+        i64::from(down) * step(window.part.height, window.fills.height),
+    ];
+    let limits = [output.width, output.height];
+    if let Some(drawing) = &mut shared.pictures.drawing {
+        drawing.moving = [0, 1].map(|axis| {
+            let to = i64::from(drawing.moving[axis]) + steps[axis];
+            to.clamp(0, i64::from(limits[axis]) - 1) as u32
+        });
+    }
+}
+
+/// Moves the other corner from now on.
+pub(super) fn swap_corners(shared: &mut Shared) {
+    if let Some(drawing) = &mut shared.pictures.drawing {
+        std::mem::swap(&mut drawing.fixed, &mut drawing.moving);
+    }
+}
+
+/// Draws the region from this cell of the picture on.
+pub(crate) fn press_region(shared: &mut Shared, cell: (u16, u16)) {
+    if let Some(pixel) = display::output_pixel_at(shared, cell) {
+        shared.pictures.drawing = Some(Drawing {
+            fixed: pixel,
+            moving: pixel,
+            held: Held::ByPointer,
+        });
+    }
+}
+
+/// Draws the region to this cell of the picture.
+pub(crate) fn drag_region(shared: &mut Shared, cell: (u16, u16)) {
+    let pixel = display::output_pixel_at(shared, cell);
+    if let (Some(drawing), Some(pixel)) = (&mut shared.pictures.drawing, pixel) {
+        drawing.moving = pixel;
+    }
+}
+
+/// Traces the region that was drawn.
+pub(crate) fn confirm_region(shared: &mut Shared) -> Vec<Effect> {
+    let drawn = shared.pictures.drawing.take();
+    drawn.map_or_else(Vec::new, |drawing| trace_region(shared, drawing.region()))
+}
+
+fn trace_region(shared: &mut Shared, region: Region) -> Vec<Effect> {
+    if let Err(reason) = region.within(shared.output()) {
+        shared.fail(reason.to_string());
+        return Vec::new();
+    }
+    let before = shared.pictures.region.replace(region);
+    if let Err(reason) = display::trace_job(shared) {
+        shared.pictures.region = before;
+        shared.refuse_picture(Severity::Error, &reason);
+        return Vec::new();
+    }
+    shared.say(format!(
+        "tracing only the region {region}; :region off traces the whole picture"
+    ));
+    if shared.pictures.is_tracing() {
+        let effects = display::retrace(shared);
+        enter(shared);
+        effects
+    } else {
+        start(shared)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn regions_lie_between_corners_in_any_order() {
+        for (fixed, moving, region) in [
+            ([3, 4], [3, 4], "3,4,1,1"),
+            ([3, 4], [5, 9], "3,4,3,6"),
+            ([5, 4], [3, 9], "3,4,3,6"),
+        ] {
+            let drawing = Drawing {
+                fixed,
+                moving,
+                held: Held::ByKeys,
+            };
+            assert_eq!(drawing.region().to_string(), region);
+        }
+        assert_eq!(RegionOrder::parse(" off "), Ok(RegionOrder::Off));
+        assert_eq!(RegionOrder::parse(""), Ok(RegionOrder::Tell));
+        assert!(RegionOrder::parse("1,2").is_err());
+    }
+}

@@ -1,0 +1,309 @@
+//! Moving, rotating and scaling in MOVE mode. Every change is made to the text at once and replaces
+//! the one before, so that the whole is one undo step.
+
+use crossterm::event::{KeyCode, KeyEvent};
+use glam::DVec3;
+
+use crate::language::{Along, Motion, Node, Pose, StructureError};
+use crate::render::{axes, pixel_width};
+use crate::scene::{Camera, Size};
+use crate::text::Edit;
+use crate::ui::app::shared::line;
+use crate::ui::app::shared::transform::{Lock, Snap, Transform, decimals_of, round_up};
+use crate::ui::app::{Shared, Stride, Tool, display, text};
+use crate::ui::keymap::{Mode, types_amount};
+
+/// Decimals with which a motion is tried.
+const TRIED_DECIMALS: usize = 9;
+
+/// Starts to move, rotate or scale the targets.
+pub(crate) fn start(shared: &mut Shared, tool: Tool) {
+    if shared.refuses_structure() {
+        return;
+    }
+    let selected = shared.cursor.selected();
+    let nodes = shared.targets();
+    let node = if nodes.contains(&selected) {
+        selected
+    } else {
+        nodes[0]
+    };
+    let Some((camera, (_, size))) = shared.camera().zip(shared.raster()) else {
+        shared.fail("there is no picture to move it in");
+        return;
+    };
+    let Some(own) = shared.own_camera() else {
+        return;
+    };
+    if nodes.contains(&Node::View)
+        && let Some(reason) = shared.refuses_camera(tool)
+    {
+        shared.fail(reason);
+        return;
+    }
+    let pose = match pose_for(shared, tool, node, &nodes) {
+        Ok(pose) => pose,
+        Err(reason) => {
+            shared.fail(reason);
+            return;
+        }
+    };
+    let magnification =
+        display::frame_window(shared).map_or(1.0, |frame_window| frame_window.magnification(size));
+    let pixel = pixel_at(pose.centre, &camera, size) / magnification;
+    let step = round_up(pixel);
+    let live_edit = text::begin_live_edit(shared);
+    shared.transform = Some(Transform {
+        tool,
+        lock: Lock::default(),
+        snap: Snap::default(),
+        typed: String::new(),
+        nodes,
+        pose,
+        camera,
+        own,
+        steps: [0.0; 2],
+        pixel,
+        step,
+        step_decimals: decimals_of(step),
+        live_edit,
+    });
+    shared.mode = Mode::Move;
+}
+
+/// The place from which a tool transforms nodes: that of `node`, one of them.
+///
+/// # Errors
+///
+/// Fails with the reason if the tool would change none of them.
+pub(crate) fn pose_for(
+    shared: &Shared,
+    tool: Tool,
+    node: Node,
+    nodes: &[Node],
+) -> Result<Pose, String> {
+    let lacks = match tool {
+        Tool::Move => "has no position",
+        Tool::Rotate => "has no direction",
+        Tool::Scale => "cannot be scaled",
+    };
+    let refused = |lacks| Err(format!("{} {lacks}", shared.source().name(node)));
+    let pose = match (pose(shared, node), node) {
+        (Some(pose), _) => pose,
+        // A direction is the same everywhere.
+        (None, Node::Light(_)) if tool == Tool::Rotate => Pose {
+            centre: DVec3::ZERO,
+            axes: DVec3::AXES,
+        },
+        (None, Node::Light(_)) => return refused(lacks),
+        (None, _) => return refused("has no position"),
+    };
+    let is_unchanged = |motion: &Motion| {
+        let edits = shared.source().motion(nodes, motion, TRIED_DECIMALS);
+        !nodes.contains(&Node::View) && edits.is_ok_and(|edits| edits.is_empty())
+    };
+    match tried(tool, pose.centre) {
+        Some(motion) if is_unchanged(&motion) => refused(lacks),
+        _ => Ok(pose),
+    }
+}
+
+/// The place of a node; that of a combination is the middle of what it draws.
+fn pose(shared: &Shared, node: Node) -> Option<Pose> {
+    shared.source().pose(node).or_else(|| {
+        let index = match node {
+            Node::Object(index) => index,
+            Node::View => {
+                let own = shared.own_camera()?;
+                let [right, up, into] = axes(&own);
+                return Some(Pose {
+                    centre: own.eye,
+                    axes: [right, up, -into],
+                });
+            }
+            _ => return None,
+        };
+        let scene = shared.scene.as_ref()?;
+        let drawn = shared.source().drawn(index)?;
+        let bounds = scene.objects.get(drawn as usize)?.shape.bounds();
+        bounds.is_bounded().then(|| Pose {
+            centre: bounds.centre(),
+            axes: DVec3::AXES,
+        })
+    })
+}
+
+/// Moves by steps to the right and up.
+pub(super) fn step(shared: &mut Shared, right: i8, up: i8, stride: Stride) {
+    let factor = stride.of(1.0);
+    change(shared, |transform| {
+        transform.typed.clear();
+        transform.steps[0] += factor * f64::from(right);
+        transform.steps[1] += factor * f64::from(up);
+    });
+}
+
+/// Moves by pixels of the picture to the right and up, so that a thing follows the pointer.
+pub(crate) fn drag(shared: &mut Shared, right: f64, up: f64) {
+    change(shared, |transform| {
+        let pixels = match transform.tool {
+            Tool::Move => transform.pixel / transform.step,
+            Tool::Rotate | Tool::Scale => 1.0,
+        };
+        transform.typed.clear();
+        transform.steps[0] += pixels * right;
+        transform.steps[1] += pixels * up;
+    });
+}
+
+/// Locks an axis of the world, then of the thing itself, then none.
+pub(super) fn lock_axis(shared: &mut Shared, axis: usize) {
+    change(shared, |transform| {
+        transform.lock = match transform.lock {
+            Lock::World(locked) if locked == axis => Lock::Own(axis),
+            Lock::Own(locked) if locked == axis => Lock::Free,
+            _ => Lock::World(axis),
+        };
+    });
+}
+
+pub(super) fn toggle_snap(shared: &mut Shared) {
+    change(shared, |transform| {
+        transform.snap = match transform.snap {
+            Snap::Off => Snap::Grid,
+            Snap::Grid => Snap::Off,
+        };
+    });
+}
+
+/// Types a character of the amount; returns whether it is one.
+pub(crate) fn type_amount(shared: &mut Shared, key: KeyEvent) -> bool {
+    let typed = shared
+        .transform
+        .as_ref()
+        .map_or("", |transform| &transform.typed);
+    match key.code {
+        KeyCode::Char(character)
+            if types_amount(character, typed) && typed.len() < line::LONGEST =>
+        {
+            change(shared, |transform| transform.typed.push(character));
+            true
+        }
+        KeyCode::Backspace if !typed.is_empty() => {
+            change(shared, |transform| {
+                transform.typed.truncate(transform.typed.len() - 1);
+            });
+            true
+        }
+        _ => false,
+    }
+}
+
+/// Keeps the change and ends.
+pub(crate) fn confirm(shared: &mut Shared) {
+    let transform = shared.transform.as_ref();
+    let typed = transform.filter(|transform| !transform.typed.is_empty());
+    if let Some(Err(reason)) = typed.map(Transform::typed_numbers) {
+        shared.fail(reason);
+        return;
+    }
+    match shared.transform.take() {
+        Some(transform) if transform.live_edit.is_applied => {
+            shared.say(transform.words());
+        }
+        _ => shared.say("nothing has changed"),
+    }
+    text::keep_live_edit(shared);
+    shared.mode = Mode::Select;
+}
+
+/// Puts everything back and ends.
+pub(super) fn cancel(shared: &mut Shared) {
+    if let Some(transform) = shared.transform.take() {
+        text::end_live_edit(shared, transform.live_edit);
+    }
+    shared.mode = Mode::Select;
+}
+
+/// Changes the motion, and the text with it.
+fn change(shared: &mut Shared, change: impl FnOnce(&mut Transform)) {
+    let Some(mut transform) = shared.transform.take() else {
+        return;
+    };
+    if text::leaves_live_edit(shared, &transform.live_edit, "transformation") {
+        shared.mode = Mode::Select;
+        return;
+    }
+    change(&mut transform);
+    let own = transform.clone();
+    let outcome = text::try_instead(shared, &mut transform.live_edit, |shared| {
+        let edits = edits_of_motion(shared, &own);
+        edits.map_err(|refused| refused.to_string())
+    });
+    match outcome {
+        Ok(()) => {
+            if transform.live_edit.is_applied {
+                let targets = shared.targets_name(&transform.nodes);
+                shared.document.name_step(transform.step_name(&targets));
+            }
+            shared.say(transform.words());
+        }
+        Err(reason) => shared.fail(reason),
+    }
+    shared.transform = Some(transform);
+}
+
+/// The edits that a motion makes to the text before it.
+fn edits_of_motion(shared: &Shared, transform: &Transform) -> Result<Vec<Edit>, StructureError> {
+    let motion = transform.motion(axes(&transform.camera));
+    if motion.is_identity() {
+        return Ok(Vec::new());
+    }
+    let (decimals, own) = (transform.decimals(), &transform.own);
+    let mut nodes = transform.nodes.clone();
+    nodes.retain(|node| *node != Node::View);
+    let mut edits = shared.source().motion(&nodes, &motion, decimals)?;
+    if nodes.len() < transform.nodes.len() {
+        let moved = motion.camera(own, decimals);
+        edits.extend(shared.source().view_edits(own, &moved));
+        Edit::sort(&mut edits);
+    }
+    Ok(edits)
+}
+
+/// Whether the targets have a place that a tool changes.
+pub(crate) fn is_movable(shared: &Shared, tool: Tool) -> bool {
+    let has_place = |node: &Node| match node {
+        Node::View => shared.refuses_camera(tool).is_none(),
+        Node::Object(_) => true,
+        node => shared.source().pose(*node).is_some(),
+    };
+    shared.targets().iter().all(has_place)
+}
+
+/// A motion by a tool about a point, to find out whether it changes anything; `None` if it certainly
+/// does.
+fn tried(tool: Tool, about: DVec3) -> Option<Motion> {
+    match tool {
+        Tool::Move => None,
+        Tool::Rotate => Some(Motion::Rotate {
+            // An axis about which nothing is likely to be symmetric.
+            axis: DVec3::new(0.36, 0.48, 0.8),
+            angle: 40.0,
+            about,
+        }),
+        Tool::Scale => Some(Motion::Scale {
+            factor: 2.0,
+            along: Along::All,
+            about,
+        }),
+    }
+}
+
+/// The width of a pixel at a point in world units; at the target if the point is the eye itself.
+fn pixel_at(point: DVec3, camera: &Camera, size: Size) -> f64 {
+    match pixel_width(point, camera, size) {
+        0.0 => pixel_width(camera.target, camera, size),
+        width => width,
+    }
+}

@@ -1,0 +1,55 @@
+//! Threads whose answers are waited for.
+
+use std::io;
+use std::sync::mpsc::Receiver;
+
+use crate::ui::event::Work;
+use crate::ui::queue::{Ended, Service};
+
+/// A thread whose requests count as work until they are answered.
+pub(crate) struct Answering<R>(Service<(R, Work)>);
+
+impl<R: Send + 'static> Answering<R> {
+    /// Starts a thread that runs `follow` until the requests end.
+    pub(crate) fn start(
+        name: &str,
+        work: &'static str,
+        follow: impl FnOnce(&Receiver<(R, Work)>) + Send + 'static,
+    ) -> io::Result<Self> {
+        Service::start(name, work, follow).map(Self)
+    }
+
+    /// Starts a thread that answers every request.
+    pub(crate) fn each(
+        name: &str,
+        work: &'static str,
+        mut answer: impl FnMut(R) + Send + 'static,
+    ) -> io::Result<Self> {
+        Self::start(name, work, move |inbox| {
+            for (request, work) in inbox {
+                answer(request);
+                drop(work);
+            }
+        })
+    }
+
+    /// Starts a thread that answers only the last of several pending requests.
+    pub(crate) fn latest(
+        name: &str,
+        work: &'static str,
+        mut answer: impl FnMut(R) + Send + 'static,
+    ) -> io::Result<Self> {
+        Self::start(name, work, move |inbox| {
+            while let Ok(first) = inbox.recv() {
+                let (request, work) = inbox.try_iter().last().unwrap_or(first);
+                answer(request);
+                drop(work);
+            }
+        })
+    }
+
+    /// Queues a request, which is work from now on.
+    pub(crate) fn ask(&self, request: R, work: Work) -> Result<(), Ended> {
+        self.0.request((request, work))
+    }
+}
