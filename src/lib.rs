@@ -41,13 +41,13 @@
 //! | [`part`] | blocks of pictures on disk: shards, checkpoints, merging | scenes, tracing |
 //! | [`track`] | values over frames: reads track files, edits texts to show a frame | files, rendering |
 //! | [`watch`] | reports changes of paths on disk | what the files contain |
-//! | [`ui`] | the terminal: the only room that knows ratatui and crossterm; commands are rows of `app/command`, keys of `app/keys` and of the folders of modes | how pixels are computed |
+//! | [`ui`] | the terminal: the only room that knows ratatui and crossterm; a mode is a folder of `app`, a command a row of `app/command`, a key a row of its room | how pixels are computed |
 //! | [`batch`] | headless work: check, render, merge, show, compare, explain, convert, bench | terminals |
 //! | [`config`] | the user's configuration: reads, checks and prints it | what the settings do |
 //! | [`cli`] | arguments and exit codes | how the work is done |
 //!
 //! `tests/rooms` enforces the dependencies between rooms, forbids cycles between sibling files, and
-//! holds the ceilings of files, folders and rooms.
+//! holds the ceilings of files, folders, rooms and the methods of the interface.
 //!
 //! # Invariants
 //!

@@ -6,6 +6,7 @@ mod compare;
 mod convert;
 mod explain;
 mod interface;
+mod manual;
 mod merge;
 mod render;
 mod rendering;
@@ -21,7 +22,6 @@ use std::path::{Path, PathBuf};
 use clap::error::ErrorKind;
 use clap::{CommandFactory, Parser, Subcommand, ValueEnum};
 use clap_complete::Shell;
-use clap_mangen::roff::{Roff, roman};
 
 use bench::BenchArguments;
 use compare::CompareArguments;
@@ -168,7 +168,7 @@ fn parse_arguments(arguments: impl IntoIterator<Item = OsString>) -> Result<Comm
         })),
         Some(Subcommands::Doctor { scene }) => Ok(Command::Doctor(scene)),
         Some(Subcommands::Completions { shell }) => Err(Stop::requested(&completions(shell))),
-        Some(Subcommands::Man) => Err(Stop::requested(&manual())),
+        Some(Subcommands::Man) => Err(Stop::requested(&manual::page(Cli::command()))),
         None => {
             let interface = cli.interface;
             check_words(interface.scene.as_deref(), &interface.surplus)
@@ -402,53 +402,6 @@ fn completions(shell: ShellChoice) -> Vec<u8> {
     let mut script = Vec::new();
     clap_complete::generate(shell, &mut Cli::command(), "halflight", &mut script);
     script
-}
-
-/// The manual page: that of the interface, followed by those of the commands.
-fn manual() -> Vec<u8> {
-    let mut cli = Cli::command();
-    // Without this, the commands lack the program's name.
-    cli.build();
-    let mut page = Vec::new();
-    let commands = cli
-        .get_subcommands()
-        .filter(|command| command.get_name() != "help");
-    for command in [&cli].into_iter().chain(commands) {
-        let notes = command
-            .get_after_long_help()
-            .or_else(|| command.get_after_help());
-        let notes = notes.map(ToString::to_string).unwrap_or_default();
-        let plain = command.clone().after_help("").after_long_help("");
-        // Writing to memory cannot fail.
-        let _ = clap_mangen::Man::new(plain).render(&mut page);
-        let _ = notes_section(&notes).to_writer(&mut page);
-    }
-    page
-}
-
-/// What follows the options in the help, as a section in which indented lines stay as they are.
-fn notes_section(notes: &str) -> Roff {
-    let mut section = Roff::default();
-    let mut is_kept = false;
-    if !notes.is_empty() {
-        section.control("SH", ["NOTES"]);
-    }
-    for line in notes.lines() {
-        let keeps = line.starts_with("  ");
-        if keeps != is_kept {
-            section.control(if keeps { "nf" } else { "fi" }, []);
-            is_kept = keeps;
-        }
-        if line.is_empty() {
-            section.control("PP", []);
-        } else {
-            section.text([roman(line)]);
-        }
-    }
-    if is_kept {
-        section.control("fi", []);
-    }
-    section
 }
 
 /// Refuses words that are not the scene to open: misspelt commands and a second scene.

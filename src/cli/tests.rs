@@ -321,12 +321,9 @@ fn the_paragraphs_of_help_fill_80_columns() {
 }
 
 #[test]
-fn the_readme_lists_the_exit_codes_of_help() {
-    let readme = include_str!("../../README.md").split_whitespace();
-    let readme = readme.collect::<Vec<_>>().join(" ");
+fn the_help_lists_every_exit_code() {
     let (_, codes) = EXAMPLES.split_once("\n\nExit codes: ").expect("codes");
     let (codes, _) = codes.split_once(" Ctrl-C ").expect("a sentence after them");
-    assert!(readme.contains(&format!("Exit codes: {codes}")), "{codes}");
     let listed = |code: u8| {
         let mut entries = codes.split(", ");
         entries.any(|entry| entry.starts_with(&format!("{code} ")))
@@ -346,6 +343,21 @@ fn the_readme_lists_the_exit_codes_of_help() {
     ];
     for code in all {
         assert!(listed(code), "{code}");
+    }
+}
+
+#[test]
+fn the_manual_lists_keys_commands_and_exit_codes() {
+    let page = String::from_utf8(manual::page(Cli::command())).expect("it is text");
+    let page = page.replace("\\-", "-");
+    let words: Vec<_> = page.split_whitespace().collect();
+    let page = words.join(" ");
+    for listed in [
+        "select K reorder-up move up in the list",
+        ":size WxH set the picture size in the scene",
+        "Exit codes: 0 ",
+    ] {
+        assert!(page.contains(listed), "{listed} in\n{page}");
     }
 }
 

@@ -19,6 +19,10 @@
 //! | [`service`] | work in the background: reading, writing, comparing, explaining, deriving |
 //! | [`recovery`] | unsaved edits, kept for a later run |
 //! | [`terminal`] | bytes from and to the terminal |
+//! | [`msg`], `event`, [`queue`] | messages and effects; what arrives in the inbox; threads that carry out requests |
+//! | [`arrange`], [`layout`], [`listing`], `errors`, [`history_layout`] | where things are on screen, for drawing and for the mouse alike |
+//! | [`scene_reading`], [`reference`](mod@reference), [`revision`], [`history_scene`], [`reel`] | what background work is asked for, and what it answers |
+//! | [`doctor`], `options`, `pixels`, `theme`, `state`, `text_width` | what was detected and chosen, where it is kept, and text made to fit |
 
 pub mod app;
 pub mod arrange;

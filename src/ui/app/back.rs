@@ -1,8 +1,7 @@
 //! Going back from what is open, or from the mode.
 
-use super::{PromptKind, Shared, compare, files, inspect, select};
+use super::{Shared, compare, inspect, select};
 use crate::ui::keymap::{Context, Mode};
-use crate::ui::msg::Effect;
 
 /// Goes back from what is open, or from the mode; never discards anything.
 pub(crate) fn go_back(shared: &mut Shared) {
@@ -21,22 +20,4 @@ pub(crate) fn go_back(shared: &mut Shared) {
         // They have keys of their own for that.
         _ => {}
     }
-}
-
-pub(crate) fn quit_key(shared: &mut Shared) -> Vec<Effect> {
-    if shared.mode == Mode::Move {
-        shared.warn_of_transform();
-        return Vec::new();
-    }
-    files::quit(shared)
-}
-
-/// Closes a line without accepting it, and gives up leaving, which waited for a file name.
-pub(crate) fn close_prompt(shared: &mut Shared) {
-    let prompt = shared.overlays.prompt.take();
-    if let Some(PromptKind::Filter(from)) = prompt.map(|prompt| prompt.kind) {
-        select::drop_filter(shared, from);
-    }
-    shared.palette.reset();
-    shared.jobs.next = None;
 }

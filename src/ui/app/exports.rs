@@ -172,6 +172,7 @@ fn withdraw_announcement(shared: &mut Shared, export: &Export) {
     }
 }
 
+/// Begins an export, or queues it behind the one under way.
 pub(crate) fn begin_or_queue(shared: &mut Shared, pending: Pending) -> Vec<Effect> {
     if shared.jobs.export.is_some() {
         shared.jobs.queue(pending);
@@ -188,6 +189,7 @@ fn next_export(shared: &mut Shared) -> Vec<Effect> {
     }
 }
 
+/// Takes a frame of the picture that is exported; the last one is written.
 pub(crate) fn export_frame(shared: &mut Shared, frame: Arc<Frame>) -> Vec<Effect> {
     let Some(export) = &mut shared.jobs.export else {
         return Vec::new();
@@ -216,6 +218,7 @@ pub(crate) fn export_ended(shared: &mut Shared, reason: String) -> Vec<Effect> {
     next_export(shared)
 }
 
+/// Takes the outcome of an export, and begins the next one.
 pub(crate) fn exported(
     shared: &mut Shared,
     id: ExportId,

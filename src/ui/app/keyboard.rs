@@ -5,9 +5,7 @@ use tui_input::Input;
 
 use super::shared::cursor::Typing;
 use super::shared::line;
-use super::{
-    App, PageFocus, PromptKind, Shared, back, command, edit, list, select, text, transform,
-};
+use super::{App, PageFocus, PromptKind, Shared, command, edit, list, select, text, transform};
 use crate::text::alternatives;
 use crate::ui::keymap::{self, Context, Meaning, Mode};
 use crate::ui::msg::Effect;
@@ -92,17 +90,17 @@ impl App {
             return Vec::new();
         };
         match key.code {
-            KeyCode::Esc => back::close_prompt(&mut self.shared),
+            KeyCode::Esc => close_prompt(&mut self.shared),
             // As in other programs, Backspace in an empty line closes it.
             KeyCode::Backspace if prompt.input.value().is_empty() => {
-                back::close_prompt(&mut self.shared);
+                close_prompt(&mut self.shared);
             }
             KeyCode::Enter => {
                 let (kind, typed) = (prompt.kind, prompt.input.value().to_owned());
                 let is_untouched = typed.trim() == prompt.opened.trim();
                 match kind {
                     PromptKind::Command => return self.run_line(&typed),
-                    PromptKind::Name if is_untouched => back::close_prompt(&mut self.shared),
+                    PromptKind::Name if is_untouched => close_prompt(&mut self.shared),
                     PromptKind::Name => {
                         self.shared.overlays.prompt = None;
                         select::rename(&mut self.shared, &typed);
@@ -169,4 +167,14 @@ fn answer_unknown(shared: &mut Shared, context: Context, key: KeyEvent) {
         _ => String::new(),
     };
     shared.overlays.answer(format!("{words}{help}"));
+}
+
+/// Closes a line without accepting it, and gives up leaving, which waited for a file name.
+pub(crate) fn close_prompt(shared: &mut Shared) {
+    let prompt = shared.overlays.prompt.take();
+    if let Some(PromptKind::Filter(from)) = prompt.map(|prompt| prompt.kind) {
+        select::drop_filter(shared, from);
+    }
+    shared.palette.reset();
+    shared.jobs.next = None;
 }

@@ -17,6 +17,7 @@ pub(crate) fn turn_page(shared: &mut Shared, pages: isize) {
     move_cursor(shared, pages * page(shared));
 }
 
+/// Moves the cursor of a context by some lines; positive is down.
 pub(crate) fn move_cursor_in(shared: &mut Shared, context: Context, rows: isize) {
     match context {
         Context::In(Mode::Select) => shared.move_selection(rows),
@@ -32,7 +33,7 @@ pub(crate) fn move_cursor_in(shared: &mut Shared, context: Context, rows: isize)
         }
         Context::Messages => {
             let count = shared.overlays.messages.past().len();
-            let top = shared.overlays.history.as_mut();
+            let top = shared.overlays.past.as_mut();
             if let Some(top) = top {
                 *top = moved(*top, rows, count);
             }
@@ -76,6 +77,7 @@ fn page(shared: &Shared) -> isize {
     (layout::contents(panel).height as isize - 1).max(1)
 }
 
+/// Opens the list of errors and warnings, or closes it.
 pub(crate) fn toggle_errors(shared: &mut Shared) {
     shared.overlays.errors = match shared.overlays.errors {
         Some(_) => None,

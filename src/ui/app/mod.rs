@@ -1,14 +1,28 @@
-//! The interface's state and its transitions: a pure step from (state, message) to (state,
-//! effects).
+//! The interface's state and its transitions: a pure step from (state, message) to (state, effects). Nothing
+//! here touches files, threads or clocks.
 //!
-//! [`App`] is what all modes share, and each mode's own state. [`Shared`] is the text and one part for
-//! each concern: cursor, disk, assets, pictures, overlays, jobs. A part owns its state and knows no
-//! other; the steps, which handle messages, pass between them what they need. A mode that is a room
-//! stands in a folder, which no other knows: its state, its keys, its steps; one line of
-//! [`modes`] joins it to the rest. Nothing here touches files, threads or clocks.
+//! [`App`] is what all modes share, [`Shared`], and the state of each mode that has its own, which a line of
+//! [`modes`] joins. A step is a function of what it changes: `fn(&mut Shared)`, or
+//! `fn(&mut Compare, &mut Shared)`. Each room lists in its `mod.rs` what others may call. Calls run down this
+//! table, and to the right in a row.
+//!
+//! | room | what it is for |
+//! |---|---|
+//! | [`update`], [`keyboard`], [`pasting`], [`mouse`] | take a message, and hand it to the room whose business it is; the mouse also drags what all modes share |
+//! | [`command`] | the command line: its rows, completions, and the help page |
+//! | [`modes`] | the modes joined: their states and keys, who handles a press, how one is entered |
+//! | [`keys`], [`list`], [`back`] | keys that are the same in many modes; cursors of lists; Esc where no mode binds it |
+//! | [`edit`], [`select`], [`sequence`], [`trace`] | EDIT: values of fields; SELECT: the list and the selected things; SEQUENCE: a track, played and keyed; TRACE: the full-size trace and its region |
+//! | [`exports`], [`history`], [`files`] | pictures written; undo, redo and their page; the scene's files |
+//! | [`compare`], [`camera`], [`transform`], [`inspect`] | COMPARE; VIEW and FLY; MOVE; INSPECT and the rays behind a pixel |
+//! | [`suggesting`], [`text`] | what is wrong with a picture, and the setting that would help; every change of the text |
+//! | [`display`], [`panels`] | what pictures show and ask for; how much of the screen they take |
+//! | [`room`] | what a room may do about a step, and what a row of keys is |
+//! | [`shared`] | the state that all modes share, one part for each concern |
+//! | [`pictures`], [`values`] | pictures as state; numbers, words and colours as they are typed |
 
-pub(crate) mod back;
-pub(crate) mod camera;
+mod back;
+mod camera;
 pub(crate) mod command;
 pub(crate) mod compare;
 pub mod display;
@@ -17,27 +31,28 @@ pub(crate) mod exports;
 pub(crate) mod files;
 pub(crate) mod history;
 pub(crate) mod inspect;
-pub(crate) mod keyboard;
-pub(crate) mod keys;
-pub(crate) mod list;
-pub(crate) mod modes;
-pub(crate) mod mouse;
-pub(crate) mod panels;
-pub(crate) mod pasting;
-pub(crate) mod pictures;
-pub(crate) mod room;
+mod keyboard;
+mod keys;
+mod list;
+mod modes;
+mod mouse;
+mod panels;
+mod pasting;
+mod pictures;
+mod room;
 pub(crate) mod select;
-pub(crate) mod sequence;
-pub(crate) mod shared;
-pub(crate) mod suggesting;
+mod sequence;
+mod shared;
+mod suggesting;
 #[cfg(test)]
 pub(super) mod tests;
 pub(crate) mod text;
-pub(crate) mod trace;
-pub(crate) mod transform;
-pub(crate) mod update;
-pub(crate) mod values;
+mod trace;
+mod transform;
+mod update;
+mod values;
 
+pub use command::commands;
 pub use compare::{Compare, Contrast, Reference, Wipe};
 pub use display::{Symbol, SymbolKind};
 pub use files::{Opening, OpeningText, Preferences};

@@ -4,14 +4,14 @@
 use super::compare::Compare;
 use super::files::Opening;
 use super::history::Thumbnails;
-use super::room::Room;
-use super::room::Row;
+use super::room::{Room, Row};
 use super::sequence::Sequence;
 use super::shared::Shared;
 use super::{
-    camera, compare, display, edit, files, inspect, keys, select, sequence, trace, transform,
+    Tool, camera, compare, display, edit, files, inspect, keys, select, sequence, text, trace,
+    transform,
 };
-use crate::ui::keymap::{Entry, Key, Keymap, RowId};
+use crate::ui::keymap::{Entry, Key, Keymap, Mode, RowId};
 use crate::ui::msg::Effect;
 
 /// Declares the modes and pages that are rooms: the name of the state in [`App`], its type, and that of
@@ -138,8 +138,9 @@ const ROWS: &[Rows] = &[
     Rows::Shared(display::KEYS),
     Rows::Shared(trace::KEYS),
     Rows::Sequence(sequence::ENTRIES),
-    Rows::Compare(compare::ENTRIES),
     Rows::Shared(keys::anywhere::KEYS),
+    Rows::Compare(compare::ENTRIES),
+    Rows::Shared(keys::anywhere::OTHERS),
 ];
 
 /// What all rows say of themselves.
@@ -165,6 +166,28 @@ impl Default for Keymap {
 }
 
 impl App {
+    /// Goes to a mode, if it can be entered now.
+    pub(crate) fn go(&mut self, mode: Mode) -> Vec<Effect> {
+        let shared = &mut self.shared;
+        match mode {
+            Mode::Sequence => return sequence::open_track(&mut self.sequence, shared, None),
+            Mode::Trace => return trace::start(shared),
+            Mode::Compare => return compare::start(&mut self.compare, shared),
+            Mode::Inspect => inspect::start(shared),
+            Mode::Move => transform::start(shared, Tool::Move),
+            Mode::Select | Mode::View | Mode::Fly | Mode::Edit => shared.enter(mode),
+        }
+        Vec::new()
+    }
+
+    /// Does something outside of SEQUENCE, and returns there if it fails.
+    pub(crate) fn outside(&mut self, act: impl FnOnce(&mut Self) -> Vec<Effect>) -> Vec<Effect> {
+        let mode = text::step_outside(&mut self.shared);
+        let effects = act(self);
+        text::return_if_failed(&mut self.shared, mode);
+        effects
+    }
+
     /// Does what the keys of a row do.
     pub(crate) fn act(&mut self, id: RowId) -> Vec<Effect> {
         row(id).map_or_else(Vec::new, |(rows, at)| rows.act(at, self))

@@ -5,6 +5,7 @@ use crate::ui::arrange::{Zoom, divided, resized};
 use crate::ui::msg::Effect;
 use crate::ui::terminal::Mouse;
 
+/// Shows the panels beside the picture, or the picture alone.
 pub(crate) fn toggle_zoom(shared: &mut Shared) {
     shared.zoom = match shared.zoom {
         Zoom::Panels => Zoom::Picture,
@@ -41,6 +42,7 @@ pub(crate) fn keep_panels(shared: &mut Shared) -> Option<Effect> {
     is_new.then_some(Effect::KeepPanels(shared.panels))
 }
 
+/// Takes mouse events, or leaves them to the terminal.
 pub(crate) fn toggle_mouse(shared: &mut Shared) -> Vec<Effect> {
     let (mouse, words) = match shared.mouse {
         Mouse::On => (Mouse::Off, "mouse off: the terminal selects text again"),

@@ -6,6 +6,7 @@ use super::{PageFocus, PromptKind, Shared, command, edit, select};
 use crate::ui::keymap::Mode;
 use crate::ui::msg::Effect;
 
+/// Pastes a text where one is typed, otherwise as items or as values.
 pub(crate) fn paste(shared: &mut Shared, text: &str) -> Vec<Effect> {
     let is_open = shared.overlays.line().is_some() && shared.overlays.dialog.is_none();
     if is_open && !edit::has_room(shared, text.trim_end().chars().count()) {

@@ -203,14 +203,6 @@ pub(crate) fn cure(shared: &mut Shared) {
     });
 }
 
-/// Switches the integrator.
-pub(crate) fn next_integrator(shared: &mut Shared) {
-    let words = shared.pictures.next_integrator(shared.scene.as_deref());
-    // It may lack other lights.
-    text::judge_text(shared);
-    shared.say(words);
-}
-
 /// The cure, if it is not in use yet.
 fn suggested_cure(shared: &Shared) -> Option<&Suggestion> {
     let asked = shared.rendering();

@@ -4,12 +4,11 @@ use std::sync::Arc;
 
 use super::shared::journal::KEPT_AFTER;
 use super::{
-    App, Grid, Shared, Tool, camera, command, compare, display, exports, files, history, inspect,
-    panels, pasting, sequence, suggesting, text, trace, transform,
+    App, Grid, Shared, camera, command, compare, display, exports, files, history, inspect, panels,
+    pasting, sequence, suggesting, text, trace,
 };
 use crate::render::Frame;
 use crate::ui::history_scene::NoPicture;
-use crate::ui::keymap::Mode;
 use crate::ui::msg::{Effect, Msg, Target, Timer};
 
 /// Why a renderer has ended that was not stopped.
@@ -77,8 +76,10 @@ impl App {
             Msg::Polled(what, reason) => files::polled(shared, what, reason),
             // The scene may have been given another name since the request.
             Msg::Read(path, read) if !shared.disk.is_own(&path) => drop(read),
-            Msg::Opened(path, opened) => return files::scene_read(shared, path, opened),
-            Msg::Read(_, read) if shared.disk.is_opening() => return files::opened(shared, read),
+            Msg::Opened(path, opened) => return files::other_scene_read(shared, path, opened),
+            Msg::Read(_, read) if shared.disk.is_opening() => {
+                return files::first_read(shared, read);
+            }
             Msg::Read(_, read) => return files::was_read(shared, read),
             Msg::AssetsRead(wanted, loaded) => text::assets_read(shared, &wanted, loaded),
             Msg::AssetsChanged => return shared.assets.read(),
@@ -167,28 +168,6 @@ impl App {
         shared.fail(reason);
         Vec::new()
     }
-
-    /// Does something outside of SEQUENCE, and returns there if it fails.
-    pub(crate) fn outside(&mut self, act: impl FnOnce(&mut Self) -> Vec<Effect>) -> Vec<Effect> {
-        let mode = text::step_outside(&mut self.shared);
-        let effects = act(self);
-        text::return_if_failed(&mut self.shared, mode);
-        effects
-    }
-
-    /// Goes to a mode, if it can be entered now.
-    pub(crate) fn go(&mut self, mode: Mode) -> Vec<Effect> {
-        let shared = &mut self.shared;
-        match mode {
-            Mode::Sequence => return sequence::open_track(&mut self.sequence, shared, None),
-            Mode::Trace => return trace::start(shared),
-            Mode::Compare => return compare::start(&mut self.compare, shared),
-            Mode::Inspect => inspect::start(shared),
-            Mode::Move => transform::start(shared, Tool::Move),
-            Mode::Select | Mode::View | Mode::Fly | Mode::Edit => shared.enter(mode),
-        }
-        Vec::new()
-    }
 }
 
 /// Scrolls so that the cursors are visible, and restarts what no longer shows the scene.
@@ -200,7 +179,8 @@ fn follow_scene(shared: &mut Shared) -> Vec<Effect> {
     display::follow_scene(shared)
 }
 
-/// Updates what depends on the whole state after a step: the histogram, the journal, the panels.
+/// Updates what depends on the whole state after a step: the preview, the histogram, the explanation, the
+/// journals of unsaved edits, the time to read a message, the panels.
 fn follow_step(shared: &mut Shared) -> Vec<Effect> {
     let mut effects: Vec<_> = display::follow_preview(shared).into_iter().collect();
     display::follow_histogram(shared);

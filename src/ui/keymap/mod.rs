@@ -1,6 +1,6 @@
 //! The key bindings: rows of keys, as changed by the user, give what keys do, the help page, the
 //! hints, the palette and the printed configuration. What a row does is defined beside the row, in
-//! `app/keys`.
+//! the `keys.rs` of its room.
 
 mod bindings;
 mod chord;

@@ -1,5 +1,5 @@
-//! Background work: threads that read, write, watch, compare and explain, so that no key press
-//! waits for them.
+//! Background work: threads that read, write, watch, compare, explain, derive and film, so that no key
+//! press waits for them.
 
 mod answering;
 mod assets;

@@ -3,11 +3,10 @@
 //! the state folder. Sessions that end up there at the same moment may lose one of their entries.
 
 use std::convert::Infallible;
-use std::fs;
-use std::io;
 use std::path::{Component, Path, PathBuf};
 use std::sync::mpsc::{self, Receiver};
 use std::time::Instant;
+use std::{fs, io};
 
 use crate::file;
 use crate::ui::arrange::PanelSizes;

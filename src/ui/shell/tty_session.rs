@@ -13,8 +13,7 @@ use crate::ui::event::Event;
 use crate::ui::msg::Msg;
 use crate::ui::options::Options;
 use crate::ui::terminal::query::Question;
-use crate::ui::terminal::tmux;
-use crate::ui::terminal::{self, Input, Replies, Reply, Terminal, Unread};
+use crate::ui::terminal::{self, Input, Replies, Reply, Terminal, Unread, tmux};
 #[cfg(unix)]
 use crate::ui::terminal::{Signals, suspend_process};
 

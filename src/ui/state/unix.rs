@@ -6,8 +6,10 @@ use std::os::fd::{AsFd, OwnedFd};
 use std::os::unix::fs::MetadataExt;
 use std::path::Path;
 
-use rustix::fs::{AtFlags, CWD, FileType, Mode, OFlags, RawMode, Stat};
-use rustix::fs::{fstat, fsync, mkdirat, openat, renameat, statat, unlinkat};
+use rustix::fs::{
+    AtFlags, CWD, FileType, Mode, OFlags, RawMode, Stat, fstat, fsync, mkdirat, openat, renameat,
+    statat, unlinkat,
+};
 use rustix::io::Errno;
 use rustix::process::geteuid;
 

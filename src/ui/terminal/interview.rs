@@ -6,8 +6,7 @@ use std::io;
 use std::time::{Duration, Instant};
 
 #[cfg(unix)]
-use super::query;
-use super::{Protocol, Reply};
+use super::{Protocol, Reply, query};
 
 /// The answers of a terminal.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]

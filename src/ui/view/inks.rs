@@ -2,8 +2,8 @@
 
 use ratatui::style::Color;
 
+use super::few_colours::Palette;
 use super::mosaic::Mosaic;
-use super::palette::Palette;
 use crate::ui::terminal::ColourDepth;
 use crate::ui::theme::Theme;
 

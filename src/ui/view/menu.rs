@@ -10,8 +10,7 @@ use super::fields::users;
 use super::list::swatch;
 use super::row::{Row, title};
 use crate::ui::app::{Entry, Purpose, Shared};
-use crate::ui::layout;
-use crate::ui::theme;
+use crate::ui::{layout, theme};
 
 /// Draws the open menu over the list, or over everything if there is no list.
 pub(crate) fn render(shared: &Shared, list: Rect, body: Rect, buffer: &mut Buffer) {

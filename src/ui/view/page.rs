@@ -8,8 +8,7 @@ use ratatui::widgets::{Block, BorderType, Clear, Widget};
 use super::row::Row;
 use crate::text::counted;
 use crate::ui::app::{App, List, Page, PageFocus};
-use crate::ui::layout;
-use crate::ui::theme;
+use crate::ui::{layout, theme};
 
 /// Draws the page if one is open.
 pub(crate) fn render(app: &App, area: Rect, buffer: &mut Buffer) {

@@ -5,8 +5,7 @@ use ratatui::layout::Rect;
 use ratatui::style::Style;
 
 use super::row::{self, Row};
-use crate::ui::app::DopeSheet;
-use crate::ui::app::{App, OpenTrack};
+use crate::ui::app::{App, DopeSheet, OpenTrack};
 use crate::ui::keymap::Mode;
 use crate::ui::theme;
 

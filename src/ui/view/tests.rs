@@ -232,7 +232,7 @@ const STATES: &[(&str, Change)] = &[
         app.update(Msg::Key(KeyCode::Char('O').into()));
     }),
     ("history", |app| {
-        app.shared.overlays.history = Some(usize::MAX);
+        app.shared.overlays.past = Some(usize::MAX);
         app.update(Msg::Failed("界\u{1b}]52;c;界\u{7}".repeat(20)));
     }),
     ("undo history", |app| {

@@ -22,12 +22,12 @@ const POLE: f64 = 1.0;
 const ANGLES: (f64, f64) = (1.0, 170.0);
 
 /// Orbits around the target by steps to the left and up.
-pub(crate) fn stepped(camera: Camera, left: i8, up: i8) -> Camera {
+pub(super) fn stepped(camera: Camera, left: i8, up: i8) -> Camera {
     orbited(camera, f64::from(left) * ORBIT, f64::from(up) * ORBIT)
 }
 
 /// Moves the camera and its target by steps to the left and up.
-pub(crate) fn panned(camera: Camera, left: i8, up: i8) -> Camera {
+pub(super) fn panned(camera: Camera, left: i8, up: i8) -> Camera {
     let offset = camera.eye - camera.target;
     let axes = Axes::of(&camera);
     let shift = offset.length() * PAN * (f64::from(up) * axes.up - f64::from(left) * axes.right);
@@ -58,7 +58,7 @@ pub(crate) fn dollied(camera: Camera, steps: i8) -> Camera {
 }
 
 /// Turns the camera in place by steps to the left and up.
-pub(crate) fn faced(camera: Camera, left: i8, up: i8) -> Camera {
+pub(super) fn faced(camera: Camera, left: i8, up: i8) -> Camera {
     turned(camera, f64::from(left) * TURN, f64::from(up) * TURN)
 }
 
@@ -71,7 +71,7 @@ pub(crate) fn advanced(camera: Camera, steps: i8) -> Camera {
 }
 
 /// Rolls the camera around the view direction by steps to the left.
-pub(crate) fn rolled(camera: Camera, left: i8) -> Camera {
+pub(super) fn rolled(camera: Camera, left: i8) -> Camera {
     let back = (camera.eye - camera.target).normalize_or(DVec3::Z);
     let along = camera.up.dot(back) * back;
     let across = camera.up - along;
@@ -84,7 +84,7 @@ pub(crate) fn rolled(camera: Camera, left: i8) -> Camera {
 }
 
 /// Widens the field of view by steps.
-pub(crate) fn widened(camera: Camera, steps: i8) -> Camera {
+pub(super) fn widened(camera: Camera, steps: i8) -> Camera {
     let lens = match camera.lens {
         Lens::Perspective(angle) => {
             let wider = angle + f64::from(steps) * WIDEN;
@@ -100,7 +100,7 @@ pub(crate) fn widened(camera: Camera, steps: i8) -> Camera {
 }
 
 /// Rounds a camera that was moved; `None` if it would see nothing.
-pub(crate) fn settled(moved: Camera, before: &Camera) -> Option<Camera> {
+pub(super) fn settled(moved: Camera, before: &Camera) -> Option<Camera> {
     let moved = rounded(moved, before);
     let finite = moved.eye.is_finite() && moved.target.is_finite();
     let distance = (moved.eye - moved.target).length();
@@ -161,7 +161,7 @@ pub(crate) fn turned(camera: Camera, left: f64, up: f64) -> Camera {
 }
 
 /// Moves the camera so that a sphere fills the smaller of the two view angles.
-pub(crate) fn framed(camera: Camera, centre: DVec3, radius: f64) -> Camera {
+pub(super) fn framed(camera: Camera, centre: DVec3, radius: f64) -> Camera {
     let aspect = f64::from(camera.size.width) / f64::from(camera.size.height) * camera.pixel_aspect;
     let (distance, lens) = match camera.lens {
         Lens::Perspective(angle) => {

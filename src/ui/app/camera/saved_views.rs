@@ -1,4 +1,4 @@
-//! The working view: moving it, and writing it into the text.
+//! The working view: moving it, writing it into the text, and going to views saved there.
 
 use super::moves::{framed, settled};
 use crate::document::StepName;

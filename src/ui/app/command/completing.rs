@@ -6,11 +6,12 @@ use std::path::{Path, PathBuf};
 use crossterm::event::{KeyCode, KeyEvent};
 use tui_input::Input;
 
-use super::Described;
+use super::row::Described;
+use super::running;
 use crate::image_file::ImageFormat;
 use crate::language::Language;
 use crate::ui::app::shared::line;
-use crate::ui::app::{App, Completion, PromptKind, Shared, command};
+use crate::ui::app::{App, Completion, PromptKind, Shared};
 use crate::ui::keymap::{Context, Mode, RowId};
 use crate::ui::msg::Effect;
 
@@ -30,7 +31,7 @@ impl App {
         let found = completions(&self.shared);
         let chosen = self.shared.palette.chosen;
         let is_typed = chosen.is_none() && !line.trim().is_empty();
-        if is_typed && 1 < found.len() && !command::begins_command(line) {
+        if is_typed && 1 < found.len() && !running::begins_command(line) {
             self.shared.warn("several match: Tab chooses");
             return Vec::new();
         }
@@ -39,7 +40,7 @@ impl App {
         self.shared.palette.remember(line);
         let described = match (chosen, found.as_slice()) {
             (Some(at), found) => found.get(at),
-            (None, [only]) if !command::is_command(line) => Some(only),
+            (None, [only]) if !running::is_command(line) => Some(only),
             (None, _) => None,
         };
         match described.and_then(|completion| completion.act) {
@@ -98,7 +99,7 @@ pub(crate) fn folder_listed(shared: &mut Shared, folder: PathBuf, names: Vec<Str
 pub(crate) fn command_typed(shared: &Shared) -> Option<Completion> {
     let described = match wanted(shared)? {
         Wanted::File(_, described, _) => described,
-        Wanted::Command(typed) => command::described_in(typed)?,
+        Wanted::Command(typed) => running::described_in(typed)?,
     };
     Some(as_completion(shared, described))
 }
@@ -131,9 +132,9 @@ fn wanted(shared: &Shared) -> Option<Wanted<'_>> {
     };
     let typed = typed.trim_start();
     let file = typed.split_once(' ').and_then(|(name, rest)| {
-        let described = command::described_as(name).filter(|row| row.takes_file)?;
+        let described = running::described_as(name).filter(|row| row.takes_file)?;
         // `export cancel` is a command of its own.
-        let is_other = command::described_as(typed).is_some();
+        let is_other = running::described_as(typed).is_some();
         (!is_other).then_some(Wanted::File(typed, described, rest.trim_start()))
     });
     Some(file.unwrap_or(Wanted::Command(typed)))
@@ -141,7 +142,7 @@ fn wanted(shared: &Shared) -> Option<Wanted<'_>> {
 
 fn commands_like(shared: &Shared, typed: &str) -> Vec<Completion> {
     let wanted = typed.trim_end().to_lowercase();
-    let commands = command::all_described().map(|row| {
+    let commands = running::all_described().map(|row| {
         let names = row.names.iter().filter_map(|name| likeness(name, &wanted));
         let by_words = likeness(row.words, &wanted).map(|rank| rank + 1);
         let by_synonyms = likeness(row.synonyms, &wanted).map(|rank| rank + 2);

@@ -6,7 +6,7 @@ use crate::ui::app::{App, Shared};
 use crate::ui::msg::Effect;
 
 /// A command: one row.
-pub(crate) struct CommandRow {
+pub(super) struct CommandRow {
     /// One or two words, and alternative spellings.
     pub(crate) names: &'static [&'static str],
     pub(crate) arguments: Arguments,
@@ -20,7 +20,7 @@ pub(crate) struct CommandRow {
 }
 
 /// The arguments of a command, and what it does with them.
-pub(crate) enum Arguments {
+pub(super) enum Arguments {
     Nothing(fn() -> Run),
     File(fn(Option<PathBuf>) -> Run),
     Name(fn(Option<String>) -> Run),
@@ -32,7 +32,7 @@ pub(crate) enum Arguments {
 
 /// When a command runs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Runs {
+pub(super) enum Runs {
     /// Not while something is transformed or a scene is being opened, and outside of SEQUENCE.
     OnText,
     /// In SEQUENCE as well.
@@ -44,14 +44,14 @@ pub(crate) enum Runs {
 }
 
 /// What a command line does.
-pub(crate) struct Run(pub(crate) Box<Step>);
+pub(super) struct Run(pub(crate) Box<Step>);
 
 type Step = dyn FnOnce(&mut App) -> Vec<Effect>;
 
 impl Run {
     pub(crate) fn does(step: impl FnOnce(&mut Shared) + 'static) -> Self {
-        Self::requests(|app| {
-            step(app);
+        Self::requests(|shared| {
+            step(shared);
             Vec::new()
         })
     }

@@ -25,7 +25,7 @@ use Runs::{Always, OnTrack, WhileOpening};
 
 /// All commands, in the order of the help page.
 #[rustfmt::skip]
-pub(crate) const ROWS: &[CommandRow] = &[
+pub(super) const ROWS: &[CommandRow] = &[
     CommandRow::new(&["w", "write"], File(|file| Run::requests(|shared| files::write(shared, file, Force::No))), "save the scene, or save it as FILE").key("save"),
     CommandRow::new(&["w!", "write!"], File(|file| Run::requests(|shared| files::write(shared, file, Force::Yes))), "save, overwriting changes on disk"),
     CommandRow::new(&["q", "quit"], Nothing(|| Run::requests(files::quit)), "quit").also("exit").key("quit").runs(WhileOpening),
@@ -39,7 +39,7 @@ pub(crate) const ROWS: &[CommandRow] = &[
     CommandRow::new(&["export!"], FileAnd(PICTURE, |said| export(said, Asking::Forced)), "export, overwriting an existing file").runs(OnTrack),
     CommandRow::new(&["export cancel"], Nothing(|| Run::requests(exports::cancel_export)), "cancel the export").key("stop").runs(OnTrack),
     CommandRow::new(&["render"], Nothing(|| Run::requests(trace::start)), "trace at full size").also("final quality").key("trace"),
-    CommandRow::new(&["compare"], File(|file| Run::within(|app| compare::compare_command(&mut app.compare, &mut app.shared, file))), "compare with a picture or scene FILE, saved, or git [REVISION]").key("compare").runs(OnTrack),
+    CommandRow::new(&["compare"], File(|file| Run::within(|app| compare::by_command(&mut app.compare, &mut app.shared, file))), "compare with a picture or scene FILE, saved, or git [REVISION]").key("compare").runs(OnTrack),
     CommandRow::new(&["until"], Said(" [N spp|TIME|noise E]", until), "end the full-size trace at N spp, after 30 s or 5 min, or below noise 0.01"),
     CommandRow::new(&["region"], Said(" [X,Y,W,H|off]", region), "trace only these pixels at full size, or all").key("region"),
     CommandRow::new(&["zoom"], Said(" [fit|1:1|N]", zoom), "zoom the picture, also the preview"),

@@ -48,8 +48,8 @@ pub(crate) fn end(shared: &mut Shared) {
         .unwrap_or(Mode::Select);
 }
 
-/// Traces what is compared if it is not up to date, and nothing outside of [`Mode::Compare`].
-pub(crate) fn follow(compare: &mut Compare, shared: &mut Shared) -> Vec<Effect> {
+/// Traces what is compared if it is not up to date, while a comparison is seen, and otherwise nothing.
+pub(super) fn follow(compare: &mut Compare, shared: &mut Shared) -> Vec<Effect> {
     if shared.assets.are_awaited() {
         return Vec::new();
     }
@@ -222,7 +222,7 @@ pub(super) fn magnify(compare: &Compare, shared: &mut Shared, steps: i8) {
 }
 
 /// Shows the two pictures in another way.
-pub(super) fn contrast(compare: &mut Compare, shared: &mut Shared, view: Contrast) {
+pub(super) fn view_as(compare: &mut Compare, shared: &mut Shared, view: Contrast) {
     look(compare, shared, view, compare.wipe);
 }
 
@@ -294,7 +294,7 @@ pub(crate) fn wipe_on_screen(compare: &Compare, shared: &Shared) -> Option<f64> 
 }
 
 /// Moves the line of the wipe to a cell of the screen; in other views, points at the pixel there.
-pub(crate) fn press(compare: &mut Compare, shared: &mut Shared, at: (u16, u16)) {
+pub(super) fn press(compare: &mut Compare, shared: &mut Shared, at: (u16, u16)) {
     let Some((cells, _)) = shared
         .raster()
         .filter(|(cells, _)| cells.contains(at.into()))

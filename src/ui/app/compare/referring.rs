@@ -14,7 +14,7 @@ use crate::ui::msg::Effect;
 use crate::ui::reference::{ReferenceId, ReferenceRead, ReferenceSource};
 
 /// Makes the picture on screen the reference.
-pub(crate) fn pin(compare: &mut Compare, shared: &mut Shared) -> Vec<Effect> {
+pub(super) fn pin(compare: &mut Compare, shared: &mut Shared) -> Vec<Effect> {
     let pinned = match pinned(compare, shared) {
         Ok(pinned) => pinned,
         Err(reason) => {
@@ -88,22 +88,22 @@ fn refer(compare: &mut Compare, reference: Reference) -> Vec<Effect> {
 }
 
 /// Compares with something else, or with the reference; SEQUENCE is left first for that.
-pub(crate) fn compare_command(
+pub(crate) fn by_command(
     compare: &mut Compare,
     shared: &mut Shared,
     words: Option<PathBuf>,
 ) -> Vec<Effect> {
     if words.is_some() {
-        return compare_with(compare, shared, words);
+        return refer_to(compare, shared, words);
     }
     let mode = text::step_outside(shared);
-    let effects = compare_with(compare, shared, None);
+    let effects = refer_to(compare, shared, None);
     text::return_if_failed(shared, mode);
     effects
 }
 
 /// Compares with the reference, or reads another one first, for `:compare`.
-fn compare_with(compare: &mut Compare, shared: &mut Shared, words: Option<PathBuf>) -> Vec<Effect> {
+fn refer_to(compare: &mut Compare, shared: &mut Shared, words: Option<PathBuf>) -> Vec<Effect> {
     let Some(path) = words else {
         return start(compare, shared);
     };

@@ -81,7 +81,7 @@ enum Work {
 }
 
 /// What a picture shows unless that is an AOV.
-pub(crate) const LIGHT: &str = "light";
+const LIGHT: &str = "light";
 
 /// What a picture shows, in a word.
 pub(super) fn shown(aov: Option<Aov>) -> &'static str {

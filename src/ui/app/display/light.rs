@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use super::previewing::retrace;
+use super::jobs::retrace;
 use crate::language::Node;
 use crate::render::{Aov, Colours, Frame, Histogram, MOST_HALF_STOPS, denoises, exposes};
 use crate::scene::{Emitter, Transfer};

@@ -1,5 +1,6 @@
 //! What pictures show, how light is displayed, and which part of a picture is on screen.
 
+mod jobs;
 mod keys;
 mod light;
 mod previewing;
@@ -7,14 +8,13 @@ mod soloing;
 mod symbols;
 mod zooming;
 
+pub(crate) use jobs::{final_job, retrace, shown_job, trace_job};
 pub(crate) use keys::KEYS;
 pub(crate) use light::{
     display_name, expose, follow_histogram, is_light, legend, set_exposure, set_transfer, show,
     toggle_denoising, toggle_false_colours, toggle_histogram, view_name,
 };
-pub(crate) use previewing::{
-    final_job, follow_preview, follow_scene, follow_wires, retrace, shown_job, trace_job,
-};
+pub(crate) use previewing::{follow_preview, follow_scene, follow_wires};
 pub(crate) use soloing::{keep_solo, toggle_solo, toggle_solo_of};
 pub use symbols::{Symbol, SymbolKind};
 pub(crate) use symbols::{outlined_objects, symbol_at, symbols, toggle_symbols};

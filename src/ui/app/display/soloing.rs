@@ -9,7 +9,7 @@ use crate::ui::app::Shared;
 use crate::ui::app::pictures::solo::Solo;
 
 /// A scene to show, and what its objects are called if it lacks some.
-pub(crate) type Part = (Arc<Scene>, Option<Arc<[u32]>>);
+type Part = (Arc<Scene>, Option<Arc<[u32]>>);
 
 /// Shows the targets alone in the preview, or everything again.
 pub(crate) fn toggle_solo(shared: &mut Shared) {

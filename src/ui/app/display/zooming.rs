@@ -154,6 +154,7 @@ pub(crate) fn toggle_scale(shared: &mut Shared) {
     tell_scale(shared);
 }
 
+/// Zooms as `:zoom` asks, or says how the picture is zoomed.
 pub(crate) fn order_scale(shared: &mut Shared, order: ScaleOrder) {
     match order {
         ScaleOrder::Tell => {}

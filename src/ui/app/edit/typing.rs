@@ -18,6 +18,7 @@ fn current(shared: &Shared) -> Option<(&'static Field, String)> {
     Some((row.field, literal))
 }
 
+/// Changes the current component by some steps of a size; words and references by their neighbours.
 pub(super) fn nudge(shared: &mut Shared, steps: i8, stride: Stride) {
     let Some((field, literal)) = current(shared) else {
         return;
@@ -65,12 +66,14 @@ pub(super) fn change_stride(shared: &mut Shared, step: isize) {
     shared.say(words);
 }
 
+/// Moves the cursor to another component.
 pub(super) fn next_component(shared: &mut Shared, step: isize) {
     shared.document.end_step();
     shared.cursor.next_component(step);
 }
 
-pub(crate) fn type_current(shared: &mut Shared) {
+/// Opens the current component to be typed.
+pub(super) fn type_current(shared: &mut Shared) {
     if let Some((field, literal)) = current(shared) {
         shared.cursor.typing = Some(Typing {
             opened: Some(literal.clone()),
@@ -81,6 +84,7 @@ pub(crate) fn type_current(shared: &mut Shared) {
     }
 }
 
+/// Handles a key while a value is typed.
 pub(crate) fn typing_key(shared: &mut Shared, key: KeyEvent) {
     let Some(typing) = &mut shared.cursor.typing else {
         return;

@@ -7,6 +7,7 @@ use super::recover::keep_the_rest;
 use super::replacing::{request_scene, start_scene};
 use super::saving::{end_save, save};
 use crate::ui::app::{AfterLeaving, Dialog, OnDisk, Shared, camera, text};
+use crate::ui::keymap::Mode;
 use crate::ui::msg::{Effect, SaveId, SaveOutcome, Timer};
 
 /// The loss of the working view.
@@ -35,6 +36,7 @@ pub(crate) fn save_view_key(shared: &mut Shared) -> Vec<Effect> {
     next.map_or_else(Vec::new, |next| save_and(shared, next))
 }
 
+/// Saves if necessary, then quits, for `:wq`.
 pub(crate) fn save_and_quit(shared: &mut Shared) -> Vec<Effect> {
     save_and(shared, AfterLeaving::Quit)
 }
@@ -48,6 +50,7 @@ fn save_and(shared: &mut Shared, next: AfterLeaving) -> Vec<Effect> {
     save(shared)
 }
 
+/// Quits; asks first if something would be lost.
 pub(crate) fn quit(shared: &mut Shared) -> Vec<Effect> {
     leave_for(shared, AfterLeaving::Quit)
 }
@@ -116,6 +119,7 @@ pub(crate) fn was_saved(shared: &mut Shared, id: SaveId, outcome: SaveOutcome) -
     effects
 }
 
+/// Answers Ctrl-C: asks if something would be lost, and the second time quits with edits kept.
 pub(crate) fn interrupt(shared: &mut Shared) -> Vec<Effect> {
     text::leave_sequence(shared);
     if shared.jobs.interrupt || losses(shared).is_none() {
@@ -207,4 +211,13 @@ fn lost_export(shared: &Shared) -> Option<String> {
 fn lost_save(shared: &Shared) -> Option<String> {
     let path = shared.jobs.file_being_saved()?;
     Some(format!("{} is still being written", path.display()))
+}
+
+/// Quits, but not while something is moved.
+pub(crate) fn quit_key(shared: &mut Shared) -> Vec<Effect> {
+    if shared.mode == Mode::Move {
+        shared.warn_of_transform();
+        return Vec::new();
+    }
+    quit(shared)
 }

@@ -14,11 +14,11 @@ mod saving;
 pub(crate) use editor::{editor_closed, open_editor};
 pub(crate) use leaving::{
     interrupt, leave_anyway, leave_when_done, losses_before, quit, quit_anyway, quit_keeping_edits,
-    save_and_quit, save_key, save_view_key, was_saved,
+    quit_key, save_and_quit, save_key, save_view_key, was_saved,
 };
 pub(crate) use merging::{adopt, decide, decide_all};
-pub(crate) use open_scene::{edit_file, open_scene, scene_read, show_recent, start_new};
-pub(crate) use opening::{open, opened};
+pub(crate) use open_scene::{edit_file, open_scene, other_scene_read, show_recent, start_new};
+pub(crate) use opening::{first_read, open};
 pub(crate) use polling::{polled, polls};
 pub(crate) use reading::{backups_found, catch_up, read_again, settled, was_read};
 pub(crate) use recover::{

@@ -4,8 +4,7 @@ use std::path::PathBuf;
 use std::sync::Arc;
 
 use super::leaving::leave_for;
-use super::reading::read_again;
-use super::reading::reread;
+use super::reading::{read_again, reread};
 use super::replacing::replace_scene;
 use crate::document::Document;
 use crate::file::ReadError;
@@ -42,7 +41,7 @@ pub(crate) fn open_scene(shared: &mut Shared, path: PathBuf) -> Vec<Effect> {
 
 /// Takes a scene that was requested; if it cannot be read, the present one stays. Asks again if
 /// this one has been changed meanwhile.
-pub(crate) fn scene_read(
+pub(crate) fn other_scene_read(
     shared: &mut Shared,
     path: PathBuf,
     opened: Result<Opened, ReadError>,

@@ -129,7 +129,7 @@ pub(crate) fn open(opening: Opening) -> (Shared, Vec<Effect>) {
 }
 
 /// Takes the scene's first text; if it could not be read, the interface ends.
-pub(crate) fn opened(shared: &mut Shared, read: Result<Reading, ReadError>) -> Vec<Effect> {
+pub(crate) fn first_read(shared: &mut Shared, read: Result<Reading, ReadError>) -> Vec<Effect> {
     let reading = match read {
         Ok(reading) => reading,
         Err(error) => {

@@ -25,7 +25,7 @@ const QUIET: Duration = Duration::from_millis(100);
 const GONE: Duration = Duration::from_millis(500);
 
 /// The parts of a message about a text read from the file.
-pub(super) struct Wording {
+pub(crate) struct Wording {
     came: &'static str,
     /// Used instead of the changed place if only comments and spacing have changed.
     same: &'static str,
@@ -64,9 +64,15 @@ const SAME_NOW: Wording = Wording {
 
 /// Watches the scene's file, and reads it once more in case it changed before the watch began.
 pub(super) fn watch(shared: &Shared) -> Vec<Effect> {
-    let watch = shared.disk.path.iter().cloned().map(Effect::Watch);
-    let backups = shared.disk.path.iter().cloned().map(Effect::FindBackups);
-    watch.chain(read_effect(shared)).chain(backups).collect()
+    let own = || shared.disk.path.iter().cloned();
+    let read = if is_being_saved(shared) {
+        Vec::new()
+    } else {
+        shared.disk.read(baseline(shared))
+    };
+    let watch = own().map(Effect::Watch);
+    let backups = own().map(Effect::FindBackups);
+    watch.chain(read).chain(backups).collect()
 }
 
 /// Reads the file, which may have to settle; not while it is being saved.
@@ -114,6 +120,7 @@ fn read_with(shared: &mut Shared, read: fn(&mut Disk, Baseline) -> Vec<Effect>) 
     effects
 }
 
+/// Reads the file for the last time after it had time to settle.
 pub(crate) fn settled(shared: &mut Shared) -> Vec<Effect> {
     if shared.disk.is_waiting() {
         read_finally(shared)
@@ -122,11 +129,9 @@ pub(crate) fn settled(shared: &mut Shared) -> Vec<Effect> {
     }
 }
 
-pub(super) fn read_effect(shared: &Shared) -> Vec<Effect> {
-    if is_being_saved(shared) {
-        return Vec::new();
-    }
-    shared.disk.read(baseline(shared))
+/// Reads the file once more, as far as it is known to have settled.
+pub(super) fn read_once_more(shared: &mut Shared) -> Vec<Effect> {
+    read_with(shared, |disk, baseline| disk.read(baseline))
 }
 
 /// The state that a reading of the file is compared with.
@@ -146,6 +151,7 @@ pub(super) fn is_being_saved(shared: &Shared) -> bool {
     shared.jobs.file_being_saved().is_some()
 }
 
+/// Takes a reading; one that was compared with another state is repeated.
 pub(crate) fn was_read(shared: &mut Shared, read: Result<Reading, ReadError>) -> Vec<Effect> {
     if is_being_saved(shared) {
         return vec![Effect::Free(Arc::new(read))];
@@ -153,7 +159,7 @@ pub(crate) fn was_read(shared: &mut Shared, read: Result<Reading, ReadError>) ->
     if let Ok(reading) = &read
         && !is_known(shared, reading)
     {
-        let mut effects = read_effect(shared);
+        let mut effects = read_once_more(shared);
         effects.push(Effect::Free(Arc::new(read)));
         return effects;
     }

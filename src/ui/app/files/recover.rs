@@ -15,6 +15,7 @@ pub(super) fn look_for_kept(shared: &Shared) -> Effect {
     shared.disk.journal.look(&shared.document, scene)
 }
 
+/// Offers edits that an earlier run kept.
 pub(crate) fn found_kept(shared: &mut Shared, found: Found) {
     if let Some(complaint) = shared.disk.journal.found(found) {
         shared.warn(complaint);
@@ -31,11 +32,13 @@ pub(crate) fn fails_to_keep(shared: &Shared) -> bool {
     shared.disk.journal.fails(&shared.document)
 }
 
+/// Keeps unsaved edits for the next run, if there are any.
 pub(crate) fn keep_edits(shared: &mut Shared) -> Option<Effect> {
     let scene = shared.disk.path.clone();
     shared.disk.journal.keep(&shared.document, scene)
 }
 
+/// Keeps unsaved edits for the next run, or forgets those that were kept.
 pub(super) fn keep_the_rest(shared: &mut Shared) -> Option<Effect> {
     let scene = shared.disk.path.clone();
     shared.disk.journal.keep_the_rest(&shared.document, scene)

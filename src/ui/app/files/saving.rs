@@ -4,7 +4,9 @@
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use super::reading::{is_being_saved, note_recent, read_again, read_effect, read_finally, watch};
+use super::reading::{
+    is_being_saved, note_recent, read_again, read_finally, read_once_more, watch,
+};
 use super::recover::keep_the_rest;
 use crate::language::Language;
 use crate::ui::app::shared::after_leaving::AfterLeaving;
@@ -58,12 +60,12 @@ pub(super) fn save(shared: &mut Shared) -> Vec<Effect> {
         let view = unwritten_view(shared);
         shared.say(format!("nothing to save{view}"));
         // In case a notification was missed.
-        return read_effect(shared);
+        return read_once_more(shared);
     }
     if let OnDisk::Changed | OnDisk::Faulty(_) | OnDisk::Unreadable = shared.disk.state {
         // The question is asked again with what the file holds now; nothing is saved.
         shared.jobs.next = None;
-        return read_effect(shared);
+        return read_once_more(shared);
     }
     if refuses_errors(shared, &path) {
         return Vec::new();
@@ -76,7 +78,7 @@ pub(super) fn save(shared: &mut Shared) -> Vec<Effect> {
 }
 
 /// Saves the text. If a save of the same file is running, the new one waits for it.
-pub(super) fn save_to(shared: &mut Shared, path: &Path, guard: Guard) -> Vec<Effect> {
+fn save_to(shared: &mut Shared, path: &Path, guard: Guard) -> Vec<Effect> {
     shared.document.end_step();
     let text = shared.document.shared_text();
     let effects = shared.jobs.save(path, text, guard);
@@ -88,7 +90,7 @@ pub(super) fn save_to(shared: &mut Shared, path: &Path, guard: Guard) -> Vec<Eff
 }
 
 /// Refuses to write a text with errors unless forced; returns whether it has any.
-pub(super) fn refuses_errors(shared: &mut Shared, path: &Path) -> bool {
+fn refuses_errors(shared: &mut Shared, path: &Path) -> bool {
     let Some(errors) = text::error_place(shared) else {
         return false;
     };
@@ -103,7 +105,7 @@ pub(super) fn refuses_errors(shared: &mut Shared, path: &Path) -> bool {
 }
 
 /// The addition to a message about a save that the text lacks the moved view, if it does.
-pub(super) fn unwritten_view(shared: &Shared) -> String {
+fn unwritten_view(shared: &Shared) -> String {
     if !shared.is_view_unwritten() {
         return String::new();
     }

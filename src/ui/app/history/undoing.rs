@@ -5,12 +5,14 @@ use crate::text::Span;
 use crate::ui::app::{Shared, files, text};
 use crate::ui::msg::Effect;
 
+/// Undoes a step, and says which.
 pub(crate) fn undo(shared: &mut Shared) -> Vec<Effect> {
     let done = step_back(shared);
     shared.say(done.as_deref().unwrap_or("nothing to undo"));
     files::catch_up(shared)
 }
 
+/// Redoes a step, and says which.
 pub(crate) fn redo(shared: &mut Shared) -> Vec<Effect> {
     let done = step_forward(shared);
     shared.say(done.as_deref().unwrap_or("nothing to redo"));
@@ -18,7 +20,7 @@ pub(crate) fn redo(shared: &mut Shared) -> Vec<Effect> {
 }
 
 /// Undoes a step and selects what it changed; returns what to say, or `None` without a step.
-pub(crate) fn step_back(shared: &mut Shared) -> Option<String> {
+pub(super) fn step_back(shared: &mut Shared) -> Option<String> {
     let (before, step) = (shared.nodes(), shared.document.undoable());
     let done = step.map(|step| format!("undone: {step}"));
     let changed = text::undo_text(shared);
@@ -27,7 +29,7 @@ pub(crate) fn step_back(shared: &mut Shared) -> Option<String> {
 }
 
 /// Redoes a step and selects what it changed; returns what to say, or `None` without a step.
-pub(crate) fn step_forward(shared: &mut Shared) -> Option<String> {
+pub(super) fn step_forward(shared: &mut Shared) -> Option<String> {
     let (before, step) = (shared.nodes(), shared.document.redoable());
     let done = step.map(|step| format!("redone: {step}"));
     let changed = text::redo_text(shared);

@@ -178,6 +178,7 @@ pub(crate) fn pick(shared: &mut Shared, found: Result<Option<Node>, &'static str
     }
 }
 
+/// Selects a node that was picked in the picture, or says that there is none.
 pub(super) fn pick_node(shared: &mut Shared, node: Node) {
     shared.select(node);
     if shared.mode == Mode::Inspect {

@@ -4,7 +4,7 @@ use crossterm::event::KeyCode;
 
 use crate::ui::app::room::Row;
 use crate::ui::app::{
-    Help, Shared, back, display, exports, files, history, list, panels, suggesting, trace,
+    Help, Shared, back, display, exports, files, history, list, panels, suggesting, text, trace,
 };
 use crate::ui::keymap::{Context, Key, Mode, Scope, alt, c, ctrl, key};
 use crate::ui::msg::Effect;
@@ -59,11 +59,16 @@ pub(crate) const KEYS: &[Row] = &[
     Key::new(Everywhere, "save", &[c('w')], "save the scene").hint(100, "save").requests(files::save_key).when(|shared| !shared.is_saved()),
     Key::new(Everywhere, "export", &[c('b')], "export what is shown").hint(120, "export").requests(exports::export_default),
     Key::new(Everywhere, "trace", &[key(F(5)), c('r')], "trace at full size").hint_in(OUTSIDE_TRACE, 130, "trace").requests(trace::start),
+];
+
+/// Less often used than those of [`KEYS`] and those that lead to a comparison.
+#[rustfmt::skip]
+pub(crate) const OTHERS: &[Row] = &[
     Key::new(Everywhere, "undo", &[c('u')], "undo").also("revert").hint(110, "undo").requests(history::undo).when(|shared| shared.document.undoable().is_some()),
     Key::new(Everywhere, "redo", &[ctrl('r')], "redo").requests(history::redo),
     Key::new(Everywhere, "history", &[c('U')], "undo history as pictures").does(history::list_steps),
     Key::new(Everywhere, "errors", &[c('!')], "errors and warnings").does(list::toggle_errors),
-    Key::new(Sceneless, "messages", &[c('M')], "messages so far").does(|shared| shared.overlays.history = Some(0)),
+    Key::new(Sceneless, "messages", &[c('M')], "messages so far").does(|shared| shared.overlays.past = Some(0)),
     Key::new(Everywhere, "editor", &[c('E')], "open the editor at the selected item").hint_in(WITH_EDITOR, 30, "editor").requests(files::open_editor),
     Key::new(PANELS, "panels", &[c('z')], "show or hide the panels").does(panels::toggle_zoom),
     Key::new(Everywhere, "larger-panels", &[c('{')], "larger panels").does(|shared| panels::resize_panels(shared, 2)),
@@ -73,10 +78,10 @@ pub(crate) const KEYS: &[Row] = &[
     Key::new(Everywhere, "darker", &[c('<')], "darker display, by half a stop").also("brightness exposure").does(|shared| display::expose(shared, -1)),
     Key::new(Everywhere, "brighter", &[c('>')], "brighter display").also("brightness exposure").does(|shared| display::expose(shared, 1)),
     Key::new(Everywhere, "denoise", &[c('~')], "reduce noise on screen, or no longer").requests(display::toggle_denoising),
-    Key::new(Everywhere, "integrator", &[c('P')], "next integrator: Whitted, paths, photons").hint_in(TRACE, 90, "integrator").does(suggesting::next_integrator),
+    Key::new(Everywhere, "integrator", &[c('P')], "next integrator: Whitted, paths, photons").hint_in(TRACE, 90, "integrator").does(text::next_integrator),
     Key::new(Everywhere, "cure", &[c('C')], "apply the suggested render setting").does(suggesting::cure),
     Key::new(Always, "redraw", &[ctrl('l')], "redraw the screen").requests(|_| vec![Effect::Repaint]),
     Key::new(Always, "suspend", &[ctrl('z')], "suspend").requests(|_| vec![Effect::Suspend]),
-    Key::new(Sceneless, "quit", &[c('q')], "quit").lasting("quit").requests(back::quit_key),
+    Key::new(Sceneless, "quit", &[c('q')], "quit").lasting("quit").requests(files::quit_key),
     Key::new(Always, "interrupt", &[ctrl('c')], "quit; press twice to quit at once").requests(files::interrupt),
 ];

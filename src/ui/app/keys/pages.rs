@@ -33,6 +33,6 @@ pub(crate) const KEYS: &[Row] = &[
     Key::new(STEPS, "search", &[c('/')], "filter").does(|shared| shared.overlays.open_search()),
     Key::new(STEPS, "back", &[key(Esc), c('q'), c('U')], "close").does(|shared| shared.overlays.page = None),
     Key::new(HELP, "search", &[c('/')], "search").does(|shared| shared.overlays.open_search()),
-    Key::new(MESSAGES, "back", &[key(Esc), c('q'), c('M')], "close").does(|shared| shared.overlays.history = None),
+    Key::new(MESSAGES, "back", &[key(Esc), c('q'), c('M')], "close").does(|shared| shared.overlays.past = None),
     Key::new(HELP, "back", &[key(Esc), c('q'), c('?')], "close").does(|shared| shared.overlays.help = None),
 ];

@@ -158,7 +158,7 @@ pub(super) fn fold(shared: &mut Shared, fold: Fold) {
 }
 
 /// Selects the next or previous light or object in the list, wrapping around.
-pub(crate) fn cycle(shared: &mut Shared, step: isize) {
+pub(super) fn cycle(shared: &mut Shared, step: isize) {
     let (rows, source) = (&shared.cursor.rows, shared.source());
     let first = rows.place_of(source.nodes().before(Node::Light(0)));
     let count = rows.count(source) - first;

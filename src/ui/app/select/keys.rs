@@ -9,7 +9,7 @@ use super::structure::{
 };
 use crate::language::Neighbour;
 use crate::ui::app::room::Row;
-use crate::ui::app::{Fold, Tool, display, trace, transform};
+use crate::ui::app::{Fold, Tool, display, exports, transform};
 use crate::ui::keymap::{Context, Key, Mode, Scope, c, key, shift};
 
 use Context::In;
@@ -51,5 +51,5 @@ pub(crate) const KEYS: &[Row] = &[
     Key::new(SELECT, "next-match", &[c('n')], "next match").does(|shared| search(shared, 1)),
     Key::new(SELECT, "previous-match", &[c('N')], "previous match").does(|shared| search(shared, -1)),
     Key::new(SELECT, "previous-item", &[key(BackTab)], "previous light or object").does(|shared| cycle(shared, -1)),
-    Key::new(SELECT, "stop", &[c('x')], "cancel the export").requests(trace::stop),
+    Key::new(SELECT, "stop", &[c('x')], "cancel the export").requests(exports::cancel_export),
 ];

@@ -16,7 +16,7 @@ use crate::ui::msg::{Destination, Effect, ExportId};
 use crate::ui::reel::{Reel, ReelForm, ReelProgress, Shot};
 
 /// Exports to the scene's folder under the scene's name; asks if another program has written that file.
-pub(crate) fn export_default(sequence: &mut Sequence, shared: &mut Shared) -> Vec<Effect> {
+pub(super) fn export_default(sequence: &mut Sequence, shared: &mut Shared) -> Vec<Effect> {
     export(sequence, shared, ExportOrder::default(), Asking::Yes)
 }
 

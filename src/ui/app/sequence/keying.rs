@@ -12,7 +12,7 @@ use crate::ui::app::text;
 use crate::ui::msg::{Effect, Guard, SaveOutcome};
 
 /// Keys the present value at the frame looked at last: in EDIT the field's, in VIEW the camera's.
-pub(crate) fn key_value(sequence: &mut Sequence, shared: &mut Shared) -> Vec<Effect> {
+pub(super) fn key_value(sequence: &mut Sequence, shared: &mut Shared) -> Vec<Effect> {
     let Some(open) = &sequence.open else {
         let track = shared.key_for("track");
         shared.fail(format!("no track is open: {track} opens or starts one"));
@@ -85,7 +85,7 @@ fn keyed(
 }
 
 /// Takes back the key that was written last.
-pub(crate) fn take_key_back(sequence: &mut Sequence, shared: &mut Shared) -> Vec<Effect> {
+pub(super) fn take_key_back(sequence: &mut Sequence, shared: &mut Shared) -> Vec<Effect> {
     let open = sequence.open.as_ref();
     let last = open.and_then(|open| Some((open, open.before.last()?)));
     let (Some((open, before)), None) = (last, &sequence.writing) else {
@@ -160,7 +160,7 @@ fn take_written(sequence: &mut Sequence, shared: &mut Shared, outcome: SaveOutco
 }
 
 /// Opens the editor on the track file.
-pub(crate) fn edit_track(sequence: &mut Sequence, shared: &mut Shared) -> Vec<Effect> {
+pub(super) fn edit_track(sequence: &mut Sequence, shared: &mut Shared) -> Vec<Effect> {
     let Some(open) = &sequence.open else {
         return Vec::new();
     };

@@ -7,7 +7,7 @@ use super::keying::{edit_track, key_value, take_key_back};
 use super::playing::{accept, keep_and_go, open_track, step_frames, step_keys, toggle};
 use super::state::Sequence;
 use crate::ui::app::room::Row;
-use crate::ui::app::{text, trace};
+use crate::ui::app::{exports, text};
 use crate::ui::keymap::{Context, Key, Mode, Scope, c, key, shift};
 
 use Context::In;
@@ -45,12 +45,12 @@ pub(crate) const KEYS: &[Row<Sequence>] = &[
     Key::new(SEQUENCE, "first-frame", &[key(Home)], "first frame").does_in(|sequence, shared| step_frames(sequence, shared, i32::MIN)),
     Key::new(SEQUENCE, "last-frame", &[c('G'), key(End)], "last frame").does_in(|sequence, shared| step_frames(sequence, shared, i32::MAX)),
     Key::new(SEQUENCE, "export", &[c('b')], "export all frames").hint(120, "export").requests_in(export_default),
-    Key::new(SEQUENCE, "stop", &[c('x')], "cancel the export").requests(trace::stop),
+    Key::new(SEQUENCE, "stop", &[c('x')], "cancel the export").requests(exports::cancel_export),
     Key::new(SEQUENCE, "undo-key", &[c('u')], "undo the last key").requests_in(take_key_back),
     Key::new(SEQUENCE, "edit-track", &[c('E')], "open the editor on the track").requests_in(edit_track),
 ];
 
-/// Keys of other modes.
+/// Keys that lead here from other modes.
 #[rustfmt::skip]
 pub(crate) const ENTRIES: &[Row<Sequence>] = &[
     Key::new(PLAYED, "track", &[c('T')], "play the track").requests_in(|sequence, shared| open_track(sequence, shared, None)),

@@ -44,7 +44,7 @@ pub(crate) fn open_track(
 }
 
 /// Whether there is a scene without errors; says so if there is not.
-pub(crate) fn has_sound_scene(shared: &mut Shared) -> bool {
+pub(super) fn has_sound_scene(shared: &mut Shared) -> bool {
     let is_sound = shared.scene.is_some() && shared.error_count() == 0;
     if !is_sound {
         shared.refuse_picture(Severity::Error, &shared.no_picture());
@@ -158,7 +158,7 @@ fn enter(sequence: &mut Sequence, shared: &mut Shared) -> Vec<Effect> {
 }
 
 /// How the first value is keyed.
-pub(crate) fn how_to_key(open: &OpenTrack, shared: &Shared) -> String {
+pub(super) fn how_to_key(open: &OpenTrack, shared: &Shared) -> String {
     let edit = shared.key_for("edit");
     let key = shared.key_for("key");
     let name = open.name();
@@ -166,7 +166,7 @@ pub(crate) fn how_to_key(open: &OpenTrack, shared: &Shared) -> String {
 }
 
 /// Relates a track to the present text; reports errors in it.
-pub(crate) fn bind(shared: &mut Shared, track: &Track, name: &str, text: &str) -> Option<Bound> {
+pub(super) fn bind(shared: &mut Shared, track: &Track, name: &str, text: &str) -> Option<Bound> {
     let camera = shared.scene.as_ref()?.camera;
     let (bound, findings) = track::bind(track, shared.source(), &camera);
     if 0 < findings.errors() {
@@ -184,7 +184,7 @@ fn complain(shared: &mut Shared, words: &str) {
 
 /// Puts the present frame into the text, unless one is there or a question or a reading waits for the
 /// text without it.
-pub(crate) fn resume(sequence: &mut Sequence, shared: &mut Shared) {
+pub(super) fn resume(sequence: &mut Sequence, shared: &mut Shared) {
     let waits = shared.overlays.dialog.is_some() || shared.awaits_reading;
     if shared.mode == Mode::Sequence && !waits && shared.transient.is_none() {
         let frame = sequence.open.as_ref().map_or(0, |open| open.frame);
@@ -225,7 +225,7 @@ fn show(sequence: &mut Sequence, shared: &mut Shared, frame: u32) {
 }
 
 /// Goes some frames on.
-pub(crate) fn step_frames(sequence: &mut Sequence, shared: &mut Shared, frames: i32) {
+pub(super) fn step_frames(sequence: &mut Sequence, shared: &mut Shared, frames: i32) {
     if let Some(open) = &sequence.open {
         let frame = open.frame_after(frames);
         show(sequence, shared, frame);
@@ -233,7 +233,7 @@ pub(crate) fn step_frames(sequence: &mut Sequence, shared: &mut Shared, frames: 
 }
 
 /// Goes to the next or previous frame with a key.
-pub(crate) fn step_keys(sequence: &mut Sequence, shared: &mut Shared, is_next: bool) {
+pub(super) fn step_keys(sequence: &mut Sequence, shared: &mut Shared, is_next: bool) {
     let open = sequence.open.as_ref();
     match open.and_then(|open| open.key_after(is_next)) {
         Some(frame) => show(sequence, shared, frame),
@@ -243,7 +243,7 @@ pub(crate) fn step_keys(sequence: &mut Sequence, shared: &mut Shared, is_next: b
 }
 
 /// Goes to the frame that is pointed at on the sheet; returns whether there is one.
-pub(crate) fn scrub_to(sequence: &mut Sequence, shared: &mut Shared, at: (u16, u16)) -> bool {
+pub(super) fn scrub_to(sequence: &mut Sequence, shared: &mut Shared, at: (u16, u16)) -> bool {
     let Some(open) = &mut sequence.open else {
         return false;
     };
@@ -258,7 +258,7 @@ pub(crate) fn scrub_to(sequence: &mut Sequence, shared: &mut Shared, at: (u16, u
 }
 
 /// Plays the track, or stops.
-pub(crate) fn toggle(sequence: &mut Sequence, _: &mut Shared) -> Vec<Effect> {
+pub(super) fn toggle(sequence: &mut Sequence, _: &mut Shared) -> Vec<Effect> {
     let Some(open) = &mut sequence.open else {
         return Vec::new();
     };
@@ -286,13 +286,13 @@ pub(crate) fn play_on(sequence: &mut Sequence, shared: &mut Shared) -> Vec<Effec
 }
 
 /// Leaves SEQUENCE with the values of the frame in the text, as one undo step.
-pub(crate) fn accept(sequence: &mut Sequence, shared: &mut Shared) {
+pub(super) fn accept(sequence: &mut Sequence, shared: &mut Shared) {
     keep_frame(sequence, shared);
     shared.mode = Mode::Select;
 }
 
 /// Goes to EDIT or VIEW with the values of the frame in the text. Stays if that mode cannot be entered.
-pub(crate) fn keep_and_go(sequence: &mut Sequence, shared: &mut Shared, mode: Mode) {
+pub(super) fn keep_and_go(sequence: &mut Sequence, shared: &mut Shared, mode: Mode) {
     shared.enter(mode);
     if shared.mode == mode {
         keep_frame(sequence, shared);

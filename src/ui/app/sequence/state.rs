@@ -95,7 +95,7 @@ impl OpenTrack {
 }
 
 /// The first error in a track file in a line, and how many more there are.
-pub(crate) fn complaint(name: &str, text: &str, findings: &Findings) -> String {
+pub(super) fn complaint(name: &str, text: &str, findings: &Findings) -> String {
     let Some(error) = findings.first_error() else {
         return String::new();
     };

@@ -38,7 +38,7 @@ pub struct Overlays {
     /// be read.
     pub message: Option<Message>,
     /// The first message shown of the history, if it is open.
-    pub history: Option<usize>,
+    pub past: Option<usize>,
     /// The messages that wait, and those so far.
     pub messages: Messages,
 }

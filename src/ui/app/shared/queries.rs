@@ -62,7 +62,7 @@ impl Shared {
                 List::Recent(_) => Context::Recent,
                 List::Steps(_) => Context::Steps,
             },
-            None if self.overlays.history.is_some() => Context::Messages,
+            None if self.overlays.past.is_some() => Context::Messages,
             None if self.overlays.errors.is_some() => Context::Errors,
             None if self.disk.is_opening() => Context::Opening,
             None if self.overlays.picker.is_some() => Context::Colour,

@@ -1,4 +1,4 @@
-//! A motion by transform: what moves, along which axis, and how far.
+//! A motion in progress: what moves, along which axis, and how far.
 
 use glam::DVec3;
 

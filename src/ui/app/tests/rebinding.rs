@@ -110,7 +110,11 @@ fn help_hints_and_palette_show_the_bound_keys() {
         keys: "Ctrl-X u".to_owned(),
         words: "undo",
     };
-    assert!(command::help_lines(&app.shared).contains(&undo));
+    assert!(
+        command::help_columns(&app.shared, 80)
+            .concat()
+            .contains(&undo)
+    );
     press(&mut app, "jjjD");
     let hints = app.hints();
     assert!(hints.contains(&("Ctrl-X u".to_owned(), "undo")));

@@ -1,4 +1,4 @@
-//! Adding things, changing their kind, and moving, turning and scaling them by transform.
+//! Adding things, changing their kind, and moving, turning and scaling them.
 
 use super::rows::{Stage, scene, scripts};
 use super::*;

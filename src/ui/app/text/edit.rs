@@ -1,4 +1,4 @@
-//! Changing fields: every change is an edit of the text, and edits that cause errors are refused.
+//! Edits of the text: those that cause errors are refused, and the others give the scene its new meaning.
 
 use super::naming::{name_of_change, name_of_value};
 use crate::assets::{Loaded, Wanted};

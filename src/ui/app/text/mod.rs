@@ -7,18 +7,21 @@ mod live_editing;
 mod location_names;
 mod naming;
 mod setting;
+mod transient;
 
 pub(crate) use assigning::{assign, edits_of, sets_marked, write_camera};
 pub(crate) use edit::{
-    assets_read, install, judge_text, lowered, lowered_after, relower, spans_after, try_edits,
+    assets_read, install, lowered, lowered_after, relower, spans_after, try_edits,
 };
 pub(crate) use inputs::{follow_input, has_input, merge_input, note_before_input};
 pub(crate) use live_editing::{
-    begin_live_edit, begin_transient, end_live_edit, has_edits, keep_live_edit, leave_sequence,
-    leaves_live_edit, return_if_failed, revert_transient, step_outside, take_merged, try_instead,
+    begin_live_edit, end_live_edit, keep_live_edit, leaves_live_edit, take_merged, try_instead,
 };
 pub(crate) use location_names::{error_place, name_of, place_name};
 pub(crate) use naming::done;
 pub(crate) use setting::{
-    SettingOrder, redo_text, set_rendering, set_size, undo_text, write_setting,
+    SettingOrder, next_integrator, redo_text, set_rendering, set_size, undo_text, write_setting,
+};
+pub(crate) use transient::{
+    begin_transient, has_edits, leave_sequence, return_if_failed, revert_transient, step_outside,
 };

@@ -2,7 +2,7 @@
 //! dropped then, so that the text counts, and brought back by undo.
 
 use super::assigning::write_camera;
-use super::edit::try_edits;
+use super::edit::{judge_text, try_edits};
 use crate::document::StepName;
 use crate::language::Node;
 use crate::scene::{Camera, RenderKey, Rendering, Size};
@@ -140,4 +140,12 @@ pub(crate) fn redo_text(shared: &mut Shared) -> Option<Span> {
         shared.pictures.cross(shared.document.state());
     }
     changed
+}
+
+/// Switches the integrator.
+pub(crate) fn next_integrator(shared: &mut Shared) {
+    let words = shared.pictures.next_integrator(shared.scene.as_deref());
+    // It may lack other lights.
+    judge_text(shared);
+    shared.say(words);
 }

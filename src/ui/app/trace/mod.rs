@@ -6,4 +6,4 @@ mod tracing;
 
 pub(crate) use keys::KEYS;
 pub(crate) use regions::{confirm_region, drag_region, order_region, press_region};
-pub(crate) use tracing::{recalled, start, stop, trace_until};
+pub(crate) use tracing::{recalled, start, trace_until};

@@ -7,6 +7,7 @@ use crate::ui::app::pictures::drawing::{Drawing, Held, RegionOrder};
 use crate::ui::app::{Shared, display};
 use crate::ui::msg::Effect;
 
+/// Traces the region that `:region` asks for, or says which it is.
 pub(crate) fn order_region(shared: &mut Shared, order: RegionOrder) -> Vec<Effect> {
     match order {
         RegionOrder::Tell => {

@@ -1,4 +1,4 @@
-//! Starting and stopping traces: the preview and the full-size trace.
+//! Starting, pausing and stopping the full-size trace.
 
 use crate::image_file::ImageFormat;
 use crate::render::Job;
@@ -69,6 +69,7 @@ pub(crate) fn recalled(shared: &mut Shared, recalled: Recalled) {
     }
 }
 
+/// Goes to TRACE, and remembers the mode to return to.
 pub(super) fn enter(shared: &mut Shared) {
     match (shared.mode, shared.pictures.before_comparison) {
         // The mode to return to is that before the comparison.
@@ -109,7 +110,7 @@ fn resume(shared: &mut Shared) -> Vec<Effect> {
 }
 
 /// Stops the full-size trace if it is running, otherwise the export.
-pub(crate) fn stop(shared: &mut Shared) -> Vec<Effect> {
+pub(super) fn stop(shared: &mut Shared) -> Vec<Effect> {
     let seen = shared
         .pictures
         .trace

@@ -50,7 +50,7 @@ pub(crate) fn start(shared: &mut Shared, tool: Tool) {
     };
     let magnification =
         display::frame_window(shared).map_or(1.0, |frame_window| frame_window.magnification(size));
-    let pixel = pixel_at(pose.centre, &camera, size) / magnification;
+    let pixel = width_of_pixel_at(pose.centre, &camera, size) / magnification;
     let step = round_up(pixel);
     let live_edit = text::begin_live_edit(shared);
     shared.transform = Some(Transform {
@@ -167,6 +167,7 @@ pub(super) fn lock_axis(shared: &mut Shared, axis: usize) {
     });
 }
 
+/// Snaps amounts to a grid, or no longer.
 pub(super) fn toggle_snap(shared: &mut Shared) {
     change(shared, |transform| {
         transform.snap = match transform.snap {
@@ -301,7 +302,7 @@ fn tried(tool: Tool, about: DVec3) -> Option<Motion> {
 }
 
 /// The width of a pixel at a point in world units; at the target if the point is the eye itself.
-fn pixel_at(point: DVec3, camera: &Camera, size: Size) -> f64 {
+fn width_of_pixel_at(point: DVec3, camera: &Camera, size: Size) -> f64 {
     match pixel_width(point, camera, size) {
         0.0 => pixel_width(camera.target, camera, size),
         width => width,

@@ -3,8 +3,7 @@
 use std::sync::mpsc;
 
 use super::*;
-use crate::scene::MAX_SPP;
-use crate::scene::Size;
+use crate::scene::{MAX_SPP, Size};
 use crate::ui::options::Rehearsal;
 use crate::ui::shell::traces::tests::job;
 

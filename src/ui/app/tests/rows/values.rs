@@ -151,7 +151,7 @@ fn overlays(app: &App, name: &str) -> Option<String> {
         "help" => help.is_some().words(),
         "help-top" => help.map(|help| help.top).words(),
         "search" => help.map(|help| help.search.value()).words(),
-        "history" => overlays.history.words(),
+        "history" => overlays.past.words(),
         "page" => overlays.page.is_some().words(),
         "listed-error" => overlays.errors.words(),
         _ => return None,

@@ -121,6 +121,12 @@ scripts! {
         @changed         | text opened
         @file broken     | mode SEQUENCE | line 3 5 7 5 // the light
         @elapsed settled | does read      | text opened
+        @file opened
+        // Nor with a frame that is looked at while it is read.
+        @changed         | text opened
+        @reading 1.5 // => 2.5 //
+        l                | line 3 5 8 5 // the light
+        @arrives         | does read      | text opened
     ");
 
     frames_are_never_saved_or_kept_unasked: {

@@ -13,7 +13,7 @@ use crate::ui::theme;
 
 /// Draws the messages so far, the newest first, if their page is open.
 pub(crate) fn render(shared: &Shared, area: Rect, buffer: &mut Buffer) {
-    let Some(top) = shared.overlays.history else {
+    let Some(top) = shared.overlays.past else {
         return;
     };
     let past = &shared.overlays.messages;
@@ -68,7 +68,7 @@ mod tests {
             app.update(Msg::Failed(reason.to_owned()));
             app.shared.overlays.message = None;
         }
-        app.shared.overlays.history = Some(0);
+        app.shared.overlays.past = Some(0);
         let shown = |app: &App| drawn(&app.shared, super::render, 18, 6);
         let lines = shown(&app);
         let inside = |line: &str| line.trim_matches('│').trim().to_owned();
@@ -78,7 +78,7 @@ mod tests {
             ["error    two", "words", "error    one"],
             "{lines:#?}"
         );
-        app.shared.overlays.history = Some(1);
+        app.shared.overlays.past = Some(1);
         assert_eq!(inside(&shown(&app)[1]), "error    one");
     }
 }

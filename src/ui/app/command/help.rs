@@ -1,0 +1,40 @@
+//! The lines of the help page.
+
+use super::rows::ROWS;
+use crate::ui::app::Shared;
+use crate::ui::keymap::{self, HelpLine};
+
+/// Minimum width of a column of the help page if there are several.
+const HELP_COLUMN: u16 = 56;
+
+/// Maximum number of columns of the help page.
+const MOST_COLUMNS: usize = 3;
+
+/// The lines of the help page.
+fn help_lines(shared: &Shared) -> Vec<HelpLine> {
+    let help = shared.overlays.help.as_ref();
+    let search = help.map_or("", |help| help.search.value());
+    let commands = ROWS
+        .iter()
+        .map(|row| (row.usage(), row.words, row.synonyms));
+    shared.keymap.help(search, shared.mode, commands.collect())
+}
+
+/// The columns of the help page on a screen of this width.
+pub(crate) fn help_columns(shared: &Shared, width: u16) -> Vec<Vec<HelpLine>> {
+    let count = usize::from(width.saturating_sub(2) / HELP_COLUMN).clamp(1, MOST_COLUMNS);
+    keymap::in_columns(help_lines(shared), count)
+}
+
+/// Scrolls the help page no further than to its end.
+pub(crate) fn scroll_help(shared: &mut Shared) {
+    if shared.overlays.help.is_none() {
+        return;
+    }
+    let columns = help_columns(shared, shared.terminal.0);
+    let longest = columns.iter().map(Vec::len).max().unwrap_or(0);
+    let last = longest.saturating_sub(shared.help_rows());
+    if let Some(help) = &mut shared.overlays.help {
+        help.top = help.top.min(last);
+    }
+}
