@@ -1,4 +1,4 @@
-//! Going back from what is open, or from the mode.
+//! Esc, in the modes that bind it to nothing of their own.
 
 use super::{Shared, compare, inspect, select};
 use crate::ui::keymap::{Context, Mode};

@@ -1,4 +1,4 @@
-//! What the preview and the full-size trace are asked for.
+//! The preview: what it is asked for, and when it starts anew.
 
 use super::jobs::{follow_trace, shown_job};
 use super::zooming::preview_screen;

@@ -1,7 +1,9 @@
 //! SEQUENCE: plays a track over the scene, frame by frame, keys values in it, and exports all frames.
 //!
-//! Each frame is tried in the text of the scene as a [transient edit](crate::ui::app::shared::live_edit::TransientEdit), so
-//! that it is a scene like any other.
+//! Each frame is tried in the text of the scene as a [transient edit][edit], so that it is a scene like any
+//! other.
+//!
+//! [edit]: crate::ui::app::shared::live_edit::TransientEdit
 
 mod dope_sheet;
 mod exporting;

@@ -1,4 +1,4 @@
-//! What all modes share.
+//! What all modes share: the text, its meaning, and one part for each concern.
 
 pub(crate) mod after_leaving;
 pub(crate) mod assets;
@@ -27,30 +27,30 @@ pub(crate) mod transform;
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-use assets::Assets;
 use crossterm::event::KeyEvent;
+
+use assets::Assets;
 use cursor::{Cursor, moved};
 use disk::Disk;
 use inspection::Inspection;
 use jobs::Jobs;
 use live_edit::TransientEdit;
-use overlays::Overlays;
+use overlays::{Overlays, PromptKind};
 use palette::Palette;
 use suggestions::Suggestions;
+use transform::Transform;
 
+use super::pictures::Pictures;
 use crate::document::Document;
 use crate::language::Node;
 use crate::scene::Scene;
 use crate::text::{Findings, Severity};
-use crate::ui::app::PromptKind;
-use crate::ui::app::pictures::Pictures;
 use crate::ui::arrange::{Areas, PanelSizes, Zoom};
 use crate::ui::keymap::{Keymap, Mode};
 use crate::ui::msg::Polled;
 use crate::ui::pixels::Pixels;
 use crate::ui::terminal::Mouse;
 use crate::ui::theme::Theme;
-use transform::Transform;
 
 /// A border that can be dragged.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

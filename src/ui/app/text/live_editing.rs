@@ -79,9 +79,13 @@ pub(crate) fn end_live_edit(shared: &mut Shared, mut live_edit: LiveEdit) {
         let back = live_edit.back.filter(|back| back.revision == revision);
         match back.map(|back| try_edits(shared, &back.edits)) {
             Some(Ok(())) => shared.say("cancelled; changes merged from the file are kept"),
-            Some(Err(_)) | None => shared.warn(
-                "the scene has changed on disk; the change so far is kept: u undoes the merge, then the change",
-            ),
+            Some(Err(_)) | None => {
+                let undo = shared.key_for("undo");
+                shared.warn(format!(
+                    "the scene has changed on disk; the change so far is kept: {undo} undoes the merge, then the \
+                     change"
+                ));
+            }
         }
     }
     shared.document.end_step();
