@@ -71,12 +71,13 @@ const OWN: &[(&str, &str)] = &[("Fly", "camera"), ("Move", "transform"), ("View"
 /// read before it is changed.
 const MODES: &[(&str, usize)] = &[
     ("Compare", 11),
-    ("Edit", 16),
+    // Rows of keys that lead to another mode say in which modes they do.
+    ("Edit", 17),
     // SEQUENCE's own rows of keys list the modes that they act in.
     ("Fly", 8),
     ("Inspect", 11),
     ("Move", 13),
-    ("Select", 26),
+    ("Select", 27),
     // What leaves it stands beside the transient edit that it makes.
     ("Sequence", 10),
     ("Trace", 9),

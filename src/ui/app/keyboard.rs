@@ -24,7 +24,9 @@ impl App {
         if is_line && self.shared.overlays.dialog.is_none() && !(reserved && controls) {
             return self.type_key(key);
         }
-        if context == Context::In(Mode::Move) && transform::type_amount(&mut self.shared, key) {
+        if context == Context::In(Mode::Move)
+            && transform::type_amount(&mut self.moving, &mut self.shared, key)
+        {
             return Vec::new();
         }
         match meaning {

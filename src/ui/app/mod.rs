@@ -88,5 +88,5 @@ pub use shared::rays::{RayLine, RayPart};
 pub use shared::rows::{Fold, Rows};
 pub use shared::steps::Steps;
 pub use shared::suggestions::Suggestions;
-pub use shared::transform::{Tool, Transform};
+pub use transform::{Moving, Tool, Transform};
 pub use values::hsv::Hsv;

@@ -1,15 +1,10 @@
 //! The modes and pages that are rooms, one line each, and what the list generates: the state of the
 //! interface, and who handles a step, a press or a key. Then the table of all keys.
 
-use super::compare::Compare;
-use super::files::Opening;
-use super::history::Thumbnails;
 use super::room::{Room, Row};
-use super::sequence::Sequence;
-use super::shared::Shared;
 use super::{
-    Tool, camera, compare, display, edit, files, inspect, keys, select, sequence, text, trace,
-    transform,
+    Compare, Moving, Opening, Sequence, Shared, Thumbnails, Tool, camera, compare, display, edit,
+    files, inspect, keys, select, sequence, text, trace, transform,
 };
 use crate::ui::keymap::{Entry, Key, Keymap, Mode, RowId};
 use crate::ui::msg::Effect;
@@ -117,6 +112,8 @@ modes! {
     sequence: Sequence, Sequence;
     /// What pictures are compared with, and the comparison.
     compare: Compare, Compare;
+    /// What MOVE moves.
+    moving: Moving, Move;
     /// The pictures on the page of the undo history.
     thumbnails: Thumbnails;
 }
@@ -129,7 +126,9 @@ const ROWS: &[Rows] = &[
     Rows::Shared(keys::questions::KEYS),
     Rows::Shared(keys::pages::KEYS),
     Rows::Shared(select::KEYS),
-    Rows::Shared(transform::KEYS),
+    Rows::Move(transform::ENTRIES),
+    Rows::Shared(select::OTHERS),
+    Rows::Move(transform::KEYS),
     Rows::Sequence(sequence::KEYS),
     Rows::Shared(inspect::KEYS),
     Rows::Shared(edit::KEYS),
@@ -174,7 +173,7 @@ impl App {
             Mode::Trace => return trace::start(shared),
             Mode::Compare => return compare::start(&mut self.compare, shared),
             Mode::Inspect => inspect::start(shared),
-            Mode::Move => transform::start(shared, Tool::Move),
+            Mode::Move => transform::start(&mut self.moving, shared, Tool::Move),
             Mode::Select | Mode::View | Mode::Fly | Mode::Edit => shared.enter(mode),
         }
         Vec::new()

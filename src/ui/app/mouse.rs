@@ -41,10 +41,7 @@ impl App {
     pub(crate) fn pointer(&mut self, event: MouseEvent) -> Vec<Effect> {
         match point(&mut self.shared, event) {
             Pointed::Done(effects) => effects,
-            Pointed::Press(at) => {
-                let taken = self.press(at);
-                taken.unwrap_or_else(|| press(&mut self.shared, at))
-            }
+            Pointed::Press(at) => self.press_left(at),
             Pointed::Drag(at) => {
                 let taken = self.drag(at);
                 taken.unwrap_or_else(|| {
@@ -53,6 +50,22 @@ impl App {
                 })
             }
         }
+    }
+
+    /// Ends what is typed and slid, and in MOVE, beside the picture, the motion; then presses what is there.
+    fn press_left(&mut self, at: (u16, u16)) -> Vec<Effect> {
+        let shared = &mut self.shared;
+        shared.overlays.clear_message();
+        shared.cursor.typing = None;
+        edit::end_slide(shared);
+        if shared.mode == Mode::Move && !shared.areas().picture.contains(at.into()) {
+            transform::confirm(&mut self.moving, shared);
+        }
+        if press_border(shared, at) {
+            return Vec::new();
+        }
+        let taken = self.press(at);
+        taken.unwrap_or_else(|| press(&mut self.shared, at))
     }
 }
 
@@ -90,10 +103,7 @@ fn point(shared: &mut Shared, event: MouseEvent) -> Pointed {
         MouseEventKind::Down(MouseButton::Left) if shared.overlays.menu.is_some() => {
             press_menu(shared, at);
         }
-        MouseEventKind::Down(MouseButton::Left) if !begin_press(shared, at) => {
-            return Pointed::Press(at);
-        }
-        MouseEventKind::Down(MouseButton::Left) => {}
+        MouseEventKind::Down(MouseButton::Left) => return Pointed::Press(at),
         MouseEventKind::Down(_) => press_to_pan(shared, at),
         MouseEventKind::Drag(MouseButton::Left)
             if !event.modifiers.contains(KeyModifiers::CONTROL) && !drag_border(shared, at) =>
@@ -220,15 +230,9 @@ fn drag_picker(shared: &mut Shared, column: u16) {
     }
 }
 
-/// Begins a press of the left button; returns whether it took hold of a border.
-fn begin_press(shared: &mut Shared, at: (u16, u16)) -> bool {
-    shared.overlays.clear_message();
-    shared.cursor.typing = None;
-    edit::end_slide(shared);
+/// Takes hold of the border under the pointer; returns whether there is one.
+fn press_border(shared: &mut Shared, at: (u16, u16)) -> bool {
     let areas = shared.areas();
-    if shared.mode == Mode::Move && !areas.picture.contains(at.into()) {
-        transform::confirm(shared);
-    }
     if areas.border.contains(at.into()) {
         shared.resizing = Some(Border::Panels);
     } else if areas.divider().contains(at.into()) {
@@ -386,13 +390,6 @@ fn drag(shared: &mut Shared, at: (u16, u16)) {
         return;
     }
     let moved = |from: u16, to: u16| f64::from(to) - f64::from(from);
-    if shared.mode == Mode::Move {
-        // A cell shows two pixels, one above the other.
-        let (right, down) = (moved(from.0, at.0), 2.0 * moved(from.1, at.1));
-        transform::drag(shared, right, -down);
-        shared.pictures.drag = Some(at);
-        return;
-    }
     if !shared.mode.moves_camera() {
         return;
     }

@@ -33,12 +33,8 @@ impl App {
     }
 
     fn take(&mut self, msg: Msg) -> Vec<Effect> {
-        let Self {
-            shared,
-            sequence,
-            compare,
-            thumbnails,
-        } = self;
+        let (shared, compare) = (&mut self.shared, &mut self.compare);
+        let (sequence, thumbnails) = (&mut self.sequence, &mut self.thumbnails);
         match msg {
             Msg::Key(key) => return self.key(key),
             Msg::Mouse(event) => return self.pointer(event),

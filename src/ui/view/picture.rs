@@ -79,7 +79,7 @@ fn overlays(
 ) {
     let shared = &app.shared;
     if shared.mode == Mode::Move {
-        axis(shared, glyphs, (cells, size), buffer);
+        axis(app, glyphs, (cells, size), buffer);
     }
     symbols::render(shared, glyphs, cells, buffer);
     if shared.mode == Mode::Inspect {
@@ -174,8 +174,9 @@ fn cross(shared: &Shared, cells: Rect, buffer: &mut Buffer) {
 }
 
 /// Draws the axis that a transformation is locked to, through what is being transformed.
-fn axis(shared: &Shared, glyphs: Glyphs, (cells, size): (Rect, Size), buffer: &mut Buffer) {
-    let (Some(transform), Some(camera)) = (&shared.transform, shared.camera()) else {
+fn axis(app: &App, glyphs: Glyphs, (cells, size): (Rect, Size), buffer: &mut Buffer) {
+    let shared = &app.shared;
+    let (Some(transform), Some(camera)) = (&app.moving, shared.camera()) else {
         return;
     };
     let Some(axis) = transform.axis() else { return };

@@ -96,7 +96,7 @@ pub(crate) fn open(opening: Opening) -> (Shared, Vec<Effect>) {
         cursor: Cursor::default(),
         pictures: Pictures::new(opening.rendering),
         inspection: Inspection::default(),
-        transform: None,
+        motion: None,
         transient: None,
         awaits_reading: false,
         is_replaced: false,

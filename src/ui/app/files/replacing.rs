@@ -60,7 +60,7 @@ pub(super) fn replace_scene(
         effects.push(Effect::Stop(Target::Trial));
     }
     shared.inspection = Inspection::default();
-    shared.transform = None;
+    shared.motion = None;
     shared.transient = None;
     shared.awaits_reading = false;
     shared.is_replaced = true;

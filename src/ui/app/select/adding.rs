@@ -9,7 +9,6 @@ use crate::language::{Node, Wish};
 use crate::render::{clearance, pixel_width, surface_under};
 use crate::ui::app::shared::inspection::Cross;
 use crate::ui::app::shared::menu::{Entry, Menu, Purpose};
-use crate::ui::app::shared::transform::{decimals_of, round_up};
 use crate::ui::app::{Shared, Tool, inspect, transform};
 use crate::ui::keymap::Mode;
 
@@ -149,7 +148,7 @@ fn place_for_new(shared: &Shared) -> (DVec3, f64, usize) {
     };
     let size_at = |point: DVec3| {
         let half = 0.5 * SHARE * f64::from(size.height) * pixel_width(point, &camera, size);
-        round_up(half)
+        transform::round_up(half)
     };
     let (centre, half) = match surface_looked_at(shared) {
         Some((point, normal)) => {
@@ -158,7 +157,7 @@ fn place_for_new(shared: &Shared) -> (DVec3, f64, usize) {
         }
         None => (camera.target, size_at(camera.target)),
     };
-    let decimals = decimals_of(0.2 * half);
+    let decimals = transform::decimals_of(0.2 * half);
     (centre, half, decimals)
 }
 

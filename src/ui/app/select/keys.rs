@@ -9,7 +9,7 @@ use super::structure::{
 };
 use crate::language::Neighbour;
 use crate::ui::app::room::Row;
-use crate::ui::app::{Fold, Tool, display, exports, transform};
+use crate::ui::app::{Fold, display, exports};
 use crate::ui::keymap::{Context, Key, Mode, Scope, c, key, shift};
 
 use Context::In;
@@ -18,7 +18,6 @@ use Scope::These;
 
 const HERE: &[Context] = &[In(Mode::Select)];
 const SELECT: Scope = These(HERE);
-const SELECT_AND_FIELDS: Scope = These(&[In(Mode::Select), In(Mode::Edit)]);
 
 /// The most useful first.
 #[rustfmt::skip]
@@ -36,9 +35,11 @@ pub(crate) const KEYS: &[Row] = &[
     Key::new(SELECT, "add", &[c('a')], "add").also("create insert new").hint(20, "add").does(open_additions),
     Key::new(SELECT, "solo", &[c('l')], "show only this in the preview").also("isolate").does(display::toggle_solo),
     Key::new(SELECT, "change-type", &[c('c')], "change the type").does(open_kinds),
-    Key::new(SELECT_AND_FIELDS, "move", &[c('m')], "move").hint_in(HERE, 30, "move it").does(|shared| transform::start(shared, Tool::Move)).when(|shared| transform::is_movable(shared, Tool::Move)),
-    Key::new(SELECT_AND_FIELDS, "rotate", &[c('t')], "rotate").does(|shared| transform::start(shared, Tool::Rotate)),
-    Key::new(SELECT_AND_FIELDS, "scale", &[c('s')], "scale").does(|shared| transform::start(shared, Tool::Scale)),
+];
+
+/// The next ones, after those that lead to MOVE.
+#[rustfmt::skip]
+pub(crate) const OTHERS: &[Row] = &[
     Key::new(SELECT, "next-item", &[key(Tab)], "next light or object").does(|shared| cycle(shared, 1)),
     Key::new(SELECT, "visibility", &[c('h')], "show or hide the object").also("hide").does(toggle_visibility),
     Key::new(SELECT, "search", &[c('/')], "filter the list").hint(60, "filter").does(start_filter),

@@ -22,7 +22,6 @@ pub(crate) mod rays;
 pub(crate) mod rows;
 pub(crate) mod steps;
 pub(crate) mod suggestions;
-pub(crate) mod transform;
 
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -34,11 +33,10 @@ use cursor::{Cursor, moved};
 use disk::Disk;
 use inspection::Inspection;
 use jobs::Jobs;
-use live_edit::TransientEdit;
+use live_edit::{LiveEdit, TransientEdit};
 use overlays::{Overlays, PromptKind};
 use palette::Palette;
 use suggestions::Suggestions;
-use transform::Transform;
 
 use super::pictures::Pictures;
 use crate::document::Document;
@@ -85,8 +83,8 @@ pub struct Shared {
     pub pictures: Pictures,
     /// The pixel that is inspected.
     pub inspection: Inspection,
-    /// What is being moved in [`Mode::Move`].
-    pub transform: Option<Transform>,
+    /// The edit of the text that MOVE tries out.
+    pub(crate) motion: Option<LiveEdit>,
     /// The edit of the text that will be reverted: the frame that SEQUENCE shows.
     pub(crate) transient: Option<TransientEdit>,
     /// Whether the scene's file is being read; what it holds is compared with the text without a

@@ -12,7 +12,7 @@ use super::live_edit::Meaning;
 use super::overlays::{Dialog, PromptKind};
 use super::page::{List, PageFocus};
 use crate::language::table::Field;
-use crate::language::{Language, Node, Nodes, Source};
+use crate::language::{Node, Nodes, Source};
 use crate::render::Region;
 use crate::scene::{Camera, Rendering, Scene, Size};
 use crate::text::{Span, counted};
@@ -20,9 +20,10 @@ use crate::ui::app::pictures::drawing::Drawing;
 use crate::ui::app::pictures::frame_window::{Marked, Reason};
 use crate::ui::app::pictures::picture::Picture;
 use crate::ui::app::pictures::until::Until;
-use crate::ui::app::{Shared, ShownWireframe, Tool};
+use crate::ui::app::{Shared, ShownWireframe};
 use crate::ui::arrange::{Areas, Shape, Zoom, arrange};
-use crate::ui::errors::{self, Panel, Wrong};
+use crate::ui::errors;
+use crate::ui::errors::{Panel, Wrong};
 use crate::ui::keymap::{Context, Line, Mode};
 use crate::ui::layout::raster;
 use crate::ui::listing::Listing;
@@ -355,26 +356,6 @@ impl Shared {
         let scene = self.sound_scene()?;
         let findings = self.reported.clone();
         Some(Meaning { scene, findings })
-    }
-
-    /// Why the text's camera cannot be transformed, if it cannot.
-    pub(crate) fn refuses_camera(&self, tool: Tool) -> Option<String> {
-        match (tool, self.document.language()) {
-            // Only a comment states a view there, which is written on request.
-            (_, Language::Ray) => {
-                let view = self.key_for("camera");
-                Some(format!("{view} moves the camera"))
-            }
-            (Tool::Scale, _) => {
-                let key = |name| self.key_for(name);
-                Some(format!(
-                    "a camera has no size: {} and {} in VIEW change what it sees",
-                    key("narrower-view"),
-                    key("wider-view")
-                ))
-            }
-            (Tool::Move | Tool::Rotate, _) => None,
-        }
     }
 
     /// The region to mark in the full-size trace.

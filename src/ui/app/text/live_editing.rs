@@ -77,15 +77,13 @@ pub(crate) fn end_live_edit(shared: &mut Shared, mut live_edit: LiveEdit) {
     } else if live_edit.is_applied {
         let revision = shared.document.revision();
         let back = live_edit.back.filter(|back| back.revision == revision);
-        match back.map(|back| try_edits(shared, &back.edits)) {
-            Some(Ok(())) => shared.say("cancelled; changes merged from the file are kept"),
-            Some(Err(_)) | None => {
-                let undo = shared.key_for("undo");
-                shared.warn(format!(
-                    "the scene has changed on disk; the change so far is kept: {undo} undoes the merge, then the \
-                     change"
-                ));
-            }
+        if let Some(Ok(())) = back.map(|back| try_edits(shared, &back.edits)) {
+            shared.say("cancelled; changes merged from the file are kept");
+        } else {
+            let undo = shared.key_for("undo");
+            shared.warn(format!(
+                "the scene has changed on disk; the change so far is kept: {undo} undoes the merge, then the change"
+            ));
         }
     }
     shared.document.end_step();
@@ -102,7 +100,7 @@ pub(crate) fn take_merged(shared: &mut Shared, merged: Merged) -> Document {
     let before = shared.document.revision();
     let menu = shared.overlays.menu.as_mut();
     let live_edits = [
-        shared.transform.as_mut().map(|own| &mut own.live_edit),
+        shared.motion.as_mut(),
         shared
             .overlays
             .picker

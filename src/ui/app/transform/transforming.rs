@@ -4,20 +4,20 @@
 use crossterm::event::{KeyCode, KeyEvent};
 use glam::DVec3;
 
-use crate::language::{Along, Motion, Node, Pose, StructureError};
+use super::state::{Lock, Moving, Snap, Tool, Transform, decimals_of, round_up};
+use crate::language::{Along, Language, Motion, Node, Pose, StructureError};
 use crate::render::{axes, pixel_width};
 use crate::scene::{Camera, Size};
 use crate::text::Edit;
 use crate::ui::app::shared::line;
-use crate::ui::app::shared::transform::{Lock, Snap, Transform, decimals_of, round_up};
-use crate::ui::app::{Shared, Stride, Tool, display, text};
+use crate::ui::app::{Shared, Stride, display, text};
 use crate::ui::keymap::{Mode, types_amount};
 
 /// Decimals with which a motion is tried.
 const TRIED_DECIMALS: usize = 9;
 
 /// Starts to move, rotate or scale the targets.
-pub(crate) fn start(shared: &mut Shared, tool: Tool) {
+pub(crate) fn start(moving: &mut Moving, shared: &mut Shared, tool: Tool) {
     if shared.refuses_structure() {
         return;
     }
@@ -36,7 +36,7 @@ pub(crate) fn start(shared: &mut Shared, tool: Tool) {
         return;
     };
     if nodes.contains(&Node::View)
-        && let Some(reason) = shared.refuses_camera(tool)
+        && let Some(reason) = refuses_camera(shared, tool)
     {
         shared.fail(reason);
         return;
@@ -52,8 +52,8 @@ pub(crate) fn start(shared: &mut Shared, tool: Tool) {
         display::frame_window(shared).map_or(1.0, |frame_window| frame_window.magnification(size));
     let pixel = width_of_pixel_at(pose.centre, &camera, size) / magnification;
     let step = round_up(pixel);
-    let live_edit = text::begin_live_edit(shared);
-    shared.transform = Some(Transform {
+    shared.motion = Some(text::begin_live_edit(shared));
+    *moving = Some(Transform {
         tool,
         lock: Lock::default(),
         snap: Snap::default(),
@@ -66,7 +66,6 @@ pub(crate) fn start(shared: &mut Shared, tool: Tool) {
         pixel,
         step,
         step_decimals: decimals_of(step),
-        live_edit,
     });
     shared.mode = Mode::Move;
 }
@@ -134,9 +133,9 @@ fn pose(shared: &Shared, node: Node) -> Option<Pose> {
 }
 
 /// Moves by steps to the right and up.
-pub(super) fn step(shared: &mut Shared, right: i8, up: i8, stride: Stride) {
+pub(super) fn step(moving: &mut Moving, shared: &mut Shared, right: i8, up: i8, stride: Stride) {
     let factor = stride.of(1.0);
-    change(shared, |transform| {
+    change(moving, shared, |transform| {
         transform.typed.clear();
         transform.steps[0] += factor * f64::from(right);
         transform.steps[1] += factor * f64::from(up);
@@ -144,8 +143,8 @@ pub(super) fn step(shared: &mut Shared, right: i8, up: i8, stride: Stride) {
 }
 
 /// Moves by pixels of the picture to the right and up, so that a thing follows the pointer.
-pub(crate) fn drag(shared: &mut Shared, right: f64, up: f64) {
-    change(shared, |transform| {
+pub(super) fn drag(moving: &mut Moving, shared: &mut Shared, right: f64, up: f64) {
+    change(moving, shared, |transform| {
         let pixels = match transform.tool {
             Tool::Move => transform.pixel / transform.step,
             Tool::Rotate | Tool::Scale => 1.0,
@@ -157,8 +156,8 @@ pub(crate) fn drag(shared: &mut Shared, right: f64, up: f64) {
 }
 
 /// Locks an axis of the world, then of the thing itself, then none.
-pub(super) fn lock_axis(shared: &mut Shared, axis: usize) {
-    change(shared, |transform| {
+pub(super) fn lock_axis(moving: &mut Moving, shared: &mut Shared, axis: usize) {
+    change(moving, shared, |transform| {
         transform.lock = match transform.lock {
             Lock::World(locked) if locked == axis => Lock::Own(axis),
             Lock::Own(locked) if locked == axis => Lock::Free,
@@ -168,8 +167,8 @@ pub(super) fn lock_axis(shared: &mut Shared, axis: usize) {
 }
 
 /// Snaps amounts to a grid, or no longer.
-pub(super) fn toggle_snap(shared: &mut Shared) {
-    change(shared, |transform| {
+pub(super) fn toggle_snap(moving: &mut Moving, shared: &mut Shared) {
+    change(moving, shared, |transform| {
         transform.snap = match transform.snap {
             Snap::Off => Snap::Grid,
             Snap::Grid => Snap::Off,
@@ -178,20 +177,17 @@ pub(super) fn toggle_snap(shared: &mut Shared) {
 }
 
 /// Types a character of the amount; returns whether it is one.
-pub(crate) fn type_amount(shared: &mut Shared, key: KeyEvent) -> bool {
-    let typed = shared
-        .transform
-        .as_ref()
-        .map_or("", |transform| &transform.typed);
+pub(crate) fn type_amount(moving: &mut Moving, shared: &mut Shared, key: KeyEvent) -> bool {
+    let typed = moving.as_ref().map_or("", |transform| &transform.typed);
     match key.code {
         KeyCode::Char(character)
             if types_amount(character, typed) && typed.len() < line::LONGEST =>
         {
-            change(shared, |transform| transform.typed.push(character));
+            change(moving, shared, |transform| transform.typed.push(character));
             true
         }
         KeyCode::Backspace if !typed.is_empty() => {
-            change(shared, |transform| {
+            change(moving, shared, |transform| {
                 transform.typed.truncate(transform.typed.len() - 1);
             });
             true
@@ -201,17 +197,16 @@ pub(crate) fn type_amount(shared: &mut Shared, key: KeyEvent) -> bool {
 }
 
 /// Keeps the change and ends.
-pub(crate) fn confirm(shared: &mut Shared) {
-    let transform = shared.transform.as_ref();
-    let typed = transform.filter(|transform| !transform.typed.is_empty());
+pub(crate) fn confirm(moving: &mut Moving, shared: &mut Shared) {
+    let typed = moving
+        .as_ref()
+        .filter(|transform| !transform.typed.is_empty());
     if let Some(Err(reason)) = typed.map(Transform::typed_numbers) {
         shared.fail(reason);
         return;
     }
-    match shared.transform.take() {
-        Some(transform) if transform.live_edit.is_applied => {
-            shared.say(transform.words());
-        }
+    match (moving.take(), shared.motion.take()) {
+        (Some(transform), Some(live_edit)) if live_edit.is_applied => shared.say(transform.words()),
         _ => shared.say("nothing has changed"),
     }
     text::keep_live_edit(shared);
@@ -219,31 +214,32 @@ pub(crate) fn confirm(shared: &mut Shared) {
 }
 
 /// Puts everything back and ends.
-pub(super) fn cancel(shared: &mut Shared) {
-    if let Some(transform) = shared.transform.take() {
-        text::end_live_edit(shared, transform.live_edit);
+pub(super) fn cancel(moving: &mut Moving, shared: &mut Shared) {
+    *moving = None;
+    if let Some(live_edit) = shared.motion.take() {
+        text::end_live_edit(shared, live_edit);
     }
     shared.mode = Mode::Select;
 }
 
 /// Changes the motion, and the text with it.
-fn change(shared: &mut Shared, change: impl FnOnce(&mut Transform)) {
-    let Some(mut transform) = shared.transform.take() else {
+fn change(moving: &mut Moving, shared: &mut Shared, change: impl FnOnce(&mut Transform)) {
+    let (Some(transform), Some(mut live_edit)) = (moving.as_mut(), shared.motion.take()) else {
         return;
     };
-    if text::leaves_live_edit(shared, &transform.live_edit, "transformation") {
+    if text::leaves_live_edit(shared, &live_edit, "transformation") {
+        *moving = None;
         shared.mode = Mode::Select;
         return;
     }
-    change(&mut transform);
-    let own = transform.clone();
-    let outcome = text::try_instead(shared, &mut transform.live_edit, |shared| {
-        let edits = edits_of_motion(shared, &own);
+    change(transform);
+    let outcome = text::try_instead(shared, &mut live_edit, |shared| {
+        let edits = edits_of_motion(shared, transform);
         edits.map_err(|refused| refused.to_string())
     });
     match outcome {
         Ok(()) => {
-            if transform.live_edit.is_applied {
+            if live_edit.is_applied {
                 let targets = shared.targets_name(&transform.nodes);
                 shared.document.name_step(transform.step_name(&targets));
             }
@@ -251,7 +247,7 @@ fn change(shared: &mut Shared, change: impl FnOnce(&mut Transform)) {
         }
         Err(reason) => shared.fail(reason),
     }
-    shared.transform = Some(transform);
+    shared.motion = Some(live_edit);
 }
 
 /// The edits that a motion makes to the text before it.
@@ -272,10 +268,30 @@ fn edits_of_motion(shared: &Shared, transform: &Transform) -> Result<Vec<Edit>, 
     Ok(edits)
 }
 
+/// Why the text's camera cannot be transformed, if it cannot.
+fn refuses_camera(shared: &Shared, tool: Tool) -> Option<String> {
+    match (tool, shared.document.language()) {
+        // Only a comment states a view there, which is written on request.
+        (_, Language::Ray) => {
+            let view = shared.key_for("camera");
+            Some(format!("{view} moves the camera"))
+        }
+        (Tool::Scale, _) => {
+            let key = |name| shared.key_for(name);
+            Some(format!(
+                "a camera has no size: {} and {} in VIEW change what it sees",
+                key("narrower-view"),
+                key("wider-view")
+            ))
+        }
+        (Tool::Move | Tool::Rotate, _) => None,
+    }
+}
+
 /// Whether the targets have a place that a tool changes.
 pub(crate) fn is_movable(shared: &Shared, tool: Tool) -> bool {
     let has_place = |node: &Node| match node {
-        Node::View => shared.refuses_camera(tool).is_none(),
+        Node::View => refuses_camera(shared, tool).is_none(),
         Node::Object(_) => true,
         node => shared.source().pose(*node).is_some(),
     };

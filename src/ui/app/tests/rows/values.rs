@@ -102,7 +102,7 @@ fn settings(app: &App, name: &str) -> Option<String> {
                 .map(|window| window.display.half_stops.to_string())
                 .words()
         }
-        "transforms" => app.shared.transform.is_some().words(),
+        "transforms" => app.moving.is_some().words(),
         "denoised" => {
             let window = display::frame_window(&app.shared);
             window.is_some_and(|window| window.display.denoised).words()

@@ -6,7 +6,6 @@ use crate::document::StepName;
 use crate::language::{Along, Motion, Node, Pose};
 use crate::scene::Camera;
 use crate::text::{decimals, rounded};
-use crate::ui::app::shared::live_edit::LiveEdit;
 use crate::ui::app::values::typed;
 
 /// The angle of one step, and of the grid of angles, in degrees.
@@ -60,6 +59,9 @@ pub enum Snap {
     Grid,
 }
 
+/// What MOVE moves: `None` outside of that mode.
+pub type Moving = Option<Transform>;
+
 /// A motion in progress.
 #[derive(Clone, Debug)]
 pub struct Transform {
@@ -87,8 +89,6 @@ pub struct Transform {
     pub(crate) step: f64,
     /// The decimals that a step needs.
     pub(crate) step_decimals: usize,
-    /// The change of the text.
-    pub(crate) live_edit: LiveEdit,
 }
 
 impl Transform {

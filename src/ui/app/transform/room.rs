@@ -1,0 +1,20 @@
+//! What MOVE does about what happens to the interface.
+
+use super::state::Moving;
+use super::transforming::drag;
+use crate::ui::app::room::Room;
+use crate::ui::app::shared::Shared;
+use crate::ui::keymap::Mode;
+use crate::ui::msg::Effect;
+
+impl Room for Moving {
+    fn drag(&mut self, shared: &mut Shared, at: (u16, u16)) -> Option<Vec<Effect>> {
+        let from = shared.pictures.drag.filter(|_| shared.mode == Mode::Move)?;
+        let moved = |from: u16, to: u16| f64::from(to) - f64::from(from);
+        // A cell shows two pixels, one above the other.
+        let (right, down) = (moved(from.0, at.0), 2.0 * moved(from.1, at.1));
+        drag(self, shared, right, -down);
+        shared.pictures.drag = Some(at);
+        Some(Vec::new())
+    }
+}
