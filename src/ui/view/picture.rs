@@ -351,6 +351,24 @@ mod tests {
     }
 
     #[test]
+    fn a_comparison_has_the_aspect_ratio_of_what_is_compared() {
+        let mut app = app_of(Language::Ray, Language::Ray.template());
+        let size = Size {
+            width: 3,
+            height: 4,
+        };
+        app.shared.mode = Mode::Compare;
+        app.shared.pictures.compared_size = Some(size);
+        app.shared.pictures.compared.shown = shown(3, 4, &[[9; 3]; 12]);
+        let panel = |app: &App, area: Rect, buffer: &mut Buffer| {
+            render(app, &mut Inks::new(Glyphs::HalfBlocks), area, buffer);
+        };
+        let lines = drawn(&app, panel, 40, 12);
+        // Twelve rows of two pixels, and three quarters of that.
+        assert_eq!(lines[0].matches('▀').count(), 18, "{lines:?}");
+    }
+
+    #[test]
     fn an_empty_scene_says_what_to_press() {
         let panel = |app: &App, area: Rect, buffer: &mut Buffer| {
             render(app, &mut Inks::new(Glyphs::HalfBlocks), area, buffer);
