@@ -60,8 +60,8 @@
 //! - `ui` changes documents, never scenes. `App::update` is a pure step that returns effects;
 //!   drawing never locks.
 //! - Threads communicate by messages. The exceptions are a renderer's newest generation, which may be
-//!   paused, the jobs that its worker has not begun, and its frame slot; the places that the current folder
-//!   has had; the last signal of headless work; and in [`ui::terminal`] the counts of expected replies and of
+//!   paused, the jobs that its worker has not begun, and its frame slot; the former paths of the current
+//!   folder; the last signal during headless work; and in [`ui::terminal`] the counts of expected replies and of
 //!   keys that are not handled yet, and what a panic hook or signal handler must reach: the queued output,
 //!   the owner of the terminal and how it reports keys, the panics of other threads and whether unsaved
 //!   edits are stored.

@@ -57,11 +57,11 @@ const ROOMS: &[(&str, usize)] = &[
     ("render", 16100),
     ("scene", 1300),
     ("track", 1600),
-    // Each room lists what others may call, and a step says whose state it changes.
+    // Each room lists what others may call, and each function the state it changes.
     ("ui", 32200),
 ];
 
-/// The most methods of the interface's state: everything else is a function of the room that does it.
+/// The most methods on the interface's state; everything else is a function in the room that does it.
 const METHODS: usize = 90;
 
 /// The rooms of modes whose names are others.
@@ -71,14 +71,14 @@ const OWN: &[(&str, &str)] = &[("Fly", "camera"), ("Move", "transform"), ("View"
 /// read before it is changed.
 const MODES: &[(&str, usize)] = &[
     ("Compare", 11),
-    // Rows of keys that lead to another mode say in which modes they do.
+    // The keys that start another mode list the modes in which they work.
     ("Edit", 17),
     // SEQUENCE's own rows of keys list the modes that they act in.
     ("Fly", 8),
     ("Inspect", 11),
     ("Move", 13),
     ("Select", 27),
-    // What leaves it stands beside the transient edit that it makes.
+    // Leaving it means taking back its transient edit, so both are in one file.
     ("Sequence", 10),
     ("Trace", 9),
     ("View", 9),

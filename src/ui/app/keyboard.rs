@@ -11,6 +11,7 @@ use crate::ui::keymap::{self, Context, Meaning, Mode};
 use crate::ui::msg::Effect;
 
 impl App {
+    /// Handles a key: as part of the line that is typed, or by what it is bound to.
     pub(crate) fn key(&mut self, key: KeyEvent) -> Vec<Effect> {
         self.shared.overlays.clear_message();
         edit::end_slide(&mut self.shared);
@@ -172,7 +173,7 @@ fn answer_unknown(shared: &mut Shared, context: Context, key: KeyEvent) {
 }
 
 /// Closes a line without accepting it, and gives up leaving, which waited for a file name.
-pub(crate) fn close_prompt(shared: &mut Shared) {
+fn close_prompt(shared: &mut Shared) {
     let prompt = shared.overlays.prompt.take();
     if let Some(PromptKind::Filter(from)) = prompt.map(|prompt| prompt.kind) {
         select::drop_filter(shared, from);

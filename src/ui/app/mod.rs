@@ -17,7 +17,7 @@
 //! | [`compare`], [`camera`], [`transform`], [`inspect`] | COMPARE; VIEW and FLY; MOVE; INSPECT and the rays behind a pixel |
 //! | [`suggesting`], [`text`] | what is wrong with a picture, and the setting that would help; every change of the text |
 //! | [`display`], [`panels`] | what pictures show and ask for; how much of the screen they take |
-//! | [`room`] | what a room may do about a step, and what a row of keys is |
+//! | [`room`] | how a room reacts to steps, presses and drags; what a row of keys is |
 //! | [`shared`] | the state that all modes share, one part for each concern |
 //! | [`pictures`], [`values`] | pictures as state; numbers, words and colours as they are typed |
 
@@ -57,8 +57,7 @@ pub use compare::{Compare, Contrast, Reference, Wipe};
 pub use display::{Symbol, SymbolKind};
 pub use files::{Opening, OpeningText, Preferences};
 pub use history::{Rank, Thumbnail, Thumbnails};
-pub use inspect::Pixel;
-pub use inspect::RayPanels;
+pub use inspect::{Pixel, RayPanels};
 pub use modes::App;
 pub use pictures::Pictures;
 pub use pictures::cell_image::CellImage;

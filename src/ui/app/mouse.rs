@@ -52,7 +52,8 @@ impl App {
         }
     }
 
-    /// Ends what is typed and slid, and in MOVE, beside the picture, the motion; then presses what is there.
+    /// Ends typing and sliding and, outside the picture in MOVE, the motion; then presses what is under the
+    /// pointer.
     fn press_left(&mut self, at: (u16, u16)) -> Vec<Effect> {
         let shared = &mut self.shared;
         shared.overlays.clear_message();

@@ -1,4 +1,4 @@
-//! Threads whose answers are waited for.
+//! Threads that answer requests.
 
 use std::io;
 use std::sync::mpsc::Receiver;

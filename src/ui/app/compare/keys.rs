@@ -33,7 +33,7 @@ pub(crate) const KEYS: &[Row<Compare>] = &[
     Key::new(COMPARE, "previous-worst", &[c('N')], "previous of the worst pixels").hint(30, "worst").does_in(|compare, shared| go_to_worst(compare, shared, -1)),
 ];
 
-/// Keys that lead here from other modes.
+/// Keys in other modes that start this one.
 #[rustfmt::skip]
 pub(crate) const ENTRIES: &[Row<Compare>] = &[
     Key::new(Everywhere, "pin", &[c('A')], "pin the picture, to compare with it").hint_in(HERE, 90, "pin").requests_in(pin),

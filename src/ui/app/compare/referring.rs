@@ -87,26 +87,24 @@ fn refer(compare: &mut Compare, reference: Reference) -> Vec<Effect> {
     free.into_iter().collect()
 }
 
-/// Compares with something else, or with the reference; SEQUENCE is left first for that.
+/// Compares with the reference, or with another one once that is read, for `:compare`. SEQUENCE is left
+/// when the comparison starts.
 pub(crate) fn by_command(
     compare: &mut Compare,
     shared: &mut Shared,
-    words: Option<PathBuf>,
+    named: Option<PathBuf>,
 ) -> Vec<Effect> {
-    if words.is_some() {
-        return refer_to(compare, shared, words);
+    if let Some(named) = named {
+        return read_reference(compare, shared, named);
     }
     let mode = text::step_outside(shared);
-    let effects = refer_to(compare, shared, None);
+    let effects = start(compare, shared);
     text::return_if_failed(shared, mode);
     effects
 }
 
-/// Compares with the reference, or reads another one first, for `:compare`.
-fn refer_to(compare: &mut Compare, shared: &mut Shared, words: Option<PathBuf>) -> Vec<Effect> {
-    let Some(path) = words else {
-        return start(compare, shared);
-    };
+/// Requests a reference: a file, `saved`, or a revision of the scene.
+fn read_reference(compare: &mut Compare, shared: &mut Shared, path: PathBuf) -> Vec<Effect> {
     let line = path.to_string_lossy().into_owned();
     let (first, rest) = line.split_once(' ').unwrap_or((&line, ""));
     let revision = match (first, rest.trim()) {

@@ -1,4 +1,4 @@
-//! What COMPARE does about what happens to the interface.
+//! How COMPARE reacts to steps, presses and drags.
 
 use super::comparing::{follow, press};
 use super::state::Compare;

@@ -1,4 +1,4 @@
-//! The jobs of pictures, and the full-size trace when the scene has changed.
+//! The jobs of pictures, and restarting the full-size trace.
 
 use std::sync::Arc;
 
@@ -62,7 +62,7 @@ pub(crate) fn trace_job(shared: &Shared) -> Result<Job, String> {
     Ok(job)
 }
 
-/// Restarts the full-size trace if it is on screen, and otherwise gives it up.
+/// Restarts the full-size trace if it is on screen, and otherwise drops it.
 pub(super) fn follow_trace(shared: &mut Shared) -> Vec<Effect> {
     match shared.pictures.trace {
         None => Vec::new(),

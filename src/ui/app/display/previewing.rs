@@ -1,4 +1,4 @@
-//! The preview: what it is asked for, and when it starts anew.
+//! What restarts when the scene, the view or the screen has changed, above all the preview.
 
 use super::jobs::{follow_trace, shown_job};
 use super::zooming::preview_screen;

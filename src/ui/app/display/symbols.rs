@@ -68,7 +68,7 @@ pub(crate) fn symbol_at(shared: &Shared, cell: (u16, u16)) -> Option<Node> {
     (distance(&nearest) <= NEAR).then_some(nearest.node)
 }
 
-/// Shows the symbols of all lights, cameras and groups, those of the selected kind, or none.
+/// Shows the symbols of all lights, cameras and groups, or only those of the selected kind.
 pub(crate) fn toggle_symbols(shared: &mut Shared) {
     let (shown, words) = match shared.pictures.symbols {
         Symbols::Selected => (Symbols::All, "symbols of all lights, cameras and groups"),

@@ -154,7 +154,7 @@ pub(crate) fn toggle_scale(shared: &mut Shared) {
     tell_scale(shared);
 }
 
-/// Zooms as `:zoom` asks, or says how the picture is zoomed.
+/// Zooms as `:zoom` asks, and says how the picture is zoomed.
 pub(crate) fn order_scale(shared: &mut Shared, order: ScaleOrder) {
     match order {
         ScaleOrder::Tell => {}

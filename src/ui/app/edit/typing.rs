@@ -18,7 +18,7 @@ fn current(shared: &Shared) -> Option<(&'static Field, String)> {
     Some((row.field, literal))
 }
 
-/// Changes the current component by some steps of a size; words and references by their neighbours.
+/// Nudges the current component by a number of steps; a word or a reference goes to its neighbour.
 pub(super) fn nudge(shared: &mut Shared, steps: i8, stride: Stride) {
     let Some((field, literal)) = current(shared) else {
         return;
@@ -60,7 +60,7 @@ pub(super) fn nudge(shared: &mut Shared, steps: i8, stride: Stride) {
     }
 }
 
-/// Nudges by smaller or larger steps from now on.
+/// Makes the steps of nudges larger or smaller.
 pub(super) fn change_stride(shared: &mut Shared, step: isize) {
     let words = shared.cursor.change_stride(step);
     shared.say(words);

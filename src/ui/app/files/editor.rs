@@ -47,7 +47,7 @@ pub(crate) fn open_editor(shared: &mut Shared) -> Vec<Effect> {
     vec![Effect::OpenEditor { path, line }]
 }
 
-/// Takes back the terminal from the editor, and reads the file.
+/// Reports an editor that failed, and reads the file again.
 pub(crate) fn editor_closed(shared: &mut Shared, outcome: Result<(), String>) -> Vec<Effect> {
     if let Err(reason) = outcome {
         shared.fail(reason);

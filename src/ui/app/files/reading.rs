@@ -1,6 +1,6 @@
-//! A reading of the scene's file, from top to bottom: the file is watched; once it changes it is read and
-//! compared with the text, in the background; what comes is taken, merged, or kept apart; and what it
-//! changed is shown and said.
+//! Reading the scene's file, in the order in which it happens: the file is watched; when it changes, it is
+//! read and compared with the text in the background; the result is taken, merged or kept apart; then the
+//! change is shown and reported.
 
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -120,7 +120,7 @@ fn read_with(shared: &mut Shared, read: fn(&mut Disk, Baseline) -> Vec<Effect>) 
     effects
 }
 
-/// Reads the file for the last time after it had time to settle.
+/// Reads the file once it has had time to settle, and accepts what it holds.
 pub(crate) fn settled(shared: &mut Shared) -> Vec<Effect> {
     if shared.disk.is_waiting() {
         read_finally(shared)

@@ -32,13 +32,13 @@ pub(crate) fn fails_to_keep(shared: &Shared) -> bool {
     shared.disk.journal.fails(&shared.document)
 }
 
-/// Keeps unsaved edits for the next run, if there are any.
+/// Keeps unsaved edits for the next run, unless they are kept already.
 pub(crate) fn keep_edits(shared: &mut Shared) -> Option<Effect> {
     let scene = shared.disk.path.clone();
     shared.disk.journal.keep(&shared.document, scene)
 }
 
-/// Keeps unsaved edits for the next run, or forgets those that were kept.
+/// Writes unsaved edits for the next run; if there are none, forgets those that were kept.
 pub(super) fn keep_the_rest(shared: &mut Shared) -> Option<Effect> {
     let scene = shared.disk.path.clone();
     shared.disk.journal.keep_the_rest(&shared.document, scene)

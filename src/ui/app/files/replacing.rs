@@ -1,4 +1,4 @@
-//! Replacing the scene, once nothing would be lost: by one from a file, or by a new one.
+//! Replacing the scene with one from a file or a new one, once nothing would be lost.
 
 use std::path::PathBuf;
 use std::sync::Arc;

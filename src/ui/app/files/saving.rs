@@ -1,5 +1,5 @@
-//! A save, from top to bottom: what is asked for, whether it is refused, the text handed to the background,
-//! and the outcome.
+//! Saving, in the order in which it happens: the request, the reasons to refuse it, the write in the
+//! background, and its outcome.
 
 use std::path::{Path, PathBuf};
 use std::sync::Arc;

@@ -178,7 +178,7 @@ pub(crate) fn pick(shared: &mut Shared, found: Result<Option<Node>, &'static str
     }
 }
 
-/// Selects a node that was picked in the picture, or says that there is none.
+/// Selects a node that was picked in the picture, and leaves INSPECT.
 pub(super) fn pick_node(shared: &mut Shared, node: Node) {
     shared.select(node);
     if shared.mode == Mode::Inspect {

@@ -61,7 +61,7 @@ pub(crate) const KEYS: &[Row] = &[
     Key::new(Everywhere, "trace", &[key(F(5)), c('r')], "trace at full size").hint_in(OUTSIDE_TRACE, 130, "trace").requests(trace::start),
 ];
 
-/// Less often used than those of [`KEYS`] and those that lead to a comparison.
+/// Keys used less often. Those that start a comparison are listed between these and [`KEYS`].
 #[rustfmt::skip]
 pub(crate) const OTHERS: &[Row] = &[
     Key::new(Everywhere, "undo", &[c('u')], "undo").also("revert").hint(110, "undo").requests(history::undo).when(|shared| shared.document.undoable().is_some()),

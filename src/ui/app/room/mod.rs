@@ -1,4 +1,4 @@
-//! What a mode or a page does about what happens to the interface.
+//! What a room is: how it reacts to steps, presses and drags, and its rows of keys.
 
 mod row;
 

@@ -37,7 +37,7 @@ pub(crate) const KEYS: &[Row] = &[
     Key::new(SELECT, "change-type", &[c('c')], "change the type").does(open_kinds),
 ];
 
-/// The next ones, after those that lead to MOVE.
+/// The rest. The keys that start MOVE are listed between these and [`KEYS`].
 #[rustfmt::skip]
 pub(crate) const OTHERS: &[Row] = &[
     Key::new(SELECT, "next-item", &[key(Tab)], "next light or object").does(|shared| cycle(shared, 1)),

@@ -50,7 +50,7 @@ pub(crate) const KEYS: &[Row<Sequence>] = &[
     Key::new(SEQUENCE, "edit-track", &[c('E')], "open the editor on the track").requests_in(edit_track),
 ];
 
-/// Keys that lead here from other modes.
+/// Keys in other modes that need the track.
 #[rustfmt::skip]
 pub(crate) const ENTRIES: &[Row<Sequence>] = &[
     Key::new(PLAYED, "track", &[c('T')], "play the track").requests_in(|sequence, shared| open_track(sequence, shared, None)),

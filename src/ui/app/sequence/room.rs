@@ -1,4 +1,4 @@
-//! What SEQUENCE does about what happens to the interface.
+//! How SEQUENCE reacts to steps, presses and drags.
 
 use super::{Sequence, playing};
 use crate::ui::app::room::Room;

@@ -1,4 +1,4 @@
-//! The edit of the text that will be reverted: the frame that SEQUENCE shows.
+//! The transient edit: the frame that SEQUENCE shows in the text and takes back.
 
 use super::live_editing::{begin_live_edit, end_live_edit};
 use crate::ui::app::Shared;

@@ -36,7 +36,7 @@ pub(crate) const KEYS: &[Row<Moving>] = &[
     Key::new(MOVE, "back", &[key(Esc)], "cancel").hint(30, "cancel").does_in(cancel),
 ];
 
-/// Keys that lead here from other modes.
+/// Keys in other modes that start this one.
 #[rustfmt::skip]
 pub(crate) const ENTRIES: &[Row<Moving>] = &[
     Key::new(SELECT_AND_FIELDS, "move", &[c('m')], "move").hint_in(HERE, 30, "move it").does_in(|moving, shared| start(moving, shared, Tool::Move)).when(|shared| is_movable(shared, Tool::Move)),

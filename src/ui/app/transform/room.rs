@@ -1,4 +1,4 @@
-//! What MOVE does about what happens to the interface.
+//! How MOVE reacts to steps, presses and drags.
 
 use super::state::Moving;
 use super::transforming::drag;

@@ -122,7 +122,7 @@ scripts! {
         @file broken     | mode SEQUENCE | line 3 5 7 5 // the light
         @elapsed settled | does read      | text opened
         @file opened
-        // Nor with a frame that is looked at while it is read.
+        // So is a reading that arrives while another frame is shown.
         @changed         | text opened
         @reading 1.5 // => 2.5 //
         l                | line 3 5 8 5 // the light
