@@ -5,7 +5,7 @@ use tui_input::Input;
 
 use super::shared::cursor::Typing;
 use super::shared::line;
-use super::{App, PageFocus, PromptKind, Shared, command, edit, list, select, text, transform};
+use super::{App, PageFocus, PromptKind, Shared, command, edit, select, text, transform};
 use crate::text::alternatives;
 use crate::ui::keymap::{self, Context, Meaning, Mode};
 use crate::ui::msg::Effect;
@@ -46,12 +46,7 @@ impl App {
                 self.shared.warn_of_opening();
                 Vec::new()
             }
-            Meaning::None
-                if matches!(context, Context::Views | Context::Recent | Context::Steps) =>
-            {
-                filter_with(&mut self.shared, key);
-                Vec::new()
-            }
+            Meaning::None if filters_with(&mut self.shared, key) => Vec::new(),
             Meaning::None => start_typing_with(&mut self.shared, context, key),
         }
     }
@@ -69,20 +64,27 @@ impl App {
         }
         if self.shared.cursor.typing.is_some() {
             edit::typing_key(&mut self.shared, key);
-        } else if let Some(help) = &mut self.shared.overlays.help {
-            match key.code {
-                KeyCode::Enter | KeyCode::Esc => help.focus = PageFocus::Lines,
-                _ => line::edit(&mut help.search, key),
+            return Vec::new();
+        }
+        self.filter_key(key)
+    }
+
+    /// Types into the filter of the open page. Enter chooses, on a page that is only read it ends the
+    /// search.
+    fn filter_key(&mut self, key: KeyEvent) -> Vec<Effect> {
+        let context = self.shared.context();
+        let Some(page) = &mut self.shared.overlays.page else {
+            return Vec::new();
+        };
+        match key.code {
+            KeyCode::Enter if !page.is_read() => {
+                let accept = self.shared.keymap.row(context, "accept");
+                return accept.map_or_else(Vec::new, |row| self.act(row));
             }
-            help.top = 0;
-        } else if let Some(page) = &mut self.shared.overlays.page {
-            match key.code {
-                KeyCode::Enter => return list::choose(&mut self.shared),
-                KeyCode::Esc => page.focus = PageFocus::Lines,
-                _ => {
-                    let count = page.rows().len();
-                    page.filter.key(key, count);
-                }
+            KeyCode::Enter | KeyCode::Esc => page.focus = PageFocus::Lines,
+            _ => {
+                let count = page.shown().len();
+                page.filter.key(key, count);
             }
         }
         Vec::new()
@@ -139,12 +141,18 @@ fn start_typing_with(shared: &mut Shared, context: Context, key: KeyEvent) -> Ve
     Vec::new()
 }
 
-/// Starts filtering the open page with a character that is no key of it.
-fn filter_with(shared: &mut Shared, key: KeyEvent) {
-    if let (Some(page), KeyCode::Char(_)) = (&mut shared.overlays.page, key.code) {
+/// Starts filtering the rows of the open page with a character that is no key of it; returns whether it
+/// has rows to choose from.
+fn filters_with(shared: &mut Shared, key: KeyEvent) -> bool {
+    let page = shared.overlays.page.as_mut();
+    let Some(page) = page.filter(|page| !page.is_read()) else {
+        return false;
+    };
+    if let KeyCode::Char(_) = key.code {
         page.focus = PageFocus::Search;
         page.filter.key(key, 0);
     }
+    true
 }
 
 /// Says where a key has a meaning that has none here.

@@ -1,11 +1,9 @@
-//! Moving cursors: in the list, the fields, the help and the errors.
+//! Moving cursors: in the list, the fields, the pages and the errors.
 
 use super::shared::cursor::moved;
-use super::shared::page::List;
-use super::{Shared, camera, edit, files, history, inspect};
+use super::{Shared, edit, history, inspect};
 use crate::ui::keymap::{Context, Mode};
 use crate::ui::layout;
-use crate::ui::msg::Effect;
 
 /// Moves the cursor of what has the keys by some lines; positive is down.
 pub(crate) fn move_cursor(shared: &mut Shared, rows: isize) {
@@ -26,26 +24,21 @@ pub(crate) fn move_cursor_in(shared: &mut Shared, context: Context, rows: isize)
             let at = shared.overlays.errors.unwrap_or(0);
             shared.overlays.errors = Some(moved(at, rows, shared.wrong().findings.len()));
         }
-        Context::Help => {
-            if let Some(help) = &mut shared.overlays.help {
-                help.top = moved(help.top, rows, usize::MAX);
-            }
-        }
-        Context::Messages => {
-            let count = shared.overlays.messages.past().len();
-            let top = shared.overlays.past.as_mut();
-            if let Some(top) = top {
-                *top = moved(*top, rows, count);
-            }
-        }
         Context::Conflict => {
             if let Some((merge, at, _)) = shared.overlays.conflict() {
                 *at = moved(*at, rows, merge.conflicts.len());
             }
         }
-        Context::Views | Context::Recent | Context::Steps => {
+        Context::Views | Context::Recent | Context::Steps | Context::Messages | Context::Help => {
+            let messages = shared.overlays.messages.past().len();
             if let Some(page) = &mut shared.overlays.page {
-                page.go(rows);
+                let count = match context {
+                    Context::Messages => messages,
+                    // A step ends with what fills the page.
+                    Context::Help => usize::MAX,
+                    _ => page.shown().len(),
+                };
+                page.filter.go(rows, count);
             }
         }
         Context::Colour => edit::move_picker(shared, rows),
@@ -120,20 +113,4 @@ pub(crate) fn go_to_error(shared: &mut Shared) {
             "nothing to select there: press {editor} to edit that line"
         ));
     }
-}
-
-/// Uses the row under the cursor of the open page, and closes it.
-pub(crate) fn choose(shared: &mut Shared) -> Vec<Effect> {
-    let Some(page) = shared.overlays.page.take() else {
-        return Vec::new();
-    };
-    let Some(at) = page.chosen() else {
-        return Vec::new();
-    };
-    match page.list {
-        List::Views(views, _) => camera::go_to_view(shared, &views[at]),
-        List::Steps(_) => history::go_to_state(shared, at),
-        List::Recent(paths) => return files::open_scene(shared, paths[at].clone()),
-    }
-    Vec::new()
 }

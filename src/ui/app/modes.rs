@@ -3,8 +3,8 @@
 
 use super::room::{Room, Row};
 use super::{
-    Compare, Moving, Opening, Sequence, Shared, Thumbnails, Tool, camera, compare, display, edit,
-    files, inspect, keys, select, sequence, text, trace, transform,
+    Compare, Moving, Opening, SavedViews, Sequence, Shared, Thumbnails, Tool, camera, compare,
+    display, edit, files, history, inspect, keys, select, sequence, text, trace, transform,
 };
 use crate::ui::keymap::{Entry, Key, Keymap, Mode, RowId};
 use crate::ui::msg::Effect;
@@ -114,6 +114,8 @@ modes! {
     compare: Compare, Compare;
     /// What MOVE moves.
     moving: Moving, Move;
+    /// The views on the page of saved views.
+    saved_views: SavedViews, SavedViews;
     /// The pictures on the page of the undo history.
     thumbnails: Thumbnails;
 }
@@ -124,6 +126,10 @@ modes! {
 const ROWS: &[Rows] = &[
     Rows::Shared(keys::lists::KEYS),
     Rows::Shared(keys::questions::KEYS),
+    Rows::Shared(keys::lists::ERRORS),
+    Rows::SavedViews(camera::OF_PAGE),
+    Rows::Shared(files::KEYS),
+    Rows::Shared(history::KEYS),
     Rows::Shared(keys::pages::KEYS),
     Rows::Shared(select::KEYS),
     Rows::Move(transform::ENTRIES),

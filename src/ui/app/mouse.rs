@@ -76,8 +76,7 @@ fn point(shared: &mut Shared, event: MouseEvent) -> Pointed {
     let at = (event.column, event.row);
     let waits = shared.overlays.dialog.is_some()
         || shared.overlays.prompt.is_some()
-        || shared.overlays.page.is_some()
-        || shared.disk.is_opening() && shared.overlays.help.is_none();
+        || shared.disk.is_opening() && shared.overlays.page.is_none();
     match event.kind {
         _ if waits => {}
         MouseEventKind::ScrollUp | MouseEventKind::ScrollDown
@@ -94,7 +93,7 @@ fn point(shared: &mut Shared, event: MouseEvent) -> Pointed {
         }
         MouseEventKind::ScrollUp => wheel(shared, at, -1),
         MouseEventKind::ScrollDown => wheel(shared, at, 1),
-        _ if shared.overlays.help.is_some() => {}
+        _ if shared.overlays.page.is_some() => {}
         MouseEventKind::Down(MouseButton::Left) if shared.overlays.picker.is_some() => {
             press_picker(shared, at);
         }
@@ -130,7 +129,7 @@ fn point(shared: &mut Shared, event: MouseEvent) -> Pointed {
 /// Whether the wheel zooms the picture here.
 fn zooms(shared: &Shared, at: (u16, u16), modifiers: KeyModifiers) -> bool {
     let asked = shared.mode == Mode::Trace || modifiers.contains(KeyModifiers::CONTROL);
-    asked && shared.overlays.help.is_none() && shared.areas().picture.contains(at.into())
+    asked && shared.overlays.page.is_none() && shared.areas().picture.contains(at.into())
 }
 
 /// Whether the pointer is drawing a region.
@@ -156,8 +155,8 @@ fn pans(shared: &Shared) -> bool {
 }
 
 fn wheel(shared: &mut Shared, at: (u16, u16), down: isize) {
-    if shared.overlays.help.is_some() {
-        list::move_cursor_in(shared, Context::Help, WHEEL * down);
+    if shared.overlays.page.is_some() {
+        list::move_cursor(shared, WHEEL * down);
         return;
     }
     if shared.mode == Mode::Compare {

@@ -30,15 +30,10 @@ fn paste_value(shared: &mut Shared, text: &str) {
     if shared.overlays.dialog.is_some() {
         return;
     }
-    if let Some(help) = &mut shared.overlays.help {
-        if help.focus == PageFocus::Search {
-            line::insert(&mut help.search, text);
-            help.top = 0;
-        }
-        return;
-    }
     if let Some(page) = &mut shared.overlays.page {
-        page.filter.insert(text);
+        if !page.is_read() || page.focus == PageFocus::Search {
+            page.filter.insert(text);
+        }
         return;
     }
     if let Some(menu) = &mut shared.overlays.menu {

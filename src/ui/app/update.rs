@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use super::shared::journal::KEPT_AFTER;
 use super::{
-    App, Grid, Shared, camera, command, compare, display, exports, files, history, inspect, panels,
+    App, Grid, Shared, command, compare, display, exports, files, history, inspect, panels,
     pasting, sequence, suggesting, text, trace,
 };
 use crate::render::Frame;
@@ -171,7 +171,6 @@ fn follow_scene(shared: &mut Shared) -> Vec<Effect> {
     shared.scroll(&shared.areas());
     inspect::scroll_rays(shared);
     command::scroll_help(shared);
-    camera::follow_views(shared);
     display::follow_scene(shared)
 }
 

@@ -102,6 +102,12 @@ impl Keymap {
         rows.find_map(|row| Some(self.keys_of(row, context).next()?.name()))
     }
 
+    /// The first row in a context with this name.
+    pub fn row(&self, context: Context, name: &str) -> Option<RowId> {
+        let mut rows = self.rows_in(context);
+        rows.find(|row| row.key.name == name).map(|row| row.id)
+    }
+
     /// Whether a row is active in all contexts, and does the same in each.
     pub fn is_reserved(&self, id: RowId) -> bool {
         self.rows[id.0].key.scope == Scope::Always

@@ -56,7 +56,8 @@ mod tests {
     use ratatui::backend::TestBackend;
     use ratatui::layout::Rect;
 
-    use crate::ui::app::{App, Help};
+    use crate::ui::app::{App, Page};
+    use crate::ui::keymap::Context;
     use crate::ui::view::inks::Glyphs;
     use crate::ui::view::tests::{app, frame, lines, retype};
     use crate::ui::view::{Drawing, Inks, draw};
@@ -92,9 +93,9 @@ mod tests {
             .advance(&frame_window, &[], usize::MAX);
         let cells = app.shared.raster().map(|(cells, _)| cells);
         assert_eq!(left(&mut app), (cells, false));
-        app.shared.overlays.help = Some(Help::default());
+        app.shared.overlays.open_page(Page::reading(Context::Help));
         assert_eq!(left(&mut app), (None, true));
-        app.shared.overlays.help = None;
+        app.shared.overlays.page = None;
         assert_eq!(left(&mut app), (cells, false));
         // A few words over it are drawn on top.
         retype(&mut app, " 0.25 ", " -1 ");

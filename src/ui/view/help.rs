@@ -3,42 +3,31 @@
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 use ratatui::style::Style;
-use ratatui::text::Line;
-use ratatui::widgets::{Block, BorderType, Clear, Widget};
 use unicode_width::UnicodeWidthStr;
 
+use super::page;
 use super::row::Row;
-use crate::text::counted;
-use crate::ui::app::{PageFocus, Shared, command};
+use crate::ui::app::{Page, Shared, command};
 use crate::ui::keymap::HelpLine;
 use crate::ui::{layout, theme};
 
-/// Draws the help page if it is open.
-pub(crate) fn render(shared: &Shared, area: Rect, buffer: &mut Buffer) {
-    let Some(help) = &shared.overlays.help else {
-        return;
-    };
+/// Draws the help page.
+pub(super) fn render(shared: &Shared, page: &Page, area: Rect, buffer: &mut Buffer) {
     let columns = command::help_columns(shared, area.width);
     let count = columns.len() as u16;
     let width = if count == 1 { 76 } else { area.width };
-    let page = layout::centred(area, Rect::new(0, 0, width, area.height));
-    let mut block = Block::bordered()
-        .border_type(BorderType::Rounded)
-        .border_style(theme::DIM);
-    let inner = block.inner(page);
-    let (body, search) = layout::split_bottom(inner, 1);
-    let rows = usize::from(body.height);
+    let place = layout::centred(area, Rect::new(0, 0, width, area.height));
+    // Inside the frame, and above the search.
+    let rows = usize::from(place.height.saturating_sub(3));
     let longest = columns.iter().map(Vec::len).max().unwrap_or(0);
-    let top = help.top.min(longest.saturating_sub(rows));
+    let top = page.filter.at.min(longest.saturating_sub(rows));
     let last = (top + rows).min(longest);
-    if top < last {
-        let place = format!(" {}–{last} of {longest} ", top + 1);
-        block = block.title_top(Line::from(place).right_aligned());
-    }
-    Clear.render(page.intersection(buffer.area), buffer);
-    block
-        .title(" Keys ")
-        .render(page.intersection(buffer.area), buffer);
+    let lines = match top < last {
+        true => format!(" {}–{last} of {longest} ", top + 1),
+        false => String::new(),
+    };
+    let inner = page::frame(" Keys ", &lines, place, buffer);
+    let (body, search) = layout::split_bottom(inner, 1);
     let width = body.width / count;
     for (at, lines) in (0..).zip(&columns) {
         let column = Rect {
@@ -52,20 +41,16 @@ pub(crate) fn render(shared: &Shared, area: Rect, buffer: &mut Buffer) {
     }
     let mut row = Row::new(buffer, search, 0);
     row.skip(1);
-    if help.focus == PageFocus::Search {
-        row.put("/", theme::ACCENT);
-        let room = row.room();
-        row.put_input(&help.search, room, Style::new(), theme::CURSOR);
+    if page::typed(page, &mut row) {
         return;
     }
     let is_entry = |line: &&HelpLine| matches!(line, HelpLine::Entry { .. });
     let count = columns.iter().flatten().filter(is_entry).count();
-    let found = match help.search.value() {
-        "" => {
-            let (search, close) = (shared.key_for("search"), shared.key_for("back"));
-            format!("{search} search  {close} close")
-        }
-        search => format!("{} with “{search}”", counted(count, "line")),
+    let found = if page.filter.input.value().is_empty() {
+        let (search, close) = (shared.key_for("search"), shared.key_for("back"));
+        format!("{search} search  {close} close")
+    } else {
+        page::found(page, count)
     };
     row.put(&found, theme::DIM);
 }
@@ -95,20 +80,32 @@ fn help_line(line: &HelpLine, mut row: Row) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::ui::app::Help;
+    use crate::ui::app::App;
+    use crate::ui::keymap::Context;
     use crate::ui::view::tests::{app, drawn};
     use ratatui::buffer::Cell;
     use tui_input::Input;
 
+    /// The page with this search.
+    fn shown(app: &mut App, search: &str, width: u16, height: u16) -> Vec<String> {
+        let mut page = Page::reading(Context::Help);
+        page.filter.input = Input::from(search);
+        app.shared.overlays.open_page(page);
+        let draw = |shared: &Shared, area: Rect, buffer: &mut Buffer| {
+            let page = shared.overlays.page(Context::Help).expect("it is open");
+            render(shared, page, area, buffer);
+        };
+        drawn(&app.shared, draw, width, height)
+    }
+
     #[test]
     fn a_wide_page_has_columns_and_starts_with_the_present_mode() {
         let mut app = app();
-        app.shared.overlays.help = Some(Help::default());
-        let wide = drawn(&app.shared, render, 120, 30);
+        let wide = shown(&mut app, "", 120, 30);
         assert!(wide[1].starts_with("│ SELECT"), "{}", wide[1]);
         let headings = wide[1].matches("anywhere").count();
         assert_eq!(headings, 1, "{}", wide[1]);
-        let narrow = drawn(&app.shared, render, 80, 30);
+        let narrow = shown(&mut app, "", 80, 30);
         assert!(!narrow[1].contains("anywhere"));
     }
 
@@ -129,11 +126,7 @@ mod tests {
     #[test]
     fn only_matching_lines_are_shown() {
         let mut app = app();
-        app.shared.overlays.help = Some(Help {
-            search: Input::new("ORBIT".to_owned()),
-            ..Help::default()
-        });
-        let lines = drawn(&app.shared, render, 80, 24);
+        let lines = shown(&mut app, "ORBIT", 80, 24);
         let found = lines.iter().filter(|line| line.contains("orbit")).count();
         // Four keys and the mouse, under two headings.
         assert!(lines[0].contains("1–7 of 7"), "{}", lines[0]);

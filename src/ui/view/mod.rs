@@ -46,7 +46,7 @@ use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 use ratatui::style::Style;
 
-use super::app::{App, Shared};
+use super::app::{App, Page, Shared};
 use super::arrange::MIN_SIZE;
 use super::keymap::{Context, Mode};
 use super::{layout, theme};
@@ -111,10 +111,9 @@ fn render(app: &App, inks: &mut Inks, area: Rect, buffer: &mut Buffer) -> Option
     }
     let bars = areas.hint.height + areas.status.height;
     let (body, _) = layout::split_bottom(area, bars);
-    page::render(app, body, buffer);
-    steps::render(app, inks, body, buffer);
-    help::render(&app.shared, body, buffer);
-    past_messages::render(&app.shared, body, buffer);
+    if let Some(page) = &app.shared.overlays.page {
+        render_page(app, page, inks, body, buffer);
+    }
     if let Some(refused) = current::refusal(&app.shared, &areas) {
         message::render(&refused, body, buffer);
     } else if let Some(message) = status::long_message(app, inks.glyphs, status.width) {
@@ -126,6 +125,16 @@ fn render(app: &App, inks: &mut Inks, area: Rect, buffer: &mut Buffer) -> Option
     dialog::render(app, body, buffer);
     let (cells, count) = left?;
     (graphics_gap::left_in(cells, buffer) == count).then_some(cells)
+}
+
+fn render_page(app: &App, page: &Page, inks: &mut Inks, area: Rect, buffer: &mut Buffer) {
+    match page.context {
+        Context::Help => help::render(&app.shared, page, area, buffer),
+        Context::Messages => past_messages::render(&app.shared, page, area, buffer),
+        Context::Steps => steps::render(app, page, inks, area, buffer),
+        Context::Recent => page::render(app, page, " Recent scenes ", area, buffer),
+        _ => page::render(app, page, " Saved views ", area, buffer),
+    }
 }
 
 /// Draws the line between columns, which makes a stale picture obvious.

@@ -1,36 +1,24 @@
-//! A page with a list to choose from.
+//! Pages over the screen: a frame, the rows to choose from or the lines to read, and at the foot the filter or
+//! the keys.
 
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 use ratatui::style::Style;
+use ratatui::text::Line;
 use ratatui::widgets::{Block, BorderType, Clear, Widget};
 
 use super::row::Row;
 use crate::text::counted;
-use crate::ui::app::{App, List, Page, PageFocus};
+use crate::ui::app::{App, Page, PageFocus};
 use crate::ui::{layout, theme};
 
-/// Draws the page if one is open.
-pub(crate) fn render(app: &App, area: Rect, buffer: &mut Buffer) {
-    let Some(page) = &app.shared.overlays.page else {
-        return;
-    };
-    let rows = page.rows();
-    let (title, count) = match &page.list {
-        List::Views(views, _) => (" Saved views ", views.len()),
-        List::Recent(paths) => (" Recent scenes ", paths.len()),
-        List::Steps(_) => return,
-    };
-    let height = u16::try_from(count).unwrap_or(u16::MAX).saturating_add(4);
-    let place = layout::centred(area, Rect::new(0, 0, 76, height)).intersection(buffer.area);
-    let block = Block::bordered()
-        .border_type(BorderType::Rounded)
-        .border_style(theme::DIM)
-        .title(title);
-    let inner = block.inner(place);
-    Clear.render(place, buffer);
-    block.render(place, buffer);
+/// Draws a page of rows, as high as they need.
+pub(super) fn render(app: &App, page: &Page, title: &str, area: Rect, buffer: &mut Buffer) {
+    let height = u16::try_from(page.rows.len()).unwrap_or(u16::MAX);
+    let place = layout::centred(area, Rect::new(0, 0, 76, height.saturating_add(4)));
+    let inner = frame(title, "", place, buffer);
     let (body, foot) = layout::split_bottom(inner, 2);
+    let rows = page.shown();
     let visible = usize::from(body.height);
     let top = layout::first_shown(0, page.filter.at, rows.len(), visible);
     for (line, (_, words)) in rows.iter().skip(top).take(visible).enumerate() {
@@ -43,23 +31,29 @@ pub(crate) fn render(app: &App, area: Rect, buffer: &mut Buffer) {
     self::foot(app, page, rows.len(), foot, buffer);
 }
 
+/// Clears and frames a page, with a title and what of it is shown; returns the area inside.
+pub(super) fn frame(title: &str, shown: &str, place: Rect, buffer: &mut Buffer) -> Rect {
+    let block = Block::bordered()
+        .border_type(BorderType::Rounded)
+        .border_style(theme::DIM)
+        .title(title)
+        .title_top(Line::from(shown).right_aligned());
+    let inner = block.inner(place);
+    let place = place.intersection(buffer.area);
+    Clear.render(place, buffer);
+    block.render(place, buffer);
+    inner
+}
+
 /// Draws the filter of a page while it is typed, otherwise its keys.
 pub(super) fn foot(app: &App, page: &Page, count: usize, area: Rect, buffer: &mut Buffer) {
     let mut row = Row::new(buffer, area, 1);
     row.skip(1);
-    if page.focus == PageFocus::Search {
-        row.put("/", theme::ACCENT);
-        let room = row.room();
-        row.put_input(&page.filter.input, room, Style::new(), theme::CURSOR);
+    if typed(page, &mut row) {
         return;
     }
     if !page.filter.input.value().is_empty() {
-        let words = format!(
-            "{} with “{}”",
-            counted(count, "line"),
-            page.filter.input.value()
-        );
-        row.put(&words, theme::DIM).skip(2);
+        row.put(&found(page, count), theme::DIM).skip(2);
     }
     for (key, words) in app.hints() {
         row.put(&key, theme::ACCENT).put(" ", Style::new());
@@ -67,23 +61,50 @@ pub(super) fn foot(app: &App, page: &Page, count: usize, area: Rect, buffer: &mu
     }
 }
 
+/// Draws the filter while keys are typed into it; returns whether they are.
+pub(super) fn typed(page: &Page, row: &mut Row) -> bool {
+    let is_typed = page.focus == PageFocus::Search;
+    if is_typed {
+        row.put("/", theme::ACCENT);
+        let room = row.room();
+        row.put_input(&page.filter.input, room, Style::new(), theme::CURSOR);
+    }
+    is_typed
+}
+
+/// How many lines the filter leaves.
+pub(super) fn found(page: &Page, count: usize) -> String {
+    let filter = page.filter.input.value();
+    format!("{} with “{filter}”", counted(count, "line"))
+}
+
 #[cfg(test)]
 mod tests {
-    use std::path::PathBuf;
-
+    use ratatui::buffer::Buffer;
+    use ratatui::layout::Rect;
     use tui_input::Input;
 
-    use crate::ui::app::{List, Page};
+    use crate::ui::app::{App, Page};
+    use crate::ui::keymap::Context;
     use crate::ui::view::tests::{app, drawn};
 
     #[test]
     fn the_rows_that_match_are_listed_with_the_keys() {
+        let render = |app: &App, area: Rect, buffer: &mut Buffer| {
+            let page = app
+                .shared
+                .overlays
+                .page(Context::Recent)
+                .expect("it is open");
+            super::render(app, page, " Recent scenes ", area, buffer);
+        };
         let mut app = app();
-        let paths = ["/a/one.ray", "/a/two.dat", "/b/three.xml"].map(PathBuf::from);
-        let mut page = Page::new(List::Recent(paths.into()));
+        let paths = ["/a/one.ray", "/a/two.dat", "/b/three.xml"];
+        let paths = paths.map(str::to_owned);
+        let mut page = Page::of(Context::Recent, paths.into());
         page.filter.at = 1;
         app.shared.overlays.page = Some(page);
-        let text = drawn(&app, super::render, 80, 24).join("\n");
+        let text = drawn(&app, render, 80, 24).join("\n");
         for part in [
             "Recent scenes",
             "  /a/one.ray",
@@ -95,7 +116,7 @@ mod tests {
         }
         let page = app.shared.overlays.page.as_mut().expect("it is open");
         (page.filter.at, page.filter.input) = (0, Input::new("B/".to_owned()));
-        let text = drawn(&app, super::render, 80, 24).join("\n");
+        let text = drawn(&app, render, 80, 24).join("\n");
         assert!(
             text.contains("▸ /b/three.xml") && !text.contains("/a/"),
             "{text}"

@@ -2,33 +2,22 @@
 
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
-use ratatui::text::Line;
-use ratatui::widgets::{Block, BorderType, Clear, Widget};
 
+use super::page;
 use super::row::Row;
 use crate::text::Severity;
-use crate::ui::app::{Message, Shared};
+use crate::ui::app::{Message, Page, Shared};
 use crate::ui::text_width::{visible, wrap};
 use crate::ui::theme;
 
-/// Draws the messages so far, the newest first, if their page is open.
-pub(crate) fn render(shared: &Shared, area: Rect, buffer: &mut Buffer) {
-    let Some(top) = shared.overlays.past else {
-        return;
-    };
+/// Draws the messages so far, the newest first.
+pub(super) fn render(shared: &Shared, page: &Page, area: Rect, buffer: &mut Buffer) {
     let past = &shared.overlays.messages;
     let count = past.past().len();
-    let top = top.min(count.saturating_sub(1));
-    let page = area.intersection(buffer.area);
-    Clear.render(page, buffer);
+    let top = page.filter.at.min(count.saturating_sub(1));
     let place = format!(" {} of {count} ", (top + 1).min(count));
-    let block = Block::bordered()
-        .border_type(BorderType::Rounded)
-        .border_style(theme::DIM)
-        .title(" Messages, newest first ")
-        .title_top(Line::from(place).right_aligned());
-    let inner = block.inner(page);
-    block.render(page, buffer);
+    let area = area.intersection(buffer.area);
+    let inner = page::frame(" Messages, newest first ", &place, area, buffer);
     let width = usize::from(inner.width).saturating_sub(SIGN + 2);
     let lines = past.past().skip(top).flat_map(|message| {
         let text = visible(&message.text).into_owned();
@@ -57,7 +46,11 @@ fn sign(message: &Message) -> &'static str {
 
 #[cfg(test)]
 mod tests {
-    use crate::ui::app::App;
+    use ratatui::buffer::Buffer;
+    use ratatui::layout::Rect;
+
+    use crate::ui::app::{Page, Shared};
+    use crate::ui::keymap::Context;
     use crate::ui::msg::Msg;
     use crate::ui::view::tests::{app, drawn};
 
@@ -68,9 +61,15 @@ mod tests {
             app.update(Msg::Failed(reason.to_owned()));
             app.shared.overlays.message = None;
         }
-        app.shared.overlays.past = Some(0);
-        let shown = |app: &App| drawn(&app.shared, super::render, 18, 6);
-        let lines = shown(&app);
+        let shown = |at| {
+            let mut page = Page::reading(Context::Messages);
+            page.filter.at = at;
+            let draw = |shared: &Shared, area: Rect, buffer: &mut Buffer| {
+                super::render(shared, &page, area, buffer);
+            };
+            drawn(&app.shared, draw, 18, 6)
+        };
+        let lines = shown(0);
         let inside = |line: &str| line.trim_matches('│').trim().to_owned();
         let texts: Vec<_> = lines[1..4].iter().map(|line| inside(line)).collect();
         assert_eq!(
@@ -78,7 +77,6 @@ mod tests {
             ["error    two", "words", "error    one"],
             "{lines:#?}"
         );
-        app.shared.overlays.past = Some(1);
-        assert_eq!(inside(&shown(&app)[1]), "error    one");
+        assert_eq!(inside(&shown(1)[1]), "error    one");
     }
 }

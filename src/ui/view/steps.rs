@@ -4,41 +4,32 @@
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 use ratatui::style::Style;
-use ratatui::text::Line;
-use ratatui::widgets::{Block, BorderType, Clear, Widget};
 use unicode_width::UnicodeWidthStr;
 
 use super::inks::Inks;
 use super::row::Row;
 use super::{page, picture};
-use crate::ui::app::{App, Rank, Shared, Steps, Thumbnail, history};
+use crate::document::Document;
+use crate::ui::app::{App, Page, Rank, Shared, Thumbnail, history};
 use crate::ui::history_scene::NoPicture;
 use crate::ui::layout::{centred, raster};
 use crate::ui::text_width::{visible, wrap};
 use crate::ui::theme;
 
-/// Draws the page if it is open.
-pub(crate) fn render(app: &App, inks: &mut Inks, area: Rect, buffer: &mut Buffer) {
+/// Draws the page.
+pub(super) fn render(app: &App, page: &Page, inks: &mut Inks, area: Rect, buffer: &mut Buffer) {
     let shared = &app.shared;
-    let Some((page, steps)) = history::open_steps(shared) else {
-        return;
-    };
     let area = area.intersection(buffer.area);
-    Clear.render(area, buffer);
-    let present = format!(" {} of {} ", steps.present, steps.rows.len() - 1);
+    let states: Vec<_> = shared.document.states().map(|state| state.id).collect();
+    let present = format!(" {} of {} ", shared.document.present(), states.len() - 1);
     let title = if shared.pictures.view.is_some() {
         " Undo history, from the moved view "
     } else {
         " Undo history "
     };
-    Block::bordered()
-        .border_type(BorderType::Rounded)
-        .border_style(theme::DIM)
-        .title(title)
-        .title_top(Line::from(present).right_aligned())
-        .render(area, buffer);
+    page::frame(title, &present, area, buffer);
     let strip = history::history_layout(shared, area);
-    let rows = page.rows();
+    let rows = page.shown();
     for (row, place) in strip.rows(page.filter.at, rows.len()) {
         let Some((index, name)) = rows.get(row) else {
             continue;
@@ -48,10 +39,8 @@ pub(crate) fn render(app: &App, inks: &mut Inks, area: Rect, buffer: &mut Buffer
             at: *index,
             is_here: row == page.filter.at,
         };
-        let known = steps
-            .rows
-            .get(*index)
-            .and_then(|(id, _)| app.thumbnails.get(*id, Rank::Row));
+        let id = states.get(*index);
+        let known = id.and_then(|id| app.thumbnails.get(*id, Rank::Row));
         let thumbnail = strip.thumbnail.map(|(width, height)| Rect {
             x: place.x + 2,
             width: width.min(place.width.saturating_sub(2)),
@@ -62,11 +51,11 @@ pub(crate) fn render(app: &App, inks: &mut Inks, area: Rect, buffer: &mut Buffer
             show(shared, known, thumbnail, inks, buffer);
         }
         let indent = thumbnail.map_or(2, |thumbnail| thumbnail.right() + 1 - place.x);
-        entry.render(steps, indent, place, buffer);
+        entry.render(&shared.document, indent, place, buffer);
     }
     let chosen = rows.get(page.filter.at).map(|(index, _)| *index);
-    let chosen = chosen.and_then(|index| steps.rows.get(index));
-    if let (Some(large), Some((id, _))) = (strip.large, chosen) {
+    let chosen = chosen.and_then(|index| states.get(index));
+    if let (Some(large), Some(id)) = (strip.large, chosen) {
         show(
             shared,
             app.thumbnails.get(*id, Rank::Large),
@@ -87,14 +76,14 @@ struct Entry<'a> {
 
 impl Entry<'_> {
     /// Draws the name, behind the picture.
-    fn render(&self, steps: &Steps, indent: u16, place: Rect, buffer: &mut Buffer) {
+    fn render(&self, document: &Document, indent: u16, place: Rect, buffer: &mut Buffer) {
         let style = match self.at {
             _ if self.is_here => theme::BOLD,
-            at if steps.present < at => theme::DIM,
+            at if document.present() < at => theme::DIM,
             _ => Style::new(),
         };
-        let when = steps.when(self.at);
-        let when_style = if self.at == steps.present {
+        let when = history::when(document, self.at);
+        let when_style = if self.at == document.present() {
             theme::ACCENT
         } else {
             theme::DIM
@@ -161,6 +150,7 @@ mod tests {
     use ratatui::layout::Rect;
 
     use crate::ui::app::App;
+    use crate::ui::keymap::Context;
     use crate::ui::msg::Msg;
     use crate::ui::view::Inks;
     use crate::ui::view::inks::Glyphs;
@@ -174,7 +164,12 @@ mod tests {
             app.update(Msg::Key(KeyCode::Char(key).into()));
         }
         let panel = |app: &App, area: Rect, buffer: &mut Buffer| {
-            super::render(app, &mut Inks::new(Glyphs::HalfBlocks), area, buffer);
+            let page = app
+                .shared
+                .overlays
+                .page(Context::Steps)
+                .expect("it is open");
+            super::render(app, page, &mut Inks::new(Glyphs::HalfBlocks), area, buffer);
         };
         drawn(&app, panel, width, height)
     }

@@ -18,12 +18,12 @@ use crate::render::{Frame, NO_OBJECT, Overexposure, Progress};
 use crate::scene::{Rendering, Size};
 use crate::text::{Edit, Severity, Span};
 use crate::ui::app::{
-    AfterLeaving, App, Cross, Dialog, Export, FrameWindow, Help, List, MergeSource, Message, Names,
-    OnDisk, Opening, OpeningText, Page, PageFocus, Preferences, Prompt, PromptKind, ShownWireframe,
-    Stage, Typing, display, history,
+    AfterLeaving, App, Cross, Dialog, Export, FrameWindow, MergeSource, Message, Names, OnDisk,
+    Opening, OpeningText, Page, PageFocus, Preferences, Prompt, PromptKind, ShownWireframe, Stage,
+    Typing, display,
 };
 use crate::ui::arrange::Zoom;
-use crate::ui::keymap::Mode;
+use crate::ui::keymap::{Context, Mode};
 use crate::ui::msg::{Destination, Existing, ExportId, Msg};
 use crate::ui::recovery::Offer;
 use crate::ui::recovery::tests::{damaged, offer};
@@ -209,20 +209,20 @@ const STATES: &[(&str, Change)] = &[
         app.shared.cursor.field_top = 99;
     }),
     ("help", |App { shared, .. }| {
-        shared.overlays.help = Some(Help::default());
+        shared.overlays.open_page(Page::reading(Context::Help));
     }),
     ("help, far down", |app| {
-        app.shared.overlays.help = Some(Help {
-            top: usize::MAX,
-            search: Input::new("界 nowhere".to_owned()),
-            focus: PageFocus::Search,
-        });
+        let mut page = Page::reading(Context::Help);
+        page.filter.at = usize::MAX;
+        page.filter.input = Input::new("界 nowhere".to_owned());
+        page.focus = PageFocus::Search;
+        app.shared.overlays.open_page(page);
     }),
     ("recent scenes", |app| {
-        let paths = (0..99).map(|at| PathBuf::from(format!("/界/{at}.ray")));
-        let mut page = Page::new(List::Recent(paths.collect()));
+        let paths = (0..99).map(|at| format!("/界/{at}.ray"));
+        let mut page = Page::of(Context::Recent, paths.collect());
         page.filter.at = 98;
-        app.shared.overlays.page = Some(page);
+        app.shared.overlays.open_page(page);
     }),
     ("quit", |app| {
         app.shared.overlays.dialog = Some(Dialog::Leave(AfterLeaving::Quit));
@@ -232,7 +232,9 @@ const STATES: &[(&str, Change)] = &[
         app.update(Msg::Key(KeyCode::Char('O').into()));
     }),
     ("history", |app| {
-        app.shared.overlays.past = Some(usize::MAX);
+        let mut page = Page::reading(Context::Messages);
+        page.filter.at = usize::MAX;
+        app.shared.overlays.open_page(page);
         app.update(Msg::Failed("界\u{1b}]52;c;界\u{7}".repeat(20)));
     }),
     ("undo history", |app| {
@@ -242,7 +244,7 @@ const STATES: &[(&str, Change)] = &[
         for key in ['D', 'D', 'd', 'u', 'U', 'k'] {
             app.update(Msg::Key(KeyCode::Char(key).into()));
         }
-        assert!(history::open_steps(&app.shared).is_some());
+        assert!(app.shared.overlays.page(Context::Steps).is_some());
     }),
     ("overwrite", |app| {
         app.update(Msg::Key(KeyCode::Char('b').into()));

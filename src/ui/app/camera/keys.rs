@@ -3,17 +3,21 @@
 use crossterm::event::KeyCode;
 
 use super::moves::{advanced, dollied, faced, panned, rolled, stepped, widened};
-use super::saved_views::{frame_selected, list_views, look_from_light, move_camera, save_view};
+use super::saved_views::{
+    SavedViews, delete_view, frame_selected, go_to_view, list_views, look_from_light, move_camera,
+    save_view,
+};
 use crate::ui::app::room::Row;
 use crate::ui::keymap::{Context, Key, Mode, Scope, c, key, shift};
 
 use Context::In;
-use KeyCode::{Down, Enter, Left, Right, Up};
+use KeyCode::{Down, Enter, Esc, Left, Right, Up};
 use Scope::These;
 
 const VIEW: Scope = These(&[In(Mode::View)]);
 const FLY: Scope = These(&[In(Mode::Fly)]);
 const BOTH: Scope = These(&[In(Mode::View), In(Mode::Fly)]);
+const PAGE: Scope = These(&[Context::Views]);
 const ORBITING: &[Context] = &[In(Mode::View)];
 const FLYING: &[Context] = &[In(Mode::Fly)];
 
@@ -51,4 +55,13 @@ pub(crate) const KEYS: &[Row] = &[
     Key::new(BOTH, "roll-right", &[c('.')], "roll right").hint_in(FLYING, 20, "roll").does(|shared| move_camera(shared, |now| rolled(now, -1))),
     Key::new(BOTH, "edit", &[c('e')], "edit fields").does(|shared| shared.enter(Mode::Edit)),
     Key::new(BOTH, "list", &[key(Enter)], "back to the list").does(|shared| shared.enter(Mode::Select)),
+];
+
+/// Those of the page of saved views.
+#[rustfmt::skip]
+pub(crate) const OF_PAGE: &[Row<SavedViews>] = &[
+    Key::new(PAGE, "accept", &[key(Enter)], "go there").does_in(go_to_view),
+    Key::new(PAGE, "delete-view", &[c('d')], "delete it").does_in(delete_view),
+    Key::new(PAGE, "search", &[c('/')], "filter").does(|shared| shared.overlays.open_search()),
+    Key::new(PAGE, "back", &[key(Esc), c('q'), c('V')], "close").does(|shared| shared.overlays.page = None),
 ];

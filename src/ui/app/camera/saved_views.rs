@@ -5,7 +5,9 @@ use crate::document::StepName;
 use crate::language::{Node, SavedView, view_name};
 use crate::scene::{Camera, Emitter};
 use crate::text::Severity;
-use crate::ui::app::{List, Page, Shared, text};
+use crate::ui::app::room::Room;
+use crate::ui::app::{Page, Shared, text};
+use crate::ui::keymap::Context;
 
 /// Applies a move, unless the resulting camera would see nothing.
 pub(crate) fn move_camera(shared: &mut Shared, change: impl FnOnce(Camera) -> Camera) {
@@ -94,33 +96,52 @@ pub(crate) fn look_from_light(shared: &mut Shared) {
 
 /// Lists the saved views.
 pub(super) fn list_views(shared: &mut Shared) {
-    let views = shared.source().saved_views();
-    if views.is_empty() {
+    let names: Vec<_> = names(&shared.source().saved_views()).collect();
+    if names.is_empty() {
         shared.say("no saved views: :view save NAME saves this one");
-        return;
+    } else {
+        let page = Page::of(Context::Views, names);
+        shared.overlays.open_page(page);
     }
-    let list = List::Views(views, shared.document.revision());
-    shared.overlays.page = Some(Page::new(list));
 }
 
-/// Lists the saved views again if the text has changed; closes their page with the last one.
-pub(crate) fn follow_views(shared: &mut Shared) {
-    let now = shared.document.revision();
-    let Some(page) = &mut shared.overlays.page else {
+fn names(views: &[SavedView]) -> impl Iterator<Item = String> {
+    views.iter().map(|view| view.name.clone())
+}
+
+/// The views on the page of saved views.
+#[derive(Debug, Default)]
+pub struct SavedViews {
+    views: Vec<SavedView>,
+    /// The revision of the text that they are from.
+    revision: Option<u64>,
+}
+
+impl Room for SavedViews {
+    /// Lists the views again if the text has changed; closes their page with the last one.
+    fn settle(&mut self, shared: &mut Shared) {
+        let now = Some(shared.document.revision());
+        if self.revision == now || shared.overlays.page(Context::Views).is_none() {
+            return;
+        }
+        *self = Self {
+            views: shared.source().saved_views(),
+            revision: now,
+        };
+        if self.views.is_empty() {
+            shared.overlays.page = None;
+        } else if let Some(page) = shared.overlays.page_mut(Context::Views) {
+            page.list(names(&self.views).collect());
+        }
+    }
+}
+
+/// Goes to the saved view under the cursor of their page.
+pub(super) fn go_to_view(views: &mut SavedViews, shared: &mut Shared) {
+    let chosen = shared.overlays.take_chosen();
+    let Some(view) = chosen.and_then(|at| views.views.get(at)) else {
         return;
     };
-    if let List::Views(views, revision) = &mut page.list
-        && *revision != now
-    {
-        (*views, *revision) = (shared.document.source().saved_views(), now);
-        let is_empty = views.is_empty();
-        page.go(0);
-        shared.overlays.page.take_if(|_| is_empty);
-    }
-}
-
-/// Goes to a saved view.
-pub(crate) fn go_to_view(shared: &mut Shared, view: &SavedView) {
     let Some(base) = shared.own_camera() else {
         shared.fail(shared.no_picture());
         return;
@@ -129,15 +150,14 @@ pub(crate) fn go_to_view(shared: &mut Shared, view: &SavedView) {
     shared.say(format!("view {}", view.name));
 }
 
-/// Deletes the saved view under the cursor.
-pub(crate) fn delete_view(shared: &mut Shared) {
-    let Some(page) = &shared.overlays.page else {
+/// Deletes the saved view under the cursor of their page.
+pub(super) fn delete_view(views: &mut SavedViews, shared: &mut Shared) {
+    let page = shared.overlays.page(Context::Views);
+    let chosen = page.and_then(Page::chosen);
+    let Some(view) = chosen.and_then(|at| views.views.get(at)) else {
         return;
     };
-    let (List::Views(views, _), Some(at)) = (&page.list, page.chosen()) else {
-        return;
-    };
-    let name = views[at].name.clone();
+    let name = view.name.clone();
     let undo = shared.key_for("undo");
     let done = format!("view {name} is deleted; {undo} undoes it");
     let step = StepName::done(format!("deleted the view {name}"));

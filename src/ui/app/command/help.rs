@@ -2,7 +2,7 @@
 
 use super::rows::ROWS;
 use crate::ui::app::Shared;
-use crate::ui::keymap::{self, HelpLine};
+use crate::ui::keymap::{self, Context, HelpLine};
 
 /// Minimum width of a column of the help page if there are several.
 const HELP_COLUMN: u16 = 56;
@@ -12,8 +12,8 @@ const MOST_COLUMNS: usize = 3;
 
 /// The lines of the help page.
 fn help_lines(shared: &Shared) -> Vec<HelpLine> {
-    let help = shared.overlays.help.as_ref();
-    let search = help.map_or("", |help| help.search.value());
+    let help = shared.overlays.page(Context::Help);
+    let search = help.map_or("", |help| help.filter.input.value());
     let commands = ROWS
         .iter()
         .map(|row| (row.usage(), row.words, row.synonyms));
@@ -28,13 +28,13 @@ pub(crate) fn help_columns(shared: &Shared, width: u16) -> Vec<Vec<HelpLine>> {
 
 /// Scrolls the help page no further than to its end.
 pub(crate) fn scroll_help(shared: &mut Shared) {
-    if shared.overlays.help.is_none() {
+    if shared.overlays.page(Context::Help).is_none() {
         return;
     }
     let columns = help_columns(shared, shared.terminal.0);
     let longest = columns.iter().map(Vec::len).max().unwrap_or(0);
     let last = longest.saturating_sub(shared.help_rows());
-    if let Some(help) = &mut shared.overlays.help {
-        help.top = help.top.min(last);
+    if let Some(help) = shared.overlays.page_mut(Context::Help) {
+        help.filter.at = help.filter.at.min(last);
     }
 }

@@ -13,9 +13,9 @@ use crate::ui::app::pictures::until::Until;
 use crate::ui::app::shared::jobs::Asking;
 use crate::ui::app::text::SettingOrder;
 use crate::ui::app::{
-    Help, camera, compare, display, exports, files, history, panels, select, sequence, text, trace,
+    Page, camera, compare, display, exports, files, history, panels, select, sequence, text, trace,
 };
-use crate::ui::keymap::Mode;
+use crate::ui::keymap::{Context, Mode};
 use crate::ui::msg::Effect;
 use crate::ui::pixels::Pixels;
 use crate::ui::theme::Theme;
@@ -64,7 +64,7 @@ pub(super) const ROWS: &[CommandRow] = &[
     CommandRow::new(&["theme light"], Nothing(|| Run::does(|shared| shared.theme = Theme::Light)), "use colours for light screens").also("color scheme").runs(Always),
     CommandRow::new(&["theme mono"], Nothing(|| Run::does(|shared| shared.theme = Theme::Mono)), "use no colours except in pictures").runs(Always),
     CommandRow::new(&["pixels"], Said(" MODE", pixels), "set what pixels are drawn with, such as half, octant or auto").runs(Always),
-    CommandRow::new(&["help"], Nothing(|| Run::does(|shared| shared.overlays.help = Some(Help::default()))), "show this page").key("help").runs(Always),
+    CommandRow::new(&["help"], Nothing(|| Run::does(|shared| shared.overlays.open_page(Page::reading(Context::Help)))), "show this page").key("help").runs(Always),
 ];
 
 const PICTURE: &str = " [FILE] [WxH] [SPP]";

@@ -9,7 +9,7 @@ use super::replacing::replace_scene;
 use crate::document::Document;
 use crate::file::ReadError;
 use crate::language::Language;
-use crate::ui::app::{AfterLeaving, OnDisk, Page, Shared};
+use crate::ui::app::{AfterLeaving, OnDisk, Shared};
 use crate::ui::msg::Effect;
 use crate::ui::scene_reading::{News, Opened};
 
@@ -83,10 +83,11 @@ pub(crate) fn other_scene_read(
     replace_scene(shared, Some(path), document, state, None)
 }
 
-/// Shows recently used scenes.
-pub(crate) fn show_recent(shared: &mut Shared, scenes: Vec<PathBuf>) {
-    shared.overlays.page = Page::recent(scenes);
-    if shared.overlays.page.is_none() {
-        shared.say("no recently used scenes");
+/// Opens the scene under the cursor of the page of recently used ones.
+pub(super) fn open_recent(shared: &mut Shared) -> Vec<Effect> {
+    let chosen = shared.overlays.take_chosen();
+    match chosen.and_then(|at| shared.disk.recent.get(at).cloned()) {
+        Some(path) => open_scene(shared, path),
+        None => Vec::new(),
     }
 }

@@ -5,6 +5,7 @@ use std::path::PathBuf;
 
 use super::polling::complain_of_polling;
 use super::reading::{announce_new, note_recent, watch};
+use super::recent::list_recent;
 use super::recover::look_for_kept;
 use crate::document::Document;
 use crate::file::ReadError;
@@ -16,8 +17,8 @@ use crate::ui::app::shared::cursor::Names;
 use crate::ui::app::shared::inspection::Inspection;
 use crate::ui::app::shared::palette::Palette;
 use crate::ui::app::{
-    Cursor, Disk, FirstReading, Jobs, OnDisk, Overlays, Page, Pictures, Shared, Suggestions,
-    display, text,
+    Cursor, Disk, FirstReading, Jobs, OnDisk, Overlays, Pictures, Shared, Suggestions, display,
+    text,
 };
 use crate::ui::arrange::{PanelSizes, Zoom};
 use crate::ui::keymap::{Keymap, Mode};
@@ -117,7 +118,9 @@ pub(crate) fn open(opening: Opening) -> (Shared, Vec<Effect>) {
         has_colours: false,
         terminal: opening.terminal,
     };
-    shared.overlays.page = Page::recent(opening.recent);
+    if !opening.recent.is_empty() {
+        list_recent(&mut shared, opening.recent);
+    }
     let mut effects = watch(&shared);
     let lowered = text::lowered(&mut shared);
     if !shared.disk.is_opening() {

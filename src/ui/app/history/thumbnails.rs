@@ -46,6 +46,8 @@ pub struct Thumbnails {
     pending: Option<Pending>,
     /// The number of requests so far.
     tickets: u64,
+    /// The revision of the text whose history the page lists, and the index of the present text there.
+    pub(super) listed: Option<(u64, usize)>,
 }
 
 /// What all pictures depend on besides their texts: the working view, from which all are seen as the

@@ -3,24 +3,50 @@
 use ratatui::layout::Rect;
 
 use super::undoing::{step_back, step_forward};
-use crate::ui::app::shared::page::{List, Page};
-use crate::ui::app::shared::steps::Steps;
-use crate::ui::app::{Shared, text};
+use crate::document::{Document, StepName};
+use crate::text::counted;
+use crate::ui::app::{Page, Shared, text};
 use crate::ui::history_layout::HistoryLayout;
+use crate::ui::keymap::Context;
 use crate::ui::layout::split_bottom;
 
 /// Opens the page of the undo history at the present text.
 pub(crate) fn list_steps(shared: &mut Shared) {
     shared.document.end_step();
-    let steps = Steps::of(&shared.document);
-    if steps.rows.len() < 2 {
+    let names = step_names(&shared.document);
+    if names.len() < 2 {
         shared.say("nothing has been changed yet");
         return;
     }
-    let present = steps.present;
-    let mut page = Page::new(List::Steps(steps));
-    page.filter.at = present;
-    shared.overlays.page = Some(page);
+    let mut page = Page::of(Context::Steps, names);
+    page.filter.at = shared.document.present();
+    shared.overlays.open_page(page);
+}
+
+/// The names of the texts, the first one first: each is named by the step that led to it.
+pub(super) fn step_names(document: &Document) -> Vec<String> {
+    let names = document.states().map(|state| state.name);
+    let words = |name: Option<&StepName>| name.map(ToString::to_string);
+    names
+        .map(|name| words(name).unwrap_or_else(|| "as opened".to_owned()))
+        .collect()
+}
+
+/// The place of a text relative to the present one: `2 steps back`.
+pub(crate) fn when(document: &Document, at: usize) -> String {
+    let present = document.present();
+    match present.checked_sub(at) {
+        Some(0) => "now".to_owned(),
+        Some(back) => format!("{} back", counted(back, "step")),
+        None => format!("{} ahead", counted(at - present, "step")),
+    }
+}
+
+/// Goes to the text under the cursor of the page, and closes it.
+pub(super) fn go_to_chosen(shared: &mut Shared) {
+    if let Some(at) = shared.overlays.take_chosen() {
+        go_to_state(shared, at);
+    }
 }
 
 /// Goes to a text of the history by undo or redo; every step in between can be redone or undone
@@ -52,8 +78,8 @@ pub(crate) fn go_to_state(shared: &mut Shared, at: usize) {
         done
     } else {
         let verb = if is_back { "undone" } else { "redone" };
-        let name = Steps::of(&shared.document).rows.into_iter().nth(at);
-        name.map(|(_, name)| format!("{steps} steps {verb}, to: {name}"))
+        let name = step_names(&shared.document).into_iter().nth(at);
+        name.map(|name| format!("{steps} steps {verb}, to: {name}"))
     };
     shared.say(done.unwrap_or_default());
 }
@@ -79,13 +105,4 @@ pub(super) fn body(shared: &Shared) -> Rect {
     let areas = shared.areas();
     let bars = areas.hint.height + areas.status.height;
     split_bottom(Rect::new(0, 0, columns, lines), bars).0
-}
-
-/// The page of the history, if it is open.
-pub(crate) fn open_steps(shared: &Shared) -> Option<(&Page, &Steps)> {
-    let page = shared.overlays.page.as_ref()?;
-    match &page.list {
-        List::Steps(steps) => Some((page, steps)),
-        List::Views(..) | List::Recent(_) => None,
-    }
 }

@@ -3,14 +3,13 @@
 use ratatui::layout::Rect;
 
 use super::thumbnails::{Look, Rank, Slot, Thumbnails};
-use super::timeline::{body, history_layout, open_steps};
+use super::timeline::{body, history_layout, step_names};
 use crate::render::{Frames, Job, Settings};
 use crate::scene::{Camera, Filter, Integrator, Rendering};
 use crate::ui::app::room::Room;
 use crate::ui::app::shared::Shared;
-use crate::ui::app::shared::page::List;
-use crate::ui::app::shared::steps::Steps;
 use crate::ui::history_scene::{HistoryScene, HistoryText, NoPicture};
+use crate::ui::keymap::Context;
 use crate::ui::layout::raster;
 use crate::ui::msg::{Effect, Target};
 
@@ -32,21 +31,20 @@ impl Room for Thumbnails {
 /// Brings the page of the history up to date, and requests the next picture on it. Stops tracing
 /// if the page is closed.
 fn follow(thumbnails: &mut Thumbnails, shared: &mut Shared) -> Vec<Effect> {
-    let Some((page, steps)) = open_steps(shared) else {
+    let (document, overlays) = (&shared.document, &mut shared.overlays);
+    let Some(page) = overlays.page_mut(Context::Steps) else {
+        thumbnails.listed = None;
         let is_under_way = thumbnails.cancel();
         let stop = is_under_way.then_some(Effect::Stop(Target::Thumbnail));
         return stop.into_iter().collect();
     };
-    if steps.revision != shared.document.revision() {
-        let was_here = page.chosen() == Some(steps.present);
-        let steps = Steps::of(&shared.document);
-        let present = steps.present;
-        if let Some(page) = &mut shared.overlays.page {
-            page.list = List::Steps(steps);
-            if was_here {
-                page.choose(present);
-            }
-            page.go(0);
+    let (revision, present) = (document.revision(), document.present());
+    let before = thumbnails.listed.replace((revision, present));
+    if before.is_none_or(|(listed, _)| listed != revision) {
+        let was_present = page.chosen() == before.map(|(_, present)| present);
+        page.list(step_names(document));
+        if was_present {
+            page.choose(present);
         }
     }
     if shared.assets.are_awaited() {
@@ -67,14 +65,15 @@ fn follow(thumbnails: &mut Thumbnails, shared: &mut Shared) -> Vec<Effect> {
 /// The pictures on the page, the most urgent first: those in rows from the selected one outwards,
 /// which take less time, then the large one.
 fn wanted_slots(shared: &Shared) -> Vec<Slot> {
-    let Some((page, steps)) = open_steps(shared) else {
+    let Some(page) = shared.overlays.page(Context::Steps) else {
         return Vec::new();
     };
     let strip = history_layout(shared, body(shared));
-    let shown = page.rows();
+    let shown = page.shown();
+    let ids: Vec<_> = shared.document.states().map(|state| state.id).collect();
     let id = |row: usize| {
         let (index, _) = shown.get(row)?;
-        steps.rows.get(*index).map(|(id, _)| *id)
+        ids.get(*index).copied()
     };
     let at = page.filter.at;
     let large = strip.large.and_then(|large| {

@@ -4,7 +4,7 @@ use crossterm::event::KeyCode;
 
 use crate::ui::app::room::Row;
 use crate::ui::app::{
-    Help, Shared, back, display, exports, files, history, list, panels, suggesting, text, trace,
+    Page, back, display, exports, files, history, list, panels, suggesting, text, trace,
 };
 use crate::ui::keymap::{Context, Key, Mode, Scope, alt, c, ctrl, key};
 use crate::ui::msg::Effect;
@@ -54,8 +54,8 @@ const OUTSIDE_TRACE: &[Context] = &[
 #[rustfmt::skip]
 pub(crate) const KEYS: &[Row] = &[
     Key::new(Everywhere, "back", &[key(Esc)], "back").hint_in(LEAVABLE, 80, "back").hint_in(ERRORS, 80, "close").does(back::go_back),
-    Key::new(Sceneless, "help", &[c('?')], "help").lasting("help").does(|shared| shared.overlays.help = Some(Help::default())),
-    Key::new(Sceneless, "command", &[c(':')], "command").lasting("command").does(Shared::open_palette),
+    Key::new(Sceneless, "help", &[c('?')], "help").lasting("help").does(|shared| shared.overlays.open_page(Page::reading(Context::Help))),
+    Key::new(Sceneless, "command", &[c(':')], "command").lasting("command").does(|shared| shared.open_palette_with("")),
     Key::new(Everywhere, "save", &[c('w')], "save the scene").hint(100, "save").requests(files::save_key).when(|shared| !shared.is_saved()),
     Key::new(Everywhere, "export", &[c('b')], "export what is shown").hint(120, "export").requests(exports::export_default),
     Key::new(Everywhere, "trace", &[key(F(5)), c('r')], "trace at full size").hint_in(OUTSIDE_TRACE, 130, "trace").requests(trace::start),
@@ -68,7 +68,7 @@ pub(crate) const OTHERS: &[Row] = &[
     Key::new(Everywhere, "redo", &[ctrl('r')], "redo").requests(history::redo),
     Key::new(Everywhere, "history", &[c('U')], "undo history as pictures").does(history::list_steps),
     Key::new(Everywhere, "errors", &[c('!')], "errors and warnings").does(list::toggle_errors),
-    Key::new(Sceneless, "messages", &[c('M')], "messages so far").does(|shared| shared.overlays.past = Some(0)),
+    Key::new(Sceneless, "messages", &[c('M')], "messages so far").does(|shared| shared.overlays.open_page(Page::reading(Context::Messages))),
     Key::new(Everywhere, "editor", &[c('E')], "open the editor at the selected item").hint_in(WITH_EDITOR, 30, "editor").requests(files::open_editor),
     Key::new(PANELS, "panels", &[c('z')], "show or hide the panels").does(panels::toggle_zoom),
     Key::new(Everywhere, "larger-panels", &[c('{')], "larger panels").does(|shared| panels::resize_panels(shared, 2)),

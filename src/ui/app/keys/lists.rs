@@ -7,7 +7,7 @@ use crate::ui::app::room::Row;
 use crate::ui::keymap::{Context, Key, Mode, Scope, c, key};
 
 use Context::In;
-use KeyCode::{Down, End, Home, PageDown, PageUp, Up};
+use KeyCode::{Down, End, Enter, Home, PageDown, PageUp, Up};
 use Scope::These;
 
 /// What has lines.
@@ -61,4 +61,10 @@ pub(crate) const KEYS: &[Row] = &[
     Key::new(LONG_LISTS, "first", &[key(Home)], "first").does(|shared| list::move_cursor(shared, isize::MIN)),
     Key::new(LONG_LISTS, "page-down", &[key(PageDown)], "page down").does(|shared| list::turn_page(shared, 1)),
     Key::new(LONG_LISTS, "page-up", &[key(PageUp)], "page up").does(|shared| list::turn_page(shared, -1)),
+];
+
+/// Those of the list of errors.
+#[rustfmt::skip]
+pub(crate) const ERRORS: &[Row] = &[
+    Key::new(These(&[Context::Errors]), "accept", &[key(Enter)], "go to the item").hint(10, "go there").does(list::go_to_error),
 ];

@@ -37,6 +37,8 @@ pub struct Disk {
     pub(crate) before_input: Option<Arc<String>>,
     /// The journal of unsaved edits.
     pub(crate) journal: Journal,
+    /// The scenes on the page of recently used ones, the newest first.
+    pub(crate) recent: Vec<PathBuf>,
 }
 
 /// How the file on disk relates to the text.

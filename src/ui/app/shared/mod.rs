@@ -20,7 +20,6 @@ pub(crate) mod picker;
 pub(crate) mod queries;
 pub(crate) mod rays;
 pub(crate) mod rows;
-pub(crate) mod steps;
 pub(crate) mod suggestions;
 
 use std::collections::BTreeMap;
@@ -166,11 +165,6 @@ impl Shared {
     pub(crate) fn move_field(&mut self, rows: isize) {
         let count = self.cursor.fields().len();
         self.focus_field(moved(self.cursor.field, rows, count), self.cursor.component);
-    }
-
-    /// Opens the command line.
-    pub(crate) fn open_palette(&mut self) {
-        self.open_palette_with("");
     }
 
     /// Opens the command line with the beginning of a command.

@@ -1,5 +1,4 @@
-//! What overlays the panels: dialogs, the help page, the list of errors, a line being typed,
-//! messages and their history.
+//! What overlays the panels: dialogs, pages, the list of errors, a line being typed, and messages.
 
 use std::sync::Arc;
 use std::time::Duration;
@@ -15,6 +14,7 @@ use super::picker::ColourPicker;
 use crate::document::{Merge, Side};
 use crate::language::Node;
 use crate::text::{Severity, without_codes};
+use crate::ui::keymap::Context;
 use crate::ui::recovery::{Claim, Offer, Since};
 
 /// What overlays the panels.
@@ -28,17 +28,13 @@ pub struct Overlays {
     pub picker: Option<ColourPicker>,
     /// A question that must be answered first.
     pub dialog: Option<Dialog>,
-    /// The help page, if open.
-    pub help: Option<Help>,
-    /// A page with a list to choose from, if open.
+    /// A page over the screen, if open.
     pub page: Option<Page>,
     /// The selected diagnostic while the list of errors has the keys. Errors are always shown.
     pub errors: Option<usize>,
     /// The message in the status line. The next key dismisses it, or the next message once it could
     /// be read.
     pub message: Option<Message>,
-    /// The first message shown of the history, if it is open.
-    pub past: Option<usize>,
     /// The messages that wait, and those so far.
     pub messages: Messages,
 }
@@ -117,17 +113,6 @@ impl MergeSource {
     }
 }
 
-/// The state of the help page.
-#[derive(Debug, Default)]
-pub struct Help {
-    /// The first line shown; at most the last that fills the page.
-    pub top: usize,
-    /// Only lines containing this text are shown.
-    pub search: Input,
-    /// Whether keys are typed into the search.
-    pub focus: PageFocus,
-}
-
 impl Overlays {
     /// Opens a prompt containing `text`.
     pub(crate) fn open_prompt(&mut self, kind: PromptKind, text: &str) {
@@ -147,20 +132,37 @@ impl Overlays {
         }
     }
 
-    /// Starts a search of the help page or the other page if it is open.
+    /// Lets keys be typed into the filter of the open page.
     pub(crate) fn open_search(&mut self) {
-        if let Some(help) = &mut self.help {
-            help.focus = PageFocus::Search;
-        } else if let Some(page) = &mut self.page {
+        if let Some(page) = &mut self.page {
             page.focus = PageFocus::Search;
         }
     }
 
+    /// Opens a page.
+    pub(crate) fn open_page(&mut self, page: Page) {
+        self.page = Some(page);
+    }
+
+    /// Closes the page; returns the row under its cursor, by its index in the list.
+    pub(crate) fn take_chosen(&mut self) -> Option<usize> {
+        self.page.take()?.chosen()
+    }
+
+    /// The open page, if it is this one.
+    pub fn page(&self, context: Context) -> Option<&Page> {
+        self.page.as_ref().filter(|page| page.context == context)
+    }
+
+    /// The same, to be changed.
+    pub(crate) fn page_mut(&mut self, context: Context) -> Option<&mut Page> {
+        self.page.as_mut().filter(|page| page.context == context)
+    }
+
     /// Whether keys are typed into a line here.
     pub(crate) fn has_line(&self) -> bool {
-        let help = self.help.as_ref().map(|help| help.focus);
         let page = self.page.as_ref().map(|page| page.focus);
-        self.prompt.is_some() || self.menu.is_some() || help.or(page) == Some(PageFocus::Search)
+        self.prompt.is_some() || self.menu.is_some() || page == Some(PageFocus::Search)
     }
 
     /// The line that keys or pastes are typed into, and whether the next character replaces it.
@@ -168,11 +170,10 @@ impl Overlays {
         let prompt = self.prompt.as_ref();
         let prompt = prompt.map(|prompt| (&prompt.input, prompt.is_selected));
         let menu = self.menu.as_ref().map(|menu| (&menu.filter.input, false));
-        let help = self.help.as_ref();
-        let help = help.filter(|help| help.focus == PageFocus::Search);
-        let help = help.map(|help| (&help.search, false));
-        let page = self.page.as_ref().map(|page| (&page.filter.input, false));
-        prompt.or(menu).or(help).or(page)
+        let page = self.page.as_ref();
+        let page = page.filter(|page| !page.is_read() || page.focus == PageFocus::Search);
+        let page = page.map(|page| (&page.filter.input, false));
+        prompt.or(menu).or(page)
     }
 
     /// The open merge dialog, if any.

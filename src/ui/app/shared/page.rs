@@ -1,19 +1,21 @@
-//! Pages with a list to choose from: saved views, recently used scenes, the undo history.
-
-use std::path::PathBuf;
+//! Pages over the screen, with lines to choose from or to read: saved views, recently used scenes, the undo
+//! history, the messages so far, the help. What chooses a line, and what a page lists, stands in the room
+//! whose page it is.
 
 use super::filter::Filter;
-use super::steps::Steps;
-use crate::language::SavedView;
+use crate::ui::keymap::Context;
 
-/// A page with a list to choose from.
+/// A page over the screen.
 #[derive(Debug)]
 pub struct Page {
-    /// What is listed.
-    pub list: List,
-    /// The typed filter, and the cursor among the rows shown.
+    /// Which page it is: the context of its keys.
+    pub context: Context,
+    /// The rows to choose from; none on a page that is only read.
+    pub rows: Vec<String>,
+    /// The typed filter or search, and the cursor among the rows that it leaves: on a page that is only
+    /// read, the first line shown.
     pub filter: Filter,
-    /// Whether keys are typed into the search.
+    /// Whether keys are typed into the filter.
     pub focus: PageFocus,
 }
 
@@ -23,66 +25,56 @@ pub enum PageFocus {
     /// Keys scroll the page or close it.
     #[default]
     Lines,
-    /// Keys are typed into the search.
+    /// Keys are typed into the filter.
     Search,
 }
 
-/// What a page lists.
-#[derive(Debug)]
-pub enum List {
-    /// The saved views of the text of this revision.
-    Views(Vec<SavedView>, u64),
-    /// Recently used scenes, the newest first.
-    Recent(Vec<PathBuf>),
-    /// The steps of the undo history.
-    Steps(Steps),
-}
-
 impl Page {
-    /// A page with its cursor on the first row.
-    pub(crate) fn new(list: List) -> Self {
+    /// A page of rows to choose from, with its cursor on the first.
+    pub(crate) fn of(context: Context, rows: Vec<String>) -> Self {
         Self {
-            list,
+            context,
+            rows,
             filter: Filter::default(),
             focus: PageFocus::default(),
         }
     }
 
-    /// The page of recently used scenes; `None` without any.
-    pub(crate) fn recent(scenes: Vec<PathBuf>) -> Option<Self> {
-        (!scenes.is_empty()).then(|| Self::new(List::Recent(scenes)))
+    /// A page that is only read, from its beginning.
+    pub(crate) fn reading(context: Context) -> Self {
+        Self::of(context, Vec::new())
     }
 
-    /// The rows shown, each with its index in the list.
-    pub fn rows(&self) -> Vec<(usize, String)> {
-        let all: Vec<_> = match &self.list {
-            List::Views(views, _) => views.iter().map(|view| view.name.clone()).collect(),
-            List::Recent(paths) => paths
-                .iter()
-                .map(|path| path.display().to_string())
-                .collect(),
-            List::Steps(steps) => steps.rows.iter().map(|(_, name)| name.clone()).collect(),
-        };
-        let shown = self.filter.shown(all.iter().map(|row| (row.as_str(), "")));
-        let row = |index: usize| Some((index, all.get(index)?.clone()));
-        shown.into_iter().filter_map(row).collect()
+    /// Whether its lines are only read.
+    pub(crate) fn is_read(&self) -> bool {
+        matches!(self.context, Context::Help | Context::Messages)
+    }
+
+    /// Lists other rows, with the cursor where it was as far as they go.
+    pub(crate) fn list(&mut self, rows: Vec<String>) {
+        self.rows = rows;
+        let count = self.shown().len();
+        self.filter.go(0, count);
+    }
+
+    /// The rows that the filter leaves, each with its index in the list.
+    pub fn shown(&self) -> Vec<(usize, &str)> {
+        let all = self.rows.iter().map(|row| (row.as_str(), ""));
+        let shown = self.filter.shown(all).into_iter();
+        let row = |index: usize| Some((index, self.rows.get(index)?.as_str()));
+        shown.filter_map(row).collect()
     }
 
     /// The index in the list of the row under the cursor; `None` without rows.
     pub(crate) fn chosen(&self) -> Option<usize> {
-        self.rows().get(self.filter.at).map(|&(index, _)| index)
+        self.shown().get(self.filter.at).map(|&(index, _)| index)
     }
 
     /// Moves the cursor to a row by its index in the list, if that is shown.
     pub(crate) fn choose(&mut self, index: usize) {
-        let mut rows = self.rows().into_iter();
+        let mut rows = self.shown().into_iter();
         if let Some(at) = rows.position(|(row, _)| row == index) {
             self.filter.at = at;
         }
-    }
-
-    /// Moves the cursor.
-    pub(crate) fn go(&mut self, rows: isize) {
-        self.filter.go(rows, self.rows().len());
     }
 }

@@ -10,7 +10,7 @@ use super::cursor::row_of;
 use super::disk::OnDisk;
 use super::live_edit::Meaning;
 use super::overlays::{Dialog, PromptKind};
-use super::page::{List, PageFocus};
+use super::page::PageFocus;
 use crate::language::table::Field;
 use crate::language::{Node, Nodes, Source};
 use crate::render::Region;
@@ -57,13 +57,7 @@ impl Shared {
             Some(Dialog::Overwrite(_)) => Context::Overwrite,
             Some(Dialog::Conflict { .. }) => Context::Conflict,
             Some(Dialog::Recover(_)) => Context::Recover,
-            None if self.overlays.help.is_some() => Context::Help,
-            None if let Some(page) = &self.overlays.page => match page.list {
-                List::Views(..) => Context::Views,
-                List::Recent(_) => Context::Recent,
-                List::Steps(_) => Context::Steps,
-            },
-            None if self.overlays.past.is_some() => Context::Messages,
+            None if let Some(page) = &self.overlays.page => page.context,
             None if self.overlays.errors.is_some() => Context::Errors,
             None if self.disk.is_opening() => Context::Opening,
             None if self.overlays.picker.is_some() => Context::Colour,
@@ -81,7 +75,7 @@ impl Shared {
         if overlays.dialog.is_some() {
             return None;
         }
-        let help = overlays.help.as_ref();
+        let help = overlays.page(Context::Help);
         match &overlays.prompt {
             Some(prompt) => Some(match prompt.kind {
                 PromptKind::Command => Line::Command,

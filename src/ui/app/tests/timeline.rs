@@ -12,6 +12,7 @@ use crate::scene::{Meshes, Size};
 use crate::text::{Edit, Span};
 use crate::ui::app::{history, text};
 use crate::ui::history_scene::{HistoryScene, HistoryText, NoPicture};
+use crate::ui::keymap::Context;
 use crate::ui::msg::Target;
 
 /// The scene on a terminal with colours after three steps.
@@ -100,12 +101,15 @@ fn the_page_lists_every_step_and_asks_for_each_picture_once() {
     let mut session = changed();
     session.run("u");
     let asked = opens_page(&mut session);
-    let (page, steps) = history::open_steps(&session.app.shared).expect("it is open");
-    let rows: Vec<_> = page.rows().into_iter().map(|(_, name)| name).collect();
+    let shared = &session.app.shared;
+    let page = shared.overlays.page(Context::Steps).expect("it is open");
+    let rows: Vec<_> = page.shown().into_iter().map(|(_, name)| name).collect();
     let expected = "as opened|object 1 (sphere) centre x: 0 → 0.2, 2 nudges|\
                     duplicated object 2 (sphere)|deleted object 2 (sphere)";
     assert_eq!(rows.join("|"), expected);
-    let when: Vec<_> = (0..4).map(|at| steps.when(at)).collect();
+    let when: Vec<_> = (0..4)
+        .map(|at| history::when(&shared.document, at))
+        .collect();
     assert_eq!(when, ["2 steps back", "1 step back", "now", "1 step ahead"]);
     assert_eq!(page.filter.at, 2);
     // The present text first, then its neighbours, and at last the large picture.
@@ -166,10 +170,8 @@ fn a_text_with_errors_and_a_refused_picture_are_not_asked_for_again() {
     text::relower(&mut session.app.shared);
     session.run("u");
     assert!(opens_page(&mut session).derived.contains(&4));
-    let (id, _) = history::open_steps(&session.app.shared)
-        .expect("it is open")
-        .1
-        .rows[4];
+    let last = session.app.shared.document.states().nth(4);
+    let id = last.expect("it has steps").id;
     let thumbnail = session.app.thumbnails.get(id, Rank::Row);
     assert_eq!(thumbnail, Some(&Err(NoPicture::Errors)));
     session.run("<Esc>");

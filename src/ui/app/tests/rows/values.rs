@@ -6,6 +6,7 @@ use crate::language::Node;
 use crate::render::Aov;
 use crate::scene::Camera;
 use crate::ui::app::{command, compare, display, files, inspect, select, text};
+use crate::ui::keymap::Context;
 use crate::ui::listing::ListLine;
 
 /// Something in words.
@@ -123,7 +124,7 @@ fn settings(app: &App, name: &str) -> Option<String> {
 /// Messages, questions, prompts, menus and pages.
 fn overlays(app: &App, name: &str) -> Option<String> {
     let overlays = &app.shared.overlays;
-    let (menu, help) = (overlays.menu.as_ref(), overlays.help.as_ref());
+    let (menu, help) = (overlays.menu.as_ref(), overlays.page(Context::Help));
     let past = overlays.messages.past().map(|message| &message.text);
     let failed = overlays.message.as_ref().filter(|_| overlays.has_failed());
     let prompt = overlays.prompt.as_ref();
@@ -149,9 +150,12 @@ fn overlays(app: &App, name: &str) -> Option<String> {
         "offers" => joined(entries.iter().map(|entry| &entry.name), ", "),
         "offered" => entries.last().map(|entry| &entry.words).words(),
         "help" => help.is_some().words(),
-        "help-top" => help.map(|help| help.top).words(),
-        "search" => help.map(|help| help.search.value()).words(),
-        "history" => overlays.past.words(),
+        "help-top" => help.map(|help| help.filter.at).words(),
+        "search" => help.map(|help| help.filter.input.value()).words(),
+        "history" => overlays
+            .page(Context::Messages)
+            .map(|past| past.filter.at)
+            .words(),
         "page" => overlays.page.is_some().words(),
         "listed-error" => overlays.errors.words(),
         _ => return None,
