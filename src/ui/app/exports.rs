@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use super::shared::jobs::{Asking, ExportWork, Pending};
-use super::{Dialog, Export, Shared, Stage, display, files};
+use super::{Dialog, Export, Question, Shared, Stage, display, files};
 use crate::image_file::{ImageFormat, known_extensions};
 use crate::render::{Aov, Frame, Frames, Job};
 use crate::scene::{Camera, MAX_SPP, Size, Viewpoint};
@@ -267,6 +267,15 @@ pub(crate) fn is_taken(shared: &mut Shared, id: ExportId, reason: String) -> Vec
         effects.extend(shared.jobs.begin_export(next));
     }
     effects
+}
+
+/// The question whether an export may overwrite a file.
+pub(crate) fn question_before_overwriting(pending: &Pending) -> Question {
+    let path = pending.export.destination.path.display();
+    Question {
+        title: " Export ",
+        text: format!("{path} exists, and this session did not write it. Overwrite it?"),
+    }
 }
 
 /// Exports after all, to the file that another program has written or to a numbered one.

@@ -3,8 +3,9 @@
 
 use super::room::{Room, Row};
 use super::{
-    Compare, Moving, Opening, SavedViews, Sequence, Shared, Thumbnails, Tool, camera, compare,
-    display, edit, files, history, inspect, keys, select, sequence, text, trace, transform,
+    Compare, Inspect, Moving, Opening, SavedViews, Sequence, Shared, Thumbnails, Tool, camera,
+    compare, display, edit, files, history, inspect, keys, select, sequence, text, trace,
+    transform,
 };
 use crate::ui::keymap::{Entry, Key, Keymap, Mode, RowId};
 use crate::ui::msg::Effect;
@@ -114,6 +115,8 @@ modes! {
     compare: Compare, Compare;
     /// What MOVE moves.
     moving: Moving, Move;
+    /// The rays that INSPECT explains a pixel by.
+    inspect: Inspect;
     /// The views on the page of saved views.
     saved_views: SavedViews, SavedViews;
     /// The pictures on the page of the undo history.

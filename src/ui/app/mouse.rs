@@ -118,8 +118,10 @@ fn point(shared: &mut Shared, event: MouseEvent) -> Pointed {
         }
         MouseEventKind::Up(_) => {
             shared.pictures.drag = None;
-            shared.resizing = None;
             edit::end_slide(shared);
+            if shared.resizing.take().is_some() {
+                return Pointed::Done(panels::keep(shared));
+            }
         }
         _ => {}
     }
@@ -344,9 +346,7 @@ fn drag_to_pan(shared: &mut Shared, at: (u16, u16)) {
     let Some((camera, (_, size))) = shared.camera().zip(shared.raster()) else {
         return;
     };
-    let magnification =
-        display::frame_window(shared).map_or(1.0, |frame_window| frame_window.magnification(size));
-    let unit = pixel_width(camera.target, &camera, size) / magnification;
+    let unit = pixel_width(camera.target, &camera, size) / display::magnification(shared, size);
     let [right, up, _] = axes(&camera);
     let moved = |from: u16, to: u16| f64::from(to) - f64::from(from);
     // A cell shows two pixels, one above the other.
@@ -357,11 +357,14 @@ fn drag_to_pan(shared: &mut Shared, at: (u16, u16)) {
 
 /// Drags the border that was pressed; returns whether there is one.
 fn drag_border(shared: &mut Shared, at: (u16, u16)) -> bool {
-    match shared.resizing {
-        Some(Border::Panels) => panels::resize_panels(shared, shared.areas().dragged(at)),
-        Some(Border::List) => panels::resize_list(shared, shared.areas().divided_at(at)),
-        None => return false,
-    }
+    let Some(border) = shared.resizing else {
+        return false;
+    };
+    let cells = match border {
+        Border::Panels => shared.areas().dragged(at),
+        Border::List => shared.areas().divided_at(at),
+    };
+    panels::resize(shared, border, cells);
     true
 }
 

@@ -1,6 +1,7 @@
 //! The sizes of the panels, and who receives mouse events.
 
 use super::Shared;
+use super::shared::Border;
 use crate::ui::arrange::{Zoom, divided, resized};
 use crate::ui::msg::Effect;
 use crate::ui::terminal::Mouse;
@@ -13,33 +14,32 @@ pub(crate) fn toggle_zoom(shared: &mut Shared) {
     };
 }
 
-/// Moves the border between picture and panels by some cells, towards the picture if positive.
-pub(crate) fn resize_panels(shared: &mut Shared, cells: i32) {
-    let zoom = shared.zoom_now();
-    match resized(&shared.areas(), &shared.shape(zoom), cells) {
-        Some(panels) => shared.panels = panels,
-        None => shared.say("there are no panels to resize here"),
-    }
-}
-
-/// Moves the border between list and fields by some cells, towards the fields if positive.
-pub(crate) fn resize_list(shared: &mut Shared, cells: i32) {
-    let zoom = shared.zoom_now();
-    match divided(&shared.areas(), &shared.shape(zoom), cells) {
-        Some(panels) => shared.panels = panels,
-        None => shared.say("there are no panels to resize here"),
-    }
-}
-
-/// Keeps new sizes of the panels for other sessions, once they are not being dragged.
-pub(crate) fn keep_panels(shared: &mut Shared) -> Option<Effect> {
-    let is_new = shared.resizing.is_none() && shared.panels != shared.kept_panels;
-    shared.kept_panels = if is_new {
-        shared.panels
-    } else {
-        shared.kept_panels
+/// Moves a border by some cells: that of the panels towards the picture if positive, that of the list
+/// towards the fields.
+pub(crate) fn resize(shared: &mut Shared, border: Border, cells: i32) {
+    let (areas, shape) = (shared.areas(), shared.shape(shared.zoom_now()));
+    let panels = match border {
+        Border::Panels => resized(&areas, &shape, cells),
+        Border::List => divided(&areas, &shape, cells),
     };
-    is_new.then_some(Effect::KeepPanels(shared.panels))
+    match panels {
+        Some(panels) => shared.panels = panels,
+        None => shared.say("there are no panels to resize here"),
+    }
+}
+
+/// The same, and keeps the sizes.
+pub(crate) fn resize_by_key(shared: &mut Shared, border: Border, cells: i32) -> Vec<Effect> {
+    resize(shared, border, cells);
+    keep(shared)
+}
+
+/// Keeps new sizes of the panels for other sessions.
+pub(crate) fn keep(shared: &mut Shared) -> Vec<Effect> {
+    let before = std::mem::replace(&mut shared.kept_panels, shared.panels);
+    let is_new = before != shared.panels;
+    let effect = is_new.then_some(Effect::KeepPanels(shared.panels));
+    effect.into_iter().collect()
 }
 
 /// Takes mouse events, or leaves them to the terminal.

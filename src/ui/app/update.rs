@@ -4,8 +4,8 @@ use std::sync::Arc;
 
 use super::shared::journal::KEPT_AFTER;
 use super::{
-    App, Grid, Shared, command, compare, display, exports, files, history, inspect, panels,
-    pasting, sequence, suggesting, text, trace,
+    App, Grid, command, compare, display, exports, files, history, inspect, pasting, sequence,
+    suggesting, text, trace,
 };
 use crate::render::Frame;
 use crate::ui::history_scene::NoPicture;
@@ -26,9 +26,14 @@ impl App {
         self.shared.overlays.end_step();
         text::follow_input(&mut self.shared);
         self.settle();
-        effects.extend(follow_scene(&mut self.shared));
+        let shared = &mut self.shared;
+        shared.scroll(&shared.areas());
+        command::scroll_help(shared);
+        effects.extend(display::follow(shared));
         effects.extend(self.follow());
-        effects.extend(follow_step(&mut self.shared));
+        effects.extend(files::follow_edits(&mut self.shared));
+        let time = self.shared.overlays.time_to_read();
+        effects.extend(time.map(|time| Effect::Later(time, Timer::Message)));
         effects
     }
 
@@ -164,28 +169,4 @@ impl App {
         shared.fail(reason);
         Vec::new()
     }
-}
-
-/// Scrolls so that the cursors are visible, and restarts what no longer shows the scene.
-fn follow_scene(shared: &mut Shared) -> Vec<Effect> {
-    shared.scroll(&shared.areas());
-    inspect::scroll_rays(shared);
-    command::scroll_help(shared);
-    display::follow_scene(shared)
-}
-
-/// Updates what depends on the whole state after a step: the preview, the histogram, the explanation, the
-/// journals of unsaved edits, the time to read a message, the panels.
-fn follow_step(shared: &mut Shared) -> Vec<Effect> {
-    let mut effects: Vec<_> = display::follow_preview(shared).into_iter().collect();
-    display::follow_histogram(shared);
-    effects.extend(inspect::follow(shared));
-    if shared.transient.is_none() {
-        effects.extend(shared.disk.journal.follow(&shared.document));
-    }
-    effects.extend(files::follow_kept(shared));
-    let time = shared.overlays.time_to_read();
-    effects.extend(time.map(|time| Effect::Later(time, Timer::Message)));
-    effects.extend(panels::keep_panels(shared));
-    effects
 }

@@ -8,9 +8,8 @@ use unicode_width::UnicodeWidthStr;
 
 use super::row::Row;
 use crate::document::Merge;
-use crate::text::{Position, counted};
-use crate::ui::app::{AfterLeaving, App, Dialog, MergeSource, OnDisk, Whose, files, select, text};
-use crate::ui::recovery::{Offer, Since};
+use crate::text::Position;
+use crate::ui::app::{App, Dialog, MergeSource, Question, Whose, exports, files, select, text};
 use crate::ui::text_width::wrap;
 use crate::ui::{layout, theme};
 
@@ -19,93 +18,28 @@ const SIDE: usize = 12;
 
 /// Draws the open question, if any.
 pub(crate) fn render(app: &App, area: Rect, buffer: &mut Buffer) {
-    match &app.shared.overlays.dialog {
-        None => {}
-        Some(Dialog::Leave(next)) => {
-            let losses = files::losses_before(&app.shared, next).unwrap_or_default();
-            let text = format!("{losses}. {}", next.question());
-            ask(app, leaving(next), &text, area, buffer);
+    let shared = &app.shared;
+    let question = match &shared.overlays.dialog {
+        None => return,
+        Some(Dialog::Conflict { merge, at, from }) => {
+            conflict(app, merge, *at, from, area, buffer);
+            return;
         }
-        Some(Dialog::Delete(nodes)) => {
-            ask(
-                app,
-                " Delete ",
-                &select::consequence(&app.shared, nodes),
-                area,
-                buffer,
-            );
-        }
-        Some(Dialog::Overwrite(pending)) => {
-            let path = pending.export.destination.path.display();
-            let text = format!("{path} exists, and this session did not write it. Overwrite it?");
-            ask(app, " Export ", &text, area, buffer);
-        }
-        Some(Dialog::Recover(offer)) => {
-            ask(app, " Recover ", &offered(app, offer), area, buffer);
-        }
-        Some(Dialog::Conflict { merge, at, from }) => conflict(app, merge, *at, from, area, buffer),
-    }
-}
-
-/// The title of the question whether to leave the scene.
-fn leaving(next: &AfterLeaving) -> &'static str {
-    match next {
-        AfterLeaving::Quit => " Quit ",
-        AfterLeaving::Open(_) => " Open ",
-        AfterLeaving::New(_) => " New ",
-    }
-}
-
-/// The question about unsaved edits of an earlier run.
-fn offered(app: &App, offer: &Offer) -> String {
-    let places = counted(offer.places, "place");
-    let differ = if offer.places == 1 {
-        "differs"
-    } else {
-        "differ"
+        Some(Dialog::Leave(next)) => files::question_before(shared, next),
+        Some(Dialog::Delete(nodes)) => select::question_before_deleting(shared, nodes),
+        Some(Dialog::Overwrite(pending)) => exports::question_before_overwriting(pending),
+        Some(Dialog::Recover(offer)) => files::question_about_kept(shared, offer),
     };
-    let text = text_name(app);
-    let since = match (offer.since, offer.conflicts()) {
-        (Since::Same, _) => String::new(),
-        (Since::Changed, 0) => format!(" The {text} has changed since; both will be merged."),
-        (Since::Changed, count) => {
-            let both = counted(count, "place");
-            format!(
-                " The {text} has changed since, {both} in both: you will be asked which to keep."
-            )
-        }
-    };
-    let damage = if offer.is_damaged() {
-        " Part of their journal is damaged: these are the last intact edits. It is set aside, not \
-         deleted."
-    } else {
-        ""
-    };
-    format!(
-        "{} has unsaved edits from an earlier run: {places} {differ} from the {text}.{since}{damage} \
-         Restore them?",
-        app.shared.disk.name(),
-    )
-}
-
-/// The name of the text that recovered edits are merged with.
-fn text_name(app: &App) -> &'static str {
-    if app.shared.document.is_dirty()
-        || matches!(app.shared.disk.state, OnDisk::Missing | OnDisk::New)
-    {
-        "text"
-    } else {
-        "file"
-    }
+    ask(app, &question, area, buffer);
 }
 
 /// Draws a question and the keys that answer it.
-fn ask(app: &App, title: &str, text: &str, area: Rect, buffer: &mut Buffer) {
+fn ask(app: &App, question: &Question, area: Rect, buffer: &mut Buffer) {
     let width = area.width.saturating_sub(4).min(60);
-    let lines = wrap(text, usize::from(width.saturating_sub(4)));
+    let lines = wrap(&question.text, usize::from(width.saturating_sub(4)));
     let keys = answers(app, width.saturating_sub(4));
     let height = lines.len() + keys.len() + 3;
-    let inner = frame(title, (width, height), area, buffer);
+    let inner = frame(question.title, (width, height), area, buffer);
     for (index, line) in lines.iter().enumerate() {
         let mut row = Row::new(buffer, inner, index as u16);
         row.skip(1).put(line, Style::new());
@@ -128,7 +62,7 @@ fn conflict(
     let height = conflicts.len() + keys.len() + 4;
     let (title, theirs) = match from {
         MergeSource::File => (" The file changed too ", "file"),
-        MergeSource::Kept(..) => (" Recover ", text_name(app)),
+        MergeSource::Kept(..) => (" Recover ", files::text_name(&app.shared)),
     };
     let inner = frame(title, (width, height), area, buffer);
     let (list, _) = layout::split_bottom(inner, keys.len() as u16);

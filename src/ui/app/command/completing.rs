@@ -11,7 +11,7 @@ use super::running;
 use crate::image_file::ImageFormat;
 use crate::language::Language;
 use crate::ui::app::shared::line;
-use crate::ui::app::{App, Completion, PromptKind, Shared};
+use crate::ui::app::{App, Completion, Palette, PromptKind, Shared};
 use crate::ui::keymap::{Context, Mode, RowId};
 use crate::ui::msg::Effect;
 
@@ -75,8 +75,8 @@ impl App {
 /// Handles a key in the command line other than those that end it.
 pub(crate) fn palette_key(shared: &mut Shared, key: KeyEvent) -> Vec<Effect> {
     match key.code {
-        KeyCode::Up if recall(shared, true) => {}
-        KeyCode::Down if recall(shared, false) => {}
+        KeyCode::Up if recall(shared, Palette::older) => {}
+        KeyCode::Down if recall(shared, Palette::newer) => {}
         KeyCode::BackTab | KeyCode::Up => choose_completion(shared, -1),
         KeyCode::Tab | KeyCode::Down => choose_completion(shared, 1),
         _ => {
@@ -270,11 +270,11 @@ fn choose_completion(shared: &mut Shared, step: isize) {
 }
 
 /// Puts another line of the history into the line; returns whether there was one.
-fn recall(shared: &mut Shared, older: bool) -> bool {
+fn recall(shared: &mut Shared, line: fn(&mut Palette, &str) -> Option<String>) -> bool {
     let Some(prompt) = &mut shared.overlays.prompt else {
         return false;
     };
-    let Some(line) = shared.palette.recall(prompt.input.value(), older) else {
+    let Some(line) = line(&mut shared.palette, prompt.input.value()) else {
         return false;
     };
     prompt.input = Input::from(line);

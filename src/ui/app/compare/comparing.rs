@@ -64,7 +64,11 @@ pub(super) fn follow(compare: &mut Compare, shared: &mut Shared) -> Vec<Effect> 
             Vec::new()
         };
     }
-    if compare.inspect(shared.mode == Mode::Inspect) {
+    let changes = match shared.mode {
+        Mode::Inspect => compare.inspect(),
+        _ => compare.compare_again(),
+    };
+    if changes {
         show(compare, shared);
     }
     if !std::mem::take(&mut compare.due) && !shared.pictures.has_changed {
@@ -255,7 +259,7 @@ pub(super) fn explain(compare: &mut Compare, shared: &mut Shared) {
     }
     let place = compare.live().map(|live| (live.corner, live.whole()));
     if let Some(((x, y), ([left, top], size))) = compare.cross.zip(place) {
-        if compare.inspect(true) {
+        if compare.inspect() {
             show(compare, shared);
         }
         inspect::explain_at(

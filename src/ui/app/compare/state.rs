@@ -194,14 +194,18 @@ impl Compare {
         before != (view, wipe)
     }
 
-    /// Shows the present picture itself, with all that is known of its pixels, or the comparison
-    /// again; returns whether that is something else.
-    pub(crate) fn inspect(&mut self, is_inspected: bool) -> bool {
-        let work = if is_inspected {
-            Work::Inspected
-        } else {
-            Work::Compared
-        };
+    /// Shows the present picture itself, with all that is known of its pixels; returns whether that is
+    /// something else.
+    pub(super) fn inspect(&mut self) -> bool {
+        self.go_over_to(Work::Inspected)
+    }
+
+    /// Shows the comparison again; returns whether that is something else.
+    pub(super) fn compare_again(&mut self) -> bool {
+        self.go_over_to(Work::Compared)
+    }
+
+    fn go_over_to(&mut self, work: Work) -> bool {
         let changes = self.work != Work::None && self.work != work;
         if changes {
             self.work = work;

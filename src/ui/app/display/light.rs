@@ -215,7 +215,7 @@ pub(crate) fn toggle_histogram(shared: &mut Shared) {
 }
 
 /// Brings the histogram up to date, if it is on screen.
-pub(crate) fn follow_histogram(shared: &mut Shared) {
+pub(super) fn follow_histogram(shared: &mut Shared) {
     let half_stops = shared.pictures.display.half_stops;
     let stops = shared.pictures.display.stops();
     let frame = shared.picture().latest.clone();

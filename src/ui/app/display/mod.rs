@@ -11,16 +11,16 @@ mod zooming;
 pub(crate) use jobs::{final_job, retrace, shown_job, trace_job};
 pub(crate) use keys::KEYS;
 pub(crate) use light::{
-    display_name, expose, follow_histogram, is_light, legend, set_exposure, set_transfer, show,
-    toggle_denoising, toggle_false_colours, toggle_histogram, view_name,
+    display_name, expose, is_light, legend, set_exposure, set_transfer, show, toggle_denoising,
+    toggle_false_colours, toggle_histogram, view_name,
 };
-pub(crate) use previewing::{follow_preview, follow_scene, follow_wires};
+pub(crate) use previewing::{follow, follow_wires};
 pub(crate) use soloing::{keep_solo, toggle_solo, toggle_solo_of};
 pub use symbols::{Symbol, SymbolKind};
 pub(crate) use symbols::{outlined_objects, symbol_at, symbols, toggle_symbols};
 pub use zooming::frame_window;
 pub(crate) use zooming::{
-    ScaleOrder, centre_on, drag_picture, magnify, magnify_about, magnify_at, order_scale,
-    output_pixel_at, pixel_at, pixel_in_corner, preview_screen, scroll_picture, shift_window,
-    toggle_scale, viewport,
+    ScaleOrder, centre_on, drag_picture, magnification, magnify, magnify_about, magnify_at,
+    order_scale, output_pixel_at, pixel_at, pixel_in_corner, preview_screen, scroll_picture,
+    shift_window, toggle_scale, viewport,
 };

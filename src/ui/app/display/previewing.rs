@@ -1,6 +1,7 @@
 //! What restarts when the scene, the view or the screen has changed, above all the preview.
 
 use super::jobs::{follow_trace, shown_job};
+use super::light::follow_histogram;
 use super::zooming::preview_screen;
 use crate::render::{Job, Region};
 use crate::scene::{Integrator, Size};
@@ -20,9 +21,18 @@ fn preview_samples(integrator: Integrator, grid: Grid) -> u32 {
     samples / density.clamp(1, 4)
 }
 
+/// Requests what pictures of the scene need, and those on screen that no longer show it: any step may
+/// have changed the text, the camera, the display or the screen.
+pub(crate) fn follow(shared: &mut Shared) -> Vec<Effect> {
+    let mut effects = follow_scene(shared);
+    effects.extend(follow_preview(shared));
+    follow_histogram(shared);
+    effects
+}
+
 /// Requests the files that the scene needs, and restarts the full-size trace if it no longer shows the
 /// scene.
-pub(crate) fn follow_scene(shared: &mut Shared) -> Vec<Effect> {
+fn follow_scene(shared: &mut Shared) -> Vec<Effect> {
     let mut effects = shared.assets.follow();
     // A picture without these files would be seen only for a moment.
     let is_due = !shared.assets.are_awaited() && std::mem::take(&mut shared.pictures.due);
@@ -35,7 +45,7 @@ pub(crate) fn follow_scene(shared: &mut Shared) -> Vec<Effect> {
 }
 
 /// Restarts the preview if it is on screen and no longer shows the scene.
-pub(crate) fn follow_preview(shared: &mut Shared) -> Option<Effect> {
+fn follow_preview(shared: &mut Shared) -> Option<Effect> {
     if shared.assets.are_awaited() || shared.seen() != Target::Preview {
         return None;
     }

@@ -33,6 +33,11 @@ impl ScaleOrder {
     }
 }
 
+/// How many times the picture on screen is magnified, compared with one that fills its cells, of this size.
+pub(crate) fn magnification(shared: &Shared, size: Size) -> f64 {
+    frame_window(shared).map_or(1.0, |frame_window| frame_window.magnification(size))
+}
+
 /// How the picture on screen is seen; `None` if there is no room.
 pub fn frame_window(shared: &Shared) -> Option<FrameWindow> {
     let screen = screen(shared)?;

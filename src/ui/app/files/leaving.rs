@@ -6,7 +6,7 @@ use std::time::Duration;
 use super::recover::keep_the_rest;
 use super::replacing::{request_scene, start_scene};
 use super::saving::{end_save, save};
-use crate::ui::app::{AfterLeaving, Dialog, OnDisk, Shared, camera, text};
+use crate::ui::app::{AfterLeaving, Dialog, OnDisk, Question, Shared, camera, text};
 use crate::ui::keymap::Mode;
 use crate::ui::msg::{Effect, SaveId, SaveOutcome, Timer};
 
@@ -164,9 +164,23 @@ pub(crate) fn losses(shared: &Shared) -> Option<String> {
     losses_before(shared, &AfterLeaving::Quit)
 }
 
+/// The question whether to leave the scene although something would be lost.
+pub(crate) fn question_before(shared: &Shared, next: &AfterLeaving) -> Question {
+    let losses = losses_before(shared, next).unwrap_or_default();
+    let (title, question) = match next {
+        AfterLeaving::Quit => (" Quit ", "Quit?".to_owned()),
+        AfterLeaving::Open(path) => (" Open ", format!("Open {}?", path.display())),
+        AfterLeaving::New(_) => (" New ", "Start a new scene?".to_owned()),
+    };
+    Question {
+        title,
+        text: format!("{losses}. {question}"),
+    }
+}
+
 /// Describes what would be lost by leaving the scene now; `None` if nothing. Work under way ends
 /// only with the program.
-pub(crate) fn losses_before(shared: &Shared, next: &AfterLeaving) -> Option<String> {
+fn losses_before(shared: &Shared, next: &AfterLeaving) -> Option<String> {
     let view = shared.is_view_unwritten().then(|| LOST_VIEW.to_owned());
     let mut lost: Vec<_> = lost_text(shared).into_iter().chain(view).collect();
     if *next == AfterLeaving::Quit {

@@ -16,8 +16,8 @@ mod saving;
 pub(crate) use editor::{editor_closed, open_editor};
 pub(crate) use keys::KEYS;
 pub(crate) use leaving::{
-    interrupt, leave_anyway, leave_when_done, losses_before, quit, quit_anyway, quit_keeping_edits,
-    quit_key, save_and_quit, save_key, save_view_key, was_saved,
+    interrupt, leave_anyway, leave_when_done, question_before, quit, quit_anyway,
+    quit_keeping_edits, quit_key, save_and_quit, save_key, save_view_key, was_saved,
 };
 pub(crate) use merging::{adopt, decide, decide_all};
 pub(crate) use open_scene::{edit_file, other_scene_read, start_new};
@@ -26,8 +26,8 @@ pub(crate) use polling::{polled, polls};
 pub(crate) use reading::{backups_found, catch_up, read_again, settled, was_read};
 pub(crate) use recent::show_recent;
 pub(crate) use recover::{
-    decline, fails_to_keep, follow_kept, found_kept, has_kept_edits, keep_edits, kept, put_off,
-    restore,
+    decline, fails_to_keep, follow_edits, found_kept, has_kept_edits, keep_edits, kept, put_off,
+    question_about_kept, restore, text_name,
 };
 pub(crate) use saving::{Force, tick, write};
 

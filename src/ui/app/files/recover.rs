@@ -4,8 +4,9 @@
 use std::sync::Arc;
 
 use crate::document::{Adopted, Merge, StepName};
+use crate::text::counted;
 use crate::ui::app::shared::journal::Outcome;
-use crate::ui::app::{Dialog, MergeSource, Shared, text};
+use crate::ui::app::{Dialog, MergeSource, OnDisk, Question, Shared, text};
 use crate::ui::msg::Effect;
 use crate::ui::recovery::{Claim, Found, Offer, Since, Way};
 
@@ -67,9 +68,20 @@ pub(crate) fn kept(
     }
 }
 
+/// Has unsaved edits kept, and offers those of an earlier run.
+pub(crate) fn follow_edits(shared: &mut Shared) -> Vec<Effect> {
+    let journal = &mut shared.disk.journal;
+    // The edit that will be reverted would be kept as well.
+    let due = match shared.transient {
+        None => journal.follow(&shared.document),
+        Some(_) => None,
+    };
+    due.into_iter().chain(follow_kept(shared)).collect()
+}
+
 /// Offers kept edits once no other question is open; examines them again if the text that they
 /// would be restored into has changed.
-pub(crate) fn follow_kept(shared: &mut Shared) -> Option<Effect> {
+fn follow_kept(shared: &mut Shared) -> Option<Effect> {
     let text = shared.document.shared_text();
     let is_other = match &shared.overlays.dialog {
         Some(Dialog::Recover(offer)) => !Arc::ptr_eq(&offer.text, &text),
@@ -87,6 +99,52 @@ pub(crate) fn follow_kept(shared: &mut Shared) -> Option<Effect> {
         shared.overlays.dialog = None;
         look_for_kept(shared)
     })
+}
+
+/// The question about unsaved edits of an earlier run.
+pub(crate) fn question_about_kept(shared: &Shared, offer: &Offer) -> Question {
+    let places = counted(offer.places, "place");
+    let differ = if offer.places == 1 {
+        "differs"
+    } else {
+        "differ"
+    };
+    let text = text_name(shared);
+    let since = match (offer.since, offer.conflicts()) {
+        (Since::Same, _) => String::new(),
+        (Since::Changed, 0) => format!(" The {text} has changed since; both will be merged."),
+        (Since::Changed, count) => {
+            let both = counted(count, "place");
+            format!(
+                " The {text} has changed since, {both} in both: you will be asked which to keep."
+            )
+        }
+    };
+    let damage = if offer.is_damaged() {
+        " Part of their journal is damaged: these are the last intact edits. It is set aside, not \
+         deleted."
+    } else {
+        ""
+    };
+    let name = shared.disk.name();
+    let text = format!(
+        "{name} has unsaved edits from an earlier run: {places} {differ} from the {text}.{since}{damage} \
+         Restore them?"
+    );
+    Question {
+        title: " Recover ",
+        text,
+    }
+}
+
+/// The name of the text that recovered edits are merged with.
+pub(crate) fn text_name(shared: &Shared) -> &'static str {
+    let is_own = matches!(shared.disk.state, OnDisk::Missing | OnDisk::New);
+    if is_own || shared.document.is_dirty() {
+        "text"
+    } else {
+        "file"
+    }
 }
 
 /// Restores the edits of an earlier run as an ordinary edit; asks first where the text has

@@ -54,7 +54,7 @@ pub(super) fn start_explaining(shared: &mut Shared) {
 }
 
 /// Asks for the explanation of the pixel under the cross, unless that is what was asked last.
-pub(crate) fn follow(shared: &mut Shared) -> Option<Effect> {
+pub(super) fn follow(shared: &mut Shared) -> Option<Effect> {
     let pixel = cross(shared)?.pixel;
     let (target, picture) = (shared.seen(), shared.picture());
     if picture.is_outdated() || shared.pictures.due {
@@ -307,7 +307,7 @@ pub(crate) fn verdict_lines(shared: &Shared, width: u16) -> Vec<String> {
 }
 
 /// Scrolls so that the line under the cursor is visible.
-pub(crate) fn scroll_rays(shared: &mut Shared) {
+pub(super) fn scroll_rays(shared: &mut Shared) {
     let rows = ray_panels(shared).map_or(0, |panels| usize::from(panels.lines.height));
     let count = ray_lines(shared).len();
     if let Some(explained) = &mut shared.inspection.explained {

@@ -4,12 +4,12 @@ mod explaining;
 mod inspecting;
 mod keys;
 mod pixel;
+mod room;
 
 pub use explaining::RayPanels;
 pub(crate) use explaining::{
-    click_ray, explain_at, explained, explanation, follow, move_in_rays, node_in_focus,
-    object_named, ray_line, ray_lines, ray_node, ray_panels, ray_path, sample_count, scroll_rays,
-    verdict_lines,
+    click_ray, explain_at, explained, explanation, move_in_rays, node_in_focus, object_named,
+    ray_line, ray_lines, ray_node, ray_panels, ray_path, sample_count, verdict_lines,
 };
 pub(crate) use inspecting::{
     cross, cross_cell, free_side, line_of, node_at, pick, pick_symbol, place_cross,
@@ -18,3 +18,4 @@ pub(crate) use inspecting::{
 pub(crate) use keys::KEYS;
 pub use pixel::Pixel;
 pub(crate) use pixel::pixel;
+pub use room::Inspect;

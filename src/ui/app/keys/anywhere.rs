@@ -3,6 +3,7 @@
 use crossterm::event::KeyCode;
 
 use crate::ui::app::room::Row;
+use crate::ui::app::shared::Border;
 use crate::ui::app::{
     Page, back, display, exports, files, history, list, panels, suggesting, text, trace,
 };
@@ -71,10 +72,10 @@ pub(crate) const OTHERS: &[Row] = &[
     Key::new(Sceneless, "messages", &[c('M')], "messages so far").does(|shared| shared.overlays.open_page(Page::reading(Context::Messages))),
     Key::new(Everywhere, "editor", &[c('E')], "open the editor at the selected item").hint_in(WITH_EDITOR, 30, "editor").requests(files::open_editor),
     Key::new(PANELS, "panels", &[c('z')], "show or hide the panels").does(panels::toggle_zoom),
-    Key::new(Everywhere, "larger-panels", &[c('{')], "larger panels").does(|shared| panels::resize_panels(shared, 2)),
-    Key::new(Everywhere, "smaller-panels", &[c('}')], "smaller panels").does(|shared| panels::resize_panels(shared, -2)),
-    Key::new(Everywhere, "smaller-list", &[alt(Char('{'))], "smaller list, larger fields").does(|shared| panels::resize_list(shared, -1)),
-    Key::new(Everywhere, "larger-list", &[alt(Char('}'))], "larger list, smaller fields").does(|shared| panels::resize_list(shared, 1)),
+    Key::new(Everywhere, "larger-panels", &[c('{')], "larger panels").requests(|shared| panels::resize_by_key(shared, Border::Panels, 2)),
+    Key::new(Everywhere, "smaller-panels", &[c('}')], "smaller panels").requests(|shared| panels::resize_by_key(shared, Border::Panels, -2)),
+    Key::new(Everywhere, "smaller-list", &[alt(Char('{'))], "smaller list, larger fields").requests(|shared| panels::resize_by_key(shared, Border::List, -1)),
+    Key::new(Everywhere, "larger-list", &[alt(Char('}'))], "larger list, smaller fields").requests(|shared| panels::resize_by_key(shared, Border::List, 1)),
     Key::new(Everywhere, "darker", &[c('<')], "darker display, by half a stop").also("brightness exposure").does(|shared| display::expose(shared, -1)),
     Key::new(Everywhere, "brighter", &[c('>')], "brighter display").also("brightness exposure").does(|shared| display::expose(shared, 1)),
     Key::new(Everywhere, "denoise", &[c('~')], "reduce noise on screen, or no longer").requests(display::toggle_denoising),

@@ -9,5 +9,5 @@ pub(crate) use adding::{add, add_mesh, own_kind};
 pub(crate) use filtering::{drop_filter, end_filter, filter_key, filter_list, keep_filter};
 pub(crate) use keys::{KEYS, OTHERS};
 pub(crate) use structure::{
-    consequence, delete_anyway, insert, orthonormalise, rename, restructure,
+    delete_anyway, insert, orthonormalise, question_before_deleting, rename, restructure,
 };

@@ -5,7 +5,7 @@ use crate::document::StepName;
 use crate::language::{Neighbour, Node, StructureError, Visibility};
 use crate::text::{Edit, counted};
 
-use crate::ui::app::{Dialog, PromptKind, Shared, text};
+use crate::ui::app::{Dialog, PromptKind, Question, Shared, text};
 use crate::ui::msg::Effect;
 
 /// Marks the selected node, or takes its mark away, and goes on to the next row.
@@ -36,9 +36,12 @@ pub(super) fn delete(shared: &mut Shared) {
 }
 
 /// The question whether to delete nodes that others use.
-pub(crate) fn consequence(shared: &Shared, nodes: &[Node]) -> String {
+pub(crate) fn question_before_deleting(shared: &Shared, nodes: &[Node]) -> Question {
     let consequence = shared.source().consequence(nodes).unwrap_or_default();
-    format!("Delete {}? {consequence}.", shared.targets_name(nodes))
+    Question {
+        title: " Delete ",
+        text: format!("Delete {}? {consequence}.", shared.targets_name(nodes)),
+    }
 }
 
 /// Deletes what the open question is about.

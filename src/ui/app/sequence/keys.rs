@@ -4,7 +4,9 @@ use crossterm::event::KeyCode;
 
 use super::exporting::export_default;
 use super::keying::{edit_track, key_value, take_key_back};
-use super::playing::{accept, keep_and_go, open_track, step_frames, step_keys, toggle};
+use super::playing::{
+    accept, go_to_next_key, go_to_previous_key, keep_and_go, open_track, step_frames, toggle,
+};
 use super::state::Sequence;
 use crate::ui::app::room::Row;
 use crate::ui::app::{exports, text};
@@ -33,8 +35,8 @@ pub(crate) const KEYS: &[Row<Sequence>] = &[
     Key::new(SEQUENCE, "play", &[c(' ')], "play or stop").hint(0, "play").requests_in(toggle),
     Key::new(SEQUENCE, "next-frame", &[c('l'), key(Right)], "next frame").hint(11, "frame").does_in(|sequence, shared| step_frames(sequence, shared, 1)),
     Key::new(SEQUENCE, "previous-frame", &[c('h'), key(Left)], "previous frame").hint(10, "frame").does_in(|sequence, shared| step_frames(sequence, shared, -1)),
-    Key::new(SEQUENCE, "next-key", &[c(']')], "next key").hint(21, "key").does_in(|sequence, shared| step_keys(sequence, shared, true)),
-    Key::new(SEQUENCE, "previous-key", &[c('[')], "previous key").hint(20, "key").does_in(|sequence, shared| step_keys(sequence, shared, false)),
+    Key::new(SEQUENCE, "next-key", &[c(']')], "next key").hint(21, "key").does_in(go_to_next_key),
+    Key::new(SEQUENCE, "previous-key", &[c('[')], "previous key").hint(20, "key").does_in(go_to_previous_key),
     Key::new(SEQUENCE, "edit", &[c('e')], "keep the frame and edit fields").hint(30, "edit").does_in(|sequence, shared| keep_and_go(sequence, shared, Mode::Edit)).when(|shared| !shared.cursor.fields().is_empty()),
     Key::new(SEQUENCE, "camera", &[c('v')], "keep the frame and go to VIEW").does_in(|sequence, shared| keep_and_go(sequence, shared, Mode::View)),
     Key::new(SEQUENCE, "accept", &[key(Enter)], "keep the frame in the text").hint(40, "keep").does_in(accept),

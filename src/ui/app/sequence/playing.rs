@@ -232,12 +232,18 @@ pub(super) fn step_frames(sequence: &mut Sequence, shared: &mut Shared, frames: 
     }
 }
 
-/// Goes to the next or previous frame with a key.
-pub(super) fn step_keys(sequence: &mut Sequence, shared: &mut Shared, is_next: bool) {
-    let open = sequence.open.as_ref();
-    match open.and_then(|open| open.key_after(is_next)) {
+/// Goes to the next frame with a key.
+pub(super) fn go_to_next_key(sequence: &mut Sequence, shared: &mut Shared) {
+    match sequence.open.as_ref().and_then(OpenTrack::next_key) {
         Some(frame) => show(sequence, shared, frame),
-        None if is_next => shared.say("there are no later keys"),
+        None => shared.say("there are no later keys"),
+    }
+}
+
+/// Goes to the previous frame with a key.
+pub(super) fn go_to_previous_key(sequence: &mut Sequence, shared: &mut Shared) {
+    match sequence.open.as_ref().and_then(OpenTrack::previous_key) {
+        Some(frame) => show(sequence, shared, frame),
         None => shared.say("there are no earlier keys"),
     }
 }

@@ -82,15 +82,19 @@ impl OpenTrack {
         }
     }
 
-    /// The next or previous frame with a key.
-    pub(crate) fn key_after(&self, is_next: bool) -> Option<u32> {
+    /// The next frame with a key.
+    pub(super) fn next_key(&self) -> Option<u32> {
+        self.keys().filter(|&frame| self.frame < frame).min()
+    }
+
+    /// The previous frame with a key.
+    pub(super) fn previous_key(&self) -> Option<u32> {
+        self.keys().filter(|&frame| frame < self.frame).max()
+    }
+
+    fn keys(&self) -> impl Iterator<Item = u32> {
         let frames = self.track.rows().flat_map(|(_, frames)| frames);
-        let frames = frames.filter(|&frame| frame <= self.last());
-        if is_next {
-            frames.filter(|&frame| self.frame < frame).min()
-        } else {
-            frames.filter(|&frame| frame < self.frame).max()
-        }
+        frames.filter(|&frame| frame <= self.last())
     }
 }
 

@@ -16,15 +16,6 @@ pub enum AfterLeaving {
 }
 
 impl AfterLeaving {
-    /// The question whether it should follow.
-    pub fn question(&self) -> String {
-        match self {
-            Self::Quit => "Quit?".to_owned(),
-            Self::Open(path) => format!("Open {}?", path.display()),
-            Self::New(_) => "Start a new scene?".to_owned(),
-        }
-    }
-
     /// The announcement that it will follow, up to the reason for the delay.
     pub(crate) fn announcement(&self) -> String {
         match self {

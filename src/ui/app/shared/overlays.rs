@@ -85,6 +85,15 @@ pub enum Dialog {
     Recover(Box<Offer>),
 }
 
+/// What a question asks; its answers are the keys of its context.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Question {
+    /// What it is about, with blanks around.
+    pub title: &'static str,
+    /// What is asked, and what follows.
+    pub text: String,
+}
+
 /// The origin of a text that is merged with the edited one.
 #[derive(Clone, Debug)]
 pub enum MergeSource {

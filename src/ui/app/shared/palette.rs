@@ -52,16 +52,31 @@ impl Palette {
         }
     }
 
-    /// The command line before (or after) the recalled one. `None` if the line is another one, or
-    /// if there is no further one.
-    pub(crate) fn recall(&mut self, line: &str, older: bool) -> Option<String> {
+    /// The command line before the recalled one. `None` if the line is another one, or if there is no
+    /// further one.
+    pub(crate) fn older(&mut self, line: &str) -> Option<String> {
+        let at = self.place(line)?.checked_sub(1)?;
+        self.recall(at)
+    }
+
+    /// The same for the one after it; after the last, an empty line.
+    pub(crate) fn newer(&mut self, line: &str) -> Option<String> {
+        let at = self.place(line)? + 1;
+        self.recall(at)
+    }
+
+    /// The index of the line among those remembered, or one after the last for a new line.
+    fn place(&self, line: &str) -> Option<usize> {
         let count = self.past.len();
-        let at = match self.recalled {
-            Some(at) if self.past.get(at).is_some_and(|past| past == line) => at,
-            _ if line.is_empty() && self.chosen.is_none() => count,
-            _ => return None,
-        };
-        let at = if older { at.checked_sub(1)? } else { at + 1 };
+        match self.recalled {
+            Some(at) if self.past.get(at).is_some_and(|past| past == line) => Some(at),
+            _ if line.is_empty() && self.chosen.is_none() => Some(count),
+            _ => None,
+        }
+    }
+
+    fn recall(&mut self, at: usize) -> Option<String> {
+        let count = self.past.len();
         if count < at {
             return None;
         }

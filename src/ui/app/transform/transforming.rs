@@ -48,9 +48,8 @@ pub(crate) fn start(moving: &mut Moving, shared: &mut Shared, tool: Tool) {
             return;
         }
     };
-    let magnification =
-        display::frame_window(shared).map_or(1.0, |frame_window| frame_window.magnification(size));
-    let pixel = width_of_pixel_at(pose.centre, &camera, size) / magnification;
+    let pixel =
+        width_of_pixel_at(pose.centre, &camera, size) / display::magnification(shared, size);
     let step = round_up(pixel);
     shared.motion = Some(text::begin_live_edit(shared));
     *moving = Some(Transform {

@@ -290,7 +290,10 @@ fn question(app: &App) -> String {
             format!("conflict {}", joined(each, ", "))
         }
         Some(Dialog::Delete(nodes)) => {
-            format!("delete: {}", select::consequence(&app.shared, nodes))
+            format!(
+                "delete: {}",
+                select::question_before_deleting(&app.shared, nodes).text
+            )
         }
         Some(Dialog::Overwrite(_)) => "overwrite".to_owned(),
         Some(Dialog::Recover(offer)) => {
