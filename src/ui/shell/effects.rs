@@ -19,6 +19,7 @@ use super::editor;
 use super::ending::ShutdownDeadlines;
 use super::screen::Screen;
 use super::traces::Traces;
+use super::tty_session::TtySession;
 use crate::assets::Wanted;
 use crate::memory;
 use crate::render::{Frame, Job, Kept, Refusal, Renderer, Threads};
@@ -145,10 +146,8 @@ impl Runtime {
                 let ended = self.renderers.get(&target)?.number == number;
                 ended.then_some(Msg::Ended(target))
             }
-            Event::Typed(event, _) => self.message(*event),
-            Event::Cleared | Event::Replied(..) | Event::Begun | Event::Done | Event::Signalled => {
-                None
-            }
+            // The session has handled the others, or they only wake it.
+            _ => None,
         }
     }
 
@@ -293,17 +292,17 @@ impl Runtime {
                 let outcome = outcome.map_err(|failure| failure.to_string());
                 return Ok(Some(Msg::EditorClosed(outcome)));
             }
-            Effect::CopyText(text) => {
-                let copied = self.screen.copy(&text);
-                copied.map_err(Failure::Terminal)?;
+            Effect::CopyText(text) => self.on_tty(|tty| tty.terminal.copy(&text))?,
+            Effect::SetMouse(mouse) => self.on_tty(|tty| tty.terminal.set_mouse(mouse))?,
+            Effect::Repaint => self.on_tty(|tty| {
+                tty.terminal.repaint();
+                Ok(())
+            })?,
+            Effect::TakeTerminal => self.on_tty(TtySession::take)?,
+            Effect::Suspend => {
+                let suspended = self.screen.lendable().and_then(TtySession::suspend);
+                suspended.map_err(Failure::Terminal)?;
             }
-            Effect::SetMouse(mouse) => {
-                let set = self.screen.set_mouse(mouse);
-                set.map_err(Failure::Terminal)?;
-            }
-            Effect::Repaint => self.screen.repaint(),
-            Effect::TakeTerminal => self.screen.take().map_err(Failure::Terminal)?,
-            Effect::Suspend => self.screen.suspend().map_err(Failure::Terminal)?,
             Effect::Quit => self.ended = true,
         }
         Ok(None)
@@ -400,8 +399,18 @@ impl Runtime {
 
     fn open_editor(&mut self, path: &Path, line: usize) -> Result<(), Failure> {
         let configured = self.editor.as_deref();
-        let ran = self.screen.lend(|| editor::run(configured, path, line));
+        let tty = self.screen.lendable();
+        let ran = tty.and_then(|tty| tty.lend(|| editor::run(configured, path, line)));
         ran.map_err(Failure::Terminal)?.map_err(Failure::Editor)
+    }
+
+    /// Acts on the terminal; does nothing on a page.
+    fn on_tty(
+        &mut self,
+        act: impl FnOnce(&mut TtySession) -> io::Result<()>,
+    ) -> Result<(), Failure> {
+        let done = self.screen.tty().map_or(Ok(()), act);
+        done.map_err(Failure::Terminal)
     }
 }
 

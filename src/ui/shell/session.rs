@@ -6,7 +6,7 @@ mod terminal_queries;
 
 use std::collections::VecDeque;
 use std::path::PathBuf;
-use std::sync::mpsc::{self, Receiver, RecvTimeoutError};
+use std::sync::mpsc::{self, Receiver};
 use std::time::{Duration, Instant};
 use std::{io, mem};
 
@@ -130,9 +130,11 @@ impl Session {
         if reply == Reply::Status {
             self.link.replied(at);
         }
-        if reply == Reply::KeysApart {
+        if reply == Reply::KeysApart
+            && let Some(tty) = self.runtime.screen().tty()
+        {
             // A terminal that is gone is noticed by the next frame.
-            let _ = self.runtime.screen().keep_keys_apart();
+            let _ = tty.terminal.keep_keys_apart();
         }
         self.known.take(reply);
         let before = self.manner;
@@ -148,15 +150,19 @@ impl Session {
         self.depth = ColourDepth::TrueColour;
         self.inks = Inks::for_depth(self.depth);
         self.inks.draw_with(self.manner.drawing());
-        self.runtime.screen().recolour(ColourDepth::TrueColour);
+        if let Some(tty) = self.runtime.screen().tty() {
+            tty.terminal.recolour(self.depth);
+        }
         Urgency::Now
     }
 
     /// Shows how to force 24-bit colour once no answer can arrive any more.
     fn give_up_on_colours(&mut self) -> Urgency {
         let now = Instant::now();
-        if self.known.until.take_if(|until| *until <= now).is_some() {
-            self.runtime.screen().give_up_answers();
+        if self.known.until.take_if(|until| *until <= now).is_some()
+            && let Some(tty) = self.runtime.screen().tty()
+        {
+            tty.give_up_answers();
         }
         match self.asked.take_if(|&mut (_, until)| until <= now) {
             Some((depth, _)) => {
@@ -268,19 +274,16 @@ impl Session {
         ];
         let deadline = others.into_iter().chain([deadline]).flatten().min();
         let first = match deadline {
-            None => self
-                .inbox
-                .recv()
-                .map_err(|_| RecvTimeoutError::Disconnected),
+            None => self.inbox.recv().ok(),
             Some(deadline) => {
                 let time = deadline.saturating_duration_since(Instant::now());
-                self.inbox.recv_timeout(time)
+                self.inbox.recv_timeout(time).ok()
             }
         };
         let mut urgency = Urgency::Never;
         let events: Vec<_> = first.into_iter().chain(self.inbox.try_iter()).collect();
         for event in events {
-            while let Some(msg) = self.runtime.screen().next_signal() {
+            while let Some(msg) = self.next_signal() {
                 urgency = Urgency::Now;
                 self.step(msg);
             }
@@ -290,19 +293,26 @@ impl Session {
             urgency = urgency.max(self.take(event));
         }
         let now = Instant::now();
-        if self.link.give_up(now) {
-            self.runtime.screen().give_up_replies();
+        if self.link.give_up(now)
+            && let Some(tty) = self.runtime.screen().tty()
+        {
+            tty.give_up_replies();
         }
         for msg in self.runtime.due(now) {
             urgency = Urgency::Now;
             self.step(msg);
         }
         urgency = urgency.max(self.give_up_on_colours());
-        for panic in self.runtime.screen().take_panics() {
+        let panics = self.runtime.screen().tty();
+        for panic in panics.map_or_else(Vec::new, |tty| tty.terminal.take_panics()) {
             urgency = Urgency::Now;
             self.step(Msg::Failed(panic));
         }
         urgency
+    }
+
+    fn next_signal(&mut self) -> Option<Msg> {
+        self.runtime.screen().tty()?.next_signal()
     }
 
     /// Handles an event.
@@ -343,7 +353,9 @@ impl Session {
         let effects = self.app.update(msg);
         self.perform(effects);
         let are_kept = files::has_kept_edits(&self.app.shared);
-        self.runtime.screen().note_kept_edits(are_kept);
+        if let Some(tty) = self.runtime.screen().tty() {
+            tty.terminal.note_kept_edits(are_kept);
+        }
     }
 
     fn perform(&mut self, effects: Vec<Effect>) {
@@ -364,8 +376,11 @@ impl Session {
 
     /// Requests a reply of the terminal if the link should be measured.
     fn ask(&mut self, now: Instant) -> io::Result<()> {
-        if self.runtime.screen().has_terminal() && self.link.has_question(now) {
-            self.runtime.screen().ask_status()?;
+        if self.link.has_question(now)
+            && let Some(tty) = self.runtime.screen().tty()
+            && tty.terminal.is_ours()
+        {
+            tty.ask_status()?;
             self.link.asked(now);
         }
         Ok(())

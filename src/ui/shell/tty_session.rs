@@ -24,7 +24,8 @@ const REPLY_PATIENCE: Duration = Duration::from_secs(1);
 /// The terminal that the interface runs on.
 pub(super) struct TtySession {
     // First, because fields are dropped in order: the terminal is restored before its threads end.
-    terminal: Terminal,
+    /// The terminal to draw on.
+    pub(super) terminal: Terminal,
     /// Replies still expected from the terminal.
     replies: Arc<Replies>,
     input: Input,
@@ -68,21 +69,6 @@ impl TtySession {
         return self.arrived.try_recv().ok();
         #[cfg(not(unix))]
         None
-    }
-
-    /// The terminal to draw on.
-    pub(super) fn terminal(&mut self) -> &mut Terminal {
-        &mut self.terminal
-    }
-
-    /// Whether the terminal is not lent to another program.
-    pub(super) fn is_ours(&self) -> bool {
-        self.terminal.is_ours()
-    }
-
-    /// Whether the terminal has accepted everything drawn.
-    pub(super) fn is_clear(&self) -> bool {
-        self.terminal.is_clear()
     }
 
     /// Queries the terminal and, through tmux, the terminal behind it. Any answers arrive as
