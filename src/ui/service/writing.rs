@@ -46,14 +46,11 @@ impl Writers {
         text: Arc<String>,
         guard: Guard,
     ) -> io::Result<()> {
-        let shown = path.display();
-        let panicked = SaveOutcome::Failed(format!("{shown}: cannot write the scene"));
-        self.start(
-            "save",
-            Some(&self.at_work),
-            Msg::Saved(id, panicked),
-            move || Some(Msg::Saved(id, save(path, &text, &guard))),
-        )
+        let reason = format!("{}: cannot write the scene", path.display());
+        let panicked = Msg::Saved(id, SaveOutcome::Failed(reason));
+        self.start("save", Some(&self.at_work), panicked, move || {
+            Some(Msg::Saved(id, save(path, &text, &guard)))
+        })
     }
 
     /// Writes a track file, reported by [`Msg::TrackWritten`].
@@ -63,14 +60,11 @@ impl Writers {
         text: Arc<String>,
         guard: Guard,
     ) -> io::Result<()> {
-        let shown = path.display();
-        let panicked = SaveOutcome::Failed(format!("{shown}: cannot write the track"));
-        self.start(
-            "track",
-            Some(&self.at_work),
-            Msg::TrackWritten(panicked),
-            move || Some(Msg::TrackWritten(save(path, &text, &guard))),
-        )
+        let reason = format!("{}: cannot write the track", path.display());
+        let panicked = Msg::TrackWritten(SaveOutcome::Failed(reason));
+        self.start("track", Some(&self.at_work), panicked, move || {
+            Some(Msg::TrackWritten(save(path, &text, &guard)))
+        })
     }
 
     /// Writes a frame to a picture file, reported by [`Msg::Exported`].
@@ -80,19 +74,13 @@ impl Writers {
         frame: Arc<Frame>,
         to: Destination,
     ) -> io::Result<()> {
-        let shown = to.path.display();
-        let panicked = Err(format!("{shown}: cannot write the picture"));
-        self.start(
-            "export",
-            Some(&self.at_work),
-            Msg::Exported(id, panicked),
-            move || {
-                Some(export(&frame, to).map_or_else(
-                    |refused| refused.report(id),
-                    |exported| Msg::Exported(id, Ok(exported)),
-                ))
-            },
-        )
+        let panicked = cannot(id, &to, "write the picture");
+        self.start("export", Some(&self.at_work), panicked, move || {
+            Some(match export(&frame, to) {
+                Ok(exported) => Msg::Exported(id, Ok(exported)),
+                Err(refused) => refused.report(id),
+            })
+        })
     }
 
     /// Traces and writes a sequence, reported by [`Msg::Exported`].
@@ -103,22 +91,17 @@ impl Writers {
         (folders, threads): (Vec<PathBuf>, usize),
         cancelled: Cancelled,
     ) -> io::Result<()> {
-        let shown = to.path.display();
-        let panicked = Err(format!("{shown}: cannot export the sequence"));
+        let panicked = cannot(id, &to, "export the sequence");
         let send = sending(&self.sender);
-        self.start(
-            "sequence",
-            Some(&self.at_work),
-            Msg::Exported(id, panicked),
-            move || filming::film((id, reel), to, (&folders, threads), &cancelled, send),
-        )
+        self.start("sequence", Some(&self.at_work), panicked, move || {
+            filming::film((id, reel), to, (&folders, threads), &cancelled, send)
+        })
     }
 
     /// Checks whether a picture can be written there; a failure is reported by [`Msg::Exported`].
     pub(crate) fn check(&self, id: ExportId, to: Destination) -> io::Result<()> {
-        let shown = to.path.display();
-        let panicked = Err(format!("{shown}: cannot write the picture"));
-        self.start("check", None, Msg::Exported(id, panicked), move || {
+        let panicked = cannot(id, &to, "write the picture");
+        self.start("check", None, panicked, move || {
             let to = numbered(to);
             check_target(&to).err().map(|refused| refused.report(id))
         })
@@ -197,6 +180,11 @@ impl Drop for Report {
             let _ = self.sender.send(Event::Msg(msg));
         }
     }
+}
+
+/// The result of an export that has failed without a reason.
+fn cannot(id: ExportId, to: &Destination, act: &str) -> Msg {
+    Msg::Exported(id, Err(format!("{}: cannot {act}", to.path.display())))
 }
 
 /// The maximum number of names to list.

@@ -34,7 +34,7 @@ use crate::ui::queue::{Ended, Service};
 use crate::ui::recovery::{self, Edits, End, Keeper, Outcome, Request};
 use crate::ui::reel::Reel;
 use crate::ui::reference::{Pair, ReferenceId, ReferenceSource};
-use crate::ui::service::recent::Recent;
+use crate::ui::service::recent::{self, Recent};
 use crate::ui::service::scene_loader::SceneLoader;
 use crate::ui::service::writing::Writers;
 use crate::ui::service::{self, Answering};
@@ -96,7 +96,7 @@ impl Runtime {
             })?,
             writers: Writers::new(sender.clone()),
             keeper: Keeper::start(keeping(&sender))?,
-            recent: remembering(&sender)?,
+            recent: Recent::start(sending(&sender))?,
             assets: service::assets(&options.assets, options.watching(), sending(&sender))?,
             tracks: service::tracks(options.watching(), sending(&sender))?,
             references: service::references(&options.assets, sending(&sender))?,
@@ -257,9 +257,9 @@ impl Runtime {
                 let refused = started.err().map(|error| error.to_string());
                 return Ok(refused.map(|reason| Msg::Saved(id, SaveOutcome::Failed(reason))));
             }
-            Effect::NoteRecent(scene) => self.recent.note(scene)?,
-            Effect::ListRecent => self.recent.list()?,
-            Effect::KeepPanels(sizes) => self.recent.keep_panels(sizes)?,
+            Effect::NoteRecent(scene) => self.recent.request(recent::Request::Note(scene))?,
+            Effect::ListRecent => self.recent.request(recent::Request::List)?,
+            Effect::KeepPanels(sizes) => self.recent.request(recent::Request::Panels(sizes))?,
             Effect::Watch(path) => self.reader.watch(path)?,
             Effect::WriteTrack { path, text, guard } => {
                 let started = self.writers.write_track(path, text, guard);
@@ -474,15 +474,6 @@ fn keeping(sender: &Sender<Event>) -> impl Fn(Outcome) + Send + 'static {
             Outcome::Failed(reason) => Msg::Failed(reason),
         });
     }
-}
-
-/// Remembers scenes, and announces lists of them.
-fn remembering(sender: &Sender<Event>) -> io::Result<Recent> {
-    let (report, complain) = (sending(sender), sending(sender));
-    Recent::start(
-        move |scenes| report(Msg::RecentListed(scenes)),
-        move |reason| complain(Msg::Failed(reason)),
-    )
 }
 
 #[cfg(test)]
