@@ -1,5 +1,6 @@
 //! Whether a picture may be written to a file.
 
+use std::io;
 use std::path::{Path, PathBuf};
 
 use crate::file::{self, Version};
@@ -30,6 +31,18 @@ impl From<String> for Refused {
             reason,
             is_taken: false,
         }
+    }
+}
+
+/// Why a file is not written: something stands against it, or the system fails.
+pub(super) enum NotWritten<R> {
+    Refused(R),
+    Failed(io::Error),
+}
+
+impl<R> From<io::Error> for NotWritten<R> {
+    fn from(error: io::Error) -> Self {
+        Self::Failed(error)
     }
 }
 

@@ -8,7 +8,9 @@ use std::sync::Arc;
 use std::sync::mpsc::{self, Receiver, RecvTimeoutError, TryRecvError};
 use std::time::Duration;
 
-use super::destination::{Refused, check_spared, check_target, check_target_of, numbered};
+use super::destination::{
+    NotWritten, Refused, check_spared, check_target, check_target_of, numbered,
+};
 use crate::assets::{Assets, Edited};
 use crate::file;
 use crate::image_file::{DEFAULT_RATE, ImageFormat, MovieFormat, MovieWriter, Pattern, Picture};
@@ -184,10 +186,7 @@ impl<S: Fn(Msg)> Filming<'_, S> {
     /// Where a frame goes that has a file of its own.
     fn frame_of(&self, reel: &Reel, pattern: &Pattern, number: u32) -> Destination {
         let path = pattern.path(number);
-        let own = reel
-            .written
-            .get(&path)
-            .map(|&version| Existing::Own(version));
+        let own = reel.written.get(&path).copied().map(Existing::Own);
         Destination {
             existing: match self.to.existing {
                 Existing::Overwritten => Existing::Overwritten,
@@ -321,18 +320,6 @@ fn deliver(
         }),
         Err(NotWritten::Refused(refused)) => Err(refused.into()),
         Err(NotWritten::Failed(error)) => Err(format!("{}: {error}", to.path.display()).into()),
-    }
-}
-
-/// Why a file was not written.
-enum NotWritten {
-    Refused(Refused),
-    Failed(io::Error),
-}
-
-impl From<io::Error> for NotWritten {
-    fn from(error: io::Error) -> Self {
-        Self::Failed(error)
     }
 }
 

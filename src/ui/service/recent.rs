@@ -2,16 +2,13 @@
 //! folder, and recently used scenes: absolute paths, one a line and the newest first, in `halflight/recent` in
 //! the state folder. Sessions that end up there at the same moment may lose one of their entries.
 
-use std::convert::Infallible;
 use std::path::{Component, Path, PathBuf};
-use std::sync::mpsc::{self, Receiver};
-use std::time::Instant;
 use std::{fs, io};
 
 use crate::file;
 use crate::ui::arrange::PanelSizes;
 use crate::ui::msg::Msg;
-use crate::ui::queue::{Ended, Service};
+use crate::ui::queue::Service;
 use crate::ui::state::{self, Folder, Part};
 
 /// Names of the files.
@@ -34,59 +31,29 @@ pub(crate) enum Request {
     Panels(PanelSizes),
 }
 
-/// Handle of the thread that remembers scenes.
-pub(crate) struct Recent {
-    service: Service<Request>,
-    /// Disconnected when the thread ends.
-    end: Receiver<Infallible>,
-}
-
-impl Recent {
-    /// Starts the thread. Failures to remember a scene are reported by [`Msg::Failed`], each reason
-    /// once.
-    pub(crate) fn start(send: impl Fn(Msg) + Send + 'static) -> io::Result<Self> {
-        let (at_work, end) = mpsc::channel();
-        let service = Service::start("recent", "remembers scenes", move |inbox| {
-            let _at_work = at_work;
-            let mut last = None;
-            for request in inbox {
-                match request {
-                    Request::List => send(Msg::RecentListed(list())),
-                    Request::Panels(sizes) => {
-                        // The loss is too small to interrupt anyone.
-                        let _ = state::state().and_then(|state| keep_in(&state, sizes));
-                    }
-                    Request::Note(scene) => {
-                        let noted = state::state().and_then(|state| note_in(&state, &scene));
-                        let reason = noted.err().map(|error| error.to_string());
-                        if let Some(reason) = reason.filter(|reason| last.as_ref() != Some(reason))
-                        {
-                            let words = format!("recent scenes cannot be remembered: {reason}");
-                            send(Msg::Failed(words));
-                            last = Some(reason);
-                        }
+/// Starts the thread. Failures to remember a scene are reported by [`Msg::Failed`], each reason once.
+pub(crate) fn remembering(send: impl Fn(Msg) + Send + 'static) -> io::Result<Service<Request>> {
+    Service::start("recent", "remembers scenes", move |inbox| {
+        let mut last = None;
+        for request in inbox {
+            match request {
+                Request::List => send(Msg::RecentListed(list())),
+                Request::Panels(sizes) => {
+                    // The loss is too small to interrupt anyone.
+                    let _ = state::state().and_then(|state| keep_in(&state, sizes));
+                }
+                Request::Note(scene) => {
+                    let noted = state::state().and_then(|state| note_in(&state, &scene));
+                    let reason = noted.err().map(|error| error.to_string());
+                    if let Some(reason) = reason.filter(|reason| last.as_ref() != Some(reason)) {
+                        let words = format!("recent scenes cannot be remembered: {reason}");
+                        send(Msg::Failed(words));
+                        last = Some(reason);
                     }
                 }
             }
-        });
-        Ok(Self {
-            service: service?,
-            end,
-        })
-    }
-
-    /// Queues a request.
-    pub(crate) fn request(&self, request: Request) -> Result<(), Ended> {
-        self.service.request(request)
-    }
-
-    /// Waits until all scenes are remembered, at most until `deadline`.
-    pub(crate) fn finish(self, deadline: Instant) {
-        drop(self.service);
-        let patience = deadline.saturating_duration_since(Instant::now());
-        // Nothing is ever sent: the end of the thread ends the wait.
-        let _ = self.end.recv_timeout(patience);
-    }
+        }
+    })
 }
 
 /// The recently used scenes that still exist, the newest first; empty if that is unknown.

@@ -92,7 +92,8 @@ fn follow(
             file::regain_folder();
             let read = read(&path);
             requests = inbox.try_iter().collect();
-            if !requests.iter().all(Request::is_watch) {
+            let is_watch = |request: &Request| matches!(request, Request::Watch(_));
+            if !requests.iter().all(is_watch) {
                 continue;
             }
             let (baseline, language, work) = match request {
@@ -137,10 +138,6 @@ impl Request {
     fn path(&self) -> &Path {
         let (Self::Watch(path) | Self::Read(path, ..) | Self::Open(path, ..)) = self;
         path
-    }
-
-    fn is_watch(&self) -> bool {
-        matches!(self, Self::Watch(_))
     }
 }
 

@@ -6,10 +6,10 @@ use std::io;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::mpsc::{self, Receiver, Sender};
-use std::thread;
+
 use std::time::Instant;
 
-use super::destination::{Refused, check_target, numbered};
+use super::destination::{NotWritten, Refused, check_target, numbered};
 use super::filming::{self, Cancelled};
 use crate::assets::fingerprint;
 use crate::file::{self, ReadError};
@@ -17,6 +17,7 @@ use crate::image_file::{self, Picture};
 use crate::render::{Frame, Provenance};
 use crate::ui::event::{Event, Work, sending};
 use crate::ui::msg::{Destination, ExportId, Exported, Guard, Msg, SaveId, SaveOutcome};
+use crate::ui::queue::spawn;
 use crate::ui::reel::Reel;
 
 /// Starts a thread for each file to write, and waits for all of them at the end.
@@ -147,15 +148,14 @@ impl Writers {
         };
         let at_work = at_work.cloned();
         let begun = Work::begin(&self.sender);
-        let thread = thread::Builder::new().name(name.to_owned());
-        let spawned = thread.spawn(move || {
+        let started = spawn(name, move || {
             file::regain_folder();
             report.msg = work();
             drop(report);
             drop(begun);
             drop(at_work);
         });
-        spawned.map(drop)
+        started.map(drop)
     }
 
     /// Waits until everything is written, or until `deadline`.
@@ -212,20 +212,17 @@ fn save(path: PathBuf, text: &str, guard: &Guard) -> SaveOutcome {
     if !file::has_folder(&path) {
         return SaveOutcome::NoFolder(without_folder(&path));
     }
-    let saved = file::replace(
-        &path,
-        |out| out.write_all(text.as_bytes()),
-        || may_replace(&path, text, guard),
-    );
-    match saved {
+    let may = || may_replace(&path, text, guard).map_err(NotWritten::Refused);
+    match file::replace(&path, |out| out.write_all(text.as_bytes()), may) {
         Ok(()) => SaveOutcome::Saved {
             path,
             // If the text being edited were also the saved one, the next edit would have to copy it.
             text: Arc::new(text.to_owned()),
         },
-        Err(WriteError::Changed) => SaveOutcome::ChangedOnDisk,
-        Err(WriteError::Other(reason)) => SaveOutcome::Failed(reason),
-        Err(WriteError::Io(error)) => SaveOutcome::Failed(format!("{}: {error}", path.display())),
+        Err(NotWritten::Refused(outcome)) => outcome,
+        Err(NotWritten::Failed(error)) => {
+            SaveOutcome::Failed(format!("{}: {error}", path.display()))
+        }
     }
 }
 
@@ -240,22 +237,8 @@ fn without_folder(path: &Path) -> String {
     format!("{}: {reason}", folder.display())
 }
 
-/// Reason why a scene was not written.
-enum WriteError {
-    /// The file's text differs from the expected one.
-    Changed,
-    Other(String),
-    Io(io::Error),
-}
-
-impl From<io::Error> for WriteError {
-    fn from(error: io::Error) -> Self {
-        Self::Io(error)
-    }
-}
-
-/// Whether the contents of the file may be overwritten.
-fn may_replace(path: &Path, text: &str, guard: &Guard) -> Result<(), WriteError> {
+/// Whether the contents of the file may be overwritten; otherwise what becomes of the save.
+fn may_replace(path: &Path, text: &str, guard: &Guard) -> Result<(), SaveOutcome> {
     let held = match guard {
         Guard::Anything => return Ok(()),
         Guard::Holding(held) => Some(held),
@@ -264,12 +247,12 @@ fn may_replace(path: &Path, text: &str, guard: &Guard) -> Result<(), WriteError>
     match (held, file::read_text(path)) {
         (_, Err(ReadError::NotFound { .. })) => Ok(()),
         (Some(held), Ok(found)) if found == **held || found == text => Ok(()),
-        (Some(_), Ok(_)) => Err(WriteError::Changed),
-        (Some(_), Err(error)) => Err(WriteError::Other(error.to_string())),
+        (Some(_), Ok(_)) => Err(SaveOutcome::ChangedOnDisk),
+        (Some(_), Err(error)) => Err(SaveOutcome::Failed(error.to_string())),
         (None, _) => {
             let path = path.display();
             let reason = format!("{path} exists: use :w! {path} to overwrite it");
-            Err(WriteError::Other(reason))
+            Err(SaveOutcome::Failed(reason))
         }
     }
 }
@@ -278,25 +261,21 @@ fn may_replace(path: &Path, text: &str, guard: &Guard) -> Result<(), WriteError>
 fn export(frame: &Frame, to: Destination) -> Result<Exported, Refused> {
     let to = numbered(to);
     check_target(&to)?;
-    let may = || check_target(&to).map_err(|refused| WriteError::Other(refused.reason));
+    let may = || check_target(&to).map_err(NotWritten::Refused);
     let provenance = provenance(frame, &to).map_err(|error| error.to_string())?;
     let picture = Picture {
         provenance: provenance.as_ref(),
         ..Picture::of(frame)
     };
     let written = image_file::save(picture, &to.path, may);
-    let reason = match written {
-        Ok(version) => {
-            return Ok(Exported {
-                path: to.path,
-                version,
-            });
-        }
-        Err(WriteError::Io(error)) => format!("{}: {error}", to.path.display()),
-        Err(WriteError::Other(reason)) => reason,
-        Err(WriteError::Changed) => format!("{}: has changed", to.path.display()),
-    };
-    Err(reason.into())
+    match written {
+        Ok(version) => Ok(Exported {
+            path: to.path,
+            version,
+        }),
+        Err(NotWritten::Failed(error)) => Err(format!("{}: {error}", to.path.display()).into()),
+        Err(NotWritten::Refused(refused)) => Err(refused.reason.into()),
+    }
 }
 
 /// What a picture is made from, if that is known.

@@ -34,7 +34,7 @@ use crate::ui::queue::{Ended, Service};
 use crate::ui::recovery::{self, Edits, End, Keeper, Outcome, Request};
 use crate::ui::reel::Reel;
 use crate::ui::reference::{Pair, ReferenceId, ReferenceSource};
-use crate::ui::service::recent::{self, Recent};
+use crate::ui::service::recent;
 use crate::ui::service::scene_loader::SceneLoader;
 use crate::ui::service::writing::Writers;
 use crate::ui::service::{self, Answering};
@@ -55,7 +55,7 @@ pub(crate) struct Runtime {
     freeing: Service<Arc<dyn Any + Send + Sync>>,
     writers: Writers,
     keeper: Keeper,
-    recent: Recent,
+    recent: Service<recent::Request>,
     assets: Answering<Wanted>,
     tracks: Answering<PathBuf>,
     references: Answering<(ReferenceId, ReferenceSource)>,
@@ -96,7 +96,7 @@ impl Runtime {
             })?,
             writers: Writers::new(sender.clone()),
             keeper: Keeper::start(keeping(&sender))?,
-            recent: Recent::start(sending(&sender))?,
+            recent: recent::remembering(sending(&sender))?,
             assets: service::assets(&options.assets, options.watching(), sending(&sender))?,
             tracks: service::tracks(options.watching(), sending(&sender))?,
             references: service::references(&options.assets, sending(&sender))?,
@@ -163,8 +163,8 @@ impl Runtime {
         let files = begun + deadlines.files;
         let is_kept = self.screen.is_terminal();
         let traced = self.traced.filter(|_| is_kept);
-        let keeping = traced
-            .zip(self.renderers.remove(&Target::Trace))
+        let keeping = traced.zip(self.renderers.remove(&Target::Trace));
+        let keeping = keeping
             .map(|(traced, running)| traced.keep(running.renderer, now, begun + deadlines.trace));
         self.screen.close(begun + deadlines.terminal);
         drop(self.filming);
@@ -193,10 +193,8 @@ impl Runtime {
         if self.trim_at.take_if(|at| *at <= now).is_some() {
             memory::malloc::trim();
         }
-        self.timers
-            .extract_if(.., |&mut (at, _)| at <= now)
-            .map(|(_, timer)| Msg::Elapsed(timer))
-            .collect()
+        let due = self.timers.extract_if(.., |&mut (at, _)| at <= now);
+        due.map(|(_, timer)| Msg::Elapsed(timer)).collect()
     }
 
     /// Performs an effect and returns its immediate result, if any.
@@ -233,10 +231,10 @@ impl Runtime {
             Effect::Derive(past) => {
                 let ticket = past.ticket;
                 let begun = self.history_scenes.ask(*past, self.work());
-                let refused = begun
+                let refused = |ended: Ended| Err(NoPicture::Failed(ended.to_string()));
+                return Ok(begun
                     .err()
-                    .map(|ended| NoPicture::Failed(ended.to_string()));
-                return Ok(refused.map(|reason| Msg::Derived(ticket, Err(reason))));
+                    .map(|ended| Msg::Derived(ticket, refused(ended))));
             }
             Effect::WriteImage(id, frame, to) => {
                 return Ok(not_exported(id, self.writers.export(id, frame, to)));
@@ -253,19 +251,15 @@ impl Runtime {
                 text,
                 guard,
             } => {
-                let started = self.writers.save(id, path, text, guard);
-                let refused = started.err().map(|error| error.to_string());
-                return Ok(refused.map(|reason| Msg::Saved(id, SaveOutcome::Failed(reason))));
+                let refused = not_saved(self.writers.save(id, path, text, guard));
+                return Ok(refused.map(|outcome| Msg::Saved(id, outcome)));
             }
             Effect::NoteRecent(scene) => self.recent.request(recent::Request::Note(scene))?,
             Effect::ListRecent => self.recent.request(recent::Request::List)?,
             Effect::KeepPanels(sizes) => self.recent.request(recent::Request::Panels(sizes))?,
             Effect::Watch(path) => self.reader.watch(path)?,
             Effect::WriteTrack { path, text, guard } => {
-                let started = self.writers.write_track(path, text, guard);
-                let refused = started
-                    .err()
-                    .map(|error| SaveOutcome::Failed(error.to_string()));
+                let refused = not_saved(self.writers.write_track(path, text, guard));
                 return Ok(refused.map(Msg::TrackWritten));
             }
             Effect::Later(time, timer) => {
@@ -276,9 +270,10 @@ impl Runtime {
                 scene,
                 known,
                 revision,
-            } => self
-                .keeper
-                .request(Request::Keep(revision, Edits { scene, known }))?,
+            } => {
+                let edits = Edits { scene, known };
+                self.keeper.request(Request::Keep(revision, edits))?;
+            }
             Effect::DropRecovery => self.keeper.request(Request::Forget)?,
             Effect::LookForKept(sought) => {
                 let send = sending(&self.sender);
@@ -457,6 +452,12 @@ impl Drop for Waker {
     fn drop(&mut self) {
         let _ = self.sender.send(Event::Ended(self.target, self.number));
     }
+}
+
+/// What becomes of a save that could not be started.
+fn not_saved(started: io::Result<()>) -> Option<SaveOutcome> {
+    let error = started.err()?;
+    Some(SaveOutcome::Failed(error.to_string()))
 }
 
 /// What becomes of an export that could not be started.

@@ -138,18 +138,17 @@ impl Session {
         }
         self.known.take(reply);
         let before = self.manner;
-        let changed = if self.wanted_manner() == before {
-            Urgency::Never
-        } else {
-            Urgency::Now
+        let changed = match self.wanted_manner() {
+            manner if manner == before => Urgency::Never,
+            _ => Urgency::Now,
         };
-        let is_in_time = |&(_, until): &(ColourDepth, Instant)| at < until;
-        if reply != Reply::TrueColour || self.asked.take_if(|asked| is_in_time(asked)).is_none() {
+        let is_in_time = |&mut (_, until): &mut (ColourDepth, Instant)| at < until;
+        if reply != Reply::TrueColour || self.asked.take_if(is_in_time).is_none() {
             return changed;
         }
         self.depth = ColourDepth::TrueColour;
         self.inks = Inks::for_depth(self.depth);
-        self.inks.draw_with(self.manner.drawing());
+        self.inks.drawing = self.manner.drawing();
         if let Some(tty) = self.runtime.screen().tty() {
             tty.terminal.recolour(self.depth);
         }
@@ -162,7 +161,7 @@ impl Session {
         if self.known.until.take_if(|until| *until <= now).is_some()
             && let Some(tty) = self.runtime.screen().tty()
         {
-            tty.give_up_answers();
+            tty.replies.came(Reply::Attributes);
         }
         match self.asked.take_if(|&mut (_, until)| until <= now) {
             Some((depth, _)) => {
@@ -217,12 +216,8 @@ impl Session {
             format!(" {}", shell_path(&path.to_string_lossy()))
         });
         let key = self.app.shared.key_for("trace");
-        let now = self
-            .app
-            .shared
-            .scene
-            .clone()
-            .zip(exports::origin(&self.app.shared));
+        let scene = self.app.shared.scene.clone();
+        let now = scene.zip(exports::origin(&self.app.shared));
         // The end of the process frees a large scene immediately.
         mem::forget(self.app);
         let (edits, trace) = self.runtime.close(self.ending.deadlines(), now);
@@ -296,7 +291,7 @@ impl Session {
         if self.link.give_up(now)
             && let Some(tty) = self.runtime.screen().tty()
         {
-            tty.give_up_replies();
+            tty.replies.forget_statuses();
         }
         for msg in self.runtime.due(now) {
             urgency = Urgency::Now;

@@ -6,12 +6,13 @@ use std::sync::Arc;
 use std::sync::mpsc::Sender;
 #[cfg(unix)]
 use std::sync::mpsc::{self, Receiver};
-use std::thread;
+
 use std::time::{Duration, Instant};
 
 use crate::ui::event::Event;
 use crate::ui::msg::Msg;
 use crate::ui::options::Options;
+use crate::ui::queue::spawn;
 use crate::ui::terminal::query::Question;
 use crate::ui::terminal::{self, Input, Replies, Reply, Terminal, Unread, tmux};
 #[cfg(unix)]
@@ -27,7 +28,7 @@ pub(super) struct TtySession {
     /// The terminal to draw on.
     pub(super) terminal: Terminal,
     /// Replies still expected from the terminal.
-    replies: Arc<Replies>,
+    pub(super) replies: Arc<Replies>,
     input: Input,
     #[cfg(unix)]
     signals: Signals,
@@ -81,15 +82,13 @@ impl TtySession {
         }
         let sender = self.sender.clone();
         // Without a thread there is no answer.
-        let _ = thread::Builder::new()
-            .name("tmux".to_owned())
-            .spawn(move || {
-                let Some(client) = tmux::client() else { return };
-                let colours = client.has_true_colour.then_some(Reply::TrueColour);
-                for reply in [Some(Reply::Tmux(client)), colours].into_iter().flatten() {
-                    let _ = sender.send(Event::Replied(reply, Instant::now()));
-                }
-            });
+        let _ = spawn("tmux", move || {
+            let Some(client) = tmux::client() else { return };
+            let colours = client.has_true_colour.then_some(Reply::TrueColour);
+            for reply in [Some(Reply::Tmux(client)), colours].into_iter().flatten() {
+                let _ = sender.send(Event::Replied(reply, Instant::now()));
+            }
+        });
         Ok(())
     }
 
@@ -97,16 +96,6 @@ impl TtySession {
     pub(super) fn ask_status(&self) -> io::Result<()> {
         self.replies.expect(Reply::Status);
         self.terminal.ask_status()
-    }
-
-    /// Stops expecting answers to queries.
-    pub(super) fn give_up_answers(&self) {
-        self.replies.came(Reply::Attributes);
-    }
-
-    /// Stops expecting status replies.
-    pub(super) fn give_up_replies(&self) {
-        self.replies.forget_statuses();
     }
 
     /// Runs another program on the terminal; the inner result is the program's.

@@ -80,7 +80,7 @@ impl Session {
         if manner != self.manner {
             let (before, after) = (self.manner.means(), manner.means());
             self.manner = manner;
-            self.inks.draw_with(manner.drawing());
+            self.inks.drawing = manner.drawing();
             if before != after
                 && let Some(tty) = self.runtime.screen().tty()
             {
