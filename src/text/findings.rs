@@ -2,7 +2,7 @@
 
 use std::ops::Deref;
 
-use super::{Diagnostic, Severity};
+use super::{Diagnostic, Position, Severity, counted};
 
 /// Maximum number of diagnostics kept per severity. More tell the user nothing new, and a hostile
 /// text could cause millions.
@@ -84,6 +84,17 @@ impl Findings {
     /// The first error kept.
     pub fn first_error(&self) -> Option<&Diagnostic> {
         self.kept.iter().find(|d| d.severity == Severity::Error)
+    }
+
+    /// The number of errors in words, and where in `text` the first one is:
+    /// `2 errors, the first at 3:1: unknown shape`.
+    pub fn errors_in(&self, text: &str) -> String {
+        let count = counted(self.errors, "error");
+        let Some(first) = self.first_error() else {
+            return count;
+        };
+        let Position { line, column } = Position::of(text, first.span.start());
+        format!("{count}, the first at {line}:{column}: {}", first.message)
     }
 
     /// Sorts the diagnostics kept by the start of their spans.

@@ -10,7 +10,7 @@ use std::time::Duration;
 
 use super::state::{self, Part};
 use super::terminal::interview::{self, Answers};
-use super::terminal::{self, Budget, Choice, ColourDepth, Protocol, query, tmux};
+use super::terminal::{self, Budget, Choice, ColourDepth, Protocol, Reply, query, tmux};
 use crate::assets::Assets;
 use crate::memory::{self, Available};
 use crate::render::{CAP, CAPS, vectors};
@@ -28,34 +28,24 @@ const TMUX_PATIENCE: Duration = Duration::from_secs(1);
 pub fn examine(scene: Option<&Path>) -> String {
     let variable = |name: &str| std::env::var(name).ok().filter(|value| !value.is_empty());
     let has_terminal = io::stdin().is_terminal() && io::stdout().is_terminal();
-    let answers =
-        (has_terminal && query::may_ask(variable)).then(|| interview::ask().unwrap_or_default());
+    let may_ask = has_terminal && query::may_ask(variable);
+    let answers = may_ask.then(|| interview::ask().unwrap_or_default());
+    let answers = answers.as_ref();
     let folder = match scene.and_then(Path::parent) {
         Some(folder) if !folder.as_os_str().is_empty() => folder.to_owned(),
         _ => PathBuf::from("."),
     };
     let client = ask_tmux();
+    let behind_tmux = client.map(|client| client.has_true_colour);
+    let plain = |words: &str| vec![words.to_owned()];
     // The label and the lines of each section.
     let findings = [
         ("terminal", terminal(has_terminal, variable)),
-        (
-            "colours",
-            colours(
-                answers.as_ref(),
-                client.map(|client| client.has_true_colour),
-                variable,
-            ),
-        ),
-        (
-            "pictures",
-            pictures(answers.as_ref(), client, terminal::cell_size()),
-        ),
-        ("synchronized", synchronized(answers.as_ref())),
-        (
-            "mouse",
-            vec!["captured; --no-mouse disables this".to_owned()],
-        ),
-        ("clipboard", vec!["not used".to_owned()]),
+        ("colours", colours(answers, behind_tmux, variable)),
+        ("pictures", pictures(answers, client, terminal::cell_size())),
+        ("synchronized", synchronized(answers)),
+        ("mouse", plain("captured; --no-mouse disables this")),
+        ("clipboard", plain("not used")),
         ("link", link(variable)),
         ("changes", changes(&folder)),
         ("threads", threads()),
@@ -82,14 +72,11 @@ fn terminal(has_terminal: bool, variable: impl Fn(&str) -> Option<String>) -> Ve
         "TMUX",
         "SSH_CONNECTION",
     ];
-    let variables: Vec<_> = names
-        .into_iter()
-        .map(|name| match variable(name) {
-            Some(value) => format!("{name}={value}"),
-            None => format!("{name} not set"),
-        })
-        .collect();
-    let mut lines = vec![variables.join(", ")];
+    let setting = |name| match variable(name) {
+        Some(value) => format!("{name}={value}"),
+        None => format!("{name} not set"),
+    };
+    let mut lines = vec![names.map(setting).join(", ")];
     if !has_terminal {
         lines.push("input or output is not a terminal: no queries sent".to_owned());
     }
@@ -109,23 +96,19 @@ fn colours(
     variable: impl Fn(&str) -> Option<String>,
 ) -> Vec<String> {
     let depth = ColourDepth::detect_from(Choice::Auto, &variable);
+    let name = depth.name();
     if variable("NO_COLOR").is_some() {
-        return vec![format!(
-            "{}: NO_COLOR is set; --color overrides it",
-            depth.name()
-        )];
+        return vec![format!("{name}: NO_COLOR is set; --color overrides it")];
     }
-    let why = if variable("COLORTERM").is_some() {
-        "from COLORTERM and TERM"
-    } else {
-        "from TERM alone"
-    };
-    let mut lines = vec![format!("{} {why}", depth.name())];
+    let mut lines = vec![match variable("COLORTERM") {
+        Some(_) => format!("{name} from COLORTERM and TERM"),
+        None => format!("{name} from TERM alone"),
+    }];
     if depth == ColourDepth::TrueColour {
         return lines;
     }
     let (shows_more, finding) = match (answers, behind_tmux) {
-        (Some(answers), _) if answers.has_true_colour() => {
+        (Some(answers), _) if answers.replies.contains(&Reply::TrueColour) => {
             (true, "the terminal reports 24-bit colour, so it is used")
         }
         (_, Some(true)) => (true, "tmux passes on 24-bit colour, so it is used"),
@@ -135,7 +118,7 @@ fn colours(
              set -as terminal-features ',*:RGB'",
         ),
         (None, None) => (false, "the terminal was not queried"),
-        (Some(answers), None) if answers.is_silent() => {
+        (Some(answers), None) if answers.replies.is_empty() => {
             (false, "the terminal did not answer within 200 ms")
         }
         (Some(_), None) => (false, "the terminal does not report 24-bit colour"),
@@ -158,25 +141,17 @@ fn pictures(
         ("iTerm2", Protocol::Iterm),
         ("sixel", Protocol::Sixel),
     ];
-    let shown = |answers: &Answers| {
-        let shown = protocols
-            .iter()
-            .filter(|(_, protocol)| answers.shows(*protocol));
-        shown.map(|(name, _)| *name).collect::<Vec<_>>()
-    };
-    let shown = answers.map(shown).unwrap_or_default();
-    let mut lines = vec![match (answers, &shown[..]) {
-        (None, _) => "half blocks: the terminal was not queried".to_owned(),
-        (Some(_), []) => "half blocks: the terminal reports no picture protocol".to_owned(),
-        (Some(_), [best, ..]) => {
-            let words = shown.join(", ");
-            match client {
-                Some(client) if !client.has_sixel => {
-                    format!("half blocks: tmux knows {words}, but not of its terminal")
-                }
-                _ => format!("real pixels by {best}; the terminal reports {words}"),
-            }
+    let shows = |protocol| answers.is_some_and(|answers| answers.shows(protocol));
+    let shown = protocols.iter().filter(|(_, protocol)| shows(*protocol));
+    let shown: Vec<_> = shown.map(|(name, _)| *name).collect();
+    let words = shown.join(", ");
+    let mut lines = vec![match (answers, shown.first(), client) {
+        (None, ..) => "half blocks: the terminal was not queried".to_owned(),
+        (_, None, _) => "half blocks: the terminal reports no picture protocol".to_owned(),
+        (_, _, Some(client)) if !client.has_sixel => {
+            format!("half blocks: tmux knows {words}, but not of its terminal")
         }
+        (_, Some(best), _) => format!("real pixels by {best}; the terminal reports {words}"),
     }];
     match cell.or_else(|| answers.and_then(Answers::cell_size)) {
         Some((width, height)) => lines.push(format!("cells of {width}x{height} pixels")),
@@ -334,7 +309,6 @@ fn folders(scene: Option<&Path>, folder: &Path) -> Vec<String> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::ui::terminal::Reply;
 
     fn said(
         answers: Option<&[Reply]>,

@@ -149,11 +149,8 @@ fn excerpt(text: &str, span: Span, width: usize) -> Excerpt {
 
     let mut shown = String::new();
     let mut columns = 0;
-    push_shown(
-        text[from..start].trim_start_matches('\u{feff}'),
-        &mut shown,
-        &mut columns,
-    );
+    let before = text[from..start].trim_start_matches('\u{feff}');
+    push_shown(before, &mut shown, &mut columns);
     let first = columns;
     push_shown(&text[start..end], &mut shown, &mut columns);
     let last = columns.max(first + 1);
@@ -206,10 +203,8 @@ fn cut(shown: &str, caret: Range<usize>, width: usize) -> Excerpt {
         dropped = dropped.saturating_sub(1);
     }
     let text = shorten(&text, width).into_owned();
-    let start = caret
-        .start
-        .saturating_sub(dropped)
-        .min(width.saturating_sub(1));
+    let start = caret.start.saturating_sub(dropped);
+    let start = start.min(width.saturating_sub(1));
     let end = caret.end.saturating_sub(dropped).min(width).max(start + 1);
     Excerpt {
         text,
@@ -219,11 +214,8 @@ fn cut(shown: &str, caret: Range<usize>, width: usize) -> Excerpt {
 
 /// The nearest character boundary at or before an offset.
 fn boundary(text: &str, offset: usize) -> usize {
-    let offset = offset.min(text.len());
-    (0..=offset)
-        .rev()
-        .find(|&at| text.is_char_boundary(at))
-        .unwrap_or(0)
+    let nearest = (0..=offset.min(text.len())).rfind(|&at| text.is_char_boundary(at));
+    nearest.unwrap_or(0)
 }
 
 #[cfg(test)]

@@ -43,17 +43,11 @@ impl HistoryLayout {
             return plain;
         }
         let thumbnail = if body.height < TALL { (11, 4) } else { (16, 6) };
-        let (list, large) = split_right(body, body.width.saturating_sub(LIST + 1));
         let has_large = LEAST_WITH_LARGE <= body.width;
+        let (beside, large) = split_right(body, body.width.saturating_sub(LIST + 1));
+        let (beside, _) = split_right(beside, 1);
         Self {
-            list: if has_large {
-                Rect {
-                    width: LIST,
-                    ..list
-                }
-            } else {
-                body
-            },
+            list: if has_large { beside } else { body },
             height: thumbnail.1 + 1,
             thumbnail: Some(thumbnail),
             large: has_large.then_some(large),
@@ -78,14 +72,10 @@ impl HistoryLayout {
         let (list, height) = (self.list, self.height.max(1));
         let shown = usize::from(list.height / height);
         let top = first_shown(0, at, count, shown);
-        let rows = (top..count).zip((0..shown as u16).map(move |row| row * height));
-        rows.map(move |(row, y)| {
-            let place = Rect {
-                y: list.y + y,
-                height,
-                ..list
-            };
-            (row, place)
+        let rows = (top..count).zip(0..shown as u16);
+        rows.map(move |(row, at)| {
+            let y = list.y + at * height;
+            (row, Rect { y, height, ..list })
         })
     }
 }

@@ -17,15 +17,13 @@ pub fn raster(area: Rect, output: Size) -> Option<(Rect, Size)> {
     let (across, down) = (u64::from(area.width), 2 * u64::from(area.height));
     let (width, height) = (u64::from(output.width), u64::from(output.height));
     let (width, height) = if down * width < across * height {
-        ((rounded_ratio(down * width, height)).clamp(1, across), down)
+        (rounded_ratio(down * width, height).clamp(1, across), down)
     } else {
         (across, rounded_ratio(across * height, width).clamp(1, down))
     };
     let cells = Rect::new(0, 0, width as u16, height.div_ceil(2) as u16);
-    let size = Size {
-        width: width as u32,
-        height: height as u32,
-    };
+    let [width, height] = [width, height].map(|side| side as u32);
+    let size = Size { width, height };
     Some((centred(area, cells), size))
 }
 
@@ -41,12 +39,13 @@ pub fn first_shown(top: usize, at: usize, count: usize, rows: usize) -> usize {
 
 /// The part of a panel below its title line.
 pub fn contents(panel: Rect) -> Rect {
-    let title = panel.height.min(1);
-    Rect {
-        y: panel.y + title,
-        height: panel.height - title,
-        ..panel
-    }
+    split_top(panel, 1).1
+}
+
+/// The line at `index` below the top of an area; empty if it is not inside.
+pub fn nth_line(area: Rect, index: u16) -> Rect {
+    let y = area.y.saturating_add(index);
+    Rect::new(area.x, y, area.width, 1).intersection(area)
 }
 
 /// Returns the list line under a cell, if `first` is the first one shown. The caller checks that
@@ -83,11 +82,7 @@ pub fn field_columns(line: Rect, components: usize) -> (Rect, Vec<Rect>) {
         several => numbers / several.max(3) as u16,
     };
     let columns = (0..components as u16)
-        .map(|at| Rect {
-            x: line.x + key + at * each,
-            width: each,
-            ..line
-        })
+        .map(|at| Rect::new(line.x + key + at * each, line.y, each, line.height))
         .collect();
     (name, columns)
 }
@@ -107,11 +102,7 @@ pub fn widened(columns: &[Rect], component: usize, width: usize, line: Rect) -> 
     let mut starts = columns[..=component].iter().rev().map(|column| column.x);
     let start = starts.find(|start| needed <= end - start);
     let start = start.or_else(|| columns.first().map(|first| first.x))?;
-    Some(Rect {
-        x: start,
-        width: end - start,
-        ..*own
-    })
+    Some(Rect::new(start, own.y, end - start, own.height))
 }
 
 /// The cells of a slider behind a literal in a line of the fields panel; `None` if there is no room.
@@ -140,12 +131,8 @@ pub fn field_at(
     if !rows.contains(position) {
         return None;
     }
-    let field = first + usize::from(position.y - rows.y);
-    let line = Rect {
-        y: position.y,
-        height: 1,
-        ..rows
-    };
+    let below = position.y - rows.y;
+    let (field, line) = (first + usize::from(below), nth_line(rows, below));
     let (_, columns) = field_columns(line, components(field)?);
     let component = columns.iter().position(|column| column.contains(position));
     Some((field, component.unwrap_or(0)))
@@ -171,32 +158,28 @@ pub fn picker_lines(panel: Rect) -> PickerLines {
     const NAME: u16 = 12;
     const NUMBER: u16 = 8;
     let lines = contents(panel);
-    let line = |at: u16| {
-        let below = split_bottom(lines, lines.height.saturating_sub(at)).1;
-        split_bottom(below, below.height.saturating_sub(1)).0
-    };
-    let is_low = lines.height < 10;
-    let [comparison, heading, swatches] = if is_low { [3, 4, 4] } else { [4, 7, 8] };
-    let numbers = if is_low {
-        split_right(line(3), panel.width.saturating_sub(20)).1
-    } else {
-        split_right(line(5), panel.width.saturating_sub(1)).1
-    };
-    let bar = |at: u16| {
-        let right = split_right(line(at), panel.width.saturating_sub(NAME)).1;
+    let line = |at| split_top(split_top(lines, at).1, 1).0;
+    let behind = |line, columns| split_right(line, panel.width.saturating_sub(columns)).1;
+    let bars = [0, 1, 2].map(|at| {
+        let right = behind(line(at), NAME);
         let width = right.width.saturating_sub(NUMBER);
         [line(at), Rect { width, ..right }]
-    };
+    });
+    if lines.height < 10 {
+        return PickerLines {
+            bars,
+            comparison: line(3),
+            numbers: behind(line(3), 20),
+            heading: Rect::default(),
+            swatches: split_top(lines, 4).1,
+        };
+    }
     PickerLines {
-        bars: [bar(0), bar(1), bar(2)],
-        comparison: line(comparison),
-        numbers,
-        heading: if is_low {
-            Rect::default()
-        } else {
-            line(heading)
-        },
-        swatches: split_bottom(lines, lines.height.saturating_sub(swatches)).1,
+        bars,
+        comparison: line(4),
+        numbers: behind(line(5), 1),
+        heading: line(7),
+        swatches: split_top(lines, 8).1,
     }
 }
 
@@ -204,15 +187,9 @@ pub fn picker_lines(panel: Rect) -> PickerLines {
 pub fn swatch_cells(swatches: Rect, index: usize) -> Option<Rect> {
     const WIDTH: u16 = 3;
     let across = usize::from(swatches.width / WIDTH);
-    let (row, column) = (index.checked_div(across)?, index.checked_rem(across)?);
-    (row < usize::from(swatches.height)).then(|| {
-        Rect::new(
-            swatches.x + WIDTH * column as u16,
-            swatches.y + row as u16,
-            WIDTH,
-            1,
-        )
-    })
+    let row = index.checked_div(across)?;
+    let x = swatches.x + WIDTH * (index % across) as u16;
+    (row < usize::from(swatches.height)).then(|| Rect::new(x, swatches.y + row as u16, WIDTH, 1))
 }
 
 /// The column of a bar's marker for a number from 0 to 1.
@@ -230,34 +207,22 @@ pub fn share_at(bar: Rect, column: u16) -> f64 {
 /// A rectangle with the width and height of `size`, centred in `area` and clipped to it.
 pub fn centred(area: Rect, size: Rect) -> Rect {
     let (width, height) = (size.width.min(area.width), size.height.min(area.height));
-    Rect {
-        x: area.x + (area.width - width) / 2,
-        y: area.y + (area.height - height) / 2,
-        width,
-        height,
-    }
+    let x = area.x + (area.width - width) / 2;
+    let y = area.y + (area.height - height) / 2;
+    Rect::new(x, y, width, height)
 }
 
 /// Splits off the `lines` lines at the bottom, or fewer if the area has fewer.
 pub fn split_bottom(area: Rect, lines: u16) -> (Rect, Rect) {
-    let lower = lines.min(area.height);
-    let upper = area.height - lower;
-    (
-        Rect {
-            height: upper,
-            ..area
-        },
-        Rect {
-            y: area.y + upper,
-            height: lower,
-            ..area
-        },
-    )
+    split_top(area, area.height.saturating_sub(lines))
 }
 
 /// Splits off the `lines` lines at the top, or fewer if the area has fewer.
 pub fn split_top(area: Rect, lines: u16) -> (Rect, Rect) {
-    split_bottom(area, area.height.saturating_sub(lines))
+    let upper = lines.min(area.height);
+    let top = Rect::new(area.x, area.y, area.width, upper);
+    let below = Rect::new(area.x, area.y + upper, area.width, area.height - upper);
+    (top, below)
 }
 
 /// Divides the right of a picture's area, or its left, between a tree and the values of one of its
@@ -268,13 +233,10 @@ pub fn over_picture(area: Rect, side: Side) -> (Rect, Rect) {
     let panel = if area.width < WIDEST {
         split_bottom(area, area.height.div_ceil(2)).1
     } else {
-        let (left, right) = split_right(area, (area.width / 2).min(WIDEST));
+        let width = (area.width / 2).min(WIDEST);
         match side {
-            Side::Right => right,
-            Side::Left => Rect {
-                width: right.width,
-                ..left
-            },
+            Side::Right => split_right(area, width).1,
+            Side::Left => Rect { width, ..area },
         }
     };
     split_bottom(panel, VALUES.min(panel.height / 2))
@@ -306,19 +268,10 @@ fn split_fields(fields: Rect) -> (Rect, Rect) {
 
 /// Splits off the `columns` columns on the right, or fewer if the area has fewer.
 pub fn split_right(area: Rect, columns: u16) -> (Rect, Rect) {
-    let right = columns.min(area.width);
-    let left = area.width - right;
-    (
-        Rect {
-            width: left,
-            ..area
-        },
-        Rect {
-            x: area.x + left,
-            width: right,
-            ..area
-        },
-    )
+    let width = columns.min(area.width);
+    let left = Rect::new(area.x, area.y, area.width - width, area.height);
+    let right = Rect::new(left.right(), area.y, width, area.height);
+    (left, right)
 }
 
 fn rounded_ratio(a: u64, b: u64) -> u64 {

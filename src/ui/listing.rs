@@ -39,17 +39,15 @@ struct Section {
 impl<'a> Listing<'a> {
     /// The lines of the list of these nodes, of which only some rows, ascending, may be shown.
     pub fn new(nodes: Nodes, shown: Option<&'a [usize]>) -> Self {
-        let shown_before =
-            |row: usize| shown.map_or(row, |shown| shown.partition_point(|&other| other < row));
         let section = |noun, kind: fn(usize) -> Node| {
             let first = nodes.before(kind(0));
             // No node of the kind has this index.
             let end = nodes.before(kind(usize::MAX));
-            let before = shown_before(first);
+            let before = shown_before(shown, first);
             Section {
                 noun,
                 first: before,
-                shown: shown_before(end) - before,
+                shown: shown_before(shown, end) - before,
                 count: end - first,
             }
         };
@@ -97,19 +95,20 @@ impl<'a> Listing<'a> {
 
     /// The index of the line that shows the node with a row, or would if it were shown.
     pub fn line_of(&self, row: usize) -> usize {
-        let shown = self.shown;
-        let place = shown.map_or(row, |shown| shown.partition_point(|&other| other < row));
-        place
-            + self
-                .headed()
-                .filter(|section| section.first <= place)
-                .count()
+        let place = shown_before(self.shown, row);
+        let above = self.headed().filter(|section| section.first <= place);
+        place + above.count()
     }
 
     /// The sections with a heading.
     fn headed(&self) -> impl Iterator<Item = &Section> {
         self.sections.iter().filter(|section| 0 < section.shown)
     }
+}
+
+/// The number of rows shown before a row.
+fn shown_before(shown: Option<&[usize]>, row: usize) -> usize {
+    shown.map_or(row, |shown| shown.partition_point(|&other| other < row))
 }
 
 impl Section {

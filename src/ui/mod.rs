@@ -195,9 +195,10 @@ fn find_scene(named: Option<&Path>) -> Result<(Option<PathBuf>, Language, Openin
 pub fn note(options: &Options, error: &Error) -> Option<String> {
     let path = options.scene.as_deref();
     let path = path.unwrap_or_else(|| Path::new(DEFAULT_SCENE));
+    let state = state::state().ok()?;
     match error {
-        Error::Read(ReadError::NotFound { .. }) => recovery::note_for_missing(path),
-        Error::Read(_) | Error::Folder { .. } => recovery::note_for_unreadable(path),
+        Error::Read(ReadError::NotFound { .. }) => recovery::note_for_missing(&state, path),
+        Error::Read(_) | Error::Folder { .. } => recovery::note_for_unreadable(&state, path),
         _ => None,
     }
 }

@@ -72,10 +72,10 @@ impl ReelForm {
         match (Pattern::of(path), MovieFormat::of_path(path)) {
             (Ok(pattern), _) => match ImageFormat::of_path(path) {
                 Some(format) => Ok(Self::Pictures(pattern, format)),
-                None => Err(format!(
-                    "{name}: picture files end in {}",
-                    known_extensions()
-                )),
+                None => {
+                    let known = known_extensions();
+                    Err(format!("{name}: picture files end in {known}"))
+                }
             },
             (Err(_), Some(format)) => Ok(Self::Movie(format)),
             (Err(reason), None) => Err(format!("{name} {reason}")),
@@ -97,15 +97,10 @@ impl ReelProgress {
 
 /// Why a picture of this name cannot be exported outside of SEQUENCE mode, if it names a sequence.
 pub(super) fn names_sequence(path: &Path, play: &str) -> Option<String> {
-    let is_gif = path
-        .extension()
-        .is_some_and(|extension| extension.eq_ignore_ascii_case("gif"));
+    let extension = path.extension();
+    let is_gif = extension.is_some_and(|extension| extension.eq_ignore_ascii_case("gif"));
     let form = ReelForm::of_path(path).ok()?;
     let is_pattern = matches!(form, ReelForm::Pictures(..));
-    (is_pattern || !is_gif).then(|| {
-        format!(
-            "{} names a sequence: press {play}, then :export",
-            path.display()
-        )
-    })
+    let name = path.display();
+    (is_pattern || !is_gif).then(|| format!("{name} names a sequence: press {play}, then :export"))
 }

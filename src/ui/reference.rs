@@ -12,7 +12,7 @@ use crate::language::{self, Language, Source, errors_of_beginning};
 use crate::memory::OutOfMemory;
 use crate::render::{Frame, Record};
 use crate::scene::{Image, Images, Scene, Size};
-use crate::text::{Findings, Position, counted};
+use crate::text::Findings;
 
 /// Identifies a request of the session; starts at 1 and increases.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -135,16 +135,6 @@ fn check_beginning(path: &Path, language: Language, text: &str) -> Result<(), St
     }
 }
 
-/// Says how many errors a scene has, and which is the first.
 fn faults(path: &Path, text: &str, findings: &Findings) -> String {
-    let name = path.display();
-    let Some(error) = findings.first_error() else {
-        return format!("{name} has errors");
-    };
-    let Position { line, column } = Position::of(text, error.span.start());
-    let count = counted(findings.errors(), "error");
-    format!(
-        "{name} has {count}, the first at {line}:{column}: {}",
-        error.message
-    )
+    format!("{} has {}", path.display(), findings.errors_in(text))
 }

@@ -20,9 +20,9 @@ use std::path::{Path, PathBuf};
 use std::process;
 
 #[cfg(not(unix))]
-use plain::{FolderHandle, Missing, at, suspicion};
+use plain::{FolderHandle, suspicion};
 #[cfg(unix)]
-use unix::{FolderHandle, Missing, at, suspicion};
+use unix::{FolderHandle, suspicion};
 
 /// What is kept, each in a folder of its own.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -50,6 +50,13 @@ impl Part {
         let names = self.names().iter();
         names.fold(state.to_owned(), |path, name| path.join(name))
     }
+}
+
+/// What to do about a missing folder.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Missing {
+    Made,
+    Refused,
 }
 
 const NOT_REGULAR: &str = "is not a regular file";
@@ -82,9 +89,8 @@ pub(crate) fn state() -> io::Result<PathBuf> {
 fn state_by(set: impl Fn(&str) -> Option<OsString>) -> io::Result<PathBuf> {
     // A relative path would depend on the current folder; the specification says to ignore it.
     let set = |name| {
-        set(name)
-            .map(PathBuf::from)
-            .filter(|path| path.is_absolute())
+        let path = set(name).map(PathBuf::from);
+        path.filter(|path| path.is_absolute())
     };
     set("XDG_STATE_HOME")
         .or_else(|| Some(set("HOME")?.join(".local/state")))
@@ -97,10 +103,8 @@ impl Folder {
         let mut builder = DirBuilder::new();
         #[cfg(unix)]
         std::os::unix::fs::DirBuilderExt::mode(&mut builder, 0o700);
-        builder
-            .recursive(true)
-            .create(state)
-            .map_err(|error| at(state, &error))?;
+        let created = builder.recursive(true).create(state);
+        created.map_err(|error| at(state, &error))?;
         Self::open_in(state, part, Missing::Made)
     }
 
@@ -195,9 +199,8 @@ impl Folder {
     /// The names in the folder.
     pub(crate) fn names(&self) -> Vec<String> {
         let entries = self.path.read_dir().into_iter().flatten().flatten();
-        entries
-            .filter_map(|entry| entry.file_name().into_string().ok())
-            .collect()
+        let names = entries.filter_map(|entry| entry.file_name().into_string().ok());
+        names.collect()
     }
 
     /// Renames a file, replacing any file of the new name.
@@ -222,6 +225,11 @@ impl Folder {
     pub(crate) fn place(&self, name: &str) -> PathBuf {
         self.path.join(name)
     }
+}
+
+/// Adds the path to an error.
+fn at(path: &Path, error: &io::Error) -> io::Error {
+    io::Error::new(error.kind(), format!("{}: {error}", path.display()))
 }
 
 #[cfg(test)]

@@ -45,6 +45,9 @@ pub(crate) const ERROR: Style = Style::new().fg(Color::Red);
 /// The character under a cursor.
 pub(crate) const CURSOR: Style = Style::new().add_modifier(Modifier::REVERSED);
 
+/// The cross over the picture.
+pub(crate) const CROSS: Style = chip(Style::reset());
+
 /// The outline of the selected object in the picture; unlike the colours of most scenes.
 pub(crate) const OUTLINE: [u8; 3] = [255, 140, 0];
 
@@ -149,8 +152,8 @@ impl Theme {
             Self::Light => shown,
             Self::Mono => return Style::new(),
         };
-        let [red, green, blue] = adjusted.map(|channel| (255.0 * channel).round() as u8);
-        Style::new().fg(Color::Rgb(red, green, blue))
+        let shown = adjusted.map(|channel| (255.0 * channel).round() as u8);
+        Style::new().fg(shown.into())
     }
 }
 

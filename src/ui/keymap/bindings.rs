@@ -184,6 +184,14 @@ impl Row {
         }
     }
 
+    /// Its keys in a section.
+    pub(super) fn keys_of(&self, section: Section) -> &[Keys] {
+        match section {
+            Section::Anywhere => &self.keys,
+            Section::In(context) => self.keys_in(context),
+        }
+    }
+
     /// Changes its keys in a section.
     fn change(&mut self, section: Section, change: impl FnOnce(&mut Vec<Keys>)) {
         let Section::In(context) = section else {

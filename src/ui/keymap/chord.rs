@@ -194,26 +194,26 @@ const NAMES: [(KeyCode, &str); 20] = [
     (KeyCode::Insert, "Insert"),
 ];
 
+/// The key with this name, such as `j`, `Ctrl-R` or `Shift-Left`, as the help spells it.
+pub fn key_named(name: &str) -> Option<KeyEvent> {
+    Chord::parse(name).map(Chord::event)
+}
+
 /// The names of keys that are not characters, without modifiers.
-pub(super) fn names() -> impl Iterator<Item = &'static str> {
+pub fn key_names() -> impl Iterator<Item = &'static str> {
     NAMES.iter().map(|(_, name)| *name)
 }
 
 fn starts_with(text: &str, prefix: &str) -> bool {
+    let start = text.get(..prefix.len());
     // A prefix alone names its last character.
-    let start = text
-        .get(..prefix.len())
-        .filter(|_| prefix.len() < text.len());
-    start.is_some_and(|start| start.eq_ignore_ascii_case(prefix))
+    prefix.len() < text.len() && start.is_some_and(|start| start.eq_ignore_ascii_case(prefix))
 }
 
 fn code_of(name: &str) -> Option<KeyCode> {
     if let Some(number) = name.strip_prefix(['F', 'f']) {
-        let number = number
-            .parse()
-            .ok()
-            .filter(|number| (1..=24).contains(number));
-        return number.map(KeyCode::F);
+        let number = number.parse().ok()?;
+        return (1..=24).contains(&number).then_some(KeyCode::F(number));
     }
     let mut names = NAMES.iter();
     let known = names.find(|(_, known)| known.eq_ignore_ascii_case(name));

@@ -2,8 +2,9 @@
 
 use super::bindings::{Keymap, Row, RowId, names};
 use super::context::{Context, Mode};
-use super::key::{Hint, Key};
+use super::key::Hint;
 use super::line::{Line, line_hints};
+use super::section::Section;
 
 /// The rank of keys without a hint, where all are shown.
 const UNHINTED: u8 = 50;
@@ -60,28 +61,23 @@ impl Keymap {
         let mut lines = Vec::new();
         let mut add = |heading: &'static str, entries: Vec<SearchedEntry>| {
             let all = holds(heading, &search);
-            let found = entries
-                .into_iter()
-                .filter(|(keys, words, synonyms)| {
-                    all || [keys.as_str(), words, synonyms]
-                        .iter()
-                        .any(|text| holds(text, &search))
-                })
-                .map(|(keys, words, _)| HelpLine::Entry { keys, words });
+            let is_found = |(keys, words, synonyms): &SearchedEntry| {
+                all || [keys, *words, *synonyms]
+                    .iter()
+                    .any(|text| holds(text, &search))
+            };
+            let found = entries.into_iter().filter(is_found);
             let start = lines.len();
-            lines.extend(found);
+            lines.extend(found.map(|(keys, words, _)| HelpLine::Entry { keys, words }));
             if start < lines.len() {
                 lines.insert(start, HelpLine::Heading(heading));
             }
         };
-        add(mode.name(), self.entries(Context::In(mode)));
-        add("anywhere", self.common_entries());
-        for other in Mode::ALL.into_iter().filter(|other| *other != mode) {
-            add(other.name(), self.entries(Context::In(other)));
-        }
-        let others = Context::all().filter(|context| !matches!(context, Context::In(_)));
-        for context in others {
-            add(context.heading(), self.entries(context));
+        let here = Context::In(mode);
+        add(here.heading(), self.entries(Section::In(here)));
+        add("anywhere", self.entries(Section::Anywhere));
+        for other in Context::all().filter(|context| *context != here) {
+            add(other.heading(), self.entries(Section::In(other)));
         }
         let owned = |(keys, words): &(&str, &'static str)| ((*keys).to_owned(), *words, "");
         for (heading, line) in [
@@ -133,26 +129,16 @@ impl Keymap {
         entries
     }
 
-    /// The keys of a context that are not the same everywhere.
-    fn entries(&self, context: Context) -> Vec<SearchedEntry> {
-        let differs = |row: &Row| row.own.iter().any(|(of, _)| *of == context);
-        let rows = self.rows.iter();
-        let rows = rows.filter(|row| row.key.scope.holds(context));
-        let rows = rows.filter(|row| !row.key.is_common() || differs(row));
-        with_keys(rows.map(|row| (names(row.keys_in(context)), &row.key)))
+    /// The rows of a section that have keys.
+    fn entries(&self, section: Section) -> Vec<SearchedEntry> {
+        let rows = self.rows.iter().filter(|row| section.lists(row));
+        let bound = rows.filter(|row| !row.keys_of(section).is_empty());
+        let entry = |row: &Row| {
+            let keys = names(row.keys_of(section));
+            (keys, row.key.words, row.key.synonyms)
+        };
+        bound.map(entry).collect()
     }
-
-    fn common_entries(&self) -> Vec<SearchedEntry> {
-        let rows = self.rows.iter().filter(|row| row.key.is_common());
-        with_keys(rows.map(|row| (names(&row.keys), &row.key)))
-    }
-}
-
-fn with_keys<'a>(rows: impl Iterator<Item = (String, &'a Key)>) -> Vec<SearchedEntry> {
-    let bound = rows.filter(|(keys, _)| !keys.is_empty());
-    bound
-        .map(|(keys, row)| (keys, row.words, row.synonyms))
-        .collect()
 }
 
 /// Distributes sections of help over columns of about the same height, each section in one column

@@ -19,20 +19,13 @@ pub struct Key {
     /// Everyday words that find it too.
     pub(super) synonyms: &'static str,
     pub(super) scope: Scope,
-    chords: &'static [Chord],
-    pressed: Pressed,
+    /// Each of the keys.
+    pub chords: &'static [Chord],
+    /// Whether they are pressed one after the other, rather than any one of them.
+    is_sequence: bool,
     hints: [Option<Hint>; HINTS],
     /// The hint that is never omitted.
     pub(super) lasting: Option<&'static str>,
-}
-
-/// How the keys of a row are pressed.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Pressed {
-    /// Any one of them.
-    Each,
-    /// These two, one after the other.
-    InTurn,
 }
 
 /// The contexts of a row.
@@ -105,7 +98,7 @@ impl Key {
             synonyms: "",
             scope,
             chords,
-            pressed: Pressed::Each,
+            is_sequence: false,
             hints: [None; HINTS],
             lasting: None,
         }
@@ -119,7 +112,7 @@ impl Key {
         words: &'static str,
     ) -> Self {
         Self {
-            pressed: Pressed::InTurn,
+            is_sequence: true,
             ..Self::new(scope, name, chords, words)
         }
     }
@@ -162,11 +155,6 @@ impl Key {
         self
     }
 
-    /// Each of the keys.
-    pub fn chords(&self) -> &'static [Chord] {
-        self.chords
-    }
-
     /// Whether it belongs to a section.
     pub fn is_in(&self, section: Section) -> bool {
         match section {
@@ -177,8 +165,8 @@ impl Key {
 
     /// The keys, unless the user changes them.
     pub fn keys(&self) -> Vec<Keys> {
-        match (self.pressed, self.chords) {
-            (Pressed::InTurn, &[first, second]) => vec![Keys::in_turn(first, second)],
+        match (self.is_sequence, self.chords) {
+            (true, &[first, second]) => vec![Keys::in_turn(first, second)],
             (_, chords) => chords.iter().copied().map(Keys::one).collect(),
         }
     }

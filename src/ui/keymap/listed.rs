@@ -29,10 +29,6 @@ impl Keymap {
     /// other sections only where they differ there.
     pub fn bound_in(&self, section: Section) -> Vec<Bound> {
         let rows = self.rows.iter().filter(|row| section.lists(row));
-        let keys_of = |row: &Row| match section {
-            Section::Anywhere => row.keys.clone(),
-            Section::In(context) => row.keys_in(context).to_vec(),
-        };
         let mut bound: Vec<Bound> = Vec::new();
         let mut defaults = Vec::new();
         for row in rows {
@@ -40,7 +36,7 @@ impl Keymap {
                 Section::In(_) if row.key.is_common() => row.keys.clone(),
                 _ => row.key.keys(),
             };
-            let keys = keys_of(row);
+            let keys = row.keys_of(section).to_vec();
             let is_default = keys == default;
             bound.extend(keys.into_iter().map(|keys| Bound {
                 keys,
@@ -74,7 +70,7 @@ impl Keymap {
 
 impl Section {
     /// Whether the keys of a row are listed in the section.
-    fn lists(self, row: &Row) -> bool {
+    pub(super) fn lists(self, row: &Row) -> bool {
         match self {
             Self::In(context) if row.key.is_common() => {
                 row.own.iter().any(|(of, _)| *of == context)

@@ -14,7 +14,7 @@ mod rules;
 mod section;
 
 pub use bindings::{Keymap, Meaning, RowId, name};
-pub use chord::{Chord, Keys, alt, c, ctrl, key, shift};
+pub use chord::{Chord, Keys, alt, c, ctrl, key, key_named, key_names, shift};
 pub use context::{Context, Mode};
 pub use help::{Entry, HelpLine, in_columns};
 pub use key::{Key, Scope};
@@ -23,15 +23,3 @@ pub use listed::{Bound, NamedHere};
 pub use named::NamedAction;
 pub use rules::{begins_value, refusal, types_amount};
 pub use section::Section;
-
-use crossterm::event::KeyEvent;
-
-/// The key with this name, such as `j`, `Ctrl-R` or `Shift-Left`, as the help spells it.
-pub fn key_named(name: &str) -> Option<KeyEvent> {
-    Chord::parse(name).map(Chord::event)
-}
-
-/// The names of the keys that are not characters.
-pub fn key_names() -> impl Iterator<Item = &'static str> {
-    chord::names()
-}

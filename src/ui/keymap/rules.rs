@@ -77,23 +77,13 @@ impl Keymap {
     /// Whether an action that had other keys is left with ones that terminals often keep for
     /// themselves: F1, F10 or F11. Returns those keys.
     pub fn unreachable_in(&self, section: Section) -> Option<Keys> {
-        let keys_of = |row: &Row| match section {
-            Section::Anywhere => row.keys.clone(),
-            Section::In(context) => row.keys_in(context).to_vec(),
-        };
-        let here = self.rows.iter().filter(|row| row.key.is_in(section));
-        let mut left = here.map(|row| (row, keys_of(row)));
-        left.find_map(|(row, keys)| {
-            let mut others = self
-                .rows
-                .iter()
-                .filter(|other| other.key.name == row.key.name);
-            let has_other = |other: &Row| {
-                let is_here = other.key.is_in(section);
-                is_here && !keys_of(other).iter().all(belongs_to_terminals)
-            };
-            let is_lost = keys.iter().all(belongs_to_terminals) && !others.any(has_other);
-            keys.first().copied().filter(|_| is_lost)
+        let here = || self.rows.iter().filter(|row| row.key.is_in(section));
+        let is_lost = |row: &Row| row.keys_of(section).iter().all(belongs_to_terminals);
+        here().find_map(|row| {
+            let mut same = here().filter(|other| other.key.name == row.key.name);
+            // The row is one of them.
+            let first = row.keys_of(section).first().copied();
+            first.filter(|_| same.all(is_lost))
         })
     }
 }

@@ -63,11 +63,9 @@ impl Claim {
             Lock::Taken => Ok(claim.is_there().then_some(claim)),
             Lock::Busy => Ok(None),
             Lock::Unknown => {
-                let place = claim.place();
-                let reason = format!(
-                    "{} may belong to a window that is still open: its file system has no locks",
-                    place.display()
-                );
+                let reason =
+                    "may belong to a window that is still open: its file system has no locks";
+                let reason = format!("{} {reason}", claim.place().display());
                 Err(io::Error::new(io::ErrorKind::Unsupported, reason))
             }
         }

@@ -66,10 +66,7 @@ struct OpenJournal {
     language: Language,
     identity: Identity,
     base: Arc<String>,
-    /// The checksum that seals the edits.
-    seal: u64,
-    /// The offset of the first edit.
-    first: u64,
+    head: Head,
     /// The offset of the end of the last edit; `None` if the content there is unknown.
     end: Option<u64>,
 }
@@ -111,11 +108,7 @@ impl OpenJournal {
     fn new(state: &Path, change: &Change) -> io::Result<Self> {
         let folder = Arc::new(Folder::make(state, Part::Edits)?);
         let identity = Identity::of(change.scene.as_deref(), change.language);
-        let Beginning {
-            content,
-            first,
-            seal,
-        } = Beginning::new(&identity, change);
+        let (content, head) = beginning(&identity, change);
         let claim = Claim::new(&folder, &identity)?;
         if let Err(error) = claim.fill(&content) {
             let _ = claim.remove();
@@ -128,8 +121,7 @@ impl OpenJournal {
             language: change.language,
             identity,
             base: Arc::clone(&change.saved),
-            seal,
-            first,
+            head,
             end: Some(content.len() as u64),
         })
     }
@@ -147,7 +139,7 @@ impl OpenJournal {
 
     fn write(&mut self, change: &Change) -> io::Result<()> {
         let is_base = self.base == change.saved;
-        let room = self.first + WASTE.max(change.len() as u64);
+        let room = self.head.end + WASTE.max(change.len() as u64);
         let end = self.end.take();
         match end.filter(|&end| is_base && end < room && self.claim.is_as_left(end)) {
             Some(end) => self.append(end, &change.edit),
@@ -156,7 +148,7 @@ impl OpenJournal {
     }
 
     fn append(&mut self, end: u64, edit: &Edit) -> io::Result<()> {
-        let edit = record::edit(self.seal, edit);
+        let edit = record::edit(self.head.seal, edit);
         let mut file = self.claim.file();
         file.seek(SeekFrom::Start(end))?;
         file.write_all(&edit)?;
@@ -166,39 +158,30 @@ impl OpenJournal {
     }
 
     fn replace(&mut self, change: &Change) -> io::Result<()> {
-        let Beginning {
-            content,
-            first,
-            seal,
-        } = Beginning::new(&self.identity, change);
+        let (content, head) = beginning(&self.identity, change);
         self.claim.replace(&content)?;
         self.base = Arc::clone(&change.saved);
-        (self.seal, self.first) = (seal, first);
+        self.head = head;
         self.end = Some(content.len() as u64);
         Ok(())
     }
 }
 
-/// A journal with one edit.
-struct Beginning {
-    content: Vec<u8>,
-    /// The offset of the edit.
-    first: u64,
-    /// The checksum that seals further edits.
+/// What is in a journal before its edits.
+#[derive(Clone, Copy, Debug)]
+struct Head {
+    /// The offset of the first edit.
+    end: u64,
+    /// The checksum that seals the edits.
     seal: u64,
 }
 
-impl Beginning {
-    fn new(scene: &Identity, change: &Change) -> Self {
-        let (mut content, seal) = record::head(scene, &change.saved);
-        let first = content.len() as u64;
-        content.extend(record::edit(seal, &change.edit));
-        Self {
-            content,
-            first,
-            seal,
-        }
-    }
+/// A journal with one edit.
+fn beginning(scene: &Identity, change: &Change) -> (Vec<u8>, Head) {
+    let (mut content, seal) = record::head(scene, &change.saved);
+    let end = content.len() as u64;
+    content.extend(record::edit(seal, &change.edit));
+    (content, Head { end, seal })
 }
 
 #[cfg(test)]

@@ -81,10 +81,8 @@ impl Keeper {
     pub(crate) fn finish(self, deadline: Instant) -> End {
         drop(self.service);
         let lost = |reason: &str| End::Lost(reason.to_owned());
-        match self
-            .end
-            .recv_timeout(deadline.saturating_duration_since(Instant::now()))
-        {
+        let patience = deadline.saturating_duration_since(Instant::now());
+        match self.end.recv_timeout(patience) {
             Ok(end) => end,
             Err(_) if !self.keeps => End::Nothing,
             Err(RecvTimeoutError::Timeout) => lost("the recovery folder is not responding"),
@@ -125,9 +123,8 @@ fn follow(inbox: &Receiver<Request>, report: impl Fn(Outcome)) -> End {
             Request::Discard(claim) => claim.remove(),
         };
         if let Err(error) = removed {
-            report(Outcome::Failed(format!(
-                "kept edits cannot be removed: {error}"
-            )));
+            let reason = format!("kept edits cannot be removed: {error}");
+            report(Outcome::Failed(reason));
         }
     }
     match trouble {

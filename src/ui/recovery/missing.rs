@@ -16,16 +16,6 @@ pub(crate) fn base_of(path: Option<&Path>, language: Language) -> Option<String>
     base_in(&state::state().ok()?, path, language)
 }
 
-/// The addition to the message that a scene is missing, if edits of it may be kept.
-pub(crate) fn note_for_missing(path: &Path) -> Option<String> {
-    missing_in(&state::state().ok()?, path)
-}
-
-/// The addition to the message that a scene cannot be read, if edits of it are kept.
-pub(crate) fn note_for_unreadable(path: &Path) -> Option<String> {
-    unreadable_in(&state::state().ok()?, path)
-}
-
 pub(super) fn base_in(state: &Path, path: Option<&Path>, language: Language) -> Option<String> {
     let scene = Identity::of(path, language);
     let claims = claims(state, &scene);
@@ -38,7 +28,9 @@ pub(super) fn base_in(state: &Path, path: Option<&Path>, language: Language) -> 
     })
 }
 
-pub(super) fn missing_in(state: &Path, path: &Path) -> Option<String> {
+/// The addition to the message that a scene is missing, if edits of it may be kept below a state
+/// folder.
+pub(crate) fn note_for_missing(state: &Path, path: &Path) -> Option<String> {
     let place = newest_place(state, path)?;
     let place = place.display();
     Some(format!(
@@ -46,7 +38,9 @@ pub(super) fn missing_in(state: &Path, path: &Path) -> Option<String> {
     ))
 }
 
-pub(super) fn unreadable_in(state: &Path, path: &Path) -> Option<String> {
+/// The addition to the message that a scene cannot be read, if edits of it are kept below a state
+/// folder.
+pub(crate) fn note_for_unreadable(state: &Path, path: &Path) -> Option<String> {
     let place = newest_place(state, path)?;
     let (path, place) = (path.display(), place.display());
     Some(format!(

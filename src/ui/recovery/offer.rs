@@ -4,7 +4,6 @@ use std::fmt::Display;
 use std::io;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
-use std::thread;
 
 use super::claim::Claim;
 use super::identity::Identity;
@@ -14,6 +13,7 @@ use crate::file;
 use crate::language::Language;
 use crate::memory::megabytes;
 use crate::text::{Edit, smallest_edit};
+use crate::ui::queue::spawn;
 use crate::ui::state::{self, Folder, Part};
 
 /// The size, in bytes, that a journal may have regardless of the scene's length.
@@ -90,10 +90,7 @@ pub(crate) fn look_for(sought: Sought, report: impl Fn(Found) + Send + 'static) 
             report(found);
         }
     };
-    let spawned = thread::Builder::new()
-        .name("recovery".to_owned())
-        .spawn(look);
-    spawned.map(drop)
+    spawn("recovery", look).map(drop)
 }
 
 /// Finds the newest edits kept below a state folder.
@@ -173,6 +170,7 @@ impl Found {
     /// Processes the content of a journal.
     fn take(&mut self, claim: Claim, content: Content, sought: &Sought) {
         let place = claim.place();
+        let place = place.display();
         match content {
             Content::Edits {
                 base,
@@ -191,14 +189,9 @@ impl Found {
             Content::Empty => {
                 let _ = claim.remove();
             }
-            Content::OfAnotherScene => {
-                self.complain(format!("{} belongs to another scene", place.display()));
-            }
+            Content::OfAnotherScene => self.complain(format!("{place} belongs to another scene")),
             Content::OfAnotherVersion => {
-                self.complain(format!(
-                    "{} is of another version of halflight",
-                    place.display()
-                ));
+                self.complain(format!("{place} is of another version of halflight"));
             }
             Content::Damaged => self.set_aside(&claim),
         }

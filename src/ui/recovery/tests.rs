@@ -320,7 +320,7 @@ fn a_journal_changed_by_others_is_rewritten() {
 fn edits_of_a_missing_file_are_found() {
     let place = Place::new();
     let base = || missing::base_in(&place.state, Some(&place.scene()), Language::Ray);
-    let note = || missing::unreadable_in(&place.state, &place.scene());
+    let note = || missing::note_for_unreadable(&place.state, &place.scene());
     assert_eq!((base(), note()), (None, None));
     let mut journal = place.run();
     place.keep(&mut journal, "1 2 4");
@@ -335,7 +335,10 @@ fn edits_of_a_missing_file_are_found() {
     assert!(named(&note()));
     fs::write(place.journal(0), "damaged").expect("it is ours");
     assert_eq!(base(), None);
-    assert!(named(&missing::missing_in(&place.state, &place.scene())));
+    assert!(named(&missing::note_for_missing(
+        &place.state,
+        &place.scene()
+    )));
 }
 
 /// A journal in parts: the head with the base, and edits.

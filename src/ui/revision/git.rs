@@ -15,6 +15,8 @@ use std::sync::mpsc::{self, Receiver, RecvTimeoutError, SyncSender};
 use std::thread;
 use std::time::{Duration, Instant};
 
+use crate::ui::queue::spawn;
+
 /// What keeps git from fetching objects, for which it would run programs that the repository names.
 /// Each suffices; git knows the first since version 2.45.
 pub(super) const GUARDS: [(&str, &str); 2] =
@@ -182,8 +184,7 @@ impl Running {
     fn listen(&mut self) -> Result<Receiver<Piece>, String> {
         let (send, pieces) = mpsc::sync_channel(2);
         let streams = self.0.stdout.take().zip(self.0.stderr.take());
-        let thread = thread::Builder::new().name("git".to_owned());
-        let spawned = thread.spawn(move || {
+        let spawned = spawn("git", move || {
             if let Some((output, complaints)) = streams {
                 read(output, complaints, &send);
             }

@@ -1,24 +1,14 @@
 //! Threads that answer requests.
 
 use std::io;
-use std::sync::mpsc::Receiver;
 
 use crate::ui::event::Work;
 use crate::ui::queue::{Ended, Service};
 
 /// A thread whose requests count as work until they are answered.
-pub(crate) struct Answering<R>(Service<(R, Work)>);
+pub(crate) type Answering<R> = Service<(R, Work)>;
 
 impl<R: Send + 'static> Answering<R> {
-    /// Starts a thread that runs `follow` until the requests end.
-    pub(crate) fn start(
-        name: &str,
-        work: &'static str,
-        follow: impl FnOnce(&Receiver<(R, Work)>) + Send + 'static,
-    ) -> io::Result<Self> {
-        Service::start(name, work, follow).map(Self)
-    }
-
     /// Starts a thread that answers every request.
     pub(crate) fn each(
         name: &str,
@@ -50,6 +40,6 @@ impl<R: Send + 'static> Answering<R> {
 
     /// Queues a request, which is work from now on.
     pub(crate) fn ask(&self, request: R, work: Work) -> Result<(), Ended> {
-        self.0.request((request, work))
+        self.request((request, work))
     }
 }

@@ -2,27 +2,25 @@
 
 use std::io;
 use std::path::PathBuf;
-use std::sync::Arc;
 
 use super::answering::Answering;
+use super::watching::Watching;
 use crate::assets::{Assets, Wanted};
 use crate::file;
 use crate::ui::msg::{Msg, Polled};
-use crate::watch::{Method, Notice, Watcher};
+use crate::watch::Method;
 
 /// Starts the thread. `send` is called on it and on the watcher's thread. Nothing waits for its end, as it
 /// has no work that could be lost.
 pub(crate) fn assets(
     folders: &[PathBuf],
     method: Method,
-    send: impl Fn(Msg) + Send + Sync + 'static,
+    send: impl Fn(Msg) + Clone + Send + 'static,
 ) -> io::Result<Answering<Wanted>> {
     let mut thread = AssetThread {
         assets: Assets::new(folders),
-        method,
-        watched: Vec::new(),
-        watcher: None,
-        send: Arc::new(send),
+        watching: Watching::new(Polled::Assets, method, send.clone()),
+        send,
     };
     Answering::latest("assets", "reads the scene's files", move |wanted| {
         thread.answer(&wanted);
@@ -32,15 +30,11 @@ pub(crate) fn assets(
 /// State of the thread.
 struct AssetThread<S> {
     assets: Assets,
-    method: Method,
-    /// The files that `watcher` watches.
-    watched: Vec<PathBuf>,
-    /// Stops watching when dropped.
-    watcher: Option<Watcher>,
-    send: Arc<S>,
+    watching: Watching<S>,
+    send: S,
 }
 
-impl<S: Fn(Msg) + Send + Sync + 'static> AssetThread<S> {
+impl<S: Fn(Msg) + Clone + Send + 'static> AssetThread<S> {
     fn answer(&mut self, wanted: &Wanted) {
         file::regain_folder();
         self.watch(wanted);
@@ -61,33 +55,7 @@ impl<S: Fn(Msg) + Send + Sync + 'static> AssetThread<S> {
     /// `false` if they cannot be watched, so that the next request tries again.
     fn watch(&mut self, wanted: &Wanted) -> bool {
         let places = self.assets.places(wanted);
-        if places == self.watched {
-            return false;
-        }
-        if self.watcher.take().is_some() {
-            (self.send)(Msg::Polled(Polled::Assets, None));
-        }
-        self.watched.clear();
-        if !places.is_empty() {
-            let send = Arc::clone(&self.send);
-            let notify = move |notice| {
-                send(match notice {
-                    Notice::Changed => Msg::AssetsChanged,
-                    Notice::Polled(reason) => Msg::Polled(Polled::Assets, reason),
-                });
-            };
-            match Watcher::new(&places, self.method, notify) {
-                Ok(watcher) => self.watcher = Some(watcher),
-                Err(error) => {
-                    (self.send)(Msg::Failed(format!(
-                        "cannot watch the scene's files for changes: {error}"
-                    )));
-                    return false;
-                }
-            }
-        }
-        self.watched = places;
-        true
+        places != self.watching.paths && self.watching.watch(places)
     }
 }
 

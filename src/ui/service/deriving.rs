@@ -18,17 +18,13 @@ pub(crate) fn history_scenes(
     send: impl Fn(Msg) + Send + 'static,
 ) -> io::Result<Answering<HistoryText>> {
     let folders = folders.to_vec();
-    Answering::latest(
-        "history",
-        "derives earlier scenes",
-        move |text: HistoryText| {
-            // Files of other texts are rarely named twice, and may be large.
-            let derived = derive(&text, &mut Assets::new(&folders));
-            let derived =
-                derived.unwrap_or_else(|refused| Err(NoPicture::Failed(refused.to_string())));
-            send(Msg::Derived(text.ticket, derived));
-        },
-    )
+    let answer = move |text: HistoryText| {
+        // Files of other texts are rarely named twice, and may be large.
+        let derived = derive(&text, &mut Assets::new(&folders));
+        let derived = derived.unwrap_or_else(|refused| Err(NoPicture::Failed(refused.to_string())));
+        send(Msg::Derived(text.ticket, derived));
+    };
+    Answering::latest("history", "derives earlier scenes", answer)
 }
 
 /// The scene of a text of the history. Files that the present text names as well are not read again.
@@ -49,11 +45,8 @@ fn derive(
         let Some(wanted) = scene.map(|scene| Wanted::new(scene, &names)) else {
             break;
         };
-        if files
-            .names
-            .as_ref()
-            .is_some_and(|known| wanted.is_among(known))
-        {
+        let known = files.names.as_ref();
+        if known.is_some_and(|known| wanted.is_among(known)) {
             break;
         }
         let loaded = assets.read(&wanted);

@@ -1,6 +1,7 @@
 //! Whether a picture may be written to a file.
 
-use std::path::Path;
+use std::io;
+use std::path::{Path, PathBuf};
 
 use crate::file::{self, Version};
 use crate::ui::msg::{Destination, Existing, ExportId, Msg};
@@ -33,14 +34,25 @@ impl From<String> for Refused {
     }
 }
 
+/// Why a file is not written: something stands against it, or the system fails.
+pub(super) enum NotWritten<R> {
+    Refused(R),
+    Failed(io::Error),
+}
+
+impl<R> From<io::Error> for NotWritten<R> {
+    fn from(error: io::Error) -> Self {
+        Self::Failed(error)
+    }
+}
+
 /// Resolves [`Existing::Numbered`]: adds the first free number, from 2, to the name.
 pub(super) fn numbered(to: Destination) -> Destination {
     if to.existing != Existing::Numbered {
         return to;
     }
-    let name =
-        |part: Option<&std::ffi::OsStr>| part.unwrap_or_default().to_string_lossy().into_owned();
-    let (stem, extension) = (name(to.path.file_stem()), name(to.path.extension()));
+    let [stem, extension] = [to.path.file_stem(), to.path.extension()]
+        .map(|part| part.unwrap_or_default().to_string_lossy());
     let free = (2..10_000)
         .map(|number| {
             to.path
@@ -59,6 +71,17 @@ pub(super) fn check_target(to: &Destination) -> Result<(), Refused> {
     check_target_of(&to.path, to)
 }
 
+/// Refuses to replace one of these files, which the scene names.
+pub(super) fn check_spared(to: &Destination, files: &[PathBuf]) -> Result<(), Refused> {
+    if files.iter().any(|file| file::is_same(&to.path, file)) {
+        let path = to.path.display();
+        return Err(
+            format!("cannot overwrite {path}: the scene uses it; name another file").into(),
+        );
+    }
+    Ok(())
+}
+
 /// As [`check_target`], for one frame of an export whose pattern is `named`.
 pub(super) fn check_target_of(named: &Path, to: &Destination) -> Result<(), Refused> {
     let (path, shown) = (&to.path, to.path.display());
@@ -68,11 +91,7 @@ pub(super) fn check_target_of(named: &Path, to: &Destination) -> Result<(), Refu
             format!("cannot overwrite {shown}: it is the scene itself; name another file").into(),
         );
     }
-    if to.named.iter().any(|named| file::is_same(path, named)) {
-        return Err(
-            format!("cannot overwrite {shown}: the scene uses it; name another file").into(),
-        );
-    }
+    check_spared(to, &to.named)?;
     let reason = match to.existing {
         Existing::Kept | Existing::Numbered => Some("exists"),
         Existing::Own(version) if Version::of(path).ok() != Some(version) => {

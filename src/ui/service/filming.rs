@@ -8,14 +8,16 @@ use std::sync::Arc;
 use std::sync::mpsc::{self, Receiver, RecvTimeoutError, TryRecvError};
 use std::time::Duration;
 
-use super::destination::{Refused, check_target, check_target_of, numbered};
+use super::destination::{
+    NotWritten, Refused, check_spared, check_target, check_target_of, numbered,
+};
 use crate::assets::{Assets, Edited};
 use crate::file;
 use crate::image_file::{DEFAULT_RATE, ImageFormat, MovieFormat, MovieWriter, Pattern, Picture};
 use crate::language::{self, Lowered, Source};
 use crate::render::{Frame, Frames, Job, Provenance, Renderer, Settings, Threads};
 use crate::scene::{Camera, Images, Scene};
-use crate::text::{Findings, Position, counted};
+use crate::text::Findings;
 use crate::track::{self, Bound};
 use crate::ui::msg::{Destination, Existing, ExportId, Exported, Msg};
 use crate::ui::reel::{Reel, ReelForm, ReelProgress, Shot};
@@ -113,7 +115,7 @@ impl<S: Fn(Msg)> Filming<'_, S> {
             ReelForm::Pictures(pattern, format) => {
                 for number in 0..reel.track.frames {
                     self.check_cancelled()?;
-                    self.check_frame(&self.frame_of(reel, pattern, number))?;
+                    check_target_of(&self.to.path, &self.frame_of(reel, pattern, number))?;
                 }
                 let takes = Takes::new(reel, folders)?;
                 self.pictures(reel, takes, (pattern, *format))
@@ -184,10 +186,7 @@ impl<S: Fn(Msg)> Filming<'_, S> {
     /// Where a frame goes that has a file of its own.
     fn frame_of(&self, reel: &Reel, pattern: &Pattern, number: u32) -> Destination {
         let path = pattern.path(number);
-        let own = reel
-            .written
-            .get(&path)
-            .map(|&version| Existing::Own(version));
+        let own = reel.written.get(&path).copied().map(Existing::Own);
         Destination {
             existing: match self.to.existing {
                 Existing::Overwritten => Existing::Overwritten,
@@ -196,10 +195,6 @@ impl<S: Fn(Msg)> Filming<'_, S> {
             path,
             ..self.to.clone()
         }
-    }
-
-    fn check_frame(&self, to: &Destination) -> Result<(), Refused> {
-        check_target_of(&self.to.path, to)
     }
 
     fn check_cancelled(&self) -> Result<(), Unfinished> {
@@ -328,40 +323,6 @@ fn deliver(
     }
 }
 
-/// Why a file was not written.
-enum NotWritten {
-    Refused(Refused),
-    Failed(io::Error),
-}
-
-impl From<io::Error> for NotWritten {
-    fn from(error: io::Error) -> Self {
-        Self::Failed(error)
-    }
-}
-
-/// Refuses to replace a file that the scene of a frame names.
-fn check_spared(to: &Destination, files: &[PathBuf]) -> Result<(), Refused> {
-    if files.iter().any(|file| file::is_same(&to.path, file)) {
-        let path = to.path.display();
-        return Err(
-            format!("cannot overwrite {path}: the scene uses it; name another file").into(),
-        );
-    }
-    Ok(())
-}
-
-/// The first error in a text.
 fn fault(text: &str, findings: &Findings) -> String {
-    let count = counted(findings.errors(), "error");
-    match findings.first_error() {
-        None => format!("its scene has {count}"),
-        Some(error) => {
-            let Position { line, column } = Position::of(text, error.span.start());
-            format!(
-                "its scene has {count}, the first at {line}:{column}: {}",
-                error.message
-            )
-        }
-    }
+    format!("its scene has {}", findings.errors_in(text))
 }

@@ -11,6 +11,7 @@ pub mod filming;
 pub mod recent;
 pub mod scene_loader;
 mod tracks;
+mod watching;
 pub mod writing;
 
 pub(crate) use answering::Answering;

@@ -2,15 +2,13 @@
 //! folder, and recently used scenes: absolute paths, one a line and the newest first, in `halflight/recent` in
 //! the state folder. Sessions that end up there at the same moment may lose one of their entries.
 
-use std::convert::Infallible;
 use std::path::{Component, Path, PathBuf};
-use std::sync::mpsc::{self, Receiver};
-use std::time::Instant;
 use std::{fs, io};
 
 use crate::file;
 use crate::ui::arrange::PanelSizes;
-use crate::ui::queue::{Ended, Service};
+use crate::ui::msg::Msg;
+use crate::ui::queue::Service;
 use crate::ui::state::{self, Folder, Part};
 
 /// Names of the files.
@@ -24,80 +22,38 @@ const MOST: usize = 20;
 const LONGEST: u64 = 1 << 20;
 
 /// A request to the thread.
-enum Request {
+pub(crate) enum Request {
     /// Put this scene first.
     Note(PathBuf),
-    /// Report the scenes.
+    /// Report the scenes, the newest first, by [`Msg::RecentListed`].
     List,
     /// Keep the sizes of the panels.
     Panels(PanelSizes),
 }
 
-/// Handle of the thread that remembers scenes.
-pub(crate) struct Recent {
-    service: Service<Request>,
-    /// Disconnected when the thread ends.
-    end: Receiver<Infallible>,
-}
-
-impl Recent {
-    /// Starts the thread, which calls `report` with lists and `complain` with failures to remember a
-    /// scene, each reason once.
-    pub(crate) fn start(
-        report: impl Fn(Vec<PathBuf>) + Send + 'static,
-        complain: impl Fn(String) + Send + 'static,
-    ) -> io::Result<Self> {
-        let (at_work, end) = mpsc::channel();
-        let service = Service::start("recent", "remembers scenes", move |inbox| {
-            let _at_work = at_work;
-            let mut last = None;
-            for request in inbox {
-                match request {
-                    Request::List => report(list()),
-                    Request::Panels(sizes) => {
-                        // The loss is too small to interrupt anyone.
-                        let _ = state::state().and_then(|state| keep_in(&state, sizes));
-                    }
-                    Request::Note(scene) => {
-                        let noted = state::state().and_then(|state| note_in(&state, &scene));
-                        let reason = noted.err().map(|error| error.to_string());
-                        if let Some(reason) = reason.filter(|reason| last.as_ref() != Some(reason))
-                        {
-                            complain(format!("recent scenes cannot be remembered: {reason}"));
-                            last = Some(reason);
-                        }
+/// Starts the thread. Failures to remember a scene are reported by [`Msg::Failed`], each reason once.
+pub(crate) fn remembering(send: impl Fn(Msg) + Send + 'static) -> io::Result<Service<Request>> {
+    Service::start("recent", "remembers scenes", move |inbox| {
+        let mut last = None;
+        for request in inbox {
+            match request {
+                Request::List => send(Msg::RecentListed(list())),
+                Request::Panels(sizes) => {
+                    // The loss is too small to interrupt anyone.
+                    let _ = state::state().and_then(|state| keep_in(&state, sizes));
+                }
+                Request::Note(scene) => {
+                    let noted = state::state().and_then(|state| note_in(&state, &scene));
+                    let reason = noted.err().map(|error| error.to_string());
+                    if let Some(reason) = reason.filter(|reason| last.as_ref() != Some(reason)) {
+                        let words = format!("recent scenes cannot be remembered: {reason}");
+                        send(Msg::Failed(words));
+                        last = Some(reason);
                     }
                 }
             }
-        });
-        Ok(Self {
-            service: service?,
-            end,
-        })
-    }
-
-    /// Puts a scene first.
-    pub(crate) fn note(&self, scene: PathBuf) -> Result<(), Ended> {
-        self.service.request(Request::Note(scene))
-    }
-
-    /// Requests the scenes, the newest first.
-    pub(crate) fn list(&self) -> Result<(), Ended> {
-        self.service.request(Request::List)
-    }
-
-    /// Keeps the sizes of the panels.
-    pub(crate) fn keep_panels(&self, sizes: PanelSizes) -> Result<(), Ended> {
-        self.service.request(Request::Panels(sizes))
-    }
-
-    /// Waits until all scenes are remembered, at most until `deadline`.
-    pub(crate) fn finish(self, deadline: Instant) {
-        drop(self.service);
-        let patience = deadline.saturating_duration_since(Instant::now());
-        // Nothing is ever sent: the end of the thread ends the wait.
-        let _ = self.end.recv_timeout(patience);
-    }
+        }
+    })
 }
 
 /// The recently used scenes that still exist, the newest first; empty if that is unknown.
@@ -145,10 +101,8 @@ fn normal(scene: &Path) -> PathBuf {
 fn note_in(state: &Path, scene: &Path) -> io::Result<()> {
     let scene = normal(&file::absolute(scene));
     // Such a path cannot be a line of text.
-    if scene
-        .to_str()
-        .is_none_or(|path| path.contains(['\n', '\r']))
-    {
+    let is_line = |path: &str| !path.contains(['\n', '\r']);
+    if !scene.to_str().is_some_and(is_line) {
         return Ok(());
     }
     let mut scenes = read(state);

@@ -7,6 +7,7 @@ use std::path::{Path, PathBuf};
 use std::sync::mpsc::Receiver;
 use std::thread;
 
+use super::watching::Watching;
 use crate::document::Document;
 use crate::file::{self, ReadError};
 use crate::language::{self, Language};
@@ -17,7 +18,7 @@ use crate::ui::msg::{Msg, Polled};
 use crate::ui::queue::{Ended, Service};
 use crate::ui::recovery;
 use crate::ui::scene_reading::{Baseline, Opened, Reading, SceneFolder};
-use crate::watch::{Method, Notice, Watcher};
+use crate::watch::Method;
 
 /// Length in bytes from which a text is lowered on several threads.
 const LARGE: usize = 1 << 20;
@@ -43,8 +44,10 @@ impl SceneLoader {
         send: impl Fn(Msg) + Clone + Send + 'static,
     ) -> io::Result<Self> {
         let service = Service::start("reading", "reads scenes", move |inbox| {
-            let mut watcher = None;
-            let watch = |path: PathBuf| watch(&path, method, &mut watcher, &send);
+            let mut watching = Watching::new(Polled::Scene, method, send.clone());
+            let watch = |path| {
+                watching.watch(vec![path]);
+            };
             follow(inbox, watch, file::read_text, &send);
         });
         service.map(Self)
@@ -89,7 +92,8 @@ fn follow(
             file::regain_folder();
             let read = read(&path);
             requests = inbox.try_iter().collect();
-            if !requests.iter().all(Request::is_watch) {
+            let is_watch = |request: &Request| matches!(request, Request::Watch(_));
+            if !requests.iter().all(is_watch) {
                 continue;
             }
             let (baseline, language, work) = match request {
@@ -134,10 +138,6 @@ impl Request {
     fn path(&self) -> &Path {
         let (Self::Watch(path) | Self::Read(path, ..) | Self::Open(path, ..)) = self;
         path
-    }
-
-    fn is_watch(&self) -> bool {
-        matches!(self, Self::Watch(_))
     }
 }
 
@@ -201,32 +201,6 @@ pub(crate) fn missing(path: &Path, language: Language) -> Option<Opened> {
         // Edits of a template that was never written.
         Some(text) if text != language.template() => Some(Opened::Kept(text)),
         _ => file::directory_of(path).is_dir().then_some(Opened::New),
-    }
-}
-
-fn watch(
-    path: &PathBuf,
-    method: Method,
-    watcher: &mut Option<Watcher>,
-    send: &(impl Fn(Msg) + Clone + Send + 'static),
-) {
-    // The old watcher ends first, so that its notices are not taken for the new file's.
-    if watcher.take().is_some() {
-        send(Msg::Polled(Polled::Scene, None));
-    }
-    let notify = send.clone();
-    let notify = move |notice| {
-        notify(match notice {
-            Notice::Changed => Msg::FileChanged,
-            Notice::Polled(reason) => Msg::Polled(Polled::Scene, reason),
-        });
-    };
-    match Watcher::new(std::slice::from_ref(path), method, notify) {
-        Ok(new) => *watcher = Some(new),
-        Err(error) => send(Msg::Failed(format!(
-            "{}: cannot watch for changes: {error}",
-            path.display()
-        ))),
     }
 }
 

@@ -6,10 +6,10 @@ use std::io;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::mpsc::{self, Receiver, Sender};
-use std::thread;
+
 use std::time::Instant;
 
-use super::destination::{Refused, check_target, numbered};
+use super::destination::{NotWritten, Refused, check_target, numbered};
 use super::filming::{self, Cancelled};
 use crate::assets::fingerprint;
 use crate::file::{self, ReadError};
@@ -17,6 +17,7 @@ use crate::image_file::{self, Picture};
 use crate::render::{Frame, Provenance};
 use crate::ui::event::{Event, Work, sending};
 use crate::ui::msg::{Destination, ExportId, Exported, Guard, Msg, SaveId, SaveOutcome};
+use crate::ui::queue::spawn;
 use crate::ui::reel::Reel;
 
 /// Starts a thread for each file to write, and waits for all of them at the end.
@@ -46,14 +47,11 @@ impl Writers {
         text: Arc<String>,
         guard: Guard,
     ) -> io::Result<()> {
-        let shown = path.display();
-        let panicked = SaveOutcome::Failed(format!("{shown}: cannot write the scene"));
-        self.start(
-            "save",
-            Some(&self.at_work),
-            Msg::Saved(id, panicked),
-            move || Some(Msg::Saved(id, save(path, &text, &guard))),
-        )
+        let reason = format!("{}: cannot write the scene", path.display());
+        let panicked = Msg::Saved(id, SaveOutcome::Failed(reason));
+        self.start("save", Some(&self.at_work), panicked, move || {
+            Some(Msg::Saved(id, save(path, &text, &guard)))
+        })
     }
 
     /// Writes a track file, reported by [`Msg::TrackWritten`].
@@ -63,14 +61,11 @@ impl Writers {
         text: Arc<String>,
         guard: Guard,
     ) -> io::Result<()> {
-        let shown = path.display();
-        let panicked = SaveOutcome::Failed(format!("{shown}: cannot write the track"));
-        self.start(
-            "track",
-            Some(&self.at_work),
-            Msg::TrackWritten(panicked),
-            move || Some(Msg::TrackWritten(save(path, &text, &guard))),
-        )
+        let reason = format!("{}: cannot write the track", path.display());
+        let panicked = Msg::TrackWritten(SaveOutcome::Failed(reason));
+        self.start("track", Some(&self.at_work), panicked, move || {
+            Some(Msg::TrackWritten(save(path, &text, &guard)))
+        })
     }
 
     /// Writes a frame to a picture file, reported by [`Msg::Exported`].
@@ -80,19 +75,13 @@ impl Writers {
         frame: Arc<Frame>,
         to: Destination,
     ) -> io::Result<()> {
-        let shown = to.path.display();
-        let panicked = Err(format!("{shown}: cannot write the picture"));
-        self.start(
-            "export",
-            Some(&self.at_work),
-            Msg::Exported(id, panicked),
-            move || {
-                Some(export(&frame, to).map_or_else(
-                    |refused| refused.report(id),
-                    |exported| Msg::Exported(id, Ok(exported)),
-                ))
-            },
-        )
+        let panicked = cannot(id, &to, "write the picture");
+        self.start("export", Some(&self.at_work), panicked, move || {
+            Some(match export(&frame, to) {
+                Ok(exported) => Msg::Exported(id, Ok(exported)),
+                Err(refused) => refused.report(id),
+            })
+        })
     }
 
     /// Traces and writes a sequence, reported by [`Msg::Exported`].
@@ -103,22 +92,17 @@ impl Writers {
         (folders, threads): (Vec<PathBuf>, usize),
         cancelled: Cancelled,
     ) -> io::Result<()> {
-        let shown = to.path.display();
-        let panicked = Err(format!("{shown}: cannot export the sequence"));
+        let panicked = cannot(id, &to, "export the sequence");
         let send = sending(&self.sender);
-        self.start(
-            "sequence",
-            Some(&self.at_work),
-            Msg::Exported(id, panicked),
-            move || filming::film((id, reel), to, (&folders, threads), &cancelled, send),
-        )
+        self.start("sequence", Some(&self.at_work), panicked, move || {
+            filming::film((id, reel), to, (&folders, threads), &cancelled, send)
+        })
     }
 
     /// Checks whether a picture can be written there; a failure is reported by [`Msg::Exported`].
     pub(crate) fn check(&self, id: ExportId, to: Destination) -> io::Result<()> {
-        let shown = to.path.display();
-        let panicked = Err(format!("{shown}: cannot write the picture"));
-        self.start("check", None, Msg::Exported(id, panicked), move || {
+        let panicked = cannot(id, &to, "write the picture");
+        self.start("check", None, panicked, move || {
             let to = numbered(to);
             check_target(&to).err().map(|refused| refused.report(id))
         })
@@ -164,15 +148,14 @@ impl Writers {
         };
         let at_work = at_work.cloned();
         let begun = Work::begin(&self.sender);
-        let thread = thread::Builder::new().name(name.to_owned());
-        let spawned = thread.spawn(move || {
+        let started = spawn(name, move || {
             file::regain_folder();
             report.msg = work();
             drop(report);
             drop(begun);
             drop(at_work);
         });
-        spawned.map(drop)
+        started.map(drop)
     }
 
     /// Waits until everything is written, or until `deadline`.
@@ -197,6 +180,11 @@ impl Drop for Report {
             let _ = self.sender.send(Event::Msg(msg));
         }
     }
+}
+
+/// The result of an export that has failed without a reason.
+fn cannot(id: ExportId, to: &Destination, act: &str) -> Msg {
+    Msg::Exported(id, Err(format!("{}: cannot {act}", to.path.display())))
 }
 
 /// The maximum number of names to list.
@@ -224,20 +212,17 @@ fn save(path: PathBuf, text: &str, guard: &Guard) -> SaveOutcome {
     if !file::has_folder(&path) {
         return SaveOutcome::NoFolder(without_folder(&path));
     }
-    let saved = file::replace(
-        &path,
-        |out| out.write_all(text.as_bytes()),
-        || may_replace(&path, text, guard),
-    );
-    match saved {
+    let may = || may_replace(&path, text, guard).map_err(NotWritten::Refused);
+    match file::replace(&path, |out| out.write_all(text.as_bytes()), may) {
         Ok(()) => SaveOutcome::Saved {
             path,
             // If the text being edited were also the saved one, the next edit would have to copy it.
             text: Arc::new(text.to_owned()),
         },
-        Err(WriteError::Changed) => SaveOutcome::ChangedOnDisk,
-        Err(WriteError::Other(reason)) => SaveOutcome::Failed(reason),
-        Err(WriteError::Io(error)) => SaveOutcome::Failed(format!("{}: {error}", path.display())),
+        Err(NotWritten::Refused(outcome)) => outcome,
+        Err(NotWritten::Failed(error)) => {
+            SaveOutcome::Failed(format!("{}: {error}", path.display()))
+        }
     }
 }
 
@@ -252,22 +237,8 @@ fn without_folder(path: &Path) -> String {
     format!("{}: {reason}", folder.display())
 }
 
-/// Reason why a scene was not written.
-enum WriteError {
-    /// The file's text differs from the expected one.
-    Changed,
-    Other(String),
-    Io(io::Error),
-}
-
-impl From<io::Error> for WriteError {
-    fn from(error: io::Error) -> Self {
-        Self::Io(error)
-    }
-}
-
-/// Whether the contents of the file may be overwritten.
-fn may_replace(path: &Path, text: &str, guard: &Guard) -> Result<(), WriteError> {
+/// Whether the contents of the file may be overwritten; otherwise what becomes of the save.
+fn may_replace(path: &Path, text: &str, guard: &Guard) -> Result<(), SaveOutcome> {
     let held = match guard {
         Guard::Anything => return Ok(()),
         Guard::Holding(held) => Some(held),
@@ -276,12 +247,12 @@ fn may_replace(path: &Path, text: &str, guard: &Guard) -> Result<(), WriteError>
     match (held, file::read_text(path)) {
         (_, Err(ReadError::NotFound { .. })) => Ok(()),
         (Some(held), Ok(found)) if found == **held || found == text => Ok(()),
-        (Some(_), Ok(_)) => Err(WriteError::Changed),
-        (Some(_), Err(error)) => Err(WriteError::Other(error.to_string())),
+        (Some(_), Ok(_)) => Err(SaveOutcome::ChangedOnDisk),
+        (Some(_), Err(error)) => Err(SaveOutcome::Failed(error.to_string())),
         (None, _) => {
             let path = path.display();
             let reason = format!("{path} exists: use :w! {path} to overwrite it");
-            Err(WriteError::Other(reason))
+            Err(SaveOutcome::Failed(reason))
         }
     }
 }
@@ -290,25 +261,21 @@ fn may_replace(path: &Path, text: &str, guard: &Guard) -> Result<(), WriteError>
 fn export(frame: &Frame, to: Destination) -> Result<Exported, Refused> {
     let to = numbered(to);
     check_target(&to)?;
-    let may = || check_target(&to).map_err(|refused| WriteError::Other(refused.reason));
+    let may = || check_target(&to).map_err(NotWritten::Refused);
     let provenance = provenance(frame, &to).map_err(|error| error.to_string())?;
     let picture = Picture {
         provenance: provenance.as_ref(),
         ..Picture::of(frame)
     };
     let written = image_file::save(picture, &to.path, may);
-    let reason = match written {
-        Ok(version) => {
-            return Ok(Exported {
-                path: to.path,
-                version,
-            });
-        }
-        Err(WriteError::Io(error)) => format!("{}: {error}", to.path.display()),
-        Err(WriteError::Other(reason)) => reason,
-        Err(WriteError::Changed) => format!("{}: has changed", to.path.display()),
-    };
-    Err(reason.into())
+    match written {
+        Ok(version) => Ok(Exported {
+            path: to.path,
+            version,
+        }),
+        Err(NotWritten::Failed(error)) => Err(format!("{}: {error}", to.path.display()).into()),
+        Err(NotWritten::Refused(refused)) => Err(refused.reason.into()),
+    }
 }
 
 /// What a picture is made from, if that is known.

@@ -4,7 +4,7 @@
 use std::io;
 use std::sync::mpsc::{self, Receiver, RecvTimeoutError};
 use std::sync::{Arc, Weak};
-use std::thread;
+
 use std::time::{Duration, Instant};
 
 use super::traces::Traces;
@@ -12,6 +12,7 @@ use crate::assets::FileDigests;
 use crate::render::{Job, Kept, Provenance, Renderer};
 use crate::scene::Scene;
 use crate::ui::msg::{Origin, Recalled};
+use crate::ui::queue::spawn;
 
 /// The least time spent on a trace that is kept.
 const LEAST: Duration = Duration::from_secs(10);
@@ -111,8 +112,7 @@ impl Traced {
                 Err(error) => report(Recalled::Unreadable(error.to_string())),
             }
         };
-        let thread = thread::Builder::new().name("recall".to_owned());
-        thread.spawn(look)?;
+        spawn("recall", look)?;
         let traced = Self {
             digests: Some(digests),
             ..traced
@@ -140,9 +140,8 @@ impl Traced {
             // Fails only if the program has stopped waiting.
             let _ = tell.send(end);
         };
-        let thread = thread::Builder::new().name("keep".to_owned());
         // Without a thread the trace is lost.
-        let _ = thread.spawn(work);
+        let _ = spawn("keep", work);
         Keeping { end, deadline }
     }
 

@@ -177,11 +177,9 @@ fn arguments(program: &str, path: &Path, line: usize) -> Vec<OsString> {
 
 /// Whether emacs takes the first folder of a path for a method and a host: `/ssh:host:...`.
 fn names_a_host(path: &Path) -> bool {
+    let has_colon = |part: Component| part.as_os_str().as_encoded_bytes().contains(&b':');
     let mut parts = path.components();
-    parts.next() == Some(Component::RootDir)
-        && parts
-            .next()
-            .is_some_and(|first| first.as_os_str().as_encoded_bytes().contains(&b':'))
+    parts.next() == Some(Component::RootDir) && parts.next().is_some_and(has_colon)
 }
 
 #[cfg(test)]

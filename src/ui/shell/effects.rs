@@ -19,6 +19,7 @@ use super::editor;
 use super::ending::ShutdownDeadlines;
 use super::screen::Screen;
 use super::traces::Traces;
+use super::tty_session::TtySession;
 use crate::assets::Wanted;
 use crate::memory;
 use crate::render::{Frame, Job, Kept, Refusal, Renderer, Threads};
@@ -33,7 +34,7 @@ use crate::ui::queue::{Ended, Service};
 use crate::ui::recovery::{self, Edits, End, Keeper, Outcome, Request};
 use crate::ui::reel::Reel;
 use crate::ui::reference::{Pair, ReferenceId, ReferenceSource};
-use crate::ui::service::recent::Recent;
+use crate::ui::service::recent;
 use crate::ui::service::scene_loader::SceneLoader;
 use crate::ui::service::writing::Writers;
 use crate::ui::service::{self, Answering};
@@ -54,7 +55,7 @@ pub(crate) struct Runtime {
     freeing: Service<Arc<dyn Any + Send + Sync>>,
     writers: Writers,
     keeper: Keeper,
-    recent: Recent,
+    recent: Service<recent::Request>,
     assets: Answering<Wanted>,
     tracks: Answering<PathBuf>,
     references: Answering<(ReferenceId, ReferenceSource)>,
@@ -95,7 +96,7 @@ impl Runtime {
             })?,
             writers: Writers::new(sender.clone()),
             keeper: Keeper::start(keeping(&sender))?,
-            recent: remembering(&sender)?,
+            recent: recent::remembering(sending(&sender))?,
             assets: service::assets(&options.assets, options.watching(), sending(&sender))?,
             tracks: service::tracks(options.watching(), sending(&sender))?,
             references: service::references(&options.assets, sending(&sender))?,
@@ -145,10 +146,8 @@ impl Runtime {
                 let ended = self.renderers.get(&target)?.number == number;
                 ended.then_some(Msg::Ended(target))
             }
-            Event::Typed(event, _) => self.message(*event),
-            Event::Cleared | Event::Replied(..) | Event::Begun | Event::Done | Event::Signalled => {
-                None
-            }
+            // The session has handled the others, or they only wake it.
+            _ => None,
         }
     }
 
@@ -164,8 +163,8 @@ impl Runtime {
         let files = begun + deadlines.files;
         let is_kept = self.screen.is_terminal();
         let traced = self.traced.filter(|_| is_kept);
-        let keeping = traced
-            .zip(self.renderers.remove(&Target::Trace))
+        let keeping = traced.zip(self.renderers.remove(&Target::Trace));
+        let keeping = keeping
             .map(|(traced, running)| traced.keep(running.renderer, now, begun + deadlines.trace));
         self.screen.close(begun + deadlines.terminal);
         drop(self.filming);
@@ -194,10 +193,8 @@ impl Runtime {
         if self.trim_at.take_if(|at| *at <= now).is_some() {
             memory::malloc::trim();
         }
-        self.timers
-            .extract_if(.., |&mut (at, _)| at <= now)
-            .map(|(_, timer)| Msg::Elapsed(timer))
-            .collect()
+        let due = self.timers.extract_if(.., |&mut (at, _)| at <= now);
+        due.map(|(_, timer)| Msg::Elapsed(timer)).collect()
     }
 
     /// Performs an effect and returns its immediate result, if any.
@@ -234,10 +231,10 @@ impl Runtime {
             Effect::Derive(past) => {
                 let ticket = past.ticket;
                 let begun = self.history_scenes.ask(*past, self.work());
-                let refused = begun
+                let refused = |ended: Ended| Err(NoPicture::Failed(ended.to_string()));
+                return Ok(begun
                     .err()
-                    .map(|ended| NoPicture::Failed(ended.to_string()));
-                return Ok(refused.map(|reason| Msg::Derived(ticket, Err(reason))));
+                    .map(|ended| Msg::Derived(ticket, refused(ended))));
             }
             Effect::WriteImage(id, frame, to) => {
                 return Ok(not_exported(id, self.writers.export(id, frame, to)));
@@ -254,19 +251,15 @@ impl Runtime {
                 text,
                 guard,
             } => {
-                let started = self.writers.save(id, path, text, guard);
-                let refused = started.err().map(|error| error.to_string());
-                return Ok(refused.map(|reason| Msg::Saved(id, SaveOutcome::Failed(reason))));
+                let refused = not_saved(self.writers.save(id, path, text, guard));
+                return Ok(refused.map(|outcome| Msg::Saved(id, outcome)));
             }
-            Effect::NoteRecent(scene) => self.recent.note(scene)?,
-            Effect::ListRecent => self.recent.list()?,
-            Effect::KeepPanels(sizes) => self.recent.keep_panels(sizes)?,
+            Effect::NoteRecent(scene) => self.recent.request(recent::Request::Note(scene))?,
+            Effect::ListRecent => self.recent.request(recent::Request::List)?,
+            Effect::KeepPanels(sizes) => self.recent.request(recent::Request::Panels(sizes))?,
             Effect::Watch(path) => self.reader.watch(path)?,
             Effect::WriteTrack { path, text, guard } => {
-                let started = self.writers.write_track(path, text, guard);
-                let refused = started
-                    .err()
-                    .map(|error| SaveOutcome::Failed(error.to_string()));
+                let refused = not_saved(self.writers.write_track(path, text, guard));
                 return Ok(refused.map(Msg::TrackWritten));
             }
             Effect::Later(time, timer) => {
@@ -277,9 +270,10 @@ impl Runtime {
                 scene,
                 known,
                 revision,
-            } => self
-                .keeper
-                .request(Request::Keep(revision, Edits { scene, known }))?,
+            } => {
+                let edits = Edits { scene, known };
+                self.keeper.request(Request::Keep(revision, edits))?;
+            }
             Effect::DropRecovery => self.keeper.request(Request::Forget)?,
             Effect::LookForKept(sought) => {
                 let send = sending(&self.sender);
@@ -293,17 +287,17 @@ impl Runtime {
                 let outcome = outcome.map_err(|failure| failure.to_string());
                 return Ok(Some(Msg::EditorClosed(outcome)));
             }
-            Effect::CopyText(text) => {
-                let copied = self.screen.copy(&text);
-                copied.map_err(Failure::Terminal)?;
+            Effect::CopyText(text) => self.on_tty(|tty| tty.terminal.copy(&text))?,
+            Effect::SetMouse(mouse) => self.on_tty(|tty| tty.terminal.set_mouse(mouse))?,
+            Effect::Repaint => self.on_tty(|tty| {
+                tty.terminal.repaint();
+                Ok(())
+            })?,
+            Effect::TakeTerminal => self.on_tty(TtySession::take)?,
+            Effect::Suspend => {
+                let suspended = self.screen.lendable().and_then(TtySession::suspend);
+                suspended.map_err(Failure::Terminal)?;
             }
-            Effect::SetMouse(mouse) => {
-                let set = self.screen.set_mouse(mouse);
-                set.map_err(Failure::Terminal)?;
-            }
-            Effect::Repaint => self.screen.repaint(),
-            Effect::TakeTerminal => self.screen.take().map_err(Failure::Terminal)?,
-            Effect::Suspend => self.screen.suspend().map_err(Failure::Terminal)?,
             Effect::Quit => self.ended = true,
         }
         Ok(None)
@@ -400,8 +394,18 @@ impl Runtime {
 
     fn open_editor(&mut self, path: &Path, line: usize) -> Result<(), Failure> {
         let configured = self.editor.as_deref();
-        let ran = self.screen.lend(|| editor::run(configured, path, line));
+        let tty = self.screen.lendable();
+        let ran = tty.and_then(|tty| tty.lend(|| editor::run(configured, path, line)));
         ran.map_err(Failure::Terminal)?.map_err(Failure::Editor)
+    }
+
+    /// Acts on the terminal; does nothing on a page.
+    fn on_tty(
+        &mut self,
+        act: impl FnOnce(&mut TtySession) -> io::Result<()>,
+    ) -> Result<(), Failure> {
+        let done = self.screen.tty().map_or(Ok(()), act);
+        done.map_err(Failure::Terminal)
     }
 }
 
@@ -450,6 +454,12 @@ impl Drop for Waker {
     }
 }
 
+/// What becomes of a save that could not be started.
+fn not_saved(started: io::Result<()>) -> Option<SaveOutcome> {
+    let error = started.err()?;
+    Some(SaveOutcome::Failed(error.to_string()))
+}
+
 /// What becomes of an export that could not be started.
 fn not_exported(id: ExportId, started: io::Result<()>) -> Option<Msg> {
     let error = started.err()?;
@@ -465,15 +475,6 @@ fn keeping(sender: &Sender<Event>) -> impl Fn(Outcome) + Send + 'static {
             Outcome::Failed(reason) => Msg::Failed(reason),
         });
     }
-}
-
-/// Remembers scenes, and announces lists of them.
-fn remembering(sender: &Sender<Event>) -> io::Result<Recent> {
-    let (report, complain) = (sending(sender), sending(sender));
-    Recent::start(
-        move |scenes| report(Msg::RecentListed(scenes)),
-        move |reason| complain(Msg::Failed(reason)),
-    )
 }
 
 #[cfg(test)]

@@ -11,10 +11,8 @@ use ratatui::layout::Rect;
 
 use super::tty_session::TtySession;
 use crate::ui::event::Event;
-use crate::ui::msg::Msg;
 use crate::ui::options::Options;
-use crate::ui::terminal::query::Question;
-use crate::ui::terminal::{ColourDepth, Means, Mouse, Pixmap};
+use crate::ui::terminal::Pixmap;
 
 /// The screen of a session.
 pub(super) enum Screen {
@@ -32,14 +30,14 @@ impl Screen {
             let Ok(page) = ratatui::Terminal::new(TestBackend::new(columns, rows));
             return Ok(Self::Page(page));
         }
-        let console = TtySession::enter(options, sender)?;
-        Ok(Self::TtySession(Box::new(console)))
+        let tty = TtySession::enter(options, sender)?;
+        Ok(Self::TtySession(Box::new(tty)))
     }
 
     /// Whether everything drawn was taken, so that the next frame may be drawn.
     pub(super) fn is_clear(&self) -> bool {
         match self {
-            Self::TtySession(console) => console.is_clear(),
+            Self::TtySession(tty) => tty.terminal.is_clear(),
             Self::Page(_) => true,
         }
     }
@@ -51,7 +49,7 @@ impl Screen {
 
     /// Whether there is a terminal that is not lent to another program.
     pub(super) fn has_terminal(&self) -> bool {
-        matches!(self, Self::TtySession(console) if console.is_ours())
+        matches!(self, Self::TtySession(tty) if tty.terminal.is_ours())
     }
 
     /// Draws a frame; returns the number of bytes sent to the terminal. `paint` returns the cells
@@ -62,7 +60,7 @@ impl Screen {
         mut paint: impl FnMut(&mut Frame) -> Option<Rect>,
     ) -> io::Result<usize> {
         match self {
-            Self::TtySession(console) => console.terminal().draw(pixmap, paint),
+            Self::TtySession(tty) => tty.terminal.draw(pixmap, paint),
             Self::Page(page) => {
                 let Ok(_) = page.draw(|frame| {
                     paint(frame);
@@ -87,135 +85,24 @@ impl Screen {
         }
     }
 
-    /// The next signal that has arrived.
-    pub(super) fn next_signal(&self) -> Option<Msg> {
-        self.console().and_then(TtySession::next_signal)
-    }
-
-    /// Lets the terminal keep keys apart from the beginnings of sequences.
-    pub(super) fn keep_keys_apart(&mut self) -> io::Result<()> {
+    /// The terminal with its keyboard; `None` on a page.
+    pub(super) fn tty(&mut self) -> Option<&mut TtySession> {
         match self {
-            Self::TtySession(console) => console.terminal().keep_keys_apart(),
-            Self::Page(_) => Ok(()),
+            Self::TtySession(tty) => Some(tty),
+            Self::Page(_) => None,
         }
     }
 
-    /// Queries the terminal. Any answers arrive as [`Event::Replied`].
-    pub(super) fn ask(&self, questions: &[Question]) -> io::Result<()> {
-        let console = self.console();
-        console.map_or(Ok(()), |console| console.ask(questions))
-    }
-
-    /// Sets how pictures are sent from now on; `None` sends none.
-    pub(super) fn set_means(&mut self, means: Option<Means>) {
-        if let Self::TtySession(console) = self {
-            console.terminal().set_means(means);
-        }
-    }
-
-    /// Requests a status reply, which arrives after everything sent so far.
-    pub(super) fn ask_status(&self) -> io::Result<()> {
-        self.console().map_or(Ok(()), TtySession::ask_status)
-    }
-
-    /// Stops expecting answers to queries.
-    pub(super) fn give_up_answers(&self) {
-        if let Some(console) = self.console() {
-            console.give_up_answers();
-        }
-    }
-
-    /// Stops expecting status replies.
-    pub(super) fn give_up_replies(&self) {
-        if let Some(console) = self.console() {
-            console.give_up_replies();
-        }
-    }
-
-    /// Uses this colour depth from now on.
-    pub(super) fn recolour(&mut self, depth: ColourDepth) {
-        if let Self::TtySession(console) = self {
-            console.terminal().recolour(depth);
-        }
-    }
-
-    /// Draws the next frame in full.
-    pub(super) fn repaint(&mut self) {
-        if let Self::TtySession(console) = self {
-            console.terminal().repaint();
-        }
-    }
-
-    /// Takes the mouse or leaves it to the terminal.
-    pub(super) fn set_mouse(&mut self, mouse: Mouse) -> io::Result<()> {
-        match self {
-            Self::TtySession(console) => console.terminal().set_mouse(mouse),
-            Self::Page(_) => Ok(()),
-        }
-    }
-
-    /// Offers text to the terminal's clipboard.
-    pub(super) fn copy(&mut self, text: &str) -> io::Result<()> {
-        match self {
-            Self::TtySession(console) => console.terminal().copy(text),
-            Self::Page(_) => Ok(()),
-        }
-    }
-
-    /// Records whether the current unsaved edits are stored for recovery.
-    pub(super) fn note_kept_edits(&mut self, are_kept: bool) {
-        if let Self::TtySession(console) = self {
-            console.terminal().note_kept_edits(are_kept);
-        }
-    }
-
-    /// Returns the panics of other threads since the last call.
-    pub(super) fn take_panics(&mut self) -> Vec<String> {
-        match self {
-            Self::TtySession(console) => console.terminal().take_panics(),
-            Self::Page(_) => Vec::new(),
-        }
-    }
-
-    /// Runs another program on the terminal; the inner result is the program's.
-    pub(super) fn lend<T>(&mut self, run: impl FnOnce() -> T) -> io::Result<T> {
-        match self {
-            Self::TtySession(console) => console.lend(run),
-            Self::Page(_) => Err(no_terminal()),
-        }
-    }
-
-    /// Takes the terminal back from another program.
-    pub(super) fn take(&mut self) -> io::Result<()> {
-        match self {
-            Self::TtySession(console) => console.take(),
-            Self::Page(_) => Ok(()),
-        }
-    }
-
-    /// Stops the process until it is continued.
-    pub(super) fn suspend(&mut self) -> io::Result<()> {
-        match self {
-            Self::TtySession(console) => console.suspend(),
-            Self::Page(_) => Err(no_terminal()),
-        }
+    /// The terminal with its keyboard, to be lent to others. Fails on a page.
+    pub(super) fn lendable(&mut self) -> io::Result<&mut TtySession> {
+        let reason = "there is none while keys come from a script";
+        self.tty().ok_or_else(|| io::Error::other(reason))
     }
 
     /// Restores the terminal, waiting until `deadline` at most.
     pub(super) fn close(self, deadline: Instant) {
-        if let Self::TtySession(console) = self {
-            console.close(deadline);
+        if let Self::TtySession(tty) = self {
+            tty.close(deadline);
         }
     }
-
-    fn console(&self) -> Option<&TtySession> {
-        match self {
-            Self::TtySession(console) => Some(console),
-            Self::Page(_) => None,
-        }
-    }
-}
-
-fn no_terminal() -> io::Error {
-    io::Error::other("there is none while keys come from a script")
 }

@@ -6,7 +6,7 @@ mod terminal_queries;
 
 use std::collections::VecDeque;
 use std::path::PathBuf;
-use std::sync::mpsc::{self, Receiver, RecvTimeoutError};
+use std::sync::mpsc::{self, Receiver};
 use std::time::{Duration, Instant};
 use std::{io, mem};
 
@@ -130,33 +130,38 @@ impl Session {
         if reply == Reply::Status {
             self.link.replied(at);
         }
-        if reply == Reply::KeysApart {
+        if reply == Reply::KeysApart
+            && let Some(tty) = self.runtime.screen().tty()
+        {
             // A terminal that is gone is noticed by the next frame.
-            let _ = self.runtime.screen().keep_keys_apart();
+            let _ = tty.terminal.keep_keys_apart();
         }
         self.known.take(reply);
         let before = self.manner;
-        let changed = if self.wanted_manner() == before {
-            Urgency::Never
-        } else {
-            Urgency::Now
+        let changed = match self.wanted_manner() {
+            manner if manner == before => Urgency::Never,
+            _ => Urgency::Now,
         };
-        let is_in_time = |&(_, until): &(ColourDepth, Instant)| at < until;
-        if reply != Reply::TrueColour || self.asked.take_if(|asked| is_in_time(asked)).is_none() {
+        let is_in_time = |&mut (_, until): &mut (ColourDepth, Instant)| at < until;
+        if reply != Reply::TrueColour || self.asked.take_if(is_in_time).is_none() {
             return changed;
         }
         self.depth = ColourDepth::TrueColour;
         self.inks = Inks::for_depth(self.depth);
-        self.inks.draw_with(self.manner.drawing());
-        self.runtime.screen().recolour(ColourDepth::TrueColour);
+        self.inks.drawing = self.manner.drawing();
+        if let Some(tty) = self.runtime.screen().tty() {
+            tty.terminal.recolour(self.depth);
+        }
         Urgency::Now
     }
 
     /// Shows how to force 24-bit colour once no answer can arrive any more.
     fn give_up_on_colours(&mut self) -> Urgency {
         let now = Instant::now();
-        if self.known.until.take_if(|until| *until <= now).is_some() {
-            self.runtime.screen().give_up_answers();
+        if self.known.until.take_if(|until| *until <= now).is_some()
+            && let Some(tty) = self.runtime.screen().tty()
+        {
+            tty.replies.came(Reply::Attributes);
         }
         match self.asked.take_if(|&mut (_, until)| until <= now) {
             Some((depth, _)) => {
@@ -211,12 +216,8 @@ impl Session {
             format!(" {}", shell_path(&path.to_string_lossy()))
         });
         let key = self.app.shared.key_for("trace");
-        let now = self
-            .app
-            .shared
-            .scene
-            .clone()
-            .zip(exports::origin(&self.app.shared));
+        let scene = self.app.shared.scene.clone();
+        let now = scene.zip(exports::origin(&self.app.shared));
         // The end of the process frees a large scene immediately.
         mem::forget(self.app);
         let (edits, trace) = self.runtime.close(self.ending.deadlines(), now);
@@ -268,19 +269,16 @@ impl Session {
         ];
         let deadline = others.into_iter().chain([deadline]).flatten().min();
         let first = match deadline {
-            None => self
-                .inbox
-                .recv()
-                .map_err(|_| RecvTimeoutError::Disconnected),
+            None => self.inbox.recv().ok(),
             Some(deadline) => {
                 let time = deadline.saturating_duration_since(Instant::now());
-                self.inbox.recv_timeout(time)
+                self.inbox.recv_timeout(time).ok()
             }
         };
         let mut urgency = Urgency::Never;
         let events: Vec<_> = first.into_iter().chain(self.inbox.try_iter()).collect();
         for event in events {
-            while let Some(msg) = self.runtime.screen().next_signal() {
+            while let Some(msg) = self.next_signal() {
                 urgency = Urgency::Now;
                 self.step(msg);
             }
@@ -290,19 +288,26 @@ impl Session {
             urgency = urgency.max(self.take(event));
         }
         let now = Instant::now();
-        if self.link.give_up(now) {
-            self.runtime.screen().give_up_replies();
+        if self.link.give_up(now)
+            && let Some(tty) = self.runtime.screen().tty()
+        {
+            tty.replies.forget_statuses();
         }
         for msg in self.runtime.due(now) {
             urgency = Urgency::Now;
             self.step(msg);
         }
         urgency = urgency.max(self.give_up_on_colours());
-        for panic in self.runtime.screen().take_panics() {
+        let panics = self.runtime.screen().tty();
+        for panic in panics.map_or_else(Vec::new, |tty| tty.terminal.take_panics()) {
             urgency = Urgency::Now;
             self.step(Msg::Failed(panic));
         }
         urgency
+    }
+
+    fn next_signal(&mut self) -> Option<Msg> {
+        self.runtime.screen().tty()?.next_signal()
     }
 
     /// Handles an event.
@@ -343,7 +348,9 @@ impl Session {
         let effects = self.app.update(msg);
         self.perform(effects);
         let are_kept = files::has_kept_edits(&self.app.shared);
-        self.runtime.screen().note_kept_edits(are_kept);
+        if let Some(tty) = self.runtime.screen().tty() {
+            tty.terminal.note_kept_edits(are_kept);
+        }
     }
 
     fn perform(&mut self, effects: Vec<Effect>) {
@@ -364,8 +371,11 @@ impl Session {
 
     /// Requests a reply of the terminal if the link should be measured.
     fn ask(&mut self, now: Instant) -> io::Result<()> {
-        if self.runtime.screen().has_terminal() && self.link.has_question(now) {
-            self.runtime.screen().ask_status()?;
+        if self.link.has_question(now)
+            && let Some(tty) = self.runtime.screen().tty()
+            && tty.terminal.is_ours()
+        {
+            tty.ask_status()?;
             self.link.asked(now);
         }
         Ok(())

@@ -122,25 +122,18 @@ impl Traces {
             let (from, digest) = from.finish();
             let mut end = Vec::new();
             from.take(digest.len() as u64 + 1).read_to_end(&mut end)?;
-            if end == digest {
-                Ok(kept)
-            } else {
-                Err(io::Error::from(ErrorKind::InvalidData))
+            if end != digest {
+                return Err(io::Error::from(ErrorKind::InvalidData));
             }
+            Ok(kept)
         };
-        match read() {
-            Ok(kept) => Ok(Some(kept)),
-            Err(error)
-                if matches!(
-                    error.kind(),
-                    ErrorKind::InvalidData | ErrorKind::UnexpectedEof
-                ) =>
-            {
+        read().map(Some).map_err(|error| match error.kind() {
+            ErrorKind::InvalidData | ErrorKind::UnexpectedEof => {
                 let _ = folder.remove(&name);
-                Err(Unreadable::Damaged)
+                Unreadable::Damaged
             }
-            Err(error) => Err(error.into()),
-        }
+            _ => error.into(),
+        })
     }
 }
 
@@ -159,9 +152,8 @@ fn is_name(name: &str) -> bool {
 
 /// Whether this is the name of a temporary file left by an unfinished write.
 fn is_left_behind(name: &str, modified: SystemTime) -> bool {
-    let meant = name
-        .strip_suffix(NEW)
-        .and_then(|name| name.rsplit_once('.'));
+    let name = name.strip_suffix(NEW);
+    let meant = name.and_then(|name| name.rsplit_once('.'));
     let is_old = modified.elapsed().is_ok_and(|age| LEFT_BEHIND < age);
     is_old && meant.is_some_and(|(name, _)| is_name(name))
 }
@@ -174,10 +166,8 @@ fn open(folder: &Folder, name: &str) -> io::Result<Option<File>> {
     let mut kind = [0; KIND.len()];
     if file.read_exact(&mut kind).is_err() || kind != KIND.as_bytes() {
         let place = folder.place(name);
-        let reason = format!(
-            "{} is not a Halflight trace; move it elsewhere",
-            place.display()
-        );
+        let place = place.display();
+        let reason = format!("{place} is not a Halflight trace; move it elsewhere");
         return Err(io::Error::new(ErrorKind::InvalidInput, reason));
     }
     file.rewind()?;
@@ -199,10 +189,9 @@ fn tidy(folder: &Folder, newest: &str) {
         let written = found.modified().unwrap_or(SystemTime::UNIX_EPOCH);
         Some((written, found.len(), name))
     };
-    let (mut traces, mut others): (Vec<_>, Vec<_>) = folder
-        .names()
-        .into_iter()
-        .filter(|name| is_name(name) || name.ends_with(NEW))
+    let names = folder.names().into_iter();
+    let names = names.filter(|name| is_name(name) || name.ends_with(NEW));
+    let (mut traces, mut others): (Vec<_>, Vec<_>) = names
         .filter_map(dated)
         .partition(|(.., name)| is_name(name));
     others.retain(|(written, _, name)| is_left_behind(name, *written));
@@ -230,11 +219,10 @@ fn head(picture: &Provenance) -> String {
 fn check_head(from: &mut impl Read, head: &str) -> io::Result<()> {
     let mut found = vec![0; head.len()];
     from.read_exact(&mut found)?;
-    if found == head.as_bytes() {
-        Ok(())
-    } else {
-        Err(ErrorKind::InvalidData.into())
+    if found != head.as_bytes() {
+        return Err(ErrorKind::InvalidData.into());
     }
+    Ok(())
 }
 
 /// Reads the last line.
@@ -261,7 +249,8 @@ struct Timed<W> {
 impl<W: Write> Write for Timed<W> {
     fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
         if self.deadline <= Instant::now() {
-            return Err(too_late());
+            let reason = "writing it takes too long";
+            return Err(io::Error::new(ErrorKind::TimedOut, reason));
         }
         self.out.write(bytes)
     }
@@ -269,10 +258,6 @@ impl<W: Write> Write for Timed<W> {
     fn flush(&mut self) -> io::Result<()> {
         self.out.flush()
     }
-}
-
-fn too_late() -> io::Error {
-    io::Error::new(ErrorKind::TimedOut, "writing it takes too long")
 }
 
 #[cfg(test)]

@@ -6,12 +6,13 @@ use std::sync::Arc;
 use std::sync::mpsc::Sender;
 #[cfg(unix)]
 use std::sync::mpsc::{self, Receiver};
-use std::thread;
+
 use std::time::{Duration, Instant};
 
 use crate::ui::event::Event;
 use crate::ui::msg::Msg;
 use crate::ui::options::Options;
+use crate::ui::queue::spawn;
 use crate::ui::terminal::query::Question;
 use crate::ui::terminal::{self, Input, Replies, Reply, Terminal, Unread, tmux};
 #[cfg(unix)]
@@ -24,9 +25,10 @@ const REPLY_PATIENCE: Duration = Duration::from_secs(1);
 /// The terminal that the interface runs on.
 pub(super) struct TtySession {
     // First, because fields are dropped in order: the terminal is restored before its threads end.
-    terminal: Terminal,
+    /// The terminal to draw on.
+    pub(super) terminal: Terminal,
     /// Replies still expected from the terminal.
-    replies: Arc<Replies>,
+    pub(super) replies: Arc<Replies>,
     input: Input,
     #[cfg(unix)]
     signals: Signals,
@@ -70,21 +72,6 @@ impl TtySession {
         None
     }
 
-    /// The terminal to draw on.
-    pub(super) fn terminal(&mut self) -> &mut Terminal {
-        &mut self.terminal
-    }
-
-    /// Whether the terminal is not lent to another program.
-    pub(super) fn is_ours(&self) -> bool {
-        self.terminal.is_ours()
-    }
-
-    /// Whether the terminal has accepted everything drawn.
-    pub(super) fn is_clear(&self) -> bool {
-        self.terminal.is_clear()
-    }
-
     /// Queries the terminal and, through tmux, the terminal behind it. Any answers arrive as
     /// [`Event::Replied`].
     pub(super) fn ask(&self, questions: &[Question]) -> io::Result<()> {
@@ -95,15 +82,13 @@ impl TtySession {
         }
         let sender = self.sender.clone();
         // Without a thread there is no answer.
-        let _ = thread::Builder::new()
-            .name("tmux".to_owned())
-            .spawn(move || {
-                let Some(client) = tmux::client() else { return };
-                let colours = client.has_true_colour.then_some(Reply::TrueColour);
-                for reply in [Some(Reply::Tmux(client)), colours].into_iter().flatten() {
-                    let _ = sender.send(Event::Replied(reply, Instant::now()));
-                }
-            });
+        let _ = spawn("tmux", move || {
+            let Some(client) = tmux::client() else { return };
+            let colours = client.has_true_colour.then_some(Reply::TrueColour);
+            for reply in [Some(Reply::Tmux(client)), colours].into_iter().flatten() {
+                let _ = sender.send(Event::Replied(reply, Instant::now()));
+            }
+        });
         Ok(())
     }
 
@@ -111,16 +96,6 @@ impl TtySession {
     pub(super) fn ask_status(&self) -> io::Result<()> {
         self.replies.expect(Reply::Status);
         self.terminal.ask_status()
-    }
-
-    /// Stops expecting answers to queries.
-    pub(super) fn give_up_answers(&self) {
-        self.replies.came(Reply::Attributes);
-    }
-
-    /// Stops expecting status replies.
-    pub(super) fn give_up_replies(&self) {
-        self.replies.forget_statuses();
     }
 
     /// Runs another program on the terminal; the inner result is the program's.

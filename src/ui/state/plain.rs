@@ -4,12 +4,7 @@ use std::fs::{self, File, Metadata, OpenOptions};
 use std::io;
 use std::path::Path;
 
-/// What to do about a missing folder.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Missing {
-    Made,
-    Refused,
-}
+use super::Missing;
 
 #[derive(Debug)]
 pub(super) struct FolderHandle;
@@ -56,9 +51,4 @@ impl FolderHandle {
 
 pub(super) fn suspicion(_: &Metadata) -> Option<&'static str> {
     None
-}
-
-/// Adds the path to an error.
-pub(super) fn at(path: &Path, error: &io::Error) -> io::Error {
-    io::Error::new(error.kind(), format!("{}: {error}", path.display()))
 }

@@ -52,7 +52,7 @@ pub(super) fn install(shared: &Arc<GuardState>, leave: &'static str) -> io::Resu
         let (terminal, modes, shared) = (tty::keyboard()?, modes.clone(), Arc::clone(shared));
         let restore = move || {
             if shared.ownership_in_signal() == Ownership::Ours {
-                shared.output().fall_silent();
+                shared.output.fall_silent();
                 let kept = if shared.has_kept_edits() { KEPT } else { "" };
                 let keys = shared.keys_ending();
                 let parts = [shared.ending(), keys, leave, words, kept, "\r\n"];

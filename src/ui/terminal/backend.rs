@@ -34,7 +34,8 @@ pub struct AnsiBackend {
     out: Vec<u8>,
     pen: Pen,
     place: CursorPosition,
-    cursor: Cursor,
+    /// Whether the cursor is shown, if that is known.
+    is_shown: Option<bool>,
     /// Positions of wide characters on the screen: row, column.
     wide: BTreeSet<(u16, u16)>,
 }
@@ -49,13 +50,6 @@ enum CursorPosition {
     At(Position),
 }
 
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Cursor {
-    Shown,
-    Hidden,
-    Unknown,
-}
-
 impl AnsiBackend {
     /// Starts with a terminal in an unknown state.
     pub fn new(depth: ColourDepth, size: Size) -> Self {
@@ -65,7 +59,7 @@ impl AnsiBackend {
             out: BEGIN.to_vec(),
             pen: Pen::UNKNOWN,
             place: CursorPosition::Unknown,
-            cursor: Cursor::Unknown,
+            is_shown: None,
             wide: BTreeSet::new(),
         }
     }
@@ -84,7 +78,7 @@ impl AnsiBackend {
     pub fn forget(&mut self) {
         self.pen = Pen::UNKNOWN;
         self.place = CursorPosition::Unknown;
-        self.cursor = Cursor::Unknown;
+        self.is_shown = None;
         self.wide.clear();
     }
 
@@ -180,29 +174,20 @@ impl AnsiBackend {
             self.wide.insert((at.y, at.x));
         }
         self.move_to(at);
-        let advance = if let Some(halves) = halves {
+        let is_narrow = if let Some(halves) = halves {
             let (glyph, style) = halves.cheapest(&self.pen);
             self.pen.apply(&style, &mut self.out);
             self.out.extend_from_slice(glyph.as_bytes());
-            Advance::Sure(1)
+            true
         } else {
-            let style = Style {
-                fg: Some(fg),
-                bg: Some(bg),
-                modifier: cell.modifier,
-                indifferent: Modifier::empty(),
-            };
+            let style = Style::exactly(fg, bg, cell.modifier);
             self.pen.apply(&style, &mut self.out);
             push_character(&mut self.out, cell)
         };
-        self.place = match advance {
-            Advance::Sure(columns) if at.x + columns < self.size.width => {
-                CursorPosition::At(Position {
-                    x: at.x + columns,
-                    ..at
-                })
-            }
-            _ => CursorPosition::Row(at.y),
+        self.place = if is_narrow && at.x + 1 < self.size.width {
+            CursorPosition::At(Position::new(at.x + 1, at.y))
+        } else {
+            CursorPosition::Row(at.y)
         };
     }
 }
@@ -221,17 +206,15 @@ impl Backend for AnsiBackend {
     }
 
     fn hide_cursor(&mut self) -> Result<(), Infallible> {
-        if self.cursor != Cursor::Hidden {
+        if self.is_shown.replace(false) != Some(false) {
             self.out.extend_from_slice(b"\x1b[?25l");
-            self.cursor = Cursor::Hidden;
         }
         Ok(())
     }
 
     fn show_cursor(&mut self) -> Result<(), Infallible> {
-        if self.cursor != Cursor::Shown {
+        if self.is_shown.replace(true) != Some(true) {
             self.out.extend_from_slice(b"\x1b[?25h");
-            self.cursor = Cursor::Shown;
         }
         Ok(())
     }
@@ -287,36 +270,27 @@ impl Backend for AnsiBackend {
 struct Halves {
     upper: Tone,
     lower: Tone,
-    /// The width of block characters is ambiguous, so a blank stays one.
-    blocks: Blocks,
+    /// Whether the cell has no block character. It gets none: their width is ambiguous.
+    is_blank: bool,
 }
 
+/// A visible colour, as the foreground or the background that shows it. The terminal's default
+/// foreground and background are neither equal nor interchangeable.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Blocks {
-    Welcome,
-    Unwelcome,
-}
-
-/// A visible colour. The terminal's default foreground and background are neither equal nor
-/// interchangeable.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Tone {
-    OwnForeground,
-    OwnBackground,
-    Ink(Ink),
+struct Tone {
+    as_foreground: Option<Ink>,
+    as_background: Option<Ink>,
 }
 
 impl Halves {
     fn of(cell: &Cell, fg: Ink, bg: Ink) -> Option<Self> {
-        let fg = if fg == Ink::Default {
-            Tone::OwnForeground
-        } else {
-            Tone::Ink(fg)
+        let fg = Tone {
+            as_foreground: Some(fg),
+            as_background: Some(fg).filter(|ink| *ink != Ink::Default),
         };
-        let bg = if bg == Ink::Default {
-            Tone::OwnBackground
-        } else {
-            Tone::Ink(bg)
+        let bg = Tone {
+            as_foreground: Some(bg).filter(|ink| *ink != Ink::Default),
+            as_background: Some(bg),
         };
         let (upper, lower, visible) = match cell.symbol() {
             " " => (bg, bg, VISIBLE_ON_BLANK),
@@ -325,34 +299,26 @@ impl Halves {
             "█" => (fg, fg, Modifier::all()),
             _ => return None,
         };
-        let blocks = if cell.symbol() == " " {
-            Blocks::Unwelcome
-        } else {
-            Blocks::Welcome
-        };
         (!cell.modifier.intersects(visible)).then_some(Self {
             upper,
             lower,
-            blocks,
+            is_blank: cell.symbol() == " ",
         })
     }
 
     /// Returns the character and style that show these halves with the fewest bytes.
     fn cheapest(self, pen: &Pen) -> (&'static str, Style) {
-        let Self {
-            upper,
-            lower,
-            blocks,
-        } = self;
+        let (upper, lower) = (self.upper, self.lower);
         let candidates = if upper == lower {
-            let solid = upper.as_foreground().filter(|_| blocks == Blocks::Welcome);
+            let solid = upper.as_foreground.filter(|_| !self.is_blank);
             [
-                upper.as_background().map(|bg| (" ", blank(bg))),
-                solid.map(|fg| ("█", block(fg, None))),
+                upper.as_background.map(|bg| (" ", Style::blank(bg))),
+                solid.map(|fg| ("█", Style::solid(fg))),
             ]
         } else {
             [("▀", upper, lower), ("▄", lower, upper)].map(|(glyph, fg, bg)| {
-                Some((glyph, block(fg.as_foreground()?, Some(bg.as_background()?))))
+                let (fg, bg) = (fg.as_foreground?, bg.as_background?);
+                Some((glyph, Style::exactly(fg, bg, Modifier::empty())))
             })
         };
         let cost = |(glyph, style): &(&str, Style)| glyph.len() + pen.colour_cost(style);
@@ -361,64 +327,19 @@ impl Halves {
     }
 }
 
-impl Tone {
-    fn as_foreground(self) -> Option<Ink> {
-        match self {
-            Self::OwnForeground => Some(Ink::Default),
-            Self::OwnBackground => None,
-            Self::Ink(ink) => Some(ink),
-        }
-    }
-
-    fn as_background(self) -> Option<Ink> {
-        match self {
-            Self::OwnForeground => None,
-            Self::OwnBackground => Some(Ink::Default),
-            Self::Ink(ink) => Some(ink),
-        }
-    }
-}
-
-const fn blank(bg: Ink) -> Style {
-    Style {
-        fg: None,
-        bg: Some(bg),
-        modifier: Modifier::empty(),
-        indifferent: VISIBLE_ON_BLANK.complement(),
-    }
-}
-
-const fn block(fg: Ink, bg: Option<Ink>) -> Style {
-    Style {
-        fg: Some(fg),
-        bg,
-        modifier: Modifier::empty(),
-        indifferent: Modifier::empty(),
-    }
-}
-
-/// Cursor movement caused by a write.
-enum Advance {
-    Sure(u16),
-    /// Terminals differ on the width of the text written.
-    Unsure,
-}
-
 /// Whether the character of a cell takes two columns.
 fn is_wide(cell: &Cell) -> bool {
-    cell.symbol()
-        .chars()
-        .next()
-        .and_then(UnicodeWidthChar::width)
-        == Some(2)
+    let first = cell.symbol().chars().next();
+    first.and_then(UnicodeWidthChar::width) == Some(2)
 }
 
-/// Writes the printable part of a cell, padded with blanks to its width.
-fn push_character(out: &mut Vec<u8>, cell: &Cell) -> Advance {
+/// Writes the printable part of a cell, padded with blanks to its width. Returns whether that is one
+/// column for sure: terminals differ on the width of other texts.
+fn push_character(out: &mut Vec<u8>, cell: &Cell) -> bool {
     let symbol = cell.symbol();
     if let [byte @ b' '..=b'~'] = symbol.as_bytes() {
         out.push(*byte);
-        return Advance::Sure(1);
+        return true;
     }
     let mut characters = symbol.chars();
     let base = match characters.next() {
@@ -442,11 +363,7 @@ fn push_character(out: &mut Vec<u8>, cell: &Cell) -> Advance {
     for _ in width..room {
         out.push(b' ');
     }
-    if width == 1 && room == 1 && mark.is_none() {
-        Advance::Sure(1)
-    } else {
-        Advance::Unsure
-    }
+    width == 1 && room == 1 && mark.is_none()
 }
 
 /// Distinguishes accents and the like from invisible characters that join, direct or modify others.

@@ -11,7 +11,8 @@ use super::graphics::{Means, Pixmap};
 /// Keeps account of the picture on the screen.
 #[derive(Debug, Default)]
 pub(super) struct Canvas {
-    means: Option<Means>,
+    /// How pictures are sent; `None` if none are.
+    pub(super) means: Option<Means>,
     shown: Option<Placed>,
     /// Whether a picture that erasing cells does not erase may still be on the screen.
     lingers: bool,
@@ -45,11 +46,6 @@ pub(super) struct Sending {
 }
 
 impl Canvas {
-    /// Sets how pictures are sent from now on; `None` sends none.
-    pub(super) fn set_means(&mut self, means: Option<Means>) {
-        self.means = means;
-    }
-
     /// Forgets what is on the screen, after it was erased.
     pub(super) fn forget(&mut self) {
         let is_content = self.means.is_none_or(Means::is_content);
@@ -134,13 +130,15 @@ mod tests {
     const ELSEWHERE: Rect = Rect::new(2, 1, 4, 2);
 
     fn canvas(protocol: Protocol) -> Canvas {
-        let mut canvas = Canvas::default();
-        canvas.set_means(Some(Means {
+        let means = Means {
             protocol,
             wrapping: Wrapping::Plain,
             cell: (4, 6),
-        }));
-        canvas
+        };
+        Canvas {
+            means: Some(means),
+            ..Canvas::default()
+        }
     }
 
     fn pixmap(light: u8) -> Pixmap {

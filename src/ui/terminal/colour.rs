@@ -3,11 +3,11 @@
 //! The depth is initially derived from the environment; a terminal that is queried may report more
 //! (see [`query`](super::query)).
 
-use std::env;
+use std::{env, io};
 
 use anstyle_lossy::palette::Palette;
 use ratatui::style::Color;
-use termprofile::{DetectorSettings, EnvVarSource, IsTerminal, TermProfile, TermVars};
+use termprofile::{DetectorSettings, EnvVarSource, TermProfile, TermVars};
 
 /// The colours that a terminal can show, from fewest to most.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -61,8 +61,10 @@ impl ColourDepth {
         }
         // tmux would be queried through a child process.
         let settings = DetectorSettings::new().enable_tmux_info(false);
-        let source = Environment(variable);
-        match TermProfile::detect_with_vars(TermVars::from_source(&source, &Screen, settings)) {
+        let mut vars = TermVars::from_source(&Environment(variable), &io::stdout(), settings);
+        // The interface runs on nothing else.
+        vars.meta.is_terminal = true;
+        match TermProfile::detect_with_vars(vars) {
             TermProfile::NoTty | TermProfile::NoColor => Self::Mono,
             TermProfile::Ansi16 => Self::Palette16,
             TermProfile::Ansi256 => Self::Palette256,
@@ -197,15 +199,6 @@ struct Environment<F>(F);
 impl<F: Fn(&str) -> Option<String>> EnvVarSource for Environment<F> {
     fn var(&self, key: &str) -> Option<String> {
         (self.0)(key)
-    }
-}
-
-/// An output that counts as a terminal: the interface runs nowhere else.
-struct Screen;
-
-impl IsTerminal for Screen {
-    fn is_terminal(&self) -> bool {
-        true
     }
 }
 

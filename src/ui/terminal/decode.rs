@@ -73,19 +73,18 @@ enum State {
     /// In a mouse report of the old format: so many more bytes that are not keys.
     OldMouse(u8),
     /// In a control string.
-    Text(Text),
+    Text(Kind, Within),
     /// Within a bracketed paste, of whose end so many bytes have arrived.
     Paste { ended: usize },
 }
 
-/// The state of a control string.
+/// What the next byte of a control string belongs to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-struct Text {
-    kind: Kind,
-    /// The bytes missing from a UTF-8 character, which may be like the eight-bit terminator.
-    missing: u8,
-    /// Whether the last byte was `ESC`.
-    is_escaped: bool,
+enum Within {
+    /// Follows `ESC`.
+    Escape,
+    /// In a UTF-8 character that lacks so many bytes, which may be like the eight-bit terminator.
+    Character(u8),
 }
 
 /// The kinds of control strings.
@@ -141,7 +140,7 @@ impl Decoder {
             State::Ground => self.begin(byte, emit),
             State::Escape => self.after_escape(byte, emit),
             State::Character { alt } => self.in_character(byte, alt, emit),
-            State::Text(text) => self.in_text(text, byte, emit),
+            State::Text(kind, within) => self.in_text(kind, within, byte, emit),
             State::Paste { ended } => self.in_paste(ended, byte, emit),
             State::OldMouse(left) => {
                 self.state = match left {
@@ -212,7 +211,7 @@ impl Decoder {
             }
             Err(error) if error.error_len().is_none() => {}
             // What continues a character begins nothing, even if that is malformed.
-            Err(_) if is_continuation(byte) => self.state = State::Ground,
+            Err(_) if matches!(byte, 0x80..=0xbf) => self.state = State::Ground,
             Err(_) => self.begin(byte, emit),
         }
     }
@@ -249,47 +248,35 @@ impl Decoder {
     }
 
     /// Takes a byte of a control string (ECMA-48, 5.6). Another sequence interrupts it.
-    fn in_text(&mut self, text: Text, byte: u8, emit: &mut impl FnMut(Event)) {
-        let next = |missing| {
-            State::Text(Text {
-                missing,
-                is_escaped: false,
-                ..text
-            })
-        };
-        match byte {
-            b'\\' if text.is_escaped => self.end_text(text.kind, emit),
+    fn in_text(&mut self, kind: Kind, within: Within, byte: u8, emit: &mut impl FnMut(Event)) {
+        match (byte, within) {
+            (b'\\', Within::Escape) => self.end_text(kind, emit),
             // Doubled by a program that has passed it on.
-            0x1b => {
-                self.state = State::Text(Text {
-                    missing: 0,
-                    is_escaped: true,
-                    ..text
-                });
-            }
-            _ if text.is_escaped && introduced(byte).is_some() => {
+            (0x1b, _) => self.state = State::Text(kind, Within::Escape),
+            (_, Within::Escape) if introduced(byte).is_some() => {
                 self.abandon(emit);
                 self.begin(0x1b, emit);
                 self.take(byte, emit);
             }
-            0x80..=0xbf if 0 < text.missing => {
-                self.hold_text(text.kind, byte);
-                self.state = next(text.missing - 1);
+            (0x80..=0xbf, Within::Character(missing @ 1..)) => {
+                self.hold_text(kind, byte);
+                self.state = State::Text(kind, Within::Character(missing - 1));
             }
-            0x9c => self.end_text(text.kind, emit),
-            0x07 if text.kind == Kind::System => self.end_text(text.kind, emit),
-            0x18 | 0x1a => {
+            (0x9c, _) => self.end_text(kind, emit),
+            (0x07, _) if kind == Kind::System => self.end_text(kind, emit),
+            (0x18 | 0x1a, _) => {
                 self.key = None;
                 self.abandon(emit);
             }
             _ => {
-                self.hold_text(text.kind, byte);
-                self.state = next(match byte {
+                self.hold_text(kind, byte);
+                let missing = match byte {
                     0xc2..=0xdf => 1,
                     0xe0..=0xef => 2,
                     0xf0..=0xf4 => 3,
                     _ => 0,
-                });
+                };
+                self.state = State::Text(kind, Within::Character(missing));
             }
         }
     }
@@ -373,16 +360,7 @@ fn introduced(byte: u8) -> Option<State> {
         b'^' | b'X' => Kind::Other,
         _ => return None,
     };
-    Some(State::Text(Text {
-        kind,
-        missing: 0,
-        is_escaped: false,
-    }))
-}
-
-/// Whether a byte continues a UTF-8 character.
-fn is_continuation(byte: u8) -> bool {
-    (0x80..=0xbf).contains(&byte)
+    Some(State::Text(kind, Within::Character(0)))
 }
 
 /// Decodes pasted text; terminals send line ends as the byte of the Enter key.

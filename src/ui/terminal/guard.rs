@@ -99,7 +99,7 @@ impl Terminal {
     /// Whether the terminal has accepted everything drawn. A frame drawn earlier is only delayed,
     /// because no frame may be skipped.
     pub fn is_clear(&self) -> bool {
-        self.shared.output().is_clear()
+        self.shared.output.is_clear()
     }
 
     /// Draws a frame and sends the differences from the previous one, without waiting for the
@@ -135,7 +135,7 @@ impl Terminal {
             let over = sending.over.iter();
             let Ok(()) = backend.draw(over.map(|(at, cell)| (at.x, at.y, cell)));
         }
-        let output = self.shared.output();
+        let output = &self.shared.output;
         self.screen.backend_mut().finish(|frame| output.send(frame))
     }
 
@@ -143,11 +143,10 @@ impl Terminal {
     /// [`Reply::Attributes`](super::Reply). Intended before the first frame, which covers anything
     /// that a terminal without support displays for them.
     pub fn ask(&self, questions: &[Question]) -> io::Result<()> {
-        let output = self.shared.output();
         for question in questions {
-            output.send(question.query())?;
+            self.shared.output.send(question.query())?;
         }
-        output.send(query::ATTRIBUTES)
+        self.shared.output.send(query::ATTRIBUTES)
     }
 
     /// Sets how pictures are sent from now on; `None` sends none. The next frame is drawn in full.
@@ -155,7 +154,7 @@ impl Terminal {
         if let Removal::Bytes(bytes) = self.canvas.removal(None) {
             self.screen.backend_mut().append(bytes.as_bytes());
         }
-        self.canvas.set_means(means);
+        self.canvas.means = means;
         self.shared.note_means(means);
         self.repaint();
     }
@@ -231,13 +230,12 @@ impl Terminal {
             #[cfg(windows)]
             let _ = crossterm::ansi_support::supports_ansi();
             *ownership = Ownership::Ours;
-            let output = self.shared.output();
-            output.send(ENTER.as_bytes())?;
-            output.send(mouse_sequence(self.mouse).as_bytes())?;
-            // Whoever had the terminal may have changed the setting.
-            output.send(before.as_bytes())?;
+            // Whoever had the terminal may have changed the setting of keys.
+            for sequence in [ENTER, mouse_sequence(self.mouse), before] {
+                self.shared.output.send(sequence.as_bytes())?;
+            }
             if self.shared.has_keys_apart() {
-                output.send(KEYS_APART.as_bytes())?;
+                self.shared.output.send(KEYS_APART.as_bytes())?;
             }
         }
         self.repaint();
@@ -246,7 +244,7 @@ impl Terminal {
 
     /// Requests [`Reply::Status`](super::Reply), which follows everything sent so far.
     pub fn ask_status(&self) -> io::Result<()> {
-        self.shared.output().send(ASK_STATUS.as_bytes())
+        self.shared.output.send(ASK_STATUS.as_bytes())
     }
 
     /// Lets the terminal keep the Esc key apart from the beginnings of sequences, which it must have
@@ -256,32 +254,29 @@ impl Terminal {
             return Ok(());
         }
         self.shared.note_keys_apart();
-        if !self.is_ours() {
-            return Ok(());
-        }
-        self.shared.output().send(KEYS_APART.as_bytes())
+        self.send(KEYS_APART)
     }
 
     /// Takes the mouse or leaves it to the terminal.
     pub fn set_mouse(&mut self, mouse: Mouse) -> io::Result<()> {
         self.mouse = mouse;
-        if !self.is_ours() {
-            return Ok(());
-        }
-        self.shared.output().send(mouse_sequence(mouse).as_bytes())
+        self.send(mouse_sequence(mouse))
     }
 
     /// Offers text to the terminal's clipboard.
     pub fn copy(&mut self, text: &str) -> io::Result<()> {
+        let mut sequence = String::new();
+        let written = CopyToClipboard::to_clipboard_from(text).write_ansi(&mut sequence);
+        written.map_err(io::Error::other)?;
+        self.send(&sequence)
+    }
+
+    /// Sends a sequence unless the terminal is lent or given back.
+    fn send(&self, sequence: &str) -> io::Result<()> {
         if !self.is_ours() {
             return Ok(());
         }
-        let mut sequence = String::new();
-        let command = CopyToClipboard::to_clipboard_from(text);
-        command
-            .write_ansi(&mut sequence)
-            .map_err(io::Error::other)?;
-        self.shared.output().send(sequence.as_bytes())
+        self.shared.output.send(sequence.as_bytes())
     }
 
     /// Records whether the current unsaved edits are stored for recovery, to be reported if the
@@ -320,7 +315,7 @@ fn give_back(shared: &GuardState, to: Ownership, deadline: Instant) -> io::Resul
         return Ok(());
     }
     let bytes = [shared.ending(), shared.keys_ending(), LEAVE].concat();
-    let written = shared.output().send_last(bytes.as_bytes(), deadline);
+    let written = shared.output.send_last(bytes.as_bytes(), deadline);
     crossterm::terminal::disable_raw_mode()?;
     written
 }

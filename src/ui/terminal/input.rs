@@ -7,9 +7,10 @@ use std::io;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::mpsc::{self, Receiver, Sender};
-use std::thread::{self, JoinHandle};
+use std::thread::JoinHandle;
 
 use super::Event;
+use crate::ui::queue::spawn;
 
 #[cfg(unix)]
 use unix::{Keyboard, Waker};
@@ -104,9 +105,7 @@ impl Input {
             send(event, unread);
         };
         let theirs = Arc::clone(&flow);
-        let thread = thread::Builder::new()
-            .name("keyboard".to_owned())
-            .spawn(move || read(keyboard, &inbox, &theirs, &send))?;
+        let thread = spawn("keyboard", move || read(keyboard, &inbox, &theirs, &send))?;
         Ok(Self {
             requests,
             flow,
@@ -183,7 +182,7 @@ fn wait_for_resume(inbox: &Receiver<Request>) -> bool {
 
 #[cfg(unix)]
 mod unix {
-    use std::io::{self, Read, Write};
+    use std::io::{self, Write};
     use std::os::fd::OwnedFd;
     use std::os::unix::net::UnixStream;
     use std::time::Instant;
@@ -243,7 +242,7 @@ mod unix {
             }
             let [keys, woken] = sources.map(|source| source.revents());
             if !woken.is_empty() {
-                self.clear_wakes();
+                tty::drain(&self.woken);
             }
             if keys.intersects(PollFlags::HUP | PollFlags::ERR | PollFlags::NVAL) {
                 return Wake::Gone;
@@ -260,18 +259,11 @@ mod unix {
         /// bytes that are not read.
         pub(super) fn pause(&self) -> Wake {
             match poll(&mut [PollFd::new(&self.woken, PollFlags::IN)], None) {
-                Ok(_) => self.clear_wakes(),
+                Ok(_) => tty::drain(&self.woken),
                 Err(Errno::INTR) => {}
                 Err(_) => return Wake::Gone,
             }
             Wake::Again
-        }
-
-        fn clear_wakes(&self) {
-            while (&self.woken)
-                .read(&mut [0; 64])
-                .is_ok_and(|bytes| bytes != 0)
-            {}
         }
 
         fn read(&mut self, send: &impl Fn(Event)) -> Wake {

@@ -16,16 +16,6 @@ pub(crate) struct Answers {
 }
 
 impl Answers {
-    /// Whether the terminal answered nothing.
-    pub(crate) fn is_silent(&self) -> bool {
-        self.replies.is_empty()
-    }
-
-    /// Whether the terminal reports 24-bit colour.
-    pub(crate) fn has_true_colour(&self) -> bool {
-        self.replies.contains(&Reply::TrueColour)
-    }
-
     /// Whether the terminal shows pictures sent in this way.
     pub(crate) fn shows(&self, protocol: Protocol) -> bool {
         self.replies.contains(&Reply::Shows(protocol))

@@ -182,15 +182,13 @@ impl Link {
 
     /// Whether to request a reply now, after everything sent so far.
     pub fn has_question(&self, now: Instant) -> bool {
-        matches!(&self.pace, Pace::Measured(estimate) if estimate.has_question(now))
+        let estimate = self.estimate();
+        estimate.is_some_and(|estimate| estimate.has_question(now))
     }
 
     /// When [`Link::has_question`] becomes true even if nothing is sent: when the line is empty.
     pub fn asks_at(&self) -> Option<Instant> {
-        match &self.pace {
-            Pace::Measured(estimate) => estimate.asks_at(),
-            _ => None,
-        }
+        self.estimate()?.asks_at()
     }
 
     /// Records that a reply was requested.
@@ -235,17 +233,19 @@ impl Link {
 
     /// When [`Link::give_up`] is due.
     pub fn gives_up_at(&self) -> Option<Instant> {
-        match &self.pace {
-            Pace::Measured(estimate) => estimate.gives_up_at(),
-            _ => None,
-        }
+        self.estimate()?.gives_up_at()
     }
 
     /// Until when pictures are held back, regardless of the level of the bucket.
     fn held_until(&self, now: Instant) -> Option<Instant> {
+        let until = self.estimate()?.holds_until(now);
+        until.filter(|&until| now < until)
+    }
+
+    fn estimate(&self) -> Option<&Estimate> {
         match &self.pace {
-            Pace::Measured(estimate) => estimate.holds_until(now).filter(|&until| now < until),
-            _ => None,
+            Pace::Measured(estimate) => Some(estimate),
+            Pace::Unlimited | Pace::Fixed(_) => None,
         }
     }
 

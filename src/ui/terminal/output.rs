@@ -8,13 +8,13 @@
 use std::io;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
-use std::thread;
 use std::time::{Duration, Instant};
 
 #[cfg(unix)]
 use rustix::event::Timespec;
 
-use super::tty::{Taken, TtyWriter};
+use super::tty::TtyWriter;
+use crate::ui::queue::spawn;
 
 /// Maximum number of bytes per write call.
 const PIECE: usize = 1 << 16;
@@ -78,15 +78,13 @@ impl Output {
             permits: AtomicUsize::new(0),
         });
         let theirs = Arc::clone(&shared);
-        thread::Builder::new()
-            .name("output".to_owned())
-            .spawn(move || {
-                while theirs.write_next() {
-                    if theirs.is_clear() {
-                        cleared();
-                    }
+        spawn("output", move || {
+            while theirs.write_next() {
+                if theirs.is_clear() {
+                    cleared();
                 }
-            })?;
+            }
+        })?;
         Ok(Self { shared })
     }
 
@@ -101,10 +99,9 @@ impl Output {
             let Some(_permit) = self.shared.permit() else {
                 break;
             };
-            match self.shared.line.write_at_once(rest) {
-                Ok(Taken::Bytes(count)) => rest = &rest[count..],
-                Ok(Taken::Nothing) => break,
-                Err(error) => return Err(error),
+            match self.shared.line.write_at_once(rest)? {
+                0 => break,
+                count => rest = &rest[count..],
             }
         }
         if !rest.is_empty() {

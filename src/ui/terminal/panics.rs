@@ -42,7 +42,8 @@ const KEYS_AS_BEFORE: &str = "\x1b[<u";
 #[derive(Debug)]
 pub(super) struct GuardState {
     interface: ThreadId,
-    output: Output,
+    /// The output of the terminal.
+    pub(super) output: Output,
     ownership: Mutex<Ownership>,
     has_kept_edits: AtomicBool,
     /// Whether the terminal keeps the Esc key apart from the beginnings of sequences for us.
@@ -73,17 +74,11 @@ impl GuardState {
         shared
     }
 
-    /// The output of the terminal.
-    pub(super) fn output(&self) -> &Output {
-        &self.output
-    }
-
     /// Locks the owner of the terminal; held while the ownership changes.
     pub(super) fn ownership(&self) -> MutexGuard<'_, Ownership> {
+        let locked = self.ownership.lock();
         // A panic while it was locked has left a valid value.
-        self.ownership
-            .lock()
-            .unwrap_or_else(PoisonError::into_inner)
+        locked.unwrap_or_else(PoisonError::into_inner)
     }
 
     /// The owner of the terminal, for a signal handler, which must not wait; the interface while
@@ -138,25 +133,24 @@ impl GuardState {
 
     /// Returns the panics of other threads since the last call.
     pub(super) fn take_panics(&self) -> Vec<String> {
-        std::mem::take(&mut *self.panics.lock().unwrap_or_else(PoisonError::into_inner))
+        std::mem::take(&mut *self.panics())
     }
 
     fn caught(&self, panic: &PanicHookInfo, restore: fn(&Self)) {
         let text = description(panic);
-        let reported_at_once = if thread::current().id() == self.interface {
+        if thread::current().id() == self.interface {
             restore(self);
-            true
-        } else {
-            *self.ownership() == Ownership::GivenBack
-        };
-        if reported_at_once {
+        }
+        // A panic of the interface itself has given the terminal back.
+        if *self.ownership() == Ownership::GivenBack {
             tty::complain(text);
         } else {
-            self.panics
-                .lock()
-                .unwrap_or_else(PoisonError::into_inner)
-                .push(text);
+            self.panics().push(text);
         }
+    }
+
+    fn panics(&self) -> MutexGuard<'_, Vec<String>> {
+        self.panics.lock().unwrap_or_else(PoisonError::into_inner)
     }
 }
 
@@ -165,9 +159,7 @@ fn description(panic: &PanicHookInfo) -> String {
     let mut text = format!("thread '{}' {panic}", thread.name().unwrap_or("<unnamed>"));
     let backtrace = Backtrace::capture();
     if backtrace.status() == BacktraceStatus::Captured {
-        let backtrace = backtrace.to_string();
-        text.push('\n');
-        text.push_str(&backtrace);
+        text += &format!("\n{backtrace}");
     }
     printable(&text)
 }

@@ -22,20 +22,44 @@ pub(super) struct Style {
     pub(super) indifferent: Modifier,
 }
 
+impl Style {
+    /// A style in which everything is visible.
+    pub(super) const fn exactly(fg: Ink, bg: Ink, modifier: Modifier) -> Self {
+        Self {
+            fg: Some(fg),
+            bg: Some(bg),
+            modifier,
+            indifferent: Modifier::empty(),
+        }
+    }
+
+    /// The style of an empty cell.
+    pub(super) const fn blank(bg: Ink) -> Self {
+        Self {
+            fg: None,
+            bg: Some(bg),
+            modifier: Modifier::empty(),
+            indifferent: VISIBLE_ON_BLANK.complement(),
+        }
+    }
+
+    /// The style of a cell that its character fills.
+    pub(super) const fn solid(fg: Ink) -> Self {
+        Self {
+            bg: None,
+            ..Self::exactly(fg, fg, Modifier::empty())
+        }
+    }
+}
+
 /// The known state of the terminal's pen.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Pen {
     fg: Ink,
     bg: Ink,
     modifier: Modifier,
-    knowledge: Knowledge,
-}
-
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Knowledge {
-    Known,
-    /// Another program may have used the terminal.
-    Unknown,
+    /// Whether this is the state of the terminal: another program may have used it.
+    is_known: bool,
 }
 
 impl Pen {
@@ -44,14 +68,14 @@ impl Pen {
         fg: Ink::Default,
         bg: Ink::Default,
         modifier: Modifier::empty(),
-        knowledge: Knowledge::Unknown,
+        is_known: false,
     };
 
     /// Resets the pen to the terminal's defaults.
     pub(super) fn reset(&mut self, out: &mut Vec<u8>) {
         out.extend_from_slice(b"\x1b[m");
         *self = Self {
-            knowledge: Knowledge::Known,
+            is_known: true,
             ..Self::UNKNOWN
         };
     }
@@ -72,7 +96,7 @@ impl Pen {
 
     /// Sets the pen for a character, sending only the differences.
     pub(super) fn apply(&mut self, style: &Style, out: &mut Vec<u8>) {
-        if self.knowledge == Knowledge::Unknown {
+        if !self.is_known {
             self.reset(out);
         }
         let kept = self.modifier & style.indifferent;
@@ -81,7 +105,7 @@ impl Pen {
             fg: style.fg.unwrap_or(self.fg),
             bg: style.bg.unwrap_or(self.bg),
             modifier,
-            knowledge: Knowledge::Known,
+            is_known: true,
         };
         if wanted.is_plain() && !self.is_plain() {
             return self.reset(out);

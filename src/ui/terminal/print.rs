@@ -14,13 +14,8 @@ pub(crate) fn printed(cells: &Buffer) -> Vec<u8> {
         let mut x = 0;
         while x < cells.area.width {
             let cell = &cells[(x, y)];
-            let style = Style {
-                fg: Some(ColourDepth::TrueColour.ink(cell.fg)),
-                bg: Some(ColourDepth::TrueColour.ink(cell.bg)),
-                modifier: cell.modifier,
-                indifferent: ratatui::style::Modifier::empty(),
-            };
-            pen.apply(&style, &mut out);
+            let [fg, bg] = [cell.fg, cell.bg].map(|colour| ColourDepth::TrueColour.ink(colour));
+            pen.apply(&Style::exactly(fg, bg, cell.modifier), &mut out);
             out.extend_from_slice(cell.symbol().as_bytes());
             // The cells below the rest of a wide character are not shown.
             x += (cell.symbol().width() as u16).max(1);

@@ -142,14 +142,9 @@ pub(super) fn window(numbers: &[u16]) -> Option<Reply> {
 
 /// Whether the reported colour is exactly the one set, rather than the nearest of a palette.
 fn shows_colour(setting: &[u8]) -> bool {
-    let Ok(text) = std::str::from_utf8(setting) else {
-        return false;
-    };
-    let numbers: Vec<u16> = text
-        .trim_end_matches('m')
-        .split([';', ':'])
-        .filter_map(|number| number.parse().ok())
-        .collect();
+    let text = std::str::from_utf8(setting).unwrap_or_default();
+    let numbers = text.trim_end_matches('m').split([';', ':']);
+    let numbers: Vec<u16> = numbers.filter_map(|number| number.parse().ok()).collect();
     numbers.windows(COLOUR.len()).any(|part| part == COLOUR)
 }
 

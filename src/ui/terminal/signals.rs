@@ -8,7 +8,7 @@ use std::io::{self, Read, Write};
 use std::os::fd::OwnedFd;
 use std::os::unix::net::UnixStream;
 use std::sync::mpsc::{self, RecvTimeoutError, Sender};
-use std::thread::{self, JoinHandle};
+use std::thread::JoinHandle;
 use std::time::Duration;
 
 use rustix::event::{PollFd, PollFlags, poll};
@@ -25,6 +25,7 @@ use signal_hook::low_level::{self, pipe};
 
 use super::panics::Ownership;
 use super::{Event, tty};
+use crate::ui::queue::spawn;
 
 /// Time for the interface to give the terminal back after that is gone.
 const GRACE: Duration = Duration::from_millis(500);
@@ -79,8 +80,7 @@ impl Signals {
             tty: Some(tty::keyboard()?),
             arrivals,
         };
-        let thread = thread::Builder::new().name("signals".to_owned());
-        signals.thread = Some(thread.spawn(move || watch.run(&send))?);
+        signals.thread = Some(spawn("signals", move || watch.run(&send))?);
         Ok(signals)
     }
 
@@ -157,14 +157,11 @@ struct Watch {
 
 impl Watch {
     fn run(mut self, send: &impl Fn(Event)) {
-        let mut line = Carrier::Up;
+        let mut watchdog = None;
         loop {
-            let mut sources = vec![PollFd::new(&self.inbox, PollFlags::IN)];
-            sources.extend(
-                self.arrivals
-                    .iter()
-                    .map(|(_, arrival)| PollFd::new(arrival, PollFlags::IN)),
-            );
+            let arrivals = self.arrivals.iter().map(|(_, arrival)| arrival);
+            let inputs = [&self.inbox].into_iter().chain(arrivals);
+            let mut sources: Vec<_> = inputs.map(|of| PollFd::new(of, PollFlags::IN)).collect();
             // No events are requested, so that only a hang-up is reported.
             sources.extend(
                 self.tty
@@ -192,48 +189,36 @@ impl Watch {
             let theirs = [self.ownership, ownership].contains(&Ownership::Lent);
             let whose = if theirs { Ownership::Lent } else { ownership };
             self.ownership = ownership;
-            let tty = reported
-                .get(self.arrivals.len() + 1)
-                .copied()
-                .unwrap_or(PollFlags::empty());
+            let tty = reported.get(self.arrivals.len() + 1);
+            let tty = tty.copied().unwrap_or(PollFlags::empty());
             if !tty.is_empty() {
                 // NVAL means that the system cannot poll terminals; SIGHUP must suffice.
                 self.tty = None;
             }
             // Handled first, because a broken connection sends SIGCONT as well.
             if tty.intersects(PollFlags::HUP | PollFlags::ERR) {
-                report(SIGHUP, whose, &mut line, send);
+                report(SIGHUP, whose, &mut watchdog, send);
             }
             for ((signal, arrival), revents) in self.arrivals.iter().zip(&reported[1..]) {
                 if revents.contains(PollFlags::IN) {
-                    while (&mut &*arrival)
-                        .read(&mut [0; 64])
-                        .is_ok_and(|bytes| bytes != 0)
-                    {}
-                    report(*signal, whose, &mut line, send);
+                    tty::drain(arrival);
+                    report(*signal, whose, &mut watchdog, send);
                 }
             }
         }
     }
 }
 
-enum Carrier {
-    Up,
-    /// The watchdog ends the process unless this is dropped in time.
-    Down {
-        _watched: Sender<Infallible>,
-    },
-}
+/// What ends the process if the terminal is gone, unless it is dropped in time.
+type Watchdog = Option<Sender<Infallible>>;
 
-fn report(signal: i32, whose: Ownership, line: &mut Carrier, send: &impl Fn(Event)) {
+fn report(signal: i32, whose: Ownership, watchdog: &mut Watchdog, send: &impl Fn(Event)) {
     match signal {
         // Without a terminal, only requests to end are still reported.
-        SIGHUP | SIGWINCH | SIGTSTP | SIGCONT if matches!(line, Carrier::Down { .. }) => {}
+        SIGHUP | SIGWINCH | SIGTSTP | SIGCONT if watchdog.is_some() => {}
         SIGHUP => {
             // Before sending the event: the interface may be blocked in a write to the terminal.
-            *line = Carrier::Down {
-                _watched: end_after_grace(),
-            };
+            *watchdog = Some(end_after_grace());
             send(Event::HangUp);
         }
         // The terminal is taken back when the other program ends in any case.
@@ -258,8 +243,7 @@ fn report(signal: i32, whose: Ownership, line: &mut Carrier, send: &impl Fn(Even
 /// Ends the process after [`GRACE`] unless what is returned is dropped before.
 fn end_after_grace() -> Sender<Infallible> {
     let (watched, end) = mpsc::channel::<Infallible>();
-    let watchdog = thread::Builder::new().name("watchdog".to_owned());
-    let started = watchdog.spawn(move || {
+    let started = spawn("watchdog", move || {
         if end.recv_timeout(GRACE) == Err(RecvTimeoutError::Timeout) {
             // Nothing is left to restore, and exit handlers might wait for the terminal.
             low_level::exit(HUNG_UP);

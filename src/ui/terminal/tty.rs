@@ -5,11 +5,14 @@ use std::fs::File;
 use std::io::{self, Write};
 #[cfg(unix)]
 use std::os::fd::{AsFd, OwnedFd};
+#[cfg(unix)]
+use std::os::unix::net::UnixStream;
 use std::sync::mpsc;
-use std::thread;
 use std::time::Duration;
 
 use ratatui::layout::Size;
+
+use crate::ui::queue::spawn;
 
 /// Size assumed for a terminal that does not know its own.
 const USUAL: Size = Size {
@@ -46,30 +49,14 @@ pub(crate) fn cell_size() -> Option<(u16, u16)> {
     (0 < width && 0 < height).then_some((width, height))
 }
 
-/// Result of a write that does not wait.
-#[derive(Debug)]
-pub(super) enum Taken {
-    /// The number of bytes accepted, at least one.
-    Bytes(usize),
-    /// The terminal accepts nothing now.
-    Nothing,
-}
-
 /// The output side of the terminal.
 #[cfg(unix)]
 #[derive(Debug)]
 pub(super) struct TtyWriter {
     file: OwnedFd,
-    mode: WriteMode,
-}
-
-#[cfg(unix)]
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum WriteMode {
-    /// Writes return at once.
-    NonBlocking,
-    /// Writes may block: the open file is shared with other programs, and its mode must not change.
-    Shared,
+    /// Whether the open file is shared with other programs, so that its mode must not change and
+    /// writes may block.
+    is_shared: bool,
 }
 
 #[cfg(unix)]
@@ -86,7 +73,7 @@ impl TtyWriter {
             Ok(file) => Ok(Self::own(file)),
             Err(_) => Ok(Self {
                 file: output.as_fd().try_clone_to_owned()?,
-                mode: WriteMode::Shared,
+                is_shared: true,
             }),
         }
     }
@@ -95,22 +82,23 @@ impl TtyWriter {
     pub(super) fn own(file: OwnedFd) -> Self {
         Self {
             file,
-            mode: WriteMode::NonBlocking,
+            is_shared: false,
         }
     }
 
-    /// Writes as much as possible without waiting.
-    pub(super) fn write_at_once(&self, bytes: &[u8]) -> io::Result<Taken> {
+    /// Writes as much as possible without waiting; returns the number of bytes accepted, 0 if the
+    /// terminal accepts nothing now.
+    pub(super) fn write_at_once(&self, bytes: &[u8]) -> io::Result<usize> {
         use rustix::io::Errno;
 
-        if self.mode == WriteMode::Shared {
-            return Ok(Taken::Nothing);
+        if self.is_shared {
+            return Ok(0);
         }
         loop {
             match rustix::io::write(&self.file, bytes) {
                 Ok(0) => return Err(io::ErrorKind::WriteZero.into()),
-                Ok(count) => return Ok(Taken::Bytes(count)),
-                Err(Errno::AGAIN) => return Ok(Taken::Nothing),
+                Ok(count) => return Ok(count),
+                Err(Errno::AGAIN) => return Ok(0),
                 Err(Errno::INTR) => {}
                 Err(error) => return Err(error.into()),
             }
@@ -127,10 +115,12 @@ impl TtyWriter {
         use rustix::event::{PollFd, PollFlags, poll};
         use rustix::io::Errno;
 
-        let bytes = match self.mode {
-            WriteMode::NonBlocking => bytes,
-            WriteMode::Shared => &bytes[..bytes.len().min(Self::SHARED_PIECE)],
+        let most = if self.is_shared {
+            Self::SHARED_PIECE
+        } else {
+            bytes.len()
         };
+        let bytes = &bytes[..bytes.len().min(most)];
         loop {
             match poll(&mut [PollFd::new(&self.file, PollFlags::OUT)], None) {
                 Ok(_) | Err(Errno::INTR) => {}
@@ -177,8 +167,8 @@ impl TtyWriter {
         Ok(Self)
     }
 
-    pub(super) fn write_at_once(&self, _bytes: &[u8]) -> io::Result<Taken> {
-        Ok(Taken::Nothing)
+    pub(super) fn write_at_once(&self, _bytes: &[u8]) -> io::Result<usize> {
+        Ok(0)
     }
 
     pub(super) fn discard(&self) {}
@@ -200,8 +190,7 @@ pub(crate) fn complain(line: String) {
         let _ = writeln!(io::stderr(), "{line}");
         let _ = done.send(());
     };
-    let thread = thread::Builder::new().name("last words".to_owned());
-    if thread.spawn(print).is_ok() {
+    if spawn("last words", print).is_ok() {
         let _ = printed.recv_timeout(LAST_WORDS);
     }
 }
@@ -216,6 +205,14 @@ pub(super) fn keyboard() -> io::Result<OwnedFd> {
     } else {
         File::open("/dev/tty").map(OwnedFd::from)
     }
+}
+
+/// Reads what has arrived on a stream that does not block, and forgets it.
+#[cfg(unix)]
+pub(super) fn drain(mut stream: &UnixStream) {
+    use std::io::Read;
+
+    while stream.read(&mut [0; 64]).is_ok_and(|bytes| bytes != 0) {}
 }
 
 /// Makes the terminal raw, regardless of how its modes were changed. A raw terminal stays raw
@@ -233,10 +230,8 @@ pub(super) fn make_raw() -> io::Result<()> {
 
 fn known_size(reported: Size, variable: impl Fn(&str) -> Option<u16>) -> Size {
     let known = |reported: u16, name: &str, usual: u16| {
-        let reported = Some(reported).filter(|&cells| cells != 0);
-        reported
-            .or_else(|| variable(name).filter(|&cells| cells != 0))
-            .unwrap_or(usual)
+        let mut known = [Some(reported), variable(name)].into_iter().flatten();
+        known.find(|&cells| cells != 0).unwrap_or(usual)
     };
     Size {
         width: known(reported.width, "COLUMNS", USUAL.width),

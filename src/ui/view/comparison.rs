@@ -2,14 +2,14 @@
 
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
-use ratatui::style::{Color, Style};
+use ratatui::style::Style;
 use ratatui::widgets::{Clear, Widget};
 
 use super::Inks;
-use super::row::{Row, title};
+use super::row::{Row, put_at, title};
 use crate::compare::{Comparison, Difference};
 use crate::text::counted;
-use crate::ui::app::{App, compare};
+use crate::ui::app::{App, Compare, compare};
 use crate::ui::theme;
 
 /// Width of the names of the panel, with a gap.
@@ -17,7 +17,6 @@ const NAMES: u16 = 11;
 
 /// Draws what is compared, how it differs, and the worst pixels.
 pub(super) fn render(app: &App, inks: &mut Inks, area: Rect, buffer: &mut Buffer) {
-    let area = area.intersection(buffer.area);
     Clear.render(area, buffer);
     let (compared, view) = (&app.compare, app.compare.view.name());
     title("comparison", &view, Some(theme::ACCENT), area, buffer);
@@ -28,11 +27,8 @@ pub(super) fn render(app: &App, inks: &mut Inks, area: Rect, buffer: &mut Buffer
     };
     let spp = compared.progress().map(|progress| progress.spp);
     let spp = spp.map_or_else(String::new, |spp| format!(", {spp} spp"));
-    lines.put(
-        "live",
-        &format!("{}{spp}", app.shared.disk.name()),
-        Style::new(),
-    );
+    let name = app.shared.disk.name();
+    lines.put("live", &format!("{name}{spp}"), Style::new());
     if let Some(reference) = &compared.reference {
         lines.put("reference", &reference.name, Style::new());
     }
@@ -44,12 +40,10 @@ pub(super) fn render(app: &App, inks: &mut Inks, area: Rect, buffer: &mut Buffer
         lines.put("", "still being traced", theme::DIM);
         return;
     };
-    let style = if compared.are_figures_final() {
-        Style::new()
-    } else {
-        lines.put("", "so far:", theme::DIM);
-        theme::DIM
-    };
+    let style = figures_style(&app.compare);
+    if !compared.are_figures_final() {
+        lines.put("", "so far:", style);
+    }
     lines.put("differing", &found.differing_words(), style);
     for (name, figure) in found.figures() {
         lines.put(name, &figure, style);
@@ -65,21 +59,19 @@ pub(super) fn chips(app: &App, say: &mut impl FnMut(u8, String, Style)) {
     if let Some(unlike) = compare::unlike(&app.compare, &app.shared) {
         say(3, unlike, theme::WARNING);
     }
-    if let Some(found) = app
-        .compare
-        .figures()
-        .filter(|_| app.shared.areas().list.is_empty())
+    if let Some(found) = app.compare.figures()
+        && app.shared.areas().list.is_empty()
     {
         let (psnr, flip) = (found.psnr(), found.flip);
         let differing = counted(found.differing, "pixel");
         let text = format!("{differing} differ, {psnr:.2} dB, FLIP {flip:.5}");
-        let style = if app.compare.are_figures_final() {
-            Style::new()
-        } else {
-            theme::DIM
-        };
-        say(6, text, style);
+        say(6, text, figures_style(&app.compare));
     }
+}
+
+fn figures_style(compared: &Compare) -> Style {
+    let are_final = compared.are_figures_final();
+    (!are_final).then_some(theme::DIM).unwrap_or_default()
 }
 
 /// The lines of the panel that are still free.
@@ -112,8 +104,7 @@ fn worst(app: &App, found: &Comparison, lines: &mut Lines, inks: &mut Inks) {
         lines.put("", "no pixel differs", theme::GOOD);
         return;
     }
-    let mut row = lines.row();
-    row.skip(1).put("worst pixels", theme::DIM);
+    lines.put("worst pixels", "", theme::DIM);
     for worst in &found.worst {
         let is_here = app.compare.cross == Some((worst.x, worst.y));
         let style = if is_here { theme::BOLD } else { Style::new() };
@@ -123,8 +114,8 @@ fn worst(app: &App, found: &Comparison, lines: &mut Lines, inks: &mut Inks) {
         row.put(&format!("{},{}", worst.x, worst.y), style);
         row.skip_to(column);
         for colour in worst.colours {
-            row.put("██", Style::new().fg(inks.colour(colour, 0, 0)));
-            row.skip(1);
+            let style = Style::new().fg(inks.colour(colour, 0, 0));
+            row.put("██", style).skip(1);
         }
         row.put(&format!("by {}", worst.largest()), style);
     }
@@ -140,30 +131,21 @@ pub(super) fn mark(app: &App, cells: Rect, buffer: &mut Buffer) {
     if let Some(column) = compare::wipe_on_screen(&app.compare, &app.shared) {
         // At the right edge it is beyond the last cell.
         let column = column.round().min(f64::from(cells.width) - 1.0);
-        let place = cell([column, 0.0]);
-        for y in cells.top()..cells.bottom() {
-            if let Some((x, _)) = place
-                && let Some(cell) = buffer.cell_mut((x, y))
-            {
-                let [red, green, blue] = theme::OUTLINE;
-                cell.set_symbol("│").set_fg(Color::Rgb(red, green, blue));
+        if let Some((x, _)) = cell([column, 0.0]) {
+            let style = Style::new().fg(theme::OUTLINE.into());
+            for y in cells.top()..cells.bottom() {
+                put_at((x, y), "│", style, buffer);
             }
         }
     }
     let Some(Difference { x, y, colours }) = app.compare.at_cross() else {
         return;
     };
-    if let Some(place) = compare::cross_on_screen(&app.compare, &app.shared).and_then(cell)
-        && let Some(cell) = buffer.cell_mut(place)
-    {
-        cell.set_symbol("┼").set_style(Style::reset());
-        cell.set_style(theme::chip(Style::new()));
+    if let Some(place) = compare::cross_on_screen(&app.compare, &app.shared).and_then(cell) {
+        put_at(place, "┼", theme::CROSS, buffer);
     }
-    let [live, reference] = colours.map(levels);
+    let [live, reference] =
+        colours.map(|[red, green, blue]: [u8; 3]| format!("{red} {green} {blue}"));
     let text = format!(" {x},{y}: {live}, reference {reference} ");
     Row::new(buffer, cells, 0).put(&text, theme::chip(theme::ACCENT));
-}
-
-fn levels([red, green, blue]: [u8; 3]) -> String {
-    format!("{red} {green} {blue}")
 }

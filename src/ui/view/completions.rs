@@ -8,6 +8,7 @@ use unicode_width::UnicodeWidthStr;
 
 use super::row::{Row, title};
 use crate::ui::app::{Completion, Shared, command};
+use crate::ui::layout::nth_line;
 use crate::ui::{layout, theme};
 
 /// Maximum number of completions shown.
@@ -24,7 +25,7 @@ pub(crate) fn render(shared: &Shared, area: Rect, buffer: &mut Buffer) {
         return;
     }
     let (_, panel) = layout::split_bottom(area, rows as u16 + 1);
-    Clear.render(panel.intersection(buffer.area), buffer);
+    Clear.render(panel, buffer);
     let chosen = shared.palette.chosen;
     let place = match found.len() {
         0 => String::new(),
@@ -33,48 +34,30 @@ pub(crate) fn render(shared: &Shared, area: Rect, buffer: &mut Buffer) {
     title("", &place, None, panel, buffer);
     let mut lines = layout::contents(panel);
     if let Some(command) = typed {
-        entry(&command, theme::DIM, first_line(lines), buffer);
+        entry(&command, theme::DIM, nth_line(lines, 0), buffer);
         lines = layout::contents(lines);
     }
     let rows = usize::from(lines.height);
     let top = layout::first_shown(0, chosen.unwrap_or(0), found.len(), rows);
     for (index, completion) in found.iter().enumerate().skip(top).take(rows) {
-        let line = Rect {
-            y: lines.y + (index - top) as u16,
-            height: 1,
-            ..lines
-        };
-        let style = if chosen == Some(index) {
-            theme::CURSOR
-        } else {
-            Style::new()
-        };
+        let is_chosen = chosen == Some(index);
+        let style = is_chosen.then_some(theme::CURSOR).unwrap_or_default();
+        let line = nth_line(lines, (index - top) as u16);
         entry(completion, style, line, buffer);
-    }
-}
-
-fn first_line(area: Rect) -> Rect {
-    Rect {
-        height: area.height.min(1),
-        ..area
     }
 }
 
 /// Draws a completion: its text, its description, and its key at the end.
 fn entry(completion: &Completion, style: Style, line: Rect, buffer: &mut Buffer) {
+    buffer.set_style(line, style);
     let mut row = Row::new(buffer, line, 0);
-    let width = row.room();
-    let blank = " ".repeat(width);
-    Row::new(buffer, line, 0).put(&blank, style);
-    row = Row::new(buffer, line, 0);
-    row.skip(1);
     let keys = completion.keys.width();
-    let room = width.saturating_sub(keys + 3);
-    let column = if completion.words.is_empty() {
-        room
-    } else {
-        room * 2 / 5
+    let room = row.room().saturating_sub(keys + 3);
+    let column = match completion.words {
+        "" => room,
+        _ => room * 2 / 5,
     };
+    row.skip(1);
     row.put_in(&completion.shown, column.saturating_sub(1), style);
     if !completion.words.is_empty() {
         row.skip_to(line.x + 1 + column as u16);

@@ -2,7 +2,6 @@
 
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
-use ratatui::style::Style;
 use unicode_width::UnicodeWidthStr;
 
 use super::fields::typed;
@@ -29,22 +28,16 @@ pub(crate) fn render(shared: &Shared, areas: &Areas, buffer: &mut Buffer) -> Rec
     let component = shared.cursor.component;
     let most = areas.status.width.saturating_sub(MODE);
     let value = field.literals.get(component).map_or("", String::as_str);
-    let name = named(
-        field.field.key,
-        field.field.kind.component_names(),
-        component,
-    );
+    let names = field.field.kind.component_names();
+    let name = named(field.field.key, names, component);
     let whole = field.field.key.width() + 1 + width_of(&field.literals);
     let is_whole = shared.cursor.typing.is_none() && whole < usize::from(most);
     let alone = match &shared.cursor.typing {
         Some(typing) => (typing.input.value().width() + 1).max(TYPED),
         None => value.width(),
     };
-    let wanted = if is_whole {
-        whole
-    } else {
-        name.width() + 1 + alone
-    };
+    let cut = name.width() + 1 + alone;
+    let wanted = if is_whole { whole } else { cut };
     let width = u16::try_from(wanted + 1).unwrap_or(u16::MAX).min(most);
     let (left, mut area) = split_right(areas.status, width);
     // The last cell keeps a gap to the border.
@@ -54,11 +47,7 @@ pub(crate) fn render(shared: &Shared, areas: &Areas, buffer: &mut Buffer) -> Rec
         row.put(field.field.key, theme::BOLD);
         for (at, literal) in field.literals.iter().enumerate() {
             let is_current = at == component;
-            let style = if is_current {
-                theme::CURSOR
-            } else {
-                Style::new()
-            };
+            let style = is_current.then_some(theme::CURSOR).unwrap_or_default();
             row.skip(1).put(literal, style);
         }
         return left;
@@ -68,13 +57,8 @@ pub(crate) fn render(shared: &Shared, areas: &Areas, buffer: &mut Buffer) -> Rec
     row.put_in(&name, room, theme::BOLD);
     match &shared.cursor.typing {
         Some(typing) => {
-            row.skip(1);
-            let area = Rect {
-                x: area.right().saturating_sub(row.room() as u16),
-                width: row.room() as u16,
-                ..area
-            };
-            typed(typing, area, buffer);
+            let room = row.skip(1).room() as u16;
+            typed(typing, split_right(area, room).1, buffer);
         }
         None => {
             row.skip(1).put(value, theme::CURSOR);

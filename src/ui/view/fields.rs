@@ -29,29 +29,19 @@ pub(crate) fn render(shared: &Shared, area: Rect, buffer: &mut Buffer) {
     };
     let selected = shared.cursor.selected();
     let name = shared.source().name(selected);
-    row::title(
-        &name,
-        &stride
-            .or_else(|| users(shared, selected))
-            .unwrap_or_default(),
-        focused.then_some(theme::ACCENT),
-        area,
-        buffer,
-    );
+    let right = stride
+        .or_else(|| users(shared, selected))
+        .unwrap_or_default();
+    let keys = focused.then_some(theme::ACCENT);
+    row::title(&name, &right, keys, area, buffer);
 
     let fields = shared.fields();
     let lines = layout::field_rows(area);
     let rows = usize::from(lines.height);
-    let top = shared
-        .cursor
-        .field_top
-        .min(fields.len().saturating_sub(rows));
-    for (line, (index, field)) in fields.iter().enumerate().skip(top).take(rows).enumerate() {
-        let line = Rect {
-            y: lines.y + line as u16,
-            height: 1,
-            ..lines
-        };
+    let last = fields.len().saturating_sub(rows);
+    let top = shared.cursor.field_top.min(last);
+    for (index, field) in fields.iter().enumerate().skip(top).take(rows) {
+        let line = layout::nth_line(lines, (index - top) as u16);
         let cursor = (focused && index == shared.cursor.field).then_some(shared.cursor.component);
         field_line(shared, field, cursor, line, buffer);
         if let Some(bar) = edit::slider(shared, index, line)
@@ -107,7 +97,7 @@ fn part_name(shared: &Shared, part: Node) -> String {
         Node::Object(object) => shared.source().operation(object),
         _ => None,
     };
-    [&name, operation.unwrap_or_default()].join(" ")
+    format!("{name} {}", operation.unwrap_or_default())
 }
 
 /// Draws a field: its name and its literals in columns, with the one under the cursor marked.
@@ -139,45 +129,28 @@ fn field_line(
         let mut row = Row::new(buffer, *column, 0);
         // The last cell keeps a gap to the next number.
         let room = row.room().saturating_sub(1);
-        if cursor == Some(component) {
-            row.put_in(literal, room, style.patch(theme::CURSOR));
-        } else {
-            row.put_in(literal, room, style);
-        }
+        let mark = (cursor == Some(component)).then_some(theme::CURSOR);
+        row.put_in(literal, room, style.patch(mark.unwrap_or_default()));
         if *source == Provenance::Default && "  (default)".len() < row.room() {
             row.put("  (default)", style);
         }
     }
-    let current = cursor.and_then(|component| Some((component, field.literals.get(component)?)));
-    if let Some((component, literal)) = current.filter(|_| shared.cursor.typing.is_none()) {
-        let span = layout::widened(&columns, component, literal.width(), line);
-        if let Some(area) = span {
-            Clear.render(area.intersection(buffer.area), buffer);
-            let end = area
-                .right()
-                .saturating_sub(literal.width() as u16 + 1)
-                .max(area.x);
-            let start = columns
-                .get(component)
-                .map_or(end, |column| column.x.min(end));
-            Row::new(buffer, area, 0).skip_to(start).put_in(
-                literal,
-                literal.width(),
-                theme::CURSOR,
-            );
-        }
-    }
-    if let (Some(component), Some(typing)) = (cursor, &shared.cursor.typing)
-        && let Some(column) = columns.get(component)
-    {
+    let current = cursor.and_then(|at| Some((at, columns.get(at)?, field.literals.get(at)?)));
+    let Some((component, column, literal)) = current else {
+        return;
+    };
+    if let Some(typing) = &shared.cursor.typing {
         // The last cell keeps a gap to the next number. A long text covers the numbers after it.
         let fits = typing.input.value().width() + 1 < usize::from(column.width);
         let end = if fits { column.right() } else { line.right() };
-        let room = Rect {
-            width: end.saturating_sub(column.x + 1),
-            ..*column
-        };
-        typed(typing, room, buffer);
+        let width = end.saturating_sub(column.x + 1);
+        typed(typing, Rect { width, ..*column }, buffer);
+    } else if let Some(area) = layout::widened(&columns, component, literal.width(), line) {
+        Clear.render(area, buffer);
+        let end = area.right().saturating_sub(literal.width() as u16 + 1);
+        let mut row = Row::new(buffer, area, 0);
+        row.skip_to(column.x.min(end.max(area.x)));
+        row.put_in(literal, literal.width(), theme::CURSOR);
     }
 }
 
@@ -198,7 +171,7 @@ fn slider(field: &FieldRow, style: Style, bar: Rect, buffer: &mut Buffer) {
     let literal = field.literals.first().map_or("", String::as_str);
     let number = parse_number(without_suffix(literal).unwrap_or(literal));
     let filled = marker_at(bar, number.unwrap_or(0.0)) - bar.x;
-    Clear.render(bar.intersection(buffer.area), buffer);
+    Clear.render(bar, buffer);
     let mut row = Row::new(buffer, bar, 0);
     row.put(&"─".repeat(usize::from(filled)), style);
     row.put("●", style);
@@ -208,13 +181,10 @@ fn slider(field: &FieldRow, style: Style, bar: Rect, buffer: &mut Buffer) {
 
 /// Draws the value being typed in place of the current one.
 pub(super) fn typed(typing: &Typing, area: Rect, buffer: &mut Buffer) {
-    Clear.render(area.intersection(buffer.area), buffer);
+    Clear.render(area, buffer);
     let style = theme::ACCENT.add_modifier(Modifier::UNDERLINED);
-    let style = if typing.is_selected {
-        style.patch(theme::CURSOR)
-    } else {
-        style
-    };
+    let mark = typing.is_selected.then_some(theme::CURSOR);
+    let style = style.patch(mark.unwrap_or_default());
     let mut row = Row::new(buffer, area, 0);
     let room = row.room();
     row.put_input(&typing.input, room, style, theme::CURSOR);
@@ -227,31 +197,24 @@ fn explain(shared: &Shared, field: &FieldRow, area: Rect, buffer: &mut Buffer) {
     let mut say = |text: &str, style| {
         lines.extend(wrap(text, width).into_iter().map(|line| (line, style)));
     };
-    if let Some(refused) = shared
-        .cursor
-        .typing
-        .as_ref()
-        .and_then(|typing| typing.refused.as_ref())
-    {
+    let typing = shared.cursor.typing.as_ref();
+    if let Some(refused) = typing.and_then(|typing| typing.refused.as_ref()) {
         say(&refused.message, theme::ERROR);
     }
     if let Some(found) = shared.field_finding(shared.cursor.field) {
-        say(
-            &found.message_with_file(),
-            theme::severity(Some(found.severity)),
-        );
+        let style = theme::severity(Some(found.severity));
+        say(&found.message_with_file(), style);
     }
     let names = field.field.kind.component_names();
-    let component = names
-        .get(shared.cursor.component)
-        .copied()
-        .unwrap_or_default();
+    let component = names.get(shared.cursor.component).copied();
     let expected = field.field.advice();
-    let what = [component, &expected].join(if component.is_empty() { "" } else { ": " });
-    let unit = if field.field.unit.is_empty() {
-        String::new()
-    } else {
-        format!(" {}", field.field.unit)
+    let what = match component.unwrap_or_default() {
+        "" => expected,
+        component => format!("{component}: {expected}"),
+    };
+    let unit = match field.field.unit {
+        "" => String::new(),
+        unit => format!(" {unit}"),
     };
     let nudge = match field.field.kind {
         Kind::Choice(_) | Kind::Reference(_) | Kind::Name(_) => {
@@ -274,10 +237,8 @@ fn explain(shared: &Shared, field: &FieldRow, area: Rect, buffer: &mut Buffer) {
         }
         Some(Provenance::Text) | None => {}
     }
-    for (index, (line, style)) in lines.iter().enumerate() {
-        Row::new(buffer, area, index as u16)
-            .skip(1)
-            .put(line, *style);
+    for (index, (line, style)) in (0..area.height).zip(lines) {
+        Row::new(buffer, area, index).skip(1).put(&line, style);
     }
 }
 

@@ -67,7 +67,7 @@ mod tests {
         let (width, height) = (100, 30);
         app.shared.terminal = (width, height);
         let mut inks = Inks::new(Glyphs::HalfBlocks);
-        inks.draw_with(Drawing::Picture);
+        inks.drawing = Drawing::Picture;
         let mut terminal = Terminal::new(TestBackend::new(width, height)).expect("cannot fail");
         let mut left = None;
         terminal

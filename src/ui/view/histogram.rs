@@ -2,7 +2,6 @@
 
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
-use ratatui::style::Style;
 use ratatui::widgets::{Clear, Widget};
 
 use super::row::{Row, title};
@@ -22,31 +21,21 @@ pub(crate) fn render(shared: &Shared, area: Rect, buffer: &mut Buffer) {
     let Some(histogram) = &shared.pictures.histogram else {
         return;
     };
-    let width = histogram
-        .histogram
-        .as_ref()
-        .map_or(24, |shown| shown.bins.len()) as u16
-        + 2;
+    let shown = histogram.histogram.as_ref();
+    let width = shown.map_or(24, |shown| shown.bins.len()) as u16 + 2;
     let height = HEIGHT + 3;
     if area.width < width || area.height < height {
         return;
     }
-    let panel = Rect {
-        y: area.bottom() - height,
-        width,
-        height,
-        ..area
-    };
+    let panel = Rect::new(area.x, area.bottom() - height, width, height);
     let panel = panel.intersection(buffer.area);
     Clear.render(panel, buffer);
     title("luminance", "EV", None, panel, buffer);
-    match &histogram.histogram {
-        Some(histogram) => chart(histogram, panel, buffer),
-        None => {
-            Row::new(buffer, panel, 2)
-                .skip(1)
-                .put("only of light and albedo", theme::DIM);
-        }
+    if let Some(shown) = shown {
+        chart(shown, panel, buffer);
+    } else {
+        let mut row = Row::new(buffer, panel, 2);
+        row.skip(1).put("only of light and albedo", theme::DIM);
     }
 }
 
@@ -64,11 +53,8 @@ fn chart(histogram: &Histogram, panel: Rect, buffer: &mut Buffer) {
         for (at, &count) in bins.iter().enumerate() {
             // Something is always visible of what is not nothing.
             let filled = (u64::from(count) * steps).div_ceil(u64::from(most));
-            let style = if at < one {
-                Style::new()
-            } else {
-                theme::WARNING
-            };
+            let is_clipped = one <= at;
+            let style = is_clipped.then_some(theme::WARNING).unwrap_or_default();
             row.put(BARS[filled.saturating_sub(below).min(2) as usize], style);
         }
     }

@@ -57,7 +57,8 @@ pub enum Drawing {
 #[derive(Debug)]
 pub struct Inks {
     pub(super) glyphs: Glyphs,
-    pub(super) drawing: Drawing,
+    /// What fills the cells of pictures.
+    pub drawing: Drawing,
     palette: Option<Palette>,
 }
 
@@ -65,11 +66,6 @@ impl Inks {
     /// The inks for a colour depth.
     pub fn for_depth(depth: ColourDepth) -> Self {
         Self::new(Glyphs::for_depth(depth))
-    }
-
-    /// Fills the cells of pictures with this from now on.
-    pub fn draw_with(&mut self, drawing: Drawing) {
-        self.drawing = drawing;
     }
 
     /// Whether pixels have colours.
@@ -102,7 +98,7 @@ impl Inks {
     pub(super) fn colour(&mut self, colour: [u8; 3], x: u32, y: u32) -> Color {
         match &mut self.palette {
             Some(palette) => Color::Indexed(palette.at(colour, x, y)),
-            None => Color::Rgb(colour[0], colour[1], colour[2]),
+            None => colour.into(),
         }
     }
 }

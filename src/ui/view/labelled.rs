@@ -2,7 +2,7 @@
 
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
-use ratatui::style::{Color, Style};
+use ratatui::style::Style;
 
 use super::row::Row;
 use crate::explain::number;
@@ -45,9 +45,8 @@ pub(super) fn render(values: &[Value], area: Rect, buffer: &mut Buffer) {
         let mut row = Row::new(buffer, area, index);
         row.skip(1).put(value.label, theme::DIM);
         row.skip_to(area.x.saturating_add(LABEL));
-        if let Some([red, green, blue]) = value.colour {
-            row.put("██", Style::new().fg(Color::Rgb(red, green, blue)));
-            row.skip(1);
+        if let Some(colour) = value.colour {
+            row.put("██", Style::new().fg(colour.into())).skip(1);
         }
         row.put(&value.text, Style::new());
     }

@@ -32,13 +32,8 @@ pub(crate) fn render(shared: &Shared, area: Rect, buffer: &mut Buffer) {
         0 => place,
         marks => format!("{marks} marked  {place}"),
     };
-    title(
-        TITLE,
-        &place,
-        focused.then_some(theme::ACCENT),
-        area,
-        buffer,
-    );
+    let keys = focused.then_some(theme::ACCENT);
+    title(TITLE, &place, keys, area, buffer);
     if !rows.filter().is_empty() {
         let chip = format!(" /{} {} ", rows.filter(), rows.matches());
         let mut row = Row::new(buffer, area, 0);
@@ -128,16 +123,13 @@ fn indented(shared: &Shared, node: Node, sign: &str, width: usize) -> String {
 
 /// Nodes with diagnostics, styled by severity, the most severe first.
 fn marked(shared: &Shared) -> Vec<(Node, Style)> {
-    let mut marked: Vec<_> = shared
-        .diagnostics
-        .iter()
-        .filter_map(|d| Some((shared.source().node_at(d.span)?, d.severity)))
-        .collect();
-    marked.sort_by_key(|&(_, severity)| std::cmp::Reverse(severity));
-    marked
-        .into_iter()
-        .map(|(node, severity)| (node, theme::severity(Some(severity))))
-        .collect()
+    let mut found: Vec<_> = shared.diagnostics.iter().collect();
+    found.sort_by_key(|found| std::cmp::Reverse(found.severity));
+    let marked = found.into_iter().filter_map(|found| {
+        let node = shared.source().node_at(found.span)?;
+        Some((node, theme::severity(Some(found.severity))))
+    });
+    marked.collect()
 }
 
 /// The colour that identifies a node: the colour of a light, the diffuse colour of an object.

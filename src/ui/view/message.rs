@@ -15,7 +15,7 @@ pub(crate) fn render(message: &Message, area: Rect, buffer: &mut Buffer) {
     let lines = wrap(&text, usize::from(area.width.saturating_sub(2)));
     let height = u16::try_from(lines.len() + 1).unwrap_or(u16::MAX);
     let (_, panel) = layout::split_bottom(area, height.min(area.height));
-    Clear.render(panel.intersection(buffer.area), buffer);
+    Clear.render(panel, buffer);
     title("", "", None, panel, buffer);
     let style = theme::severity(message.severity);
     for (index, line) in (1..panel.height).zip(&lines) {

@@ -139,15 +139,12 @@ fn render_page(app: &App, page: &Page, inks: &mut Inks, area: Rect, buffer: &mut
 
 /// Draws the line between columns, which makes a stale picture obvious.
 fn rule(shared: &Shared, area: Rect, buffer: &mut Buffer) {
-    let style = if 0 < shared.error_count() {
-        theme::WARNING
-    } else {
-        theme::DIM
+    let style = match shared.error_count() {
+        0 => theme::DIM,
+        _ => theme::WARNING,
     };
     for position in area.positions() {
-        if let Some(cell) = buffer.cell_mut(position) {
-            cell.set_symbol("│").set_style(style);
-        }
+        row::put_at(position, "│", style, buffer);
     }
 }
 

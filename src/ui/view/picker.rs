@@ -8,11 +8,11 @@ use ratatui::widgets::{Clear, Widget};
 
 use super::Inks;
 use super::inks::Glyphs;
-use super::row::{Row, title};
+use super::row::{Row, put_at, title};
 use crate::scene::Rgb;
 use crate::text::rounded;
-use crate::ui::app::{ColourPicker, Hsv, PickerRow, Shared};
-use crate::ui::layout::{PickerLines, marker_at, picker_lines, swatch_cells};
+use crate::ui::app::{ColourPicker, PickerRow, Shared};
+use crate::ui::layout::{PickerLines, marker_at, picker_lines, share_at, swatch_cells};
 use crate::ui::theme;
 
 /// Draws the open colour picker over the list, or over everything if there is no list.
@@ -46,15 +46,11 @@ fn bar_line(
     inks: &mut Inks,
     buffer: &mut Buffer,
 ) {
-    let Hsv {
-        hue,
-        saturation,
-        value,
-    } = picker.colour;
+    let colour = picker.colour;
     let (name, number) = match row {
-        PickerRow::Hue => ("hue", format!("{}°", short(hue, 1))),
-        PickerRow::Saturation => ("saturation", short(saturation, 3)),
-        PickerRow::Value | PickerRow::Swatches => ("value", short(value, 3)),
+        PickerRow::Hue => ("hue", format!("{}°", short(colour.hue, 1))),
+        PickerRow::Saturation => ("saturation", short(colour.saturation, 3)),
+        PickerRow::Value | PickerRow::Swatches => ("value", short(colour.value, 3)),
     };
     let is_here = picker.row == row;
     let style = if is_here { theme::BOLD } else { Style::new() };
@@ -65,19 +61,21 @@ fn bar_line(
         .put(&number, style);
     let marker = marker_at(bar, picker.share(row));
     for x in bar.left()..bar.right() {
-        let share = f64::from(x - bar.x) / f64::from((bar.width - 1).max(1));
-        let mut shown = picker.at_share(row, share);
+        let mut shown = picker.at_share(row, share_at(bar, x));
         if row == PickerRow::Hue {
             // A hue shows even of a grey.
             (shown.saturation, shown.value) = (1.0, 1.0);
         }
         let colour = shown.rgb();
-        paint(colour, Position::new(x, bar.y), inks, buffer);
-        if inks.glyphs == Glyphs::Characters {
-            put(buffer, x, bar.y, "─", theme::DIM);
+        let at = Position::new(x, bar.y);
+        if inks.have_colours() {
+            paint(colour, at, inks, buffer);
+        } else {
+            put_at(at, "─", theme::DIM, buffer);
         }
         if x == marker {
-            put(buffer, x, bar.y, sign(inks), over(colour, inks));
+            let (sign, style) = marker_over(colour, inks);
+            put_at(at, sign, style, buffer);
         }
     }
 }
@@ -96,7 +94,8 @@ fn comparison(picker: &ColourPicker, lines: &PickerLines, inks: &mut Inks, buffe
         row.skip(left + WIDTH + 1).put(word, theme::DIM);
     }
     let channels = now.to_array().map(|channel| short(channel, 3)).join(" ");
-    let hexadecimal = hexadecimal(now);
+    let [red, green, blue] = bytes(now);
+    let hexadecimal = format!("#{red:02x}{green:02x}{blue:02x}");
     let mut row = Row::new(buffer, lines.numbers, 0);
     // The fields show the numbers as well.
     if channels.len() + 2 + hexadecimal.len() <= row.room() {
@@ -116,14 +115,13 @@ fn swatches(picker: &ColourPicker, lines: &PickerLines, inks: &mut Inks, buffer:
         let Some(cells) = swatch_cells(lines.swatches, index) else {
             return;
         };
-        let is_chosen = is_here && picker.swatch.unwrap_or(0) == index;
-        if is_chosen {
-            put(buffer, cells.x, cells.y, "▸", theme::BOLD);
+        if is_here && picker.swatch.unwrap_or(0) == index {
+            put_at(cells.as_position(), "▸", theme::BOLD, buffer);
         }
         for x in cells.left() + 1..cells.right() {
             paint(*colour, Position::new(x, cells.y), inks, buffer);
         }
-        if inks.glyphs == Glyphs::Characters {
+        if !inks.have_colours() {
             let mut row = Row::new(buffer, cells, 0);
             row.skip(1).put(&(index + 1).to_string(), Style::new());
         }
@@ -132,50 +130,30 @@ fn swatches(picker: &ColourPicker, lines: &PickerLines, inks: &mut Inks, buffer:
 
 /// Paints a cell in a colour, as two pixels if it must be dithered; leaves it alone without colours.
 fn paint(colour: Rgb, at: Position, inks: &mut Inks, buffer: &mut Buffer) {
-    if inks.glyphs == Glyphs::Characters {
+    if !inks.have_colours() {
         return;
     }
     let pixel = bytes(colour);
     let (x, y) = (u32::from(at.x), 2 * u32::from(at.y));
     let (upper, lower) = (inks.colour(pixel, x, y), inks.colour(pixel, x, y + 1));
     let symbol = if upper == lower { " " } else { "▀" };
-    put(buffer, at.x, at.y, symbol, Style::new().fg(upper).bg(lower));
+    put_at(at, symbol, Style::new().fg(upper).bg(lower), buffer);
 }
 
-fn put(buffer: &mut Buffer, x: u16, y: u16, symbol: &str, style: Style) {
-    if let Some(cell) = buffer.cell_mut(Position::new(x, y)) {
-        cell.set_symbol(symbol).set_style(style);
-    }
-}
-
-/// The marker of a bar.
-fn sign(inks: &Inks) -> &'static str {
-    match inks.glyphs {
-        Glyphs::Characters => "●",
-        _ => "│",
-    }
-}
-
-/// The style of a marker over a colour: black or white, by its luminance.
-fn over(colour: Rgb, inks: &Inks) -> Style {
+/// The marker of a bar over a colour: black or white, by the luminance.
+fn marker_over(colour: Rgb, inks: &Inks) -> (&'static str, Style) {
     let [red, green, blue] = bytes(colour).map(f64::from);
     let luminance = 0.2126 * red + 0.7152 * green + 0.0722 * blue;
     match inks.glyphs {
-        Glyphs::Characters => theme::BOLD,
-        _ if luminance < 110.0 => Style::new().fg(Color::White),
-        _ => Style::new().fg(Color::Black),
+        Glyphs::Characters => ("●", theme::BOLD),
+        _ if luminance < 110.0 => ("│", Style::new().fg(Color::White)),
+        _ => ("│", Style::new().fg(Color::Black)),
     }
 }
 
 fn bytes(colour: Rgb) -> [u8; 3] {
-    colour
-        .to_array()
-        .map(|channel| (255.0 * channel.clamp(0.0, 1.0)).round() as u8)
-}
-
-fn hexadecimal(colour: Rgb) -> String {
-    let [red, green, blue] = bytes(colour);
-    format!("#{red:02x}{green:02x}{blue:02x}")
+    let byte = |channel: f64| (255.0 * channel.clamp(0.0, 1.0)).round() as u8;
+    colour.to_array().map(byte)
 }
 
 /// A number with at most so many decimals.

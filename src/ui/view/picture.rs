@@ -13,7 +13,7 @@ use unicode_width::UnicodeWidthStr;
 use super::characters::Characters;
 use super::graphics_gap::leave;
 use super::inks::{Drawing, Glyphs, Inks};
-use super::row::Row;
+use super::row::{Row, put_at};
 use super::{comparison, pixel, symbols, tiles, values, wireframe};
 use crate::render::{line_of, pixel_of, pixel_width};
 use crate::scene::Size;
@@ -27,10 +27,8 @@ use crate::ui::{layout, theme};
 pub(crate) fn render(app: &App, inks: &mut Inks, area: Rect, buffer: &mut Buffer) -> Option<Rect> {
     let shared = &app.shared;
     let (cells, size) = raster(area, shared.framed())?;
-    if let Some(wireframe) = shared
-        .wireframe()
-        .and_then(|wireframe| wireframe.lines(size))
-    {
+    let wireframe = shared.wireframe();
+    if let Some(wireframe) = wireframe.and_then(|wireframe| wireframe.lines(size)) {
         wireframe::paint(wireframe, &display::outlined_objects(shared), cells, buffer);
         overlays(app, inks.glyphs, area, (cells, size), buffer);
         return None;
@@ -95,9 +93,8 @@ fn overlays(
     if 0 < shared.error_count() {
         let chip = " STALE ";
         let left = area.width.saturating_sub(chip.len() as u16);
-        Row::new(buffer, area, 0)
-            .skip(left)
-            .put(chip, theme::chip(theme::WARNING));
+        let mut row = Row::new(buffer, area, 0);
+        row.skip(left).put(chip, theme::chip(theme::WARNING));
     }
 }
 
@@ -129,10 +126,7 @@ fn invitation(area: Rect, buffer: &mut Buffer) {
     let width = title.width().max(indent + words.max().unwrap_or(0));
     let lines = Rect::new(0, 0, width as u16, 2 + INVITATION.len() as u16);
     let frame = Rect::new(0, 0, lines.width + 4, lines.height + 2);
-    Clear.render(
-        layout::centred(area, frame).intersection(buffer.area),
-        buffer,
-    );
+    Clear.render(layout::centred(area, frame), buffer);
     let area = layout::centred(area, lines).intersection(buffer.area);
     Row::new(buffer, area, 0).put(title, theme::BOLD);
     for (line, (key, words)) in (2..).zip(INVITATION) {
@@ -156,12 +150,9 @@ fn cross(shared: &Shared, cells: Rect, buffer: &mut Buffer) {
     let Some((column, row)) = inspect::cross_cell(shared) else {
         return;
     };
-    let (x, y) = (cells.x.saturating_add(column), cells.y.saturating_add(row));
-    if cells.contains((x, y).into())
-        && let Some(cell) = buffer.cell_mut((x, y))
-    {
-        cell.set_symbol("┼").set_style(Style::reset());
-        cell.set_style(theme::chip(Style::new()));
+    let place = (cells.x.saturating_add(column), cells.y.saturating_add(row));
+    if cells.contains(place.into()) {
+        put_at(place, "┼", theme::CROSS, buffer);
     }
     if shared.context() == Context::Rays {
         return;
@@ -179,8 +170,7 @@ fn axis(app: &App, glyphs: Glyphs, (cells, size): (Rect, Size), buffer: &mut Buf
     let (Some(transform), Some(camera)) = (&app.moving, shared.camera()) else {
         return;
     };
-    let Some(axis) = transform.axis() else { return };
-    let Some(frame_window) = display::frame_window(shared) else {
+    let (Some(axis), Some(frame_window)) = (transform.axis(), display::frame_window(shared)) else {
         return;
     };
     let unit = pixel_width(transform.pivot(), &camera, size) / frame_window.magnification(size);
@@ -200,10 +190,8 @@ fn axis(app: &App, glyphs: Glyphs, (cells, size): (Rect, Size), buffer: &mut Buf
 
 /// Draws the path of light that is explained.
 fn path(shared: &Shared, glyphs: Glyphs, cells: Rect, buffer: &mut Buffer) {
-    let Some(frame) = &shared.picture().latest else {
-        return;
-    };
-    let Some(camera) = frame.query.as_ref().map(|query| query.camera) else {
+    let frame = shared.picture().latest.as_ref();
+    let Some((frame, query)) = frame.and_then(|frame| Some((frame, frame.query.as_ref()?))) else {
         return;
     };
     let whole = frame.whole();
@@ -213,7 +201,7 @@ fn path(shared: &Shared, glyphs: Glyphs, cells: Rect, buffer: &mut Buffer) {
         } else {
             theme::PATH
         };
-        let Some(ends) = line_of(segment.ends, &camera, whole) else {
+        let Some(ends) = line_of(segment.ends, &query.camera, whole) else {
             continue;
         };
         let places = ends.map(|end| inspect::place_on_screen(shared, end, whole));
@@ -225,7 +213,7 @@ fn path(shared: &Shared, glyphs: Glyphs, cells: Rect, buffer: &mut Buffer) {
         for step in 0..=steps as u32 {
             let share = f64::from(step) / steps;
             let place = [from[0] + share * across, from[1] + share * down];
-            plot(place, (glyphs, rgb(colour)), cells, buffer);
+            plot(place, (glyphs, colour.into()), cells, buffer);
         }
     }
 }
@@ -299,7 +287,7 @@ struct Pixel {
 fn half_block(upper: Pixel, lower: Option<Pixel>, inks: &mut Inks) -> (&'static str, Style) {
     let mut colour = |pixel: Pixel| {
         if pixel.outlined {
-            return rgb(theme::OUTLINE);
+            return theme::OUTLINE.into();
         }
         let (x, y) = pixel.at;
         inks.colour(pixel.colour, x, y)
@@ -308,17 +296,11 @@ fn half_block(upper: Pixel, lower: Option<Pixel>, inks: &mut Inks) -> (&'static 
     ("▀", style.bg(lower.map_or(Color::Reset, colour)))
 }
 
-fn rgb([red, green, blue]: [u8; 3]) -> Color {
-    Color::Rgb(red, green, blue)
-}
-
 /// The style of an outline without colours.
 fn marked(upper: Pixel, lower: Option<Pixel>) -> Style {
-    if upper.outlined || lower.is_some_and(|lower| lower.outlined) {
-        Style::reset().add_modifier(Modifier::REVERSED)
-    } else {
-        Style::reset()
-    }
+    let is_marked = upper.outlined || lower.is_some_and(|lower| lower.outlined);
+    let mark = is_marked.then_some(Modifier::REVERSED);
+    Style::reset().add_modifier(mark.unwrap_or_default())
 }
 
 #[cfg(test)]
@@ -415,7 +397,7 @@ mod tests {
         let mut picture = shown(2, 1, &[[9; 3]; 2]);
         picture.outline = vec![true, false];
         let buffer = painted(&picture, Glyphs::HalfBlocks);
-        assert_eq!(buffer[(0, 0)].fg, rgb(theme::OUTLINE));
+        assert_eq!(buffer[(0, 0)].fg, theme::OUTLINE.into());
         assert_eq!(buffer[(1, 0)].fg, Color::Rgb(9, 9, 9));
     }
 

@@ -27,10 +27,10 @@ pub(super) fn render(shared: &Shared, area: Rect, buffer: &mut Buffer) {
 
 fn panel(pixel: &Pixel, values: &[Value], area: Rect, buffer: &mut Buffer) {
     let [x, y] = pixel.at;
-    let output = pixel.output.map_or_else(
-        || format!("of {}×{}", pixel.size.width, pixel.size.height),
-        |([x, y], _)| format!("output {x} {y}"),
-    );
+    let output = match pixel.output {
+        Some(([x, y], _)) => format!("output {x} {y}"),
+        None => format!("of {}×{}", pixel.size.width, pixel.size.height),
+    };
     let title = format!("pixel {x} {y}");
     row::title(&title, &output, Some(theme::ACCENT), area, buffer);
     labelled::render(values, contents(area), buffer);
@@ -46,16 +46,11 @@ pub(super) fn render_over(shared: &Shared, area: Rect, buffer: &mut Buffer) {
     if area.width < 2 * WIDTH || area.height < height + 3 {
         return;
     }
-    let over = Rect {
-        x: match inspect::free_side(shared) {
-            Side::Right => area.right() - WIDTH,
-            Side::Left => area.x,
-        },
-        y: area.bottom() - height,
-        width: WIDTH,
-        height,
+    let x = match inspect::free_side(shared) {
+        Side::Right => area.right() - WIDTH,
+        Side::Left => area.x,
     };
-    let over = over.intersection(buffer.area);
+    let over = Rect::new(x, area.bottom() - height, WIDTH, height).intersection(buffer.area);
     Clear.render(over, buffer);
     panel(&pixel, &values, over, buffer);
 }
@@ -85,10 +80,8 @@ fn values(shared: &Shared, pixel: &Pixel) -> Vec<Value> {
     values.extend(surface.map(|at| Value::new("side", side(at.side, at.solid))));
     let label = pixel.aov.map_or("linear", Aov::name);
     let value = pixel.value.map(|value| value_of(pixel.aov, value));
-    values.push(Value::new(
-        label,
-        value.unwrap_or_else(|| UNKNOWN.to_owned()),
-    ));
+    let value = value.unwrap_or_else(|| UNKNOWN.to_owned());
+    values.push(Value::new(label, value));
     values.extend(pixel.colour.map(|colour| Value::of_colour("8-bit", colour)));
     let noise = pixel.error.map_or_else(String::new, |error| {
         format!(", noise {} %", number(100.0 * f64::from(error)))

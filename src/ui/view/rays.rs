@@ -26,21 +26,19 @@ pub(super) fn render(shared: &Shared, buffer: &mut Buffer) {
         return;
     };
     if panels.is_over_picture {
-        for area in [panels.tree, panels.values] {
-            Clear.render(area.intersection(buffer.area), buffer);
-        }
+        Clear.render(panels.tree, buffer);
+        Clear.render(panels.values, buffer);
     }
     tree(shared, panels.tree, panels.verdict, panels.lines, buffer);
-    if let (Some(explanation), Some(line)) =
-        (inspect::explanation(shared), inspect::ray_line(shared))
-    {
-        let words = words(shared, explanation, &line);
-        title(&words, "", None, panels.values, buffer);
-        let values = values_of(shared, explanation, &line);
-        labelled::render(&values, contents(panels.values), buffer);
-    } else {
+    let line = inspect::explanation(shared).zip(inspect::ray_line(shared));
+    let Some((explanation, line)) = line else {
         title("", "", None, panels.values, buffer);
-    }
+        return;
+    };
+    let words = words(shared, explanation, &line);
+    title(&words, "", None, panels.values, buffer);
+    let values = values_of(shared, explanation, &line);
+    labelled::render(&values, contents(panels.values), buffer);
 }
 
 fn tree(shared: &Shared, area: Rect, verdict: Rect, lines: Rect, buffer: &mut Buffer) {
@@ -59,14 +57,11 @@ fn tree(shared: &Shared, area: Rect, verdict: Rect, lines: Rect, buffer: &mut Bu
         return;
     };
     for (index, words) in (0..).zip(inspect::verdict_lines(shared, verdict.width)) {
-        Row::new(buffer, verdict, index)
-            .skip(1)
-            .put(&words, theme::WARNING);
+        let mut row = Row::new(buffer, verdict, index);
+        row.skip(1).put(&words, theme::WARNING);
     }
-    let shown = inspect::ray_lines(shared)
-        .into_iter()
-        .enumerate()
-        .skip(explained.top);
+    let shown = inspect::ray_lines(shared).into_iter().enumerate();
+    let shown = shown.skip(explained.top);
     for (index, (at, line)) in (0..lines.height).zip(shown) {
         let style = if at == explained.at {
             theme::CURSOR.add_modifier(Modifier::BOLD)
@@ -94,13 +89,9 @@ fn tree(shared: &Shared, area: Rect, verdict: Rect, lines: Rect, buffer: &mut Bu
 
 /// What a line adds, in a few columns: all channels if there is room, otherwise their mean.
 fn adds(radiance: Rgb, width: u16) -> String {
-    let column = |channel: f64| {
-        let words = if channel == 0.0 {
-            "0".to_owned()
-        } else {
-            format!("{channel:.3}")
-        };
-        format!("{words:>6}")
+    let column = |channel: f64| match channel {
+        0.0 => "     0".to_owned(),
+        _ => format!("{channel:>6.3}"),
     };
     if WIDE <= width {
         radiance.to_array().map(column).join(" ")
@@ -126,19 +117,16 @@ fn words(shared: &Shared, explanation: &Explanation, line: &RayLine) -> String {
         RayPart::Emission => "emission".to_owned(),
         RayPart::Ambient => "ambient light".to_owned(),
         RayPart::Caustics => "photons".to_owned(),
-        RayPart::Light(_) => match line.light(explanation).and_then(|light| light.dark) {
-            Some(dark) => format!("{}: {}", name(), reason(dark)),
-            None => name(),
-        },
+        RayPart::Light(_) => {
+            let dark = line.light(explanation).and_then(|light| light.dark);
+            with_reason(name(), dark)
+        }
         RayPart::Emitter(_) => line.emitter(explanation).map_or(String::new(), |emitter| {
             let of = match emitter.object {
                 Some(_) => format!("emission of {}", name()),
                 None => "environment".to_owned(),
             };
-            match emitter.dark {
-                Some(dark) => format!("{of}: {}", reason(dark)),
-                None => of,
-            }
+            with_reason(of, emitter.dark)
         }),
         RayPart::Unlisted => {
             let count = ray.shading().map_or(0, |shading| shading.unlisted.lights);
@@ -176,19 +164,21 @@ fn kind(kind: RayKind) -> &'static str {
     }
 }
 
-/// Why a light adds nothing.
-fn reason(dark: Dark) -> &'static str {
-    match dark {
-        Dark::SwitchedOff => "switched off",
-        Dark::UnlitSide => "unlit side",
-        Dark::FacesAway => "faces away",
-        Dark::AtThePoint => "at the point",
-        Dark::OutsideCone => "outside cone",
-        Dark::Attenuated => "too far away",
-        Dark::NotReflected => "not reflected",
-        Dark::Hidden => "hidden",
-        Dark::Blocked => "in shadow",
-    }
+/// The name of a light, and why it adds nothing, if so.
+fn with_reason(name: String, dark: Option<Dark>) -> String {
+    let reason = match dark {
+        None => return name,
+        Some(Dark::SwitchedOff) => "switched off",
+        Some(Dark::UnlitSide) => "unlit side",
+        Some(Dark::FacesAway) => "faces away",
+        Some(Dark::AtThePoint) => "at the point",
+        Some(Dark::OutsideCone) => "outside cone",
+        Some(Dark::Attenuated) => "too far away",
+        Some(Dark::NotReflected) => "not reflected",
+        Some(Dark::Hidden) => "hidden",
+        Some(Dark::Blocked) => "in shadow",
+    };
+    format!("{name}: {reason}")
 }
 
 /// The object that blocks a light.
@@ -217,11 +207,8 @@ fn values_of(shared: &Shared, explanation: &Explanation, line: &RayLine) -> Vec<
             }
         }
         (RayPart::Emitter(_), _) => {
-            values.extend(
-                line.emitter(explanation)
-                    .into_iter()
-                    .flat_map(emitter_values),
-            );
+            let emitter = line.emitter(explanation).into_iter();
+            values.extend(emitter.flat_map(emitter_values));
         }
         (RayPart::Emission, RayEnd::Surface(shading)) => {
             values.extend(shading.densities.map(weight));
@@ -229,10 +216,8 @@ fn values_of(shared: &Shared, explanation: &Explanation, line: &RayLine) -> Vec<
         (RayPart::Whole, end) => {
             values.push(Value::new("weight", colour(ray.weight)));
             if let Some(chosen) = ray.chosen {
-                values.push(Value::new(
-                    "chance",
-                    percent(chosen.chance * chosen.survival),
-                ));
+                let chance = percent(chosen.chance * chosen.survival);
+                values.push(Value::new("chance", chance));
                 values.extend(chosen.density.map(|of| Value::new("density", number(of))));
             }
             match end {

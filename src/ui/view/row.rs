@@ -1,10 +1,11 @@
 //! Writes one line of cells from left to right.
 
 use ratatui::buffer::Buffer;
-use ratatui::layout::Rect;
+use ratatui::layout::{Position, Rect};
 use ratatui::style::Style;
 use unicode_width::{UnicodeWidthChar, UnicodeWidthStr};
 
+use crate::ui::layout::nth_line;
 use crate::ui::text_width::{shorten, visible};
 use crate::ui::theme;
 
@@ -18,12 +19,7 @@ pub(crate) struct Row<'a> {
 impl<'a> Row<'a> {
     /// The line at `index` below the top of `area`; a line outside of it takes no text.
     pub(crate) fn new(buffer: &'a mut Buffer, area: Rect, index: u16) -> Self {
-        let line = Rect {
-            y: area.y.saturating_add(index),
-            height: 1,
-            ..area
-        };
-        let left = line.intersection(area).intersection(buffer.area);
+        let left = nth_line(area, index).intersection(buffer.area);
         Self { buffer, left }
     }
 
@@ -48,10 +44,9 @@ impl<'a> Row<'a> {
         if 0 < width {
             let text = visible(text);
             let text = shorten(&text, width);
-            let (x, _) = self
-                .buffer
-                .set_stringn(self.left.x, self.left.y, &text, width, style);
-            self.skip(x - self.left.x);
+            let Rect { x, y, .. } = self.left;
+            let (end, _) = self.buffer.set_stringn(x, y, &text, width, style);
+            self.skip(end - x);
         }
         self
     }
@@ -80,31 +75,29 @@ impl<'a> Row<'a> {
         let width = width.min(self.room());
         let at = input.cursor();
         let mut columns = 0;
-        let mut before: Vec<char> = input.value().chars().take(at).collect();
-        let kept = before
-            .iter()
-            .rev()
-            .take_while(|c| {
-                columns += c.width().unwrap_or(0);
-                columns < width
-            })
-            .count();
-        before.drain(..before.len() - kept);
-        let before: String = before.into_iter().collect();
-        let rest: String = input.value().chars().skip(at).collect();
-        let under = rest
-            .chars()
-            .next()
-            .map_or(1, char::len_utf8)
-            .min(rest.len());
-        let (under, after) = rest.split_at(under);
-        let under = if under.is_empty() { " " } else { under };
+        let before: Vec<char> = input.value().chars().take(at).collect();
+        let fits = |c: &&char| {
+            columns += c.width().unwrap_or(0);
+            columns < width
+        };
+        let kept = before.iter().rev().take_while(fits).count();
+        let before: String = before[before.len() - kept..].iter().collect();
+        let mut rest = input.value().chars().skip(at);
+        let under = rest.next().unwrap_or(' ').to_string();
+        let after: String = rest.collect();
         let end = self.left.x.saturating_add(width as u16);
-        for (text, style) in [(before.as_str(), style), (under, cursor), (after, style)] {
+        for (text, style) in [(before, style), (under, cursor), (after, style)] {
             let room = usize::from(end.saturating_sub(self.left.x));
-            self.put_in(text, room, style);
+            self.put_in(&text, room, style);
         }
         self
+    }
+}
+
+/// Writes a symbol into one cell, if there is such a cell.
+pub(crate) fn put_at(at: impl Into<Position>, symbol: &str, style: Style, buffer: &mut Buffer) {
+    if let Some(cell) = buffer.cell_mut(at) {
+        cell.set_symbol(symbol).set_style(style);
     }
 }
 

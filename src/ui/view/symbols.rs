@@ -5,6 +5,7 @@ use ratatui::layout::Rect;
 use ratatui::style::{Color, Style};
 
 use super::inks::Glyphs;
+use super::row::put_at;
 use crate::ui::app::{Shared, SymbolKind, display};
 use crate::ui::theme;
 
@@ -21,20 +22,16 @@ pub(super) fn render(shared: &Shared, glyphs: Glyphs, cells: Rect, buffer: &mut 
         if !cells.contains(place.into()) {
             continue;
         }
-        let Some(cell) = buffer.cell_mut(place) else {
-            continue;
-        };
         let style = if shared.cursor.selected() == symbol.node {
             theme::chip(style)
         } else {
             style.bg(Color::Black)
         };
-        cell.set_symbol(match glyphs {
+        let sign = match glyphs {
             Glyphs::Characters => plain,
             Glyphs::HalfBlocks | Glyphs::HalfBlocksOf256 | Glyphs::HalfBlocksOf16 => sign,
-        });
-        cell.set_style(Style::reset());
-        cell.set_style(style);
+        };
+        put_at(place, sign, Style::reset().patch(style), buffer);
     }
 }
 

@@ -64,20 +64,15 @@ fn lines(frame: &Frame, at: usize, height: u16) -> Vec<String> {
 /// Writes lines into the middle of a pixel, in black or white.
 fn write(lines: Vec<String>, colour: [u8; 3], pixel: Rect, buffer: &mut Buffer) {
     let [red, green, blue] = colour.map(u32::from);
-    let is_bright = 255 * 1000 < 2 * (299 * red + 587 * green + 114 * blue);
-    let ink = if is_bright {
-        Color::Black
-    } else {
-        Color::White
+    let ink = match 2 * (299 * red + 587 * green + 114 * blue) {
+        ..=255_000 => Color::White,
+        _ => Color::Black,
     };
-    let style = Style::reset().fg(ink);
+    let style = Style::reset().fg(ink).bg(colour.into());
     let top = (pixel.height - lines.len() as u16) / 2;
     for (line, text) in (top..).zip(lines) {
-        let ground = Color::Rgb(colour[0], colour[1], colour[2]);
         let left = pixel.width.saturating_sub(text.len() as u16) / 2;
-        Row::new(buffer, pixel, line)
-            .skip(left)
-            .put(&text, style.bg(ground));
+        Row::new(buffer, pixel, line).skip(left).put(&text, style);
     }
 }
 

@@ -17,22 +17,20 @@ const PER_PIXEL: f64 = 2.0;
 /// out. Says how many objects are drawn if not all are.
 pub(super) fn paint(wireframe: &Wireframe, outlined: &[u32], area: Rect, buffer: &mut Buffer) {
     let [columns, rows] = [area.width, area.height].map(usize::from);
-    let mut cells = vec![(0_u8, Ink::Plain); columns * rows];
+    // The dots of each cell, and whether any of them are outlined.
+    let mut cells = vec![(0_u8, false); columns * rows];
     for line in &wireframe.lines {
-        let ink = match outlined.binary_search(&line.object) {
-            Ok(_) => Ink::Outlined,
-            Err(_) => Ink::Plain,
-        };
+        let is_outlined = outlined.binary_search(&line.object).is_ok();
         for [x, y] in dots(line) {
             let (column, row) = (x / DOTS[0], y / DOTS[1]);
             if column < columns && row < rows {
                 let cell = &mut cells[row * columns + column];
                 cell.0 |= bit(x % DOTS[0], y % DOTS[1]);
-                cell.1 = cell.1.max(ink);
+                cell.1 |= is_outlined;
             }
         }
     }
-    for (position, (mask, ink)) in area.positions().zip(cells) {
+    for (position, (mask, is_outlined)) in area.positions().zip(cells) {
         let Some(cell) = buffer.cell_mut(position) else {
             continue;
         };
@@ -40,7 +38,7 @@ pub(super) fn paint(wireframe: &Wireframe, outlined: &[u32], area: Rect, buffer:
         if mask != 0 {
             cell.set_char(character(mask));
         }
-        if ink == Ink::Outlined {
+        if is_outlined {
             cell.set_style(theme::OUTLINED);
         }
     }
@@ -48,13 +46,6 @@ pub(super) fn paint(wireframe: &Wireframe, outlined: &[u32], area: Rect, buffer:
         let text = format!(" {} of {} objects ", wireframe.drawn, wireframe.seen);
         Row::new(buffer, area, 0).put(&text, theme::DIM);
     }
-}
-
-/// How the lines of a cell look.
-#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-enum Ink {
-    Plain,
-    Outlined,
 }
 
 /// The dots of a line, one for each step along its longer direction.

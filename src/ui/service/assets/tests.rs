@@ -18,15 +18,14 @@ fn files_that_could_not_be_watched_are_retried() {
         // Root is never refused.
         return;
     }
-    let (send, messages) = mpsc::channel();
+    let (sender, messages) = mpsc::channel();
+    let send = move |msg| {
+        let _ = sender.send(msg);
+    };
     let mut work = AssetThread {
         assets: Assets::new(&[]),
-        method: Method::Native,
-        watched: Vec::new(),
-        watcher: None,
-        send: Arc::new(move |msg| {
-            let _ = send.send(msg);
-        }),
+        watching: Watching::new(Polled::Assets, Method::Native, send.clone()),
+        send,
     };
     let wanted = Wanted {
         scene: directory.path().join("x.ray"),

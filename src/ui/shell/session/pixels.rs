@@ -4,7 +4,7 @@ use std::time::Instant;
 
 use crate::ui::pixels::Pixels;
 use crate::ui::terminal::tmux::{self, Client};
-use crate::ui::terminal::{ColourDepth, Means, Protocol, Reply, Wrapping};
+use crate::ui::terminal::{ColourDepth, Link, Means, Protocol, Reply, Wrapping};
 use crate::ui::view::{Drawing, Mosaic};
 
 /// The most pixels of a screen that are traced and sent as pictures: at more, a frame takes longer
@@ -166,16 +166,13 @@ impl Manner {
         }
     }
 
-    /// Pixels across and down a cell, on a screen of so many columns and rows.
-    pub(super) fn grid(self, (columns, rows): (u16, u16), is_limited: Limited) -> (u16, u16) {
+    /// Pixels across and down a cell, on a screen of so many columns and rows that may have so many
+    /// pixels.
+    pub(super) fn grid(self, (columns, rows): (u16, u16), most: u32) -> (u16, u16) {
         let means = match self {
             Self::Half => return (1, 2),
             Self::Mosaic(mosaic) => return mosaic.grid(),
             Self::Picture(means) => means,
-        };
-        let most = match is_limited {
-            Limited::No => MOST,
-            Limited::Yes => MOST_LIMITED,
         };
         let (width, height) = means.cell;
         let at = |divisor: u16| ((width / divisor).max(1), (height / divisor).max(2));
@@ -183,17 +180,17 @@ impl Manner {
             let (across, down) = at(divisor);
             u32::from(columns) * u32::from(across) * u32::from(rows) * u32::from(down) <= most
         };
-        at((1..height.max(2))
-            .find(fits)
-            .unwrap_or_else(|| height.max(1)))
+        at((1..height.max(2)).find(fits).unwrap_or(height.max(1)))
     }
 }
 
-/// Whether the line to the terminal is limited.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Limited {
-    No,
-    Yes,
+/// The most pixels of a screen behind a line that are traced and sent as pictures.
+pub(super) fn most_pixels(link: &Link) -> u32 {
+    if link.is_limited() {
+        MOST_LIMITED
+    } else {
+        MOST
+    }
 }
 
 #[cfg(test)]
@@ -317,16 +314,16 @@ mod tests {
             wrapping: Wrapping::Plain,
             cell,
         };
-        for (cell, screen, is_limited, grid) in [
-            ((10, 20), (100, 30), Limited::No, (10, 20)),
-            ((10, 20), (200, 50), Limited::No, (5, 10)),
-            ((10, 20), (100, 30), Limited::Yes, (3, 6)),
-            ((9, 19), (80, 24), Limited::No, (9, 19)),
-            ((1, 1), (80, 24), Limited::No, (1, 2)),
-            ((10, 20), (2000, 250), Limited::No, (1, 2)),
+        for (cell, screen, most, grid) in [
+            ((10, 20), (100, 30), MOST, (10, 20)),
+            ((10, 20), (200, 50), MOST, (5, 10)),
+            ((10, 20), (100, 30), MOST_LIMITED, (3, 6)),
+            ((9, 19), (80, 24), MOST, (9, 19)),
+            ((1, 1), (80, 24), MOST, (1, 2)),
+            ((10, 20), (2000, 250), MOST, (1, 2)),
         ] {
             let manner = Manner::Picture(means(cell));
-            assert_eq!(manner.grid(screen, is_limited), grid, "{cell:?} {screen:?}");
+            assert_eq!(manner.grid(screen, most), grid, "{cell:?} {screen:?}");
         }
     }
 }

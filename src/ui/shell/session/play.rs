@@ -115,28 +115,18 @@ impl Session {
     /// Whether a file is one that the scene uses. That of a text with errors is not known to the
     /// interface, which does not read its files.
     fn uses(&self, path: &Path) -> bool {
-        if self
-            .app
-            .shared
-            .files()
-            .any(|used| file::is_same(path, used))
-        {
+        let shared = &self.app.shared;
+        if shared.files().any(|used| file::is_same(path, used)) {
             return true;
         }
-        let (Some(scene), 1.., true) = (
-            &self.app.shared.disk.path,
-            self.app.shared.error_count(),
-            path.exists(),
-        ) else {
+        let (Some(scene), 1.., true) = (&shared.disk.path, shared.error_count(), path.exists())
+        else {
             return false;
         };
-        let (language, text) = (
-            self.app.shared.source().language(),
-            self.app.shared.source().text(),
-        );
+        let text = shared.source().text();
         let name = path.file_name().unwrap_or_default();
         let is_named = name.to_str().is_some_and(|name| text.contains(name));
-        let mut source = Source::new(language, Arc::clone(text));
+        let mut source = Source::new(shared.source().language(), Arc::clone(text));
         let read = Assets::new(&self.assets).lower(scene, &mut source);
         let is_same = |used: &PathBuf| file::is_same(path, used);
         is_named || read.map_or(true, |(_, read)| read.files.iter().any(is_same))

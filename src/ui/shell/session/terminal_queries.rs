@@ -4,7 +4,7 @@ use std::io;
 use std::time::Instant;
 
 use super::Session;
-use super::pixels::{Limited, Manner};
+use super::pixels::{Manner, most_pixels};
 use crate::ui::msg::Msg;
 use crate::ui::pixels::Pixels;
 use crate::ui::terminal::query::{self, Question};
@@ -45,11 +45,11 @@ impl Session {
     /// Asks the terminal, if there is one that may be asked.
     fn put(&mut self, questions: &[Question]) -> io::Result<()> {
         self.known.was_asked |= questions.contains(&Question::Pictures);
-        let may_ask = query::may_ask(variable);
-        if questions.is_empty() || !may_ask || !self.runtime.screen().has_terminal() {
+        let tty = self.runtime.screen().tty();
+        let Some(tty) = tty.filter(|tty| query::may_ask(variable) && tty.terminal.is_ours()) else {
             return Ok(());
-        }
-        self.runtime.screen().ask(questions)?;
+        };
+        tty.ask(questions)?;
         let until = Instant::now() + query::PATIENCE;
         if questions.contains(&Question::Colours) {
             self.asked = Some((self.depth, until));
@@ -80,9 +80,11 @@ impl Session {
         if manner != self.manner {
             let (before, after) = (self.manner.means(), manner.means());
             self.manner = manner;
-            self.inks.draw_with(manner.drawing());
-            if before != after {
-                self.runtime.screen().set_means(after);
+            self.inks.drawing = manner.drawing();
+            if before != after
+                && let Some(tty) = self.runtime.screen().tty()
+            {
+                tty.terminal.set_means(after);
             }
         }
         let choice = self.app.shared.pixels;
@@ -93,12 +95,8 @@ impl Session {
             self.known.refused = Some(choice);
             self.step(Msg::Failed(reason.to_owned()));
         }
-        let limited = if self.link.is_limited() {
-            Limited::Yes
-        } else {
-            Limited::No
-        };
-        let (across, down) = manner.grid(self.app.shared.terminal, limited);
+        let most = most_pixels(&self.link);
+        let (across, down) = manner.grid(self.app.shared.terminal, most);
         let grid = self.app.shared.pictures.grid;
         if (grid.across, grid.down) != (across, down) {
             self.step(Msg::Grid { across, down });

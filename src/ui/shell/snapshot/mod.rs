@@ -44,12 +44,8 @@ pub(super) fn write(cells: &Buffer, path: &Path, format: Format, theme: Theme) -
         Format::Text => text(cells).into_bytes(),
         Format::Ansi => terminal::printed(cells),
         Format::Picture => {
-            return image_file::save(
-                image_file::Picture::of(&picture::drawn(cells, theme)),
-                path,
-                confirm,
-            )
-            .map(drop);
+            let drawn = picture::drawn(cells, theme);
+            return image_file::save(image_file::Picture::of(&drawn), path, confirm).map(drop);
         }
     };
     file::deliver(path, |out| out.write_all(&bytes), confirm).map(drop)

@@ -37,11 +37,8 @@ pub(super) fn drawn(cells: &Buffer, theme: Theme) -> Frame {
             }
         }
     }
-    let size = Size {
-        width: width as u32,
-        height: height as u32,
-    };
-    Frame::drawn(size, pixels)
+    let [width, height] = [width, height].map(|side| side as u32);
+    Frame::drawn(Size { width, height }, pixels)
 }
 
 /// The dots of a cell.

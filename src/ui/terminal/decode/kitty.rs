@@ -6,7 +6,7 @@
 
 use crossterm::event::{KeyCode, KeyModifiers};
 
-use super::keys::{character, key, modifiers};
+use super::keys::{character, key, modifiers, with_alt};
 use crate::ui::terminal::Event;
 
 /// The bits of the modifiers Super and Hyper, with which no key has a meaning, and of Meta, which
@@ -110,15 +110,16 @@ fn typing(typed: char, held: KeyModifiers) -> Option<Event> {
         };
         return Some(key(KeyCode::Char(code), alt | KeyModifiers::CONTROL));
     }
-    let typed = if held.contains(KeyModifiers::SHIFT) {
-        typed.to_ascii_uppercase()
+    let event = if held.contains(KeyModifiers::SHIFT) {
+        character(typed.to_ascii_uppercase())
     } else {
-        typed
+        character(typed)
     };
-    let Event::Key(event) = character(typed) else {
-        return None;
-    };
-    Some(key(event.code, event.modifiers | alt))
+    Some(if alt.is_empty() {
+        event
+    } else {
+        with_alt(event)
+    })
 }
 
 #[cfg(test)]

@@ -103,16 +103,11 @@ fn mouse(parameters: &[u8], last: u8) -> Option<Event> {
         (0..=2, false, _) => MouseEventKind::Down(button),
         _ => return None,
     };
-    let mut modifiers = KeyModifiers::NONE;
-    modifiers.set(KeyModifiers::SHIFT, code & 4 != 0);
-    modifiers.set(KeyModifiers::ALT, code & 8 != 0);
-    modifiers.set(KeyModifiers::CONTROL, code & 16 != 0);
-    let (column, row) = (column.checked_sub(1)?, row.checked_sub(1)?);
     Some(Event::Mouse(MouseEvent {
         kind,
-        column,
-        row,
-        modifiers,
+        column: column.checked_sub(1)?,
+        row: row.checked_sub(1)?,
+        modifiers: modifiers(1 + (code >> 2 & 7)),
     }))
 }
 
@@ -122,13 +117,9 @@ fn numbers(parameters: &[u8]) -> Option<Vec<u16>> {
         return Some(Vec::new());
     }
     let text = std::str::from_utf8(parameters).ok()?;
-    text.split(';')
-        .map(|part| {
-            if part.is_empty() {
-                Some(1)
-            } else {
-                part.parse().ok()
-            }
-        })
-        .collect()
+    let number = |part: &str| match part {
+        "" => Some(1),
+        part => part.parse().ok(),
+    };
+    text.split(';').map(number).collect()
 }

@@ -30,13 +30,10 @@ pub(in crate::ui::terminal) const REMOVE_THROUGH_TMUX: &str =
 
 /// Whether an application program command, without its introducer, answers the query with success.
 pub(in crate::ui::terminal) fn answers(command: &[u8]) -> bool {
-    let Some(control) = command.strip_suffix(b";OK") else {
-        return false;
-    };
-    let control = control.strip_prefix(b"G").unwrap_or_default();
-    control
-        .split(|&byte| byte == b',')
-        .any(|part| part == QUERY_ID)
+    let control = command.strip_suffix(b";OK");
+    let control = control.and_then(|control| control.strip_prefix(b"G"));
+    let mut parts = control.unwrap_or_default().split(|&byte| byte == b',');
+    parts.any(|part| part == QUERY_ID)
 }
 
 /// Appends a PNG, to be shown over these cells, at the cursor, in place of the picture before. The cursor stays where it is, and the terminal does not answer.

@@ -236,9 +236,8 @@ impl Estimate {
     }
 
     pub(super) fn gives_up_at(&self) -> Option<Instant> {
-        self.questions
-            .front()
-            .map(|question| question.at + PATIENCE)
+        let oldest = self.questions.front();
+        oldest.map(|question| question.at + PATIENCE)
     }
 
     /// Forgets the pending questions; returns whether the terminal has ever replied.
@@ -300,19 +299,14 @@ impl Estimate {
     }
 
     fn wants_burst(&self, now: Instant) -> bool {
+        let mut kinds = self.questions.iter().map(|question| question.kind);
+        let is_due = |asked: Instant| BURST_INTERVAL <= now.saturating_duration_since(asked);
         match self.stage {
             Stage::Empty => false,
             // The first burst may directly follow the first question.
-            Stage::Open => self
-                .questions
-                .iter()
-                .all(|asked| asked.kind == ProbeKind::Bare),
+            Stage::Open => kinds.all(|kind| kind == ProbeKind::Bare),
             Stage::Raised => self.questions.is_empty(),
-            Stage::Settled => {
-                let is_due =
-                    |asked: Instant| BURST_INTERVAL <= now.saturating_duration_since(asked);
-                self.questions.is_empty() && self.burst_asked.is_none_or(is_due)
-            }
+            Stage::Settled => self.questions.is_empty() && self.burst_asked.is_none_or(is_due),
         }
     }
 
