@@ -3,7 +3,8 @@
 //!
 //! A row names what it is about: keys by their name, a command after `:`, a thing after `add`, or a
 //! `word` that is typed; then come the node that is selected, the keys, and how they change the text
-//! in one step, or what is said instead. Lines that begin with `|` or `&` continue a row.
+//! in one step, or what is said instead. Lines that begin with `|` or `&` continue a row. Parts of the
+//! text and changes of it that several rows need have names.
 
 mod dat;
 mod ray;
@@ -15,10 +16,10 @@ use crate::language::Node;
 use crate::ui::app::command;
 use crate::ui::keymap::{Context, Keymap};
 
-const LANGUAGES: [(&str, &str, &str); 3] = [
-    ("scene.ray", ray::TEXT, ray::ROWS),
-    ("scene.dat", dat::TEXT, dat::ROWS),
-    ("scene.xml", xml::TEXT, xml::ROWS),
+const LANGUAGES: [(&str, &str, &str, &str); 3] = [
+    ("scene.ray", ray::TEXT, ray::NAMES, ray::ROWS),
+    ("scene.dat", dat::TEXT, dat::NAMES, dat::ROWS),
+    ("scene.xml", xml::TEXT, xml::NAMES, xml::ROWS),
 ];
 
 /// The rows of a table, each on a line.
@@ -36,8 +37,12 @@ fn rows(table: &str) -> Vec<String> {
 
 #[test]
 fn every_action_edits_as_its_rows_say_and_is_undone_in_one_step() {
-    for (name, text, table) in LANGUAGES {
-        let stage = scene(name, text).after("| not reported");
+    for (name, text, names, table) in LANGUAGES {
+        let names = names.lines().filter_map(|line| line.split_once(" | "));
+        let stage = names.fold(scene(name, text), |stage, (name, part)| {
+            stage.with(name.trim(), part)
+        });
+        let stage = stage.after("| not reported");
         for row in rows(table) {
             let columns: Vec<_> = row.splitn(4, " | ").collect();
             let [_, node, keys, outcome] = columns[..] else {
@@ -88,7 +93,7 @@ fn editing(name: &str, text: &str) -> Vec<String> {
 
 #[test]
 fn everything_that_edits_has_a_row_in_every_language() {
-    for (name, text, table) in LANGUAGES {
+    for (name, text, _, table) in LANGUAGES {
         let (app, _) = opened_as(name, text);
         let additions = app.shared.source().additions().iter();
         let additions = additions.map(|addition| format!("add {}", addition.name));

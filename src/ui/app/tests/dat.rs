@@ -120,20 +120,8 @@ scripts! {
         @note framed camera
         <Esc>hvf      | says …is not drawn: this is the whole scene | not camera {framed}
     ");
-}
 
-#[test]
-fn square_pixels_stay_square() {
-    let mut session = dat()
-        .but(r"resolution .01 .01\nviewport 40 30 => viewport 400 300")
-        .session();
-    session.run("v]S");
-    let text = session.app.shared.document.text();
-    let said = text
-        .lines()
-        .find_map(|line| line.strip_prefix("resolution "));
-    let (across, up) = said
-        .and_then(|said| said.split_once(' '))
-        .expect("a record");
-    assert_eq!(across, up);
+    square_pixels_stay_square: dat().but(r"resolution .01 .01\nviewport 40 30 => viewport 400 300").play(r"
+        v]S | lines resolution 0.002761423749153967 0.002761423749153967, camera…
+    ");
 }

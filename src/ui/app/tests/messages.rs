@@ -1,9 +1,6 @@
 //! Messages: none is lost before it could be read, and none outlives its cause.
 
 use super::rows::{ray, scripts};
-use super::*;
-use crate::file::ReadError;
-use crate::ui::msg::{Polled, Timer};
 
 scripts! {
     a_message_that_comes_while_another_is_shown_waits_for_a_key: ray().play(r"
@@ -81,46 +78,23 @@ scripts! {
         @file twice "nonsense" | shown …has an error…
         @file "{opened}\n"     | not shown …has an error…
     "#);
-}
 
-#[test]
-fn a_message_that_files_are_polled_lasts_until_they_are_watched() {
-    let reason = || Some("the limit is reached (os error 24)".to_owned());
-    let mut session = ray().session();
-    let mut polled = |files, reason, checks: &str| {
-        session.app.update(Msg::Polled(files, reason));
-        session.run(checks);
-    };
-    polled(
-        Polled::Scene,
-        reason(),
-        "| shown the limit is reached: polling scene.ray instead",
-    );
-    polled(Polled::Track, reason(), "jk | polls");
-    polled(Polled::Scene, None, "| polls");
-    polled(Polled::Track, None, "| not polls");
-    // A message that nobody has dismissed goes with its cause.
-    polled(Polled::Assets, reason(), "| shown …the scene's files…");
-    polled(Polled::Assets, None, "| not shown");
-}
+    a_message_that_files_are_polled_lasts_until_they_are_watched: ray().play(r"
+        @polled scene the limit is reached (os error 24)
+        | shown the limit is reached: polling scene.ray instead
+        @polled track the limit is reached
+        jk             | polls
+        @polled scene  | polls
+        @polled track  | not polls
+        // A message that nobody has dismissed goes with its cause.
+        @polled assets the limit is reached | shown …the scene's files…
+        @polled assets | not shown
+    ");
 
-#[test]
-fn a_missing_folder_is_not_told_to_be_written_to() {
-    let mut session = ray().session();
-    for _ in 0..2 {
-        let folder = PathBuf::from("/scenes");
-        let error = ReadError::NoFolder { folder };
-        session
-            .app
-            .update(Msg::Read(PathBuf::from("scene.ray"), Err(error)));
-        session.app.update(Msg::Elapsed(Timer::Settled));
-    }
-    session.run(
-        r"
-        | disk missing
+    a_missing_folder_is_not_told_to_be_written_to: ray().play(r"
+        @no-folder twice | disk missing
         | shown /scenes: no such folder; save the scene elsewhere with :w FILE
         // The folder is there again, but not the file.
-        @missing twice | shown scene.ray: no such file; press w to write it again
-    ",
-    );
+        @missing twice   | shown scene.ray: no such file; press w to write it again
+    ");
 }

@@ -213,6 +213,13 @@ fn traced_by(effect: &Effect) -> Option<(Target, &Job)> {
     }
 }
 
-fn wants(effects: &[Effect], wanted: fn(&Effect) -> bool) -> bool {
-    effects.iter().any(wanted)
+/// Numbers below a bound, the same in every run.
+fn random(seed: u64) -> impl FnMut(usize) -> usize {
+    let mut state = seed;
+    move |bound| {
+        state = state
+            .wrapping_mul(6_364_136_223_846_793_005)
+            .wrapping_add(1);
+        (state >> 33) as usize % bound
+    }
 }

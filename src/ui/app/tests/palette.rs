@@ -79,6 +79,18 @@ scripts! {
         <Down> | prompt :
         <Down> | prompt :w
     ");
+
+    file_names_are_completed_from_their_folder: ray().play(r"
+        :w s       | lists list .
+        // It is on its way.
+        c          | not lists
+        @listed . a.ray scene.bmp scene.ray scenes/ | completed scene.ray […]; scenes/ […];…
+        <Tab><Tab> | prompt :w scenes/
+        x          | lists list scenes/
+        <Esc>:export<Space>
+        @listed . a.ray scene.bmp scene.ray scenes/
+        | completed :export cancel […]; scene.bmp […]; scenes/ […];…
+    ");
 }
 
 #[test]
@@ -93,34 +105,4 @@ fn every_action_of_a_key_is_offered_by_its_description() {
             |found: Completion| found.shown == named.words || found.keys.ends_with(&named.keys);
         assert!(found.any(is_offered), "{named:?}");
     }
-}
-
-fn offered(app: &App) -> Vec<String> {
-    let found = command::completions(&app.shared).into_iter();
-    found.map(|completion| completion.shown).collect()
-}
-
-#[test]
-fn file_names_are_completed_from_their_folder() {
-    let mut app = open(SCENE);
-    let effects = press_all(&mut app, ":w s");
-    let listed = |effects: &[Effect]| {
-        effects.iter().find_map(|effect| match effect {
-            Effect::ListFolder(folder) => Some(folder.clone()),
-            _ => None,
-        })
-    };
-    assert_eq!(listed(&effects), Some(PathBuf::from(".")));
-    assert_eq!(listed(&press_all(&mut app, "c")), None, "it is on its way");
-    let names = ["a.ray", "scene.bmp", "scene.ray", "scenes/"].map(str::to_owned);
-    app.update(Msg::Listed(PathBuf::from("."), names.to_vec()));
-    assert_eq!(offered(&app), ["scene.ray", "scenes/"]);
-    press(&mut app, "<Tab><Tab>");
-    let prompt = app.shared.overlays.prompt.as_ref();
-    assert_eq!(prompt.map(|prompt| prompt.input.value()), Some("w scenes/"));
-    let effects = press_all(&mut app, "x");
-    assert_eq!(listed(&effects), Some(PathBuf::from("scenes/")));
-    press(&mut app, "<Esc>:export ");
-    app.update(Msg::Listed(PathBuf::from("."), names.to_vec()));
-    assert_eq!(offered(&app), [":export cancel", "scene.bmp", "scenes/"]);
 }

@@ -1,54 +1,38 @@
 //! The sizes of the panels and of the picture.
 
 use super::rows::{listed, ray, scripts};
-use crate::ui::layout::contents;
 
 scripts! {
-    keys_and_mouse_resize_the_panels: {
-        let mut session = ray().session();
-        let before = session.app.shared.areas().list.width;
-        session.run("{");
-        assert_eq!(session.app.shared.areas().list.width, before + 2);
-        session.run("}}");
-        assert_eq!(session.app.shared.areas().list.width, before - 2);
-        session.run(&format!(r"
-            @down screen {},9
-            @drag screen 60,3 | panel 60
-            @up screen 60,3
-            // It was let go.
-            @drag screen 50,3 | panel 60
-            z{{               | says there are no panels to resize here
-            z                 | panel 60
-        ", session.app.shared.areas().border.x));
-    };
+    keys_and_mouse_resize_the_panels: ray().play(r"
+        | panels 87,…
+        {  | panels 85,…
+        }} | panels 89,…
+        @down screen 89,9
+        @drag screen 60,3 | panels 60,…
+        @up screen 60,3
+        // It was let go.
+        @drag screen 50,3 | panels 60,…
+        z{{               | says there are no panels to resize here
+        z                 | panels 60,…
+    ");
 
-    keys_and_mouse_divide_list_and_fields_and_the_sizes_are_kept: {
-        let mut session = ray().session();
-        let before = session.app.shared.areas().list.height;
-        session.run("<Alt-}> | does keep panels");
-        assert_eq!(session.app.shared.areas().list.height, before + 1);
-        session.run("<Alt-{><Alt-{>");
-        assert_eq!(session.app.shared.areas().list.height, before - 1);
-        let divider = session.app.shared.areas().divider();
-        let x = divider.x + 2;
-        session.run(&format!(r"
-            @down screen {x},{}
-            @drag screen {x},15 | not does keep panels
-            @up screen {x},15   | does keep panels
-        ", divider.y));
-        assert_eq!(session.app.shared.areas().fields.y, 15);
-        session.run("j | not does keep panels");
-    };
+    keys_and_mouse_divide_list_and_fields_and_the_sizes_are_kept: ray().play(r"
+        <Alt-}>           | panels …,26 | does keep panels
+        <Alt-{><Alt-{>    | panels …,24
+        @down screen 90,24
+        @drag screen 90,15 | not does keep panels
+        @up screen 90,15   | panels …,15 | does keep panels
+        j                 | not does keep panels
+    ");
 
     a_page_of_the_list_keeps_a_row_of_the_one_before: {
         let sphere = "sphere 0 0 0 1  0 0 0 .5 .5 .5 0 0 0 1 0 0 1\n";
-        let many = format!("0 0 0  0  99\n{}", sphere.repeat(99));
-        let mut session = listed(&many).session();
-        session.run("G | at object 99");
-        let step = usize::from(contents(session.app.shared.areas().list).height) - 1;
-        for (said, object) in [("<PageUp>", 99 - step), ("<PageUp>", 99 - 2 * step), ("<PageDown>", 99 - step)] {
-            session.run(&format!("{said} | at object {object}"));
-        }
+        listed(&format!("0 0 0  0  99\n{}", sphere.repeat(99))).play(r"
+            G          | at object 99
+            <PageUp>   | at object 77
+            <PageUp>   | at object 55
+            <PageDown> | at object 77
+        ");
     };
 
     /// Below the title: render, view, ambient, a heading, light 1, a heading, object 1.

@@ -77,30 +77,9 @@ fn a_text_that_is_not_xml_does_no_harm() {
             app.shared.nodes().is_empty() && 0 < app.shared.error_count(),
             "{text}"
         );
-        for keys in [
-            "jkgG",
-            "e",
-            "jk<Tab>hl",
-            "i1<Enter>",
-            "<Esc>",
-            "nN",
-            "/x<Enter>",
-            "v",
-            "hjkl+-[]f0S",
-            "<Esc>",
-            "p",
-            "<Enter>",
-            "<Esc>",
-            "o ",
-            "!",
-            "j<Enter>",
-            "<Esc>",
-            "u",
-            ":size 9x9<Enter>",
-            ":view save<Enter>",
-            "b",
-            "<Esc>",
-        ] {
+        let keys = "jkgG e jk<Tab>hl i1<Enter> <Esc> nN /x<Enter> v hjkl+-[]f0S <Esc> p <Enter> <Esc> o<Space> ! \
+                    j<Enter> <Esc> u :size<Space>9x9<Enter> :view<Space>save<Enter> b <Esc>";
+        for keys in keys.split(' ') {
             press(&mut app, keys);
             assert!(app.shared.fields().is_empty() && app.shared.cursor.parts().is_empty());
             let _ = (

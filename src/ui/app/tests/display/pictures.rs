@@ -108,9 +108,6 @@ scripts! {
             :q<Enter>
         ");
         ray().play(r"
-            bqw
-            @exported       | does quit
-
             bqn
             @exported       | not does quit
 
@@ -119,19 +116,16 @@ scripts! {
         ");
     };
 
-    a_stopped_trace_continues_but_not_a_running_one: ray().play(r"
-        <F5>      | does recall
+    a_stopped_trace_continues_but_not_a_running_one: ray().table(r"
+        <F5>  | does recall
         @started full 1
-        <Esc><F5> | not does trace full | not does recall
-        x         | does halt full
-        <Esc><F5> | does trace full
-
-        <F5>      | does recall
-        @started full 1
-        <F5>      | not does trace full | not does recall
-        x         | says stopped; press F5 to continue
-        <F5>      | does trace full
-        <Esc>     | mode SELECT
+        {1}   | not does trace full | not does recall
+        x     | does halt full | says stopped; press F5 to continue
+        {1}   | does trace full
+        <Esc> | mode SELECT
+    ", r"
+        <F5>
+        <Esc><F5>
     ");
 
     a_trace_continues_what_an_earlier_run_left_of_its_text: ray().play(r#"

@@ -1,10 +1,8 @@
 //! Symbols of lights, cameras and groups: when they are shown, where, and picking them.
 
 use super::rows::{scene, scripts};
-use crate::language::Node;
-use crate::ui::app::{display, inspect};
 
-const RAY: &str = "\
+pub(super) const RAY: &str = "\
 // view: eye 0 0 10 target 0 0 0 up 0 1 0 fov 60 size 400 300
 0 0 0
 2
@@ -14,7 +12,7 @@ const RAY: &str = "\
 sphere -2 0 0 1  0 0 0 .5 .5 .5 0 0 0 1 0 0 1
 ";
 
-const DAT: &str = "\
+pub(super) const DAT: &str = "\
 camera perspective 0 0 10  0 0 0  0 1 0  1 0 100
 light ID 1 pnt  0 0 0  0 0 0  1 1 1  1 0 0  0 shadow_on
 light ID 2 inf  0 0 0  0 0 -1  1 1 1  1 0 0  0 shadow_on
@@ -22,7 +20,7 @@ mat ID 1  1 1 1  .3 .5 .2 9  0 0 1
 obj sphere ID 1 mat ID 1  -2 0 0  1
 ";
 
-const XML: &str = "\
+pub(super) const XML: &str = "\
 <xml>
   <scene>
     <object name=\"g\">
@@ -79,54 +77,26 @@ scripts! {
         <Enter> | says nothing there | mode INSPECT
     ");
 
-    a_symbol_moves_with_its_light: {
-        let mut session = scene("a.ray", RAY).session();
-        session.run("[light 1]");
-        let before = display::symbols(&session.app.shared)[0].cell;
-        session.run("mx1");
-        let moved = display::symbols(&session.app.shared)[0].cell;
-        assert!(before.0 < moved.0 && before.1 == moved.1, "{before:?} {moved:?}");
-        session.run("<Esc>");
-        assert_eq!(display::symbols(&session.app.shared)[0].cell, before);
-    };
-}
+    a_symbol_moves_with_its_light: scene("a.ray", RAY).play(r"
+        [light 1]
+        mx1   | symbol-cells light 1 49,16, light 2 …
+        <Esc> | symbol-cells light 1 43,16, light 2 …
+    ");
 
-#[test]
-fn symbols_are_where_things_are_and_are_picked_before_objects() {
-    for (name, text, node, across) in [
-        ("a.ray", RAY, "light 1", 0.0),
-        ("a.dat", DAT, "light 1", 0.0),
-        ("a.xml", XML, "object 1", 2.0),
-    ] {
-        let mut session = scene(name, text).session();
-        session.run("@shows 0");
-        session.app.shared.select(Node::Object(1));
-        session.run("i");
-        let size = session.app.shared.raster().expect("there is room").1;
-        let symbols = display::symbols(&session.app.shared);
-        let symbol = symbols
-            .iter()
-            .find(|symbol| symbol.node.to_string() == node);
-        let cell = symbol.expect("it is shown").cell;
-        // At the origin the picture is 2 · 10 · tan 30° high.
-        let unit = f64::from(size.height) / (20.0 * (30.0_f64).to_radians().tan());
-        let column = (f64::from(size.width) / 2.0 + across * unit) as u16;
-        assert_eq!(cell, (column, size.height as u16 / 4), "{name}");
-        // Beside the symbol, and then too far from it.
-        let object = Node::Object(session.app.shared.source().object(0)).to_string();
-        for (away, picked) in [(1, node), (2, &object)] {
-            let place = (cell.0 + away, cell.1);
-            session.run("i");
-            inspect::place_cross(&mut session.app.shared, place);
-            session.run(&format!(
-                r"
-                <Enter> | at {picked} | mode SELECT
-                i
-                @down picture {},{}
-                <Enter> | at {picked} | mode SELECT
-            ",
-                place.0, place.1
-            ));
-        }
-    }
+    // At the origin the picture is 2 · 10 · tan 30° high: 65 pixels, of which a cell has one across and two down.
+    symbols_are_where_things_are_and_are_picked_before_objects: {
+        let script = r"
+            @shows 0
+            [view] i  | symbol-cells …{1} {2}…
+            // Beside the symbol, and then too far from it.
+            @down picture {3}
+            <Enter>   | at {1} | mode SELECT
+            i
+            @down picture {4}
+            <Enter>   | at {5} | mode SELECT
+        ";
+        scene("a.ray", RAY).table(script, "light 1 | 43,16 | 44,16 | 45,16 | object 1");
+        scene("a.dat", DAT).table(script, "light 1 | 43,16 | 44,16 | 45,16 | object 1");
+        scene("a.xml", XML).table(script, "object 1 | 54,16 | 55,16 | 56,16 | object 2");
+    };
 }

@@ -1,22 +1,16 @@
 //! The colour picker.
 
-use super::rows::{ray, scene, scripts};
+use super::fields::XML;
+use super::rows::{Stage, ray, scene, scripts};
 use super::*;
 use crate::ui::layout::{picker_lines, swatch_cells};
 
-const XML: &str = r#"<xml>
-  <scene>
-    <object type="sphere" name="ball" material="clay"/>
-    <material type="blinn" name="clay">
-      <diffuse r="0.5" g="0.25" b="0" value="0.5"/>
-    </material>
-    <background r="0.2" g="0.4" b="0.4"/>
-  </scene>
-  <camera>
-    <position z="9"/>
-  </camera>
-</xml>
-"#;
+/// The stage of a diffuse colour with a factor, and of a background.
+fn xml<'s>() -> Stage<'s> {
+    scene("a.xml", XML)
+        .but(r#"name="clay"/> => name="clay"><diffuse r="0.5" g="0.25" b="0" value="0.5"/></material>"#)
+        .but(r#"</scene> => <background r="0.2" g="0.4" b="0.4"/></scene>"#)
+}
 
 scripts! {
     a_colour_is_picked_in_one_undo_step_and_put_back_by_esc: {
@@ -51,7 +45,7 @@ scripts! {
             material 1 | RGB | kHHHHHH | mat ID 1  1 0 0 => mat ID 1  0 0 1
         ");
         // The factor stays.
-        scene("a.xml", XML).table(script, r#"
+        xml().table(script, r#"
             material 1 | diffuse    | jH | g="0.25" b="0" value => g="0.30" b="0.1" value
             background | background | jH | r="0.2" g="0.4" => r="0.28" g="0.4"
         "#);
@@ -68,7 +62,7 @@ scripts! {
         cjkjk<Enter>
     ");
 
-    a_default_is_written_when_its_colour_is_picked: scene("a.xml", XML)
+    a_default_is_written_when_its_colour_is_picked: xml()
         .but(r#"<diffuse r="0.5" g="0.25" b="0" value="0.5"/> =>"#)
         .play(r#"
         [material 1] e

@@ -2,10 +2,8 @@
 
 use super::rows::{ray, scene, scripts};
 use super::*;
-use crate::ui::app::edit;
-use crate::ui::layout::field_rows;
 
-const XML: &str = r#"<xml>
+pub(super) const XML: &str = r#"<xml>
   <scene>
     <object type="sphere" name="ball" material="clay"/>
     <object type="sphere" name="bare"/>
@@ -168,69 +166,28 @@ scripts! {
     ).play(r"
         [object 1] ej2<Up><Tab><Tab>7<Down> | text sphere 0 0 0 1 0 0 0 => sphere 0 0 7 2 0 0 0
     ");
-}
 
-#[test]
-fn a_slider_is_dragged_in_one_undo_step() {
-    let shiny = scene("a.xml", XML).but("blinn => microfacet");
-    let rough = shiny
-        .clone()
-        .but(r#"name="clay"/> => name="clay"><roughness value="1"/></material>"#);
-    // A default is written beside its element's start.
-    let metallic = r#"name="clay"/> => name="clay">\n      <metallic value="1"/>\n    </material>"#;
-    for (stage, node, key, [first, last]) in [
-        (
-            ray(),
-            "object 1",
-            "kr",
-            ["5 0.50 0 1 => 5 0.00 0 1", "5 0.50 0 1 => 5 1.00 0 1"],
-        ),
-        (
-            scene("a.dat", dat::SCENE),
-            "material 1",
-            "Kd",
-            [".1 .5 .4 9 => .1 .0 .4 9", ".1 .5 .4 9 => .1 1.0 .4 9"],
-        ),
-        (
-            rough,
-            "material 1",
-            "roughness",
-            [r#"value="1" => value="0""#, "opened"],
-        ),
-        (shiny, "material 1", "metallic", ["opened", metallic]),
-    ] {
-        let mut session = stage.session();
-        session.run(&format!("[{node}]"));
-        let app = &session.app;
-        let field = app
-            .shared
-            .fields()
-            .iter()
-            .position(|row| row.field.key == key);
-        let field = field.expect("it has this field");
-        let lines = field_rows(app.shared.areas().fields);
-        let line = ratatui::layout::Rect {
-            y: lines.y + (field - app.shared.cursor.field_top) as u16,
-            height: 1,
-            ..lines
-        };
-        let bar = edit::slider(&app.shared, field, line).expect("it is a slider");
-        let [left, inside, right, beyond] = [bar.x, bar.x + 2, bar.right() - 1, bar.right() + 9]
-            .map(|x| format!("screen {x},{}", bar.y));
-        session.run(&format!(
-            "@down {inside}
-            @drag {beyond}      | text {last}
-            @drag screen 0,{}   | text {first}
-            @drag {right}
-            @up {right}
+    a_slider_is_dragged_in_one_undo_step: {
+        let script = r"
+            [{1}]
+            @down fields 20,{2}
+            @drag fields 40,{2} | text {4}
+            @drag fields 0,{2}  | text {3}
+            @drag fields 30,{2}
+            @up fields 30,{2}
             // It was let go.
-            @drag {left}        | text {last} | mode EDIT",
-            bar.y
-        ));
-        assert_eq!(session.app.shared.cursor.field, field);
-        if last != "opened" {
-            session.run("u");
-        }
-        session.run("| text opened");
-    }
+            @drag fields 18,{2} | text {4} | mode EDIT | field {5}
+            u                   | text opened
+        ";
+        ray().table(script, "object 1 | 7 | 5 0.50 0 1 => 5 0.00 0 1 | 5 0.50 0 1 => 5 1.00 0 1 | 6");
+        scene("a.dat", dat::SCENE).table(script, "material 1 | 3 | .1 .5 .4 => .1 .0 .4 | .1 .5 .4 => .1 1.0 .4 | 2");
+        let shiny = scene("a.xml", XML).but("blinn => microfacet");
+        // A default is written beside its element's start.
+        shiny.table(script, r#"
+            material 1 | 5 | opened | name="clay"/> => name="clay">\n      <metallic value="1"/>\n    </material> | 4
+        "#);
+        shiny.but(r#"name="clay"/> => name="clay"><roughness value="1"/></material>"#).table(script, r#"
+            material 1 | 4 | value="1" => value="0" | opened | 3
+        "#);
+    };
 }

@@ -42,19 +42,15 @@ scripts! {
     ");
 
     a_refused_value_stays_in_the_field_with_the_reason: ray().table(r"
-        {1}   | typed | refused …{2}… | text opened | not errors
+        {1}   | {3} | refused …{2}… | text opened | not errors
         <Esc> | not refused | mode EDIT | not inputs
     ", r"
-        jjjej0<Enter>              | object 1 (sphere) radius: must be greater than 0
-        jjjei<Ctrl-u>abc<Enter>    | column 1: `abc` is none of
-        jjjei<Ctrl-u>1 2<Enter>    | one number
-        jjjei<Ctrl-u>1//<Enter>    | column 3: expected a number
-        ejjj180<Enter>             | view fov: must be
-    ");
-
-    an_empty_value_is_refused: ray().play(r"
-        jjjei<Ctrl-u><Enter> | refused …one number… | text opened | not errors
-        <Esc>                | not refused | mode EDIT | not inputs
+        jjjej0<Enter>              | object 1 (sphere) radius: must be greater than 0 | typed
+        jjjei<Ctrl-u>abc<Enter>    | column 1: `abc` is none of | typed
+        jjjei<Ctrl-u>1 2<Enter>    | one number | typed
+        jjjei<Ctrl-u>1//<Enter>    | column 3: expected a number | typed
+        ejjj180<Enter>             | view fov: must be | typed
+        jjjei<Ctrl-u><Enter>       | one number | not typed
     ");
 
     pastes_fill_all_components_in_one_step: ray().table(r"

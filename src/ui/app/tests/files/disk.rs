@@ -96,7 +96,7 @@ scripts! {
     an_unreadable_file_replaces_its_earlier_errors: ray().play(r#"
         jjjel
         @file twice "nonsense" | disk faulty | not errors
-        @unreadable twice      | disk unreadable | not wrong | says scene.ray: is a folder, not a file
+        @folder twice          | disk unreadable | not wrong | says scene.ray: is a folder, not a file
         w                      | does only read scene.ray
     "#);
 
@@ -219,6 +219,37 @@ scripts! {
         @file \n0 0 0 => \n9 0 0 | asks conflict…
         @file opened             | not asks | disk known | dirty
     ");
+
+    errors_must_persist_before_they_are_shown: ray().table(r"
+        @file {1}        | does only wait settled, free | text opened
+        @elapsed settled | does only read scene.ray
+        // The last good scene is kept.
+        @file {1}        | text {1} | errors | objects 2
+        @file opened     | not errors
+    ", r#"
+        ""
+        "1 1 1 2"
+        "nonsense"
+    "#);
+
+    a_value_being_typed_survives_a_reload: {
+        let objects = SCENE.find("sphere").expect("an object")..SCENE.rfind("sphere").expect("two");
+        let stage = ray().with("first", &SCENE[objects]);
+        for theirs in [
+            "1.5 => 1.7",
+            r"1\n5 5 5 // the light\n1 1 1\n2 => 2\n5 5 5\n1 1 1\n9 9 9\n1 1 1\n2",
+            r"\n2\n{first} => \n3\n{first}{first}",
+        ] {
+            for edits in ["", "jjj<Enter>jl<Esc>ggj"] {
+                let mut session = stage.session();
+                session.run(edits).run("Ge<Tab>42").run(&format!("@file {theirs}"));
+                if session.app.shared.overlays.dialog.is_some() {
+                    session.run("T<Enter>");
+                }
+                session.run(r"| mode EDIT | > <Enter> | text …sphere\n4 42 0\n…");
+            }
+        }
+    };
 }
 
 #[test]
@@ -262,49 +293,5 @@ fn a_moved_or_replaced_folder_is_reported() {
         assert_eq!(read(SCENE, place("one")), "");
         assert_eq!(read(text, then.clone()), expected);
         assert_eq!(read(text, then), "", "said once");
-    }
-}
-
-#[test]
-fn errors_must_persist_before_they_are_shown() {
-    for broken in ["", "1 1 1 2", "nonsense"] {
-        ray().with("broken", broken).play(
-            r"
-            @file broken     | does only wait settled, free | text opened
-            @elapsed settled | does only read scene.ray
-            // The last good scene is kept.
-            @file broken     | text broken | errors | objects 2
-            @file opened     | not errors
-            ",
-        );
-    }
-}
-
-#[test]
-fn a_value_being_typed_survives_a_reload() {
-    let first = SCENE.find("sphere").expect("an object");
-    let rest = &SCENE[first..];
-    let second = rest.find("\nsphere").expect("two");
-    let more = SCENE.replacen("\n2\nsphere", "\n3\nsphere", 1);
-    let (head, tail) = more.split_at(first);
-    let stage = ray()
-        .with(
-            "longer",
-            SCENE.replace(
-                "1\n5 5 5 // the light\n1 1 1\n2\n",
-                "2\n5 5 5\n1 1 1\n9 9 9\n1 1 1\n2\n",
-            ),
-        )
-        .with("another", format!("{head}{}{tail}", &rest[..=second]));
-    for theirs in ["1.5 => 1.7", "longer", "another"] {
-        for dirty in ["", "jjj<Enter>jl<Esc>ggj"] {
-            let mut session = stage.session();
-            session.run(dirty).run("Ge<Tab>42");
-            session.run(&format!("@file {theirs}"));
-            if session.app.shared.overlays.dialog.is_some() {
-                session.run("T<Enter>");
-            }
-            session.run(r"| mode EDIT | > <Enter> | text …sphere\n4 42 0\n…");
-        }
     }
 }

@@ -41,25 +41,22 @@ scripts! {
     ");
 
     a_new_scene_without_a_file_asks_for_a_name: {
-        for (said, extension) in [
-            (":new<Enter>", "ray"),
-            (":new ray<Enter>", "ray"),
-            (":new .DAT<Enter>", "dat"),
-            (":new xml<Enter>", "xml"),
-        ] {
-            let language = Language::of_path(&Path::new("x").with_extension(extension));
-            let template = language.expect("a scene's name").template();
-            ray().with("template", template).play(&format!(r"
-                {said} | does look for kept | says a new scene: :w FILE writes it
-                | text template | language {extension} | not path
-                q      | does quit
-                jjjDq  | not does quit | loses the new scene is not saved
-                w      | not does quit | prompt
-                x.{extension}<Enter> | writes mine | over nothing
-                // The saves of the former scene are counted too.
-                @saved 2 | does quit
-            "));
-        }
+        let stage = ray().with("ray", Language::Ray.template()).with("dat", Language::Dat.template());
+        stage.with("xml", Language::Xml.template()).table(r"
+            {1}    | does look for kept | says a new scene: :w FILE writes it
+            | text {2} | language {2} | not path
+            q      | does quit
+            jjjDq  | not does quit | loses the new scene is not saved
+            w      | not does quit | prompt
+            x.{2}<Enter> | writes mine | over nothing
+            // The saves of the former scene are counted too.
+            @saved 2 | does quit
+        ", r"
+            :new<Enter>      | ray
+            :new ray<Enter>  | ray
+            :new .DAT<Enter> | dat
+            :new xml<Enter>  | xml
+        ");
         ray().play(":new obj<Enter> | says new takes .ray, .dat or .xml");
     };
 

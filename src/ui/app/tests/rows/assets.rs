@@ -5,48 +5,40 @@
 use std::collections::BTreeSet;
 
 use super::*;
-use crate::assets::{Assets, Loaded, Wanted};
+use crate::assets::{Assets, Wanted};
 use crate::obj;
 use crate::scene::{Image, NoMesh, Size};
 
 impl Session {
     /// The reading of these files.
     pub(super) fn load(&self, files: &str) -> Result<Msg, String> {
-        let files = files.split("; ").map(|file| file.split_once(": "));
-        let files: Vec<_> = files.collect::<Option<_>>().ok_or("no file")?;
-        let named = |is_mesh: bool| {
-            let names = files.iter().map(|(name, _)| *name);
-            let names = names.filter(move |name| is_of_mesh(name) == is_mesh);
-            names.map(str::to_owned).collect()
-        };
-        let wanted = Wanted {
+        let mut wanted = Wanted {
             scene: self.app.shared.disk.path.clone().ok_or("no path")?,
-            pictures: named(false),
-            meshes: named(true),
-        };
-        let missing = files.iter().filter(|(_, file)| *file == "missing");
-        let missing = Wanted {
-            pictures: missing.map(|(name, _)| (*name).to_owned()).collect(),
+            pictures: BTreeSet::new(),
             meshes: BTreeSet::new(),
-            ..wanted.clone()
         };
-        let mut loaded = if missing.pictures.is_empty() {
-            Loaded::default()
-        } else {
-            Assets::new(&[]).read(&missing)
-        };
-        let (mut images, mut meshes) = (Vec::new(), Vec::new());
-        for (name, file) in files {
+        let (mut missing, mut images, mut meshes) = (wanted.clone(), Vec::new(), Vec::new());
+        let mut elsewhere = Vec::new();
+        for file in files.split("; ") {
+            let (name, file) = file.split_once(": ").ok_or("no file")?;
             let (file, place) = file.split_once(" at ").unwrap_or((file, ""));
+            let name = name.to_owned();
             if !place.is_empty() {
-                loaded.elsewhere.insert(name.to_owned(), place.into());
+                elsewhere.push((name.clone(), place.into()));
             }
-            if is_of_mesh(name) {
-                meshes.push((name.to_owned(), mesh(file)?));
-            } else if let Ok(grey) = file.parse() {
-                images.push((name.to_owned(), image(grey)));
+            if is_of_mesh(&name) {
+                wanted.meshes.insert(name.clone());
+                meshes.push((name, mesh(file)?));
+                continue;
+            }
+            wanted.pictures.insert(name.clone());
+            match file.parse() {
+                Ok(grey) => images.push((name, image(grey))),
+                Err(_) => drop(missing.pictures.insert(name)),
             }
         }
+        let mut loaded = Assets::new(&[]).read(&missing);
+        loaded.elsewhere.extend(elsewhere);
         if !images.is_empty() {
             loaded.images = images.into_iter().collect();
         }

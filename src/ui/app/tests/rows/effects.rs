@@ -40,8 +40,7 @@ pub(super) fn called(effect: &Effect) -> String {
         Effect::Watch(path) => of("watch", path),
         Effect::ReadAssets(wanted) => {
             let names = wanted.pictures.iter().chain(&wanted.meshes);
-            let names: Vec<_> = names.map(String::as_str).collect();
-            format!("load [{}]", names.join(" "))
+            format!("load [{}]", values::joined(names, " "))
         }
         Effect::ReadReference(_, ReferenceSource::File(path)) => of("refer to", path),
         Effect::ReadReference(_, ReferenceSource::Revision(name, path)) => {
@@ -72,19 +71,10 @@ pub(super) fn called(effect: &Effect) -> String {
 
 /// A destination, how a file there is treated, and which are never replaced.
 fn place(to: &Destination) -> String {
-    let spared: Vec<_> = to
-        .scene
-        .iter()
-        .chain(&to.named)
-        .map(|path| path.display())
-        .collect();
-    let spared = spared.iter().map(ToString::to_string).collect::<Vec<_>>();
-    let path = to.path.display();
-    format!(
-        "{path} {} sparing {}",
-        treated(to.existing),
-        spared.join(" ")
-    )
+    let spared = to.scene.iter().chain(&to.named);
+    let spared = values::joined(spared.map(|path| path.display()), " ");
+    let (path, existing) = (to.path.display(), treated(to.existing));
+    format!("{path} {existing} sparing {spared}")
 }
 
 fn filmed(reel: &Reel) -> String {
@@ -120,14 +110,14 @@ const TARGETS: [(&str, Target); 7] = [
     ("trial", Target::Trial),
 ];
 
-const TIMERS: [(&str, Timer); 7] = [
-    ("settled", Timer::Settled),
-    ("interrupt", Timer::Interrupt),
-    ("click", Timer::Click),
-    ("keep", Timer::Keep),
-    ("writing", Timer::Writing),
-    ("frame", Timer::Frame),
-    ("message", Timer::Message),
+const TIMERS: [Timer; 7] = [
+    Timer::Settled,
+    Timer::Interrupt,
+    Timer::Click,
+    Timer::Keep,
+    Timer::Writing,
+    Timer::Frame,
+    Timer::Message,
 ];
 
 /// The name of a picture.
@@ -136,21 +126,20 @@ pub(super) fn name(target: Target) -> &'static str {
     known.map_or("", |(name, _)| name)
 }
 
-fn timed(timer: Timer) -> &'static str {
-    let known = TIMERS.into_iter().find(|(_, known)| *known == timer);
-    known.map_or("", |(name, _)| name)
+fn timed(timer: Timer) -> String {
+    format!("{timer:?}").to_lowercase()
 }
 
 /// The picture of this name.
 pub(super) fn target(name: &str) -> Result<Target, String> {
     let known = TARGETS.into_iter().find(|(known, _)| *known == name);
-    let target = known.map(|(_, target)| target);
-    target.ok_or_else(|| format!("no picture is called {name}"))
+    Ok(known
+        .ok_or_else(|| format!("no picture is called {name}"))?
+        .1)
 }
 
 /// The timer of this name.
 pub(super) fn timer(name: &str) -> Result<Timer, String> {
-    let known = TIMERS.into_iter().find(|(known, _)| *known == name);
-    let timer = known.map(|(_, timer)| timer);
-    timer.ok_or_else(|| format!("no timer is called {name}"))
+    let known = TIMERS.into_iter().find(|known| timed(*known) == name);
+    known.ok_or_else(|| format!("no timer is called {name}"))
 }

@@ -22,6 +22,7 @@ mod effects;
 mod screen;
 mod seen;
 mod steps;
+mod traced;
 mod values;
 
 use std::collections::BTreeMap;

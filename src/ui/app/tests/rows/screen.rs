@@ -4,7 +4,7 @@ use crossterm::event::{MouseButton, MouseEvent, MouseEventKind};
 
 use super::steps::number;
 use super::*;
-use crate::render::{Frame, NO_OBJECT, Record};
+use crate::render::{Frame, Job, NO_OBJECT, Record};
 use crate::scene::{Images, Size};
 use crate::ui::reference::{Made, ReferenceRead};
 
@@ -12,9 +12,7 @@ impl Session {
     /// A complete frame of what is traced, of this generation or the first; and one of 16 samples
     /// with another grey in its first pixel, and in others by their numbers.
     pub(super) fn frame(&self, target: Target, rest: &str) -> Result<Msg, String> {
-        let mut jobs = self.under_way.jobs.iter().rev();
-        let (_, job) = jobs.find(|(of, _)| *of == target).ok_or("not traced")?;
-        let size = job.settings.size;
+        let size = self.job(target)?.settings.size;
         let mut frame = frame_of(size, vec![0; size.pixels()]);
         let (generation, grey) = rest.split_once(" first ").unwrap_or((rest, ""));
         if !generation.is_empty() {
@@ -29,6 +27,12 @@ impl Session {
             }
         }
         Ok(Msg::Frame(target, Arc::new(frame)))
+    }
+
+    /// What was traced last for a picture.
+    pub(super) fn job(&self, target: Target) -> Result<&Job, String> {
+        let mut jobs = self.under_way.jobs.iter().rev();
+        Ok(&jobs.find(|(of, _)| *of == target).ok_or("not traced")?.1)
     }
 
     /// The figures of the pictures that are compared.

@@ -59,9 +59,7 @@ impl Session {
             Effect::WriteRecovery { known, .. } => Some(known.text().as_str()),
             _ => None,
         });
-        written
-            .next()
-            .ok_or_else(|| "nothing is written".to_owned())
+        Ok(written.next().ok_or("nothing is written")?)
     }
 
     /// What the first file that is written may replace, or what edits that are kept derive from.
@@ -71,10 +69,10 @@ impl Session {
             Effect::WriteRecovery { known, .. } => Some(Guard::Holding(Arc::clone(&known.saved))),
             _ => None,
         });
-        guards.next().ok_or_else(|| "nothing is written".to_owned())
+        Ok(guards.next().ok_or("nothing is written")?)
     }
 
-    fn does(&self, pattern: &str) -> (bool, String) {
+    pub(super) fn does(&self, pattern: &str) -> (bool, String) {
         let done: Vec<_> = self.effects.iter().map(effects::called).collect();
         let is = |done: &String, pattern: &str| {
             let rest = done.strip_prefix(pattern);
@@ -100,8 +98,7 @@ impl Session {
 
     fn last_job(&self) -> Result<&Job, String> {
         let last = self.effects.iter().rev().find_map(traced_by);
-        last.map(|(_, job)| job)
-            .ok_or_else(|| "nothing is traced".to_owned())
+        Ok(last.ok_or("nothing is traced")?.1)
     }
 
     /// Whether the only picture that is traced has these settings.
@@ -119,6 +116,7 @@ impl Session {
             ),
             ("spp", job.settings.spp.to_string()),
             ("denoise", job.denoise.to_string()),
+            ("frames", format!("{:?}", job.frames)),
             ("camera", format!("{width}x{height}")),
             ("objects", job.scene.objects.len().to_string()),
         ]);
@@ -126,9 +124,11 @@ impl Session {
         let words: Vec<_> = pairs.split(' ').collect();
         let has = |pair: &[&str]| match pair {
             ["image", name] => job.images.get(name).is_some(),
-            _ => settings
-                .iter()
-                .any(|(name, value)| [*name, value.as_str()] == pair),
+            [name, wanted] => {
+                let mut known = settings.iter();
+                known.any(|(known, value)| known == name && is_like(value, wanted))
+            }
+            _ => false,
         };
         Ok((words.chunks(2).all(has), format!("{settings:?}")))
     }
@@ -158,6 +158,8 @@ impl Session {
                 let lights = scene.lights.iter().map(|light| light.colour.x);
                 values::joined([scene.ambient.x].into_iter().chain(lights), " ")
             }
+            "derived" | "news" => self.texts.get(name).cloned().unwrap_or_default(),
+            "lists" => values::joined(self.under_way.listings.iter().map(effects::called), ", "),
             "fresh" => self.is_fresh().words(),
             _ => {
                 let seen = values::seen(&self.app, name);
@@ -166,11 +168,15 @@ impl Session {
         })
     }
 
-    /// Whether the scene and the findings are those of the text as if it were just opened.
+    /// Whether the scene, the findings and the last thing are those of the text as if it were just
+    /// opened.
     fn is_fresh(&self) -> bool {
         let name = format!("scene.{}", self.app.shared.document.language().extension());
         let fresh = opened_as(&name, self.app.shared.document.text()).0;
-        self.app.shared.scene == fresh.shared.scene
-            && self.app.shared.diagnostics == fresh.shared.diagnostics
+        let (shared, fresh) = (&self.app.shared, &fresh.shared);
+        let last = shared.nodes().iter().last();
+        shared.scene == fresh.scene
+            && shared.diagnostics == fresh.diagnostics
+            && last.is_none_or(|node| shared.source().fields(node) == fresh.source().fields(node))
     }
 }

@@ -1,24 +1,29 @@
 //! The steps of scripts: keys, and events after `@`.
 //!
 //! `@file TEXT` is a reading of the scene's file, and `@file twice TEXT` two, with the time
-//! between them that makes errors count; `@missing` and `@unreadable` are readings that fail, also
-//! `twice`. `@reading TEXT` begins one and `@arrives` ends it. Answers of effects name the one
+//! between them that makes errors count; `@missing`, `@folder` and `@no-folder` are readings that
+//! fail, also `twice`. `@reading TEXT` begins one and `@arrives` ends it;
+//! `@asked TEXT` is the one that the last step asks for. Answers of effects name the one
 //! they answer by its number, unless it is the newest: `@saved`, `@refused`, `@exported`,
-//! `@taken`, `@kept`. `@field` goes to a field by its name, and `@note a name` remembers what is
-//! seen as a text. `@frame` delivers a complete picture, and `@shows` a preview of one object,
-//! which is on screen.
+//! `@taken`, `@kept`, `@explained`. `@field` goes to a field by its name, and `@note a name`
+//! remembers what is seen as a text. `@frame` delivers a complete picture, `@traced` one that can
+//! be asked about its pixels, `@light` a preview of a single grey, `@judged` one with the trials of
+//! what would help, and `@shows` one of one object, which is on screen. `@thumbnails` delivers all
+//! that the page of the history asks for, and `@derived` the scene that it asked for last.
 
 use super::*;
 use crate::document::Document;
 use crate::file::ReadError;
-use crate::render::{Job, Progress};
+use crate::render::{Frame, Job, PreparedScene, Progress};
 use crate::scene::{Meshes, Size};
-use crate::ui::app::files;
-use crate::ui::msg::{Recalled, SaveId, SaveOutcome, Timer};
+use crate::ui::app::{display, files};
+use crate::ui::history_scene::HistoryText;
+use crate::ui::keymap::{Keys, Section};
+use crate::ui::msg::{Polled, Question, Recalled, SaveId, SaveOutcome, Timer};
 use crate::ui::recovery::tests::offer;
 use crate::ui::recovery::{Found, Offer};
 use crate::ui::reel::ReelProgress;
-use crate::ui::scene_reading::{Baseline, Opened};
+use crate::ui::scene_reading::{Baseline, News, Opened};
 
 /// What was begun and not answered yet.
 #[derive(Default)]
@@ -26,6 +31,12 @@ pub(super) struct UnderWay {
     saves: BTreeMap<u32, (PathBuf, Arc<String>)>,
     exports: BTreeMap<u32, PathBuf>,
     pub(super) jobs: Vec<(Target, Job)>,
+    /// The scenes that questions about traced pictures are about.
+    pub(super) prepared: Vec<PreparedScene>,
+    questions: Vec<(Question, Arc<Frame>)>,
+    /// The requests of the last step for names to complete.
+    pub(super) listings: Vec<Effect>,
+    past: Option<Box<HistoryText>>,
     kept: Vec<u64>,
     offer: Option<Offer>,
     track: Option<(PathBuf, Arc<String>)>,
@@ -44,22 +55,20 @@ impl Session {
         }
         let mut said = said;
         if let Some((node, rest)) = said.strip_prefix('[').and_then(|s| s.split_once(']')) {
-            let found = self
-                .app
-                .shared
-                .nodes()
-                .iter()
-                .find(|found| found.to_string() == node);
-            self.app.shared.select(found.ok_or("no such node")?);
+            let shared = &mut self.app.shared;
+            let found = shared.nodes().iter().find(|at| at.to_string() == node);
+            shared.select(found.ok_or("no such node")?);
             said = rest.trim_start();
         }
-        self.effects = press(&mut self.app, said);
+        let is_listing = |effect: &Effect| matches!(effect, Effect::ListFolder(_));
+        let effects = press_all(&mut self.app, said).into_iter();
+        (self.under_way.listings, self.effects) = effects.partition(is_listing);
         self.note();
         Ok(())
     }
 
     /// Takes a step by a message.
-    pub(super) fn update(&mut self, msg: Msg) {
+    pub(in crate::ui::app::tests) fn update(&mut self, msg: Msg) {
         self.effects = self.app.update(msg);
         self.note();
     }
@@ -67,30 +76,50 @@ impl Session {
     fn event(&mut self, name: &str, rest: &str) -> Result<(), String> {
         let (first, others) = rest.split_once(' ').unwrap_or((rest, ""));
         let msg = match name {
-            "file" | "missing" | "unreadable" if first == "twice" => {
+            "file" | "missing" | "folder" | "no-folder" if first == "twice" => {
                 self.event(name, others)?;
                 self.update(Msg::Elapsed(Timer::Settled));
                 return self.event(name, others);
             }
             "file" => {
                 let text = self.text_of(rest)?;
-                self.texts.insert("file".to_owned(), text.clone());
-                self.reading(self.own_path(), text)
+                self.call("file", &text);
+                let msg = self.reading(self.own_path(), text);
+                if let Msg::Read(_, Ok(reading)) = &msg {
+                    self.call("news", kind(reading.news.as_deref()));
+                }
+                msg
+            }
+            "asked" => {
+                let text = self.text_of(rest)?;
+                let effects = std::mem::take(&mut self.effects).into_iter();
+                let mut readings = effects.filter_map(|effect| match effect {
+                    Effect::Read(path, baseline) => Some((path, baseline)),
+                    _ => None,
+                });
+                let (path, baseline) = readings.next().ok_or("nothing is to be read")?;
+                Msg::Read(
+                    path,
+                    Ok(Reading::new(text, baseline).expect("it fits into memory")),
+                )
             }
             "reads" => self.reading(first.into(), self.text_of(others)?),
-            "reading" => {
-                let text = self.text_of(rest)?;
-                self.under_way.reading = Some(self.reading(self.own_path(), text));
-                return Ok(());
-            }
             "arrives" => self.under_way.reading.take().ok_or("nothing is read")?,
-            "missing" => {
+            "missing" | "folder" | "no-folder" => {
                 let path = self.own_path();
-                Msg::Read(path.clone(), Err(ReadError::NotFound { path }))
+                Msg::Read(path.clone(), Err(unread(name, path)?))
             }
-            "unreadable" => {
-                let (path, kind) = (self.own_path(), "a folder");
-                Msg::Read(path.clone(), Err(ReadError::NotRegular { path, kind }))
+            "polled" => {
+                let files = match first {
+                    "scene" => Polled::Scene,
+                    "track" => Polled::Track,
+                    _ => Polled::Assets,
+                };
+                Msg::Polled(files, (!others.is_empty()).then(|| others.to_owned()))
+            }
+            "listed" => {
+                let names = others.split(' ').map(str::to_owned);
+                Msg::Listed(first.into(), names.collect())
             }
             "changed" => Msg::FileChanged,
             "elapsed" => Msg::Elapsed(effects::timer(rest)?),
@@ -102,20 +131,9 @@ impl Session {
             "backup" => Msg::BackupsFound(vec![rest.into()]),
             "recent" => Msg::RecentListed(rest.split_whitespace().map(PathBuf::from).collect()),
             "opened" => Msg::Opened(first.into(), Ok(self.other(first, others)?)),
-            "unopened" => {
-                let path = PathBuf::from(rest);
-                Msg::Opened(path.clone(), Err(ReadError::NotFound { path }))
-            }
+            "unopened" => Msg::Opened(rest.into(), Err(unread("missing", rest.into())?)),
             "paste" => Msg::Paste(unescaped(&self.named(rest))),
             "fails" => Msg::Failed(rest.to_owned()),
-            "says" => {
-                self.app.shared.say(rest);
-                return Ok(());
-            }
-            "read-it" => {
-                self.app.shared.overlays.clear_message();
-                return Ok(());
-            }
             "hangup" => Msg::HangUp,
             "terminated" => Msg::Terminate { signal: 15 },
             "resize" => Msg::Resize(number(first)?, number(others)?),
@@ -124,22 +142,8 @@ impl Session {
                 "unreadable" => Recalled::Unreadable(others.to_owned()),
                 spp => Recalled::Continued(number(spp)?),
             }),
-            "note" => {
-                let seen = self.seen(others, "")?;
-                self.texts.insert(first.to_owned(), seen);
-                return Ok(());
-            }
-            "field" => {
-                let field = self
-                    .app
-                    .shared
-                    .fields()
-                    .iter()
-                    .position(|row| row.field.key == rest);
-                self.app.shared.cursor.field = field.ok_or("no such field")?;
-                return Ok(());
-            }
-            "shows" => return self.shows(rest),
+            "derived" => traced::derived_scene(self.under_way.past.as_ref().ok_or("not asked")?),
+            "explained" => self.explained(rest)?,
             "exported" | "taken" | "unwritten" => self.export_outcome(name, rest)?,
             "track" => self.track(rest)?,
             "load" => self.load(rest)?,
@@ -163,10 +167,45 @@ impl Session {
             "measured" => self.measured()?,
             "reference" => self.reference(&format!("{first} {rest}"))?,
             "frame" => self.frame(target()?, rest)?,
+            "traced" => self.traced(target()?, rest)?,
+            "light" => self.light(first)?,
+            "trial" => self.trial(first)?,
             "down" | "drag" | "up" | "wheel" => self.mouse(name, first, rest)?,
-            _ => return Err(format!("no event is called {name}")),
+            _ => return self.act(name, first, rest),
         };
         self.update(msg);
+        Ok(())
+    }
+
+    /// Does what no single message says.
+    fn act(&mut self, name: &str, first: &str, others: &str) -> Result<(), String> {
+        let rest = format!("{first} {others}");
+        let rest = rest.trim_end();
+        match name {
+            "reading" => {
+                let text = self.text_of(rest)?;
+                self.under_way.reading = Some(self.reading(self.own_path(), text));
+            }
+            "says" => self.app.shared.say(rest),
+            "read-it" => self.app.shared.overlays.clear_message(),
+            "bind" => {
+                let (keys, name) = others.split_once(": ").unzip();
+                let section = Section::named(first).ok_or("no such section")?;
+                let keys = Keys::parse(keys.unwrap_or(others)).ok_or("no keys")?;
+                self.app.shared.keymap.bind(section, keys, name);
+            }
+            "note" => self.call(first, &self.seen(others, "")?),
+            "field" => {
+                let shared = &mut self.app.shared;
+                let is_it = |row: &FieldRow| row.field.key == rest;
+                let field = shared.fields().iter().position(is_it);
+                shared.cursor.field = field.ok_or("no such field")?;
+            }
+            "shows" => self.shows(rest)?,
+            "judged" => self.judged(rest)?,
+            "thumbnails" => self.thumbnails(),
+            _ => return Err(format!("no event is called {name}")),
+        }
         Ok(())
     }
 
@@ -196,18 +235,13 @@ impl Session {
             "failed" => SaveOutcome::Failed(rest.to_owned()),
             "homeless" => SaveOutcome::NoFolder(rest.to_owned()),
             _ => {
-                let (path, text) = saves.get(&id).cloned().ok_or("no such save")?;
-                match rest.strip_prefix("as ") {
-                    Some(path) => SaveOutcome::Saved {
-                        path: path.into(),
-                        text,
-                    },
-                    None if rest.is_empty() => SaveOutcome::Saved { path, text },
-                    None => SaveOutcome::Saved {
-                        path,
-                        text: Arc::new(self.text_of(rest)?),
-                    },
+                let (mut path, mut text) = saves.get(&id).cloned().ok_or("no such save")?;
+                if let Some(other) = rest.strip_prefix("as ") {
+                    path = other.into();
+                } else if !rest.is_empty() {
+                    text = Arc::new(self.text_of(rest)?);
                 }
+                SaveOutcome::Saved { path, text }
             }
         };
         Ok(Msg::Saved(SaveId(id), outcome))
@@ -215,12 +249,17 @@ impl Session {
 
     /// The revision that was to be kept last, or as the first, the second and so on.
     fn kept(&self, number: &str) -> Result<u64, String> {
-        let kept = &self.under_way.kept;
-        let kept = match number.parse::<usize>() {
-            Ok(number) => kept.get(number - 1),
-            Err(_) => kept.last(),
-        };
-        kept.copied().ok_or_else(|| "nothing is kept".to_owned())
+        let kept = numbered(&self.under_way.kept, number);
+        Ok(*kept.ok_or("nothing is kept")?)
+    }
+
+    /// The answer to the newest question about a pixel, or to the first, the second and so on.
+    fn explained(&self, number: &str) -> Result<Msg, String> {
+        let asked = numbered(&self.under_way.questions, number);
+        let (question, frame) = asked.ok_or("nothing is asked")?;
+        let query = frame.query.as_ref().ok_or("the picture was not traced")?;
+        let answer = query.explain(question.pixel, question.sample, || false);
+        Ok(Msg::Explained(*question, answer.map(Box::new)))
     }
 
     /// An offer to restore a text, edited from the text called `base` or as it was opened; or the
@@ -263,10 +302,8 @@ impl Session {
 
     /// The newest export.
     fn export(&self) -> Result<ExportId, String> {
-        let newest = self.under_way.exports.keys().last().copied();
-        newest
-            .map(ExportId)
-            .ok_or_else(|| "nothing is exported".to_owned())
+        let newest = self.under_way.exports.keys().last();
+        Ok(ExportId(*newest.ok_or("nothing is exported")?))
     }
 
     /// The outcome of an export: of the newest, unless its number is said.
@@ -289,21 +326,12 @@ impl Session {
     fn track(&self, rest: &str) -> Result<Msg, String> {
         let (path, text) = rest.split_once(": ").unwrap_or(("scene.toml", rest));
         let path = PathBuf::from(path);
-        let known = path.clone();
         let read = match text {
             "none" => Ok(None),
-            "missing" => Err(ReadError::NotFound { path }),
-            "folder" => Err(ReadError::NotRegular {
-                path,
-                kind: "a folder",
-            }),
-            "broken" => {
-                let source = std::io::Error::other("broken");
-                Err(ReadError::Io { path, source })
-            }
+            "missing" | "folder" | "broken" => Err(unread(text, path.clone())?),
             text => Ok(Some(self.text_of(text)?)),
         };
-        Ok(Msg::TrackRead(known, read))
+        Ok(Msg::TrackRead(path, read))
     }
 
     fn track_outcome(&self, rest: &str) -> Result<Msg, String> {
@@ -314,8 +342,9 @@ impl Session {
         Ok(Msg::TrackWritten(SaveOutcome::Saved { path, text }))
     }
 
-    /// Remembers what the effects of the last step begin.
+    /// Follows the last step with the wireframe, and remembers what its effects begin.
     pub(super) fn note(&mut self) {
+        display::follow_wires(&mut self.app.shared);
         let under_way = &mut self.under_way;
         for effect in &self.effects {
             match effect {
@@ -329,6 +358,10 @@ impl Session {
                     under_way.exports.insert(id.0, to.path.clone());
                 }
                 Effect::WriteRecovery { revision, .. } => under_way.kept.push(*revision),
+                Effect::Derive(past) => under_way.past = Some(past.clone()),
+                Effect::Explain(question, frame) => {
+                    under_way.questions.push((*question, Arc::clone(frame)));
+                }
                 Effect::WriteTrack { path, text, .. } => {
                     under_way.track = Some((path.clone(), Arc::clone(text)));
                     self.texts.insert("key".to_owned(), text.to_string());
@@ -362,6 +395,42 @@ pub(in crate::ui::app::tests) fn half_way(frame: u32) -> ReelProgress {
     }
 }
 
+/// Whether only numbers differ from the text under edit.
+fn kind(news: Option<&News>) -> &'static str {
+    match news {
+        None => "",
+        Some(News::Numbers(_)) => "numbers",
+        Some(_) => "other",
+    }
+}
+
+/// Why a file cannot be read.
+fn unread(why: &str, path: PathBuf) -> Result<ReadError, String> {
+    Ok(match why {
+        "missing" => ReadError::NotFound { path },
+        "folder" => ReadError::NotRegular {
+            path,
+            kind: "a folder",
+        },
+        "no-folder" => ReadError::NoFolder {
+            folder: "/scenes".into(),
+        },
+        "broken" => ReadError::Io {
+            path,
+            source: std::io::Error::other("broken"),
+        },
+        _ => return Err(format!("no error is called {why}")),
+    })
+}
+
+/// The last, or the one of this number.
+fn numbered<'a, T>(all: &'a [T], number: &str) -> Option<&'a T> {
+    match number.parse::<usize>() {
+        Ok(number) => all.get(number - 1),
+        Err(_) => all.last(),
+    }
+}
+
 fn recovered(offer: Option<Offer>, complaints: Vec<String>) -> Msg {
     let offer = offer.map(Box::new);
     Msg::Recovered(Found { offer, complaints })
@@ -369,6 +438,5 @@ fn recovered(offer: Option<Offer>, complaints: Vec<String>) -> Msg {
 
 /// The number that is said.
 pub(super) fn number<N: std::str::FromStr>(said: &str) -> Result<N, String> {
-    let number = said.parse().ok();
-    number.ok_or_else(|| format!("not a number: {said:?}"))
+    said.parse().map_err(|_| format!("not a number: {said:?}"))
 }

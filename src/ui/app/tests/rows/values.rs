@@ -3,9 +3,9 @@
 use super::*;
 use crate::document::StepName;
 use crate::language::Node;
-use crate::render::Aov;
+use crate::render::{Aov, Histogram};
 use crate::scene::Camera;
-use crate::ui::app::{command, compare, display, files, inspect, select, text};
+use crate::ui::app::{command, compare, display, files, history, inspect, select, text};
 use crate::ui::keymap::Context;
 use crate::ui::listing::ListLine;
 
@@ -28,54 +28,52 @@ impl<T: ToString> Words for Option<T> {
 
 /// What is seen under a name, if there is something of this name.
 pub(super) fn seen(app: &App, name: &str) -> Option<String> {
-    let rooms = [text, settings, overlays, camera, pictures, comparison, work];
+    let rooms = [
+        text, settings, overlays, camera, pictures, zoom, rays, comparison, work,
+    ];
     rooms.iter().find_map(|room| room(app, name))
 }
 
 /// What is edited, and the cursor in it.
 fn text(app: &App, name: &str) -> Option<String> {
-    let typing = app.shared.cursor.typing.as_ref();
+    let shared = &app.shared;
+    let typing = shared.cursor.typing.as_ref();
     let refused = typing.and_then(|typing| typing.refused.as_ref());
-    let past = app
-        .shared
-        .document
-        .states()
-        .take(app.shared.document.present() + 1);
+    let past = shared.document.states().take(shared.document.present() + 1);
     let steps = past.filter_map(|state| state.name.map(StepName::to_string));
     Some(match name {
-        "text" => app.shared.document.text().to_owned(),
-        "dirty" => app.shared.document.is_dirty().words(),
-        "language" => app.shared.document.language().extension().to_owned(),
-        "undoable" => app.shared.document.undoable().words(),
+        "text" => shared.document.text().to_owned(),
+        "dirty" => shared.document.is_dirty().words(),
+        "language" => shared.document.language().extension().to_owned(),
+        "undoable" => shared.document.undoable().words(),
         "steps" => joined(steps, "; "),
-        "step" => app.shared.document.present().to_string(),
-        "errors" => count(app.shared.error_count()),
-        "reported" => count(app.shared.reported.len()),
+        "step" => shared.document.present().to_string(),
+        "errors" => count(shared.error_count()),
+        "reported" => count(shared.reported.len()),
         "wrong" => findings(app),
-        "at" => app.shared.cursor.selected().to_string(),
-        "named" => app.shared.source().name(app.shared.cursor.selected()),
-        "field" => app.shared.cursor.field.to_string(),
+        "at" => shared.cursor.selected().to_string(),
+        "named" => shared.source().name(shared.cursor.selected()),
+        "field" => shared.cursor.field.to_string(),
         "typed" => typing.map(|typing| typing.input.value()).words(),
         "refused" => refused.map(|refused| &refused.message).words(),
         "expected" => refused.map(|refused| &refused.expected).words(),
         "parts" => {
-            let parts = app.shared.cursor.parts().iter();
+            let parts = shared.cursor.parts().iter();
             joined(parts.map(|(depth, node)| format!("{depth} {node}")), ", ")
         }
-        "inputs" => text::has_input(&app.shared).words(),
-        "marks" => count(app.shared.cursor.marks.len()),
-        "nodes" => count(app.shared.nodes().len()),
+        "inputs" => text::has_input(shared).words(),
+        "marks" => count(shared.cursor.marks.len()),
+        "nodes" => count(shared.nodes().len()),
         "list" => list(app),
         "views" => joined(
-            app.shared
+            shared
                 .source()
                 .saved_views()
                 .into_iter()
                 .map(|view| view.name),
             ", ",
         ),
-        "objects" => app
-            .shared
+        "objects" => shared
             .scene
             .as_ref()
             .map(|scene| scene.objects.len())
@@ -86,32 +84,40 @@ fn text(app: &App, name: &str) -> Option<String> {
 
 /// Settings of pictures, and what is on screen.
 fn settings(app: &App, name: &str) -> Option<String> {
-    let output = app.shared.output();
+    let shared = &app.shared;
+    let output = shared.output();
     Some(match name {
-        "mode" => app.shared.mode.name().to_owned(),
-        "context" => format!("{:?}", app.shared.context()),
+        "mode" => shared.mode.name().to_owned(),
+        "context" => format!("{:?}", shared.context()),
         "size" => format!("{}x{}", output.width, output.height),
-        "integrator" => app.shared.rendering().integrator().name().to_owned(),
-        "overridden" => app.shared.is_integrator_changed().words(),
-        "rendering" => format!("{:?}", app.shared.rendering()),
-        "aov" => app.shared.pictures.aov.map(Aov::name).words(),
-        "region" => app.shared.pictures.region.is_some().words(),
-        "exposure" => display::display_name(&app.shared).words(),
+        "integrator" => shared.rendering().integrator().name().to_owned(),
+        "overridden" => shared.is_integrator_changed().words(),
+        "rendering" => format!("{:?}", shared.rendering()),
+        "aov" => shared.pictures.aov.map(Aov::name).words(),
+        "region" => shared.pictures.region.is_some().words(),
+        "exposure" => display::display_name(shared).words(),
         "exposed" => {
-            let window = display::frame_window(&app.shared);
+            let window = display::frame_window(shared);
             window
                 .map(|window| window.display.half_stops.to_string())
                 .words()
         }
         "transforms" => app.moving.is_some().words(),
         "denoised" => {
-            let window = display::frame_window(&app.shared);
+            let window = display::frame_window(shared);
             window.is_some_and(|window| window.display.denoised).words()
         }
-        "view-name" => display::view_name(&app.shared).words(),
-        "legend" => display::legend(&app.shared).words(),
-        "theme" => format!("{:?}", app.shared.theme),
-        "panel" => app.shared.areas().border.x.to_string(),
+        "view-name" => display::view_name(shared).words(),
+        "legend" => display::legend(shared).words(),
+        "raster" => shared
+            .raster()
+            .map(|(cells, _)| format!("{}x{}", cells.width, cells.height))
+            .words(),
+        "theme" => format!("{:?}", shared.theme),
+        "panels" => {
+            let areas = shared.areas();
+            format!("{},{}", areas.border.x, areas.fields.y)
+        }
         "hints" => {
             let hints = app.hints().into_iter();
             ended(hints.map(|(key, words)| format!("{key} {words}")), ", ")
@@ -123,7 +129,8 @@ fn settings(app: &App, name: &str) -> Option<String> {
 
 /// Messages, questions, prompts, menus and pages.
 fn overlays(app: &App, name: &str) -> Option<String> {
-    let overlays = &app.shared.overlays;
+    let shared = &app.shared;
+    let overlays = &shared.overlays;
     let (menu, help) = (overlays.menu.as_ref(), overlays.page(Context::Help));
     let past = overlays.messages.past().map(|message| &message.text);
     let failed = overlays.message.as_ref().filter(|_| overlays.has_failed());
@@ -135,12 +142,12 @@ fn overlays(app: &App, name: &str) -> Option<String> {
         "past" => joined(past, "; "),
         "fault" => failed.map(|message| &message.text).words(),
         "asks" => question(app),
-        "loses" => files::losses(&app.shared).words(),
+        "loses" => files::losses(shared).words(),
         "prompt" => prompt
             .map(|prompt| format!(":{}", prompt.input.value()))
             .words(),
         "completed" => {
-            let found = command::completions(&app.shared).into_iter();
+            let found = command::completions(shared).into_iter();
             ended(
                 found.map(|found| format!("{} [{}]", found.shown, found.keys)),
                 "; ",
@@ -157,6 +164,15 @@ fn overlays(app: &App, name: &str) -> Option<String> {
             .map(|past| past.filter.at)
             .words(),
         "page" => overlays.page.is_some().words(),
+        "page-steps" => overlays.page(Context::Steps).map_or_else(String::new, |page| {
+            let rows = page.shown().into_iter().map(|(_, name)| name).enumerate();
+            let cursor = |at: usize| if at == page.filter.at { ">" } else { "" };
+            let when = |at| history::when(&shared.document, at);
+            joined(
+                rows.map(|(at, name)| format!("{}{}: {name}", cursor(at), when(at))),
+                "; ",
+            )
+        }),
         "listed-error" => overlays.errors.words(),
         _ => return None,
     })
@@ -164,7 +180,8 @@ fn overlays(app: &App, name: &str) -> Option<String> {
 
 /// The working view: `camera` in full, `stands` and `target` exactly, and `view` rounded.
 fn camera(app: &App, name: &str) -> Option<String> {
-    let camera = app.shared.camera();
+    let shared = &app.shared;
+    let camera = shared.camera();
     Some(match name {
         "camera" => format!("{camera:?}"),
         "stands" => camera
@@ -172,22 +189,25 @@ fn camera(app: &App, name: &str) -> Option<String> {
             .words(),
         "target" => camera.map(|camera| camera.target).words(),
         "view" => camera.map(|camera| rounded(&camera)).words(),
-        "moved" => app.shared.pictures.view.is_some().words(),
+        "moved" => shared.pictures.view.is_some().words(),
         _ => return None,
     })
 }
 
 /// The pictures, and what is over them.
 fn pictures(app: &App, name: &str) -> Option<String> {
-    let latest = app.shared.picture().latest.as_ref();
+    let shared = &app.shared;
+    let latest = shared.picture().latest.as_ref();
+    let histogram = shared.pictures.histogram.as_ref();
     Some(match name {
         "picture" => latest.is_some().words(),
         "first" => latest.map(|frame| frame.pixels[0][0]).words(),
-        "awaited" => app.shared.picture().wanted.is_some().words(),
-        "paused" => app.shared.picture().paused.words(),
-        "traced" => app.shared.pictures.trace.is_some().words(),
-        "corner" => app.shared.pictures.preview.shown.object_at(0, 0).words(),
-        "under" => match inspect::node_at(&app.shared, [0, 0]) {
+        "awaited" => shared.picture().wanted.is_some().words(),
+        "paused" => shared.picture().paused.words(),
+        "unfinished" => shared.pictures.are_awaited().words(),
+        "traced" => shared.pictures.trace.is_some().words(),
+        "corner" => shared.pictures.preview.shown.object_at(0, 0).words(),
+        "under" => match inspect::node_at(shared, [0, 0]) {
             Ok(node) => node.words(),
             Err(_) => "unknown".to_owned(),
         },
@@ -195,58 +215,99 @@ fn pictures(app: &App, name: &str) -> Option<String> {
             let cross = app.compare.cross;
             cross.map(|(x, y)| format!("{x},{y}")).words()
         }
-        "cross" => inspect::cross(&app.shared)
-            .map(|cross| joined(cross.pixel, ","))
-            .words(),
-        "outlined" => joined(display::outlined_objects(&app.shared), " "),
+        "outlined" => joined(display::outlined_objects(shared), " "),
         "symbols" => joined(
-            display::symbols(&app.shared)
-                .iter()
-                .map(|symbol| symbol.node),
+            display::symbols(shared).iter().map(|symbol| symbol.node),
             ", ",
         ),
-        "solo" => app.shared.pictures.solo.is_some().words(),
+        "symbol-cells" => {
+            let symbols = display::symbols(shared);
+            let symbols = symbols.iter().map(|symbol| {
+                let (column, row) = symbol.cell;
+                format!("{} {column},{row}", symbol.node)
+            });
+            joined(symbols, ", ")
+        }
+        "wires" => wires(app),
+        "solo" => shared.pictures.solo.is_some().words(),
+        "histogram" => histogram
+            .and_then(|shown| shown.histogram.as_ref())
+            .map(counts)
+            .words(),
         "thumbnails" => app.thumbnails.are_awaited().words(),
+        _ => return None,
+    })
+}
+
+/// Which part of the picture is on screen, and the cross over it.
+fn zoom(app: &App, name: &str) -> Option<String> {
+    let shared = &app.shared;
+    let corner = display::pixel_in_corner(shared);
+    Some(match name {
+        "seen" => effects::name(shared.seen()).to_owned(),
+        "zoomed" => (!display::viewport(shared).is_fit()).words(),
+        "top-left" => corner.map(|pixel| joined(pixel, ",")).words(),
+        "drawn" => shared.region_drawn().words(),
+        "cross" => inspect::cross(shared)
+            .map(|cross| joined(cross.pixel, ","))
+            .words(),
+        "cross-cell" => inspect::cross_cell(shared)
+            .map(|(column, row)| format!("{column},{row}"))
+            .words(),
+        _ => return None,
+    })
+}
+
+/// The explanation of a pixel: its lines, and the one under the cursor.
+fn rays(app: &App, name: &str) -> Option<String> {
+    let shared = &app.shared;
+    let explained = shared.inspection.explained.as_ref();
+    let line = inspect::ray_line(shared);
+    Some(match name {
+        "explained" => inspect::explanation(shared)
+            .map(|found| format!("{} sample {}", joined(found.pixel, ","), found.sample))
+            .words(),
+        "verdict" => explained.and_then(|found| found.verdict.as_ref()).words(),
+        "rays" => count(inspect::ray_lines(shared).len()),
+        "ray" => explained.map(|found| found.at).words(),
+        "ray-of" => line
+            .and_then(|line| inspect::ray_node(shared, line))
+            .words(),
         _ => return None,
     })
 }
 
 /// The comparison with a reference.
 fn comparison(app: &App, name: &str) -> Option<String> {
+    let shared = &app.shared;
     let compared = &app.compare;
     Some(match name {
         "contrast" => compared.view.name().into_owned(),
         "figures" => compared.are_figures_final().words(),
-        "differing" => compared.figures().map(|found| found.differing).words(),
         "reference" => compared.reference.as_ref().map(|found| &found.name).words(),
         "comparing" => compared.is_awaited().words(),
-        "unlike" => compare::unlike(&app.compare, &app.shared).words(),
+        "unlike" => compare::unlike(&app.compare, shared).words(),
         _ => return None,
     })
 }
 
 /// Files, saves, exports and the track.
 fn work(app: &App, name: &str) -> Option<String> {
-    let export = app.shared.jobs.export.as_ref();
+    let shared = &app.shared;
+    let export = shared.jobs.export.as_ref();
     let track = app.sequence.open.as_ref();
-    let writing = app.shared.jobs.still_writing();
+    let writing = shared.jobs.still_writing();
     Some(match name {
         "disk" => {
-            let state = format!("{:?}", app.shared.disk.state).to_lowercase();
+            let state = format!("{:?}", shared.disk.state).to_lowercase();
             state.split('(').next().map(str::to_owned).words()
         }
-        "path" => app
-            .shared
-            .disk
-            .path
-            .as_ref()
-            .map(|path| path.display())
-            .words(),
-        "polls" => files::polls(&app.shared).words(),
-        "unkept" => files::fails_to_keep(&app.shared).words(),
-        "awaits" => app.shared.assets.are_awaited().words(),
-        "opening" => app.shared.disk.is_opening().words(),
-        "leaving" => app.shared.jobs.next.is_some().words(),
+        "path" => shared.disk.path.as_ref().map(|path| path.display()).words(),
+        "polls" => files::polls(shared).words(),
+        "unkept" => files::fails_to_keep(shared).words(),
+        "awaits" => shared.assets.are_awaited().words(),
+        "opening" => shared.disk.is_opening().words(),
+        "leaving" => shared.jobs.next.is_some().words(),
         "writing" => writing
             .map(|(path, time)| format!("{} {time}", path.display()))
             .words(),
@@ -254,7 +315,7 @@ fn work(app: &App, name: &str) -> Option<String> {
             .map(|export| export.destination.path.display())
             .words(),
         "done" => export.map(Export::done).words(),
-        "queued" => count(app.shared.jobs.queued()),
+        "queued" => count(shared.jobs.queued()),
         "frame" => track.map(|open| open.frame).words(),
         "plays" => track.is_some_and(|open| open.is_playing).words(),
         "held" => track.and_then(|open| open.held.as_ref()).words(),
@@ -264,7 +325,8 @@ fn work(app: &App, name: &str) -> Option<String> {
 
 /// What is found wrong, and where.
 fn findings(app: &App) -> String {
-    let wrong = app.shared.wrong();
+    let shared = &app.shared;
+    let wrong = shared.wrong();
     let found = wrong.findings.iter().map(|found| {
         let place = found.span.of(wrong.text);
         format!("{} at {place}", found.message_with_file())
@@ -275,7 +337,8 @@ fn findings(app: &App) -> String {
 /// The question that is open; of a conflict the base, mine and theirs of each place, and the
 /// decision.
 fn question(app: &App) -> String {
-    match &app.shared.overlays.dialog {
+    let shared = &app.shared;
+    match &shared.overlays.dialog {
         None => String::new(),
         Some(Dialog::Leave(AfterLeaving::Quit)) => "quit".to_owned(),
         Some(Dialog::Leave(AfterLeaving::Open(path))) => format!("open {}", path.display()),
@@ -290,16 +353,36 @@ fn question(app: &App) -> String {
             format!("conflict {}", joined(each, ", "))
         }
         Some(Dialog::Delete(nodes)) => {
-            format!(
-                "delete: {}",
-                select::question_before_deleting(&app.shared, nodes).text
-            )
+            format!("delete: {}", select::question_before_deleting(shared, nodes).text)
         }
         Some(Dialog::Overwrite(_)) => "overwrite".to_owned(),
         Some(Dialog::Recover(offer)) => {
             format!("recover {} {}", offer.places, offer.conflicts())
         }
     }
+}
+
+/// The lines of the wireframe on screen.
+fn wires(app: &App) -> String {
+    let shared = &app.shared;
+    let size = shared.raster().map(|(_, size)| size);
+    let wireframe = shared.wireframe().zip(size);
+    let lines = wireframe.and_then(|(wireframe, size)| wireframe.lines(size));
+    lines.map_or_else(String::new, |wireframe| {
+        wireframe
+            .lines
+            .iter()
+            .map(|line| format!("{line:?}"))
+            .collect()
+    })
+}
+
+/// The bins of a histogram that are not empty, and how much is clipped.
+fn counts(histogram: &Histogram) -> String {
+    let bins = histogram.bins.iter().enumerate();
+    let filled = bins.filter(|(_, count)| 0 < **count);
+    let filled = joined(filled.map(|(at, count)| format!("{at}: {count}")), ", ");
+    format!("{filled}; clipped {}", histogram.clipped)
 }
 
 /// A count, nothing for none.
@@ -338,17 +421,18 @@ fn rounded(camera: &Camera) -> String {
 
 /// The list's nodes with their marks: of selection and of folded groups, with a comma between them.
 fn list(app: &App) -> String {
-    let lines = (0..app.shared.listing().len()).filter_map(|line| app.shared.listing().get(line));
+    let shared = &app.shared;
+    let lines = (0..shared.listing().len()).filter_map(|line| shared.listing().get(line));
     let nodes = lines.filter_map(|line| match line {
         ListLine::Heading(_) => None,
         ListLine::Node(_, node) => Some(node),
     });
     let marked = nodes.map(|node| {
-        let is_folded = matches!(node, Node::Object(at) if app.shared.cursor.rows.is_folded(at));
+        let is_folded = matches!(node, Node::Object(at) if shared.cursor.rows.is_folded(at));
         let fold = if is_folded { "+" } else { "" };
-        let is_selected = node == app.shared.cursor.selected();
+        let is_selected = node == shared.cursor.selected();
         let cursor = if is_selected { ">" } else { "" };
-        format!("{cursor}{fold}{}", app.shared.source().name(node))
+        format!("{cursor}{fold}{}", shared.source().name(node))
     });
     joined(marked, ", ")
 }

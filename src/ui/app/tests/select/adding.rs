@@ -84,16 +84,14 @@ scripts! {
 
     lights_change_their_type_and_keep_what_both_share: {
         scene("a.dat", DAT).each(r"
-            [light 1] cinf<Enter>     | becomes ID 1 pnt => ID 1 inf
             [light 1] camb<Enter>     | becomes ID 1 pnt => ID 1 amb
             [light 1] c<Down><Enter>  | becomes ID 1 pnt => ID 1 inf
             // A light without a place or a direction gets a direction.
             [light 2] cinf<Enter>     | becomes amb  0 0 0  0 0 0 => inf  0 0 0  0 0 -1
         ");
-        scene("a.xml", XML).each(r#"
+        scene("a.xml", XML).play(r#"
             [light 1] cambient<Enter> | becomes type="point" => type="ambient"
         "#);
-        scene("a.ray", RAY).each("[light 1] c | says light 1 has only one type");
     };
 
     the_first_thing_brings_a_scene_with_it: {
@@ -136,22 +134,14 @@ scripts! {
             amaterial<Enter> | says added: material
         ");
     };
-}
 
-#[test]
-fn fields_of_new_solids_share_lines_as_in_their_neighbours() {
-    let material = "  0 0 0  .5 .5 .5\n  0.2 0.2 0.2\n  20\n  0.1 0 1\n";
-    for (kind, shape) in [
-        ("cone", "  X\n  0 0 1\n  1 0 0\n  0 1 0\n  2 2 4\n"),
-        ("ellipsoid", "  X\n  1 0 0\n  0 1 0\n  0 0 1\n  2 2 2\n"),
-        ("sphere", "  X\n  2\n"),
-    ] {
-        let mut session = scene("a.ray", LINES).session();
-        session.run(&format!("[object 1] a{kind}<Enter> | not errors"));
-        let text = session.app.shared.document.text();
-        let object = &text[text.rfind(&format!("  {kind}\n")).expect("it is there")..];
-        let centre = object.lines().nth(1).expect("a second line");
-        let expected = format!("  {kind}\n{shape}{material}").replace("  X", centre);
-        assert_eq!(object, expected);
-    }
+    fields_of_new_solids_share_lines_as_in_their_neighbours: scene("a.ray", LINES)
+        .with("material", "  0 0 0  .5 .5 .5\n  0.2 0.2 0.2\n  20\n  0.1 0 1\n")
+        .table(r"
+        [object 1] a{1}<Enter> | not errors | text …\n  {1}\n{2}{material}
+    ", r"
+        cone      | \s 0 -2.1 0\n  0 0 1\n  1 0 0\n  0 1 0\n  2 2 4\n
+        ellipsoid | \s 0 -0.1 0\n  1 0 0\n  0 1 0\n  0 0 1\n  2 2 2\n
+        sphere    | \s 0 -0.1 0\n  2\n
+    ");
 }

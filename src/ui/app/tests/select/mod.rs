@@ -4,6 +4,6 @@ mod adding;
 mod listing;
 mod moving;
 mod soloing;
-mod structure;
+pub(super) mod structure;
 
 use super::*;

@@ -1,26 +1,7 @@
 //! Showing lights and objects alone in the preview.
 
-use super::rows::{scene, scripts};
-
-const RAY: &str = "\
-0.1 0.1 0.1
-2
-5 5 5  1 1 1
--5 5 5  1 0 0
-3
-sphere 0 0 0 1  0 0 0 .5 .5 .5 0 0 0 1 0 0 1
-sphere 4 0 0 1  0 0 0 .5 .5 .5 0 0 0 1 0 0 1
-sphere 8 0 0 1  0 0 0 .5 .5 .5 0 0 0 1 0 0 1
-";
-
-const DAT: &str = "\
-mat ID 1  1 1 1  .3 .5 .2 9  0 0 1
-obj sphere ID 1 mat ID 1  0 0 0  1
-obj sphere ID 2 mat ID 1  1 0 0  1
-obj CSG ID 3 union ID 1 ID 2
-obj sphere ID 4 mat ID 1  3 0 0  1
-render 2 ID 3 ID 4
-";
+use super::rows::{Stage, scene, scripts};
+use super::structure::{DAT, RAY};
 
 const XML: &str = "\
 <xml><scene>
@@ -32,10 +13,15 @@ const XML: &str = "\
 </scene><camera><position z='9'/></camera></xml>
 ";
 
+/// The stage of three objects and two lights, the second of which is red.
+fn ray<'s>() -> Stage<'s> {
+    scene("a.ray", RAY).but("-5 5 5  1 1 1 => -5 5 5  1 0 0")
+}
+
 scripts! {
     objects_are_shown_alone_by_their_numbers_in_the_scene: {
         let script = "[{1}] {2} | alone {3} | job objects {4} | solo | text opened";
-        scene("a.ray", RAY).table(script, r"
+        ray().table(script, r"
             object 2 | l | 1 | 1
             object 1 | <Space><Space>l | 0 1 | 2
         ");
@@ -60,7 +46,7 @@ scripts! {
         "));
     };
 
-    what_is_shown_alone_follows_the_selection_and_ends_with_its_indices: scene("a.ray", RAY).play(r"
+    what_is_shown_alone_follows_the_selection_and_ends_with_its_indices: ray().play(r"
         l
         jl   | alone 1
         d    | does trace preview | not alone | not solo
@@ -69,7 +55,7 @@ scripts! {
     ");
 
     what_cannot_be_shown_alone_is_said: {
-        scene("a.ray", RAY).play(r"
+        ray().play(r"
             [view] l     | says only lights, objects and groups can be shown alone | not solo
         ");
         scene("a.dat", DAT).play(r"
@@ -78,13 +64,13 @@ scripts! {
     };
 
     /// The renderer calls the only object by its number.
-    picking_in_a_picture_of_one_object_selects_it: scene("a.ray", RAY).play(r"
+    picking_in_a_picture_of_one_object_selects_it: ray().play(r"
         [object 3] l
         @shows 2    | under object 3
         @shows none | not under
     ");
 
-    a_light_is_shown_alone_in_the_preview_and_nowhere_else: scene("a.ray", RAY).play(r"
+    a_light_is_shown_alone_in_the_preview_and_nowhere_else: ray().play(r"
         [light 2] l | reds 0 0 1 | text opened
         <F5>        | reds 0.1 1 1
         <Esc>

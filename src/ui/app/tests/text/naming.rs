@@ -1,6 +1,7 @@
 //! The names of undo steps.
 
 use super::rows::{ray, scene, scripts};
+use super::select::structure::DAT;
 
 /// Two spheres that share a material, one of them named.
 const XML: &str = "\
@@ -12,15 +13,6 @@ const XML: &str = "\
 </scene>
 <camera><position x=\"0\" y=\"-9\" z=\"2\"/><width value=\"8\"/><height value=\"6\"/></camera>
 </xml>
-";
-
-/// Two spheres, each with a material.
-const DAT: &str = "\
-mat ID 1  1 1 1  .3 .5 .2 9  0 0 1
-mat ID 2  1 0 0  .3 .5 .2 9  0 0 1
-obj sphere ID 1 mat ID 1  0 0 0  1
-obj sphere ID 4 mat ID 2  3 0 0  1
-render 2 ID 1 ID 4
 ";
 
 scripts! {

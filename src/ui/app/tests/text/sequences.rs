@@ -25,44 +25,16 @@ const SCENES: [(&str, &str); 6] = [
 ];
 
 /// Changes of whatever is selected; what means nothing there changes nothing.
-const KEYS: [&str; 26] = [
-    "d",
-    "dy",
-    "  dy",
-    "D",
-    "  D",
-    "J",
-    "K",
-    "yGp",
-    "y  jjp",
-    "R<Ctrl-u>900<Enter>",
-    "R<Ctrl-u>1<Enter>",
-    "c<Enter>",
-    "cj<Down><Enter>",
-    "asphere<Enter>",
-    "abox<Enter>",
-    "alight<Enter>",
-    "amaterial<Enter>",
-    "  aunion<Enter>",
-    "h",
-    "mx1<Enter>",
-    "tz30<Enter>",
-    "s2<Enter>",
-    "elL<Esc>",
-    "e3<Enter><Esc>",
-    "u",
-    "<Ctrl-r>",
-];
+const KEYS: &str = "\
+    d dy <Space><Space>dy D <Space><Space>D J K yGp y<Space><Space>jjp \
+    R<Ctrl-u>900<Enter> R<Ctrl-u>1<Enter> c<Enter> cj<Down><Enter> \
+    asphere<Enter> abox<Enter> alight<Enter> amaterial<Enter> <Space><Space>aunion<Enter> \
+    h mx1<Enter> tz30<Enter> s2<Enter> elL<Esc> e3<Enter><Esc> u <Ctrl-r>";
 
 #[test]
 fn random_sequences_by_keys_leave_no_error_and_are_undone_to_the_byte() {
-    let mut state = 19_u64;
-    let mut below = |bound: usize| {
-        state = state
-            .wrapping_mul(6_364_136_223_846_793_005)
-            .wrapping_add(1);
-        (state >> 33) as usize % bound
-    };
+    let mut below = random(19);
+    let all: Vec<_> = KEYS.split(' ').collect();
     let mut changed = 0;
     for (name, text) in SCENES {
         for _ in 0..SEQUENCES {
@@ -70,7 +42,7 @@ fn random_sequences_by_keys_leave_no_error_and_are_undone_to_the_byte() {
             for _ in 0..CHANGES {
                 let node = app.shared.nodes().get(below(app.shared.nodes().len()));
                 app.shared.select(node.expect("there is a view"));
-                let keys = KEYS[below(KEYS.len())];
+                let keys = all[below(all.len())];
                 let before = app.shared.document.shared_text();
                 press(&mut app, keys);
                 settle(&mut app);
