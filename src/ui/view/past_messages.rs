@@ -68,17 +68,15 @@ mod tests {
             app.update(Msg::Failed(reason.to_owned()));
             app.shared.overlays.message = None;
         }
+        let inside = |line: &String| line.trim_matches('│').trim().to_owned();
+        let shown = |app: &App| -> Vec<_> {
+            let lines = drawn(&app.shared, super::render, 18, 6);
+            lines.iter().map(inside).collect()
+        };
         app.shared.overlays.past = Some(0);
-        let shown = |app: &App| drawn(&app.shared, super::render, 18, 6);
-        let lines = shown(&app);
-        let inside = |line: &str| line.trim_matches('│').trim().to_owned();
-        let texts: Vec<_> = lines[1..4].iter().map(|line| inside(line)).collect();
-        assert_eq!(
-            texts,
-            ["error    two", "words", "error    one"],
-            "{lines:#?}"
-        );
+        let newest = ["error    two", "words", "error    one"];
+        assert_eq!(shown(&app)[1..4], newest);
         app.shared.overlays.past = Some(1);
-        assert_eq!(inside(&shown(&app)[1]), "error    one");
+        assert_eq!(shown(&app)[1], "error    one");
     }
 }
