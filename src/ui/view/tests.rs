@@ -156,9 +156,8 @@ pub(super) fn drawn<S>(
     width: u16,
     height: u16,
 ) -> Vec<String> {
-    let area = Rect::new(0, 0, width, height);
-    let mut buffer = Buffer::empty(area);
-    panel(state, area, &mut buffer);
+    let mut buffer = Buffer::empty(Rect::new(0, 0, width, height));
+    panel(state, buffer.area, &mut buffer);
     lines(&buffer)
 }
 
@@ -175,12 +174,11 @@ fn screen(app: &mut App, width: u16, height: u16) -> Vec<String> {
     app.shared.terminal = (width, height);
     display::follow_wires(&mut app.shared);
     let mut terminal = Terminal::new(TestBackend::new(width, height)).expect("cannot fail");
-    terminal
-        .draw(|frame| {
-            draw(app, &mut Inks::new(Glyphs::HalfBlocks), frame);
-        })
-        .expect("cannot fail");
-    lines(terminal.backend().buffer())
+    let mut inks = Inks::new(Glyphs::HalfBlocks);
+    let drawn = terminal.draw(|frame| {
+        draw(app, &mut inks, frame);
+    });
+    lines(drawn.expect("cannot fail").buffer)
 }
 
 /// A picture without objects, as it is shown.
@@ -202,13 +200,12 @@ pub(super) fn frame(width: u32, height: u32) -> Arc<Frame> {
             NO_OBJECT
         }
     };
-    let size = size(width, height);
-    let drawn = Frame::drawn(size, vec![[100; 3]; size.pixels()]);
+    let pixels = vec![[100; 3]; size(width, height).pixels()];
+    let drawn = Frame::drawn(size(width, height), pixels);
     Arc::new(Frame {
         generation: 1,
         objects: (0..width * height).map(object).collect(),
         progress: Progress {
-            pass: 1,
             passes: 7,
             done: 0.5,
             elapsed: std::time::Duration::from_millis(300),
@@ -246,11 +243,15 @@ const STATES: &[(&str, Change)] = &[
         app.shared.scene = None;
         select(app, Node::Object(9));
         let cursor = &mut app.shared.cursor;
-        (cursor.field, cursor.component) = (99, 99);
-        (cursor.list_top, cursor.field_top) = (99, 99);
+        [
+            cursor.field,
+            cursor.component,
+            cursor.list_top,
+            cursor.field_top,
+        ] = [99; 4];
     }),
     ("help", |app| {
-        app.shared.overlays.help = Some(Help::default())
+        app.shared.overlays.help = Some(Help::default());
     }),
     ("help, far down", |app| {
         app.shared.overlays.help = Some(Help {
@@ -356,8 +357,8 @@ fn every_screen_can_be_drawn_at_every_size() {
             change(&mut app);
             for &(width, height) in &sizes {
                 let lines = screen(&mut app, width, height);
-                let is_control = |c: char| c.is_control();
-                assert!(!lines.concat().contains(is_control), "{name} {mode:?}");
+                let has_control = lines.concat().contains(char::is_control);
+                assert!(!has_control, "{name} {mode:?}");
             }
         }
     }
@@ -450,8 +451,7 @@ fn the_changes_in_recovered_edits_are_counted() {
         let text = app.shared.document.shared_text();
         let offer = follow(offer(Language::Ray, &text, SCENE, kept));
         app.shared.overlays.dialog = Some(Dialog::Recover(Box::new(offer)));
-        let lines = screen(&mut app, 100, 30);
-        words(&[lines.join(" ").replace('│', " ")])
+        words(&[screen(&mut app, 100, 30).join(" ").replace('│', " ")])
     };
     let one = SCENE.replacen(" 0.25 ", " 0.5 ", 1);
     let two = shown(&one.replacen('1', "2", 1), damaged);
