@@ -309,55 +309,30 @@ fn folders(scene: Option<&Path>, folder: &Path) -> Vec<String> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::ui::terminal::{Reply, environment};
 
-    fn said(
-        answers: Option<&[Reply]>,
-        behind_tmux: Option<bool>,
-        variables: &[(&str, &str)],
-    ) -> String {
-        let answers = answers.map(|replies| Answers {
+    fn answers(replies: &[Reply]) -> Answers {
+        Answers {
             replies: replies.to_vec(),
-        });
-        let variable = |name: &str| {
-            let (_, value) = variables.iter().find(|(known, _)| *known == name)?;
-            Some((*value).to_owned())
-        };
-        colours(answers.as_ref(), behind_tmux, variable).join("\n")
+        }
     }
 
     #[test]
     fn colours_are_reported_with_reason_and_remedy() {
-        const FAR: &[(&str, &str)] = &[("TERM", "xterm-256color")];
+        const FAR: &str = "TERM=xterm-256color";
         let cure = "--color 24";
-        for (answers, tmux, variables, words, has_cure) in [
-            (
-                None,
-                None,
-                &[("TERM", "xterm-256color"), ("COLORTERM", "truecolor")][..],
-                "24-bit from COLORTERM",
-                false,
-            ),
-            (
-                None,
-                None,
-                &[("TERM", "xterm"), ("NO_COLOR", "1")],
-                "NO_COLOR is set",
-                false,
-            ),
-            (None, None, FAR, "was not queried", true),
-            (Some(&[][..]), None, FAR, "did not answer within", true),
-            (
-                Some(&[Reply::Attributes]),
-                None,
-                FAR,
-                "does not report 24-bit colour",
-                true,
-            ),
-            (Some(&[Reply::TrueColour]), None, FAR, "is used", false),
-            (Some(&[]), Some(true), FAR, "tmux passes on", false),
-            (Some(&[]), Some(false), FAR, "terminal-features", true),
-        ] {
-            let said = said(answers, tmux, variables);
+        for (replies, tmux, variables, words, has_cure) in table! {
+            None, None, "TERM=xterm-256color COLORTERM=truecolor" => "24-bit from COLORTERM", false;
+            None, None, "TERM=xterm NO_COLOR=1" => "NO_COLOR is set", false;
+            None, None, FAR => "was not queried", true;
+            Some(&[][..]), None, FAR => "did not answer within", true;
+            Some(&[Reply::Attributes]), None, FAR => "does not report 24-bit colour", true;
+            Some(&[Reply::TrueColour]), None, FAR => "is used", false;
+            Some(&[]), Some(true), FAR => "tmux passes on", false;
+            Some(&[]), Some(false), FAR => "terminal-features", true;
+        } {
+            let answers = replies.map(answers);
+            let said = colours(answers.as_ref(), tmux, environment(variables)).join("\n");
             assert!(said.contains(words), "{said}");
             assert_eq!(said.contains(cure), has_cure, "{said}");
         }
@@ -373,21 +348,15 @@ mod tests {
                 ..tmux::Client::default()
             })
         };
-        for (answers, client, words) in [
-            (None, None, "was not queried"),
-            (Some(&[][..]), None, "reports no picture protocol"),
-            (
-                Some(&[kitty, sixel]),
-                None,
-                "by kitty; the terminal reports kitty, sixel",
-            ),
-            (Some(&[sixel]), None, "by sixel;"),
-            (Some(&[sixel]), tmux(true), "by sixel;"),
-            (Some(&[sixel]), tmux(false), "half blocks: tmux"),
-        ] {
-            let answers = answers.map(|replies| Answers {
-                replies: replies.to_vec(),
-            });
+        for (replies, client, words) in table! {
+            None, None => "was not queried";
+            Some(&[][..]), None => "reports no picture protocol";
+            Some(&[kitty, sixel]), None => "by kitty; the terminal reports kitty, sixel";
+            Some(&[sixel]), None => "by sixel;";
+            Some(&[sixel]), tmux(true) => "by sixel;";
+            Some(&[sixel]), tmux(false) => "half blocks: tmux";
+        } {
+            let answers = replies.map(answers);
             let said = pictures(answers.as_ref(), client, Some((9, 18))).join("\n");
             assert!(said.contains(words), "{words} in {said}");
             assert!(said.contains("9x18"), "{said}");
@@ -396,16 +365,13 @@ mod tests {
 
     #[test]
     fn only_modes_that_the_terminal_knows_are_reported() {
-        let answers = |state| Answers {
-            replies: vec![Reply::Mode {
-                number: SYNCHRONIZED,
-                state,
-            }],
-        };
-        assert_eq!(
-            synchronized(Some(&answers(2))),
-            ["supported by the terminal"]
-        );
-        assert!(synchronized(Some(&answers(0)))[0].contains("does not report support"));
+        let number = SYNCHRONIZED;
+        for (state, words) in table! {
+            2 => "supported by the terminal";
+            0 => "sent; the terminal does not report support and may show partial frames";
+        } {
+            let said = synchronized(Some(&answers(&[Reply::Mode { number, state }])));
+            assert_eq!(said, [words]);
+        }
     }
 }

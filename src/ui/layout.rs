@@ -279,11 +279,12 @@ fn rounded_ratio(a: u64, b: u64) -> u64 {
 }
 
 #[cfg(test)]
-mod tests {
+pub(super) mod tests {
     use super::*;
     use proptest::prelude::*;
 
-    fn size(width: u32, height: u32) -> Size {
+    /// A size in pixels.
+    pub(in crate::ui) const fn size(width: u32, height: u32) -> Size {
         Size { width, height }
     }
 

@@ -24,6 +24,14 @@
 //! | [`scene_reading`], [`reference`](mod@reference), [`revision`], [`history_scene`], [`reel`] | what background work is asked for, and what it answers |
 //! | [`doctor`], `options`, `pixels`, `theme`, `state`, `text_width` | what was detected and chosen, where it is kept, and text made to fit |
 
+/// A table of cases: in each row, what is given and what is expected of it, as one tuple.
+#[cfg(test)]
+macro_rules! table {
+    ($($($given:expr),+ => $($expected:expr),+;)*) => {
+        [$(($($given,)+ $($expected),+)),*]
+    };
+}
+
 pub mod app;
 pub mod arrange;
 pub mod doctor;

@@ -123,9 +123,10 @@ pub(super) fn text_over(place: Rect, frame: &Buffer) -> Vec<(Position, Cell)> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scene::Size;
+    use crate::ui::layout::tests::size;
     use crate::ui::terminal::{Protocol, Wrapping};
 
+    const PROTOCOLS: [Protocol; 3] = [Protocol::Kitty, Protocol::Iterm, Protocol::Sixel];
     const PLACE: Rect = Rect::new(1, 1, 4, 2);
     const ELSEWHERE: Rect = Rect::new(2, 1, 4, 2);
 
@@ -142,13 +143,9 @@ mod tests {
     }
 
     fn pixmap(light: u8) -> Pixmap {
-        let size = Size {
-            width: 4,
-            height: 4,
-        };
         Pixmap {
-            size,
-            pixels: vec![[light; 3]; size.pixels()],
+            size: size(4, 4),
+            pixels: vec![[light; 3]; 4 * 4],
         }
     }
 
@@ -167,20 +164,14 @@ mod tests {
 
     #[test]
     fn a_picture_is_sent_when_it_changes_or_text_has_replaced_it() {
-        for protocol in [Protocol::Kitty, Protocol::Iterm, Protocol::Sixel] {
+        for protocol in PROTOCOLS {
             let mut canvas = canvas(protocol);
-            let over = |cells| {
-                if canvas_is_content(protocol) {
-                    cells
-                } else {
-                    0
-                }
-            };
+            let is_content = canvas_is_content(protocol);
+            let over = if is_content { 2 } else { 0 };
             assert_eq!(sent(&mut canvas, 1, ""), Some(0));
             assert_eq!(sent(&mut canvas, 1, ""), None);
-            assert_eq!(sent(&mut canvas, 2, "ab"), Some(over(2)));
+            assert_eq!(sent(&mut canvas, 2, "ab"), Some(over));
             assert_eq!(sent(&mut canvas, 2, "cd"), None, "the same cells");
-            let is_content = canvas_is_content(protocol);
             let again = is_content.then_some(0);
             assert_eq!(sent(&mut canvas, 2, ""), again, "uncovered");
             canvas.forget();
@@ -194,7 +185,7 @@ mod tests {
 
     #[test]
     fn a_picture_that_leaves_is_removed_once() {
-        for protocol in [Protocol::Kitty, Protocol::Iterm, Protocol::Sixel] {
+        for protocol in PROTOCOLS {
             let mut canvas = canvas(protocol);
             let (gone, moved) = if canvas_is_content(protocol) {
                 (Removal::Repaint, Removal::Repaint)

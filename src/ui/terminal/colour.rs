@@ -203,76 +203,56 @@ impl<F: Fn(&str) -> Option<String>> EnvVarSource for Environment<F> {
 }
 
 #[cfg(test)]
-mod tests {
+pub(in crate::ui) mod tests {
     use super::*;
 
-    fn detect(choice: Choice, variables: &str) -> ColourDepth {
-        ColourDepth::detect_from(choice, |asked| {
-            let mut pairs = variables
-                .split_whitespace()
-                .filter_map(|pair| pair.split_once('='));
-            pairs
-                .find(|&(name, _)| name == asked)
-                .map(|(_, value)| value.to_owned())
-        })
+    /// The values of variables in a text such as `TERM=xterm COLORTERM=`.
+    pub(in crate::ui) fn environment(variables: &str) -> impl Fn(&str) -> Option<String> {
+        move |asked| {
+            let mut pairs = variables.split(' ').filter_map(|pair| pair.split_once('='));
+            let (_, value) = pairs.find(|&(name, _)| name == asked)?;
+            Some(value.to_owned())
+        }
     }
 
     #[test]
     fn the_depth_follows_the_environment() {
         use ColourDepth::{Mono, Palette16, Palette256, TrueColour};
-        for (variables, depth) in [
-            ("TERM=xterm-256color COLORTERM=truecolor", TrueColour),
-            ("TERM=xterm-256color", Palette256),
-            ("TERM=xterm-kitty", TrueColour),
-            ("TERM=linux", Palette16),
-            ("TERM=dumb", Mono),
-            ("TERM=tmux-256color TMUX=/x,1,0", Palette256),
-            (
-                "TERM=screen-256color TMUX=/x,1,0 COLORTERM=truecolor",
-                TrueColour,
-            ),
-            ("TERM=tmux-256color TMUX=/x,1,0 COLORTERM=24bit", TrueColour),
-            ("TERM=tmux-256color TMUX=/x,1,0 COLORTERM=yes", Palette256),
-            (
-                "TERM=xterm-256color TERM_PROGRAM=Apple_Terminal",
-                Palette256,
-            ),
-            ("TERM=xterm-256color COLORTERM=truecolor NO_COLOR=0", Mono),
-            (
-                "TERM=xterm-256color COLORTERM=truecolor NO_COLOR=",
-                TrueColour,
-            ),
-        ] {
-            assert_eq!(detect(Choice::Auto, variables), depth, "{variables}");
+        for (choice, variables, depth) in table! {
+            Choice::Auto, "TERM=xterm-256color COLORTERM=truecolor" => TrueColour;
+            Choice::Auto, "TERM=xterm-256color" => Palette256;
+            Choice::Auto, "TERM=xterm-kitty" => TrueColour;
+            Choice::Auto, "TERM=linux" => Palette16;
+            Choice::Auto, "TERM=dumb" => Mono;
+            Choice::Auto, "TERM=tmux-256color TMUX=/x,1,0" => Palette256;
+            Choice::Auto, "TERM=screen-256color TMUX=/x,1,0 COLORTERM=truecolor" => TrueColour;
+            Choice::Auto, "TERM=tmux-256color TMUX=/x,1,0 COLORTERM=24bit" => TrueColour;
+            Choice::Auto, "TERM=tmux-256color TMUX=/x,1,0 COLORTERM=yes" => Palette256;
+            Choice::Auto, "TERM=xterm-256color TERM_PROGRAM=Apple_Terminal" => Palette256;
+            Choice::Auto, "TERM=xterm-256color COLORTERM=truecolor NO_COLOR=0" => Mono;
+            Choice::Auto, "TERM=xterm-256color COLORTERM=truecolor NO_COLOR=" => TrueColour;
+            // The user's choice overrides the environment.
+            Choice::Fixed(Palette256), "TERM=dumb NO_COLOR=1" => Palette256;
+        } {
+            let found = ColourDepth::detect_from(choice, environment(variables));
+            assert_eq!(found, depth, "{variables}");
         }
     }
 
     #[test]
-    fn the_users_choice_overrides_the_environment() {
-        let fixed = Choice::Fixed(ColourDepth::Palette256);
-        assert_eq!(
-            detect(fixed, "TERM=dumb NO_COLOR=1"),
-            ColourDepth::Palette256
-        );
-    }
-
-    #[test]
     fn colours_map_to_the_nearest_of_the_depth() {
-        let red = Color::Rgb(255, 0, 0);
+        use ColourDepth::{Mono, Palette16, Palette256, TrueColour};
+        let [red, grey] = [Color::Rgb(255, 0, 0), Color::Rgb(128, 128, 128)];
         for (depth, colour, ink) in [
-            (ColourDepth::TrueColour, red, Ink::Rgb(255, 0, 0)),
-            (ColourDepth::Palette256, red, Ink::Index(196)),
-            (
-                ColourDepth::Palette256,
-                Color::Rgb(128, 128, 128),
-                Ink::Index(244),
-            ),
-            (ColourDepth::Palette256, Color::LightBlue, Ink::Index(12)),
-            (ColourDepth::Palette16, red, Ink::Index(9)),
-            (ColourDepth::Palette16, Color::Indexed(196), Ink::Index(9)),
-            (ColourDepth::Palette16, Color::Gray, Ink::Index(7)),
-            (ColourDepth::Mono, red, Ink::Default),
-            (ColourDepth::TrueColour, Color::Reset, Ink::Default),
+            (TrueColour, red, Ink::Rgb(255, 0, 0)),
+            (Palette256, red, Ink::Index(196)),
+            (Palette256, grey, Ink::Index(244)),
+            (Palette256, Color::LightBlue, Ink::Index(12)),
+            (Palette16, red, Ink::Index(9)),
+            (Palette16, Color::Indexed(196), Ink::Index(9)),
+            (Palette16, Color::Gray, Ink::Index(7)),
+            (Mono, red, Ink::Default),
+            (TrueColour, Color::Reset, Ink::Default),
         ] {
             assert_eq!(depth.ink(colour), ink, "{depth:?} {colour:?}");
         }

@@ -153,18 +153,14 @@ mod tests {
     #[test]
     fn late_answers_do_not_count_and_the_last_answer_ends_the_wait() {
         use Reply::{Attributes, TrueColour};
-        for (arrivals, counted, is_over) in [
-            (&[][..], &[][..], false),
-            (&[(TrueColour, 199)], &[TrueColour], false),
-            (&[(TrueColour, 200)], &[], false),
-            (
-                &[(TrueColour, 10), (Attributes, 20)],
-                &[TrueColour, Attributes],
-                true,
-            ),
-            (&[(TrueColour, 10), (Attributes, 300)], &[TrueColour], true),
-            (&[(TrueColour, 500), (Attributes, 500)], &[], true),
-        ] {
+        for (arrivals, counted, is_over) in table! {
+            &[][..] => &[][..], false;
+            &[(TrueColour, 199)] => &[TrueColour], false;
+            &[(TrueColour, 200)] => &[], false;
+            &[(TrueColour, 10), (Attributes, 20)] => &[TrueColour, Attributes], true;
+            &[(TrueColour, 10), (Attributes, 300)] => &[TrueColour], true;
+            &[(TrueColour, 500), (Attributes, 500)] => &[], true;
+        } {
             let asked = Instant::now();
             let mut interview = Interview {
                 asked,

@@ -30,6 +30,8 @@ pub(crate) mod tmux;
 mod tty;
 
 pub use backend::AnsiBackend;
+#[cfg(test)]
+pub(in crate::ui) use colour::tests::environment;
 pub use colour::{Choice, ColourDepth};
 pub(crate) use colour::{THEME, colour_on_screen};
 #[cfg(unix)]

@@ -236,6 +236,15 @@ mod tests {
         indifferent: Modifier::empty(),
     };
 
+    fn style(fg: Ink, bg: Ink, modifier: Modifier) -> Style {
+        Style {
+            fg: Some(fg),
+            bg: Some(bg),
+            modifier,
+            ..PLAIN
+        }
+    }
+
     /// Applies styles in order to a fresh pen and returns the bytes of the last one.
     fn last_change(styles: &[Style]) -> String {
         let mut pen = Pen::UNKNOWN;
@@ -250,26 +259,12 @@ mod tests {
 
     #[test]
     fn sends_only_changes() {
-        let red = Style {
-            fg: Some(Ink::Index(1)),
-            ..PLAIN
-        };
-        let rgb = Style {
-            bg: Some(Ink::Rgb(1, 20, 255)),
-            ..red
-        };
-        let bold = Style {
-            modifier: Modifier::BOLD,
-            ..rgb
-        };
-        let dim = Style {
-            modifier: Modifier::DIM,
-            ..rgb
-        };
-        let both = Style {
-            modifier: Modifier::BOLD | Modifier::DIM,
-            ..rgb
-        };
+        let (index, background) = (Ink::Index(1), Ink::Rgb(1, 20, 255));
+        let red = style(index, Ink::Default, Modifier::empty());
+        let rgb = style(index, background, Modifier::empty());
+        let bold = style(index, background, Modifier::BOLD);
+        let dim = style(index, background, Modifier::DIM);
+        let both = style(index, background, Modifier::BOLD | Modifier::DIM);
         for (styles, bytes) in [
             (&[PLAIN][..], ""),
             (&[red], "\x1b[31m"),
@@ -288,59 +283,38 @@ mod tests {
 
     #[test]
     fn invisible_attributes_are_not_changed() {
-        let bold = Style {
-            fg: Some(Ink::Index(9)),
-            modifier: Modifier::BOLD,
-            ..PLAIN
-        };
+        let bold = style(Ink::Index(9), Ink::Default, Modifier::BOLD);
+        let line = style(Ink::Index(9), Ink::Default, Modifier::UNDERLINED);
         let blank = Style {
             fg: None,
             indifferent: Modifier::all() - VISIBLE_ON_BLANK,
             ..PLAIN
         };
-        assert_eq!(last_change(&[bold]), "\x1b[1;91m");
-        assert_eq!(last_change(&[bold, blank]), "");
-        assert_eq!(last_change(&[bold, blank, bold]), "");
-        let line = Style {
-            modifier: Modifier::UNDERLINED,
-            ..bold
-        };
-        assert_eq!(last_change(&[line, blank]), "\x1b[24m");
+        for (styles, bytes) in [
+            (&[bold][..], "\x1b[1;91m"),
+            (&[bold, blank], ""),
+            (&[bold, blank, bold], ""),
+            (&[line, blank], "\x1b[24m"),
+        ] {
+            assert_eq!(last_change(styles), bytes, "{styles:?}");
+        }
     }
 
     #[test]
     fn the_cost_of_colours_is_their_length() {
-        let inks = [
-            Ink::Default,
-            Ink::Index(3),
-            Ink::Index(77),
-            Ink::Rgb(0, 50, 200),
-        ];
-        for fg in inks {
-            for bg in inks {
-                let style = Style {
-                    fg: Some(fg),
-                    bg: Some(bg),
-                    ..PLAIN
-                };
-                let mut pen = Pen::UNKNOWN;
-                let mut out = Vec::new();
-                // Another attribute prevents a full reset of the pen.
-                let start = Style {
-                    fg: Some(Ink::Index(1)),
-                    modifier: Modifier::BOLD,
-                    ..PLAIN
-                };
-                pen.apply(&start, &mut out);
-                out.clear();
-                let style = Style {
-                    modifier: Modifier::BOLD,
-                    ..style
-                };
-                let cost = pen.colour_cost(&style);
-                pen.apply(&style, &mut out);
-                assert_eq!(cost, out.len(), "{style:?}");
-            }
+        let rgb = Ink::Rgb(0, 50, 200);
+        let inks = [Ink::Default, Ink::Index(3), Ink::Index(77), rgb];
+        for (fg, bg) in inks.map(|fg| inks.map(|bg| (fg, bg))).concat() {
+            let mut pen = Pen::UNKNOWN;
+            let mut out = Vec::new();
+            // Another attribute prevents a full reset of the pen.
+            let start = style(Ink::Index(1), Ink::Default, Modifier::BOLD);
+            pen.apply(&start, &mut out);
+            out.clear();
+            let style = style(fg, bg, Modifier::BOLD);
+            let cost = pen.colour_cost(&style);
+            pen.apply(&style, &mut out);
+            assert_eq!(cost, out.len(), "{style:?}");
         }
     }
 }

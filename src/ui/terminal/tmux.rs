@@ -72,25 +72,13 @@ mod tests {
             passes_through: through,
             corner,
         };
-        for (answer, expected) in [
-            (
-                "256,RGB,bpaste,title\n\n0\n0\non\nbottom\n",
-                client(true, false, false, (0, 0)),
-            ),
-            (
-                "RGB,sixel\non\n40\n12\non\ntop\n",
-                client(true, true, true, (40, 13)),
-            ),
-            (
-                "256,xRGB\noff\n0\n0\n2\ntop\n",
-                client(false, false, false, (0, 2)),
-            ),
-            (
-                "sixel\nall\n0\n3\noff\ntop\n",
-                client(false, true, true, (0, 3)),
-            ),
-            ("", Client::default()),
-        ] {
+        for (answer, expected) in table! {
+            "256,RGB,bpaste,title\n\n0\n0\non\nbottom\n" => client(true, false, false, (0, 0));
+            "RGB,sixel\non\n40\n12\non\ntop\n" => client(true, true, true, (40, 13));
+            "256,xRGB\noff\n0\n0\n2\ntop\n" => client(false, false, false, (0, 2));
+            "sixel\nall\n0\n3\noff\ntop\n" => client(false, true, true, (0, 3));
+            "" => Client::default();
+        } {
             assert_eq!(read(answer), expected, "{answer}");
         }
     }

@@ -277,11 +277,7 @@ mod tests {
         ] {
             let variable = |name: &str| if name == "LINES" { lines } else { None };
             let size = known_size(Size::from(reported), variable);
-            assert_eq!(
-                size,
-                Size::from(expected),
-                "{reported:?} with LINES {lines:?}"
-            );
+            assert_eq!(size, Size::from(expected), "{reported:?} {lines:?}");
         }
     }
 }

@@ -123,38 +123,26 @@ fn fourth_root(light: f32) -> f32 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::render::NO_OBJECT;
-    use crate::scene::Size;
+    use crate::ui::view::tests::cell_image;
 
     /// The rows of cells of a picture of greys.
     fn drawn(width: u32, height: u32, grey: impl Fn(u32, u32) -> u8) -> Vec<String> {
-        let size = Size { width, height };
         let pixels = (0..height).flat_map(|y| (0..width).map(move |x| (x, y)));
-        let characters = Characters::of(&CellImage {
-            size,
-            pixels: pixels.map(|(x, y)| [grey(x, y); 3]).collect(),
-            objects: vec![NO_OBJECT; size.pixels()],
-            outline: Vec::new(),
-        });
-        let row = |row| {
-            (0..width)
-                .map(|column| characters.at(column, row))
-                .collect()
-        };
-        (0..height.div_ceil(2)).map(row).collect()
+        let pixels = pixels.map(|(x, y)| [grey(x, y); 3]).collect();
+        let characters = &Characters::of(&cell_image(width, height, pixels));
+        let row = |row| (0..width).map(move |column| characters.at(column, row));
+        let rows = (0..height.div_ceil(2)).map(|at| row(at).collect());
+        rows.collect()
     }
 
     #[test]
     fn the_ramp_goes_from_black_to_white() {
         assert_eq!(drawn(2, 2, |_, _| 0), ["  "]);
         assert_eq!(drawn(2, 2, |_, _| 255), ["██"]);
-        let fill = |symbol: char| {
-            let found = GLYPHS.iter().find(|(known, _)| known.starts_with(symbol));
-            found
-                .expect("a character of the ramp")
-                .1
-                .iter()
-                .sum::<f32>()
+        let fill = |symbol: char| -> f32 {
+            let mut found = GLYPHS.iter().filter(|(known, _)| known.starts_with(symbol));
+            let (_, parts) = found.next().expect("a character of the ramp");
+            parts.iter().sum()
         };
         let mut last = 0.0;
         for grey in (0..=255).step_by(5) {
@@ -175,6 +163,8 @@ mod tests {
             let cells = drawn(2, 4, |_, y| rows[y as usize]);
             assert_eq!(cells, expected, "{rows:?}");
         }
+        // The half below an odd last row is black.
+        assert_eq!(drawn(1, 1, |_, _| 255), ["▀"]);
     }
 
     #[test]
@@ -185,26 +175,8 @@ mod tests {
     }
 
     #[test]
-    fn the_half_below_an_odd_last_row_is_black() {
-        assert_eq!(drawn(1, 1, |_, _| 255), ["▀"]);
-    }
-
-    #[test]
     fn blue_is_darker_than_green() {
-        let cell = |colour| {
-            let size = Size {
-                width: 1,
-                height: 2,
-            };
-            let (pixels, objects) = (vec![colour; 2], vec![NO_OBJECT; 2]);
-            let shown = CellImage {
-                size,
-                pixels,
-                objects,
-                outline: Vec::new(),
-            };
-            Characters::of(&shown).at(0, 0)
-        };
+        let cell = |colour| Characters::of(&cell_image(1, 2, vec![colour; 2])).at(0, 0);
         assert_eq!([cell([0, 0, 255]), cell([0, 255, 0])], ["=", "▓"]);
     }
 }

@@ -69,28 +69,15 @@ fn entry(completion: &Completion, style: Style, line: Rect, buffer: &mut Buffer)
 
 #[cfg(test)]
 mod tests {
-    use crate::ui::app::{App, PromptKind};
-    use crate::ui::msg::Msg;
-    use crate::ui::view::tests::{app, drawn};
-    use crossterm::event::KeyCode;
-
-    fn typed(app: &mut App, text: &str) {
-        for c in text.chars() {
-            app.update(Msg::Key(KeyCode::Char(c).into()));
-        }
-    }
+    use crate::ui::app::PromptKind;
+    use crate::ui::view::tests::{app, drawn, press};
 
     #[test]
     fn commands_are_shown_with_their_help_and_key() {
         let mut app = app();
-        typed(&mut app, ":vie");
-        let kind = app
-            .shared
-            .overlays
-            .prompt
-            .as_ref()
-            .map(|prompt| prompt.kind);
-        assert_eq!(kind, Some(PromptKind::Command));
+        press(&mut app, ":vie");
+        let prompt = app.shared.overlays.prompt.as_ref();
+        assert!(prompt.is_some_and(|prompt| prompt.kind == PromptKind::Command));
         let lines = drawn(&app.shared, super::render, 70, 24);
         let line = lines.iter().find(|line| line.contains(":view save"));
         let line = line.expect("it is offered");
@@ -101,7 +88,7 @@ mod tests {
     #[test]
     fn the_arguments_of_a_command_are_shown_while_they_are_typed() {
         let mut app = app();
-        typed(&mut app, ":size 8");
+        press(&mut app, ":size 8");
         let lines = drawn(&app.shared, super::render, 70, 24);
         assert!(lines[23].contains(":size WxH"), "{lines:#?}");
     }

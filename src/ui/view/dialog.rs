@@ -172,85 +172,60 @@ fn one_line(text: &str) -> String {
 
 #[cfg(test)]
 mod tests {
-    use crate::document::{Merge, Side};
-    use crate::ui::app::{AfterLeaving, App, Dialog, MergeSource};
-    use crate::ui::view::tests::{SCENE, app, conflict, drawn, retype};
+    use crate::document::Side;
+    use crate::ui::app::{AfterLeaving, Dialog};
+    use crate::ui::view::tests::{SCENE, app, ask, check_shown, conflict, drawn, retype};
 
     #[test]
     fn quitting_shows_what_would_be_lost_and_how_to_answer() {
         let mut app = app();
         retype(&mut app, " 0.25 //", " 0.5 //");
         app.shared.overlays.dialog = Some(Dialog::Leave(AfterLeaving::Quit));
-        let text = drawn(&app, super::render, 80, 24).join("\n");
-        for part in [
-            "test.ray has unsaved edits",
-            "y quit",
-            "w save and quit",
-            "n stay",
-        ] {
-            assert!(text.contains(part), "{part:?} in\n{text}");
-        }
+        let lines = drawn(&app, super::render, 80, 24);
+        let answers = ["y quit", "w save and quit", "n stay"];
+        check_shown(&lines, &["test.ray has unsaved edits"]);
+        check_shown(&lines, &answers);
     }
 
     #[test]
     fn conflicts_show_both_texts_and_the_decision() {
-        let mut app = app();
-        retype(&mut app, " 0.25 //", " 0.5 //");
-        let theirs = SCENE.replace(" 0.25 //", " 0.75 //");
-        let mut merge = conflict(&app, &theirs);
-        merge.conflicts[0].decision = Some(Side::Theirs);
-        app.shared.overlays.dialog = Some(Dialog::Conflict {
-            merge,
-            at: 0,
-            from: MergeSource::File,
-        });
-        let lines = drawn(&app, super::render, 80, 24);
-        let line = lines.iter().find(|line| line.contains('▸'));
-        let line = line.expect("a cursor");
-        for part in [
-            "object 1 (sphere) radius (line 6):",
-            "○ mine 0.5",
-            "● file 0.75",
+        let but = |old, new| SCENE.replacen(old, new, 1);
+        let from = SCENE.find("box").expect("a box");
+        let without_box = SCENE[..from].replacen("\n2\n", "\n1\n", 1);
+        let moved_box = but("box 0 0 0", "box 0 0 7");
+        for (mine, theirs, decision, parts) in [
+            (
+                &but(" 0.25 //", " 0.5 //"),
+                &but(" 0.25 //", " 0.75 //"),
+                Some(Side::Theirs),
+                [
+                    "object 1 (sphere) radius (line 6):",
+                    "○ mine 0.5",
+                    "● file 0.75",
+                ],
+            ),
+            (
+                &moved_box,
+                &without_box,
+                None,
+                ["object 2 (box)", "○ mine box", "○ file (deleted)"],
+            ),
+            // What was deleted here is not named after what precedes it.
+            (
+                &without_box,
+                &moved_box,
+                None,
+                ["▸ line ", "○ mine (deleted)", "○ file box"],
+            ),
         ] {
-            assert!(line.contains(part), "{part:?} in {line}");
-        }
-    }
-
-    /// The line of the first conflict with the file.
-    fn drawn_conflict(mut app: App, merge: Merge) -> String {
-        app.shared.overlays.dialog = Some(Dialog::Conflict {
-            merge,
-            at: 0,
-            from: MergeSource::File,
-        });
-        let lines = drawn(&app, super::render, 100, 24);
-        let line = lines.into_iter().find(|line| line.contains('▸'));
-        line.expect("a cursor")
-    }
-
-    #[test]
-    fn a_conflict_with_a_deletion_is_shown_as_one() {
-        let mut app = app();
-        retype(&mut app, "box 0 0 0", "box 0 0 7");
-        let from = SCENE.find("box").expect("a box");
-        let theirs = SCENE[..from].replacen("\n2\n", "\n1\n", 1);
-        let merge = conflict(&app, &theirs);
-        let line = drawn_conflict(app, merge);
-        for part in ["object 2 (box)", "○ mine box", "○ file (deleted)"] {
-            assert!(line.contains(part), "{part:?} in {line}");
-        }
-    }
-
-    #[test]
-    fn what_was_deleted_here_is_not_named_after_what_precedes_it() {
-        let mut app = app();
-        let from = SCENE.find("box").expect("a box");
-        retype(&mut app, &SCENE[from..], "");
-        retype(&mut app, "\n2\n", "\n1\n");
-        let merge = conflict(&app, &SCENE.replacen("box 0 0 0", "box 0 0 7", 1));
-        let line = drawn_conflict(app, merge);
-        for part in ["▸ line ", "○ mine (deleted)", "○ file box"] {
-            assert!(line.contains(part), "{part:?} in {line}");
+            let mut app = app();
+            retype(&mut app, SCENE, mine);
+            let mut merge = conflict(&app, theirs);
+            merge.conflicts[0].decision = decision;
+            ask(&mut app, merge);
+            let mut lines = drawn(&app, super::render, 100, 24);
+            lines.retain(|line| line.contains('▸'));
+            check_shown(&lines[..1], &parts);
         }
     }
 }

@@ -247,8 +247,7 @@ mod tests {
     use super::*;
     use crate::text::{Diagnostic, Span};
     use crate::ui::app::App;
-    use crate::ui::view::tests::{app, drawn, retype, select};
-    use tui_input::Input;
+    use crate::ui::view::tests::{app, drawn, retype, select, typing};
 
     fn editing(selected: Node) -> App {
         let mut app = app();
@@ -257,37 +256,41 @@ mod tests {
         app
     }
 
-    #[test]
-    fn literals_are_shown_as_in_the_text() {
-        let lines = drawn(&editing(Node::Object(0)).shared, render, 34, 20);
-        assert!(lines[0].starts_with("object 1 (sphere) ─"), "{}", lines[0]);
-        assert_eq!(lines[1], "▸centre    0      .5     -1e0");
-        assert_eq!(lines[2], " radius    0.25");
-        assert_eq!(lines[3], " ka      ● 0.1    0.1    0.1");
+    fn lines(app: &App, width: u16) -> Vec<String> {
+        drawn(&app.shared, render, width, 20)
     }
 
     #[test]
-    fn missing_parts_of_the_view_are_shown_as_defaults() {
-        let lines = drawn(&editing(Node::View).shared, render, 34, 20);
-        assert_eq!(lines[4], " fov       45  (default)");
+    fn literals_are_shown_as_in_the_text_and_missing_ones_as_defaults() {
+        let object = lines(&editing(Node::Object(0)), 34);
+        assert!(
+            object[0].starts_with("object 1 (sphere) ─"),
+            "{}",
+            object[0]
+        );
+        let literals = [
+            "▸centre    0      .5     -1e0",
+            " radius    0.25",
+            " ka      ● 0.1    0.1    0.1",
+        ];
+        assert_eq!(object[1..4], literals);
+        let view = lines(&editing(Node::View), 34);
+        assert_eq!(view[4], " fov       45  (default)");
     }
 
     #[test]
     fn a_refused_value_stays_and_is_explained() {
         let mut app = editing(Node::Object(0));
         app.shared.cursor.field = 1;
+        let error = "radius: must be greater than 0";
+        let refused = Diagnostic::error(Span::at(0), error, "a number greater than 0");
         app.shared.cursor.typing = Some(Typing {
-            input: Input::new("-3".to_owned()),
-            refused: Some(Diagnostic::error(
-                Span::at(0),
-                "radius: must be greater than 0",
-                "a number greater than 0",
-            )),
-            ..Typing::default()
+            refused: Some(refused),
+            ..typing("-3")
         });
-        let lines = drawn(&app.shared, render, 34, 20);
+        let lines = lines(&app, 34);
         assert_eq!(lines[2], "▸radius    -3");
-        assert_eq!(lines[16], " radius: must be greater than 0");
+        assert_eq!(lines[16], format!(" {error}"));
         assert!(lines[17].starts_with(" a number greater than 0 · step"));
     }
 
@@ -299,60 +302,37 @@ mod tests {
             (2, " red: a number, usually from 0 to 1 · step"),
         ] {
             app.shared.cursor.field = field;
-            let lines = drawn(&app.shared, render, 50, 20);
-            assert!(lines[16].starts_with(shown), "{}", lines[16]);
+            let line = &lines(&app, 50)[16];
+            assert!(line.starts_with(shown), "{line}");
         }
     }
 
     #[test]
     fn a_warning_is_marked_at_its_field_and_explained_there() {
         let mut app = editing(Node::Object(0));
-        retype(
-            &mut app,
-            "0.5 0 0  0 0 0  1 0 0 1\nbox",
-            "1.5 0 0  0 0 0  1 0 0 1\nbox",
-        );
+        let rest = "0.5 0 0  0 0 0  1 0 0 1\nbox";
+        retype(&mut app, rest, &rest.replacen("0.5", "1.5", 1));
         app.shared.cursor.field = 3;
-        let lines = drawn(&app.shared, render, 50, 20);
-        assert!(
-            lines[4].starts_with("▸kd") && lines[4].contains("●!"),
-            "{}",
-            lines[4]
-        );
-        assert!(!lines[3].contains('!'), "{}", lines[3]);
-        assert!(
-            lines[16].contains("object 1 (sphere) kd red"),
-            "{}",
-            lines[16]
-        );
+        let lines = lines(&app, 50);
+        assert!(!lines[3].contains('!'), "{lines:#?}");
+        assert!(lines[4].starts_with("▸kd"), "{lines:#?}");
+        assert!(lines[4].contains("●!"), "{lines:#?}");
+        assert!(lines[16].contains("object 1 (sphere) kd red"), "{lines:#?}");
     }
 
+    /// Other components stay, but a long value covers those after it.
     #[test]
-    fn the_other_components_stay_while_one_is_being_typed() {
+    fn a_component_that_is_typed_takes_the_room_that_it_needs() {
         let mut app = editing(Node::Object(0));
-        app.shared.cursor.component = 1;
-        app.shared.cursor.typing = Some(Typing {
-            input: Input::new("0.123".to_owned()),
-            ..Typing::default()
-        });
-        let line = drawn(&app.shared, render, 34, 20)[1].clone();
-        assert_eq!(line, "▸centre    0      0.123  -1e0");
-    }
-
-    #[test]
-    fn a_long_value_covers_the_components_after_it_while_it_is_typed() {
-        let mut app = editing(Node::Object(0));
-        for (component, shown) in [
-            (0, "▸centre    0.123456789"),
-            (1, "▸centre    0      0.123456789"),
-            (2, "▸centre    0      .5     3456789"),
+        for (component, text, shown) in [
+            (1, "0.123", "▸centre    0      0.123  -1e0"),
+            (0, "0.123456789", "▸centre    0.123456789"),
+            (1, "0.123456789", "▸centre    0      0.123456789"),
+            (2, "0.123456789", "▸centre    0      .5     3456789"),
         ] {
             app.shared.cursor.component = component;
-            app.shared.cursor.typing = Some(Typing {
-                input: Input::new("0.123456789".to_owned()),
-                ..Typing::default()
-            });
-            assert_eq!(drawn(&app.shared, render, 34, 20)[1], shown);
+            app.shared.cursor.typing = Some(typing(text));
+            assert_eq!(lines(&app, 34)[1], shown);
         }
     }
 
@@ -374,12 +354,10 @@ mod tests {
     fn the_cursor_is_on_one_component() {
         let mut app = editing(Node::Object(0));
         app.shared.cursor.component = 1;
-        let area = Rect::new(0, 0, 34, 20);
-        let mut buffer = Buffer::empty(area);
-        render(&app.shared, area, &mut buffer);
-        let reversed: Vec<u16> = (0..34)
-            .filter(|&x| buffer[(x, 1)].modifier.contains(Modifier::REVERSED))
-            .collect();
+        let mut buffer = Buffer::empty(Rect::new(0, 0, 34, 20));
+        render(&app.shared, buffer.area, &mut buffer);
+        let is_reversed = |&x: &u16| buffer[(x, 1)].modifier.contains(Modifier::REVERSED);
+        let reversed: Vec<_> = (0..34).filter(is_reversed).collect();
         assert_eq!(reversed, [18, 19], "the cells of .5");
     }
 }

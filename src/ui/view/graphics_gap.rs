@@ -59,25 +59,20 @@ mod tests {
     use crate::ui::app::{App, Page};
     use crate::ui::keymap::Context;
     use crate::ui::view::inks::Glyphs;
-    use crate::ui::view::tests::{app, frame, lines, retype};
+    use crate::ui::view::tests::{app, frame, lines, retype, show};
     use crate::ui::view::{Drawing, Inks, draw};
 
     /// The cells left to a picture by the terminal, and whether any half blocks are drawn.
     fn left(app: &mut App) -> (Option<Rect>, bool) {
-        let (width, height) = (100, 30);
-        app.shared.terminal = (width, height);
+        app.shared.terminal = (100, 30);
         let mut inks = Inks::new(Glyphs::HalfBlocks);
         inks.drawing = Drawing::Picture;
-        let mut terminal = Terminal::new(TestBackend::new(width, height)).expect("cannot fail");
+        let mut terminal = Terminal::new(TestBackend::new(100, 30)).expect("cannot fail");
         let mut left = None;
-        terminal
-            .draw(|frame| left = draw(app, &mut inks, frame))
-            .expect("cannot fail");
-        let text = lines(terminal.backend().buffer()).join("");
-        assert!(
-            !text.contains('\u{f8ff}'),
-            "the mark of what is left is not shown"
-        );
+        let drawn = terminal.draw(|frame| left = draw(app, &mut inks, frame));
+        let text = lines(drawn.expect("cannot fail").buffer).concat();
+        // The mark of what is left is not shown.
+        assert!(!text.contains('\u{f8ff}'));
         (left, text.contains('▀'))
     }
 
@@ -85,12 +80,8 @@ mod tests {
     fn cells_are_left_to_a_picture_unless_a_panel_is_over_it() {
         let mut app = app();
         assert_eq!(left(&mut app), (None, false), "there is no picture yet");
-        app.shared.pictures.preview.take(frame(8, 6));
         let frame_window = display::frame_window(&app.shared).expect("there is room");
-        app.shared
-            .pictures
-            .preview
-            .advance(&frame_window, &[], usize::MAX);
+        show(&mut app, frame(8, 6), &frame_window);
         let cells = app.shared.raster().map(|(cells, _)| cells);
         assert_eq!(left(&mut app), (cells, false));
         app.shared.overlays.open_page(Page::reading(Context::Help));

@@ -80,16 +80,15 @@ fn help_line(line: &HelpLine, mut row: Row) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::ui::app::App;
     use crate::ui::keymap::Context;
-    use crate::ui::view::tests::{app, drawn};
-    use ratatui::buffer::Cell;
+    use crate::ui::view::tests::{app, drawn, lines};
     use tui_input::Input;
 
-    /// The page with this search.
-    fn shown(app: &mut App, search: &str, width: u16, height: u16) -> Vec<String> {
+    /// The page with a search.
+    fn page(search: &str, width: u16, height: u16) -> Vec<String> {
         let mut page = Page::reading(Context::Help);
         page.filter.input = Input::from(search);
+        let mut app = app();
         app.shared.overlays.open_page(page);
         let draw = |shared: &Shared, area: Rect, buffer: &mut Buffer| {
             let page = shared.overlays.page(Context::Help).expect("it is open");
@@ -100,41 +99,35 @@ mod tests {
 
     #[test]
     fn a_wide_page_has_columns_and_starts_with_the_present_mode() {
-        let mut app = app();
-        let wide = shown(&mut app, "", 120, 30);
-        assert!(wide[1].starts_with("│ SELECT"), "{}", wide[1]);
-        let headings = wide[1].matches("anywhere").count();
-        assert_eq!(headings, 1, "{}", wide[1]);
-        let narrow = shown(&mut app, "", 80, 30);
-        assert!(!narrow[1].contains("anywhere"));
+        let wide = &page("", 120, 30)[1];
+        assert!(wide.starts_with("│ SELECT"), "{wide}");
+        assert_eq!(wide.matches("anywhere").count(), 1, "{wide}");
+        assert!(!page("", 80, 30)[1].contains("anywhere"));
     }
 
     #[test]
     fn long_words_begin_beside_short_keys() {
-        let area = Rect::new(0, 0, 40, 1);
-        let mut buffer = Buffer::empty(area);
-        let words = "explain the pixel pointed at";
-        let line = HelpLine::Entry {
-            keys: "i".into(),
-            words,
-        };
-        help_line(&line, Row::new(&mut buffer, area, 0));
-        let shown: String = buffer.content().iter().map(Cell::symbol).collect();
+        let mut buffer = Buffer::empty(Rect::new(0, 0, 40, 1));
+        let (keys, words) = ("i".into(), "explain the pixel pointed at");
+        let row = Row::new(&mut buffer, Rect::new(0, 0, 40, 1), 0);
+        help_line(&HelpLine::Entry { keys, words }, row);
+        let shown = lines(&buffer).concat();
         assert!(shown.contains(words), "{shown}");
     }
 
     #[test]
     fn only_matching_lines_are_shown() {
-        let mut app = app();
-        let lines = shown(&mut app, "ORBIT", 80, 24);
+        let lines = page("ORBIT", 80, 24);
         let found = lines.iter().filter(|line| line.contains("orbit")).count();
         // Four keys and the mouse, under two headings.
-        assert!(lines[0].contains("1–7 of 7"), "{}", lines[0]);
         assert_eq!(found, 5, "{lines:#?}");
-        assert!(
-            lines[1].contains("VIEW") && lines[2].contains("h ←"),
-            "{lines:#?}"
-        );
-        assert!(lines[22].contains("5 lines with “ORBIT”"), "{}", lines[22]);
+        for (at, part) in [
+            (0, "1–7 of 7"),
+            (1, "VIEW"),
+            (2, "h ←"),
+            (22, "5 lines with “ORBIT”"),
+        ] {
+            assert!(lines[at].contains(part), "{part} in {}", lines[at]);
+        }
     }
 }

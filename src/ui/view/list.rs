@@ -155,7 +155,12 @@ pub(super) fn swatch(shared: &Shared, node: Node) -> Option<Rgb> {
 #[cfg(test)]
 mod tests {
     use crate::language::{Language, Node};
+    use crate::ui::app::App;
     use crate::ui::view::tests::{app, app_of, drawn, retype};
+
+    fn lines(app: &App, width: u16) -> Vec<String> {
+        drawn(&app.shared, super::render, width, 9)
+    }
 
     #[test]
     fn nested_nodes_are_indented() {
@@ -164,7 +169,6 @@ mod tests {
             "<xml><scene><object name='all'><object type='sphere' name='ball'/></object>
             </scene><camera><position z='9'/></camera></xml>",
         );
-        let lines = drawn(&app.shared, super::render, 30, 10);
         let listed = [
             "    render",
             "▸   view",
@@ -174,48 +178,42 @@ mod tests {
             "  ▾ all (group)",
             "  ●   ball (sphere)",
         ];
-        assert_eq!(lines[1..8], listed);
+        assert_eq!(lines(&app, 30)[1..8], listed);
     }
 
     #[test]
-    fn nodes_are_listed_and_the_selected_one_is_marked() {
-        let lines = drawn(&app().shared, super::render, 26, 9);
-        assert_eq!(lines[0], "scene ──────────────── 2/6");
-        assert_eq!(lines[1], "    render");
-        assert_eq!(lines[2], "▸   view");
-        assert_eq!(lines[3], "  ● ambient");
-        assert_eq!(lines[4], "1 light");
-        assert_eq!(lines[5], "  ● light 1");
-        assert_eq!(lines[6], "2 objects");
-        assert_eq!(lines[8], "  ● object 2 (box)");
-    }
-
-    #[test]
-    fn the_heading_counts_marked_nodes() {
+    fn nodes_are_listed_and_the_selected_and_marked_ones_stand_out() {
         let mut app = app();
+        let listed = [
+            "scene ──────────────── 2/6",
+            "    render",
+            "▸   view",
+            "  ● ambient",
+            "1 light",
+            "  ● light 1",
+            "2 objects",
+        ];
+        assert_eq!(lines(&app, 26)[..7], listed);
+        assert_eq!(lines(&app, 26)[8], "  ● object 2 (box)");
         app.shared.cursor.marks = [Node::Light(0), Node::Object(1)].into();
-        let lines = drawn(&app.shared, super::render, 26, 9);
-        assert_eq!(lines[0], "scene ────── 2 marked  2/6");
-        assert_eq!(lines[5], " ✓● light 1");
+        assert_eq!(lines(&app, 26)[0], "scene ────── 2 marked  2/6");
+        assert_eq!(lines(&app, 26)[5], " ✓● light 1");
     }
 
     #[test]
     fn a_comment_follows_the_name_if_there_is_room() {
         let mut app = app();
-        let lines = drawn(&app.shared, super::render, 40, 9);
-        assert_eq!(lines[7], "  ● object 1 (sphere)  the first");
+        assert_eq!(lines(&app, 40)[7], "  ● object 1 (sphere)  the first");
         retype(&mut app, "0 5 5   1 1 .5\n", "0 5 5 // sun\n1 1 .5\n");
         retype(&mut app, "box", "box // the\u{1b} large one\n");
-        let lines = drawn(&app.shared, super::render, 32, 9);
-        assert_eq!(lines[5], "  ● light 1  sun");
-        assert_eq!(lines[8], "  ● object 2 (box)  the␛ large …");
+        assert_eq!(lines(&app, 32)[5], "  ● light 1  sun");
+        assert_eq!(lines(&app, 32)[8], "  ● object 2 (box)  the␛ large …");
     }
 
     #[test]
     fn a_node_with_an_error_is_marked() {
         let mut app = app();
         retype(&mut app, " 0.25 //", " -0.25 //");
-        let lines = drawn(&app.shared, super::render, 26, 9);
-        assert_eq!(lines[7], "  ● object 1 (sphere)   !");
+        assert_eq!(lines(&app, 26)[7], "  ● object 1 (sphere)   !");
     }
 }

@@ -167,17 +167,13 @@ mod tests {
     use crate::language::Node;
     use crate::ui::app::App;
     use crate::ui::keymap::Mode;
-    use crate::ui::msg::Msg;
-    use crate::ui::view::tests::{app, drawn, select};
-    use crossterm::event::KeyCode;
+    use crate::ui::view::tests::{app, drawn, press, select};
 
     fn picking(keys: &str) -> App {
         let mut app = app();
         select(&mut app, Node::Object(0));
         app.shared.mode = Mode::Edit;
-        for c in keys.chars() {
-            app.update(Msg::Key(KeyCode::Char(c).into()));
-        }
+        press(&mut app, keys);
         app
     }
 

@@ -307,55 +307,30 @@ fn marked(upper: Pixel, lower: Option<Pixel>) -> Style {
 mod tests {
     use super::*;
     use crate::language::Language;
-    use crate::render::NO_OBJECT;
-    use crate::scene::Size;
-    use crate::ui::view::tests::{app_of, drawn};
-
-    fn shown(width: u32, height: u32, pixels: &[[u8; 3]]) -> CellImage {
-        CellImage {
-            size: Size { width, height },
-            pixels: pixels.to_vec(),
-            objects: vec![NO_OBJECT; pixels.len()],
-            outline: Vec::new(),
-        }
-    }
+    use crate::ui::layout::tests::size;
+    use crate::ui::view::tests::{app_of, cell_image, check_shown, drawn, inked};
 
     fn painted(shown: &CellImage, glyphs: Glyphs) -> Buffer {
-        let area = Rect::new(
-            0,
-            0,
-            shown.size.width as u16,
-            shown.size.height.div_ceil(2) as u16,
-        );
-        let mut buffer = Buffer::empty(area);
-        paint(shown, &mut Inks::new(glyphs), area, &mut buffer);
+        let (columns, rows) = (shown.size.width, shown.size.height.div_ceil(2));
+        let mut buffer = Buffer::empty(Rect::new(0, 0, columns as u16, rows as u16));
+        paint(shown, &mut Inks::new(glyphs), buffer.area, &mut buffer);
         buffer
     }
 
     #[test]
     fn a_comparison_has_the_aspect_ratio_of_what_is_compared() {
         let mut app = app_of(Language::Ray, Language::Ray.template());
-        let size = Size {
-            width: 3,
-            height: 4,
-        };
         app.shared.mode = Mode::Compare;
-        app.shared.pictures.compared_size = Some(size);
-        app.shared.pictures.compared.shown = shown(3, 4, &[[9; 3]; 12]);
-        let panel = |app: &App, area: Rect, buffer: &mut Buffer| {
-            render(app, &mut Inks::new(Glyphs::HalfBlocks), area, buffer);
-        };
-        let lines = drawn(&app, panel, 40, 12);
+        app.shared.pictures.compared_size = Some(size(3, 4));
+        app.shared.pictures.compared.shown = cell_image(3, 4, vec![[9; 3]; 12]);
+        let lines = drawn(&app, inked(render), 40, 12);
         // Twelve rows of two pixels, and three quarters of that.
         assert_eq!(lines[0].matches('▀').count(), 18, "{lines:?}");
     }
 
     #[test]
     fn an_empty_scene_says_what_to_press() {
-        let panel = |app: &App, area: Rect, buffer: &mut Buffer| {
-            render(app, &mut Inks::new(Glyphs::HalfBlocks), area, buffer);
-        };
-        let text = |language, text: &str| drawn(&app_of(language, text), panel, 40, 12).join("\n");
+        let lines = |language, text: &str| drawn(&app_of(language, text), inked(render), 40, 12);
         for (language, empty) in [
             (Language::Ray, ""),
             (Language::Dat, "\n  \n"),
@@ -363,51 +338,51 @@ mod tests {
             (Language::Dat, "viewport 8 6\n"),
             (Language::Xml, "<xml><scene/><camera/></xml>"),
         ] {
-            let text = text(language, empty);
-            for part in ["The scene is empty.", "a        adds", ":e FILE", "? "] {
-                assert!(text.contains(part), "{part} in\n{text}");
-            }
+            let parts = ["The scene is empty.", "a        adds", ":e FILE", "? "];
+            check_shown(&lines(language, empty), &parts);
         }
         for full in ["broken", Language::Ray.template()] {
-            assert!(!text(Language::Ray, full).contains("empty"), "{full}");
+            let text = lines(Language::Ray, full).concat();
+            assert!(!text.contains("empty"), "{full}");
         }
     }
 
     #[test]
     fn a_cell_shows_two_pixels() {
         let [a, b, c, d] = [[1, 2, 3], [40, 50, 60], [255, 0, 0], [0, 0, 255]];
-        let buffer = painted(&shown(2, 2, &[a, b, c, d]), Glyphs::HalfBlocks);
-        let cell = |x| {
-            let cell = &buffer[(x, 0)];
-            (cell.symbol(), cell.fg, cell.bg)
-        };
-        let rgb = |[r, g, b]: [u8; 3]| Color::Rgb(r, g, b);
-        assert_eq!(cell(0), ("▀", rgb(a), rgb(c)));
-        assert_eq!(cell(1), ("▀", rgb(b), rgb(d)));
+        let buffer = painted(&cell_image(2, 2, vec![a, b, c, d]), Glyphs::HalfBlocks);
+        let cells = [0, 1].map(|x| &buffer[(x, 0)]);
+        let shown = cells.map(|cell| (cell.symbol(), cell.fg, cell.bg));
+        assert_eq!(
+            shown,
+            [
+                ("▀", Color::from(a), Color::from(c)),
+                ("▀", Color::from(b), Color::from(d))
+            ]
+        );
     }
 
     #[test]
     fn the_half_below_an_odd_last_row_is_empty() {
-        let buffer = painted(&shown(1, 1, &[[9; 3]]), Glyphs::HalfBlocks);
+        let buffer = painted(&cell_image(1, 1, vec![[9; 3]]), Glyphs::HalfBlocks);
         assert_eq!(buffer[(0, 0)].bg, Color::Reset);
     }
 
     #[test]
     fn the_outline_is_drawn_over_the_picture() {
-        let mut picture = shown(2, 1, &[[9; 3]; 2]);
+        let mut picture = cell_image(2, 1, vec![[9; 3]; 2]);
         picture.outline = vec![true, false];
         let buffer = painted(&picture, Glyphs::HalfBlocks);
-        assert_eq!(buffer[(0, 0)].fg, theme::OUTLINE.into());
-        assert_eq!(buffer[(1, 0)].fg, Color::Rgb(9, 9, 9));
+        let inks = [0, 1].map(|x| buffer[(x, 0)].fg);
+        assert_eq!(inks, [theme::OUTLINE.into(), Color::Rgb(9, 9, 9)]);
     }
 
     #[test]
     fn without_colours_brightness_selects_a_character_and_outlines_are_reversed() {
-        let mut picture = shown(2, 2, &[[255; 3], [0; 3], [255; 3], [0; 3]]);
+        let mut picture = cell_image(2, 2, [[255; 3], [0; 3]].repeat(2));
         picture.outline = [true, false].repeat(2);
         let buffer = painted(&picture, Glyphs::Characters);
-        let cell = |x| (buffer[(x, 0)].symbol(), buffer[(x, 0)].modifier);
-        assert_eq!(cell(0), ("█", Modifier::REVERSED));
-        assert_eq!(cell(1), (" ", Modifier::empty()));
+        let cells = [0, 1].map(|x| (buffer[(x, 0)].symbol(), buffer[(x, 0)].modifier));
+        assert_eq!(cells, [("█", Modifier::REVERSED), (" ", Modifier::empty())]);
     }
 }

@@ -392,115 +392,108 @@ mod tests {
     use super::*;
     use crate::language::Language;
     use crate::render::{Aov, Frame};
-    use crate::scene::{Integrator, Rendering, Size};
-    use crate::ui::app::{Message, Picture, ShownWireframe, Typing};
-    use crate::ui::view::tests::{app, app_of, drawn, retype};
+    use crate::scene::{Integrator, Rendering};
+    use crate::ui::app::{Picture, ShownWireframe, Typing};
+    use crate::ui::layout::tests::size;
+    use crate::ui::view::tests::{app, app_of, drawn, retype, say};
     use tui_input::Input;
 
     #[test]
     fn the_least_important_segments_are_omitted() {
         let mut app = app();
         retype(&mut app, " 0.25 //", " 0.5 //");
-        app.shared.overlays.message = Some(Message {
-            severity: None,
-            text: "took the file's changes".to_owned(),
-        });
+        say(&mut app, None, "took the file's changes");
         let bar = |app: &App, area: Rect, buffer: &mut Buffer| {
             render(app, Glyphs::HalfBlocks, area, buffer);
         };
-        let line = |app: &App, width| drawn(app, bar, width, 1)[0].clone();
-        assert_eq!(
-            line(&app, 60),
-            " SELECT  test.ray [+]  took the file's changes"
-        );
-        assert_eq!(line(&app, 40), " SELECT  [+]  took the file's changes");
-        assert_eq!(line(&app, 25), " SELECT  test.ray [+]");
-        assert_eq!(line(&app, 5), " SEL…");
+        for (width, line) in [
+            (60, " SELECT  test.ray [+]  took the file's changes"),
+            (40, " SELECT  [+]  took the file's changes"),
+            (25, " SELECT  test.ray [+]"),
+            (5, " SEL…"),
+        ] {
+            assert_eq!(drawn(&app, bar, width, 1), [line]);
+        }
         app.shared.disk.state = OnDisk::Unreadable;
-        assert_eq!(line(&app, 40), " SELECT  [+]  [cannot read file]");
+        let line = " SELECT  [+]  [cannot read file]";
+        assert_eq!(drawn(&app, bar, 40, 1), [line]);
+    }
+
+    /// How the picture is made.
+    fn making(app: &App) -> String {
+        let mut words = Vec::new();
+        making_segment(&app.shared, &mut |_, text, _| words.push(text));
+        words.join(" · ")
     }
 
     #[test]
     fn an_integrator_that_differs_from_the_scenes_has_a_star() {
         let mut app = app();
-        let said = |app: &App| {
-            let mut words = Vec::new();
-            making_segment(&app.shared, &mut |_, text, _| words.push(text));
-            words
-        };
-        assert_eq!(said(&app), ["whitted"]);
+        assert_eq!(making(&app), "whitted");
         app.shared.pictures.rendering.integrator = Some(Integrator::Path);
-        assert_eq!(said(&app), ["path*"]);
+        assert_eq!(making(&app), "path*");
         app.shared.pictures.aov = Some(Aov::Depth);
-        assert_eq!(said(&app), ["depth"]);
+        assert_eq!(making(&app), "depth");
         app.shared.pictures.wireframe = Some(ShownWireframe::default());
-        assert_eq!(said(&app), ["wireframe"]);
+        assert_eq!(making(&app), "wireframe");
         let paths = "<xml><scene/><camera gamma='sRGB'/></xml>";
-        assert_eq!(said(&app_of(Language::Xml, paths)), ["path"]);
+        assert_eq!(making(&app_of(Language::Xml, paths)), "path");
+    }
+
+    #[test]
+    fn settings_that_bias_the_picture_are_named() {
+        let mut app = app();
+        for (noise, clamp, words) in [
+            (Some(0.01), None, "whitted · adaptive, slightly biased"),
+            (None, Some(2.0), "whitted · clamped, biased"),
+            // 0 turns it off.
+            (None, Some(0.0), "whitted"),
+        ] {
+            app.shared.pictures.rendering = Rendering {
+                noise,
+                clamp,
+                ..Rendering::default()
+            };
+            assert_eq!(making(&app), words);
+        }
+    }
+
+    fn progress(progress: &Progress) -> String {
+        let mut words = Vec::new();
+        progress_segments(progress, &mut |_, text, _| words.push(text));
+        words.join(" · ")
     }
 
     #[test]
     fn progress_is_shown_until_the_picture_is_complete() {
-        let said = |complete| {
-            let progress = Progress {
-                pass: 3,
-                passes: 6,
-                spp: 2,
-                mean_spp: 2.0,
-                done: 0.25,
-                elapsed: Duration::from_millis(1500),
-                rays: 21_000_000,
-                shadow_rays: 0,
-                over_budget: 0,
-                noise: Some(0.0134),
-                complete,
-            };
-            let mut words = Vec::new();
-            progress_segments(&progress, &mut |_, text, _| words.push(text));
-            words.join(" · ")
+        let mut shown = Progress {
+            pass: 3,
+            passes: 6,
+            spp: 2,
+            mean_spp: 2.0,
+            done: 0.25,
+            elapsed: Duration::from_millis(1500),
+            rays: 21_000_000,
+            noise: Some(0.0134),
+            complete: false,
+            ..Frame::drawn(size(1, 1), Vec::new()).progress
         };
         // A quarter took 1.5 s, so three more take 4.5 s; 21 million in 1.5 s are 14 million per
         // second.
         assert_eq!(
-            said(false),
+            progress(&shown),
             "pass 3/6 · 2 spp · 25 % · noise 1.3 % · 1.5 s · ETA 4.5 s · 14 Mray/s"
         );
-        assert_eq!(said(true), "2 spp · noise 1.3 % · 1.5 s · 14 Mray/s");
+        shown.complete = true;
+        let expected = "2 spp · noise 1.3 % · 1.5 s · 14 Mray/s";
+        assert_eq!(progress(&shown), expected);
     }
 
     #[test]
-    fn adaptive_sampling_tells_the_mean_and_its_bias() {
-        let progress = Progress {
-            spp: 256,
-            mean_spp: 41.3,
-            ..Frame::drawn(
-                Size {
-                    width: 1,
-                    height: 1,
-                },
-                Vec::new(),
-            )
-            .progress
-        };
-        let mut words = Vec::new();
-        progress_segments(&progress, &mut |_, text, _| words.push(text));
-        assert_eq!(words, ["41 of 256 spp"]);
-        let mut app = app();
-        app.shared.pictures.rendering.noise = Some(0.01);
-        words.clear();
-        making_segment(&app.shared, &mut |_, text, _| words.push(text));
-        assert_eq!(words, ["whitted", "adaptive, slightly biased"]);
-        app.shared.pictures.rendering = Rendering {
-            clamp: Some(2.0),
-            ..Rendering::default()
-        };
-        words.clear();
-        making_segment(&app.shared, &mut |_, text, _| words.push(text));
-        assert_eq!(words, ["whitted", "clamped, biased"]);
-        app.shared.pictures.rendering.clamp = Some(0.0);
-        words.clear();
-        making_segment(&app.shared, &mut |_, text, _| words.push(text));
-        assert_eq!(words, ["whitted"], "0 turns it off");
+    fn adaptive_sampling_tells_the_mean() {
+        let mut shown = Frame::drawn(size(1, 1), Vec::new()).progress;
+        (shown.spp, shown.mean_spp) = (256, 41.3);
+        assert_eq!(progress(&shown), "41 of 256 spp");
     }
 
     #[test]
@@ -523,43 +516,34 @@ mod tests {
 
     #[test]
     fn times_are_short() {
-        let check = |seconds, text: &str| assert_eq!(duration(Duration::from_secs(seconds)), text);
-        check(9, "9.0 s");
-        check(59, "59 s");
-        check(61, "1:01 min");
-        check(7260, "2:01 h");
+        let times = [9, 59, 61, 7260].map(|seconds| duration(Duration::from_secs(seconds)));
+        assert_eq!(times, ["9.0 s", "59 s", "1:01 min", "2:01 h"]);
     }
 
     #[test]
     fn hints_for_help_commands_and_quitting_outlast_all_others() {
         let mut app = app();
-        let hint = |app: &App, width| drawn(app, render_hint, width, 1)[0].clone();
-        assert_eq!(
-            hint(&app, 49),
-            " j/k move  Enter edit  ? help  : command  q quit"
-        );
-        assert_eq!(hint(&app, 40), " j/k move     ? help  : command  q quit");
-        assert_eq!(hint(&app, 20), " ? : q");
+        let hint = |app: &App, width| drawn(app, render_hint, width, 1).concat();
+        for (width, shown) in [
+            (49, " j/k move  Enter edit  ? help  : command  q quit"),
+            (40, " j/k move     ? help  : command  q quit"),
+            (20, " ? : q"),
+        ] {
+            assert_eq!(hint(&app, width), shown);
+        }
+        let wide = hint(&app, 80);
+        assert!(wide.starts_with(" j/k move  Enter edit"), "{wide}");
+        assert!(wide.ends_with("? help  : command  q quit"), "{wide}");
         app.shared.cursor.typing = Some(Typing::default());
         assert!(hint(&app, 80).starts_with(" Enter keep  Esc cancel  Tab keep, next number"));
         assert_eq!(hint(&app, 30), " Enter keep  Esc cancel");
-    }
-
-    #[test]
-    fn a_prompt_replaces_the_keys() {
-        let mut app = app();
-        let hint = drawn(&app, render_hint, 80, 1)[0].clone();
-        assert!(
-            hint.starts_with(" j/k move  Enter edit")
-                && hint.ends_with("? help  : command  q quit"),
-            "{hint}"
-        );
         app.shared.overlays.prompt = Some(Prompt {
             kind: PromptKind::Command,
             is_selected: false,
             input: Input::new("export a.bmp".to_owned()),
             opened: String::new(),
         });
-        assert_eq!(drawn(&app, render_hint, 80, 1)[0], ":export a.bmp");
+        // A prompt replaces the keys.
+        assert_eq!(hint(&app, 80), ":export a.bmp");
     }
 }

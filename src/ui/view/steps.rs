@@ -145,61 +145,42 @@ fn show(
 
 #[cfg(test)]
 mod tests {
-    use crossterm::event::KeyCode;
-    use ratatui::buffer::Buffer;
-    use ratatui::layout::Rect;
-
-    use crate::ui::app::App;
+    use super::*;
     use crate::ui::keymap::Context;
-    use crate::ui::msg::Msg;
-    use crate::ui::view::Inks;
-    use crate::ui::view::inks::Glyphs;
-    use crate::ui::view::tests::{app, drawn};
+    use crate::ui::view::tests::{app, drawn, inked, press};
 
     /// The page after a duplication, which was undone, and a nudge that is then undone as well.
     fn lines(has_colours: bool, width: u16, height: u16) -> Vec<String> {
         let mut app = app();
         app.shared.has_colours = has_colours;
-        for key in ['j', 'j', 'j', 'D', 'e', 'l', 'l', 'u', 'U'] {
-            app.update(Msg::Key(KeyCode::Char(key).into()));
-        }
-        let panel = |app: &App, area: Rect, buffer: &mut Buffer| {
-            let page = app
-                .shared
-                .overlays
-                .page(Context::Steps)
-                .expect("it is open");
-            super::render(app, page, &mut Inks::new(Glyphs::HalfBlocks), area, buffer);
+        press(&mut app, "jjjDelluU");
+        let panel = |app: &App, inks: &mut Inks, area: Rect, buffer: &mut Buffer| {
+            let page = app.shared.overlays.page(Context::Steps);
+            render(app, page.expect("it is open"), inks, area, buffer);
         };
-        drawn(&app, panel, width, height)
+        drawn(&app, inked(panel), width, height)
     }
 
     #[test]
     fn without_colours_or_room_there_are_only_names() {
         for (has_colours, width, height) in [(false, 70, 12), (true, 70, 10), (false, 100, 40)] {
             let lines = lines(has_colours, width, height);
-            let row = |at: usize| lines[at].trim_matches(['│', ' ']).to_owned();
-            assert!(row(1).starts_with("as opened"), "{lines:#?}");
-            assert!(row(1).ends_with("1 step back"), "{lines:#?}");
-            assert!(
-                row(2).starts_with("▸ duplicated object 1 (sphere)"),
-                "{lines:#?}"
-            );
-            assert!(row(2).ends_with("now"), "{lines:#?}");
-            assert!(
-                row(3).contains("0.2, 2 nudges ") && row(3).ends_with("1 step ahead"),
-                "{lines:#?}"
-            );
+            for (at, begin, end) in [
+                (1, "as opened", "1 step back"),
+                (2, "▸ duplicated object 1 (sphere)", "now"),
+                (3, "", "1 step ahead"),
+            ] {
+                let row = lines[at].trim_matches(['│', ' ']);
+                assert!(row.starts_with(begin) && row.ends_with(end), "{lines:#?}");
+            }
+            assert!(lines[3].contains("0.2, 2 nudges "), "{lines:#?}");
         }
     }
 
+    /// Three rows and one at the side.
     #[test]
     fn pictures_are_announced_until_they_are_traced() {
         let text = lines(true, 90, 30).join("\n");
-        assert_eq!(
-            text.matches('…').count(),
-            4,
-            "three rows and one at the side\n{text}"
-        );
+        assert_eq!(text.matches('…').count(), 4, "{text}");
     }
 }

@@ -41,8 +41,7 @@ mod tests {
 
     use super::*;
     use crate::language::{Language, Node};
-    use crate::ui::msg::Msg;
-    use crate::ui::view::tests::app_of;
+    use crate::ui::view::tests::{app_of, press};
 
     const TWO_LIGHTS: &str = "\
 // view: eye 0 0 10 target 0 0 0 up 0 1 0 fov 60 size 400 300
@@ -59,18 +58,14 @@ sphere 0 0 0 1  0 0 0 .5 .5 .5 0 0 0 1 0 0 1
         for (glyphs, sign) in [(Glyphs::HalfBlocks, "✶"), (Glyphs::Characters, "*")] {
             let mut app = app_of(Language::Ray, TWO_LIGHTS);
             // From the view to the first light.
-            for key in ['j', 'j'] {
-                app.update(Msg::Key(crossterm::event::KeyCode::Char(key).into()));
-            }
+            press(&mut app, "jj");
             assert_eq!(app.shared.cursor.selected(), Node::Light(0));
             let (cells, _) = app.shared.raster().expect("there is room");
             let mut buffer = Buffer::empty(cells);
             render(&app.shared, glyphs, cells, &mut buffer);
             let signs = buffer.content.iter().filter(|cell| cell.symbol() == sign);
-            let reversed: Vec<_> = signs
-                .map(|cell| cell.modifier.contains(Modifier::REVERSED))
-                .collect();
-            assert_eq!(reversed, [true, false]);
+            let is_reversed = signs.map(|cell| cell.modifier.contains(Modifier::REVERSED));
+            assert_eq!(is_reversed.collect::<Vec<_>>(), [true, false]);
         }
     }
 }

@@ -14,17 +14,18 @@ use super::inks::Glyphs;
 use super::{Inks, draw};
 use crate::document::{Document, Merge, Side};
 use crate::language::{Language, Node};
-use crate::render::{Frame, NO_OBJECT, Overexposure, Progress};
-use crate::scene::{Rendering, Size};
+use crate::render::{Frame, NO_OBJECT, Progress};
+use crate::scene::Rendering;
 use crate::text::{Edit, Severity, Span};
 use crate::ui::app::{
-    AfterLeaving, App, Cross, Dialog, Export, FrameWindow, MergeSource, Message, Names, OnDisk,
-    Opening, OpeningText, Page, PageFocus, Preferences, Prompt, PromptKind, ShownWireframe, Stage,
-    Typing, display,
+    AfterLeaving, App, CellImage, Cross, Dialog, FrameWindow, MergeSource, Message, Names, OnDisk,
+    Opening, OpeningText, Page, PageFocus, Preferences, Prompt, PromptKind, ShownWireframe, Typing,
+    display,
 };
 use crate::ui::arrange::Zoom;
 use crate::ui::keymap::{Context, Mode};
-use crate::ui::msg::{Destination, Existing, ExportId, Msg};
+use crate::ui::layout::tests::size;
+use crate::ui::msg::{ExportId, Msg};
 use crate::ui::recovery::Offer;
 use crate::ui::recovery::tests::{damaged, offer};
 use crate::ui::terminal::Mouse;
@@ -64,43 +65,88 @@ pub(super) fn app_of(language: Language, text: &str) -> App {
 
 /// Replaces the first `old` in the text by `new`, as an edit.
 pub(super) fn retype(app: &mut App, old: &str, new: &str) {
-    let at = app
-        .shared
-        .document
-        .text()
-        .find(old)
-        .expect("the text has it");
-    app.shared.document.edit(&[Edit {
+    let shared = &mut app.shared;
+    let at = shared.document.text().find(old).expect("the text has it");
+    shared.document.edit(&[Edit {
         span: Span::new(at, at + old.len()),
         text: new.to_owned(),
     }]);
-    let lowered = app
-        .shared
-        .document
-        .lower(&app.shared.assets.meshes)
-        .expect("there is memory");
-    app.shared.diagnostics = lowered.diagnostics;
-    app.shared
-        .cursor
-        .renew(app.shared.document.source(), Names::Changed);
+    let lowered = shared.document.lower(&shared.assets.meshes);
+    shared.diagnostics = lowered.expect("there is memory").diagnostics;
+    let source = shared.document.source();
+    shared.cursor.renew(source, Names::Changed);
 }
 
 /// The conflict between the text and a text from outside.
 pub(super) fn conflict(app: &App, theirs: &str) -> Merge {
-    let theirs = Document::new(app.shared.document.language(), theirs.to_owned());
-    let merged = app
-        .shared
-        .document
-        .snapshot()
-        .merge(theirs, &app.shared.assets.meshes);
+    let document = &app.shared.document;
+    let theirs = Document::new(document.language(), theirs.to_owned());
+    let merged = document.snapshot().merge(theirs, &app.shared.assets.meshes);
     let merged = merged.expect("there is memory");
     merged.expect_err("both changed the same place")
+}
+
+/// Asks about the first conflict of a merge with the file.
+pub(super) fn ask(app: &mut App, merge: Merge) {
+    app.shared.overlays.dialog = Some(Dialog::Conflict {
+        merge,
+        at: 0,
+        from: MergeSource::File,
+    });
 }
 
 /// Selects a row of the list.
 pub(super) fn select(app: &mut App, node: Node) {
     let source = app.shared.document.source();
     app.shared.cursor.select(node, source);
+}
+
+/// Presses the keys of these characters.
+pub(super) fn press(app: &mut App, keys: &str) {
+    for key in keys.chars() {
+        app.update(Msg::Key(KeyCode::Char(key).into()));
+    }
+}
+
+/// A value that is being typed.
+pub(super) fn typing(text: &str) -> Typing {
+    Typing {
+        input: Input::new(text.to_owned()),
+        ..Typing::default()
+    }
+}
+
+/// Shows a message.
+pub(super) fn say(app: &mut App, severity: Option<Severity>, text: &str) {
+    app.shared.overlays.message = Some(Message {
+        severity,
+        text: text.to_owned(),
+    });
+}
+
+/// Shows a picture with all its pixels at once.
+pub(super) fn show(app: &mut App, picture: Arc<Frame>, window: &FrameWindow) {
+    let preview = &mut app.shared.pictures.preview;
+    preview.take(picture);
+    preview.advance(window, &[], usize::MAX);
+}
+
+/// Asserts that each part is somewhere in the lines.
+#[track_caller]
+pub(super) fn check_shown(lines: &[String], parts: &[&str]) {
+    let text = lines.join("\n");
+    for part in parts {
+        assert!(text.contains(part), "{part:?} in\n{text}");
+    }
+}
+
+/// A panel that draws with inks, which are half blocks.
+pub(super) fn inked<S, R>(
+    panel: impl Fn(&S, &mut Inks, Rect, &mut Buffer) -> R,
+) -> impl Fn(&S, Rect, &mut Buffer) {
+    move |state: &S, area, buffer: &mut Buffer| {
+        panel(state, &mut Inks::new(Glyphs::HalfBlocks), area, buffer);
+    }
 }
 
 /// The lines of a panel without trailing spaces.
@@ -110,9 +156,8 @@ pub(super) fn drawn<S>(
     width: u16,
     height: u16,
 ) -> Vec<String> {
-    let area = Rect::new(0, 0, width, height);
-    let mut buffer = Buffer::empty(area);
-    panel(state, area, &mut buffer);
+    let mut buffer = Buffer::empty(Rect::new(0, 0, width, height));
+    panel(state, buffer.area, &mut buffer);
     lines(&buffer)
 }
 
@@ -129,45 +174,47 @@ fn screen(app: &mut App, width: u16, height: u16) -> Vec<String> {
     app.shared.terminal = (width, height);
     display::follow_wires(&mut app.shared);
     let mut terminal = Terminal::new(TestBackend::new(width, height)).expect("cannot fail");
-    terminal
-        .draw(|frame| {
-            draw(app, &mut Inks::new(Glyphs::HalfBlocks), frame);
-        })
-        .expect("cannot fail");
-    lines(terminal.backend().buffer())
+    let mut inks = Inks::new(Glyphs::HalfBlocks);
+    let drawn = terminal.draw(|frame| {
+        draw(app, &mut inks, frame);
+    });
+    lines(drawn.expect("cannot fail").buffer)
+}
+
+/// A picture without objects, as it is shown.
+pub(super) fn cell_image(width: u32, height: u32, pixels: Vec<[u8; 3]>) -> CellImage {
+    CellImage {
+        size: size(width, height),
+        objects: vec![NO_OBJECT; pixels.len()],
+        pixels,
+        outline: Vec::new(),
+    }
 }
 
 /// A grey frame with object 1 in its right half.
 pub(super) fn frame(width: u32, height: u32) -> Arc<Frame> {
-    let size = Size { width, height };
-    let under = |at: u32| u32::from(width / 2 <= at % width);
+    let object = |at| {
+        if width / 2 <= at % width {
+            1
+        } else {
+            NO_OBJECT
+        }
+    };
+    let pixels = vec![[100; 3]; size(width, height).pixels()];
+    let drawn = Frame::drawn(size(width, height), pixels);
     Arc::new(Frame {
         generation: 1,
-        size,
-        corner: [0; 2],
-        pixels: vec![[100; 3]; size.pixels()],
-        values: Vec::new(),
-        denoised: Vec::new(),
-        errors: Vec::new(),
-        range: None,
-        overexposure: Overexposure::default(),
-        objects: (0..width * height)
-            .map(|at| if under(at) == 1 { 1 } else { NO_OBJECT })
-            .collect(),
+        objects: (0..width * height).map(object).collect(),
         progress: Progress {
-            pass: 1,
             passes: 7,
-            spp: 1,
-            mean_spp: 1.0,
             done: 0.5,
             elapsed: std::time::Duration::from_millis(300),
             rays: 1_000_000,
-            shadow_rays: 0,
             over_budget: 3,
-            noise: None,
             complete: false,
+            ..drawn.progress
         },
-        query: None,
+        ..drawn
     })
 }
 
@@ -177,15 +224,7 @@ type Change = fn(&mut App);
 const STATES: &[(&str, Change)] = &[
     ("nothing", |_| {}),
     ("picture", |app| {
-        app.shared.pictures.preview.take(frame(8, 6));
-        app.shared.pictures.preview.advance(
-            &FrameWindow::whole(Size {
-                width: 8,
-                height: 6,
-            }),
-            &[],
-            usize::MAX,
-        );
+        show(app, frame(8, 6), &FrameWindow::whole(size(8, 6)));
         select(app, Node::Object(1));
     }),
     ("picture alone", |app| app.shared.zoom = Zoom::Picture),
@@ -203,13 +242,16 @@ const STATES: &[(&str, Change)] = &[
         retype(app, SCENE, "");
         app.shared.scene = None;
         select(app, Node::Object(9));
-        app.shared.cursor.field = 99;
-        app.shared.cursor.component = 99;
-        app.shared.cursor.list_top = 99;
-        app.shared.cursor.field_top = 99;
+        let cursor = &mut app.shared.cursor;
+        [
+            cursor.field,
+            cursor.component,
+            cursor.list_top,
+            cursor.field_top,
+        ] = [99; 4];
     }),
-    ("help", |App { shared, .. }| {
-        shared.overlays.open_page(Page::reading(Context::Help));
+    ("help", |app| {
+        app.shared.overlays.open_page(Page::reading(Context::Help));
     }),
     ("help, far down", |app| {
         let mut page = Page::reading(Context::Help);
@@ -229,7 +271,7 @@ const STATES: &[(&str, Change)] = &[
     }),
     ("wires", |app| {
         app.shared.pictures.wireframe = Some(ShownWireframe::default());
-        app.update(Msg::Key(KeyCode::Char('O').into()));
+        press(app, "O");
     }),
     ("history", |app| {
         let mut page = Page::reading(Context::Messages);
@@ -241,13 +283,11 @@ const STATES: &[(&str, Change)] = &[
         app.shared.mode = Mode::Select;
         app.shared.has_colours = true;
         select(app, Node::Object(0));
-        for key in ['D', 'D', 'd', 'u', 'U', 'k'] {
-            app.update(Msg::Key(KeyCode::Char(key).into()));
-        }
+        press(app, "DDduUk");
         assert!(app.shared.overlays.page(Context::Steps).is_some());
     }),
     ("overwrite", |app| {
-        app.update(Msg::Key(KeyCode::Char('b').into()));
+        press(app, "b");
         app.update(Msg::Taken(ExportId(1), "it exists".to_owned()));
         assert!(app.shared.overlays.dialog.is_some());
     }),
@@ -261,180 +301,121 @@ const STATES: &[(&str, Change)] = &[
         retype(app, " 0.25 ", " 0.5 ");
         let mut merge = conflict(app, &SCENE.replace(" 0.25 ", " 0.75 "));
         merge.conflicts[0].decision = Some(Side::Mine);
-        app.shared.overlays.dialog = Some(Dialog::Conflict {
-            merge,
-            at: 0,
-            from: MergeSource::File,
-        });
+        ask(app, merge);
     }),
     ("typing", |app| {
         select(app, Node::Object(0));
-        app.shared.cursor.typing = Some(Typing {
-            input: Input::new("1234567890123456789012345678901234567890".to_owned()),
-            ..Typing::default()
-        });
+        app.shared.cursor.typing = Some(typing(&"1234567890".repeat(4)));
     }),
     ("menu", |app| {
         app.shared.mode = Mode::Select;
-        for key in ['a', 's'] {
-            app.update(Msg::Key(KeyCode::Char(key).into()));
-        }
+        press(app, "as");
         assert!(app.shared.overlays.menu.is_some());
     }),
     ("colour picker", |app| {
         app.shared.mode = Mode::Select;
         select(app, Node::Object(0));
-        for key in ['e', 'j', 'j', 'c', 'l'] {
-            app.update(Msg::Key(KeyCode::Char(key).into()));
-        }
+        press(app, "ejjcl");
         assert!(app.shared.overlays.picker.is_some());
     }),
     ("palette", |app| {
-        for key in [':', 'e'] {
-            app.update(Msg::Key(KeyCode::Char(key).into()));
-        }
+        press(app, ":e");
         app.update(Msg::Key(KeyCode::Tab.into()));
     }),
     ("prompt", |app| {
         app.shared.overlays.prompt = Some(Prompt {
             kind: PromptKind::Filter(Node::View),
             is_selected: false,
-            input: Input::new("界界界界界界界界界界界界界界界界".to_owned()).with_cursor(3),
+            input: Input::new("界".repeat(16)).with_cursor(3),
             opened: String::new(),
         });
     }),
     ("message", |app| {
-        app.shared.overlays.message = Some(Message {
-            severity: Some(Severity::Warning),
-            text: "界\u{1b}]52;c;界\u{7}".repeat(20),
-        });
+        press(app, "b");
+        assert!(app.shared.jobs.export.is_some());
+        let text = "界\u{1b}]52;c;界\u{7}".repeat(20);
+        say(app, Some(Severity::Warning), &text);
         app.shared.pictures.net = Some(86_000);
         app.shared.pictures.view = app.shared.camera();
         app.shared.disk.state = OnDisk::Changed;
-        app.shared.jobs.export = Some(Export {
-            id: ExportId::default(),
-            stage: Stage::Tracing,
-            destination: Destination {
-                path: PathBuf::from("out.bmp"),
-                existing: Existing::Kept,
-                scene: None,
-                named: Vec::new(),
-                origin: None,
-            },
-            frames: None,
-            reel: None,
-            size: Size {
-                width: 4,
-                height: 3,
-            },
-            spp: 16,
-            aov: None,
-            progress: None,
-            written_for: 0,
-        });
     }),
-];
-
-const MODES: [Mode; 6] = [
-    Mode::Select,
-    Mode::View,
-    Mode::Edit,
-    Mode::Trace,
-    Mode::Inspect,
-    Mode::Compare,
 ];
 
 #[test]
 fn every_screen_can_be_drawn_at_every_size() {
+    use Mode::{Compare, Edit, Inspect, Select, Trace, View};
     let small = (0..=30).flat_map(|width| (0..=12).map(move |height| (width, height)));
-    let thresholds = [
-        (19, 6),
-        (20, 6),
-        (39, 16),
-        (40, 15),
-        (40, 16),
-        (79, 24),
-        (80, 23),
-        (80, 24),
-        (200, 50),
-    ];
-    let sizes: Vec<_> = small.chain(thresholds).collect();
+    let narrow = [(19, 6), (20, 6), (39, 16), (40, 15), (40, 16)];
+    let wide = [(79, 24), (80, 23), (80, 24), (200, 50)];
+    let sizes: Vec<_> = small.chain(narrow).chain(wide).collect();
     for (name, change) in STATES {
-        for mode in MODES {
+        for mode in [Select, View, Edit, Trace, Inspect, Compare] {
             let mut app = app();
             app.shared.mode = mode;
             app.shared.inspection.cross = Some(Cross {
                 pixel: [3, 300],
-                size: Size {
-                    width: 4,
-                    height: 3,
-                },
+                size: size(4, 3),
             });
             change(&mut app);
             for &(width, height) in &sizes {
                 let lines = screen(&mut app, width, height);
-                let is_control = |c: char| c.is_control();
-                assert!(!lines.concat().contains(is_control), "{name} {mode:?}");
+                let has_control = lines.concat().contains(char::is_control);
+                assert!(!has_control, "{name} {mode:?}");
             }
         }
     }
 }
 
-/// The last line while a field of the first object is edited on a screen without panels.
-fn last_line(size: (u16, u16), field: usize, change: fn(&mut App)) -> String {
+/// The words of lines, with one space between them.
+fn words(lines: &[String]) -> String {
+    let words = lines.iter().flat_map(|line| line.split_whitespace());
+    words.collect::<Vec<_>>().join(" ")
+}
+
+/// The words of the last line while a field of the first object is edited.
+fn last_line((width, height): (u16, u16), field: usize, change: Change) -> String {
     let mut app = app();
     app.shared.mode = Mode::Edit;
     select(&mut app, Node::Object(0));
     (app.shared.cursor.field, app.shared.cursor.component) = (field, usize::from(field != 1));
     change(&mut app);
-    let lines = screen(&mut app, size.0, size.1);
-    let words = lines.last().map(|line| line.split_whitespace());
-    words.map_or_else(String::new, |words| words.collect::<Vec<_>>().join(" "))
+    let lines = screen(&mut app, width, height);
+    words(&lines[lines.len() - 1..])
 }
 
 #[test]
-fn the_current_field_is_shown_where_there_are_no_panels() {
-    let shown = |size, field| last_line(size, field, |_| {});
-    assert_eq!(shown((30, 10), 0), "EDIT centre 0 .5 -1e0");
-    assert_eq!(shown((50, 14), 1), "EDIT test.ray whitted radius 0.25");
-    assert_eq!(shown((20, 6), 0), "EDIT centre y .5");
-    let zoomed = last_line((100, 30), 2, |app| app.shared.zoom = Zoom::Picture);
-    assert!(zoomed.ends_with("ka 0.1 0.1 0.1"), "{zoomed}");
-    let panels = shown((80, 24), 0);
+fn the_current_field_and_what_is_typed_are_shown_where_there_are_no_panels() {
+    let nothing: Change = |_| {};
+    let zoom: Change = |app| app.shared.zoom = Zoom::Picture;
+    let short: Change = |app| app.shared.cursor.typing = Some(typing("2.75"));
+    let long: Change = |app| app.shared.cursor.typing = Some(typing("123456789012345678"));
+    for (size, field, change, shown) in [
+        ((30, 10), 0, nothing, "EDIT centre 0 .5 -1e0"),
+        ((50, 14), 1, nothing, "EDIT test.ray whitted radius 0.25"),
+        ((20, 6), 0, nothing, "EDIT centre y .5"),
+        ((100, 30), 2, zoom, "…ka 0.1 0.1 0.1"),
+        ((40, 12), 0, short, "EDIT centre y 2.75"),
+        ((20, 6), 0, long, "…8"),
+    ] {
+        let line = last_line(size, field, change);
+        let end = shown.strip_prefix('…');
+        let is_shown = end.map_or(line == shown, |end| line.ends_with(end));
+        assert!(is_shown, "{shown}, but {line}");
+    }
+    let panels = last_line((80, 24), 0, nothing);
     assert!(!panels.contains("centre"), "{panels}");
 }
 
 #[test]
-fn what_is_typed_is_shown_where_there_are_no_panels() {
-    let typing: fn(&mut App) = |app| {
-        app.shared.cursor.typing = Some(Typing {
-            input: Input::new("2.75".to_owned()),
-            ..Typing::default()
-        });
-    };
-    let line = last_line((40, 12), 0, typing);
-    assert_eq!(line, "EDIT centre y 2.75");
-    let long: fn(&mut App) = |app| {
-        app.shared.cursor.typing = Some(Typing {
-            input: Input::new("123456789012345678".to_owned()),
-            ..Typing::default()
-        });
-    };
-    assert!(last_line((20, 6), 0, long).ends_with('8'));
-
+fn why_a_value_is_refused_is_shown_where_there_are_no_panels() {
     let mut app = app();
     app.shared.mode = Mode::Edit;
     select(&mut app, Node::Object(0));
-    for key in ["j", "-", "3"] {
-        let key = key.chars().next().map(KeyCode::Char);
-        app.update(Msg::Key(key.expect("a key").into()));
-    }
+    press(&mut app, "j-3");
     app.update(Msg::Key(KeyCode::Enter.into()));
     let lines = screen(&mut app, 40, 12);
-    assert!(
-        lines.concat().contains("must be greater than 0"),
-        "{lines:?}"
-    );
+    let shown = words(&lines);
+    assert!(shown.contains("must be greater than 0"), "{shown}");
     assert!(lines[11].ends_with("radius -3"), "{}", lines[11]);
 }
 
@@ -456,10 +437,7 @@ fn a_message_longer_than_the_status_line_is_shown_in_full() {
     ] {
         for width in [20, 40, 80, 150] {
             let mut app = app();
-            app.shared.overlays.message = Some(Message {
-                severity: Some(Severity::Error),
-                text: text.to_owned(),
-            });
+            say(&mut app, Some(Severity::Error), text);
             let lines = screen(&mut app, width, 24);
             let shown: String = lines.concat().split_whitespace().collect();
             let words: String = text.split_whitespace().collect();
@@ -470,70 +448,45 @@ fn a_message_longer_than_the_status_line_is_shown_in_full() {
 
 #[test]
 fn the_changes_in_recovered_edits_are_counted() {
-    let shown = |change: fn(&str) -> String, follow: fn(Offer) -> Offer| {
+    let shown = |kept: &str, follow: fn(Offer) -> Offer| {
         let mut app = app();
         let text = app.shared.document.shared_text();
-        let offer = follow(offer(Language::Ray, &text, SCENE, &change(SCENE)));
+        let offer = follow(offer(Language::Ray, &text, SCENE, kept));
         app.shared.overlays.dialog = Some(Dialog::Recover(Box::new(offer)));
-        let lines = screen(&mut app, 100, 30);
-        let words: Vec<_> = lines.iter().flat_map(|line| line.split('│')).collect();
-        words
-            .join(" ")
-            .split_whitespace()
-            .collect::<Vec<_>>()
-            .join(" ")
+        words(&[screen(&mut app, 100, 30).join(" ").replace('│', " ")])
     };
-    let one = shown(|text| text.replacen(" 0.25 ", " 0.5 ", 1), |offer| offer);
+    let one = SCENE.replacen(" 0.25 ", " 0.5 ", 1);
+    let two = shown(&one.replacen('1', "2", 1), damaged);
+    let one = shown(&one, |offer| offer);
     assert!(one.contains("1 place differs from the file"), "{one}");
     assert!(!one.contains("damaged"), "{one}");
-    let two = |text: &str| text.replacen(" 0.25 ", " 0.5 ", 1).replacen('1', "2", 1);
-    let two = shown(two, damaged);
-    assert!(
-        two.contains("2 places differ from the file. Part of their journal is damaged"),
-        "{two}"
-    );
+    let expected = "2 places differ from the file. Part of their journal is damaged";
+    assert!(two.contains(expected), "{two}");
 }
 
 #[test]
 fn a_picture_that_is_not_being_traced_is_not_announced() {
     let mut app = app();
-    let mut says = |wanted, words| {
+    for (wanted, words) in [(Some(1), "tracing…"), (None, " no picture ")] {
         app.shared.pictures.preview.wanted = wanted;
-        let text = screen(&mut app, 80, 24).join("\n");
-        assert!(text.contains(words), "{words:?} in\n{text}");
-    };
-    says(Some(1), "tracing…");
-    says(None, " no picture ");
+        check_shown(&screen(&mut app, 80, 24), &[words]);
+    }
 }
 
 #[test]
 fn errors_mark_the_picture_as_stale_and_are_explained() {
     let mut app = app();
-    app.shared.pictures.preview.take(frame(8, 6));
     let size = app.shared.raster().expect("there is room").1;
-    app.shared
-        .pictures
-        .preview
-        .advance(&FrameWindow::whole(size), &[], usize::MAX);
+    show(&mut app, frame(8, 6), &FrameWindow::whole(size));
     retype(&mut app, " 0.25 ", " -1 ");
-    let text = screen(&mut app, 100, 30).join("\n");
-    for part in ["STALE", "1 error", "test.ray:6:18", "^^", "SELECT", "[+]"] {
-        assert!(text.contains(part), "{part:?} in\n{text}");
-    }
+    let parts = ["STALE", "1 error", "test.ray:6:18", "^^", "SELECT", "[+]"];
+    check_shown(&screen(&mut app, 100, 30), &parts);
 }
 
 #[test]
 fn a_picture_of_another_size_is_scaled_to_its_place() {
     let mut app = app();
-    app.shared.pictures.preview.take(frame(4, 3));
-    app.shared.pictures.preview.advance(
-        &FrameWindow::whole(Size {
-            width: 4,
-            height: 3,
-        }),
-        &[],
-        usize::MAX,
-    );
+    show(&mut app, frame(4, 3), &FrameWindow::whole(size(4, 3)));
     let lines = screen(&mut app, 20, 7);
     // 8:6 in 20×12 pixels is 16×12.
     assert_eq!(lines[0], format!("  {}", "▀".repeat(16)));
@@ -548,7 +501,6 @@ fn malformed_xml_is_drawn() {
             let lines = screen(&mut app, width, height);
             assert_eq!(lines.len(), usize::from(height));
         }
-        let lines = screen(&mut app, 80, 24).join("\n");
-        assert!(lines.contains("error"), "{lines}");
+        check_shown(&screen(&mut app, 80, 24), &["error"]);
     }
 }

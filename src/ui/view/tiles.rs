@@ -51,40 +51,30 @@ mod tests {
     use ratatui::style::Color;
 
     use super::*;
-    use crate::render::NO_OBJECT;
     use crate::ui::view::inks::Glyphs;
+    use crate::ui::view::tests::cell_image;
 
     #[test]
     fn a_mosaic_shows_more_pixels_and_repeats_the_last_ones() {
         let [a, b] = [[250, 0, 0], [0, 0, 250]];
         // Three columns and five rows: the second column and row of cells lack pixels.
-        let size = Size {
-            width: 3,
-            height: 5,
-        };
-        let picture = CellImage {
-            size,
-            pixels: [[a, b, a]; 4]
-                .concat()
-                .into_iter()
-                .chain([b, a, b])
-                .collect(),
-            objects: vec![NO_OBJECT; size.pixels()],
-            outline: Vec::new(),
-        };
-        let area = Rect::new(1, 1, 2, 2);
+        let rows = [[a, b, a], [a, b, a], [a, b, a], [a, b, a], [b, a, b]];
+        let picture = cell_image(3, 5, rows.concat());
         let mut buffer = Buffer::empty(Rect::new(0, 0, 4, 4));
         let mut inks = Inks::new(Glyphs::HalfBlocks);
+        let area = Rect::new(1, 1, 2, 2);
         paint(&picture, Mosaic::Octant, &mut inks, area, &mut buffer);
-        let rgb = |[red, green, blue]: [u8; 3]| Color::Rgb(red, green, blue);
-        let cell = |x, y| {
-            let cell = &buffer[(x, y)];
-            (cell.symbol(), cell.fg, cell.bg)
-        };
-        assert_eq!(cell(1, 1), ("▌", rgb(a), rgb(b)));
-        assert_eq!(cell(1, 2), ("▌", rgb(b), rgb(a)));
-        assert_eq!((cell(2, 1).0, cell(2, 1).2), (" ", rgb(a)));
-        assert_eq!((cell(2, 2).0, cell(2, 2).2), (" ", rgb(b)));
-        assert_eq!(cell(3, 1).0, " ");
+        let [a, b] = [a, b].map(|[red, green, blue]| Color::Rgb(red, green, blue));
+        for (at, symbol, ink, paper) in [
+            ((1, 1), "▌", Some(a), b),
+            ((1, 2), "▌", Some(b), a),
+            ((2, 1), " ", None, a),
+            ((2, 2), " ", None, b),
+        ] {
+            let cell = &buffer[at];
+            assert_eq!((cell.symbol(), cell.bg), (symbol, paper), "{at:?}");
+            assert!(ink.is_none_or(|ink| cell.fg == ink), "{at:?}");
+        }
+        assert_eq!(buffer[(3, 1)].symbol(), " ");
     }
 }

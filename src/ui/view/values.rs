@@ -82,34 +82,27 @@ mod tests {
     use crate::render::Region;
     use crate::scene::Size;
     use crate::ui::app::Grid;
+    use crate::ui::layout::tests::size;
+    use crate::ui::view::tests::lines as lines_of;
+
+    /// A part of a picture where it fills so many pixels of the screen.
+    fn window(whole: Size, part: Region, fills: Size) -> FrameWindow {
+        FrameWindow {
+            window: Some(Window { whole, part, fills }),
+            ..FrameWindow::whole(fills)
+        }
+    }
 
     /// What is written into the pixels of a part of a picture that fills so many cells.
     fn written(part: &str, (columns, rows): (u16, u16)) -> Vec<String> {
-        let size = Size {
-            width: 4,
-            height: 3,
-        };
-        let colours = (0..12).map(|at| [20 * at, 7, 255]).collect();
-        let mut frame = Frame::drawn(size, colours);
+        let whole = size(4, 3);
+        let mut frame = Frame::drawn(whole, (0..12).map(|at| [20 * at, 7, 255]).collect());
         frame.values = vec![[0.5, -1.0, 12.3456]; 12];
-        let area = Rect::new(0, 0, columns, rows);
-        let fills = Size {
-            width: columns.into(),
-            height: 2 * u32::from(rows),
-        };
-        let frame_window = FrameWindow {
-            window: Some(Window {
-                whole: size,
-                part: Region::parse(part).expect("a region"),
-                fills,
-            }),
-            ..FrameWindow::whole(fills)
-        };
-        let mut buffer = Buffer::empty(area);
-        render(&frame, &frame_window, area, &mut buffer);
-        let row = |y| (0..columns).map(move |x| (x, y));
-        let lines = (0..rows).map(|y| row(y).map(|at| buffer[at].symbol()).collect::<String>());
-        lines.map(|line| line.trim_end().to_owned()).collect()
+        let part = Region::parse(part).expect("a region");
+        let window = window(whole, part, size(columns.into(), 2 * u32::from(rows)));
+        let mut buffer = Buffer::empty(Rect::new(0, 0, columns, rows));
+        render(&frame, &window, buffer.area, &mut buffer);
+        lines_of(&buffer)
     }
 
     #[test]
@@ -125,45 +118,30 @@ mod tests {
     /// On a grid of 5 by 10 pixels a cell, a pixel of the picture is 12.8 cells wide.
     #[test]
     fn values_stay_in_their_pixels_where_these_begin_within_cells() {
-        let size = Size {
-            width: 16,
-            height: 1,
-        };
-        let frame = Frame::drawn(size, (0..16).map(|at| [at, 0, 0]).collect());
-        let fills = Size {
-            width: 1024,
-            height: 64,
-        };
-        let frame_window = FrameWindow {
-            window: Some(Window {
-                whole: size,
-                part: Region::whole(size),
-                fills,
-            }),
+        let whole = size(16, 1);
+        let frame = Frame::drawn(whole, (0..16).map(|at| [at, 0, 0]).collect());
+        let window = FrameWindow {
             grid: Grid {
                 across: 5,
                 down: 10,
             },
-            ..FrameWindow::whole(fills)
+            ..window(whole, Region::whole(whole), size(1024, 64))
         };
-        let area = Rect::new(0, 0, 205, 6);
-        let mut buffer = Buffer::empty(area);
-        render(&frame, &frame_window, area, &mut buffer);
+        let mut buffer = Buffer::empty(Rect::new(0, 0, 205, 6));
+        render(&frame, &window, buffer.area, &mut buffer);
         for x in 0..205 {
-            let Color::Rgb(pixel, ..) = buffer[(x, 2)].bg else {
-                continue;
-            };
-            let edges = [u32::from(x) * 5, u32::from(x) * 5 + 4];
-            assert_eq!(edges.map(|edge| edge / 64), [u32::from(pixel); 2], "{x}");
+            if let Color::Rgb(pixel, ..) = buffer[(x, 2)].bg {
+                let edges = [u32::from(x) * 5, u32::from(x) * 5 + 4];
+                assert_eq!(edges.map(|edge| edge / 64), [u32::from(pixel); 2], "{x}");
+            }
         }
     }
 
     #[test]
     fn the_ink_contrasts_with_the_pixel() {
         let ink = |colour| {
-            let area = Rect::new(0, 0, 12, 3);
-            let mut buffer = Buffer::empty(area);
-            write(vec!["x".to_owned()], colour, area, &mut buffer);
+            let mut buffer = Buffer::empty(Rect::new(0, 0, 12, 3));
+            write(vec!["x".to_owned()], colour, buffer.area, &mut buffer);
             buffer[(5, 1)].fg
         };
         assert_eq!(ink([0, 0, 255]), Color::White);

@@ -78,25 +78,18 @@ mod tests {
     use ratatui::style::Color;
 
     use super::*;
+    use crate::ui::view::tests::lines;
 
-    fn painted(lines: &[([[f64; 2]; 2], u32)], outlined: &[u32], drawn: usize) -> Buffer {
-        let lines = lines
-            .iter()
-            .map(|&(ends, object)| WireLine { ends, object });
+    fn painted(wires: &[([[f64; 2]; 2], u32)], outlined: &[u32], drawn: usize) -> Buffer {
+        let wire = |&(ends, object)| WireLine { ends, object };
         let wireframe = Wireframe {
-            lines: lines.collect(),
+            lines: wires.iter().map(wire).collect(),
             drawn,
             seen: 3,
         };
-        let area = Rect::new(0, 0, 16, 3);
-        let mut buffer = Buffer::empty(area);
-        paint(&wireframe, outlined, area, &mut buffer);
+        let mut buffer = Buffer::empty(Rect::new(0, 0, 16, 3));
+        paint(&wireframe, outlined, buffer.area, &mut buffer);
         buffer
-    }
-
-    fn rows(buffer: &Buffer) -> Vec<String> {
-        let row = |y| (0..16).map(|x| buffer[(x, y)].symbol()).collect::<String>();
-        (0..3).map(|y| row(y).trim_end().to_owned()).collect()
     }
 
     #[test]
@@ -105,25 +98,24 @@ mod tests {
         let down = [[3.0, 0.0], [3.0, 3.5]];
         let diagonal = [[4.0, 0.0], [6.0, 2.0]];
         let buffer = painted(&[(across, 0), (down, 0), (diagonal, 0)], &[], 3);
-        assert_eq!(rows(&buffer), ["⠉⠉⠁⡇⠑⢄", "   ⡇  ⠁", ""]);
+        assert_eq!(lines(&buffer), ["⠉⠉⠁⡇⠑⢄", "   ⡇  ⠁", ""]);
         // A line on the right edge of the picture has no cell of its own.
         let edge = [[16.0, 0.0], [16.0, 5.0]];
-        assert_eq!(rows(&painted(&[(edge, 0)], &[], 3)), [""; 3]);
+        assert_eq!(lines(&painted(&[(edge, 0)], &[], 3)), [""; 3]);
     }
 
     #[test]
     fn only_outlined_objects_are_styled() {
         let at = |x| [[x, 0.0], [x, 0.0]];
         let buffer = painted(&[(at(0.0), 4), (at(1.0), 7), (at(1.0), 1)], &[2, 7], 3);
-        let style = |x: u16| buffer[(x, 0)].style();
-        assert_eq!(style(0).fg, Some(Color::Reset));
-        assert_eq!(style(1).fg, theme::OUTLINED.fg);
+        let inks = [0, 1].map(|x| buffer[(x, 0)].style().fg);
+        assert_eq!(inks, [Some(Color::Reset), theme::OUTLINED.fg]);
     }
 
     #[test]
     fn objects_left_out_are_counted() {
-        let shown = |drawn| rows(&painted(&[], &[], drawn))[0].clone();
-        assert_eq!(shown(2), " 2 of 3 objects");
-        assert_eq!(shown(3), "");
+        for (drawn, shown) in [(2, " 2 of 3 objects"), (3, "")] {
+            assert_eq!(lines(&painted(&[], &[], drawn))[0], shown);
+        }
     }
 }

@@ -11,10 +11,7 @@ use ratatui::style::Color;
 
 use super::*;
 
-const SIZE: Size = Size {
-    width: 12,
-    height: 5,
-};
+const SIZE: Size = Size::new(12, 5);
 
 /// Our encoder connected to a model of a terminal.
 struct Rig {
@@ -65,18 +62,16 @@ const BIDI: char = '\u{202e}';
 const OWN_FOREGROUND: vt100::Color = vt100::Color::Rgb(1, 2, 3);
 
 fn seen(text: &str, fg: vt100::Color, bg: vt100::Color, modifier: Modifier) -> Seen {
-    let fg = if fg == vt100::Color::Default {
-        OWN_FOREGROUND
-    } else {
-        fg
+    let fg = match fg {
+        vt100::Color::Default => OWN_FOREGROUND,
+        fg => fg,
     };
-    let visible = if text == " " {
-        VISIBLE_ON_BLANK
-    } else {
-        Modifier::all()
+    let is_styled = match text {
+        " " => modifier.intersects(VISIBLE_ON_BLANK),
+        _ => !modifier.is_empty(),
     };
     match text {
-        _ if modifier.intersects(visible) => Seen::Text(text.to_owned(), fg, bg, modifier),
+        _ if is_styled => Seen::Text(text.to_owned(), fg, bg, modifier),
         " " => Seen::Halves(bg, bg),
         "▀" => Seen::Halves(fg, bg),
         "▄" => Seen::Halves(bg, fg),
@@ -86,21 +81,15 @@ fn seen(text: &str, fg: vt100::Color, bg: vt100::Color, modifier: Modifier) -> S
 }
 
 fn seen_in_model(model: &vt100::Parser, x: u16, y: u16) -> Seen {
-    let cell = model
-        .screen()
-        .cell(y, x)
-        .expect("the cell is on the screen");
+    let cell = model.screen().cell(y, x).expect("it is on the screen");
     let mut modifier = Modifier::empty();
     modifier.set(Modifier::BOLD, cell.bold());
     modifier.set(Modifier::DIM, cell.dim());
     modifier.set(Modifier::ITALIC, cell.italic());
     modifier.set(Modifier::UNDERLINED, cell.underline());
     modifier.set(Modifier::REVERSED, cell.inverse());
-    let text = if cell.has_contents() {
-        cell.contents()
-    } else {
-        " "
-    };
+    let text = Some(cell.contents()).filter(|text| !text.is_empty());
+    let text = text.unwrap_or(" ");
     seen(text, cell.fgcolor(), cell.bgcolor(), modifier)
 }
 
@@ -110,12 +99,8 @@ fn seen_in_buffer(cell: &Cell, depth: ColourDepth) -> Seen {
         Ink::Index(index) => vt100::Color::Idx(index),
         Ink::Rgb(red, green, blue) => vt100::Color::Rgb(red, green, blue),
     };
-    seen(
-        cell.symbol(),
-        colour(cell.fg),
-        colour(cell.bg),
-        cell.modifier,
-    )
+    let (fg, bg) = (colour(cell.fg), colour(cell.bg));
+    seen(cell.symbol(), fg, bg, cell.modifier)
 }
 
 fn colours() -> impl Strategy<Value = Color> {
@@ -148,25 +133,21 @@ fn cells() -> impl Strategy<Value = Cell> {
     })
 }
 
-fn buffer_of(cells: Vec<Cell>) -> Buffer {
-    let mut buffer = Buffer::empty(Rect::from((Position::ORIGIN, SIZE)));
-    buffer.content = cells;
-    buffer
+fn blank(size: Size) -> Buffer {
+    Buffer::empty(Rect::from((Position::ORIGIN, size)))
 }
 
 fn buffers() -> impl Strategy<Value = Buffer> {
     let area = usize::from(SIZE.width * SIZE.height);
-    proptest::collection::vec(cells(), area).prop_map(buffer_of)
+    proptest::collection::vec(cells(), area).prop_map(|content| Buffer {
+        content,
+        ..blank(SIZE)
+    })
 }
 
 fn depths() -> impl Strategy<Value = ColourDepth> {
     use ColourDepth::{Mono, Palette16, Palette256, TrueColour};
-    prop_oneof![
-        Just(Mono),
-        Just(Palette16),
-        Just(Palette256),
-        Just(TrueColour)
-    ]
+    proptest::sample::select(vec![Mono, Palette16, Palette256, TrueColour])
 }
 
 proptest! {
@@ -178,7 +159,7 @@ proptest! {
         frames in proptest::collection::vec((buffers(), 0..4_u8), 1..4),
     ) {
         let mut rig = Rig::new(depth, SIZE);
-        let mut last = Buffer::empty(Rect::from((Position::ORIGIN, SIZE)));
+        let mut last = blank(SIZE);
         for (mut buffer, change) in frames {
             if change == 0 {
                 // Most frames change only a few cells.
@@ -218,46 +199,37 @@ proptest! {
 #[test]
 fn a_frame_is_bracketed_once_and_an_unchanged_one_is_empty() {
     let mut rig = Rig::new(ColourDepth::TrueColour, SIZE);
-    let mut buffer = Buffer::empty(Rect::from((Position::ORIGIN, SIZE)));
+    let mut buffer = blank(SIZE);
     buffer[(3, 2)].set_symbol("x").set_fg(Color::Red);
     let first = String::from_utf8(rig.draw(&buffer)).expect("frames are text");
-    assert!(
-        first.starts_with("\x1b[?2026h") && first.ends_with("\x1b[?2026l"),
-        "{first:?}"
-    );
+    assert!(first.starts_with("\x1b[?2026h"), "{first:?}");
+    assert!(first.ends_with("\x1b[?2026l"), "{first:?}");
     assert_eq!(first.matches("2026").count(), 2);
     assert_eq!(rig.draw(&buffer), b"");
     buffer[(4, 2)].set_symbol("y").set_fg(Color::Red);
-    assert_eq!(
-        rig.draw(&buffer).escape_ascii().to_string(),
-        "\\x1b[?2026hy\\x1b[?2026l"
-    );
+    let second = String::from_utf8(rig.draw(&buffer)).expect("frames are text");
+    assert_eq!(second, "\x1b[?2026hy\x1b[?2026l");
 }
 
 #[test]
 fn the_cursor_moves_by_the_shortest_sequence() {
-    let at = |x, y| Position { x, y };
-    for (from, to, bytes) in [
-        (at(3, 1), at(3, 1), ""),
-        (at(3, 1), at(4, 1), "\x1b[C"),
-        (at(3, 1), at(9, 1), "\x1b[6C"),
-        (at(3, 1), at(0, 1), "\r"),
-        (at(3, 1), at(1, 1), "\x1b[2G"),
-        (at(3, 1), at(0, 2), "\r\n"),
-        (at(3, 1), at(2, 2), "\r\n\x1b[2C"),
-        (at(3, 1), at(2, 4), "\x1b[5;3H"),
-        (at(3, 1), at(2, 0), "\x1b[1;3H"),
+    for (x, y, bytes) in [
+        (3, 1, ""),
+        (4, 1, "\x1b[C"),
+        (9, 1, "\x1b[6C"),
+        (0, 1, "\r"),
+        (1, 1, "\x1b[2G"),
+        (0, 2, "\r\n"),
+        (2, 2, "\r\n\x1b[2C"),
+        (2, 4, "\x1b[5;3H"),
+        (2, 0, "\x1b[1;3H"),
     ] {
         let mut backend = AnsiBackend::new(ColourDepth::Mono, SIZE);
-        backend.move_to(from);
+        backend.move_to(Position { x: 3, y: 1 });
         let start = backend.out.len();
-        backend.move_to(to);
-        let moved = backend.out[start..].escape_ascii().to_string();
-        assert_eq!(
-            moved,
-            bytes.as_bytes().escape_ascii().to_string(),
-            "{from} to {to}"
-        );
+        backend.move_to(Position { x, y });
+        let moved = str::from_utf8(&backend.out[start..]);
+        assert_eq!(moved, Ok(bytes), "from 3, 1 to {x}, {y}");
     }
 }
 
@@ -283,17 +255,14 @@ fn a_visible_cursor_stays_in_place() {
 fn a_smaller_window_is_redrawn() {
     let mut rig = Rig::new(ColourDepth::Mono, SIZE);
     let text = |frame: &mut ratatui::Frame| {
-        let area = frame.area();
+        let last = frame.area().height - 1;
         frame
             .buffer_mut()
-            .set_string(0, area.height - 1, "below", ratatui::style::Style::new());
+            .set_string(0, last, "below", Color::Reset);
     };
     let Ok(_) = rig.terminal.draw(text);
     rig.take();
-    rig.terminal.backend_mut().fit(Size {
-        width: 10,
-        height: 3,
-    });
+    rig.terminal.backend_mut().fit(Size::new(10, 3));
     let Ok(_) = rig.terminal.draw(text);
     rig.take();
     assert_eq!(rig.model.screen().contents().trim_end(), "\n\nbelow");
@@ -310,39 +279,35 @@ fn wide_characters_and_their_replacements_stay_in_their_columns() {
         "e\u{301}e\u{301}x",
         "🇩🇪!",
     ] {
-        let mut buffer = Buffer::empty(Rect::from((Position::ORIGIN, SIZE)));
-        buffer.set_string(0, 1, text, ratatui::style::Style::new());
-        buffer.set_string(0, 2, "|", ratatui::style::Style::new());
+        let mut buffer = blank(SIZE);
+        buffer.set_string(0, 1, text, Color::Reset);
+        buffer.set_string(0, 2, "|", Color::Reset);
         rig.draw(&buffer);
+        let shown = |x, y| rig.model.screen().cell(y, x).map(vt100::Cell::contents);
         for x in 0..SIZE.width {
-            let cell = &buffer[(x, 1)];
+            let symbol = buffer[(x, 1)].symbol();
             // Only plain characters are compared: others may be simplified.
-            if cell.symbol() != " " && cell.symbol().len() <= 3 {
-                let Some(shown) = rig.model.screen().cell(1, x) else {
-                    panic!("column {x}")
-                };
-                assert_eq!(shown.contents(), cell.symbol(), "column {x} of {text}");
+            if symbol != " " && symbol.len() <= 3 {
+                assert_eq!(shown(x, 1), Some(symbol), "column {x} of {text}");
             }
         }
-        assert_eq!(
-            rig.model.screen().cell(2, 0).map(vt100::Cell::contents),
-            Some("|")
-        );
+        assert_eq!(shown(0, 2), Some("|"));
     }
 }
 
+/// The colour of the pixel of a picture in a column and a row.
+type Pixel<'p> = &'p dyn Fn(u16, u16) -> [u8; 3];
+
 /// Bytes per cell of a whole frame of half blocks.
-fn bytes_a_cell(depth: ColourDepth, size: Size, pixel: impl Fn(u16, u16) -> [u8; 3]) -> f64 {
-    let mut buffer = Buffer::empty(Rect::from((Position::ORIGIN, size)));
+fn bytes_a_cell(depth: ColourDepth, size: Size, pixel: Pixel) -> f64 {
+    let mut buffer = blank(size);
     let colour = |x, y| {
         let [red, green, blue] = pixel(x, y);
         Color::Rgb(red, green, blue)
     };
     for Position { x, y } in buffer.area.positions() {
-        buffer[(x, y)]
-            .set_symbol("▀")
-            .set_fg(colour(x, 2 * y))
-            .set_bg(colour(x, 2 * y + 1));
+        let cell = buffer[(x, y)].set_symbol("▀");
+        cell.set_fg(colour(x, 2 * y)).set_bg(colour(x, 2 * y + 1));
     }
     let mut rig = Rig::new(depth, size);
     rig.draw(&buffer).len() as f64 / f64::from(size.area())
@@ -372,49 +337,26 @@ fn ball(size: Size, step: u8) -> impl Fn(u16, u16) -> [u8; 3] {
 #[test]
 fn pictures_take_few_bytes() {
     use ColourDepth::{Mono, Palette16, Palette256, TrueColour};
-    let size = Size {
-        width: 200,
-        height: 50,
-    };
+    let size = Size::new(200, 50);
+    let flat = |_, _| [10_u8, 200, 30];
     // Neighbours of one colour, pictures of flat and shaded parts, and the worst case: two colours
     // of nine digits, four bytes that frame them and three of the block.
     let noise = |x: u16, y: u16| {
         let mix = (u32::from(x) * 7919 + u32::from(y) * 104_729).wrapping_mul(2_654_435_761);
-        [
-            100 + (mix >> 25) as u8,
-            100 + (mix >> 17 & 127) as u8,
-            100 + (mix >> 9 & 127) as u8,
-        ]
+        [25, 17, 9].map(|shift| 100 + (mix >> shift & 127) as u8)
     };
-    for (depth, bytes, limit) in [
-        (
-            TrueColour,
-            bytes_a_cell(TrueColour, size, |_, _| [10, 200, 30]),
-            1.1,
-        ),
-        (
-            TrueColour,
-            bytes_a_cell(TrueColour, size, ball(size, 4)),
-            24.0,
-        ),
-        (
-            TrueColour,
-            bytes_a_cell(TrueColour, size, ball(size, 1)),
-            24.0,
-        ),
-        (TrueColour, bytes_a_cell(TrueColour, size, noise), 39.5),
-        (
-            Palette256,
-            bytes_a_cell(Palette256, size, ball(size, 1)),
-            5.0,
-        ),
-        (Palette256, bytes_a_cell(Palette256, size, noise), 27.5),
-        (Palette16, bytes_a_cell(Palette16, size, ball(size, 1)), 3.0),
-        (Mono, bytes_a_cell(Mono, size, noise), 3.1),
+    let (coarse, fine) = (ball(size, 4), ball(size, 1));
+    for (depth, pixel, limit) in [
+        (TrueColour, &flat as Pixel, 1.1),
+        (TrueColour, &coarse, 24.0),
+        (TrueColour, &fine, 24.0),
+        (TrueColour, &noise, 39.5),
+        (Palette256, &fine, 5.0),
+        (Palette256, &noise, 27.5),
+        (Palette16, &fine, 3.0),
+        (Mono, &noise, 3.1),
     ] {
-        assert!(
-            bytes < limit,
-            "{bytes} bytes a cell at {depth:?}, not below {limit}"
-        );
+        let bytes = bytes_a_cell(depth, size, pixel);
+        assert!(bytes < limit, "{bytes}, not {limit} a cell at {depth:?}");
     }
 }

@@ -4,7 +4,7 @@ use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
 
 use super::*;
-use crate::scene::Size;
+use crate::ui::layout::tests::size;
 
 /// Where pictures are put: nine columns and four rows.
 const PLACE: Rect = Rect::new(3, 2, 9, 4);
@@ -76,10 +76,8 @@ fn sixels(bytes: &[u8]) -> Pixmap {
     let body = text.strip_prefix("\x1bP0;1;0q\"").expect("sixels");
     let mut rest = body.strip_suffix("\x1b\\").expect("the end");
     let number = |rest: &mut &str| -> usize {
-        let end = rest
-            .find(|c: char| !c.is_ascii_digit())
-            .unwrap_or(rest.len());
-        let (digits, after) = rest.split_at(end);
+        let end = rest.find(|c: char| !c.is_ascii_digit());
+        let (digits, after) = rest.split_at(end.unwrap_or(rest.len()));
         *rest = after;
         digits.parse().expect("a number")
     };
@@ -112,12 +110,9 @@ fn sixels(bytes: &[u8]) -> Pixmap {
                 colour = palette[parameters[0]];
                 continue;
             }
-            '$' => {
+            '$' | '-' => {
                 x = 0;
-                continue;
-            }
-            '-' => {
-                (x, top) = (0, top + 6);
+                top += if command == '-' { 6 } else { 0 };
                 continue;
             }
             '!' => {
@@ -137,40 +132,35 @@ fn sixels(bytes: &[u8]) -> Pixmap {
             x += 1;
         }
     }
-    let pixels = pixels
-        .into_iter()
-        .map(|pixel| pixel.expect("a pixel is left out"));
+    let pixels = pixels.into_iter();
     Pixmap {
-        size: Size {
-            width: width as u32,
-            height: height as u32,
-        },
-        pixels: pixels.collect(),
+        size: size(width as u32, height as u32),
+        pixels: pixels
+            .map(|pixel| pixel.expect("none is left out"))
+            .collect(),
     }
 }
 
 /// A picture with smooth and sharp parts and more than 256 colours, too large for a single chunk.
 fn picture() -> Pixmap {
-    let size = Size {
-        width: 90,
-        height: 64,
-    };
     let pixel = |x: u32, y: u32| {
         let is_ball = (x as i32 - 40).pow(2) + (y as i32 - 30).pow(2) < 500;
         let grain = (x * 7919 + y * 104_729) % 13;
-        if is_ball {
-            [200 - y, 3 * x / 2, grain].map(|channel| channel as u8)
+        let channels = if is_ball {
+            [200 - y, 3 * x / 2, grain]
         } else {
-            [x + grain, 2 * y + grain, 255 - y].map(|channel| channel as u8)
-        }
+            [x + grain, 2 * y + grain, 255 - y]
+        };
+        channels.map(|channel| channel as u8)
     };
-    let pixels = (0..size.height).flat_map(|y| (0..size.width).map(move |x| pixel(x, y)));
+    let pixels = (0..64).flat_map(|y| (0..90).map(move |x| pixel(x, y)));
     Pixmap {
         pixels: pixels.collect(),
-        size,
+        size: size(90, 64),
     }
 }
 
+/// The bytes of a picture, without what tmux removes.
 fn sent(picture: &Pixmap, protocol: Protocol, cell: (u16, u16), wrapping: Wrapping) -> Vec<u8> {
     let means = Means {
         protocol,
@@ -180,60 +170,55 @@ fn sent(picture: &Pixmap, protocol: Protocol, cell: (u16, u16), wrapping: Wrappi
     let mut out = Vec::new();
     let encoded = means.encode(picture, PLACE, &mut out);
     encoded.expect("there are pixels");
-    out
+    match wrapping {
+        Wrapping::Plain => out,
+        Wrapping::Tmux { .. } => unwrapped(&out),
+    }
+}
+
+/// A picture as it is shown on a terminal with sixels.
+fn in_sixels(picture: &Pixmap, cell: (u16, u16)) -> Pixmap {
+    sixels(&sent(picture, Protocol::Sixel, cell, Wrapping::Plain))
 }
 
 /// The error of a picture, as the mean of the squares over all channels, and the greatest one.
 fn errors(shown: &Pixmap, wanted: &Pixmap) -> (f64, u8) {
     let channels = shown.pixels.as_flattened().iter();
     let pairs = channels.zip(wanted.pixels.as_flattened());
-    let offs: Vec<u8> = pairs
-        .map(|(shown, wanted)| shown.abs_diff(*wanted))
-        .collect();
+    let offs: Vec<u8> = pairs.map(|(one, other)| one.abs_diff(*other)).collect();
     let squares: f64 = offs.iter().map(|&off| f64::from(off).powi(2)).sum();
-    (
-        squares / offs.len() as f64,
-        offs.into_iter().max().unwrap_or(0),
-    )
+    let greatest = offs.iter().max().copied();
+    (squares / offs.len() as f64, greatest.unwrap_or(0))
 }
 
 #[test]
-fn kitty_gets_the_picture_exactly() {
+fn kitty_and_iterm_get_the_picture_exactly() {
+    type Follow = fn(&[u8]) -> (String, Pixmap);
     let picture = picture();
-    for wrapping in [Wrapping::Plain, TMUX] {
-        let mut bytes = sent(&picture, Protocol::Kitty, (10, 16), wrapping);
-        if wrapping == TMUX {
-            bytes = unwrapped(&bytes);
-        }
-        let (control, shown) = commands(&bytes);
-        assert!(shown == picture, "another picture");
-        for part in ["a=T,", "f=100,", "c=9,", "r=4,", "C=1,", "p=1,"] {
-            assert!(control.contains(part), "{part} in {control}");
-        }
-        let id = control.split(',').find(|part| part.starts_with("i="));
-        for removal in [REMOVE, REMOVE_THROUGH_TMUX] {
-            assert!(removal.contains(id.expect("a number")), "it can be removed");
+    let for_kitty = "a=T, f=100, c=9, r=4, C=1, p=1,";
+    let for_iterm = "inline=1; width=9; height=4; preserveAspectRatio=0";
+    for (protocol, follow, parts) in [
+        (Protocol::Kitty, commands as Follow, for_kitty),
+        (Protocol::Iterm, file, for_iterm),
+    ] {
+        for wrapping in [Wrapping::Plain, TMUX] {
+            let (said, shown) = follow(&sent(&picture, protocol, (10, 16), wrapping));
+            assert!(shown == picture, "another picture");
+            for part in parts.split(' ') {
+                assert!(said.contains(part), "{part} in {said}");
+            }
         }
     }
 }
 
 #[test]
-fn iterm_gets_the_picture_exactly() {
-    let picture = picture();
+fn a_picture_of_kitty_can_be_removed() {
     for wrapping in [Wrapping::Plain, TMUX] {
-        let mut bytes = sent(&picture, Protocol::Iterm, (10, 16), wrapping);
-        if wrapping == TMUX {
-            bytes = unwrapped(&bytes);
-        }
-        let (arguments, shown) = file(&bytes);
-        assert!(shown == picture, "another picture");
-        for part in [
-            "inline=1;",
-            "width=9;",
-            "height=4;",
-            "preserveAspectRatio=0",
-        ] {
-            assert!(arguments.contains(part), "{part} in {arguments}");
+        let bytes = sent(&picture(), Protocol::Kitty, (10, 16), wrapping);
+        let (control, _) = commands(&bytes);
+        let id = control.split(',').find(|part| part.starts_with("i="));
+        for removal in [REMOVE, REMOVE_THROUGH_TMUX] {
+            assert!(removal.contains(id.expect("a number")), "{removal:?}");
         }
     }
 }
@@ -241,7 +226,7 @@ fn iterm_gets_the_picture_exactly() {
 #[test]
 fn sixels_are_close_to_the_picture() {
     let picture = picture();
-    let shown = sixels(&sent(&picture, Protocol::Sixel, (10, 16), Wrapping::Plain));
+    let shown = in_sixels(&picture, (10, 16));
     assert_eq!(shown.size, picture.size);
     let (mean, greatest) = errors(&shown, &picture);
     assert!(mean < 12.0 && greatest < 24, "{mean} and {greatest}");
@@ -254,7 +239,7 @@ fn few_colours_are_shown_in_sixels_up_to_their_rounding_to_percents() {
         let colour = 8 * (at % 90 / 20 + at / 90 / 12 * 5) as u8;
         *pixel = [colour, 255 - colour, colour / 2];
     }
-    let shown = sixels(&sent(&picture, Protocol::Sixel, (10, 16), Wrapping::Plain));
+    let shown = in_sixels(&picture, (10, 16));
     let (_, greatest) = errors(&shown, &picture);
     assert!(greatest <= 2, "{greatest}");
 }
@@ -262,17 +247,13 @@ fn few_colours_are_shown_in_sixels_up_to_their_rounding_to_percents() {
 /// A cell has more pixels than are traced: each is repeated, also in an incomplete last band.
 #[test]
 fn sixels_fill_their_cells() {
+    let grey = |at| if at % 5 == 0 { 255 } else { 0 };
     let picture = Pixmap {
-        size: Size {
-            width: 18,
-            height: 8,
-        },
-        pixels: (0..18 * 8)
-            .map(|at| [if at % 5 == 0 { 255 } else { 0 }; 3])
-            .collect(),
+        size: size(18, 8),
+        pixels: (0..18 * 8).map(|at| [grey(at); 3]).collect(),
     };
-    let shown = sixels(&sent(&picture, Protocol::Sixel, (7, 13), Wrapping::Plain));
-    assert_eq!((shown.size.width, shown.size.height), (63, 52));
+    let shown = in_sixels(&picture, (7, 13));
+    assert_eq!(shown.size, size(63, 52));
     for y in 0..52 {
         for x in 0..63 {
             let wanted = picture.pixels[y * 8 / 52 * 18 + x * 18 / 63];

@@ -1,6 +1,7 @@
 //! The bucket at a fixed rate, and simulated lines that are measured.
 
 use super::*;
+use crate::ui::terminal::environment;
 
 const fn ms(milliseconds: u64) -> Duration {
     Duration::from_millis(milliseconds)
@@ -13,32 +14,24 @@ fn the_bucket_fills_at_the_rate_up_to_a_quarter_of_a_second() {
     assert_eq!(link.allowance(start), 250);
     link.spent(250, start);
     for (after, allowance) in [(0, 0), (1, 1), (100, 100), (250, 250), (9000, 250)] {
-        assert_eq!(
-            link.allowance(start + ms(after)),
-            allowance,
-            "after {after} ms"
-        );
+        let found = link.allowance(start + ms(after));
+        assert_eq!(found, allowance, "after {after} ms");
     }
 }
 
+/// A picture larger than the bucket waits for a full one, and text may cause debt.
 #[test]
-fn text_may_cause_debt_that_pictures_wait_for() {
-    let start = Instant::now();
-    let mut link = Link::new(Budget::Fixed(1000));
-    link.spent(1250, start);
-    assert_eq!(link.allowance(start), 0);
-    assert_eq!(link.allowance(start + ms(1100)), 100);
-    assert_eq!(link.ready_at(start), Some(start + ms(1250)));
-    assert_eq!(link.ready_at(start + ms(1250)), None);
-}
-
-#[test]
-fn a_picture_larger_than_the_bucket_waits_for_a_full_one() {
+fn pictures_wait_for_a_full_bucket() {
     let start = Instant::now();
     let mut link = Link::new(Budget::Fixed(1000));
     assert_eq!(link.ready_at(start), None);
     link.spent(50, start);
     assert_eq!(link.ready_at(start), Some(start + ms(50)));
+    link.spent(1200, start);
+    assert_eq!(link.allowance(start), 0);
+    assert_eq!(link.allowance(start + ms(1100)), 100);
+    assert_eq!(link.ready_at(start), Some(start + ms(1250)));
+    assert_eq!(link.ready_at(start + ms(1250)), None);
 }
 
 #[test]
@@ -49,10 +42,9 @@ fn the_time_returned_is_never_too_early_for_an_odd_rate() {
         link.spent(rate as usize, start);
         let ready = link.ready_at(start).expect("the bucket is in debt");
         assert_eq!(link.ready_at(ready), None, "at {rate} bytes a second");
-        let before = ready
-            .checked_sub(Duration::from_nanos(1))
-            .expect("it is after the start");
-        assert!(link.ready_at(before).is_some(), "at {rate} bytes a second");
+        let before = ready.checked_sub(Duration::from_nanos(1));
+        let before = link.ready_at(before.expect("it is after the start"));
+        assert!(before.is_some(), "at {rate} bytes a second");
     }
 }
 
@@ -80,26 +72,18 @@ fn only_the_last_second_is_measured() {
 
 #[test]
 fn the_environment_determines_what_can_be_measured() {
-    for (variables, budget) in [
-        (&[("TERM", "xterm")][..], Budget::Local),
-        (&[("SSH_TTY", "")], Budget::Local),
-        (&[("SSH_TTY", "/dev/pts/1")], Budget::Measured),
-        (&[("SSH_CONNECTION", "a 1 b 22")], Budget::Measured),
-        (
-            &[("SSH_TTY", "/dev/pts/1"), ("TMUX", "/tmp/tmux-0/default")],
-            Budget::Fixed(128_000),
-        ),
-        (
-            &[("SSH_TTY", "/dev/pts/1"), ("TERM", "screen-256color")],
-            Budget::Fixed(128_000),
-        ),
-        (&[("TERM", "tmux-256color")], Budget::Fixed(0)),
-    ] {
-        let variable = |asked: &str| {
-            let found = variables.iter().find(|(name, _)| *name == asked);
-            found.map(|(_, value)| (*value).to_owned())
-        };
-        assert_eq!(Budget::of_environment(variable), budget, "{variables:?}");
+    use Budget::{Fixed, Local, Measured};
+    for (variables, budget) in table! {
+        "TERM=xterm" => Local;
+        "SSH_TTY=" => Local;
+        "SSH_TTY=/dev/pts/1" => Measured;
+        "SSH_CONNECTION=a,1,b,22" => Measured;
+        "SSH_TTY=/dev/pts/1 TMUX=/tmp/tmux-0/default" => Fixed(128_000);
+        "SSH_TTY=/dev/pts/1 TERM=screen-256color" => Fixed(128_000);
+        "TERM=tmux-256color" => Fixed(0);
+    } {
+        let found = Budget::of_environment(environment(variables));
+        assert_eq!(found, budget, "{variables}");
     }
 }
 
@@ -182,11 +166,8 @@ fn minute(budget: Budget, line: Line) -> Minute {
         }
         if is_awake && link.has_question(now) {
             jitter = (jitter + 7) % (line.jitter + 1);
-            let late = if minute.questions == 0 {
-                line.start
-            } else {
-                jitter
-            };
+            let is_first = minute.questions == 0;
+            let late = if is_first { line.start } else { jitter };
             replies.push_back(send(4, now) + half + ms(late));
             link.asked(now);
             minute.questions += 1;
@@ -233,15 +214,8 @@ fn answers_to_keys_wait_for_few_bytes_of_pictures() {
         let least = (rate as usize * 60 / 2)
             .min(60_000_000)
             .min(picture.saturating_mul(150) / 2);
-        assert!(
-            least <= minute.pictures,
-            "{line:?}: {} bytes",
-            minute.pictures
-        );
-        assert!(
-            minute.questions < 60,
-            "{line:?}: {} questions",
-            minute.questions
-        );
+        let (pictures, questions) = (minute.pictures, minute.questions);
+        assert!(least <= pictures, "{line:?}: {pictures} bytes");
+        assert!(questions < 60, "{line:?}: {questions} questions");
     }
 }

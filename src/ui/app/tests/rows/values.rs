@@ -164,15 +164,17 @@ fn overlays(app: &App, name: &str) -> Option<String> {
             .map(|past| past.filter.at)
             .words(),
         "page" => overlays.page.is_some().words(),
-        "page-steps" => overlays.page(Context::Steps).map_or_else(String::new, |page| {
-            let rows = page.shown().into_iter().map(|(_, name)| name).enumerate();
-            let cursor = |at: usize| if at == page.filter.at { ">" } else { "" };
-            let when = |at| history::when(&shared.document, at);
-            joined(
-                rows.map(|(at, name)| format!("{}{}: {name}", cursor(at), when(at))),
-                "; ",
-            )
-        }),
+        "page-steps" => overlays
+            .page(Context::Steps)
+            .map_or_else(String::new, |page| {
+                let rows = page.shown().into_iter().map(|(_, name)| name).enumerate();
+                let cursor = |at: usize| if at == page.filter.at { ">" } else { "" };
+                let when = |at| history::when(&shared.document, at);
+                joined(
+                    rows.map(|(at, name)| format!("{}{}: {name}", cursor(at), when(at))),
+                    "; ",
+                )
+            }),
         "listed-error" => overlays.errors.words(),
         _ => return None,
     })
@@ -353,7 +355,10 @@ fn question(app: &App) -> String {
             format!("conflict {}", joined(each, ", "))
         }
         Some(Dialog::Delete(nodes)) => {
-            format!("delete: {}", select::question_before_deleting(shared, nodes).text)
+            format!(
+                "delete: {}",
+                select::question_before_deleting(shared, nodes).text
+            )
         }
         Some(Dialog::Overwrite(_)) => "overwrite".to_owned(),
         Some(Dialog::Recover(offer)) => {
