@@ -52,7 +52,7 @@ mod transform;
 mod update;
 mod values;
 
-pub use camera::SavedViews;
+pub use camera::View;
 pub use command::commands;
 pub use compare::{Compare, Contrast, Reference, Wipe};
 pub use display::{Symbol, SymbolKind};
@@ -87,5 +87,6 @@ pub use shared::picker::{ColourPicker, PickerRow};
 pub use shared::rays::{RayLine, RayPart};
 pub use shared::rows::{Fold, Rows};
 pub use shared::suggestions::Suggestions;
+pub use trace::Trace;
 pub use transform::{Moving, Tool, Transform};
 pub use values::hsv::Hsv;

@@ -3,7 +3,7 @@
 
 use super::room::{Room, Row};
 use super::{
-    Compare, Inspect, Moving, Opening, SavedViews, Sequence, Shared, Thumbnails, Tool, camera,
+    Compare, Inspect, Moving, Opening, Sequence, Shared, Thumbnails, Tool, Trace, View, camera,
     compare, display, edit, files, history, inspect, keys, select, sequence, text, trace,
     transform,
 };
@@ -64,6 +64,13 @@ macro_rules! modes {
                 $(let taken = taken.or_else(|| self.$field.drag(&mut self.shared, at));)+
                 taken
             }
+
+            /// The same for releasing a button.
+            pub(crate) fn release(&mut self) -> Option<Vec<Effect>> {
+                let taken = None;
+                $(let taken = taken.or_else(|| self.$field.release(&mut self.shared));)+
+                taken
+            }
         }
 
         /// Rows of keys, by the state that their steps see.
@@ -115,10 +122,12 @@ modes! {
     compare: Compare, Compare;
     /// What MOVE moves.
     moving: Moving, Move;
-    /// The rays that INSPECT explains a pixel by.
+    /// INSPECT, whose cross is shared.
     inspect: Inspect;
-    /// The views on the page of saved views.
-    saved_views: SavedViews, SavedViews;
+    /// TRACE, whose picture is shared.
+    trace: Trace;
+    /// VIEW and FLY, whose camera is shared, and the views on the page of saved views.
+    view: View, View;
     /// The pictures on the page of the undo history.
     thumbnails: Thumbnails;
 }
@@ -130,7 +139,7 @@ const ROWS: &[Rows] = &[
     Rows::Shared(keys::lists::KEYS),
     Rows::Shared(keys::questions::KEYS),
     Rows::Shared(keys::lists::ERRORS),
-    Rows::SavedViews(camera::OF_PAGE),
+    Rows::View(camera::OF_PAGE),
     Rows::Shared(files::KEYS),
     Rows::Shared(history::KEYS),
     Rows::Shared(keys::pages::KEYS),

@@ -4,13 +4,8 @@ use std::time::Duration;
 
 use crossterm::event::{KeyModifiers, MouseButton, MouseEvent, MouseEventKind};
 
-use super::camera::{advanced, dollied, orbited, shifted, turned};
-use super::pictures::drawing::Held;
 use super::shared::Border;
-use super::{
-    App, PickerRow, Shared, camera, display, edit, inspect, list, panels, trace, transform,
-};
-use crate::render::{axes, pixel_width};
+use super::{App, PickerRow, Shared, camera, display, edit, inspect, list, panels, transform};
 use crate::ui::keymap::{Context, Mode};
 use crate::ui::layout::{
     contents, field_at, first_shown, list_row_at, picker_lines, share_at, swatch_cells,
@@ -18,8 +13,6 @@ use crate::ui::layout::{
 use crate::ui::listing::ListLine;
 use crate::ui::msg::{Effect, Timer};
 
-/// Angles of orbit, in degrees, for dragging across a cell, which is twice as high as wide.
-const DRAG: (f64, f64) = (2.0, 4.0);
 /// A second click within this time counts as a double click.
 const DOUBLE_CLICK: Duration = Duration::from_millis(400);
 
@@ -34,6 +27,8 @@ enum Pointed {
     Press((u16, u16)),
     /// Dragging with the left button.
     Drag((u16, u16)),
+    /// The release of a button.
+    Release,
 }
 
 impl App {
@@ -42,10 +37,14 @@ impl App {
         match point(&mut self.shared, event) {
             Pointed::Done(effects) => effects,
             Pointed::Press(at) => self.press_left(at),
+            Pointed::Release => {
+                let taken = self.release();
+                taken.unwrap_or_else(|| release(&mut self.shared))
+            }
             Pointed::Drag(at) => {
                 let taken = self.drag(at);
                 taken.unwrap_or_else(|| {
-                    drag(&mut self.shared, at);
+                    edit::slide_to(&mut self.shared, at.0);
                     Vec::new()
                 })
             }
@@ -113,16 +112,7 @@ fn point(shared: &mut Shared, event: MouseEvent) -> Pointed {
         MouseEventKind::Drag(MouseButton::Left)
             if !event.modifiers.contains(KeyModifiers::CONTROL) => {}
         MouseEventKind::Drag(_) => drag_to_pan(shared, at),
-        MouseEventKind::Up(_) if is_drawing_region(shared) => {
-            return Pointed::Done(trace::confirm_region(shared));
-        }
-        MouseEventKind::Up(_) => {
-            shared.pictures.drag = None;
-            edit::end_slide(shared);
-            if shared.resizing.take().is_some() {
-                return Pointed::Done(panels::keep(shared));
-            }
-        }
+        MouseEventKind::Up(_) => return Pointed::Release,
         _ => {}
     }
     Pointed::Done(Vec::new())
@@ -132,23 +122,6 @@ fn point(shared: &mut Shared, event: MouseEvent) -> Pointed {
 fn zooms(shared: &Shared, at: (u16, u16), modifiers: KeyModifiers) -> bool {
     let asked = shared.mode == Mode::Trace || modifiers.contains(KeyModifiers::CONTROL);
     asked && shared.overlays.page.is_none() && shared.areas().picture.contains(at.into())
-}
-
-/// Whether the pointer is drawing a region.
-fn is_drawing_region(shared: &Shared) -> bool {
-    let drawing = shared.pictures.drawing;
-    drawing.is_some_and(|drawing| drawing.held == Held::ByPointer)
-}
-
-/// The cell of the picture at this cell of the screen, or the nearest one.
-fn cell_near(shared: &Shared, at: (u16, u16)) -> Option<(u16, u16)> {
-    let (cells, _) = shared.raster()?;
-    let near =
-        |at: u16, from: u16, length: u16| at.saturating_sub(from).min(length.saturating_sub(1));
-    Some((
-        near(at.0, cells.x, cells.width),
-        near(at.1, cells.y, cells.height),
-    ))
 }
 
 /// Whether dragging pans the picture on screen.
@@ -164,7 +137,7 @@ fn wheel(shared: &mut Shared, at: (u16, u16), down: isize) {
     if shared.mode == Mode::Compare {
         return;
     }
-    let (areas, mode) = (shared.areas(), shared.mode);
+    let areas = shared.areas();
     let over = |area: ratatui::layout::Rect| area.contains(at.into());
     if shared
         .errors_panel(areas.errors)
@@ -180,11 +153,7 @@ fn wheel(shared: &mut Shared, at: (u16, u16), down: isize) {
     } else if over(areas.fields) && shared.cursor.typing.is_none() {
         list::move_cursor_in(shared, Context::In(Mode::Edit), down);
     } else if over(areas.picture) && shared.mode.moves_camera() {
-        let steps = if down < 0 { 1 } else { -1 };
-        camera::move_camera(shared, |now| match mode {
-            Mode::Fly => advanced(now, steps),
-            _ => dollied(now, steps),
-        });
+        camera::wheel(shared, if down < 0 { 1 } else { -1 });
     }
 }
 
@@ -245,13 +214,6 @@ fn press_border(shared: &mut Shared, at: (u16, u16)) -> bool {
 
 fn press(shared: &mut Shared, at: (u16, u16)) -> Vec<Effect> {
     let areas = shared.areas();
-    if shared.context() == Context::Rays
-        && let Some(panels) = inspect::ray_panels(shared)
-        && (panels.tree.contains(at.into()) || panels.values.contains(at.into()))
-    {
-        inspect::click_ray(shared, &panels, at);
-        return Vec::new();
-    }
     if let Some(line) = list_row_at(areas.list, shared.cursor.list_top, at.0, at.1) {
         let line = shared.listing().get(line);
         if let Some(ListLine::Node(_, node)) = line {
@@ -281,35 +243,15 @@ fn press(shared: &mut Shared, at: (u16, u16)) -> Vec<Effect> {
     {
         return press_field(shared, clicked);
     }
-    let is_over = areas.picture.contains(at.into());
-    if is_over && shared.context() == Context::Region {
-        if let Some(cell) = cell_near(shared, at) {
-            trace::press_region(shared, cell);
-        }
-        return Vec::new();
-    }
-    let drags = shared.mode.moves_camera()
-        || shared.mode == Mode::Move
-        || shared.mode == Mode::Trace && pans(shared);
-    if drags && areas.picture.contains(at.into()) {
+    if shared.mode == Mode::Move && areas.picture.contains(at.into()) {
         shared.pictures.drag = Some(at);
-    } else if let Some(cell) = picture_cell(shared, at) {
-        if shared.mode == Mode::Inspect {
-            inspect::place_cross(shared, cell);
-        } else if !inspect::pick_symbol(shared, cell)
-            && let Some(pixel) = display::pixel_at(shared, cell)
-        {
-            inspect::pick(shared, inspect::node_at(shared, pixel));
-        }
+    } else if let Some(cell) = display::picture_cell(shared, at)
+        && !inspect::pick_symbol(shared, cell)
+        && let Some(pixel) = display::pixel_at(shared, cell)
+    {
+        inspect::pick(shared, inspect::node_at(shared, pixel));
     }
     Vec::new()
-}
-
-/// The cell of the picture under the pointer, from the picture's corner.
-fn picture_cell(shared: &Shared, at: (u16, u16)) -> Option<(u16, u16)> {
-    let (cells, _) = shared.raster()?;
-    let is_inside = cells.contains(at.into());
-    is_inside.then(|| (at.0 - cells.x, at.1 - cells.y))
 }
 
 /// The first click moves the cursor there, the second starts typing.
@@ -340,19 +282,19 @@ fn drag_to_pan(shared: &mut Shared, at: (u16, u16)) {
         shared.pictures.drag = Some(at);
         return;
     }
-    if !shared.mode.moves_camera() {
-        return;
+    if shared.mode.moves_camera() {
+        camera::drag_to_pan(shared, from, at);
+        shared.pictures.drag = Some(at);
     }
-    let Some((camera, (_, size))) = shared.camera().zip(shared.raster()) else {
-        return;
-    };
-    let unit = pixel_width(camera.target, &camera, size) / display::magnification(shared, size);
-    let [right, up, _] = axes(&camera);
-    let moved = |from: u16, to: u16| f64::from(to) - f64::from(from);
-    // A cell shows two pixels, one above the other.
-    let by = 2.0 * moved(from.1, at.1) * up - moved(from.0, at.0) * right;
-    camera::move_camera(shared, |now| shifted(now, unit * by));
-    shared.pictures.drag = Some(at);
+}
+
+fn release(shared: &mut Shared) -> Vec<Effect> {
+    shared.pictures.drag = None;
+    edit::end_slide(shared);
+    match shared.resizing.take() {
+        Some(_) => panels::keep(shared),
+        None => Vec::new(),
+    }
 }
 
 /// Drags the border that was pressed; returns whether there is one.
@@ -366,42 +308,4 @@ fn drag_border(shared: &mut Shared, at: (u16, u16)) -> bool {
     };
     panels::resize(shared, border, cells);
     true
-}
-
-fn drag(shared: &mut Shared, at: (u16, u16)) {
-    if edit::slide_to(shared, at.0) {
-        return;
-    }
-    if is_drawing_region(shared) {
-        if let Some(cell) = cell_near(shared, at) {
-            trace::drag_region(shared, cell);
-        }
-        return;
-    }
-    if shared.mode == Mode::Inspect {
-        if let Some(cell) = picture_cell(shared, at) {
-            inspect::place_cross(shared, cell);
-        }
-        return;
-    }
-    let Some(from) = shared.pictures.drag else {
-        return;
-    };
-    if shared.mode == Mode::Trace {
-        display::drag_picture(shared, from, at);
-        shared.pictures.drag = Some(at);
-        return;
-    }
-    let moved = |from: u16, to: u16| f64::from(to) - f64::from(from);
-    if !shared.mode.moves_camera() {
-        return;
-    }
-    // The scene follows the pointer, so the camera moves the opposite way.
-    let (left, up) = (DRAG.0 * moved(from.0, at.0), DRAG.1 * moved(from.1, at.1));
-    match shared.mode {
-        // About the angle of a cell, so that the picture follows the pointer.
-        Mode::Fly => camera::move_camera(shared, |now| turned(now, left / 4.0, up / 4.0)),
-        _ => camera::move_camera(shared, |now| orbited(now, left, up)),
-    }
-    shared.pictures.drag = Some(at);
 }

@@ -4,9 +4,9 @@ use crossterm::event::KeyCode;
 
 use super::moves::{advanced, dollied, faced, panned, rolled, stepped, widened};
 use super::saved_views::{
-    SavedViews, delete_view, frame_selected, go_to_view, list_views, look_from_light, move_camera,
-    save_view,
+    delete_view, frame_selected, go_to_view, list_views, look_from_light, move_camera, save_view,
 };
+use super::state::View;
 use crate::ui::app::room::Row;
 use crate::ui::keymap::{Context, Key, Mode, Scope, c, key, shift};
 
@@ -59,7 +59,7 @@ pub(crate) const KEYS: &[Row] = &[
 
 /// Those of the page of saved views.
 #[rustfmt::skip]
-pub(crate) const OF_PAGE: &[Row<SavedViews>] = &[
+pub(crate) const OF_PAGE: &[Row<View>] = &[
     Key::new(PAGE, "accept", &[key(Enter)], "go there").does_in(go_to_view),
     Key::new(PAGE, "delete-view", &[c('d')], "delete it").does_in(delete_view),
     Key::new(PAGE, "search", &[c('/')], "filter").does(|shared| shared.overlays.open_search()),

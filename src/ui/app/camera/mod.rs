@@ -2,9 +2,11 @@
 
 mod keys;
 mod moves;
+mod room;
 mod saved_views;
+mod state;
 
 pub(crate) use keys::{KEYS, OF_PAGE};
-pub(crate) use moves::{advanced, dollied, orbited, shifted, turned};
-pub use saved_views::SavedViews;
-pub(crate) use saved_views::{look_from_light, move_camera, save_view, save_view_named};
+pub(crate) use room::{drag_to_pan, wheel};
+pub(crate) use saved_views::{look_from_light, save_view, save_view_named};
+pub use state::View;

@@ -1,11 +1,11 @@
 //! The working view: moving it, writing it into the text, and going to views saved there.
 
 use super::moves::{framed, settled};
+use super::state::View;
 use crate::document::StepName;
 use crate::language::{Node, SavedView, view_name};
 use crate::scene::{Camera, Emitter};
 use crate::text::Severity;
-use crate::ui::app::room::Room;
 use crate::ui::app::{Page, Shared, text};
 use crate::ui::keymap::Context;
 
@@ -109,37 +109,27 @@ fn names(views: &[SavedView]) -> impl Iterator<Item = String> {
     views.iter().map(|view| view.name.clone())
 }
 
-/// The views on the page of saved views.
-#[derive(Debug, Default)]
-pub struct SavedViews {
-    views: Vec<SavedView>,
-    /// The revision of the text that they are from.
-    revision: Option<u64>,
-}
-
-impl Room for SavedViews {
-    /// Lists the views again if the text has changed; closes their page with the last one.
-    fn settle(&mut self, shared: &mut Shared) {
-        let now = Some(shared.document.revision());
-        if self.revision == now || shared.overlays.page(Context::Views).is_none() {
-            return;
-        }
-        *self = Self {
-            views: shared.source().saved_views(),
-            revision: now,
-        };
-        if self.views.is_empty() {
-            shared.overlays.page = None;
-        } else if let Some(page) = shared.overlays.page_mut(Context::Views) {
-            page.list(names(&self.views).collect());
-        }
+/// Lists the views of a text that has changed; closes their page with the last one.
+pub(super) fn relist(view: &mut View, shared: &mut Shared) {
+    let now = Some(shared.document.revision());
+    if view.revision == now || shared.overlays.page(Context::Views).is_none() {
+        return;
+    }
+    *view = View {
+        saved: shared.source().saved_views(),
+        revision: now,
+    };
+    if view.saved.is_empty() {
+        shared.overlays.page = None;
+    } else if let Some(page) = shared.overlays.page_mut(Context::Views) {
+        page.list(names(&view.saved).collect());
     }
 }
 
 /// Goes to the saved view under the cursor of their page.
-pub(super) fn go_to_view(views: &mut SavedViews, shared: &mut Shared) {
+pub(super) fn go_to_view(view: &mut View, shared: &mut Shared) {
     let chosen = shared.overlays.take_chosen();
-    let Some(view) = chosen.and_then(|at| views.views.get(at)) else {
+    let Some(view) = chosen.and_then(|at| view.saved.get(at)) else {
         return;
     };
     let Some(base) = shared.own_camera() else {
@@ -151,10 +141,10 @@ pub(super) fn go_to_view(views: &mut SavedViews, shared: &mut Shared) {
 }
 
 /// Deletes the saved view under the cursor of their page.
-pub(super) fn delete_view(views: &mut SavedViews, shared: &mut Shared) {
+pub(super) fn delete_view(view: &mut View, shared: &mut Shared) {
     let page = shared.overlays.page(Context::Views);
     let chosen = page.and_then(Page::chosen);
-    let Some(view) = chosen.and_then(|at| views.views.get(at)) else {
+    let Some(view) = chosen.and_then(|at| view.saved.get(at)) else {
         return;
     };
     let name = view.name.clone();

@@ -299,14 +299,8 @@ pub(crate) fn wipe_on_screen(compare: &Compare, shared: &Shared) -> Option<f64> 
 
 /// Moves the line of the wipe to a cell of the screen; in other views, points at the pixel there.
 pub(super) fn press(compare: &mut Compare, shared: &mut Shared, at: (u16, u16)) {
-    let Some((cells, _)) = shared
-        .raster()
-        .filter(|(cells, _)| cells.contains(at.into()))
-    else {
-        return;
-    };
-    let cell = (at.0 - cells.x, at.1 - cells.y);
-    let Some([x, y]) = display::pixel_at(shared, cell) else {
+    let cell = display::picture_cell(shared, at);
+    let Some([x, y]) = cell.and_then(|cell| display::pixel_at(shared, cell)) else {
         return;
     };
     let seen = shared.pictures.compared.latest.as_ref();

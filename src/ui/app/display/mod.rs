@@ -20,7 +20,7 @@ pub use symbols::{Symbol, SymbolKind};
 pub(crate) use symbols::{outlined_objects, symbol_at, symbols, toggle_symbols};
 pub use zooming::frame_window;
 pub(crate) use zooming::{
-    ScaleOrder, centre_on, drag_picture, magnification, magnify, magnify_about, magnify_at,
-    order_scale, output_pixel_at, pixel_at, pixel_in_corner, preview_screen, scroll_picture,
-    shift_window, toggle_scale, viewport,
+    ScaleOrder, cell_near, centre_on, drag_picture, magnification, magnify, magnify_about,
+    magnify_at, order_scale, output_pixel_at, picture_cell, pixel_at, pixel_in_corner,
+    preview_screen, scroll_picture, shift_window, toggle_scale, viewport,
 };

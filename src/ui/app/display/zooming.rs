@@ -33,6 +33,24 @@ impl ScaleOrder {
     }
 }
 
+/// The cell of the picture under the pointer, from the picture's corner.
+pub(crate) fn picture_cell(shared: &Shared, at: (u16, u16)) -> Option<(u16, u16)> {
+    let (cells, _) = shared.raster()?;
+    let is_inside = cells.contains(at.into());
+    is_inside.then(|| (at.0 - cells.x, at.1 - cells.y))
+}
+
+/// The same for the nearest cell, if the pointer is outside.
+pub(crate) fn cell_near(shared: &Shared, at: (u16, u16)) -> Option<(u16, u16)> {
+    let (cells, _) = shared.raster()?;
+    let near =
+        |at: u16, from: u16, length: u16| at.saturating_sub(from).min(length.saturating_sub(1));
+    Some((
+        near(at.0, cells.x, cells.width),
+        near(at.1, cells.y, cells.height),
+    ))
+}
+
 /// How many times the picture on screen is magnified, compared with one that fills its cells, of this size.
 pub(crate) fn magnification(shared: &Shared, size: Size) -> f64 {
     frame_window(shared).map_or(1.0, |frame_window| frame_window.magnification(size))

@@ -4,12 +4,11 @@ use crossterm::event::KeyCode;
 
 use super::choosing::enter_value;
 use super::colouring::{cancel_colour, confirm_colour, open_picker, step_colour};
-use super::typing::{
-    change_stride, has_colour, has_components, has_number, has_oblique_frame, has_steps,
-    next_component, nudge, type_current,
-};
+use super::nudging::{change_stride, next_component, nudge};
+use super::typing::type_current;
+use crate::language::table::Kind;
 use crate::ui::app::room::Row;
-use crate::ui::app::{Stride, select};
+use crate::ui::app::{Shared, Stride, select};
 use crate::ui::keymap::{Context, Key, Mode, Scope, alt, c, key, shift};
 
 use Context::In;
@@ -49,3 +48,34 @@ pub(crate) const KEYS: &[Row] = &[
     Key::new(COLOUR, "accept", &[key(Enter)], "confirm").hint(30, "confirm").does(confirm_colour),
     Key::new(COLOUR, "back", &[key(Esc)], "cancel").hint(40, "cancel").does(cancel_colour),
 ];
+
+/// Whether the field under the cursor is a colour.
+fn has_colour(shared: &Shared) -> bool {
+    let row = shared.field_row(shared.cursor.field);
+    row.is_some_and(|row| row.colour().is_some())
+}
+
+/// Whether it is changed by steps of some size.
+fn has_number(shared: &Shared) -> bool {
+    let row = shared.field_row(shared.cursor.field);
+    row.is_some_and(|row| row.field.kind.is_numeric())
+}
+
+/// Whether it is changed by steps.
+fn has_steps(shared: &Shared) -> bool {
+    let row = shared.field_row(shared.cursor.field);
+    row.is_some_and(|row| row.field.kind != Kind::Word)
+}
+
+/// Whether the selected node has several components.
+fn has_components(shared: &Shared) -> bool {
+    let fields = shared.cursor.fields().iter();
+    let components = fields.map(|placed| placed.field.kind.components());
+    1 < components.sum::<usize>()
+}
+
+/// Whether it has a frame whose directions are not orthonormal.
+fn has_oblique_frame(shared: &Shared) -> bool {
+    let edits = shared.source().orthonormalised(shared.cursor.selected());
+    edits.is_ok_and(|edits| !edits.is_empty())
+}

@@ -3,6 +3,7 @@
 mod choosing;
 mod colouring;
 mod keys;
+mod nudging;
 mod sliding;
 mod typing;
 

@@ -14,7 +14,7 @@ use crate::ui::app::shared::after_leaving;
 use crate::ui::app::shared::cursor::SavedCursor;
 use crate::ui::app::shared::disk::{Disk, Faulty, Requester, Settle};
 use crate::ui::app::shared::messages::About;
-use crate::ui::app::text::name_of;
+
 use crate::ui::app::{Dialog, MergeSource, OnDisk, Shared, text};
 use crate::ui::msg::Effect;
 use crate::ui::scene_reading::{Baseline, News, Reading};
@@ -381,7 +381,7 @@ pub(super) fn show_reload(
         let place = from_sound
             .as_ref()
             .map_or(difference, Option::as_ref)
-            .and_then(|difference| name_of(shared.source(), &difference.places));
+            .and_then(|difference| text::name_of_places(shared.source(), &difference.places));
         let is_same = match (&scene, &shared.scene) {
             (Some(before), Some(after)) => Arc::ptr_eq(before, after),
             _ => false,

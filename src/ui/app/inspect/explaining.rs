@@ -204,7 +204,7 @@ pub(crate) fn move_in_rays(shared: &mut Shared, by: isize) {
 }
 
 /// Moves the cursor of the explanation to the line under the pointer.
-pub(crate) fn click_ray(shared: &mut Shared, panels: &RayPanels, at: (u16, u16)) {
+pub(super) fn click_ray(shared: &mut Shared, panels: &RayPanels, at: (u16, u16)) {
     let count = ray_lines(shared).len();
     if let Some(explained) = &mut shared.inspection.explained
         && panels.lines.contains(at.into())

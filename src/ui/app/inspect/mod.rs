@@ -8,12 +8,11 @@ mod room;
 
 pub use explaining::RayPanels;
 pub(crate) use explaining::{
-    click_ray, explain_at, explained, explanation, move_in_rays, node_in_focus, object_named,
-    ray_line, ray_lines, ray_node, ray_panels, ray_path, sample_count, verdict_lines,
+    explain_at, explained, explanation, move_in_rays, node_in_focus, object_named, ray_line,
+    ray_lines, ray_node, ray_panels, ray_path, sample_count, verdict_lines,
 };
 pub(crate) use inspecting::{
-    cross, cross_cell, free_side, line_of, node_at, pick, pick_symbol, place_cross,
-    place_on_screen, start, stop,
+    cross, cross_cell, free_side, line_of, node_at, pick, pick_symbol, place_on_screen, start, stop,
 };
 pub(crate) use keys::KEYS;
 pub use pixel::Pixel;

@@ -1,8 +1,10 @@
-//! INSPECT as a room: the rays behind the pixel under the cross follow the picture.
+//! How INSPECT reacts to steps, presses and drags.
 
-use super::explaining::{follow, scroll_rays};
-use crate::ui::app::Shared;
+use super::explaining::{click_ray, follow, ray_panels, scroll_rays};
+use super::inspecting::place_cross;
 use crate::ui::app::room::Room;
+use crate::ui::app::{Shared, display};
+use crate::ui::keymap::{Context, Mode};
 use crate::ui::msg::Effect;
 
 /// INSPECT. What it looks at is shared: the editor opens there, and the status line names it.
@@ -13,5 +15,29 @@ impl Room for Inspect {
     fn follow(&mut self, shared: &mut Shared) -> Vec<Effect> {
         scroll_rays(shared);
         follow(shared).into_iter().collect()
+    }
+
+    fn press(&mut self, shared: &mut Shared, at: (u16, u16)) -> Option<Vec<Effect>> {
+        if shared.context() == Context::Rays
+            && let Some(panels) = ray_panels(shared)
+            && (panels.tree.contains(at.into()) || panels.values.contains(at.into()))
+        {
+            click_ray(shared, &panels, at);
+            return Some(Vec::new());
+        }
+        let cell = display::picture_cell(shared, at);
+        let cell = cell.filter(|_| shared.mode == Mode::Inspect)?;
+        place_cross(shared, cell);
+        Some(Vec::new())
+    }
+
+    fn drag(&mut self, shared: &mut Shared, at: (u16, u16)) -> Option<Vec<Effect>> {
+        if shared.mode != Mode::Inspect {
+            return None;
+        }
+        if let Some(cell) = display::picture_cell(shared, at) {
+            place_cross(shared, cell);
+        }
+        Some(Vec::new())
     }
 }

@@ -31,6 +31,11 @@ pub(crate) trait Room: Default {
     fn drag(&mut self, _shared: &mut Shared, _at: (u16, u16)) -> Option<Vec<Effect>> {
         None
     }
+
+    /// The same for releasing any button.
+    fn release(&mut self, _shared: &mut Shared) -> Option<Vec<Effect>> {
+        None
+    }
 }
 
 pub(crate) use row::Row;

@@ -2,8 +2,10 @@
 
 mod keys;
 mod regions;
+mod room;
 mod tracing;
 
 pub(crate) use keys::KEYS;
-pub(crate) use regions::{confirm_region, drag_region, order_region, press_region};
+pub(crate) use regions::order_region;
+pub use room::Trace;
 pub(crate) use tracing::{recalled, start, trace_until};

@@ -79,7 +79,7 @@ pub(super) fn swap_corners(shared: &mut Shared) {
 }
 
 /// Draws the region from this cell of the picture on.
-pub(crate) fn press_region(shared: &mut Shared, cell: (u16, u16)) {
+pub(super) fn press_region(shared: &mut Shared, cell: (u16, u16)) {
     if let Some(pixel) = display::output_pixel_at(shared, cell) {
         shared.pictures.drawing = Some(Drawing {
             fixed: pixel,
@@ -90,7 +90,7 @@ pub(crate) fn press_region(shared: &mut Shared, cell: (u16, u16)) {
 }
 
 /// Draws the region to this cell of the picture.
-pub(crate) fn drag_region(shared: &mut Shared, cell: (u16, u16)) {
+pub(super) fn drag_region(shared: &mut Shared, cell: (u16, u16)) {
     let pixel = display::output_pixel_at(shared, cell);
     if let (Some(drawing), Some(pixel)) = (&mut shared.pictures.drawing, pixel) {
         drawing.moving = pixel;

@@ -1,0 +1,12 @@
+//! What VIEW and FLY keep: the views on their page.
+
+use crate::language::SavedView;
+
+/// VIEW and FLY. The camera that they move is shared: every mode sees through it.
+#[derive(Debug, Default)]
+pub struct View {
+    /// The views on the page of saved views.
+    pub(super) saved: Vec<SavedView>,
+    /// The revision of the text that they are from.
+    pub(super) revision: Option<u64>,
+}
