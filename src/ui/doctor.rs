@@ -45,7 +45,10 @@ pub fn examine(scene: Option<&Path>) -> String {
         ("pictures", pictures(answers, client, terminal::cell_size())),
         ("synchronized", synchronized(answers)),
         ("mouse", plain("captured; --no-mouse disables this")),
-        ("clipboard", plain("not used")),
+        (
+            "clipboard",
+            plain("copies are offered with OSC 52, which the terminal may ignore"),
+        ),
         ("link", link(variable)),
         ("changes", changes(&folder)),
         ("threads", threads()),

@@ -20,7 +20,7 @@
 //! | [`recovery`] | unsaved edits, kept for a later run |
 //! | [`terminal`] | bytes from and to the terminal |
 //! | [`msg`], `event`, [`queue`] | messages and effects; what arrives in the inbox; threads that carry out requests |
-//! | [`arrange`], [`layout`], [`listing`], `errors`, [`history_layout`] | where things are on screen, for drawing and for the mouse alike |
+//! | [`arrange`], [`layout`], [`listing`], `error_panel`, [`history_layout`] | where things are on screen, for drawing and for the mouse alike |
 //! | [`scene_reading`], [`reference`](mod@reference), [`revision`], [`history_scene`], [`reel`] | what background work is asked for, and what it answers |
 //! | [`doctor`], `options`, `pixels`, `theme`, `state`, `text_width` | what was detected and chosen, where it is kept, and text made to fit |
 
@@ -35,7 +35,7 @@ macro_rules! table {
 pub mod app;
 pub mod arrange;
 pub mod doctor;
-mod errors;
+mod error_panel;
 mod event;
 pub mod history_layout;
 pub mod history_scene;

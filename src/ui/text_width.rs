@@ -1,6 +1,7 @@
 //! Makes text fit and safe to show.
 
 use std::borrow::Cow;
+use std::path::Path;
 
 use unicode_width::{UnicodeWidthChar, UnicodeWidthStr};
 
@@ -41,6 +42,12 @@ fn pieces(word: &str, width: usize) -> Vec<String> {
         columns += wide;
     }
     pieces
+}
+
+/// The name of a file without its folder.
+pub(crate) fn file_name(path: &Path) -> String {
+    let name = path.file_name().unwrap_or(path.as_os_str());
+    name.to_string_lossy().into_owned()
 }
 
 /// Replaces control characters and other invisible characters by visible symbols or escapes.

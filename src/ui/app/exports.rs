@@ -153,7 +153,7 @@ fn start_export(
 /// Says what is exported, and whether that has to wait.
 pub(crate) fn announce_export(shared: &mut Shared, aov: Option<Aov>, path: &Path) {
     let [begun, queued] = announcements(aov, path);
-    let words = match shared.jobs.export {
+    let words = match shared.jobs.export() {
         Some(_) => queued,
         None => begun,
     };
@@ -174,7 +174,7 @@ fn withdraw_announcement(shared: &mut Shared, export: &Export) {
 
 /// Begins an export, or queues it behind the one under way.
 pub(crate) fn begin_or_queue(shared: &mut Shared, pending: Pending) -> Vec<Effect> {
-    if shared.jobs.export.is_some() {
+    if shared.jobs.export().is_some() {
         shared.jobs.queue(pending);
         return Vec::new();
     }
@@ -191,7 +191,7 @@ fn next_export(shared: &mut Shared) -> Vec<Effect> {
 
 /// Takes a frame of the picture that is exported; the last one is written.
 pub(crate) fn export_frame(shared: &mut Shared, frame: Arc<Frame>) -> Vec<Effect> {
-    let Some(export) = &mut shared.jobs.export else {
+    let Some(export) = shared.jobs.export_mut() else {
         return Vec::new();
     };
     export.progress = Some(frame.progress);
@@ -209,8 +209,8 @@ pub(crate) fn export_frame(shared: &mut Shared, frame: Arc<Frame>) -> Vec<Effect
 
 /// Records that the picture of an export will not be finished.
 pub(crate) fn export_ended(shared: &mut Shared, reason: String) -> Vec<Effect> {
-    let traced = |export: &mut Export| export.stage == Stage::Tracing;
-    if shared.jobs.export.take_if(traced).is_none() {
+    let traced = |export: &Export| export.stage == Stage::Tracing;
+    if shared.jobs.end_export(traced).is_none() {
         return Vec::new();
     }
     shared.jobs.next = None;
@@ -224,7 +224,7 @@ pub(crate) fn exported(
     id: ExportId,
     outcome: Result<Exported, String>,
 ) -> Vec<Effect> {
-    let Some(export) = shared.jobs.export.take_if(|export| export.id == id) else {
+    let Some(export) = shared.jobs.end_export(|export| export.id == id) else {
         // A cancelled export: nobody waits for it, but its file exists now.
         if let Ok(exported) = outcome {
             shared.say(format!("wrote {} anyway", exported.path.display()));
@@ -254,7 +254,7 @@ pub(crate) fn exported(
 /// it, or reports that it is kept.
 pub(crate) fn is_taken(shared: &mut Shared, id: ExportId, reason: String) -> Vec<Effect> {
     let asks = shared.jobs.is_asking() && shared.overlays.dialog.is_none();
-    if !asks || shared.jobs.export.as_ref().map(|export| export.id) != Some(id) {
+    if !asks || shared.jobs.export().map(|export| export.id) != Some(id) {
         return exported(shared, id, Err(reason));
     }
     let Some(pending) = shared.jobs.take_back() else {
@@ -344,7 +344,7 @@ fn traced(shared: &Shared, size: Size, spp: u32) -> Option<Arc<Frame>> {
 
 /// Cancels the running export; those that wait go on.
 pub(crate) fn cancel_export(shared: &mut Shared) -> Vec<Effect> {
-    let Some(export) = shared.jobs.export.take() else {
+    let Some(export) = shared.jobs.end_export(|_| true) else {
         shared.say("nothing is running");
         return Vec::new();
     };

@@ -5,9 +5,9 @@ use tui_input::Input;
 
 use super::shared::cursor::Typing;
 use super::shared::line;
-use super::{App, PageFocus, PromptKind, Shared, command, edit, select, text, transform};
+use super::{App, PageFocus, PromptKind, Shared, command, edit, select, transform};
 use crate::text::alternatives;
-use crate::ui::keymap::{self, Context, Meaning, Mode};
+use crate::ui::keymap::{self, Context, Line, Meaning, Mode};
 use crate::ui::msg::Effect;
 
 impl App {
@@ -18,12 +18,12 @@ impl App {
         let context = self.shared.context();
         let before = self.shared.prefix.take();
         let meaning = self.shared.keymap.meaning(context, before, key);
-        let is_line = text::has_input(&self.shared);
         let controls = key.modifiers.contains(KeyModifiers::CONTROL);
         let reserved = matches!(meaning, Meaning::Does(row) if self.shared.keymap.is_reserved(row));
-        // Only a dialog takes precedence over a line being typed.
-        if is_line && self.shared.overlays.dialog.is_none() && !(reserved && controls) {
-            return self.type_key(key);
+        if let Some(line) = self.shared.typed_line()
+            && !(reserved && controls)
+        {
+            return self.type_key(line, key);
         }
         if context == Context::In(Mode::Move)
             && transform::type_amount(&mut self.moving, &mut self.shared, key)
@@ -51,22 +51,17 @@ impl App {
         }
     }
 
-    fn type_key(&mut self, key: KeyEvent) -> Vec<Effect> {
+    fn type_key(&mut self, line: Line, key: KeyEvent) -> Vec<Effect> {
         if line::types(key) && !edit::has_room(&mut self.shared, 1) {
             return Vec::new();
         }
-        if self.shared.overlays.prompt.is_some() {
-            return self.prompt_key(key);
+        match line {
+            Line::Command | Line::List | Line::Name => return self.prompt_key(key),
+            Line::Rows | Line::Search => return self.filter_key(key),
+            Line::Menu => edit::menu_key(&mut self.shared, key),
+            Line::Value => edit::typing_key(&mut self.shared, key),
         }
-        if self.shared.overlays.menu.is_some() {
-            edit::menu_key(&mut self.shared, key);
-            return Vec::new();
-        }
-        if self.shared.cursor.typing.is_some() {
-            edit::typing_key(&mut self.shared, key);
-            return Vec::new();
-        }
-        self.filter_key(key)
+        Vec::new()
     }
 
     /// Types into the filter of the open page. Enter chooses, on a page that is only read it ends the

@@ -29,7 +29,7 @@ pub(crate) fn move_cursor_in(shared: &mut Shared, context: Context, rows: isize)
                 *at = moved(*at, rows, merge.conflicts.len());
             }
         }
-        Context::Views | Context::Recent | Context::Steps | Context::Messages | Context::Help => {
+        Context::Views | Context::Recent | Context::History | Context::Messages | Context::Help => {
             let messages = shared.overlays.messages.past().len();
             if let Some(page) = &mut shared.overlays.page {
                 let count = match context {
@@ -63,7 +63,7 @@ fn page(shared: &Shared) -> isize {
         Context::Help => return (shared.help_rows() as isize - 1).max(1),
         Context::Rays => inspect::ray_panels(shared).map_or(areas.list, |panels| panels.lines),
         Context::Errors => areas.errors,
-        Context::Steps => return history::step_rows(shared),
+        Context::History => return history::step_rows(shared),
         Context::Messages | Context::Views | Context::Recent => areas.picture,
         _ => areas.list,
     };

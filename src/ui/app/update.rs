@@ -122,7 +122,7 @@ impl App {
         match target {
             Target::Preview | Target::Trace => shared.pictures.want(target, Some(generation)),
             Target::Compared | Target::Reference => {
-                compare::want(&mut self.compare, shared, target, Some(generation));
+                self.compare.want(target, Some(generation));
             }
             Target::Trial => shared.suggestions.started(generation),
             Target::Thumbnail => self.thumbnails.started(generation),
@@ -157,7 +157,7 @@ impl App {
         match target {
             Target::Preview | Target::Trace => shared.pictures.want(target, None),
             Target::Compared | Target::Reference => {
-                compare::want(&mut self.compare, shared, target, None);
+                self.compare.want(target, None);
             }
             Target::Trial => return suggesting::end_trials(shared),
             Target::Thumbnail => {

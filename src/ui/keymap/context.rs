@@ -122,7 +122,7 @@ contexts! {
     /// The page of recently used scenes.
     Recent, "recent", "the list of recent scenes";
     /// The page of the undo history.
-    Steps, "history", "the undo history";
+    History, "history", "the undo history";
     /// The history of messages is open.
     Messages, "messages", "the messages so far";
     /// The help page is open.

@@ -82,7 +82,7 @@ impl Keymap {
         let owned = |(keys, words): &(&str, &'static str)| ((*keys).to_owned(), *words, "");
         for (heading, line) in [
             ("while a value is typed", Line::Value),
-            ("in a menu, where typing filters", Line::Filter),
+            ("in a menu, where typing filters", Line::Menu),
             ("after :", Line::Command),
             ("while the list is filtered", Line::List),
             ("after /", Line::Search),

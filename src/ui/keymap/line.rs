@@ -14,7 +14,9 @@ pub enum Line {
     /// A new name.
     Name,
     /// The filter of a menu.
-    Filter,
+    Menu,
+    /// The filter of a page with rows to choose from.
+    Rows,
 }
 
 /// The keys with a meaning of their own while a line is typed, the most useful first.
@@ -36,7 +38,7 @@ pub fn line_hints(line: Line) -> &'static [(&'static str, &'static str)] {
             ("Ctrl-U", "clear"),
         ],
         Line::Name => &[("Enter", "rename"), ("Esc", "cancel"), ("Ctrl-U", "clear")],
-        Line::Filter => &[
+        Line::Menu => &[
             ("Enter", "choose"),
             ("Esc", "cancel"),
             ("↑ ↓", "move"),
@@ -46,6 +48,12 @@ pub fn line_hints(line: Line) -> &'static [(&'static str, &'static str)] {
         Line::List => &[
             ("Enter", "keep"),
             ("Esc", "show all"),
+            ("↑ ↓", "move"),
+            ("Ctrl-U", "clear"),
+        ],
+        Line::Rows => &[
+            ("Enter", "choose"),
+            ("Esc", "back"),
             ("↑ ↓", "move"),
             ("Ctrl-U", "clear"),
         ],

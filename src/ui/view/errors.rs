@@ -7,7 +7,7 @@ use ratatui::widgets::{Clear, Widget};
 use super::row::{Row, title};
 use crate::text::counted;
 use crate::ui::app::Shared;
-use crate::ui::errors::StyledLine;
+use crate::ui::error_panel::StyledLine;
 use crate::ui::theme;
 
 /// Draws the diagnostics below the picture, if there are any to show.

@@ -16,6 +16,7 @@ mod fields;
 mod graphics_gap;
 mod help;
 mod histogram;
+mod history;
 mod inks;
 mod labelled;
 mod list;
@@ -32,7 +33,6 @@ mod rays;
 mod row;
 mod sequence;
 mod status;
-mod steps;
 mod symbols;
 mod tiles;
 mod values;
@@ -131,9 +131,10 @@ fn render_page(app: &App, page: &Page, inks: &mut Inks, area: Rect, buffer: &mut
     match page.context {
         Context::Help => help::render(&app.shared, page, area, buffer),
         Context::Messages => past_messages::render(&app.shared, page, area, buffer),
-        Context::Steps => steps::render(app, page, inks, area, buffer),
+        Context::History => history::render(app, page, inks, area, buffer),
         Context::Recent => page::render(app, page, " Recent scenes ", area, buffer),
-        _ => page::render(app, page, " Saved views ", area, buffer),
+        Context::Views => page::render(app, page, " Saved views ", area, buffer),
+        _ => {}
     }
 }
 

@@ -36,7 +36,7 @@ pub(crate) fn render(app: &App, inks: &mut Inks, area: Rect, buffer: &mut Buffer
     let shown = &shared.picture().shown;
     if shown.size.pixels() == 0 || shown.pixels.len() != shown.size.pixels() {
         if shared.is_empty() {
-            invitation(area, buffer);
+            invitation(shared, area, buffer);
         } else {
             notice(shared, area, buffer);
         }
@@ -88,7 +88,7 @@ fn overlays(
         comparison::mark(app, cells, buffer);
     }
     if shared.is_empty() {
-        invitation(area, buffer);
+        invitation(shared, area, buffer);
     }
     if 0 < shared.error_count() {
         let chip = " STALE ";
@@ -110,26 +110,24 @@ fn notice(shared: &Shared, area: Rect, buffer: &mut Buffer) {
     Row::new(buffer, layout::centred(area, line), 0).put(&text, theme::DIM);
 }
 
-/// What to press in an empty scene, each with its effect.
-const INVITATION: [(&str, &str); 3] = [
-    ("a", "adds an object"),
-    (":e FILE", "opens another scene"),
-    ("?", "lists all keys"),
-];
-
 /// Says what to press in an empty scene.
-fn invitation(area: Rect, buffer: &mut Buffer) {
+fn invitation(shared: &Shared, area: Rect, buffer: &mut Buffer) {
     let title = "The scene is empty.";
-    let keys = INVITATION.iter().map(|(key, _)| key.width());
+    let entries = [
+        (shared.key_for("add"), "adds an object"),
+        (":e FILE".to_owned(), "opens another scene"),
+        (shared.key_for("help"), "lists all keys"),
+    ];
+    let keys = entries.iter().map(|(key, _)| key.width());
     let indent = 2 + keys.max().unwrap_or(0);
-    let words = INVITATION.iter().map(|(_, words)| words.width());
+    let words = entries.iter().map(|(_, words)| words.width());
     let width = title.width().max(indent + words.max().unwrap_or(0));
-    let lines = Rect::new(0, 0, width as u16, 2 + INVITATION.len() as u16);
+    let lines = Rect::new(0, 0, width as u16, 2 + entries.len() as u16);
     let frame = Rect::new(0, 0, lines.width + 4, lines.height + 2);
     Clear.render(layout::centred(area, frame), buffer);
     let area = layout::centred(area, lines).intersection(buffer.area);
     Row::new(buffer, area, 0).put(title, theme::BOLD);
-    for (line, (key, words)) in (2..).zip(INVITATION) {
+    for (line, (key, words)) in (2..).zip(&entries) {
         let mut row = Row::new(buffer, area, line);
         row.put(key, theme::ACCENT);
         row.skip_to(area.x + indent as u16).put(words, theme::DIM);

@@ -179,7 +179,7 @@ fn segments(app: &App, glyphs: Glyphs) -> Vec<Segment> {
         let text = format!("still writing {name}, {seconds} s");
         say(3, text, theme::WARNING);
     }
-    if let Some(export) = &shared.jobs.export {
+    if let Some(export) = shared.jobs.export() {
         let frame = export.reel.map(|reel| format!("frame {} ", reel.place()));
         let frame = frame.unwrap_or_default();
         let queued = match shared.jobs.queued() {

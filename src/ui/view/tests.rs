@@ -284,7 +284,7 @@ const STATES: &[(&str, Change)] = &[
         app.shared.has_colours = true;
         select(app, Node::Object(0));
         press(app, "DDduUk");
-        assert!(app.shared.overlays.page(Context::Steps).is_some());
+        assert!(app.shared.overlays.page(Context::History).is_some());
     }),
     ("overwrite", |app| {
         press(app, "b");
@@ -332,7 +332,7 @@ const STATES: &[(&str, Change)] = &[
     }),
     ("message", |app| {
         press(app, "b");
-        assert!(app.shared.jobs.export.is_some());
+        assert!(app.shared.jobs.export().is_some());
         let text = "界\u{1b}]52;c;界\u{7}".repeat(20);
         say(app, Some(Severity::Warning), &text);
         app.shared.pictures.net = Some(86_000);

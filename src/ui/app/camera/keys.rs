@@ -3,10 +3,9 @@
 use crossterm::event::KeyCode;
 
 use super::moves::{advanced, dollied, faced, panned, rolled, stepped, widened};
-use super::saved_views::{
-    delete_view, frame_selected, go_to_view, list_views, look_from_light, move_camera, save_view,
-};
+use super::saved_views::{delete_view, go_to_view, list_views};
 use super::state::View;
+use super::working_view::{frame_selected, look_from_light, move_camera, save_view};
 use crate::ui::app::room::Row;
 use crate::ui::keymap::{Context, Key, Mode, Scope, c, key, shift};
 

@@ -1,8 +1,9 @@
 //! How VIEW and FLY react to steps, presses and drags.
 
 use super::moves::{advanced, dollied, orbited, shifted, turned};
-use super::saved_views::{move_camera, relist};
+use super::saved_views::relist;
 use super::state::View;
+use super::working_view::move_camera;
 use crate::render::{axes, pixel_width};
 use crate::ui::app::room::Room;
 use crate::ui::app::{Shared, display};

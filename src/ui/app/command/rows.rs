@@ -8,7 +8,7 @@ use crate::scene::{Size, Transfer};
 use crate::ui::app::display::ScaleOrder;
 use crate::ui::app::exports::ExportOrder;
 use crate::ui::app::files::Force;
-use crate::ui::app::pictures::drawing::RegionOrder;
+use crate::ui::app::pictures::region::RegionOrder;
 use crate::ui::app::pictures::until::Until;
 use crate::ui::app::shared::jobs::Asking;
 use crate::ui::app::text::SettingOrder;

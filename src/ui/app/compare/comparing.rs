@@ -64,13 +64,6 @@ pub(super) fn follow(compare: &mut Compare, shared: &mut Shared) -> Vec<Effect> 
             Vec::new()
         };
     }
-    let changes = match shared.mode {
-        Mode::Inspect => compare.inspect(),
-        _ => compare.compare_again(),
-    };
-    if changes {
-        show(compare, shared);
-    }
     if !std::mem::take(&mut compare.due) && !shared.pictures.has_changed {
         return measure(compare);
     }
@@ -179,16 +172,16 @@ pub(crate) fn unlike(compare: &Compare, shared: &Shared) -> Option<String> {
     (live != shows).then(|| format!("{live} against {shows}"))
 }
 
-/// Records the generation of a picture, or `None` if it will not be finished.
-pub(crate) fn want(
-    compare: &mut Compare,
-    shared: &mut Shared,
-    target: Target,
-    generation: Option<u64>,
-) {
-    compare.want(target, generation);
-    if target == Target::Compared {
-        shared.pictures.compared.wanted = generation;
+/// Lends the present picture to what all modes share: seen alone in INSPECT, otherwise compared.
+pub(super) fn lend(compare: &mut Compare, shared: &mut Shared) {
+    let changes = match shared.mode {
+        Mode::Inspect => compare.inspect(),
+        _ => compare.compare_again(),
+    };
+    shared.pictures.compared_size = compare.framed();
+    shared.pictures.compared.wanted = compare.wanted();
+    if changes && shared.seen() == Target::Compared {
+        show(compare, shared);
     }
 }
 
@@ -213,7 +206,6 @@ fn look(compare: &mut Compare, shared: &mut Shared, view: Contrast, wipe: Wipe) 
 
 /// Puts what is seen of both pictures on screen.
 fn show(compare: &Compare, shared: &mut Shared) {
-    shared.pictures.compared_size = compare.framed();
     if let Some(seen) = compare.seen() {
         shared.pictures.compared.take(seen);
     }

@@ -8,7 +8,7 @@ mod referring;
 mod room;
 mod state;
 
-pub(crate) use comparing::{cross_on_screen, end, start, take_frame, unlike, want, wipe_on_screen};
+pub(crate) use comparing::{cross_on_screen, end, start, take_frame, unlike, wipe_on_screen};
 pub use contrast::Contrast;
 pub(crate) use keys::{ENTRIES, KEYS};
 pub(crate) use referring::{by_command, reference_read};

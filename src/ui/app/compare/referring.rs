@@ -117,7 +117,7 @@ fn read_reference(compare: &mut Compare, shared: &mut Shared, path: PathBuf) -> 
     let own = shared.disk.path.clone();
     let (name, source) = match (revision, own) {
         (_, None) if is_own => {
-            shared.fail("the scene has no file yet: :w FILE");
+            shared.fail("this scene has no file yet: use :w FILE to create one");
             return Vec::new();
         }
         // Git would take it for an option.

@@ -1,6 +1,6 @@
 //! How COMPARE reacts to steps, presses and drags.
 
-use super::comparing::{follow, press};
+use super::comparing::{follow, lend, press};
 use super::state::Compare;
 use crate::ui::app::room::Room;
 use crate::ui::app::shared::Shared;
@@ -12,7 +12,7 @@ impl Room for Compare {
     fn renew(&mut self) {}
 
     fn settle(&mut self, shared: &mut Shared) {
-        shared.pictures.compared_size = self.framed();
+        lend(self, shared);
     }
 
     fn follow(&mut self, shared: &mut Shared) -> Vec<Effect> {

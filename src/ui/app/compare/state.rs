@@ -165,6 +165,11 @@ impl Compare {
         }
     }
 
+    /// The generation of the present picture; `None` if it will not be finished.
+    pub(super) fn wanted(&self) -> Option<u64> {
+        self.wanted
+    }
+
     /// Takes a frame of either picture; returns whether that changes what is seen.
     pub(crate) fn take(&mut self, target: Target, frame: Arc<Frame>) -> bool {
         // Of a picture that is denoised, only the last frame has pixels.

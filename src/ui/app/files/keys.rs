@@ -2,7 +2,7 @@
 
 use crossterm::event::KeyCode;
 
-use super::open_scene::open_recent;
+use super::other_scene::open_recent;
 use crate::ui::app::room::Row;
 use crate::ui::keymap::{Context, Key, Scope, c, key};
 

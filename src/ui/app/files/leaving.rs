@@ -87,7 +87,7 @@ pub(crate) fn quit_anyway(shared: &mut Shared) -> Vec<Effect> {
 /// Leaves as planned once saves and, before quitting, the export are done and nothing would be
 /// lost.
 pub(crate) fn leave_when_done(shared: &mut Shared) -> Vec<Effect> {
-    if shared.jobs.next == Some(AfterLeaving::Quit) && shared.jobs.export.is_some() {
+    if shared.jobs.next == Some(AfterLeaving::Quit) && shared.jobs.export().is_some() {
         let words = match shared.jobs.queued() {
             0 => {
                 let stop = shared.key_for("stop");
@@ -213,7 +213,7 @@ fn lost_text(shared: &Shared) -> Option<String> {
 
 /// The export that would end too early.
 fn lost_export(shared: &Shared) -> Option<String> {
-    let export = shared.jobs.export.as_ref()?;
+    let export = shared.jobs.export()?;
     let name = export.destination.path.display();
     Some(match shared.jobs.queued() {
         0 => format!("{name} is still being exported"),

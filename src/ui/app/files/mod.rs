@@ -1,11 +1,11 @@
 //! The files of the scene: opened, watched, merged, saved, recovered, left.
 
 mod editor;
+mod first_scene;
 mod keys;
 mod leaving;
 mod merging;
-mod open_scene;
-mod opening;
+mod other_scene;
 mod polling;
 mod reading;
 mod recent;
@@ -14,14 +14,14 @@ mod replacing;
 mod saving;
 
 pub(crate) use editor::{editor_closed, open_editor};
+pub(crate) use first_scene::{first_read, open};
 pub(crate) use keys::KEYS;
 pub(crate) use leaving::{
     interrupt, leave_anyway, leave_when_done, question_before, quit, quit_anyway,
     quit_keeping_edits, quit_key, save_and_quit, save_key, save_view_key, was_saved,
 };
 pub(crate) use merging::{adopt, decide, decide_all};
-pub(crate) use open_scene::{edit_file, other_scene_read, start_new};
-pub(crate) use opening::{first_read, open};
+pub(crate) use other_scene::{edit_file, other_scene_read, start_new};
 pub(crate) use polling::{polled, polls};
 pub(crate) use reading::{backups_found, catch_up, read_again, settled, was_read};
 pub(crate) use recent::show_recent;
@@ -31,8 +31,8 @@ pub(crate) use recover::{
 };
 pub(crate) use saving::{Force, tick, write};
 
+pub use first_scene::{Opening, OpeningText, Preferences};
 #[cfg(test)]
 pub(crate) use leaving::losses;
-pub use opening::{Opening, OpeningText, Preferences};
 #[cfg(test)]
 pub(crate) use reading::baseline;

@@ -10,7 +10,7 @@ use crate::document::{Difference, Numbers, StepName};
 use crate::file::{self, ReadError};
 use crate::language::{Before, Lowered};
 use crate::text::{Findings, Position, Severity, counted};
-use crate::ui::app::shared::after_leaving;
+
 use crate::ui::app::shared::cursor::SavedCursor;
 use crate::ui::app::shared::disk::{Disk, Faulty, Requester, Settle};
 use crate::ui::app::shared::messages::About;
@@ -18,6 +18,7 @@ use crate::ui::app::shared::messages::About;
 use crate::ui::app::{Dialog, MergeSource, OnDisk, Shared, text};
 use crate::ui::msg::Effect;
 use crate::ui::scene_reading::{Baseline, News, Reading};
+use crate::ui::text_width::file_name;
 
 /// Many programs empty a file before writing it: errors must persist for this long.
 const QUIET: Duration = Duration::from_millis(100);
@@ -413,7 +414,7 @@ pub(super) fn show_reload(
 pub(super) fn announce_new(shared: &mut Shared) {
     let save = shared.key_for("save");
     shared.say(match shared.disk.path.as_deref() {
-        Some(path) => format!("{} is new: {save} writes it", after_leaving::name_of(path)),
+        Some(path) => format!("{} is new: {save} writes it", file_name(path)),
         None => "a new scene: :w FILE writes it".to_owned(),
     });
 }

@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 use std::sync::Arc;
 
-use super::opening::begin;
+use super::first_scene::begin;
 use super::reading::watch;
 use crate::document::Document;
 use crate::language::{Language, Lowered};

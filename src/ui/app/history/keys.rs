@@ -2,14 +2,14 @@
 
 use crossterm::event::KeyCode;
 
-use super::timeline::go_to_chosen;
+use super::page::go_to_chosen;
 use super::undoing::{redo, undo};
 use crate::ui::app::room::Row;
 use crate::ui::keymap::{Context, Key, Scope, c, ctrl, key};
 
 use KeyCode::{Enter, Esc};
 
-const STEPS: Scope = Scope::These(&[Context::Steps]);
+const STEPS: Scope = Scope::These(&[Context::History]);
 
 /// The most useful first.
 #[rustfmt::skip]

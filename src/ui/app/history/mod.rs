@@ -1,15 +1,15 @@
 //! Undoing and redoing, and the page of the undo history: a picture of the text after each step.
 
 mod keys;
+mod page;
 mod thumbnails;
-mod timeline;
 mod tracing;
 mod undoing;
 
 pub(crate) use keys::KEYS;
-pub use thumbnails::{Rank, Thumbnail, Thumbnails};
 #[cfg(test)]
-pub(crate) use timeline::go_to_state;
-pub(crate) use timeline::{history_layout, list_steps, step_rows, when};
+pub(crate) use page::go_to_state;
+pub(crate) use page::{history_layout, list_steps, step_rows, when};
+pub use thumbnails::{Rank, Thumbnail, Thumbnails};
 pub(crate) use tracing::derived;
 pub(crate) use undoing::{redo, undo};

@@ -2,8 +2,8 @@
 
 use ratatui::layout::Rect;
 
+use super::page::{body, history_layout, step_names};
 use super::thumbnails::{Look, Rank, Slot, Thumbnails};
-use super::timeline::{body, history_layout, step_names};
 use crate::render::{Frames, Job, Settings};
 use crate::scene::{Camera, Filter, Integrator, Rendering};
 use crate::ui::app::room::Room;
@@ -32,7 +32,7 @@ impl Room for Thumbnails {
 /// if the page is closed.
 fn follow(thumbnails: &mut Thumbnails, shared: &mut Shared) -> Vec<Effect> {
     let (document, overlays) = (&shared.document, &mut shared.overlays);
-    let Some(page) = overlays.page_mut(Context::Steps) else {
+    let Some(page) = overlays.page_mut(Context::History) else {
         thumbnails.listed = None;
         let is_under_way = thumbnails.cancel();
         let stop = is_under_way.then_some(Effect::Stop(Target::Thumbnail));
@@ -65,7 +65,7 @@ fn follow(thumbnails: &mut Thumbnails, shared: &mut Shared) -> Vec<Effect> {
 /// The pictures on the page, the most urgent first: those in rows from the selected one outwards,
 /// which take less time, then the large one.
 fn wanted_slots(shared: &Shared) -> Vec<Slot> {
-    let Some(page) = shared.overlays.page(Context::Steps) else {
+    let Some(page) = shared.overlays.page(Context::History) else {
         return Vec::new();
     };
     let strip = history_layout(shared, body(shared));

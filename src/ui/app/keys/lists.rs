@@ -19,7 +19,7 @@ const LISTS: Scope = These(&[
     Context::Errors,
     Context::Views,
     Context::Recent,
-    Context::Steps,
+    Context::History,
     Context::Colour,
     Context::Conflict,
     Context::Rays,
@@ -33,7 +33,7 @@ const LONG_LISTS: Scope = These(&[
     Context::Views,
     Context::Recent,
     Context::Rays,
-    Context::Steps,
+    Context::History,
 ]);
 const MOVED: &[Context] = &[In(Mode::Select), Context::Errors, Context::Rays];
 const EDIT: &[Context] = &[In(Mode::Edit)];
@@ -43,7 +43,7 @@ const PAGES: &[Context] = &[
     Context::Messages,
     Context::Views,
     Context::Recent,
-    Context::Steps,
+    Context::History,
     Context::Conflict,
 ];
 

@@ -1,10 +1,10 @@
 //! The preview and the full-size trace, what they show, and from where.
 
 pub(crate) mod cell_image;
-pub(crate) mod drawing;
 pub(crate) mod frame_window;
 pub(crate) mod histogram;
 pub(crate) mod picture;
+pub(crate) mod region;
 pub(crate) mod saved_setting;
 pub(crate) mod solo;
 pub(crate) mod until;
@@ -13,10 +13,10 @@ pub(crate) mod wireframe;
 
 use std::sync::Arc;
 
-use drawing::Drawing;
 use frame_window::Grid;
 use histogram::ShownHistogram;
 use picture::Picture;
+use region::Drawing;
 use saved_setting::SavedSetting;
 use solo::Solo;
 use until::Until;

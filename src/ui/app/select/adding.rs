@@ -73,7 +73,7 @@ pub(crate) fn add_mesh(shared: &mut Shared, file: Option<&Path>) {
     let mesh = additions.find(|addition| addition.needs_file());
     match (mesh, file) {
         (None, _) => shared.fail("there are no meshes in this language"),
-        (_, None) => shared.fail("name the mesh: mesh FILE.obj"),
+        (_, None) => shared.fail("name the mesh: :mesh FILE.obj"),
         (Some(mesh), Some(file)) => {
             let before = std::mem::replace(&mut shared.mode, Mode::Select);
             if !add_with(shared, mesh.name, Some(&file.to_string_lossy())) {

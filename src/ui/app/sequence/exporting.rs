@@ -146,7 +146,7 @@ fn reel_of(
 
 /// Takes how far the export of a sequence is.
 pub(crate) fn filmed(shared: &mut Shared, id: ExportId, progress: ReelProgress) {
-    let running = shared.jobs.export.as_mut();
+    let running = shared.jobs.export_mut();
     if let Some(export) = running.filter(|export| export.id == id) {
         export.reel = Some(progress);
     }

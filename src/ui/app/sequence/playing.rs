@@ -10,11 +10,11 @@ use crate::file::ReadError;
 use crate::text::Severity;
 use crate::track::{self, Bound, Track};
 use crate::ui::app::shared::Shared;
-use crate::ui::app::shared::after_leaving::name_of;
 use crate::ui::app::shared::messages::About;
 use crate::ui::app::{files, text};
 use crate::ui::keymap::Mode;
 use crate::ui::msg::{Effect, Timer};
+use crate::ui::text_width::file_name;
 
 /// Reads a track to play: this one, the open one, or that beside the scene.
 pub(crate) fn open_track(
@@ -94,7 +94,7 @@ pub(crate) fn track_read(
     let (track, findings) = track::read(text.as_deref().unwrap_or(track::BEGUN));
     if 0 < findings.errors() {
         let text = text.unwrap_or_default();
-        complain(shared, &complaint(&name_of(&path), &text, &findings));
+        complain(shared, &complaint(&file_name(&path), &text, &findings));
         return refuse(sequence, &path);
     }
     if is_asked && !has_sound_scene(shared) {
@@ -102,7 +102,7 @@ pub(crate) fn track_read(
     }
     text::revert_transient(shared);
     let text_of = text.as_deref().unwrap_or_default();
-    if shared.error_count() == 0 && bind(shared, &track, &name_of(&path), text_of).is_none() {
+    if shared.error_count() == 0 && bind(shared, &track, &file_name(&path), text_of).is_none() {
         resume(sequence, shared);
         return refuse(sequence, &path);
     }

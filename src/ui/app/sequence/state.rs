@@ -6,7 +6,7 @@ use std::time::Duration;
 
 use crate::text::{Findings, Position};
 use crate::track::{Bound, Track};
-use crate::ui::app::shared::after_leaving::name_of;
+use crate::ui::text_width::file_name;
 
 /// Frames per second of a track that does not say how many.
 const RATE: u32 = 24;
@@ -53,7 +53,7 @@ impl Sequence {
 impl OpenTrack {
     /// The name of its file.
     pub fn name(&self) -> String {
-        name_of(&self.path)
+        file_name(&self.path)
     }
 
     /// The number of the last frame.

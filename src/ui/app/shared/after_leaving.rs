@@ -1,8 +1,9 @@
 //! What follows once the scene is left.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use crate::language::Language;
+use crate::ui::text_width::file_name;
 
 /// What follows once the scene is left.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -20,14 +21,8 @@ impl AfterLeaving {
     pub(crate) fn announcement(&self) -> String {
         match self {
             Self::Quit => "will quit".to_owned(),
-            Self::Open(path) => format!("will open {}", name_of(path)),
+            Self::Open(path) => format!("will open {}", file_name(path)),
             Self::New(_) => "will start a new scene".to_owned(),
         }
     }
-}
-
-/// The name of a file without its folder.
-pub(crate) fn name_of(path: &Path) -> String {
-    let name = path.file_name().unwrap_or(path.as_os_str());
-    name.to_string_lossy().into_owned()
 }

@@ -4,13 +4,13 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::Duration;
 
-use super::after_leaving::name_of;
 use super::journal::Journal;
 use crate::file::ReadError;
 use crate::scene::Camera;
 use crate::text::Findings;
 use crate::ui::msg::{Effect, Timer};
 use crate::ui::scene_reading::{Baseline, SceneFolder};
+use crate::ui::text_width::file_name;
 
 /// The scene's file, and the state of reading it.
 #[derive(Debug, Default)]
@@ -120,7 +120,7 @@ impl Disk {
     pub fn name(&self) -> String {
         self.path
             .as_ref()
-            .map_or_else(|| "(no file)".to_owned(), |path| name_of(path))
+            .map_or_else(|| "(no file)".to_owned(), |path| file_name(path))
     }
 
     /// Whether the scene has not been read: there is nothing to show or to edit.

@@ -26,9 +26,7 @@ const PATIENCE: u32 = 2;
 #[derive(Debug, Default)]
 pub struct Jobs {
     /// The running export; there is at most one.
-    pub export: Option<Export>,
-    /// How the running export is made, and whether it asks.
-    making: Option<(ExportWork, Asking)>,
+    running: Option<Pending>,
     /// The exports that wait for it, the next one first.
     pending: VecDeque<Pending>,
     /// The ID of the latest export.
@@ -75,10 +73,10 @@ pub struct Export {
     pub written_for: u32,
 }
 
-/// An export that waits for others or for an answer.
+/// An export with what it is made from: while it runs, or waits for others or for an answer.
 #[derive(Debug)]
 pub struct Pending {
-    /// The export as if it were running.
+    /// The export; one that waits is as if it were running.
     pub export: Export,
     pub(crate) making: ExportWork,
     pub(crate) asking: Asking,
@@ -151,11 +149,27 @@ impl Ended {
 }
 
 impl Jobs {
+    /// The running export.
+    pub fn export(&self) -> Option<&Export> {
+        self.running.as_ref().map(|running| &running.export)
+    }
+
+    /// The same, to be changed.
+    pub(crate) fn export_mut(&mut self) -> Option<&mut Export> {
+        self.running.as_mut().map(|running| &mut running.export)
+    }
+
+    /// Ends the running export, if it is the one that is meant.
+    pub(crate) fn end_export(&mut self, is_meant: impl FnOnce(&Export) -> bool) -> Option<Export> {
+        let ended = self.running.take_if(|running| is_meant(&running.export));
+        ended.map(|ended| ended.export)
+    }
+
     /// The file that has taken longest to write, if it takes long, and the seconds so far.
     pub fn still_writing(&self) -> Option<(&Path, u32)> {
         let saves = self.saves.iter();
         let saves = saves.map(|save| (save.path.as_path(), save.seconds));
-        let export = self.export.as_ref();
+        let export = self.export();
         let export = export.map(|export| (export.destination.path.as_path(), export.written_for));
         let all = saves.chain(export);
         let late = all.filter(|&(_, seconds)| PATIENCE <= seconds);
@@ -257,7 +271,7 @@ impl Jobs {
         for save in &mut self.saves {
             save.seconds += 1;
         }
-        let export = self.export.as_mut();
+        let export = self.export_mut();
         let export = export.filter(|export| export.stage == Stage::Writing);
         let is_exporting = export.map(|export| export.written_for += 1).is_some();
         is_exporting || !self.saves.is_empty()
@@ -289,32 +303,24 @@ impl Jobs {
 
     /// Whether the running export asks before it overwrites a file.
     pub(crate) fn is_asking(&self) -> bool {
-        matches!(self.making, Some((_, Asking::Yes)))
+        let running = self.running.as_ref();
+        running.is_some_and(|running| running.asking == Asking::Yes)
     }
 
     /// Takes the running export back, to start it again later.
     pub(crate) fn take_back(&mut self) -> Option<Pending> {
-        let (making, asking) = self.making.take()?;
-        Some(Pending {
-            export: self.export.take()?,
-            making,
-            asking,
-        })
+        self.running.take()
     }
 
     /// Starts an export.
-    pub(crate) fn begin_export(&mut self, pending: Pending) -> Vec<Effect> {
-        let Pending {
-            mut export,
-            making,
-            asking,
-        } = pending;
+    pub(crate) fn begin_export(&mut self, mut pending: Pending) -> Vec<Effect> {
+        let Pending { export, making, .. } = &mut pending;
         let destination = &mut export.destination;
         if destination.existing == Existing::Kept {
             destination.existing = self.existing(&destination.path);
         }
         let destination = destination.clone();
-        let effects = match &making {
+        let effects = match making {
             ExportWork::Write(frame) => {
                 export.stage = Stage::Writing;
                 let mut effects = vec![Effect::WriteImage(
@@ -341,8 +347,7 @@ impl Jobs {
                 ]
             }
         };
-        self.export = Some(export);
-        self.making = Some((making, asking));
+        self.running = Some(pending);
         effects
     }
 

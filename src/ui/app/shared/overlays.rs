@@ -168,12 +168,6 @@ impl Overlays {
         self.page.as_mut().filter(|page| page.context == context)
     }
 
-    /// Whether keys are typed into a line here.
-    pub(crate) fn has_line(&self) -> bool {
-        let page = self.page.as_ref().map(|page| page.focus);
-        self.prompt.is_some() || self.menu.is_some() || page == Some(PageFocus::Search)
-    }
-
     /// The line that keys or pastes are typed into, and whether the next character replaces it.
     pub(crate) fn line(&self) -> Option<(&Input, bool)> {
         let prompt = self.prompt.as_ref();

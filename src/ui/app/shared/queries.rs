@@ -16,14 +16,14 @@ use crate::language::{Node, Nodes, Source};
 use crate::render::Region;
 use crate::scene::{Camera, Rendering, Scene, Size};
 use crate::text::{Span, counted};
-use crate::ui::app::pictures::drawing::Drawing;
 use crate::ui::app::pictures::frame_window::{Marked, Reason};
 use crate::ui::app::pictures::picture::Picture;
+use crate::ui::app::pictures::region::Drawing;
 use crate::ui::app::pictures::until::Until;
 use crate::ui::app::{Shared, ShownWireframe};
 use crate::ui::arrange::{Areas, Shape, Zoom, arrange};
-use crate::ui::errors;
-use crate::ui::errors::{Panel, Wrong};
+use crate::ui::error_panel;
+use crate::ui::error_panel::{Panel, Wrong};
 use crate::ui::keymap::{Context, Line, Mode};
 use crate::ui::layout::raster;
 use crate::ui::listing::Listing;
@@ -69,24 +69,28 @@ impl Shared {
         }
     }
 
-    /// The line that keys are typed into, if any.
+    /// The line that keys are typed into, if any; a question takes precedence.
     pub fn typed_line(&self) -> Option<Line> {
+        self.open_line().filter(|_| self.overlays.dialog.is_none())
+    }
+
+    /// The line that is open, if any.
+    pub(crate) fn open_line(&self) -> Option<Line> {
         let overlays = &self.overlays;
-        if overlays.dialog.is_some() {
-            return None;
-        }
-        let help = overlays.page(Context::Help);
+        let page = overlays.page.as_ref();
+        let page = page.filter(|page| page.focus == PageFocus::Search);
         match &overlays.prompt {
             Some(prompt) => Some(match prompt.kind {
                 PromptKind::Command => Line::Command,
                 PromptKind::Filter(_) => Line::List,
                 PromptKind::Name => Line::Name,
             }),
-            None if overlays.menu.is_some() => Some(Line::Filter),
+            None if overlays.menu.is_some() => Some(Line::Menu),
             None if self.cursor.typing.is_some() => Some(Line::Value),
-            None => help
-                .filter(|help| help.focus == PageFocus::Search)
-                .map(|_| Line::Search),
+            None => page.map(|page| match page.is_read() {
+                true => Line::Search,
+                false => Line::Rows,
+            }),
         }
     }
 
@@ -196,7 +200,7 @@ impl Shared {
 
     /// The list of errors and warnings in an area, if there are any to show.
     pub(crate) fn errors_panel(&self, area: Rect) -> Option<Panel> {
-        errors::panel(&self.wrong(), &self.disk.name(), area)
+        error_panel::panel(&self.wrong(), &self.disk.name(), area)
     }
 
     /// Whether the file on disk has errors while the text has none.

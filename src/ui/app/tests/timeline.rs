@@ -26,7 +26,7 @@ fn changed() -> Session {
 scripts! {
     the_page_lists_every_step_and_asks_for_each_picture_once: changed().run(r"
         u
-        U | context Steps
+        U | context History
         | page-steps 2 steps back: as opened; 1 step back: object 1 (sphere) centre x: 0 → 0.2, 2 nudges; >now: duplicated object 2 (sphere); 1 step ahead: deleted object 2 (sphere)
         // The present text first, then its neighbours, and at last the large picture.
         @thumbnails | derived 2: 3, 1: 2, 3: 2, 0: 2, 2: 3
@@ -85,9 +85,9 @@ scripts! {
     without_colours_and_in_little_room_nothing_is_traced: {
         let mut session = changed();
         session.app.shared.has_colours = false;
-        session.run("U | context Steps | > @thumbnails | not derived | > <Esc>");
+        session.run("U | context History | > @thumbnails | not derived | > <Esc>");
         session.app.shared.has_colours = true;
-        session.run("@resize 80 10\nU | context Steps | > @thumbnails | not derived");
+        session.run("@resize 80 10\nU | context History | > @thumbnails | not derived");
     };
 
     in_a_large_text_only_the_selected_step_has_a_picture: {

@@ -9,7 +9,7 @@ use crate::ui::app::{MergeSource, OnDisk, Shared};
 
 /// Whether keys are typed into a line, or choose from a menu.
 pub(crate) fn has_input(shared: &Shared) -> bool {
-    shared.cursor.typing.is_some() || shared.overlays.has_line()
+    shared.open_line().is_some()
 }
 
 /// Records the saved text before one was taken from the file, if an input is open.

@@ -3,7 +3,7 @@
 use super::tracing::{enter, start};
 use crate::render::Region;
 use crate::text::Severity;
-use crate::ui::app::pictures::drawing::{Drawing, Held, RegionOrder};
+use crate::ui::app::pictures::region::{Drawing, Held, RegionOrder};
 use crate::ui::app::{Shared, display};
 use crate::ui::msg::Effect;
 

@@ -1,7 +1,7 @@
 //! How TRACE reacts to presses and drags.
 
 use super::regions::{confirm_region, drag_region, press_region};
-use crate::ui::app::pictures::drawing::Held;
+use crate::ui::app::pictures::region::Held;
 use crate::ui::app::room::Room;
 use crate::ui::app::{Shared, display};
 use crate::ui::keymap::{Context, Mode};

@@ -35,7 +35,7 @@ impl Session {
                 || self.app.compare.is_awaited()
                 || self.app.thumbnails.are_awaited()
                 || self.app.shared.suggestions.are_awaited()
-                || self.app.shared.jobs.export.is_some()
+                || self.app.shared.jobs.export().is_some()
         } else {
             pictures.preview.is_coarse()
         };

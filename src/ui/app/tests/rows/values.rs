@@ -165,7 +165,7 @@ fn overlays(app: &App, name: &str) -> Option<String> {
             .words(),
         "page" => overlays.page.is_some().words(),
         "page-steps" => overlays
-            .page(Context::Steps)
+            .page(Context::History)
             .map_or_else(String::new, |page| {
                 let rows = page.shown().into_iter().map(|(_, name)| name).enumerate();
                 let cursor = |at: usize| if at == page.filter.at { ">" } else { "" };
@@ -296,7 +296,7 @@ fn comparison(app: &App, name: &str) -> Option<String> {
 /// Files, saves, exports and the track.
 fn work(app: &App, name: &str) -> Option<String> {
     let shared = &app.shared;
-    let export = shared.jobs.export.as_ref();
+    let export = shared.jobs.export();
     let track = app.sequence.open.as_ref();
     let writing = shared.jobs.still_writing();
     Some(match name {

@@ -155,7 +155,7 @@ mod tests {
         app.shared.has_colours = has_colours;
         press(&mut app, "jjjDelluU");
         let panel = |app: &App, inks: &mut Inks, area: Rect, buffer: &mut Buffer| {
-            let page = app.shared.overlays.page(Context::Steps);
+            let page = app.shared.overlays.page(Context::History);
             render(app, page.expect("it is open"), inks, area, buffer);
         };
         drawn(&app, inked(panel), width, height)

@@ -18,7 +18,7 @@ pub(crate) fn list_steps(shared: &mut Shared) {
         shared.say("nothing has been changed yet");
         return;
     }
-    let mut page = Page::of(Context::Steps, names);
+    let mut page = Page::of(Context::History, names);
     page.filter.at = shared.document.present();
     shared.overlays.open_page(page);
 }
