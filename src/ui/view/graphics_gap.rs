@@ -57,7 +57,7 @@ mod tests {
     use ratatui::layout::Rect;
 
     use crate::ui::app::{App, Help};
-    use crate::ui::view::inks::Glyphs;
+    use crate::ui::terminal::ColourDepth;
     use crate::ui::view::tests::{app, frame, lines, retype};
     use crate::ui::view::{Drawing, Inks, draw};
 
@@ -65,7 +65,7 @@ mod tests {
     fn left(app: &mut App) -> (Option<Rect>, bool) {
         let (width, height) = (100, 30);
         app.shared.terminal = (width, height);
-        let mut inks = Inks::new(Glyphs::HalfBlocks);
+        let mut inks = Inks::for_depth(ColourDepth::TrueColour);
         inks.drawing = Drawing::Picture;
         let mut terminal = Terminal::new(TestBackend::new(width, height)).expect("cannot fail");
         let mut left = None;

@@ -162,8 +162,8 @@ mod tests {
 
     use crate::ui::app::App;
     use crate::ui::msg::Msg;
+    use crate::ui::terminal::ColourDepth;
     use crate::ui::view::Inks;
-    use crate::ui::view::inks::Glyphs;
     use crate::ui::view::tests::{app, drawn};
 
     /// The page after a duplication, which was undone, and a nudge that is then undone as well.
@@ -174,7 +174,12 @@ mod tests {
             app.update(Msg::Key(KeyCode::Char(key).into()));
         }
         let panel = |app: &App, area: Rect, buffer: &mut Buffer| {
-            super::render(app, &mut Inks::new(Glyphs::HalfBlocks), area, buffer);
+            super::render(
+                app,
+                &mut Inks::for_depth(ColourDepth::TrueColour),
+                area,
+                buffer,
+            );
         };
         drawn(&app, panel, width, height)
     }

@@ -10,7 +10,6 @@ use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 use tui_input::Input;
 
-use super::inks::Glyphs;
 use super::{Inks, draw};
 use crate::document::{Document, Merge, Side};
 use crate::language::{Language, Node};
@@ -27,7 +26,7 @@ use crate::ui::keymap::Mode;
 use crate::ui::msg::{Destination, Existing, ExportId, Msg};
 use crate::ui::recovery::Offer;
 use crate::ui::recovery::tests::{damaged, offer};
-use crate::ui::terminal::Mouse;
+use crate::ui::terminal::{ColourDepth, Mouse};
 
 pub(super) const SCENE: &str = "\
 // view: eye 0 0 5 size 8 6
@@ -131,7 +130,7 @@ fn screen(app: &mut App, width: u16, height: u16) -> Vec<String> {
     let mut terminal = Terminal::new(TestBackend::new(width, height)).expect("cannot fail");
     terminal
         .draw(|frame| {
-            draw(app, &mut Inks::new(Glyphs::HalfBlocks), frame);
+            draw(app, &mut Inks::for_depth(ColourDepth::TrueColour), frame);
         })
         .expect("cannot fail");
     lines(terminal.backend().buffer())

@@ -52,7 +52,7 @@ mod tests {
 
     use super::*;
     use crate::render::NO_OBJECT;
-    use crate::ui::view::inks::Glyphs;
+    use crate::ui::terminal::ColourDepth;
 
     #[test]
     fn a_mosaic_shows_more_pixels_and_repeats_the_last_ones() {
@@ -74,7 +74,7 @@ mod tests {
         };
         let area = Rect::new(1, 1, 2, 2);
         let mut buffer = Buffer::empty(Rect::new(0, 0, 4, 4));
-        let mut inks = Inks::new(Glyphs::HalfBlocks);
+        let mut inks = Inks::for_depth(ColourDepth::TrueColour);
         paint(&picture, Mosaic::Octant, &mut inks, area, &mut buffer);
         let rgb = |[red, green, blue]: [u8; 3]| Color::Rgb(red, green, blue);
         let cell = |x, y| {
