@@ -137,9 +137,8 @@ impl Session {
             let _ = tty.terminal.keep_keys_apart();
         }
         self.known.take(reply);
-        let before = self.manner;
         let changed = match self.wanted_manner() {
-            manner if manner == before => Urgency::Never,
+            manner if manner == self.manner => Urgency::Never,
             _ => Urgency::Now,
         };
         if reply != Reply::TrueColour || self.asked.take_if(|until| at < *until).is_none() {
