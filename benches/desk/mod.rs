@@ -6,7 +6,7 @@ use std::sync::mpsc::RecvTimeoutError;
 use std::time::{Duration, Instant};
 
 use halflight::scene::Size;
-use halflight::ui::arrange::{Areas, Shape, Zoom, arrange};
+use halflight::ui::arrange::{Areas, PanelSizes, Shape, Zoom, arrange};
 use halflight::ui::layout::raster;
 use ratatui::layout::Rect;
 use vt100::{Color, Screen};
@@ -263,7 +263,8 @@ fn areas(zoom: Zoom) -> Areas {
     let shape = Shape {
         zoom,
         output: OUTPUT,
-        ..Shape::default()
+        fields: 0,
+        panels: PanelSizes::default(),
     };
     arrange(Rect::new(0, 0, TERMINAL.0, TERMINAL.1), &shape)
 }

@@ -36,20 +36,6 @@ pub struct Shape {
     pub panels: PanelSizes,
 }
 
-impl Default for Shape {
-    fn default() -> Self {
-        Self {
-            zoom: Zoom::Panels,
-            output: Size {
-                width: 4,
-                height: 3,
-            },
-            fields: 0,
-            panels: PanelSizes::default(),
-        }
-    }
-}
-
 /// Sizes of the panels chosen by the user, in cells; `None` leaves them to [`arrange`]. A size that
 /// does not fit is adjusted when the screen is divided, and kept for a larger screen.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]

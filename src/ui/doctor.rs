@@ -243,10 +243,8 @@ fn threads() -> Vec<String> {
         } else {
             String::new()
         };
-        lines.push(format!(
-            "{} allowed by affinity{quota}",
-            counted(count, "core")
-        ));
+        let allowed = counted(count, "core");
+        lines.push(format!("{allowed} allowed by affinity{quota}"));
     }
     lines
 }
@@ -267,11 +265,8 @@ fn processor() -> String {
             Ok(cap) => format!("; {CAP}={cap} is ignored: expected {}", alternatives(CAPS)),
             Err(_) => String::new(),
         };
-        format!(
-            "x86_64: {}; tracing uses {}{cap}",
-            features.join(", "),
-            vectors()
-        )
+        let (features, used) = (features.join(", "), vectors());
+        format!("x86_64: {features}; tracing uses {used}{cap}")
     }
     #[cfg(not(target_arch = "x86_64"))]
     {

@@ -52,9 +52,8 @@ pub fn nth_line(area: Rect, index: u16) -> Rect {
 /// the line exists.
 pub fn list_row_at(list: Rect, first: usize, column: u16, row: u16) -> Option<usize> {
     let lines = contents(list);
-    lines
-        .contains(Position::new(column, row))
-        .then(|| first + usize::from(row - lines.y))
+    let is_inside = lines.contains(Position::new(column, row));
+    is_inside.then(|| first + usize::from(row - lines.y))
 }
 
 /// The lines that show fields.
@@ -81,10 +80,8 @@ pub fn field_columns(line: Rect, components: usize) -> (Rect, Vec<Rect>) {
         0 | 1 => numbers,
         several => numbers / several.max(3) as u16,
     };
-    let columns = (0..components as u16)
-        .map(|at| Rect::new(line.x + key + at * each, line.y, each, line.height))
-        .collect();
-    (name, columns)
+    let column = |at| Rect::new(line.x + key + at * each, line.y, each, line.height);
+    (name, (0..components as u16).map(column).collect())
 }
 
 /// The columns that a literal of this width covers beside its own; `None` if its own has room for it

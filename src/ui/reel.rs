@@ -72,10 +72,10 @@ impl ReelForm {
         match (Pattern::of(path), MovieFormat::of_path(path)) {
             (Ok(pattern), _) => match ImageFormat::of_path(path) {
                 Some(format) => Ok(Self::Pictures(pattern, format)),
-                None => {
-                    let known = known_extensions();
-                    Err(format!("{name}: picture files end in {known}"))
-                }
+                None => Err(format!(
+                    "{name}: picture files end in {}",
+                    known_extensions()
+                )),
             },
             (Err(_), Some(format)) => Ok(Self::Movie(format)),
             (Err(reason), None) => Err(format!("{name} {reason}")),

@@ -47,8 +47,9 @@ impl Part {
 
     /// The path of the folder in a state folder.
     fn path_in(self, state: &Path) -> PathBuf {
-        let names = self.names().iter();
-        names.fold(state.to_owned(), |path, name| path.join(name))
+        let mut path = state.to_owned();
+        path.extend(self.names());
+        path
     }
 }
 
@@ -186,9 +187,8 @@ impl Folder {
         let written = write(&mut out).and_then(|()| out.flush());
         // After an error the rest of the buffer is not written.
         let _ = out.into_parts();
-        let placed = written
-            .and_then(|()| file.sync_all())
-            .and_then(|()| self.rename(&new, name));
+        let kept = written.and_then(|()| file.sync_all());
+        let placed = kept.and_then(|()| self.rename(&new, name));
         match placed {
             Ok(()) => self.sync(),
             Err(_) => drop(self.remove(&new)),

@@ -123,7 +123,6 @@ impl Chord {
             Char(character) if held.contains(CTRL) && character != ' ' => {
                 name.extend(character.to_uppercase());
             }
-            KeyCode::F(number) => name.extend(['F'.to_string(), number.to_string()]),
             code => match (NAMES.iter().find(|(named, _)| *named == code), code) {
                 (Some((_, known)), _) => name.push_str(known),
                 (None, Char(character)) => name.push(character),

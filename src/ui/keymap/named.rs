@@ -31,9 +31,9 @@ impl Keymap {
         for context in [mode].into_iter().chain(others).map(Context::In) {
             let rows = self.rows.iter().filter(|row| row.key.scope.holds(context));
             for row in rows.filter(|row| row.key.name != COMMAND) {
-                let known = found
-                    .iter_mut()
-                    .find(|named| (named.name, named.words) == (row.key.name, row.key.words));
+                let action = (row.key.name, row.key.words);
+                let mut actions = found.iter_mut();
+                let known = actions.find(|named| (named.name, named.words) == action);
                 let keys = names(self.keys_of(row, context));
                 match known {
                     None => found.push(NamedAction {

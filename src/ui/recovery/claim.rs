@@ -153,9 +153,8 @@ impl Claim {
             _ => format!("{}.damaged-{number}", self.name),
         };
         // Only the holder of the claim assigns these names.
-        let free = (1..MOST_DAMAGED)
-            .map(name)
-            .find(|name| !self.folder.holds(name));
+        let mut names = (1..MOST_DAMAGED).map(name);
+        let free = names.find(|name| !self.folder.holds(name));
         let name = free.ok_or(io::ErrorKind::AlreadyExists)?;
         self.folder.rename(&self.name, &name)?;
         Ok(self.folder.place(&name))

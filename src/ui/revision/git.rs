@@ -171,13 +171,11 @@ impl Running {
     fn start(command: &mut Command) -> Result<Self, String> {
         #[cfg(unix)]
         std::os::unix::process::CommandExt::process_group(command, 0);
-        command
-            .spawn()
-            .map(Self)
-            .map_err(|error| match error.kind() {
-                io::ErrorKind::NotFound => "cannot run git: it is not installed".to_owned(),
-                _ => format!("cannot run git: {error}"),
-            })
+        let spawned = command.spawn().map(Self);
+        spawned.map_err(|error| match error.kind() {
+            io::ErrorKind::NotFound => "cannot run git: it is not installed".to_owned(),
+            _ => format!("cannot run git: {error}"),
+        })
     }
 
     /// Reads what git writes, on a thread that ends with git.
@@ -258,10 +256,8 @@ fn read_output(mut output: impl Read, send: &SyncSender<Piece>) {
 }
 
 fn too_late() -> String {
-    format!(
-        "git took longer than {} s and was stopped",
-        PATIENCE.as_secs()
-    )
+    let seconds = PATIENCE.as_secs();
+    format!("git took longer than {seconds} s and was stopped")
 }
 
 #[cfg(test)]

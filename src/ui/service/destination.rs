@@ -100,11 +100,9 @@ pub(super) fn check_target_of(named: &Path, to: &Destination) -> Result<(), Refu
         Existing::Own(_) | Existing::Overwritten => None,
     };
     if let Some(reason) = reason.filter(|_| path.symlink_metadata().is_ok()) {
+        let named = named.display();
         return Err(Refused {
-            reason: format!(
-                "{shown} {reason}: use :export! {} to overwrite it",
-                named.display()
-            ),
+            reason: format!("{shown} {reason}: use :export! {named} to overwrite it"),
             is_taken: true,
         });
     }

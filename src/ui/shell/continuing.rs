@@ -99,9 +99,8 @@ impl Traced {
             match traces.read(&picture, &job) {
                 Ok(None) => {}
                 Ok(Some(kept)) if job.settings.spp < kept.spp() => {
-                    report(Recalled::More(
-                        kept.goal().min(kept.spp().next_power_of_two()),
-                    ));
+                    let goal = kept.goal().min(kept.spp().next_power_of_two());
+                    report(Recalled::More(goal));
                 }
                 Ok(Some(kept)) => {
                     let spp = kept.spp();

@@ -106,9 +106,8 @@ fn ending(program: &str, status: ExitStatus) -> Result<(), String> {
     }
     #[cfg(unix)]
     if let Some(signal) = std::os::unix::process::ExitStatusExt::signal(&status) {
-        return Err(format!(
-            "the editor {program} was killed by signal {signal}"
-        ));
+        let reason = format!("the editor {program} was killed by signal {signal}");
+        return Err(reason);
     }
     Err(match status.code() {
         Some(code) => format!("the editor {program} failed with exit status {code}"),

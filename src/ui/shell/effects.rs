@@ -135,7 +135,7 @@ impl Runtime {
                 self.trim_at
                     .get_or_insert_with(|| Instant::now() + TRIM_TIME);
                 let mut frame = self.renderers.get(&target)?.renderer.latest()?;
-                if matches!(self.screen, Screen::Page(_)) {
+                if !self.screen.is_terminal() {
                     // A page shows the same on every machine.
                     Arc::make_mut(&mut frame).progress.elapsed = Duration::ZERO;
                 }
@@ -204,7 +204,7 @@ impl Runtime {
     }
 
     fn try_perform(&mut self, effect: Effect) -> Result<Option<Msg>, Failure> {
-        if matches!(self.screen, Screen::Page(_)) && reaches_others(&effect) {
+        if !self.screen.is_terminal() && reaches_others(&effect) {
             return Ok(without_others(&effect));
         }
         match effect {
@@ -310,11 +310,11 @@ impl Runtime {
 
     /// Starts the full-size trace from what an earlier run left of it.
     fn trace_on(&mut self, job: Job, origin: Origin) -> Msg {
-        let is_page = matches!(self.screen, Screen::Page(_));
         let send = sending(&self.sender);
         let report = move |recalled| send(Msg::Recalled(recalled));
         let traces = Traces::of_user().ok();
-        let recall = (!is_page).then(|| Traced::recall(&job, origin, traces, report));
+        let is_terminal = self.screen.is_terminal();
+        let recall = is_terminal.then(|| Traced::recall(&job, origin, traces, report));
         let (traced, recalled) = match recall {
             Some(Ok((traced, recalled))) => (traced, Some(recalled)),
             // Without a thread it is traced anew.

@@ -87,8 +87,8 @@ struct Session {
     /// When the frame that the terminal has not fully taken yet was sent, and its size in bytes.
     waiting: Option<(Instant, usize)>,
     inks: Inks,
-    /// The colour depth in use, and the deadline for an answer of the terminal that it has more.
-    asked: Option<(ColourDepth, Instant)>,
+    /// The deadline for an answer of the terminal that it has more colours.
+    asked: Option<Instant>,
     /// The user's choice of colours, and the depth in use.
     choice: Choice,
     depth: ColourDepth,
@@ -137,13 +137,11 @@ impl Session {
             let _ = tty.terminal.keep_keys_apart();
         }
         self.known.take(reply);
-        let before = self.manner;
         let changed = match self.wanted_manner() {
-            manner if manner == before => Urgency::Never,
+            manner if manner == self.manner => Urgency::Never,
             _ => Urgency::Now,
         };
-        let is_in_time = |&mut (_, until): &mut (ColourDepth, Instant)| at < until;
-        if reply != Reply::TrueColour || self.asked.take_if(is_in_time).is_none() {
+        if reply != Reply::TrueColour || self.asked.take_if(|until| at < *until).is_none() {
             return changed;
         }
         self.depth = ColourDepth::TrueColour;
@@ -163,13 +161,11 @@ impl Session {
         {
             tty.replies.came(Reply::Attributes);
         }
-        match self.asked.take_if(|&mut (_, until)| until <= now) {
-            Some((depth, _)) => {
-                self.step(Msg::FewColours(depth));
-                Urgency::Now
-            }
-            None => Urgency::Never,
+        if self.asked.take_if(|until| *until <= now).is_none() {
+            return Urgency::Never;
         }
+        self.step(Msg::FewColours(self.depth));
+        Urgency::Now
     }
 
     fn run(&mut self) {
@@ -264,7 +260,7 @@ impl Session {
             self.runtime.next_timer(),
             self.link.gives_up_at(),
             self.link.asks_at().filter(|_| is_clear && has_terminal),
-            self.asked.map(|(_, until)| until),
+            self.asked,
             self.known.until,
         ];
         let deadline = others.into_iter().chain([deadline]).flatten().min();

@@ -11,9 +11,8 @@ pub(super) struct FolderHandle;
 
 impl FolderHandle {
     pub(super) fn of(state: &Path, names: &[&str], missing: Missing) -> io::Result<Self> {
-        let path = names
-            .iter()
-            .fold(state.to_owned(), |path, name| path.join(name));
+        let mut path = state.to_owned();
+        path.extend(names);
         if missing == Missing::Made {
             fs::create_dir_all(&path)?;
         }

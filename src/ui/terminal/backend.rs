@@ -347,9 +347,8 @@ fn push_character(out: &mut Vec<u8>, cell: &Cell) -> bool {
         Some(character) if character.width().is_some_and(|width| width != 0) => character,
         _ => ' ',
     };
-    let mark = characters
-        .next()
-        .filter(|&next| base != '\u{fffd}' && is_mark(next));
+    let mark = characters.next();
+    let mark = mark.filter(|&next| base != '\u{fffd}' && is_mark(next));
     for character in [Some(base), mark].into_iter().flatten() {
         out.extend_from_slice(character.encode_utf8(&mut [0; 4]).as_bytes());
     }

@@ -114,10 +114,9 @@ impl Canvas {
 pub(super) fn text_over(place: Rect, frame: &Buffer) -> Vec<(Position, Cell)> {
     let cells = place.intersection(frame.area).positions();
     let is_text = |cell: &Cell| cell.symbol() != " " || cell.bg != Color::Reset;
-    cells
-        .filter(|&position| is_text(&frame[position]))
-        .map(|position| (position, frame[position].clone()))
-        .collect()
+    let cells = cells.filter(|&position| is_text(&frame[position]));
+    let text = cells.map(|position| (position, frame[position].clone()));
+    text.collect()
 }
 
 #[cfg(test)]

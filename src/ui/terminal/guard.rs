@@ -116,8 +116,8 @@ impl Terminal {
         }
         self.fit();
         let mut painted = self.painted(&mut paint);
-        let place = painted.0.filter(|_| pixmap.is_some());
-        match self.canvas.removal(place) {
+        let place = painted.as_ref().map(|(place, _)| *place);
+        match self.canvas.removal(place.filter(|_| pixmap.is_some())) {
             Removal::None => {}
             Removal::Bytes(bytes) => self.screen.backend_mut().append(bytes.as_bytes()),
             Removal::Repaint => {
@@ -126,8 +126,7 @@ impl Terminal {
                 painted = self.painted(&mut paint);
             }
         }
-        if let (Some(place), over) = painted
-            && let Some(pixmap) = pixmap
+        if let (Some((place, over)), Some(pixmap)) = (painted, pixmap)
             && let Some(sending) = self.canvas.sending(place, pixmap, over)?
         {
             let backend = self.screen.backend_mut();
@@ -180,12 +179,10 @@ impl Terminal {
     fn painted(
         &mut self,
         paint: &mut impl FnMut(&mut Frame) -> Option<Rect>,
-    ) -> (Option<Rect>, Vec<(Position, Cell)>) {
-        let mut painted = (None, Vec::new());
+    ) -> Option<(Rect, Vec<(Position, Cell)>)> {
+        let mut painted = None;
         let Ok(_) = self.screen.draw(|frame| {
-            if let Some(place) = paint(frame) {
-                painted = (Some(place), text_over(place, frame.buffer_mut()));
-            }
+            painted = paint(frame).map(|place| (place, text_over(place, frame.buffer_mut())));
         });
         painted
     }

@@ -6,7 +6,7 @@
 use std::io;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
-use std::sync::mpsc::{self, Receiver, Sender};
+use std::sync::mpsc::{self, Receiver, Sender, TryRecvError};
 use std::thread::JoinHandle;
 
 use super::Event;
@@ -143,17 +143,21 @@ impl Drop for Input {
 }
 
 fn read(mut keyboard: Keyboard, inbox: &Receiver<Request>, flow: &Flow, send: &impl Fn(Event)) {
+    let mut is_parked = false;
     loop {
-        match inbox.try_recv() {
+        let request = if is_parked {
+            inbox.recv().map_err(TryRecvError::from)
+        } else {
+            inbox.try_recv()
+        };
+        match request {
             Ok(Request::Park(done)) => {
+                is_parked = true;
                 let _ = done.send(());
-                if !wait_for_resume(inbox) {
-                    return;
-                }
             }
-            Ok(Request::Resume) => {}
-            Ok(Request::Stop) | Err(mpsc::TryRecvError::Disconnected) => return,
-            Err(mpsc::TryRecvError::Empty) => {
+            Ok(Request::Resume) => is_parked = false,
+            Ok(Request::Stop) | Err(TryRecvError::Disconnected) => return,
+            Err(TryRecvError::Empty) => {
                 let woken = if flow.is_full() {
                     keyboard.pause()
                 } else {
@@ -163,19 +167,6 @@ fn read(mut keyboard: Keyboard, inbox: &Receiver<Request>, flow: &Flow, send: &i
                     return;
                 }
             }
-        }
-    }
-}
-
-/// Waits for the request to resume; returns whether to continue reading.
-fn wait_for_resume(inbox: &Receiver<Request>) -> bool {
-    loop {
-        match inbox.recv() {
-            Ok(Request::Park(done)) => {
-                let _ = done.send(());
-            }
-            Ok(Request::Resume) => return true,
-            Ok(Request::Stop) | Err(_) => return false,
         }
     }
 }

@@ -159,14 +159,12 @@ impl Output {
 
     /// Waits until the terminal has accepted everything.
     fn wait(&self, deadline: Instant) -> io::Result<()> {
-        let mut queue = self.shared.lock();
-        while !queue.is_clear() {
-            let time = deadline.saturating_duration_since(Instant::now());
-            if time.is_zero() {
-                return Err(io::ErrorKind::TimedOut.into());
-            }
-            let waited = self.shared.changed.wait_timeout(queue, time);
-            queue = waited.unwrap_or_else(PoisonError::into_inner).0;
+        let patience = deadline.saturating_duration_since(Instant::now());
+        let (queue, changed) = (self.shared.lock(), &self.shared.changed);
+        let waited = changed.wait_timeout_while(queue, patience, |queue| !queue.is_clear());
+        let (queue, _) = waited.unwrap_or_else(PoisonError::into_inner);
+        if !queue.is_clear() {
+            return Err(io::ErrorKind::TimedOut.into());
         }
         queue.failed.map_or(Ok(()), |failed| Err(failed.into()))
     }
@@ -200,13 +198,9 @@ impl OutputState {
 
     /// Waits for bytes and writes some of them; returns whether to continue.
     fn write_next(&self) -> bool {
-        let mut queue = self.lock();
-        while queue.bytes.is_empty() && !queue.closed {
-            queue = self
-                .changed
-                .wait(queue)
-                .unwrap_or_else(PoisonError::into_inner);
-        }
+        let is_idle = |queue: &mut Queue| queue.bytes.is_empty() && !queue.closed;
+        let waited = self.changed.wait_while(self.lock(), is_idle);
+        let mut queue = waited.unwrap_or_else(PoisonError::into_inner);
         if queue.bytes.is_empty() {
             return false;
         }

@@ -159,7 +159,8 @@ fn description(panic: &PanicHookInfo) -> String {
     let mut text = format!("thread '{}' {panic}", thread.name().unwrap_or("<unnamed>"));
     let backtrace = Backtrace::capture();
     if backtrace.status() == BacktraceStatus::Captured {
-        text += &format!("\n{backtrace}");
+        text.push('\n');
+        text.push_str(&backtrace.to_string());
     }
     printable(&text)
 }

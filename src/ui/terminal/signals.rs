@@ -163,11 +163,8 @@ impl Watch {
             let inputs = [&self.inbox].into_iter().chain(arrivals);
             let mut sources: Vec<_> = inputs.map(|of| PollFd::new(of, PollFlags::IN)).collect();
             // No events are requested, so that only a hang-up is reported.
-            sources.extend(
-                self.tty
-                    .iter()
-                    .map(|tty| PollFd::new(tty, PollFlags::empty())),
-            );
+            let tty = self.tty.iter();
+            sources.extend(tty.map(|tty| PollFd::new(tty, PollFlags::empty())));
             match poll(&mut sources, None) {
                 Ok(_) => {}
                 Err(Errno::INTR) => continue,

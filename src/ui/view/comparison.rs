@@ -71,7 +71,7 @@ pub(super) fn chips(app: &App, say: &mut impl FnMut(u8, String, Style)) {
 
 fn figures_style(compared: &Compare) -> Style {
     let are_final = compared.are_figures_final();
-    (!are_final).then_some(theme::DIM).unwrap_or_default()
+    if are_final { Style::new() } else { theme::DIM }
 }
 
 /// The lines of the panel that are still free.

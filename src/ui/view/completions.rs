@@ -40,8 +40,8 @@ pub(crate) fn render(shared: &Shared, area: Rect, buffer: &mut Buffer) {
     let rows = usize::from(lines.height);
     let top = layout::first_shown(0, chosen.unwrap_or(0), found.len(), rows);
     for (index, completion) in found.iter().enumerate().skip(top).take(rows) {
-        let is_chosen = chosen == Some(index);
-        let style = is_chosen.then_some(theme::CURSOR).unwrap_or_default();
+        let is_here = chosen == Some(index);
+        let style = if is_here { theme::CURSOR } else { Style::new() };
         let line = nth_line(lines, (index - top) as u16);
         entry(completion, style, line, buffer);
     }

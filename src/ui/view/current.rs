@@ -2,6 +2,7 @@
 
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
+use ratatui::style::Style;
 use unicode_width::UnicodeWidthStr;
 
 use super::fields::typed;
@@ -46,8 +47,8 @@ pub(crate) fn render(shared: &Shared, areas: &Areas, buffer: &mut Buffer) -> Rec
     if is_whole {
         row.put(field.field.key, theme::BOLD);
         for (at, literal) in field.literals.iter().enumerate() {
-            let is_current = at == component;
-            let style = is_current.then_some(theme::CURSOR).unwrap_or_default();
+            let is_here = at == component;
+            let style = if is_here { theme::CURSOR } else { Style::new() };
             row.skip(1).put(literal, style);
         }
         return left;

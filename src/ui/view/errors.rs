@@ -60,7 +60,7 @@ mod tests {
     use super::*;
     use crate::text::Findings;
     use crate::ui::app::App;
-    use crate::ui::view::inks::Glyphs;
+    use crate::ui::terminal::ColourDepth;
     use crate::ui::view::tests::{app, check_shown, drawn, retype};
 
     #[test]
@@ -89,7 +89,7 @@ mod tests {
         let title = drawn(&app.shared, render, 70, 10).swap_remove(0);
         assert!(title.starts_with("251 errors, 100 listed ─"), "{title}");
         let status = |app: &App, area: Rect, buffer: &mut Buffer| {
-            super::super::status::render(app, Glyphs::HalfBlocks, area, buffer);
+            super::super::status::render(app, ColourDepth::TrueColour, area, buffer);
         };
         check_shown(&drawn(&app, status, 70, 1), &[" 251 errors "]);
     }

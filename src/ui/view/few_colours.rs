@@ -3,12 +3,11 @@
 //! A colour becomes a mix: a pattern of a few palette colours whose total light is close to its
 //! own. The first sixteen of 256 colours are never used, because they depend on the theme.
 
+use ratatui::style::Color;
+
 use super::dither;
 use super::oklab::{light, luma, oklab};
-use crate::ui::terminal::THEME;
-
-/// The levels of each channel in the 6×6×6 cube of the 256 colours.
-const CUBE: [u8; 6] = [0, 95, 135, 175, 215, 255];
+use crate::ui::terminal::{THEME, colour_on_screen};
 
 /// Number of pixels in a mix.
 const PARTS: usize = 8;
@@ -25,8 +24,8 @@ const HUE_WEIGHT: f32 = 2.0;
 /// 12, skies and walls show the pattern; at 4, means of 2×2 pixels are off by a tenth more.
 const FLAT: f32 = 7.5;
 
-/// Width of a box of colours that share a mix. The levels of [`CUBE`] are multiples of it, so that
-/// they are mapped to themselves.
+/// Width of a box of colours that share a mix. The levels of the 6×6×6 cube of the 256 colours are
+/// multiples of it, so that they are mapped to themselves.
 const STEP: usize = 5;
 
 /// Number of boxes along a channel.
@@ -76,7 +75,8 @@ impl Palette {
             step: FLAT,
             reach: 0.3,
         };
-        Self::new((16..=255).map(|index| (index, fixed_colour(index))), taste)
+        let fixed = |index| Some((index, colour_on_screen(Color::Indexed(index))?));
+        Self::new((16..=255).filter_map(fixed), taste)
     }
 
     /// The sixteen colours of the terminal's theme.
@@ -199,19 +199,22 @@ fn squared(one: [f32; 3], other: [f32; 3], hue_weight: f32) -> f32 {
     lightness + hue_weight * (a + b)
 }
 
-/// Red, green and blue of one of the 240 fixed colours.
-fn fixed_colour(index: u8) -> [u8; 3] {
-    let at = index - 16;
-    match index {
-        // The ramp has 24 steps of ten from 8 to 238.
-        232.. => [8 + 10 * (index - 232); 3],
-        _ => [at / 36, at / 6 % 6, at % 6].map(|level| CUBE[usize::from(level)]),
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    /// The levels of each channel in the 6×6×6 cube of the 256 colours.
+    const CUBE: [u8; 6] = [0, 95, 135, 175, 215, 255];
+
+    /// Red, green and blue of one of the 240 fixed colours.
+    fn fixed_colour(index: u8) -> [u8; 3] {
+        let at = index - 16;
+        match index {
+            // The ramp has 24 steps of ten from 8 to 238.
+            232.. => [8 + 10 * (index - 232); 3],
+            _ => [at / 36, at / 6 % 6, at % 6].map(|level| CUBE[usize::from(level)]),
+        }
+    }
 
     const PLACES: std::ops::Range<u32> = 0..64;
 

@@ -58,14 +58,14 @@ mod tests {
 
     use crate::ui::app::{App, Page};
     use crate::ui::keymap::Context;
-    use crate::ui::view::inks::Glyphs;
+    use crate::ui::terminal::ColourDepth;
     use crate::ui::view::tests::{app, frame, lines, retype, show};
     use crate::ui::view::{Drawing, Inks, draw};
 
     /// The cells left to a picture by the terminal, and whether any half blocks are drawn.
     fn left(app: &mut App) -> (Option<Rect>, bool) {
         app.shared.terminal = (100, 30);
-        let mut inks = Inks::new(Glyphs::HalfBlocks);
+        let mut inks = Inks::for_depth(ColourDepth::TrueColour);
         inks.drawing = Drawing::Picture;
         let mut terminal = Terminal::new(TestBackend::new(100, 30)).expect("cannot fail");
         let mut left = None;

@@ -2,6 +2,7 @@
 
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
+use ratatui::style::Style;
 use ratatui::widgets::{Clear, Widget};
 
 use super::row::{Row, title};
@@ -53,8 +54,10 @@ fn chart(histogram: &Histogram, panel: Rect, buffer: &mut Buffer) {
         for (at, &count) in bins.iter().enumerate() {
             // Something is always visible of what is not nothing.
             let filled = (u64::from(count) * steps).div_ceil(u64::from(most));
-            let is_clipped = one <= at;
-            let style = is_clipped.then_some(theme::WARNING).unwrap_or_default();
+            let style = match at {
+                at if at < one => Style::new(),
+                _ => theme::WARNING,
+            };
             row.put(BARS[filled.saturating_sub(below).min(2) as usize], style);
         }
     }

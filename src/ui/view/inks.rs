@@ -7,41 +7,6 @@ use super::mosaic::Mosaic;
 use crate::ui::terminal::ColourDepth;
 use crate::ui::theme::Theme;
 
-/// The cells that pixels are drawn with.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Glyphs {
-    /// Two pixels per cell in true colour.
-    HalfBlocks,
-    /// Two pixels per cell, dithered to the 256 colours.
-    HalfBlocksOf256,
-    /// Two pixels per cell, dithered to the sixteen colours.
-    HalfBlocksOf16,
-    /// One character per cell, by brightness, for terminals without colours.
-    Characters,
-}
-
-impl Glyphs {
-    /// The name of the colours used.
-    pub(super) fn name(self) -> &'static str {
-        let depth = match self {
-            Self::HalfBlocks => ColourDepth::TrueColour,
-            Self::HalfBlocksOf256 => ColourDepth::Palette256,
-            Self::HalfBlocksOf16 => ColourDepth::Palette16,
-            Self::Characters => ColourDepth::Mono,
-        };
-        depth.name()
-    }
-
-    fn for_depth(depth: ColourDepth) -> Self {
-        match depth {
-            ColourDepth::Mono => Self::Characters,
-            ColourDepth::Palette16 => Self::HalfBlocksOf16,
-            ColourDepth::Palette256 => Self::HalfBlocksOf256,
-            ColourDepth::TrueColour => Self::HalfBlocks,
-        }
-    }
-}
-
 /// What fills the cells of a picture on a terminal with colours.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Drawing {
@@ -53,43 +18,41 @@ pub enum Drawing {
     Picture,
 }
 
-/// The glyphs of pictures, and a cache of their colour mixes.
+/// How pixels are shown on a terminal of a colour depth: in true colour, dithered to fewer colours, or
+/// without any by the brightness of characters.
 #[derive(Debug)]
 pub struct Inks {
-    pub(super) glyphs: Glyphs,
+    pub(super) depth: ColourDepth,
     /// What fills the cells of pictures.
     pub drawing: Drawing,
+    /// A cache of mixes of few colours.
     palette: Option<Palette>,
 }
 
 impl Inks {
     /// The inks for a colour depth.
     pub fn for_depth(depth: ColourDepth) -> Self {
-        Self::new(Glyphs::for_depth(depth))
-    }
-
-    /// Whether pixels have colours.
-    pub fn have_colours(&self) -> bool {
-        self.glyphs != Glyphs::Characters
-    }
-
-    pub(super) fn new(glyphs: Glyphs) -> Self {
-        let palette = match glyphs {
-            Glyphs::HalfBlocksOf256 => Some(Palette::of_256()),
-            Glyphs::HalfBlocksOf16 => Some(Palette::of_16()),
-            Glyphs::HalfBlocks | Glyphs::Characters => None,
+        let palette = match depth {
+            ColourDepth::Palette256 => Some(Palette::of_256()),
+            ColourDepth::Palette16 => Some(Palette::of_16()),
+            ColourDepth::TrueColour | ColourDepth::Mono => None,
         };
         Self {
-            glyphs,
+            depth,
             drawing: Drawing::HalfBlocks,
             palette,
         }
     }
 
+    /// Whether pixels have colours.
+    pub fn have_colours(&self) -> bool {
+        self.depth != ColourDepth::Mono
+    }
+
     /// The theme to use when this one is wanted: without colours, attributes take their place.
     pub(super) fn theme(&self, wanted: Theme) -> Theme {
-        match self.glyphs {
-            Glyphs::Characters => Theme::Mono,
+        match self.depth {
+            ColourDepth::Mono => Theme::Mono,
             _ => wanted,
         }
     }

@@ -102,7 +102,7 @@ fn render(app: &App, inks: &mut Inks, area: Rect, buffer: &mut Buffer) -> Option
     histogram::render(&app.shared, areas.picture, buffer);
     errors::render(&app.shared, areas.errors, buffer);
     let status = current::render(&app.shared, &areas, buffer);
-    status::render(app, inks.glyphs, status, buffer);
+    status::render(app, inks.depth, status, buffer);
     match &app.shared.overlays.prompt {
         Some(prompt) if areas.hint.is_empty() => {
             status::render_prompt(prompt, areas.status, buffer);
@@ -116,7 +116,7 @@ fn render(app: &App, inks: &mut Inks, area: Rect, buffer: &mut Buffer) -> Option
     }
     if let Some(refused) = current::refusal(&app.shared, &areas) {
         message::render(&refused, body, buffer);
-    } else if let Some(message) = status::long_message(app, inks.glyphs, status.width) {
+    } else if let Some(message) = status::long_message(app, inks.depth, status.width) {
         message::render(message, body, buffer);
     }
     menu::render(&app.shared, areas.list, body, buffer);

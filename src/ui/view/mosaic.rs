@@ -7,6 +7,8 @@
 //! Dividing the pixels along the axis of their greatest spread instead was no faster and loses 0.1
 //! dB.
 
+use ratatui::symbols::pixel::{OCTANTS, QUADRANTS, SEXTANTS};
+
 /// A division of cells into pixels, two across.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Mosaic {
@@ -138,66 +140,6 @@ const fn shares(count: usize) -> [[f32; 2]; DIVISIONS] {
         division += 1;
     }
     shares
-}
-
-const QUADRANTS: [char; 16] = [
-    ' ', '▘', '▝', '▀', '▖', '▌', '▞', '▛', '▗', '▚', '▐', '▜', '▄', '▙', '▟', '█',
-];
-
-/// Sextants in the order of their patterns, without those that are older characters.
-const SEXTANTS: [char; 64] = completed(
-    0x1_fb00,
-    &[(0x00, ' '), (0x15, '▌'), (0x2a, '▐'), (0x3f, '█')],
-);
-
-/// Octants likewise.
-const OCTANTS: [char; 256] = completed(
-    0x1_cd00,
-    &[
-        (0x00, ' '),
-        (0x01, '\u{1cea8}'),
-        (0x02, '\u{1ceab}'),
-        (0x03, '\u{1fb82}'),
-        (0x05, '▘'),
-        (0x0a, '▝'),
-        (0x0f, '▀'),
-        (0x14, '\u{1fbe6}'),
-        (0x28, '\u{1fbe7}'),
-        (0x3f, '\u{1fb85}'),
-        (0x40, '\u{1cea3}'),
-        (0x50, '▖'),
-        (0x55, '▌'),
-        (0x5a, '▞'),
-        (0x5f, '▛'),
-        (0x80, '\u{1cea0}'),
-        (0xa0, '▗'),
-        (0xa5, '▚'),
-        (0xaa, '▐'),
-        (0xaf, '▜'),
-        (0xc0, '▂'),
-        (0xf0, '▄'),
-        (0xf5, '▙'),
-        (0xfa, '▟'),
-        (0xfc, '▆'),
-        (0xff, '█'),
-    ],
-);
-
-/// A character for each pattern: the exceptions, in order, and between them successive characters
-/// from `first` on.
-const fn completed<const N: usize>(first: u32, exceptions: &[(usize, char)]) -> [char; N] {
-    let mut characters = [' '; N];
-    let (mut pattern, mut exception) = (0, 0);
-    while pattern < N {
-        if exception < exceptions.len() && exceptions[exception].0 == pattern {
-            characters[pattern] = exceptions[exception].1;
-            exception += 1;
-        } else if let Some(character) = char::from_u32(first + (pattern - exception) as u32) {
-            characters[pattern] = character;
-        }
-        pattern += 1;
-    }
-    characters
 }
 
 #[cfg(test)]

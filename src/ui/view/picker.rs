@@ -7,12 +7,12 @@ use ratatui::style::{Color, Style};
 use ratatui::widgets::{Clear, Widget};
 
 use super::Inks;
-use super::inks::Glyphs;
 use super::row::{Row, put_at, title};
 use crate::scene::Rgb;
 use crate::text::rounded;
 use crate::ui::app::{ColourPicker, PickerRow, Shared};
 use crate::ui::layout::{PickerLines, marker_at, picker_lines, share_at, swatch_cells};
+use crate::ui::terminal::ColourDepth;
 use crate::ui::theme;
 
 /// Draws the open colour picker over the list, or over everything if there is no list.
@@ -144,8 +144,8 @@ fn paint(colour: Rgb, at: Position, inks: &mut Inks, buffer: &mut Buffer) {
 fn marker_over(colour: Rgb, inks: &Inks) -> (&'static str, Style) {
     let [red, green, blue] = bytes(colour).map(f64::from);
     let luminance = 0.2126 * red + 0.7152 * green + 0.0722 * blue;
-    match inks.glyphs {
-        Glyphs::Characters => ("●", theme::BOLD),
+    match inks.depth {
+        ColourDepth::Mono => ("●", theme::BOLD),
         _ if luminance < 110.0 => ("│", Style::new().fg(Color::White)),
         _ => ("│", Style::new().fg(Color::Black)),
     }
@@ -177,9 +177,9 @@ mod tests {
         app
     }
 
-    fn shown(app: &App, glyphs: Glyphs) -> Vec<String> {
+    fn shown(app: &App, depth: ColourDepth) -> Vec<String> {
         let panel = |shared: &Shared, area: Rect, buffer: &mut Buffer| {
-            render(shared, &mut Inks::new(glyphs), area, area, buffer);
+            render(shared, &mut Inks::for_depth(depth), area, area, buffer);
         };
         drawn(&app.shared, panel, 34, 14)
     }
@@ -188,7 +188,7 @@ mod tests {
     fn bars_show_the_colour_and_its_numbers() {
         // kd is 0.5 0 0.
         let app = picking("jjjc");
-        let lines = shown(&app, Glyphs::HalfBlocks);
+        let lines = shown(&app, ColourDepth::TrueColour);
         assert!(lines[0].starts_with("colour ─") && lines[0].ends_with(" kd"));
         assert_eq!(lines[1], "▸hue        │              0°");
         assert_eq!(lines[2], " saturation              │ 1");
@@ -200,7 +200,7 @@ mod tests {
 
     #[test]
     fn without_colours_the_marker_and_the_numbers_remain() {
-        let lines = shown(&picking("jjjcjjjll"), Glyphs::Characters);
+        let lines = shown(&picking("jjjcjjjll"), ColourDepth::Mono);
         assert!(lines[1].contains("●──────"), "{lines:#?}");
         assert!(lines[2].contains("──●"), "{lines:#?}");
         assert_eq!(lines[8], "▸colours of the scene");

@@ -12,7 +12,7 @@ use unicode_width::UnicodeWidthStr;
 
 use super::characters::Characters;
 use super::graphics_gap::leave;
-use super::inks::{Drawing, Glyphs, Inks};
+use super::inks::{Drawing, Inks};
 use super::row::{Row, put_at};
 use super::{comparison, pixel, symbols, tiles, values, wireframe};
 use crate::render::{line_of, pixel_of, pixel_width};
@@ -20,6 +20,7 @@ use crate::scene::Size;
 use crate::ui::app::{App, CellImage, FirstReading, Grid, Shared, display, inspect};
 use crate::ui::keymap::{Context, Mode};
 use crate::ui::layout::raster;
+use crate::ui::terminal::ColourDepth;
 use crate::ui::{layout, theme};
 
 /// Draws the current picture, letterboxed, with its symbols. Returns its cells if they are left to
@@ -30,7 +31,7 @@ pub(crate) fn render(app: &App, inks: &mut Inks, area: Rect, buffer: &mut Buffer
     let wireframe = shared.wireframe();
     if let Some(wireframe) = wireframe.and_then(|wireframe| wireframe.lines(size)) {
         wireframe::paint(wireframe, &display::outlined_objects(shared), cells, buffer);
-        overlays(app, inks.glyphs, area, (cells, size), buffer);
+        overlays(app, inks.depth, area, (cells, size), buffer);
         return None;
     }
     let shown = &shared.picture().shown;
@@ -63,25 +64,25 @@ pub(crate) fn render(app: &App, inks: &mut Inks, area: Rect, buffer: &mut Buffer
     {
         values::render(frame, &frame_window, cells, buffer);
     }
-    overlays(app, inks.glyphs, area, (cells, size), buffer);
+    overlays(app, inks.depth, area, (cells, size), buffer);
     (inks.drawing == Drawing::Picture).then_some(cells)
 }
 
 /// Draws what lies over the picture.
 fn overlays(
     app: &App,
-    glyphs: Glyphs,
+    depth: ColourDepth,
     area: Rect,
     (cells, size): (Rect, Size),
     buffer: &mut Buffer,
 ) {
     let shared = &app.shared;
     if shared.mode == Mode::Move {
-        axis(app, glyphs, (cells, size), buffer);
+        axis(app, depth, (cells, size), buffer);
     }
-    symbols::render(shared, glyphs, cells, buffer);
+    symbols::render(shared, depth, cells, buffer);
     if shared.mode == Mode::Inspect {
-        path(shared, glyphs, cells, buffer);
+        path(shared, depth, cells, buffer);
         cross(shared, cells, buffer);
     }
     if shared.mode == Mode::Compare {
@@ -163,7 +164,7 @@ fn cross(shared: &Shared, cells: Rect, buffer: &mut Buffer) {
 }
 
 /// Draws the axis that a transformation is locked to, through what is being transformed.
-fn axis(app: &App, glyphs: Glyphs, (cells, size): (Rect, Size), buffer: &mut Buffer) {
+fn axis(app: &App, depth: ColourDepth, (cells, size): (Rect, Size), buffer: &mut Buffer) {
     let shared = &app.shared;
     let (Some(transform), Some(camera)) = (&app.moving, shared.camera()) else {
         return;
@@ -181,13 +182,13 @@ fn axis(app: &App, glyphs: Glyphs, (cells, size): (Rect, Size), buffer: &mut Buf
         };
         let [x, y] = frame_window.on_screen(place, size);
         if y < f64::from(size.height) {
-            plot([x, 0.5 * y], (glyphs, colour), cells, buffer);
+            plot([x, 0.5 * y], (depth, colour), cells, buffer);
         }
     }
 }
 
 /// Draws the path of light that is explained.
-fn path(shared: &Shared, glyphs: Glyphs, cells: Rect, buffer: &mut Buffer) {
+fn path(shared: &Shared, depth: ColourDepth, cells: Rect, buffer: &mut Buffer) {
     let frame = shared.picture().latest.as_ref();
     let Some((frame, query)) = frame.and_then(|frame| Some((frame, frame.query.as_ref()?))) else {
         return;
@@ -211,7 +212,7 @@ fn path(shared: &Shared, glyphs: Glyphs, cells: Rect, buffer: &mut Buffer) {
         for step in 0..=steps as u32 {
             let share = f64::from(step) / steps;
             let place = [from[0] + share * across, from[1] + share * down];
-            plot(place, (glyphs, colour.into()), cells, buffer);
+            plot(place, (depth, colour.into()), cells, buffer);
         }
     }
 }
@@ -219,7 +220,7 @@ fn path(shared: &Shared, glyphs: Glyphs, cells: Rect, buffer: &mut Buffer) {
 /// Colours the half of a cell at a place, which is in cells from the picture's corner.
 fn plot(
     [column, row]: [f64; 2],
-    (glyphs, colour): (Glyphs, Color),
+    (depth, colour): (ColourDepth, Color),
     cells: Rect,
     buffer: &mut Buffer,
 ) {
@@ -238,7 +239,7 @@ fn plot(
         ("▀", 0) => cell.set_fg(colour),
         ("▀", _) => cell.set_bg(colour),
         // A dot in that colour, over the picture of the terminal or a mosaic.
-        _ if glyphs != Glyphs::Characters => cell.set_symbol("·").set_fg(colour),
+        _ if depth != ColourDepth::Mono => cell.set_symbol("·").set_fg(colour),
         _ => cell.set_symbol("·"),
     };
 }
@@ -255,7 +256,7 @@ pub(super) fn paint(shown: &CellImage, inks: &mut Inks, area: Rect, buffer: &mut
             at: (x, y),
         })
     };
-    let characters = (inks.glyphs == Glyphs::Characters).then(|| Characters::of(shown));
+    let characters = (inks.depth == ColourDepth::Mono).then(|| Characters::of(shown));
     for row in 0..area.height {
         for column in 0..area.width {
             let (x, y) = (u32::from(column), 2 * u32::from(row));
@@ -308,10 +309,10 @@ mod tests {
     use crate::ui::layout::tests::size;
     use crate::ui::view::tests::{app_of, cell_image, check_shown, drawn, inked};
 
-    fn painted(shown: &CellImage, glyphs: Glyphs) -> Buffer {
+    fn painted(shown: &CellImage, depth: ColourDepth) -> Buffer {
         let (columns, rows) = (shown.size.width, shown.size.height.div_ceil(2));
         let mut buffer = Buffer::empty(Rect::new(0, 0, columns as u16, rows as u16));
-        paint(shown, &mut Inks::new(glyphs), buffer.area, &mut buffer);
+        paint(shown, &mut Inks::for_depth(depth), buffer.area, &mut buffer);
         buffer
     }
 
@@ -348,7 +349,7 @@ mod tests {
     #[test]
     fn a_cell_shows_two_pixels() {
         let [a, b, c, d] = [[1, 2, 3], [40, 50, 60], [255, 0, 0], [0, 0, 255]];
-        let buffer = painted(&cell_image(2, 2, vec![a, b, c, d]), Glyphs::HalfBlocks);
+        let buffer = painted(&cell_image(2, 2, vec![a, b, c, d]), ColourDepth::TrueColour);
         let cells = [0, 1].map(|x| &buffer[(x, 0)]);
         let shown = cells.map(|cell| (cell.symbol(), cell.fg, cell.bg));
         assert_eq!(
@@ -362,7 +363,7 @@ mod tests {
 
     #[test]
     fn the_half_below_an_odd_last_row_is_empty() {
-        let buffer = painted(&cell_image(1, 1, vec![[9; 3]]), Glyphs::HalfBlocks);
+        let buffer = painted(&cell_image(1, 1, vec![[9; 3]]), ColourDepth::TrueColour);
         assert_eq!(buffer[(0, 0)].bg, Color::Reset);
     }
 
@@ -370,7 +371,7 @@ mod tests {
     fn the_outline_is_drawn_over_the_picture() {
         let mut picture = cell_image(2, 1, vec![[9; 3]; 2]);
         picture.outline = vec![true, false];
-        let buffer = painted(&picture, Glyphs::HalfBlocks);
+        let buffer = painted(&picture, ColourDepth::TrueColour);
         let inks = [0, 1].map(|x| buffer[(x, 0)].fg);
         assert_eq!(inks, [theme::OUTLINE.into(), Color::Rgb(9, 9, 9)]);
     }
@@ -379,7 +380,7 @@ mod tests {
     fn without_colours_brightness_selects_a_character_and_outlines_are_reversed() {
         let mut picture = cell_image(2, 2, [[255; 3], [0; 3]].repeat(2));
         picture.outline = [true, false].repeat(2);
-        let buffer = painted(&picture, Glyphs::Characters);
+        let buffer = painted(&picture, ColourDepth::Mono);
         let cells = [0, 1].map(|x| (buffer[(x, 0)].symbol(), buffer[(x, 0)].modifier));
         assert_eq!(cells, [("█", Modifier::REVERSED), (" ", Modifier::empty())]);
     }

@@ -33,9 +33,9 @@ pub(crate) fn render(app: &App, area: Rect, buffer: &mut Buffer) {
         keys(&sheet, frames, line, buffer);
     }
     if shown < rows.len() {
+        let more = format!("{} more", rows.len() - shown);
         let mut row = Row::new(buffer, sheet.names, shown as u16);
-        row.skip(1);
-        row.put(&format!("{} more", rows.len() - shown), theme::DIM);
+        row.skip(1).put(&more, theme::DIM);
     }
     cursor(&sheet, open, shown as u16, buffer);
 }
@@ -49,9 +49,8 @@ fn keys(sheet: &DopeSheet, frames: &[u32], line: u16, buffer: &mut Buffer) {
         row.put(&"─".repeat(usize::from(last - first)), theme::DIM);
     }
     for column in columns {
-        Row::new(buffer, sheet.frames, line)
-            .skip(column)
-            .put("◆", theme::ACCENT);
+        let mut row = Row::new(buffer, sheet.frames, line);
+        row.skip(column).put("◆", theme::ACCENT);
     }
 }
 

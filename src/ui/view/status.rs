@@ -7,13 +7,13 @@ use ratatui::layout::Rect;
 use ratatui::style::Style;
 use unicode_width::UnicodeWidthStr;
 
-use super::inks::Glyphs;
 use super::row::Row;
 use super::{comparison, sequence};
 use crate::render::Progress;
 use crate::text::{counted, percentage};
 use crate::ui::app::{App, Message, OnDisk, Prompt, PromptKind, Shared, display, files, text};
 use crate::ui::keymap::Mode;
+use crate::ui::terminal::ColourDepth;
 use crate::ui::text_width::visible;
 use crate::ui::{keymap, theme};
 
@@ -101,16 +101,16 @@ struct Segment {
 }
 
 /// The message, if the status line cannot show all of it.
-pub(crate) fn long_message(app: &App, glyphs: Glyphs, width: u16) -> Option<&Message> {
+pub(crate) fn long_message(app: &App, depth: ColourDepth, width: u16) -> Option<&Message> {
     let shared = &app.shared;
     let message = shared.overlays.message.as_ref()?;
-    is_message_long(&segments(app, glyphs), usize::from(width)).then_some(message)
+    is_message_long(&segments(app, depth), usize::from(width)).then_some(message)
 }
 
 /// Draws the status line. The least important parts are omitted if there is no room, and so is a
 /// message that would be cut.
-pub(crate) fn render(app: &App, glyphs: Glyphs, area: Rect, buffer: &mut Buffer) {
-    let mut segments = segments(app, glyphs);
+pub(crate) fn render(app: &App, depth: ColourDepth, area: Rect, buffer: &mut Buffer) {
+    let mut segments = segments(app, depth);
     let mut row = Row::new(buffer, area, 0);
     if is_message_long(&segments, row.room()) {
         segments.retain(|segment| segment.rank != MESSAGE);
@@ -168,7 +168,7 @@ const DIRTY: u8 = 2;
 /// Rank of messages; segments of a lower rank are always shown.
 const MESSAGE: u8 = 4;
 
-fn segments(app: &App, glyphs: Glyphs) -> Vec<Segment> {
+fn segments(app: &App, depth: ColourDepth) -> Vec<Segment> {
     let shared = &app.shared;
     let mut all = Vec::new();
     let mut say = |rank, text: String, style| all.push(Segment { rank, text, style });
@@ -201,7 +201,7 @@ fn segments(app: &App, glyphs: Glyphs) -> Vec<Segment> {
     if let Some(frame) = &shared.picture().latest {
         let size = format!("{}×{}", frame.size.width, frame.size.height);
         say(30, size, theme::DIM);
-        say(31, glyphs.name().to_owned(), theme::DIM);
+        say(31, depth.name().to_owned(), theme::DIM);
     }
     zoom_segment(shared, &mut say);
     if let Some(bytes) = shared.pictures.net {
@@ -404,7 +404,7 @@ mod tests {
         retype(&mut app, " 0.25 //", " 0.5 //");
         say(&mut app, None, "took the file's changes");
         let bar = |app: &App, area: Rect, buffer: &mut Buffer| {
-            render(app, Glyphs::HalfBlocks, area, buffer);
+            render(app, ColourDepth::TrueColour, area, buffer);
         };
         for (width, line) in [
             (60, " SELECT  test.ray [+]  took the file's changes"),

@@ -4,13 +4,13 @@ use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 use ratatui::style::{Color, Style};
 
-use super::inks::Glyphs;
 use super::row::put_at;
 use crate::ui::app::{Shared, SymbolKind, display};
+use crate::ui::terminal::ColourDepth;
 use crate::ui::theme;
 
 /// Draws the symbols over the cells of the picture; that of the selected node stands out.
-pub(super) fn render(shared: &Shared, glyphs: Glyphs, cells: Rect, buffer: &mut Buffer) {
+pub(super) fn render(shared: &Shared, depth: ColourDepth, cells: Rect, buffer: &mut Buffer) {
     for symbol in display::symbols(shared) {
         let (sign, plain, style) = match symbol.kind {
             SymbolKind::Light => ("✶", "*", theme::WARNING),
@@ -27,9 +27,9 @@ pub(super) fn render(shared: &Shared, glyphs: Glyphs, cells: Rect, buffer: &mut 
         } else {
             style.bg(Color::Black)
         };
-        let sign = match glyphs {
-            Glyphs::Characters => plain,
-            Glyphs::HalfBlocks | Glyphs::HalfBlocksOf256 | Glyphs::HalfBlocksOf16 => sign,
+        let sign = match depth {
+            ColourDepth::Mono => plain,
+            ColourDepth::TrueColour | ColourDepth::Palette256 | ColourDepth::Palette16 => sign,
         };
         put_at(place, sign, Style::reset().patch(style), buffer);
     }
@@ -55,14 +55,14 @@ sphere 0 0 0 1  0 0 0 .5 .5 .5 0 0 0 1 0 0 1
 
     #[test]
     fn the_symbol_of_the_selected_light_stands_out() {
-        for (glyphs, sign) in [(Glyphs::HalfBlocks, "✶"), (Glyphs::Characters, "*")] {
+        for (depth, sign) in [(ColourDepth::TrueColour, "✶"), (ColourDepth::Mono, "*")] {
             let mut app = app_of(Language::Ray, TWO_LIGHTS);
             // From the view to the first light.
             press(&mut app, "jj");
             assert_eq!(app.shared.cursor.selected(), Node::Light(0));
             let (cells, _) = app.shared.raster().expect("there is room");
             let mut buffer = Buffer::empty(cells);
-            render(&app.shared, glyphs, cells, &mut buffer);
+            render(&app.shared, depth, cells, &mut buffer);
             let signs = buffer.content.iter().filter(|cell| cell.symbol() == sign);
             let is_reversed = signs.map(|cell| cell.modifier.contains(Modifier::REVERSED));
             assert_eq!(is_reversed.collect::<Vec<_>>(), [true, false]);

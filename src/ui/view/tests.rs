@@ -10,7 +10,6 @@ use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 use tui_input::Input;
 
-use super::inks::Glyphs;
 use super::{Inks, draw};
 use crate::document::{Document, Merge, Side};
 use crate::language::{Language, Node};
@@ -28,7 +27,7 @@ use crate::ui::layout::tests::size;
 use crate::ui::msg::{ExportId, Msg};
 use crate::ui::recovery::Offer;
 use crate::ui::recovery::tests::{damaged, offer};
-use crate::ui::terminal::Mouse;
+use crate::ui::terminal::{ColourDepth, Mouse};
 
 pub(super) const SCENE: &str = "\
 // view: eye 0 0 5 size 8 6
@@ -145,7 +144,12 @@ pub(super) fn inked<S, R>(
     panel: impl Fn(&S, &mut Inks, Rect, &mut Buffer) -> R,
 ) -> impl Fn(&S, Rect, &mut Buffer) {
     move |state: &S, area, buffer: &mut Buffer| {
-        panel(state, &mut Inks::new(Glyphs::HalfBlocks), area, buffer);
+        panel(
+            state,
+            &mut Inks::for_depth(ColourDepth::TrueColour),
+            area,
+            buffer,
+        );
     }
 }
 
@@ -174,7 +178,7 @@ fn screen(app: &mut App, width: u16, height: u16) -> Vec<String> {
     app.shared.terminal = (width, height);
     display::follow_wires(&mut app.shared);
     let mut terminal = Terminal::new(TestBackend::new(width, height)).expect("cannot fail");
-    let mut inks = Inks::new(Glyphs::HalfBlocks);
+    let mut inks = Inks::for_depth(ColourDepth::TrueColour);
     let drawn = terminal.draw(|frame| {
         draw(app, &mut inks, frame);
     });

@@ -51,7 +51,7 @@ mod tests {
     use ratatui::style::Color;
 
     use super::*;
-    use crate::ui::view::inks::Glyphs;
+    use crate::ui::terminal::ColourDepth;
     use crate::ui::view::tests::cell_image;
 
     #[test]
@@ -61,7 +61,7 @@ mod tests {
         let rows = [[a, b, a], [a, b, a], [a, b, a], [a, b, a], [b, a, b]];
         let picture = cell_image(3, 5, rows.concat());
         let mut buffer = Buffer::empty(Rect::new(0, 0, 4, 4));
-        let mut inks = Inks::new(Glyphs::HalfBlocks);
+        let mut inks = Inks::for_depth(ColourDepth::TrueColour);
         let area = Rect::new(1, 1, 2, 2);
         paint(&picture, Mosaic::Octant, &mut inks, area, &mut buffer);
         let [a, b] = [a, b].map(|[red, green, blue]| Color::Rgb(red, green, blue));

@@ -3,6 +3,7 @@
 
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
+use ratatui::symbols::braille::BRAILLE;
 
 use super::row::Row;
 use crate::render::{WireLine, Wireframe};
@@ -17,7 +18,7 @@ const PER_PIXEL: f64 = 2.0;
 /// out. Says how many objects are drawn if not all are.
 pub(super) fn paint(wireframe: &Wireframe, outlined: &[u32], area: Rect, buffer: &mut Buffer) {
     let [columns, rows] = [area.width, area.height].map(usize::from);
-    // The dots of each cell, and whether any of them are outlined.
+    // The dots of each cell, row by row from the lowest bit, and whether any of them are outlined.
     let mut cells = vec![(0_u8, false); columns * rows];
     for line in &wireframe.lines {
         let is_outlined = outlined.binary_search(&line.object).is_ok();
@@ -25,7 +26,7 @@ pub(super) fn paint(wireframe: &Wireframe, outlined: &[u32], area: Rect, buffer:
             let (column, row) = (x / DOTS[0], y / DOTS[1]);
             if column < columns && row < rows {
                 let cell = &mut cells[row * columns + column];
-                cell.0 |= bit(x % DOTS[0], y % DOTS[1]);
+                cell.0 |= 1 << (DOTS[0] * (y % DOTS[1]) + x % DOTS[0]);
                 cell.1 |= is_outlined;
             }
         }
@@ -36,7 +37,7 @@ pub(super) fn paint(wireframe: &Wireframe, outlined: &[u32], area: Rect, buffer:
         };
         cell.reset();
         if mask != 0 {
-            cell.set_char(character(mask));
+            cell.set_char(BRAILLE[usize::from(mask)]);
         }
         if is_outlined {
             cell.set_style(theme::OUTLINED);
@@ -58,19 +59,6 @@ fn dots(line: &WireLine) -> impl Iterator<Item = [usize; 2]> {
         // A line along the right or lower edge of the picture is inside it.
         [0, 1].map(|axis| (start[axis] + share * run[axis]) as usize)
     })
-}
-
-/// The bit of a dot in the code of a braille character: the first six go down the columns, the last
-/// two are below.
-fn bit(x: usize, y: usize) -> u8 {
-    match (x, y) {
-        (x, 3) => 0x40 << x,
-        (x, y) => 1 << (3 * x + y),
-    }
-}
-
-fn character(mask: u8) -> char {
-    char::from_u32(0x2800 + u32::from(mask)).unwrap_or(' ')
 }
 
 #[cfg(test)]

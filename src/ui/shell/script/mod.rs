@@ -106,11 +106,9 @@ impl Script {
     /// The error that the interface has ended before the next step, if there is one.
     pub(crate) fn unplayed(&self) -> Option<Diagnostic> {
         let (_, span) = self.steps.front()?;
-        Some(Diagnostic::error(
-            *span,
-            "the interface has ended before this step",
-            "nothing here, or no key that quits above",
-        ))
+        let expected = "nothing here, or no key that quits above";
+        let message = "the interface has ended before this step";
+        Some(Diagnostic::error(*span, message, expected))
     }
 }
 

@@ -180,7 +180,8 @@ impl Manner {
             let (across, down) = at(divisor);
             u32::from(columns) * u32::from(across) * u32::from(rows) * u32::from(down) <= most
         };
-        at((1..height.max(2)).find(fits).unwrap_or(height.max(1)))
+        let coarsest = height.max(1);
+        at((1..height.max(2)).find(fits).unwrap_or(coarsest))
     }
 }
 

@@ -12,16 +12,13 @@ use super::wrapping::Wrapping;
 pub(super) fn encode(png: &[u8], place: Rect, wrapping: Wrapping, out: &mut Vec<u8>) {
     let (columns, rows) = (place.width, place.height);
     let length = png.len();
-    let data = STANDARD.encode(png);
+    let control = format!(
+        "\x1b]1337;File=inline=1;size={length};width={columns};height={rows};\
+         preserveAspectRatio=0;doNotMoveCursor=1:"
+    );
     wrapping.append(place, out, |out| {
-        out.extend_from_slice(
-            format!(
-                "\x1b]1337;File=inline=1;size={length};width={columns};height={rows};\
-                 preserveAspectRatio=0;doNotMoveCursor=1:"
-            )
-            .as_bytes(),
-        );
-        out.extend_from_slice(data.as_bytes());
+        out.extend_from_slice(control.as_bytes());
+        out.extend_from_slice(STANDARD.encode(png).as_bytes());
         out.push(b'\x07');
     });
 }

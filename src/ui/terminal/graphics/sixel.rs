@@ -222,15 +222,13 @@ fn quantized(pixels: &[[u8; 3]]) -> (Vec<u8>, Vec<[u8; 3]>) {
     let occupied = histogram.into_iter().enumerate();
     let mut bins: Vec<_> = occupied.filter(|(_, bin)| 0 < bin.count).collect();
     let mut indices = vec![0; 1 << BITS.iter().sum::<u32>()];
-    let palette = clusters(&mut bins)
-        .into_iter()
-        .enumerate()
-        .map(|(index, cluster)| {
-            for (bin, _) in &bins[cluster.bins] {
-                indices[*bin] = index as u8;
-            }
-            cluster.mean.map(|channel| channel.round() as u8)
-        });
+    let clusters = clusters(&mut bins).into_iter().enumerate();
+    let palette = clusters.map(|(index, cluster)| {
+        for (bin, _) in &bins[cluster.bins] {
+            indices[*bin] = index as u8;
+        }
+        cluster.mean.map(|channel| channel.round() as u8)
+    });
     let palette = palette.collect();
     let indices = pixels.iter().map(|&pixel| indices[bin_of(pixel)]).collect();
     (indices, palette)
