@@ -326,13 +326,8 @@ fn wires(app: &App) -> String {
     let size = shared.raster().map(|(_, size)| size);
     let wireframe = shared.wireframe().zip(size);
     let lines = wireframe.and_then(|(wireframe, size)| wireframe.lines(size));
-    lines.map_or_else(String::new, |wireframe| {
-        wireframe
-            .lines
-            .iter()
-            .map(|line| format!("{line:?}"))
-            .collect()
-    })
+    let lines = lines.iter().flat_map(|wireframe| &wireframe.lines);
+    joined(lines.map(|line| format!("{line:?}")), " ")
 }
 
 /// The bins of a histogram that are not empty, and how much is clipped.
