@@ -71,24 +71,18 @@ scripts! {
         object 3 | ejl        | difference ID 1 => difference ID 2
     ");
 
-    objects_are_hidden_and_shown_by_the_render_record: {
-        let mut session = dat().session();
-        session.run("[object 4] h | lines render 1 ID 3 | says hidden: object 4 (sphere) | objects 1");
-        assert_eq!(session.app.shared.source().drawn(3), None);
-        session.run("h");
-        assert_eq!(session.app.shared.source().drawn(3), Some(1));
-        session.run(r"
-            h
-            [object 3] h | says the last visible object cannot be hidden
-            [light 1] h  | says only objects can be shown or hidden
-        ");
-        dat().play(r"
-            [object 1] h | text opened
-            | says object 1 (sphere) is part of object 3 (CSG): h there shows or hides it
+    objects_are_hidden_and_shown_by_the_render_record: dat().play(r"
+        [object 4] h | lines render 1 ID 3 | says hidden: object 4 (sphere) | objects 1
+        h            | lines render 2 ID 3 ID 4 | objects 2
+        h
+        [object 3] h | says the last visible object cannot be hidden
+        [light 1] h  | says only objects can be shown or hidden
 
-            [object 4] h<Esc>uuu | text opened
-        ");
-    };
+        [object 1] h | text opened
+        | says object 1 (sphere) is part of object 3 (CSG): h there shows or hides it
+
+        [object 4] h<Esc>uuu | text opened
+    ");
 
     a_combination_shows_its_parts: dat().each(r"
         [object 3] | parts 1 object 1, 1 object 2

@@ -3,7 +3,6 @@
 use super::fields::XML;
 use super::rows::{Stage, ray, scene, scripts};
 use super::*;
-use crate::ui::layout::{picker_lines, swatch_cells};
 
 /// The stage of a diffuse colour with a factor, and of a background.
 fn xml<'s>() -> Stage<'s> {
@@ -105,22 +104,17 @@ scripts! {
         l | says …changed on disk… | context In(Edit) | text ….45 .36 .36…
     ");
 
-    the_mouse_drags_bars_takes_swatches_and_confirms_beside_them: {
-        let mut session = scene("a.ray", SCENE).session();
-        session.run("[object 1] e\n@field kd\nc");
-        let lines = picker_lines(session.app.shared.areas().list);
-        let [[_, hue], [_, saturation], _] = lines.bars;
-        let swatch = swatch_cells(lines.swatches, 1).expect("there are two");
-        let (left, right, y) = (saturation.x, saturation.right(), saturation.y);
-        session.run(&format!(r"
-            @down screen {},{y}     | text .45 .45 .45 => .45 .00 .00
-            // A drag stays on its bar.
-            @drag screen {left},{}  | text opened
-            @drag screen {beyond},{y}
-            @up screen {beyond},{y} | text .45 .45 .45 => .45 .00 .00
-            @down screen {},{}      | text .45 .45 .45 => 1.00 1.00 1.00
-            @down screen 1,1        | text .45 .45 .45 => 1.00 1.00 1.00 | context In(Edit)
-            u                       | text opened
-        ", right - 1, hue.y, swatch.x + 1, swatch.y, beyond = right + 5));
-    };
+    the_mouse_drags_bars_takes_swatches_and_confirms_beside_them: scene("a.ray", SCENE).play(r"
+        [object 1] e
+        @field kd
+        c
+        @down list 23,2  | text .45 .45 .45 => .45 .00 .00
+        // A drag stays on its bar.
+        @drag list 12,1  | text opened
+        @drag list 29,2
+        @up list 29,2    | text .45 .45 .45 => .45 .00 .00
+        @down list 4,9   | text .45 .45 .45 => 1.00 1.00 1.00
+        @down screen 1,1 | text .45 .45 .45 => 1.00 1.00 1.00 | context In(Edit)
+        u                | text opened
+    ");
 }

@@ -21,7 +21,8 @@ scripts! {
 fn line(app: &App) -> &str {
     let line = app.shared.overlays.line().map(|(input, _)| input);
     let typing = app.shared.cursor.typing.as_ref();
-    let line = line.or(typing.map(|typing| &typing.input));
+    let typing = typing.map(|typing| &typing.input);
+    let line = line.or(typing);
     line.expect("a line is open").value()
 }
 

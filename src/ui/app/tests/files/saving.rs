@@ -9,21 +9,16 @@ scripts! {
         jjjelqw<Esc> | not prompt | not leaving
     ");
 
-    a_hanging_save_is_reported_and_delays_no_other_file: {
-        let mut session = ray().session();
-        session.run("jjjel:w! stuck.ray<Enter> | does save stuck.ray, wait writing | not writing");
-        for _ in 0..12 {
-            session.run("@elapsed writing | does wait writing");
-        }
-        session.run(r"
-            | writing stuck.ray 12
-            :w free.ray<Enter> | does once save free.ray | over nothing
-            @saved 2           | says wrote free.ray | path free.ray
-            // The late outcome no longer changes anything.
-            @saved 1 opened    | says wrote stuck.ray | path free.ray | not dirty
-            @elapsed writing   | not does wait writing | not writing
-        ");
-    };
+    a_hanging_save_is_reported_and_delays_no_other_file: ray().play(&r"
+        jjjel:w! stuck.ray<Enter> | does save stuck.ray, wait writing | not writing
+        {twelve seconds}
+        | writing stuck.ray 12
+        :w free.ray<Enter> | does once save free.ray | over nothing
+        @saved 2           | says wrote free.ray | path free.ray
+        // The late outcome no longer changes anything.
+        @saved 1 opened    | says wrote stuck.ray | path free.ray | not dirty
+        @elapsed writing   | not does wait writing | not writing
+    ".replace("{twelve seconds}", &["@elapsed writing | does wait writing"; 12].join("\n")));
 
     saves_of_one_file_wait_for_each_other: ray().play(r"
         jjjelw

@@ -19,6 +19,7 @@
 
 mod assets;
 mod effects;
+mod files;
 mod screen;
 mod seen;
 mod steps;

@@ -1,8 +1,9 @@
 //! What scripts can check: `says` and `shown` are messages, the newest and the one in the status
 //! line; `does` names effects of the last step, `does only` all of them in order, `does first` the
-//! first of them, and `does once` one of which there is no other; `job` gives settings of the only
-//! picture that it traces, in pairs; `text` and `saved` are texts, `writes` is that of the file
-//! that is written, and `over` what it may replace.
+//! first of them, and `does once` one of which there is no other; `lists` are folders whose names it
+//! asks for; `job` gives settings of the only picture that it traces, in pairs; `text` and `saved`
+//! are texts, `writes` is that of the file that is written, and `over` what it may replace; `news`
+//! is how the file that was read last differs.
 
 use super::values::{self, Words as _};
 use super::*;

@@ -11,25 +11,22 @@
 //! what would help, and `@shows` one of one object, which is on screen. `@thumbnails` delivers all
 //! that the page of the history asks for, and `@derived` the scene that it asked for last.
 
+use super::files::{kind, numbered, recovered, unread};
 use super::*;
-use crate::document::Document;
-use crate::file::ReadError;
 use crate::render::{Frame, Job, PreparedScene, Progress};
-use crate::scene::{Meshes, Size};
-use crate::ui::app::{display, files};
+use crate::scene::Size;
+use crate::ui::app::display;
 use crate::ui::history_scene::HistoryText;
 use crate::ui::keymap::{Keys, Section};
-use crate::ui::msg::{Polled, Question, Recalled, SaveId, SaveOutcome, Timer};
-use crate::ui::recovery::tests::offer;
-use crate::ui::recovery::{Found, Offer};
+use crate::ui::msg::{Polled, Question, Recalled, Timer};
+use crate::ui::recovery::Offer;
 use crate::ui::reel::ReelProgress;
-use crate::ui::scene_reading::{Baseline, News, Opened};
 
 /// What was begun and not answered yet.
 #[derive(Default)]
 pub(super) struct UnderWay {
-    saves: BTreeMap<u32, (PathBuf, Arc<String>)>,
-    exports: BTreeMap<u32, PathBuf>,
+    pub(super) saves: BTreeMap<u32, (PathBuf, Arc<String>)>,
+    pub(super) exports: BTreeMap<u32, PathBuf>,
     pub(super) jobs: Vec<(Target, Job)>,
     /// The scenes that questions about traced pictures are about.
     pub(super) prepared: Vec<PreparedScene>,
@@ -37,9 +34,9 @@ pub(super) struct UnderWay {
     /// The requests of the last step for names to complete.
     pub(super) listings: Vec<Effect>,
     past: Option<Box<HistoryText>>,
-    kept: Vec<u64>,
-    offer: Option<Offer>,
-    track: Option<(PathBuf, Arc<String>)>,
+    pub(super) kept: Vec<u64>,
+    pub(super) offer: Option<Offer>,
+    pub(super) track: Option<(PathBuf, Arc<String>)>,
     reading: Option<Msg>,
 }
 
@@ -209,50 +206,6 @@ impl Session {
         Ok(())
     }
 
-    fn own_path(&self) -> PathBuf {
-        let path = self.app.shared.disk.path.clone();
-        path.unwrap_or_else(|| PathBuf::from("scene.ray"))
-    }
-
-    fn reading(&self, path: PathBuf, text: String) -> Msg {
-        let reading =
-            Reading::new(text, files::baseline(&self.app.shared)).expect("it fits into memory");
-        Msg::Read(path, Ok(reading))
-    }
-
-    /// The outcome of a save: of the newest, unless its number is said. What was saved may be said to
-    /// be another text, and after `as` another file.
-    fn outcome(&self, name: &str, rest: &str) -> Result<Msg, String> {
-        let saves = &self.under_way.saves;
-        let (first, others) = rest.split_once(' ').unwrap_or((rest, ""));
-        let (id, rest) = match first.parse() {
-            Ok(id) => (Some(id), others),
-            Err(_) => (saves.keys().last().copied(), rest),
-        };
-        let id = id.ok_or("nothing is saved")?;
-        let outcome = match name {
-            "refused" => SaveOutcome::ChangedOnDisk,
-            "failed" => SaveOutcome::Failed(rest.to_owned()),
-            "homeless" => SaveOutcome::NoFolder(rest.to_owned()),
-            _ => {
-                let (mut path, mut text) = saves.get(&id).cloned().ok_or("no such save")?;
-                if let Some(other) = rest.strip_prefix("as ") {
-                    path = other.into();
-                } else if !rest.is_empty() {
-                    text = Arc::new(self.text_of(rest)?);
-                }
-                SaveOutcome::Saved { path, text }
-            }
-        };
-        Ok(Msg::Saved(SaveId(id), outcome))
-    }
-
-    /// The revision that was to be kept last, or as the first, the second and so on.
-    fn kept(&self, number: &str) -> Result<u64, String> {
-        let kept = numbered(&self.under_way.kept, number);
-        Ok(*kept.ok_or("nothing is kept")?)
-    }
-
     /// The answer to the newest question about a pixel, or to the first, the second and so on.
     fn explained(&self, number: &str) -> Result<Msg, String> {
         let asked = numbered(&self.under_way.questions, number);
@@ -260,86 +213,6 @@ impl Session {
         let query = frame.query.as_ref().ok_or("the picture was not traced")?;
         let answer = query.explain(question.pixel, question.sample, || false);
         Ok(Msg::Explained(*question, answer.map(Box::new)))
-    }
-
-    /// An offer to restore a text, edited from the text called `base` or as it was opened; or the
-    /// same offer `again`.
-    fn offer(&mut self, rest: &str) -> Result<Msg, String> {
-        if rest != "again" {
-            let base = self
-                .texts
-                .get("base")
-                .unwrap_or_else(|| &self.texts["opened"]);
-            let kept = self.text_of(rest)?;
-            let document = &self.app.shared.document;
-            let offer = offer(document.language(), &document.shared_text(), base, &kept);
-            let name = offer.claim.name().to_owned();
-            self.under_way.offer = Some(offer);
-            self.texts.insert("offered".to_owned(), name);
-        }
-        let offer = self.under_way.offer.clone().ok_or("nothing was offered")?;
-        Ok(recovered(Some(offer), Vec::new()))
-    }
-
-    /// What is found in place of the scene: nothing for `new`, kept edits, or a text.
-    fn other(&self, name: &str, rest: &str) -> Result<Opened, String> {
-        if rest == "new" {
-            return Ok(Opened::New);
-        }
-        if let Some(kept) = rest.strip_prefix("kept ") {
-            return Ok(Opened::Kept(self.text_of(kept)?));
-        }
-        let language = Language::of_path(Path::new(name)).map_err(|_| "no scene's name")?;
-        let nothing = Baseline {
-            scene: Document::new(language, String::new()).snapshot(),
-            saves: 0,
-            meshes: Meshes::default(),
-            is_sound: false,
-        };
-        let reading = Reading::new(self.text_of(rest)?, nothing);
-        Ok(Opened::Read(reading.expect("it fits into memory")))
-    }
-
-    /// The newest export.
-    fn export(&self) -> Result<ExportId, String> {
-        let newest = self.under_way.exports.keys().last();
-        Ok(ExportId(*newest.ok_or("nothing is exported")?))
-    }
-
-    /// The outcome of an export: of the newest, unless its number is said.
-    fn export_outcome(&self, name: &str, rest: &str) -> Result<Msg, String> {
-        let (first, others) = rest.split_once(' ').unwrap_or((rest, ""));
-        let (id, rest) = match first.parse() {
-            Ok(id) => (ExportId(id), others),
-            Err(_) => (self.export()?, rest),
-        };
-        let path = self.under_way.exports.get(&id.0).ok_or("no such export")?;
-        Ok(match name {
-            "taken" => Msg::Taken(id, format!("{} exists", path.display())),
-            "unwritten" => Msg::Exported(id, Err(rest.to_owned())),
-            _ => exported(id, path, None),
-        })
-    }
-
-    /// The reading of the track beside the scene, or of the one named before a colon: a text, or why
-    /// there is none.
-    fn track(&self, rest: &str) -> Result<Msg, String> {
-        let (path, text) = rest.split_once(": ").unwrap_or(("scene.toml", rest));
-        let path = PathBuf::from(path);
-        let read = match text {
-            "none" => Ok(None),
-            "missing" | "folder" | "broken" => Err(unread(text, path.clone())?),
-            text => Ok(Some(self.text_of(text)?)),
-        };
-        Ok(Msg::TrackRead(path, read))
-    }
-
-    fn track_outcome(&self, rest: &str) -> Result<Msg, String> {
-        if rest == "refused" {
-            return Ok(Msg::TrackWritten(SaveOutcome::ChangedOnDisk));
-        }
-        let (path, text) = self.under_way.track.clone().ok_or("no key is written")?;
-        Ok(Msg::TrackWritten(SaveOutcome::Saved { path, text }))
     }
 
     /// Follows the last step with the wireframe, and remembers what its effects begin.
@@ -393,47 +266,6 @@ pub(in crate::ui::app::tests) fn half_way(frame: u32) -> ReelProgress {
         count: 9,
         traced,
     }
-}
-
-/// Whether only numbers differ from the text under edit.
-fn kind(news: Option<&News>) -> &'static str {
-    match news {
-        None => "",
-        Some(News::Numbers(_)) => "numbers",
-        Some(_) => "other",
-    }
-}
-
-/// Why a file cannot be read.
-fn unread(why: &str, path: PathBuf) -> Result<ReadError, String> {
-    Ok(match why {
-        "missing" => ReadError::NotFound { path },
-        "folder" => ReadError::NotRegular {
-            path,
-            kind: "a folder",
-        },
-        "no-folder" => ReadError::NoFolder {
-            folder: "/scenes".into(),
-        },
-        "broken" => ReadError::Io {
-            path,
-            source: std::io::Error::other("broken"),
-        },
-        _ => return Err(format!("no error is called {why}")),
-    })
-}
-
-/// The last, or the one of this number.
-fn numbered<'a, T>(all: &'a [T], number: &str) -> Option<&'a T> {
-    match number.parse::<usize>() {
-        Ok(number) => all.get(number - 1),
-        Err(_) => all.last(),
-    }
-}
-
-fn recovered(offer: Option<Offer>, complaints: Vec<String>) -> Msg {
-    let offer = offer.map(Box::new);
-    Msg::Recovered(Found { offer, complaints })
 }
 
 /// The number that is said.

@@ -115,7 +115,7 @@ impl Session {
                         _ => " from elsewhere",
                     };
                     if let Some(last) = derived.last_mut() {
-                        *last += &format!(": {}{seen}", job.scene.objects.len());
+                        *last = format!("{last}: {}{seen}", job.scene.objects.len());
                     }
                     let size = job.settings.size;
                     let mut frame = frame_of(size, vec![0; size.pixels()]);

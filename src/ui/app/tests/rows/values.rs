@@ -37,7 +37,7 @@ pub(super) fn seen(app: &App, name: &str) -> Option<String> {
 /// What is edited, and the cursor in it.
 fn text(app: &App, name: &str) -> Option<String> {
     let shared = &app.shared;
-    let typing = shared.cursor.typing.as_ref();
+    let (typing, scene) = (shared.cursor.typing.as_ref(), shared.scene.as_ref());
     let refused = typing.and_then(|typing| typing.refused.as_ref());
     let past = shared.document.states().take(shared.document.present() + 1);
     let steps = past.filter_map(|state| state.name.map(StepName::to_string));
@@ -65,19 +65,11 @@ fn text(app: &App, name: &str) -> Option<String> {
         "marks" => count(shared.cursor.marks.len()),
         "nodes" => count(shared.nodes().len()),
         "list" => list(app),
-        "views" => joined(
-            shared
-                .source()
-                .saved_views()
-                .into_iter()
-                .map(|view| view.name),
-            ", ",
-        ),
-        "objects" => shared
-            .scene
-            .as_ref()
-            .map(|scene| scene.objects.len())
-            .words(),
+        "views" => {
+            let views = shared.source().saved_views().into_iter();
+            joined(views.map(|view| view.name), ", ")
+        }
+        "objects" => scene.map(|scene| scene.objects.len()).words(),
         _ => return None,
     })
 }
@@ -85,7 +77,7 @@ fn text(app: &App, name: &str) -> Option<String> {
 /// Settings of pictures, and what is on screen.
 fn settings(app: &App, name: &str) -> Option<String> {
     let shared = &app.shared;
-    let output = shared.output();
+    let (output, window) = (shared.output(), display::frame_window(shared));
     Some(match name {
         "mode" => shared.mode.name().to_owned(),
         "context" => format!("{:?}", shared.context()),
@@ -96,17 +88,9 @@ fn settings(app: &App, name: &str) -> Option<String> {
         "aov" => shared.pictures.aov.map(Aov::name).words(),
         "region" => shared.pictures.region.is_some().words(),
         "exposure" => display::display_name(shared).words(),
-        "exposed" => {
-            let window = display::frame_window(shared);
-            window
-                .map(|window| window.display.half_stops.to_string())
-                .words()
-        }
+        "exposed" => window.map(|window| window.display.half_stops).words(),
         "transforms" => app.moving.is_some().words(),
-        "denoised" => {
-            let window = display::frame_window(shared);
-            window.is_some_and(|window| window.display.denoised).words()
-        }
+        "denoised" => window.is_some_and(|window| window.display.denoised).words(),
         "view-name" => display::view_name(shared).words(),
         "legend" => display::legend(shared).words(),
         "raster" => shared
@@ -148,10 +132,8 @@ fn overlays(app: &App, name: &str) -> Option<String> {
             .words(),
         "completed" => {
             let found = command::completions(shared).into_iter();
-            ended(
-                found.map(|found| format!("{} [{}]", found.shown, found.keys)),
-                "; ",
-            )
+            let found = found.map(|found| format!("{} [{}]", found.shown, found.keys));
+            ended(found, "; ")
         }
         "menu" => menu.is_some().words(),
         "offers" => joined(entries.iter().map(|entry| &entry.name), ", "),
@@ -166,15 +148,8 @@ fn overlays(app: &App, name: &str) -> Option<String> {
         "page" => overlays.page.is_some().words(),
         "page-steps" => overlays
             .page(Context::History)
-            .map_or_else(String::new, |page| {
-                let rows = page.shown().into_iter().map(|(_, name)| name).enumerate();
-                let cursor = |at: usize| if at == page.filter.at { ">" } else { "" };
-                let when = |at| history::when(&shared.document, at);
-                joined(
-                    rows.map(|(at, name)| format!("{}{}: {name}", cursor(at), when(at))),
-                    "; ",
-                )
-            }),
+            .map(|page| page_steps(page, shared))
+            .words(),
         "listed-error" => overlays.errors.words(),
         _ => return None,
     })
@@ -201,6 +176,7 @@ fn pictures(app: &App, name: &str) -> Option<String> {
     let shared = &app.shared;
     let latest = shared.picture().latest.as_ref();
     let histogram = shared.pictures.histogram.as_ref();
+    let counted = histogram.and_then(|shown| shown.histogram.as_ref());
     Some(match name {
         "picture" => latest.is_some().words(),
         "first" => latest.map(|frame| frame.pixels[0][0]).words(),
@@ -213,10 +189,7 @@ fn pictures(app: &App, name: &str) -> Option<String> {
             Ok(node) => node.words(),
             Err(_) => "unknown".to_owned(),
         },
-        "compared-at" => {
-            let cross = app.compare.cross;
-            cross.map(|(x, y)| format!("{x},{y}")).words()
-        }
+        "compared-at" => app.compare.cross.map(place).words(),
         "outlined" => joined(display::outlined_objects(shared), " "),
         "symbols" => joined(
             display::symbols(shared).iter().map(|symbol| symbol.node),
@@ -224,18 +197,13 @@ fn pictures(app: &App, name: &str) -> Option<String> {
         ),
         "symbol-cells" => {
             let symbols = display::symbols(shared);
-            let symbols = symbols.iter().map(|symbol| {
-                let (column, row) = symbol.cell;
-                format!("{} {column},{row}", symbol.node)
-            });
-            joined(symbols, ", ")
+            let symbols = symbols.iter();
+            let cells = symbols.map(|symbol| format!("{} {}", symbol.node, place(symbol.cell)));
+            joined(cells, ", ")
         }
         "wires" => wires(app),
         "solo" => shared.pictures.solo.is_some().words(),
-        "histogram" => histogram
-            .and_then(|shown| shown.histogram.as_ref())
-            .map(counts)
-            .words(),
+        "histogram" => counted.map(counts).words(),
         "thumbnails" => app.thumbnails.are_awaited().words(),
         _ => return None,
     })
@@ -244,18 +212,14 @@ fn pictures(app: &App, name: &str) -> Option<String> {
 /// Which part of the picture is on screen, and the cross over it.
 fn zoom(app: &App, name: &str) -> Option<String> {
     let shared = &app.shared;
-    let corner = display::pixel_in_corner(shared);
+    let (corner, cross) = (display::pixel_in_corner(shared), inspect::cross(shared));
     Some(match name {
         "seen" => effects::name(shared.seen()).to_owned(),
         "zoomed" => (!display::viewport(shared).is_fit()).words(),
-        "top-left" => corner.map(|pixel| joined(pixel, ",")).words(),
+        "top-left" => corner.map(place).words(),
         "drawn" => shared.region_drawn().words(),
-        "cross" => inspect::cross(shared)
-            .map(|cross| joined(cross.pixel, ","))
-            .words(),
-        "cross-cell" => inspect::cross_cell(shared)
-            .map(|(column, row)| format!("{column},{row}"))
-            .words(),
+        "cross" => cross.map(|cross| place(cross.pixel)).words(),
+        "cross-cell" => inspect::cross_cell(shared).map(place).words(),
         _ => return None,
     })
 }
@@ -265,16 +229,15 @@ fn rays(app: &App, name: &str) -> Option<String> {
     let shared = &app.shared;
     let explained = shared.inspection.explained.as_ref();
     let line = inspect::ray_line(shared);
+    let node = line.and_then(|line| inspect::ray_node(shared, line));
     Some(match name {
         "explained" => inspect::explanation(shared)
-            .map(|found| format!("{} sample {}", joined(found.pixel, ","), found.sample))
+            .map(|found| format!("{} sample {}", place(found.pixel), found.sample))
             .words(),
         "verdict" => explained.and_then(|found| found.verdict.as_ref()).words(),
         "rays" => count(inspect::ray_lines(shared).len()),
         "ray" => explained.map(|found| found.at).words(),
-        "ray-of" => line
-            .and_then(|line| inspect::ray_node(shared, line))
-            .words(),
+        "ray-of" => node.words(),
         _ => return None,
     })
 }
@@ -373,13 +336,8 @@ fn wires(app: &App) -> String {
     let size = shared.raster().map(|(_, size)| size);
     let wireframe = shared.wireframe().zip(size);
     let lines = wireframe.and_then(|(wireframe, size)| wireframe.lines(size));
-    lines.map_or_else(String::new, |wireframe| {
-        wireframe
-            .lines
-            .iter()
-            .map(|line| format!("{line:?}"))
-            .collect()
-    })
+    let lines = lines.iter().flat_map(|wireframe| &wireframe.lines);
+    joined(lines.map(|line| format!("{line:?}")), " ")
 }
 
 /// The bins of a histogram that are not empty, and how much is clipped.
@@ -390,12 +348,28 @@ fn counts(histogram: &Histogram) -> String {
     format!("{filled}; clipped {}", histogram.clipped)
 }
 
+/// The rows of the page of the history, with the cursor.
+fn page_steps(page: &Page, shared: &Shared) -> String {
+    let rows = page.shown().into_iter().map(|(_, name)| name).enumerate();
+    let cursor = |at: usize| if at == page.filter.at { ">" } else { "" };
+    let when = |at| history::when(&shared.document, at);
+    joined(
+        rows.map(|(at, name)| format!("{}{}: {name}", cursor(at), when(at))),
+        "; ",
+    )
+}
+
 /// A count, nothing for none.
 fn count(count: usize) -> String {
     match count {
         0 => String::new(),
         count => count.to_string(),
     }
+}
+
+/// A column and a row.
+fn place<T: ToString>(at: impl Into<[T; 2]>) -> String {
+    joined(at.into(), ",")
 }
 
 fn ended(items: impl Iterator<Item = String>, end: &str) -> String {

@@ -24,7 +24,7 @@ obj CSG ID 5 union ID 3 ID 4
 render 2 ID 5 ID 2
 ";
 
-const XML: &str = "\
+pub(super) const XML: &str = "\
 <xml><scene>
   <object name='pair'>
     <object name='inner'><object type='sphere' name='a'/></object>

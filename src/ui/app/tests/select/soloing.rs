@@ -1,17 +1,8 @@
 //! Showing lights and objects alone in the preview.
 
+use super::listing::XML;
 use super::rows::{Stage, scene, scripts};
 use super::structure::{DAT, RAY};
-
-const XML: &str = "\
-<xml><scene>
-  <object type='sphere' name='c'/>
-  <object name='pair'>
-    <object name='inner'><object type='sphere' name='a'/></object>
-    <object type='sphere' name='b'/>
-  </object>
-</scene><camera><position z='9'/></camera></xml>
-";
 
 /// The stage of three objects and two lights, the second of which is red.
 fn ray<'s>() -> Stage<'s> {
@@ -29,7 +20,8 @@ scripts! {
             object 3 | l | 0 | 1
             object 4 | l | 1 | 1
         ");
-        scene("a.xml", XML).table(script, r"
+        let another = r"<scene>\n => <scene>\n<object type='sphere' name='first'/>\n";
+        scene("a.xml", XML).but(another).table(script, r"
             object 2 | l | 1 2 | 2
             object 3 | l | 1 | 1
         ");

@@ -27,16 +27,6 @@ obj sphere ID 4 mat ID 1  3 0 0  1
 render 2 ID 3 ID 4
 ";
 
-const XML: &str = "\
-<xml>
-  <scene>
-    <object type=\"sphere\" name=\"a\" material=\"m\"/>
-    <object type=\"sphere\" name=\"b\"/>
-    <material name=\"m\"/>
-  </scene>
-</xml>
-";
-
 const GROUPED: &str = "\
 <xml>
   <scene>
@@ -139,8 +129,8 @@ scripts! {
             [object 1] <Space>jD       | says duplicated: 1 marked item: object 1 (sphere)
             [object 1] d               | says deleted: object 1 (sphere)
         ");
-        scene("scene.xml", XML).each(r"
-            [material 1] <Space>d      | asks delete: Delete 1 marked item: m…
+        scene("scene.dat", DAT).play(r"
+            [material 2] <Space>d      | asks delete: Delete 1 marked item: material 2…
         ");
     };
 
