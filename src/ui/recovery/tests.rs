@@ -345,8 +345,8 @@ pub(super) fn scene(path: impl AsRef<Path>) -> Identity {
 #[test]
 fn files_in_place_of_journals() {
     type Change = fn(&mut Vec<Vec<u8>>);
-    let is_damaged = Some(".damaged is damaged");
-    let is_of_another_version = Some("-0.ray is of another version of halflight");
+    let damaged = Some(".damaged is damaged");
+    let other_version = Some("-0.ray is of another version of halflight");
     for (name, change, offered, said, name_ends) in table! {
         "whole", (|_| ()) as Change => Some("1 2 5"), None, "";
         "with a torn end", |all| all.push(b"edit 0 5".to_vec()) => Some("1 2 5"), None, "";
@@ -354,14 +354,14 @@ fn files_in_place_of_journals() {
         "with a damaged end", |all| all[2][0] = b'E' => Some("1 2 4"), None, ".damaged";
         "with a damaged head", |all| all[0][b"halflight journal ".len()] ^= 1 =>
             Some("1 2 5"), None, ".damaged";
-        "torn before its first edit", |all| all.truncate(1) => None, is_damaged, ".damaged";
-        "zeros", |all| *all = vec![vec![0; 4096]] => None, is_damaged, ".damaged";
-        "a scene", |all| *all = vec![b"1 2 4".to_vec()] => None, is_damaged, ".damaged";
+        "torn before its first edit", |all| all.truncate(1) => None, damaged, ".damaged";
+        "zeros", |all| *all = vec![vec![0; 4096]] => None, damaged, ".damaged";
+        "a scene", |all| *all = vec![b"1 2 4".to_vec()] => None, damaged, ".damaged";
         "empty", |all| all.clear() => None, None, "";
         "of another scene", |all| *all = parts(&scene("/other.ray"), BASE, &["1 2 4"]) =>
             None, Some("-0.ray belongs to another scene"), "-0.ray";
         "of another version", |all| *all = vec![b"halflight journal 9\nx".to_vec()] =>
-            None, is_of_another_version, "-0.ray";
+            None, other_version, "-0.ray";
     } {
         let place = Place::new();
         place.make();

@@ -39,12 +39,8 @@ const NAMES: &[&str] = &[
 /// The arguments that editors get for `/d/NAME` at line 7, and for a name with a colon if they
 /// differ.
 const EDITORS: &[(&str, &str, Option<&str>)] = &[
-    (
-        "vi /usr/bin/vim vim.basic nvim view kak micro",
-        "+7 -- FILE",
-        None,
-    ),
-    ("emacs emacs-nox emacs29", "+7 -- FILE", None),
+    ("vi /usr/bin/vim vim.basic nvim", "+7 -- FILE", None),
+    ("view kak emacs emacs-nox emacs29", "+7 -- FILE", None),
     ("nano micro emacsclient", "-- +7 FILE", None),
     ("mg unheard-of", "+7 FILE", None),
     ("ed", "FILE", None),
