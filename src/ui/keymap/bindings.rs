@@ -214,7 +214,7 @@ pub fn name(event: KeyEvent) -> Option<String> {
 }
 
 #[cfg(test)]
-mod tests {
+pub(in crate::ui) mod tests {
     use super::*;
     use crossterm::event::KeyModifiers;
 
@@ -228,7 +228,7 @@ mod tests {
     }
 
     /// The default keys with changes such as `select s=save, select D=`.
-    fn bound(changes: &str) -> Keymap {
+    pub(in crate::ui) fn bound(changes: &str) -> Keymap {
         let mut keymap = Keymap::default();
         for change in changes.split_terminator(", ") {
             let (section, binding) = change.split_once(' ').expect("a section");

@@ -188,7 +188,7 @@ fn unknown(word: &str, span: Span) -> Diagnostic {
 mod tests {
     use super::*;
     use crate::text::Position;
-    use crate::ui::keymap::{Keys, Section};
+    use crate::ui::keymap::bound;
 
     fn parse(text: &str) -> Result<Script, Vec<Diagnostic>> {
         Script::parse(String::new(), text.to_owned(), &Keymap::default())
@@ -215,9 +215,7 @@ mod tests {
         for text in ["gg", "g g"] {
             assert_eq!(steps(text), ["g", "g"].map(key));
         }
-        let mut keymap = Keymap::default();
-        let keys = Keys::parse("Ctrl-X d").expect("keys");
-        keymap.bind(Section::Anywhere, keys, Some("undo"));
+        let keymap = bound("anywhere Ctrl-X d=undo");
         assert_eq!(keymap.sequence_named("dg"), None);
         let ctrl = keymap.sequence_named("Ctrl-X d").expect("it is bound");
         assert_eq!(ctrl.map(Step::Key), ["Ctrl-X", "d"].map(key));

@@ -112,6 +112,7 @@ impl Place {
 
 #[test]
 fn a_trace_is_read_back_for_the_same_picture_only() {
+    type Change = fn(&mut Provenance);
     let (place, first) = (Place::new(), job(4));
     let found = place.read(&picture(&first), &first);
     assert_eq!(found, None, "there is no folder");
@@ -120,7 +121,6 @@ fn a_trace_is_read_back_for_the_same_picture_only() {
         let same = job(spp);
         assert_eq!(place.read(&picture(&same), &same), Some(4));
     }
-    type Change = fn(&mut Provenance);
     for change in [
         (|own| own.version = "0.0.0".to_owned()) as Change,
         |own| own.scene = "c0ffef".to_owned(),
