@@ -97,26 +97,17 @@ mod tests {
         ] {
             let page = Rect::new(3, 2, size.0, size.1);
             let strip = HistoryLayout::with_pictures(page);
-            let found = (
-                strip.height,
-                strip.thumbnail.is_some(),
-                strip.large.is_some(),
-            );
-            assert_eq!(found, (height, has_thumbnails, has_large), "{size:?}");
-            let places = [Some(strip.list), strip.large, Some(strip.foot)];
-            for place in places
-                .into_iter()
-                .flatten()
-                .filter(|place| !place.is_empty())
-            {
-                assert_eq!(place.intersection(page), place, "{size:?}");
+            let has = [strip.thumbnail.is_some(), strip.large.is_some()];
+            assert_eq!(strip.height, height, "{size:?}");
+            assert_eq!(has, [has_thumbnails, has_large], "{size:?}");
+            for place in [strip.list, strip.large.unwrap_or_default(), strip.foot] {
+                let is_inside = place.is_empty() || place.intersection(page) == place;
+                assert!(is_inside, "{size:?}: {place:?}");
             }
             for at in [0, 3, 8] {
                 let rows: Vec<_> = strip.rows(at, 9).collect();
-                assert!(
-                    rows.iter()
-                        .all(|(_, row)| row.intersection(strip.list) == *row)
-                );
+                let is_listed = |row: &Rect| row.intersection(strip.list) == *row;
+                assert!(rows.iter().all(|(_, row)| is_listed(row)));
                 let is_shown = rows.iter().any(|(row, _)| *row == at);
                 assert_eq!(is_shown, strip.height <= strip.list.height, "{size:?} {at}");
             }

@@ -317,18 +317,17 @@ pub(super) mod tests {
 
     #[test]
     fn rasters_are_letterboxed() {
-        let check = |area: (u16, u16), output, cells: (u16, u16, u16, u16), pixels| {
-            let (x, y, width, height) = cells;
-            assert_eq!(
-                raster(Rect::new(0, 0, area.0, area.1), output),
-                Some((Rect::new(x, y, width, height), pixels))
-            );
-        };
-        check((80, 20), size(800, 600), (13, 0, 53, 20), size(53, 40));
-        check((40, 30), size(800, 600), (0, 7, 40, 15), size(40, 30));
-        check((40, 20), size(1, 1000), (19, 0, 1, 20), size(1, 40));
-        check((40, 20), size(1000, 1), (0, 9, 40, 1), size(40, 1));
-        check((1, 1), size(u32::MAX, u32::MAX), (0, 0, 1, 1), size(1, 1));
+        let most = u32::MAX;
+        for (columns, rows, output, cells, pixels) in table! {
+            80, 20, size(800, 600) => Rect::new(13, 0, 53, 20), size(53, 40);
+            40, 30, size(800, 600) => Rect::new(0, 7, 40, 15), size(40, 30);
+            40, 20, size(1, 1000) => Rect::new(19, 0, 1, 20), size(1, 40);
+            40, 20, size(1000, 1) => Rect::new(0, 9, 40, 1), size(40, 1);
+            1, 1, size(most, most) => Rect::new(0, 0, 1, 1), size(1, 1);
+        } {
+            let found = raster(Rect::new(0, 0, columns, rows), output);
+            assert_eq!(found, Some((cells, pixels)));
+        }
         assert_eq!(raster(Rect::new(0, 0, 0, 9), size(4, 3)), None);
     }
 

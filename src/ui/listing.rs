@@ -137,48 +137,37 @@ mod tests {
     }
 
     /// The lines of a list, each found by its row as well.
-    fn lines(nodes: Nodes, shown: Option<&[usize]>) -> Vec<String> {
+    fn lines(nodes: Nodes, shown: Option<&[usize]>) -> String {
         let listing = Listing::new(nodes, shown);
         assert_eq!(listing.get(listing.len()), None);
-        (0..listing.len())
-            .map(|line| match listing.get(line) {
-                Some(ListLine::Heading(words)) => words,
-                Some(ListLine::Node(row, node)) => {
-                    assert_eq!(listing.line_of(row), line);
-                    node.to_string()
-                }
-                None => panic!("line {line} is missing"),
-            })
-            .collect()
+        let line = |line| match listing.get(line).expect("a line") {
+            ListLine::Heading(words) => words,
+            ListLine::Node(row, node) => {
+                assert_eq!(listing.line_of(row), line);
+                node.to_string()
+            }
+        };
+        (0..listing.len()).map(line).collect::<Vec<_>>().join(", ")
     }
 
     #[test]
     fn every_node_has_a_line_below_the_heading_of_its_kind() {
         let ball = "sphere 0 0 0 1 0 0 0 0 0 0 0 0 0 1 0 0 1\n";
         let text = format!(".1 .1 .1\n1\n1 5 5 5 1 1\n2\n{ball}{ball}");
+        let xml = nodes(Language::Xml, "");
         let nodes = nodes(Language::Ray, &text);
-        assert_eq!(
-            lines(nodes, None),
-            [
-                "render",
-                "view",
-                "ambient",
-                "1 light",
-                "light 1",
-                "2 objects",
-                "object 1",
-                "object 2"
-            ]
-        );
-        assert_eq!(
-            lines(nodes, Some(&[2, 5])),
-            ["ambient", "1 of 2 objects", "object 2"]
-        );
-        assert!(lines(nodes, Some(&[])).is_empty());
-    }
-
-    #[test]
-    fn an_empty_list_has_no_lines() {
-        assert!(lines(nodes(Language::Xml, ""), None).is_empty());
+        let all = "render, view, ambient, 1 light, light 1, 2 objects, object 1, object 2";
+        for (nodes, shown, expected) in [
+            (nodes, None, all),
+            (
+                nodes,
+                Some(&[2, 5][..]),
+                "ambient, 1 of 2 objects, object 2",
+            ),
+            (nodes, Some(&[]), ""),
+            (xml, None, ""),
+        ] {
+            assert_eq!(lines(nodes, shown), expected);
+        }
     }
 }

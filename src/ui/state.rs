@@ -238,18 +238,14 @@ mod tests {
 
     #[test]
     fn the_state_folder_is_absolute() {
-        for (xdg, home, expected) in [
-            (Some("/state"), Some("/home/me"), Some("/state")),
-            (None, Some("/home/me"), Some("/home/me/.local/state")),
-            (Some(""), Some("/home/me"), Some("/home/me/.local/state")),
-            (
-                Some("state"),
-                Some("/home/me"),
-                Some("/home/me/.local/state"),
-            ),
-            (Some("state"), Some("me"), None),
-            (None, None, None),
-        ] {
+        for (xdg, home, expected) in table! {
+            Some("/state"), Some("/home/me") => Some("/state");
+            None, Some("/home/me") => Some("/home/me/.local/state");
+            Some(""), Some("/home/me") => Some("/home/me/.local/state");
+            Some("state"), Some("/home/me") => Some("/home/me/.local/state");
+            Some("state"), Some("me") => None;
+            None, None => None;
+        } {
             let set = |name: &str| if name == "HOME" { home } else { xdg };
             let found = state_by(|name| set(name).map(OsString::from)).ok();
             assert_eq!(found.as_deref(), expected.map(Path::new));

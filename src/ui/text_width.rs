@@ -139,15 +139,13 @@ mod tests {
 
     #[test]
     fn lines_break_between_words() {
-        assert_eq!(
-            wrap("one two  three", 7),
-            ["one two".to_owned(), "three".to_owned()]
-        );
-        assert_eq!(
-            wrap("an extraordinary 界界", 5),
-            ["an", "extra", "ordin", "ary", "界界"]
-        );
-        assert_eq!(wrap("界a", 1), ["界", "a"]);
+        for (text, width, lines) in [
+            ("one two  three", 7, "one two|three"),
+            ("an extraordinary 界界", 5, "an|extra|ordin|ary|界界"),
+            ("界a", 1, "界|a"),
+        ] {
+            assert_eq!(wrap(text, width).join("|"), lines);
+        }
         assert!(wrap(" ", 5).is_empty());
     }
 }

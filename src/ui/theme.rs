@@ -168,9 +168,8 @@ mod tests {
 
     #[test]
     fn swatches_stand_out_and_keep_their_hue() {
-        let check = |theme: Theme, colour: [f64; 3], shown: [u8; 3]| {
-            let [red, green, blue] = shown;
-            let style = theme.swatch(Rgb::new(colour[0], colour[1], colour[2]));
+        let check = |theme: Theme, [r, g, b]: [f64; 3], [red, green, blue]: [u8; 3]| {
+            let style = theme.swatch(Rgb::new(r, g, b));
             assert_eq!(style.fg, Some(Color::Rgb(red, green, blue)));
         };
         check(Theme::Dark, [1.0, 0.5, 0.0], [255, 128, 0]);

@@ -139,8 +139,8 @@ impl Module {
         let text = fs::read_to_string(&file).expect("sources are readable");
         // Tests extend from the attribute to the end of the file, unless they are in another file,
         // which is skipped completely.
-        let tests = text.match_indices("\nmod tests {").next().map(|(at, _)| at);
-        let code = text[..tests.unwrap_or(text.len())].lines();
+        let is_code = |line: &&str| line.starts_with(' ') || !line.ends_with("mod tests {");
+        let code = text.lines().take_while(is_code);
         let code = code.filter(|line| !line.trim_start().starts_with("//"));
         // In a nested module, `super` is the file itself.
         let mut is_inside = false;

@@ -1,15 +1,13 @@
 //! Where picture and panels are on screens and for pictures of all shapes.
 
 use super::*;
+use crate::ui::layout::tests::size;
 use crate::ui::layout::{contents, field_rows};
 use proptest::prelude::*;
 
 const SHAPE: Shape = Shape {
     zoom: Zoom::Panels,
-    output: Size {
-        width: 800,
-        height: 600,
-    },
+    output: size(800, 600),
     fields: 9,
     panels: PanelSizes {
         beside: None,
@@ -19,81 +17,69 @@ const SHAPE: Shape = Shape {
     },
 };
 
-fn screen(width: u16, height: u16) -> Areas {
-    arrange(Rect::new(0, 0, width, height), &SHAPE)
+fn screen((width, height): (u16, u16)) -> Rect {
+    Rect::new(0, 0, width, height)
 }
 
+/// The panels by their first letters.
 #[test]
 fn panels_appear_as_space_permits() {
-    let check = |width, height, panels: &str| {
-        let areas = screen(width, height);
-        let named = [
-            (areas.picture, 'p'),
-            (areas.list, 'l'),
-            (areas.fields, 'f'),
-            (areas.hint, 'h'),
-            (areas.status, 's'),
-        ];
-        let shown: String = named
-            .iter()
-            .filter(|(area, _)| !area.is_empty())
-            .map(|(_, name)| *name)
-            .collect();
+    for (width, height, panels) in [
+        (0, 0, ""),
+        (19, 50, ""),
+        (200, 5, ""),
+        (20, 6, "ps"),
+        (39, 50, "ps"),
+        (40, 16, "plfhs"),
+        (80, 24, "plfhs"),
+    ] {
+        let all = arrange(screen((width, height)), &SHAPE);
+        let areas = [all.picture, all.list, all.fields, all.hint, all.status];
+        let named = "plfhs".chars().zip(areas);
+        let shown = named.filter(|(_, area)| !area.is_empty());
+        let shown: String = shown.map(|(name, _)| name).collect();
         assert_eq!(shown, panels, "{width}×{height}");
-    };
-    check(0, 0, "");
-    check(19, 50, "");
-    check(200, 5, "");
-    check(20, 6, "ps");
-    check(39, 50, "ps");
-    check(40, 16, "plfhs");
-    check(80, 24, "plfhs");
+    }
 }
 
-/// The cells of the picture on a screen, with the sizes of list and fields.
-fn sizes(areas: &Areas, output: Size) -> [(u16, u16); 3] {
-    let cells = raster(areas.picture, output).map_or_else(Rect::default, |(cells, _)| cells);
-    [cells, areas.list, areas.fields].map(|area| (area.width, area.height))
-}
-
+/// The sizes of picture, list and fields.
 #[test]
 fn the_shapes_of_picture_and_screen_decide() {
-    let check = |screen: (u16, u16), output: (u32, u32), expected: [(u16, u16); 3]| {
-        let (width, height) = output;
-        let shape = Shape {
-            output: Size { width, height },
-            ..SHAPE
-        };
-        let areas = arrange(Rect::new(0, 0, screen.0, screen.1), &shape);
-        assert_eq!(sizes(&areas, shape.output), expected, "{screen:?}");
-    };
-    // Beside: narrow panels if the picture needs the columns, wide ones if it cannot use them.
-    check((80, 24), (4, 3), [(47, 18), (32, 8), (32, 14)]);
-    check((200, 50), (4, 3), [(128, 48), (60, 34), (60, 14)]);
-    check((80, 24), (1, 2), [(22, 22), (57, 8), (57, 14)]);
-    // Below: as low as the picture needs, side by side or one above the other.
-    check((100, 60), (4, 3), [(100, 38), (39, 20), (60, 20)]);
-    check((60, 40), (4, 3), [(60, 23), (26, 15), (33, 15)]);
-    check((40, 40), (4, 3), [(40, 15), (40, 9), (40, 14)]);
-    check((40, 16), (4, 3), [(19, 7), (15, 7), (24, 7)]);
-    check((120, 30), (4, 1), [(120, 15), (47, 13), (72, 13)]);
+    for (columns_and_rows, output, expected) in table! {
+        // Beside: narrow panels if the picture needs the columns, wide ones if it cannot use them.
+        (80, 24), size(4, 3) => [(47, 18), (32, 8), (32, 14)];
+        (200, 50), size(4, 3) => [(128, 48), (60, 34), (60, 14)];
+        (80, 24), size(1, 2) => [(22, 22), (57, 8), (57, 14)];
+        // Below: as low as the picture needs, side by side or one above the other.
+        (100, 60), size(4, 3) => [(100, 38), (39, 20), (60, 20)];
+        (60, 40), size(4, 3) => [(60, 23), (26, 15), (33, 15)];
+        (40, 40), size(4, 3) => [(40, 15), (40, 9), (40, 14)];
+        (40, 16), size(4, 3) => [(19, 7), (15, 7), (24, 7)];
+        (120, 30), size(4, 1) => [(120, 15), (47, 13), (72, 13)];
+    } {
+        let areas = arrange(screen(columns_and_rows), &Shape { output, ..SHAPE });
+        let shown = raster(areas.picture, output).map(|(cells, _)| cells);
+        let sizes = [shown.unwrap_or_default(), areas.list, areas.fields];
+        let sizes = sizes.map(|area| (area.width, area.height));
+        assert_eq!(sizes, expected, "{columns_and_rows:?}");
+    }
 }
 
 /// The columns and lines of the picture when panels were always beside it from 80×24 on, and
 /// took half of a smaller screen.
 #[test]
 fn no_picture_is_smaller_than_beside_panels_of_fixed_size() {
-    for (screen, before) in [
+    for (columns_and_rows, before) in [
         ((80, 24), (44, 22)),
         ((120, 40), (83, 38)),
         ((200, 50), (155, 48)),
         ((100, 60), (64, 58)),
         ((60, 40), (60, 18)),
     ] {
-        let areas = arrange(Rect::new(0, 0, screen.0, screen.1), &SHAPE);
+        let areas = arrange(screen(columns_and_rows), &SHAPE);
         let cells = |area| raster(area, SHAPE.output).map_or(0, |(cells, _)| cells.area());
-        let before = cells(Rect::new(0, 0, before.0, before.1));
-        assert!(before <= cells(areas.picture), "{screen:?}");
+        let before = cells(screen(before));
+        assert!(before <= cells(areas.picture), "{columns_and_rows:?}");
     }
 }
 
@@ -101,7 +87,7 @@ fn no_picture_is_smaller_than_beside_panels_of_fixed_size() {
 fn the_list_gets_the_lines_that_fields_do_not_need() {
     let heights = |height, fields| {
         let shape = Shape { fields, ..SHAPE };
-        let areas = arrange(Rect::new(0, 0, 160, height), &shape);
+        let areas = arrange(screen((160, height)), &shape);
         (areas.list.height, areas.fields.height)
     };
     // Two of sixty lines are bars; the fields take a title, their lines and four lines of
@@ -114,8 +100,7 @@ fn the_list_gets_the_lines_that_fields_do_not_need() {
 
 #[test]
 fn panels_are_resized_within_limits_and_keep_their_sizes() {
-    for (width, height) in [(120, 40), (60, 60)] {
-        let area = Rect::new(0, 0, width, height);
+    for area in [(120, 40), (60, 60)].map(screen) {
         let size = |shape: &Shape| {
             let areas = arrange(area, shape);
             (areas.list.width, areas.fields.bottom() - areas.list.y)
@@ -142,18 +127,18 @@ fn panels_are_resized_within_limits_and_keep_their_sizes() {
         zoom: Zoom::Picture,
         ..SHAPE
     };
-    let areas = arrange(Rect::new(0, 0, 120, 40), &shape);
+    let areas = arrange(screen((120, 40)), &shape);
     assert_eq!(resized(&areas, &shape, 2), None);
 }
 
 #[test]
 fn a_dragged_border_follows_the_pointer() {
-    for (screen, at) in [((120, 40), (70, 9)), ((60, 60), (9, 30))] {
-        let area = Rect::new(0, 0, screen.0, screen.1);
+    for (columns_and_rows, at) in [((120, 40), (70, 9)), ((60, 60), (9, 30))] {
+        let area = screen(columns_and_rows);
         let areas = arrange(area, &SHAPE);
         let panels = resized(&areas, &SHAPE, areas.dragged(at)).expect("there are panels");
         let areas = arrange(area, &Shape { panels, ..SHAPE });
-        assert!(areas.border.contains(at.into()), "{screen:?}: {areas:?}");
+        assert!(areas.border.contains(at.into()), "{area:?}: {areas:?}");
     }
 }
 
@@ -170,7 +155,7 @@ proptest! {
         let area = Rect::new(x, y, width, height);
         let shape = Shape {
             zoom: if alone { Zoom::Picture } else { Zoom::Panels },
-            output: Size { width: output.0, height: output.1 },
+            output: size(output.0, output.1),
             fields,
             panels: PanelSizes { beside, below, list_height, list_width },
         };
@@ -195,9 +180,8 @@ proptest! {
     fn panels_are_usable_wherever_they_are(
         width in 40u16..220, height in 24u16..90, output in (1u32..2000, 1u32..2000),
     ) {
-        let (across, down) = output;
-        let shape = Shape { output: Size { width: across, height: down }, ..SHAPE };
-        let all = arrange(Rect::new(0, 0, width, height), &shape);
+        let shape = Shape { output: size(output.0, output.1), ..SHAPE };
+        let all = arrange(screen((width, height)), &shape);
         prop_assert!(8 <= field_rows(all.fields).height, "{all:?}");
         prop_assert!(3 <= contents(all.list).height, "{all:?}");
         prop_assert!(59 > width || 26 <= all.list.width, "{all:?}");

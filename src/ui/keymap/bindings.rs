@@ -228,19 +228,27 @@ pub fn name(event: KeyEvent) -> Option<String> {
 }
 
 #[cfg(test)]
-mod tests {
+pub(in crate::ui) mod tests {
     use super::*;
     use crossterm::event::KeyModifiers;
 
     const SELECT: Context = Context::In(Mode::Select);
+    const EDIT: Context = Context::In(Mode::Edit);
+    const VIEW: Context = Context::In(Mode::View);
+    const COMPARE: Context = Context::In(Mode::Compare);
 
     fn event(name: &str) -> KeyEvent {
         Chord::parse(name).expect("a key").event()
     }
 
-    fn bound(changes: &[(Section, &str, Option<&str>)]) -> Keymap {
+    /// The default keys with changes such as `select s=save, select D=`.
+    pub(in crate::ui) fn bound(changes: &str) -> Keymap {
         let mut keymap = Keymap::default();
-        for &(section, keys, action) in changes {
+        for change in changes.split_terminator(", ") {
+            let (section, binding) = change.split_once(' ').expect("a section");
+            let (keys, action) = binding.split_once('=').expect("keys");
+            let action = Some(action).filter(|action| !action.is_empty());
+            let section = Section::named(section).expect("a section");
             keymap.bind(section, Keys::parse(keys).expect("keys"), action);
         }
         keymap
@@ -252,11 +260,6 @@ mod tests {
             Meaning::Does(id) => Some(keymap.rows[id.0].key.name),
             Meaning::Begins | Meaning::None => None,
         }
-    }
-
-    fn check(keymap: &Keymap, context: Context, key: &str, name: Option<&str>) {
-        let found = keymap.meaning(context, None, event(key));
-        assert_eq!(does(keymap, found), name, "{key}");
     }
 
     #[test]
@@ -283,48 +286,43 @@ mod tests {
 
     #[test]
     fn a_bound_key_changes_its_section_only() {
-        let keymap = bound(&[
-            (Section::In(SELECT), "s", Some("save")),
-            (Section::In(SELECT), "D", None),
-        ]);
-        check(&keymap, SELECT, "s", Some("save"));
-        check(&keymap, SELECT, "w", Some("save"));
-        check(&keymap, SELECT, "D", None);
-        assert_eq!(keymap.key(SELECT, "save").as_deref(), Some("s"));
-        let edit = Context::In(Mode::Edit);
-        assert_eq!(keymap.key(edit, "save").as_deref(), Some("w"));
-        assert_eq!(keymap.key(SELECT, "scale"), None);
-        check(&keymap, edit, "s", Some("scale"));
+        for (changes, context, key, action) in table! {
+            "select s=save, select D=", SELECT, "s" => Some("save");
+            "select s=save, select D=", SELECT, "w" => Some("save");
+            "select s=save, select D=", SELECT, "D" => None;
+            "select s=save, select D=", EDIT, "s" => Some("scale");
+            // A mode's own key beats one bound anywhere.
+            "anywhere d=undo", SELECT, "d" => Some("delete");
+            "anywhere d=undo", VIEW, "d" => Some("undo");
+            "", COMPARE, "w" => Some("wipe");
+            "", VIEW, "=" => Some("nearer");
+            // The first key of a sequence excludes it.
+            "select g=outline", SELECT, "g" => Some("outline");
+        } {
+            let keymap = bound(changes);
+            let found = keymap.meaning(context, None, event(key));
+            assert_eq!(does(&keymap, found), action, "{key} of {changes}");
+        }
+        let meaning = bound("select d d=delete").meaning(SELECT, None, event("d"));
+        assert_eq!(meaning, Meaning::Begins);
     }
 
     #[test]
-    fn a_modes_own_key_beats_one_bound_anywhere() {
-        let keymap = bound(&[(Section::Anywhere, "d", Some("undo"))]);
-        check(&keymap, SELECT, "d", Some("delete"));
-        check(&keymap, Context::In(Mode::View), "d", Some("undo"));
-    }
-
-    #[test]
-    fn a_key_that_a_mode_has_for_itself_is_not_offered_for_what_it_does_anywhere() {
-        let keymap = Keymap::default();
-        let compare = Context::In(Mode::Compare);
-        check(&keymap, compare, "w", Some("wipe"));
-        assert_eq!(keymap.key(compare, "save"), None);
-        let view = Context::In(Mode::View);
-        check(&keymap, view, "=", Some("nearer"));
-        assert_eq!(keymap.key(view, "compare"), None);
-        let moved = bound(&[(Section::In(compare), "W", Some("wipe"))]);
-        assert_eq!(moved.key(compare, "save"), None);
-        let freed = bound(&[(Section::In(compare), "w", Some("save"))]);
-        assert_eq!(freed.key(compare, "save").as_deref(), Some("w"));
-    }
-
-    #[test]
-    fn a_sequence_and_its_first_key_exclude_each_other() {
-        let keymap = bound(&[(Section::In(SELECT), "d d", Some("delete"))]);
-        assert_eq!(keymap.meaning(SELECT, None, event("d")), Meaning::Begins);
-        let keymap = bound(&[(Section::In(SELECT), "g", Some("outline"))]);
-        check(&keymap, SELECT, "g", Some("outline"));
-        assert_eq!(keymap.key(SELECT, "first").as_deref(), Some("Home"));
+    fn only_a_key_that_acts_is_offered() {
+        for (changes, context, action, key) in table! {
+            "select s=save", SELECT, "save" => Some("s");
+            "select s=save", EDIT, "save" => Some("w");
+            "select s=save", SELECT, "scale" => None;
+            // The mode has the key for itself.
+            "", COMPARE, "save" => None;
+            "", VIEW, "compare" => None;
+            "compare W=wipe", COMPARE, "save" => None;
+            "compare w=save", COMPARE, "save" => Some("w");
+            // The sequence is excluded by its first key.
+            "select g=outline", SELECT, "first" => Some("Home");
+        } {
+            let found = bound(changes).key(context, action);
+            assert_eq!(found.as_deref(), key, "{action} of {changes}");
+        }
     }
 }

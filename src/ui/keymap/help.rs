@@ -169,12 +169,8 @@ mod tests {
     use super::*;
 
     fn lines(search: &str, mode: Mode) -> Vec<HelpLine> {
-        let keymap = Keymap::default();
-        keymap.help(
-            search,
-            mode,
-            vec![(":export [WxH]".to_owned(), "write", "screenshot")],
-        )
+        let commands = vec![(":export [WxH]".to_owned(), "write", "screenshot")];
+        Keymap::default().help(search, mode, commands)
     }
 
     fn headings(lines: &[HelpLine]) -> Vec<&'static str> {
@@ -186,10 +182,8 @@ mod tests {
     }
 
     fn entry(keys: &str, words: &'static str) -> HelpLine {
-        HelpLine::Entry {
-            keys: keys.to_owned(),
-            words,
-        }
+        let keys = keys.to_owned();
+        HelpLine::Entry { keys, words }
     }
 
     #[test]
@@ -211,14 +205,10 @@ mod tests {
             let columns = in_columns(all.clone(), count);
             assert_eq!(columns.len(), count.max(1));
             assert_eq!(columns[0][0], HelpLine::Heading("EDIT"));
-            let shown: Vec<_> = columns.concat();
-            assert_eq!(shown.len(), all.len());
-            let starts = columns.iter().filter_map(|column| column.first());
-            assert!(
-                starts
-                    .into_iter()
-                    .all(|line| matches!(line, HelpLine::Heading(_)))
-            );
+            assert_eq!(columns.concat().len(), all.len());
+            for start in columns.iter().filter_map(|column| column.first()) {
+                assert!(matches!(start, HelpLine::Heading(_)), "{start:?}");
+            }
         }
         assert_eq!(in_columns(all.clone(), 1), [all]);
     }
@@ -231,11 +221,8 @@ mod tests {
         assert!(lines("ctrl-r", Mode::Select).contains(&entry("Ctrl-R", "redo")));
         assert_eq!(headings(&lines("mouse", Mode::Edit)), ["mouse"]);
         assert_eq!(headings(&lines("[wxh]", Mode::Edit)), ["commands"]);
-        let found = lines("screenshot", Mode::Select);
-        assert!(
-            found.contains(&entry(":export [WxH]", "write")),
-            "{found:?}"
-        );
+        let export = entry(":export [WxH]", "write");
+        assert!(lines("screenshot", Mode::Select).contains(&export));
         assert!(lines("no such words", Mode::Select).is_empty());
     }
 
@@ -254,13 +241,9 @@ mod tests {
     #[test]
     fn a_question_shows_only_its_answers() {
         let keymap = Keymap::default();
-        let keys: Vec<_> = keymap
-            .hints(Context::Quit, |id| {
-                keymap.rows[id.0].key.name != "write-view"
-            })
-            .into_iter()
-            .map(|hint| hint.0)
-            .collect();
+        let is_answer = |id: RowId| keymap.rows[id.0].key.name != "write-view";
+        let hints = keymap.hints(Context::Quit, is_answer);
+        let keys: Vec<_> = hints.into_iter().map(|(keys, _)| keys).collect();
         assert_eq!(keys, ["y", "w", "n"]);
     }
 }

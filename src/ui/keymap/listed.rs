@@ -90,23 +90,15 @@ fn named(row: &Row) -> NamedHere {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::ui::keymap::bound;
 
     #[test]
     fn changes_made_again_give_the_same_keys() {
-        let changes: [(&str, &str, Option<&str>); 6] = [
-            ("anywhere", "Ctrl-S", Some("save")),
-            ("anywhere", "u", None),
-            ("select", "s", Some("save")),
-            ("select", "Ctrl-R", None),
-            ("select", "d d", Some("delete")),
-            ("quit", "y", None),
-        ];
+        let changes = "anywhere Ctrl-S=save, anywhere u=, select s=save, select Ctrl-R=, \
+            select d d=delete, quit y=";
+        let changes: Vec<_> = changes.split(", ").collect();
         for count in 0..=changes.len() {
-            let mut keymap = Keymap::default();
-            for (section, keys, name) in changes.into_iter().take(count) {
-                let section = Section::named(section).expect("a section");
-                keymap.bind(section, Keys::parse(keys).expect("keys"), name);
-            }
+            let keymap = bound(&changes[..count].join(", "));
             let mut again = Keymap::default();
             for section in Section::all() {
                 let bound = keymap.bound_in(section).into_iter().rev();

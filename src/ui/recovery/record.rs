@@ -262,15 +262,8 @@ fn checksum(parts: &[&[u8]]) -> u64 {
 
 #[cfg(test)]
 mod tests {
-    use std::path::Path;
-
     use super::*;
-    use crate::language::Language;
-    use crate::ui::recovery::tests::parts as journal;
-
-    fn scene(name: &str) -> Identity {
-        Identity::of(Some(Path::new(name)), Language::Ray)
-    }
+    use crate::ui::recovery::tests::{parts as journal, scene};
 
     fn edits(base: &str, text: &str, is_damaged: bool) -> Content {
         Content::Edits {
@@ -327,15 +320,14 @@ mod tests {
         let whole = parts.concat();
         let head = head_lines(&a).len();
         let base = parts[0].len() - "base 1\n".len();
+        let head_end = parts[0].len() - 1;
         let last = whole.len() - parts[3].len();
         for (at, bit) in (0..whole.len()).flat_map(|at| (0..8).map(move |bit| (at, bit))) {
             let mut bytes = whole.clone();
             bytes[at] ^= 1 << bit;
             let expected = |scene: &str| match at {
                 _ if (head..base).contains(&at) => Content::Damaged,
-                _ if scene != "base 1" && (base..parts[0].len() - 1).contains(&at) => {
-                    Content::Damaged
-                }
+                _ if (base..head_end).contains(&at) && scene != "base 1" => Content::Damaged,
                 _ if (last..whole.len() - 1).contains(&at) => edits("base 1", &nested, true),
                 _ => edits("base 1", "mine\n3", true),
             };
@@ -360,35 +352,24 @@ mod tests {
             "halflight journal 3\nscene /a.ray\nlanguage ray\nbase 9999999999999999999 0 0\n";
         let (b, longest) = (scene("/b.ray"), scene("/b/c/a.ray"));
         let alone = |base: &str| head(&a, base).0;
-        for (bytes, expected) in [
-            (b"".to_vec(), Content::Empty),
-            (b"1 2 3".to_vec(), Content::Damaged),
-            (vec![0; 100], Content::Damaged),
-            (vec![0xFF; 100], Content::Damaged),
-            (of(&b, "1"), Content::OfAnotherScene),
-            (of(&longest, "1"), Content::OfAnotherScene),
-            (
-                b"halflight journal 4\nscene ?".to_vec(),
-                Content::OfAnotherVersion,
-            ),
-            (
-                b"halflight journal 12\n".to_vec(),
-                Content::OfAnotherVersion,
-            ),
-            (b"halflight journal \n".to_vec(), Content::Damaged),
-            (longer.into(), Content::Damaged),
-            (head_lines(&a).into_bytes(), Content::Damaged),
-            (alone("1"), Content::Damaged),
-            (
-                [of(&a, "1"), b"rest".to_vec()].concat(),
-                edits("1", "2", false),
-            ),
-            ([of(&a, "1"), of(&a, "3")].concat(), edits("1", "2", true)),
-            (
-                [alone("1"), journal(&a, "12", &["2"])[1].clone()].concat(),
-                Content::Damaged,
-            ),
-        ] {
+        let edit_of_another_base = journal(&a, "12", &["2"])[1].clone();
+        for (bytes, expected) in table! {
+            b"".to_vec() => Content::Empty;
+            b"1 2 3".to_vec() => Content::Damaged;
+            vec![0; 100] => Content::Damaged;
+            vec![0xFF; 100] => Content::Damaged;
+            of(&b, "1") => Content::OfAnotherScene;
+            of(&longest, "1") => Content::OfAnotherScene;
+            b"halflight journal 4\nscene ?".to_vec() => Content::OfAnotherVersion;
+            b"halflight journal 12\n".to_vec() => Content::OfAnotherVersion;
+            b"halflight journal \n".to_vec() => Content::Damaged;
+            longer.into() => Content::Damaged;
+            head_lines(&a).into_bytes() => Content::Damaged;
+            alone("1") => Content::Damaged;
+            [of(&a, "1"), b"rest".to_vec()].concat() => edits("1", "2", false);
+            [of(&a, "1"), of(&a, "3")].concat() => edits("1", "2", true);
+            [alone("1"), edit_of_another_base].concat() => Content::Damaged;
+        } {
             let said = String::from_utf8_lossy(&bytes).into_owned();
             assert_eq!(read(&bytes, &a, "1"), expected, "{said}");
         }

@@ -4,10 +4,10 @@
 mod hostile;
 
 use std::fs::{self, File};
-use std::iter;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::{Duration, SystemTime};
+use std::{iter, slice};
 
 use tempfile::TempDir;
 
@@ -15,7 +15,7 @@ use super::claim::Claim;
 use super::identity::Identity;
 use super::journal::{Edits, Journal};
 use super::offer::look_in;
-use super::{Found, Offer, Sought, missing, record};
+use super::{Found, Offer, Sought, Way, missing, record};
 use crate::document::{Document, Snapshot};
 use crate::language::Language;
 use crate::ui::state::{Folder, Part};
@@ -68,7 +68,12 @@ impl Place {
     }
 
     fn recovery(&self) -> PathBuf {
-        self.state.join("halflight/recovery")
+        self.own().join("recovery")
+    }
+
+    /// The folder around that of the journals.
+    fn own(&self) -> PathBuf {
+        self.state.join("halflight")
     }
 
     fn make(&self) {
@@ -81,8 +86,7 @@ impl Place {
 
     /// The path of the scene's journal with this number, from 0.
     fn journal(&self, number: usize) -> PathBuf {
-        let scene = Identity::of(Some(&self.scene()), Language::Ray);
-        let name = scene.names().nth(number).expect("a few");
+        let name = scene(self.scene()).names().nth(number).expect("a few");
         self.recovery().join(name)
     }
 
@@ -130,16 +134,28 @@ impl Place {
     }
 }
 
+/// Restores offered edits.
+fn restore(document: &mut Document, offer: &Offer) {
+    match &offer.way {
+        Way::Edit(edit) => document.edit(slice::from_ref(edit)),
+        Way::Merge(merge) => drop(document.restore(merge)),
+    }
+}
+
 /// [`BASE`] with the offered edits restored.
 fn taken(found: &Found) -> Option<String> {
     let mut document = Document::new(Language::Ray, BASE.to_owned());
-    found.offer.as_ref().map(|offer| {
-        match &offer.way {
-            super::Way::Edit(edit) => document.edit(std::slice::from_ref(edit)),
-            super::Way::Merge(merge) => drop(document.restore(merge)),
-        }
-        document.text().to_owned()
-    })
+    restore(&mut document, found.offer.as_ref()?);
+    Some(document.text().to_owned())
+}
+
+/// The only complaint.
+#[track_caller]
+fn complaint(found: &Found) -> &str {
+    let [said] = &found.complaints[..] else {
+        panic!("{:?}", found.complaints);
+    };
+    said
 }
 
 fn known(base: &Arc<String>, text: &str) -> Snapshot {
@@ -165,11 +181,8 @@ fn edits_of_a_running_process_are_not_offered() {
     drop(second);
     assert_eq!(place.offered().as_deref(), Some("9 2 3"));
     first.forget().expect("it can be removed");
-    assert_eq!(
-        place.offered().as_deref(),
-        Some("9 2 3"),
-        "the other's stays"
-    );
+    // That of the other stays.
+    assert_eq!(place.offered().as_deref(), Some("9 2 3"));
     assert_eq!(place.names().len(), 1);
 }
 
@@ -201,17 +214,12 @@ fn several_journals_are_offered_newest_first() {
         let at = SystemTime::now() - Duration::from_secs(60 * age);
         file.and_then(|file| file.set_modified(at)).expect("ours");
     }
-    let mut text = BASE.to_owned();
-    let mut document = Document::new(Language::Ray, text.clone());
+    let mut document = Document::new(Language::Ray, BASE.to_owned());
     let mut taken = Vec::new();
-    while let Some(offer) = place.look(&text).offer {
-        match offer.way {
-            super::Way::Edit(edit) => document.edit(&[edit]),
-            super::Way::Merge(merge) => drop(document.restore(&merge)),
-        }
-        document.text().clone_into(&mut text);
+    while let Some(offer) = place.look(document.text()).offer {
+        restore(&mut document, &offer);
         offer.claim.remove().expect("it is ours");
-        taken.push(text.clone());
+        taken.push(document.text().to_owned());
     }
     assert_eq!(taken, ["1 5 3", "1 5 6", "4 5 6"]);
 }
@@ -229,47 +237,56 @@ fn edits_are_appended_until_they_outgrow_the_text() {
         lengths.push(fs::metadata(place.journal(0)).expect("it is there").len());
     }
     let most = 2 * base.len() + (3 << 20);
-    assert!(
-        lengths.iter().all(|&length| length < most as u64),
-        "{lengths:?}"
-    );
-    assert!(
-        lengths[2] - lengths[1] < 100_000,
-        "a small edit: {lengths:?}"
-    );
+    let is_short = |&length: &u64| length < most as u64;
+    assert!(lengths.iter().all(is_short), "{lengths:?}");
+    // A small edit.
+    assert!(lengths[2] - lengths[1] < 100_000, "{lengths:?}");
     assert_eq!(place.names().len(), 1);
 }
 
-#[test]
-fn a_removed_journal_is_recreated() {
-    type Remove = fn(&Place);
-    let removals: [(&str, Remove); 5] = [
-        ("all", |p| fs::remove_dir_all(&p.state).expect("there")),
-        ("file", |p| fs::remove_file(p.journal(0)).expect("there")),
-        ("name", |p| {
-            fs::rename(p.journal(0), p.recovery().join("moved")).expect("there");
-        }),
-        ("file moved", |p| {
-            fs::rename(p.journal(0), p.state.join("moved")).expect("there");
-        }),
-        ("folder moved", |p| {
-            fs::rename(p.recovery(), p.state.join("moved")).expect("there");
-        }),
-    ];
-    for (name, remove) in removals {
+/// Asserts that a journal is kept again after what others do to it, with so many files in the folder
+/// then.
+fn check_kept_again(name: &str, change: fn(&Place), files: usize) {
+    // The same text, as at the end, or another one after it.
+    for texts in [&["1 2 4"][..], &["1 2 4", "1 2 5"]] {
         let place = Place::new();
         let mut journal = place.run();
         place.keep(&mut journal, "1 2 4");
         assert!(journal.is_kept(), "{name}");
-        remove(&place);
+        change(&place);
         assert!(!journal.is_kept(), "{name}");
-        // The same text, as at the end, or another one.
-        for text in ["1 2 4", "1 2 5"] {
+        for text in texts {
             place.keep(&mut journal, text);
             assert!(journal.is_kept(), "{name}");
         }
         drop(journal);
-        assert_eq!(place.offered().as_deref(), Some("1 2 5"), "{name}");
+        assert_eq!(place.offered().as_deref(), texts.last().copied(), "{name}");
+        assert_eq!(place.names().len(), files, "{name}");
+    }
+}
+
+#[test]
+fn a_journal_removed_or_changed_by_others_is_rewritten() {
+    fn rename(from: PathBuf, to: PathBuf) {
+        fs::rename(from, to).expect("it is there");
+    }
+    fn cut(place: &Place, length: u64) {
+        let file = File::options().write(true).open(place.journal(0));
+        let cut = file.and_then(|file| file.set_len(length));
+        cut.expect("it is ours");
+    }
+    type Change = fn(&Place);
+    for (name, change, files) in table! {
+        "all", (|p| fs::remove_dir_all(&p.state).expect("there")) as Change => 1;
+        "file", |p| fs::remove_file(p.journal(0)).expect("there") => 1;
+        "name", |p| rename(p.journal(0), p.recovery().join("moved")) => 2;
+        "file moved", |p| rename(p.journal(0), p.state.join("moved")) => 1;
+        "folder moved", |p| rename(p.recovery(), p.state.join("moved")) => 1;
+        "emptied", |p| cut(p, 0) => 1;
+        "cut", |p| cut(p, 100) => 1;
+        "longer", |p| cut(p, 4096) => 1;
+    } {
+        check_kept_again(name, change, files);
     }
 }
 
@@ -286,34 +303,6 @@ fn a_scene_saved_under_another_name_leaves_no_journal_behind() {
     assert_eq!(place.offered(), None);
     let names = place.names();
     assert!(names.len() == 1 && names[0].starts_with("b-"), "{names:?}");
-}
-
-#[test]
-fn a_journal_changed_by_others_is_rewritten() {
-    type Change = fn(&File);
-    let changes: &[(&str, Change)] = &[
-        ("emptied", |file| file.set_len(0).expect("it is ours")),
-        ("cut", |file| file.set_len(100).expect("it is ours")),
-        ("longer", |file| file.set_len(4096).expect("it is ours")),
-        #[cfg(unix)]
-        ("open to all", |file| {
-            let mode = std::os::unix::fs::PermissionsExt::from_mode(0o666);
-            file.set_permissions(mode).expect("it is ours");
-        }),
-    ];
-    for (name, change) in changes {
-        let place = Place::new();
-        let mut journal = place.run();
-        place.keep(&mut journal, "1 2 4");
-        let file = File::options().write(true).open(place.journal(0));
-        change(&file.expect("it is ours"));
-        assert!(!journal.is_kept(), "{name}");
-        place.keep(&mut journal, "1 2 4");
-        assert!(journal.is_kept(), "{name}");
-        drop(journal);
-        assert_eq!(place.offered().as_deref(), Some("1 2 4"), "{name}");
-        assert_eq!(place.names().len(), 1, "{name}");
-    }
 }
 
 #[test]
@@ -348,137 +337,54 @@ pub(super) fn parts(scene: &Identity, base: &str, texts: &[&str]) -> Vec<Vec<u8>
     iter::once(head).chain(edits).collect()
 }
 
-/// Builds a file's content from the parts of a journal with two edits.
-type Write = fn(Vec<Vec<u8>>) -> Vec<u8>;
-
-/// A file in place of a journal.
-struct Left {
-    name: &'static str,
-    write: Write,
-    offered: Option<&'static str>,
-    /// The end of the complaint.
-    said: Option<&'static str>,
-    /// The end of the file's name once its edits are declined; empty if the file is gone.
-    name_ends: &'static str,
+/// The scene at a path.
+pub(super) fn scene(path: impl AsRef<Path>) -> Identity {
+    Identity::of(Some(path.as_ref()), Language::Ray)
 }
 
-const LEFT: &[Left] = &[
-    Left {
-        name: "whole",
-        write: |parts| parts.concat(),
-        offered: Some("1 2 5"),
-        said: None,
-        name_ends: "",
-    },
-    Left {
-        name: "with a torn end",
-        write: |parts| [parts.concat(), b"edit 0 5".to_vec()].concat(),
-        offered: Some("1 2 5"),
-        said: None,
-        name_ends: "",
-    },
-    Left {
-        name: "with a damaged edit",
-        write: |mut parts| {
-            parts[1].fill(0);
-            parts.concat()
-        },
-        offered: Some("1 2 5"),
-        said: None,
-        name_ends: ".damaged",
-    },
-    Left {
-        name: "with a damaged end",
-        write: |mut parts| {
-            parts[2][0] = b'E';
-            parts.concat()
-        },
-        offered: Some("1 2 4"),
-        said: None,
-        name_ends: ".damaged",
-    },
-    Left {
-        name: "with a damaged head",
-        write: |mut parts| {
-            parts[0][b"halflight journal ".len()] ^= 1;
-            parts.concat()
-        },
-        offered: Some("1 2 5"),
-        said: None,
-        name_ends: ".damaged",
-    },
-    Left {
-        name: "torn before its first edit",
-        write: |parts| parts[0].clone(),
-        offered: None,
-        said: Some(".damaged is damaged"),
-        name_ends: ".damaged",
-    },
-    Left {
-        name: "zeros",
-        write: |_| vec![0; 4096],
-        offered: None,
-        said: Some(".damaged is damaged"),
-        name_ends: ".damaged",
-    },
-    Left {
-        name: "a scene",
-        write: |_| b"1 2 4".to_vec(),
-        offered: None,
-        said: Some(".damaged is damaged"),
-        name_ends: ".damaged",
-    },
-    Left {
-        name: "empty",
-        write: |_| Vec::new(),
-        offered: None,
-        said: None,
-        name_ends: "",
-    },
-    Left {
-        name: "of another scene",
-        write: |_| {
-            let other = Identity::of(Some(Path::new("/other.ray")), Language::Ray);
-            parts(&other, BASE, &["1 2 4"]).concat()
-        },
-        offered: None,
-        said: Some("-0.ray belongs to another scene"),
-        name_ends: "-0.ray",
-    },
-    Left {
-        name: "of another version",
-        write: |_| b"halflight journal 9\nx".to_vec(),
-        offered: None,
-        said: Some("-0.ray is of another version of halflight"),
-        name_ends: "-0.ray",
-    },
-];
-
+/// What is offered, the end of the complaint, and the end of the file's name once its edits are
+/// declined, which is empty if the file is gone, for files made from the parts of a journal with two
+/// edits.
 #[test]
 fn files_in_place_of_journals() {
-    for left in LEFT {
+    type Change = fn(&mut Vec<Vec<u8>>);
+    let damaged = Some(".damaged is damaged");
+    let other_version = Some("-0.ray is of another version of halflight");
+    for (name, change, offered, said, name_ends) in table! {
+        "whole", (|_| ()) as Change => Some("1 2 5"), None, "";
+        "with a torn end", |all| all.push(b"edit 0 5".to_vec()) => Some("1 2 5"), None, "";
+        "with a damaged edit", |all| all[1].fill(0) => Some("1 2 5"), None, ".damaged";
+        "with a damaged end", |all| all[2][0] = b'E' => Some("1 2 4"), None, ".damaged";
+        "with a damaged head", |all| all[0][b"halflight journal ".len()] ^= 1 =>
+            Some("1 2 5"), None, ".damaged";
+        "torn before its first edit", |all| all.truncate(1) => None, damaged, ".damaged";
+        "zeros", |all| *all = vec![vec![0; 4096]] => None, damaged, ".damaged";
+        "a scene", |all| *all = vec![b"1 2 4".to_vec()] => None, damaged, ".damaged";
+        "empty", |all| all.clear() => None, None, "";
+        "of another scene", |all| *all = parts(&scene("/other.ray"), BASE, &["1 2 4"]) =>
+            None, Some("-0.ray belongs to another scene"), "-0.ray";
+        "of another version", |all| *all = vec![b"halflight journal 9\nx".to_vec()] =>
+            None, other_version, "-0.ray";
+    } {
         let place = Place::new();
-        let name = left.name;
         place.make();
-        let scene = Identity::of(Some(&place.scene()), Language::Ray);
-        let parts = parts(&scene, BASE, &["1 2 4", "1 2 5"]);
-        fs::write(place.journal(0), (left.write)(parts)).expect("the folder is ours");
+        let mut parts = parts(&scene(place.scene()), BASE, &["1 2 4", "1 2 5"]);
+        change(&mut parts);
+        fs::write(place.journal(0), parts.concat()).expect("the folder is ours");
         let found = place.look(BASE);
-        let said = found.complaints.first();
-        assert_eq!(said.is_some(), left.said.is_some(), "{name}: {said:?}");
-        if let Some((said, expected)) = said.zip(left.said) {
-            assert!(said.ends_with(expected), "{name}: {said}");
+        let complaint = found.complaints.first();
+        assert_eq!(complaint.is_some(), said.is_some(), "{name}: {complaint:?}");
+        if let Some((complaint, said)) = complaint.zip(said) {
+            assert!(complaint.ends_with(said), "{name}: {complaint}");
         }
-        assert_eq!(taken(&found).as_deref(), left.offered, "{name}");
+        assert_eq!(taken(&found).as_deref(), offered, "{name}");
         if let Some(offer) = found.offer {
-            let is_damaged = left.name_ends == ".damaged";
-            assert_eq!(offer.is_damaged(), is_damaged, "{name}");
+            assert_eq!(offer.is_damaged(), name_ends == ".damaged", "{name}");
             offer.claim.remove().expect("it is ours");
         }
         let names = place.names();
-        let expected = usize::from(!left.name_ends.is_empty());
-        assert_eq!(names.len(), expected, "{name}: {names:?}");
-        let is_expected = |name: &String| name.ends_with(left.name_ends);
+        let is_expected = |name: &String| name.ends_with(name_ends);
+        assert_eq!(names.len(), usize::from(!name_ends.is_empty()), "{name}");
         assert!(names.iter().all(is_expected), "{name}: {names:?}");
     }
 }
@@ -488,17 +394,13 @@ fn files_in_place_of_journals() {
 fn a_damaged_journal_is_reported_and_outlives_the_next_one() {
     let place = Place::new();
     place.make();
-    let scene = Identity::of(Some(&place.scene()), Language::Ray);
-    let mut parts = parts(&scene, BASE, &["1 2 4", "1 2 5"]);
+    let mut parts = parts(&scene(place.scene()), BASE, &["1 2 4", "1 2 5"]);
     parts[2][0] = b'E';
     for names in 1..4 {
         fs::write(place.journal(0), parts.concat()).expect("the folder is ours");
         let found = place.look("1 2 4");
         assert!(found.offer.is_none());
-        let [said] = &found.complaints[..] else {
-            panic!("{:?}", found.complaints);
-        };
-        assert!(said.ends_with("is damaged"), "{said}");
+        assert!(complaint(&found).ends_with("is damaged"));
         assert_eq!(place.names().len(), names);
         assert_eq!(place.look("1 2 4").complaints, [] as [String; 0]);
     }

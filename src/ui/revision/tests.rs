@@ -44,61 +44,34 @@ fn found(revision: &str, scene: &Path) -> Result<String, String> {
 
 #[test]
 fn complaints_of_git_are_explained() {
-    for (said, revision, reason) in [
-        (
-            "fatal: not a git repository (or any of the parent directories): .git\n",
-            "HEAD",
-            "a.ray is not in a git repository",
-        ),
-        (
-            "fatal: Not a valid object name HEAD\n",
-            "HEAD",
-            "the git repository has no commits yet",
-        ),
-        (
-            "fatal: Not a valid object name nope\n",
-            "nope",
-            "git knows no revision nope",
-        ),
-        (
-            "fatal: transport 'file' not allowed\nfatal: not a tree object\n",
-            "HEAD",
-            "HEAD is not a commit, or is missing from the repository: it is not fetched",
-        ),
-        (
-            "fatal: transport 'ext' not allowed\n",
-            "HEAD",
-            "a.ray in HEAD is missing from the repository: it is not fetched",
-        ),
-        (
-            "error: Could not read 786e4612a214aa879ee310c3acbc14ea4146c1dc\n",
-            "HEAD",
-            "a.ray in HEAD is missing from the repository: it is not fetched",
-        ),
-        (
-            "fatal: detected dubious ownership in repository at '/x'\nTo add\n",
-            "HEAD",
-            "git: detected dubious ownership in repository at '/x'",
-        ),
-        ("warning: odd\nfatal: broken\n", "HEAD", "git: broken"),
-        ("", "HEAD", "git failed without a reason"),
-    ] {
+    let missing = "a.ray in HEAD is missing from the repository: it is not fetched";
+    for (said, revision, reason) in table! {
+        "fatal: not a git repository (or any of the parent directories): .git\n", "HEAD" =>
+            "a.ray is not in a git repository";
+        "fatal: Not a valid object name HEAD\n", "HEAD" => "the git repository has no commits yet";
+        "fatal: Not a valid object name nope\n", "nope" => "git knows no revision nope";
+        "fatal: transport 'file' not allowed\nfatal: not a tree object\n", "HEAD" =>
+            "HEAD is not a commit, or is missing from the repository: it is not fetched";
+        "fatal: transport 'ext' not allowed\n", "HEAD" => missing;
+        "error: Could not read 786e4612a214aa879ee310c3acbc14ea4146c1dc\n", "HEAD" => missing;
+        "fatal: detected dubious ownership in repository at '/x'\nTo add\n", "HEAD" =>
+            "git: detected dubious ownership in repository at '/x'";
+        "warning: odd\nfatal: broken\n", "HEAD" => "git: broken";
+        "", "HEAD" => "git failed without a reason";
+    } {
         assert_eq!(super::reason(said, revision, "a.ray"), reason);
     }
 }
 
 #[test]
 fn a_scene_is_read_as_it_was_committed() {
-    let folder = tempfile::tempdir().expect("a folder");
+    let Some(folder) = repository() else {
+        return;
+    };
     let scene = folder.path().join("a *b.ray");
     let found = |revision| found(revision, &scene);
-    if git(folder.path(), &["init", "-q"]).is_none() {
-        return;
-    }
-    assert_eq!(
-        found("HEAD"),
-        Err("the git repository has no commits yet".to_owned())
-    );
+    let no_commits = "the git repository has no commits yet";
+    assert_eq!(found("HEAD"), Err(no_commits.to_owned()));
     for text in ["one", "two"] {
         fs::write(&scene, text).expect("writable");
         commit(folder.path());
@@ -153,10 +126,8 @@ fn the_beginning_of_a_long_scene_decides_whether_the_rest_is_read() {
     };
     let scene = folder.path().join("a.ray");
     let refuse = |beginning: &str| Err(format!("{} bytes", beginning.len()));
-    assert_eq!(
-        text_in("HEAD", &scene, refuse),
-        Err(format!("{} bytes", file::BEGINNING))
-    );
+    let refused = text_in("HEAD", &scene, refuse);
+    assert_eq!(refused, Err(format!("{} bytes", file::BEGINNING)));
     let whole = found("HEAD", &scene).map(|text| text.len() as u64);
     assert_eq!(whole, Ok(file::LONG + 1));
 }
@@ -204,8 +175,6 @@ fn a_git_that_takes_too_long_is_stopped() {
     let scene = folder.path().join("a.ray");
     let git = Git::of_folder(folder.path()).until(Instant::now() + Duration::from_millis(50));
     let read = text_by(&git, "HEAD", &scene, |_| Ok(()));
-    assert_eq!(
-        read,
-        Err("git took longer than 5 s and was stopped".to_owned())
-    );
+    let reason = "git took longer than 5 s and was stopped";
+    assert_eq!(read, Err(reason.to_owned()));
 }

@@ -110,29 +110,11 @@ pub(super) fn check_target_of(named: &Path, to: &Destination) -> Result<(), Refu
 }
 
 #[cfg(test)]
-mod tests {
+pub(super) mod tests {
     use super::*;
 
-    #[test]
-    fn a_picture_does_not_replace_a_file_of_its_scene() {
-        let place = tempfile::tempdir().expect("a folder");
-        let texture = place.path().join("bricks.png");
-        std::fs::write(&texture, "").expect("the folder is new");
-        for existing in [Existing::Kept, Existing::Overwritten] {
-            let to = Destination {
-                path: texture.clone(),
-                existing,
-                scene: Some(place.path().join("a.ray")),
-                named: vec![place.path().join("x/../bricks.png"), texture.clone()],
-                origin: None,
-            };
-            let refused = check_target(&to).expect_err("one file");
-            assert!(refused.reason.contains("the scene uses it"), "{refused:?}");
-        }
-    }
-
     /// A destination unrelated to any scene.
-    fn destination(path: &Path, existing: Existing) -> Destination {
+    pub(in crate::ui::service) fn destination(path: &Path, existing: Existing) -> Destination {
         Destination {
             path: path.to_owned(),
             existing,
@@ -156,35 +138,33 @@ mod tests {
         assert_eq!(check_target(&to(Existing::Own(exported))), Ok(()));
         std::fs::write(&path, "theirs").expect("it is ours");
         let refused = check_target(&to(Existing::Own(exported))).expect_err("it was changed");
-        assert!(
-            refused
-                .reason
-                .contains("has changed since it was exported: use :export! "),
-            "{refused:?}"
-        );
+        let reason = "has changed since it was exported: use :export! ";
+        assert!(refused.reason.contains(reason), "{refused:?}");
         std::fs::remove_file(&path).expect("it is there");
         assert_eq!(check_target(&to(Existing::Own(exported))), Ok(()));
     }
 
     #[test]
-    fn a_picture_does_not_replace_its_scene() {
+    fn a_picture_does_not_replace_its_scene_or_a_file_of_it() {
         let place = tempfile::tempdir().expect("a folder");
-        let (scene, linked) = (place.path().join("a.ray"), place.path().join("a.bmp"));
-        std::fs::write(&scene, "").expect("the folder is new");
-        std::fs::hard_link(&scene, &linked).expect("on one file system");
-        for existing in [Existing::Kept, Existing::Overwritten] {
-            let to = Destination {
-                path: linked.clone(),
-                existing,
-                scene: Some(scene.clone()),
-                named: Vec::new(),
-                origin: None,
-            };
-            let refused = check_target(&to).expect_err("one file");
-            assert!(
-                refused.reason.contains("is the scene itself"),
-                "{refused:?}"
-            );
+        let at = |name: &str| place.path().join(name);
+        for name in ["a.ray", "bricks.png"] {
+            std::fs::write(at(name), "").expect("the folder is new");
+        }
+        std::fs::hard_link(at("a.ray"), at("a.bmp")).expect("on one file system");
+        for (name, reason) in [
+            ("a.bmp", "is the scene itself"),
+            ("bricks.png", "the scene uses it"),
+        ] {
+            for existing in [Existing::Kept, Existing::Overwritten] {
+                let to = Destination {
+                    scene: Some(at("a.ray")),
+                    named: vec![at("x/../bricks.png"), at("bricks.png")],
+                    ..destination(&at(name), existing)
+                };
+                let refused = check_target(&to).expect_err("one file");
+                assert!(refused.reason.contains(reason), "{refused:?}");
+            }
         }
     }
 }

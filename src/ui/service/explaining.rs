@@ -43,41 +43,14 @@ mod tests {
     use std::sync::mpsc;
 
     use super::*;
-    use crate::language::{Language, Source};
-    use crate::render::{Frames, Job, NO_OBJECT, PreparedScene, Settings};
-    use crate::scene::{Images, Meshes, Rendering, Size};
+    use crate::render::{NO_OBJECT, PreparedScene};
     use crate::ui::app::tests::frame_of;
     use crate::ui::msg::Target;
-
-    fn job() -> Job {
-        let text = Arc::new(Language::Ray.template().to_owned());
-        let mut source = Source::new(Language::Ray, text);
-        let lowered = source.lower(&Meshes::default()).expect("there is memory");
-        let scene = Arc::new(lowered.scene.expect("a valid scene"));
-        Job {
-            images: Images::default(),
-            camera: scene.camera,
-            settings: Settings {
-                spp: 1,
-                ..Settings::new(
-                    Size {
-                        width: 8,
-                        height: 6,
-                    },
-                    &Rendering::default(),
-                )
-            },
-            scene,
-            frames: Frames::Live,
-            denoise: false,
-            numbers: None,
-            limit: None,
-        }
-    }
+    use crate::ui::shell::job;
 
     #[test]
     fn the_last_question_is_answered() {
-        let job = job();
+        let job = job(1);
         let prepared = PreparedScene::new(&job, || false).expect("it is not cancelled");
         let size = job.settings.size;
         let mut frame = frame_of(size, vec![NO_OBJECT; size.pixels()]);
@@ -93,7 +66,7 @@ mod tests {
             let question = Question {
                 target: Target::Preview,
                 generation: frame.generation,
-                pixel: [4, 3],
+                pixel: [2, 2],
                 sample,
             };
             let asked = explainer.ask((question, Arc::clone(&frame)), Work::begin(&events));

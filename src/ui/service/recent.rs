@@ -152,21 +152,14 @@ mod tests {
     #[test]
     fn the_newest_scenes_that_still_exist_are_listed_once() {
         let folder = tempfile::tempdir().expect("a folder");
-        let (state, at) = (folder.path().join("state"), |name: &str| {
-            folder.path().join(name)
-        });
+        let at = |name: &str| folder.path().join(name);
+        let state = at("state");
         assert_eq!(list_in(&state), [] as [PathBuf; 0]);
         for name in ["a.ray", "b.ray", "c.dat"] {
             fs::write(at(name), "").expect("the folder is new");
         }
-        for name in [
-            "a.ray",
-            "b.ray",
-            "gone.ray",
-            "c.dat",
-            "state/.././a.ray",
-            "new\nline.ray",
-        ] {
+        let opened = "a.ray b.ray gone.ray c.dat state/.././a.ray new\nline.ray";
+        for name in opened.split(' ') {
             note_in(&state, &at(name)).expect("it can be written");
         }
         assert_eq!(list_in(&state), ["a.ray", "c.dat", "b.ray"].map(at));
@@ -189,11 +182,8 @@ mod tests {
         };
         keep_in(&state, sizes).expect("it can be written");
         assert_eq!(panels_in(&state), sizes);
-        fs::write(
-            place(&state, PANELS),
-            "beside\nbelow -3\nlist-width 99999999\n\u{7}",
-        )
-        .expect("written");
+        let damaged = "beside\nbelow -3\nlist-width 99999999\n\u{7}";
+        fs::write(place(&state, PANELS), damaged).expect("written");
         assert_eq!(panels_in(&state), PanelSizes::default());
     }
 

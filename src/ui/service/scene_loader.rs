@@ -232,25 +232,19 @@ mod tests {
             read.borrow_mut().push(path.to_owned());
             Ok(String::new())
         };
-        follow(
-            &inbox,
-            |_| {},
-            reads,
-            |msg| match msg {
-                Msg::Read(path, Ok(_)) => sent.borrow_mut().push(path),
-                msg => panic!("{msg:?}"),
-            },
-        );
+        let report = |msg| match msg {
+            Msg::Read(path, Ok(_)) => sent.borrow_mut().push(path),
+            msg => panic!("{msg:?}"),
+        };
+        follow(&inbox, |_| {}, reads, report);
         (read.into_inner(), sent.into_inner())
     }
 
     #[test]
     fn only_the_last_of_several_pending_files_is_read() {
-        let paths = |names: &[&str]| names.iter().map(PathBuf::from).collect::<Vec<_>>();
-        assert_eq!(
-            followed(&["a", "b", "a"], None),
-            (paths(&["a"]), paths(&["a"]))
-        );
+        let one = vec![PathBuf::from("a")];
+        let expected = (one.clone(), one);
+        assert_eq!(followed(&["a", "b", "a"], None), expected);
     }
 
     #[test]

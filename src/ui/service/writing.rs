@@ -297,9 +297,10 @@ fn provenance(frame: &Frame, to: &Destination) -> Result<Option<Provenance>, Rea
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scene::Size;
     use crate::ui::app::tests::frame_of;
+    use crate::ui::layout::tests::size;
     use crate::ui::msg::Existing;
+    use crate::ui::service::destination::tests::destination;
 
     #[test]
     fn a_panic_while_writing_a_file_is_reported() {
@@ -325,13 +326,10 @@ mod tests {
     #[test]
     fn a_scene_is_not_saved_in_a_missing_folder() {
         let place = tempfile::tempdir().expect("a folder");
-        for (path, reason) in [
-            (place.path().join("none/x.ray"), "none: no such folder"),
-            (
-                "~none/x.ray".into(),
-                "~none: no such folder; only shells expand ~",
-            ),
-        ] {
+        for (path, reason) in table! {
+            place.path().join("none/x.ray") => "none: no such folder";
+            "~none/x.ray".into() => "~none: no such folder; only shells expand ~";
+        } {
             let outcome = save(path, "", &Guard::Absent);
             assert!(matches!(outcome, SaveOutcome::NoFolder(said) if said.ends_with(reason)));
         }
@@ -365,17 +363,6 @@ mod tests {
         assert!(last.is_some_and(|last| 0 < last), "each was hit");
     }
 
-    /// A destination unrelated to any scene.
-    fn destination(path: &Path, existing: Existing) -> Destination {
-        Destination {
-            path: path.to_owned(),
-            existing,
-            scene: None,
-            named: Vec::new(),
-            origin: None,
-        }
-    }
-
     #[test]
     fn a_numbered_picture_takes_the_first_free_number() {
         let place = tempfile::tempdir().expect("a folder");
@@ -383,11 +370,8 @@ mod tests {
         std::fs::write(&path, "").expect("the folder is new");
         std::fs::write(place.path().join("a.depth-2.bmp"), "").expect("the folder is new");
         let to = destination(&path, Existing::Numbered);
-        let size = Size {
-            width: 1,
-            height: 1,
-        };
-        let exported = export(&frame_of(size, Vec::new()), to).expect("there is a name");
+        let exported = export(&frame_of(size(1, 1), Vec::new()), to);
+        let exported = exported.expect("there is a name");
         assert_eq!(exported.path, place.path().join("a.depth-3.bmp"));
         let to = destination(&path, Existing::Kept);
         assert!(check_target(&to).expect_err("it exists").is_taken);
@@ -398,11 +382,7 @@ mod tests {
         let place = tempfile::tempdir().expect("a folder");
         let path = place.path().join("a.bmp");
         let to = |existing| destination(&path, existing);
-        let size = Size {
-            width: 1,
-            height: 1,
-        };
-        let frame = frame_of(size, Vec::new());
+        let frame = frame_of(size(1, 1), Vec::new());
         let first = export(&frame, to(Existing::Kept)).expect("it is new");
         let own = Existing::Own(first.version.expect("a file"));
         let second = export(&frame, to(own)).expect("it is ours");

@@ -12,3 +12,6 @@ pub(crate) mod session;
 pub(crate) mod snapshot;
 mod traces;
 mod tty_session;
+
+#[cfg(test)]
+pub(super) use traces::tests::job;

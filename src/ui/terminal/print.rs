@@ -38,10 +38,10 @@ mod tests {
         cells.set_string(0, 0, "ab", Color::Red);
         cells.set_string(0, 1, "界", Color::Rgb(1, 2, 3));
         let text = String::from_utf8(printed(&cells)).expect("text");
-        let plain = "\x1b[m";
+        let rows = ["\x1b[31mab", "\x1b[38;2;1;2;3m界"];
         assert_eq!(
             text,
-            format!("{plain}\x1b[31mab{plain}\n{plain}\x1b[38;2;1;2;3m界{plain}\n")
+            rows.map(|row| format!("\x1b[m{row}\x1b[m\n")).concat()
         );
     }
 }

@@ -174,7 +174,7 @@ fn one_line(text: &str) -> String {
 mod tests {
     use crate::document::Side;
     use crate::ui::app::{AfterLeaving, Dialog};
-    use crate::ui::view::tests::{SCENE, app, ask, check_shown, conflict, drawn, retype};
+    use crate::ui::view::tests::{SCENE, app, ask, check_shown, drawn, retype};
 
     #[test]
     fn quitting_shows_what_would_be_lost_and_how_to_answer() {
@@ -220,9 +220,7 @@ mod tests {
         ] {
             let mut app = app();
             retype(&mut app, SCENE, mine);
-            let mut merge = conflict(&app, theirs);
-            merge.conflicts[0].decision = decision;
-            ask(&mut app, merge);
+            ask(&mut app, theirs, decision);
             let mut lines = drawn(&app, super::render, 100, 24);
             lines.retain(|line| line.contains('▸'));
             check_shown(&lines[..1], &parts);

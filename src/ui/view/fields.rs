@@ -263,11 +263,7 @@ mod tests {
     #[test]
     fn literals_are_shown_as_in_the_text_and_missing_ones_as_defaults() {
         let object = lines(&editing(Node::Object(0)), 34);
-        assert!(
-            object[0].starts_with("object 1 (sphere) ─"),
-            "{}",
-            object[0]
-        );
+        assert!(object[0].starts_with("object 1 (sphere) ─"));
         let literals = [
             "▸centre    0      .5     -1e0",
             " radius    0.25",

@@ -11,7 +11,7 @@ use ratatui::layout::Rect;
 use tui_input::Input;
 
 use super::{Inks, draw};
-use crate::document::{Document, Merge, Side};
+use crate::document::{Document, Side};
 use crate::language::{Language, Node};
 use crate::render::{Frame, NO_OBJECT, Progress};
 use crate::scene::Rendering;
@@ -76,17 +76,14 @@ pub(super) fn retype(app: &mut App, old: &str, new: &str) {
     shared.cursor.renew(source, Names::Changed);
 }
 
-/// The conflict between the text and a text from outside.
-pub(super) fn conflict(app: &App, theirs: &str) -> Merge {
+/// Asks about the conflict between the text and one of the file, which is decided so far as said.
+pub(super) fn ask(app: &mut App, theirs: &str, decision: Option<Side>) {
     let document = &app.shared.document;
     let theirs = Document::new(document.language(), theirs.to_owned());
     let merged = document.snapshot().merge(theirs, &app.shared.assets.meshes);
     let merged = merged.expect("there is memory");
-    merged.expect_err("both changed the same place")
-}
-
-/// Asks about the first conflict of a merge with the file.
-pub(super) fn ask(app: &mut App, merge: Merge) {
+    let mut merge = merged.expect_err("both changed the same place");
+    merge.conflicts[0].decision = decision;
     app.shared.overlays.dialog = Some(Dialog::Conflict {
         merge,
         at: 0,
@@ -303,9 +300,7 @@ const STATES: &[(&str, Change)] = &[
     }),
     ("conflict", |app| {
         retype(app, " 0.25 ", " 0.5 ");
-        let mut merge = conflict(app, &SCENE.replace(" 0.25 ", " 0.75 "));
-        merge.conflicts[0].decision = Some(Side::Mine);
-        ask(app, merge);
+        ask(app, &SCENE.replace(" 0.25 ", " 0.75 "), Some(Side::Mine));
     }),
     ("typing", |app| {
         select(app, Node::Object(0));

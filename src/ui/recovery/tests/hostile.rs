@@ -14,80 +14,36 @@ fn pipe(path: &Path) {
     assert!(made.expect("every system has it").success());
 }
 
+/// Moves a folder of journals away and puts something in its place.
+fn replace(place: &Place, folder: &Path, put: fn(&Path, &Path)) {
+    let away = place.state.join("away");
+    fs::rename(folder, &away).expect("it is ours");
+    put(&away, folder);
+}
+
 /// In these folders nothing is kept and nothing is read.
 #[test]
 fn unsafe_folders_are_refused() {
+    fn link(away: &Path, at: &Path) {
+        symlink(away, at).expect("it is free");
+    }
+    fn file(_: &Path, at: &Path) {
+        fs::write(at, "").expect("it is free");
+    }
     type Prepare = fn(&Place);
-    let cases: &[(&str, Prepare, &str)] = &[
-        (
-            "a group may write",
-            |p| allow(&p.recovery(), 0o770),
-            "chmod go-w",
-        ),
-        (
-            "others may write",
-            |p| allow(&p.recovery(), 0o1777),
-            "chmod go-w",
-        ),
-        (
-            "others may write around it",
-            |p| {
-                allow(&p.state.join("halflight"), 0o757);
-            },
-            "chmod go-w",
-        ),
-        (
-            "others may write in the state folder",
-            |p| allow(&p.state, 0o777),
-            "chmod o-w",
-        ),
-        (
-            "a link",
-            |p| {
-                fs::rename(p.recovery(), p.state.join("away")).expect("it is ours");
-                symlink(p.state.join("away"), p.recovery()).expect("it is ours");
-            },
-            "recovery is a symbolic link",
-        ),
-        (
-            "a link around it",
-            |p| {
-                let own = p.state.join("halflight");
-                fs::rename(&own, p.state.join("away")).expect("it is ours");
-                symlink(p.state.join("away"), own).expect("it is ours");
-            },
-            "halflight is a symbolic link",
-        ),
-        (
-            "a file",
-            |p| {
-                fs::rename(p.recovery(), p.state.join("away")).expect("it is ours");
-                fs::write(p.recovery(), "").expect("it is ours");
-            },
-            "recovery is not a folder",
-        ),
-        (
-            "a pipe",
-            |p| {
-                fs::rename(p.recovery(), p.state.join("away")).expect("it is ours");
-                pipe(&p.recovery());
-            },
-            "recovery is not a folder",
-        ),
-        (
-            "a file around it",
-            |p| {
-                fs::rename(p.state.join("halflight"), p.state.join("away")).expect("it is ours");
-                fs::write(p.state.join("halflight"), "").expect("it is ours");
-            },
-            "halflight is not a folder",
-        ),
-    ];
-    for (name, prepare, words) in cases {
+    for (name, prepare, words) in table! {
+        "a group may write", (|p| allow(&p.recovery(), 0o770)) as Prepare => "chmod go-w";
+        "others may write", |p| allow(&p.recovery(), 0o1777) => "chmod go-w";
+        "others may write around it", |p| allow(&p.own(), 0o757) => "chmod go-w";
+        "others may write in the state folder", |p| allow(&p.state, 0o777) => "chmod o-w";
+        "a link", |p| replace(p, &p.recovery(), link) => "recovery is a symbolic link";
+        "a link around it", |p| replace(p, &p.own(), link) => "halflight is a symbolic link";
+        "a file", |p| replace(p, &p.recovery(), file) => "recovery is not a folder";
+        "a pipe", |p| replace(p, &p.recovery(), |_, at| pipe(at)) => "recovery is not a folder";
+        "a file around it", |p| replace(p, &p.own(), file) => "halflight is not a folder";
+    } {
         let place = Place::new();
-        let mut journal = place.run();
-        place.keep(&mut journal, "1 2 4");
-        drop(journal);
+        place.keep(&mut place.run(), "1 2 4");
         prepare(&place);
         let found = place.look(BASE);
         assert!(found.offer.is_none(), "{name}");
@@ -99,6 +55,11 @@ fn unsafe_folders_are_refused() {
         assert!(error.contains(words), "{name}: {error}");
         assert!(!journal.is_kept(), "{name}");
     }
+}
+
+#[test]
+fn a_journal_open_to_all_is_rewritten() {
+    check_kept_again("open to all", |p| allow(&p.journal(0), 0o666), 1);
 }
 
 /// Everybody may write there, but nobody can move files of others.
@@ -128,36 +89,28 @@ fn a_folder_of_another_user_is_refused() {
 /// waited for or written to.
 #[test]
 fn planted_files_are_neither_followed_nor_written_to() {
+    fn link(to: impl AsRef<Path>, at: &Path) {
+        symlink(to, at).expect("it is free");
+    }
+    fn open_file(at: &Path) {
+        fs::write(at, "9 9 9").expect("it is free");
+        allow(at, 0o666);
+    }
     type Plant = fn(&Place, &Path);
-    let cases: &[(&str, Plant)] = &[
-        ("a link", |place, at| {
-            symlink(&place.victim, at).expect("free");
-        }),
-        ("a link to nothing", |place, at| {
-            symlink(place.victim.with_extension("new"), at).expect("free");
-        }),
-        ("a link to a device", |_, at| {
-            symlink("/dev/zero", at).expect("free");
-        }),
-        ("a pipe", |_, at| pipe(at)),
-        ("a folder", |_, at| fs::create_dir(at).expect("free")),
-        ("a file that others may write", |_, at| {
-            fs::write(at, "9 9 9").expect("free");
-            allow(at, 0o666);
-        }),
-    ];
-    let is_refused = |found: &Found| {
-        let [said] = &found.complaints[..] else {
-            panic!("{:?}", found.complaints);
-        };
-        [
-            "-0.ray is not a regular file",
-            "-0.ray may be written by others",
-        ]
-        .iter()
-        .any(|reason| said.ends_with(reason))
+    let mode = |path: PathBuf| {
+        let metadata = fs::metadata(path).expect("it is there");
+        metadata.permissions().mode() & 0o777
     };
-    for (name, plant) in cases {
+    for (name, plant, reason) in table! {
+        "a link", (|p, at| link(&p.victim, at)) as Plant => "is not a regular file";
+        "a link to nothing", |p, at| link(p.victim.with_extension("new"), at) =>
+            "is not a regular file";
+        "a link to a device", |_, at| link("/dev/zero", at) => "is not a regular file";
+        "a pipe", |_, at| pipe(at) => "is not a regular file";
+        "a folder", |_, at| fs::create_dir(at).expect("free") => "is not a regular file";
+        "a file that others may write", |_, at| open_file(at) => "may be written by others";
+    } {
+        let is_refused = |found| complaint(found).ends_with(&format!("-0.ray {reason}"));
         let place = Place::new();
         place.make();
         plant(&place, &place.journal(0));
@@ -165,16 +118,8 @@ fn planted_files_are_neither_followed_nor_written_to() {
         assert!(found.offer.is_none() && is_refused(&found), "{name}");
         let mut journal = place.run();
         place.keep(&mut journal, "1 2 4");
-        let mode = fs::metadata(place.journal(1))
-            .expect(name)
-            .permissions()
-            .mode();
-        assert_eq!(mode & 0o777, 0o600, "{name}");
-        let folder = fs::metadata(place.recovery())
-            .expect(name)
-            .permissions()
-            .mode();
-        assert_eq!(folder & 0o777, 0o700, "{name}");
+        assert_eq!(mode(place.journal(1)), 0o600, "{name}");
+        assert_eq!(mode(place.recovery()), 0o700, "{name}");
         drop(journal);
         let found = place.look(BASE);
         assert!(is_refused(&found), "{name}");
@@ -191,22 +136,18 @@ fn a_journal_too_long_for_the_scene_is_not_read() {
         let place = Place::new();
         place.make();
         let journal = place.journal(0);
-        let file = File::create(&journal).expect("free");
-        file.set_len(length).expect("a sparse file");
+        let sparse = File::create(&journal).and_then(|file| file.set_len(length));
+        sparse.expect("a sparse file");
         let found = place.look(BASE);
         assert!(found.offer.is_none(), "{length}");
-        let [complaint] = &found.complaints[..] else {
-            panic!("{length}: {:?}", found.complaints);
-        };
+        let complaint = complaint(&found);
         // A file that was read holds only zeros, so it is set aside.
         assert_eq!(journal.exists(), !is_read, "{length}");
         let place_of = journal.display().to_string();
         assert!(complaint.contains(&place_of), "{length}: {complaint}");
         let limit = complaint.ends_with("a journal of this scene at most 68 MB");
         assert_eq!(limit, !is_read, "{length}: {complaint}");
-        let mut journal = place.run();
-        place.keep(&mut journal, "1 2 4");
-        drop(journal);
+        place.keep(&mut place.run(), "1 2 4");
         assert!(place.look(BASE).offer.is_some(), "{length}");
     }
 }
@@ -230,11 +171,8 @@ fn without_file_locks_no_journal_counts_as_left_behind() {
             for text in [BASE, "1 2 4"] {
                 let found = place.look(text);
                 assert!(found.offer.is_none(), "{error}: {text}");
-                let [complaint] = &found.complaints[..] else {
-                    panic!("{error}: {:?}", found.complaints);
-                };
-                let place_of = place.journal(0).display().to_string();
-                assert!(complaint.contains(&place_of), "{complaint}");
+                let journal = place.journal(0).display().to_string();
+                assert!(complaint(&found).contains(&journal), "{error}: {text}");
             }
         });
         assert!(journal.is_kept());
@@ -252,10 +190,8 @@ fn replacing_a_journal_follows_no_link() {
     symlink(&place.victim, new).expect("free");
     let edits = place.edits(&Arc::new("1".to_owned()), "1 2 5");
     journal.write(edits).expect("it can be written");
-    assert_eq!(
-        fs::read_to_string(&place.victim).expect("a text"),
-        "untouched"
-    );
+    let held = fs::read_to_string(&place.victim).expect("a text");
+    assert_eq!(held, "untouched");
     assert_eq!(place.names().len(), 1);
 }
 

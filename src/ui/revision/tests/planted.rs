@@ -1,90 +1,39 @@
 //! A repository all of whose settings that name programs do so: no program is run.
 
+use std::collections::BTreeSet;
 use std::os::unix::fs::{PermissionsExt, symlink};
 
 use super::super::git::GUARDS;
 use super::*;
 
-/// The settings that name programs, with `PROGRAM` for one that leaves a trace. Those of remotes are
-/// in [`REMOTES`].
-const SETTINGS: &[(&str, &str)] = &[
-    ("alias.cat-file", "!PROGRAM"),
-    ("alias.ls-tree", "!PROGRAM"),
-    ("browser.x.cmd", "PROGRAM"),
-    ("core.alternateRefsCommand", "PROGRAM"),
-    ("core.askPass", "PROGRAM"),
-    ("core.attributesFile", "ATTRIBUTES"),
-    ("core.editor", "PROGRAM"),
-    ("core.fsmonitor", "PROGRAM"),
-    ("core.gitProxy", "PROGRAM"),
-    ("core.hooksPath", "HOOKS"),
-    ("core.pager", "PROGRAM"),
-    ("core.sshCommand", "PROGRAM"),
-    ("credential.helper", "!PROGRAM"),
-    ("diff.external", "PROGRAM"),
-    ("diff.x.command", "PROGRAM"),
-    ("diff.x.textconv", "PROGRAM"),
-    ("difftool.x.cmd", "PROGRAM"),
-    ("fetch.bundleURI", "BUNDLE"),
-    ("filter.x.clean", "PROGRAM"),
-    ("filter.x.process", "PROGRAM"),
-    ("filter.x.required", "true"),
-    ("filter.x.smudge", "PROGRAM"),
-    ("gc.auto", "1"),
-    ("gpg.program", "PROGRAM"),
-    ("gpg.ssh.defaultKeyCommand", "PROGRAM"),
-    ("gpg.ssh.program", "PROGRAM"),
-    ("guitool.x.cmd", "PROGRAM"),
-    ("hook.x.command", "PROGRAM"),
-    ("hook.x.event", "post-index-change"),
-    ("imap.tunnel", "PROGRAM"),
-    ("include.path", "INCLUDED"),
-    ("includeIf.gitdir:**.path", "INCLUDED"),
-    ("interactive.diffFilter", "PROGRAM"),
-    ("log.showSignature", "true"),
-    ("man.x.cmd", "PROGRAM"),
-    ("merge.x.driver", "PROGRAM"),
-    ("mergetool.x.cmd", "PROGRAM"),
-    ("pager.cat-file", "PROGRAM"),
-    ("pager.ls-tree", "PROGRAM"),
-    ("protocol.allow", "always"),
-    ("protocol.ext.allow", "always"),
-    ("sendemail.sendmailCmd", "PROGRAM"),
-    ("sequence.editor", "PROGRAM"),
-    ("ssh.variant", "simple"),
-    ("submodule.x.update", "!PROGRAM"),
-    ("tar.x.command", "PROGRAM"),
-    ("trailer.x.cmd", "PROGRAM"),
-    ("uploadpack.packObjectsHook", "PROGRAM"),
-];
+/// The settings that name programs, as names with values, which are `PROGRAM` unless they are given:
+/// one that leaves a trace. Those of remotes are in [`REMOTES`].
+const SETTINGS: &str = "
+    alias.cat-file=!PROGRAM alias.ls-tree=!PROGRAM browser.x.cmd core.alternateRefsCommand
+    core.askPass core.attributesFile=ATTRIBUTES core.editor core.fsmonitor core.gitProxy
+    core.hooksPath=HOOKS core.pager core.sshCommand credential.helper=!PROGRAM diff.external
+    diff.x.command diff.x.textconv difftool.x.cmd fetch.bundleURI=BUNDLE filter.x.clean
+    filter.x.process filter.x.required=true filter.x.smudge gc.auto=1 gpg.program
+    gpg.ssh.defaultKeyCommand gpg.ssh.program guitool.x.cmd hook.x.command
+    hook.x.event=post-index-change imap.tunnel include.path=INCLUDED
+    includeIf.gitdir:**.path=INCLUDED interactive.diffFilter log.showSignature=true man.x.cmd
+    merge.x.driver mergetool.x.cmd pager.cat-file pager.ls-tree protocol.allow=always
+    protocol.ext.allow=always sendemail.sendmailCmd sequence.editor ssh.variant=simple
+    submodule.x.update=!PROGRAM tar.x.command trailer.x.cmd uploadpack.packObjectsHook
+";
 
 /// The ways to fetch a missing object, each of which runs a program.
-const REMOTES: &[&[(&str, &str)]] = &[
-    &[
-        ("remote.origin.url", "/nowhere"),
-        ("remote.origin.uploadpack", "PROGRAM"),
-    ],
-    &[("remote.origin.url", "ssh://h/x")],
-    &[("remote.origin.url", "git://h/x")],
-    &[("remote.origin.url", "ext::PROGRAM")],
-    &[
-        ("remote.origin.url", "PROGRAM"),
-        ("remote.origin.vcs", "ext"),
-    ],
-    &[
-        ("remote.origin.url", "x:y"),
-        ("url.ext::PROGRAM.insteadOf", "x:y"),
-    ],
+const REMOTES: [&str; 6] = [
+    "remote.origin.url=/nowhere remote.origin.uploadpack",
+    "remote.origin.url=ssh://h/x",
+    "remote.origin.url=git://h/x",
+    "remote.origin.url=ext::PROGRAM",
+    "remote.origin.url remote.origin.vcs=ext",
+    "remote.origin.url=x:y url.ext::PROGRAM.insteadOf=x:y",
 ];
 
-const HOOKS: [&str; 6] = [
-    "fsmonitor-watchman",
-    "post-checkout",
-    "post-index-change",
-    "pre-auto-gc",
-    "proc-receive",
-    "reference-transaction",
-];
+const HOOKS: &str = "fsmonitor-watchman post-checkout post-index-change pre-auto-gc proc-receive \
+    reference-transaction";
 
 /// What the repository lacks.
 const LACKING: [Option<&str>; 4] = [
@@ -101,7 +50,7 @@ struct Planted {
 
 impl Planted {
     /// A repository with a scene, which would fetch missing objects from a remote.
-    fn new(remote: &[(&str, &str)]) -> Option<Self> {
+    fn new(remote: &str) -> Option<Self> {
         let folder = repository()?;
         let at = |name: &str| folder.path().join(name);
         for name in ["scenes", "traces", "hooks"] {
@@ -117,30 +66,20 @@ impl Planted {
         }
         let planted = Self { folder, scene };
         let bundle = planted.at("bundle").display().to_string();
-        git(
-            planted.folder.path(),
-            &["bundle", "create", "-q", &bundle, "--all"],
-        );
-        for hook in HOOKS {
+        let create = ["bundle", "create", "-q", &bundle, "--all"];
+        git(planted.folder.path(), &create);
+        for hook in HOOKS.split(' ') {
             let program = planted.program(hook);
             for folder in ["hooks", ".git/hooks"] {
                 symlink(&program, planted.at(&format!("{folder}/{hook}"))).expect("it is new");
             }
         }
-        let fetching = [
-            ("core.repositoryformatversion", "1"),
-            ("extensions.partialClone", "origin"),
-            ("remote.origin.promisor", "true"),
-        ];
-        let included = planted.lines(&[
-            ("core.sshCommand", "PROGRAM"),
-            ("core.fsmonitor", "PROGRAM"),
-        ]);
+        let included = planted.lines("core.sshCommand core.fsmonitor");
         fs::write(planted.at("included"), included).expect("it is new");
-        let lines: String = [SETTINGS, &fetching, remote]
-            .map(|settings| planted.lines(settings))
-            .concat();
-        fs::write(planted.at(".git/config"), lines).expect("writable");
+        let fetching = "core.repositoryformatversion=1 extensions.partialClone=origin \
+            remote.origin.promisor=true";
+        let lines = [SETTINGS, fetching, remote].map(|settings| planted.lines(settings));
+        fs::write(planted.at(".git/config"), lines.concat()).expect("writable");
         Some(planted)
     }
 
@@ -159,25 +98,24 @@ impl Planted {
     }
 
     /// Settings as lines of a configuration.
-    fn lines(&self, settings: &[(&str, &str)]) -> String {
-        let line = |&(name, value): &(&str, &str)| {
+    fn lines(&self, settings: &str) -> String {
+        let line = |setting: &str| {
+            let (name, value) = setting.split_once('=').unwrap_or((setting, "PROGRAM"));
             let program = self.program(name).display().to_string();
             let (section, key) = name.rsplit_once('.').expect("a section");
             let head = match section.split_once('.') {
                 Some((section, part)) => format!("{section} \"{part}\""),
                 None => section.to_owned(),
             };
-            let value = ["ATTRIBUTES", "BUNDLE", "HOOKS", "INCLUDED"].iter().fold(
-                value.replace("PROGRAM", &program),
-                |value, word| {
-                    let place = self.at(&word.to_lowercase());
-                    value.replace(word, &place.display().to_string())
-                },
-            );
+            let mut value = value.replace("PROGRAM", &program);
+            for word in ["ATTRIBUTES", "BUNDLE", "HOOKS", "INCLUDED"] {
+                let place = self.at(&word.to_lowercase()).display().to_string();
+                value = value.replace(word, &place);
+            }
             let head = head.replace("PROGRAM", &program);
             format!("[{head}]\n{key} = \"{value}\"\n")
         };
-        settings.iter().map(line).collect()
+        settings.split_whitespace().map(line).collect()
     }
 
     /// The file of an object.
@@ -197,27 +135,20 @@ impl Planted {
 }
 
 /// Every git on the path.
-fn gits() -> Vec<PathBuf> {
+fn gits() -> BTreeSet<PathBuf> {
     let path = std::env::var_os("PATH").unwrap_or_default();
     let programs = std::env::split_paths(&path).map(|folder| folder.join("git"));
-    let mut gits: Vec<_> = programs
+    programs
         .filter_map(|git| fs::canonicalize(git).ok())
-        .collect();
-    gits.sort();
-    gits.dedup();
-    gits
+        .collect()
 }
 
 /// The guards that a git knows, and each of them alone.
 fn guards(program: &Path) -> Vec<&'static [(&'static str, &'static str)]> {
-    let version = Command::new(program)
-        .arg("version")
-        .output()
-        .expect("it runs");
-    let version = String::from_utf8_lossy(&version.stdout).into_owned();
-    let mut numbers = version
-        .split([' ', '.'])
-        .filter_map(|word| word.parse().ok());
+    let version = Command::new(program).arg("version").output();
+    let version = String::from_utf8_lossy(&version.expect("it runs").stdout).into_owned();
+    let words = version.split([' ', '.']);
+    let mut numbers = words.filter_map(|word| word.parse().ok());
     let version: [Option<u32>; 2] = [numbers.next(), numbers.next()];
     let (lazy, protocol) = GUARDS.split_at(1);
     if [Some(2), Some(45)] <= version {
@@ -273,12 +204,9 @@ fn each_remote_would_run_a_program() {
             let folder = planted.scene.parent().expect("a folder");
             let git = Git::of_folder(folder).with(&program, &[]);
             let read = text_by(&git, "HEAD", &planted.scene, |_| Ok(()));
-            assert_ne!(
-                planted.traces(),
-                [] as [String; 0],
-                "{program:?} {remote:?}: {read:?}"
-            );
-            for trace in planted.traces() {
+            let traces = planted.traces();
+            assert!(!traces.is_empty(), "{program:?} {remote:?}: {read:?}");
+            for trace in traces {
                 fs::remove_file(planted.at("traces").join(trace)).expect("it is there");
             }
         }

@@ -60,14 +60,8 @@ const KEPT: TraceEnd = TraceEnd::Kept {
     goal: Some(4),
 };
 
-/// How a trace began.
-enum Begun {
-    Recalled,
-    /// It goes on after an edit.
-    Restarted,
-}
-
 /// The text at the end.
+#[derive(Clone, Copy, Debug)]
 enum Now {
     /// That of the scene that is traced.
     Traced(&'static str),
@@ -76,25 +70,21 @@ enum Now {
     Errors,
 }
 
+/// A trace is recalled for the first text, or restarted after an edit.
 #[test]
 fn a_trace_is_kept_with_the_text_that_the_next_run_opens() {
-    for (number, (begun, now, expected)) in [
-        (Begun::Recalled, Now::Traced("first"), Some("first")),
-        (Begun::Recalled, Now::Traced("commented"), Some("commented")),
-        (Begun::Recalled, Now::Other("other"), Some("first")),
-        (Begun::Recalled, Now::Errors, Some("first")),
-        (Begun::Restarted, Now::Traced("edited"), Some("edited")),
-        (Begun::Restarted, Now::Errors, None),
-    ]
-    .into_iter()
-    .enumerate()
-    {
+    for (is_recalled, now, expected) in [
+        (true, Now::Traced("first"), Some("first")),
+        (true, Now::Traced("commented"), Some("commented")),
+        (true, Now::Other("other"), Some("first")),
+        (true, Now::Errors, Some("first")),
+        (false, Now::Traced("edited"), Some("edited")),
+        (false, Now::Errors, None),
+    ] {
         let test = Test::new();
-        let traced = match begun {
-            Begun::Recalled => test.recall("first").0,
-            Begun::Restarted => Traced::of(&test.job),
-        };
-        let now = match now {
+        let recalled = is_recalled.then(|| test.recall("first").0);
+        let traced = recalled.unwrap_or_else(|| Traced::of(&test.job));
+        let text = match now {
             Now::Traced(text) => Some(test.now(text)),
             Now::Other(text) => {
                 let (scene, origin) = test.now(text);
@@ -102,17 +92,17 @@ fn a_trace_is_kept_with_the_text_that_the_next_run_opens() {
             }
             Now::Errors => None,
         };
-        let end = test.store(traced, now);
+        let end = test.store(traced, text);
         let Some(expected) = expected else {
             assert_eq!(end, Err("the text has errors".to_owned()));
             continue;
         };
-        assert_eq!(end, Ok(KEPT), "{number}");
+        assert_eq!(end, Ok(KEPT), "{now:?}");
         for text in ["first", "commented", "edited", "other"] {
             let (_, reported, is_brought) = test.recall(text);
             let is_expected = text == expected;
             let continued = Some(Recalled::Continued(4)).filter(|_| is_expected);
-            assert_eq!((reported, is_brought), (continued, is_expected), "{number}");
+            assert_eq!((reported, is_brought), (continued, is_expected), "{now:?}");
         }
     }
 }

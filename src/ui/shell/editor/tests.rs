@@ -36,45 +36,31 @@ const NAMES: &[&str] = &[
     "ssh:host:b.ray",
 ];
 
-/// The arguments each editor gets for `/d/NAME` at line 7, and for a name with a colon if they
+/// The arguments that editors get for `/d/NAME` at line 7, and for a name with a colon if they
 /// differ.
 const EDITORS: &[(&str, &str, Option<&str>)] = &[
-    ("vi", "+7 -- FILE", None),
-    ("/usr/bin/vim", "+7 -- FILE", None),
-    ("vim.basic", "+7 -- FILE", None),
-    ("nvim", "+7 -- FILE", None),
-    ("view", "+7 -- FILE", None),
-    ("kak", "+7 -- FILE", None),
-    ("nano", "-- +7 FILE", None),
-    ("micro", "-- +7 FILE", None),
-    ("emacs", "+7 -- FILE", None),
-    ("emacs-nox", "+7 -- FILE", None),
-    ("emacs29", "+7 -- FILE", None),
-    ("emacsclient", "-- +7 FILE", None),
-    ("mg", "+7 FILE", None),
+    ("vi /usr/bin/vim vim.basic nvim", "+7 -- FILE", None),
+    ("view kak emacs emacs-nox emacs29", "+7 -- FILE", None),
+    ("nano micro emacsclient", "-- +7 FILE", None),
+    ("mg unheard-of", "+7 FILE", None),
     ("ed", "FILE", None),
-    ("hx", "-- FILE:7", Some("FILE")),
-    ("helix", "-- FILE:7", Some("FILE")),
-    ("subl", "FILE:7", Some("FILE")),
-    ("zed", "FILE:7", Some("FILE")),
-    ("code", "--goto FILE:7", Some("FILE")),
-    ("code-insiders", "--goto FILE:7", Some("FILE")),
-    ("codium", "--goto FILE:7", Some("FILE")),
-    ("unheard-of", "+7 FILE", None),
+    ("hx helix", "-- FILE:7", Some("FILE")),
+    ("subl zed", "FILE:7", Some("FILE")),
+    ("code code-insiders codium", "--goto FILE:7", Some("FILE")),
 ];
 
 #[test]
 fn every_name_reaches_every_editor_as_a_file() {
-    for (program, plain, with_colon) in EDITORS {
+    for (programs, plain, with_colon) in EDITORS {
         for name in NAMES {
             let file = format!("/d/{name}");
             let form = with_colon.filter(|_| name.contains(':')).unwrap_or(plain);
-            let expected: Vec<_> = form
-                .split(' ')
-                .map(|word| OsString::from(word.replace("FILE", &file)))
-                .collect();
+            let word = |word: &str| OsString::from(word.replace("FILE", &file));
+            let expected: Vec<_> = form.split(' ').map(word).collect();
             let place = place(Path::new(&file)).expect("an absolute path");
-            assert_eq!(arguments(program, &place, 7), *expected, "{program}");
+            for program in programs.split(' ') {
+                assert_eq!(arguments(program, &place, 7), *expected, "{program}");
+            }
         }
     }
 }
@@ -124,22 +110,15 @@ fn a_file_whose_name_ends_in_the_line_number_is_not_opened_instead() {
 
 #[test]
 fn commands_are_split_like_in_a_shell() {
-    let cases: &[(&str, &[&str])] = &[
-        ("vim", &["vim"]),
-        (" code  --wait ", &["code", "--wait"]),
-        (
-            "'/opt/my editor/vim' -u NONE",
-            &["/opt/my editor/vim", "-u", "NONE"],
-        ),
-        ("/opt/my\\ editor/vim", &["/opt/my editor/vim"]),
-        ("vim -c \"set nu\" ''", &["vim", "-c", "set nu", ""]),
-        (
-            "vim $HOME `id` $(id); id",
-            &["vim", "$HOME", "`id`", "$(id);", "id"],
-        ),
-    ];
-    for (said, expected) in cases {
-        assert_eq!(words(said).expect(said), *expected);
+    for (said, expected) in table! {
+        "vim" => &["vim"][..];
+        " code  --wait " => &["code", "--wait"];
+        "'/opt/my editor/vim' -u NONE" => &["/opt/my editor/vim", "-u", "NONE"];
+        "/opt/my\\ editor/vim" => &["/opt/my editor/vim"];
+        "vim -c \"set nu\" ''" => &["vim", "-c", "set nu", ""];
+        "vim $HOME `id` $(id); id" => &["vim", "$HOME", "`id`", "$(id);", "id"];
+    } {
+        assert_eq!(words(said).expect(said), expected);
     }
     let refused = words("vim 'x").expect_err("no second quote");
     assert_eq!(refused, "`vim 'x` has an unmatched quote");

@@ -3,17 +3,15 @@
 use std::sync::mpsc;
 
 use super::*;
-use crate::scene::{MAX_SPP, Size};
+use crate::scene::MAX_SPP;
+use crate::ui::layout::tests::size;
 use crate::ui::options::Rehearsal;
 use crate::ui::shell::traces::tests::job;
 
 /// A picture that would take minutes.
 fn endless() -> Job {
     let mut job = job(MAX_SPP);
-    job.settings.size = Size {
-        width: 640,
-        height: 480,
-    };
+    job.settings.size = size(640, 480);
     job
 }
 
@@ -59,10 +57,9 @@ fn a_worker_that_panics_announces_its_end() {
     });
     assert!(worker.join().is_err());
     let events: Vec<_> = inbox.iter().collect();
-    assert!(matches!(
-        events[..],
-        [Event::Ready(_), Event::Ended(Target::Export, 7)]
-    ));
+    let [Event::Ready(_), Event::Ended(Target::Export, 7)] = events[..] else {
+        panic!("{events:?}");
+    };
 }
 
 /// A script of keys shows the same whatever earlier runs left, and leaves nothing.
@@ -77,12 +74,8 @@ fn a_page_recalls_and_keeps_no_trace() {
     };
     let started = runtime.perform(Effect::Recall(job, origin));
     assert!(matches!(started, Some(Msg::Started(Target::Trace, _))));
-    assert!(
-        runtime
-            .traced
-            .as_ref()
-            .is_some_and(|traced| !traced.was_looked_for())
-    );
+    let traced = runtime.traced.as_ref().expect("it is traced");
+    assert!(!traced.was_looked_for());
     let none = Duration::ZERO;
     let deadlines = ShutdownDeadlines {
         terminal: none,

@@ -186,11 +186,14 @@ fn unknown(word: &str, span: Span) -> Diagnostic {
 mod tests {
     use super::*;
     use crate::text::Position;
-    use crate::ui::keymap::{Keys, Section};
+    use crate::ui::keymap::bound;
+
+    fn parse(text: &str) -> Result<Script, Vec<Diagnostic>> {
+        Script::parse(String::new(), text.to_owned(), &Keymap::default())
+    }
 
     fn steps(text: &str) -> Vec<Step> {
-        let script = Script::parse(String::new(), text.to_owned(), &Keymap::default());
-        let steps = script.expect("a script").steps;
+        let steps = parse(text).expect("a script").steps;
         steps.into_iter().map(|(step, _)| step).collect()
     }
 
@@ -201,18 +204,8 @@ mod tests {
     #[test]
     fn words_are_keys_and_quoted_text_is_typed() {
         let text = "j Ctrl-R # Enter\n\"0.5 \\\"#\"\tShift-Left";
-        let names = [
-            "j",
-            "Ctrl-R",
-            "0",
-            ".",
-            "5",
-            "Space",
-            "\"",
-            "#",
-            "Shift-Left",
-        ];
-        assert_eq!(steps(text), names.map(key));
+        let names = "j Ctrl-R 0 . 5 Space \" # Shift-Left".split(' ');
+        assert_eq!(steps(text), names.map(key).collect::<Vec<_>>());
     }
 
     #[test]
@@ -220,14 +213,10 @@ mod tests {
         for text in ["gg", "g g"] {
             assert_eq!(steps(text), ["g", "g"].map(key));
         }
-        let mut keymap = Keymap::default();
-        let keys = Keys::parse("Ctrl-X d").expect("keys");
-        keymap.bind(Section::Anywhere, keys, Some("undo"));
+        let keymap = bound("anywhere Ctrl-X d=undo");
         assert_eq!(keymap.sequence_named("dg"), None);
-        let ctrl = keymap
-            .sequence_named("Ctrl-X d")
-            .map(|keys| keys.map(Step::Key));
-        assert_eq!(ctrl, Some(["Ctrl-X", "d"].map(key)));
+        let ctrl = keymap.sequence_named("Ctrl-X d").expect("it is bound");
+        assert_eq!(ctrl.map(Step::Key), ["Ctrl-X", "d"].map(key));
     }
 
     #[test]
@@ -247,40 +236,27 @@ mod tests {
 
     #[test]
     fn a_long_text_of_unknown_words_has_a_hundred_errors() {
-        let words = "word ".repeat(10_000);
-        let read = Script::parse(String::new(), words, &Keymap::default());
-        assert_eq!(read.expect_err("no keys").len(), 100);
+        let errors = parse(&"word ".repeat(10_000)).expect_err("no keys");
+        assert_eq!(errors.len(), 100);
     }
 
     #[test]
     fn an_unknown_word_is_reported_at_its_place_with_a_hint() {
-        let cases = [
-            (
-                "j\n Entr",
-                (2, 2),
-                "unknown key Entr",
-                "did you mean Enter?",
-            ),
-            (
-                "jjj",
-                (1, 1),
-                "unknown key jjj",
-                "write \"jjj\" to type these characters",
-            ),
-            ("wai", (1, 1), "unknown key wai", "did you mean wait?"),
-            ("resize 0x1", (1, 8), "resize: 0x1 is not valid", ""),
-            ("click", (1, 1), "click: nothing follows", ""),
-            ("dump a.gif", (1, 6), "dump: a.gif is not valid", ""),
-            ("j \"abc\nk", (1, 3), "this text has no end", ""),
-        ];
-        for (text, (line, column), message, hint) in cases {
-            let errors =
-                Script::parse(String::new(), text.to_owned(), &Keymap::default()).expect_err(text);
+        for (text, place, message, hint) in table! {
+            "j\n Entr", (2, 2) => "unknown key Entr", "did you mean Enter?";
+            "jjj", (1, 1) => "unknown key jjj", "write \"jjj\" to type these characters";
+            "wai", (1, 1) => "unknown key wai", "did you mean wait?";
+            "resize 0x1", (1, 8) => "resize: 0x1 is not valid", "";
+            "click", (1, 1) => "click: nothing follows", "";
+            "dump a.gif", (1, 6) => "dump: a.gif is not valid", "";
+            "j \"abc\nk", (1, 3) => "this text has no end", "";
+        } {
+            let errors = parse(text).expect_err(text);
             let error = &errors[0];
             assert_eq!(error.message, message);
             assert_eq!(error.hint.as_deref().unwrap_or_default(), hint);
             let at = Position::of(text, error.span.start());
-            assert_eq!((at.line, at.column), (line, column), "{text}");
+            assert_eq!((at.line, at.column), place, "{text}");
             assert_eq!(errors.len(), 1, "{text}");
         }
     }

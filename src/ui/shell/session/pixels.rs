@@ -211,6 +211,14 @@ mod tests {
         known
     }
 
+    fn tmux(has_sixel: bool, passes_through: bool) -> Reply {
+        Reply::Tmux(Client {
+            has_sixel,
+            passes_through,
+            ..Client::default()
+        })
+    }
+
     fn protocol(choice: Pixels, replies: &[Reply], cell: Option<(u16, u16)>) -> Option<Protocol> {
         let manner = Manner::of(choice, ColourDepth::TrueColour, &known(replies), cell);
         manner.means().map(|means| means.protocol)
@@ -219,14 +227,8 @@ mod tests {
     #[test]
     fn the_best_protocol_that_the_terminal_reports_is_chosen() {
         use Protocol::{Iterm, Kitty, Sixel};
-        use Reply::{Attributes, AttributesWithSixel, Shows, Tmux};
-        let tmux = |has_sixel| {
-            Tmux(Client {
-                has_sixel,
-                passes_through: true,
-                ..Client::default()
-            })
-        };
+        use Reply::{Attributes, AttributesWithSixel, Shows};
+        let tmux = |has_sixel| tmux(has_sixel, true);
         for (replies, expected) in [
             (&[][..], None),
             (&[Attributes], None),
@@ -239,19 +241,13 @@ mod tests {
             (&[tmux(false), AttributesWithSixel], None),
             (&[tmux(true), Attributes], None),
         ] {
-            assert_eq!(
-                protocol(Pixels::Auto, replies, CELL),
-                expected,
-                "{replies:?}"
-            );
+            let chosen = protocol(Pixels::Auto, replies, CELL);
+            assert_eq!(chosen, expected, "{replies:?}");
         }
     }
 
     fn through(passes_through: bool) -> Reply {
-        Reply::Tmux(Client {
-            passes_through,
-            ..Client::default()
-        })
+        tmux(false, passes_through)
     }
 
     #[test]
@@ -265,36 +261,26 @@ mod tests {
         ] {
             let known = known(replies);
             let manner = Manner::of(choice, ColourDepth::TrueColour, &known, None);
-            assert_eq!(
-                known.refusal(choice, manner).is_some(),
-                is_refused,
-                "{choice:?}"
-            );
+            let refusal = known.refusal(choice, manner);
+            assert_eq!(refusal.is_some(), is_refused, "{choice:?}");
         }
     }
 
     #[test]
     fn a_choice_needs_no_answer_but_sixels_need_the_size_of_cells() {
-        let size = Reply::CellSize {
-            width: 9,
-            height: 18,
-        };
-        for (choice, replies, cell, expected) in [
-            (Pixels::Kitty, &[][..], None, Some(Protocol::Kitty)),
-            (Pixels::Iterm, &[], None, Some(Protocol::Iterm)),
-            (Pixels::Sixel, &[], None, None),
-            (Pixels::Sixel, &[], CELL, Some(Protocol::Sixel)),
-            (Pixels::Sixel, &[size], None, Some(Protocol::Sixel)),
-            (Pixels::Octant, &[Reply::AttributesWithSixel], CELL, None),
-            (Pixels::Kitty, &[through(true)], CELL, Some(Protocol::Kitty)),
-            (Pixels::Iterm, &[through(false)], CELL, None),
-            (
-                Pixels::Sixel,
-                &[through(false)],
-                CELL,
-                Some(Protocol::Sixel),
-            ),
-        ] {
+        let (width, height) = (9, 18);
+        let size = Reply::CellSize { width, height };
+        for (choice, replies, cell, expected) in table! {
+            Pixels::Kitty, &[][..], None => Some(Protocol::Kitty);
+            Pixels::Iterm, &[], None => Some(Protocol::Iterm);
+            Pixels::Sixel, &[], None => None;
+            Pixels::Sixel, &[], CELL => Some(Protocol::Sixel);
+            Pixels::Sixel, &[size], None => Some(Protocol::Sixel);
+            Pixels::Octant, &[Reply::AttributesWithSixel], CELL => None;
+            Pixels::Kitty, &[through(true)], CELL => Some(Protocol::Kitty);
+            Pixels::Iterm, &[through(false)], CELL => None;
+            Pixels::Sixel, &[through(false)], CELL => Some(Protocol::Sixel);
+        } {
             assert_eq!(protocol(choice, replies, cell), expected, "{choice:?}");
         }
     }

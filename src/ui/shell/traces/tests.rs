@@ -1,5 +1,6 @@
 //! Files of kept traces.
 
+use std::collections::BTreeSet;
 use std::fs;
 use std::path::Path;
 use std::sync::{Arc, mpsc};
@@ -10,29 +11,22 @@ use tempfile::TempDir;
 use super::*;
 use crate::language::{Language, Source};
 use crate::render::{Frames, Renderer, Settings, Threads};
-use crate::scene::{Images, Meshes, Rendering, Size, Viewpoint};
+use crate::scene::{Images, Meshes, Rendering, Viewpoint};
+use crate::ui::layout::tests::size;
 
 /// A small picture with samples, of the template.
 pub(in crate::ui) fn job(spp: u32) -> Job {
     let text = Arc::new(Language::Ray.template().to_owned());
     let lowered = Source::new(Language::Ray, text).lower(&Meshes::default());
-    let scene = lowered
-        .expect("there is memory")
-        .scene
-        .expect("it is valid");
+    let scene = lowered.expect("there is memory").scene;
+    let scene = scene.expect("it is valid");
     Job {
         camera: scene.camera,
         settings: Settings {
             spp,
             depth: 4,
             transfer: scene.setting.rendering.transfer(),
-            ..Settings::new(
-                Size {
-                    width: 5,
-                    height: 4,
-                },
-                &Rendering::default(),
-            )
+            ..Settings::new(size(5, 4), &Rendering::default())
         },
         scene: Arc::new(scene),
         images: Images::default(),
@@ -53,10 +47,8 @@ pub(in crate::ui) fn traced(job: &Job) -> Kept {
     renderer.restart(job.clone()).expect("the worker runs");
     loop {
         woken.recv().expect("the worker runs");
-        if renderer
-            .latest()
-            .is_some_and(|frame| frame.progress.complete)
-        {
+        let frame = renderer.latest();
+        if frame.is_some_and(|frame| frame.progress.complete) {
             return renderer.keep().expect("it is complete");
         }
     }
@@ -84,20 +76,21 @@ impl Place {
         Self { folder, traces }
     }
 
+    /// The folder of traces.
+    fn kept(&self) -> PathBuf {
+        self.folder.path().join("halflight/traces")
+    }
+
     /// The files, sorted.
     pub(in crate::ui) fn files(&self) -> Vec<PathBuf> {
-        let folder = self.folder.path().join("halflight/traces");
-        let entries = fs::read_dir(folder).into_iter().flatten();
-        let mut files: Vec<_> = entries
-            .map(|entry| entry.expect("an entry").path())
-            .collect();
-        files.sort();
-        files
+        let entries = fs::read_dir(self.kept()).into_iter().flatten();
+        let paths = entries.map(|entry| entry.expect("an entry").path());
+        paths.collect::<BTreeSet<_>>().into_iter().collect()
     }
 
     /// The path of a file.
     fn at(&self, name: &str) -> PathBuf {
-        self.folder.path().join("halflight/traces").join(name)
+        self.kept().join(name)
     }
 
     /// The path of the trace of a picture.
@@ -119,47 +112,30 @@ impl Place {
 
 #[test]
 fn a_trace_is_read_back_for_the_same_picture_only() {
+    type Change = fn(&mut Provenance);
     let (place, first) = (Place::new(), job(4));
-    assert_eq!(
-        place.read(&picture(&first), &first),
-        None,
-        "there is no folder"
-    );
+    let found = place.read(&picture(&first), &first);
+    assert_eq!(found, None, "there is no folder");
     place.write(&first, &traced(&first));
     for spp in [1, 4, 100] {
         let same = job(spp);
         assert_eq!(place.read(&picture(&same), &same), Some(4));
     }
-    let own = picture(&first);
-    let others = [
-        Provenance {
-            version: "0.0.0".to_owned(),
-            ..own.clone()
-        },
-        Provenance {
-            scene: "c0ffef".to_owned(),
-            ..own.clone()
-        },
-        Provenance {
-            view: Viewpoint::parse("fov 50").expect("a view"),
-            ..own.clone()
-        },
-        Provenance {
-            settings: Settings {
-                depth: 5,
-                ..own.settings
-            },
-            ..own
-        },
-    ];
-    for other in others {
+    for change in [
+        (|own| own.version = "0.0.0".to_owned()) as Change,
+        |own| own.scene = "c0ffef".to_owned(),
+        |own| own.view = Viewpoint::parse("fov 50").expect("a view"),
+        |own| own.settings.depth = 5,
+    ] {
+        let mut other = picture(&first);
+        change(&mut other);
         assert_eq!(place.read(&other, &first), None, "{other:?}");
     }
     #[cfg(unix)]
     {
         use std::os::unix::fs::PermissionsExt;
-        let folder = place.folder.path().join("halflight/traces");
-        let mode = fs::metadata(folder).expect("a folder").permissions().mode();
+        let folder = fs::metadata(place.kept()).expect("a folder");
+        let mode = folder.permissions().mode();
         assert_eq!(mode & 0o777, 0o700);
     }
 }
@@ -202,9 +178,8 @@ fn more_samples_are_not_replaced_by_fewer() {
 fn a_trace_that_takes_too_long_to_write_leaves_what_was_there() {
     let (place, few, many) = (Place::new(), job(2), job(8));
     for _ in 0..2 {
-        let late = place
-            .traces
-            .write(&picture(&many), &traced(&many), Instant::now());
+        let (more, kept) = (picture(&many), traced(&many));
+        let late = place.traces.write(&more, &kept, Instant::now());
         let error = late.expect_err("the time is over");
         assert_eq!(error.kind(), ErrorKind::TimedOut);
         assert!(place.files().len() <= 1);
@@ -213,46 +188,48 @@ fn a_trace_that_takes_too_long_to_write_leaves_what_was_there() {
     }
 }
 
+/// The job of another picture.
+fn with_depth(job: &Job, depth: u32) -> Job {
+    let mut job = job.clone();
+    job.settings.depth = depth;
+    job
+}
+
+fn set_modified(path: &Path, at: SystemTime) {
+    let file = File::options().write(true).open(path);
+    let changed = file.and_then(|file| file.set_modified(at));
+    changed.expect("it is ours");
+}
+
 #[test]
 fn the_newest_files_are_kept() {
     let (place, first) = (Place::new(), job(1));
     let kept = traced(&first);
-    let with_depth = |depth: u32| {
-        let mut job = first.clone();
-        job.settings.depth = depth;
-        job
-    };
-    let date = |path: &Path, seconds| {
-        let file = File::options().write(true).open(path).expect("a file");
-        let at = SystemTime::UNIX_EPOCH + Duration::from_secs(seconds);
-        file.set_modified(at).expect("it is ours");
+    let path = |depth| place.place(&picture(&with_depth(&first, depth)));
+    let date = |depth: u32| {
+        let at = SystemTime::UNIX_EPOCH + Duration::from_secs(depth.into());
+        set_modified(&path(depth), at);
     };
     for depth in 1..=5 {
-        place.write(&with_depth(depth), &kept);
-        let path = place.place(&picture(&with_depth(depth)));
-        date(&path, u64::from(depth));
+        place.write(&with_depth(&first, depth), &kept);
+        date(depth);
     }
-    let left = |place: &Place| -> Vec<u32> {
-        let is_left = |&depth: &u32| place.read(&picture(&with_depth(depth)), &first).is_some();
-        (1..=7).filter(is_left).collect()
+    let left = || -> Vec<u32> {
+        let read = |&depth: &u32| place.read(&picture(&with_depth(&first, depth)), &first);
+        (1..=7).filter(|depth| read(depth).is_some()).collect()
     };
-    assert_eq!(left(&place), [2, 3, 4, 5]);
+    assert_eq!(left(), [2, 3, 4, 5]);
     // The newest but one is very large, and the others are beyond the limit with it.
-    let large = place.place(&picture(&with_depth(5)));
-    let file = File::options().write(true).open(&large).expect("a file");
+    let file = File::options().write(true).open(path(5)).expect("a file");
     file.set_len(MOST_BYTES - 40_000).expect("it is sparse");
-    date(&large, 5);
-    place.write(&with_depth(6), &kept);
-    let lengths = [6, 5].map(|depth| {
-        let path = place.place(&picture(&with_depth(depth)));
-        path.exists()
-    });
-    assert_eq!(lengths, [true, true]);
+    date(5);
+    place.write(&with_depth(&first, 6), &kept);
+    assert!(path(6).exists() && path(5).exists());
     assert_eq!(place.files().len(), 4);
     file.set_len(MOST_BYTES).expect("it is sparse");
-    date(&large, 5);
-    place.write(&with_depth(7), &kept);
-    assert_eq!(left(&place), [6, 7]);
+    date(5);
+    place.write(&with_depth(&first, 7), &kept);
+    assert_eq!(left(), [6, 7]);
 }
 
 /// The most traces are written, so that the oldest are removed.
@@ -260,9 +237,7 @@ fn overfill(place: &Place) {
     let first = job(1);
     let kept = traced(&first);
     for depth in 1..=MOST as u32 + 2 {
-        let mut job = first.clone();
-        job.settings.depth = depth;
-        place.write(&job, &kept);
+        place.write(&with_depth(&first, depth), &kept);
     }
 }
 
@@ -315,10 +290,9 @@ fn files_of_others_are_neither_removed_nor_replaced() {
 fn a_folder_that_leads_elsewhere_is_not_used() {
     let (place, job) = (Place::new(), job(1));
     place.write(&job, &traced(&job));
-    let folder = place.folder.path().join("halflight/traces");
     let away = place.folder.path().join("away");
-    fs::rename(&folder, &away).expect("it is ours");
-    std::os::unix::fs::symlink(&away, &folder).expect("it is free");
+    fs::rename(place.kept(), &away).expect("it is ours");
+    std::os::unix::fs::symlink(&away, place.kept()).expect("it is free");
     let read = place.traces.read(&picture(&job), &job);
     assert!(matches!(read, Err(Unreadable::Io(_))));
     let written = place.traces.write(&picture(&job), &traced(&job), far());
@@ -333,12 +307,8 @@ fn what_a_crash_left_behind_is_removed_after_an_hour() {
     let name = |digit: &str| place.at(&format!("{}.trace.7.new", digit.repeat(DIGITS)));
     for (digit, hours) in [("a", 0), ("b", 2)] {
         fs::write(name(digit), "halflight trace 2\n").expect("it is new");
-        let file = File::options()
-            .write(true)
-            .open(name(digit))
-            .expect("a file");
-        let at = SystemTime::now() - Duration::from_secs(hours * 3600);
-        file.set_modified(at).expect("it is ours");
+        let age = Duration::from_secs(hours * 3600);
+        set_modified(&name(digit), SystemTime::now() - age);
     }
     overfill(&place);
     assert_eq!([name("a").exists(), name("b").exists()], [true, false]);

@@ -169,12 +169,9 @@ proptest! {
             }
             rig.draw(&buffer);
             for position in buffer.area.positions() {
-                let cell = &buffer[position];
-                prop_assert_eq!(
-                    seen_in_model(&rig.model, position.x, position.y),
-                    seen_in_buffer(cell, depth),
-                    "at {}", position
-                );
+                let seen = seen_in_model(&rig.model, position.x, position.y);
+                let expected = seen_in_buffer(&buffer[position], depth);
+                prop_assert_eq!(seen, expected, "at {}", position);
             }
             prop_assert_eq!(rig.draw(&buffer), b"", "nothing has changed");
             last = buffer;

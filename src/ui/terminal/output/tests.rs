@@ -24,8 +24,11 @@ fn output() -> (Output, UnixStream, Receiver<()>) {
     (output.expect("a thread"), theirs, notices)
 }
 
-fn frame(byte: u8, length: usize) -> Vec<u8> {
-    vec![byte; length]
+/// An output with pending bytes.
+fn pending() -> (Output, UnixStream, Receiver<()>) {
+    let (output, reader, notices) = output();
+    output.send(&vec![b'a'; MUCH]).expect("it waits");
+    (output, reader, notices)
 }
 
 #[test]
@@ -41,28 +44,25 @@ fn bytes_accepted_at_once_need_no_thread() {
 
 #[test]
 fn pending_bytes_follow_in_order() {
-    let (output, mut reader, notices) = output();
-    output.send(&frame(b'a', MUCH)).expect("it waits");
+    let (output, mut reader, notices) = pending();
     assert!(!output.is_clear());
-    output.send(&frame(b'b', MUCH)).expect("it waits as well");
+    output.send(&vec![b'b'; MUCH]).expect("it waits as well");
     let mut read = vec![0; 2 * MUCH];
     reader.read_exact(&mut read).expect("they came");
-    assert_eq!(read, [frame(b'a', MUCH), frame(b'b', MUCH)].concat());
+    assert_eq!(read, [vec![b'a'; MUCH], vec![b'b'; MUCH]].concat());
     notices.recv_timeout(WATCHDOG).expect("all is taken");
     assert!(output.is_clear());
 }
 
 #[test]
 fn the_last_bytes_replace_those_that_are_pending() {
-    let (output, mut reader, _) = output();
-    output.send(&frame(b'a', MUCH)).expect("it waits");
+    let (output, mut reader, _) = pending();
     let read = thread::spawn(move || {
         let mut read = Vec::new();
         reader.read_to_end(&mut read).map(|_| read)
     });
-    output
-        .send_last(b"end", Instant::now() + WATCHDOG)
-        .expect("somebody reads");
+    let last = output.send_last(b"end", Instant::now() + WATCHDOG);
+    last.expect("somebody reads");
     drop(output);
     let read = read.join().expect("no panic").expect("it is readable");
     assert!(read.ends_with(b"aend"));
@@ -71,8 +71,7 @@ fn the_last_bytes_replace_those_that_are_pending() {
 
 #[test]
 fn the_last_bytes_wait_only_until_the_deadline() {
-    let (output, _reader, _) = output();
-    output.send(&frame(b'a', MUCH)).expect("it waits");
+    let (output, _reader, _) = pending();
     let late = output.send_last(b"end", Instant::now());
     assert_eq!(late.map_err(|e| e.kind()), Err(ErrorKind::TimedOut));
 }
@@ -90,16 +89,13 @@ fn nothing_follows_the_last_bytes_of_a_signal_handler() {
     assert_eq!(&read[..count], b"frame");
     reader.set_nonblocking(true).expect("it can be");
     let rest = reader.read(&mut read).map_err(|error| error.kind());
-    assert!(
-        matches!(rest, Ok(0) | Err(ErrorKind::WouldBlock)),
-        "{rest:?}"
-    );
+    let is_end = matches!(rest, Ok(0) | Err(ErrorKind::WouldBlock));
+    assert!(is_end, "{rest:?}");
 }
 
 #[test]
 fn a_closed_end_is_an_error() {
-    let (output, reader, notices) = output();
-    output.send(&frame(b'a', MUCH)).expect("it waits");
+    let (output, reader, notices) = pending();
     drop(reader);
     notices.recv_timeout(WATCHDOG).expect("it fails");
     assert!(output.is_clear());

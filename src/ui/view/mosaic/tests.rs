@@ -28,36 +28,15 @@ const SEXTANT_NAMES: &str = "\
     356 1356 2356 12356 456 1456 2456 12456 3456 13456 23456";
 
 /// Older characters by the halves, quarters and quadrants in their names, as octants.
-const OLDER: [(char, &str); 26] = [
-    (' ', ""),
-    ('█', "12345678"),
-    ('▀', "1234"),
-    ('▄', "5678"),
-    ('▌', "1357"),
-    ('▐', "2468"),
-    ('▂', "78"),
-    ('▆', "345678"),
+const OLDER: &[&str] = &[
+    "█12345678 ▀1234 ▄5678 ▌1357 ▐2468 ▂78 ▆345678",
+    "▘13 ▝24 ▖57 ▗68 ▚1368 ▞2457 ▛123457 ▜123468 ▙135678 ▟245678",
     // UPPER ONE QUARTER BLOCK and UPPER THREE QUARTERS BLOCK
-    ('\u{1fb82}', "12"),
-    ('\u{1fb85}', "123456"),
-    ('▘', "13"),
-    ('▝', "24"),
-    ('▖', "57"),
-    ('▗', "68"),
-    ('▚', "1368"),
-    ('▞', "2457"),
-    ('▛', "123457"),
-    ('▜', "123468"),
-    ('▙', "135678"),
-    ('▟', "245678"),
+    "\u{1fb82}12 \u{1fb85}123456",
     // LEFT and RIGHT HALF UPPER ONE QUARTER BLOCK, then LOWER
-    ('\u{1cea8}', "1"),
-    ('\u{1ceab}', "2"),
-    ('\u{1cea3}', "7"),
-    ('\u{1cea0}', "8"),
+    "\u{1cea8}1 \u{1ceab}2 \u{1cea3}7 \u{1cea0}8",
     // MIDDLE LEFT and MIDDLE RIGHT ONE QUARTER BLOCK
-    ('\u{1fbe6}', "35"),
-    ('\u{1fbe7}', "46"),
+    "\u{1fbe6}35 \u{1fbe7}46",
 ];
 
 /// The pattern of the pixels with these numbers.
@@ -76,17 +55,18 @@ fn block_characters_have_the_pixels_in_their_names() {
             assert_eq!(mosaic.symbol(pattern(name)), character, "{name}");
         }
     }
-    for (character, octants) in OLDER {
-        assert_eq!(Mosaic::Octant.symbol(pattern(octants)), character);
+    for older in OLDER.iter().flat_map(|older| older.split(' ')) {
+        let octants = older.trim_start_matches(|c: char| !c.is_ascii());
+        let symbol = Mosaic::Octant.symbol(pattern(octants));
+        assert_eq!(format!("{symbol}{octants}"), older);
     }
+    assert_eq!(Mosaic::Octant.symbol(pattern("")), ' ');
     // Quadrants are pairs of octants.
     for quadrants in 0..16 {
         let octants = (0..8).filter(|at| quadrants >> (at % 2 + at / 4 * 2) & 1 == 1);
         let octants: usize = octants.map(|at| 1 << at).sum();
-        assert_eq!(
-            Mosaic::Quadrant.symbol(quadrants),
-            Mosaic::Octant.symbol(octants)
-        );
+        let symbol = Mosaic::Quadrant.symbol(quadrants);
+        assert_eq!(symbol, Mosaic::Octant.symbol(octants));
     }
     for (character, sextants) in [(' ', ""), ('▌', "135"), ('▐', "246"), ('█', "123456")] {
         assert_eq!(Mosaic::Sextant.symbol(pattern(sextants)), character);
@@ -102,11 +82,8 @@ fn each_pattern_has_a_character_of_its_own_one_column_wide() {
     ] {
         let symbols: BTreeSet<_> = (0..patterns).map(|at| mosaic.symbol(at)).collect();
         assert_eq!(symbols.len(), patterns, "{mosaic:?}");
-        let mut symbols = symbols.into_iter();
-        assert!(
-            symbols.all(|symbol| symbol.width() == Some(1)),
-            "{mosaic:?}"
-        );
+        let mut widths = symbols.iter().map(|symbol| symbol.width());
+        assert!(widths.all(|width| width == Some(1)), "{mosaic:?}");
     }
 }
 
@@ -155,9 +132,8 @@ fn least_error(pixels: &[[u8; 3]], count: usize) -> f64 {
             let squares = (0..3).flat_map(|channel| {
                 let sum: f64 = members.iter().map(|pixel| pixel[channel]).sum();
                 let mean = sum / members.len() as f64;
-                members
-                    .iter()
-                    .map(move |pixel| (pixel[channel] - mean).powi(2))
+                let offs = members.iter().map(move |pixel| pixel[channel] - mean);
+                offs.map(|off| off.powi(2))
             });
             squares.sum::<f64>()
         };
@@ -182,25 +158,16 @@ fn no_division_of_a_cell_comes_closer() {
             let pattern = (0..1 << count).find(|&at| mosaic.symbol(at) == tile.symbol);
             let pattern = pattern.expect("a character of the mosaic");
             let error = |at: usize| -> f64 {
-                let shown = if pattern >> at & 1 == 1 {
-                    tile.ink
-                } else {
-                    tile.paper
-                };
-                let squares = shown
-                    .iter()
-                    .zip(pixels[at])
-                    .map(|(shown, wanted)| f64::from(shown.abs_diff(wanted)).powi(2));
-                squares.sum()
+                let is_ink = pattern >> at & 1 == 1;
+                let shown = if is_ink { tile.ink } else { tile.paper };
+                let offs = (0..3).map(|channel| shown[channel].abs_diff(pixels[at][channel]));
+                offs.map(|off| f64::from(off).powi(2)).sum()
             };
             let found: f64 = (0..count).map(error).sum();
             // Means are rounded to whole levels: up to half a level in three channels of each pixel.
             let rounding = f64::from(ROUNDING) + 0.75 * count as f64;
             let best = least_error(&pixels, count);
-            assert!(
-                found <= best + rounding,
-                "{mosaic:?}: {found}, but {best} is possible"
-            );
+            assert!(found <= best + rounding, "{mosaic:?}: {found}, not {best}");
         }
     }
 }
