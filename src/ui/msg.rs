@@ -29,7 +29,7 @@ use crate::scene::Viewpoint;
 pub enum Target {
     /// The preview beside the list.
     Preview,
-    /// The full-size trace started by F5.
+    /// The full-size trace.
     Trace,
     /// An export, traced in the background.
     Export,

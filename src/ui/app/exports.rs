@@ -72,42 +72,13 @@ pub(crate) fn export_default(shared: &mut Shared) -> Vec<Effect> {
     export(shared, ExportOrder::default(), Asking::Yes)
 }
 
-/// Exports what is seen.
+/// Exports the scene as it is seen, after the exports that were started before.
 pub(crate) fn export(shared: &mut Shared, order: ExportOrder, asking: Asking) -> Vec<Effect> {
-    let ExportOrder { path, size, spp } = order;
-    let path = path.unwrap_or_else(|| export_path(shared));
-    start_export(shared, &path, size, spp, asking)
-}
-
-/// The scene's path with a picture's extension, distinct for each AOV so that they don't
-/// overwrite each other.
-pub(crate) fn export_path(shared: &Shared) -> PathBuf {
-    let extension = shared
-        .pictures
-        .aov
-        .map_or_else(|| "bmp".to_owned(), |aov| format!("{}.bmp", aov.name()));
-    let scene = shared
-        .disk
-        .path
-        .as_deref()
-        .unwrap_or_else(|| Path::new("halflight"));
-    scene.with_extension(extension)
-}
-
-/// Exports the scene as currently seen, after the exports that were started before. Unless
-/// forced, files written by others are kept.
-fn start_export(
-    shared: &mut Shared,
-    path: &Path,
-    size: Option<Size>,
-    spp: Option<u32>,
-    asking: Asking,
-) -> Vec<Effect> {
-    let size = size.unwrap_or_else(|| shared.output());
-    let spp = shared
-        .pictures
-        .samples(spp.unwrap_or_else(|| shared.rendering().spp()));
-    let job = match export_job(shared, path, size, spp) {
+    let path = order.path.unwrap_or_else(|| export_path(shared));
+    let size = order.size.unwrap_or_else(|| shared.output());
+    let spp = order.spp.unwrap_or_else(|| shared.rendering().spp());
+    let spp = shared.pictures.samples(spp);
+    let job = match export_job(shared, &path, size, spp) {
         Ok(job) => job,
         Err(reason) => {
             shared.refuse_picture(Severity::Error, &reason);
@@ -119,11 +90,11 @@ fn start_export(
         id: shared.jobs.next_export(),
         stage: Stage::Tracing,
         destination: Destination {
-            path: path.to_owned(),
+            origin: origin_in(shared, &path),
+            path: path.clone(),
             existing: asking.existing(),
             scene: shared.disk.path.clone(),
             named: shared.assets.files().to_vec(),
-            origin: origin_in(shared, path),
         },
         size,
         spp,
@@ -139,7 +110,7 @@ fn start_export(
         Some(frame) => ExportWork::Write(frame),
         None => ExportWork::Trace(Box::new(Job { camera, ..job })),
     };
-    announce_export(shared, export.aov, path);
+    announce_export(shared, export.aov, &path);
     begin_or_queue(
         shared,
         Pending {
@@ -294,6 +265,16 @@ pub(crate) fn answer_taken(shared: &mut Shared, existing: Existing) -> Vec<Effec
     pending.export.destination.existing = existing;
     pending.asking = Asking::No;
     begin_or_queue(shared, pending)
+}
+
+/// The scene's path with a picture's extension, distinct for each AOV so that they don't
+/// overwrite each other.
+pub(crate) fn export_path(shared: &Shared) -> PathBuf {
+    let aov = shared.pictures.aov;
+    let extension = aov.map_or_else(|| "bmp".to_owned(), |aov| format!("{}.bmp", aov.name()));
+    let scene = shared.disk.path.as_deref();
+    let scene = scene.unwrap_or_else(|| Path::new("halflight"));
+    scene.with_extension(extension)
 }
 
 /// What a picture to be written there is made from, if its file says that.

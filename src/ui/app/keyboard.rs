@@ -1,4 +1,4 @@
-//! The keyboard.
+//! Keys: typed into the line that is open, otherwise what they are bound to in the present context.
 
 use crossterm::event::{KeyCode, KeyEvent, KeyModifiers};
 use tui_input::Input;

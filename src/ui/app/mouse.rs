@@ -1,4 +1,4 @@
-//! The mouse.
+//! The mouse: what it does in all modes; the rest is offered to the rooms.
 
 use std::time::Duration;
 

@@ -4,7 +4,7 @@
 /// names of their sections of keys, and the keys that lead there.
 macro_rules! modes {
     ($($(#[$doc:meta])* $mode:ident, $name:literal, $section:literal, $entry:expr;)+) => {
-        /// Meaning of the keys, always shown in the status line.
+        /// The meaning of the keys, shown in the status line once a scene is open.
         #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
         pub enum Mode {
             $($(#[$doc])* $mode,)+
@@ -123,9 +123,9 @@ contexts! {
     Recent, "recent", "the list of recent scenes";
     /// The page of the undo history.
     History, "history", "the undo history";
-    /// The history of messages is open.
+    /// The page of the messages so far.
     Messages, "messages", "the messages so far";
-    /// The help page is open.
+    /// The help page.
     Help, "help", "this page";
     /// The question how to resolve a merge.
     Conflict, "conflict", "merge conflicts";
@@ -137,8 +137,8 @@ contexts! {
     Leave, "leave", "when asked to confirm leaving the scene";
     /// The question whether to leave although the saved text lacks the moved view.
     MovedView, "moved-view", "when asked to leave a moved view";
-    /// The question whether to quit although a file is being written.
-    Wait, "wait", "when asked to quit during an export";
+    /// The question whether to quit although a file is being saved or exported.
+    Wait, "wait", "when asked to quit during a save or an export";
     /// The question whether an export may overwrite a file.
     Overwrite, "overwrite", "when asked to overwrite a picture";
     /// The question whether to recover the edits of an earlier run.

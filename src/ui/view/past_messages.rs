@@ -1,4 +1,4 @@
-//! The history of messages, a page over the picture.
+//! The page of the messages so far.
 
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;

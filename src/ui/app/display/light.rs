@@ -1,4 +1,5 @@
-//! What pictures show, and how light is displayed: views, light components, exposure.
+//! What pictures show, light, a component of it, an AOV or wires, and how light is displayed: exposure,
+//! transfer, false colours, the histogram.
 
 use std::sync::Arc;
 

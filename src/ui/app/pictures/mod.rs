@@ -28,7 +28,7 @@ use crate::scene::{Camera, Integrator, Rendering, Scene, Size};
 use crate::ui::keymap::Mode;
 use crate::ui::msg::Target;
 
-/// The preview and the full-size trace.
+/// The pictures on screen, what they show and how: the preview, the full-size trace, and what is compared.
 #[derive(Debug)]
 pub struct Pictures {
     /// The preview beside the list, restarted at each change.
@@ -59,7 +59,7 @@ pub struct Pictures {
     pub net: Option<usize>,
     /// Whether the pictures must be traced again.
     pub(crate) due: bool,
-    /// Whether they were found to do so in this step.
+    /// Whether that was found in this step, so that everything traced from the scene starts again.
     pub(crate) has_changed: bool,
     /// What the preview shows alone.
     pub solo: Option<Solo>,
@@ -223,8 +223,8 @@ impl Pictures {
         self.before_trace = Some(mode);
     }
 
-    /// The mode to return to from the full-size trace.
-    pub(crate) fn mode_before(&mut self) -> Mode {
+    /// Takes the mode to return to from the full-size trace.
+    pub(crate) fn take_mode_before_trace(&mut self) -> Mode {
         self.before_trace.take().unwrap_or(Mode::Select)
     }
 

@@ -43,7 +43,7 @@ pub struct Message {
     pub text: String,
 }
 
-/// The messages that are not in the status line.
+/// The messages that wait, those of the session so far, and how long the one in the status line lasts.
 #[derive(Debug, Default)]
 pub struct Messages {
     /// Messages that came while another was shown, the next one first: errors before others.
