@@ -107,8 +107,8 @@ scripts! {
 
     a_zoomed_preview_is_traced_at_its_scale: ray().play(r"
         :zoom 1:2<Enter> | does trace preview | job size 400x300 region 157,118,87,65
-        :zoom 1:1<Enter> | does trace preview | job size 800x600 region …,87,65
-        :zoom 8<Enter>   | does trace preview | job size 800x600 region …,11,9
+        :zoom 1:1<Enter> | does trace preview | job size 800x600 region 357,268,87,65
+        :zoom 8<Enter>   | does trace preview | job size 800x600 region 395,296,11,9
         :zoom fit<Enter> | does trace preview | job size 87x65 region none
         :zoom 3<Enter>   | not does | says …a power of two…
     ");
