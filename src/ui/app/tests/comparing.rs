@@ -115,8 +115,8 @@ scripts! {
             :compare git --help<Enter>   | --help is not a revision
         ");
         ray().opened(|opening| opening.path = None).play(r"
-            :compare saved<Enter> | says the scene has no file yet: :w FILE
-            :compare HEAD<Enter>  | says the scene has no file yet: :w FILE
+            :compare saved<Enter> | says this scene has no file yet: use :w FILE to create one
+            :compare HEAD<Enter>  | says this scene has no file yet: use :w FILE to create one
         ");
     };
 

@@ -46,7 +46,7 @@ pub(super) const ROWS: &str = r#"
     add sphere | object 1 | asphere<Enter> | {shift} +> \s   </object>\n    <object type="sphere" name="sphere" material="m">{place}
     add plane | object 1 | aplane<Enter> | {shift} +> \s   </object>\n    <object type="plane" name="plane" material="m">{place}
     add mesh | object 1 | amesh<Enter>a.obj<Enter> | {shift} +> \s   </object>\n    <object type="obj" name="a.obj">{place}
-    :mesh | object 1 | :mesh<Enter> | says name the mesh: mesh FILE.obj
+    :mesh | object 1 | :mesh<Enter> | says name the mesh: :mesh FILE.obj
     :mesh | object 1 | :mesh b.obj<Enter> | {shift} +> \s   </object>\n    <object type="obj" name="b.obj">{place}
     add group | object 1 | agroup<Enter>
         | {shift} +> \s   </object>\n    <object name="group">\n      <translate x="0" y="0" z="0"/>\n
