@@ -193,31 +193,15 @@ mod tests {
         let from = SCENE.find("box").expect("a box");
         let without_box = SCENE[..from].replacen("\n2\n", "\n1\n", 1);
         let moved_box = but("box 0 0 0", "box 0 0 7");
-        for (mine, theirs, decision, parts) in [
-            (
-                &but(" 0.25 //", " 0.5 //"),
-                &but(" 0.25 //", " 0.75 //"),
-                Some(Side::Theirs),
-                [
-                    "object 1 (sphere) radius (line 6):",
-                    "○ mine 0.5",
-                    "● file 0.75",
-                ],
-            ),
-            (
-                &moved_box,
-                &without_box,
-                None,
-                ["object 2 (box)", "○ mine box", "○ file (deleted)"],
-            ),
+        let (smaller, larger) = (but(" 0.25 //", " 0.5 //"), but(" 0.25 //", " 0.75 //"));
+        for (mine, theirs, decision, parts) in table! {
+            &smaller, &larger, Some(Side::Theirs) =>
+                ["object 1 (sphere) radius (line 6):", "○ mine 0.5", "● file 0.75"];
+            &moved_box, &without_box, None =>
+                ["object 2 (box)", "○ mine box", "○ file (deleted)"];
             // What was deleted here is not named after what precedes it.
-            (
-                &without_box,
-                &moved_box,
-                None,
-                ["▸ line ", "○ mine (deleted)", "○ file box"],
-            ),
-        ] {
+            &without_box, &moved_box, None => ["▸ line ", "○ mine (deleted)", "○ file box"];
+        } {
             let mut app = app();
             retype(&mut app, SCENE, mine);
             ask(&mut app, theirs, decision);
