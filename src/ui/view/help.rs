@@ -22,9 +22,10 @@ pub(super) fn render(shared: &Shared, page: &Page, area: Rect, buffer: &mut Buff
     let longest = columns.iter().map(Vec::len).max().unwrap_or(0);
     let top = page.filter.at.min(longest.saturating_sub(rows));
     let last = (top + rows).min(longest);
-    let lines = match top < last {
-        true => format!(" {}–{last} of {longest} ", top + 1),
-        false => String::new(),
+    let lines = if top < last {
+        format!(" {}–{last} of {longest} ", top + 1)
+    } else {
+        String::new()
     };
     let inner = page::frame(" Keys ", &lines, place, buffer);
     let (body, search) = layout::split_bottom(inner, 1);

@@ -60,7 +60,7 @@ pub(crate) fn drag_to_pan(shared: &mut Shared, from: (u16, u16), at: (u16, u16))
 /// Moves the camera by some notches of the wheel, forward if positive.
 pub(crate) fn wheel(shared: &mut Shared, steps: i8) {
     match shared.mode {
-        Mode::Fly => move_camera(shared, |now| advanced(now, steps.into())),
-        _ => move_camera(shared, |now| dollied(now, steps.into())),
+        Mode::Fly => move_camera(shared, |now| advanced(now, steps)),
+        _ => move_camera(shared, |now| dollied(now, steps)),
     }
 }

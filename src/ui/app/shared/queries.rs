@@ -87,9 +87,12 @@ impl Shared {
             }),
             None if overlays.menu.is_some() => Some(Line::Menu),
             None if self.cursor.typing.is_some() => Some(Line::Value),
-            None => page.map(|page| match page.is_read() {
-                true => Line::Search,
-                false => Line::Rows,
+            None => page.map(|page| {
+                if page.is_read() {
+                    Line::Search
+                } else {
+                    Line::Rows
+                }
             }),
         }
     }
