@@ -39,7 +39,7 @@ const LONG: &[(&str, usize)] = &[
     ("src/render/tile.rs", 503),
     ("src/ui/recovery/tests.rs", 502),
     ("src/ui/view/status.rs", 565),
-    ("src/ui/view/tests.rs", 552),
+    ("src/ui/view/tests.rs", 551),
 ];
 
 /// The lines of code of each room over a thousand, without comments and tests, rounded up to hundreds.
@@ -58,7 +58,7 @@ const ROOMS: &[(&str, usize)] = &[
     ("scene", 1300),
     ("track", 1600),
     // Each room lists what others may call, and each function the state it changes.
-    ("ui", 32200),
+    ("ui", 31300),
 ];
 
 /// The most methods on the interface's state; everything else is a function in the room that does it.
