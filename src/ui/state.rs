@@ -20,9 +20,9 @@ use std::path::{Path, PathBuf};
 use std::process;
 
 #[cfg(not(unix))]
-use plain::{FolderHandle, suspicion};
+use plain::{FolderHandle, Missing, at, suspicion};
 #[cfg(unix)]
-use unix::{FolderHandle, suspicion};
+use unix::{FolderHandle, Missing, at, suspicion};
 
 /// What is kept, each in a folder of its own.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -51,13 +51,6 @@ impl Part {
         path.extend(self.names());
         path
     }
-}
-
-/// What to do about a missing folder.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Missing {
-    Made,
-    Refused,
 }
 
 const NOT_REGULAR: &str = "is not a regular file";
@@ -225,11 +218,6 @@ impl Folder {
     pub(crate) fn place(&self, name: &str) -> PathBuf {
         self.path.join(name)
     }
-}
-
-/// Adds the path to an error.
-fn at(path: &Path, error: &io::Error) -> io::Error {
-    io::Error::new(error.kind(), format!("{}: {error}", path.display()))
 }
 
 #[cfg(test)]

@@ -15,7 +15,7 @@ use super::claim::Claim;
 use super::identity::Identity;
 use super::journal::{Edits, Journal};
 use super::offer::look_in;
-use super::{Found, Offer, Sought, Way, missing, record};
+use super::{Found, Offer, Sought, Way, missing, note_for_missing, record};
 use crate::document::{Document, Snapshot};
 use crate::language::Language;
 use crate::ui::state::{Folder, Part};
@@ -324,10 +324,7 @@ fn edits_of_a_missing_file_are_found() {
     assert!(named(&note()));
     fs::write(place.journal(0), "damaged").expect("it is ours");
     assert_eq!(base(), None);
-    assert!(named(&missing::note_for_missing(
-        &place.state,
-        &place.scene()
-    )));
+    assert!(named(&note_for_missing(&place.state, &place.scene())));
 }
 
 /// A journal in parts: the head with the base, and edits.

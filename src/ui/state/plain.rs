@@ -4,7 +4,12 @@ use std::fs::{self, File, Metadata, OpenOptions};
 use std::io;
 use std::path::Path;
 
-use super::Missing;
+/// What to do about a missing folder.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Missing {
+    Made,
+    Refused,
+}
 
 #[derive(Debug)]
 pub(super) struct FolderHandle;
@@ -50,4 +55,9 @@ impl FolderHandle {
 
 pub(super) fn suspicion(_: &Metadata) -> Option<&'static str> {
     None
+}
+
+/// Adds the path to an error.
+pub(super) fn at(path: &Path, error: &io::Error) -> io::Error {
+    io::Error::new(error.kind(), format!("{}: {error}", path.display()))
 }

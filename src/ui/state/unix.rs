@@ -13,8 +13,14 @@ use rustix::fs::{
 use rustix::io::Errno;
 use rustix::process::geteuid;
 
-use super::{Missing, at};
 use crate::text::shell_path;
+
+/// What to do about a missing folder.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Missing {
+    Made,
+    Refused,
+}
 
 /// The write permissions of the group and of others.
 const WRITABLE: Mode = Mode::WGRP.union(Mode::WOTH);
@@ -150,4 +156,9 @@ fn obstacle(folder: impl AsFd, name: &str, path: &Path, error: Errno) -> io::Err
 
 fn refusal(reason: String) -> io::Error {
     io::Error::new(io::ErrorKind::PermissionDenied, reason)
+}
+
+/// Adds the path to an error.
+pub(super) fn at(path: &Path, error: &io::Error) -> io::Error {
+    io::Error::new(error.kind(), format!("{}: {error}", path.display()))
 }
