@@ -60,7 +60,7 @@ pub(crate) fn move_cursor_in(shared: &mut Shared, context: Context, rows: isize)
 fn page(shared: &Shared) -> isize {
     let areas = shared.areas();
     let panel = match shared.context() {
-        Context::Help => return (shared.help_rows() as isize - 1).max(1),
+        Context::Help => return (help_rows(shared) as isize - 1).max(1),
         Context::Rays => inspect::ray_panels(shared).map_or(areas.list, |panels| panels.lines),
         Context::Errors => areas.errors,
         Context::History => return history::step_rows(shared),
@@ -68,6 +68,13 @@ fn page(shared: &Shared) -> isize {
         _ => areas.list,
     };
     (layout::contents(panel).height as isize - 1).max(1)
+}
+
+/// The lines of the help page, inside its frame and above its search.
+pub(crate) fn help_rows(shared: &Shared) -> usize {
+    let areas = shared.areas();
+    let outside = areas.hint.height + areas.status.height + 3;
+    usize::from(shared.terminal.1.saturating_sub(outside))
 }
 
 /// Opens the list of errors and warnings, or closes it.

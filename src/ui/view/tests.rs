@@ -141,12 +141,8 @@ pub(super) fn inked<S, R>(
     panel: impl Fn(&S, &mut Inks, Rect, &mut Buffer) -> R,
 ) -> impl Fn(&S, Rect, &mut Buffer) {
     move |state: &S, area, buffer: &mut Buffer| {
-        panel(
-            state,
-            &mut Inks::for_depth(ColourDepth::TrueColour),
-            area,
-            buffer,
-        );
+        let inks = &mut Inks::for_depth(ColourDepth::TrueColour);
+        panel(state, inks, area, buffer);
     }
 }
 

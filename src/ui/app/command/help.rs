@@ -1,7 +1,7 @@
 //! The lines of the help page.
 
 use super::rows::ROWS;
-use crate::ui::app::Shared;
+use crate::ui::app::{Shared, list};
 use crate::ui::keymap::{self, Context, HelpLine};
 
 /// Minimum width of a column of the help page if there are several.
@@ -33,7 +33,7 @@ pub(crate) fn scroll_help(shared: &mut Shared) {
     }
     let columns = help_columns(shared, shared.terminal.0);
     let longest = columns.iter().map(Vec::len).max().unwrap_or(0);
-    let last = longest.saturating_sub(shared.help_rows());
+    let last = longest.saturating_sub(list::help_rows(shared));
     if let Some(help) = shared.overlays.page_mut(Context::Help) {
         help.filter.at = help.filter.at.min(last);
     }

@@ -63,7 +63,7 @@ fn show_change(shared: &mut Shared, before: &Nodes, changed: Option<Span>) {
 /// Selects what an undone or redone change of several places was about.
 fn select_restructured(shared: &mut Shared) {
     let span = shared.document.longest_change();
-    let written = shared.first_node_in(span);
+    let written = text::first_node_in(shared, span);
     if let Some(node) = written.or_else(|| shared.source().node_at(span)) {
         shared.select(node);
     }

@@ -272,7 +272,7 @@ pub(crate) fn restructure(
     match outcome {
         Ok(placed) => {
             shared.cursor.marks.clear();
-            if let Some(node) = placed.and_then(|span| shared.first_node_in(span)) {
+            if let Some(node) = placed.and_then(|span| text::first_node_in(shared, span)) {
                 shared.select(node);
             }
             let selected = shared.source().name(shared.cursor.selected());

@@ -15,7 +15,7 @@ use crate::language::table::Field;
 use crate::language::{Node, Nodes, Source};
 use crate::render::Region;
 use crate::scene::{Camera, Rendering, Scene, Size};
-use crate::text::{Span, counted};
+use crate::text::counted;
 use crate::ui::app::pictures::frame_window::{Marked, Reason};
 use crate::ui::app::pictures::picture::Picture;
 use crate::ui::app::pictures::region::Drawing;
@@ -307,21 +307,6 @@ impl Shared {
         wireframe.filter(|_| self.seen() == Target::Preview)
     }
 
-    /// The first node, other than view and render settings, whose text is in a span, or what combines it there.
-    pub(crate) fn first_node_in(&self, span: Span) -> Option<Node> {
-        let source = self.source();
-        let mut nodes = source.nodes_in(span).into_iter();
-        let mut node = nodes.find(|node| !matches!(node, Node::View | Node::Render))?;
-        let is_inside = |own: Span| span.start() <= own.start() && own.end() <= span.end();
-        while let Node::Object(object) = node
-            && let Some(group) = source.group_of(object).map(Node::Object)
-            && is_inside(source.span(group))
-        {
-            node = group;
-        }
-        Some(node)
-    }
-
     /// The marked nodes, otherwise the selected one.
     pub(crate) fn targets(&self) -> Vec<Node> {
         if self.cursor.marks.is_empty() {
@@ -396,12 +381,5 @@ impl Shared {
         };
         let saved = self.source().saved_views();
         !saved.iter().any(|saved| saved.camera(&own) == view)
-    }
-
-    /// The lines of the help page, inside its frame and above its search.
-    pub(crate) fn help_rows(&self) -> usize {
-        let areas = self.areas();
-        let outside = areas.hint.height + areas.status.height + 3;
-        usize::from(self.terminal.1.saturating_sub(outside))
     }
 }

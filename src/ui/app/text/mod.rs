@@ -18,7 +18,7 @@ pub(crate) use inputs::{follow_input, merge_input, note_before_input};
 pub(crate) use live_editing::{
     begin_live_edit, end_live_edit, keep_live_edit, leaves_live_edit, take_merged, try_instead,
 };
-pub(crate) use naming::{done, error_place, name_of_places, place_name};
+pub(crate) use naming::{done, error_place, first_node_in, name_of_places, place_name};
 pub(crate) use setting::{
     SettingOrder, next_integrator, redo_text, set_rendering, set_size, undo_text, write_setting,
 };

@@ -99,6 +99,21 @@ fn name_in(source: &Source, node: Node, spans: &[Span]) -> String {
     }
 }
 
+/// The first node, other than view and render settings, whose text is in a span, or what combines it there.
+pub(crate) fn first_node_in(shared: &Shared, span: Span) -> Option<Node> {
+    let source = shared.source();
+    let mut nodes = source.nodes_in(span).into_iter();
+    let mut node = nodes.find(|node| !matches!(node, Node::View | Node::Render))?;
+    let is_inside = |own: Span| span.start() <= own.start() && own.end() <= span.end();
+    while let Node::Object(object) = node
+        && let Some(group) = source.group_of(object).map(Node::Object)
+        && is_inside(source.span(group))
+    {
+        node = group;
+    }
+    Some(node)
+}
+
 /// The name of a step that makes these edits of the present text, if they set one field.
 pub(super) fn name_of_value(shared: &Shared, edits: &[Edit]) -> Option<StepName> {
     let text = shared.document.text();
