@@ -8,7 +8,6 @@ use ratatui::widgets::{Clear, Widget};
 use super::Inks;
 use super::row::{Row, put_at, title};
 use crate::compare::{Comparison, Difference};
-use crate::text::counted;
 use crate::ui::app::{App, Compare, compare};
 use crate::ui::theme;
 
@@ -52,24 +51,8 @@ pub(super) fn render(app: &App, inks: &mut Inks, area: Rect, buffer: &mut Buffer
     worst(app, found, &mut lines, inks);
 }
 
-/// Adds what is seen of the pictures that are compared and, without a panel, how they differ.
-pub(super) fn chips(app: &App, say: &mut impl FnMut(u8, String, Style)) {
-    let view = app.compare.view.name().to_uppercase();
-    say(1, format!(" {view} "), theme::chip(theme::ACCENT));
-    if let Some(unlike) = compare::unlike(&app.compare, &app.shared) {
-        say(3, unlike, theme::WARNING);
-    }
-    if let Some(found) = app.compare.figures()
-        && app.shared.areas().list.is_empty()
-    {
-        let (psnr, flip) = (found.psnr(), found.flip);
-        let differing = counted(found.differing, "pixel");
-        let text = format!("{differing} differ, {psnr:.2} dB, FLIP {flip:.5}");
-        say(6, text, figures_style(&app.compare));
-    }
-}
-
-fn figures_style(compared: &Compare) -> Style {
+/// The style of how the pictures differ: figures that may still change are dim.
+pub(super) fn figures_style(compared: &Compare) -> Style {
     let are_final = compared.are_figures_final();
     (!are_final).then_some(theme::DIM).unwrap_or_default()
 }

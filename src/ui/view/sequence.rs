@@ -6,7 +6,6 @@ use ratatui::style::Style;
 
 use super::row::{self, Row};
 use crate::ui::app::{App, DopeSheet, OpenTrack};
-use crate::ui::keymap::Mode;
 use crate::ui::theme;
 
 /// Draws the sheet of the open track.
@@ -65,22 +64,5 @@ fn cursor(sheet: &DopeSheet, open: &OpenTrack, lines: u16, buffer: &mut Buffer) 
             }
             cell.set_style(theme::CURSOR);
         }
-    }
-}
-
-/// Adds the frame that is shown, or that values are keyed at, to the status line.
-pub(super) fn chips(app: &App, say: &mut impl FnMut(u8, String, Style)) {
-    let Some(open) = &app.sequence.open else {
-        return;
-    };
-    if app.shared.mode == Mode::Sequence {
-        let playing = if open.is_playing { "▶ " } else { "" };
-        let text = format!(" {playing}frame {}/{} ", open.frame, open.last());
-        say(1, text, theme::chip(theme::ACCENT));
-    } else {
-        say(12, format!("frame {}", open.frame), theme::DIM);
-    }
-    if open.is_refused {
-        say(3, "[track refused]".to_owned(), theme::WARNING);
     }
 }
