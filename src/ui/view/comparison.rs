@@ -6,7 +6,7 @@ use ratatui::style::Style;
 use ratatui::widgets::{Clear, Widget};
 
 use super::Inks;
-use super::row::{Row, put_at, title};
+use super::row::{Focus, Row, put_at, title};
 use crate::compare::{Comparison, Difference};
 use crate::ui::app::{App, Compare, compare};
 use crate::ui::theme;
@@ -18,7 +18,7 @@ const NAMES: u16 = 11;
 pub(super) fn render(app: &App, inks: &mut Inks, area: Rect, buffer: &mut Buffer) {
     Clear.render(area, buffer);
     let (compared, view) = (&app.compare, app.compare.view.name());
-    title("comparison", &view, Some(theme::ACCENT), area, buffer);
+    title("comparison", &view, Focus::Here, area, buffer);
     let mut lines = Lines {
         area,
         at: 1,

@@ -4,7 +4,7 @@ use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 use ratatui::style::Style;
 
-use super::row::{self, Row};
+use super::row::{self, Focus, Row};
 use crate::ui::app::{App, DopeSheet, OpenTrack};
 use crate::ui::theme;
 
@@ -15,7 +15,7 @@ pub(crate) fn render(app: &App, area: Rect, buffer: &mut Buffer) {
     };
     let seconds = f64::from(open.frame) / f64::from(open.rate());
     let right = format!("{seconds:.2} s, {} fps", open.rate());
-    row::title(&open.name(), &right, Some(theme::ACCENT), area, buffer);
+    row::title(&open.name(), &right, Focus::Here, area, buffer);
     let sheet = DopeSheet::new(area, open.last());
     let rows: Vec<_> = open.track.rows().collect();
     let lines = usize::from(sheet.names.height);
