@@ -8,29 +8,32 @@ use crate::ui::msg::{Destination, Existing, ExportId, Msg};
 
 /// Why a picture is not written.
 #[derive(Debug, PartialEq, Eq)]
-pub(super) struct Refused {
-    pub(super) reason: String,
-    /// Whether the only obstacle is a file that others wrote.
-    pub(super) is_taken: bool,
+pub(super) enum Refused {
+    /// The only obstacle is a file that others wrote.
+    Taken(String),
+    /// It could not be written even over that file.
+    Impossible(String),
 }
 
 impl Refused {
     /// What to report of an export.
     pub(super) fn report(self, id: ExportId) -> Msg {
-        if self.is_taken {
-            Msg::Taken(id, self.reason)
-        } else {
-            Msg::Exported(id, Err(self.reason))
+        match self {
+            Self::Taken(reason) => Msg::Taken(id, reason),
+            Self::Impossible(reason) => Msg::Exported(id, Err(reason)),
         }
+    }
+
+    /// The reason in words.
+    pub(super) fn reason(&self) -> &str {
+        let (Self::Taken(reason) | Self::Impossible(reason)) = self;
+        reason
     }
 }
 
 impl From<String> for Refused {
     fn from(reason: String) -> Self {
-        Self {
-            reason,
-            is_taken: false,
-        }
+        Self::Impossible(reason)
     }
 }
 
@@ -100,13 +103,10 @@ pub(super) fn check_target_of(named: &Path, to: &Destination) -> Result<(), Refu
         Existing::Own(_) | Existing::Overwritten => None,
     };
     if let Some(reason) = reason.filter(|_| path.symlink_metadata().is_ok()) {
-        return Err(Refused {
-            reason: format!(
-                "{shown} {reason}: use :export! {} to overwrite it",
-                named.display()
-            ),
-            is_taken: true,
-        });
+        let named = named.display();
+        return Err(Refused::Taken(format!(
+            "{shown} {reason}: use :export! {named} to overwrite it"
+        )));
     }
     file::check_target(path).map_err(|error| format!("{shown}: {error}").into())
 }
@@ -129,7 +129,10 @@ mod tests {
                 origin: None,
             };
             let refused = check_target(&to).expect_err("one file");
-            assert!(refused.reason.contains("the scene uses it"), "{refused:?}");
+            assert!(
+                refused.reason().contains("the scene uses it"),
+                "{refused:?}"
+            );
         }
     }
 
@@ -152,7 +155,7 @@ mod tests {
         assert_eq!(check_target(&to(Existing::Kept)), Ok(()));
         std::fs::write(&path, "").expect("the folder is new");
         let refused = check_target(&to(Existing::Kept)).expect_err("it exists");
-        assert!(refused.reason.contains(":export! "), "{refused:?}");
+        assert!(refused.reason().contains(":export! "), "{refused:?}");
         assert_eq!(check_target(&to(Existing::Overwritten)), Ok(()));
         let exported = Version::of(&path).expect("a file");
         assert_eq!(check_target(&to(Existing::Own(exported))), Ok(()));
@@ -160,7 +163,7 @@ mod tests {
         let refused = check_target(&to(Existing::Own(exported))).expect_err("it was changed");
         assert!(
             refused
-                .reason
+                .reason()
                 .contains("has changed since it was exported: use :export! "),
             "{refused:?}"
         );
@@ -184,7 +187,7 @@ mod tests {
             };
             let refused = check_target(&to).expect_err("one file");
             assert!(
-                refused.reason.contains("is the scene itself"),
+                refused.reason().contains("is the scene itself"),
                 "{refused:?}"
             );
         }
