@@ -132,12 +132,10 @@ impl Token {
             }
             Self::Word(word, span) => (word, span),
         };
-        if let Some(command) = COMMANDS.iter().find(|command| command.name == word) {
-            let step = match &command.takes {
+        if let Some((name, takes)) = COMMANDS.iter().find(|(name, _)| *name == word) {
+            let step = match takes {
                 Takes::Nothing(step) => step.clone(),
-                Takes::Argument { expected, read } => {
-                    tokens.argument(span, command.name, expected, read)?
-                }
+                Takes::Argument(expected, read) => tokens.argument(span, name, expected, read)?,
             };
             return Ok(vec![step]);
         }
@@ -150,62 +148,43 @@ impl Token {
     }
 }
 
-/// A command of scripts, which is no key.
-struct Command {
-    name: &'static str,
-    takes: Takes,
-}
-
 /// What follows the name of a command.
 enum Takes {
     /// Nothing: the name alone is this step.
     Nothing(Step),
-    /// An argument, which is read to the step.
-    Argument {
-        expected: &'static str,
-        read: fn(&str) -> Option<Step>,
-    },
+    /// An argument: what is expected, and how it is read.
+    Argument(&'static str, fn(&str) -> Option<Step>),
 }
 
-const COMMANDS: [Command; 5] = [
-    Command {
-        name: "wait",
-        takes: Takes::Nothing(Step::Wait),
-    },
-    Command {
-        name: "dump",
-        takes: Takes::Argument {
-            expected: "a file that ends in .txt, .ansi or .png",
-            read: |file| {
-                let file = PathBuf::from(file);
-                Format::of_path(&file).map(|format| Step::Dump(file, format))
-            },
-        },
-    },
-    Command {
-        name: "paste",
-        takes: Takes::Argument {
-            expected: "a text in quotation marks",
-            read: |text| Some(Step::Paste(text.to_owned())),
-        },
-    },
-    Command {
-        name: "click",
-        takes: Takes::Argument {
-            expected: "a cell COLUMN,ROW from 0",
-            read: |cell| {
-                let (column, row) = cell.split_once(',')?;
-                Some(Step::Click(column.parse().ok()?, row.parse().ok()?))
-            },
-        },
-    },
-    Command {
-        name: "resize",
-        takes: Takes::Argument {
-            expected: "a size such as 100x30",
-            read: |size| parse_screen(size).map(|(columns, rows)| Step::Resize(columns, rows)),
-        },
-    },
+/// The commands, which are no keys, by their names.
+const COMMANDS: [(&str, Takes); 5] = [
+    ("wait", Takes::Nothing(Step::Wait)),
+    (
+        "dump",
+        Takes::Argument("a file that ends in .txt, .ansi or .png", |file| {
+            let file = PathBuf::from(file);
+            Format::of_path(&file).map(|format| Step::Dump(file, format))
+        }),
+    ),
+    (
+        "paste",
+        Takes::Argument("a text in quotation marks", |text| {
+            Some(Step::Paste(text.to_owned()))
+        }),
+    ),
+    (
+        "click",
+        Takes::Argument("a cell COLUMN,ROW from 0", |cell| {
+            let (column, row) = cell.split_once(',')?;
+            Some(Step::Click(column.parse().ok()?, row.parse().ok()?))
+        }),
+    ),
+    (
+        "resize",
+        Takes::Argument("a size such as 100x30", |size| {
+            parse_screen(size).map(|(columns, rows)| Step::Resize(columns, rows))
+        }),
+    ),
 ];
 
 fn typed(character: char) -> Step {
@@ -217,7 +196,7 @@ fn typed(character: char) -> Step {
 }
 
 fn unknown(word: &str, span: Span) -> Diagnostic {
-    let commands = COMMANDS.map(|command| command.name);
+    let commands = COMMANDS.map(|(name, _)| name);
     let hint = match nearest_word(word, keymap::key_names().chain(commands)) {
         Some(known) => format!("did you mean {known}?"),
         None => format!("write \"{word}\" to type these characters"),
