@@ -53,8 +53,11 @@ pub(super) fn render(app: &App, inks: &mut Inks, area: Rect, buffer: &mut Buffer
 
 /// The style of how the pictures differ: figures that may still change are dim.
 pub(super) fn figures_style(compared: &Compare) -> Style {
-    let are_final = compared.are_figures_final();
-    (!are_final).then_some(theme::DIM).unwrap_or_default()
+    if compared.are_figures_final() {
+        Style::new()
+    } else {
+        theme::DIM
+    }
 }
 
 /// The lines of the panel that are still free.

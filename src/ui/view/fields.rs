@@ -44,8 +44,8 @@ pub(crate) fn render(shared: &Shared, area: Rect, buffer: &mut Buffer) {
     let top = shared.cursor.field_top.min(last);
     for (index, field) in fields.iter().enumerate().skip(top).take(rows) {
         let line = layout::nth_line(lines, (index - top) as u16);
-        let cursor = (focus == Focus::Here && index == shared.cursor.field)
-            .then_some(shared.cursor.component);
+        let is_current = focus == Focus::Here && index == shared.cursor.field;
+        let cursor = is_current.then_some(shared.cursor.component);
         field_line(shared, field, cursor, line, buffer);
         if let Some(bar) = edit::slider(shared, index, line)
             && (cursor.is_none() || shared.cursor.typing.is_none())
@@ -71,9 +71,8 @@ pub(crate) fn render(shared: &Shared, area: Rect, buffer: &mut Buffer) {
         row.skip(1 + 2 * depth.min(usize::from(lines.width)) as u16);
         row.put(&part_name(shared, part), theme::DIM);
     }
-    if let Some(field) = fields
-        .get(shared.cursor.field)
-        .filter(|_| focus == Focus::Here)
+    if focus == Focus::Here
+        && let Some(field) = fields.get(shared.cursor.field)
     {
         explain(shared, field, layout::field_notes(area), buffer);
     }

@@ -215,7 +215,7 @@ pub(super) fn frame(width: u32, height: u32) -> Arc<Frame> {
     })
 }
 
-type Change = fn(&mut App);
+pub(super) type Change = fn(&mut App);
 
 /// All states of the interface, by name.
 const STATES: &[(&str, Change)] = &[

@@ -11,7 +11,7 @@ use crate::render::{Aov, Frame, Progress};
 use crate::scene::{Integrator, Rendering};
 use crate::ui::app::{Picture, Prompt, PromptKind, ShownWireframe, Typing};
 use crate::ui::layout::tests::size;
-use crate::ui::view::tests::{app, app_of, drawn, retype, say};
+use crate::ui::view::tests::{Change, app, app_of, drawn, retype, say};
 
 /// The status line of a wide screen.
 fn line(app: &App) -> String {
@@ -43,7 +43,7 @@ fn the_least_important_segments_are_omitted() {
 #[test]
 fn an_integrator_that_differs_from_the_scenes_has_a_star() {
     let mut app = app();
-    let changes: [(fn(&mut App), &str); 4] = [
+    let changes: [(Change, &str); 4] = [
         (|_| {}, "whitted"),
         (
             |app| app.shared.pictures.rendering.integrator = Some(Integrator::Path),
