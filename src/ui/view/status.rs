@@ -14,7 +14,7 @@ use ratatui::style::Style;
 use super::inks::Glyphs;
 use super::row::Row;
 use crate::text::counted;
-use crate::ui::app::{App, Message, OnDisk, files, text};
+use crate::ui::app::{App, Message, OnDisk, Shared, display, files, text};
 use crate::ui::keymap::Mode;
 use crate::ui::text_width::visible;
 use crate::ui::theme;
@@ -69,7 +69,7 @@ fn segments(app: &App, glyphs: Glyphs) -> Segments {
         segments.say(Rank::Size, size, theme::DIM);
         segments.say(Rank::Colours, glyphs.name(), theme::DIM);
     }
-    picture::zoom(shared, &mut segments);
+    zoom_segment(shared, &mut segments);
     if let Some(bytes) = shared.pictures.net {
         segments.say(
             Rank::Link,
@@ -141,6 +141,22 @@ fn text_segments(app: &App, segments: &mut Segments) {
     if 0 < warnings {
         segments.say(Rank::Caveat, counted(warnings, "warning"), theme::WARNING);
     }
+}
+
+/// Adds the region being drawn, or the scale of the picture and its place in the window.
+fn zoom_segment(shared: &Shared, segments: &mut Segments) {
+    if let Some(region) = shared.region_drawn() {
+        segments.say(Rank::Work, format!("region {region}"), theme::ACCENT);
+        return;
+    }
+    let viewport = display::viewport(shared);
+    if shared.mode != Mode::Trace && viewport.is_fit() {
+        return;
+    }
+    let name = viewport.name();
+    let place = display::pixel_in_corner(shared).filter(|_| !viewport.is_fit());
+    let place = place.map_or_else(String::new, |[x, y]| format!(" at {x},{y}"));
+    segments.say(Rank::Scale, format!("{name}{place}"), theme::ACCENT);
 }
 
 fn mode_style(mode: Mode) -> Style {

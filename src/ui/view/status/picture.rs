@@ -1,4 +1,4 @@
-//! What the status line says of the picture: how it is made, its scale and its progress.
+//! What the status line says of the picture: how it is made, and its progress.
 
 use std::time::Duration;
 
@@ -8,7 +8,6 @@ use super::segments::{Rank, Segments};
 use crate::render::Progress;
 use crate::text::percentage;
 use crate::ui::app::{Shared, display};
-use crate::ui::keymap::Mode;
 use crate::ui::theme;
 
 /// Adds the progress of the picture.
@@ -76,22 +75,6 @@ pub(super) fn making(shared: &Shared, segments: &mut Segments) {
     if 0.0 < shared.rendering().clamp() {
         segments.say(Rank::Caveat, "clamped, biased", theme::DIM);
     }
-}
-
-/// Adds the region being drawn, or the scale of the picture and its place in the window.
-pub(super) fn zoom(shared: &Shared, segments: &mut Segments) {
-    if let Some(region) = shared.region_drawn() {
-        segments.say(Rank::Work, format!("region {region}"), theme::ACCENT);
-        return;
-    }
-    let viewport = display::viewport(shared);
-    if shared.mode != Mode::Trace && viewport.is_fit() {
-        return;
-    }
-    let name = viewport.name();
-    let place = display::pixel_in_corner(shared).filter(|_| !viewport.is_fit());
-    let place = place.map_or_else(String::new, |[x, y]| format!(" at {x},{y}"));
-    segments.say(Rank::Scale, format!("{name}{place}"), theme::ACCENT);
 }
 
 /// Estimates the remaining time at the pace so far. `None` during the first pass, whose coarse
