@@ -149,7 +149,12 @@ pub fn arrange(area: Rect, shape: &Shape) -> Areas {
     if shape.zoom == Zoom::Picture || !fits(STACKED) {
         return bars;
     }
-    match chosen(body, shape, fits(FULL)) {
+    let low = if fits(FULL) || STACKED.1 + 8 <= body.height {
+        LOW
+    } else {
+        (body.height / 2).clamp(LOWEST, LOW)
+    };
+    match chosen(body, shape, low) {
         Arrangement::Beside(width) => side_by_side(bars, width, shape),
         Arrangement::Below(height) => stacked(bars, height, shape),
     }
@@ -247,13 +252,9 @@ impl Areas {
     }
 }
 
-/// The arrangement with the largest picture, in the sizes that the user chose if any.
-fn chosen(body: Rect, shape: &Shape, is_full: bool) -> Arrangement {
-    let low = if is_full || STACKED.1 + 8 <= body.height {
-        LOW
-    } else {
-        (body.height / 2).clamp(LOWEST, LOW)
-    };
+/// The arrangement with the largest picture, in the sizes that the user chose if any. Panels below the
+/// picture have at least `low` lines, unless the user wants less.
+fn chosen(body: Rect, shape: &Shape, low: u16) -> Arrangement {
     let beside = beside(body, shape);
     let below = Arrangement::Below(below(body, shape, low));
     let cells = |arrangement: Arrangement| {

@@ -27,8 +27,7 @@ const TMUX_PATIENCE: Duration = Duration::from_secs(1);
 /// to it.
 pub fn examine(scene: Option<&Path>) -> String {
     let variable = |name: &str| std::env::var(name).ok().filter(|value| !value.is_empty());
-    let has_terminal = io::stdin().is_terminal() && io::stdout().is_terminal();
-    let may_ask = has_terminal && query::may_ask(variable);
+    let may_ask = has_terminal() && query::may_ask(variable);
     let answers = may_ask.then(|| interview::ask().unwrap_or_default());
     let answers = answers.as_ref();
     let folder = match scene.and_then(Path::parent) {
@@ -40,7 +39,7 @@ pub fn examine(scene: Option<&Path>) -> String {
     let plain = |words: &str| vec![words.to_owned()];
     // The label and the lines of each section.
     let findings = [
-        ("terminal", terminal(has_terminal, variable)),
+        ("terminal", terminal(variable)),
         ("colours", colours(answers, behind_tmux, variable)),
         ("pictures", pictures(answers, client, terminal::cell_size())),
         ("synchronized", synchronized(answers)),
@@ -67,7 +66,12 @@ pub fn examine(scene: Option<&Path>) -> String {
     text
 }
 
-fn terminal(has_terminal: bool, variable: impl Fn(&str) -> Option<String>) -> Vec<String> {
+/// Whether standard input and output are connected to a terminal.
+fn has_terminal() -> bool {
+    io::stdin().is_terminal() && io::stdout().is_terminal()
+}
+
+fn terminal(variable: impl Fn(&str) -> Option<String>) -> Vec<String> {
     let names = [
         "TERM",
         "TERM_PROGRAM",
@@ -80,7 +84,7 @@ fn terminal(has_terminal: bool, variable: impl Fn(&str) -> Option<String>) -> Ve
         None => format!("{name} not set"),
     };
     let mut lines = vec![names.map(setting).join(", ")];
-    if !has_terminal {
+    if !has_terminal() {
         lines.push("input or output is not a terminal: no queries sent".to_owned());
     }
     lines

@@ -1,4 +1,4 @@
-//! Events in the inbox of the main loop.
+//! What arrives in the inbox of the main loop, and how it is put there.
 
 use std::sync::mpsc::Sender;
 use std::time::Instant;
@@ -6,7 +6,7 @@ use std::time::Instant;
 use crate::ui::msg::{Msg, Target};
 use crate::ui::terminal::{self, Reply, Unread};
 
-/// What the session waits for.
+/// An arrival in the inbox.
 #[derive(Debug)]
 pub(crate) enum Event {
     /// A message for the state of the interface.

@@ -26,7 +26,7 @@ pub struct Options {
     pub theme: Option<Theme>,
     /// What pixels of pictures are drawn with.
     pub pixels: Option<Pixels>,
-    /// Whether the mouse is taken from the terminal.
+    /// Whether the interface takes the mouse or leaves it to the terminal.
     pub mouse: Option<Mouse>,
     /// The command line of the editor, before that of the environment.
     pub editor: Option<String>,

@@ -19,13 +19,19 @@ pub struct Key {
     /// Everyday words that find it too.
     pub(super) synonyms: &'static str,
     pub(super) scope: Scope,
-    /// Each of the keys.
-    pub chords: &'static [Chord],
-    /// Whether they are pressed one after the other, rather than any one of them.
-    is_sequence: bool,
+    presses: Presses,
     hints: [Option<Hint>; HINTS],
     /// The hint that is never omitted.
     pub(super) lasting: Option<&'static str>,
+}
+
+/// What is pressed for a row.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Presses {
+    /// Any one of these keys.
+    AnyOf(&'static [Chord]),
+    /// Two keys, one after the other.
+    InTurn(Chord, Chord),
 }
 
 /// The contexts of a row.
@@ -33,10 +39,10 @@ pub struct Key {
 pub enum Scope {
     /// Active only in these contexts.
     These(&'static [Context]),
-    /// All modes but [`Mode::Move`] and [`Mode::Sequence`], the list of errors, and the rays behind a
-    /// pixel.
+    /// All modes but [`Mode::Move`] and [`Mode::Sequence`]; also the list of errors and the rays behind
+    /// a pixel.
     Everywhere,
-    /// [`Self::Everywhere`], and while something is being transformed or a scene is being opened.
+    /// [`Self::Everywhere`], [`Mode::Move`] and [`Mode::Sequence`], and while a scene is being opened.
     Sceneless,
     /// All contexts, including pages and questions.
     Always,
@@ -97,8 +103,7 @@ impl Key {
             words,
             synonyms: "",
             scope,
-            chords,
-            is_sequence: false,
+            presses: Presses::AnyOf(chords),
             hints: [None; HINTS],
             lasting: None,
         }
@@ -108,12 +113,12 @@ impl Key {
     pub const fn in_turn(
         scope: Scope,
         name: &'static str,
-        chords: &'static [Chord; 2],
+        [first, second]: [Chord; 2],
         words: &'static str,
     ) -> Self {
         Self {
-            is_sequence: true,
-            ..Self::new(scope, name, chords, words)
+            presses: Presses::InTurn(first, second),
+            ..Self::new(scope, name, &[], words)
         }
     }
 
@@ -165,9 +170,9 @@ impl Key {
 
     /// The keys, unless the user changes them.
     pub fn keys(&self) -> Vec<Keys> {
-        match (self.is_sequence, self.chords) {
-            (true, &[first, second]) => vec![Keys::in_turn(first, second)],
-            (_, chords) => chords.iter().copied().map(Keys::one).collect(),
+        match self.presses {
+            Presses::AnyOf(chords) => chords.iter().copied().map(Keys::one).collect(),
+            Presses::InTurn(first, second) => vec![Keys::in_turn(first, second)],
         }
     }
 

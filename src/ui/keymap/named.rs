@@ -14,7 +14,7 @@ pub struct NamedAction {
     /// The name of what they do.
     pub name: &'static str,
     /// The mode that has the key.
-    pub context: Context,
+    pub mode: Mode,
     /// Its keys: `j ↓`; empty if it has none.
     pub keys: String,
     /// Its description.
@@ -28,7 +28,8 @@ impl Keymap {
     pub fn actions(&self, mode: Mode) -> Vec<NamedAction> {
         let others = Mode::ALL.into_iter().filter(|other| *other != mode);
         let mut found: Vec<NamedAction> = Vec::new();
-        for context in [mode].into_iter().chain(others).map(Context::In) {
+        for mode in [mode].into_iter().chain(others) {
+            let context = Context::In(mode);
             let rows = self.rows.iter().filter(|row| row.key.scope.holds(context));
             for row in rows.filter(|row| row.key.name != COMMAND) {
                 let action = (row.key.name, row.key.words);
@@ -39,13 +40,13 @@ impl Keymap {
                     None => found.push(NamedAction {
                         row: row.id,
                         name: row.key.name,
-                        context,
+                        mode,
                         keys,
                         words: row.key.words,
                         synonyms: row.key.synonyms,
                     }),
                     // Another row of the same mode: `gg`, `Home`.
-                    Some(named) if named.context == context && !keys.is_empty() => {
+                    Some(named) if named.mode == mode && !keys.is_empty() => {
                         if !named.keys.is_empty() {
                             named.keys.push(' ');
                         }

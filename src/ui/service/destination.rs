@@ -8,29 +8,32 @@ use crate::ui::msg::{Destination, Existing, ExportId, Msg};
 
 /// Why a picture is not written.
 #[derive(Debug, PartialEq, Eq)]
-pub(super) struct Refused {
-    pub(super) reason: String,
-    /// Whether the only obstacle is a file that others wrote.
-    pub(super) is_taken: bool,
+pub(super) enum Refused {
+    /// The only obstacle is a file that others wrote.
+    Taken(String),
+    /// It could not be written even over that file.
+    Impossible(String),
 }
 
 impl Refused {
     /// What to report of an export.
     pub(super) fn report(self, id: ExportId) -> Msg {
-        if self.is_taken {
-            Msg::Taken(id, self.reason)
-        } else {
-            Msg::Exported(id, Err(self.reason))
+        match self {
+            Self::Taken(reason) => Msg::Taken(id, reason),
+            Self::Impossible(reason) => Msg::Exported(id, Err(reason)),
         }
+    }
+
+    /// The reason in words.
+    pub(super) fn reason(&self) -> &str {
+        let (Self::Taken(reason) | Self::Impossible(reason)) = self;
+        reason
     }
 }
 
 impl From<String> for Refused {
     fn from(reason: String) -> Self {
-        Self {
-            reason,
-            is_taken: false,
-        }
+        Self::Impossible(reason)
     }
 }
 
@@ -101,10 +104,9 @@ pub(super) fn check_target_of(named: &Path, to: &Destination) -> Result<(), Refu
     };
     if let Some(reason) = reason.filter(|_| path.symlink_metadata().is_ok()) {
         let named = named.display();
-        return Err(Refused {
-            reason: format!("{shown} {reason}: use :export! {named} to overwrite it"),
-            is_taken: true,
-        });
+        return Err(Refused::Taken(format!(
+            "{shown} {reason}: use :export! {named} to overwrite it"
+        )));
     }
     file::check_target(path).map_err(|error| format!("{shown}: {error}").into())
 }
@@ -132,14 +134,14 @@ pub(super) mod tests {
         assert_eq!(check_target(&to(Existing::Kept)), Ok(()));
         std::fs::write(&path, "").expect("the folder is new");
         let refused = check_target(&to(Existing::Kept)).expect_err("it exists");
-        assert!(refused.reason.contains(":export! "), "{refused:?}");
+        assert!(refused.reason().contains(":export! "), "{refused:?}");
         assert_eq!(check_target(&to(Existing::Overwritten)), Ok(()));
         let exported = Version::of(&path).expect("a file");
         assert_eq!(check_target(&to(Existing::Own(exported))), Ok(()));
         std::fs::write(&path, "theirs").expect("it is ours");
         let refused = check_target(&to(Existing::Own(exported))).expect_err("it was changed");
         let reason = "has changed since it was exported: use :export! ";
-        assert!(refused.reason.contains(reason), "{refused:?}");
+        assert!(refused.reason().contains(reason), "{refused:?}");
         std::fs::remove_file(&path).expect("it is there");
         assert_eq!(check_target(&to(Existing::Own(exported))), Ok(()));
     }
@@ -163,7 +165,7 @@ pub(super) mod tests {
                     ..destination(&at(name), existing)
                 };
                 let refused = check_target(&to).expect_err("one file");
-                assert!(refused.reason.contains(reason), "{refused:?}");
+                assert!(refused.reason().contains(reason), "{refused:?}");
             }
         }
     }

@@ -1,6 +1,6 @@
-//! What sessions remember for later ones: the sizes of panels, in `halflight/panels` in the state
-//! folder, and recently used scenes: absolute paths, one a line and the newest first, in `halflight/recent` in
-//! the state folder. Sessions that end up there at the same moment may lose one of their entries.
+//! What sessions remember for later ones, in the state folder: the sizes of panels, in
+//! `halflight/panels`, and recently used scenes, in `halflight/recent`: absolute paths, one a line and
+//! the newest first. Sessions that end up there at the same moment may lose one of their entries.
 
 use std::path::{Component, Path, PathBuf};
 use std::{fs, io};

@@ -49,7 +49,7 @@ impl Writers {
     ) -> io::Result<()> {
         let reason = format!("{}: cannot write the scene", path.display());
         let panicked = Msg::Saved(id, SaveOutcome::Failed(reason));
-        self.start("save", Some(&self.at_work), panicked, move || {
+        self.start("save", AtEnd::Awaited, panicked, move || {
             Some(Msg::Saved(id, save(path, &text, &guard)))
         })
     }
@@ -63,7 +63,7 @@ impl Writers {
     ) -> io::Result<()> {
         let reason = format!("{}: cannot write the track", path.display());
         let panicked = Msg::TrackWritten(SaveOutcome::Failed(reason));
-        self.start("track", Some(&self.at_work), panicked, move || {
+        self.start("track", AtEnd::Awaited, panicked, move || {
             Some(Msg::TrackWritten(save(path, &text, &guard)))
         })
     }
@@ -76,7 +76,7 @@ impl Writers {
         to: Destination,
     ) -> io::Result<()> {
         let panicked = cannot(id, &to, "write the picture");
-        self.start("export", Some(&self.at_work), panicked, move || {
+        self.start("export", AtEnd::Awaited, panicked, move || {
             Some(match export(&frame, to) {
                 Ok(exported) => Msg::Exported(id, Ok(exported)),
                 Err(refused) => refused.report(id),
@@ -94,7 +94,7 @@ impl Writers {
     ) -> io::Result<()> {
         let panicked = cannot(id, &to, "export the sequence");
         let send = sending(&self.sender);
-        self.start("sequence", Some(&self.at_work), panicked, move || {
+        self.start("sequence", AtEnd::Awaited, panicked, move || {
             filming::film((id, reel), to, (&folders, threads), &cancelled, send)
         })
     }
@@ -102,7 +102,7 @@ impl Writers {
     /// Checks whether a picture can be written there; a failure is reported by [`Msg::Exported`].
     pub(crate) fn check(&self, id: ExportId, to: Destination) -> io::Result<()> {
         let panicked = cannot(id, &to, "write the picture");
-        self.start("check", None, panicked, move || {
+        self.start("check", AtEnd::Left, panicked, move || {
             let to = numbered(to);
             check_target(&to).err().map(|refused| refused.report(id))
         })
@@ -111,7 +111,7 @@ impl Writers {
     /// Checks whether a scene can be written there; a failure is reported by [`Msg::Failed`].
     pub(crate) fn check_place(&self, path: PathBuf) -> io::Result<()> {
         let panicked = Msg::Failed(format!("{}: cannot check the path", path.display()));
-        self.start("check", None, panicked, move || {
+        self.start("check", AtEnd::Left, panicked, move || {
             let refused = file::check_replaceable(&path).err()?;
             Some(Msg::Failed(format!("{}: {refused}", path.display())))
         })
@@ -120,7 +120,7 @@ impl Writers {
     /// Looks for backups left by an interrupted save of a scene, reported by [`Msg::BackupsFound`].
     pub(crate) fn find_backups(&self, scene: PathBuf) -> io::Result<()> {
         let found = Msg::BackupsFound(Vec::new());
-        self.start("backups", None, found, move || {
+        self.start("backups", AtEnd::Left, found, move || {
             Some(Msg::BackupsFound(file::backups(&scene)))
         })
     }
@@ -128,17 +128,17 @@ impl Writers {
     /// Lists a folder, reported by [`Msg::Listed`].
     pub(crate) fn list_folder(&self, folder: PathBuf) -> io::Result<()> {
         let nothing = Msg::Listed(folder.clone(), Vec::new());
-        self.start("list", None, nothing, move || {
+        self.start("list", AtEnd::Left, nothing, move || {
             let names = names_in(&folder);
             Some(Msg::Listed(folder, names))
         })
     }
 
-    /// Runs work on its own thread; the end of the program waits for holders of `at_work`.
+    /// Runs work on its own thread.
     fn start(
         &self,
         name: &str,
-        at_work: Option<&Sender<Infallible>>,
+        at_end: AtEnd,
         panicked: Msg,
         work: impl FnOnce() -> Option<Msg> + Send + 'static,
     ) -> io::Result<()> {
@@ -146,7 +146,10 @@ impl Writers {
             sender: self.sender.clone(),
             msg: Some(panicked),
         };
-        let at_work = at_work.cloned();
+        let at_work = match at_end {
+            AtEnd::Awaited => Some(self.at_work.clone()),
+            AtEnd::Left => None,
+        };
         let begun = Work::begin(&self.sender);
         let started = spawn(name, move || {
             file::regain_folder();
@@ -165,6 +168,15 @@ impl Writers {
         // Nothing is ever sent: the end of the last thread ends the wait.
         let _ = self.all_ended.recv_timeout(patience);
     }
+}
+
+/// What becomes of work that is not done when the program ends.
+#[derive(Clone, Copy, Debug)]
+enum AtEnd {
+    /// [`Writers::finish`] waits for it.
+    Awaited,
+    /// It ends with the process.
+    Left,
 }
 
 /// Sends the result of writing a file when dropped; initially the result of a panic.
@@ -274,7 +286,7 @@ fn export(frame: &Frame, to: Destination) -> Result<Exported, Refused> {
             version,
         }),
         Err(NotWritten::Failed(error)) => Err(format!("{}: {error}", to.path.display()).into()),
-        Err(NotWritten::Refused(refused)) => Err(refused.reason.into()),
+        Err(NotWritten::Refused(refused)) => Err(refused.reason().to_owned().into()),
     }
 }
 
@@ -307,7 +319,7 @@ mod tests {
         let (sender, inbox) = mpsc::channel();
         let writers = Writers::new(sender);
         let failed = Msg::Saved(SaveId(3), SaveOutcome::Failed("a.ray: broken".to_owned()));
-        let started = writers.start("test", None, failed, || panic!("on purpose"));
+        let started = writers.start("test", AtEnd::Left, failed, || panic!("on purpose"));
         started.expect("a thread");
         let far = Instant::now() + std::time::Duration::from_secs(30);
         writers.finish(far);
@@ -374,7 +386,7 @@ mod tests {
         let exported = exported.expect("there is a name");
         assert_eq!(exported.path, place.path().join("a.depth-3.bmp"));
         let to = destination(&path, Existing::Kept);
-        assert!(check_target(&to).expect_err("it exists").is_taken);
+        assert!(matches!(check_target(&to), Err(Refused::Taken(_))));
     }
 
     #[test]

@@ -106,7 +106,7 @@ pub enum Error {
         errors: Vec<Diagnostic>,
     },
     /// A screen cannot be written to a file.
-    #[error("{path}: {source}", path = path.display())]
+    #[error("cannot write the screen to {path}: {source}", path = path.display())]
     Frame {
         /// Path of the file.
         path: PathBuf,

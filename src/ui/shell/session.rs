@@ -58,7 +58,7 @@ pub(crate) fn run(
         link: Link::new(budget),
         waiting: None,
         inks: Inks::for_depth(options.colours()),
-        asked: None,
+        asked_until: None,
         choice: options.colour(),
         depth: options.colours(),
         known: Known::asked_nothing(),
@@ -87,10 +87,11 @@ struct Session {
     /// When the frame that the terminal has not fully taken yet was sent, and its size in bytes.
     waiting: Option<(Instant, usize)>,
     inks: Inks,
-    /// The deadline for an answer of the terminal that it has more colours.
-    asked: Option<Instant>,
-    /// The user's choice of colours, and the depth in use.
+    /// The deadline for an answer of the terminal that it has more colours than those in use.
+    asked_until: Option<Instant>,
+    /// The user's choice of colours.
     choice: Choice,
+    /// The colour depth in use.
     depth: ColourDepth,
     /// What the terminal has answered about pictures.
     known: Known,
@@ -141,7 +142,8 @@ impl Session {
             manner if manner == self.manner => Urgency::Never,
             _ => Urgency::Now,
         };
-        if reply != Reply::TrueColour || self.asked.take_if(|until| at < *until).is_none() {
+        let is_in_time = |until: &mut Instant| at < *until;
+        if reply != Reply::TrueColour || self.asked_until.take_if(is_in_time).is_none() {
             return changed;
         }
         self.depth = ColourDepth::TrueColour;
@@ -161,7 +163,7 @@ impl Session {
         {
             tty.replies.came(Reply::Attributes);
         }
-        if self.asked.take_if(|until| *until <= now).is_none() {
+        if self.asked_until.take_if(|until| *until <= now).is_none() {
             return Urgency::Never;
         }
         self.step(Msg::FewColours(self.depth));
@@ -198,7 +200,9 @@ impl Session {
             urgency = if is_due {
                 Urgency::Never
             } else {
-                urgency.max(self.wait(draw_at, is_clear))
+                let may_ask = is_clear && self.runtime.screen().has_terminal();
+                let asks_at = self.link.asks_at().filter(|_| may_ask);
+                urgency.max(self.wait(draw_at.into_iter().chain(asks_at).min()))
             };
         }
     }
@@ -251,16 +255,14 @@ impl Session {
     }
 
     /// Waits for input until `deadline` and handles everything that has arrived.
-    fn wait(&mut self, deadline: Option<Instant>, is_clear: bool) -> Urgency {
+    fn wait(&mut self, deadline: Option<Instant>) -> Urgency {
         if self.script.is_some() {
             return self.play();
         }
-        let has_terminal = self.runtime.screen().has_terminal();
         let others = [
             self.runtime.next_timer(),
             self.link.gives_up_at(),
-            self.link.asks_at().filter(|_| is_clear && has_terminal),
-            self.asked,
+            self.asked_until,
             self.known.until,
         ];
         let deadline = others.into_iter().chain([deadline]).flatten().min();

@@ -1,6 +1,6 @@
 //! Restores the terminal after an abort (by a failed allocation, a stack overflow, or a panic while
-//! panicking), an illegal instruction or a forbidden system call. The state of the process is unreliable by then, so a
-//! signal handler writes a few bytes and sets the terminal's modes.
+//! panicking), an illegal instruction or a forbidden system call. The state of the process is unreliable
+//! by then, so a signal handler writes a few bytes and sets the terminal's modes.
 //!
 //! `SIGSEGV` and `SIGBUS` are left to Rust, which uses them to detect a stack overflow and aborts:
 //! its handler has its own stack, this one does not.

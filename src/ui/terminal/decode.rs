@@ -62,8 +62,8 @@ enum State {
     Ground,
     /// Follows `ESC`.
     Escape,
-    /// In a UTF-8 character, typed with Alt after `ESC`.
-    Character { alt: bool },
+    /// In a UTF-8 character, typed with these modifiers: Alt after `ESC`.
+    Character(KeyModifiers),
     /// In a control sequence, whose parameters are held.
     Sequence,
     /// In a function key `ESC O`, whose parameters are held.
@@ -139,7 +139,7 @@ impl Decoder {
         match self.state {
             State::Ground => self.begin(byte, emit),
             State::Escape => self.after_escape(byte, emit),
-            State::Character { alt } => self.in_character(byte, alt, emit),
+            State::Character(modifiers) => self.in_character(byte, modifiers, emit),
             State::Text(kind, within) => self.in_text(kind, within, byte, emit),
             State::Paste { ended } => self.in_paste(ended, byte, emit),
             State::OldMouse(left) => {
@@ -164,7 +164,7 @@ impl Decoder {
             }
             0xc2..=0xf4 => {
                 self.held.push(byte);
-                self.state = State::Character { alt: false };
+                self.state = State::Character(KeyModifiers::NONE);
             }
             ..=0x7f => emit(keys::plain(byte)),
             // The eight-bit form of `ESC` with another byte.
@@ -181,7 +181,7 @@ impl Decoder {
             }
             0xc2..=0xf4 => {
                 self.begin(byte, emit);
-                self.state = State::Character { alt: true };
+                self.state = State::Character(KeyModifiers::ALT);
             }
             ..=0x7f => match introduced(byte) {
                 None => {
@@ -197,14 +197,14 @@ impl Decoder {
         }
     }
 
-    fn in_character(&mut self, byte: u8, alt: bool, emit: &mut impl FnMut(Event)) {
+    fn in_character(&mut self, byte: u8, modifiers: KeyModifiers, emit: &mut impl FnMut(Event)) {
         self.held.push(byte);
         match std::str::from_utf8(&self.held).map(|text| text.chars().next()) {
             Ok(character) => {
                 self.state = State::Ground;
                 let typed = character.filter(|character| !character.is_control());
                 match typed.map(keys::character) {
-                    Some(event) if alt => emit(with_alt(event)),
+                    Some(event) if modifiers == KeyModifiers::ALT => emit(with_alt(event)),
                     Some(event) => emit(event),
                     None => {}
                 }
@@ -370,7 +370,5 @@ fn pasted(bytes: Vec<u8>) -> String {
     text.replace("\r\n", "\n").replace('\r', "\n")
 }
 
-#[cfg(test)]
-mod answers;
 #[cfg(test)]
 mod tests;

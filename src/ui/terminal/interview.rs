@@ -1,5 +1,5 @@
-//! Queries the terminal and waits for its answers, for commands that print a report and exit. The
-//! interface never waits.
+//! Queries the terminal and waits up to a second for its answers, for commands that print a report and
+//! exit. While the interface runs, answers arrive in its inbox instead.
 
 use std::io;
 #[cfg(unix)]

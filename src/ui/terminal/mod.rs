@@ -3,7 +3,8 @@
 //! the link.
 //!
 //! This module must not know what is drawn or what a key means. It sends only queries whose replies
-//! cannot be mistaken for keys, and nothing waits for replies: a terminal may stay silent.
+//! cannot be mistaken for keys. Since a terminal may stay silent, replies are awaited for a second at
+//! most, and only by reports and before another program gets the terminal.
 
 #[cfg(unix)]
 mod abort;

@@ -6,9 +6,8 @@ use ratatui::style::Style;
 use ratatui::widgets::{Clear, Widget};
 
 use super::Inks;
-use super::row::{Row, put_at, title};
+use super::row::{Focus, Row, put_at, title};
 use crate::compare::{Comparison, Difference};
-use crate::text::counted;
 use crate::ui::app::{App, Compare, compare};
 use crate::ui::theme;
 
@@ -19,7 +18,7 @@ const NAMES: u16 = 11;
 pub(super) fn render(app: &App, inks: &mut Inks, area: Rect, buffer: &mut Buffer) {
     Clear.render(area, buffer);
     let (compared, view) = (&app.compare, app.compare.view.name());
-    title("comparison", &view, Some(theme::ACCENT), area, buffer);
+    title("comparison", &view, Focus::Here, area, buffer);
     let mut lines = Lines {
         area,
         at: 1,
@@ -52,26 +51,13 @@ pub(super) fn render(app: &App, inks: &mut Inks, area: Rect, buffer: &mut Buffer
     worst(app, found, &mut lines, inks);
 }
 
-/// Adds what is seen of the pictures that are compared and, without a panel, how they differ.
-pub(super) fn chips(app: &App, say: &mut impl FnMut(u8, String, Style)) {
-    let view = app.compare.view.name().to_uppercase();
-    say(1, format!(" {view} "), theme::chip(theme::ACCENT));
-    if let Some(unlike) = compare::unlike(&app.compare, &app.shared) {
-        say(3, unlike, theme::WARNING);
+/// The style of how the pictures differ: figures that may still change are dim.
+pub(super) fn figures_style(compared: &Compare) -> Style {
+    if compared.are_figures_final() {
+        Style::new()
+    } else {
+        theme::DIM
     }
-    if let Some(found) = app.compare.figures()
-        && app.shared.areas().list.is_empty()
-    {
-        let (psnr, flip) = (found.psnr(), found.flip);
-        let differing = counted(found.differing, "pixel");
-        let text = format!("{differing} differ, {psnr:.2} dB, FLIP {flip:.5}");
-        say(6, text, figures_style(&app.compare));
-    }
-}
-
-fn figures_style(compared: &Compare) -> Style {
-    let are_final = compared.are_figures_final();
-    if are_final { Style::new() } else { theme::DIM }
 }
 
 /// The lines of the panel that are still free.

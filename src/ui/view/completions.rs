@@ -6,7 +6,7 @@ use ratatui::style::Style;
 use ratatui::widgets::{Clear, Widget};
 use unicode_width::UnicodeWidthStr;
 
-use super::row::{Row, title};
+use super::row::{Focus, Row, title};
 use crate::ui::app::{Completion, Shared, command};
 use crate::ui::layout::nth_line;
 use crate::ui::{layout, theme};
@@ -31,7 +31,7 @@ pub(crate) fn render(shared: &Shared, area: Rect, buffer: &mut Buffer) {
         0 => String::new(),
         count => format!("{}/{count}", chosen.map_or(0, |at| at + 1)),
     };
-    title("", &place, None, panel, buffer);
+    title("", &place, Focus::Elsewhere, panel, buffer);
     let mut lines = layout::contents(panel);
     if let Some(command) = typed {
         entry(&command, theme::DIM, nth_line(lines, 0), buffer);

@@ -4,11 +4,10 @@ use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 use ratatui::widgets::{Clear, Widget};
 
-use super::row::{Row, title};
+use super::row::{Focus, Row, title};
 use crate::text::counted;
 use crate::ui::app::Shared;
 use crate::ui::error_panel::StyledLine;
-use crate::ui::theme;
 
 /// Draws the diagnostics below the picture, if there are any to show.
 pub(crate) fn render(shared: &Shared, area: Rect, buffer: &mut Buffer) {
@@ -17,10 +16,14 @@ pub(crate) fn render(shared: &Shared, area: Rect, buffer: &mut Buffer) {
     };
     Clear.render(panel.area.intersection(buffer.area), buffer);
     let count = shared.wrong().findings.len();
+    let focus = match shared.overlays.errors {
+        Some(_) => Focus::Here,
+        None => Focus::Elsewhere,
+    };
     title(
         &heading(shared),
         &format!("{}/{count}", (panel.first + 1).min(count)),
-        shared.overlays.errors.map(|_| theme::ACCENT),
+        focus,
         panel.area,
         buffer,
     );

@@ -8,7 +8,7 @@ use ratatui::widgets::{Clear, Widget};
 use unicode_width::UnicodeWidthStr;
 
 use super::list::swatch;
-use super::row::{self, Row};
+use super::row::{self, Focus, Row};
 use crate::language::Node;
 use crate::language::table::{Category, Kind};
 use crate::scene::Rgb;
@@ -21,7 +21,10 @@ use crate::ui::{layout, theme};
 
 /// Draws the fields of the selected node and a description of the current one.
 pub(crate) fn render(shared: &Shared, area: Rect, buffer: &mut Buffer) {
-    let focused = shared.mode == Mode::Edit;
+    let focus = match shared.mode {
+        Mode::Edit => Focus::Here,
+        _ => Focus::Elsewhere,
+    };
     let stride = match shared.cursor.stride {
         Stride::Fine => Some("step × 0.1".to_owned()),
         Stride::Plain => None,
@@ -32,8 +35,7 @@ pub(crate) fn render(shared: &Shared, area: Rect, buffer: &mut Buffer) {
     let right = stride
         .or_else(|| users(shared, selected))
         .unwrap_or_default();
-    let keys = focused.then_some(theme::ACCENT);
-    row::title(&name, &right, keys, area, buffer);
+    row::title(&name, &right, focus, area, buffer);
 
     let fields = shared.fields();
     let lines = layout::field_rows(area);
@@ -42,7 +44,8 @@ pub(crate) fn render(shared: &Shared, area: Rect, buffer: &mut Buffer) {
     let top = shared.cursor.field_top.min(last);
     for (index, field) in fields.iter().enumerate().skip(top).take(rows) {
         let line = layout::nth_line(lines, (index - top) as u16);
-        let cursor = (focused && index == shared.cursor.field).then_some(shared.cursor.component);
+        let is_current = focus == Focus::Here && index == shared.cursor.field;
+        let cursor = is_current.then_some(shared.cursor.component);
         field_line(shared, field, cursor, line, buffer);
         if let Some(bar) = edit::slider(shared, index, line)
             && (cursor.is_none() || shared.cursor.typing.is_none())
@@ -68,7 +71,9 @@ pub(crate) fn render(shared: &Shared, area: Rect, buffer: &mut Buffer) {
         row.skip(1 + 2 * depth.min(usize::from(lines.width)) as u16);
         row.put(&part_name(shared, part), theme::DIM);
     }
-    if let Some(field) = fields.get(shared.cursor.field).filter(|_| focused) {
+    if focus == Focus::Here
+        && let Some(field) = fields.get(shared.cursor.field)
+    {
         explain(shared, field, layout::field_notes(area), buffer);
     }
 }

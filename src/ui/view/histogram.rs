@@ -5,7 +5,7 @@ use ratatui::layout::Rect;
 use ratatui::style::Style;
 use ratatui::widgets::{Clear, Widget};
 
-use super::row::{Row, title};
+use super::row::{Focus, Row, title};
 use crate::render::{HISTOGRAM_STOPS, Histogram};
 use crate::text::percentage;
 use crate::ui::app::Shared;
@@ -31,7 +31,7 @@ pub(crate) fn render(shared: &Shared, area: Rect, buffer: &mut Buffer) {
     let panel = Rect::new(area.x, area.bottom() - height, width, height);
     let panel = panel.intersection(buffer.area);
     Clear.render(panel, buffer);
-    title("luminance", "EV", None, panel, buffer);
+    title("luminance", "EV", Focus::Elsewhere, panel, buffer);
     if let Some(shown) = shown {
         chart(shown, panel, buffer);
     } else {

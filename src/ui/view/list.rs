@@ -1,11 +1,12 @@
-//! The list: view, ambient light, lights, objects, under headings. Only visible lines are computed.
+//! The list of the nodes of a scene, from the render settings to the objects, under headings. Only visible
+//! lines are computed.
 
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 use ratatui::style::{Modifier, Style};
 use unicode_width::UnicodeWidthStr;
 
-use super::row::{Row, title};
+use super::row::{Focus, Row, title};
 use crate::language::Node;
 use crate::scene::Rgb;
 use crate::ui::app::Shared;
@@ -21,19 +22,21 @@ const TITLE: &str = "scene";
 /// Minimum width of a comment, in columns.
 const COMMENT: usize = 6;
 
-/// Draws the list of lights and objects with names and comments.
+/// Draws the list with names and comments.
 pub(crate) fn render(shared: &Shared, area: Rect, buffer: &mut Buffer) {
     let selected = shared.selected_row();
     let rows = &shared.cursor.rows;
     let count = rows.count(shared.source());
-    let focused = matches!(shared.mode, Mode::Select | Mode::Move);
+    let focus = match shared.mode {
+        Mode::Select | Mode::Move => Focus::Here,
+        _ => Focus::Elsewhere,
+    };
     let place = format!("{}/{count}", (rows.place_of(selected) + 1).min(count));
     let place = match shared.cursor.marks.len() {
         0 => place,
         marks => format!("{marks} marked  {place}"),
     };
-    let keys = focused.then_some(theme::ACCENT);
-    title(TITLE, &place, keys, area, buffer);
+    title(TITLE, &place, focus, area, buffer);
     if !rows.filter().is_empty() {
         let chip = format!(" /{} {} ", rows.filter(), rows.matches());
         let mut row = Row::new(buffer, area, 0);
@@ -65,9 +68,9 @@ pub(crate) fn render(shared: &Shared, area: Rect, buffer: &mut Buffer) {
             }
             _ => true,
         };
-        let style = match (is_selected, focused) {
-            (true, true) => theme::CURSOR.add_modifier(Modifier::BOLD),
-            (true, false) => theme::BOLD,
+        let style = match (is_selected, focus) {
+            (true, Focus::Here) => theme::CURSOR.add_modifier(Modifier::BOLD),
+            (true, Focus::Elsewhere) => theme::BOLD,
             (false, _) if is_drawn => Style::new(),
             (false, _) => theme::DIM,
         };

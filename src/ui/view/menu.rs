@@ -8,7 +8,7 @@ use unicode_width::UnicodeWidthStr;
 
 use super::fields::users;
 use super::list::swatch;
-use super::row::{Row, title};
+use super::row::{Focus, Row, title};
 use crate::ui::app::{Entry, Purpose, Shared};
 use crate::ui::{layout, theme};
 
@@ -26,7 +26,7 @@ pub(crate) fn render(shared: &Shared, list: Rect, body: Rect, buffer: &mut Buffe
     };
     let shown = menu.shown();
     let place = format!("{}/{}", (menu.filter.at + 1).min(shown.len()), shown.len());
-    title(name, &place, Some(theme::ACCENT), area, buffer);
+    title(name, &place, Focus::Here, area, buffer);
     let lines = layout::contents(area);
     let mut row = Row::new(buffer, lines, 0);
     row.put("/", theme::ACCENT);

@@ -4,7 +4,7 @@ use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 use ratatui::widgets::{Clear, Widget};
 
-use super::row::{Row, title};
+use super::row::{Focus, Row, title};
 use crate::ui::app::Message;
 use crate::ui::text_width::{visible, wrap};
 use crate::ui::{layout, theme};
@@ -16,7 +16,7 @@ pub(crate) fn render(message: &Message, area: Rect, buffer: &mut Buffer) {
     let height = u16::try_from(lines.len() + 1).unwrap_or(u16::MAX);
     let (_, panel) = layout::split_bottom(area, height.min(area.height));
     Clear.render(panel, buffer);
-    title("", "", None, panel, buffer);
+    title("", "", Focus::Elsewhere, panel, buffer);
     let style = theme::severity(message.severity);
     for (index, line) in (1..panel.height).zip(&lines) {
         Row::new(buffer, panel, index).skip(1).put(line, style);

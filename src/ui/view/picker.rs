@@ -7,7 +7,7 @@ use ratatui::style::{Color, Style};
 use ratatui::widgets::{Clear, Widget};
 
 use super::Inks;
-use super::row::{Row, put_at, title};
+use super::row::{Focus, Row, put_at, title};
 use crate::scene::Rgb;
 use crate::text::rounded;
 use crate::ui::app::{ColourPicker, PickerRow, Shared};
@@ -29,7 +29,7 @@ pub(crate) fn render(
     let area = if list.is_empty() { body } else { list };
     let area = area.intersection(buffer.area);
     Clear.render(area, buffer);
-    title("colour", picker.key, Some(theme::ACCENT), area, buffer);
+    title("colour", picker.key, Focus::Here, area, buffer);
     let lines = picker_lines(area);
     for (row, line) in PickerRow::BARS.into_iter().zip(lines.bars) {
         bar_line(picker, row, line, inks, buffer);

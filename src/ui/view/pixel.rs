@@ -6,12 +6,12 @@ use ratatui::layout::Rect;
 use ratatui::widgets::{Clear, Widget};
 
 use super::labelled::{Value, numbers};
+use super::row::Focus;
 use super::{labelled, row};
 use crate::explain::number;
-use crate::render::{self, Aov, FirstHit};
+use crate::render::{self, Aov, FirstHit, SurfaceHit};
 use crate::ui::app::{Pixel, Shared, inspect};
 use crate::ui::layout::{Side, contents};
-use crate::ui::theme;
 
 /// The width of the values over the picture.
 const WIDTH: u16 = 36;
@@ -32,7 +32,7 @@ fn panel(pixel: &Pixel, values: &[Value], area: Rect, buffer: &mut Buffer) {
         None => format!("of {}×{}", pixel.size.width, pixel.size.height),
     };
     let title = format!("pixel {x} {y}");
-    row::title(&title, &output, Some(theme::ACCENT), area, buffer);
+    row::title(&title, &output, Focus::Here, area, buffer);
     labelled::render(values, contents(area), buffer);
 }
 
@@ -77,7 +77,7 @@ fn values(shared: &Shared, pixel: &Pixel) -> Vec<Value> {
     if let Some(at) = pixel.line {
         values.push(Value::new("source", source(shared, at)));
     }
-    values.extend(surface.map(|at| Value::new("side", side(at.side, at.solid))));
+    values.extend(surface.map(|at| Value::new("side", side(&at))));
     let label = pixel.aov.map_or("linear", Aov::name);
     let value = pixel.value.map(|value| value_of(pixel.aov, value));
     let value = value.unwrap_or_else(|| UNKNOWN.to_owned());
@@ -99,12 +99,12 @@ pub(super) fn source(shared: &Shared, line: usize) -> String {
     }
 }
 
-/// The word for a side of a surface, which may be that of a solid.
-pub(super) fn side(side: render::Side, is_solid: bool) -> &'static str {
-    match (side, is_solid) {
-        (render::Side::Front, _) => "front",
-        (render::Side::Back, true) => "inside",
-        (render::Side::Back, false) => "back",
+/// The word for the side of a surface that was hit.
+pub(super) fn side(hit: &SurfaceHit) -> &'static str {
+    match hit.side {
+        render::Side::Front => "front",
+        render::Side::Back if hit.solid => "inside",
+        render::Side::Back => "back",
     }
 }
 

@@ -6,7 +6,7 @@ use ratatui::style::{Modifier, Style};
 use ratatui::widgets::{Clear, Widget};
 
 use super::labelled::{self, Value, numbers};
-use super::row::{Row, title};
+use super::row::{Focus, Row, title};
 use crate::explain::number;
 use crate::language::Node;
 use crate::render::{
@@ -32,11 +32,11 @@ pub(super) fn render(shared: &Shared, buffer: &mut Buffer) {
     tree(shared, panels.tree, panels.verdict, panels.lines, buffer);
     let line = inspect::explanation(shared).zip(inspect::ray_line(shared));
     let Some((explanation, line)) = line else {
-        title("", "", None, panels.values, buffer);
+        title("", "", Focus::Elsewhere, panels.values, buffer);
         return;
     };
     let words = words(shared, explanation, &line);
-    title(&words, "", None, panels.values, buffer);
+    title(&words, "", Focus::Elsewhere, panels.values, buffer);
     let values = values_of(shared, explanation, &line);
     labelled::render(&values, contents(panels.values), buffer);
 }
@@ -51,7 +51,7 @@ fn tree(shared: &Shared, area: Rect, verdict: Rect, lines: Rect, buffer: &mut Bu
         let [x, y] = cross.pixel;
         format!("why {x} {y}")
     });
-    title(&pixel, &place, Some(theme::ACCENT), area, buffer);
+    title(&pixel, &place, Focus::Here, area, buffer);
     let Some(explanation) = inspect::explanation(shared) else {
         Row::new(buffer, lines, 0).skip(1).put("…", theme::DIM);
         return;
@@ -245,7 +245,7 @@ fn surface_values(shading: &Shading) -> Vec<Value> {
         values.push(Value::new("reflects", format!("{share}, n {indices}")));
     }
     values.extend([
-        Value::new("side", super::pixel::side(hit.side, hit.solid)),
+        Value::new("side", super::pixel::side(hit)),
         Value::new("t", number(hit.t)),
         Value::new("point", numbers(&hit.point.to_array())),
         Value::new("normal", numbers(&hit.normal.to_array())),

@@ -101,11 +101,23 @@ pub(crate) fn put_at(at: impl Into<Position>, symbol: &str, style: Style, buffer
     }
 }
 
-/// Draws the title line of a panel, with `right` at its end; `keys` is a style if the panel has the
-/// focus.
-pub(crate) fn title(text: &str, right: &str, keys: Option<Style>, area: Rect, buffer: &mut Buffer) {
+/// Whether keys go to a panel.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Focus {
+    /// They go to this one.
+    Here,
+    /// They go elsewhere.
+    Elsewhere,
+}
+
+/// Draws the title line of a panel, with `right` at its end.
+pub(crate) fn title(text: &str, right: &str, focus: Focus, area: Rect, buffer: &mut Buffer) {
+    let style = match focus {
+        Focus::Here => theme::BOLD.patch(theme::ACCENT),
+        Focus::Elsewhere => theme::BOLD,
+    };
     let mut row = Row::new(buffer, area, 0);
-    row.put(text, theme::BOLD.patch(keys.unwrap_or_default()));
+    row.put(text, style);
     row.put(" ", theme::DIM);
     let end = right.width() + usize::from(!right.is_empty());
     let rule = "─".repeat(row.room().saturating_sub(end));

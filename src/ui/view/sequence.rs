@@ -4,9 +4,8 @@ use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 use ratatui::style::Style;
 
-use super::row::{self, Row};
+use super::row::{self, Focus, Row};
 use crate::ui::app::{App, DopeSheet, OpenTrack};
-use crate::ui::keymap::Mode;
 use crate::ui::theme;
 
 /// Draws the sheet of the open track.
@@ -16,7 +15,7 @@ pub(crate) fn render(app: &App, area: Rect, buffer: &mut Buffer) {
     };
     let seconds = f64::from(open.frame) / f64::from(open.rate());
     let right = format!("{seconds:.2} s, {} fps", open.rate());
-    row::title(&open.name(), &right, Some(theme::ACCENT), area, buffer);
+    row::title(&open.name(), &right, Focus::Here, area, buffer);
     let sheet = DopeSheet::new(area, open.last());
     let rows: Vec<_> = open.track.rows().collect();
     let lines = usize::from(sheet.names.height);
@@ -64,22 +63,5 @@ fn cursor(sheet: &DopeSheet, open: &OpenTrack, lines: u16, buffer: &mut Buffer) 
             }
             cell.set_style(theme::CURSOR);
         }
-    }
-}
-
-/// Adds the frame that is shown, or that values are keyed at, to the status line.
-pub(super) fn chips(app: &App, say: &mut impl FnMut(u8, String, Style)) {
-    let Some(open) = &app.sequence.open else {
-        return;
-    };
-    if app.shared.mode == Mode::Sequence {
-        let playing = if open.is_playing { "▶ " } else { "" };
-        let text = format!(" {playing}frame {}/{} ", open.frame, open.last());
-        say(1, text, theme::chip(theme::ACCENT));
-    } else {
-        say(12, format!("frame {}", open.frame), theme::DIM);
-    }
-    if open.is_refused {
-        say(3, "[track refused]".to_owned(), theme::WARNING);
     }
 }

@@ -190,12 +190,9 @@ pub(super) fn cell_image(width: u32, height: u32, pixels: Vec<[u8; 3]>) -> CellI
 
 /// A grey frame with object 1 in its right half.
 pub(super) fn frame(width: u32, height: u32) -> Arc<Frame> {
-    let object = |at| {
-        if width / 2 <= at % width {
-            1
-        } else {
-            NO_OBJECT
-        }
+    let object = |at| match at % width {
+        column if width / 2 <= column => 1,
+        _ => NO_OBJECT,
     };
     let pixels = vec![[100; 3]; size(width, height).pixels()];
     let drawn = Frame::drawn(size(width, height), pixels);
@@ -215,7 +212,7 @@ pub(super) fn frame(width: u32, height: u32) -> Arc<Frame> {
     })
 }
 
-type Change = fn(&mut App);
+pub(super) type Change = fn(&mut App);
 
 /// All states of the interface, by name.
 const STATES: &[(&str, Change)] = &[
@@ -240,12 +237,8 @@ const STATES: &[(&str, Change)] = &[
         app.shared.scene = None;
         select(app, Node::Object(9));
         let cursor = &mut app.shared.cursor;
-        [
-            cursor.field,
-            cursor.component,
-            cursor.list_top,
-            cursor.field_top,
-        ] = [99; 4];
+        (cursor.field, cursor.component) = (99, 99);
+        (cursor.list_top, cursor.field_top) = (99, 99);
     }),
     ("help", |app| {
         app.shared.overlays.open_page(Page::reading(Context::Help));

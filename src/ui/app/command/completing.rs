@@ -12,7 +12,7 @@ use crate::image_file::ImageFormat;
 use crate::language::Language;
 use crate::ui::app::shared::line;
 use crate::ui::app::{App, Completion, Palette, PromptKind, Shared};
-use crate::ui::keymap::{Context, Mode, RowId};
+use crate::ui::keymap::{Mode, RowId};
 use crate::ui::msg::Effect;
 
 /// What is completed.
@@ -44,24 +44,20 @@ impl App {
             (None, _) => None,
         };
         match described.and_then(|completion| completion.act) {
-            Some((_, context))
-                if self.shared.mode == Mode::Move && context != Context::In(Mode::Move) =>
-            {
+            Some((_, mode)) if self.shared.mode == Mode::Move && mode != Mode::Move => {
                 self.shared.warn_of_transform();
                 Vec::new()
             }
-            Some((row, context @ Context::In(Mode::Sequence))) => self.act_in(row, context),
-            Some((row, context)) => self.outside(|app| app.act_in(row, context)),
+            Some((row, mode @ Mode::Sequence)) => self.act_in(row, mode),
+            Some((row, mode)) => self.outside(|app| app.act_in(row, mode)),
             None => self.command(line),
         }
     }
 
     /// Does what a key does, after going to the mode that has it.
-    fn act_in(&mut self, row: RowId, context: Context) -> Vec<Effect> {
+    fn act_in(&mut self, row: RowId, mode: Mode) -> Vec<Effect> {
         let mut effects = Vec::new();
-        if let Context::In(mode) = context
-            && mode != self.shared.mode
-        {
+        if mode != self.shared.mode {
             effects = self.go(mode);
             if self.shared.mode != mode {
                 return effects;
@@ -160,18 +156,17 @@ fn commands_like(shared: &Shared, typed: &str) -> Vec<Completion> {
     let actions = actions.into_iter().filter(|named| is_other(named.name));
     let actions: Vec<_> = actions
         .map(|named| {
-            let keys = match named.context {
-                Context::In(mode) if mode != shared.mode && !named.keys.is_empty() => {
-                    format!("{} {}", mode.name(), named.keys)
-                }
-                _ => named.keys,
+            let keys = if named.mode == shared.mode || named.keys.is_empty() {
+                named.keys
+            } else {
+                format!("{} {}", named.mode.name(), named.keys)
             };
             let completion = Completion {
                 line: named.words.to_owned(),
                 shown: named.words.to_owned(),
                 words: "",
                 keys,
-                act: Some((named.row, named.context)),
+                act: Some((named.row, named.mode)),
             };
             let by_synonyms = likeness(named.synonyms, &wanted).map(|rank| rank + 1);
             let ranks = likeness(named.words, &wanted)

@@ -56,7 +56,7 @@ pub(crate) const KEYS: &[Row] = &[
     Key::new(LISTS, "up", &[c('k'), key(Up)], "up")
         .hint_in(MOVED, 0, "move").hint_in(EDIT, 0, "field").hint_in(COLOUR, 10, "row").hint_in(PAGES, 0, "up")
         .does(|shared| list::move_cursor(shared, -1)),
-    Key::in_turn(LONG_LISTS, "first", &[c('g'), c('g')], "first").does(|shared| list::move_cursor(shared, isize::MIN)),
+    Key::in_turn(LONG_LISTS, "first", [c('g'), c('g')], "first").does(|shared| list::move_cursor(shared, isize::MIN)),
     Key::new(LONG_LISTS, "last", &[c('G'), key(End)], "last").does(|shared| list::move_cursor(shared, isize::MAX)),
     Key::new(LONG_LISTS, "first", &[key(Home)], "first").does(|shared| list::move_cursor(shared, isize::MIN)),
     Key::new(LONG_LISTS, "page-down", &[key(PageDown)], "page down").does(|shared| list::turn_page(shared, 1)),

@@ -43,7 +43,7 @@ pub(crate) const KEYS: &[Row<Sequence>] = &[
     Key::new(SEQUENCE, "back", &[key(Esc)], "back to the scene").hint(50, "back").does(text::leave_sequence),
     Key::new(SEQUENCE, "frames-forward", &[c('L'), shift(Right)], "ten frames forward").does_in(|sequence, shared| step_frames(sequence, shared, 10)),
     Key::new(SEQUENCE, "frames-back", &[c('H'), shift(Left)], "ten frames back").does_in(|sequence, shared| step_frames(sequence, shared, -10)),
-    Key::in_turn(SEQUENCE, "first-frame", &[c('g'), c('g')], "first frame").does_in(|sequence, shared| step_frames(sequence, shared, i32::MIN)),
+    Key::in_turn(SEQUENCE, "first-frame", [c('g'), c('g')], "first frame").does_in(|sequence, shared| step_frames(sequence, shared, i32::MIN)),
     Key::new(SEQUENCE, "first-frame", &[key(Home)], "first frame").does_in(|sequence, shared| step_frames(sequence, shared, i32::MIN)),
     Key::new(SEQUENCE, "last-frame", &[c('G'), key(End)], "last frame").does_in(|sequence, shared| step_frames(sequence, shared, i32::MAX)),
     Key::new(SEQUENCE, "export", &[c('b')], "export all frames").hint(120, "export").requests_in(export_default),

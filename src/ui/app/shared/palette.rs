@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use crate::ui::keymap::{Context, RowId};
+use crate::ui::keymap::{Mode, RowId};
 
 /// The number of command lines remembered.
 const REMEMBERED: usize = 100;
@@ -33,8 +33,8 @@ pub struct Completion {
     pub words: &'static str,
     /// Its key, preceded by the mode if that is not the present one.
     pub keys: String,
-    /// The action of a key and where that has it; `None` for a command line.
-    pub(crate) act: Option<(RowId, Context)>,
+    /// The action of a key and the mode that has it; `None` for a command line.
+    pub(crate) act: Option<(RowId, Mode)>,
 }
 
 impl Palette {

@@ -14,7 +14,7 @@ use super::rows::scene;
 use super::*;
 use crate::language::Node;
 use crate::ui::app::command;
-use crate::ui::keymap::{Context, Keymap};
+use crate::ui::keymap::Keymap;
 
 const LANGUAGES: [(&str, &str, &str, &str); 3] = [
     ("scene.ray", ray::TEXT, ray::NAMES, ray::ROWS),
@@ -71,7 +71,7 @@ fn editing(name: &str, text: &str) -> Vec<String> {
         for action in Keymap::default().actions(mode) {
             let mut app = stage();
             app.go(mode);
-            if action.context == Context::In(mode) && app.shared.mode == mode {
+            if action.mode == mode && app.shared.mode == mode {
                 app.act(action.row);
                 found.extend(edits(&app).then(|| action.name.to_owned()));
             }

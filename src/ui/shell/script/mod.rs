@@ -16,7 +16,7 @@ use std::path::PathBuf;
 use crossterm::event::{KeyCode, KeyEvent, KeyModifiers};
 
 use super::snapshot::Format;
-use crate::text::{Diagnostic, Span, nearest_word};
+use crate::text::{Diagnostic, Span, alternatives, nearest_word};
 use crate::ui::keymap::{self, Keymap};
 use token::{Token, Tokens};
 
@@ -130,39 +130,60 @@ impl Token {
             }
             Self::Word(word, span) => (word, span),
         };
-        let step = match word.as_str() {
-            "wait" => Step::Wait,
-            "dump" => tokens.argument(span, "dump", FRAMES, |file| {
-                let file = PathBuf::from(file);
-                Format::of_path(&file).map(|format| Step::Dump(file, format))
-            })?,
-            "paste" => tokens.argument(span, "paste", "a text in quotation marks", |text| {
-                Some(Step::Paste(text.to_owned()))
-            })?,
-            "click" => tokens.argument(span, "click", "a cell COLUMN,ROW from 0", |cell| {
-                let (column, row) = cell.split_once(',')?;
-                Some(Step::Click(column.parse().ok()?, row.parse().ok()?))
-            })?,
-            "resize" => tokens.argument(span, "resize", "a size such as 100x30", |size| {
-                parse_screen(size).map(|(columns, rows)| Step::Resize(columns, rows))
-            })?,
-            name => {
-                let keys = match keymap::key_named(name) {
-                    Some(key) => Some(vec![key]),
-                    None => keymap.sequence_named(name).map(Vec::from),
-                };
-                let keys = keys.ok_or_else(|| unknown(name, span))?;
-                return Ok(keys.into_iter().map(Step::Key).collect());
-            }
+        if let Some((name, takes)) = COMMANDS.iter().find(|(name, _)| *name == word) {
+            let step = match takes {
+                Takes::Nothing(step) => step.clone(),
+                Takes::Argument(expected, read) => tokens.argument(span, name, expected, read)?,
+            };
+            return Ok(vec![step]);
+        }
+        let keys = match keymap::key_named(&word) {
+            Some(key) => Some(vec![key]),
+            None => keymap.sequence_named(&word).map(Vec::from),
         };
-        Ok(vec![step])
+        let keys = keys.ok_or_else(|| unknown(&word, span))?;
+        Ok(keys.into_iter().map(Step::Key).collect())
     }
 }
 
-/// The files that screens are written to.
-const FRAMES: &str = "a file that ends in .txt, .ansi or .png";
+/// What follows the name of a command.
+enum Takes {
+    /// Nothing: the name alone is this step.
+    Nothing(Step),
+    /// An argument: what is expected, and how it is read.
+    Argument(&'static str, fn(&str) -> Option<Step>),
+}
 
-const COMMANDS: [&str; 5] = ["wait", "dump", "paste", "click", "resize"];
+/// The commands, which are no keys, by their names.
+const COMMANDS: [(&str, Takes); 5] = [
+    ("wait", Takes::Nothing(Step::Wait)),
+    (
+        "dump",
+        Takes::Argument("a file that ends in .txt, .ansi or .png", |file| {
+            let file = PathBuf::from(file);
+            Format::of_path(&file).map(|format| Step::Dump(file, format))
+        }),
+    ),
+    (
+        "paste",
+        Takes::Argument("a text in quotation marks", |text| {
+            Some(Step::Paste(text.to_owned()))
+        }),
+    ),
+    (
+        "click",
+        Takes::Argument("a cell COLUMN,ROW from 0", |cell| {
+            let (column, row) = cell.split_once(',')?;
+            Some(Step::Click(column.parse().ok()?, row.parse().ok()?))
+        }),
+    ),
+    (
+        "resize",
+        Takes::Argument("a size such as 100x30", |size| {
+            parse_screen(size).map(|(columns, rows)| Step::Resize(columns, rows))
+        }),
+    ),
+];
 
 fn typed(character: char) -> Step {
     let code = match character {
@@ -173,12 +194,13 @@ fn typed(character: char) -> Step {
 }
 
 fn unknown(word: &str, span: Span) -> Diagnostic {
-    let hint = match nearest_word(word, keymap::key_names().chain(COMMANDS)) {
+    let commands = COMMANDS.map(|(name, _)| name);
+    let hint = match nearest_word(word, keymap::key_names().chain(commands)) {
         Some(known) => format!("did you mean {known}?"),
         None => format!("write \"{word}\" to type these characters"),
     };
-    let expected = "a key such as j, Enter or Ctrl-R, a text in quotes, wait, dump, paste, click or \
-                    resize";
+    let commands = alternatives(commands);
+    let expected = format!("a key such as j, Enter or Ctrl-R, a text in quotes, {commands}");
     Diagnostic::error(span, format!("unknown key {word}"), expected).with_hint(hint)
 }
 

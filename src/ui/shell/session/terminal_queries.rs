@@ -52,7 +52,7 @@ impl Session {
         tty.ask(questions)?;
         let until = Instant::now() + query::PATIENCE;
         if questions.contains(&Question::Colours) {
-            self.asked = Some(until);
+            self.asked_until = Some(until);
         }
         self.known.until = Some(until);
         Ok(())

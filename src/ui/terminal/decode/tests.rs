@@ -1,10 +1,12 @@
 //! Bytes and the events they decode to, in one piece and in two.
 
+mod answers;
+
 use super::*;
 
 /// Feeds each piece at its time, in milliseconds after the start, and then lets all timeouts pass;
 /// returns abbreviated events with spaces between them.
-pub(super) fn decode(pieces: &[(u64, &[u8])]) -> String {
+fn decode(pieces: &[(u64, &[u8])]) -> String {
     let start = Instant::now();
     let mut decoder = Decoder::default();
     let mut events = Vec::new();

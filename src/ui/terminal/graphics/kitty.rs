@@ -36,7 +36,8 @@ pub(in crate::ui::terminal) fn answers(command: &[u8]) -> bool {
     parts.any(|part| part == QUERY_ID)
 }
 
-/// Appends a PNG, to be shown over these cells, at the cursor, in place of the picture before. The cursor stays where it is, and the terminal does not answer.
+/// Appends a PNG, to be shown over these cells, at the cursor, in place of the picture before. The
+/// cursor stays where it is, and the terminal does not answer.
 pub(super) fn encode(png: &[u8], place: Rect, wrapping: Wrapping, out: &mut Vec<u8>) {
     let data = STANDARD.encode(png);
     let (columns, rows) = (place.width, place.height);

@@ -1,4 +1,4 @@
-//! A picture to send.
+//! Pictures in the form in which they are sent to terminals.
 
 use crate::scene::Size;
 

@@ -192,17 +192,17 @@ fn an_introducer_alone_is_a_key() {
         (b"\x1b[", "ALT+'['"),
         (b"\x1bO", "SHIFT+ALT+'O'"),
     ] {
-        assert_eq!(tests::decode(&[(0, bytes)]), key);
-        let later = tests::decode(&[(0, bytes), (2000, b"x")]);
+        assert_eq!(decode(&[(0, bytes)]), key);
+        let later = decode(&[(0, bytes), (2000, b"x")]);
         assert_eq!(later, format!("{key} 'x'"));
         // The Esc key and the character, typed one after the other.
         let (escape, character) = bytes.split_at(1);
-        let typed = tests::decode(&[(0, escape), (25, character), (50, b"x")]);
+        let typed = decode(&[(0, escape), (25, character), (50, b"x")]);
         assert!(typed.starts_with("Esc "), "{typed}");
         assert_eq!(typed.split(' ').count(), 3, "{typed}");
     }
-    assert_eq!(tests::decode(&[(0, b"\x1b]\x1b[A")]), "ALT+']' Up");
-    assert_eq!(tests::decode(&[(0, b"\x9d"), (2000, b"x")]), "'x'");
+    assert_eq!(decode(&[(0, b"\x1b]\x1b[A")]), "ALT+']' Up");
+    assert_eq!(decode(&[(0, b"\x9d"), (2000, b"x")]), "'x'");
 }
 
 #[test]
@@ -216,11 +216,11 @@ fn eight_bit_introducers_count_only_outside_a_character() {
         (b"\xe0\x9dd", "'d'"),
         (b"\x80\x9c\xa0d", "'d'"),
     ] {
-        let typed = tests::decode(&[(0, bytes)]);
+        let typed = decode(&[(0, bytes)]);
         assert_eq!(typed, keys, "{}", bytes.escape_ascii());
     }
     // A character may come in pieces.
-    let typed = tests::decode(&[(0, b"\xc5"), (500, b"\x9dd")]);
+    let typed = decode(&[(0, b"\xc5"), (500, b"\x9dd")]);
     assert_eq!(typed, "'\u{15d}' 'd'");
 }
 
@@ -276,8 +276,8 @@ proptest! {
 
     #[test]
     fn pieces_decode_like_the_whole(input in input(), each in 1..20_usize) {
-        let whole = tests::decode(&[(0, &input)]);
+        let whole = decode(&[(0, &input)]);
         let pieces: Vec<_> = input.chunks(each).map(|piece| (0, piece)).collect();
-        prop_assert_eq!(tests::decode(&pieces), whole);
+        prop_assert_eq!(decode(&pieces), whole);
     }
 }
