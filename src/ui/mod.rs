@@ -22,7 +22,7 @@
 //! | [`msg`], `event`, [`queue`] | messages and effects; what arrives in the inbox; threads that carry out requests |
 //! | [`arrange`], [`layout`], [`listing`], `error_panel`, [`history_layout`] | where things are on screen, for drawing and for the mouse alike |
 //! | [`scene_reading`], [`reference`](mod@reference), [`revision`], [`history_scene`], [`reel`] | what background work is asked for, and what it answers |
-//! | [`doctor`], `options`, `pixels`, `theme`, `state`, `text_width` | what was detected and chosen, where it is kept, and text made to fit |
+//! | [`doctor`], `options`, `pixels`, `theme`, `state_folder`, `text_width` | what was detected and chosen, where it is kept, and text made to fit |
 
 /// A table of cases: in each row, what is given and what is expected of it, as one tuple.
 #[cfg(test)]
@@ -53,7 +53,7 @@ pub mod revision;
 pub mod scene_reading;
 pub mod service;
 mod shell;
-mod state;
+mod state_folder;
 pub mod terminal;
 mod text_width;
 mod theme;
@@ -73,7 +73,7 @@ use keymap::Keymap;
 pub use options::{Options, Rehearsal};
 pub use pixels::Pixels;
 use scene_reading::Opened;
-use service::{recent, scene_loader};
+use service::{remembering, scene_loader};
 pub use shell::ending::{Ending, Error};
 use shell::script::Script;
 pub use shell::script::parse_screen;
@@ -110,7 +110,7 @@ pub fn run(options: &Options) -> Result<Ending, Error> {
         None => (terminal_size()?, None),
     };
     let recent = match (&options.scene, &path) {
-        (None, None) if script.is_none() => recent::list(),
+        (None, None) if script.is_none() => remembering::list(),
         _ => Vec::new(),
     };
     let opening = Opening {
@@ -124,7 +124,7 @@ pub fn run(options: &Options) -> Result<Ending, Error> {
             theme: options.theme.unwrap_or_default(),
             pixels: options.pixels.unwrap_or_default(),
             panels: match script {
-                None => recent::panels(),
+                None => remembering::panels(),
                 Some(_) => PanelSizes::default(),
             },
         },
@@ -203,7 +203,7 @@ fn find_scene(named: Option<&Path>) -> Result<(Option<PathBuf>, Language, Openin
 pub fn note(options: &Options, error: &Error) -> Option<String> {
     let path = options.scene.as_deref();
     let path = path.unwrap_or_else(|| Path::new(DEFAULT_SCENE));
-    let state = state::state().ok()?;
+    let state = state_folder::path().ok()?;
     match error {
         Error::Read(ReadError::NotFound { .. }) => recovery::note_for_missing(&state, path),
         Error::Read(_) | Error::Folder { .. } => recovery::note_for_unreadable(&state, path),

@@ -3,8 +3,8 @@
 use super::bindings::{Keymap, Row, RowId, names};
 use super::context::{Context, Mode};
 use super::key::Hint;
-use super::line::{Line, line_hints};
 use super::section::Section;
+use super::typed_line::{Line, line_hints};
 
 /// The rank of keys without a hint, where all are shown.
 const UNHINTED: u8 = 50;
@@ -40,7 +40,7 @@ const MOUSE: [(&str, &str); 15] = [
     ("drag it with Ctrl or right", "in VIEW, pan"),
     ("drag it in MOVE", "move, rotate or scale"),
     ("drag it in COMPARE", "move the wipe line"),
-    ("drag it in TRACE", "pan; after R, draw the region"),
+    ("drag it in TRACE", "pan, or draw the region"),
     ("drag a border", "resize the panels"),
     ("wheel", "scroll; in VIEW, dolly; in TRACE, zoom"),
     ("Ctrl and wheel", "zoom the preview"),

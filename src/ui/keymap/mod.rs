@@ -7,11 +7,11 @@ mod chord;
 mod context;
 mod help;
 mod key;
-mod line;
-mod listed;
-mod named;
-mod rules;
+mod named_action;
 mod section;
+mod section_keys;
+mod typed_line;
+mod unbindable;
 
 #[cfg(test)]
 pub(in crate::ui) use bindings::tests::bound;
@@ -20,8 +20,8 @@ pub use chord::{Chord, Keys, alt, c, ctrl, key, key_named, key_names, shift};
 pub use context::{Context, Mode};
 pub use help::{Entry, HelpLine, in_columns};
 pub use key::{Key, Scope};
-pub use line::{Line, line_hints};
-pub use listed::{Bound, NamedHere};
-pub use named::NamedAction;
-pub use rules::{begins_value, refusal, types_amount};
+pub use named_action::NamedAction;
 pub use section::Section;
+pub use section_keys::{Bound, NamedHere};
+pub use typed_line::{Line, begins_value, line_hints, types_amount};
+pub use unbindable::refusal;

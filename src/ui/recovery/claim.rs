@@ -7,7 +7,7 @@ use std::sync::Arc;
 
 use super::identity::Identity;
 use crate::file::{Lock, lock};
-use crate::ui::state::Folder;
+use crate::ui::state_folder::Folder;
 
 /// The maximum number of damaged journals with one name.
 const MOST_DAMAGED: u32 = 1000;
@@ -178,7 +178,7 @@ fn write(mut file: &File, content: &[u8]) -> io::Result<()> {
 mod tests {
     use super::*;
     use crate::language::Language;
-    use crate::ui::state::Part;
+    use crate::ui::state_folder::Part;
 
     #[test]
     #[cfg(unix)]

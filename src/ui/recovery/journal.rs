@@ -10,7 +10,7 @@ use super::record;
 use crate::document::Snapshot;
 use crate::language::Language;
 use crate::text::Edit;
-use crate::ui::state::{Folder, Part};
+use crate::ui::state_folder::{Folder, Part};
 
 /// Outdated edits may take this many bytes, or as many as the text if it is longer.
 const WASTE: u64 = 1 << 20;

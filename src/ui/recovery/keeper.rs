@@ -9,7 +9,7 @@ use std::time::Instant;
 use super::claim::Claim;
 use super::journal::{Edits, Journal};
 use crate::ui::queue::{Ended, Service};
-use crate::ui::state;
+use crate::ui::state_folder;
 
 /// A request for the thread.
 #[derive(Debug)]
@@ -93,7 +93,7 @@ impl Keeper {
 
 /// Executes requests until the channel is closed.
 fn follow(inbox: &Receiver<Request>, report: impl Fn(Outcome)) -> End {
-    let mut journal = state::state().map(Journal::new);
+    let mut journal = state_folder::path().map(Journal::new);
     let mut waiting = VecDeque::new();
     let mut adopted = Vec::new();
     let mut trouble = None;

@@ -8,12 +8,12 @@ use super::identity::Identity;
 use super::offer::{left_behind, limit, read};
 use super::record::{self, Content};
 use crate::language::Language;
-use crate::ui::state::{self, Folder, Part};
+use crate::ui::state_folder::{self, Folder, Part};
 
 /// The base of the newest edits kept of a scene, or of the one without a file: what is left of it if
 /// its file is missing.
 pub(crate) fn base_of(path: Option<&Path>, language: Language) -> Option<String> {
-    base_in(&state::state().ok()?, path, language)
+    base_in(&state_folder::path().ok()?, path, language)
 }
 
 pub(super) fn base_in(state: &Path, path: Option<&Path>, language: Language) -> Option<String> {

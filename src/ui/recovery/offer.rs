@@ -14,7 +14,7 @@ use crate::language::Language;
 use crate::memory::megabytes;
 use crate::text::{Edit, smallest_edit};
 use crate::ui::queue::spawn;
-use crate::ui::state::{self, Folder, Part};
+use crate::ui::state_folder::{self, Folder, Part};
 
 /// The size, in bytes, that a journal may have regardless of the scene's length.
 const ALWAYS: u64 = 64 << 20;
@@ -81,7 +81,7 @@ pub enum Since {
 /// Looks for kept edits on a new thread, which reports any that it finds.
 pub(crate) fn look_for(sought: Sought, report: impl Fn(Found) + Send + 'static) -> io::Result<()> {
     let look = move || {
-        let found = match state::state() {
+        let found = match state_folder::path() {
             Ok(state) => look_in(&state, &sought),
             // Reported once there is something to keep.
             Err(_) => Found::default(),

@@ -18,7 +18,7 @@ use super::offer::look_in;
 use super::{Found, Offer, Sought, Way, missing, note_for_missing, record};
 use crate::document::{Document, Snapshot};
 use crate::language::Language;
-use crate::ui::state::{Folder, Part};
+use crate::ui::state_folder::{Folder, Part};
 
 /// An offer of edits for a text, whose journal is gone.
 pub(crate) fn offer(language: Language, text: &Arc<String>, base: &str, kept: &str) -> Offer {

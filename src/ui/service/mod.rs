@@ -3,12 +3,12 @@
 
 mod answering;
 mod assets;
-mod comparer;
+mod comparing;
 mod deriving;
 pub mod destination;
 mod explaining;
 pub mod filming;
-pub mod recent;
+pub mod remembering;
 pub mod scene_loader;
 mod tracks;
 mod watching;
@@ -16,7 +16,7 @@ pub mod writing;
 
 pub(crate) use answering::Answering;
 pub(crate) use assets::assets;
-pub(crate) use comparer::{figures, references};
+pub(crate) use comparing::{figures, references};
 pub(crate) use deriving::history_scenes;
 pub(crate) use explaining::explanations;
 pub(crate) use tracks::tracks;

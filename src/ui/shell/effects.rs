@@ -34,7 +34,7 @@ use crate::ui::queue::{Ended, Service};
 use crate::ui::recovery::{self, Edits, End, Keeper, Outcome, Request};
 use crate::ui::reel::Reel;
 use crate::ui::reference::{Pair, ReferenceId, ReferenceSource};
-use crate::ui::service::recent;
+use crate::ui::service::remembering;
 use crate::ui::service::scene_loader::SceneLoader;
 use crate::ui::service::writing::Writers;
 use crate::ui::service::{self, Answering};
@@ -55,7 +55,7 @@ pub(crate) struct Runtime {
     freeing: Service<Arc<dyn Any + Send + Sync>>,
     writers: Writers,
     keeper: Keeper,
-    recent: Service<recent::Request>,
+    recent: Service<remembering::Request>,
     assets: Answering<Wanted>,
     tracks: Answering<PathBuf>,
     references: Answering<(ReferenceId, ReferenceSource)>,
@@ -96,7 +96,7 @@ impl Runtime {
             })?,
             writers: Writers::new(sender.clone()),
             keeper: Keeper::start(keeping(&sender))?,
-            recent: recent::remembering(sending(&sender))?,
+            recent: remembering::start(sending(&sender))?,
             assets: service::assets(&options.assets, options.watching(), sending(&sender))?,
             tracks: service::tracks(options.watching(), sending(&sender))?,
             references: service::references(&options.assets, sending(&sender))?,
@@ -254,9 +254,11 @@ impl Runtime {
                 let refused = not_saved(self.writers.save(id, path, text, guard));
                 return Ok(refused.map(|outcome| Msg::Saved(id, outcome)));
             }
-            Effect::NoteRecent(scene) => self.recent.request(recent::Request::Note(scene))?,
-            Effect::ListRecent => self.recent.request(recent::Request::List)?,
-            Effect::KeepPanels(sizes) => self.recent.request(recent::Request::Panels(sizes))?,
+            Effect::NoteRecent(scene) => self.recent.request(remembering::Request::Note(scene))?,
+            Effect::ListRecent => self.recent.request(remembering::Request::List)?,
+            Effect::KeepPanels(sizes) => {
+                self.recent.request(remembering::Request::Panels(sizes))?
+            }
             Effect::Watch(path) => self.reader.watch(path)?,
             Effect::WriteTrack { path, text, guard } => {
                 let refused = not_saved(self.writers.write_track(path, text, guard));

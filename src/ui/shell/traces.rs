@@ -23,7 +23,7 @@ use std::time::{Duration, Instant, SystemTime};
 
 use crate::file::{Digest, Digested};
 use crate::render::{Job, Kept, Provenance};
-use crate::ui::state::{self, Folder, NEW, Part};
+use crate::ui::state_folder::{self, Folder, NEW, Part};
 
 /// The first line, with the version of the format.
 const MAGIC: &str = "halflight trace 2";
@@ -70,7 +70,7 @@ impl Traces {
     /// The folder in the user's state folder. Fails if the environment names none.
     pub(super) fn of_user() -> io::Result<Self> {
         Ok(Self {
-            state: state::state()?,
+            state: state_folder::path()?,
         })
     }
 

@@ -19,7 +19,7 @@ use signal_hook::consts::{SIGABRT, SIGFPE, SIGILL, SIGSYS, SIGTRAP};
 use signal_hook::low_level;
 use signal_hook_registry::register_signal_unchecked;
 
-use super::panics::{GuardState, Ownership};
+use super::ownership::{GuardState, Ownership};
 use super::tty;
 
 /// The signals with the message printed on the restored screen: Rust's own message before an abort

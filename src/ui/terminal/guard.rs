@@ -21,7 +21,7 @@ use super::canvas::{Canvas, Removal, text_over};
 use super::colour::ColourDepth;
 use super::graphics::{Means, Pixmap};
 use super::output::Output;
-use super::panics::{GuardState, Ownership};
+use super::ownership::{GuardState, Ownership};
 use super::query::{self, Question};
 use super::reply::ASK_STATUS;
 use super::tty::{self, TtyWriter};

@@ -20,7 +20,7 @@ mod input;
 pub(crate) mod interview;
 mod link;
 mod output;
-mod panics;
+mod ownership;
 mod pen;
 mod print;
 pub(crate) mod query;

@@ -23,7 +23,7 @@ use signal_hook::consts::{
 };
 use signal_hook::low_level::{self, pipe};
 
-use super::panics::Ownership;
+use super::ownership::Ownership;
 use super::{Event, tty};
 use crate::ui::queue::spawn;
 

@@ -306,6 +306,7 @@ fn marked(upper: Pixel, lower: Option<Pixel>) -> Style {
 mod tests {
     use super::*;
     use crate::language::Language;
+    use crate::ui::keymap::bound;
     use crate::ui::layout::tests::size;
     use crate::ui::view::tests::{app_of, cell_image, check_shown, drawn, inked};
 
@@ -340,6 +341,12 @@ mod tests {
             let parts = ["The scene is empty.", "a        adds", ":e FILE", "? "];
             check_shown(&lines(language, empty), &parts);
         }
+        let mut app = app_of(Language::Ray, "");
+        app.shared.keymap = bound("select Q=add, anywhere F9=help");
+        check_shown(
+            &drawn(&app, inked(render), 40, 12),
+            &["Q        adds", "F9 "],
+        );
         for full in ["broken", Language::Ray.template()] {
             let text = lines(Language::Ray, full).concat();
             assert!(!text.contains("empty"), "{full}");

@@ -81,7 +81,7 @@ fn segments(app: &App, depth: ColourDepth) -> Segments {
         let style = theme::severity(message.severity);
         let more = match shared.overlays.messages.waiting() {
             0 => String::new(),
-            waiting => format!(" (+{waiting}, M)"),
+            waiting => format!(" (+{waiting}, {})", shared.key_for("messages")),
         };
         let text = visible(&message.text);
         segments.say(Rank::Message, format!("{text}{more}"), style);

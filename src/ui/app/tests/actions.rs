@@ -10,7 +10,7 @@ mod dat;
 mod ray;
 mod xml;
 
-use super::rows::scene;
+use super::scripts::scene;
 use super::*;
 use crate::language::Node;
 use crate::ui::app::command;

@@ -1,6 +1,6 @@
 //! Pinning and loading references, and comparing with them.
 
-use super::rows::{Stage, ray, scripts};
+use super::scripts::{Stage, ray, scripts};
 use super::*;
 use crate::compare::Comparison;
 use crate::render::{Frame, Frames};

@@ -1,6 +1,6 @@
 //! Features of `.dat` that `.ray` lacks: words and references in fields, hidden objects.
 
-use super::rows::{Stage, scene, scripts};
+use super::scripts::{Stage, scene, scripts};
 
 /// Two materials and three objects, one of which combines the others.
 pub(super) const SCENE: &str = "\

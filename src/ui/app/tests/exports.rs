@@ -1,6 +1,6 @@
 //! Several exports, and files that others wrote.
 
-use super::rows::{ray, scripts};
+use super::scripts::{ray, scripts};
 
 scripts! {
     exports_run_one_after_the_other_and_each_is_reported: ray().play(r"

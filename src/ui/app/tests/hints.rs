@@ -1,6 +1,6 @@
 //! The hints for keys: only those that would do something.
 
-use super::rows::{ray, scene, scripts};
+use super::scripts::{ray, scene, scripts};
 use super::*;
 
 scripts! {

@@ -1,6 +1,6 @@
 //! Inspecting pixels, and walking through the rays behind them.
 
-use super::rows::{Stage, scene, scripts};
+use super::scripts::{Stage, scene, scripts};
 use super::*;
 use crate::language::Node;
 use crate::ui::app::inspect;

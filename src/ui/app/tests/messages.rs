@@ -1,6 +1,6 @@
 //! Messages: none is lost before it could be read, and none outlives its cause.
 
-use super::rows::{ray, scripts};
+use super::scripts::{ray, scripts};
 
 scripts! {
     a_message_that_comes_while_another_is_shown_waits_for_a_key: ray().play(r"

@@ -13,7 +13,7 @@ mod messages;
 mod palette;
 mod panels;
 mod rebinding;
-mod rows;
+mod scripts;
 mod select;
 mod sequence;
 mod text;

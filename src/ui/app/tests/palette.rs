@@ -1,6 +1,6 @@
 //! The command line: completions, actions by name, and history.
 
-use super::rows::{ray, scripts};
+use super::scripts::{ray, scripts};
 use super::*;
 use crate::ui::app::command;
 

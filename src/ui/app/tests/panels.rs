@@ -1,6 +1,6 @@
 //! The sizes of the panels and of the picture.
 
-use super::rows::{listed, ray, scripts};
+use super::scripts::{listed, ray, scripts};
 
 scripts! {
     keys_and_mouse_resize_the_panels: ray().play(r"

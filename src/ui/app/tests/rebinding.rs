@@ -1,6 +1,6 @@
 //! Keys that the user has bound.
 
-use super::rows::{Stage, ray, scripts};
+use super::scripts::{Stage, ray, scripts};
 use crate::ui::app::command;
 use crate::ui::keymap::HelpLine;
 

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use super::rows::{Session, ray, scene, scripts};
+use super::scripts::{Session, ray, scene, scripts};
 use super::*;
 use crate::document::StateId;
 use crate::text::{Edit, Span};

@@ -1,6 +1,6 @@
 //! Adding things, changing their kind, and moving, turning and scaling them.
 
-use super::rows::{Stage, scene, scripts};
+use super::scripts::{Stage, scene, scripts};
 use super::*;
 
 const RAY: &str = "\

@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-use super::rows::{Session, Stage, listed, ray, scene, scripts};
+use super::scripts::{Session, Stage, listed, ray, scene, scripts};
 use super::*;
 
 /// The stage of a scene whose camera looks along −z from 4 away.

@@ -1,6 +1,6 @@
 //! Features of `.xml` that the others lack: components that are absent from the text.
 
-use super::rows::{Stage, scene, scripts};
+use super::scripts::{Stage, scene, scripts};
 use super::*;
 use crate::ui::app::{Provenance, display};
 

@@ -10,6 +10,7 @@ use crate::language::Language;
 use crate::render::{Aov, Frame, Progress};
 use crate::scene::{Integrator, Rendering};
 use crate::ui::app::{Picture, Prompt, PromptKind, ShownWireframe, Typing};
+use crate::ui::keymap::bound;
 use crate::ui::layout::tests::size;
 use crate::ui::view::tests::{Change, app, app_of, drawn, retype, say};
 
@@ -154,4 +155,15 @@ fn hints_for_help_commands_and_quitting_outlast_all_others() {
     });
     // A prompt replaces the keys.
     assert_eq!(hint(&app, 80), ":export a.bmp");
+}
+
+#[test]
+fn messages_that_wait_are_counted_beside_the_key_that_lists_them() {
+    let mut app = app();
+    for text in ["one", "another"] {
+        app.shared.say(text);
+    }
+    assert_eq!(line(&app), " SELECT  test.ray  whitted  one (+1, M)");
+    app.shared.keymap = bound("anywhere Q=messages");
+    assert_eq!(line(&app), " SELECT  test.ray  whitted  one (+1, Q)");
 }

@@ -1,6 +1,6 @@
 //! Views, light components, the exposure of the display, and the histogram.
 
-use super::rows::{ray, scripts};
+use super::scripts::{ray, scripts};
 use super::*;
 
 scripts! {

@@ -1,6 +1,6 @@
 //! Tracing and exporting.
 
-use super::rows::{ray, scripts};
+use super::scripts::{ray, scripts};
 use super::*;
 use crate::ui::msg::{Existing, Target};
 

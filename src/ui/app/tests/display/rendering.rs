@@ -1,6 +1,6 @@
 //! Integrator, depth, AOV and filter of pictures.
 
-use super::rows::{listed, ray, scene, scripts};
+use super::scripts::{listed, ray, scene, scripts};
 use super::*;
 use crate::scene::Filter;
 

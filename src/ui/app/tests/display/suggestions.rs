@@ -1,6 +1,6 @@
 //! What is wrong with pictures as a whole, the trials, and the setting suggested.
 
-use super::rows::{Stage, scene, scripts};
+use super::scripts::{Stage, scene, scripts};
 use super::*;
 
 /// The stage of a text, which checks can call too bright.

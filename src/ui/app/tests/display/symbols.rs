@@ -1,6 +1,6 @@
 //! Symbols of lights, cameras and groups: when they are shown, where, and picking them.
 
-use super::rows::{scene, scripts};
+use super::scripts::{scene, scripts};
 
 pub(super) const RAY: &str = "\
 // view: eye 0 0 10 target 0 0 0 up 0 1 0 fov 60 size 400 300

@@ -1,6 +1,6 @@
 //! The wireframe: when it is shown, what is traced meanwhile, and that it follows.
 
-use super::rows::{scene, scripts};
+use super::scripts::{scene, scripts};
 use super::symbols::{DAT, RAY, XML};
 use crate::render::WireLine;
 

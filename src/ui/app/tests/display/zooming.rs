@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use super::rows::{Session, Stage, ray, scripts};
+use super::scripts::{Session, Stage, ray, scripts};
 use super::*;
 use crate::ui::app::display;
 use crate::ui::msg::Target;

@@ -1,7 +1,7 @@
 //! The colour picker.
 
 use super::fields::XML;
-use super::rows::{Stage, ray, scene, scripts};
+use super::scripts::{Stage, ray, scene, scripts};
 use super::*;
 
 /// The stage of a diffuse colour with a factor, and of a background.

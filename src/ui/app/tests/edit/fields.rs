@@ -1,6 +1,6 @@
 //! Entering words, choosing them from lists, sliders and frames.
 
-use super::rows::{ray, scene, scripts};
+use super::scripts::{ray, scene, scripts};
 use super::*;
 
 pub(super) const XML: &str = r#"<xml>

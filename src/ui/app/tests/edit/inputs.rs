@@ -1,6 +1,6 @@
 //! Inputs that are open while another program saves the file.
 
-use super::rows::{Stage, ray, scene, scripts};
+use super::scripts::{Stage, ray, scene, scripts};
 
 /// A ball, its material and a view without a name.
 const XML: &str = "\

@@ -1,6 +1,6 @@
 //! Lines that keys are typed into, when they are full, and what the search of the help shows first.
 
-use super::rows::{ray, scripts};
+use super::scripts::{ray, scripts};
 use super::*;
 use crate::ui::app::shared::line::LONGEST;
 

@@ -1,6 +1,6 @@
 //! Nudging, typing, pasting, undoing.
 
-use super::rows::{ray, scripts};
+use super::scripts::{ray, scripts};
 
 scripts! {
     nudges_have_the_selected_size: ray().each(r"

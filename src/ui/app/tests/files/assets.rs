@@ -1,6 +1,6 @@
 //! Requesting, awaiting and taking the files that scenes name.
 
-use super::rows::{Stage, scene, scripts};
+use super::scripts::{Stage, scene, scripts};
 
 const TEXTURED: &str = "\
 camera perspective 0 0 8  0 0 0  0 1 0  1 0 100

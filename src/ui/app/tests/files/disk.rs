@@ -2,7 +2,7 @@
 
 use std::fs;
 
-use super::rows::{ray, scene, scripts};
+use super::scripts::{ray, scene, scripts};
 use super::*;
 use crate::ui::app::files;
 use crate::ui::scene_reading::SceneFolder;

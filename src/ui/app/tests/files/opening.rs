@@ -1,6 +1,6 @@
 //! The interface before its scene is read.
 
-use super::rows::{Stage, scene, scripts};
+use super::scripts::{Stage, scene, scripts};
 use super::*;
 use crate::file::ReadError;
 

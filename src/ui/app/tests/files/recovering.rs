@@ -1,6 +1,6 @@
 //! Keeping unsaved edits, and restoring those of earlier runs.
 
-use super::rows::{Stage, listed, ray, scripts};
+use super::scripts::{Stage, listed, ray, scripts};
 use super::*;
 
 const IS_FULL: &str = "unsaved edits cannot be kept for recovery: it is full";

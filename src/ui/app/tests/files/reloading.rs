@@ -1,6 +1,6 @@
 //! Numbers that another program changes in a long text.
 
-use super::rows::{Stage, listed, scripts};
+use super::scripts::{Stage, listed, scripts};
 
 /// Objects of a text that is long enough not to be parsed as a whole.
 const OBJECTS: usize = 12_000;

@@ -1,6 +1,6 @@
 //! Slow and failing saves.
 
-use super::rows::{ray, scene, scripts};
+use super::scripts::{ray, scene, scripts};
 use super::*;
 
 scripts! {

@@ -1,6 +1,6 @@
 //! Starting scenes: new ones, and others in place of the present one.
 
-use super::rows::{Stage, ray, scene, scripts};
+use super::scripts::{Stage, ray, scene, scripts};
 use super::*;
 
 /// The stage of a file that does not exist yet.

@@ -1,6 +1,6 @@
 //! Adding things in the selected material and into empty texts, and changing the type of lights.
 
-use super::rows::{scene, scripts};
+use super::scripts::{scene, scripts};
 
 const RAY: &str = "\
 0.1 0.1 0.1

@@ -1,6 +1,6 @@
 //! Showing a part of the list: filtering it and folding groups.
 
-use super::rows::{scene, scripts};
+use super::scripts::{scene, scripts};
 
 const RAY: &str = "\
 0.1 0.1 0.1

@@ -1,6 +1,6 @@
 //! Moving through the list, over the picture and around the scene.
 
-use super::rows::{listed, ray, scene, scripts};
+use super::scripts::{listed, ray, scene, scripts};
 use super::*;
 
 scripts! {

@@ -1,7 +1,7 @@
 //! Showing lights and objects alone in the preview.
 
 use super::listing::XML;
-use super::rows::{Stage, scene, scripts};
+use super::scripts::{Stage, scene, scripts};
 use super::structure::{DAT, RAY};
 
 /// The stage of three objects and two lights, the second of which is red.

@@ -1,6 +1,6 @@
 //! Changing the structure of scenes by keys: a text and keys in, a text out.
 
-use super::rows::{Stage, scene, scripts};
+use super::scripts::{Stage, scene, scripts};
 use super::*;
 
 /// Three objects and two lights.

@@ -1,7 +1,7 @@
 //! Exporting the track that is played.
 
 use super::playing::playing;
-use super::rows::{half_way, ray, scripts};
+use super::scripts::{half_way, ray, scripts};
 use super::*;
 
 scripts! {

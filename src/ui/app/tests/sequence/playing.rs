@@ -1,6 +1,6 @@
 //! Playing a track: frames in the text, and values keyed in the track.
 
-use super::rows::{Stage, listed, ray, scripts};
+use super::scripts::{Stage, listed, ray, scripts};
 use super::*;
 
 /// The lamp of [`SCENE`] rises from 5 to 13 in eight frames.

@@ -1,6 +1,6 @@
 //! Cancelling what is tried out while the file changes.
 
-use super::rows::{ray, scene, scripts};
+use super::scripts::{ray, scene, scripts};
 use super::*;
 use crate::text::{Edit, Span};
 use crate::ui::app::text;

@@ -1,6 +1,6 @@
 //! The names of undo steps.
 
-use super::rows::{ray, scene, scripts};
+use super::scripts::{ray, scene, scripts};
 use super::select::structure::DAT;
 
 /// Two spheres that share a material, one of them named.

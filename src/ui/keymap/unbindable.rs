@@ -6,6 +6,7 @@ use super::bindings::{Keymap, Row};
 use super::chord::{CTRL, Chord, Keys, NONE};
 use super::context::{Context, Mode};
 use super::section::Section;
+use super::typed_line::{begins_value, types_amount};
 
 /// Control characters that terminals send for other keys.
 const SAME_BYTES: [(char, &str); 4] = [
@@ -15,25 +16,8 @@ const SAME_BYTES: [(char, &str); 4] = [
     ('[', "Esc"),
 ];
 
-/// Characters that begin to type a value in EDIT.
-const BEGINS_VALUE: &str = "0123456789+-*/.(#";
-/// Characters that begin to type an amount in MOVE.
-const BEGINS_AMOUNT: &str = "0123456789+-.(";
-/// Those that go on typing one.
-const CONTINUES_AMOUNT: &str = "*/^), ";
-
 /// The row that ends the program.
 const INTERRUPT: &str = "interrupt";
-
-/// Whether a character begins to type a value in EDIT.
-pub fn begins_value(character: char) -> bool {
-    BEGINS_VALUE.contains(character)
-}
-
-/// Whether a character is typed in MOVE, after an amount or to begin one.
-pub fn types_amount(character: char, typed: &str) -> bool {
-    BEGINS_AMOUNT.contains(character) || !typed.is_empty() && CONTINUES_AMOUNT.contains(character)
-}
 
 /// Why keys cannot do what rows with this name do in a section.
 pub fn refusal(section: Section, keys: Keys, name: Option<&str>) -> Option<String> {

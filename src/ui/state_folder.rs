@@ -70,13 +70,13 @@ pub(crate) struct Folder {
 
 /// The path of a folder of the user's. Fails if nothing can be kept there.
 pub(crate) fn place(part: Part) -> io::Result<PathBuf> {
-    let state = state()?;
+    let state = path()?;
     Folder::find(&state, part)?;
     Ok(part.path_in(&state))
 }
 
 /// The state folder that the environment defines.
-pub(crate) fn state() -> io::Result<PathBuf> {
+pub(crate) fn path() -> io::Result<PathBuf> {
     state_by(|name| env::var_os(name))
 }
 

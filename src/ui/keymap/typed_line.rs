@@ -1,4 +1,11 @@
-//! The keys with a meaning of their own while a line is typed.
+//! Lines that are typed: which characters begin one, and the keys with a meaning of their own there.
+
+/// Characters that begin to type a value in EDIT.
+const BEGINS_VALUE: &str = "0123456789+-*/.(#";
+/// Characters that begin to type an amount in MOVE.
+const BEGINS_AMOUNT: &str = "0123456789+-.(";
+/// Those that go on typing one.
+const CONTINUES_AMOUNT: &str = "*/^), ";
 
 /// A line that keys are typed into.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -59,4 +66,14 @@ pub fn line_hints(line: Line) -> &'static [(&'static str, &'static str)] {
         ],
         Line::Search => &[("Enter", "find"), ("Esc", "cancel"), ("Ctrl-U", "clear")],
     }
+}
+
+/// Whether a character begins to type a value in EDIT.
+pub fn begins_value(character: char) -> bool {
+    BEGINS_VALUE.contains(character)
+}
+
+/// Whether a character is typed in MOVE, after an amount or to begin one.
+pub fn types_amount(character: char, typed: &str) -> bool {
+    BEGINS_AMOUNT.contains(character) || !typed.is_empty() && CONTINUES_AMOUNT.contains(character)
 }

@@ -1,4 +1,4 @@
-//! Handles panics while the terminal is in use.
+//! Who owns the terminal, and what a panic does with it meanwhile.
 //!
 //! A panic on the interface's thread restores the terminal before it is reported. A panic on any
 //! other thread is kept for later, because the interface is still drawing.

@@ -9,7 +9,7 @@ use crate::file;
 use crate::ui::arrange::PanelSizes;
 use crate::ui::msg::Msg;
 use crate::ui::queue::Service;
-use crate::ui::state::{self, Folder, Part};
+use crate::ui::state_folder::{self, Folder, Part};
 
 /// Names of the files.
 const SCENES: &str = "recent";
@@ -32,7 +32,7 @@ pub(crate) enum Request {
 }
 
 /// Starts the thread. Failures to remember a scene are reported by [`Msg::Failed`], each reason once.
-pub(crate) fn remembering(send: impl Fn(Msg) + Send + 'static) -> io::Result<Service<Request>> {
+pub(crate) fn start(send: impl Fn(Msg) + Send + 'static) -> io::Result<Service<Request>> {
     Service::start("recent", "remembers scenes", move |inbox| {
         let mut last = None;
         for request in inbox {
@@ -40,10 +40,10 @@ pub(crate) fn remembering(send: impl Fn(Msg) + Send + 'static) -> io::Result<Ser
                 Request::List => send(Msg::RecentListed(list())),
                 Request::Panels(sizes) => {
                     // The loss is too small to interrupt anyone.
-                    let _ = state::state().and_then(|state| keep_in(&state, sizes));
+                    let _ = state_folder::path().and_then(|state| keep_in(&state, sizes));
                 }
                 Request::Note(scene) => {
-                    let noted = state::state().and_then(|state| note_in(&state, &scene));
+                    let noted = state_folder::path().and_then(|state| note_in(&state, &scene));
                     let reason = noted.err().map(|error| error.to_string());
                     if let Some(reason) = reason.filter(|reason| last.as_ref() != Some(reason)) {
                         let words = format!("recent scenes cannot be remembered: {reason}");
@@ -58,12 +58,12 @@ pub(crate) fn remembering(send: impl Fn(Msg) + Send + 'static) -> io::Result<Ser
 
 /// The recently used scenes that still exist, the newest first; empty if that is unknown.
 pub(crate) fn list() -> Vec<PathBuf> {
-    state::state().map_or_else(|_| Vec::new(), |state| list_in(&state))
+    state_folder::path().map_or_else(|_| Vec::new(), |state| list_in(&state))
 }
 
 /// The sizes of the panels that were kept last; the default ones if that is unknown.
 pub(crate) fn panels() -> PanelSizes {
-    state::state().map_or_else(|_| PanelSizes::default(), |state| panels_in(&state))
+    state_folder::path().map_or_else(|_| PanelSizes::default(), |state| panels_in(&state))
 }
 
 fn panels_in(state: &Path) -> PanelSizes {
