@@ -29,7 +29,7 @@ pub(crate) fn move_cursor_in(shared: &mut Shared, context: Context, rows: isize)
                 *at = moved(*at, rows, merge.conflicts.len());
             }
         }
-        Context::Views | Context::Recent | Context::History | Context::Messages | Context::Help => {
+        _ if Context::PAGES.contains(&context) => {
             let messages = shared.overlays.messages.past().len();
             if let Some(page) = &mut shared.overlays.page {
                 let count = match context {
@@ -43,16 +43,7 @@ pub(crate) fn move_cursor_in(shared: &mut Shared, context: Context, rows: isize)
         }
         Context::Colour => edit::move_picker(shared, rows),
         Context::Rays => inspect::move_in_rays(shared, rows),
-        Context::In(_)
-        | Context::Opening
-        | Context::Region
-        | Context::Quit
-        | Context::Leave
-        | Context::MovedView
-        | Context::Delete
-        | Context::Wait
-        | Context::Overwrite
-        | Context::Recover => {}
+        _ => {}
     }
 }
 
@@ -64,7 +55,7 @@ fn page(shared: &Shared) -> isize {
         Context::Rays => inspect::ray_panels(shared).map_or(areas.list, |panels| panels.lines),
         Context::Errors => areas.errors,
         Context::History => return history::step_rows(shared),
-        Context::Messages | Context::Views | Context::Recent => areas.picture,
+        context if Context::PAGES.contains(&context) => areas.picture,
         _ => areas.list,
     };
     (layout::contents(panel).height as isize - 1).max(1)

@@ -67,8 +67,24 @@ impl Mode {
 }
 
 /// Declares the contexts that are no modes, one per line in the order of the help: the names of their
-/// sections of keys, and their headings in the help.
+/// sections of keys, and their headings in the help. Pages and questions have keys in common.
 macro_rules! contexts {
+    (
+        { $($(#[$panel_doc:meta])* $panel:ident, $panel_section:literal, $panel_heading:literal;)+ }
+        pages { $($(#[$page_doc:meta])* $page:ident, $page_section:literal, $page_heading:literal;)+ }
+        questions { $($(#[$doc:meta])* $question:ident, $section:literal, $heading:literal;)+ }
+    ) => {
+        contexts! {
+            $($(#[$panel_doc])* $panel, $panel_section, $panel_heading;)+
+            $($(#[$page_doc])* $page, $page_section, $page_heading;)+
+            $($(#[$doc])* $question, $section, $heading;)+
+        }
+
+        impl Context {
+            /// The pages.
+            pub const PAGES: &[Self] = &[$(Self::$page),+];
+        }
+    };
     ($($(#[$doc:meta])* $context:ident, $section:literal, $heading:literal;)+) => {
         /// A context with its own key bindings.
         #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -109,38 +125,44 @@ macro_rules! contexts {
 }
 
 contexts! {
-    /// The colour picker.
-    Colour, "colour", "the colour picker";
-    /// The rays behind the pixel under the cross.
-    Rays, "rays", "the rays behind a pixel";
-    /// The drawing of a region in the full-size trace.
-    Region, "region", "while a region is drawn";
-    /// The list of errors.
-    Errors, "errors", "the list of errors";
-    /// The page of saved views.
-    Views, "views", "the list of saved views";
-    /// The page of recently used scenes.
-    Recent, "recent", "the list of recent scenes";
-    /// The page of the undo history.
-    History, "history", "the undo history";
-    /// The page of the messages so far.
-    Messages, "messages", "the messages so far";
-    /// The help page.
-    Help, "help", "this page";
-    /// The question how to resolve a merge.
-    Conflict, "conflict", "merge conflicts";
-    /// The question whether to quit although edits are unsaved.
-    Quit, "quit", "when asked to confirm quitting";
-    /// The question whether to delete what others use.
-    Delete, "delete", "when asked to confirm deleting";
-    /// The question whether to leave the scene for another one.
-    Leave, "leave", "when asked to confirm leaving the scene";
-    /// The question whether to leave although the saved text lacks the moved view.
-    MovedView, "moved-view", "when asked to leave a moved view";
-    /// The question whether to quit although a file is being saved or exported.
-    Wait, "wait", "when asked to quit during a save or an export";
-    /// The question whether an export may overwrite a file.
-    Overwrite, "overwrite", "when asked to overwrite a picture";
-    /// The question whether to recover the edits of an earlier run.
-    Recover, "recover", "when unsaved edits were found";
+    {
+        /// The colour picker.
+        Colour, "colour", "the colour picker";
+        /// The rays behind the pixel under the cross.
+        Rays, "rays", "the rays behind a pixel";
+        /// The drawing of a region in the full-size trace.
+        Region, "region", "while a region is drawn";
+        /// The list of errors.
+        Errors, "errors", "the list of errors";
+    }
+    pages {
+        /// The page of saved views.
+        Views, "views", "the list of saved views";
+        /// The page of recently used scenes.
+        Recent, "recent", "the list of recent scenes";
+        /// The page of the undo history.
+        History, "history", "the undo history";
+        /// The page of the messages so far.
+        Messages, "messages", "the messages so far";
+        /// The help page.
+        Help, "help", "this page";
+    }
+    questions {
+        /// The question how to resolve a merge.
+        Conflict, "conflict", "merge conflicts";
+        /// The question whether to quit although edits are unsaved.
+        Quit, "quit", "when asked to confirm quitting";
+        /// The question whether to delete what others use.
+        Delete, "delete", "when asked to confirm deleting";
+        /// The question whether to leave the scene for another one.
+        Leave, "leave", "when asked to confirm leaving the scene";
+        /// The question whether to leave although the saved text lacks the moved view.
+        MovedView, "moved-view", "when asked to leave a moved view";
+        /// The question whether to quit although a file is being saved or exported.
+        Wait, "wait", "when asked to quit during a save or an export";
+        /// The question whether an export may overwrite a file.
+        Overwrite, "overwrite", "when asked to overwrite a picture";
+        /// The question whether to recover the edits of an earlier run.
+        Recover, "recover", "when unsaved edits were found";
+    }
 }

@@ -6,7 +6,7 @@ use super::context::{Context, Mode};
 use super::section::Section;
 
 /// The most hints of a row.
-const HINTS: usize = 4;
+const HINTS: usize = 5;
 
 /// A row of keys: within its scope, each of them does the same.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -39,6 +39,8 @@ enum Presses {
 pub enum Scope {
     /// Active only in these contexts.
     These(&'static [Context]),
+    /// Active on pages, and in these contexts.
+    PagesAnd(&'static [Context]),
     /// All modes but [`Mode::Move`] and [`Mode::Sequence`]; also the list of errors and the rays behind
     /// a pixel.
     Everywhere,
@@ -75,6 +77,9 @@ impl Scope {
     pub(super) fn holds(self, context: Context) -> bool {
         match self {
             Self::These(contexts) => contexts.contains(&context),
+            Self::PagesAnd(others) => {
+                Context::PAGES.contains(&context) || others.contains(&context)
+            }
             // While something is being transformed or a frame is shown, nothing else may change the
             // text.
             Self::Everywhere => {
@@ -128,7 +133,7 @@ impl Key {
         self.with(Hint::new(rank, words))
     }
 
-    /// Hints at it in these contexts. A row has at most four hints.
+    /// Hints at it in these contexts. A row has at most five hints.
     #[must_use]
     pub const fn hint_in(self, within: &'static [Context], rank: u8, words: &'static str) -> Self {
         self.with(Hint {
@@ -178,7 +183,7 @@ impl Key {
 
     /// Whether it is active in all modes.
     pub fn is_common(&self) -> bool {
-        !matches!(self.scope, Scope::These(_))
+        !matches!(self.scope, Scope::These(_) | Scope::PagesAnd(_))
     }
 
     /// Whether it is active in only one context.

@@ -27,7 +27,7 @@ pub(super) fn render(shared: &Shared, page: &Page, area: Rect, buffer: &mut Buff
     } else {
         String::new()
     };
-    let inner = page::frame(" Keys ", &lines, place, buffer);
+    let inner = page::frame("Keys", &lines, place, buffer);
     let (body, search) = layout::split_bottom(inner, 1);
     let width = body.width / count;
     for (at, lines) in (0..).zip(&columns) {

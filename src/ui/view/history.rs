@@ -23,9 +23,9 @@ pub(super) fn render(app: &App, page: &Page, inks: &mut Inks, area: Rect, buffer
     let states: Vec<_> = shared.document.states().map(|state| state.id).collect();
     let present = format!(" {} of {} ", shared.document.present(), states.len() - 1);
     let title = if shared.pictures.view.is_some() {
-        " Undo history, from the moved view "
+        "Undo history, from the moved view"
     } else {
-        " Undo history "
+        page.title
     };
     page::frame(title, &present, area, buffer);
     let strip = history::history_layout(shared, area);

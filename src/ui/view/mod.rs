@@ -132,9 +132,7 @@ fn render_page(app: &App, page: &Page, inks: &mut Inks, area: Rect, buffer: &mut
         Context::Help => help::render(&app.shared, page, area, buffer),
         Context::Messages => past_messages::render(&app.shared, page, area, buffer),
         Context::History => history::render(app, page, inks, area, buffer),
-        Context::Recent => page::render(app, page, " Recent scenes ", area, buffer),
-        Context::Views => page::render(app, page, " Saved views ", area, buffer),
-        _ => {}
+        _ => page::render(app, page, area, buffer),
     }
 }
 

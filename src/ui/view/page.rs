@@ -13,10 +13,10 @@ use crate::ui::app::{App, Page, PageFocus};
 use crate::ui::{layout, theme};
 
 /// Draws a page of rows, as high as they need.
-pub(super) fn render(app: &App, page: &Page, title: &str, area: Rect, buffer: &mut Buffer) {
+pub(super) fn render(app: &App, page: &Page, area: Rect, buffer: &mut Buffer) {
     let height = u16::try_from(page.rows.len()).unwrap_or(u16::MAX);
     let place = layout::centred(area, Rect::new(0, 0, 76, height.saturating_add(4)));
-    let inner = frame(title, "", place, buffer);
+    let inner = frame(page.title, "", place, buffer);
     let (body, foot) = layout::split_bottom(inner, 2);
     let rows = page.shown();
     let visible = usize::from(body.height);
@@ -36,7 +36,7 @@ pub(super) fn frame(title: &str, shown: &str, place: Rect, buffer: &mut Buffer) 
     let block = Block::bordered()
         .border_type(BorderType::Rounded)
         .border_style(theme::DIM)
-        .title(title)
+        .title(format!(" {title} "))
         .title_top(Line::from(shown).right_aligned());
     let inner = block.inner(place);
     let place = place.intersection(buffer.area);
@@ -96,12 +96,12 @@ mod tests {
                 .overlays
                 .page(Context::Recent)
                 .expect("it is open");
-            super::render(app, page, " Recent scenes ", area, buffer);
+            super::render(app, page, area, buffer);
         };
         let mut app = app();
         let paths = ["/a/one.ray", "/a/two.dat", "/b/three.xml"];
         let paths = paths.map(str::to_owned);
-        let mut page = Page::of(Context::Recent, paths.into());
+        let mut page = Page::of(Context::Recent, "Recent scenes", paths.into());
         page.filter.at = 1;
         app.shared.overlays.page = Some(page);
         let lines = drawn(&app, render, 80, 24);

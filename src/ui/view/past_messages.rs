@@ -17,7 +17,7 @@ pub(super) fn render(shared: &Shared, page: &Page, area: Rect, buffer: &mut Buff
     let top = page.filter.at.min(count.saturating_sub(1));
     let place = format!(" {} of {count} ", (top + 1).min(count));
     let area = area.intersection(buffer.area);
-    let inner = page::frame(" Messages, newest first ", &place, area, buffer);
+    let inner = page::frame("Messages, newest first", &place, area, buffer);
     let width = usize::from(inner.width).saturating_sub(SIGN + 2);
     let lines = past.past().skip(top).flat_map(|message| {
         let text = visible(&message.text).into_owned();

@@ -252,7 +252,7 @@ const STATES: &[(&str, Change)] = &[
     }),
     ("recent scenes", |app| {
         let paths = (0..99).map(|at| format!("/界/{at}.ray"));
-        let mut page = Page::of(Context::Recent, paths.collect());
+        let mut page = Page::of(Context::Recent, "Recent scenes", paths.collect());
         page.filter.at = 98;
         app.shared.overlays.open_page(page);
     }),

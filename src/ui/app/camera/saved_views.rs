@@ -14,7 +14,7 @@ pub(super) fn list_views(shared: &mut Shared) {
     if names.is_empty() {
         shared.say("no saved views: :view save NAME saves this one");
     } else {
-        let page = Page::of(Context::Views, names);
+        let page = Page::of(Context::Views, "Saved views", names);
         shared.overlays.open_page(page);
     }
 }

@@ -18,7 +18,7 @@ pub(crate) fn show_recent(shared: &mut Shared, scenes: Vec<PathBuf>) {
 /// Opens the page of recently used scenes.
 pub(super) fn list_recent(shared: &mut Shared, scenes: Vec<PathBuf>) {
     let rows = scenes.iter().map(|path| path.display().to_string());
-    let page = Page::of(Context::Recent, rows.collect());
+    let page = Page::of(Context::Recent, "Recent scenes", rows.collect());
     shared.overlays.open_page(page);
     shared.disk.recent = scenes;
 }

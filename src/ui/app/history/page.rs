@@ -18,7 +18,7 @@ pub(crate) fn list_steps(shared: &mut Shared) {
         shared.say("nothing has been changed yet");
         return;
     }
-    let mut page = Page::of(Context::History, names);
+    let mut page = Page::of(Context::History, "Undo history", names);
     page.filter.at = shared.document.present();
     shared.overlays.open_page(page);
 }

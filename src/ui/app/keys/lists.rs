@@ -8,53 +8,33 @@ use crate::ui::keymap::{Context, Key, Mode, Scope, c, key};
 
 use Context::In;
 use KeyCode::{Down, End, Enter, Home, PageDown, PageUp, Up};
-use Scope::These;
+use Scope::{PagesAnd, These};
 
 /// What has lines.
-const LISTS: Scope = These(&[
+const LISTS: Scope = PagesAnd(&[
     In(Mode::Select),
     In(Mode::Edit),
-    Context::Help,
-    Context::Messages,
     Context::Errors,
-    Context::Views,
-    Context::Recent,
-    Context::History,
     Context::Colour,
     Context::Conflict,
     Context::Rays,
 ]);
 /// What may have more lines than fit.
-const LONG_LISTS: Scope = These(&[
-    In(Mode::Select),
-    Context::Help,
-    Context::Messages,
-    Context::Errors,
-    Context::Views,
-    Context::Recent,
-    Context::Rays,
-    Context::History,
-]);
+const LONG_LISTS: Scope = PagesAnd(&[In(Mode::Select), Context::Errors, Context::Rays]);
 const MOVED: &[Context] = &[In(Mode::Select), Context::Errors, Context::Rays];
 const EDIT: &[Context] = &[In(Mode::Edit)];
 const COLOUR: &[Context] = &[Context::Colour];
-const PAGES: &[Context] = &[
-    Context::Help,
-    Context::Messages,
-    Context::Views,
-    Context::Recent,
-    Context::History,
-    Context::Conflict,
-];
+const PAGES: &[Context] = Context::PAGES;
+const CONFLICT: &[Context] = &[Context::Conflict];
 
 /// The most useful first.
 #[rustfmt::skip]
 pub(crate) const KEYS: &[Row] = &[
     Key::new(LISTS, "down", &[c('j'), key(Down)], "down")
-        .hint_in(MOVED, 0, "move").hint_in(EDIT, 0, "field").hint_in(COLOUR, 10, "row").hint_in(PAGES, 0, "down")
+        .hint_in(MOVED, 0, "move").hint_in(EDIT, 0, "field").hint_in(COLOUR, 10, "row").hint_in(PAGES, 0, "down").hint_in(CONFLICT, 0, "down")
         .does(|shared| list::move_cursor(shared, 1)),
     Key::new(LISTS, "up", &[c('k'), key(Up)], "up")
-        .hint_in(MOVED, 0, "move").hint_in(EDIT, 0, "field").hint_in(COLOUR, 10, "row").hint_in(PAGES, 0, "up")
+        .hint_in(MOVED, 0, "move").hint_in(EDIT, 0, "field").hint_in(COLOUR, 10, "row").hint_in(PAGES, 0, "up").hint_in(CONFLICT, 0, "up")
         .does(|shared| list::move_cursor(shared, -1)),
     Key::in_turn(LONG_LISTS, "first", [c('g'), c('g')], "first").does(|shared| list::move_cursor(shared, isize::MIN)),
     Key::new(LONG_LISTS, "last", &[c('G'), key(End)], "last").does(|shared| list::move_cursor(shared, isize::MAX)),

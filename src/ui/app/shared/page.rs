@@ -10,6 +10,8 @@ use crate::ui::keymap::Context;
 pub struct Page {
     /// Which page it is: the context of its keys.
     pub context: Context,
+    /// What a page of rows is called.
+    pub title: &'static str,
     /// The rows to choose from; none on a page that is only read.
     pub rows: Vec<String>,
     /// The typed filter or search, and the cursor among the rows that it leaves: on a page that is only
@@ -31,9 +33,10 @@ pub enum PageFocus {
 
 impl Page {
     /// A page of rows to choose from, with its cursor on the first.
-    pub(crate) fn of(context: Context, rows: Vec<String>) -> Self {
+    pub(crate) fn of(context: Context, title: &'static str, rows: Vec<String>) -> Self {
         Self {
             context,
+            title,
             rows,
             filter: Filter::default(),
             focus: PageFocus::default(),
@@ -42,7 +45,7 @@ impl Page {
 
     /// A page that is only read, from its beginning.
     pub(crate) fn reading(context: Context) -> Self {
-        Self::of(context, Vec::new())
+        Self::of(context, "", Vec::new())
     }
 
     /// Whether its lines are only read.
