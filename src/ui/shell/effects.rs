@@ -257,7 +257,7 @@ impl Runtime {
             Effect::NoteRecent(scene) => self.recent.request(remembering::Request::Note(scene))?,
             Effect::ListRecent => self.recent.request(remembering::Request::List)?,
             Effect::KeepPanels(sizes) => {
-                self.recent.request(remembering::Request::Panels(sizes))?
+                self.recent.request(remembering::Request::Panels(sizes))?;
             }
             Effect::Watch(path) => self.reader.watch(path)?,
             Effect::WriteTrack { path, text, guard } => {
