@@ -75,8 +75,8 @@ pub(super) fn enter(shared: &mut Shared) {
         // The mode to return to is that before the comparison.
         (Mode::Trace, _) | (Mode::Compare, Some(Mode::Trace)) => {}
         _ if shared.seen() == Target::Trace => {}
-        (Mode::Compare, before) => shared.pictures.leave_mode(before.unwrap_or(Mode::Select)),
-        (mode, _) => shared.pictures.leave_mode(mode),
+        (Mode::Compare, before) => shared.pictures.before_trace = before.or(Some(Mode::Select)),
+        (mode, _) => shared.pictures.before_trace = Some(mode),
     }
     shared.mode = Mode::Trace;
 }
