@@ -128,75 +128,68 @@ fn wanted(shared: &Shared) -> Option<Wanted<'_>> {
     };
     let typed = typed.trim_start();
     let file = typed.split_once(' ').and_then(|(name, rest)| {
-        let described = running::described_as(name).filter(|row| row.takes_file)?;
+        let described = running::named(name)?.described();
         // `export cancel` is a command of its own.
-        let is_other = running::described_as(typed).is_some();
-        (!is_other).then_some(Wanted::File(typed, described, rest.trim_start()))
+        let is_other = running::named(typed).is_some();
+        (described.takes_file && !is_other).then_some(Wanted::File(
+            typed,
+            described,
+            rest.trim_start(),
+        ))
     });
     Some(file.unwrap_or(Wanted::Command(typed)))
 }
 
 fn commands_like(shared: &Shared, typed: &str) -> Vec<Completion> {
     let wanted = typed.trim_end().to_lowercase();
-    let commands = running::all_described().map(|row| {
-        let names = row.names.iter().filter_map(|name| likeness(name, &wanted));
-        let by_words = likeness(row.words, &wanted).map(|rank| rank + 1);
-        let by_synonyms = likeness(row.synonyms, &wanted).map(|rank| rank + 2);
-        let rank = names.chain(by_words).chain(by_synonyms).min();
-        (rank, row.key, as_completion(shared, row))
-    });
-    let commands: Vec<_> = commands.filter(|(rank, ..)| rank.is_some()).collect();
+    let (mut found, mut keys) = (Vec::new(), Vec::new());
+    for row in running::all_described() {
+        let names = row.names.iter().map(|&name| (name, 0));
+        let texts = names.chain([(row.words, 1), (row.synonyms, 2)]);
+        if let Some(rank) = rank(texts, &wanted) {
+            keys.extend(row.key);
+            found.push((rank, as_completion(shared, row)));
+        }
+    }
     let actions = if shared.disk.is_opening() {
         Vec::new()
     } else {
         shared.keymap.actions(shared.mode)
     };
     // A command that is offered does the same.
-    let is_other = |name| commands.iter().all(|(_, key, _)| *key != Some(name));
-    let actions = actions.into_iter().filter(|named| is_other(named.name));
-    let actions: Vec<_> = actions
-        .map(|named| {
-            let keys = if named.mode == shared.mode || named.keys.is_empty() {
-                named.keys
-            } else {
-                format!("{} {}", named.mode.name(), named.keys)
-            };
-            let completion = Completion {
-                line: named.words.to_owned(),
-                shown: named.words.to_owned(),
-                words: "",
-                keys,
-                act: Some((named.row, named.mode)),
-            };
-            let by_synonyms = likeness(named.synonyms, &wanted).map(|rank| rank + 1);
-            let ranks = likeness(named.words, &wanted)
-                .into_iter()
-                .chain(by_synonyms);
-            (ranks.min(), completion)
-        })
-        .collect();
-    let mut found: Vec<_> = commands
+    let others = actions
         .into_iter()
-        .map(|(rank, _, completion)| (rank, completion))
-        .chain(actions)
-        .filter_map(|(rank, completion)| Some((rank?, completion)))
-        .collect();
+        .filter(|named| !keys.contains(&named.name));
+    found.extend(others.filter_map(|named| {
+        let rank = rank([(named.words, 0), (named.synonyms, 1)], &wanted)?;
+        let keys = if named.mode == shared.mode || named.keys.is_empty() {
+            named.keys
+        } else {
+            format!("{} {}", named.mode.name(), named.keys)
+        };
+        let completion = Completion {
+            line: named.words.to_owned(),
+            shown: named.words.to_owned(),
+            words: "",
+            keys,
+            act: Some((named.row, named.mode)),
+        };
+        Some((rank, completion))
+    }));
     found.sort_by_key(|&(rank, _)| rank);
-    found
-        .into_iter()
-        .map(|(_, completion)| completion)
-        .collect()
+    let found = found.into_iter().map(|(_, completion)| completion);
+    found.collect()
 }
 
 /// The names in the listed folder that a command may take and that begin as typed.
 fn files_like(shared: &Shared, command: &str, typed: &str) -> Vec<Completion> {
-    let (folder, start) = parted(typed);
+    let (folder, _) = parted(typed);
     let names = match &shared.palette.folder {
         Some((listed, names)) if *listed == folder_of(folder) => &names[..],
         _ => &[],
     };
     let own = shared.document.language().extension();
-    let is_wanted = |name: &str| {
+    let is_wanted = |name: &&String| {
         let path = Path::new(name);
         name.ends_with('/')
             || if command.starts_with('w') {
@@ -206,16 +199,15 @@ fn files_like(shared: &Shared, command: &str, typed: &str) -> Vec<Completion> {
                 is_scene || ImageFormat::of_path(path).is_some()
             }
     };
-    let matching = names.iter().filter(|name| name.starts_with(start));
     let others = match (command, folder) {
         ("compare", "") => &["saved", "git"][..],
         _ => &[],
     };
-    let others = others.iter().filter(|word| word.starts_with(start));
-    let files = matching.filter(|name| is_wanted(name));
+    let others = others.iter().map(|&word| word.to_owned());
+    let files = names.iter().filter(is_wanted);
     others
-        .map(|word| (*word).to_owned())
         .chain(files.map(|name| format!("{folder}{name}")))
+        .filter(|shown| shown.starts_with(typed))
         .map(|shown| Completion {
             line: format!("{command} {shown}"),
             shown,
@@ -297,6 +289,14 @@ fn parted(typed: &str) -> (&str, &str) {
 
 fn folder_of(typed: &str) -> PathBuf {
     PathBuf::from(if typed.is_empty() { "." } else { typed })
+}
+
+/// How well the best of some texts answers what was typed, each worse than it is by a handicap.
+fn rank<'t>(texts: impl IntoIterator<Item = (&'t str, u8)>, wanted: &str) -> Option<u8> {
+    let ranks = texts
+        .into_iter()
+        .filter_map(|(text, handicap)| Some(likeness(text, wanted)? + handicap));
+    ranks.min()
 }
 
 /// How well a text answers what was typed, in lower case; 0 is best. `None` if it does not contain

@@ -19,10 +19,8 @@ pub(crate) fn all_described() -> impl Iterator<Item = Described> {
 }
 
 /// The command with exactly this name.
-pub(super) fn described_as(name: &str) -> Option<Described> {
-    let mut rows = ROWS.iter();
-    let row = rows.find(|row| row.names.contains(&name));
-    row.map(CommandRow::described)
+pub(super) fn named(name: &str) -> Option<&'static CommandRow> {
+    ROWS.iter().find(|row| row.names.contains(&name))
 }
 
 /// The command whose name a line begins with, followed by a blank.
@@ -54,12 +52,11 @@ fn parse(line: &str) -> Result<(&'static CommandRow, Run), String> {
     let line = line.trim();
     let (name, rest) = line.split_once(char::is_whitespace).unwrap_or((line, ""));
     let rest = rest.trim();
-    let called = |name: &str| ROWS.iter().find(|row| row.names.contains(&name));
     let (second, others) = rest.split_once(char::is_whitespace).unwrap_or((rest, ""));
-    if let Some(row) = called(&format!("{name} {second}")) {
+    if let Some(row) = named(&format!("{name} {second}")) {
         return Ok((row, row.parse(others.trim())?));
     }
-    if let Some(row) = called(name) {
+    if let Some(row) = named(name) {
         return Ok((row, row.parse(rest)?));
     }
     let names = ROWS.iter().map(|row| row.names[0]);
