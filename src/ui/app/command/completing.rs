@@ -6,7 +6,8 @@ use std::path::{Path, PathBuf};
 use crossterm::event::{KeyCode, KeyEvent};
 use tui_input::Input;
 
-use super::row::Described;
+use super::row::CommandRow;
+use super::rows::ROWS;
 use super::running;
 use crate::image_file::ImageFormat;
 use crate::language::Language;
@@ -20,7 +21,7 @@ enum Wanted<'a> {
     /// A command or an action that begins like this or contains this.
     Command(&'a str),
     /// A file name, of which this is typed, of a command; the whole line comes first.
-    File(&'a str, Described, &'a str),
+    File(&'a str, &'static CommandRow, &'a str),
 }
 
 impl App {
@@ -93,11 +94,11 @@ pub(crate) fn folder_listed(shared: &mut Shared, folder: PathBuf, names: Vec<Str
 
 /// The command whose arguments are being typed.
 pub(crate) fn command_typed(shared: &Shared) -> Option<Completion> {
-    let described = match wanted(shared)? {
-        Wanted::File(_, described, _) => described,
-        Wanted::Command(typed) => running::described_in(typed)?,
+    let row = match wanted(shared)? {
+        Wanted::File(_, row, _) => row,
+        Wanted::Command(typed) => running::begun_in(typed)?,
     };
-    Some(as_completion(shared, described))
+    Some(as_completion(shared, row))
 }
 
 /// The ways to complete the command line, the best first.
@@ -105,13 +106,13 @@ pub(crate) fn completions(shared: &Shared) -> Vec<Completion> {
     match wanted(shared) {
         None => Vec::new(),
         Some(Wanted::Command(typed)) => commands_like(shared, typed.trim_start()),
-        Some(Wanted::File(line, described, typed)) => {
+        Some(Wanted::File(line, row, typed)) => {
             // The line may begin something else: `export cancel`.
             let mut found = commands_like(shared, line);
             let begins =
                 |other: &Completion| other.line.starts_with(line) || other.words.starts_with(line);
-            found.retain(|other| other.line != described.name && begins(other));
-            found.extend(files_like(shared, described.name, typed));
+            found.retain(|other| other.line != row.name() && begins(other));
+            found.extend(files_like(shared, row.name(), typed));
             found
         }
     }
@@ -128,14 +129,10 @@ fn wanted(shared: &Shared) -> Option<Wanted<'_>> {
     };
     let typed = typed.trim_start();
     let file = typed.split_once(' ').and_then(|(name, rest)| {
-        let described = running::named(name)?.described();
+        let row = running::named(name).filter(|row| row.takes_file())?;
         // `export cancel` is a command of its own.
         let is_other = running::named(typed).is_some();
-        (described.takes_file && !is_other).then_some(Wanted::File(
-            typed,
-            described,
-            rest.trim_start(),
-        ))
+        (!is_other).then_some(Wanted::File(typed, row, rest.trim_start()))
     });
     Some(file.unwrap_or(Wanted::Command(typed)))
 }
@@ -143,7 +140,7 @@ fn wanted(shared: &Shared) -> Option<Wanted<'_>> {
 fn commands_like(shared: &Shared, typed: &str) -> Vec<Completion> {
     let wanted = typed.trim_end().to_lowercase();
     let (mut found, mut keys) = (Vec::new(), Vec::new());
-    for row in running::all_described() {
+    for row in ROWS {
         let names = row.names.iter().map(|&name| (name, 0));
         let texts = names.chain([(row.words, 1), (row.synonyms, 2)]);
         if let Some(rank) = rank(texts, &wanted) {
@@ -218,11 +215,11 @@ fn files_like(shared: &Shared, command: &str, typed: &str) -> Vec<Completion> {
         .collect()
 }
 
-fn as_completion(shared: &Shared, command: Described) -> Completion {
+fn as_completion(shared: &Shared, command: &CommandRow) -> Completion {
     Completion {
-        line: command.name.to_owned(),
+        line: command.name().to_owned(),
         keys: keys_of(shared, command.key),
-        shown: command.usage,
+        shown: command.usage(),
         words: command.words,
         act: None,
     }

@@ -25,7 +25,7 @@ use Runs::{Always, OnTrack, WhileOpening};
 
 /// All commands, in the order of the help page.
 #[rustfmt::skip]
-pub(super) const ROWS: &[CommandRow] = &[
+pub(crate) const ROWS: &[CommandRow] = &[
     CommandRow::new(&["w", "write"], File(|file| Run::requests(|shared| files::write(shared, file, Force::No))), "save the scene, or save it as FILE").key("save"),
     CommandRow::new(&["w!", "write!"], File(|file| Run::requests(|shared| files::write(shared, file, Force::Yes))), "save, overwriting changes on disk"),
     CommandRow::new(&["q", "quit"], Nothing(|| Run::requests(files::quit)), "quit").also("exit").key("quit").runs(WhileOpening),
@@ -130,20 +130,17 @@ fn exposure(said: &str) -> Result<Run, String> {
     let is_known = |half_stops: &f64| {
         half_stops.fract() == 0.0 && half_stops.abs() <= f64::from(MOST_HALF_STOPS)
     };
-    let most = MOST_HALF_STOPS / 2;
-    match half_stops.filter(is_known) {
-        Some(half_stops) => Ok(Run::does(move |shared| {
-            display::set_exposure(shared, half_stops as i8);
-        })),
-        None => Err(format!(
-            "exposure takes stops from -{most} to {most}, in steps of 0.5"
-        )),
-    }
+    let half_stops = half_stops.filter(is_known).ok_or_else(|| {
+        let most = MOST_HALF_STOPS / 2;
+        format!("exposure takes stops from -{most} to {most}, in steps of 0.5")
+    })?;
+    Ok(Run::does(move |shared| {
+        display::set_exposure(shared, half_stops as i8);
+    }))
 }
 
 fn pixels(said: &str) -> Result<Run, String> {
-    match Pixels::named(said) {
-        Some(pixels) => Ok(Run::does(move |shared| shared.pixels = pixels)),
-        None => Err(format!("pixels takes {}", Pixels::names())),
-    }
+    let pixels = Pixels::named(said);
+    let pixels = pixels.ok_or_else(|| format!("pixels takes {}", Pixels::names()))?;
+    Ok(Run::does(move |shared| shared.pixels = pixels))
 }

@@ -1,8 +1,7 @@
 //! The commands by their names, and running them.
 
-use super::row::{CommandRow, Described, Run, Runs};
+use super::row::{CommandRow, Run, Runs};
 use super::rows::ROWS;
-
 use crate::text::nearest_word;
 use crate::ui::app::App;
 use crate::ui::keymap::Mode;
@@ -13,25 +12,19 @@ pub fn commands() -> impl Iterator<Item = (String, &'static str)> {
     ROWS.iter().map(|row| (row.usage(), row.words))
 }
 
-/// All commands, in the order of the help page.
-pub(crate) fn all_described() -> impl Iterator<Item = Described> {
-    ROWS.iter().map(CommandRow::described)
-}
-
 /// The command with exactly this name.
 pub(super) fn named(name: &str) -> Option<&'static CommandRow> {
     ROWS.iter().find(|row| row.names.contains(&name))
 }
 
 /// The command whose name a line begins with, followed by a blank.
-pub(super) fn described_in(line: &str) -> Option<Described> {
+pub(super) fn begun_in(line: &str) -> Option<&'static CommandRow> {
     let begins = |name: &&str| {
-        line.strip_prefix(*name)
-            .is_some_and(|rest| rest.starts_with(' '))
+        let rest = line.strip_prefix(*name);
+        rest.is_some_and(|rest| rest.starts_with(' '))
     };
     let rows = ROWS.iter().filter(|row| row.names.iter().any(begins));
-    let row = rows.max_by_key(|row| row.names[0].len());
-    row.map(CommandRow::described)
+    rows.max_by_key(|row| row.name().len())
 }
 
 /// Whether a line can be run.
@@ -59,7 +52,7 @@ fn parse(line: &str) -> Result<(&'static CommandRow, Run), String> {
     if let Some(row) = named(name) {
         return Ok((row, row.parse(rest)?));
     }
-    let names = ROWS.iter().map(|row| row.names[0]);
+    let names = ROWS.iter().map(CommandRow::name);
     let longer = names.filter(|longer| longer.split(' ').next() == Some(name));
     match longer.collect::<Vec<_>>().as_slice() {
         [] => Err(unknown(name)),
@@ -68,7 +61,7 @@ fn parse(line: &str) -> Result<(&'static CommandRow, Run), String> {
 }
 
 fn unknown(name: &str) -> String {
-    let names: Vec<_> = ROWS.iter().map(|row| row.names[0]).collect();
+    let names: Vec<_> = ROWS.iter().map(CommandRow::name).collect();
     match nearest_word(name, names.iter().copied()) {
         Some(nearest) => format!("unknown command `{name}`: did you mean {nearest}?"),
         None => format!(
