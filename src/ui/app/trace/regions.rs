@@ -2,9 +2,9 @@
 
 use super::tracing::{enter, start};
 use crate::render::Region;
-use crate::text::Severity;
 use crate::ui::app::pictures::frame_window::Extent;
 use crate::ui::app::pictures::region::{Drawing, Held, RegionOrder};
+use crate::ui::app::refusing::Refusable;
 use crate::ui::app::{Shared, display};
 use crate::ui::msg::Effect;
 
@@ -12,11 +12,10 @@ use crate::ui::msg::Effect;
 pub(crate) fn order_region(shared: &mut Shared, order: RegionOrder) -> Vec<Effect> {
     match order {
         RegionOrder::Tell => {
-            let words = shared.region().map_or_else(
-                || "the full-size trace has no region".to_owned(),
-                |region| format!("the full-size trace is of the region {region}"),
-            );
-            shared.say(words);
+            shared.say(match shared.region() {
+                Some(region) => format!("the full-size trace is of the region {region}"),
+                None => "the full-size trace has no region".to_owned(),
+            });
             Vec::new()
         }
         RegionOrder::Off => {
@@ -99,14 +98,13 @@ pub(crate) fn confirm_region(shared: &mut Shared) -> Vec<Effect> {
 }
 
 fn trace_region(shared: &mut Shared, region: Region) -> Vec<Effect> {
-    if let Err(reason) = region.within(shared.output()) {
-        shared.fail(reason.to_string());
+    let Some(region) = region.within(shared.output()).or_fail(shared) else {
         return Vec::new();
-    }
+    };
     let before = shared.pictures.region.replace(region);
-    if let Err(reason) = display::trace_job(shared) {
+    let job = display::trace_job(shared);
+    if job.or_refuse_picture(shared).is_none() {
         shared.pictures.region = before;
-        shared.refuse_picture(Severity::Error, &reason);
         return Vec::new();
     }
     shared.say(format!(
