@@ -109,10 +109,8 @@ fn wheel(shared: &mut Shared, at: (u16, u16), down: isize, controls: bool) {
     if shared.mode == Mode::Compare {
         return;
     }
-    if shared
-        .errors_panel(areas.errors)
-        .is_some_and(|panel| over(panel.area))
-    {
+    let errors = shared.errors_panel(areas.errors);
+    if errors.is_some_and(|panel| over(panel.area)) {
         if shared.overlays.errors.is_some() {
             list::move_cursor_in(shared, Context::Errors, down);
         }
@@ -249,13 +247,12 @@ fn drag_to_pan(shared: &mut Shared, at: (u16, u16)) {
     };
     if pans(shared) {
         display::drag_picture(shared, from, at);
-        shared.pictures.drag = Some(at);
+    } else if shared.mode.moves_camera() {
+        camera::drag_to_pan(shared, from, at);
+    } else {
         return;
     }
-    if shared.mode.moves_camera() {
-        camera::drag_to_pan(shared, from, at);
-        shared.pictures.drag = Some(at);
-    }
+    shared.pictures.drag = Some(at);
 }
 
 fn release(shared: &mut Shared) -> Vec<Effect> {

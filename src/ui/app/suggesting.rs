@@ -18,8 +18,7 @@ pub(crate) fn judge_picture(shared: &mut Shared, target: Target, frame: &Frame) 
         return Vec::new();
     }
     let under_way = shared.suggestions.trials.take().is_some();
-    let suspected = suspected(shared, frame);
-    let trial = match suspected {
+    let trial = match suspected(shared, frame) {
         // A scene of this size would keep all else waiting.
         Some(trials) if shared.is_large() => {
             let is_overexposed = 0.5 < Overexposure::of(&frame.values).share;
@@ -76,12 +75,10 @@ fn try_out(shared: &mut Shared, next: Trials) -> Option<Effect> {
 
 /// Takes a frame of a small picture.
 pub(crate) fn tried(shared: &mut Shared, frame: &Frame) -> Vec<Effect> {
-    let is_it = |trials: &mut RunningTrials| trials.generation == Some(frame.generation);
-    let Some(trials) = shared
-        .suggestions
-        .trials
-        .take_if(|trials| frame.progress.complete && is_it(trials))
-    else {
+    let is_traced = |trials: &mut RunningTrials| {
+        frame.progress.complete && trials.generation == Some(frame.generation)
+    };
+    let Some(trials) = shared.suggestions.trials.take_if(is_traced) else {
         return Vec::new();
     };
     let advice = match trials.next.after(frame) {

@@ -62,8 +62,7 @@ fn follow_preview(shared: &mut Shared) -> Option<Effect> {
 
 /// The size of the preview, and the part of it that is on screen.
 fn preview_asked(shared: &Shared, screen: Screen) -> (Size, Option<Region>) {
-    let preview = &shared.pictures.preview;
-    let viewport = preview.viewport;
+    let viewport = shared.pictures.preview.viewport;
     let window = viewport.window(screen, Detail::OnScreen);
     match window.filter(|_| shared.pictures.wireframe.is_none()) {
         Some(window) => (window.whole, Some(window.part)),
