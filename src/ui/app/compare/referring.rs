@@ -86,24 +86,12 @@ fn refer(compare: &mut Compare, reference: Reference) -> Vec<Effect> {
     free.into_iter().collect()
 }
 
-/// Compares with the reference, or with another one once that is read, for `:compare`. SEQUENCE is left
-/// when the comparison starts.
-pub(crate) fn by_command(
+/// Requests a reference, to compare with once it is read.
+pub(crate) fn read_reference(
     compare: &mut Compare,
     shared: &mut Shared,
-    named: Option<PathBuf>,
+    path: PathBuf,
 ) -> Vec<Effect> {
-    if let Some(named) = named {
-        return read_reference(compare, shared, named);
-    }
-    let mode = text::step_outside(shared);
-    let effects = start(compare, shared);
-    text::return_if_failed(shared, mode);
-    effects
-}
-
-/// Requests a reference.
-fn read_reference(compare: &mut Compare, shared: &mut Shared, path: PathBuf) -> Vec<Effect> {
     let Some((name, source)) = source_of(shared, path).or_fail(shared) else {
         return Vec::new();
     };

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use super::contrast::{Both, Contrast};
+use super::contrast::Contrast;
 use crate::compare::{Comparison, Difference};
 use crate::image_file::in_8_bits;
 use crate::render::{Aov, Frame, NO_OBJECT, Progress};
@@ -323,12 +323,8 @@ impl Compare {
         }
         let pixels = match self.pair() {
             Some(pair) => {
-                let both = Both {
-                    size: live.size,
-                    live: &pair.live.pixels,
-                    reference: &pair.reference.pixels,
-                };
-                self.view.pixels(both, self.wipe.0)
+                let both = [&pair.live.pixels[..], &pair.reference.pixels];
+                self.view.pixels(both, live.size, self.wipe.0)
             }
             None => live.pixels.clone(),
         };
