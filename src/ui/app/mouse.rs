@@ -30,8 +30,8 @@ impl App {
             || shared.disk.is_opening() && shared.overlays.page.is_none();
         match event.kind {
             _ if waits => {}
-            MouseEventKind::ScrollUp => wheel(shared, at, -1, controls),
-            MouseEventKind::ScrollDown => wheel(shared, at, 1, controls),
+            MouseEventKind::ScrollUp => wheel(shared, at, -1, event.modifiers),
+            MouseEventKind::ScrollDown => wheel(shared, at, 1, event.modifiers),
             _ if shared.overlays.page.is_some() => {}
             MouseEventKind::Down(MouseButton::Left) if shared.overlays.picker.is_some() => {
                 press_picker(shared, at);
@@ -91,7 +91,7 @@ fn pans(shared: &Shared) -> bool {
 }
 
 /// Scrolls what is under the pointer; in TRACE and with Ctrl, zooms the picture.
-fn wheel(shared: &mut Shared, at: (u16, u16), down: isize, controls: bool) {
+fn wheel(shared: &mut Shared, at: (u16, u16), down: isize, modifiers: KeyModifiers) {
     if shared.overlays.menu.is_some() || shared.overlays.picker.is_some() {
         return;
     }
@@ -102,7 +102,8 @@ fn wheel(shared: &mut Shared, at: (u16, u16), down: isize, controls: bool) {
     let areas = shared.areas();
     let over = |area: ratatui::layout::Rect| area.contains(at.into());
     let steps = if down < 0 { 1 } else { -1 };
-    if (shared.mode == Mode::Trace || controls) && over(areas.picture) {
+    let zooms = shared.mode == Mode::Trace || modifiers.contains(KeyModifiers::CONTROL);
+    if zooms && over(areas.picture) {
         display::magnify_at(shared, steps, at);
         return;
     }

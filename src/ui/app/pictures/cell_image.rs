@@ -248,7 +248,6 @@ fn middle(range: &Range<usize>) -> usize {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::render::Region;
 
     fn size(width: u32, height: u32) -> Size {
         Size { width, height }
