@@ -81,13 +81,11 @@ pub(crate) fn export(shared: &mut Shared, order: ExportOrder, asking: Asking) ->
     let Some(mut job) = export_job(shared, &path, size, spp).or_refuse_picture(shared) else {
         return Vec::new();
     };
+    // Frames the view for the size that is written.
+    job.camera.size = size;
     let making = match traced(shared, size, spp).filter(|_| job.frames == Frames::Last) {
         Some(frame) => ExportWork::Write(frame),
-        None => {
-            // Frames the view for the size that is written.
-            job.camera.size = size;
-            ExportWork::Trace(Box::new(job))
-        }
+        None => ExportWork::Trace(Box::new(job)),
     };
     let says_origin = ImageFormat::of_path(&path).is_some_and(ImageFormat::has_metadata);
     let destination = Destination {
@@ -285,7 +283,7 @@ pub(crate) fn export_path(shared: &Shared) -> PathBuf {
     let aov = shared.pictures.aov;
     let extension = aov.map_or_else(|| "bmp".to_owned(), |aov| format!("{}.bmp", aov.name()));
     let scene = shared.disk.path.as_deref();
-    let scene = scene.unwrap_or(Path::new("halflight"));
+    let scene = scene.unwrap_or_else(|| Path::new("halflight"));
     scene.with_extension(extension)
 }
 

@@ -118,7 +118,7 @@ fn say_fault(shared: &mut Shared, fault: Fault, uncured: Option<&str>) {
         Fault::Black(_) => cure.unwrap_or_else(|| reason_of_black(shared)),
         Fault::Overexposed => {
             let darker = format!("{} darkens only the screen", shared.key_for("darker"));
-            let cure = cure.or(uncured.map(str::to_owned));
+            let cure = cure.or_else(|| uncured.map(str::to_owned));
             cure.into_iter()
                 .chain([darker])
                 .collect::<Vec<_>>()

@@ -325,6 +325,6 @@ fn follow_open(sequence: &Sequence, read: &Path) -> Vec<Effect> {
 /// Reads the open track again, if there is one and it is not being written.
 pub(crate) fn reread(sequence: &Sequence) -> Option<Effect> {
     let open = sequence.open.as_ref()?;
-    let is_written = sequence.writing.is_none();
-    is_written.then(|| Effect::ReadTrack(open.path.clone()))
+    let is_idle = sequence.writing.is_none();
+    is_idle.then(|| Effect::ReadTrack(open.path.clone()))
 }
