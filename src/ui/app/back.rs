@@ -8,7 +8,9 @@ pub(crate) fn go_back(shared: &mut Shared) {
     match shared.context() {
         Context::Errors => shared.overlays.errors = None,
         Context::Rays => shared.inspection.explained = None,
-        Context::In(Mode::Trace) => shared.mode = shared.pictures.take_mode_before_trace(),
+        Context::In(Mode::Trace) => {
+            shared.mode = shared.pictures.before_trace.take().unwrap_or(Mode::Select);
+        }
         Context::In(Mode::Compare) => compare::end(shared),
         Context::In(Mode::Inspect) => inspect::stop(shared),
         Context::In(Mode::Select) if select::end_filter(shared) => {}

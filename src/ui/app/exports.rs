@@ -3,12 +3,12 @@
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
+use super::refusing::Refusable;
 use super::shared::jobs::{Asking, ExportWork, Pending};
 use super::{Dialog, Export, Question, Shared, Stage, display, files};
 use crate::image_file::{ImageFormat, known_extensions};
-use crate::render::{Aov, Frame, Frames, Job};
-use crate::scene::{Camera, MAX_SPP, Size, Viewpoint};
-use crate::text::Severity;
+use crate::render::{Frame, Frames, Job};
+use crate::scene::{MAX_SPP, Size, Viewpoint};
 use crate::ui::msg::{Destination, Effect, Existing, ExportId, Exported, Origin, Target};
 use crate::ui::reel::names_sequence;
 
@@ -78,39 +78,52 @@ pub(crate) fn export(shared: &mut Shared, order: ExportOrder, asking: Asking) ->
     let size = order.size.unwrap_or_else(|| shared.output());
     let spp = order.spp.unwrap_or_else(|| shared.rendering().spp());
     let spp = shared.pictures.samples(spp);
-    let job = match export_job(shared, &path, size, spp) {
-        Ok(job) => job,
-        Err(reason) => {
-            shared.refuse_picture(Severity::Error, &reason);
-            return Vec::new();
-        }
+    let Some(mut job) = export_job(shared, &path, size, spp).or_refuse_picture(shared) else {
+        return Vec::new();
     };
-    let traced = traced(shared, size, spp).filter(|_| job.frames == Frames::Last);
+    // Frames the view for the size that is written.
+    job.camera.size = size;
+    let making = match traced(shared, size, spp).filter(|_| job.frames == Frames::Last) {
+        Some(frame) => ExportWork::Write(frame),
+        None => ExportWork::Trace(Box::new(job)),
+    };
+    let says_origin = ImageFormat::of_path(&path).is_some_and(ImageFormat::has_metadata);
+    let destination = Destination {
+        origin: says_origin.then(|| origin(shared)).flatten(),
+        path,
+        existing: asking.existing(),
+        scene: shared.disk.path.clone(),
+        named: shared.assets.files().to_vec(),
+    };
+    begin(shared, destination, (size, spp), making, asking)
+}
+
+/// Begins an export of this size and with so many samples per pixel, or queues it behind the one under way.
+pub(crate) fn begin(
+    shared: &mut Shared,
+    destination: Destination,
+    (size, spp): (Size, u32),
+    making: ExportWork,
+    asking: Asking,
+) -> Vec<Effect> {
+    let (frames, progress) = match &making {
+        ExportWork::Trace(_) => (None, None),
+        ExportWork::Write(frame) => (None, Some(frame.progress)),
+        ExportWork::Film(reel) => (Some(reel.track.frames), None),
+    };
     let export = Export {
         id: shared.jobs.next_export(),
         stage: Stage::Tracing,
-        destination: Destination {
-            origin: origin_in(shared, &path),
-            path: path.clone(),
-            existing: asking.existing(),
-            scene: shared.disk.path.clone(),
-            named: shared.assets.files().to_vec(),
-        },
+        destination,
         size,
         spp,
         aov: shared.pictures.aov,
-        frames: None,
+        frames,
         reel: None,
-        progress: traced.as_ref().map(|frame| frame.progress),
+        progress,
         written_for: 0,
     };
-    // Frames the view for the size that is written.
-    let camera = Camera { size, ..job.camera };
-    let making = match traced {
-        Some(frame) => ExportWork::Write(frame),
-        None => ExportWork::Trace(Box::new(Job { camera, ..job })),
-    };
-    announce_export(shared, export.aov, &path);
+    announce_export(shared, &export);
     begin_or_queue(
         shared,
         Pending {
@@ -122,8 +135,8 @@ pub(crate) fn export(shared: &mut Shared, order: ExportOrder, asking: Asking) ->
 }
 
 /// Says what is exported, and whether that has to wait.
-pub(crate) fn announce_export(shared: &mut Shared, aov: Option<Aov>, path: &Path) {
-    let [begun, queued] = announcements(aov, path);
+fn announce_export(shared: &mut Shared, export: &Export) {
+    let [begun, queued] = announcements(export);
     let words = match shared.jobs.export() {
         Some(_) => queued,
         None => begun,
@@ -138,13 +151,13 @@ pub(crate) fn announce_export(shared: &mut Shared, aov: Option<Aov>, path: &Path
 
 /// Takes back that an export has begun or waits.
 fn withdraw_announcement(shared: &mut Shared, export: &Export) {
-    for stale in announcements(export.aov, &export.destination.path) {
+    for stale in announcements(export) {
         shared.overlays.withdraw(&stale);
     }
 }
 
 /// Begins an export, or queues it behind the one under way.
-pub(crate) fn begin_or_queue(shared: &mut Shared, pending: Pending) -> Vec<Effect> {
+fn begin_or_queue(shared: &mut Shared, pending: Pending) -> Vec<Effect> {
     if shared.jobs.export().is_some() {
         shared.jobs.queue(pending);
         return Vec::new();
@@ -256,10 +269,7 @@ pub(crate) fn answer_taken(shared: &mut Shared, existing: Existing) -> Vec<Effec
     };
     let mut pending = *pending;
     if existing == Existing::Overwritten {
-        let Export {
-            aov, destination, ..
-        } = &pending.export;
-        announce_export(shared, *aov, &destination.path);
+        announce_export(shared, &pending.export);
     }
     pending.export.id = shared.jobs.next_export();
     pending.export.destination.existing = existing;
@@ -275,12 +285,6 @@ pub(crate) fn export_path(shared: &Shared) -> PathBuf {
     let scene = shared.disk.path.as_deref();
     let scene = scene.unwrap_or_else(|| Path::new("halflight"));
     scene.with_extension(extension)
-}
-
-/// What a picture to be written there is made from, if its file says that.
-fn origin_in(shared: &Shared, path: &Path) -> Option<Origin> {
-    let is_said = ImageFormat::of_path(path).is_some_and(ImageFormat::has_metadata);
-    is_said.then(|| origin(shared)).flatten()
 }
 
 /// What the present picture is made from. A text with errors has none: the picture is of an
@@ -346,10 +350,11 @@ pub(crate) fn cancel_export(shared: &mut Shared) -> Vec<Effect> {
     effects
 }
 
-/// The messages that an export of an AOV to a file has begun, and that it waits for others.
-fn announcements(aov: Option<Aov>, path: &Path) -> [String; 2] {
-    let what = aov.map_or_else(String::new, |aov| format!("{} ", aov.name()));
-    let path = path.display();
+/// The messages that an export has begun, and that it waits for others.
+fn announcements(export: &Export) -> [String; 2] {
+    let what = export.aov.map(|aov| format!("{} ", aov.name()));
+    let what = what.unwrap_or_default();
+    let path = export.destination.path.display();
     [
         format!("exporting {what}to {path}"),
         format!("queued: {what}to {path}"),

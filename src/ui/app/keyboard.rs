@@ -31,24 +31,18 @@ impl App {
             return Vec::new();
         }
         match meaning {
-            Meaning::Does(row) => self.act(row),
-            Meaning::Begins => {
-                self.shared.prefix = Some(key);
-                Vec::new()
-            }
+            Meaning::Does(row) => return self.act(row),
+            Meaning::Begins => self.shared.prefix = Some(key),
             Meaning::None if self.shared.overlays.dialog.is_some() => {
                 // A user who types on without noticing the question learns why nothing happens.
                 let keys = self.hints().into_iter().map(|(key, _)| key);
                 self.shared.warn(format!("press {}", alternatives(keys)));
-                Vec::new()
             }
-            Meaning::None if context == Context::Opening => {
-                self.shared.warn_of_opening();
-                Vec::new()
-            }
-            Meaning::None if filters_with(&mut self.shared, key) => Vec::new(),
+            Meaning::None if context == Context::Opening => self.shared.warn_of_opening(),
+            Meaning::None if filters_with(&mut self.shared, key) => {}
             Meaning::None => start_typing_with(&mut self.shared, context, key),
         }
+        Vec::new()
     }
 
     fn type_key(&mut self, line: Line, key: KeyEvent) -> Vec<Effect> {
@@ -122,7 +116,7 @@ impl App {
 
 /// Starts typing a value on a digit, sign, operator, `.` or `(`. Other keys without a meaning are
 /// answered.
-fn start_typing_with(shared: &mut Shared, context: Context, key: KeyEvent) -> Vec<Effect> {
+fn start_typing_with(shared: &mut Shared, context: Context, key: KeyEvent) {
     if let (Context::In(Mode::Edit), KeyCode::Char(first)) = (context, key.code)
         && keymap::begins_value(first)
     {
@@ -133,7 +127,6 @@ fn start_typing_with(shared: &mut Shared, context: Context, key: KeyEvent) -> Ve
     } else {
         answer_unknown(shared, context, key);
     }
-    Vec::new()
 }
 
 /// Starts filtering the rows of the open page with a character that is no key of it; returns whether it

@@ -90,11 +90,9 @@ pub(crate) fn go_to_error(shared: &mut Shared) {
     let Some(at) = shared.overlays.errors else {
         return;
     };
+    let edit_line = format!("press {} to edit that line", shared.key_for("editor"));
     if shared.is_disk_wrong() {
-        let editor = shared.key_for("editor");
-        shared.warn(format!(
-            "this is in the file on disk: press {editor} to edit that line"
-        ));
+        shared.warn(format!("this is in the file on disk: {edit_line}"));
         return;
     }
     let Some(span) = shared.diagnostics.get(at).map(|diagnostic| diagnostic.span) else {
@@ -106,9 +104,6 @@ pub(crate) fn go_to_error(shared: &mut Shared) {
         let field = shared.cursor.field_at(span);
         shared.focus_field(field.unwrap_or(0), 0);
     } else {
-        let editor = shared.key_for("editor");
-        shared.warn(format!(
-            "nothing to select there: press {editor} to edit that line"
-        ));
+        shared.warn(format!("nothing to select there: {edit_line}"));
     }
 }

@@ -18,6 +18,7 @@
 //! | [`suggesting`], [`text`] | what is wrong with a picture, and the setting that would help; every change of the text |
 //! | [`display`], [`panels`] | what pictures show and ask for; how much of the screen they take |
 //! | [`room`] | how a room reacts to steps, presses and drags; what a row of keys is |
+//! | [`refusing`] | what may fail with a reason that the user is told |
 //! | [`shared`] | the state that all modes share, one part for each concern |
 //! | [`pictures`], [`values`] | pictures as state; numbers, words and colours as they are typed |
 
@@ -39,6 +40,7 @@ mod mouse;
 mod panels;
 mod pasting;
 mod pictures;
+mod refusing;
 mod room;
 pub(crate) mod select;
 mod sequence;

@@ -53,23 +53,17 @@ macro_rules! modes {
 
             /// Offers a press of the left button to each room; `None` if none handles it.
             pub(crate) fn press(&mut self, at: (u16, u16)) -> Option<Vec<Effect>> {
-                let taken = None;
-                $(let taken = taken.or_else(|| self.$field.press(&mut self.shared, at));)+
-                taken
+                None$(.or_else(|| self.$field.press(&mut self.shared, at)))+
             }
 
             /// The same for dragging with the left button.
             pub(crate) fn drag(&mut self, at: (u16, u16)) -> Option<Vec<Effect>> {
-                let taken = None;
-                $(let taken = taken.or_else(|| self.$field.drag(&mut self.shared, at));)+
-                taken
+                None$(.or_else(|| self.$field.drag(&mut self.shared, at)))+
             }
 
             /// The same for releasing a button.
             pub(crate) fn release(&mut self) -> Option<Vec<Effect>> {
-                let taken = None;
-                $(let taken = taken.or_else(|| self.$field.release(&mut self.shared));)+
-                taken
+                None$(.or_else(|| self.$field.release(&mut self.shared)))+
             }
         }
 

@@ -19,36 +19,40 @@ const DOUBLE_CLICK: Duration = Duration::from_millis(400);
 /// The number of lines that one notch of the wheel scrolls.
 const WHEEL: isize = 3;
 
-/// What is left of a mouse event after what is the same in all modes.
-enum Pointed {
-    /// Nothing.
-    Done(Vec<Effect>),
-    /// A press of the left button.
-    Press((u16, u16)),
-    /// Dragging with the left button.
-    Drag((u16, u16)),
-    /// The release of a button.
-    Release,
-}
-
 impl App {
     /// Handles a mouse event. Ignored while a dialog or a line is open or the scene is being read.
     pub(crate) fn pointer(&mut self, event: MouseEvent) -> Vec<Effect> {
-        match point(&mut self.shared, event) {
-            Pointed::Done(effects) => effects,
-            Pointed::Press(at) => self.press_left(at),
-            Pointed::Release => {
+        let shared = &mut self.shared;
+        let at = (event.column, event.row);
+        let controls = event.modifiers.contains(KeyModifiers::CONTROL);
+        let waits = shared.overlays.dialog.is_some()
+            || shared.overlays.prompt.is_some()
+            || shared.disk.is_opening() && shared.overlays.page.is_none();
+        match event.kind {
+            _ if waits => {}
+            MouseEventKind::ScrollUp => wheel(shared, at, -1, event.modifiers),
+            MouseEventKind::ScrollDown => wheel(shared, at, 1, event.modifiers),
+            _ if shared.overlays.page.is_some() => {}
+            MouseEventKind::Down(MouseButton::Left) if shared.overlays.picker.is_some() => {
+                press_picker(shared, at);
+            }
+            MouseEventKind::Drag(MouseButton::Left) if shared.overlays.picker.is_some() => {
+                drag_picker(shared, at.0);
+            }
+            MouseEventKind::Down(MouseButton::Left) if shared.overlays.menu.is_some() => {
+                press_menu(shared, at);
+            }
+            MouseEventKind::Down(MouseButton::Left) => return self.press_left(at),
+            MouseEventKind::Down(_) => press_to_pan(shared, at),
+            MouseEventKind::Drag(MouseButton::Left) if !controls => return self.drag_left(at),
+            MouseEventKind::Drag(_) => drag_to_pan(shared, at),
+            MouseEventKind::Up(_) => {
                 let taken = self.release();
-                taken.unwrap_or_else(|| release(&mut self.shared))
+                return taken.unwrap_or_else(|| release(&mut self.shared));
             }
-            Pointed::Drag(at) => {
-                let taken = self.drag(at);
-                taken.unwrap_or_else(|| {
-                    edit::slide_to(&mut self.shared, at.0);
-                    Vec::new()
-                })
-            }
+            _ => {}
         }
+        Vec::new()
     }
 
     /// Ends typing and sliding and, outside the picture in MOVE, the motion; then presses what is under the
@@ -67,61 +71,18 @@ impl App {
         let taken = self.press(at);
         taken.unwrap_or_else(|| press(&mut self.shared, at))
     }
-}
 
-/// Does what a mouse event does in all modes; nothing while a dialog or a line is open or the scene is
-/// being read.
-fn point(shared: &mut Shared, event: MouseEvent) -> Pointed {
-    let at = (event.column, event.row);
-    let waits = shared.overlays.dialog.is_some()
-        || shared.overlays.prompt.is_some()
-        || shared.disk.is_opening() && shared.overlays.page.is_none();
-    match event.kind {
-        _ if waits => {}
-        MouseEventKind::ScrollUp | MouseEventKind::ScrollDown
-            if shared.overlays.menu.is_some() || shared.overlays.picker.is_some() => {}
-        MouseEventKind::ScrollUp | MouseEventKind::ScrollDown
-            if zooms(shared, at, event.modifiers) =>
-        {
-            let steps = if event.kind == MouseEventKind::ScrollUp {
-                1
-            } else {
-                -1
-            };
-            display::magnify_at(shared, steps, at);
+    /// Drags the border that was pressed, otherwise what is under the pointer.
+    fn drag_left(&mut self, at: (u16, u16)) -> Vec<Effect> {
+        if drag_border(&mut self.shared, at) {
+            return Vec::new();
         }
-        MouseEventKind::ScrollUp => wheel(shared, at, -1),
-        MouseEventKind::ScrollDown => wheel(shared, at, 1),
-        _ if shared.overlays.page.is_some() => {}
-        MouseEventKind::Down(MouseButton::Left) if shared.overlays.picker.is_some() => {
-            press_picker(shared, at);
-        }
-        MouseEventKind::Drag(MouseButton::Left) if shared.overlays.picker.is_some() => {
-            drag_picker(shared, at.0);
-        }
-        MouseEventKind::Down(MouseButton::Left) if shared.overlays.menu.is_some() => {
-            press_menu(shared, at);
-        }
-        MouseEventKind::Down(MouseButton::Left) => return Pointed::Press(at),
-        MouseEventKind::Down(_) => press_to_pan(shared, at),
-        MouseEventKind::Drag(MouseButton::Left)
-            if !event.modifiers.contains(KeyModifiers::CONTROL) && !drag_border(shared, at) =>
-        {
-            return Pointed::Drag(at);
-        }
-        MouseEventKind::Drag(MouseButton::Left)
-            if !event.modifiers.contains(KeyModifiers::CONTROL) => {}
-        MouseEventKind::Drag(_) => drag_to_pan(shared, at),
-        MouseEventKind::Up(_) => return Pointed::Release,
-        _ => {}
+        let taken = self.drag(at);
+        taken.unwrap_or_else(|| {
+            edit::slide_to(&mut self.shared, at.0);
+            Vec::new()
+        })
     }
-    Pointed::Done(Vec::new())
-}
-
-/// Whether the wheel zooms the picture here.
-fn zooms(shared: &Shared, at: (u16, u16), modifiers: KeyModifiers) -> bool {
-    let asked = shared.mode == Mode::Trace || modifiers.contains(KeyModifiers::CONTROL);
-    asked && shared.overlays.page.is_none() && shared.areas().picture.contains(at.into())
 }
 
 /// Whether dragging pans the picture on screen.
@@ -129,20 +90,28 @@ fn pans(shared: &Shared) -> bool {
     !display::viewport(shared).is_fit() && !shared.mode.moves_camera() && shared.mode != Mode::Move
 }
 
-fn wheel(shared: &mut Shared, at: (u16, u16), down: isize) {
+/// Scrolls what is under the pointer; in TRACE and with Ctrl, zooms the picture.
+fn wheel(shared: &mut Shared, at: (u16, u16), down: isize, modifiers: KeyModifiers) {
+    if shared.overlays.menu.is_some() || shared.overlays.picker.is_some() {
+        return;
+    }
     if shared.overlays.page.is_some() {
         list::move_cursor(shared, WHEEL * down);
+        return;
+    }
+    let areas = shared.areas();
+    let over = |area: ratatui::layout::Rect| area.contains(at.into());
+    let steps = if down < 0 { 1 } else { -1 };
+    let zooms = shared.mode == Mode::Trace || modifiers.contains(KeyModifiers::CONTROL);
+    if zooms && over(areas.picture) {
+        display::magnify_at(shared, steps, at);
         return;
     }
     if shared.mode == Mode::Compare {
         return;
     }
-    let areas = shared.areas();
-    let over = |area: ratatui::layout::Rect| area.contains(at.into());
-    if shared
-        .errors_panel(areas.errors)
-        .is_some_and(|panel| over(panel.area))
-    {
+    let errors = shared.errors_panel(areas.errors);
+    if errors.is_some_and(|panel| over(panel.area)) {
         if shared.overlays.errors.is_some() {
             list::move_cursor_in(shared, Context::Errors, down);
         }
@@ -153,7 +122,7 @@ fn wheel(shared: &mut Shared, at: (u16, u16), down: isize) {
     } else if over(areas.fields) && shared.cursor.typing.is_none() {
         list::move_cursor_in(shared, Context::In(Mode::Edit), down);
     } else if over(areas.picture) && shared.mode.moves_camera() {
-        camera::wheel(shared, if down < 0 { 1 } else { -1 });
+        camera::wheel(shared, steps);
     }
 }
 
@@ -279,13 +248,12 @@ fn drag_to_pan(shared: &mut Shared, at: (u16, u16)) {
     };
     if pans(shared) {
         display::drag_picture(shared, from, at);
-        shared.pictures.drag = Some(at);
+    } else if shared.mode.moves_camera() {
+        camera::drag_to_pan(shared, from, at);
+    } else {
         return;
     }
-    if shared.mode.moves_camera() {
-        camera::drag_to_pan(shared, from, at);
-        shared.pictures.drag = Some(at);
-    }
+    shared.pictures.drag = Some(at);
 }
 
 fn release(shared: &mut Shared) -> Vec<Effect> {

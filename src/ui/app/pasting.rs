@@ -8,18 +8,20 @@ use crate::ui::msg::Effect;
 
 /// Pastes a text where one is typed, otherwise as items or as values.
 pub(crate) fn paste(shared: &mut Shared, text: &str) -> Vec<Effect> {
-    let is_open = shared.overlays.line().is_some() && shared.overlays.dialog.is_none();
-    if is_open && !edit::has_room(shared, text.trim_end().chars().count()) {
+    if shared.overlays.dialog.is_some() {
         return Vec::new();
     }
-    if let Some(prompt) = &mut shared.overlays.prompt
-        && shared.overlays.dialog.is_none()
+    if shared.overlays.line().is_some() && !edit::has_room(shared, text.trim_end().chars().count())
     {
+        return Vec::new();
+    }
+    if let Some(prompt) = &mut shared.overlays.prompt {
         line::insert_over(&mut prompt.input, &mut prompt.is_selected, text);
         if let PromptKind::Filter(from) = prompt.kind {
             select::filter_list(shared, from);
         }
-        return palette_pasted(shared);
+        shared.palette.reset();
+        return command::list_folder(shared);
     }
     paste_value(shared, text);
     Vec::new()
@@ -27,9 +29,6 @@ pub(crate) fn paste(shared: &mut Shared, text: &str) -> Vec<Effect> {
 
 fn paste_value(shared: &mut Shared, text: &str) {
     let pasted = text.trim();
-    if shared.overlays.dialog.is_some() {
-        return;
-    }
     if let Some(page) = &mut shared.overlays.page {
         if !page.is_read() || page.focus == PageFocus::Search {
             page.filter.insert(text);
@@ -69,21 +68,12 @@ fn paste_value(shared: &mut Shared, text: &str) {
         line::insert_over(&mut typing.input, &mut typing.is_selected, text);
         return;
     }
-    let values = match values {
-        Ok(values) => values,
-        Err(reason) => {
-            shared.fail(format!("cannot paste this: {reason}"));
-            return;
-        }
-    };
-    shared.cursor.typing = None;
-    if let Err(refused) = edit::assign_whole(shared, &values) {
-        shared.fail(refused.message);
+    let pasted = values.map_err(|reason| format!("cannot paste this: {reason}"));
+    let pasted = pasted.and_then(|values| {
+        shared.cursor.typing = None;
+        edit::assign_whole(shared, &values).map_err(|refused| refused.message)
+    });
+    if let Err(reason) = pasted {
+        shared.fail(reason);
     }
-}
-
-/// Records a text pasted into the command line.
-fn palette_pasted(shared: &mut Shared) -> Vec<Effect> {
-    shared.palette.reset();
-    command::list_folder(shared)
 }

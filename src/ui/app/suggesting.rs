@@ -18,8 +18,7 @@ pub(crate) fn judge_picture(shared: &mut Shared, target: Target, frame: &Frame) 
         return Vec::new();
     }
     let under_way = shared.suggestions.trials.take().is_some();
-    let suspected = suspected(shared, frame);
-    let trial = match suspected {
+    let trial = match suspected(shared, frame) {
         // A scene of this size would keep all else waiting.
         Some(trials) if shared.is_large() => {
             let is_overexposed = 0.5 < Overexposure::of(&frame.values).share;
@@ -76,12 +75,10 @@ fn try_out(shared: &mut Shared, next: Trials) -> Option<Effect> {
 
 /// Takes a frame of a small picture.
 pub(crate) fn tried(shared: &mut Shared, frame: &Frame) -> Vec<Effect> {
-    let is_it = |trials: &mut RunningTrials| trials.generation == Some(frame.generation);
-    let Some(trials) = shared
-        .suggestions
-        .trials
-        .take_if(|trials| frame.progress.complete && is_it(trials))
-    else {
+    let is_traced = |trials: &mut RunningTrials| {
+        frame.progress.complete && trials.generation == Some(frame.generation)
+    };
+    let Some(trials) = shared.suggestions.trials.take_if(is_traced) else {
         return Vec::new();
     };
     let advice = match trials.next.after(frame) {
@@ -99,7 +96,7 @@ pub(crate) fn tried(shared: &mut Shared, frame: &Frame) -> Vec<Effect> {
     };
     if let Some(Advice { fault, cure }) = advice {
         shared.suggestions.cure = cure.and_then(|cure| RenderKey::stated(&cure).next());
-        say_fault(shared, fault);
+        say_fault(shared, fault, Some("no single render setting fixes that"));
     }
     vec![Effect::Stop(Target::Trial)]
 }
@@ -113,15 +110,19 @@ pub(crate) fn end_trials(shared: &mut Shared) -> Vec<Effect> {
     vec![Effect::Stop(Target::Trial)]
 }
 
-/// Says what is wrong with the preview and what helps, unless that was said.
-fn say_fault(shared: &mut Shared, fault: Fault) {
+/// Says what is wrong with the preview and what helps, unless that was said. Of an overexposed one without
+/// a cure, says `uncured`.
+fn say_fault(shared: &mut Shared, fault: Fault, uncured: Option<&str>) {
     let cure = suggested_cure(shared).map(|cure| cure_in_words(shared, cure));
     let helps = match fault {
         Fault::Black(_) => cure.unwrap_or_else(|| reason_of_black(shared)),
         Fault::Overexposed => {
-            let cure = cure.unwrap_or_else(|| "no single render setting fixes that".to_owned());
-            let darker = shared.key_for("darker");
-            format!("{cure}; {darker} darkens only the screen")
+            let darker = format!("{} darkens only the screen", shared.key_for("darker"));
+            let cure = cure.or_else(|| uncured.map(str::to_owned));
+            cure.into_iter()
+                .chain([darker])
+                .collect::<Vec<_>>()
+                .join("; ")
         }
         // The text's warning says it all.
         Fault::Unlit | Fault::WithoutPhotons => {
@@ -138,20 +139,9 @@ fn say_fault(shared: &mut Shared, fault: Fault) {
 /// Says what is wrong with the preview where nothing that may help was tried.
 fn say_untried(shared: &mut Shared, fault: Option<Fault>) {
     shared.suggestions.cure = None;
-    let helps = match fault {
-        Some(Fault::Black(_)) => reason_of_black(shared),
-        Some(Fault::Overexposed) => {
-            let darker = shared.key_for("darker");
-            format!("{darker} darkens only the screen")
-        }
-        // The text's warning says it all.
-        Some(Fault::Unlit | Fault::WithoutPhotons) | None => {
-            withdraw_fault(shared);
-            return;
-        }
-    };
-    if let Some(fault) = fault {
-        say_once(shared, format!("{fault}: {helps}"));
+    match fault {
+        Some(fault) => say_fault(shared, fault, None),
+        None => withdraw_fault(shared),
     }
 }
 

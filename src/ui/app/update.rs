@@ -121,9 +121,7 @@ impl App {
         let shared = &mut self.shared;
         match target {
             Target::Preview | Target::Trace => shared.pictures.want(target, Some(generation)),
-            Target::Compared | Target::Reference => {
-                self.compare.want(target, Some(generation));
-            }
+            Target::Compared | Target::Reference => self.compare.want(target, Some(generation)),
             Target::Trial => shared.suggestions.started(generation),
             Target::Thumbnail => self.thumbnails.started(generation),
             Target::Export => {}
@@ -156,9 +154,7 @@ impl App {
         let shared = &mut self.shared;
         match target {
             Target::Preview | Target::Trace => shared.pictures.want(target, None),
-            Target::Compared | Target::Reference => {
-                self.compare.want(target, None);
-            }
+            Target::Compared | Target::Reference => self.compare.want(target, None),
             Target::Trial => return suggesting::end_trials(shared),
             Target::Thumbnail => {
                 self.thumbnails.fail(NoPicture::Failed(reason));

@@ -6,7 +6,8 @@ use std::path::{Path, PathBuf};
 use crossterm::event::{KeyCode, KeyEvent};
 use tui_input::Input;
 
-use super::row::Described;
+use super::row::CommandRow;
+use super::rows::ROWS;
 use super::running;
 use crate::image_file::ImageFormat;
 use crate::language::Language;
@@ -20,7 +21,7 @@ enum Wanted<'a> {
     /// A command or an action that begins like this or contains this.
     Command(&'a str),
     /// A file name, of which this is typed, of a command; the whole line comes first.
-    File(&'a str, Described, &'a str),
+    File(&'a str, &'static CommandRow, &'a str),
 }
 
 impl App {
@@ -93,11 +94,11 @@ pub(crate) fn folder_listed(shared: &mut Shared, folder: PathBuf, names: Vec<Str
 
 /// The command whose arguments are being typed.
 pub(crate) fn command_typed(shared: &Shared) -> Option<Completion> {
-    let described = match wanted(shared)? {
-        Wanted::File(_, described, _) => described,
-        Wanted::Command(typed) => running::described_in(typed)?,
+    let row = match wanted(shared)? {
+        Wanted::File(_, row, _) => row,
+        Wanted::Command(typed) => running::begun_in(typed)?,
     };
-    Some(as_completion(shared, described))
+    Some(as_completion(shared, row))
 }
 
 /// The ways to complete the command line, the best first.
@@ -105,13 +106,13 @@ pub(crate) fn completions(shared: &Shared) -> Vec<Completion> {
     match wanted(shared) {
         None => Vec::new(),
         Some(Wanted::Command(typed)) => commands_like(shared, typed.trim_start()),
-        Some(Wanted::File(line, described, typed)) => {
+        Some(Wanted::File(line, row, typed)) => {
             // The line may begin something else: `export cancel`.
             let mut found = commands_like(shared, line);
             let begins =
                 |other: &Completion| other.line.starts_with(line) || other.words.starts_with(line);
-            found.retain(|other| other.line != described.name && begins(other));
-            found.extend(files_like(shared, described.name, typed));
+            found.retain(|other| other.line != row.name() && begins(other));
+            found.extend(files_like(shared, row.name(), typed));
             found
         }
     }
@@ -128,75 +129,64 @@ fn wanted(shared: &Shared) -> Option<Wanted<'_>> {
     };
     let typed = typed.trim_start();
     let file = typed.split_once(' ').and_then(|(name, rest)| {
-        let described = running::described_as(name).filter(|row| row.takes_file)?;
+        let row = running::named(name).filter(|row| row.takes_file())?;
         // `export cancel` is a command of its own.
-        let is_other = running::described_as(typed).is_some();
-        (!is_other).then_some(Wanted::File(typed, described, rest.trim_start()))
+        let is_other = running::named(typed).is_some();
+        (!is_other).then_some(Wanted::File(typed, row, rest.trim_start()))
     });
     Some(file.unwrap_or(Wanted::Command(typed)))
 }
 
 fn commands_like(shared: &Shared, typed: &str) -> Vec<Completion> {
     let wanted = typed.trim_end().to_lowercase();
-    let commands = running::all_described().map(|row| {
-        let names = row.names.iter().filter_map(|name| likeness(name, &wanted));
-        let by_words = likeness(row.words, &wanted).map(|rank| rank + 1);
-        let by_synonyms = likeness(row.synonyms, &wanted).map(|rank| rank + 2);
-        let rank = names.chain(by_words).chain(by_synonyms).min();
-        (rank, row.key, as_completion(shared, row))
-    });
-    let commands: Vec<_> = commands.filter(|(rank, ..)| rank.is_some()).collect();
+    let (mut found, mut keys) = (Vec::new(), Vec::new());
+    for row in ROWS {
+        let names = row.names.iter().map(|&name| (name, 0));
+        let texts = names.chain([(row.words, 1), (row.synonyms, 2)]);
+        if let Some(rank) = rank(texts, &wanted) {
+            keys.extend(row.key);
+            found.push((rank, as_completion(shared, row)));
+        }
+    }
     let actions = if shared.disk.is_opening() {
         Vec::new()
     } else {
         shared.keymap.actions(shared.mode)
     };
     // A command that is offered does the same.
-    let is_other = |name| commands.iter().all(|(_, key, _)| *key != Some(name));
-    let actions = actions.into_iter().filter(|named| is_other(named.name));
-    let actions: Vec<_> = actions
-        .map(|named| {
-            let keys = if named.mode == shared.mode || named.keys.is_empty() {
-                named.keys
-            } else {
-                format!("{} {}", named.mode.name(), named.keys)
-            };
-            let completion = Completion {
-                line: named.words.to_owned(),
-                shown: named.words.to_owned(),
-                words: "",
-                keys,
-                act: Some((named.row, named.mode)),
-            };
-            let by_synonyms = likeness(named.synonyms, &wanted).map(|rank| rank + 1);
-            let ranks = likeness(named.words, &wanted)
-                .into_iter()
-                .chain(by_synonyms);
-            (ranks.min(), completion)
-        })
-        .collect();
-    let mut found: Vec<_> = commands
+    let others = actions
         .into_iter()
-        .map(|(rank, _, completion)| (rank, completion))
-        .chain(actions)
-        .filter_map(|(rank, completion)| Some((rank?, completion)))
-        .collect();
+        .filter(|named| !keys.contains(&named.name));
+    found.extend(others.filter_map(|named| {
+        let rank = rank([(named.words, 0), (named.synonyms, 1)], &wanted)?;
+        let keys = if named.mode == shared.mode || named.keys.is_empty() {
+            named.keys
+        } else {
+            format!("{} {}", named.mode.name(), named.keys)
+        };
+        let completion = Completion {
+            line: named.words.to_owned(),
+            shown: named.words.to_owned(),
+            words: "",
+            keys,
+            act: Some((named.row, named.mode)),
+        };
+        Some((rank, completion))
+    }));
     found.sort_by_key(|&(rank, _)| rank);
-    found
-        .into_iter()
-        .map(|(_, completion)| completion)
-        .collect()
+    let found = found.into_iter().map(|(_, completion)| completion);
+    found.collect()
 }
 
 /// The names in the listed folder that a command may take and that begin as typed.
 fn files_like(shared: &Shared, command: &str, typed: &str) -> Vec<Completion> {
-    let (folder, start) = parted(typed);
+    let (folder, _) = parted(typed);
     let names = match &shared.palette.folder {
         Some((listed, names)) if *listed == folder_of(folder) => &names[..],
         _ => &[],
     };
     let own = shared.document.language().extension();
-    let is_wanted = |name: &str| {
+    let is_wanted = |name: &&String| {
         let path = Path::new(name);
         name.ends_with('/')
             || if command.starts_with('w') {
@@ -206,16 +196,15 @@ fn files_like(shared: &Shared, command: &str, typed: &str) -> Vec<Completion> {
                 is_scene || ImageFormat::of_path(path).is_some()
             }
     };
-    let matching = names.iter().filter(|name| name.starts_with(start));
     let others = match (command, folder) {
         ("compare", "") => &["saved", "git"][..],
         _ => &[],
     };
-    let others = others.iter().filter(|word| word.starts_with(start));
-    let files = matching.filter(|name| is_wanted(name));
+    let others = others.iter().map(|&word| word.to_owned());
+    let files = names.iter().filter(is_wanted);
     others
-        .map(|word| (*word).to_owned())
         .chain(files.map(|name| format!("{folder}{name}")))
+        .filter(|shown| shown.starts_with(typed))
         .map(|shown| Completion {
             line: format!("{command} {shown}"),
             shown,
@@ -226,11 +215,11 @@ fn files_like(shared: &Shared, command: &str, typed: &str) -> Vec<Completion> {
         .collect()
 }
 
-fn as_completion(shared: &Shared, command: Described) -> Completion {
+fn as_completion(shared: &Shared, command: &CommandRow) -> Completion {
     Completion {
-        line: command.name.to_owned(),
+        line: command.name().to_owned(),
         keys: keys_of(shared, command.key),
-        shown: command.usage,
+        shown: command.usage(),
         words: command.words,
         act: None,
     }
@@ -297,6 +286,14 @@ fn parted(typed: &str) -> (&str, &str) {
 
 fn folder_of(typed: &str) -> PathBuf {
     PathBuf::from(if typed.is_empty() { "." } else { typed })
+}
+
+/// How well the best of some texts answers what was typed, each worse than it is by a handicap.
+fn rank<'t>(texts: impl IntoIterator<Item = (&'t str, u8)>, wanted: &str) -> Option<u8> {
+    let ranks = texts
+        .into_iter()
+        .filter_map(|(text, handicap)| Some(likeness(text, wanted)? + handicap));
+    ranks.min()
 }
 
 /// How well a text answers what was typed, in lower case; 0 is best. `None` if it does not contain

@@ -10,20 +10,16 @@ const HELP_COLUMN: u16 = 56;
 /// Maximum number of columns of the help page.
 const MOST_COLUMNS: usize = 3;
 
-/// The lines of the help page.
-fn help_lines(shared: &Shared) -> Vec<HelpLine> {
+/// The columns of the help page on a screen of this width.
+pub(crate) fn help_columns(shared: &Shared, width: u16) -> Vec<Vec<HelpLine>> {
     let help = shared.overlays.page(Context::Help);
     let search = help.map_or("", |help| help.filter.input.value());
     let commands = ROWS
         .iter()
         .map(|row| (row.usage(), row.words, row.synonyms));
-    shared.keymap.help(search, shared.mode, commands.collect())
-}
-
-/// The columns of the help page on a screen of this width.
-pub(crate) fn help_columns(shared: &Shared, width: u16) -> Vec<Vec<HelpLine>> {
+    let lines = shared.keymap.help(search, shared.mode, commands.collect());
     let count = usize::from(width.saturating_sub(2) / HELP_COLUMN).clamp(1, MOST_COLUMNS);
-    keymap::in_columns(help_lines(shared), count)
+    keymap::in_columns(lines, count)
 }
 
 /// Scrolls the help page no further than to its end.

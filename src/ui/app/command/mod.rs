@@ -12,4 +12,4 @@ pub(crate) use help::{help_columns, scroll_help};
 pub use running::commands;
 
 #[cfg(test)]
-pub(crate) use running::all_described;
+pub(crate) use rows::ROWS;

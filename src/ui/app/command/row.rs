@@ -6,7 +6,7 @@ use crate::ui::app::{App, Shared};
 use crate::ui::msg::Effect;
 
 /// A command: one row.
-pub(super) struct CommandRow {
+pub(crate) struct CommandRow {
     /// One or two words, and alternative spellings.
     pub(crate) names: &'static [&'static str],
     pub(crate) arguments: Arguments,
@@ -15,12 +15,12 @@ pub(super) struct CommandRow {
     /// Everyday words that find it too.
     pub(crate) synonyms: &'static str,
     /// The name of the keys that do the same.
-    key: Option<&'static str>,
+    pub(crate) key: Option<&'static str>,
     pub(crate) runs: Runs,
 }
 
 /// The arguments of a command, and what it does with them.
-pub(super) enum Arguments {
+pub(crate) enum Arguments {
     Nothing(fn() -> Run),
     File(fn(Option<PathBuf>) -> Run),
     Name(fn(Option<String>) -> Run),
@@ -32,7 +32,7 @@ pub(super) enum Arguments {
 
 /// When a command runs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Runs {
+pub(crate) enum Runs {
     /// Not while something is transformed or a scene is being opened, and outside of SEQUENCE.
     OnText,
     /// In SEQUENCE as well.
@@ -44,7 +44,7 @@ pub(super) enum Runs {
 }
 
 /// What a command line does.
-pub(super) struct Run(pub(crate) Box<Step>);
+pub(crate) struct Run(pub(crate) Box<Step>);
 
 type Step = dyn FnOnce(&mut App) -> Vec<Effect>;
 
@@ -64,19 +64,6 @@ impl Run {
     pub(crate) fn within(step: impl FnOnce(&mut App) -> Vec<Effect> + 'static) -> Self {
         Self(Box::new(step))
     }
-}
-
-/// A command as the palette describes it.
-pub(crate) struct Described {
-    pub(crate) name: &'static str,
-    pub(crate) names: &'static [&'static str],
-    pub(crate) usage: String,
-    pub(crate) words: &'static str,
-    pub(crate) synonyms: &'static str,
-    /// The name of the keys that do the same.
-    pub(crate) key: Option<&'static str>,
-    /// Whether its arguments begin with a file name.
-    pub(crate) takes_file: bool,
 }
 
 impl CommandRow {
@@ -112,21 +99,19 @@ impl CommandRow {
         self
     }
 
-    pub(crate) fn described(&self) -> Described {
-        Described {
-            name: self.names[0],
-            names: self.names,
-            usage: self.usage(),
-            words: self.words,
-            synonyms: self.synonyms,
-            key: self.key,
-            takes_file: matches!(self.arguments, Arguments::File(_) | Arguments::FileAnd(..)),
-        }
+    /// How it is called.
+    pub(crate) fn name(&self) -> &'static str {
+        self.names[0]
+    }
+
+    /// Whether its arguments begin with a file name.
+    pub(crate) fn takes_file(&self) -> bool {
+        matches!(self.arguments, Arguments::File(_) | Arguments::FileAnd(..))
     }
 
     /// The spelling with arguments: `:size WxH`.
     pub(crate) fn usage(&self) -> String {
-        let name = self.names[0];
+        let name = self.name();
         let arguments = match self.arguments {
             Arguments::Nothing(_) => "",
             Arguments::File(_) => " [FILE]",
@@ -138,7 +123,7 @@ impl CommandRow {
 
     /// Parses the arguments; the error says what is expected.
     pub(crate) fn parse(&self, rest: &str) -> Result<Run, String> {
-        let name = self.names[0];
+        let name = self.name();
         match self.arguments {
             Arguments::Nothing(run) if rest.is_empty() => Ok(run()),
             Arguments::Nothing(_) => Err(format!("{name} takes no arguments")),

@@ -1,5 +1,7 @@
 //! The commands.
 
+use std::path::PathBuf;
+
 use super::row::{Arguments, CommandRow, Run, Runs};
 use crate::image_file::ImageFormat;
 use crate::language::{Language, extensions};
@@ -25,7 +27,7 @@ use Runs::{Always, OnTrack, WhileOpening};
 
 /// All commands, in the order of the help page.
 #[rustfmt::skip]
-pub(super) const ROWS: &[CommandRow] = &[
+pub(crate) const ROWS: &[CommandRow] = &[
     CommandRow::new(&["w", "write"], File(|file| Run::requests(|shared| files::write(shared, file, Force::No))), "save the scene, or save it as FILE").key("save"),
     CommandRow::new(&["w!", "write!"], File(|file| Run::requests(|shared| files::write(shared, file, Force::Yes))), "save, overwriting changes on disk"),
     CommandRow::new(&["q", "quit"], Nothing(|| Run::requests(files::quit)), "quit").also("exit").key("quit").runs(WhileOpening),
@@ -39,7 +41,7 @@ pub(super) const ROWS: &[CommandRow] = &[
     CommandRow::new(&["export!"], FileAnd(PICTURE, |said| export(said, Asking::Forced)), "export, overwriting an existing file").runs(OnTrack),
     CommandRow::new(&["export cancel"], Nothing(|| Run::requests(exports::cancel_export)), "cancel the export").key("stop").runs(OnTrack),
     CommandRow::new(&["render"], Nothing(|| Run::requests(trace::start)), "trace at full size").also("final quality").key("trace"),
-    CommandRow::new(&["compare"], File(|file| Run::within(|app| compare::by_command(&mut app.compare, &mut app.shared, file))), "compare with a picture or scene FILE, saved, or git [REVISION]").key("compare").runs(OnTrack),
+    CommandRow::new(&["compare"], File(compare), "compare with a picture or scene FILE, saved, or git [REVISION]").key("compare").runs(OnTrack),
     CommandRow::new(&["until"], Said(" [N spp|TIME|noise E]", until), "end the full-size trace at N spp, after 30 s or 5 min, or below noise 0.01"),
     CommandRow::new(&["region"], Said(" [X,Y,W,H|off]", region), "trace only these pixels at full size, or all").key("region"),
     CommandRow::new(&["zoom"], Said(" [fit|1:1|N]", zoom), "zoom the picture, also the preview"),
@@ -77,6 +79,15 @@ fn new(said: &str) -> Result<Run, String> {
     Ok(Run::requests(move |shared| {
         files::start_new(shared, language)
     }))
+}
+
+/// Compares with the reference, or with another one once that is read. SEQUENCE is left when the comparison
+/// starts.
+fn compare(named: Option<PathBuf>) -> Run {
+    Run::within(|app| match named {
+        Some(named) => compare::read_reference(&mut app.compare, &mut app.shared, named),
+        None => app.outside(|app| compare::start(&mut app.compare, &mut app.shared)),
+    })
 }
 
 fn export(said: &str, asking: Asking) -> Result<Run, String> {
@@ -130,20 +141,17 @@ fn exposure(said: &str) -> Result<Run, String> {
     let is_known = |half_stops: &f64| {
         half_stops.fract() == 0.0 && half_stops.abs() <= f64::from(MOST_HALF_STOPS)
     };
-    let most = MOST_HALF_STOPS / 2;
-    match half_stops.filter(is_known) {
-        Some(half_stops) => Ok(Run::does(move |shared| {
-            display::set_exposure(shared, half_stops as i8);
-        })),
-        None => Err(format!(
-            "exposure takes stops from -{most} to {most}, in steps of 0.5"
-        )),
-    }
+    let half_stops = half_stops.filter(is_known).ok_or_else(|| {
+        let most = MOST_HALF_STOPS / 2;
+        format!("exposure takes stops from -{most} to {most}, in steps of 0.5")
+    })?;
+    Ok(Run::does(move |shared| {
+        display::set_exposure(shared, half_stops as i8);
+    }))
 }
 
 fn pixels(said: &str) -> Result<Run, String> {
-    match Pixels::named(said) {
-        Some(pixels) => Ok(Run::does(move |shared| shared.pixels = pixels)),
-        None => Err(format!("pixels takes {}", Pixels::names())),
-    }
+    let pixels = Pixels::named(said);
+    let pixels = pixels.ok_or_else(|| format!("pixels takes {}", Pixels::names()))?;
+    Ok(Run::does(move |shared| shared.pixels = pixels))
 }

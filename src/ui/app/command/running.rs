@@ -1,8 +1,7 @@
 //! The commands by their names, and running them.
 
-use super::row::{CommandRow, Described, Run, Runs};
+use super::row::{CommandRow, Run, Runs};
 use super::rows::ROWS;
-
 use crate::text::nearest_word;
 use crate::ui::app::App;
 use crate::ui::keymap::Mode;
@@ -13,27 +12,19 @@ pub fn commands() -> impl Iterator<Item = (String, &'static str)> {
     ROWS.iter().map(|row| (row.usage(), row.words))
 }
 
-/// All commands, in the order of the help page.
-pub(crate) fn all_described() -> impl Iterator<Item = Described> {
-    ROWS.iter().map(CommandRow::described)
-}
-
 /// The command with exactly this name.
-pub(super) fn described_as(name: &str) -> Option<Described> {
-    let mut rows = ROWS.iter();
-    let row = rows.find(|row| row.names.contains(&name));
-    row.map(CommandRow::described)
+pub(super) fn named(name: &str) -> Option<&'static CommandRow> {
+    ROWS.iter().find(|row| row.names.contains(&name))
 }
 
 /// The command whose name a line begins with, followed by a blank.
-pub(super) fn described_in(line: &str) -> Option<Described> {
+pub(super) fn begun_in(line: &str) -> Option<&'static CommandRow> {
     let begins = |name: &&str| {
-        line.strip_prefix(*name)
-            .is_some_and(|rest| rest.starts_with(' '))
+        let rest = line.strip_prefix(*name);
+        rest.is_some_and(|rest| rest.starts_with(' '))
     };
     let rows = ROWS.iter().filter(|row| row.names.iter().any(begins));
-    let row = rows.max_by_key(|row| row.names[0].len());
-    row.map(CommandRow::described)
+    rows.max_by_key(|row| row.name().len())
 }
 
 /// Whether a line can be run.
@@ -54,15 +45,14 @@ fn parse(line: &str) -> Result<(&'static CommandRow, Run), String> {
     let line = line.trim();
     let (name, rest) = line.split_once(char::is_whitespace).unwrap_or((line, ""));
     let rest = rest.trim();
-    let called = |name: &str| ROWS.iter().find(|row| row.names.contains(&name));
     let (second, others) = rest.split_once(char::is_whitespace).unwrap_or((rest, ""));
-    if let Some(row) = called(&format!("{name} {second}")) {
+    if let Some(row) = named(&format!("{name} {second}")) {
         return Ok((row, row.parse(others.trim())?));
     }
-    if let Some(row) = called(name) {
+    if let Some(row) = named(name) {
         return Ok((row, row.parse(rest)?));
     }
-    let names = ROWS.iter().map(|row| row.names[0]);
+    let names = ROWS.iter().map(CommandRow::name);
     let longer = names.filter(|longer| longer.split(' ').next() == Some(name));
     match longer.collect::<Vec<_>>().as_slice() {
         [] => Err(unknown(name)),
@@ -71,7 +61,7 @@ fn parse(line: &str) -> Result<(&'static CommandRow, Run), String> {
 }
 
 fn unknown(name: &str) -> String {
-    let names: Vec<_> = ROWS.iter().map(|row| row.names[0]).collect();
+    let names: Vec<_> = ROWS.iter().map(CommandRow::name).collect();
     match nearest_word(name, names.iter().copied()) {
         Some(nearest) => format!("unknown command `{name}`: did you mean {nearest}?"),
         None => format!(

@@ -4,12 +4,12 @@ use std::sync::Arc;
 
 use super::contrast::Contrast;
 use super::grading::{graded_aov, graded_job};
-use super::state::{Compare, Origin, Reference, Wipe, shown};
+use super::state::{Compare, Origin, Reference, Wipe, Work, shown};
 use crate::image_file::ImageFormat;
-use crate::render::{Frame, Frames, Job, Settings};
+use crate::render::{Frame, Job, Settings};
 use crate::scene::{Camera, Images, Rendering, Scene, Size};
-use crate::text::Severity;
 use crate::ui::app::pictures::picture::Picture;
+use crate::ui::app::refusing::Refusable;
 use crate::ui::app::{Cross, Shared, display, inspect};
 use crate::ui::keymap::Mode;
 use crate::ui::msg::{Effect, Target};
@@ -21,8 +21,8 @@ pub(crate) fn start(compare: &mut Compare, shared: &mut Shared) -> Vec<Effect> {
         return Vec::new();
     }
     shared.document.end_step();
-    if let Err(reason) = comparison(compare, shared) {
-        shared.refuse_picture(Severity::Error, &reason);
+    let jobs = comparison(compare, shared);
+    if jobs.or_refuse_picture(shared).is_none() {
         return Vec::new();
     }
     shared.pictures.before_comparison = Some(shared.mode);
@@ -41,11 +41,8 @@ pub(crate) fn start(compare: &mut Compare, shared: &mut Shared) -> Vec<Effect> {
 
 /// Returns to the mode before the comparison.
 pub(crate) fn end(shared: &mut Shared) {
-    shared.mode = shared
-        .pictures
-        .before_comparison
-        .take()
-        .unwrap_or(Mode::Select);
+    let before = shared.pictures.before_comparison.take();
+    shared.mode = before.unwrap_or(Mode::Select);
 }
 
 /// Traces what is compared if it is not up to date, while a comparison is seen, and otherwise nothing.
@@ -54,39 +51,29 @@ pub(super) fn follow(compare: &mut Compare, shared: &mut Shared) -> Vec<Effect> 
         return Vec::new();
     }
     if shared.seen() != Target::Compared {
-        return if compare.end() {
-            shared.pictures.compared = Picture::default();
-            vec![
-                Effect::Stop(Target::Compared),
-                Effect::Stop(Target::Reference),
-            ]
-        } else {
-            Vec::new()
-        };
+        if !compare.end() {
+            return Vec::new();
+        }
+        shared.pictures.compared = Picture::default();
+        return [Target::Compared, Target::Reference]
+            .map(Effect::Stop)
+            .into();
     }
     if !std::mem::take(&mut compare.due) && !shared.pictures.has_changed {
-        return measure(compare);
+        let pair = compare.next_to_measure();
+        return pair.map(Effect::Compare).into_iter().collect();
     }
-    match comparison(compare, shared) {
-        Ok((live, reference)) => {
-            compare.begin();
-            let other = match reference {
-                Some(job) => Effect::Trace(Target::Reference, job),
-                None => Effect::Stop(Target::Reference),
-            };
-            vec![Effect::Trace(Target::Compared, live), other]
-        }
-        Err(reason) => {
-            shared.refuse_picture(Severity::Error, &reason);
-            end(shared);
-            follow(compare, shared)
-        }
-    }
-}
-
-fn measure(compare: &mut Compare) -> Vec<Effect> {
-    let pair = compare.next_to_measure();
-    pair.map(Effect::Compare).into_iter().collect()
+    let jobs = comparison(compare, shared);
+    let Some((live, reference)) = jobs.or_refuse_picture(shared) else {
+        end(shared);
+        return follow(compare, shared);
+    };
+    compare.begin();
+    let other = match reference {
+        Some(job) => Effect::Trace(Target::Reference, job),
+        None => Effect::Stop(Target::Reference),
+    };
+    vec![Effect::Trace(Target::Compared, live), other]
 }
 
 /// What to trace of the present scene, and of its reference if that is a scene.
@@ -107,9 +94,9 @@ pub(super) fn comparison_jobs(
     let (size, spp) = match (&reference.origin, &reference.frame) {
         (&Origin::Preview(halves, grid, spp, size), _) => {
             let job = display::shown_job(shared, grid.size(halves), spp);
-            let job = job.ok_or_else(|| shared.no_picture())?;
-            let camera = Camera { size, ..job.camera };
-            return Ok((Job { camera, ..job }, None));
+            let mut job = job.ok_or_else(|| shared.no_picture())?;
+            job.camera.size = size;
+            return Ok((job, None));
         }
         (Origin::File(made), Some(frame)) => {
             return Ok((graded_job(shared, made, frame.size)?, None));
@@ -120,13 +107,9 @@ pub(super) fn comparison_jobs(
     if let Some(reason) = ImageFormat::Bmp.refuses(size) {
         return Err(reason);
     }
-    let live = display::final_job(shared, size, spp)?;
+    let mut live = display::final_job(shared, size, spp)?;
     // As exports of this size are framed.
-    let camera = Camera {
-        size,
-        ..live.camera
-    };
-    let live = Job { camera, ..live };
+    live.camera.size = size;
     let other = match &reference.origin {
         Origin::Scene(scene, images, _) => Some(reference_job(shared, scene, images, &live)),
         Origin::Preview(..) | Origin::Traced(_) | Origin::File(_) => None,
@@ -153,10 +136,7 @@ fn reference_job(shared: &Shared, scene: &Arc<Scene>, images: &Images, live: &Jo
             aov: live.settings.aov,
             ..Settings::new(live.settings.size, &rendering)
         },
-        limit: None,
-        frames: Frames::Live,
-        denoise: false,
-        numbers: None,
+        ..live.clone()
     }
 }
 
@@ -174,12 +154,12 @@ pub(crate) fn unlike(compare: &Compare, shared: &Shared) -> Option<String> {
 
 /// Lends the present picture to what all modes share: seen alone in INSPECT, otherwise compared.
 pub(super) fn lend(compare: &mut Compare, shared: &mut Shared) {
-    let changes = match shared.mode {
-        Mode::Inspect => compare.inspect(),
-        _ => compare.compare_again(),
-    };
+    let changes = compare.go_over_to(match shared.mode {
+        Mode::Inspect => Work::Inspected,
+        _ => Work::Compared,
+    });
     shared.pictures.compared_size = compare.framed();
-    shared.pictures.compared.wanted = compare.wanted();
+    shared.pictures.compared.wanted = compare.wanted;
     if changes && shared.seen() == Target::Compared {
         show(compare, shared);
     }
@@ -199,7 +179,8 @@ pub(crate) fn take_frame(
 
 /// Selects what of both pictures is seen.
 fn look(compare: &mut Compare, shared: &mut Shared, view: Contrast, wipe: Wipe) {
-    if compare.look(view, wipe) {
+    if (compare.view, compare.wipe) != (view, wipe) {
+        (compare.view, compare.wipe) = (view, wipe);
         show(compare, shared);
     }
 }
@@ -224,8 +205,8 @@ pub(super) fn view_as(compare: &mut Compare, shared: &mut Shared, view: Contrast
 
 /// Moves the line of the wipe by some cells to the right.
 pub(super) fn slide_wipe(compare: &mut Compare, shared: &mut Shared, cells: i16) {
-    let Some(((area, halves), frame_window)) = shared.raster().zip(display::frame_window(shared))
-    else {
+    let raster = shared.raster().zip(display::frame_window(shared));
+    let Some(((area, halves), frame_window)) = raster else {
         return;
     };
     // The cells across the whole picture.
@@ -251,16 +232,11 @@ pub(super) fn explain(compare: &mut Compare, shared: &mut Shared) {
     }
     let place = compare.live().map(|live| (live.corner, live.whole()));
     if let Some(((x, y), ([left, top], size))) = compare.cross.zip(place) {
-        if compare.inspect() {
+        if compare.go_over_to(Work::Inspected) {
             show(compare, shared);
         }
-        inspect::explain_at(
-            shared,
-            Cross {
-                pixel: [left + x, top + y],
-                size,
-            },
-        );
+        let pixel = [left + x, top + y];
+        inspect::explain_at(shared, Cross { pixel, size });
     }
 }
 

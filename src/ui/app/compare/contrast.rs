@@ -21,14 +21,6 @@ pub enum Contrast {
     Heat,
 }
 
-/// The pixels of two pictures of the same size.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Both<'p> {
-    pub(crate) size: Size,
-    pub(crate) live: &'p [[u8; 3]],
-    pub(crate) reference: &'p [[u8; 3]],
-}
-
 impl Contrast {
     /// Shows the picture alone, or instead of it the reference.
     pub(crate) fn flipped(self) -> Self {
@@ -60,13 +52,14 @@ impl Contrast {
         })
     }
 
-    /// The pixels to show; `wipe` is the share of the width that is left of the line.
-    pub(crate) fn pixels(self, both: Both, wipe: f64) -> Vec<[u8; 3]> {
-        let Both {
-            size,
-            live,
-            reference,
-        } = both;
+    /// The pixels to show of a picture and its reference, both of this size; `wipe` is the share of the
+    /// width that is left of the line.
+    pub(crate) fn pixels(
+        self,
+        [live, reference]: [&[[u8; 3]]; 2],
+        size: Size,
+        wipe: f64,
+    ) -> Vec<[u8; 3]> {
         match self {
             Self::Live => live.to_vec(),
             Self::Reference => reference.to_vec(),
@@ -99,14 +92,11 @@ mod tests {
     fn each_view_is_a_function_of_both_pictures() {
         let live = [[10, 20, 30], [40, 50, 60], [0; 3], [255; 3]];
         let reference = [[10, 25, 10], [40, 50, 60], [100; 3], [0; 3]];
-        let both = Both {
-            size: Size {
-                width: 2,
-                height: 2,
-            },
-            live: &live,
-            reference: &reference,
+        let size = Size {
+            width: 2,
+            height: 2,
         };
+        let both = [&live[..], &reference];
         for (view, wipe, pixels) in [
             (Contrast::Live, 0.5, live),
             (Contrast::Reference, 0.5, reference),
@@ -128,9 +118,9 @@ mod tests {
                 [[0, 20, 80], [0; 3], [255; 3], [255; 3]],
             ),
         ] {
-            assert_eq!(view.pixels(both, wipe), pixels, "{view:?} {wipe}");
+            assert_eq!(view.pixels(both, size, wipe), pixels, "{view:?} {wipe}");
         }
-        let heat = Contrast::Heat.pixels(both, 0.5);
+        let heat = Contrast::Heat.pixels(both, size, 0.5);
         assert_eq!([heat[1], heat[2]], [[0; 3], [255; 3]]);
     }
 

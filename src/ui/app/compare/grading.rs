@@ -10,19 +10,18 @@ use crate::ui::reference::Made;
 /// The job that corresponds to a picture of this size. What the user has set comes before what the
 /// picture's file says, and that before the scene. The view is that of the picture.
 pub(super) fn graded_job(shared: &Shared, made: &Made, picture: Size) -> Result<Job, String> {
-    let Graded {
-        record,
-        size,
-        region,
-    } = graded(shared, made, picture);
+    let (record, (size, region)) = graded(shared, made, picture);
     if let Some(reason) = ImageFormat::Ppm.refuses(size) {
         return Err(reason);
     }
-    let rendering = graded_rendering(shared, record.as_ref());
-    let job = display::final_job(shared, size, rendering.spp())?;
+    let recorded = record.as_ref().map(|record| record.rendering);
+    let own = shared.scene.as_ref().map(|scene| scene.setting.rendering);
+    let under = recorded.unwrap_or_default().or(own.unwrap_or_default());
+    let rendering = shared.pictures.rendering.or(under);
+    let mut job = display::final_job(shared, size, rendering.spp())?;
     let Some(record) = record else {
-        let camera = Camera { size, ..job.camera };
-        return Ok(Job { camera, ..job });
+        job.camera.size = size;
+        return Ok(job);
     };
     let aov = shared.pictures.aov.or(record.aov);
     let denoise = record.denoise && denoises(aov);
@@ -59,7 +58,7 @@ pub(super) fn grading(shared: &Shared, name: &str, made: &Made, picture: Size) -
     if size != shared.output() {
         settings = format!("{settings}; the scene's own size is {width}×{height}");
     }
-    let Some(record) = graded(shared, made, picture).record else {
+    let (Some(record), _) = graded(shared, made, picture) else {
         return format!("{name} records no settings: traced at {settings}");
     };
     let view = if record.view.is_empty() {
@@ -67,10 +66,8 @@ pub(super) fn grading(shared: &Shared, name: &str, made: &Made, picture: Size) -
     } else {
         "its view, "
     };
-    let here = shared
-        .pictures
-        .aov
-        .is_some_and(|aov| record.aov != Some(aov))
+    let aov = shared.pictures.aov;
+    let here = aov.is_some_and(|aov| record.aov != Some(aov))
         || shared.pictures.rendering.or(record.rendering) != record.rendering;
     let except = if here {
         ", except for what is set here"
@@ -88,37 +85,18 @@ pub(super) fn graded_aov(shared: &Shared, made: &Made) -> Option<Aov> {
     shared.pictures.aov.or(recorded)
 }
 
-fn graded(shared: &Shared, made: &Made, picture: Size) -> Graded {
+/// The record of a picture's file as far as it is of use for the present scene, and the size of the whole
+/// picture with the only part of it that was traced.
+fn graded(shared: &Shared, made: &Made, picture: Size) -> (Option<Record>, (Size, Option<Region>)) {
     let mut record = made.record.as_deref().cloned();
-    let mut framing = (picture, None);
-    if let Some(record) = &mut record {
-        framing = record.framing(picture);
-        if let Some(scene) = &shared.scene {
-            record.fit(scene);
-        }
+    let framing = match &mut record {
+        Some(record) => record.framing(picture),
+        None => (picture, None),
+    };
+    if let (Some(record), Some(scene)) = (&mut record, &shared.scene) {
+        record.fit(scene);
     }
-    let (size, region) = framing;
-    Graded {
-        record,
-        size,
-        region,
-    }
-}
-
-fn graded_rendering(shared: &Shared, record: Option<&Record>) -> Rendering {
-    let recorded = record.map(|record| record.rendering);
-    let own = shared.scene.as_ref().map(|scene| scene.setting.rendering);
-    let under = recorded.unwrap_or_default().or(own.unwrap_or_default());
-    shared.pictures.rendering.or(under)
-}
-
-/// A picture file's record, as far as it is of use for the present scene.
-struct Graded {
-    record: Option<Record>,
-    /// The size of the whole picture.
-    size: Size,
-    /// The only part of it that was traced.
-    region: Option<Region>,
+    (record, framing)
 }
 
 /// The settings of a job in a few words; of some only what differs from the default.

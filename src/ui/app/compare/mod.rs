@@ -11,5 +11,5 @@ mod state;
 pub(crate) use comparing::{cross_on_screen, end, start, take_frame, unlike, wipe_on_screen};
 pub use contrast::Contrast;
 pub(crate) use keys::{ENTRIES, KEYS};
-pub(crate) use referring::{by_command, reference_read};
+pub(crate) use referring::{read_reference, reference_read};
 pub use state::{Compare, Reference, Wipe};

@@ -8,6 +8,7 @@ use super::grading::grading;
 use super::state::{Compare, Origin, Reference, shown};
 use crate::render::Frame;
 use crate::text::Severity;
+use crate::ui::app::refusing::Refusable;
 use crate::ui::app::{Shared, display, text};
 use crate::ui::keymap::{Context, Mode};
 use crate::ui::msg::Effect;
@@ -36,9 +37,8 @@ pub(super) fn pin(compare: &mut Compare, shared: &mut Shared) -> Vec<Effect> {
 fn pinned(compare: &Compare, shared: &Shared) -> Result<Reference, String> {
     if shared.wireframe().is_some() {
         let light = shared.key_for("show-light");
-        return Err(format!(
-            "a wireframe cannot be pinned: {light} shows a picture"
-        ));
+        let words = format!("a wireframe cannot be pinned: {light} shows a picture");
+        return Err(words);
     }
     let picture = shared.picture();
     let frame = match shared.mode {
@@ -54,22 +54,21 @@ fn pinned(compare: &Compare, shared: &Shared) -> Result<Reference, String> {
     }
     let spp = frame.progress.spp;
     let grid = shared.pictures.grid;
-    let (kind, origin) = match (shared.mode, &compare.reference) {
-        (Mode::Compare, Some(reference)) => match &reference.origin {
-            Origin::Preview(halves, grid, _, output) => {
-                ("preview", Origin::Preview(*halves, *grid, spp, *output))
-            }
-            _ => ("trace", Origin::Traced(spp)),
-        },
+    let compared = compare
+        .reference
+        .as_ref()
+        .map(|reference| &reference.origin);
+    let (kind, origin) = match (shared.mode, compared) {
+        (Mode::Compare, Some(&Origin::Preview(halves, grid, _, output))) => {
+            ("preview", Origin::Preview(halves, grid, spp, output))
+        }
         (Mode::Trace | Mode::Compare, _) => ("trace", Origin::Traced(spp)),
         _ => {
             let screen = display::preview_screen(shared);
             let screen = screen.filter(|screen| grid.size(screen.halves) == frame.size);
             let halves = screen.ok_or_else(untraced)?.halves;
-            (
-                "preview",
-                Origin::Preview(halves, grid, spp, shared.output()),
-            )
+            let origin = Origin::Preview(halves, grid, spp, shared.output());
+            ("preview", origin)
         }
     };
     let shows = shown(shared.pictures.aov);
@@ -87,24 +86,21 @@ fn refer(compare: &mut Compare, reference: Reference) -> Vec<Effect> {
     free.into_iter().collect()
 }
 
-/// Compares with the reference, or with another one once that is read, for `:compare`. SEQUENCE is left
-/// when the comparison starts.
-pub(crate) fn by_command(
+/// Requests a reference, to compare with once it is read.
+pub(crate) fn read_reference(
     compare: &mut Compare,
     shared: &mut Shared,
-    named: Option<PathBuf>,
+    path: PathBuf,
 ) -> Vec<Effect> {
-    if let Some(named) = named {
-        return read_reference(compare, shared, named);
-    }
-    let mode = text::step_outside(shared);
-    let effects = start(compare, shared);
-    text::return_if_failed(shared, mode);
-    effects
+    let Some((name, source)) = source_of(shared, path).or_fail(shared) else {
+        return Vec::new();
+    };
+    let id = compare.ask(name);
+    vec![Effect::ReadReference(id, source)]
 }
 
-/// Requests a reference: a file, `saved`, or a revision of the scene.
-fn read_reference(compare: &mut Compare, shared: &mut Shared, path: PathBuf) -> Vec<Effect> {
+/// The reference that a user means, a file, `saved`, or a revision of the scene, and what to call it.
+fn source_of(shared: &Shared, path: PathBuf) -> Result<(String, ReferenceSource), String> {
     let line = path.to_string_lossy().into_owned();
     let (first, rest) = line.split_once(' ').unwrap_or((&line, ""));
     let revision = match (first, rest.trim()) {
@@ -113,31 +109,21 @@ fn read_reference(compare: &mut Compare, shared: &mut Shared, path: PathBuf) -> 
         (revision, "") if is_head(revision) => Some(revision),
         _ => None,
     };
-    let is_own = revision.is_some() || line == "saved";
+    if revision.is_none() && line != "saved" {
+        return Ok((line, ReferenceSource::File(path)));
+    }
     let own = shared.disk.path.clone();
-    let (name, source) = match (revision, own) {
-        (_, None) if is_own => {
-            shared.fail("this scene has no file yet: use :w FILE to create one");
-            return Vec::new();
-        }
+    let own = own.ok_or("this scene has no file yet: use :w FILE to create one")?;
+    let name = shared.disk.name();
+    match revision {
+        None => Ok((format!("{name} as saved"), ReferenceSource::File(own))),
         // Git would take it for an option.
-        (Some(revision), _) if revision.starts_with('-') => {
-            shared.fail(format!("{revision} is not a revision"));
-            return Vec::new();
-        }
-        (Some(revision), Some(own)) => (
-            format!("{} in {revision}", shared.disk.name()),
+        Some(revision) if revision.starts_with('-') => Err(format!("{revision} is not a revision")),
+        Some(revision) => Ok((
+            format!("{name} in {revision}"),
             ReferenceSource::Revision(revision.to_owned(), own),
-        ),
-        (None, Some(own)) if is_own => (
-            format!("{} as saved", shared.disk.name()),
-            ReferenceSource::File(own),
-        ),
-        (None, _) => (line, ReferenceSource::File(path)),
-        (Some(_), None) => return Vec::new(),
-    };
-    let id = compare.ask(name);
-    vec![Effect::ReadReference(id, source)]
+        )),
+    }
 }
 
 /// Takes a reference that was read, and compares with it unless the user does something else. One
@@ -151,13 +137,10 @@ pub(crate) fn reference_read(
     let Some(name) = compare.answered(id) else {
         return vec![Effect::Free(Arc::new(read))];
     };
-    let reference = match read {
-        Ok(read) => Reference::read(name, read),
-        Err(reason) => {
-            shared.fail(reason);
-            return Vec::new();
-        }
+    let Some(read) = read.or_fail(shared) else {
+        return Vec::new();
     };
+    let reference = Reference::read(name, read);
     let is_early = shared.assets.are_awaited();
     if let Err(reason) = comparison_jobs(shared, &reference)
         && !is_early

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use super::contrast::{Both, Contrast};
+use super::contrast::Contrast;
 use crate::compare::{Comparison, Difference};
 use crate::image_file::in_8_bits;
 use crate::render::{Aov, Frame, NO_OBJECT, Progress};
@@ -17,7 +17,7 @@ pub struct Compare {
     /// What pictures are compared with; `None` before anything is pinned or loaded.
     pub reference: Option<Reference>,
     /// The generation of the present picture; `None` if it will not be finished.
-    wanted: Option<u64>,
+    pub(super) wanted: Option<u64>,
     /// What of both pictures is seen.
     pub view: Contrast,
     /// Where the line of [`Contrast::Wipe`] is.
@@ -70,22 +70,19 @@ pub(crate) enum Origin {
 
 /// What the compared pictures are used for.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-enum Work {
+pub(super) enum Work {
     /// Nothing: they are not traced.
     #[default]
     None,
-    /// They are compared.
+    /// They are compared: both are seen.
     Compared,
-    /// The present one is seen alone, to be inspected.
+    /// The present one is seen alone, to be inspected with all that is known of its pixels.
     Inspected,
 }
 
-/// What a picture shows unless that is an AOV.
-const LIGHT: &str = "light";
-
 /// What a picture shows, in a word.
 pub(super) fn shown(aov: Option<Aov>) -> &'static str {
-    aov.map_or(LIGHT, Aov::name)
+    aov.map_or("light", Aov::name)
 }
 
 /// A place between the left edge of a picture, 0, and the right one, 1.
@@ -115,8 +112,8 @@ impl Compare {
 
     /// What to call a reference that was read, unless another was requested since.
     pub(crate) fn answered(&mut self, id: ReferenceId) -> Option<String> {
-        let asked = self.asked.take_if(|(asked, _)| *asked == id)?;
-        Some(asked.1)
+        let asked = self.asked.take_if(|(asked, _)| *asked == id);
+        asked.map(|(_, name)| name)
     }
 
     /// Replaces the reference, and returns the former one.
@@ -143,31 +140,24 @@ impl Compare {
         self.live = None;
         self.figures = None;
         self.cross = None;
-        if let Some(reference) = &mut self.reference
-            && let Origin::Scene(.., wanted) = &mut reference.origin
+        if let Some(Reference { origin, frame, .. }) = &mut self.reference
+            && let Origin::Scene(.., wanted) = origin
         {
-            *wanted = None;
-            reference.frame = None;
+            (*wanted, *frame) = (None, None);
         }
         true
     }
 
     /// Records the generation of a picture, or `None` if it will not be finished.
     pub(crate) fn want(&mut self, target: Target, generation: Option<u64>) {
-        match (target, &mut self.reference) {
-            (Target::Compared, _) => self.wanted = generation,
-            (Target::Reference, Some(reference)) => {
-                if let Origin::Scene(.., wanted) = &mut reference.origin {
-                    *wanted = generation;
-                }
-            }
-            _ => {}
+        if target == Target::Compared {
+            self.wanted = generation;
+        } else if target == Target::Reference
+            && let Some(reference) = &mut self.reference
+            && let Origin::Scene(.., wanted) = &mut reference.origin
+        {
+            *wanted = generation;
         }
-    }
-
-    /// The generation of the present picture; `None` if it will not be finished.
-    pub(super) fn wanted(&self) -> Option<u64> {
-        self.wanted
     }
 
     /// Takes a frame of either picture; returns whether that changes what is seen.
@@ -176,41 +166,21 @@ impl Compare {
         if self.work == Work::None || frame.pixels.is_empty() {
             return false;
         }
-        match (target, &mut self.reference) {
-            (Target::Compared, reference) => {
-                let reference = reference.as_ref();
-                let like = reference.and_then(|reference| reference.alike(&frame));
-                self.live = Some(like.map_or(frame, Arc::new));
-            }
-            (Target::Reference, Some(reference)) => {
-                if let Origin::Scene(.., Some(_)) = reference.origin {
-                    reference.frame = Some(frame);
-                }
-            }
-            _ => {}
+        if target == Target::Compared {
+            let reference = self.reference.as_ref();
+            let like = reference.and_then(|reference| reference.alike(&frame));
+            self.live = Some(like.map_or(frame, Arc::new));
+        } else if target == Target::Reference
+            && let Some(reference) = &mut self.reference
+            && let Origin::Scene(.., Some(_)) = reference.origin
+        {
+            reference.frame = Some(frame);
         }
         true
     }
 
-    /// Selects what of both pictures is seen; returns whether that is something else.
-    pub(crate) fn look(&mut self, view: Contrast, wipe: Wipe) -> bool {
-        let before = (self.view, self.wipe);
-        (self.view, self.wipe) = (view, wipe);
-        before != (view, wipe)
-    }
-
-    /// Shows the present picture itself, with all that is known of its pixels; returns whether that is
-    /// something else.
-    pub(super) fn inspect(&mut self) -> bool {
-        self.go_over_to(Work::Inspected)
-    }
-
-    /// Shows the comparison again; returns whether that is something else.
-    pub(super) fn compare_again(&mut self) -> bool {
-        self.go_over_to(Work::Compared)
-    }
-
-    fn go_over_to(&mut self, work: Work) -> bool {
+    /// Uses the pictures for something else, if they are used; returns whether that changes what is seen.
+    pub(super) fn go_over_to(&mut self, work: Work) -> bool {
         let changes = self.work != Work::None && self.work != work;
         if changes {
             self.work = work;
@@ -230,12 +200,11 @@ impl Compare {
     /// were measured before; FLIP takes longer than the next frame.
     pub(crate) fn next_to_measure(&mut self) -> Option<Pair> {
         let pair = self.pair().filter(|_| !self.is_measuring)?;
-        let before = self.figures.as_ref().map(|(before, _)| before);
         let samples = |pair: &Pair| pair.live.progress.spp.min(pair.reference.progress.spp);
-        let is_worthwhile = match before {
-            Some(before) if before.is(&pair) => false,
+        let is_worthwhile = match &self.figures {
+            Some((before, _)) if before.is(&pair) => false,
             _ if self.is_settled() => true,
-            Some(before) => 2 * samples(before) <= samples(&pair),
+            Some((before, _)) => 2 * samples(before) <= samples(&pair),
             None => 1 <= samples(&pair),
         };
         self.is_measuring = is_worthwhile;
@@ -257,8 +226,8 @@ impl Compare {
     /// Whether a sample of either picture is still to be taken.
     pub fn is_awaited(&self) -> bool {
         let of_reference = self.reference.as_ref().is_some_and(Reference::is_awaited);
-        let is_live_done = self.live().is_some_and(|live| live.progress.complete);
-        self.work != Work::None && (of_reference || self.wanted.is_some() && !is_live_done)
+        let of_live = self.wanted.is_some() && !self.is_live_complete();
+        self.work != Work::None && (of_reference || of_live)
     }
 
     /// Progress of the present picture.
@@ -284,9 +253,10 @@ impl Compare {
     pub fn at_cross(&self) -> Option<Difference> {
         let (x, y) = self.cross?;
         let pair = self.pair()?;
-        let size = pair
-            .size()
-            .filter(|size| x < size.width && y < size.height)?;
+        let size = pair.size()?;
+        if size.width <= x || size.height <= y {
+            return None;
+        }
         let at = y as usize * size.width as usize + x as usize;
         Some(Difference {
             x,
@@ -327,9 +297,7 @@ impl Compare {
         if count == 0 {
             return Err("no pixel differs");
         }
-        let here = self.cross;
-        let at = worst.iter().position(|place| Some(*place) == here);
-        let at = match at {
+        let at = match worst.iter().position(|place| Some(*place) == self.cross) {
             Some(at) => (at as isize + step).rem_euclid(count),
             None if step < 0 => count - 1,
             None => 0,
@@ -338,10 +306,13 @@ impl Compare {
         Ok(())
     }
 
+    fn is_live_complete(&self) -> bool {
+        self.live().is_some_and(|live| live.progress.complete)
+    }
+
     /// Whether both pictures are complete.
     fn is_settled(&self) -> bool {
-        let is_live_done = self.live().is_some_and(|live| live.progress.complete);
-        is_live_done && self.reference.as_ref().is_some_and(Reference::is_settled)
+        self.is_live_complete() && self.reference.as_ref().is_some_and(Reference::is_settled)
     }
 
     /// The frame to see of both pictures; without a reference of the same size, the present one alone.
@@ -352,12 +323,8 @@ impl Compare {
         }
         let pixels = match self.pair() {
             Some(pair) => {
-                let both = Both {
-                    size: live.size,
-                    live: &pair.live.pixels,
-                    reference: &pair.reference.pixels,
-                };
-                self.view.pixels(both, self.wipe.0)
+                let both = [&pair.live.pixels[..], &pair.reference.pixels];
+                self.view.pixels(both, live.size, self.wipe.0)
             }
             None => live.pixels.clone(),
         };
@@ -405,7 +372,7 @@ impl Reference {
         let (shows, origin, frame) = match read {
             ReferenceRead::Picture(frame, made) => {
                 let record = made.record.as_ref();
-                let shows = record.map(|record| record.aov.map_or(LIGHT, Aov::name));
+                let shows = record.map(|record| shown(record.aov));
                 (shows, Origin::File(made), Some(frame))
             }
             ReferenceRead::Scene(scene, images) => (None, Origin::Scene(scene, images, None), None),

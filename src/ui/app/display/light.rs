@@ -28,9 +28,8 @@ fn refuses_display(shared: &mut Shared) -> bool {
     let refuses = !is_exposed(shared);
     if refuses {
         let light = shared.key_for("show-light");
-        shared.say(format!(
-            "only light and albedo can be exposed; press {light}"
-        ));
+        let words = format!("only light and albedo can be exposed; press {light}");
+        shared.say(words);
     }
     refuses
 }
@@ -136,17 +135,15 @@ pub(super) fn step_share(shared: &mut Shared, step: isize) {
     let lights = lights.map(|(number, _)| Some(Aov::Direct(number)));
     let ends = [Some(Aov::Emission), Some(Aov::Indirect)];
     let shares: Vec<_> = [None].into_iter().chain(lights).chain(ends).collect();
-    let shown = shares
-        .iter()
-        .position(|share| *share == shared.pictures.aov);
+    let mut places = shares.iter();
+    let shown = places.position(|share| *share == shared.pictures.aov);
     let next = shown.unwrap_or(0).checked_add_signed(step);
     let next = next.map_or(shares.len() - 1, |next| next % shares.len());
     let words = shared.pictures.show(shares[next]);
-    let said = match shares[next] {
+    shared.say(match shares[next] {
         Some(Aov::Direct(light)) => format!("only direct light of {}", light_name(shared, light)),
         _ => words.to_owned(),
-    };
-    shared.say(said);
+    });
 }
 
 fn light_name(shared: &Shared, light: u32) -> String {
@@ -209,10 +206,8 @@ pub(crate) fn display_name(shared: &Shared) -> Option<String> {
 
 /// Shows the histogram, or hides it.
 pub(crate) fn toggle_histogram(shared: &mut Shared) {
-    shared.pictures.histogram = match shared.pictures.histogram.take() {
-        Some(_) => None,
-        None => Some(ShownHistogram::default()),
-    };
+    let is_hidden = shared.pictures.histogram.is_none();
+    shared.pictures.histogram = is_hidden.then(ShownHistogram::default);
 }
 
 /// Brings the histogram up to date, if it is on screen.

@@ -3,7 +3,7 @@
 use super::jobs::{follow_trace, shown_job};
 use super::light::follow_histogram;
 use super::zooming::preview_screen;
-use crate::render::{Job, Region};
+use crate::render::Region;
 use crate::scene::{Integrator, Size};
 use crate::ui::app::Shared;
 use crate::ui::app::pictures::frame_window::Grid;
@@ -24,15 +24,6 @@ fn preview_samples(integrator: Integrator, grid: Grid) -> u32 {
 /// Requests what pictures of the scene need, and those on screen that no longer show it: any step may
 /// have changed the text, the camera, the display or the screen.
 pub(crate) fn follow(shared: &mut Shared) -> Vec<Effect> {
-    let mut effects = follow_scene(shared);
-    effects.extend(follow_preview(shared));
-    follow_histogram(shared);
-    effects
-}
-
-/// Requests the files that the scene needs, and restarts the full-size trace if it no longer shows the
-/// scene.
-fn follow_scene(shared: &mut Shared) -> Vec<Effect> {
     let mut effects = shared.assets.follow();
     // A picture without these files would be seen only for a moment.
     let is_due = !shared.assets.are_awaited() && std::mem::take(&mut shared.pictures.due);
@@ -41,6 +32,8 @@ fn follow_scene(shared: &mut Shared) -> Vec<Effect> {
         shared.pictures.preview.asked = None;
         effects.extend(follow_trace(shared));
     }
+    effects.extend(follow_preview(shared));
+    follow_histogram(shared);
     effects
 }
 
@@ -55,27 +48,7 @@ fn follow_preview(shared: &mut Shared) -> Option<Effect> {
         return None;
     }
     shared.pictures.preview.asked = asked;
-    let (screen, asked) = screen.zip(asked)?;
-    let job = preview_job(shared, screen, asked)?;
-    Some(Effect::Trace(Target::Preview, job))
-}
-
-/// The size of the preview, and the part of it that is on screen.
-fn preview_asked(shared: &Shared, screen: Screen) -> (Size, Option<Region>) {
-    let preview = &shared.pictures.preview;
-    let viewport = preview.viewport;
-    let window = viewport.window(screen, Detail::OnScreen);
-    match window.filter(|_| shared.pictures.wireframe.is_none()) {
-        Some(window) => (window.whole, Some(window.part)),
-        None => (screen.grid.size(screen.halves), None),
-    }
-}
-
-fn preview_job(
-    shared: &Shared,
-    screen: Screen,
-    (size, region): (Size, Option<Region>),
-) -> Option<Job> {
+    let (screen, (size, region)) = screen.zip(asked)?;
     let spp = preview_samples(shared.rendering().integrator(), screen.grid);
     let mut job = shown_job(shared, size, spp)?;
     job.settings.region = region;
@@ -84,7 +57,17 @@ fn preview_job(
     if let Some(aov) = job.settings.aov {
         job.settings.spp = aov.samples(spp);
     }
-    Some(job)
+    Some(Effect::Trace(Target::Preview, job))
+}
+
+/// The size of the preview, and the part of it that is on screen.
+fn preview_asked(shared: &Shared, screen: Screen) -> (Size, Option<Region>) {
+    let viewport = shared.pictures.preview.viewport;
+    let window = viewport.window(screen, Detail::OnScreen);
+    match window.filter(|_| shared.pictures.wireframe.is_none()) {
+        Some(window) => (window.whole, Some(window.part)),
+        None => (screen.grid.size(screen.halves), None),
+    }
 }
 
 /// Brings the wireframe up to date, if it is on screen.

@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 use std::sync::Arc;
 
 use crate::language::Node;
-use crate::scene::{Light, Rgb, Scene};
+use crate::scene::{Rgb, Scene};
 use crate::ui::app::Shared;
 use crate::ui::app::pictures::solo::Solo;
 
@@ -67,9 +67,10 @@ pub(super) fn preview_scene(shared: &Shared) -> Option<Part> {
     let mut alone = (**scene).clone();
     if !solo.lights.is_empty() {
         alone.ambient = Rgb::ZERO;
-        let others = alone.lights.iter_mut().enumerate();
-        let others = others.filter(|(at, _)| !solo.lights.contains(at));
-        others.for_each(|(_, light)| *light = unlit(*light));
+        let lights = alone.lights.iter_mut().enumerate();
+        for (_, other) in lights.filter(|(at, _)| !solo.lights.contains(at)) {
+            other.colour = Rgb::ZERO;
+        }
     }
     let mut numbers = None;
     if !solo.objects.is_empty() {
@@ -94,12 +95,4 @@ fn drawn_in(shared: &Shared, objects: &BTreeSet<usize>) -> Vec<u32> {
     let drawn = objects.iter().flat_map(inside);
     let drawn: BTreeSet<_> = drawn.filter_map(|object| source.drawn(object)).collect();
     drawn.into_iter().collect()
-}
-
-/// A light that gives none.
-fn unlit(light: Light) -> Light {
-    Light {
-        colour: Rgb::ZERO,
-        ..light
-    }
 }

@@ -53,7 +53,8 @@ pub(crate) fn symbols(shared: &Shared) -> Vec<Symbol> {
     [SymbolKind::Light, SymbolKind::Camera, SymbolKind::Group]
         .into_iter()
         .filter(|kind| asked.is_none_or(|asked| asked == *kind))
-        .flat_map(|kind| symbols_of(shared, kind))
+        .filter_map(|kind| symbols_of(shared, kind))
+        .flatten()
         .collect()
 }
 
@@ -87,13 +88,11 @@ fn selected_kind(shared: &Shared) -> Option<SymbolKind> {
     }
 }
 
-fn symbols_of(shared: &Shared, kind: SymbolKind) -> Vec<Symbol> {
-    let (Some(scene), Some(camera)) = (&shared.scene, shared.camera()) else {
-        return Vec::new();
-    };
-    let Some(((cells, size), frame_window)) = shared.raster().zip(frame_window(shared)) else {
-        return Vec::new();
-    };
+/// The symbols of a kind; `None` without a picture.
+fn symbols_of(shared: &Shared, kind: SymbolKind) -> Option<Vec<Symbol>> {
+    let (scene, camera) = (shared.scene.as_ref()?, shared.camera()?);
+    let (cells, size) = shared.raster()?;
+    let frame_window = frame_window(shared)?;
     let places: Vec<_> = match kind {
         SymbolKind::Light => {
             let lights = scene.lights.iter().enumerate();
@@ -122,7 +121,7 @@ fn symbols_of(shared: &Shared, kind: SymbolKind) -> Vec<Symbol> {
         let cell = (x as u16, y as u16 / 2);
         (is_inside && cell.0 < cells.width).then_some(Symbol { node, kind, cell })
     };
-    places.into_iter().filter_map(symbol).collect()
+    Some(places.into_iter().filter_map(symbol).collect())
 }
 
 /// The objects of the scene to outline in the picture, ascending: the selected one, or those of

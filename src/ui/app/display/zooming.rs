@@ -162,7 +162,7 @@ pub(crate) fn centre_on(shared: &mut Shared, [x, y]: [f64; 2]) {
 /// Moves what is in one cell of the screen to another.
 pub(crate) fn drag_picture(shared: &mut Shared, from: (u16, u16), to: (u16, u16)) {
     if let (Some(from), Some(to)) = (share_at(shared, from), share_at(shared, to)) {
-        adjust(shared, |now, screen| now.dragged(from, to, screen));
+        shift_window(shared, from, to);
     }
 }
 
@@ -182,9 +182,7 @@ pub(crate) fn order_scale(shared: &mut Shared, order: ScaleOrder) {
     match order {
         ScaleOrder::Tell => {}
         ScaleOrder::Fit => adjust(shared, |_, _| Viewport::default()),
-        ScaleOrder::At(scale) => {
-            adjust(shared, |now, screen| now.scaled(scale, MIDDLE, screen));
-        }
+        ScaleOrder::At(scale) => adjust(shared, |now, screen| now.scaled(scale, MIDDLE, screen)),
     }
     tell_scale(shared);
 }

@@ -61,12 +61,10 @@ pub(super) fn follow(shared: &mut Shared) -> Option<Effect> {
         return None;
     }
     let frame = picture.latest.clone()?;
-    let is_inspecting = shared.context() == Context::Rays;
-    let explained = shared
-        .inspection
-        .explained
-        .as_mut()
-        .filter(|_| is_inspecting)?;
+    if shared.context() != Context::Rays {
+        return None;
+    }
+    let explained = shared.inspection.explained.as_mut()?;
     let question = Question {
         target,
         generation: frame.generation,
@@ -99,9 +97,8 @@ pub(crate) fn explained(shared: &mut Shared, question: Question, answer: Option<
 
 /// The verdict on the explanation on screen; `None` if its scene may not be the text's.
 fn verdict(shared: &Shared) -> Option<String> {
-    let picture = shared.picture();
-    let is_known = shared.error_count() == 0 && !picture.is_outdated() && !shared.pictures.due;
-    let frame = picture.latest.as_ref().filter(|_| is_known)?;
+    let frame = shared.picture().latest.as_ref();
+    let frame = frame.filter(|_| shows_text(shared))?;
     let subject = Subject {
         source: shared.source(),
         scene: shared.scene.as_deref()?,
@@ -123,12 +120,10 @@ pub(crate) fn explanation(shared: &Shared) -> Option<&Explanation> {
 
 /// The lines of the explanation on screen.
 pub(crate) fn ray_lines(shared: &Shared) -> Vec<RayLine> {
-    let explained = shared.inspection.explained.as_ref();
-    let lines = explained.and_then(|explained| {
-        let explanation = explained.answer.as_deref()?;
-        Some(rays::lines(explanation, &explained.folded))
-    });
-    lines.unwrap_or_default()
+    match (&shared.inspection.explained, explanation(shared)) {
+        (Some(explained), Some(explanation)) => rays::lines(explanation, &explained.folded),
+        _ => Vec::new(),
+    }
 }
 
 /// The line of the explanation under the cursor.
@@ -153,12 +148,14 @@ pub(crate) fn ray_node(shared: &Shared, line: RayLine) -> Option<Node> {
     }
 }
 
+/// Whether the scene of the picture on screen is the text's.
+fn shows_text(shared: &Shared) -> bool {
+    shared.error_count() == 0 && !shared.picture().is_outdated() && !shared.pictures.due
+}
+
 /// The object that pictures call by this number; `None` if that may be of another scene.
 pub(crate) fn object_named(shared: &Shared, number: u32) -> Option<Node> {
-    let is_known = number != NO_OBJECT
-        && shared.error_count() == 0
-        && !shared.picture().is_outdated()
-        && !shared.pictures.due;
+    let is_known = number != NO_OBJECT && shows_text(shared);
     is_known.then(|| Node::Object(shared.source().object(number)))
 }
 
@@ -169,10 +166,10 @@ pub(super) fn explained_node(shared: &Shared) -> Option<Node> {
 
 /// The path of light from the eye to what the line under the cursor shows.
 pub(crate) fn ray_path(shared: &Shared) -> Vec<Segment> {
-    let path = explanation(shared)
-        .zip(ray_line(shared))
-        .map(|(explanation, line)| line.path(explanation));
-    path.unwrap_or_default()
+    match (explanation(shared), ray_line(shared)) {
+        (Some(explanation), Some(line)) => line.path(explanation),
+        _ => Vec::new(),
+    }
 }
 
 /// Selects the object or light of the line under the cursor, and ends inspecting.

@@ -39,9 +39,10 @@ pub(crate) fn stop(shared: &mut Shared) {
 /// `None` without a picture.
 pub(crate) fn cross(shared: &Shared) -> Option<Cross> {
     let size = frame_size(shared)?;
-    let cross = shared.inspection.cross;
-    let middle = || Cross::middle(size);
-    Some(cross.map_or_else(middle, |cross| cross.in_size(size)))
+    Some(match shared.inspection.cross {
+        Some(cross) => cross.in_size(size),
+        None => Cross::middle(size),
+    })
 }
 
 /// Moves the cross by some pixels.
@@ -58,9 +59,8 @@ pub(super) fn reveal_cross(shared: &mut Shared) {
     /// The share of the window that is kept between the cross and its edge.
     const MARGIN: f64 = 0.1;
     if cross_cell(shared).is_none()
-        && let (Some(place), Some((cells, _))) = (cross_place(shared), shared.raster())
+        && let Some(([column, row], (cells, _))) = cross_place(shared).zip(shared.raster())
     {
-        let [column, row] = place;
         let from = [
             column / f64::from(cells.width),
             row / f64::from(cells.height),
@@ -72,8 +72,7 @@ pub(super) fn reveal_cross(shared: &mut Shared) {
 
 /// Moves the cross to a cell of the picture.
 pub(crate) fn place_cross(shared: &mut Shared, cell: (u16, u16)) {
-    let (pixel, size) = (display::pixel_at(shared, cell), frame_size(shared));
-    let place = pixel.zip(size);
+    let place = display::pixel_at(shared, cell).zip(frame_size(shared));
     shared.inspection.cross = place.map(|(pixel, size)| Cross { pixel, size });
 }
 
@@ -96,12 +95,8 @@ pub(crate) fn cross_cell(shared: &Shared) -> Option<(u16, u16)> {
 
 /// Where the middle of the crossed pixel is, in cells from the upper left corner of the picture.
 fn cross_place(shared: &Shared) -> Option<[f64; 2]> {
-    let cross = cross(shared)?;
-    place_on_screen(
-        shared,
-        cross.pixel.map(|at| f64::from(at) + 0.5),
-        cross.size,
-    )
+    let Cross { pixel, size } = cross(shared)?;
+    place_on_screen(shared, pixel.map(|at| f64::from(at) + 0.5), size)
 }
 
 /// The side of the picture that the cross is not on.

@@ -2,8 +2,8 @@
 
 use std::ops::Range;
 
-use super::frame_window::{FrameWindow, Marked, Reason, Window};
-use crate::render::{Frame, NO_OBJECT};
+use super::frame_window::{Extent, FrameWindow, Marked, Reason, Window};
+use crate::render::{Frame, NO_OBJECT, Region};
 use crate::scene::Size;
 
 /// Pixels as shown on screen.
@@ -21,19 +21,24 @@ pub struct CellImage {
 
 impl Default for CellImage {
     fn default() -> Self {
-        Self {
-            size: Size {
-                width: 0,
-                height: 0,
-            },
-            pixels: Vec::new(),
-            objects: Vec::new(),
-            outline: Vec::new(),
-        }
+        Self::black(Size {
+            width: 0,
+            height: 0,
+        })
     }
 }
 
 impl CellImage {
+    /// A black picture without objects.
+    pub(crate) fn black(size: Size) -> Self {
+        Self {
+            size,
+            pixels: vec![[0; 3]; size.pixels()],
+            objects: vec![NO_OBJECT; size.pixels()],
+            outline: Vec::new(),
+        }
+    }
+
     /// Returns the object under a pixel.
     pub fn object_at(&self, x: u32, y: u32) -> Option<u32> {
         if self.size.width <= x {
@@ -81,8 +86,7 @@ impl CellImage {
         let layer = Layer {
             colours: &self.pixels,
             objects: &self.objects,
-            size: self.size,
-            corner: [0; 2],
+            part: Region::whole(self.size),
             whole: self.size,
         };
         Self::seen(&[layer], &FrameWindow::whole(size))
@@ -96,11 +100,11 @@ impl CellImage {
         let Some(first) = layers.first() else {
             return Self::default();
         };
-        let is_empty = first.size.pixels() == 0;
+        let size = first.part.size();
         let is_plain = frame_window.window.is_none() && frame_window.marked.is_none();
-        if is_empty || is_plain && first.is_whole() && first.size == to {
+        if size.pixels() == 0 || is_plain && size == first.whole && size == to {
             return Self {
-                size: first.size,
+                size,
                 pixels: first.colours.to_vec(),
                 objects: first.objects.to_vec(),
                 outline: Vec::new(),
@@ -109,31 +113,22 @@ impl CellImage {
         let window = frame_window.window_of(first.whole);
         let placed: Vec<_> = layers
             .iter()
-            .map(|layer| (layer, layer.columns(&window, to), layer.rows(&window, to)))
+            .map(|layer| (layer, covered(window, to, layer.whole, layer.part)))
             .collect();
-        let mut shown = Self {
-            size: to,
-            pixels: Vec::with_capacity(to.pixels()),
-            objects: Vec::with_capacity(to.pixels()),
-            outline: Vec::new(),
-        };
+        let mut shown = Self::black(to);
         for y in 0..to.height as usize {
             for x in 0..to.width as usize {
-                let mut known = placed.iter().filter_map(|(layer, columns, rows)| {
+                let mut known = placed.iter().filter_map(|(layer, [columns, rows])| {
                     Some(layer.mean(columns[x].clone()?, rows[y].clone()?))
                 });
-                let (colour, object) = known.next().unwrap_or(([0; 3], NO_OBJECT));
-                shown.pixels.push(colour);
-                shown.objects.push(object);
+                if let Some((colour, object)) = known.next() {
+                    let at = y * to.width as usize + x;
+                    (shown.pixels[at], shown.objects[at]) = (colour, object);
+                }
             }
         }
-        if let Some(marked) = frame_window
-            .marked
-            .filter(|marked| marked.reason == Reason::Traced)
-        {
-            for at in border(frame_window, marked) {
-                shown.pixels[at] = shown.pixels[at].map(|channel| channel / 2 + 64);
-            }
+        for at in border(frame_window, Reason::Traced) {
+            shown.pixels[at] = shown.pixels[at].map(|channel| channel / 2 + 64);
         }
         shown
     }
@@ -146,10 +141,8 @@ pub(crate) struct Layer<'f> {
     pub(crate) colours: &'f [[u8; 3]],
     /// The objects under its pixels.
     pub(crate) objects: &'f [u32],
-    /// Size in pixels.
-    pub(crate) size: Size,
-    /// The place of the top left pixel in the whole picture.
-    pub(crate) corner: [u32; 2],
+    /// The part of the whole picture that it has.
+    pub(crate) part: Region,
     /// The size of the whole picture.
     pub(crate) whole: Size,
 }
@@ -157,46 +150,23 @@ pub(crate) struct Layer<'f> {
 impl<'f> Layer<'f> {
     /// A frame in these colours.
     pub(crate) fn of(frame: &'f Frame, colours: &'f [[u8; 3]]) -> Self {
+        let ([x, y], Size { width, height }) = (frame.corner, frame.size);
         Self {
             colours,
             objects: &frame.objects,
-            size: frame.size,
-            corner: frame.corner,
+            part: Region {
+                x,
+                y,
+                width,
+                height,
+            },
             whole: frame.whole(),
         }
     }
 
-    fn is_whole(&self) -> bool {
-        self.size == self.whole
-    }
-
-    /// The columns that each pixel in a row on screen covers, if it covers any.
-    fn columns(&self, window: &Window, to: Size) -> Vec<Option<Range<usize>>> {
-        let scale = (window.whole.width, self.whole.width);
-        let own = (self.corner[0], self.size.width);
-        let part = (window.part.x, window.part.width);
-        (0..to.width)
-            .map(|x| {
-                covered(x, window.fills.width, part).and_then(|range| scaled(range, scale, own))
-            })
-            .collect()
-    }
-
-    /// The rows that each pixel in a column on screen covers, if it covers any.
-    fn rows(&self, window: &Window, to: Size) -> Vec<Option<Range<usize>>> {
-        let scale = (window.whole.height, self.whole.height);
-        let own = (self.corner[1], self.size.height);
-        let part = (window.part.y, window.part.height);
-        (0..to.height)
-            .map(|y| {
-                covered(y, window.fills.height, part).and_then(|range| scaled(range, scale, own))
-            })
-            .collect()
-    }
-
     /// The mean colour of some pixels, and the object in their middle.
     fn mean(&self, columns: Range<usize>, rows: Range<usize>) -> ([u8; 3], u32) {
-        let width = self.size.width as usize;
+        let width = self.part.width as usize;
         let mut sum = [0u64; 3];
         for row in rows.clone() {
             for pixel in &self.colours[row * width + columns.start..row * width + columns.end] {
@@ -211,49 +181,22 @@ impl<'f> Layer<'f> {
     }
 }
 
-/// The indices of the pixels on screen around a region.
-pub(crate) fn border(frame_window: &FrameWindow, marked: Marked) -> Vec<usize> {
+/// The indices of the pixels on screen around the region, if one is marked for this reason.
+pub(crate) fn border(frame_window: &FrameWindow, reason: Reason) -> Vec<usize> {
+    let marked = frame_window.marked.filter(|marked| marked.reason == reason);
+    let Some(Marked { whole, region, .. }) = marked else {
+        return Vec::new();
+    };
     let Size { width, height } = frame_window.size;
-    let window = frame_window.window_of(marked.whole);
-    let own = |from: u32, length: u32| (from, length);
-    let columns = (window.part.x, window.part.width);
-    let rows = (window.part.y, window.part.height);
-    let inside = |at: u32, fills: u32, part, scale, own| {
-        covered(at, fills, part)
-            .and_then(|range| scaled(range, scale, own))
-            .is_some()
+    let window = frame_window.window_of(whole);
+    let [across, down] = covered(window, frame_window.size, whole, region);
+    let near = |covered: &[Option<_>], at: usize| {
+        let beside = at.saturating_sub(1)..covered.len().min(at + 2);
+        covered[beside].iter().any(Option::is_some)
     };
-    let region = marked.region;
-    let across: Vec<_> = (0..width)
-        .map(|x| {
-            let scale = (window.whole.width, marked.whole.width);
-            inside(
-                x,
-                window.fills.width,
-                columns,
-                scale,
-                own(region.x, region.width),
-            )
-        })
-        .collect();
-    let down: Vec<_> = (0..height)
-        .map(|y| {
-            let scale = (window.whole.height, marked.whole.height);
-            inside(
-                y,
-                window.fills.height,
-                rows,
-                scale,
-                own(region.y, region.height),
-            )
-        })
-        .collect();
-    let near = |inside: &[bool], at: usize| {
-        let beside = at.saturating_sub(1)..inside.len().min(at + 2);
-        inside[beside].contains(&true)
-    };
+    let is_inside = |x: usize, y: usize| across[x].is_some() && down[y].is_some();
     let is_border =
-        |&(x, y): &(usize, usize)| near(&across, x) && near(&down, y) && !(across[x] && down[y]);
+        |&(x, y): &(usize, usize)| near(&across, x) && near(&down, y) && !is_inside(x, y);
     (0..height as usize)
         .flat_map(|y| (0..width as usize).map(move |x| (x, y)))
         .filter(is_border)
@@ -261,16 +204,20 @@ pub(crate) fn border(frame_window: &FrameWindow, marked: Marked) -> Vec<usize> {
         .collect()
 }
 
-/// The pixels that pixel `at` of `fills` covers, at least one, where all cover a part with this start
-/// and length; `None` beyond.
-fn covered(at: u32, fills: u32, (start, length): (u32, u32)) -> Option<Range<usize>> {
-    let scaled = |at: u32| u64::from(at) * u64::from(length) / u64::from(fills.max(1));
-    let (first, end) = (scaled(at), scaled(at + 1));
-    let end = end.max(first + 1).min(length.into());
-    (first < end).then(|| {
-        let start = start as usize;
-        start + first as usize..start + end as usize
-    })
+/// Of a part of a picture, from its corner, the columns that each pixel in a row on screen covers and the
+/// rows that each pixel in a column covers, if it covers any. The screen has the size `to` and the whole
+/// picture the size `whole`.
+fn covered(window: Window, to: Size, whole: Size, part: Region) -> [Vec<Option<Range<usize>>>; 2] {
+    let [columns, rows] = window.extents();
+    let along = |shown: u32, extent: Extent, whole: u32, own: (u32, u32)| {
+        let scale = (extent.whole, whole);
+        let covered = (0..shown).map(|at| scaled(extent.covered(at)?, scale, own));
+        covered.collect()
+    };
+    [
+        along(to.width, columns, whole.width, (part.x, part.width)),
+        along(to.height, rows, whole.height, (part.y, part.height)),
+    ]
 }
 
 /// A range of pixels in a picture of another length, from the start of a part of that; `None` if its
@@ -301,7 +248,6 @@ fn middle(range: &Range<usize>) -> usize {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::render::Region;
 
     fn size(width: u32, height: u32) -> Size {
         Size { width, height }
@@ -345,8 +291,7 @@ mod tests {
         let layer = Layer {
             colours: &colours,
             objects: &objects,
-            size: whole,
-            corner: [0; 2],
+            part: Region::whole(whole),
             whole,
         };
         let seen = |to, window| {
@@ -379,13 +324,11 @@ mod tests {
         let region = Layer {
             colours: &colours,
             objects: &objects,
-            size: size(2, 2),
-            corner: [2, 0],
+            part: Region::parse("2,0,2,2").expect("a region"),
             whole: size(4, 4),
         };
         let under = Layer {
-            size: size(2, 2),
-            corner: [0; 2],
+            part: Region::whole(size(2, 2)),
             whole: size(2, 2),
             objects: &[6, 7, 8, 9],
             ..region
@@ -399,9 +342,14 @@ mod tests {
         );
         let marked = Marked {
             whole: size(4, 4),
-            region: Region::parse("2,0,2,2").expect("a region"),
+            region: region.part,
             reason: Reason::Traced,
         };
-        assert_eq!(border(&frame_window, marked), [1, 5, 9, 10, 11]);
+        let frame_window = FrameWindow {
+            marked: Some(marked),
+            ..frame_window
+        };
+        let border = border(&frame_window, Reason::Traced);
+        assert_eq!(border, [1, 5, 9, 10, 11]);
     }
 }

@@ -1,6 +1,7 @@
 //! How a frame is seen: which part of it, on which pixels of the screen.
 
 use std::borrow::Cow;
+use std::ops::Range;
 
 use crate::render::{Display, Frame, Region};
 use crate::scene::Size;
@@ -29,6 +30,19 @@ pub struct Window {
     pub part: Region,
     /// The pixels on screen that the part covers; those beyond the screen are cut off.
     pub fills: Size,
+}
+
+/// A window along one axis, in pixels.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Extent {
+    /// The length of the whole picture at this scale.
+    pub(crate) whole: u32,
+    /// The first pixel of the part.
+    pub(crate) start: u32,
+    /// The length of the part.
+    pub(crate) length: u32,
+    /// The pixels on screen that the part covers.
+    pub(crate) fills: u32,
 }
 
 /// A region of a picture, marked on screen.
@@ -96,63 +110,21 @@ impl FrameWindow {
         if self.size.width <= x || self.size.height <= y {
             return None;
         }
-        let Window {
-            whole: seen,
-            part,
-            fills,
-        } = self.window_of(whole);
-        let scaled = |at: u32, fills: u32, from: u32, length: u32, seen: u32, whole: u32| {
-            // Twice the centre of the pixel on screen, in pixels of the part.
-            let within = (2 * u64::from(at) + 1) * u64::from(length) / u64::from(fills.max(1));
-            let twice = (2 * u64::from(from) + within) * u64::from(whole) / u64::from(seen.max(1));
-            let inside = u64::from(at) * u64::from(length) / u64::from(fills.max(1));
-            let pixel = (twice / 2).min(u64::from(whole.max(1)) - 1) as u32;
-            (inside < u64::from(length)).then_some(pixel)
-        };
-        Some([
-            scaled(x, fills.width, part.x, part.width, seen.width, whole.width)?,
-            scaled(
-                y,
-                fills.height,
-                part.y,
-                part.height,
-                seen.height,
-                whole.height,
-            )?,
-        ])
+        let [columns, rows] = self.window_of(whole).extents();
+        Some([columns.pixel(x, whole.width)?, rows.pixel(y, whole.height)?])
     }
 
     /// Where a place of the whole picture is on screen, both in half blocks from its upper left
     /// corner, if the whole picture has the size `halves`.
     pub fn on_screen(&self, [x, y]: [f64; 2], halves: Size) -> [f64; 2] {
-        let Some(Window { whole, part, fills }) = self.window else {
+        let Some(window) = self.window else {
             return [x, y];
         };
-        let moved =
-            |at: f64, all: u32, seen: u32, from: u32, length: u32, fills: u32, cell: f64| {
-                let at = at / f64::from(all) * f64::from(seen) - f64::from(from);
-                at * f64::from(fills) / f64::from(length) / cell
-            };
-        let (across, down) = (f64::from(self.grid.across), f64::from(self.grid.down));
+        let [columns, rows] = window.extents();
+        let [across, down] = [self.grid.across, self.grid.down].map(f64::from);
         [
-            moved(
-                x,
-                halves.width,
-                whole.width,
-                part.x,
-                part.width,
-                fills.width,
-                across,
-            ),
-            moved(
-                y,
-                halves.height,
-                whole.height,
-                part.y,
-                part.height,
-                fills.height,
-                0.5 * down,
-            ),
+            columns.on_screen(x, halves.width) / across,
+            rows.on_screen(y, halves.height) / (0.5 * down),
         ]
     }
 
@@ -165,6 +137,63 @@ impl FrameWindow {
     /// The number of cells of the picture.
     pub(crate) fn cells(&self) -> usize {
         self.grid.cells(self.size)
+    }
+}
+
+impl Window {
+    /// What it is along x, and along y.
+    pub(crate) fn extents(self) -> [Extent; 2] {
+        let Self { whole, part, fills } = self;
+        [
+            Extent {
+                whole: whole.width,
+                start: part.x,
+                length: part.width,
+                fills: fills.width,
+            },
+            Extent {
+                whole: whole.height,
+                start: part.y,
+                length: part.height,
+                fills: fills.height,
+            },
+        ]
+    }
+}
+
+impl Extent {
+    /// The pixels that pixel `at` on screen covers, at least one; `None` beyond the part.
+    pub(crate) fn covered(self, at: u32) -> Option<Range<usize>> {
+        let [length, fills] = [self.length, self.fills.max(1)].map(u64::from);
+        let scaled = |at: u32| u64::from(at) * length / fills;
+        let (first, end) = (scaled(at), scaled(at + 1));
+        let end = end.max(first + 1).min(length);
+        let start = self.start as usize;
+        (first < end).then(|| start + first as usize..start + end as usize)
+    }
+
+    /// The pixel of a picture of another length under the middle of pixel `at` on screen; `None` beyond the
+    /// part.
+    fn pixel(self, at: u32, whole: u32) -> Option<u32> {
+        let [at, length, fills] = [at, self.length, self.fills.max(1)].map(u64::from);
+        // Twice the centre of the pixel on screen, in pixels of the part.
+        let within = (2 * at + 1) * length / fills;
+        let twice = 2 * u64::from(self.start) + within;
+        let twice = twice * u64::from(whole) / u64::from(self.whole.max(1));
+        let pixel = (twice / 2).min(u64::from(whole.max(1)) - 1) as u32;
+        (at * length / fills < length).then_some(pixel)
+    }
+
+    /// Where a place of a picture of another length is on screen, in pixels.
+    fn on_screen(self, at: f64, whole: u32) -> f64 {
+        let at = at / f64::from(whole) * f64::from(self.whole) - f64::from(self.start);
+        at * f64::from(self.fills) / f64::from(self.length)
+    }
+}
+
+impl Default for Grid {
+    fn default() -> Self {
+        Self::HALF_BLOCKS
     }
 }
 

@@ -29,7 +29,7 @@ use crate::ui::keymap::Mode;
 use crate::ui::msg::Target;
 
 /// The pictures on screen, what they show and how: the preview, the full-size trace, and what is compared.
-#[derive(Debug)]
+#[derive(Debug, Default)]
 pub struct Pictures {
     /// The preview beside the list, restarted at each change.
     pub preview: Picture,
@@ -74,7 +74,7 @@ pub struct Pictures {
     /// The pointer's cell when the camera or a thing was last dragged.
     pub(crate) drag: Option<(u16, u16)>,
     /// The mode to return to from the full-size trace.
-    before_trace: Option<Mode>,
+    pub(crate) before_trace: Option<Mode>,
     /// The pictures that are compared, as seen.
     pub compared: Picture,
     /// The size of what is compared, whose aspect ratio it has on screen; `None` if that is the scene's own.
@@ -109,31 +109,8 @@ impl Pictures {
     /// Creates the state without any picture.
     pub(crate) fn new(rendering: Rendering) -> Self {
         Self {
-            preview: Picture::default(),
-            trace: None,
-            view: None,
             rendering,
-            written: Vec::new(),
-            grid: Grid::HALF_BLOCKS,
-            aov: None,
-            display: Display::default(),
-            histogram: None,
-            wireframe: None,
-            outline: Outline::default(),
-            symbols: Symbols::default(),
-            net: None,
-            due: false,
-            has_changed: false,
-            solo: None,
-            region: None,
-            drawing: None,
-            until: None,
-            more_kept: false,
-            drag: None,
-            before_trace: None,
-            before_comparison: None,
-            compared: Picture::default(),
-            compared_size: None,
+            ..Self::default()
         }
     }
 
@@ -216,16 +193,6 @@ impl Pictures {
     pub(crate) fn is_tracing(&self) -> bool {
         let trace = self.trace.as_ref();
         trace.is_some_and(|trace| trace.wanted.is_some())
-    }
-
-    /// Remembers the mode that the full-size trace replaces.
-    pub(crate) fn leave_mode(&mut self, mode: Mode) {
-        self.before_trace = Some(mode);
-    }
-
-    /// Takes the mode to return to from the full-size trace.
-    pub(crate) fn take_mode_before_trace(&mut self) -> Mode {
-        self.before_trace.take().unwrap_or(Mode::Select)
     }
 
     pub(crate) fn toggle_outline(&mut self) {

@@ -1,6 +1,7 @@
 //! The picture on screen, and the newer one that replaces it as fast as the link allows.
 
 use std::collections::VecDeque;
+use std::iter;
 use std::sync::Arc;
 
 use super::cell_image::{CellImage, Layer, border};
@@ -181,12 +182,7 @@ impl Picture {
         if self.shown.size != size {
             is_stale = true;
             self.shown = if self.shown.pixels.is_empty() {
-                CellImage {
-                    size,
-                    pixels: vec![[0; 3]; size.pixels()],
-                    objects: vec![NO_OBJECT; size.pixels()],
-                    outline: Vec::new(),
-                }
+                CellImage::black(size)
             } else {
                 self.shown.resampled(size)
             };
@@ -194,15 +190,12 @@ impl Picture {
         }
         if self.frame_window != Some(*frame_window) {
             is_stale = true;
-            let colours = frame_window.colours(frame);
-            let under = self
-                .under
-                .as_deref()
-                .map(|under| (under, frame_window.colours(under)));
-            let under = under.as_ref();
-            let layers = [(&**frame, &colours)].into_iter();
-            let layers = layers.chain(under.map(|(frame, colours)| (*frame, colours)));
-            let layers: Vec<_> = layers
+            let frames: Vec<_> = iter::once(frame)
+                .chain(&self.under)
+                .map(|frame| (frame, frame_window.colours(frame)))
+                .collect();
+            let layers: Vec<_> = frames
+                .iter()
                 .map(|(frame, colours)| Layer::of(frame, colours))
                 .collect();
             self.target = CellImage::seen(&layers, frame_window);
@@ -223,14 +216,9 @@ impl Picture {
             [] => Vec::new(),
             outlined => self.shown.outline_of(outlined),
         };
-        if let Some(marked) = frame_window
-            .marked
-            .filter(|marked| marked.reason == Reason::Drawn)
-        {
+        for at in border(frame_window, Reason::Drawn) {
             self.target.outline.resize(self.shown.size.pixels(), false);
-            for at in border(frame_window, marked) {
-                self.target.outline[at] = true;
-            }
+            self.target.outline[at] = true;
         }
         let changes = |cell: &usize| {
             let mut pixels = frame_window.grid.pixels(self.shown.size, *cell);

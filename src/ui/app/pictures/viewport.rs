@@ -168,21 +168,22 @@ impl Viewport {
         });
         let shown = screen.grid.size(screen.halves);
         let down = f64::from(shown.height) / pixels[1];
+        let size = |pixels: [f64; 2]| {
+            let [width, height] = pixels.map(|length| length as u32);
+            Size { width, height }
+        };
         Some(Window {
-            whole: Size {
-                width: whole[0] as u32,
-                height: whole[1] as u32,
-            },
+            whole: size(whole),
             part: Region {
                 x: from[0] as u32,
                 y: from[1] as u32,
                 width: part[0] as u32,
                 height: part[1] as u32,
             },
-            fills: Size {
-                width: (part[0] * enlarged).round() as u32,
-                height: (part[1] * enlarged * down).round() as u32,
-            },
+            fills: size([
+                (part[0] * enlarged).round(),
+                (part[1] * enlarged * down).round(),
+            ]),
         })
     }
 

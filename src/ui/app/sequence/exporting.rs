@@ -1,15 +1,16 @@
 //! Exporting the track that is played, all frames of it.
 
 use std::collections::HashMap;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use super::playing::how_to_key;
 use super::state::Sequence;
 use crate::image_file::{DEFAULT_RATE, ImageFormat};
 use crate::scene::Size;
 use crate::ui::app::exports::ExportOrder;
+use crate::ui::app::refusing::Refusable;
 use crate::ui::app::shared::Shared;
-use crate::ui::app::shared::jobs::{Asking, Export, ExportWork, Pending, Stage};
+use crate::ui::app::shared::jobs::{Asking, ExportWork};
 use crate::ui::app::{exports, text};
 use crate::ui::keymap::{Context, Mode};
 use crate::ui::msg::{Destination, Effect, ExportId};
@@ -20,11 +21,6 @@ pub(super) fn export_default(sequence: &mut Sequence, shared: &mut Shared) -> Ve
     export(sequence, shared, ExportOrder::default(), Asking::Yes)
 }
 
-/// The scene's path with the extension of a file that holds a sequence.
-fn reel_path(shared: &Shared) -> PathBuf {
-    exports::export_path(shared).with_extension("gif")
-}
-
 /// Exports the sequence that is played, after the exports that were started before.
 pub(crate) fn export(
     sequence: &Sequence,
@@ -33,7 +29,7 @@ pub(crate) fn export(
     asking: Asking,
 ) -> Vec<Effect> {
     let ExportOrder { path, size, spp } = order;
-    let path = path.unwrap_or_else(|| reel_path(shared));
+    let path = path.unwrap_or_else(|| exports::export_path(shared).with_extension("gif"));
     let wanted = size.unwrap_or_else(|| shared.output());
     let reel = form_of(sequence, shared, &path, wanted).and_then(|form| {
         let shot = Shot {
@@ -45,42 +41,21 @@ pub(crate) fn export(
         };
         reel_of(sequence, shared, form, shot)
     });
-    let reel = match reel {
-        Ok(reel) => reel,
-        Err(reason) => {
-            shared.fail(reason);
-            return Vec::new();
-        }
+    let Some(reel) = reel.or_fail(shared) else {
+        return Vec::new();
     };
     let track = sequence.open.as_ref().map(|open| open.path.clone());
     let samples = spp.unwrap_or_else(|| shared.rendering().spp());
-    let export = Export {
-        id: shared.jobs.next_export(),
-        stage: Stage::Tracing,
-        destination: Destination {
-            path: path.clone(),
-            existing: asking.existing(),
-            scene: shared.disk.path.clone(),
-            named: shared.assets.files().iter().cloned().chain(track).collect(),
-            origin: None,
-        },
-        size: wanted,
-        spp: shared.pictures.samples(samples),
-        aov: shared.pictures.aov,
-        frames: Some(reel.track.frames),
-        reel: None,
-        progress: None,
-        written_for: 0,
+    let samples = shared.pictures.samples(samples);
+    let destination = Destination {
+        path,
+        existing: asking.existing(),
+        scene: shared.disk.path.clone(),
+        named: shared.assets.files().iter().cloned().chain(track).collect(),
+        origin: None,
     };
-    exports::announce_export(shared, export.aov, &path);
-    exports::begin_or_queue(
-        shared,
-        Pending {
-            export,
-            making: ExportWork::Film(Box::new(reel)),
-            asking,
-        },
-    )
+    let making = ExportWork::Film(Box::new(reel));
+    exports::begin(shared, destination, (wanted, samples), making, asking)
 }
 
 /// What a sequence of pictures of this size is written as, or why it cannot be.
@@ -125,19 +100,15 @@ fn reel_of(
         ));
     }
     if open.held.is_none() {
-        return Err(format!(
-            "nothing to export yet: {}",
-            how_to_key(open, shared)
-        ));
+        let how = how_to_key(open, shared);
+        return Err(format!("nothing to export yet: {how}"));
     }
-    let track = open.track.clone();
     text::revert_transient(shared);
-    let text = shared.document.shared_text();
     Ok(Reel {
         language: shared.document.language(),
-        text,
+        text: shared.document.shared_text(),
         scene: shared.disk.path.clone().unwrap_or_default(),
-        track,
+        track: open.track.clone(),
         form,
         shot,
         written: HashMap::new(),

@@ -7,6 +7,7 @@ use super::playing::{bind, has_sound_scene, reread};
 use super::state::{Sequence, complaint};
 use crate::text::apply;
 use crate::track::{self, Keyed, Track};
+use crate::ui::app::refusing::Refusable;
 use crate::ui::app::shared::Shared;
 use crate::ui::app::text;
 use crate::ui::msg::{Effect, Guard, SaveOutcome};
@@ -31,12 +32,8 @@ pub(super) fn key_value(sequence: &mut Sequence, shared: &mut Shared) -> Vec<Eff
     let Some(keyed) = keyed(sequence, shared, &track, &name, before) else {
         return Vec::new();
     };
-    let Keyed { edits, what } = match keyed {
-        Ok(keyed) => keyed,
-        Err(reason) => {
-            shared.fail(reason.to_string());
-            return Vec::new();
-        }
+    let Some(Keyed { edits, what }) = keyed.or_fail(shared) else {
+        return Vec::new();
     };
     let mut text = before.to_owned();
     apply(&mut text, &edits);
@@ -75,13 +72,8 @@ fn keyed(
     let bound = bind(shared, track, name, text)?;
     let cursor = &shared.cursor;
     let place = (cursor.selected(), cursor.field, cursor.component);
-    Some(track::key_field(
-        text,
-        (track, &bound),
-        shared.source(),
-        place,
-        frame,
-    ))
+    let track = (track, &bound);
+    Some(track::key_field(text, track, shared.source(), place, frame))
 }
 
 /// Takes back the key that was written last.
@@ -94,12 +86,8 @@ pub(super) fn take_key_back(sequence: &mut Sequence, shared: &mut Shared) -> Vec
     };
     let guard = Guard::Holding(open.held.clone().unwrap_or_default());
     let words = format!("the last key was undone in {}", open.name());
-    write(
-        sequence,
-        (open.path.clone(), guard),
-        Arc::clone(before),
-        words,
-    )
+    let (path, text) = (open.path.clone(), Arc::clone(before));
+    write(sequence, (path, guard), text, words)
 }
 
 fn write(
@@ -124,10 +112,8 @@ pub(crate) fn written(
 }
 
 fn take_written(sequence: &mut Sequence, shared: &mut Shared, outcome: SaveOutcome) {
-    let Some((text, words)) = sequence.writing.take() else {
-        return;
-    };
-    let Some(open) = &mut sequence.open else {
+    let writing = sequence.writing.take();
+    let Some(((text, words), open)) = writing.zip(sequence.open.as_mut()) else {
         return;
     };
     match outcome {
@@ -147,8 +133,7 @@ fn take_written(sequence: &mut Sequence, shared: &mut Shared, outcome: SaveOutco
             text::revert_transient(shared);
         }
         SaveOutcome::ChangedOnDisk => {
-            let name = open.name();
-            let key = shared.key_for("key");
+            let (name, key) = (open.name(), shared.key_for("key"));
             shared.warn(format!(
                 "{name} has changed on disk and is being read again; then press {key} again"
             ));
@@ -165,9 +150,9 @@ pub(super) fn edit_track(sequence: &mut Sequence, shared: &mut Shared) -> Vec<Ef
         return Vec::new();
     };
     if open.held.is_none() {
+        let name = open.name();
         shared.warn(format!(
-            "{} does not exist yet: the first key creates it",
-            open.name()
+            "{name} does not exist yet: the first key creates it"
         ));
         return Vec::new();
     }

@@ -23,10 +23,8 @@ pub(crate) fn open_track(
     file: Option<PathBuf>,
 ) -> Vec<Effect> {
     let open = sequence.open.as_ref().map(|open| open.path.clone());
-    let beside = || {
-        let scene = shared.disk.path.as_ref()?;
-        Some(scene.with_extension("toml"))
-    };
+    let scene = shared.disk.path.as_ref();
+    let beside = || scene.map(|scene| scene.with_extension("toml"));
     let Some(path) = file.or(open).or_else(beside) else {
         shared.fail("this scene has no file: name a track, as in :track FILE");
         return Vec::new();
@@ -64,8 +62,7 @@ pub(crate) fn track_read(
         // It may be half of what is being written, after which the file is read again.
         return Vec::new();
     }
-    let asked = sequence.asked.take_if(|asked| *asked == path);
-    let is_asked = asked.is_some();
+    let is_asked = sequence.asked.take_if(|asked| *asked == path).is_some();
     let text = match read {
         Ok(text) if is_asked || is_open => {
             shared.overlays.end_complaint(About::Track);
@@ -91,18 +88,17 @@ pub(crate) fn track_read(
             Vec::new()
         };
     }
-    let (track, findings) = track::read(text.as_deref().unwrap_or(track::BEGUN));
+    let said = text.as_deref().unwrap_or(track::BEGUN);
+    let (track, findings) = track::read(said);
     if 0 < findings.errors() {
-        let text = text.unwrap_or_default();
-        complain(shared, &complaint(&file_name(&path), &text, &findings));
+        complain(shared, &complaint(&file_name(&path), said, &findings));
         return refuse(sequence, &path);
     }
     if is_asked && !has_sound_scene(shared) {
         return follow_open(sequence, &path);
     }
     text::revert_transient(shared);
-    let text_of = text.as_deref().unwrap_or_default();
-    if shared.error_count() == 0 && bind(shared, &track, &file_name(&path), text_of).is_none() {
+    if shared.error_count() == 0 && bind(shared, &track, &file_name(&path), said).is_none() {
         resume(sequence, shared);
         return refuse(sequence, &path);
     }
@@ -138,11 +134,8 @@ fn enter(sequence: &mut Sequence, shared: &mut Shared) -> Vec<Effect> {
     let kept = files::keep_edits(shared);
     let before = std::mem::replace(&mut shared.mode, Mode::Sequence);
     resume(sequence, shared);
-    let Some(open) = sequence
-        .open
-        .as_ref()
-        .filter(|_| shared.transient.is_some())
-    else {
+    let open = sequence.open.as_ref();
+    let Some(open) = open.filter(|_| shared.transient.is_some()) else {
         shared.mode = before;
         return kept.into_iter().collect();
     };
@@ -151,16 +144,14 @@ fn enter(sequence: &mut Sequence, shared: &mut Shared) -> Vec<Effect> {
         shared.pictures.reset_view();
     }
     if open.held.is_none() {
-        let words = how_to_key(open, shared);
-        shared.say(words);
+        shared.say(how_to_key(open, shared));
     }
     kept.into_iter().collect()
 }
 
 /// How the first value is keyed.
 pub(super) fn how_to_key(open: &OpenTrack, shared: &Shared) -> String {
-    let edit = shared.key_for("edit");
-    let key = shared.key_for("key");
+    let (edit, key) = (shared.key_for("edit"), shared.key_for("key"));
     let name = open.name();
     format!("{name} is new: {edit} edits at this frame, then {key} keys the value")
 }
@@ -270,11 +261,7 @@ pub(super) fn toggle(sequence: &mut Sequence, _: &mut Shared) -> Vec<Effect> {
     };
     open.is_playing = !open.is_playing;
     let timer = Effect::Later(open.period(), Timer::Frame);
-    if open.is_playing {
-        vec![timer]
-    } else {
-        Vec::new()
-    }
+    open.is_playing.then_some(timer).into_iter().collect()
 }
 
 /// Shows the next frame once something of the one before was seen: a scene that takes longer to
@@ -338,8 +325,6 @@ fn follow_open(sequence: &Sequence, read: &Path) -> Vec<Effect> {
 /// Reads the open track again, if there is one and it is not being written.
 pub(crate) fn reread(sequence: &Sequence) -> Option<Effect> {
     let open = sequence.open.as_ref()?;
-    sequence
-        .writing
-        .is_none()
-        .then(|| Effect::ReadTrack(open.path.clone()))
+    let is_idle = sequence.writing.is_none();
+    is_idle.then(|| Effect::ReadTrack(open.path.clone()))
 }

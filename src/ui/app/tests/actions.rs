@@ -77,16 +77,16 @@ fn editing(name: &str, text: &str) -> Vec<String> {
             }
         }
     }
-    for command in command::all_described() {
-        let arguments = match command.usage.split_once(' ').map(|(_, usage)| usage) {
+    for command in command::ROWS {
+        let arguments = match command.usage().split_once(' ').map(|(_, usage)| usage) {
             Some("WxH") => "9x5",
             Some("KEY [VALUE|default]") => "depth 3",
             Some("[FILE]") => "a.obj",
             _ => "",
         };
         let mut app = stage();
-        press(&mut app, &format!(":{} {arguments}<Enter>", command.name));
-        found.extend(edits(&app).then(|| format!(":{}", command.name)));
+        press(&mut app, &format!(":{} {arguments}<Enter>", command.name()));
+        found.extend(edits(&app).then(|| format!(":{}", command.name())));
     }
     found
 }

@@ -2,8 +2,9 @@
 
 use super::tracing::{enter, start};
 use crate::render::Region;
-use crate::text::Severity;
+use crate::ui::app::pictures::frame_window::Extent;
 use crate::ui::app::pictures::region::{Drawing, Held, RegionOrder};
+use crate::ui::app::refusing::Refusable;
 use crate::ui::app::{Shared, display};
 use crate::ui::msg::Effect;
 
@@ -11,11 +12,10 @@ use crate::ui::msg::Effect;
 pub(crate) fn order_region(shared: &mut Shared, order: RegionOrder) -> Vec<Effect> {
     match order {
         RegionOrder::Tell => {
-            let words = shared.region().map_or_else(
-                || "the full-size trace has no region".to_owned(),
-                |region| format!("the full-size trace is of the region {region}"),
-            );
-            shared.say(words);
+            shared.say(match shared.region() {
+                Some(region) => format!("the full-size trace is of the region {region}"),
+                None => "the full-size trace has no region".to_owned(),
+            });
             Vec::new()
         }
         RegionOrder::Off => {
@@ -33,15 +33,12 @@ pub(super) fn start_region(shared: &mut Shared) {
     let Some(frame_window) = display::frame_window(shared) else {
         return;
     };
-    let part = frame_window.window_of(whole).part;
-    let at = |from: u32, length: u32, quarters: u32| {
-        from + (u64::from(length) * u64::from(quarters) / 4).min(u64::from(length) - 1) as u32
-    };
-    let corner = |quarters| {
-        [
-            at(part.x, part.width, quarters),
-            at(part.y, part.height, quarters),
-        ]
+    let extents = frame_window.window_of(whole).extents();
+    let corner = |quarters: u64| {
+        extents.map(|Extent { start, length, .. }| {
+            let length = u64::from(length);
+            start + (length * quarters / 4).min(length - 1) as u32
+        })
     };
     shared.pictures.drawing = Some(Drawing {
         fixed: corner(1),
@@ -56,16 +53,13 @@ pub(super) fn move_corner(shared: &mut Shared, right: i32, down: i32) {
     let Some(frame_window) = display::frame_window(shared) else {
         return;
     };
-    let window = frame_window.window_of(output);
-    let step = |length: u32, fills: u32| i64::from((length / fills.max(1)).max(1));
-    let steps = [
-        i64::from(right) * step(window.part.width, window.fills.width),
-        i64::from(down) * step(window.part.height, window.fills.height),
-    ];
-    let limits = [output.width, output.height];
+    let extents = frame_window.window_of(output).extents();
+    let (steps, limits) = ([right, down], [output.width, output.height]);
     if let Some(drawing) = &mut shared.pictures.drawing {
         drawing.moving = [0, 1].map(|axis| {
-            let to = i64::from(drawing.moving[axis]) + steps[axis];
+            let Extent { length, fills, .. } = extents[axis];
+            let pixels = i64::from((length / fills.max(1)).max(1));
+            let to = i64::from(drawing.moving[axis]) + i64::from(steps[axis]) * pixels;
             to.clamp(0, i64::from(limits[axis]) - 1) as u32
         });
     }
@@ -104,14 +98,13 @@ pub(crate) fn confirm_region(shared: &mut Shared) -> Vec<Effect> {
 }
 
 fn trace_region(shared: &mut Shared, region: Region) -> Vec<Effect> {
-    if let Err(reason) = region.within(shared.output()) {
-        shared.fail(reason.to_string());
+    let Some(region) = region.within(shared.output()).or_fail(shared) else {
         return Vec::new();
-    }
+    };
     let before = shared.pictures.region.replace(region);
-    if let Err(reason) = display::trace_job(shared) {
+    let job = display::trace_job(shared);
+    if job.or_refuse_picture(shared).is_none() {
         shared.pictures.region = before;
-        shared.refuse_picture(Severity::Error, &reason);
         return Vec::new();
     }
     shared.say(format!(

@@ -4,6 +4,7 @@ use crate::image_file::ImageFormat;
 use crate::render::Job;
 use crate::text::Severity;
 use crate::ui::app::pictures::until::Until;
+use crate::ui::app::refusing::Refusable;
 use crate::ui::app::{Picture, Shared, display, exports};
 use crate::ui::keymap::Mode;
 use crate::ui::msg::{Effect, Recalled, Target};
@@ -15,12 +16,8 @@ pub(crate) fn start(shared: &mut Shared) -> Vec<Effect> {
     if shared.mode == Mode::Trace && is_begun {
         return resume(shared);
     }
-    let job = match display::trace_job(shared) {
-        Ok(job) => job,
-        Err(reason) => {
-            shared.refuse_picture(Severity::Error, &reason);
-            return Vec::new();
-        }
+    let Some(job) = display::trace_job(shared).or_refuse_picture(shared) else {
+        return Vec::new();
     };
     // A picture too large for a picture file is also too large to look at.
     if let Some(reason) = ImageFormat::Bmp.refuses(job.settings.traced().size()) {
@@ -35,11 +32,11 @@ pub(crate) fn start(shared: &mut Shared) -> Vec<Effect> {
     if is_begun {
         return Vec::new();
     }
-    let under = shared.pictures.preview.whole();
-    let under = under.filter(|_| job.settings.region.is_some());
     if shared.pictures.trace.is_some() {
         return vec![Effect::Trace(Target::Trace, job)];
     }
+    let under = shared.pictures.preview.whole();
+    let under = under.filter(|_| job.settings.region.is_some());
     shared.pictures.trace = Some(Picture::over(under));
     vec![trace_from_kept(shared, job)]
 }
@@ -75,8 +72,8 @@ pub(super) fn enter(shared: &mut Shared) {
         // The mode to return to is that before the comparison.
         (Mode::Trace, _) | (Mode::Compare, Some(Mode::Trace)) => {}
         _ if shared.seen() == Target::Trace => {}
-        (Mode::Compare, before) => shared.pictures.leave_mode(before.unwrap_or(Mode::Select)),
-        (mode, _) => shared.pictures.leave_mode(mode),
+        (Mode::Compare, before) => shared.pictures.before_trace = before.or(Some(Mode::Select)),
+        (mode, _) => shared.pictures.before_trace = Some(mode),
     }
     shared.mode = Mode::Trace;
 }
@@ -99,24 +96,21 @@ pub(super) fn toggle_pause(shared: &mut Shared) -> Vec<Effect> {
 
 /// Ends the pause of the full-size trace, if it is paused.
 fn resume(shared: &mut Shared) -> Vec<Effect> {
-    let trace = shared.pictures.trace.as_mut();
-    match trace.filter(|trace| trace.paused) {
-        Some(trace) => {
+    match &mut shared.pictures.trace {
+        Some(trace) if trace.paused => {
             trace.paused = false;
             vec![Effect::Resume(Target::Trace)]
         }
-        None => Vec::new(),
+        _ => Vec::new(),
     }
 }
 
 /// Stops the full-size trace if it is running, otherwise the export.
 pub(super) fn stop(shared: &mut Shared) -> Vec<Effect> {
-    let seen = shared
-        .pictures
-        .trace
-        .as_mut()
-        .filter(|_| shared.mode == Mode::Trace);
-    if let Some(trace) = seen.filter(|trace| trace.wanted.is_some() && !trace.is_complete()) {
+    if let Some(trace) = &mut shared.pictures.trace
+        && shared.mode == Mode::Trace
+        && trace.is_awaited()
+    {
         trace.wanted = None;
         trace.paused = false;
         let trace = shared.key_for("trace");

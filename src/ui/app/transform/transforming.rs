@@ -5,10 +5,11 @@ use crossterm::event::{KeyCode, KeyEvent};
 use glam::DVec3;
 
 use super::state::{Lock, Moving, Snap, Tool, Transform, decimals_of, round_up};
-use crate::language::{Along, Language, Motion, Node, Pose, StructureError};
+use crate::language::{Along, Language, Motion, Node, Pose};
 use crate::render::{axes, pixel_width};
 use crate::scene::{Camera, Size};
 use crate::text::Edit;
+use crate::ui::app::refusing::Refusable;
 use crate::ui::app::shared::line;
 use crate::ui::app::{Shared, Stride, display, text};
 use crate::ui::keymap::{Mode, types_amount};
@@ -21,6 +22,16 @@ pub(crate) fn start(moving: &mut Moving, shared: &mut Shared, tool: Tool) {
     if shared.refuses_structure() {
         return;
     }
+    let Some(transform) = begun(shared, tool).or_fail(shared) else {
+        return;
+    };
+    shared.motion = Some(text::begin_live_edit(shared));
+    *moving = Some(transform);
+    shared.mode = Mode::Move;
+}
+
+/// A motion of the targets that has not moved them yet.
+fn begun(shared: &Shared, tool: Tool) -> Result<Transform, String> {
     let selected = shared.cursor.selected();
     let nodes = shared.targets();
     let node = if nodes.contains(&selected) {
@@ -28,31 +39,20 @@ pub(crate) fn start(moving: &mut Moving, shared: &mut Shared, tool: Tool) {
     } else {
         nodes[0]
     };
-    let Some((camera, (_, size))) = shared.camera().zip(shared.raster()) else {
-        shared.fail("there is no picture to move it in");
-        return;
-    };
-    let Some(own) = shared.own_camera() else {
-        return;
-    };
+    let cameras = shared.camera().zip(shared.own_camera());
+    let ((camera, own), (_, size)) = cameras
+        .zip(shared.raster())
+        .ok_or("there is no picture to move it in")?;
     if nodes.contains(&Node::View)
         && let Some(reason) = refuses_camera(shared, tool)
     {
-        shared.fail(reason);
-        return;
+        return Err(reason);
     }
-    let pose = match pose_for(shared, tool, node, &nodes) {
-        Ok(pose) => pose,
-        Err(reason) => {
-            shared.fail(reason);
-            return;
-        }
-    };
+    let pose = pose_for(shared, tool, node, &nodes)?;
     let pixel =
         width_of_pixel_at(pose.centre, &camera, size) / display::magnification(shared, size);
     let step = round_up(pixel);
-    shared.motion = Some(text::begin_live_edit(shared));
-    *moving = Some(Transform {
+    Ok(Transform {
         tool,
         lock: Lock::default(),
         snap: Snap::default(),
@@ -65,8 +65,7 @@ pub(crate) fn start(moving: &mut Moving, shared: &mut Shared, tool: Tool) {
         pixel,
         step,
         step_decimals: decimals_of(step),
-    });
-    shared.mode = Mode::Move;
+    })
 }
 
 /// The place from which a tool transforms nodes: that of `node`, one of them.
@@ -108,27 +107,28 @@ pub(crate) fn pose_for(
 
 /// The place of a node; that of a combination is the middle of what it draws.
 fn pose(shared: &Shared, node: Node) -> Option<Pose> {
-    shared.source().pose(node).or_else(|| {
-        let index = match node {
-            Node::Object(index) => index,
-            Node::View => {
-                let own = shared.own_camera()?;
-                let [right, up, into] = axes(&own);
-                return Some(Pose {
-                    centre: own.eye,
-                    axes: [right, up, -into],
-                });
-            }
-            _ => return None,
-        };
-        let scene = shared.scene.as_ref()?;
-        let drawn = shared.source().drawn(index)?;
-        let bounds = scene.objects.get(drawn as usize)?.shape.bounds();
-        bounds.is_bounded().then(|| Pose {
-            centre: bounds.centre(),
-            axes: DVec3::AXES,
-        })
-    })
+    let stated = shared.source().pose(node);
+    match node {
+        _ if stated.is_some() => stated,
+        Node::View => {
+            let own = shared.own_camera()?;
+            let [right, up, into] = axes(&own);
+            Some(Pose {
+                centre: own.eye,
+                axes: [right, up, -into],
+            })
+        }
+        Node::Object(index) => {
+            let scene = shared.scene.as_ref()?;
+            let drawn = shared.source().drawn(index)?;
+            let bounds = scene.objects.get(drawn as usize)?.shape.bounds();
+            bounds.is_bounded().then(|| Pose {
+                centre: bounds.centre(),
+                axes: DVec3::AXES,
+            })
+        }
+        _ => None,
+    }
 }
 
 /// Moves by steps to the right and up.
@@ -187,7 +187,7 @@ pub(crate) fn type_amount(moving: &mut Moving, shared: &mut Shared, key: KeyEven
         }
         KeyCode::Backspace if !typed.is_empty() => {
             change(moving, shared, |transform| {
-                transform.typed.truncate(transform.typed.len() - 1);
+                transform.typed.pop();
             });
             true
         }
@@ -197,10 +197,10 @@ pub(crate) fn type_amount(moving: &mut Moving, shared: &mut Shared, key: KeyEven
 
 /// Keeps the change and ends.
 pub(crate) fn confirm(moving: &mut Moving, shared: &mut Shared) {
-    let typed = moving
-        .as_ref()
-        .filter(|transform| !transform.typed.is_empty());
-    if let Some(Err(reason)) = typed.map(Transform::typed_numbers) {
+    if let Some(transform) = moving
+        && !transform.typed.is_empty()
+        && let Err(reason) = transform.typed_numbers()
+    {
         shared.fail(reason);
         return;
     }
@@ -232,25 +232,20 @@ fn change(moving: &mut Moving, shared: &mut Shared, change: impl FnOnce(&mut Tra
         return;
     }
     change(transform);
-    let outcome = text::try_instead(shared, &mut live_edit, |shared| {
-        let edits = edits_of_motion(shared, transform);
-        edits.map_err(|refused| refused.to_string())
-    });
-    match outcome {
-        Ok(()) => {
-            if live_edit.is_applied {
-                let targets = shared.targets_name(&transform.nodes);
-                shared.document.name_step(transform.step_name(&targets));
-            }
-            shared.say(transform.words());
+    let edits = |shared: &Shared| edits_of_motion(shared, transform);
+    let outcome = text::try_instead(shared, &mut live_edit, edits);
+    if outcome.or_fail(shared).is_some() {
+        if live_edit.is_applied {
+            let targets = shared.targets_name(&transform.nodes);
+            shared.document.name_step(transform.step_name(&targets));
         }
-        Err(reason) => shared.fail(reason),
+        shared.say(transform.words());
     }
     shared.motion = Some(live_edit);
 }
 
 /// The edits that a motion makes to the text before it.
-fn edits_of_motion(shared: &Shared, transform: &Transform) -> Result<Vec<Edit>, StructureError> {
+fn edits_of_motion(shared: &Shared, transform: &Transform) -> Result<Vec<Edit>, String> {
     let motion = transform.motion(axes(&transform.camera));
     if motion.is_identity() {
         return Ok(Vec::new());
@@ -258,7 +253,8 @@ fn edits_of_motion(shared: &Shared, transform: &Transform) -> Result<Vec<Edit>, 
     let (decimals, own) = (transform.decimals(), &transform.own);
     let mut nodes = transform.nodes.clone();
     nodes.retain(|node| *node != Node::View);
-    let mut edits = shared.source().motion(&nodes, &motion, decimals)?;
+    let moved = shared.source().motion(&nodes, &motion, decimals);
+    let mut edits = moved.map_err(|refused| refused.to_string())?;
     if nodes.len() < transform.nodes.len() {
         let moved = motion.camera(own, decimals);
         edits.extend(shared.source().view_edits(own, &moved));
@@ -276,11 +272,10 @@ fn refuses_camera(shared: &Shared, tool: Tool) -> Option<String> {
             Some(format!("{view} moves the camera"))
         }
         (Tool::Scale, _) => {
-            let key = |name| shared.key_for(name);
+            let [narrower, wider] =
+                ["narrower-view", "wider-view"].map(|name| shared.key_for(name));
             Some(format!(
-                "a camera has no size: {} and {} in VIEW change what it sees",
-                key("narrower-view"),
-                key("wider-view")
+                "a camera has no size: {narrower} and {wider} in VIEW change what it sees"
             ))
         }
         (Tool::Move | Tool::Rotate, _) => None,
