@@ -2,6 +2,7 @@
 
 use super::naming::{name_of_change, name_of_value};
 use crate::assets::{Loaded, Wanted};
+use crate::document::StepName;
 use crate::language::{Lowered, Node, Outlook, outlook};
 use crate::text::{Diagnostic, Edit, Findings, Span, parse_number};
 use crate::ui::app::shared::assets::Notice;
@@ -88,20 +89,30 @@ pub(crate) fn try_edits(shared: &mut Shared, edits: &[Edit]) -> Result<(), Diagn
     try_edits_after(shared, before.as_ref(), edits)
 }
 
+/// Makes edits as an undo step of its own, as [`try_edits`] does.
+pub(crate) fn try_step(shared: &mut Shared, edits: &[Edit]) -> Result<(), Diagnostic> {
+    shared.document.end_step();
+    let outcome = try_edits(shared, edits);
+    shared.document.end_step();
+    outcome
+}
+
+/// Makes edits as an undo step of this name, or shows why not; returns whether they are made.
+pub(crate) fn make_step(shared: &mut Shared, edits: &[Edit], name: impl Into<String>) -> bool {
+    let outcome = try_step(shared, edits);
+    match &outcome {
+        Ok(()) => shared.document.name_step(StepName::done(name)),
+        Err(refused) => shared.fail(&*refused.message),
+    }
+    outcome.is_ok()
+}
+
 /// As [`try_edits`], given what the text before the edits means; the scene may be that of other
 /// edits, which were taken back.
 pub(super) fn try_edits_after(
     shared: &mut Shared,
     before: Option<&Meaning>,
     edits: &[Edit],
-) -> Result<(), Diagnostic> {
-    attempt(shared, edits, |shared| lowered_after(shared, before))
-}
-
-fn attempt(
-    shared: &mut Shared,
-    edits: &[Edit],
-    lower: impl FnOnce(&mut Shared) -> Lowered,
 ) -> Result<(), Diagnostic> {
     let written = written_view_parts(shared);
     let errors = shared.error_count();
@@ -113,7 +124,7 @@ fn attempt(
         _ => shared.document.edit(edits),
     }
     let touched = spans_after(edits);
-    let lowered = lower(shared);
+    let lowered = lowered_after(shared, before);
     let touches = |d: &&Diagnostic| touched.iter().any(|span| d.span.touches(*span));
     let found = &lowered.diagnostics;
     let mut refused = found.iter().filter(|d| d.is_error()).find(touches);
