@@ -8,7 +8,7 @@ use std::time::Duration;
 
 use crate::document::{Difference, Numbers, StepName};
 use crate::file::{self, ReadError};
-use crate::language::{Before, Lowered};
+use crate::language::Lowered;
 use crate::text::{Findings, Position, Severity, counted};
 
 use crate::ui::app::shared::cursor::SavedCursor;
@@ -131,7 +131,7 @@ pub(crate) fn baseline(shared: &Shared) -> Baseline {
     Baseline {
         scene: shared.document.snapshot(),
         saves: shared.jobs.count_saves(),
-        meshes: shared.assets.meshes.clone(),
+        meshes: shared.assets.loaded.meshes.clone(),
         is_sound: shared.sound_scene().is_some(),
     }
 }
@@ -172,7 +172,7 @@ fn is_known(shared: &Shared, reading: &Reading) -> bool {
     if reading.news.is_none() {
         return Arc::ptr_eq(&baseline.scene.saved, shared.document.saved());
     }
-    baseline.scene.is_of(&shared.document) && baseline.meshes == shared.assets.meshes
+    baseline.scene.is_of(&shared.document) && baseline.meshes == shared.assets.loaded.meshes
 }
 
 /// Takes the outcome of reading the file, which was compared with the present state.
@@ -304,14 +304,11 @@ fn take_text(shared: &mut Shared, reading: Reading, settle: Settle) -> Vec<Effec
 /// Takes a text in which numbers differ; `None` if it has to be read as a whole.
 fn take_numbers(shared: &mut Shared, numbers: Numbers, held: &SavedCursor) -> Option<Vec<Effect>> {
     let difference = numbers.difference();
-    let scene = shared.sound_scene()?;
-    let before = Before {
-        scene: &scene,
-        diagnostics: &shared.reported,
-    };
-    let (texts, lowered) = shared.document.take_numbers(numbers, before)?;
+    let before = shared.meaning()?;
+    let taken = shared.document.take_numbers(numbers, before.before());
+    let (texts, lowered) = taken?;
     show_reload(shared, held, Some(&difference), lowered, &RELOADED);
-    Some(vec![Effect::Free(Arc::new((texts, scene)))])
+    Some(vec![Effect::Free(Arc::new((texts, before.scene)))])
 }
 
 /// Keeps a text with errors apart from unsaved edits.
@@ -338,12 +335,7 @@ pub(super) fn show_reload(
     lowered: Lowered,
     words: &Wording,
 ) {
-    let Wording {
-        came,
-        same,
-        is_merge,
-    } = words;
-    if *is_merge {
+    if words.is_merge {
         shared.document.name_step(StepName::done("merged the file"));
     }
     let (scene, sound) = (shared.scene.clone(), shared.error_count() == 0);
@@ -368,8 +360,8 @@ pub(super) fn show_reload(
             (Some(before), Some(after)) => Arc::ptr_eq(before, after),
             _ => false,
         };
-        let mut end = String::new();
-        if *is_merge {
+        let (came, same, mut end) = (words.came, words.same, String::new());
+        if words.is_merge {
             let undo = shared.key_for("undo");
             end = format!("; press {undo} to undo the merge");
             if let Some(place) = &place {

@@ -4,7 +4,7 @@ use super::naming::{name_of_change, name_of_value};
 use crate::assets::{Loaded, Wanted};
 use crate::document::StepName;
 use crate::language::{Lowered, Node, Outlook, outlook};
-use crate::text::{Diagnostic, Edit, Findings, Span, parse_number};
+use crate::text::{Diagnostic, Edit, Findings, Severity, Span, parse_number};
 use crate::ui::app::shared::assets::Notice;
 use crate::ui::app::shared::cursor::Names;
 use crate::ui::app::shared::live_edit::Meaning;
@@ -23,12 +23,12 @@ pub(crate) fn assets_read(shared: &mut Shared, wanted: &Wanted, loaded: Loaded) 
     }
     match news.notice {
         Some(Notice::Faults) => {
-            let (severity, words) = shared.assets.faults(&shared.key_for("errors"));
-            if let Some(severity) = severity {
-                shared.overlays.complain(About::Assets, severity, &words);
+            if let Some(words) = shared.assets.faults(&shared.key_for("errors")) {
+                let overlays = &mut shared.overlays;
+                overlays.complain(About::Assets, Severity::Warning, &words);
             } else {
                 shared.overlays.end_complaint(About::Assets);
-                shared.say(words);
+                shared.say("all files can be read now");
             }
         }
         Some(Notice::Elsewhere(words)) => shared.say(words),
@@ -45,18 +45,17 @@ pub(crate) fn relower(shared: &mut Shared) {
 
 /// Lowers the text after an edit, reusing what is known of the text before.
 pub(crate) fn lowered_after(shared: &mut Shared, before: Option<&Meaning>) -> Lowered {
-    let Some(before) = before else {
-        return lowered(shared);
+    let meshes = &shared.assets.loaded.meshes;
+    let lowered = match before {
+        Some(before) => shared.document.lower_again(meshes, before.before()),
+        None => shared.document.lower(meshes),
     };
-    let meshes = &shared.assets.meshes;
-    let lowered = shared.document.lower_again(meshes, before.before());
     lowered.unwrap_or_else(|refused| Lowered::refused(&refused))
 }
 
 /// Lowers the text. If there is not enough memory, the result is only an error.
 pub(crate) fn lowered(shared: &mut Shared) -> Lowered {
-    let lowered = shared.document.lower(&shared.assets.meshes);
-    lowered.unwrap_or_else(|refused| Lowered::refused(&refused))
+    lowered_after(shared, None)
 }
 
 /// Installs the new meaning of the text.

@@ -12,8 +12,6 @@ pub(crate) use assigning::{assign, edits_of, sets_marked};
 pub(crate) use edit::{
     assets_read, install, lowered, lowered_after, make_step, relower, spans_after, try_step,
 };
-#[cfg(test)]
-pub(crate) use inputs::has_input;
 pub(crate) use inputs::{follow_input, merge_input, note_before_input};
 pub(crate) use live_editing::{
     begin_live_edit, end_live_edit, keep_live_edit, leaves_live_edit, take_merged, try_instead,
