@@ -64,10 +64,8 @@ pub(super) fn faced(camera: Camera, left: i8, up: i8) -> Camera {
 
 /// Moves the camera and its target by steps forward.
 pub(crate) fn advanced(camera: Camera, steps: i8) -> Camera {
-    shifted(
-        camera,
-        ADVANCE * f64::from(steps) * (camera.target - camera.eye),
-    )
+    let by = ADVANCE * f64::from(steps) * (camera.target - camera.eye);
+    shifted(camera, by)
 }
 
 /// Rolls the camera around the view direction by steps to the left.
@@ -85,16 +83,15 @@ pub(super) fn rolled(camera: Camera, left: i8) -> Camera {
 
 /// Widens the field of view by steps.
 pub(super) fn widened(camera: Camera, steps: i8) -> Camera {
+    let steps = f64::from(steps);
     let lens = match camera.lens {
         Lens::Perspective(angle) => {
-            let wider = angle + f64::from(steps) * WIDEN;
+            let wider = angle + steps * WIDEN;
             // An angle from the text beyond the limits is not forced back by a step.
             let (low, high) = (ANGLES.0.min(angle), ANGLES.1.max(angle));
             Lens::Perspective(wider.clamp(low, high))
         }
-        Lens::Orthographic(height) => {
-            Lens::Orthographic(height * libm::pow(DOLLY, -f64::from(steps)))
-        }
+        Lens::Orthographic(height) => Lens::Orthographic(height * libm::pow(DOLLY, -steps)),
     };
     Camera { lens, ..camera }
 }

@@ -77,20 +77,15 @@ pub(crate) fn save_view_named(shared: &mut Shared, name: Option<String>) {
 
 /// Saves the view under a name, as an ordinary edit.
 fn save_view_as(shared: &mut Shared, name: &str) {
-    let name = match view_name(name) {
-        Ok(name) => name,
-        Err(reason) => {
-            shared.fail(reason);
-            return;
-        }
-    };
-    match shared.camera().filter(|_| shared.error_count() == 0) {
-        Some(camera) => {
+    let camera = shared.camera().filter(|_| shared.error_count() == 0);
+    match (view_name(name), camera) {
+        (Err(reason), _) => shared.fail(reason),
+        (Ok(_), None) => shared.fail("cannot save the view while the scene has errors"),
+        (Ok(name), Some(camera)) => {
             let done = format!("view {name} is now in the scene's text");
             let step = format!("saved the view {name}");
             edit_saved_view(shared, &name, Some(&camera), (step, done));
         }
-        None => shared.fail("cannot save the view while the scene has errors"),
     }
 }
 
