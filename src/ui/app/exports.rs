@@ -297,7 +297,7 @@ pub(crate) fn origin(shared: &Shared) -> Option<Origin> {
     let camera = shared.camera()?;
     Some(Origin {
         text: shared.document.shared_text(),
-        found: shared.assets.found().clone(),
+        found: shared.assets.loaded.found.clone(),
         view: Viewpoint::between(&own, &camera),
     })
 }

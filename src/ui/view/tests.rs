@@ -70,7 +70,7 @@ pub(super) fn retype(app: &mut App, old: &str, new: &str) {
         span: Span::new(at, at + old.len()),
         text: new.to_owned(),
     }]);
-    let lowered = shared.document.lower(&shared.assets.meshes);
+    let lowered = shared.document.lower(&shared.assets.loaded.meshes);
     shared.diagnostics = lowered.expect("there is memory").diagnostics;
     let source = shared.document.source();
     shared.cursor.renew(source, Names::Changed);
@@ -80,7 +80,9 @@ pub(super) fn retype(app: &mut App, old: &str, new: &str) {
 pub(super) fn ask(app: &mut App, theirs: &str, decision: Option<Side>) {
     let document = &app.shared.document;
     let theirs = Document::new(document.language(), theirs.to_owned());
-    let merged = document.snapshot().merge(theirs, &app.shared.assets.meshes);
+    let merged = document
+        .snapshot()
+        .merge(theirs, &app.shared.assets.loaded.meshes);
     let merged = merged.expect("there is memory");
     let mut merge = merged.expect_err("both changed the same place");
     merge.conflicts[0].decision = decision;

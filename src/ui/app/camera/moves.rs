@@ -64,10 +64,8 @@ pub(super) fn faced(camera: Camera, left: i8, up: i8) -> Camera {
 
 /// Moves the camera and its target by steps forward.
 pub(crate) fn advanced(camera: Camera, steps: i8) -> Camera {
-    shifted(
-        camera,
-        ADVANCE * f64::from(steps) * (camera.target - camera.eye),
-    )
+    let by = ADVANCE * f64::from(steps) * (camera.target - camera.eye);
+    shifted(camera, by)
 }
 
 /// Rolls the camera around the view direction by steps to the left.
@@ -85,16 +83,15 @@ pub(super) fn rolled(camera: Camera, left: i8) -> Camera {
 
 /// Widens the field of view by steps.
 pub(super) fn widened(camera: Camera, steps: i8) -> Camera {
+    let steps = f64::from(steps);
     let lens = match camera.lens {
         Lens::Perspective(angle) => {
-            let wider = angle + f64::from(steps) * WIDEN;
+            let wider = angle + steps * WIDEN;
             // An angle from the text beyond the limits is not forced back by a step.
             let (low, high) = (ANGLES.0.min(angle), ANGLES.1.max(angle));
             Lens::Perspective(wider.clamp(low, high))
         }
-        Lens::Orthographic(height) => {
-            Lens::Orthographic(height * libm::pow(DOLLY, -f64::from(steps)))
-        }
+        Lens::Orthographic(height) => Lens::Orthographic(height * libm::pow(DOLLY, -steps)),
     };
     Camera { lens, ..camera }
 }
@@ -116,8 +113,7 @@ struct Axes {
 impl Axes {
     fn of(camera: &Camera) -> Self {
         let back = (camera.eye - camera.target).normalize_or(DVec3::Z);
-        let right = camera.up.cross(back);
-        let right = right.try_normalize();
+        let right = camera.up.cross(back).try_normalize();
         let right = right.unwrap_or_else(|| back.any_orthonormal_vector());
         Self {
             right,
@@ -191,30 +187,22 @@ fn rounded(camera: Camera, before: &Camera) -> Camera {
     if !distance.is_normal() {
         return camera;
     }
-    let places = 5 - libm::floor(libm::log10(distance)) as i32;
-    let round = |point: DVec3, before: DVec3| {
+    let places_for = |length: f64| 5 - libm::floor(libm::log10(length)) as i32;
+    let round = |point: DVec3, before: DVec3, length: f64| {
         if point == before {
             return before;
         }
-        DVec3::from_array(point.to_array().map(|n| to_places(n, places)))
+        point.map(|number| to_places(number, places_for(length)))
     };
     Camera {
-        eye: round(camera.eye, before.eye),
-        target: round(camera.target, before.target),
-        up: if camera.up == before.up {
-            before.up
-        } else {
-            let places = 5 - libm::floor(libm::log10(camera.up.length())) as i32;
-            DVec3::from_array(camera.up.to_array().map(|n| to_places(n, places)))
-        },
+        eye: round(camera.eye, before.eye, distance),
+        target: round(camera.target, before.target, distance),
+        up: round(camera.up, before.up, camera.up.length()),
         lens: match camera.lens {
             // The text may give it in another form, which rounding would not reproduce.
             lens if lens == before.lens => lens,
             Lens::Perspective(angle) => Lens::Perspective(to_places(angle, 4)),
-            Lens::Orthographic(height) => {
-                let places = 5 - libm::floor(libm::log10(height)) as i32;
-                Lens::Orthographic(to_places(height, places))
-            }
+            Lens::Orthographic(height) => Lens::Orthographic(to_places(height, places_for(height))),
         },
         ..camera
     }

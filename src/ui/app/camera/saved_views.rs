@@ -2,7 +2,6 @@
 
 use super::state::View;
 use super::working_view::save_view;
-use crate::document::StepName;
 use crate::language::{SavedView, view_name};
 use crate::scene::Camera;
 use crate::ui::app::{Page, Shared, text};
@@ -64,7 +63,7 @@ pub(super) fn delete_view(view: &mut View, shared: &mut Shared) {
     let name = view.name.clone();
     let undo = shared.key_for("undo");
     let done = format!("view {name} is deleted; {undo} undoes it");
-    let step = StepName::done(format!("deleted the view {name}"));
+    let step = format!("deleted the view {name}");
     edit_saved_view(shared, &name, None, (step, done));
 }
 
@@ -78,20 +77,15 @@ pub(crate) fn save_view_named(shared: &mut Shared, name: Option<String>) {
 
 /// Saves the view under a name, as an ordinary edit.
 fn save_view_as(shared: &mut Shared, name: &str) {
-    let name = match view_name(name) {
-        Ok(name) => name,
-        Err(reason) => {
-            shared.fail(reason);
-            return;
-        }
-    };
-    match shared.camera().filter(|_| shared.error_count() == 0) {
-        Some(camera) => {
+    let camera = shared.camera().filter(|_| shared.error_count() == 0);
+    match (view_name(name), camera) {
+        (Err(reason), _) => shared.fail(reason),
+        (Ok(_), None) => shared.fail("cannot save the view while the scene has errors"),
+        (Ok(name), Some(camera)) => {
             let done = format!("view {name} is now in the scene's text");
-            let step = StepName::done(format!("saved the view {name}"));
+            let step = format!("saved the view {name}");
             edit_saved_view(shared, &name, Some(&camera), (step, done));
         }
-        None => shared.fail("cannot save the view while the scene has errors"),
     }
 }
 
@@ -99,16 +93,10 @@ fn edit_saved_view(
     shared: &mut Shared,
     name: &str,
     camera: Option<&Camera>,
-    (step, done): (StepName, String),
+    (step, done): (String, String),
 ) {
     let edits = shared.source().saved_view_edits(name, camera);
-    shared.document.end_step();
-    match text::try_edits(shared, &edits) {
-        Ok(()) => {
-            shared.document.name_step(step);
-            shared.say(done);
-        }
-        Err(refused) => shared.fail(refused.message),
+    if text::make_step(shared, &edits, step) {
+        shared.say(done);
     }
-    shared.document.end_step();
 }

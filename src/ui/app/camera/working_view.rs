@@ -1,7 +1,6 @@
 //! The working view: moving it, and writing it into the text.
 
 use super::moves::{framed, settled};
-use crate::document::StepName;
 use crate::language::Node;
 use crate::scene::{Camera, Emitter};
 use crate::text::Severity;
@@ -56,11 +55,9 @@ pub(crate) fn look_from_light(shared: &mut Shared) {
         shared.fail("select a light to look from");
         return;
     };
-    let scene = shared.scene.clone().filter(|_| shared.error_count() == 0);
-    let Some((scene, light)) = scene.and_then(|scene| {
-        let light = *scene.lights.get(index)?;
-        Some((scene, light))
-    }) else {
+    let scene = shared.sound_scene();
+    let light = scene.as_ref().and_then(|scene| scene.lights.get(index));
+    let (Some(scene), Some(light)) = (&scene, light) else {
         shared.fail("cannot look from a light while the scene has errors");
         return;
     };
@@ -103,14 +100,9 @@ pub(crate) fn save_view(shared: &mut Shared) {
         shared.overlays.blame_errors(Severity::Error, words);
         return;
     }
-    shared.document.end_step();
-    match text::write_camera(shared, &view, &scene.camera) {
-        Ok(()) => {
-            shared.pictures.view = None;
-            shared.document.name_step(StepName::done("wrote the view"));
-            shared.say("the view is now in the scene's text");
-        }
-        Err(refused) => shared.fail(refused.message),
+    let edits = shared.source().view_edits(&scene.camera, &view);
+    if text::make_step(shared, &edits, "wrote the view") {
+        shared.pictures.view = None;
+        shared.say("the view is now in the scene's text");
     }
-    shared.document.end_step();
 }

@@ -24,7 +24,7 @@ fn job_of(
     };
     Some(Job {
         scene,
-        images: shared.assets.images.clone(),
+        images: shared.assets.loaded.images.clone(),
         camera: shared.camera()?,
         settings: Settings {
             aov: shared.pictures.aov,

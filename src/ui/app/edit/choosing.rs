@@ -58,17 +58,13 @@ pub(crate) fn menu_key(shared: &mut Shared, key: KeyEvent) {
 
 /// Moves the cursor of the menu to a row; a second time chooses the entry there.
 pub(crate) fn click_menu(shared: &mut Shared, row: usize) {
-    let Some(menu) = &mut shared.overlays.menu else {
-        return;
-    };
-    if menu.shown().len() <= row {
-        return;
-    }
-    if menu.filter.at == row {
-        choose_entry(shared);
-    } else {
-        menu.filter.at = row;
-        follow_menu(shared);
+    match &mut shared.overlays.menu {
+        Some(menu) if menu.filter.at == row => choose_entry(shared),
+        Some(menu) if row < menu.shown().len() => {
+            menu.filter.at = row;
+            follow_menu(shared);
+        }
+        _ => {}
     }
 }
 
@@ -94,17 +90,14 @@ pub(crate) fn follow_menu(shared: &mut Shared) -> bool {
     if text::leaves_live_edit(shared, &live_edit, "choice") {
         return false;
     }
-    let outcome = text::try_instead(shared, &mut live_edit, |shared| {
+    let is_tried = text::try_or_fail(shared, &mut live_edit, |shared| {
         menu.offer = offered(shared, &menu);
         let name = menu.chosen().map(|entry| entry.name.as_str());
         name.map_or_else(|| Ok(Vec::new()), |name| edits_choosing(shared, name))
     });
     menu.live_edit = Some(live_edit);
     shared.overlays.menu = Some(menu);
-    if let Err(reason) = &outcome {
-        shared.fail(reason.as_str());
-    }
-    outcome.is_ok()
+    is_tried
 }
 
 /// Offers to create what the typed name would refer to.
@@ -130,14 +123,13 @@ fn edits_choosing(shared: &Shared, name: &str) -> Result<Vec<Edit>, String> {
     let present = colours::literals(shared.source(), placed);
     let is_present = present
         .get(component)
-        .is_some_and(|present| present == name);
+        .is_some_and(|literal| literal == name);
     if is_present && !text::sets_marked(shared) {
         return Ok(Vec::new());
     }
-    let mut edits = text::edits_of(shared, &[(placed, &[(component, name.to_owned())])]);
-    let category = category(placed);
-    let known = category.map(|category| shared.source().references(node, category));
-    if let (Some(category), Some(known)) = (category, known)
+    let mut edits = text::edits_of(shared, &[(placed, vec![(component, name.to_owned())])]);
+    if let Some(category) = category(placed)
+        && let known = shared.source().references(node, category)
         && known.iter().all(|(literal, _)| literal != name)
     {
         let created = shared.source().creation(category, name, node);
@@ -149,12 +141,11 @@ fn edits_choosing(shared: &Shared, name: &str) -> Result<Vec<Edit>, String> {
 
 /// Chooses the entry under the cursor and closes the menu.
 fn choose_entry(shared: &mut Shared) {
-    let Some(menu) = &shared.overlays.menu else {
+    let menu = shared.overlays.menu.as_ref();
+    let Some((menu, entry)) = menu.and_then(|menu| Some((menu, menu.chosen()?))) else {
         return;
     };
-    let Some(name) = menu.chosen().map(|entry| entry.name.clone()) else {
-        return;
-    };
+    let name = entry.name.clone();
     let (purpose, node) = (menu.purpose, shared.cursor.selected());
     // A live edit knows what to leave; without one, another program may have changed the value since.
     let is_untouched = menu.live_edit.is_none() && menu.opened.as_ref() == Some(&name);
@@ -186,10 +177,9 @@ fn choose_value(shared: &mut Shared, name: &str) {
     } else {
         let value = (shared.cursor.component, name.to_owned());
         let outcome = assign_whole(shared, &[vec![value]]);
-        if let Err(refused) = &outcome {
-            shared.fail(refused.message.as_str());
-        }
-        outcome.is_ok()
+        outcome
+            .map_err(|refused| shared.fail(refused.message))
+            .is_ok()
     };
     if is_kept {
         text::keep_live_edit(shared);
@@ -201,13 +191,15 @@ fn choose_value(shared: &mut Shared, name: &str) {
 pub(crate) fn referred_to(shared: &Shared) -> Option<Node> {
     let category = category(shared.cursor.current()?)?;
     // Others may be very many.
-    let is_shared = matches!(category, Category::Material | Category::Texture);
+    if !matches!(category, Category::Material | Category::Texture) {
+        return None;
+    }
     let row = shared.field_row(shared.cursor.field)?;
     let literal = row.literals.first()?;
-    let node = shared.cursor.selected();
-    let known = is_shared.then(|| shared.source().references(node, category));
-    let mut known = known.into_iter().flatten();
-    Some(known.find(|(name, _)| name == literal)?.1)
+    let known = shared
+        .source()
+        .references(shared.cursor.selected(), category);
+    Some(known.into_iter().find(|(name, _)| name == literal)?.1)
 }
 
 /// The category of what a field refers to.

@@ -100,16 +100,13 @@ fn change_colour(shared: &mut Shared, change: impl FnOnce(&mut ColourPicker)) {
     }
     change(&mut picker);
     let colour = picker.colour.rgb();
-    let outcome = text::try_instead(shared, &mut picker.live_edit, |shared| {
+    text::try_or_fail(shared, &mut picker.live_edit, |shared| {
         let edits = shared.cursor.current().map(|placed| {
             let values = colour_values(shared, placed, colour);
-            text::edits_of(shared, &[(placed, &values)])
+            text::edits_of(shared, &[(placed, values)])
         });
         Ok(edits.unwrap_or_default())
     });
-    if let Err(reason) = outcome {
-        shared.fail(reason);
-    }
     shared.overlays.picker = Some(picker);
 }
 
@@ -120,15 +117,10 @@ fn colour_values(shared: &Shared, placed: &Placed, colour: Rgb) -> Vec<(usize, S
         let literal = present.get(at).map(|literal| plain(literal));
         literal.and_then(|literal| parse_number(literal).ok())
     };
+    let scale = number(3).filter(|_| placed.field.kind == Kind::ScaledColour);
+    let is_black = scale == Some(0.0);
+    let scale = scale.filter(|_| !is_black).unwrap_or(1.0);
     let mut values = Vec::new();
-    let scale = match (placed.field.kind, number(3)) {
-        (Kind::ScaledColour, Some(0.0)) => {
-            values.push((3, "1".to_owned()));
-            1.0
-        }
-        (Kind::ScaledColour, Some(scale)) => scale,
-        _ => 1.0,
-    };
     let channels = colour.to_array();
     for (at, channel) in channels.into_iter().enumerate() {
         let old = number(at).unwrap_or_default();
@@ -148,7 +140,7 @@ fn colour_values(shared: &Shared, placed: &Placed, colour: Rgb) -> Vec<(usize, S
         };
         values.push((at, literal));
     }
-    values.sort_by_key(|(at, _)| *at);
+    values.extend(is_black.then(|| (3, "1".to_owned())));
     values
 }
 

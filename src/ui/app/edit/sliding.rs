@@ -29,12 +29,10 @@ pub(crate) fn press_slider(shared: &mut Shared, (column, row): (u16, u16)) -> bo
         height: 1,
         ..lines
     };
-    let Some(bar) = slider(shared, field, line) else {
+    let bar = slider(shared, field, line);
+    let Some(bar) = bar.filter(|bar| bar.contains((column, row).into())) else {
         return false;
     };
-    if !bar.contains((column, row).into()) {
-        return false;
-    }
     shared.mode = Mode::Edit;
     shared.focus_field(field, 0);
     let live_edit = text::begin_live_edit(shared);
@@ -53,12 +51,9 @@ pub(crate) fn slide_to(shared: &mut Shared, column: u16) -> bool {
     }
     // A hundredth is finer than a cell.
     let share = (100.0 * share_at(slide.bar, column)).round() / 100.0;
-    let outcome = text::try_instead(shared, &mut slide.live_edit, |shared| {
+    text::try_or_fail(shared, &mut slide.live_edit, |shared| {
         Ok(edits_sliding(shared, share))
     });
-    if let Err(reason) = outcome {
-        shared.fail(reason);
-    }
     shared.cursor.slide = Some(slide);
     true
 }
@@ -84,5 +79,5 @@ fn edits_sliding(shared: &Shared, share: f64) -> Vec<Edit> {
         Some(_) => share.to_string(),
         None => spell_like(present, share),
     };
-    text::edits_of(shared, &[(placed, &[(0, literal)])])
+    text::edits_of(shared, &[(placed, vec![(0, literal)])])
 }

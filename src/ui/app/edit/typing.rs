@@ -30,19 +30,15 @@ pub(crate) fn typing_key(shared: &mut Shared, key: KeyEvent) {
     };
     match key.code {
         KeyCode::Esc => shared.cursor.typing = None,
-        KeyCode::Enter => {
-            commit(shared);
-        }
-        KeyCode::Tab | KeyCode::BackTab => {
-            let step = if key.code == KeyCode::Tab { 1 } else { -1 };
+        KeyCode::Enter | KeyCode::Tab | KeyCode::BackTab | KeyCode::Down | KeyCode::Up => {
             if commit(shared) {
-                next_component(shared, step);
-            }
-        }
-        KeyCode::Down | KeyCode::Up => {
-            let step = if key.code == KeyCode::Down { 1 } else { -1 };
-            if commit(shared) {
-                shared.move_field(step);
+                match key.code {
+                    KeyCode::Tab => next_component(shared, 1),
+                    KeyCode::BackTab => next_component(shared, -1),
+                    KeyCode::Down => shared.move_field(1),
+                    KeyCode::Up => shared.move_field(-1),
+                    _ => {}
+                }
             }
         }
         _ => {

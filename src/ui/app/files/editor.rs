@@ -11,21 +11,21 @@ pub(crate) fn open_editor(shared: &mut Shared) -> Vec<Effect> {
         shared.fail("this scene has no file yet: use :w FILE to create one");
         return Vec::new();
     };
-    if shared.disk.state == OnDisk::New {
-        let name = shared.disk.name();
-        let (save, editor) = (shared.key_for("save"), shared.key_for("editor"));
-        shared.warn(format!(
-            "{name} is new: press {save} to write it, then {editor}"
-        ));
-        return Vec::new();
-    }
-    // A file that was not taken must be corrected first.
-    let is_refused = matches!(shared.disk.state, OnDisk::Faulty(_) | OnDisk::Unreadable);
-    if shared.document.is_dirty() && !is_refused {
-        let (save, editor) = (shared.key_for("save"), shared.key_for("editor"));
-        shared.warn(format!(
-            "there are unsaved edits: press {save} to save them, then {editor}"
-        ));
+    let (save, editor) = (shared.key_for("save"), shared.key_for("editor"));
+    let obstacle = match shared.disk.state {
+        OnDisk::New => {
+            let name = shared.disk.name();
+            Some(format!("{name} is new: press {save} to write it"))
+        }
+        // A file that was not taken must be corrected first.
+        OnDisk::Faulty(_) | OnDisk::Unreadable => None,
+        _ if shared.document.is_dirty() => Some(format!(
+            "there are unsaved edits: press {save} to save them"
+        )),
+        _ => None,
+    };
+    if let Some(obstacle) = obstacle {
+        shared.warn(format!("{obstacle}, then {editor}"));
         return Vec::new();
     }
     let wrong = shared.wrong();

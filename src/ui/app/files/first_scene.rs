@@ -141,7 +141,7 @@ pub(crate) fn first_read(shared: &mut Shared, read: Result<Reading, ReadError>) 
     };
     shared.disk.first = FirstReading::Done;
     if let Some(place) = reading.place {
-        shared.disk.move_to(place);
+        shared.disk.place = Some(place);
     }
     let lowered = match reading.news.map(|news| *news) {
         Some(News::Text(document, meaning)) => {

@@ -72,7 +72,7 @@ pub(crate) fn other_scene_read(
             };
             let effects = replace_scene(shared, Some(path), document, OnDisk::Known, lowered);
             if let Some(place) = reading.place {
-                shared.disk.move_to(place);
+                shared.disk.place = Some(place);
             }
             return effects;
         }

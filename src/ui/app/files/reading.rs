@@ -8,14 +8,14 @@ use std::time::Duration;
 
 use crate::document::{Difference, Numbers, StepName};
 use crate::file::{self, ReadError};
-use crate::language::{Before, Lowered};
+use crate::language::Lowered;
 use crate::text::{Findings, Position, Severity, counted};
 
 use crate::ui::app::shared::cursor::SavedCursor;
-use crate::ui::app::shared::disk::{Disk, Faulty, Requester, Settle};
+use crate::ui::app::shared::disk::{Faulty, Requester, Settle};
 use crate::ui::app::shared::messages::About;
 
-use crate::ui::app::{Dialog, MergeSource, OnDisk, Shared, text};
+use crate::ui::app::{MergeSource, OnDisk, Shared, text};
 use crate::ui::msg::Effect;
 use crate::ui::scene_reading::{Baseline, News, Reading};
 use crate::ui::text_width::file_name;
@@ -30,37 +30,28 @@ pub(crate) struct Wording {
     came: &'static str,
     /// Used instead of the changed place if only comments and spacing have changed.
     same: &'static str,
-    ends: Ends,
-}
-
-/// The end of a message about a text read from the file.
-#[derive(Clone, Copy)]
-enum Ends {
-    /// Nothing.
-    Plain,
-    /// How to undo the merge.
-    Merge,
+    /// Whether it ends with how to undo the merge.
+    is_merge: bool,
 }
 
 const RELOADED: Wording = Wording {
     came: "reloaded",
     same: "the scene is unchanged",
-    ends: Ends::Plain,
+    is_merge: false,
 };
 const MERGED: Wording = Wording {
     came: "merged the file's changes with your edits",
     same: "the picture is unchanged",
-    ends: Ends::Merge,
+    is_merge: true,
 };
 pub(super) const ADOPTED: Wording = Wording {
     came: "merged",
-    same: "the picture is unchanged",
-    ends: Ends::Merge,
+    ..MERGED
 };
 const SAME_NOW: Wording = Wording {
     came: "the file now has the same changes",
     same: "nothing is unsaved",
-    ends: Ends::Plain,
+    is_merge: false,
 };
 
 /// Watches the scene's file, and reads it once more in case it changed before the watch began.
@@ -78,7 +69,7 @@ pub(super) fn watch(shared: &Shared) -> Vec<Effect> {
 
 /// Reads the file, which may have to settle; not while it is being saved.
 pub(crate) fn read_again(shared: &mut Shared) -> Vec<Effect> {
-    read_with(shared, Disk::read_again)
+    read_with(shared, Settle::Idle)
 }
 
 /// Reads a file that changed while there were unsaved edits, once there are none: nothing is left to
@@ -94,7 +85,7 @@ pub(crate) fn catch_up(shared: &mut Shared) -> Vec<Effect> {
 /// Rereads the scene's file and the files that it names, for `:e`.
 pub(super) fn reread(shared: &mut Shared) -> Vec<Effect> {
     let mut effects = if shared.disk.path.is_some() {
-        shared.disk.answer_user();
+        shared.disk.requester = Requester::User;
         read_again(shared)
     } else {
         shared.fail("this scene has no file yet: use :w FILE to create one");
@@ -106,24 +97,24 @@ pub(super) fn reread(shared: &mut Shared) -> Vec<Effect> {
 
 /// Reads the file and accepts what it holds; not while it is being saved.
 pub(super) fn read_finally(shared: &mut Shared) -> Vec<Effect> {
-    read_with(shared, Disk::read_finally)
+    read_with(shared, Settle::Final)
 }
 
-/// Reads the file, to be compared with the text without a transient edit.
-fn read_with(shared: &mut Shared, read: fn(&mut Disk, Baseline) -> Vec<Effect>) -> Vec<Effect> {
+/// Reads the file, which has settled so far, to be compared with the text without a transient edit.
+fn read_with(shared: &mut Shared, settle: Settle) -> Vec<Effect> {
     if is_being_saved(shared) {
         return Vec::new();
     }
     text::revert_transient(shared);
-    let baseline = baseline(shared);
-    let effects = read(&mut shared.disk, baseline);
+    shared.disk.settle = settle;
+    let effects = shared.disk.read(baseline(shared));
     shared.awaits_reading = !effects.is_empty();
     effects
 }
 
 /// Reads the file once it has had time to settle, and accepts what it holds.
 pub(crate) fn settled(shared: &mut Shared) -> Vec<Effect> {
-    if shared.disk.is_waiting() {
+    if shared.disk.settle == Settle::Waiting {
         read_finally(shared)
     } else {
         Vec::new()
@@ -132,7 +123,7 @@ pub(crate) fn settled(shared: &mut Shared) -> Vec<Effect> {
 
 /// Reads the file once more, as far as it is known to have settled.
 pub(super) fn read_once_more(shared: &mut Shared) -> Vec<Effect> {
-    read_with(shared, |disk, baseline| disk.read(baseline))
+    read_with(shared, shared.disk.settle)
 }
 
 /// The state that a reading of the file is compared with.
@@ -140,7 +131,7 @@ pub(crate) fn baseline(shared: &Shared) -> Baseline {
     Baseline {
         scene: shared.document.snapshot(),
         saves: shared.jobs.count_saves(),
-        meshes: shared.assets.meshes.clone(),
+        meshes: shared.assets.loaded.meshes.clone(),
         is_sound: shared.sound_scene().is_some(),
     }
 }
@@ -181,18 +172,18 @@ fn is_known(shared: &Shared, reading: &Reading) -> bool {
     if reading.news.is_none() {
         return Arc::ptr_eq(&baseline.scene.saved, shared.document.saved());
     }
-    baseline.scene.is_of(&shared.document) && baseline.meshes == shared.assets.meshes
+    baseline.scene.is_of(&shared.document) && baseline.meshes == shared.assets.loaded.meshes
 }
 
 /// Takes the outcome of reading the file, which was compared with the present state.
 fn take_read(shared: &mut Shared, read: Result<Reading, ReadError>) -> Vec<Effect> {
-    let settle = shared.disk.take_settle();
+    let settle = std::mem::take(&mut shared.disk.settle);
     let is_missing = matches!(
         read,
         Err(ReadError::NotFound { .. } | ReadError::NoFolder { .. })
     );
     if shared.disk.state == OnDisk::New && is_missing {
-        if shared.disk.take_requester() == Requester::User {
+        if std::mem::take(&mut shared.disk.requester) == Requester::User {
             announce_new(shared);
         }
         return Vec::new();
@@ -233,7 +224,7 @@ fn take_reading(shared: &mut Shared, mut reading: Reading, settle: Settle) -> Ve
     let Some(place) = reading.place.take() else {
         return take_text(shared, reading, settle);
     };
-    let before = shared.disk.move_to(place.clone());
+    let before = shared.disk.place.replace(place.clone());
     let before = before.unwrap_or_else(|| place.clone());
     let is_moved = before.id != place.id || before.folder != place.folder;
     let earlier = shared.overlays.message.take_if(|_| is_moved);
@@ -253,13 +244,9 @@ fn take_reading(shared: &mut Shared, mut reading: Reading, settle: Settle) -> Ve
 }
 
 fn take_text(shared: &mut Shared, reading: Reading, settle: Settle) -> Vec<Effect> {
-    let requester = shared.disk.take_requester();
+    let requester = std::mem::take(&mut shared.disk.requester);
     // An undecided merge is obsolete, regardless of what the file holds now.
-    if let Some(Dialog::Conflict {
-        from: MergeSource::File,
-        ..
-    }) = shared.overlays.dialog
-    {
+    if let Some((_, _, MergeSource::File)) = shared.overlays.conflict() {
         shared.overlays.dialog = None;
     }
     let Some(news) = reading.news else {
@@ -283,10 +270,9 @@ fn take_text(shared: &mut Shared, reading: Reading, settle: Settle) -> Vec<Effec
         News::Numbers(numbers) => {
             let Some(effects) = take_numbers(shared, numbers, &held) else {
                 shared.disk.state = state;
-                let baseline = baseline(shared);
                 return shared.disk.read(Baseline {
                     is_sound: false,
-                    ..baseline
+                    ..baseline(shared)
                 });
             };
             text::note_before_input(shared, saved);
@@ -294,11 +280,8 @@ fn take_text(shared: &mut Shared, reading: Reading, settle: Settle) -> Vec<Effec
         }
         News::Text(document, meaning) => (shared.document.load(document), meaning, RELOADED),
         News::Merged(merged, meaning) => {
-            let words = if merged.document.is_dirty() {
-                MERGED
-            } else {
-                SAME_NOW
-            };
+            let is_dirty = merged.document.is_dirty();
+            let words = if is_dirty { MERGED } else { SAME_NOW };
             (text::take_merged(shared, merged), meaning, words)
         }
         News::Conflict(merge) => {
@@ -313,27 +296,19 @@ fn take_text(shared: &mut Shared, reading: Reading, settle: Settle) -> Vec<Effec
     };
     text::note_before_input(shared, saved);
     let former = (document, shared.scene.clone());
-    show_reload(
-        shared,
-        &held,
-        meaning.difference.as_ref(),
-        meaning.lowered,
-        &words,
-    );
+    let difference = meaning.difference.as_ref();
+    show_reload(shared, &held, difference, meaning.lowered, &words);
     vec![Effect::Free(Arc::new(former))]
 }
 
 /// Takes a text in which numbers differ; `None` if it has to be read as a whole.
 fn take_numbers(shared: &mut Shared, numbers: Numbers, held: &SavedCursor) -> Option<Vec<Effect>> {
     let difference = numbers.difference();
-    let scene = shared.sound_scene()?;
-    let before = Before {
-        scene: &scene,
-        diagnostics: &shared.reported,
-    };
-    let (texts, lowered) = shared.document.take_numbers(numbers, before)?;
+    let before = shared.meaning()?;
+    let taken = shared.document.take_numbers(numbers, before.before());
+    let (texts, lowered) = taken?;
     show_reload(shared, held, Some(&difference), lowered, &RELOADED);
-    Some(vec![Effect::Free(Arc::new((texts, scene)))])
+    Some(vec![Effect::Free(Arc::new((texts, before.scene)))])
 }
 
 /// Keeps a text with errors apart from unsaved edits.
@@ -360,7 +335,7 @@ pub(super) fn show_reload(
     lowered: Lowered,
     words: &Wording,
 ) {
-    if let Ends::Merge = words.ends {
+    if words.is_merge {
         shared.document.name_step(StepName::done("merged the file"));
     }
     let (scene, sound) = (shared.scene.clone(), shared.error_count() == 0);
@@ -372,10 +347,8 @@ pub(super) fn show_reload(
         if sound {
             shared.disk.sound = Some(Arc::clone(&held.text));
         }
-        shared.fail(format!(
-            "the scene has {}",
-            counted(shared.error_count(), "error")
-        ));
+        let errors = counted(shared.error_count(), "error");
+        shared.fail(format!("the scene has {errors}"));
     } else {
         let sound = shared.disk.sound.take();
         let from_sound = sound.map(|sound| Difference::of(&sound, shared.document.text()));
@@ -387,18 +360,15 @@ pub(super) fn show_reload(
             (Some(before), Some(after)) => Arc::ptr_eq(before, after),
             _ => false,
         };
-        let Wording { came, same, ends } = words;
-        if let (Ends::Merge, Some(place)) = (ends, &place) {
-            let step = StepName::done(format!("merged the file: {place}"));
-            shared.document.name_step(step);
-        }
-        let end = match ends {
-            Ends::Plain => String::new(),
-            Ends::Merge => {
-                let undo = shared.key_for("undo");
-                format!("; press {undo} to undo the merge")
+        let (came, same, mut end) = (words.came, words.same, String::new());
+        if words.is_merge {
+            let undo = shared.key_for("undo");
+            end = format!("; press {undo} to undo the merge");
+            if let Some(place) = &place {
+                let step = StepName::done(format!("merged the file: {place}"));
+                shared.document.name_step(step);
             }
-        };
+        }
         shared.say(match place {
             _ if is_same && !shared.assets.lack_meshes() => format!("{came}: {same}{end}"),
             Some(place) => format!("{came}: {place}{end}"),

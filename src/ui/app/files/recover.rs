@@ -52,11 +52,9 @@ pub(crate) fn kept(
     outcome: Result<(), String>,
 ) -> Option<Effect> {
     match shared.disk.journal.kept(revision, outcome) {
-        Outcome::OutOfDate => None,
-        Outcome::Kept(trouble) => {
-            if let Some(trouble) = trouble {
-                shared.overlays.withdraw(&trouble);
-            }
+        Outcome::OutOfDate | Outcome::Kept(None) => None,
+        Outcome::Kept(Some(trouble)) => {
+            shared.overlays.withdraw(&trouble);
             None
         }
         Outcome::Failed(trouble, again) => {
@@ -187,9 +185,8 @@ pub(super) fn restore_merged(
 }
 
 fn restored(shared: &mut Shared, claim: Arc<Claim>, since: Since) -> Vec<Effect> {
-    shared
-        .document
-        .name_step(StepName::done("restored unsaved edits"));
+    let name = StepName::done("restored unsaved edits");
+    shared.document.name_step(name);
     text::relower(shared);
     let done = match since {
         Since::Same => "restored",
@@ -198,11 +195,11 @@ fn restored(shared: &mut Shared, claim: Arc<Claim>, since: Since) -> Vec<Effect>
     let undo = shared.key_for("undo");
     shared.say(format!("{done}; {undo} undoes it"));
     // The other journal is removed only once this run's journal holds the edits.
-    let mut effects = if shared.document.is_dirty() {
-        vec![Effect::AdoptKept(claim)]
+    let mut effects = vec![if shared.document.is_dirty() {
+        Effect::AdoptKept(claim)
     } else {
-        vec![Effect::DropKept(claim)]
-    };
+        Effect::DropKept(claim)
+    }];
     effects.extend(keep_edits(shared));
     effects.push(look_for_kept(shared));
     effects

@@ -27,7 +27,7 @@ pub(super) fn request_scene(shared: &mut Shared, path: PathBuf) -> Vec<Effect> {
         return Vec::new();
     }
     let now = (shared.document.revision(), shared.pictures.view);
-    shared.disk.request(path.clone(), now);
+    shared.disk.requested = Some((path.clone(), now));
     vec![Effect::Open(path, language)]
 }
 

@@ -148,7 +148,8 @@ pub(super) fn end_save(
     let is_changed = matches!(outcome, SaveOutcome::ChangedOnDisk);
     // What the file holds from now on.
     let mut written = None;
-    let mut effects = match outcome {
+    let mut effects = Vec::new();
+    match outcome {
         SaveOutcome::Saved { path, text } => {
             // Leaving asks about the view itself.
             let view = if next.is_some() {
@@ -159,26 +160,18 @@ pub(super) fn end_save(
             shared.overlays.end_complaint(About::Scene);
             shared.say(format!("wrote {}{view}", path.display()));
             written = Some(Arc::clone(&text));
-            if ended.is_late {
-                Vec::new()
-            } else {
-                take_saved(shared, path, text)
+            if !ended.is_late {
+                effects = take_saved(shared, path, text);
             }
         }
         SaveOutcome::ChangedOnDisk => {
-            let words = "the file has changed: nothing was written yet";
-            shared.warn(words);
-            Vec::new()
+            shared.warn("the file has changed: nothing was written yet");
         }
         SaveOutcome::NoFolder(reason) => {
             shared.fail(format!("{reason}; save elsewhere with :w FILE"));
-            Vec::new()
         }
-        SaveOutcome::Failed(reason) => {
-            shared.fail(reason);
-            Vec::new()
-        }
-    };
+        SaveOutcome::Failed(reason) => shared.fail(reason),
+    }
     let is_written = written.is_some();
     effects.extend(shared.jobs.go_on(ended, written));
     if shared.disk.path.is_some() && !is_being_saved(shared) {
@@ -198,7 +191,8 @@ fn take_saved(shared: &mut Shared, path: PathBuf, text: Arc<String>) -> Vec<Effe
     shared.disk.state = OnDisk::Known;
     let mut effects = Vec::new();
     if !shared.disk.is_own(&path) {
-        shared.disk.rename(path);
+        shared.disk.path = Some(path);
+        shared.disk.place = None;
         effects.extend(watch(shared));
         // The scene's files are now looked for in another folder.
         text::relower(shared);

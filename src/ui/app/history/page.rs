@@ -5,7 +5,8 @@ use ratatui::layout::Rect;
 use super::undoing::{step_back, step_forward};
 use crate::document::{Document, StepName};
 use crate::text::counted;
-use crate::ui::app::{Page, Shared, text};
+use crate::ui::app::text::{redo_text, relower, undo_text};
+use crate::ui::app::{Page, Shared};
 use crate::ui::history_layout::HistoryLayout;
 use crate::ui::keymap::Context;
 use crate::ui::layout::split_bottom;
@@ -59,28 +60,20 @@ pub(crate) fn go_to_state(shared: &mut Shared, at: usize) {
         return;
     }
     let is_back = at < present;
+    let cross = if is_back { undo_text } else { redo_text };
     for _ in 1..steps {
-        if is_back {
-            text::undo_text(shared);
-        } else {
-            text::redo_text(shared);
-        }
+        cross(shared);
     }
     if 1 < steps {
-        text::relower(shared);
+        relower(shared);
     }
-    let done = if is_back {
-        step_back(shared)
-    } else {
-        step_forward(shared)
-    };
-    let done = if steps == 1 {
-        done
-    } else {
+    let step = if is_back { step_back } else { step_forward };
+    let mut done = step(shared);
+    if 1 < steps {
         let verb = if is_back { "undone" } else { "redone" };
         let name = step_names(&shared.document).into_iter().nth(at);
-        name.map(|name| format!("{steps} steps {verb}, to: {name}"))
-    };
+        done = name.map(|name| format!("{steps} steps {verb}, to: {name}"));
+    }
     shared.say(done.unwrap_or_default());
 }
 

@@ -116,19 +116,19 @@ pub(crate) fn derived(
     ticket: u64,
     derived: Result<HistoryScene, NoPicture>,
 ) -> Vec<Effect> {
-    let slot = thumbnails.asked(ticket);
-    let job = match (slot, derived) {
-        (Some(slot), Ok(past)) => thumbnail_job(thumbnails, shared, slot, past),
+    match (thumbnails.asked(ticket), derived) {
+        (Some(slot), Ok(past)) => {
+            let job = thumbnail_job(thumbnails, shared, slot, past).into_iter();
+            job.map(|job| Effect::Trace(Target::Thumbnail, job))
+                .collect()
+        }
         (Some(_), Err(reason)) => {
             thumbnails.fail(reason);
-            return Vec::new();
+            Vec::new()
         }
-        (None, Ok(past)) => return vec![Effect::Free(past.scene)],
-        (None, Err(_)) => return Vec::new(),
-    };
-    job.map(|job| Effect::Trace(Target::Thumbnail, job))
-        .into_iter()
-        .collect()
+        (None, Ok(past)) => vec![Effect::Free(past.scene)],
+        (None, Err(_)) => Vec::new(),
+    }
 }
 
 /// The job of a picture: as the preview would show the text, from the working view if there is

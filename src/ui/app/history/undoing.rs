@@ -1,6 +1,5 @@
 //! Undoing and redoing steps.
 
-use crate::language::Nodes;
 use crate::text::Span;
 use crate::ui::app::{Shared, files, text};
 use crate::ui::msg::Effect;
@@ -21,32 +20,31 @@ pub(crate) fn redo(shared: &mut Shared) -> Vec<Effect> {
 
 /// Undoes a step and selects what it changed; returns what to say, or `None` without a step.
 pub(super) fn step_back(shared: &mut Shared) -> Option<String> {
-    let (before, step) = (shared.nodes(), shared.document.undoable());
+    let step = shared.document.undoable();
     let done = step.map(|step| format!("undone: {step}"));
-    let changed = text::undo_text(shared);
-    show_change(shared, &before, changed);
+    take_step(shared, text::undo_text);
     done
 }
 
 /// Redoes a step and selects what it changed; returns what to say, or `None` without a step.
 pub(super) fn step_forward(shared: &mut Shared) -> Option<String> {
-    let (before, step) = (shared.nodes(), shared.document.redoable());
+    let step = shared.document.redoable();
     let done = step.map(|step| format!("redone: {step}"));
-    let changed = text::redo_text(shared);
-    show_change(shared, &before, changed);
+    take_step(shared, text::redo_text);
     done
 }
 
-/// Lowers the text after an undo or redo, and selects the changed node, given the nodes before.
-fn show_change(shared: &mut Shared, before: &Nodes, changed: Option<Span>) {
-    let Some(span) = changed else {
+/// Undoes or redoes a step if there is one, lowers the text and selects the changed node.
+fn take_step(shared: &mut Shared, cross: fn(&mut Shared) -> Option<Span>) {
+    let before = shared.nodes();
+    let Some(span) = cross(shared) else {
         return;
     };
     let meaning = shared.meaning();
     let lowered = text::lowered_after(shared, meaning.as_ref());
     text::install(shared, lowered);
     let node_at = |at: usize| shared.source().node_at(Span::at(at));
-    if *before != shared.nodes() || node_at(span.start()) != node_at(span.end()) {
+    if before != shared.nodes() || node_at(span.start()) != node_at(span.end()) {
         select_restructured(shared);
         return;
     }

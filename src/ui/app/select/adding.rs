@@ -4,7 +4,7 @@ use std::path::Path;
 
 use glam::DVec3;
 
-use super::structure::restructure;
+use super::structure::{place, restructure};
 use crate::language::{Node, Wish};
 use crate::render::{clearance, pixel_width, surface_under};
 use crate::ui::app::shared::inspection::Cross;
@@ -86,32 +86,28 @@ pub(crate) fn add_mesh(shared: &mut Shared, file: Option<&Path>) {
 /// Adds something of this name; returns whether that could be done.
 fn add_with(shared: &mut Shared, name: &str, file: Option<&str>) -> bool {
     let done = format!("added: {name}");
-    if shared.source().is_blank() {
+    let is_done = if shared.source().is_blank() {
         let first = shared.source().first(name);
         let node = first.as_ref().ok().map(|&(_, node)| node);
         let is_done = restructure(shared, first.map(|(edit, _)| vec![edit]), None, &done);
         if let Some(node) = node.filter(|_| shared.error_count() == 0) {
             shared.select(node);
         }
-        if is_done {
-            say_added(shared, &done);
-        }
-        return is_done;
-    }
-    let marked: Vec<_> = shared.cursor.marks.iter().copied().collect();
-    let (centre, half, decimals) = place_for_new(shared);
-    let wish = Wish {
-        centre,
-        half,
-        decimals,
-        after: shared.cursor.selected(),
-        marked: &marked,
-        file,
+        is_done
+    } else {
+        let marked: Vec<_> = shared.cursor.marks.iter().copied().collect();
+        let (centre, half, decimals) = place_for_new(shared);
+        let wish = Wish {
+            centre,
+            half,
+            decimals,
+            after: shared.cursor.selected(),
+            marked: &marked,
+            file,
+        };
+        let placed = shared.source().addition(name, &wish);
+        place(shared, placed, &done)
     };
-    let placed = shared.source().addition(name, &wish);
-    let at = placed.as_ref().ok().map(|placed| placed.at);
-    let edits = placed.map(|placed| placed.edits);
-    let is_done = restructure(shared, edits, at, &done);
     if is_done {
         say_added(shared, &done);
     }

@@ -2,7 +2,7 @@
 //! and marking things. Each change is one edit of the text and one undo step.
 
 use crate::document::StepName;
-use crate::language::{Neighbour, Node, StructureError, Visibility};
+use crate::language::{Neighbour, Node, Placement, StructureError, Visibility};
 use crate::text::{Edit, counted};
 
 use crate::ui::app::{Dialog, PromptKind, Question, Shared, text};
@@ -70,9 +70,7 @@ pub(super) fn duplicate(shared: &mut Shared) {
         .unwrap_or_else(|| shared.cursor.selected());
     let copied = shared.source().copied(&nodes);
     let placed = copied.and_then(|copied| shared.source().insertion(&copied, after));
-    let at = placed.as_ref().ok().map(|placed| placed.at);
-    let edits = placed.map(|placed| placed.edits);
-    restructure(shared, edits, at, &format!("duplicated: {name}"));
+    place(shared, placed, &format!("duplicated: {name}"));
 }
 
 /// Exchanges the selected node and its neighbour.
@@ -86,9 +84,7 @@ pub(super) fn reorder(shared: &mut Shared, neighbour: Neighbour) {
         Neighbour::Next => "moved down",
     };
     let placed = shared.source().exchange(node, neighbour);
-    let at = placed.as_ref().ok().map(|placed| placed.at);
-    let edits = placed.map(|placed| placed.edits);
-    restructure(shared, edits, at, words);
+    place(shared, placed, words);
 }
 
 /// Copies the text of the targets, also to the terminal's clipboard.
@@ -135,9 +131,7 @@ pub(crate) fn insert(shared: &mut Shared, text: &str) {
         shared.fail(message);
         return;
     }
-    let at = placed.as_ref().ok().map(|placed| placed.at);
-    let edits = placed.map(|placed| placed.edits);
-    restructure(shared, edits, at, "pasted");
+    place(shared, placed, "pasted");
 }
 
 /// Opens a line to type the new name of the selected node.
@@ -213,13 +207,11 @@ pub(super) fn toggle_visibility(shared: &mut Shared) {
         shared.fail(reason);
         return;
     }
-    shared.document.end_step();
     let edits = shared.source().visibility_edits(&objects, wanted);
     let outcome = edits.map_err(str::to_owned).and_then(|edits| {
-        let refused = text::try_edits(shared, &edits);
+        let refused = text::try_step(shared, &edits);
         refused.map_err(|refused| refused.message)
     });
-    shared.document.end_step();
     let nodes: Vec<_> = objects.into_iter().map(Node::Object).collect();
     match outcome {
         Ok(()) => {
@@ -253,6 +245,16 @@ fn refuses_part(shared: &Shared, object: usize) -> Option<String> {
     ))
 }
 
+/// Places a node as [`restructure`] does, and selects it.
+pub(super) fn place(
+    shared: &mut Shared,
+    placed: Result<Placement, StructureError>,
+    done: &str,
+) -> bool {
+    let at = placed.as_ref().ok().map(|placed| placed.at);
+    restructure(shared, placed.map(|placed| placed.edits), at, done)
+}
+
 /// Makes structural edits as one undo step, selects the node written by the edit `at`, and says
 /// what is done or why not. Returns whether it is done.
 pub(crate) fn restructure(
@@ -263,10 +265,8 @@ pub(crate) fn restructure(
 ) -> bool {
     let outcome = edits.map_err(|refused| refused.to_string());
     let outcome = outcome.and_then(|edits| {
-        shared.document.end_step();
         let placed = at.and_then(|at| text::spans_after(&edits).get(at).copied());
-        let outcome = text::try_edits(shared, &edits);
-        shared.document.end_step();
+        let outcome = text::try_step(shared, &edits);
         outcome.map(|()| placed).map_err(|refused| refused.message)
     });
     match outcome {

@@ -4,20 +4,18 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use crate::assets::{self, Loaded, PictureErrors, Wanted};
+use crate::assets::{self, Loaded, Wanted};
 use crate::language::Source;
-use crate::scene::{Images, Meshes};
-use crate::text::{Findings, Severity, counted};
+use crate::text::{Findings, counted};
 use crate::ui::history_scene::KnownFiles;
 use crate::ui::msg::Effect;
 
 /// The state of the files that the scene names.
 #[derive(Debug, Default)]
 pub struct Assets {
-    /// The pictures of its textures that have been read.
-    pub images: Images,
-    /// The meshes of its objects that have been read.
-    pub meshes: Meshes,
+    /// The files that were read last, with the problems with pictures; those with meshes are in its
+    /// `meshes`.
+    pub(crate) loaded: Loaded,
     /// How many readings have changed what pictures show.
     pub(crate) changes: u64,
     /// The files requested last: those of the last text without errors.
@@ -26,14 +24,8 @@ pub struct Assets {
     due: bool,
     /// Whether any requested file is still awaited.
     awaited: bool,
-    /// Problems with pictures; those with meshes are in `meshes`.
-    picture_errors: PictureErrors,
     /// Where files were found other than where first looked for, by name; each was announced.
     elsewhere: BTreeMap<String, PathBuf>,
-    /// The paths of the files that may be read, to be watched.
-    files: Vec<PathBuf>,
-    /// The paths of the files that were read, by name.
-    found: BTreeMap<String, PathBuf>,
 }
 
 /// Changes brought by files that were read.
@@ -65,30 +57,25 @@ impl Assets {
     pub(crate) fn known(&self) -> KnownFiles {
         KnownFiles {
             names: self.asked.clone(),
-            images: self.images.clone(),
-            meshes: self.meshes.clone(),
+            images: self.loaded.images.clone(),
+            meshes: self.loaded.meshes.clone(),
         }
-    }
-
-    /// The paths of the files that were read, by name.
-    pub(crate) fn found(&self) -> &BTreeMap<String, PathBuf> {
-        &self.found
     }
 
     /// The paths of the scene's files that were read.
     pub(crate) fn files(&self) -> &[PathBuf] {
-        &self.files
+        &self.loaded.files
     }
 
     /// The path of the file read that diagnostics cite by this name.
     pub(crate) fn file(&self, cited: &str) -> Option<PathBuf> {
-        let mut files = self.files.iter();
+        let mut files = self.loaded.files.iter();
         files.find(|file| file.ends_with(cited)).cloned()
     }
 
     /// Whether a mesh that the scene names has neither been read nor failed to be.
     pub(crate) fn lack_meshes(&self) -> bool {
-        let is_missing = |name: &String| self.meshes.get(name).is_none();
+        let is_missing = |name: &String| self.loaded.meshes.get(name).is_none();
         let asked = self.asked.as_ref();
         asked.is_some_and(|asked| asked.meshes.iter().any(is_missing))
     }
@@ -105,7 +92,7 @@ impl Assets {
             let path = path.filter(|_| !files.is_empty());
             self.want(path.map(|path| Wanted::new(path, &files)));
         }
-        assets::report(&self.picture_errors, &files, &self.elsewhere, found)
+        assets::report(&self.loaded.picture_errors, &files, &self.elsewhere, found)
     }
 
     fn want(&mut self, wanted: Option<Wanted>) {
@@ -121,11 +108,7 @@ impl Assets {
         self.awaited = wanted.is_some() && (self.awaited || !is_known);
         self.due = wanted.is_some();
         if wanted.is_none() {
-            self.images = Images::default();
-            self.meshes = Meshes::default();
-            self.picture_errors.clear();
-            self.files.clear();
-            self.found.clear();
+            self.loaded = Loaded::default();
         }
         self.asked = wanted;
     }
@@ -146,29 +129,26 @@ impl Assets {
     }
 
     /// Takes files that were read, unless others have been requested since.
-    pub(crate) fn take(&mut self, wanted: &Wanted, loaded: Loaded) -> Option<News> {
+    pub(crate) fn take(&mut self, wanted: &Wanted, mut loaded: Loaded) -> Option<News> {
         if self.asked.as_ref() != Some(wanted) {
             return None;
         }
         let is_first = std::mem::take(&mut self.awaited);
-        let meshes = self.meshes != loaded.meshes;
-        let images = self.images != loaded.images;
-        let unreadable = self.meshes.unreadable() + loaded.meshes.unreadable();
-        let faults = self.picture_errors != loaded.picture_errors || meshes && 0 < unreadable;
+        let meshes = self.loaded.meshes != loaded.meshes;
+        let images = self.loaded.images != loaded.images;
+        let unreadable = self.loaded.meshes.unreadable() + loaded.meshes.unreadable();
+        let faults =
+            self.loaded.picture_errors != loaded.picture_errors || meshes && 0 < unreadable;
         // Files that are used no longer, or again, have not changed.
         let is_other = !is_first && self.differ(wanted, &loaded);
         let reloaded = is_other.then_some(Notice::Reloaded);
-        let elsewhere = self.found_elsewhere(loaded.elsewhere);
+        let elsewhere = self.found_elsewhere(std::mem::take(&mut loaded.elsewhere));
         let notice = match elsewhere {
             _ if faults => Some(Notice::Faults),
             Some(words) => Some(Notice::Elsewhere(words)),
             None => reloaded,
         };
-        self.images = loaded.images;
-        self.meshes = loaded.meshes;
-        self.picture_errors = loaded.picture_errors;
-        self.found = loaded.found;
-        self.files = loaded.files;
+        self.loaded = loaded;
         let meaning = meshes || faults;
         if images || meaning {
             self.changes += 1;
@@ -183,11 +163,11 @@ impl Assets {
     /// Whether a file that was read before has other contents now.
     fn differ(&self, wanted: &Wanted, loaded: &Loaded) -> bool {
         let is_other_picture = |name: &String| {
-            let read = self.images.get(name).zip(loaded.images.get(name));
+            let read = self.loaded.images.get(name).zip(loaded.images.get(name));
             read.is_some_and(|(old, new)| old != new)
         };
         let is_other_mesh = |name: &String| {
-            let read = self.meshes.get(name).zip(loaded.meshes.get(name));
+            let read = self.loaded.meshes.get(name).zip(loaded.meshes.get(name));
             read.is_some_and(|read| !matches!(read, (Ok(old), Ok(new)) if Arc::ptr_eq(old, new)))
         };
         wanted.pictures.iter().any(is_other_picture) || wanted.meshes.iter().any(is_other_mesh)
@@ -210,17 +190,17 @@ impl Assets {
 
     /// Whether files cannot be read.
     pub(crate) fn have_faults(&self) -> bool {
-        0 < self.meshes.unreadable() + self.picture_errors.len()
+        0 < self.count_faults()
     }
 
-    /// The message that counts the unreadable files, and its severity; `errors` lists the reasons.
-    pub(crate) fn faults(&self, errors: &str) -> (Option<Severity>, String) {
-        let count = self.meshes.unreadable() + self.picture_errors.len();
-        let files = counted(count, "file");
+    /// The warning that counts the unreadable files, if there are any; `errors` lists the reasons.
+    pub(crate) fn faults(&self, errors: &str) -> Option<String> {
+        let files = counted(self.count_faults(), "file");
         let words = format!("cannot read {files}: press {errors} to see why");
-        match count {
-            0 => (None, "all files can be read now".to_owned()),
-            _ => (Some(Severity::Warning), words),
-        }
+        self.have_faults().then_some(words)
+    }
+
+    fn count_faults(&self) -> usize {
+        self.loaded.meshes.unreadable() + self.loaded.picture_errors.len()
     }
 }

@@ -22,14 +22,14 @@ pub struct Disk {
     /// How far the scene's first text has been read.
     pub first: FirstReading,
     /// The state of waiting for a file that was read but could not be used.
-    settle: Settle,
+    pub(crate) settle: Settle,
     /// Who requested the next reading of the file.
-    requester: Requester,
+    pub(crate) requester: Requester,
     /// Another scene that is to replace this one, and the revision and the working view that may be
     /// given up for it.
-    requested: Option<(PathBuf, GivenUp)>,
+    pub(crate) requested: Option<(PathBuf, GivenUp)>,
     /// Where the file was read last.
-    place: Option<SceneFolder>,
+    pub(crate) place: Option<SceneFolder>,
     /// The last text without errors, while the current one has some.
     pub(crate) sound: Option<Arc<String>>,
     /// The saved text before a text was taken from the file while an input was open: what is typed is
@@ -81,7 +81,7 @@ pub enum FirstReading {
 }
 
 /// The revision of the text and the working view when another scene was requested.
-type GivenUp = (u64, Option<Camera>);
+pub(crate) type GivenUp = (u64, Option<Camera>);
 
 /// Who requested a reading of the file.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -153,52 +153,10 @@ impl Disk {
         read.into_iter().collect()
     }
 
-    /// Reads the file, which may have to settle again.
-    pub(crate) fn read_again(&mut self, baseline: Baseline) -> Vec<Effect> {
-        self.settle = Settle::Idle;
-        self.read(baseline)
-    }
-
-    /// Reads the file and accepts what it holds.
-    pub(crate) fn read_finally(&mut self, baseline: Baseline) -> Vec<Effect> {
-        self.settle = Settle::Final;
-        self.read(baseline)
-    }
-
-    /// Makes the next reading answer the user.
-    pub(crate) fn answer_user(&mut self) {
-        self.requester = Requester::User;
-    }
-
-    /// Returns who requested this reading.
-    pub(crate) fn take_requester(&mut self) -> Requester {
-        std::mem::take(&mut self.requester)
-    }
-
     /// Waits for the file to settle.
     pub(crate) fn wait(&mut self, time: Duration) -> Vec<Effect> {
         self.settle = Settle::Waiting;
         vec![Effect::Later(time, Timer::Settled)]
-    }
-
-    /// Whether the file is still settling.
-    pub(crate) fn is_waiting(&self) -> bool {
-        self.settle == Settle::Waiting
-    }
-
-    /// Ends the wait, and returns how far the file had settled.
-    pub(crate) fn take_settle(&mut self) -> Settle {
-        std::mem::take(&mut self.settle)
-    }
-
-    /// Records where the file was read and returns the previous place.
-    pub(crate) fn move_to(&mut self, place: SceneFolder) -> Option<SceneFolder> {
-        self.place.replace(place)
-    }
-
-    /// Records that another scene is to replace this one.
-    pub(crate) fn request(&mut self, path: PathBuf, now: GivenUp) {
-        self.requested = Some((path, now));
     }
 
     /// Ends a request for this path; returns what may be given up.
@@ -214,11 +172,5 @@ impl Disk {
             journal,
             ..Self::new(path, state, FirstReading::Done)
         };
-    }
-
-    /// Records that the scene has another file.
-    pub(crate) fn rename(&mut self, path: PathBuf) {
-        self.path = Some(path);
-        self.place = None;
     }
 }

@@ -27,43 +27,38 @@ impl Shared {
 
     pub(crate) fn field_row(&self, index: usize) -> Option<FieldRow> {
         let placed = self.cursor.fields().get(index)?;
-        let source = self.source();
-        let written = (0..).zip(&placed.spans).map(|(component, span)| {
-            let literal = || source.leaf_text(*span).to_owned();
-            let default = placed.default_of(component);
-            default.map_or_else(
-                || (literal(), Provenance::Text),
-                |default| (default.to_owned(), Provenance::Default),
-            )
-        });
-        let (literals, sources): (Vec<_>, Vec<_>) = written.unzip();
+        let field = placed.field;
+        let components = field.kind.components();
         let row = |literals, source| FieldRow {
-            field: placed.field,
+            field,
             literals,
-            sources: vec![source; placed.field.kind.components()],
+            sources: vec![source; components],
         };
         let shown = |camera: &Camera| -> Vec<String> {
             let literals = self.source().view_literals(camera);
             literals.into_iter().nth(index).unwrap_or_default()
         };
-        let scene = self.scene.as_ref();
-        if let (Node::View, Some(view), Some(scene)) =
-            (self.cursor.selected(), &self.pictures.view, scene)
-            && shown(view) != shown(&scene.camera)
+        let own = self.own_camera();
+        if let (Node::View, Some(view), Some(own)) =
+            (self.cursor.selected(), &self.pictures.view, &own)
+            && shown(view) != shown(own)
         {
             return Some(row(shown(view), Provenance::WorkingView));
         }
-        Some(match scene {
-            Some(scene) if literals.is_empty() => row(shown(&scene.camera), Provenance::Default),
-            None if literals.is_empty() => row(
-                vec!["?".to_owned(); placed.field.kind.components()],
-                Provenance::Default,
-            ),
-            _ => FieldRow {
-                field: placed.field,
-                literals,
-                sources,
-            },
+        let literals = colours::literals(self.source(), placed);
+        if literals.is_empty() {
+            let literals = own.map_or_else(|| vec!["?".to_owned(); components], |own| shown(&own));
+            return Some(row(literals, Provenance::Default));
+        }
+        let source = |component| match placed.default_of(component) {
+            Some(_) => Provenance::Default,
+            None => Provenance::Text,
+        };
+        let sources = (0..literals.len()).map(source).collect();
+        Some(FieldRow {
+            field,
+            literals,
+            sources,
         })
     }
 }

@@ -244,17 +244,15 @@ impl Jobs {
 
     /// Starts the save that waited for this one; `written` is what the file holds now.
     pub(crate) fn go_on(&mut self, ended: Ended, written: Option<Arc<String>>) -> Vec<Effect> {
-        let Some(save) = ended.save else {
-            return Vec::new();
-        };
-        let Some((id, text, guard)) = save.next else {
+        let next = ended.save.and_then(|save| Some((save.path, save.next?)));
+        let Some((path, (id, text, guard))) = next else {
             return Vec::new();
         };
         let guard = match (guard, written) {
             (Guard::Holding(_) | Guard::Absent, Some(text)) => Guard::Holding(text),
             (guard, _) => guard,
         };
-        self.start_save(id, save.path, text, guard)
+        self.start_save(id, path, text, guard)
     }
 
     /// Starts counting the seconds that files take to write.
@@ -323,13 +321,8 @@ impl Jobs {
         let effects = match making {
             ExportWork::Write(frame) => {
                 export.stage = Stage::Writing;
-                let mut effects = vec![Effect::WriteImage(
-                    export.id,
-                    Arc::clone(frame),
-                    destination,
-                )];
-                effects.extend(self.count_seconds());
-                effects
+                let write = Effect::WriteImage(export.id, Arc::clone(frame), destination);
+                [write].into_iter().chain(self.count_seconds()).collect()
             }
             ExportWork::Film(reel) => {
                 export.stage = Stage::Tracing;

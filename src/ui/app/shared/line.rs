@@ -72,17 +72,9 @@ pub(crate) fn insert_over(input: &mut Input, is_selected: &mut bool, text: &str)
 /// Inserts pasted text, replacing line breaks with blanks.
 pub(crate) fn insert(input: &mut Input, text: &str) {
     let at = input.cursor();
-    let shown = text.trim_end().chars();
-    let shown = shown.map(|character| {
-        if character.is_control() {
-            ' '
-        } else {
-            character
-        }
-    });
-    let shown: Vec<_> = shown.collect();
+    let shown = text.trim_end().replace(char::is_control, " ");
     let before = input.value().chars().take(at);
     let after = input.value().chars().skip(at);
-    let line: String = before.chain(shown.iter().copied()).chain(after).collect();
-    *input = Input::new(line).with_cursor(at + shown.len());
+    let line: String = before.chain(shown.chars()).chain(after).collect();
+    *input = Input::new(line).with_cursor(at + shown.chars().count());
 }

@@ -317,18 +317,15 @@ impl Shared {
 
     /// The name of the targets: `object 2 (box)`, or `3 marked items: ` and the names of the first.
     pub(crate) fn targets_name(&self, nodes: &[Node]) -> String {
-        let is_marked = |node: &Node| self.cursor.marks.contains(node);
         let shown = nodes.iter().take(MOST_NAMED);
         let names: Vec<_> = shown.map(|node| self.source().name(*node)).collect();
-        let names = names.join(", ");
-        let more = if MOST_NAMED < nodes.len() {
-            ", …"
-        } else {
-            ""
-        };
+        let mut names = names.join(", ");
+        if MOST_NAMED < nodes.len() {
+            names += ", …";
+        }
         match nodes {
-            [_] if !nodes.iter().all(is_marked) => names,
-            _ => format!("{}: {names}{more}", counted(nodes.len(), "marked item")),
+            [node] if !self.cursor.marks.contains(node) => names,
+            _ => format!("{}: {names}", counted(nodes.len(), "marked item")),
         }
     }
 
@@ -350,10 +347,7 @@ impl Shared {
             return None;
         }
         let whole = self.output();
-        let drawn = self
-            .pictures
-            .drawing
-            .map(|drawing| (drawing.region(), Reason::Drawn));
+        let drawn = self.region_drawn().map(|region| (region, Reason::Drawn));
         let traced = self.region().map(|region| (region, Reason::Traced));
         let (region, reason) = drawn.or(traced)?;
         Some(Marked {

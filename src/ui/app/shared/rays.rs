@@ -127,14 +127,15 @@ impl RayLine {
             RayPart::Emission => shading.emission,
             RayPart::Ambient => shading.ambient,
             RayPart::Caustics => shading.caustics,
-            RayPart::Light(at) => shading
-                .lights
-                .get(at)
-                .map_or(Rgb::ZERO, |light| light.radiance),
             RayPart::Unlisted => shading.unlisted.radiance,
-            RayPart::Emitter(_) => self
-                .emitter(explanation)
-                .map_or(Rgb::ZERO, |emitter| emitter.radiance),
+            RayPart::Light(_) => {
+                let light = self.light(explanation);
+                light.map_or(Rgb::ZERO, |light| light.radiance)
+            }
+            RayPart::Emitter(_) => {
+                let emitter = self.emitter(explanation);
+                emitter.map_or(Rgb::ZERO, |emitter| emitter.radiance)
+            }
         };
         ray.weight * shading.transmitted * radiance
     }
@@ -148,39 +149,28 @@ impl RayLine {
             next = ray.parent;
         }
         let eye = chain.last().map_or(DVec3::ZERO, |camera| camera.origin);
-        let mut path: Vec<_> = chain
-            .iter()
-            .rev()
-            .map(|ray| Segment {
-                ends: [ray.origin, end_of(ray, eye)],
-                is_dark: false,
-            })
-            .collect();
-        if let (Some(light), Some(shading)) =
-            (self.light(explanation), self.ray(explanation).shading())
-            && light.toward.is_finite()
-        {
-            let point = shading.hit.point;
-            let blocked = light
-                .crossed
-                .iter()
-                .find(|crossing| crossing.transmittance == 0.0);
+        let rays = chain.iter().rev().map(|ray| Segment {
+            ends: [ray.origin, end_of(ray, eye)],
+            is_dark: false,
+        });
+        let light = self.light(explanation);
+        let light = light.filter(|light| light.toward.is_finite()).map(|light| {
+            let mut crossed = light.crossed.iter();
+            let blocked = crossed.find(|crossing| crossing.transmittance == 0.0);
             let length = blocked.map_or(light.distance, |crossing| crossing.t);
-            path.push(Segment {
-                ends: [point, along(point, light.toward, length, eye)],
-                is_dark: light.radiance == Rgb::ZERO,
-            });
-        }
-        if let (Some(emitter), Some(shading)) =
-            (self.emitter(explanation), self.ray(explanation).shading())
-        {
+            (light.toward, length, light.radiance)
+        });
+        let emitter = self.emitter(explanation);
+        let emitter = emitter.map(|emitter| (emitter.toward, emitter.distance, emitter.radiance));
+        let last = light.or(emitter).zip(self.ray(explanation).shading());
+        let last = last.map(|((toward, length, radiance), shading)| {
             let point = shading.hit.point;
-            path.push(Segment {
-                ends: [point, along(point, emitter.toward, emitter.distance, eye)],
-                is_dark: emitter.radiance == Rgb::ZERO,
-            });
-        }
-        path
+            Segment {
+                ends: [point, along(point, toward, length, eye)],
+                is_dark: radiance == Rgb::ZERO,
+            }
+        });
+        rays.chain(last).collect()
     }
 }
 

@@ -8,7 +8,7 @@ use crate::ui::app::Shared;
 use crate::ui::app::values::typed::Values;
 
 /// A field, its index among those of the selected node, and the components to set.
-type Wanted<'a> = (usize, &'a Placed, &'a [(usize, String)]);
+type Wanted<'a> = (usize, &'a Placed, &'a Values);
 
 /// Sets components of the current field and, with the further values, of those below it, in one
 /// edit.
@@ -17,7 +17,7 @@ pub(crate) fn assign(shared: &mut Shared, values: &[Values]) -> Result<(), Diagn
     let below = fields.iter().enumerate().skip(shared.cursor.field);
     let wanted: Vec<Wanted> = below
         .zip(values)
-        .map(|((at, placed), values)| (at, placed, values.as_slice()))
+        .map(|((at, placed), values)| (at, placed, values))
         .collect();
     if shared.cursor.selected() == Node::View {
         return assign_view(shared, &wanted);
@@ -32,25 +32,21 @@ pub(crate) fn sets_marked(shared: &Shared) -> bool {
 
 /// The edits that set components of fields of the selected node or, if it is marked, of all
 /// marked nodes that have them.
-pub(crate) fn edits_of(shared: &Shared, wanted: &[(&Placed, &[(usize, String)])]) -> Vec<Edit> {
+pub(crate) fn edits_of(shared: &Shared, wanted: &[(&Placed, Values)]) -> Vec<Edit> {
     let source = shared.source();
     if !sets_marked(shared) {
-        let owned = |&(placed, values): &(_, &[_])| (placed, values.to_vec());
-        return source.edits(&wanted.iter().map(owned).collect::<Vec<_>>());
+        return source.edits(wanted);
     }
-    let fields = shared.cursor.marks.iter().map(|&node| source.fields(node));
-    let found = fields.flatten().filter_map(|placed| {
+    let marks = shared.cursor.marks.iter();
+    let fields: Vec<_> = marks.flat_map(|&node| source.fields(node)).collect();
+    let found = fields.iter().filter_map(|placed| {
         let is_meant = |(wanted, _): &&(&Placed, _)| {
             wanted.field.key == placed.field.key && wanted.field.kind == placed.field.kind
         };
         let (_, values) = wanted.iter().find(is_meant)?;
-        Some((placed, values.to_vec()))
+        Some((placed, values.clone()))
     });
-    let found: Vec<_> = found.collect();
-    let wanted = found
-        .iter()
-        .map(|(placed, values)| (placed, values.clone()));
-    source.edits(&wanted.collect::<Vec<_>>())
+    source.edits(&found.collect::<Vec<_>>())
 }
 
 /// Sets components of fields of the view: of the working view, of parts that the text omits, and
@@ -72,8 +68,8 @@ fn assign_view(shared: &mut Shared, wanted: &[Wanted]) -> Result<(), Diagnostic>
         try_edits(shared, &edits)?;
     }
     if let Some(moved) = moved {
-        let size = shared.own_camera().map_or(moved.size, |own| own.size);
         let own = shared.own_camera();
+        let size = own.map_or(moved.size, |own| own.size);
         shared.pictures.set_view(Camera { size, ..moved }, own);
     }
     Ok(())
@@ -130,20 +126,8 @@ fn camera_with(
     }
 }
 
-/// Writes a camera into the text where it differs from the text's own.
-pub(crate) fn write_camera(
-    shared: &mut Shared,
-    camera: &Camera,
-    before: &Camera,
-) -> Result<(), Diagnostic> {
-    let edits = shared.source().view_edits(before, camera);
-    try_edits(shared, &edits)
-}
-
 /// The fields without their indices.
-fn unnumbered<'a>(wanted: &[Wanted<'a>]) -> Vec<(&'a Placed, &'a [(usize, String)])> {
-    let fields = wanted.iter();
-    fields
-        .map(|&(_, placed, values)| (placed, values))
-        .collect()
+fn unnumbered<'a>(wanted: &[Wanted<'a>]) -> Vec<(&'a Placed, Values)> {
+    let own = |&(_, placed, values): &Wanted<'a>| (placed, values.clone());
+    wanted.iter().map(own).collect()
 }

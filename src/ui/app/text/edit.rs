@@ -2,8 +2,9 @@
 
 use super::naming::{name_of_change, name_of_value};
 use crate::assets::{Loaded, Wanted};
+use crate::document::StepName;
 use crate::language::{Lowered, Node, Outlook, outlook};
-use crate::text::{Diagnostic, Edit, Findings, Span, parse_number};
+use crate::text::{Diagnostic, Edit, Findings, Severity, Span, parse_number};
 use crate::ui::app::shared::assets::Notice;
 use crate::ui::app::shared::cursor::Names;
 use crate::ui::app::shared::live_edit::Meaning;
@@ -22,12 +23,12 @@ pub(crate) fn assets_read(shared: &mut Shared, wanted: &Wanted, loaded: Loaded) 
     }
     match news.notice {
         Some(Notice::Faults) => {
-            let (severity, words) = shared.assets.faults(&shared.key_for("errors"));
-            if let Some(severity) = severity {
-                shared.overlays.complain(About::Assets, severity, &words);
+            if let Some(words) = shared.assets.faults(&shared.key_for("errors")) {
+                let overlays = &mut shared.overlays;
+                overlays.complain(About::Assets, Severity::Warning, &words);
             } else {
                 shared.overlays.end_complaint(About::Assets);
-                shared.say(words);
+                shared.say("all files can be read now");
             }
         }
         Some(Notice::Elsewhere(words)) => shared.say(words),
@@ -44,18 +45,17 @@ pub(crate) fn relower(shared: &mut Shared) {
 
 /// Lowers the text after an edit, reusing what is known of the text before.
 pub(crate) fn lowered_after(shared: &mut Shared, before: Option<&Meaning>) -> Lowered {
-    let Some(before) = before else {
-        return lowered(shared);
+    let meshes = &shared.assets.loaded.meshes;
+    let lowered = match before {
+        Some(before) => shared.document.lower_again(meshes, before.before()),
+        None => shared.document.lower(meshes),
     };
-    let meshes = &shared.assets.meshes;
-    let lowered = shared.document.lower_again(meshes, before.before());
     lowered.unwrap_or_else(|refused| Lowered::refused(&refused))
 }
 
 /// Lowers the text. If there is not enough memory, the result is only an error.
 pub(crate) fn lowered(shared: &mut Shared) -> Lowered {
-    let lowered = shared.document.lower(&shared.assets.meshes);
-    lowered.unwrap_or_else(|refused| Lowered::refused(&refused))
+    lowered_after(shared, None)
 }
 
 /// Installs the new meaning of the text.
@@ -88,20 +88,30 @@ pub(crate) fn try_edits(shared: &mut Shared, edits: &[Edit]) -> Result<(), Diagn
     try_edits_after(shared, before.as_ref(), edits)
 }
 
+/// Makes edits as an undo step of its own, as [`try_edits`] does.
+pub(crate) fn try_step(shared: &mut Shared, edits: &[Edit]) -> Result<(), Diagnostic> {
+    shared.document.end_step();
+    let outcome = try_edits(shared, edits);
+    shared.document.end_step();
+    outcome
+}
+
+/// Makes edits as an undo step of this name, or shows why not; returns whether they are made.
+pub(crate) fn make_step(shared: &mut Shared, edits: &[Edit], name: impl Into<String>) -> bool {
+    let outcome = try_step(shared, edits);
+    match &outcome {
+        Ok(()) => shared.document.name_step(StepName::done(name)),
+        Err(refused) => shared.fail(&*refused.message),
+    }
+    outcome.is_ok()
+}
+
 /// As [`try_edits`], given what the text before the edits means; the scene may be that of other
 /// edits, which were taken back.
 pub(super) fn try_edits_after(
     shared: &mut Shared,
     before: Option<&Meaning>,
     edits: &[Edit],
-) -> Result<(), Diagnostic> {
-    attempt(shared, edits, |shared| lowered_after(shared, before))
-}
-
-fn attempt(
-    shared: &mut Shared,
-    edits: &[Edit],
-    lower: impl FnOnce(&mut Shared) -> Lowered,
 ) -> Result<(), Diagnostic> {
     let written = written_view_parts(shared);
     let errors = shared.error_count();
@@ -113,7 +123,7 @@ fn attempt(
         _ => shared.document.edit(edits),
     }
     let touched = spans_after(edits);
-    let lowered = lower(shared);
+    let lowered = lowered_after(shared, before);
     let touches = |d: &&Diagnostic| touched.iter().any(|span| d.span.touches(*span));
     let found = &lowered.diagnostics;
     let mut refused = found.iter().filter(|d| d.is_error()).find(touches);

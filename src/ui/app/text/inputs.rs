@@ -7,14 +7,9 @@ use super::edit::relower;
 use crate::document::Adopted;
 use crate::ui::app::{MergeSource, OnDisk, Shared};
 
-/// Whether keys are typed into a line, or choose from a menu.
-pub(crate) fn has_input(shared: &Shared) -> bool {
-    shared.open_line().is_some()
-}
-
 /// Records the saved text before one was taken from the file, if an input is open.
 pub(crate) fn note_before_input(shared: &mut Shared, saved: Arc<String>) {
-    if has_input(shared) {
+    if shared.open_line().is_some() {
         shared.disk.before_input.get_or_insert(saved);
     }
 }
@@ -37,7 +32,7 @@ pub(crate) fn merge_input(shared: &mut Shared) {
 
 /// Forgets the text before the input once that is closed.
 pub(crate) fn follow_input(shared: &mut Shared) {
-    if !has_input(shared) {
+    if shared.open_line().is_none() {
         shared.disk.before_input = None;
     }
 }

@@ -24,9 +24,8 @@ pub(crate) fn begin_live_edit(shared: &mut Shared) -> LiveEdit {
 pub(crate) fn leaves_live_edit(shared: &mut Shared, live_edit: &LiveEdit, tried: &str) -> bool {
     let is_overtaken = is_overtaken(shared, live_edit);
     if is_overtaken {
-        shared.warn(format!(
-            "the scene has changed on disk; the {tried} so far is kept"
-        ));
+        let words = format!("the scene has changed on disk; the {tried} so far is kept");
+        shared.warn(words);
     }
     is_overtaken
 }
@@ -47,21 +46,29 @@ pub(crate) fn try_instead(
         shared.cursor.marks.clone_from(&live_edit.marks);
     }
     let outcome = edits(shared).and_then(|edits| {
-        live_edit.is_applied = !edits.is_empty();
-        let made = if live_edit.is_applied {
-            try_edits_after(shared, live_edit.base.as_ref(), &edits)
-        } else {
-            Ok(())
-        };
-        made.map_err(|refused| refused.message)
+        if edits.is_empty() {
+            return Ok(false);
+        }
+        let made = try_edits_after(shared, live_edit.base.as_ref(), &edits);
+        made.map_or_else(|refused| Err(refused.message), |()| Ok(true))
     });
-    live_edit.is_applied &= outcome.is_ok();
+    live_edit.is_applied = outcome == Ok(true);
     if was_applied && !live_edit.is_applied {
         let lowered = lowered_after(shared, live_edit.base.as_ref());
         install(shared, lowered);
     }
     live_edit.revision = shared.document.revision();
-    outcome
+    outcome.map(|_| ())
+}
+
+/// As [`try_instead`], but shows the reason of a failure; returns whether there was none.
+pub(crate) fn try_or_fail(
+    shared: &mut Shared,
+    live_edit: &mut LiveEdit,
+    edits: impl FnOnce(&Shared) -> Result<Vec<Edit>, String>,
+) -> bool {
+    let outcome = try_instead(shared, live_edit, edits);
+    outcome.map_err(|reason| shared.fail(reason)).is_ok()
 }
 
 /// Keeps the last attempt as one undo step.
@@ -98,15 +105,11 @@ fn is_overtaken(shared: &Shared, live_edit: &LiveEdit) -> bool {
 #[must_use = "freeing it may take long"]
 pub(crate) fn take_merged(shared: &mut Shared, merged: Merged) -> Document {
     let before = shared.document.revision();
-    let menu = shared.overlays.menu.as_mut();
+    let (menu, picker) = (&mut shared.overlays.menu, &mut shared.overlays.picker);
     let live_edits = [
         shared.motion.as_mut(),
-        shared
-            .overlays
-            .picker
-            .as_mut()
-            .map(|own| &mut own.live_edit),
-        menu.and_then(|menu| menu.live_edit.as_mut()),
+        picker.as_mut().map(|picker| &mut picker.live_edit),
+        menu.as_mut().and_then(|menu| menu.live_edit.as_mut()),
     ];
     let applied = live_edits.into_iter().flatten();
     let applied = applied.filter(|live_edit| live_edit.is_applied && live_edit.revision == before);

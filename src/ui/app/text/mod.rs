@@ -8,15 +8,14 @@ mod naming;
 mod setting;
 mod transient;
 
-pub(crate) use assigning::{assign, edits_of, sets_marked, write_camera};
+pub(crate) use assigning::{assign, edits_of, sets_marked};
 pub(crate) use edit::{
-    assets_read, install, lowered, lowered_after, relower, spans_after, try_edits,
+    assets_read, install, lowered, lowered_after, make_step, relower, spans_after, try_step,
 };
-#[cfg(test)]
-pub(crate) use inputs::has_input;
 pub(crate) use inputs::{follow_input, merge_input, note_before_input};
 pub(crate) use live_editing::{
     begin_live_edit, end_live_edit, keep_live_edit, leaves_live_edit, take_merged, try_instead,
+    try_or_fail,
 };
 pub(crate) use naming::{done, error_place, first_node_in, name_of_places, place_name};
 pub(crate) use setting::{

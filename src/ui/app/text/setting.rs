@@ -1,8 +1,7 @@
 //! Render settings written into the text. What the command line or the interface chose instead is
 //! dropped then, so that the text counts, and brought back by undo.
 
-use super::assigning::write_camera;
-use super::edit::{judge_text, try_edits};
+use super::edit::{judge_text, make_step, try_step};
 use crate::document::StepName;
 use crate::language::Node;
 use crate::scene::{Camera, RenderKey, Rendering, Size};
@@ -51,7 +50,7 @@ impl SettingOrder {
 
 /// Writes the size of the picture into the text.
 pub(crate) fn set_size(shared: &mut Shared, size: Size) {
-    let Some(scene) = shared.scene.clone().filter(|_| shared.error_count() == 0) else {
+    let Some(scene) = shared.sound_scene() else {
         let words = "cannot set the size while the scene has errors";
         shared.overlays.blame_errors(Severity::Error, words);
         return;
@@ -60,16 +59,9 @@ pub(crate) fn set_size(shared: &mut Shared, size: Size) {
         size,
         ..scene.camera
     };
-    shared.document.end_step();
-    match write_camera(shared, &camera, &scene.camera) {
-        Ok(()) => {
-            let Size { width, height } = size;
-            let step = StepName::done(format!("set the size to {width}x{height}"));
-            shared.document.name_step(step);
-        }
-        Err(refused) => shared.fail(refused.message),
-    }
-    shared.document.end_step();
+    let edits = shared.source().view_edits(&scene.camera, &camera);
+    let Size { width, height } = size;
+    make_step(shared, &edits, format!("set the size to {width}x{height}"));
 }
 
 /// Carries out an order.
@@ -85,7 +77,6 @@ pub(crate) fn set_rendering(shared: &mut Shared, order: &SettingOrder) {
 /// Writes a value of a render setting into the text, or removes the setting there, and drops what
 /// took precedence over it.
 pub(crate) fn write_setting(shared: &mut Shared, key: RenderKey, value: Option<String>) {
-    shared.document.end_step();
     let before = shared.document.state();
     let edits = match &value {
         Some(value) => {
@@ -96,7 +87,7 @@ pub(crate) fn write_setting(shared: &mut Shared, key: RenderKey, value: Option<S
         }
         None => shared.source().render_removal(key.name()),
     };
-    match try_edits(shared, &edits) {
+    match try_step(shared, &edits) {
         Ok(()) => {
             let over = key.alone(&shared.pictures.rendering);
             shared.pictures.due |= over != Rendering::default();
@@ -118,7 +109,6 @@ pub(crate) fn write_setting(shared: &mut Shared, key: RenderKey, value: Option<S
         }
         Err(refused) => shared.fail(refused.message_with_hint()),
     }
-    shared.document.end_step();
 }
 
 /// Undoes a step of the text; if it wrote a setting, what took precedence over that setting before

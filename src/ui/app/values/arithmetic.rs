@@ -16,7 +16,7 @@ pub(crate) struct Fault {
 /// `+ - * / ^`, signs, parentheses and functions of one number. A power binds more tightly than a
 /// sign and groups to the right; other operators group to the left.
 pub(crate) fn evaluate(text: &str) -> Result<f64, Fault> {
-    let mut reader = SceneLoader {
+    let mut reader = Reader {
         text: text.chars().collect(),
         at: 0,
         depth: 0,
@@ -58,14 +58,14 @@ fn sin_cos(degrees: f64) -> (f64, f64) {
 }
 
 /// A recursive-descent parser that evaluates what it reads.
-struct SceneLoader {
+struct Reader {
     text: Vec<char>,
     /// The index of the next character.
     at: usize,
     depth: usize,
 }
 
-impl SceneLoader {
+impl Reader {
     /// The next character that is not a blank.
     fn next(&mut self) -> Option<char> {
         while self.text.get(self.at).is_some_and(|c| c.is_whitespace()) {
@@ -85,12 +85,8 @@ impl SceneLoader {
         let mut value = self.product()?;
         while let Some((sign, at)) = self.take(&['+', '-']) {
             let term = self.product()?;
-            let sum = if sign == '+' {
-                value + term
-            } else {
-                value - term
-            };
-            value = finite(sum, at, "the sum")?;
+            let signed = if sign == '+' { term } else { -term };
+            value = finite(value + signed, at, "the sum")?;
         }
         Ok(value)
     }
@@ -169,10 +165,8 @@ impl SceneLoader {
         }
         let digits: String = self.text[start..self.at].iter().collect();
         let value = digits.parse();
-        value.map_or_else(
-            |_| Err(fault(start, "expected a number")),
-            |value| finite(value, start, "the number"),
-        )
+        let value = value.map_err(|_| fault(start, "expected a number"))?;
+        finite(value, start, "the number")
     }
 
     fn digits(&mut self) {
@@ -221,7 +215,8 @@ fn finite(value: f64, at: usize, what: &str) -> Result<f64, Fault> {
     Ok(value)
 }
 
-fn fault(at: usize, reason: &str) -> Fault {
+/// What is wrong at a place.
+pub(super) fn fault(at: usize, reason: &str) -> Fault {
     Fault {
         at,
         reason: reason.to_owned(),

@@ -1,6 +1,6 @@
 //! The values that a typed or pasted text gives to the components of a field.
 
-use super::arithmetic::{Fault, evaluate};
+use super::arithmetic::{Fault, evaluate, fault};
 use super::literals;
 use crate::language::table::{Field, Kind};
 use crate::text::{concise, counted, parse_number};
@@ -176,24 +176,20 @@ fn value_of(part: &str, old: &str) -> Result<String, Fault> {
         ..fault
     };
     let by = evaluate(change).map_err(shifted)?;
-    let fault = |reason: &str| Fault {
-        at: 0,
-        reason: reason.to_owned(),
-    };
     let Ok(old) = parse_number(literals::plain(old)) else {
-        return Err(fault("there is no number to change"));
+        return Err(fault(0, "there is no number to change"));
     };
     let value = match part.chars().next() {
         Some('+') => old + by,
         Some('-') => old - by,
         Some('*') => old * by,
-        _ if by == 0.0 => return Err(fault("division by 0")),
+        _ if by == 0.0 => return Err(fault(0, "division by 0")),
         _ => old / by,
     };
     if value.is_finite() {
         Ok(spelled(value))
     } else {
-        Err(fault("the result is too large"))
+        Err(fault(0, "the result is too large"))
     }
 }
 

@@ -5,7 +5,7 @@ use crate::document::StepName;
 use crate::language::Node;
 use crate::render::{Aov, Histogram};
 use crate::scene::Camera;
-use crate::ui::app::{command, compare, display, files, history, inspect, select, text};
+use crate::ui::app::{command, compare, display, files, history, inspect, select};
 use crate::ui::keymap::Context;
 use crate::ui::listing::ListLine;
 
@@ -61,7 +61,7 @@ fn text(app: &App, name: &str) -> Option<String> {
             let parts = shared.cursor.parts().iter();
             joined(parts.map(|(depth, node)| format!("{depth} {node}")), ", ")
         }
-        "inputs" => text::has_input(shared).words(),
+        "inputs" => shared.open_line().is_some().words(),
         "marks" => count(shared.cursor.marks.len()),
         "nodes" => count(shared.nodes().len()),
         "list" => list(app),
