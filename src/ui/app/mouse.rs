@@ -44,7 +44,15 @@ impl App {
             }
             MouseEventKind::Down(MouseButton::Left) => return self.press_left(at),
             MouseEventKind::Down(_) => press_to_pan(shared, at),
-            MouseEventKind::Drag(MouseButton::Left) if !controls => return self.drag_left(at),
+            MouseEventKind::Drag(MouseButton::Left) if !controls => {
+                if !drag_border(shared, at) {
+                    let taken = self.drag(at);
+                    return taken.unwrap_or_else(|| {
+                        edit::slide_to(&mut self.shared, at.0);
+                        Vec::new()
+                    });
+                }
+            }
             MouseEventKind::Drag(_) => drag_to_pan(shared, at),
             MouseEventKind::Up(_) => {
                 let taken = self.release();
@@ -70,18 +78,6 @@ impl App {
         }
         let taken = self.press(at);
         taken.unwrap_or_else(|| press(&mut self.shared, at))
-    }
-
-    /// Drags the border that was pressed, otherwise what is under the pointer.
-    fn drag_left(&mut self, at: (u16, u16)) -> Vec<Effect> {
-        if drag_border(&mut self.shared, at) {
-            return Vec::new();
-        }
-        let taken = self.drag(at);
-        taken.unwrap_or_else(|| {
-            edit::slide_to(&mut self.shared, at.0);
-            Vec::new()
-        })
     }
 }
 
