@@ -44,15 +44,7 @@ impl App {
             }
             MouseEventKind::Down(MouseButton::Left) => return self.press_left(at),
             MouseEventKind::Down(_) => press_to_pan(shared, at),
-            MouseEventKind::Drag(MouseButton::Left) if !controls => {
-                if !drag_border(shared, at) {
-                    let taken = self.drag(at);
-                    return taken.unwrap_or_else(|| {
-                        edit::slide_to(&mut self.shared, at.0);
-                        Vec::new()
-                    });
-                }
-            }
+            MouseEventKind::Drag(MouseButton::Left) if !controls => return drag_left(self, at),
             MouseEventKind::Drag(_) => drag_to_pan(shared, at),
             MouseEventKind::Up(_) => {
                 let taken = self.release();
@@ -259,6 +251,18 @@ fn release(shared: &mut Shared) -> Vec<Effect> {
         Some(_) => panels::keep(shared),
         None => Vec::new(),
     }
+}
+
+/// Drags the border that was pressed, otherwise what is under the pointer.
+fn drag_left(app: &mut App, at: (u16, u16)) -> Vec<Effect> {
+    if drag_border(&mut app.shared, at) {
+        return Vec::new();
+    }
+    let taken = app.drag(at);
+    taken.unwrap_or_else(|| {
+        edit::slide_to(&mut app.shared, at.0);
+        Vec::new()
+    })
 }
 
 /// Drags the border that was pressed; returns whether there is one.
