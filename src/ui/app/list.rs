@@ -1,4 +1,4 @@
-//! Moving cursors: in the list, the fields, the pages and the errors.
+//! Cursors of everything with lines, the list of errors, and how much of the help fills its page.
 
 use super::shared::cursor::moved;
 use super::{Shared, edit, history, inspect};

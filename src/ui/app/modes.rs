@@ -126,7 +126,7 @@ modes! {
     thumbnails: Thumbnails;
 }
 
-/// All rows, one slice a file. A key that is not bound where it is pressed is answered with the first
+/// All rows, a slice of a file after the other. A key that is not bound where it is pressed is answered with the first
 /// row that has it elsewhere, so that their order matters. Ctrl-H, Ctrl-I, Ctrl-M and Ctrl-[ send the
 /// same bytes as Backspace, Tab, Enter and Esc, and are therefore never bound.
 const ROWS: &[Rows] = &[

@@ -200,9 +200,7 @@ fn press(shared: &mut Shared, at: (u16, u16)) -> Vec<Effect> {
     {
         return press_field(shared, clicked);
     }
-    if shared.mode == Mode::Move && areas.picture.contains(at.into()) {
-        shared.pictures.drag = Some(at);
-    } else if let Some(cell) = display::picture_cell(shared, at)
+    if let Some(cell) = display::picture_cell(shared, at)
         && !inspect::pick_symbol(shared, cell)
         && let Some(pixel) = display::pixel_at(shared, cell)
     {

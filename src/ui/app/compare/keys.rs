@@ -13,8 +13,8 @@ use Context::In;
 use KeyCode::{Left, Right};
 use Scope::{Everywhere, These};
 
-const HERE: &[Context] = &[In(Mode::Compare)];
-const COMPARE: Scope = These(HERE);
+const IN_COMPARE: &[Context] = &[In(Mode::Compare)];
+const COMPARE: Scope = These(IN_COMPARE);
 
 /// The most useful first.
 #[rustfmt::skip]
@@ -36,6 +36,6 @@ pub(crate) const KEYS: &[Row<Compare>] = &[
 /// Keys in other modes that start this one.
 #[rustfmt::skip]
 pub(crate) const ENTRIES: &[Row<Compare>] = &[
-    Key::new(Everywhere, "pin", &[c('A')], "pin the picture, to compare with it").hint_in(HERE, 90, "pin").requests_in(pin),
+    Key::new(Everywhere, "pin", &[c('A')], "pin the picture, to compare with it").hint_in(IN_COMPARE, 90, "pin").requests_in(pin),
     Key::new(Everywhere, "compare", &[c('=')], "compare with the reference").requests_in(start),
 ];

@@ -124,7 +124,7 @@ impl Compare {
         self.reference.replace(reference)
     }
 
-    /// Begins to trace the pictures anew.
+    /// Records that the pictures are traced from now on, to be compared unless one is inspected.
     pub(crate) fn begin(&mut self) {
         if self.work == Work::None {
             self.work = Work::Compared;

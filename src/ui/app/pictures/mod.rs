@@ -1,4 +1,5 @@
-//! The preview and the full-size trace, what they show, and from where.
+//! The pictures on screen, the preview, the full-size trace and what is compared: what they show, and from
+//! where.
 
 pub(crate) mod cell_image;
 pub(crate) mod frame_window;

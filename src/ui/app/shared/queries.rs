@@ -35,9 +35,9 @@ const NO_SCENE: Size = Size {
     height: 3,
 };
 
-/// Objects and bytes of text beyond which only the selected step has a picture: each one takes a
-/// second or more to derive.
+/// Objects beyond which only the selected step has a picture: each one takes a second or more to derive.
 const MOST_OBJECTS: usize = 200_000;
+/// The same for bytes of text.
 const MOST_BYTES: usize = 16 << 20;
 
 /// The number of items named in a message at most.

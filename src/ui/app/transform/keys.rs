@@ -13,7 +13,7 @@ use KeyCode::{Down, Enter, Esc, Left, Right, Up};
 use Scope::These;
 use Stride::{Coarse, Plain};
 
-const HERE: &[Context] = &[In(Mode::Select)];
+const SELECT: &[Context] = &[In(Mode::Select)];
 const SELECT_AND_FIELDS: Scope = These(&[In(Mode::Select), In(Mode::Edit)]);
 const MOVE: Scope = These(&[In(Mode::Move)]);
 
@@ -39,7 +39,7 @@ pub(crate) const KEYS: &[Row<Moving>] = &[
 /// Keys in other modes that start this one.
 #[rustfmt::skip]
 pub(crate) const ENTRIES: &[Row<Moving>] = &[
-    Key::new(SELECT_AND_FIELDS, "move", &[c('m')], "move").hint_in(HERE, 30, "move it").does_in(|moving, shared| start(moving, shared, Tool::Move)).when(|shared| is_movable(shared, Tool::Move)),
+    Key::new(SELECT_AND_FIELDS, "move", &[c('m')], "move").hint_in(SELECT, 30, "move it").does_in(|moving, shared| start(moving, shared, Tool::Move)).when(|shared| is_movable(shared, Tool::Move)),
     Key::new(SELECT_AND_FIELDS, "rotate", &[c('t')], "rotate").does_in(|moving, shared| start(moving, shared, Tool::Rotate)),
     Key::new(SELECT_AND_FIELDS, "scale", &[c('s')], "scale").does_in(|moving, shared| start(moving, shared, Tool::Scale)),
 ];

@@ -1,4 +1,4 @@
-//! How MOVE reacts to steps, presses and drags.
+//! How MOVE reacts to presses and drags.
 
 use super::state::Moving;
 use super::transforming::drag;
@@ -8,6 +8,14 @@ use crate::ui::keymap::Mode;
 use crate::ui::msg::Effect;
 
 impl Room for Moving {
+    fn press(&mut self, shared: &mut Shared, at: (u16, u16)) -> Option<Vec<Effect>> {
+        let is_over = shared.areas().picture.contains(at.into());
+        (is_over && shared.mode == Mode::Move).then(|| {
+            shared.pictures.drag = Some(at);
+            Vec::new()
+        })
+    }
+
     fn drag(&mut self, shared: &mut Shared, at: (u16, u16)) -> Option<Vec<Effect>> {
         let from = shared.pictures.drag.filter(|_| shared.mode == Mode::Move)?;
         let moved = |from: u16, to: u16| f64::from(to) - f64::from(from);

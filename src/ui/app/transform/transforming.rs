@@ -212,7 +212,7 @@ pub(crate) fn confirm(moving: &mut Moving, shared: &mut Shared) {
     shared.mode = Mode::Select;
 }
 
-/// Puts everything back and ends.
+/// Puts the text back and ends, in SELECT.
 pub(super) fn cancel(moving: &mut Moving, shared: &mut Shared) {
     *moving = None;
     if let Some(live_edit) = shared.motion.take() {
