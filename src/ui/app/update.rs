@@ -31,8 +31,9 @@ impl App {
         let shared = &mut self.shared;
         shared.scroll(&shared.areas());
         command::scroll_help(shared);
-        effects.extend(display::follow(shared));
+        effects.extend(display::follow_scene(shared));
         effects.extend(self.follow());
+        effects.extend(display::follow(&mut self.shared));
         effects.extend(files::follow_edits(&mut self.shared));
         let time = self.shared.overlays.time_to_read();
         effects.extend(time.map(|time| Effect::Later(time, Timer::Message)));

@@ -140,8 +140,8 @@ fn field_line(
             row.put("  (default)", style);
         }
     }
-    let current = cursor.and_then(|at| Some((at, columns.get(at)?, field.literals.get(at)?)));
-    let Some((component, column, literal)) = current else {
+    let current = cursor.and_then(|at| Some((at, columns.get(at)?)));
+    let Some((component, column)) = current else {
         return;
     };
     if let Some(typing) = &shared.cursor.typing {
@@ -150,7 +150,9 @@ fn field_line(
         let end = if fits { column.right() } else { line.right() };
         let width = end.saturating_sub(column.x + 1);
         typed(typing, Rect { width, ..*column }, buffer);
-    } else if let Some(area) = layout::widened(&columns, component, literal.width(), line) {
+    } else if let Some(literal) = field.literals.get(component)
+        && let Some(area) = layout::widened(&columns, component, literal.width(), line)
+    {
         Clear.render(area, buffer);
         let end = area.right().saturating_sub(literal.width() as u16 + 1);
         let mut row = Row::new(buffer, area, 0);

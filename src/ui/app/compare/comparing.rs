@@ -233,6 +233,7 @@ pub(super) fn explain(compare: &mut Compare, shared: &mut Shared) {
     let place = compare.live().map(|live| (live.corner, live.whole()));
     if let Some(((x, y), ([left, top], size))) = compare.cross.zip(place) {
         if compare.go_over_to(Work::Inspected) {
+            shared.pictures.compared_size = compare.framed();
             show(compare, shared);
         }
         let pixel = [left + x, top + y];

@@ -14,7 +14,7 @@ pub(crate) use light::{
     display_name, expose, is_light, legend, set_exposure, set_transfer, show, toggle_denoising,
     toggle_false_colours, toggle_histogram, view_name,
 };
-pub(crate) use previewing::{follow, follow_wires};
+pub(crate) use previewing::{follow, follow_scene, follow_wires};
 pub(crate) use soloing::{keep_solo, toggle_solo, toggle_solo_of};
 pub use symbols::{Symbol, SymbolKind};
 pub(crate) use symbols::{outlined_objects, symbol_at, symbols, toggle_symbols};

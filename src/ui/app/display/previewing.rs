@@ -21,9 +21,9 @@ fn preview_samples(integrator: Integrator, grid: Grid) -> u32 {
     samples / density.clamp(1, 4)
 }
 
-/// Requests what pictures of the scene need, and those on screen that no longer show it: any step may
-/// have changed the text, the camera, the display or the screen.
-pub(crate) fn follow(shared: &mut Shared) -> Vec<Effect> {
+/// Requests the files that the scene needs, and restarts the full-size trace if it no longer shows the
+/// scene.
+pub(crate) fn follow_scene(shared: &mut Shared) -> Vec<Effect> {
     let mut effects = shared.assets.follow();
     // A picture without these files would be seen only for a moment.
     let is_due = !shared.assets.are_awaited() && std::mem::take(&mut shared.pictures.due);
@@ -32,9 +32,15 @@ pub(crate) fn follow(shared: &mut Shared) -> Vec<Effect> {
         shared.pictures.preview.asked = None;
         effects.extend(follow_trace(shared));
     }
-    effects.extend(follow_preview(shared));
-    follow_histogram(shared);
     effects
+}
+
+/// Brings what is on screen of pictures up to date, once the modes have settled which: any step may have
+/// changed the camera, the display or the screen.
+pub(crate) fn follow(shared: &mut Shared) -> Option<Effect> {
+    let preview = follow_preview(shared);
+    follow_histogram(shared);
+    preview
 }
 
 /// Restarts the preview if it is on screen and no longer shows the scene.

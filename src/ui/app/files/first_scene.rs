@@ -125,6 +125,7 @@ pub(crate) fn open(opening: Opening) -> (Shared, Vec<Effect>) {
     let lowered = text::lowered(&mut shared);
     if !shared.disk.is_opening() {
         effects.extend(begin(&mut shared, lowered));
+        effects.extend(display::follow_scene(&mut shared));
         effects.extend(display::follow(&mut shared));
     }
     (shared, effects)

@@ -207,6 +207,7 @@ pub(super) fn toggle_visibility(shared: &mut Shared) {
         shared.fail(reason);
         return;
     }
+    shared.document.end_step();
     let edits = shared.source().visibility_edits(&objects, wanted);
     let outcome = edits.map_err(str::to_owned).and_then(|edits| {
         let refused = text::try_step(shared, &edits);

@@ -132,6 +132,12 @@ scripts! {
         git v1.0     | scene.ray at v1.0
     ");
 
+    a_comparison_that_can_no_longer_be_traced_gives_way_to_the_preview_at_once: ray().play(r"
+        :compare saved<Enter>
+        @reference scene opened | does trace compared, trace reference
+        :size 70000x8<Enter>    | does stop compared, stop reference | does trace preview | mode SELECT
+    ");
+
     the_scene_is_traced_at_the_size_of_a_picture: {
         // In half cells, which are square, it is as wide to its height.
         unasked().table(r"
