@@ -103,6 +103,14 @@ scripts! {
         jjj  | light 2  | 5
     ");
 
+    the_editor_opens_at_what_is_under_the_cross_otherwise_at_the_selected_item: mirror().table(r"
+        {1}
+        E | does only edit a.ray at {2}
+    ", r"
+        ggi       | 7
+        ggiHHHHHH | 1
+    ");
+
     the_light_of_a_line_is_soloed_and_explained_again: explained().play(r"
         l    | not solo | says …works on the line of a light…
         jjjl | ray-of light 2 | solo | reds 0 0 1 | not alone

@@ -80,6 +80,9 @@ scripts! {
         @thumbnails | derived 3: 2, 2: 3, 1: 2, 0: 2, 3: 2
         <Esc>vl<Esc>U
         @thumbnails | derived 3: 2 as seen, 2: 3 as seen, 1: 2 as seen, 0: 2 as seen, 3: 2 as seen
+        // Another integrator traces others, too.
+        <Esc>PU
+        @thumbnails | derived 3: 2 as seen, 2: 3 as seen, 1: 2 as seen, 0: 2 as seen, 3: 2 as seen
     ");
 
     without_colours_and_in_little_room_nothing_is_traced: {

@@ -144,6 +144,13 @@ scripts! {
             @elapsed keep | does only wait keep
             @hangup | does quit | text opened
         ");
+        // Edits before the frames are kept without them.
+        playing().play(r"
+            <Esc>ggjelT
+            @note edited text
+            @track track | mode SEQUENCE | does keep edits of scene.ray | writes edited
+            l            | not does wait keep
+        ");
     };
 
     the_mouse_goes_to_the_frame_under_the_pointer: {
