@@ -98,7 +98,7 @@ pub(crate) fn export(shared: &mut Shared, order: ExportOrder, asking: Asking) ->
     begin(shared, destination, (size, spp), making, asking)
 }
 
-/// Begins an export of this size and with so many samples per pixel, or queues it behind the one under way.
+/// Begins an export with this size and number of samples per pixel, or queues it behind the running one.
 pub(crate) fn begin(
     shared: &mut Shared,
     destination: Destination,

@@ -1,4 +1,4 @@
-//! Cursors of everything with lines, the list of errors, and how much of the help fills its page.
+//! Moves the cursors of lists, fields, pages and panels; opens the list of errors.
 
 use super::shared::cursor::moved;
 use super::{Shared, edit, history, inspect};

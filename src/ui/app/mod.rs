@@ -18,7 +18,7 @@
 //! | [`suggesting`], [`text`] | what is wrong with a picture, and the setting that would help; every change of the text |
 //! | [`display`], [`panels`] | what pictures show and ask for; how much of the screen they take |
 //! | [`room`] | how a room reacts to steps, presses and drags; what a row of keys is |
-//! | [`refusing`] | what may fail with a reason that the user is told |
+//! | [`refusing`] | showing the user why something failed |
 //! | [`shared`] | the state that all modes share, one part for each concern |
 //! | [`pictures`], [`values`] | pictures as state; numbers, words and colours as they are typed |
 

@@ -56,12 +56,12 @@ macro_rules! modes {
                 None$(.or_else(|| self.$field.press(&mut self.shared, at)))+
             }
 
-            /// The same for dragging with the left button.
+            /// Offers a drag with the left button in the same way.
             pub(crate) fn drag(&mut self, at: (u16, u16)) -> Option<Vec<Effect>> {
                 None$(.or_else(|| self.$field.drag(&mut self.shared, at)))+
             }
 
-            /// The same for releasing a button.
+            /// Offers the release of a button in the same way.
             pub(crate) fn release(&mut self) -> Option<Vec<Effect>> {
                 None$(.or_else(|| self.$field.release(&mut self.shared)))+
             }
@@ -116,19 +116,18 @@ modes! {
     compare: Compare, Compare;
     /// What MOVE moves.
     moving: Moving, Move;
-    /// INSPECT, whose cross is shared.
+    /// INSPECT; its cross and its rays are shared.
     inspect: Inspect;
-    /// TRACE, whose picture is shared.
+    /// TRACE; its picture and its region are shared.
     trace: Trace;
-    /// VIEW and FLY, whose camera is shared, and the views on the page of saved views.
+    /// VIEW and FLY, and the page of saved views; the camera is shared.
     view: View, View;
     /// The pictures on the page of the undo history.
     thumbnails: Thumbnails;
 }
 
-/// All rows, a slice of a file after the other. A key that is not bound where it is pressed is answered with the first
-/// row that has it elsewhere, so that their order matters. Ctrl-H, Ctrl-I, Ctrl-M and Ctrl-[ send the
-/// same bytes as Backspace, Tab, Enter and Esc, and are therefore never bound.
+/// All rows of keys, in slices. Their order matters: a key that is not bound where it is pressed is
+/// answered with the first row that has it elsewhere. Ctrl-H, Ctrl-I, Ctrl-M and Ctrl-[ send the same bytes as Backspace, Tab, Enter and Esc, and are therefore never bound.
 const ROWS: &[Rows] = &[
     Rows::Shared(keys::lists::KEYS),
     Rows::Shared(keys::questions::KEYS),

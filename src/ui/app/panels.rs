@@ -28,7 +28,7 @@ pub(crate) fn resize(shared: &mut Shared, border: Border, cells: i32) {
     }
 }
 
-/// The same, and keeps the sizes.
+/// Moves a border as [`resize`] does, and keeps the sizes.
 pub(crate) fn resize_by_key(shared: &mut Shared, border: Border, cells: i32) -> Vec<Effect> {
     resize(shared, border, cells);
     keep(shared)

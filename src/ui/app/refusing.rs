@@ -1,4 +1,4 @@
-//! What may fail with a reason that the user is told.
+//! Showing the user why something failed.
 
 use super::Shared;
 use crate::text::Severity;

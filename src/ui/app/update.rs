@@ -15,9 +15,9 @@ use crate::ui::msg::{Effect, Msg, Target, Timer};
 const STOPPED: &str = "the renderer stopped early";
 
 impl App {
-    /// Processes a message and returns the resulting effects. After each step follow the rooms, what is on
-    /// screen of pictures, the journal of unsaved edits, and the time to read a message: any step may have
-    /// changed what they depend on.
+    /// Processes a message and returns the resulting effects. Every step also updates the rooms, the
+    /// pictures on screen, the journal of unsaved edits and the time to read a message, since any step may
+    /// change what they depend on.
     pub fn update(&mut self, msg: Msg) -> Vec<Effect> {
         self.shared.overlays.begin_step();
         let had_errors = 0 < self.shared.error_count();

@@ -1,4 +1,4 @@
-//! Lines that are typed: which characters begin one, and the keys with a meaning of their own there.
+//! Typed lines: the characters that begin one, and the keys that have a meaning of their own there.
 
 /// Characters that begin to type a value in EDIT.
 const BEGINS_VALUE: &str = "0123456789+-*/.(#";
@@ -60,11 +60,11 @@ pub fn line_hints(line: Line) -> &'static [(&'static str, &'static str)] {
         ],
         Line::Rows => &[
             ("Enter", "choose"),
-            ("Esc", "back"),
+            ("Esc", "keep the filter"),
             ("↑ ↓", "move"),
             ("Ctrl-U", "clear"),
         ],
-        Line::Search => &[("Enter", "find"), ("Esc", "cancel"), ("Ctrl-U", "clear")],
+        Line::Search => &[("Enter Esc", "keep the search"), ("Ctrl-U", "clear")],
     }
 }
 

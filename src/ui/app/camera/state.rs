@@ -1,8 +1,8 @@
-//! What VIEW and FLY keep: the views on their page.
+//! The state of VIEW and FLY: the views on their page.
 
 use crate::language::SavedView;
 
-/// VIEW and FLY. The camera that they move is shared: every mode sees through it.
+/// The state of VIEW and FLY. The camera that they move is not part of it, since every mode sees through it.
 #[derive(Debug, Default)]
 pub struct View {
     /// The views on the page of saved views.

@@ -99,7 +99,7 @@ impl CommandRow {
         self
     }
 
-    /// How it is called.
+    /// The first of its names, by which it is listed.
     pub(crate) fn name(&self) -> &'static str {
         self.names[0]
     }

@@ -154,12 +154,17 @@ pub(crate) fn unlike(compare: &Compare, shared: &Shared) -> Option<String> {
 
 /// Lends the present picture to what all modes share: seen alone in INSPECT, otherwise compared.
 pub(super) fn lend(compare: &mut Compare, shared: &mut Shared) {
-    let changes = compare.go_over_to(match shared.mode {
+    let work = match shared.mode {
         Mode::Inspect => Work::Inspected,
         _ => Work::Compared,
-    });
-    shared.pictures.compared_size = compare.framed();
+    };
+    lend_for(compare, shared, work);
     shared.pictures.compared.wanted = compare.wanted;
+}
+
+fn lend_for(compare: &mut Compare, shared: &mut Shared, work: Work) {
+    let changes = compare.go_over_to(work);
+    shared.pictures.compared_size = compare.framed();
     if changes && shared.seen() == Target::Compared {
         show(compare, shared);
     }
@@ -232,10 +237,7 @@ pub(super) fn explain(compare: &mut Compare, shared: &mut Shared) {
     }
     let place = compare.live().map(|live| (live.corner, live.whole()));
     if let Some(((x, y), ([left, top], size))) = compare.cross.zip(place) {
-        if compare.go_over_to(Work::Inspected) {
-            shared.pictures.compared_size = compare.framed();
-            show(compare, shared);
-        }
+        lend_for(compare, shared, Work::Inspected);
         let pixel = [left + x, top + y];
         inspect::explain_at(shared, Cross { pixel, size });
     }

@@ -1,5 +1,5 @@
-//! What pictures show, light, a component of it, an AOV or wires, and how light is displayed: exposure,
-//! transfer, false colours, the histogram.
+//! What pictures show (light, one of its components, an AOV or wires) and how light is displayed (exposure,
+//! transfer, false colours, the histogram).
 
 use std::sync::Arc;
 

@@ -35,8 +35,8 @@ pub(crate) fn follow_scene(shared: &mut Shared) -> Vec<Effect> {
     effects
 }
 
-/// Brings what is on screen of pictures up to date, once the modes have settled which: any step may have
-/// changed the camera, the display or the screen.
+/// Updates the preview and the histogram, once the modes have settled which picture is on screen. Any step
+/// may have changed the camera, the display or the screen.
 pub(crate) fn follow(shared: &mut Shared) -> Option<Effect> {
     let preview = follow_preview(shared);
     follow_histogram(shared);

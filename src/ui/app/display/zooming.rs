@@ -40,7 +40,7 @@ pub(crate) fn picture_cell(shared: &Shared, at: (u16, u16)) -> Option<(u16, u16)
     is_inside.then(|| (at.0 - cells.x, at.1 - cells.y))
 }
 
-/// The same for the nearest cell, if the pointer is outside.
+/// The cell of the picture nearest to the pointer, from the picture's corner.
 pub(crate) fn cell_near(shared: &Shared, at: (u16, u16)) -> Option<(u16, u16)> {
     let (cells, _) = shared.raster()?;
     let near =
@@ -51,7 +51,7 @@ pub(crate) fn cell_near(shared: &Shared, at: (u16, u16)) -> Option<(u16, u16)> {
     ))
 }
 
-/// How many times the picture on screen is magnified, compared with one that fills its cells, of this size.
+/// The magnification of the picture on screen, relative to one of this size that fills its cells.
 pub(crate) fn magnification(shared: &Shared, size: Size) -> f64 {
     frame_window(shared).map_or(1.0, |frame_window| frame_window.magnification(size))
 }

@@ -66,7 +66,7 @@ pub(crate) fn kept(
     }
 }
 
-/// Has unsaved edits kept, and offers those of an earlier run.
+/// Schedules keeping unsaved edits, and offers those of an earlier run.
 pub(crate) fn follow_edits(shared: &mut Shared) -> Vec<Effect> {
     let journal = &mut shared.disk.journal;
     // The edit that will be reverted would be kept as well.

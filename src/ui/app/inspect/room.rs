@@ -7,7 +7,7 @@ use crate::ui::app::{Shared, display};
 use crate::ui::keymap::{Context, Mode};
 use crate::ui::msg::Effect;
 
-/// INSPECT. What it looks at is shared: the editor opens there, and the status line names it.
+/// INSPECT. It has no state of its own: the editor opens at what it looks at, and the status line names that.
 #[derive(Debug, Default)]
 pub struct Inspect;
 

@@ -27,12 +27,12 @@ pub(crate) trait Room: Default {
         None
     }
 
-    /// The same for dragging with the left button.
+    /// Handles a drag with the left button, as [`Self::press`] does a press.
     fn drag(&mut self, _shared: &mut Shared, _at: (u16, u16)) -> Option<Vec<Effect>> {
         None
     }
 
-    /// The same for releasing any button.
+    /// Handles the release of any button, as [`Self::press`] does a press.
     fn release(&mut self, _shared: &mut Shared) -> Option<Vec<Effect>> {
         None
     }

@@ -154,12 +154,12 @@ impl Jobs {
         self.running.as_ref().map(|running| &running.export)
     }
 
-    /// The same, to be changed.
+    /// The running export, mutable.
     pub(crate) fn export_mut(&mut self) -> Option<&mut Export> {
         self.running.as_mut().map(|running| &mut running.export)
     }
 
-    /// Ends the running export, if it is the one that is meant.
+    /// Ends the running export and returns it, if it satisfies the predicate.
     pub(crate) fn end_export(&mut self, is_meant: impl FnOnce(&Export) -> bool) -> Option<Export> {
         let ended = self.running.take_if(|running| is_meant(&running.export));
         ended.map(|ended| ended.export)

@@ -85,12 +85,12 @@ pub enum Dialog {
     Recover(Box<Offer>),
 }
 
-/// What a question asks; its answers are the keys of its context.
+/// A question as it is shown; the keys of its context are the answers.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Question {
-    /// What it is about, with blanks around.
+    /// The title, with a blank on either side.
     pub title: &'static str,
-    /// What is asked, and what follows.
+    /// The question, with its consequences.
     pub text: String,
 }
 
@@ -141,7 +141,7 @@ impl Overlays {
         }
     }
 
-    /// Lets keys be typed into the filter of the open page.
+    /// Starts typing into the filter of the open page.
     pub(crate) fn open_search(&mut self) {
         if let Some(page) = &mut self.page {
             page.focus = PageFocus::Search;
@@ -163,7 +163,7 @@ impl Overlays {
         self.page.as_ref().filter(|page| page.context == context)
     }
 
-    /// The same, to be changed.
+    /// The open page, if it is this one, mutable.
     pub(crate) fn page_mut(&mut self, context: Context) -> Option<&mut Page> {
         self.page.as_mut().filter(|page| page.context == context)
     }

@@ -1,6 +1,6 @@
 //! Pages over the screen, with lines to choose from or to read: saved views, recently used scenes, the undo
-//! history, the messages so far, the help. What chooses a line, and what a page lists, stands in the room
-//! whose page it is.
+//! history, the messages so far, the help. What a page lists, and what choosing a row does, is up to its
+//! room.
 
 use super::filter::Filter;
 use crate::ui::keymap::Context;
@@ -10,7 +10,7 @@ use crate::ui::keymap::Context;
 pub struct Page {
     /// Which page it is: the context of its keys.
     pub context: Context,
-    /// What a page of rows is called.
+    /// The title of a page of rows.
     pub title: &'static str,
     /// The rows to choose from; none on a page that is only read.
     pub rows: Vec<String>,
@@ -43,7 +43,7 @@ impl Page {
         }
     }
 
-    /// A page that is only read, from its beginning.
+    /// A page that is only read, at its beginning.
     pub(crate) fn reading(context: Context) -> Self {
         Self::of(context, "", Vec::new())
     }
@@ -53,7 +53,7 @@ impl Page {
         matches!(self.context, Context::Help | Context::Messages)
     }
 
-    /// Lists other rows, with the cursor where it was as far as they go.
+    /// Replaces the rows. The cursor stays in its place, or goes to the last row.
     pub(crate) fn list(&mut self, rows: Vec<String>) {
         self.rows = rows;
         let count = self.shown().len();

@@ -99,7 +99,8 @@ fn name_in(source: &Source, node: Node, spans: &[Span]) -> String {
     }
 }
 
-/// The first node, other than view and render settings, whose text is in a span, or what combines it there.
+/// The first node, other than view and render settings, whose text is in a span, or the group around it if
+/// that is in the span too.
 pub(crate) fn first_node_in(shared: &Shared, span: Span) -> Option<Node> {
     let source = shared.source();
     let mut nodes = source.nodes_in(span).into_iter();

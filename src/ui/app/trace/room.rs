@@ -7,7 +7,7 @@ use crate::ui::app::{Shared, display};
 use crate::ui::keymap::{Context, Mode};
 use crate::ui::msg::Effect;
 
-/// TRACE. The full-size trace goes on in other modes, and its region is exported: both are shared.
+/// TRACE. It has no state of its own: the full-size trace continues in other modes.
 #[derive(Debug, Default)]
 pub struct Trace;
 
