@@ -6,8 +6,8 @@ use super::Line;
 use super::names::{Names, colour, number, percent, side, vector};
 use crate::language::Node;
 use crate::render::{
-    Chosen, Crossing, Dark, Densities, EmitterTerm, Explanation, LightTerm, RayEnd, RayKind,
-    Shading, Stop, TracedRay,
+    Chosen, Crossing, Densities, EmitterTerm, Explanation, LightTerm, RayEnd, RayKind, Shading,
+    Stop, TracedRay, UnlitReason,
 };
 use crate::scene::Rgb;
 
@@ -341,16 +341,16 @@ fn choice(chosen: &Chosen) -> String {
 }
 
 /// Why a light adds nothing.
-pub(super) fn reason(dark: Dark) -> &'static str {
+pub(super) fn reason(dark: UnlitReason) -> &'static str {
     match dark {
-        Dark::SwitchedOff => "switched off",
-        Dark::UnlitSide => "not shown on this side",
-        Dark::FacesAway => "faces away",
-        Dark::AtThePoint => "at the point itself",
-        Dark::OutsideCone => "outside its cone",
-        Dark::Attenuated => "attenuated to nothing",
-        Dark::NotReflected => "not reflected",
-        Dark::Blocked => "in shadow",
-        Dark::Hidden => "hidden by another light",
+        UnlitReason::SwitchedOff => "switched off",
+        UnlitReason::UnlitSide => "not shown on this side",
+        UnlitReason::FacesAway => "faces away",
+        UnlitReason::AtThePoint => "at the point itself",
+        UnlitReason::OutsideCone => "outside its cone",
+        UnlitReason::Attenuated => "attenuated to nothing",
+        UnlitReason::NotReflected => "not reflected",
+        UnlitReason::Blocked => "in shadow",
+        UnlitReason::Hidden => "hidden by another light",
     }
 }

@@ -93,6 +93,20 @@ const ARROWS: &[(&str, &[&str])] = &[
     ),
 ];
 
+/// The rooms of the renderer, from the bottom up: each uses those before it.
+const RENDER: &[&str] = &[
+    "simd_level",
+    "sampling",
+    "material",
+    "light",
+    "job",
+    "world",
+    "integrators",
+    "picture",
+    "engine",
+    "explain",
+];
+
 /// Each dependency and the rooms that use it; `*` means all.
 const DEPENDENCIES: &[(&str, &str)] = &[
     ("annotate_snippets", "batch"),
@@ -160,6 +174,20 @@ fn rooms_use_only_permitted_rooms() {
                 "{}: {room} → {named}: {line}",
                 file.display()
             );
+        }
+    }
+}
+
+#[test]
+fn the_rooms_of_the_renderer_use_those_below() {
+    let place = |name: &Name| {
+        let (renderer, room) = (name.first()?, name.get(1)?);
+        let place = || RENDER.iter().position(|known| known == room);
+        (renderer == "render").then(|| place().unwrap_or_else(|| panic!("{room} is in RENDER")))
+    };
+    for (from, to) in Sources::of("src").arrows() {
+        if let (Some(user), Some(used)) = (place(&from), place(&to)) {
+            assert!(used <= user, "{} → {}", from.join("/"), to.join("/"));
         }
     }
 }

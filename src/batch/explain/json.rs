@@ -8,8 +8,8 @@ use serde_json::{Value, json};
 use crate::explain::{Place, Sentence, Subject, Words};
 use crate::language::Node;
 use crate::render::{
-    Crossing, Dark, Densities, EmitterTerm, Explanation, LightTerm, RayEnd, RayKind, Shading, Side,
-    Stop, TracedRay,
+    Crossing, Densities, EmitterTerm, Explanation, LightTerm, RayEnd, RayKind, Shading, Side, Stop,
+    TracedRay, UnlitReason,
 };
 
 /// The explanation as an object; numbers that are infinite or undefined are null.
@@ -222,16 +222,16 @@ fn stop(stop: Stop) -> Value {
     }
 }
 
-fn dark(dark: Dark) -> &'static str {
+fn dark(dark: UnlitReason) -> &'static str {
     match dark {
-        Dark::SwitchedOff => "switched off",
-        Dark::UnlitSide => "unlit side",
-        Dark::FacesAway => "faces away",
-        Dark::AtThePoint => "at the point",
-        Dark::OutsideCone => "outside cone",
-        Dark::Attenuated => "attenuated",
-        Dark::NotReflected => "not reflected",
-        Dark::Blocked => "blocked",
-        Dark::Hidden => "hidden",
+        UnlitReason::SwitchedOff => "switched off",
+        UnlitReason::UnlitSide => "unlit side",
+        UnlitReason::FacesAway => "faces away",
+        UnlitReason::AtThePoint => "at the point",
+        UnlitReason::OutsideCone => "outside cone",
+        UnlitReason::Attenuated => "attenuated",
+        UnlitReason::NotReflected => "not reflected",
+        UnlitReason::Blocked => "blocked",
+        UnlitReason::Hidden => "hidden",
     }
 }

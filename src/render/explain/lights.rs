@@ -2,13 +2,12 @@
 
 use glam::DVec3;
 
-use super::super::direct::{Facing, Points};
-use super::super::intersect::{Crossed, Nearest, Occlusion};
-use super::super::lights::{Incoming, incoming};
-use super::super::probe::Point;
-use super::super::world::World;
-use super::record::{Crossing, Dark, LightTerm};
+use super::record::{Crossing, LightTerm, UnlitReason};
 use crate::geometry::Ray;
+use crate::render::integrators::{Facing, Points};
+use crate::render::light::{Incoming, incoming};
+use crate::render::material::Point;
+use crate::render::world::{Crossed, Nearest, Occlusion, World};
 use crate::scene::{Emitter, Light, Material, Rgb};
 
 /// Objects listed on a shadow ray.
@@ -99,23 +98,23 @@ impl Lit<'_> {
     }
 
     /// Why a light adds nothing.
-    fn dark(&self, term: &LightTerm, light: &Light) -> Dark {
+    fn dark(&self, term: &LightTerm, light: &Light) -> UnlitReason {
         if light.colour == Rgb::ZERO {
-            Dark::SwitchedOff
+            UnlitReason::SwitchedOff
         } else if !self.material.is_lit(self.point.side) {
-            Dark::UnlitSide
+            UnlitReason::UnlitSide
         } else if term.cosine.is_nan() {
-            Dark::AtThePoint
+            UnlitReason::AtThePoint
         } else if term.cosine <= 0.0 {
-            Dark::FacesAway
+            UnlitReason::FacesAway
         } else if term.spot == 0.0 {
-            Dark::OutsideCone
+            UnlitReason::OutsideCone
         } else if term.radial == 0.0 {
-            Dark::Attenuated
+            UnlitReason::Attenuated
         } else if term.transmittance == Some(0.0) {
-            Dark::Blocked
+            UnlitReason::Blocked
         } else {
-            Dark::NotReflected
+            UnlitReason::NotReflected
         }
     }
 }

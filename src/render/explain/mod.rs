@@ -17,20 +17,17 @@ use std::sync::{Arc, Weak};
 
 use glam::DVec3;
 
-use super::camera::Projection;
-use super::frame::{Job, Query, Settings};
-use super::photons::Photons;
-use super::probe::Sample;
-use super::shot::Shot;
-use super::tone::{Light, Tone};
-use super::world::World;
+use super::integrators::{FrameContext, PhotonRules, Photons, Sample};
+use super::job::{Job, Settings};
+use super::picture::{Light, Query, Tone};
+use super::world::{Projection, Rules, World};
 use crate::scene::{Integrator, MAX_SPP};
 use judge::Case;
 
 pub use kind::RayKind;
 pub use record::{
-    Boundary, Chosen, Crossing, Dark, EmitterTerm, Explanation, LightHit, LightTerm, RayEnd,
-    Shading, Stop, SurfaceHit, TracedRay, Unlisted,
+    Boundary, Chosen, Crossing, EmitterTerm, Explanation, LightHit, LightTerm, RayEnd, Shading,
+    Stop, SurfaceHit, TracedRay, Unlisted, UnlitReason,
 };
 pub use verdict::{DepthLimit, Finding, Term, TermSource, Verdict};
 
@@ -50,8 +47,14 @@ impl PreparedScene {
     /// Prepares the scene of a job; `None` once `cancelled` returns true.
     pub fn new(job: &Job, cancelled: impl Fn() -> bool + Sync) -> Option<Self> {
         let scene = Arc::clone(&job.scene);
-        let world = World::build(scene, &job.images, job.settings.rules(), None, &cancelled)?;
-        let photons = match job.settings.photon_rules() {
+        let world = World::build(
+            scene,
+            &job.images,
+            Rules::of(&job.settings),
+            None,
+            &cancelled,
+        )?;
+        let photons = match PhotonRules::of(&job.settings) {
             Some(rules) => Some(Photons::build(&world, rules, None, &cancelled)?),
             None => None,
         };
@@ -182,7 +185,7 @@ impl Query {
             aov: None,
             ..self.settings
         };
-        let shot = Shot::new(world, &self.camera, settings);
+        let shot = FrameContext::new(world, &self.camera, settings);
         let mut samples = Vec::new();
         shot.samples(&[pixel], index, &mut samples);
         samples.pop()

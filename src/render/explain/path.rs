@@ -1,24 +1,22 @@
 //! The rays of a path: the integrator's steps run for one path alone, and what each returns is
 //! recorded.
 
-use super::super::bsdf::{BsdfSample, Component};
-use super::super::direct::Facing;
-use super::super::heuristic::Densities;
-use super::super::lights::{Incoming, SphereLight};
-use super::super::next_event::Asked;
-use super::super::optics::transmitted;
-use super::super::path::{Met, Onward, Path, Vertex, place_on_light};
-use super::super::photon_map::PhotonMap;
-use super::super::probe::{Probe, Sample};
-use super::super::sampler::Use;
-use super::super::world::World;
 use super::kind::RayKind;
 use super::lights::Lit;
 use super::record::{
-    Chosen, Dark, EmitterTerm, LightHit, LightTerm, RayEnd, Shading, Stop, TracedRay, Unlisted,
+    Chosen, EmitterTerm, LightHit, LightTerm, RayEnd, Shading, Stop, TracedRay, Unlisted,
+    UnlitReason,
 };
 use super::surface::{boundary, missing_around, missing_at, surface_hit};
 use crate::geometry::lanes::Vector;
+use crate::render::integrators::{
+    Continuation, EmitterSample, Facing, Path, PathHit, PhotonMap, Probe, Sample, Vertex,
+    place_on_light,
+};
+use crate::render::light::{Incoming, SphereLight};
+use crate::render::material::{BsdfSample, Component, transmitted};
+use crate::render::sampling::{Densities, Use};
+use crate::render::world::World;
 use crate::scene::Rgb;
 
 /// Traces a sample; returns its radiance and all rays, or `None` once `cancelled` returns true.
@@ -95,7 +93,7 @@ impl<C: Fn() -> bool> Recorder<'_, C> {
         let world = self.probe.world;
         let nearest = world.nearest(&path.ray, path.reach(&self.sample));
         match self.probe.meet(path, &self.sample, nearest) {
-            Met::Nothing(radiance) => {
+            PathHit::Nothing(radiance) => {
                 let densities = path.densities_of(&self.probe.world.sky);
                 let screen = self.sample.screen;
                 let missing = missing_around(self.probe.world, &path.ray, path.bounce, screen);
@@ -109,7 +107,7 @@ impl<C: Fn() -> bool> Recorder<'_, C> {
                 self.end(missed, contribution);
                 Step::Ended
             }
-            Met::Light {
+            PathHit::Light {
                 number,
                 light,
                 distance,
@@ -120,7 +118,7 @@ impl<C: Fn() -> bool> Recorder<'_, C> {
                 self.end(RayEnd::Light(hit), path.throughput * radiance * weight);
                 Step::Ended
             }
-            Met::Surface(nearest) => {
+            PathHit::Surface(nearest) => {
                 let mut mapped = None;
                 let (point, material) = world.arrive(&path.ray, nearest, &mut mapped);
                 let vertex = Vertex::new(world, nearest, point, material);
@@ -211,15 +209,15 @@ impl<C: Fn() -> bool> Recorder<'_, C> {
         }
         let sampler = self.sample.sampler;
         let numbers = sampler.four(path.bounce, Use::Bounce);
-        let next = vertex.sample(path, numbers, sampler);
+        let next = vertex.sample(&path.ray, numbers, (sampler, path.bounce));
         let kind = self.kind(path, vertex, numbers);
         let onward = self.probe.onward(path, next, numbers);
         let can_go_on = bsdf.can_go_on();
         shading.stop = stop(onward).filter(|_| can_go_on);
         self.end(RayEnd::Surface(shading), contribution);
         match (onward, next, kind) {
-            (Onward::Cancelled, ..) => Step::Cancelled,
-            (Onward::Goes { survival }, Some(next), Some((kind, chance))) => {
+            (Continuation::Cancelled, ..) => Step::Cancelled,
+            (Continuation::Goes { survival }, Some(next), Some((kind, chance))) => {
                 let BsdfSample { weight, chosen, .. } = next;
                 Step::GoesOn(
                     kind,
@@ -307,7 +305,7 @@ impl<C: Fn() -> bool> Recorder<'_, C> {
         term.chance = chance;
         if self.probe.is_by_photons(light) && term.transmittance.is_some_and(|share| share < 1.0) {
             term.transmittance = Some(0.0);
-            term.dark = Some(Dark::Blocked);
+            term.dark = Some(UnlitReason::Blocked);
         }
         let Some(sphere) = light.luminous_sphere() else {
             return Some(term);
@@ -317,8 +315,8 @@ impl<C: Fn() -> bool> Recorder<'_, C> {
         term.arriving = sphere.irradiance(from);
         let Some(chosen) = chosen else {
             term.arriving = Rgb::ZERO;
-            if term.dark.is_some_and(|dark| dark != Dark::UnlitSide) {
-                term.dark = Some(Dark::AtThePoint);
+            if term.dark.is_some_and(|dark| dark != UnlitReason::UnlitSide) {
+                term.dark = Some(UnlitReason::AtThePoint);
             }
             return Some(term);
         };
@@ -326,8 +324,8 @@ impl<C: Fn() -> bool> Recorder<'_, C> {
         let by_path = self.probe.density_of(bsdf, scattered, path.bounce);
         let by_light = chance * sphere.density(from);
         term.densities = Some(Densities::for_light(by_light, by_path));
-        if term.dark == Some(Dark::NotReflected) && self.is_hidden(vertex, &sphere, chosen) {
-            term.dark = Some(Dark::Hidden);
+        if term.dark == Some(UnlitReason::NotReflected) && self.is_hidden(vertex, &sphere, chosen) {
+            term.dark = Some(UnlitReason::Hidden);
         }
         Some(term)
     }
@@ -369,18 +367,18 @@ impl<C: Fn() -> bool> Recorder<'_, C> {
 }
 
 /// Records an emitter sampled at a vertex.
-fn asked_for(vertex: &Vertex<'_>, asked: &Asked) -> EmitterTerm {
+fn asked_for(vertex: &Vertex<'_>, asked: &EmitterSample) -> EmitterTerm {
     let cosine = vertex.point.normal.dot(asked.toward);
     let dark = if asked.radiance != Rgb::ZERO {
         None
     } else if cosine <= 0.0 {
-        Some(Dark::FacesAway)
+        Some(UnlitReason::FacesAway)
     } else if asked.reflected == Rgb::ZERO {
-        Some(Dark::NotReflected)
+        Some(UnlitReason::NotReflected)
     } else if asked.emitted.is_none() {
-        Some(Dark::Blocked)
+        Some(UnlitReason::Blocked)
     } else {
-        Some(Dark::SwitchedOff)
+        Some(UnlitReason::SwitchedOff)
     };
     EmitterTerm {
         object: asked.object,
@@ -396,13 +394,13 @@ fn asked_for(vertex: &Vertex<'_>, asked: &Asked) -> EmitterTerm {
 }
 
 /// Why a path ends.
-fn stop(onward: Onward) -> Option<Stop> {
+fn stop(onward: Continuation) -> Option<Stop> {
     match onward {
-        Onward::Goes { .. } | Onward::Cancelled => None,
-        Onward::Nowhere => Some(Stop::Nowhere),
-        Onward::Depth => Some(Stop::Depth),
-        Onward::Budget => Some(Stop::Budget),
-        Onward::Overflow => Some(Stop::Overflow),
-        Onward::Roulette { survival } => Some(Stop::Roulette { survival }),
+        Continuation::Goes { .. } | Continuation::Cancelled => None,
+        Continuation::Nowhere => Some(Stop::Nowhere),
+        Continuation::Depth => Some(Stop::Depth),
+        Continuation::Budget => Some(Stop::Budget),
+        Continuation::Overflow => Some(Stop::Overflow),
+        Continuation::Roulette { survival } => Some(Stop::Roulette { survival }),
     }
 }

@@ -3,10 +3,10 @@
 
 use glam::{DVec2, DVec3};
 
-use super::super::heuristic::Densities;
-use super::super::shading::Side;
 use super::kind::RayKind;
 use super::verdict::Finding;
+use crate::render::material::Side;
+use crate::render::sampling::Densities;
 use crate::scene::{Integrator, Material, Rgb};
 
 /// The whole tree of rays behind one sample of a pixel.
@@ -241,7 +241,7 @@ pub struct LightTerm {
     /// Reflected radiance.
     pub radiance: Rgb,
     /// Why it is zero, where it is.
-    pub dark: Option<Dark>,
+    pub dark: Option<UnlitReason>,
 }
 
 /// The light, at a point of a surface, of an object that emits light or of the environment, by
@@ -265,7 +265,7 @@ pub struct EmitterTerm {
     /// Reflected radiance.
     pub radiance: Rgb,
     /// Why it is zero, where it is.
-    pub dark: Option<Dark>,
+    pub dark: Option<UnlitReason>,
 }
 
 /// An object that a shadow ray crosses.
@@ -283,7 +283,7 @@ pub struct Crossing {
 
 /// Why a light adds nothing at a point.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Dark {
+pub enum UnlitReason {
     /// Its colour is zero.
     SwitchedOff,
     /// The surface does not show lights on this side, as the inside of glass.

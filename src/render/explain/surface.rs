@@ -2,13 +2,10 @@
 
 use glam::{DVec2, DVec3};
 
-use super::super::intersect::Nearest;
-use super::super::optics::Refraction;
-use super::super::probe::Point;
-use super::super::texture::environment_place;
-use super::super::world::World;
 use super::record::{Boundary, SurfaceHit};
 use crate::geometry::{Ray, Shape};
+use crate::render::material::{Point, Refraction, environment_place};
+use crate::render::world::{Nearest, World};
 use crate::scene::{Maps, Material, Rgb, Tinted};
 
 /// Describes where a ray hit a surface.

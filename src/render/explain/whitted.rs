@@ -1,16 +1,13 @@
 //! The rays of Whitted ray tracing: the integrator's own stages run for one sample, and what they
 //! leave in the wave is read between them.
 
-use super::super::branch::Secondary;
-use super::super::direct::Facing;
-use super::super::optics::transmitted;
-use super::super::probe::{Probe, Sample, Seen};
-use super::super::wave::{RayState, Wave};
-use super::super::world::World;
 use super::kind::RayKind;
 use super::lights::Lit;
 use super::record::{RayEnd, Shading, Stop, TracedRay, Unlisted};
 use super::surface::{boundary, missing_around, missing_at, surface_hit};
+use crate::render::integrators::{Facing, Probe, RayState, Sample, SampleResult, Secondary, Wave};
+use crate::render::material::transmitted;
+use crate::render::world::World;
 use glam::DVec3;
 
 use crate::geometry::Ray;
@@ -34,7 +31,7 @@ pub(super) fn record(
         probe: Probe::new(world, depth, cancelled),
         wave: Wave::default(),
         samples: [sample],
-        seen: [Seen::NOTHING],
+        seen: [SampleResult::NOTHING],
         waiting: vec![Waiting {
             parent: None,
             kind: RayKind::Camera,
@@ -51,7 +48,7 @@ struct Recorder<'w, C> {
     probe: Probe<'w, C>,
     wave: Wave<'w>,
     samples: [Sample; 1],
-    seen: [Seen; 1],
+    seen: [SampleResult; 1],
     /// What the rays are that the wave has yet to trace: the pending ones, then the one in the next
     /// front.
     waiting: Vec<Waiting>,

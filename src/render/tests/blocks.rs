@@ -6,7 +6,7 @@ use std::time::Duration;
 
 use super::progress::still;
 use super::*;
-use crate::render::written::AOVS;
+use crate::render::job::AOVS;
 use crate::render::{Aov, Assembly, Block, BlockTracer, Blocks, Region};
 use crate::scene::Filter;
 

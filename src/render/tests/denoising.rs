@@ -1,10 +1,9 @@
 //! Noise reduction from tracing to the frame.
 
-use super::super::film::Film;
-use super::super::tile::Remembers;
-use super::super::{Aov, Display};
 use super::progress::still;
 use super::*;
+use crate::render::engine::{Film, Remembers};
+use crate::render::{Aov, Display};
 use crate::scene::Emitter;
 
 /// The complete frame of a job, traced with this many threads.

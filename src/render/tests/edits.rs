@@ -4,20 +4,19 @@
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::Duration;
 
-use super::super::film::Film;
-use super::super::kept::Effort;
-use super::super::probe::Counts;
-use super::super::shot::Shot;
-use super::super::steps::steps;
-use super::super::{Aov, Progress};
 use super::meshes::{mesh, square};
 use super::*;
 use crate::geometry::{Csg, Instance, Node, Operation};
+use crate::render::engine::{Effort, Film, difference, steps};
+use crate::render::integrators::{Counts, FrameContext};
+use crate::render::{Aov, Progress};
 use crate::scene::{Dielectric, Emitter, Faces, Falloff, Gloss, Highlight, Image, Mirror, Shadows};
 
 fn built(job: &Job, known: Option<&World>) -> Option<World> {
     let scene = Arc::clone(&job.scene);
-    World::build(scene, &job.images, job.settings.rules(), known, &|| false)
+    World::build(scene, &job.images, Rules::of(&job.settings), known, &|| {
+        false
+    })
 }
 
 /// A job in progress, taken step by step.
@@ -45,7 +44,7 @@ impl Easel {
         let before = Some(&self.world);
         let world = built(&job, before);
         let world = world.expect("nothing cancels");
-        let changed = Touched::between((&self.job, &self.world), (&job, &world));
+        let changed = difference((&self.job, &self.world), (&job, &world));
         let film = Film::new(&job.settings, job.frames, job.denoise).expect("memory is there");
         let old = std::mem::replace(&mut self.film, film).keep(Effort::default());
         if Arc::ptr_eq(&self.world.emitters, &world.emitters) || !self.is_by_path() {
@@ -66,7 +65,7 @@ impl Easel {
     pub(super) fn trace(&mut self, patience: u64) -> bool {
         let asked = AtomicU64::new(0);
         let cancelled = || patience <= asked.fetch_add(1, Ordering::Relaxed);
-        let shot = Shot::new(&self.world, &self.job.camera, self.job.settings);
+        let shot = FrameContext::new(&self.world, &self.job.camera, self.job.settings);
         for step in steps(self.job.settings.spp, self.job.frames) {
             let tiles = 0..self.film.tiles();
             let counts = self
@@ -393,7 +392,7 @@ fn other_edits_trace_everything_again() {
         let known = Some(&before.world);
         let world = built(&job, known);
         let world = world.expect("nothing cancels");
-        Touched::between((&before.job, &before.world), (&job, &world))
+        difference((&before.job, &before.world), (&job, &world))
     };
     let of_scene = |change: &dyn Fn(&mut Scene)| {
         let mut scene = scene.clone();
@@ -408,11 +407,11 @@ fn other_edits_trace_everything_again() {
         change(&mut job);
         changed(job)
     };
-    assert_eq!(of_job(&|_| {}), Some(Touched::default()));
+    assert_eq!(of_job(&|_| {}), Some(Dependencies::default()));
     assert_eq!(of_job(&|job| job.camera.eye.x += 1.0), None);
     assert_eq!(
         of_job(&|job| job.settings.spp += 1),
-        Some(Touched::default())
+        Some(Dependencies::default())
     );
     assert_eq!(of_job(&|job| job.settings.size.width += 1), None);
     assert_eq!(of_job(&|job| job.settings.aov = Some(Aov::Albedo)), None);
@@ -446,7 +445,7 @@ fn other_edits_trace_everything_again() {
     let moved = |scene: &mut Scene| scene.objects[1].shape = sphere([0.0; 3], 0.1);
     assert_eq!(of_scene(&moved), None);
     let dimmed = |scene: &mut Scene| scene.lights[1].colour *= 0.5;
-    assert_eq!(of_scene(&dimmed), Some(Touched::light(1)));
+    assert_eq!(of_scene(&dimmed), Some(Dependencies::light(1)));
     // Renumbering the floor's material changes nothing.
     let renumbered = |scene: &mut Scene| {
         scene.objects[0].material = scene.materials.len() as u32;
@@ -454,9 +453,9 @@ fn other_edits_trace_everything_again() {
             .materials
             .edit(|materials| materials.extend_from_within(..1));
     };
-    assert_eq!(of_scene(&renumbered), Some(Touched::default()));
+    assert_eq!(of_scene(&renumbered), Some(Dependencies::default()));
     let other = |scene: &mut Scene| scene.materials[0] = Material::unlit(Rgb::new(0.1, 0.2, 0.3));
-    assert_eq!(of_scene(&other), Some(Touched::object(0)));
+    assert_eq!(of_scene(&other), Some(Dependencies::object(0)));
 }
 
 #[test]

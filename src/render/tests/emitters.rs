@@ -3,11 +3,10 @@
 
 use std::f64::consts::PI;
 
-use super::super::emitters::Emitters;
-use super::super::sky::Sky;
 use super::highlights::GROUND;
 use super::*;
 use crate::geometry::{Attribute, Instance, Mesh, MeshParts};
+use crate::render::light::{Emitters, Sky};
 use crate::scene::{Faces, Highlight, Image};
 
 /// The means of a ray's radiance over `samples`, one for each of 64 seeds.

@@ -7,7 +7,7 @@ use super::many_lights::lamps;
 use super::*;
 use crate::assets::{Assets, Loaded, Wanted};
 use crate::geometry::lanes::Level;
-use crate::render::shot::Shot;
+use crate::render::integrators::FrameContext;
 use crate::render::{Explanation, PreparedScene, Query, RayEnd, RayKind, Stop, TracedRay};
 use crate::scene::Emitter;
 
@@ -67,7 +67,7 @@ fn job_of((scene, images): (Scene, Images), integrator: Integrator) -> Job {
 /// The radiance of a sample, traced among others as in a picture, in the second of several packets;
 /// by the vectors of this machine and by those that every machine has.
 fn traced(job: &Job, world: &World, pixel: [u32; 2], index: u32) -> Rgb {
-    let shot = Shot::new(world, &job.camera, job.settings);
+    let shot = FrameContext::new(world, &job.camera, job.settings);
     let [x, y] = pixel;
     let row: Vec<_> = (0..21)
         .map(|place| [(x + place).saturating_sub(13), y])

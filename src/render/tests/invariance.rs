@@ -164,7 +164,7 @@ fn radiance_does_not_depend_on_vectors_or_packets() {
             })
             .collect();
         // Which of several objects blocks a shadow ray, and is recorded, depends on the packet.
-        let brought = |seen: &Seen| (seen.radiance, seen.object);
+        let brought = |seen: &SampleResult| (seen.radiance, seen.object);
         let mut best = Vec::new();
         tracer(&world, 8).trace(&samples, &mut best);
         for (sample, seen) in samples.iter().zip(&best) {

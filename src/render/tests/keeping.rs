@@ -3,11 +3,11 @@
 use std::io::ErrorKind;
 use std::sync::mpsc::Receiver;
 
-use super::super::kept::{Effort, Kept};
-use super::super::{Aov, Region};
 use super::edits::Easel;
 use super::progress::{still, trace};
 use super::*;
+use crate::render::engine::{Effort, Kept};
+use crate::render::{Aov, Region};
 
 fn bytes_of(kept: &Kept) -> Vec<u8> {
     let mut bytes = Vec::new();
@@ -80,7 +80,7 @@ fn a_picture_cancelled_in_a_pass_continues_to_the_same_picture() {
                 .filter(|tile| tile.has_leftovers())
                 .count();
             let mut easel = Easel::new(job.clone());
-            easel.film.take_over(kept, Touched::NOTHING);
+            easel.film.take_over(kept, Dependencies::NOTHING);
             easel.trace(u64::MAX);
             assert!(easel.shows() == anew.shows(), "{settings:?}, {patience}");
         }
@@ -293,7 +293,7 @@ fn no_bytes_make_tracing_fail() {
         };
         if at % 61 == 0 || at < 45 {
             let mut easel = Easel::new(job.clone());
-            easel.film.take_over(kept, Touched::NOTHING);
+            easel.film.take_over(kept, Dependencies::NOTHING);
             easel.trace(u64::MAX);
         }
     }

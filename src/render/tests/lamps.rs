@@ -96,7 +96,7 @@ fn lights_fade_by_the_square_where_their_own_terms_do_not() {
     }
     for radius in [0.1, 1.0, 3.9] {
         let scene = lamp(&format!("<size value='{radius}'/>"));
-        let faded = super::super::lights::faded(&scene.lights, FalloffRule::Square);
+        let faded = crate::render::light::faded(&scene.lights, FalloffRule::Square);
         let lights = faded.expect("its falloff is constant");
         let scene = Scene { lights, ..scene };
         let down = ray([0.5, 0.0, 0.05], [0.0; 3]);

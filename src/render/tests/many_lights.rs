@@ -2,7 +2,7 @@
 
 use super::emitters::{estimate, means};
 use super::*;
-use crate::render::emitters::ManyLights;
+use crate::render::light::ManyLights;
 use crate::scene::{Emitter, Falloff, Shadows};
 
 /// Lamps that fade with the square of the distance, with this radius, above and beside a ball on a

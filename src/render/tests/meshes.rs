@@ -5,7 +5,7 @@ use std::f64::consts::{PI, TAU};
 use super::*;
 use crate::geometry::lanes::{Level, dispatch};
 use crate::geometry::{Attribute, Instance, Mesh, MeshParts, Plane, SlotRun};
-use crate::render::structures::{Search, Structures};
+use crate::render::world::{Search, Structures};
 use crate::scene::Objects;
 
 /// A closed, bumpy ball of `rings` rings with separate positions for each corner; its poles are

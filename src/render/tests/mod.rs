@@ -36,16 +36,13 @@ mod textures;
 mod trials;
 mod visibility;
 
-use std::sync::Arc;
-use std::sync::mpsc;
+use std::sync::{Arc, mpsc};
 
 use glam::{DVec2, DVec3};
 
-use super::probe::{Sample, Seen};
-use super::sampler::Sampler;
-use super::touched::Touched;
-use super::tracer::Tracer;
-use super::world::{Rules, World};
+use super::integrators::{Sample, SampleResult, Tracer};
+use super::sampling::Sampler;
+use super::world::{Dependencies, Rules, World};
 use super::{Frame, Frames, Job, NO_OBJECT, Renderer, Settings, Threads};
 use crate::geometry::{Affine, Cone, Cuboid, Ellipsoid, Node, Ray, Shape, Solid, Sphere};
 use crate::language::coefficients::Coefficients;
@@ -57,7 +54,7 @@ use crate::scene::{
 
 impl<C: Fn() -> bool> Tracer<'_, C> {
     /// Radiance along one camera ray.
-    fn radiance(&mut self, sample: &Sample) -> Seen {
+    fn radiance(&mut self, sample: &Sample) -> SampleResult {
         let mut seen = Vec::new();
         self.trace(&[*sample], &mut seen);
         seen[0]
@@ -251,7 +248,7 @@ fn centred(ray: Ray, reach: f64) -> Sample {
 }
 
 /// The result of one ray, and the number of samples over budget.
-fn look(scene: Scene, depth: u32, ray: Ray) -> (Seen, u64) {
+fn look(scene: Scene, depth: u32, ray: Ray) -> (SampleResult, u64) {
     let world = world(scene);
     let mut tracer = tracer(&world, depth);
     let seen = tracer.radiance(&centred(ray, f64::INFINITY));

@@ -2,10 +2,9 @@
 
 use glam::DVec2;
 
-use super::super::Aov;
-use super::super::noise::Doubling;
-use super::super::steps::Step;
 use super::*;
+use crate::render::Aov;
+use crate::render::engine::{Doubling, Step};
 
 /// A wall of squares in two greys, with so many per pixel that samples are random.
 pub(super) fn wall() -> Arc<Scene> {

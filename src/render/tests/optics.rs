@@ -1,8 +1,8 @@
 //! Mirrors, glass, depth and the ray budget.
 
-use super::super::optics::{power, power_each, refract};
 use super::*;
 use crate::geometry::lanes::{Level, Row, WIDTH, dispatch};
+use crate::render::material::{power, power_each, refract};
 
 /// Between two mirrors with emission a and reflectance r, a ray sees a Σ rᵏ, k from 0 to the depth.
 #[test]

@@ -2,11 +2,10 @@
 
 use std::f64::consts::{PI, TAU};
 
-use super::super::lobes::Lobes;
-use super::super::probe::Point;
-use super::super::sampler::Use;
 use super::highlights::GROUND;
 use super::*;
+use crate::render::material::{Lobes, Point};
+use crate::render::sampling::Use;
 use crate::scene::Emitter;
 
 /// The means of a ray's radiance over `samples`, one for each of `seeds` seeds.

@@ -1,10 +1,10 @@
 //! Pictures with photons, and what is explained of them.
 
-use super::super::photons::Photons;
-use super::super::shot::Shot;
-use super::super::{PreparedScene, TracedRay};
+use super::super::integrators::PhotonRules;
 use super::photons::{PHOTONS, WHITE, world_by};
 use super::*;
+use crate::render::integrators::{FrameContext, Photons};
+use crate::render::{PreparedScene, TracedRay};
 
 /// A glass ball and a mirror over a ground, lit by a point and a light with a size, as a job.
 fn caustics() -> Job {
@@ -95,12 +95,12 @@ fn photons_are_explained() {
     let job = caustics();
     let prepared = PreparedScene::new(&job, || false).expect("nothing cancels");
     let world = world_by(&job.scene, PHOTONS);
-    let rules = job.settings.photon_rules().expect("it has photons");
+    let rules = PhotonRules::of(&job.settings).expect("it has photons");
     let photons = Photons::build(&world, rules, None, &|| false).expect("nothing cancels");
     let maps = photons
         .maps(&world, 0..4, &|| false)
         .expect("nothing cancels");
-    let shot = Shot::new(&world, &job.camera, job.settings);
+    let shot = FrameContext::new(&world, &job.camera, job.settings);
     let mut brought = 0;
     for (x, y, index) in
         (0..40).flat_map(|x| (0..30).map(move |y| (x, y, if x == 7 { y / 9 } else { 0 })))

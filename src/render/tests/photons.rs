@@ -2,8 +2,8 @@
 
 use std::f64::consts::PI;
 
-use super::super::photons::{PhotonMaps, PhotonRules, Photons};
 use super::*;
+use crate::render::integrators::{PhotonMaps, PhotonRules, Photons};
 use crate::scene::Emitter;
 
 /// The light along rays, each the mean over `maps` samples, by photons of which each map has `count`.

@@ -2,13 +2,12 @@
 
 use std::cell::Cell;
 
-use super::super::Refusal;
-use super::super::camera::Projection;
-use super::super::film::Film;
-use super::super::shot::Shot;
-use super::super::steps::{Step, steps};
-use super::super::tone::{self, Tone};
 use super::*;
+use crate::render::Refusal;
+use crate::render::engine::{Film, Step, steps};
+use crate::render::integrators::FrameContext;
+use crate::render::picture::{Tone, tone};
+use crate::render::world::Projection;
 
 fn tone() -> Tone {
     Tone::Colour(tone::Light::new(0.0, Transfer::Linear))
@@ -316,7 +315,7 @@ fn a_film_touches_memory_while_tracing_and_developing_can_be_cancelled() {
     };
     let world = world(Scene::clone(&still()));
     let traced = settings(size.width, size.height, 1);
-    let shot = Shot::new(&world, &world.scene.camera, traced);
+    let shot = FrameContext::new(&world, &world.scene.camera, traced);
     let mut film = Film::new(&settings(size.width, size.height, 1), Frames::Live, false)
         .expect("memory is there");
     assert_eq!((film.tiles(), film.begun()), (125 * 63, 0));

@@ -5,7 +5,7 @@ use glam::DVec2;
 use super::highlights::{assert_colour, brings};
 use super::*;
 use crate::geometry::{Cylinder, Hit};
-use crate::render::texture::Textures;
+use crate::render::material::Textures;
 use crate::scene::{Bump, Dielectric, Emitter, Gloss, Highlight, Image, Materials, Mirror};
 
 const RED: Rgb = Rgb::new(1.0, 0.0, 0.0);

@@ -11,10 +11,10 @@ fn a_ray_that_hits_nothing_is_black() {
     );
     assert_eq!(
         seen,
-        Seen {
+        SampleResult {
             radiance: Rgb::ZERO,
             object: NO_OBJECT,
-            touched: Touched::default(),
+            touched: Dependencies::default(),
             rays: 1,
         }
     );

@@ -10,7 +10,7 @@ use super::row::{Focus, Row, title};
 use crate::explain::number;
 use crate::language::Node;
 use crate::render::{
-    Dark, Densities, EmitterTerm, Explanation, LightTerm, RayEnd, RayKind, Shading, Stop,
+    Densities, EmitterTerm, Explanation, LightTerm, RayEnd, RayKind, Shading, Stop, UnlitReason,
 };
 use crate::scene::Rgb;
 use crate::ui::app::{RayLine, RayPart, Shared, inspect};
@@ -165,18 +165,18 @@ fn kind(kind: RayKind) -> &'static str {
 }
 
 /// The name of a light, and why it adds nothing, if so.
-fn with_reason(name: String, dark: Option<Dark>) -> String {
+fn with_reason(name: String, dark: Option<UnlitReason>) -> String {
     let reason = match dark {
         None => return name,
-        Some(Dark::SwitchedOff) => "switched off",
-        Some(Dark::UnlitSide) => "unlit side",
-        Some(Dark::FacesAway) => "faces away",
-        Some(Dark::AtThePoint) => "at the point",
-        Some(Dark::OutsideCone) => "outside cone",
-        Some(Dark::Attenuated) => "too far away",
-        Some(Dark::NotReflected) => "not reflected",
-        Some(Dark::Hidden) => "hidden",
-        Some(Dark::Blocked) => "in shadow",
+        Some(UnlitReason::SwitchedOff) => "switched off",
+        Some(UnlitReason::UnlitSide) => "unlit side",
+        Some(UnlitReason::FacesAway) => "faces away",
+        Some(UnlitReason::AtThePoint) => "at the point",
+        Some(UnlitReason::OutsideCone) => "outside cone",
+        Some(UnlitReason::Attenuated) => "too far away",
+        Some(UnlitReason::NotReflected) => "not reflected",
+        Some(UnlitReason::Hidden) => "hidden",
+        Some(UnlitReason::Blocked) => "in shadow",
     };
     format!("{name}: {reason}")
 }

@@ -1,9 +1,9 @@
 //! Camera rays that hit nothing, or not what they should.
 
-use super::super::record::TracedRay;
-use super::super::verdict::{DepthLimit, Finding, Verdict};
 use super::{Judge, found};
 use crate::geometry::Ray;
+use crate::render::explain::record::TracedRay;
+use crate::render::explain::verdict::{DepthLimit, Finding, Verdict};
 use crate::scene::Rgb;
 
 impl Judge<'_> {

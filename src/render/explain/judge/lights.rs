@@ -1,11 +1,11 @@
 //! Why lights add nothing, or little, at a surface.
 
-use super::super::super::shading::Side;
-use super::super::record::{Dark, LightTerm, Shading};
-use super::super::verdict::{Finding, Verdict, angle};
 use super::surface::reflectance;
 use super::{DARK, Judge, found};
 use crate::geometry::{Ray, normalise};
+use crate::render::explain::record::{LightTerm, Shading, UnlitReason};
+use crate::render::explain::verdict::{Finding, Verdict, angle};
+use crate::render::material::Side;
 use crate::scene::{Emitter, Integrator, Light, Rgb, Scene};
 
 /// Missing light at a surface.
@@ -48,10 +48,10 @@ impl Judge<'_> {
         for term in &shading.lights {
             let light = &self.case.world.lights()[term.light as usize];
             match term.dark {
-                Some(Dark::SwitchedOff) => {
+                Some(UnlitReason::SwitchedOff) => {
                     off.push((term.light, term.reflected.max_element()));
                 }
-                Some(Dark::AtThePoint) => {
+                Some(UnlitReason::AtThePoint) => {
                     let (light, verdict) = (
                         term.light,
                         Verdict::AtTheLight {
@@ -62,7 +62,7 @@ impl Judge<'_> {
                     let colour = self.case.world.lights()[light as usize].colour;
                     reasons.push((0.5 * colour.abs().max_element(), verdict));
                 }
-                Some(Dark::FacesAway) => match self.around(term, shading) {
+                Some(UnlitReason::FacesAway) => match self.around(term, shading) {
                     Some(reason) => reasons.push(reason),
                     None => away.push(term.light),
                 },
@@ -177,7 +177,7 @@ impl Judge<'_> {
         &self,
         term: &LightTerm,
         light: &Light,
-        dark: Option<Dark>,
+        dark: Option<UnlitReason>,
         shading: &Shading,
         weight: Rgb,
     ) -> Option<Reason> {
@@ -210,12 +210,12 @@ impl Judge<'_> {
             (0.5 * term.arriving.abs().max_element(), verdict)
         };
         match dark {
-            Some(Dark::Blocked) if is_facet_away(term, shading) => {
+            Some(UnlitReason::Blocked) if is_facet_away(term, shading) => {
                 let light = term.light;
                 return Some((loss, Verdict::Facet { light, object }));
             }
-            Some(Dark::Blocked) => return Some(shadow()),
-            Some(Dark::Hidden) => {
+            Some(UnlitReason::Blocked) => return Some(shadow()),
+            Some(UnlitReason::Hidden) => {
                 let verdict = Verdict::Shadow {
                     light: term.light,
                     blockers: Vec::new(),
@@ -224,9 +224,9 @@ impl Judge<'_> {
                 };
                 return Some((loss, verdict));
             }
-            Some(Dark::OutsideCone) => return Some(outside()),
-            Some(Dark::Attenuated) => return Some(attenuated()),
-            Some(Dark::NotReflected) => return Some(not_reflected()),
+            Some(UnlitReason::OutsideCone) => return Some(outside()),
+            Some(UnlitReason::Attenuated) => return Some(attenuated()),
+            Some(UnlitReason::NotReflected) => return Some(not_reflected()),
             Some(_) => return None,
             None => {}
         }
@@ -277,7 +277,8 @@ impl Judge<'_> {
             .filter(|crossing| crossing.transmittance < 0.5)
             .map(|crossing| crossing.object)
             .collect();
-        let opaque = |crossing: &&super::super::record::Crossing| crossing.transmittance == 0.0;
+        let opaque =
+            |crossing: &&crate::render::explain::record::Crossing| crossing.transmittance == 0.0;
         let mut opaque = term.crossed.iter().filter(opaque);
         let around = opaque.find(|crossing| self.encloses(crossing.object, light));
         if blockers.is_empty() {

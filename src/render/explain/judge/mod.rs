@@ -8,11 +8,10 @@ mod camera;
 mod lights;
 mod surface;
 
-use super::super::camera::Projection;
-use super::super::tone::Light;
-use super::super::world::World;
 use super::record::{RayEnd, TracedRay, children};
 use super::verdict::{Finding, Term, TermSource, Verdict};
+use crate::render::picture::Light;
+use crate::render::world::{Projection, World};
 use crate::scene::{Integrator, Rgb};
 
 /// Displayed colours below this, of 1, count as dark: five levels of 255.

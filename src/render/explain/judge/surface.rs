@@ -2,13 +2,13 @@
 
 use std::mem;
 
-use super::super::super::display::luminance;
-use super::super::super::shading::Side;
-use super::super::kind::RayKind;
-use super::super::record::{RayEnd, Shading, Stop};
-use super::super::verdict::{Finding, TermSource, Verdict};
 use super::{Judge, found, term};
 use crate::geometry::Ray;
+use crate::render::explain::kind::RayKind;
+use crate::render::explain::record::{RayEnd, Shading, Stop};
+use crate::render::explain::verdict::{Finding, TermSource, Verdict};
+use crate::render::material::Side;
+use crate::render::picture::luminance;
 use crate::scene::{Emitter, Highlight, Light, Material, Rgb};
 
 /// A part of the light that leaves a surface.

@@ -1,0 +1,200 @@
+//! Square parts of a picture that are traced apart from each other, stored and put together again.
+
+use std::time::{Duration, Instant};
+
+use super::adaptive::{SQUARES, Squares, go_on, square};
+use super::blocks::Blocks;
+use super::noise::Doubling;
+use super::pass_schedule::Step;
+use super::tile::Work;
+use crate::render::integrators::{Counts, FrameContext};
+use crate::render::job::{Aov, Region, Settings};
+use crate::scene::{LEAST_ADAPTIVE_SPP, Rgb};
+
+/// Pixels traced together: most of a block's share of the cache.
+const TOGETHER: usize = 256;
+
+/// The pixels of a block as far as they are traced. Its samples are those of the whole picture, and
+/// sums are added in the order of the samples, so that it may be continued anywhere at any time.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Block {
+    /// Its number in the picture.
+    pub number: u32,
+    /// Samples of each pixel, except those that stopped.
+    pub samples: u32,
+    /// The samples of the pixels of each square of 4×4 that stopped, see [`Settings::noise`], in rows
+    /// of 8 squares; 0 for those that go on, and empty if all do.
+    pub stopped: Vec<u32>,
+    /// The sums of each pixel's radiance or AOV, in rows.
+    pub sums: Vec<Rgb>,
+    /// The sums after the last power of two of samples, which the next doubling is compared with;
+    /// empty if that is now, and before the first sample.
+    pub half: Vec<Rgb>,
+    /// The square of each pixel's estimated error, see [`Progress::noise`](crate::render::Progress::noise);
+    /// 0 before samples were first doubled, and for AOVs of surfaces.
+    pub squared_errors: Vec<f32>,
+    /// The rays traced for it.
+    pub counts: Counts,
+}
+
+impl Block {
+    /// A block of which nothing is traced.
+    pub fn new(number: u32, blocks: Blocks) -> Self {
+        let area = blocks.area(number);
+        Self {
+            number,
+            samples: 0,
+            stopped: Vec::new(),
+            sums: vec![Rgb::ZERO; area],
+            half: Vec::new(),
+            squared_errors: vec![0.0; area],
+            counts: Counts::default(),
+        }
+    }
+
+    /// Continues to `spp` samples of each pixel. Once the tracer is cancelled, ends after the last
+    /// sample that all pixels have. Calls `keep` whenever this much time has passed since its last
+    /// call.
+    pub(crate) fn trace<C: Fn() -> bool>(
+        &mut self,
+        spp: u32,
+        shot: &FrameContext<'_>,
+        work: &mut Work<'_, C>,
+        (interval, keep): (Duration, impl Fn(&Self)),
+    ) {
+        let region = Blocks::of(shot.settings.traced().size()).region(self.number);
+        let all = in_squares(region);
+        let at = |[x, y]: [u32; 2]| ((y - region.y) * region.width + (x - region.x)) as usize;
+        let mut taking = self.taking();
+        let mut pixels = all.clone();
+        pixels.retain(|&pixel| taking.has(square(pixel)));
+        let mut seen = Vec::with_capacity(pixels.len());
+        let mut kept = Instant::now();
+        for index in self.samples..spp {
+            if let Some(limit) = shot.settings.adaptive()
+                && LEAST_ADAPTIVE_SPP <= index
+                && index.is_power_of_two()
+            {
+                let errors = region
+                    .pixels()
+                    .map(|pixel| (square(pixel), self.squared_errors[at(pixel)]));
+                let going_on = go_on(limit, taking, errors);
+                self.stop(taking, going_on);
+                taking = going_on;
+                pixels.retain(|&pixel| taking.has(square(pixel)));
+            }
+            let before = work.tracer.counts();
+            seen.clear();
+            for together in pixels.chunks(TOGETHER) {
+                work.pixels.clear();
+                work.pixels.extend_from_slice(together);
+                work.sample(index, shot);
+                seen.extend_from_slice(&work.seen);
+            }
+            if work.tracer.is_cancelled() {
+                return;
+            }
+            if index.is_power_of_two() && self.half.is_empty() {
+                self.half.clone_from(&self.sums);
+            }
+            for (&pixel, seen) in pixels.iter().zip(&seen) {
+                self.sums[at(pixel)] += match shot.settings.aov {
+                    Some(Aov::Cost) => Rgb::splat(seen.rays.into()),
+                    _ => seen.radiance,
+                };
+            }
+            self.samples = index + 1;
+            let rays = work.tracer.counts().since(before);
+            self.counts = self.counts.and(rays);
+            if self.samples.is_power_of_two() {
+                self.estimate(&shot.settings, pixels.iter().map(|&pixel| at(pixel)));
+            }
+            if interval <= kept.elapsed() && self.samples < spp {
+                keep(self);
+                kept = Instant::now();
+            }
+        }
+    }
+
+    /// The squares that take samples.
+    fn taking(&self) -> Squares {
+        let stopped = |square| {
+            self.stopped
+                .get(square)
+                .is_some_and(|&samples| samples != 0)
+        };
+        Squares::of(|square| !stopped(square))
+    }
+
+    /// Notes how many samples the squares have that do not go on.
+    fn stop(&mut self, taking: Squares, going_on: Squares) {
+        let stops = |&square: &usize| taking.has(square) && !going_on.has(square);
+        for square in (0..SQUARES).filter(stops) {
+            self.stopped.resize(SQUARES, 0);
+            self.stopped[square] = self.samples;
+        }
+    }
+
+    /// Estimates the errors of pixels after their samples were doubled.
+    fn estimate(&mut self, settings: &Settings, pixels: impl Iterator<Item = usize>) {
+        let step = Step::Samples(self.samples / 2..self.samples);
+        if let Some(doubling) = Doubling::of(&step, settings).filter(|_| !self.half.is_empty()) {
+            for at in pixels {
+                let squared_error = doubling.squared_error(self.half[at], self.sums[at]);
+                self.squared_errors[at] = squared_error as f32;
+            }
+        }
+        self.half.clear();
+    }
+
+    /// The samples of the pixels of a square.
+    fn samples_at(&self, square: usize) -> u32 {
+        let stopped = self.stopped.get(square).copied();
+        stopped
+            .filter(|&samples| samples != 0)
+            .unwrap_or(self.samples)
+    }
+
+    /// The samples of the pixels that have most.
+    pub fn most_samples(&self) -> u32 {
+        let most = (0..SQUARES).map(|square| self.samples_at(square)).max();
+        most.unwrap_or(self.samples)
+    }
+
+    /// The samples of each of its pixels.
+    pub(crate) fn taken(&self, region: Region) -> impl Iterator<Item = u32> {
+        region.pixels().map(|pixel| self.samples_at(square(pixel)))
+    }
+
+    /// The mean of a pixel's samples, or what an AOV of light shows of them, given its place in the list
+    /// and its square.
+    pub(crate) fn value(&self, at: usize, square: usize, aov: Option<Aov>) -> Rgb {
+        let samples = f64::from(self.samples_at(square));
+        match aov {
+            Some(Aov::Samples) => Rgb::splat(samples),
+            Some(Aov::Noise) => Rgb::splat(self.squared_errors[at].sqrt().into()),
+            _ => self.sums[at] / samples.max(1.0),
+        }
+    }
+}
+
+/// The pixels of a region square by square, in pieces of 4×2, so that adjacent ones are traced
+/// together.
+fn in_squares(region: Region) -> Vec<[u32; 2]> {
+    let steps = |from: u32, to: u32, step: usize| (from..to).step_by(step);
+    let (right, bottom) = (region.x + region.width, region.y + region.height);
+    let mut pixels = Vec::with_capacity(region.size().pixels());
+    for top in steps(region.y, bottom, 16) {
+        for left in steps(region.x, right, 16) {
+            let (end, below) = (right.min(left + 16), bottom.min(top + 16));
+            for y0 in steps(top, below, 2) {
+                for x0 in steps(left, end, 4) {
+                    for y in y0..below.min(y0 + 2) {
+                        pixels.extend((x0..end.min(x0 + 4)).map(|x| [x, y]));
+                    }
+                }
+            }
+        }
+    }
+    pixels
+}

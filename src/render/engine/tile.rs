@@ -1,0 +1,508 @@
+//! A part of a film: the accumulated samples of its pixels.
+
+mod partial_pass;
+
+mod stored;
+
+use std::ops::Range;
+
+use super::adaptive::Selection;
+use super::noise::Doubling;
+use super::pass_schedule::{COARSEST, Step, samples_at};
+use crate::render::integrators::{FrameContext, Sample, SampleResult, Tracer, first_hit};
+use crate::render::job::{Aov, Frames, NO_OBJECT, Settings};
+use crate::render::picture::UNKNOWN;
+use crate::render::world::Dependencies;
+use crate::scene::{Rgb, Size};
+use partial_pass::Halfway;
+
+/// Pixels per tile.
+pub(crate) const AREA: u32 = 256;
+
+/// Edge length of most tiles, in pixels; a multiple of the coarsest [`Step::Grid`].
+const TILE: u32 = 16;
+
+/// Most pixels of a picture whose dependencies are recorded; for larger pictures that would cost
+/// more memory than the time saved is worth.
+const MOST_REMEMBERED: usize = 1 << 22;
+
+/// A spacing coarser than any grid.
+const NO_GRID: u32 = 2 * COARSEST;
+
+/// The level of pixels beyond the picture's edge, which no step applies to.
+const BEYOND: u8 = u8::MAX;
+
+/// A thread's tracer, with scratch space reused between tiles.
+pub(crate) struct Work<'w, C> {
+    pub(crate) tracer: Tracer<'w, C>,
+    /// Pixels to sample.
+    pub(crate) pixels: Vec<[u32; 2]>,
+    /// A sample of each pixel.
+    samples: Vec<Sample>,
+    /// Results of the samples.
+    pub(crate) seen: Vec<SampleResult>,
+}
+
+impl<'w, C: Fn() -> bool> Work<'w, C> {
+    pub(crate) fn new(tracer: Tracer<'w, C>) -> Self {
+        Self {
+            tracer,
+            pixels: Vec::new(),
+            samples: Vec::new(),
+            seen: Vec::new(),
+        }
+    }
+
+    /// Takes the sample with this index of each of the pixels. Meaningless once the tracer is
+    /// cancelled.
+    pub(crate) fn sample(&mut self, index: u32, shot: &FrameContext<'_>) {
+        let Self {
+            tracer,
+            pixels,
+            samples,
+            seen,
+        } = self;
+        shot.samples(pixels, index, samples);
+        match shot.settings.surface() {
+            None => {
+                tracer.trace(samples, seen);
+                if 0.0 < shot.settings.clamp {
+                    for seen in seen {
+                        seen.radiance = clamped(seen.radiance, shot.settings.clamp);
+                    }
+                }
+            }
+            Some(aov) => {
+                tracer.count(samples.len());
+                seen.clear();
+                seen.extend(samples.iter().map(|&Sample { ray, reach, .. }| {
+                    let skipped = (ray.origin - shot.eye).dot(ray.direction);
+                    first_hit(shot.world, &ray, reach, skipped, aov)
+                }));
+            }
+        }
+    }
+}
+
+/// Radiance scaled down so that its largest channel is at most this.
+fn clamped(radiance: Rgb, most: f64) -> Rgb {
+    let largest = radiance.max_element();
+    if largest <= most {
+        radiance
+    } else if largest.is_finite() {
+        radiance * (most / largest)
+    } else {
+        radiance.min(Rgb::splat(most))
+    }
+}
+
+/// Width and height of a tile in pixels, both powers of two.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct TileShape {
+    pub(crate) width: u32,
+    pub(crate) height: u32,
+}
+
+impl TileShape {
+    /// Chooses squares unless the picture is narrower or lower: pixels beyond the picture cost
+    /// memory too, and grids start at tile edges.
+    pub(crate) fn of(size: Size) -> Self {
+        let edge = |pixels: u32| pixels.min(TILE).next_power_of_two();
+        if size.height < TILE {
+            let height = edge(size.height);
+            Self {
+                width: AREA / height,
+                height,
+            }
+        } else {
+            let width = edge(size.width);
+            Self {
+                width,
+                height: AREA / width,
+            }
+        }
+    }
+
+    /// Index of a pixel in a tile with this corner.
+    fn index(self, [left, top]: [u32; 2], [x, y]: [u32; 2]) -> usize {
+        ((y - top) * self.width + (x - left)) as usize
+    }
+
+    /// The top left pixel of a tile with this number.
+    pub(crate) fn corner(self, number: usize, size: Size) -> [u32; 2] {
+        let across = self.across(size);
+        [
+            (number % across) as u32 * self.width,
+            (number / across) as u32 * self.height,
+        ]
+    }
+
+    /// Tiles in each row of a picture.
+    pub(crate) fn across(self, size: Size) -> usize {
+        size.width.div_ceil(self.width) as usize
+    }
+
+    /// Tiles in a picture.
+    pub(crate) fn count(self, size: Size) -> usize {
+        self.across(size) * size.height.div_ceil(self.height) as usize
+    }
+}
+
+/// A part of a picture.
+#[derive(Debug)]
+pub(crate) struct Tile {
+    /// Top left pixel.
+    corner: [u32; 2],
+    shape: TileShape,
+    /// Sums of radiance, in rows; pixels beyond the picture's edge stay 0.
+    sums: [Rgb; AREA as usize],
+    /// Index of the object under each pixel's centre.
+    objects: [u32; AREA as usize],
+    /// [`Step::level`] of each pixel; 0 before its first sample or after cancellation.
+    levels: [u8; AREA as usize],
+    /// Spacing of the finest complete grid, until every pixel is traced.
+    grid: u32,
+    /// The level that all pixels have after the steps taken, except those that stopped.
+    level: u8,
+    /// The sum of its pixels' squared errors after the last pass that estimated them.
+    pub(crate) squared_errors: f64,
+    /// Samples that exceeded their ray budget.
+    pub(crate) over_budget: u64,
+    /// Data for tracing a subset of the pixels again.
+    memory: Option<Box<Memory>>,
+    /// What it was before a step of which parts are taken.
+    halfway: Option<Box<Halfway>>,
+}
+
+/// Data of each pixel that is not displayed.
+#[derive(Debug)]
+struct Memory {
+    /// Dependencies of all its samples.
+    touched: [Dependencies; AREA as usize],
+    /// Squared error after the last pass that estimated it.
+    squared_errors: [f32; AREA as usize],
+    /// The variance of its mean after the last pass that estimated it, negative before.
+    variances: [f32; AREA as usize],
+    /// Rays traced for all its samples.
+    rays: [u32; AREA as usize],
+}
+
+/// What a tile stores.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Remembers {
+    /// Pixels only.
+    Pixels,
+    /// Pixels and their dependencies.
+    Causes,
+}
+
+impl Remembers {
+    /// What the tiles of a picture store. Live pictures are continued whether or not they are denoised.
+    pub(crate) fn of(settings: &Settings, frames: Frames, denoise: bool) -> Self {
+        let shown = matches!(settings.aov, Some(Aov::Cost | Aov::Noise));
+        let decides = settings.adaptive().is_some();
+        let guides = denoise && frames != Frames::Live;
+        let is_small = settings.traced().size().pixels() <= MOST_REMEMBERED;
+        if shown || guides || decides || frames == Frames::Live && is_small {
+            Self::Causes
+        } else {
+            Self::Pixels
+        }
+    }
+
+    /// Whether all that `other` needs is stored.
+    pub(crate) fn suffices(self, other: Self) -> bool {
+        self == Self::Causes || other == Self::Pixels
+    }
+}
+
+impl Tile {
+    /// Bytes of one tile.
+    pub(crate) fn bytes(remembers: Remembers) -> usize {
+        let memory = match remembers {
+            Remembers::Pixels => 0,
+            Remembers::Causes => size_of::<Memory>(),
+        };
+        size_of::<Self>() + memory
+    }
+
+    /// Creates an empty tile, given its number in the film.
+    pub(crate) fn new(number: usize, size: Size, shape: TileShape, remembers: Remembers) -> Self {
+        let memory = || {
+            Box::new(Memory {
+                touched: [Dependencies::default(); AREA as usize],
+                squared_errors: [0.0; AREA as usize],
+                variances: [UNKNOWN; AREA as usize],
+                rays: [0; AREA as usize],
+            })
+        };
+        let mut tile = Self {
+            corner: shape.corner(number, size),
+            shape,
+            sums: [Rgb::ZERO; AREA as usize],
+            objects: [NO_OBJECT; AREA as usize],
+            levels: [BEYOND; AREA as usize],
+            grid: NO_GRID,
+            level: 0,
+            squared_errors: 0.0,
+            over_budget: 0,
+            memory: (remembers == Remembers::Causes).then(memory),
+            halfway: None,
+        };
+        let [left, top] = tile.corner;
+        let across = (size.width - left).min(shape.width) as usize;
+        let down = (size.height - top).min(shape.height) as usize;
+        for row in tile.levels.chunks_mut(shape.width as usize).take(down) {
+            row[..across].fill(0);
+        }
+        tile
+    }
+
+    /// Whether a step has yet to be taken.
+    pub(crate) fn lacks(&self, step: &Step) -> bool {
+        match step {
+            &Step::Grid(spacing) => self.level == 0 && spacing < self.grid,
+            Step::Samples(_) => self.level < step.level(),
+        }
+    }
+
+    /// Takes a step, or one of its parts after the other, in those pixels that lack it, if they are
+    /// selected.
+    pub(crate) fn advance<C: Fn() -> bool>(
+        &mut self,
+        size: Size,
+        (step, part, selection): (&Step, Range<u32>, Option<&Selection>),
+        shot: &FrameContext<'_>,
+        work: &mut Work<'_, C>,
+    ) {
+        if work.tracer.is_cancelled() {
+            return;
+        }
+        let counts = work.tracer.counts();
+        let level = step.level();
+        let is_last = part.end == step.indices().end;
+        work.pixels.clear();
+        if let Some(halfway) = &self.halfway {
+            work.pixels.extend_from_slice(&halfway.pixels);
+        } else {
+            let halfway = (!is_last).then(|| self.halfway());
+            self.each_pixel(size, step.spacing(), |tile, pixel| {
+                let at = tile.index(pixel);
+                let is_selected = selection.is_none_or(|selection| selection.has(pixel));
+                if tile.levels[at] < level && is_selected {
+                    tile.levels[at] = 0;
+                    work.pixels.push(pixel);
+                }
+            });
+            self.halfway = halfway;
+            if let Some(halfway) = &mut self.halfway {
+                halfway.pixels.clone_from(&work.pixels);
+            }
+        }
+        let doubling = Doubling::of(step, &shot.settings).filter(|_| is_last);
+        let doubling = doubling.map(|doubling| {
+            let halfway = self.halfway.as_ref();
+            (doubling, halfway.map_or(self.sums, |halfway| halfway.sums))
+        });
+        for index in part {
+            self.sample(index, shot, work);
+            if work.tracer.is_cancelled() {
+                return;
+            }
+        }
+        self.over_budget += work.tracer.counts().since(counts).over_budget;
+        if !is_last {
+            return;
+        }
+        self.halfway = None;
+        for &pixel in &work.pixels {
+            self.levels[self.index(pixel)] = level;
+        }
+        if let Some((doubling, before)) = doubling {
+            self.estimate(doubling, &before, &work.pixels);
+        }
+        match *step {
+            Step::Grid(spacing) if 1 < spacing => self.grid = spacing,
+            Step::Grid(_) | Step::Samples(_) => self.level = level,
+        }
+    }
+
+    /// Adds one sample to each of the given pixels.
+    fn sample<C: Fn() -> bool>(
+        &mut self,
+        index: u32,
+        shot: &FrameContext<'_>,
+        work: &mut Work<'_, C>,
+    ) {
+        work.sample(index, shot);
+        for (&pixel, seen) in work.pixels.iter().zip(&work.seen) {
+            let at = self.index(pixel);
+            self.sums[at] += seen.radiance;
+            if index == 0 {
+                self.objects[at] = seen.object;
+            }
+            if let Some(memory) = &mut self.memory {
+                memory.touched[at] |= seen.touched;
+                memory.rays[at] = memory.rays[at].saturating_add(seen.rays);
+            }
+        }
+    }
+
+    /// Estimates the errors of pixels whose samples were doubled.
+    fn estimate(&mut self, doubling: Doubling, before: &[Rgb; AREA as usize], pixels: &[[u32; 2]]) {
+        let mut own = [0.0; AREA as usize];
+        let (errors, mut variances) = match &mut self.memory {
+            Some(memory) => (&mut memory.squared_errors, Some(&mut memory.variances)),
+            None => (&mut own, None),
+        };
+        for &pixel in pixels {
+            let at = self.shape.index(self.corner, pixel);
+            if let Some(variances) = &mut variances {
+                variances[at] = doubling.variance(before[at], self.sums[at]) as f32;
+            }
+            errors[at] = doubling.squared_error(before[at], self.sums[at]) as f32;
+        }
+        self.squared_errors = errors.iter().copied().map(f64::from).sum();
+    }
+
+    /// Resets the pixels that depend on a change, those whose tracing was cancelled, and those with
+    /// a number of samples that is no step on the way to the new one, given the maximum before and
+    /// now. Returns whether there are any.
+    pub(crate) fn forget(&mut self, changed: Dependencies, [before, now]: [u32; 2]) -> bool {
+        let memory = self.memory.as_deref();
+        let stale: [bool; AREA as usize] = std::array::from_fn(|at| {
+            let level = self.levels[at];
+            let depends = |memory: &Memory| memory.touched[at].meets(changed);
+            let is_step = level == BEYOND || samples_at(level, before) == samples_at(level, now);
+            level == 0
+                || !is_step
+                || (changed != Dependencies::NOTHING && memory.is_none_or(depends))
+        });
+        if !stale.contains(&true) {
+            return false;
+        }
+        // The pixels that exceeded their budget are not known individually.
+        let is_whole = 0 < self.over_budget;
+        self.over_budget = 0;
+        for (at, is_stale) in stale.into_iter().enumerate() {
+            if is_whole || is_stale {
+                self.forget_pixel(at);
+            }
+        }
+        self.grid = NO_GRID;
+        self.level = 0;
+        true
+    }
+
+    /// The level of a pixel, see [`Step::level`].
+    pub(crate) fn pixel_level(&self, at: usize) -> u8 {
+        self.levels[at]
+    }
+
+    /// The level after the steps taken.
+    pub(crate) fn level(&self) -> u8 {
+        self.level
+    }
+
+    /// The squared error of a pixel after the last step that estimated it; 0 where it is not recorded.
+    pub(crate) fn squared_error(&self, at: usize) -> f32 {
+        let memory = self.memory.as_ref();
+        memory.map_or(0.0, |memory| memory.squared_errors[at])
+    }
+
+    /// The sum of the numbers of its pixels' samples, of at most `spp` each.
+    pub(crate) fn samples(&self, spp: u32) -> u64 {
+        let levels = self.levels.into_iter().filter(|&level| level != BEYOND);
+        levels.map(|level| u64::from(samples_at(level, spp))).sum()
+    }
+
+    /// The highest level of its pixels.
+    pub(crate) fn reached(&self) -> u8 {
+        let traced = self.levels.into_iter().filter(|&level| level != BEYOND);
+        traced.max().unwrap_or(0)
+    }
+
+    fn forget_pixel(&mut self, at: usize) {
+        self.sums[at] = Rgb::ZERO;
+        // Pixels beyond the picture's edge are never traced.
+        if self.levels[at] != BEYOND {
+            self.levels[at] = 0;
+        }
+        if let Some(memory) = &mut self.memory {
+            memory.touched[at] = Dependencies::default();
+            memory.variances[at] = UNKNOWN;
+            memory.rays[at] = 0;
+        }
+    }
+
+    /// The mean of a pixel's samples, or what an AOV of light shows of them.
+    pub(crate) fn value(&self, at: usize, spp: u32, aov: Option<Aov>) -> Rgb {
+        let (sum, level, rays) = self.shown(at);
+        let samples = f64::from(samples_at(level, spp));
+        match aov {
+            Some(Aov::Cost) => Rgb::splat(f64::from(rays) / samples.max(1.0)),
+            Some(Aov::Samples) => Rgb::splat(samples),
+            Some(Aov::Noise) => Rgb::splat(self.error(at).into()),
+            // Most pixels have one sample; without any, the sum is 0.
+            _ if samples <= 1.0 => sum,
+            _ => sum / samples,
+        }
+    }
+
+    /// The estimated error of a pixel, 0 to 1; 0 where it is not recorded.
+    pub(crate) fn error(&self, at: usize) -> f32 {
+        self.squared_error(at).sqrt()
+    }
+
+    /// The variance of a pixel's mean, as the mean of its channels; negative if it is not known.
+    pub(crate) fn variance(&self, at: usize) -> f32 {
+        let memory = self.memory.as_ref();
+        memory.map_or(UNKNOWN, |memory| memory.variances[at])
+    }
+
+    /// The values of the pixels traced so far.
+    pub(crate) fn values(&self, spp: u32, aov: Option<Aov>) -> impl Iterator<Item = Rgb> {
+        let traced = |&at: &usize| ![0, BEYOND].contains(&self.shown(at).1);
+        (0..AREA as usize)
+            .filter(traced)
+            .map(move |at| self.value(at, spp, aov))
+    }
+
+    pub(crate) fn object(&self, at: usize) -> u32 {
+        self.objects[at]
+    }
+
+    /// Visits the pixels of a grid that lie within the picture, in blocks of 4×2, so that adjacent
+    /// pixels are traced together.
+    fn each_pixel(&mut self, size: Size, spacing: u32, mut visit: impl FnMut(&mut Self, [u32; 2])) {
+        let [left, top] = self.corner;
+        let right = left + (size.width - left).min(self.shape.width);
+        let bottom = top + (size.height - top).min(self.shape.height);
+        let step = spacing as usize;
+        for y0 in (top..bottom).step_by(2 * step) {
+            for x0 in (left..right).step_by(4 * step) {
+                for y in (y0..bottom.min(y0 + 2 * spacing)).step_by(step) {
+                    for x in (x0..right.min(x0 + 4 * spacing)).step_by(step) {
+                        visit(self, [x, y]);
+                    }
+                }
+            }
+        }
+    }
+
+    /// Index of the pixel that represents (x, y): itself if traced, otherwise the nearest grid
+    /// point up and to the left.
+    pub(crate) fn known(&self, [x, y]: [u32; 2]) -> usize {
+        let at = self.index([x, y]);
+        if self.shown(at).1 == 0 {
+            self.index([x - x % self.grid, y - y % self.grid])
+        } else {
+            at
+        }
+    }
+
+    /// The index of a pixel.
+    pub(crate) fn index(&self, pixel: [u32; 2]) -> usize {
+        self.shape.index(self.corner, pixel)
+    }
+}

@@ -1,0 +1,123 @@
+//! What all integrators share: the queries of a world, and the samples that they answer.
+
+use glam::DVec2;
+
+use super::light_component::LightComponent;
+use super::photon::PhotonMap;
+use crate::geometry::Ray;
+use crate::render::job::NO_OBJECT;
+use crate::render::sampling::Sampler;
+use crate::render::world::{Crossed, Dependencies, World};
+use crate::scene::Rgb;
+
+/// Ray budget of a camera sample, not counting shadow rays. With reflection and transmission both
+/// 1, a tree of depth 30 would have two billion.
+pub(crate) const RAY_BUDGET: u32 = 4096;
+
+/// Queries a world for radiance and counts the rays.
+///
+/// Results are meaningless once `cancelled` returns true.
+#[derive(Debug)]
+pub(crate) struct Probe<'w, C> {
+    pub(crate) world: &'w World,
+    /// Whether to stop; polled every few hundred rays.
+    pub(crate) cancelled: C,
+    /// Maximum bounces.
+    pub(crate) depth: u32,
+    /// The light to gather.
+    pub(crate) gather: LightComponent,
+    /// The photons of the current sample, if there are to be any.
+    pub(crate) photon_map: Option<&'w PhotonMap>,
+    /// Scratch space.
+    pub(crate) crossed: Crossed,
+    /// Rays traced so far.
+    pub(crate) counts: Counts,
+}
+
+/// Counts of work done.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Counts {
+    /// Rays, including shadow rays.
+    pub rays: u64,
+    /// Shadow rays.
+    pub shadow_rays: u64,
+    /// Samples that exceeded their ray budget.
+    pub over_budget: u64,
+}
+
+impl Counts {
+    /// The difference since `before`.
+    #[must_use]
+    pub fn since(self, before: Self) -> Self {
+        Self {
+            rays: self.rays - before.rays,
+            shadow_rays: self.shadow_rays - before.shadow_rays,
+            over_budget: self.over_budget - before.over_budget,
+        }
+    }
+
+    /// The sum of both.
+    #[must_use]
+    pub fn and(self, other: Self) -> Self {
+        Self {
+            rays: self.rays + other.rays,
+            shadow_rays: self.shadow_rays + other.shadow_rays,
+            over_budget: self.over_budget + other.over_budget,
+        }
+    }
+}
+
+/// A camera ray with the inputs of its sample.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Sample {
+    pub(crate) ray: Ray,
+    /// Length of the ray up to the far limit.
+    pub(crate) reach: f64,
+    /// The pixel's centre in the picture, 0 to 1 from the top left.
+    pub(crate) screen: DVec2,
+    /// Its random numbers.
+    pub(crate) sampler: Sampler,
+}
+
+/// The result of a camera ray.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct SampleResult {
+    /// Radiance or AOV.
+    pub(crate) radiance: Rgb,
+    /// The first object hit, or [`NO_OBJECT`].
+    pub(crate) object: u32,
+    /// Dependencies of the radiance.
+    pub(crate) touched: Dependencies,
+    /// Rays traced for the radiance, including shadow rays.
+    pub(crate) rays: u32,
+}
+
+impl SampleResult {
+    /// The initial result of a ray.
+    pub(crate) const NOTHING: Self = Self {
+        radiance: Rgb::ZERO,
+        object: NO_OBJECT,
+        touched: Dependencies::NOTHING,
+        rays: 0,
+    };
+}
+
+impl<'w, C: Fn() -> bool> Probe<'w, C> {
+    /// Creates a probe that follows rays up to bounce `depth`.
+    pub(crate) fn new(world: &'w World, depth: u32, cancelled: C) -> Self {
+        Self {
+            world,
+            cancelled,
+            depth,
+            gather: LightComponent::All,
+            photon_map: None,
+            crossed: Crossed::default(),
+            counts: Counts::default(),
+        }
+    }
+
+    /// Adds the light of photons to paths.
+    pub(crate) fn with_photons(self, photon_map: Option<&'w PhotonMap>) -> Self {
+        Self { photon_map, ..self }
+    }
+}

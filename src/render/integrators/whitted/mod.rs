@@ -1,0 +1,267 @@
+//! Recursive ray tracing (Whitted, "An Improved Illumination Model for Shaded Display", 1980).
+
+mod branch;
+
+pub(crate) use branch::Secondary;
+
+use std::borrow::Cow;
+
+use glam::DVec3;
+
+use super::direct::{Facing, Points, Shadow, sent_back};
+use super::light_component::LightComponent;
+use super::probe::{Probe, Sample, SampleResult};
+use super::wave::{Arrived, Found, RayState, Wave};
+use crate::geometry::lanes::{Simd, WIDTH, bits, dispatch};
+use crate::render::light::{Incoming, SphereLight, lights};
+use crate::render::material::transmitted;
+use crate::render::sampling::{Sampler, Use};
+use crate::render::world::{Dependencies, Nearest, Occlusion, World};
+use crate::scene::{Light, Rgb};
+
+impl<'w, C: Fn() -> bool> Probe<'w, C> {
+    /// Computes the radiance along camera rays. The rays of each are traced depth first, reflection
+    /// before refraction; those beyond the ray budget contribute nothing.
+    ///
+    /// Many samples are traced at once, one ray of each at a time, to form packets of rays and
+    /// shadow rays. The order of summation within each sample does not depend on the others.
+    pub(crate) fn by_whitted(
+        &mut self,
+        wave: &mut Wave<'w>,
+        samples: &[Sample],
+        seen: &mut Vec<SampleResult>,
+    ) {
+        wave.start(samples);
+        seen.resize(seen.len() + samples.len(), SampleResult::NOTHING);
+        while wave.advance(&mut self.counts) && !(self.cancelled)() {
+            self.land(wave, samples, seen);
+            for number in 0..self.world.lights().len() {
+                // Each light may take as many rays as there are samples.
+                if 0 < number && (self.cancelled)() {
+                    break;
+                }
+                if self.gather.light_anywhere(number) {
+                    self.light(wave, number, samples, seen);
+                }
+            }
+            self.branch(wave, samples, seen);
+        }
+        for (seen, tree) in seen.iter_mut().zip(&wave.trees) {
+            seen.rays += tree.traced;
+        }
+    }
+
+    /// Finds the hits of the front's rays and shades them without lights.
+    pub(crate) fn land(&self, wave: &mut Wave<'w>, samples: &[Sample], seen: &mut [SampleResult]) {
+        let world = self.world;
+        world.nearest_each(&wave.front.rays, &mut wave.nearest);
+        world.land_each(&wave.front.rays, &wave.nearest, &mut wave.landings);
+        wave.arrive(world, self.gather, samples, seen);
+        wave.blockers.resize(world.lights().len(), None);
+    }
+
+    /// Adds the light of the light with this index that the hits reflect; lights must be added in
+    /// file order.
+    pub(crate) fn light(
+        &mut self,
+        wave: &mut Wave<'_>,
+        number: usize,
+        samples: &[Sample],
+        seen: &mut [SampleResult],
+    ) {
+        let world = self.world;
+        let light = &world.lights()[number];
+        wave.asking.clear();
+        wave.shadows.clear();
+        dispatch!(world.level, simd => {
+            for packet in 0..wave.front.rays.len() {
+                wave.ask(simd, packet, (number, light), samples, seen);
+            }
+        });
+        let asking = wave.asking.len() as u64;
+        self.counts.rays += asking;
+        self.counts.shadow_rays += asking;
+        world.transmittance_each(
+            &wave.shadows,
+            Occlusion::ByMaterial,
+            &mut wave.blockers[number],
+            &mut self.crossed,
+            &mut wave.transmittances,
+        );
+        let asking = wave.asking.iter().zip(&wave.transmittances);
+        for (&(ray, unblocked), &transmittance) in asking.clone() {
+            // Occluded light adds nothing, even if infinite.
+            if transmittance != 0.0 {
+                wave.arrived[ray].radiance += transmittance * unblocked;
+            }
+        }
+        // Empty unless dependencies are recorded.
+        for ((&(ray, _), &transmittance), &touched) in asking.zip(&self.crossed.touched) {
+            let seen = &mut seen[wave.front.states[ray].tree];
+            seen.rays += 1;
+            seen.touched |= touched;
+            if transmittance != 0.0 {
+                seen.touched |= Dependencies::light(number);
+            }
+        }
+    }
+
+    /// Adds the radiance of the hits to `seen` and prepares the next front.
+    pub(crate) fn branch(
+        &self,
+        wave: &mut Wave<'_>,
+        samples: &[Sample],
+        seen: &mut [SampleResult],
+    ) {
+        dispatch!(self.world.level, simd => {
+            for packet in 0..wave.front.rays.len() {
+                let rules = (self.depth, self.gather, self.world.gloss);
+                wave.go_on(simd, packet, rules, samples, seen);
+            }
+        });
+    }
+}
+
+impl<'w> Wave<'w> {
+    /// Shades the hits of the front's rays.
+    fn arrive(
+        &mut self,
+        world: &'w World,
+        gather: LightComponent,
+        samples: &[Sample],
+        seen: &mut [SampleResult],
+    ) {
+        self.arrived.clear();
+        self.mapped.clear();
+        for (number, state) in self.front.states.iter().enumerate() {
+            let seen = &mut seen[state.tree];
+            let (packet, lane) = (&self.front.rays[number / WIDTH], number % WIDTH);
+            let landing = &mut self.landings[number / WIDTH];
+            let mut arrived = Arrived {
+                found: Found::Nothing,
+                weight: state.weight,
+                radiance: Rgb::ZERO,
+            };
+            if let Some(nearest) = self.nearest[number / WIDTH].get(lane) {
+                if state.bounce == 0 {
+                    seen.object = nearest.object;
+                }
+                seen.touched |= Dependencies::object(nearest.object);
+                let material = landing.material(world, nearest, (packet, lane));
+                let side = landing.side(lane);
+                arrived.weight = state.through(nearest);
+                if material.is_lit(side) && gather.glow(state.bounce) {
+                    arrived.radiance = material.glow(world.ambient);
+                }
+                arrived.found = match material {
+                    Cow::Borrowed(material) => Found::Plain(material),
+                    Cow::Owned(material) => {
+                        self.mapped.push(material);
+                        Found::Mapped(self.mapped.len() - 1)
+                    }
+                };
+            } else if gather.glow(state.bounce) {
+                let screen = samples[state.tree].screen;
+                let around = world.around(&packet.ray(lane), state.bounce, screen);
+                seen.radiance += state.weight * around;
+            }
+            self.arrived.push(arrived);
+        }
+    }
+
+    /// Adds shadow rays from a packet's points to a light.
+    ///
+    /// Rejected: computing the reflected light in lanes, from materials gathered into rows (no less time).
+    #[inline(always)]
+    fn ask<S: Simd>(
+        &mut self,
+        simd: S,
+        packet: usize,
+        (number, light): (usize, &Light),
+        samples: &[Sample],
+        seen: &mut [SampleResult],
+    ) {
+        let landing = &self.landings[packet];
+        if landing.is_empty() {
+            return;
+        }
+        let rays = &self.front.rays[packet].rays;
+        let first = packet * WIDTH;
+        let points = Points {
+            surface: landing.surface.load(simd),
+            normal: landing.normal.load(simd),
+            view: -rays.direction.load(simd),
+        };
+        let Some(mut incoming) = lights::incoming(light, points.surface.point) else {
+            return;
+        };
+        let last = self.arrived.len().min(first + WIDTH);
+        let arrived = &mut self.arrived[first..last];
+        if let Some(sphere) = light.sphere() {
+            for (lane, (arrived, state)) in
+                arrived.iter().zip(&self.front.states[first..]).enumerate()
+            {
+                if let Found::Nothing = arrived.found {
+                    continue;
+                }
+                let sampler = samples[state.tree].sampler;
+                let point = landing.surface.point.get(lane);
+                if let Some(chosen) = state.choose((number, &sphere), point, sampler) {
+                    incoming.put(lane, chosen);
+                }
+            }
+        }
+        let facing = Facing::new(&points, light, incoming);
+        let mut lit = bits::<S>(facing.is_lit) & self.front.rays[packet].lanes;
+        while lit != 0 {
+            let lane = lit.trailing_zeros() as usize % WIDTH;
+            lit &= lit - 1;
+            let arrived = &mut arrived[lane];
+            let material = match arrived.found.material(&self.mapped) {
+                Some(material) if material.is_lit(landing.side(lane)) => material,
+                _ => continue,
+            };
+            let halfway = || {
+                let view = -rays.direction.get(lane);
+                let toward: DVec3 = facing.toward.lane(lane);
+                landing.normal.get(lane).dot((toward + view).normalize())
+            };
+            let reflected = material.reflected(facing.cosine[lane], facing.mirrored[lane], halfway);
+            let place = landing.surface.point.get(lane);
+            let toward = || facing.toward.lane(lane);
+            let Some(unblocked) = sent_back(light, place, toward, reflected) else {
+                continue;
+            };
+            match &facing.shadow {
+                None => {
+                    seen[self.front.states[first + lane].tree].touched |=
+                        Dependencies::light(number);
+                    arrived.radiance += unblocked;
+                }
+                Some(Shadow { rays, ends }) => {
+                    self.asking.push((first + lane, unblocked));
+                    self.shadows.push(&rays.ray(lane), ends[lane]);
+                }
+            }
+        }
+    }
+}
+
+impl RayState {
+    /// Samples a light with a size, given its index, from a point; without random numbers `None`,
+    /// which stands for its centre.
+    pub(crate) fn choose(
+        &self,
+        (number, sphere): (usize, &SphereLight),
+        point: DVec3,
+        sampler: Sampler,
+    ) -> Option<Incoming<f64>> {
+        let place = sampler.pair(self.node, Use::Light(number as u32))?;
+        sphere.choose(point, place)
+    }
+
+    /// Weight of the radiance at a hit in the pixel.
+    fn through(&self, nearest: Nearest) -> Rgb {
+        self.weight * transmitted(self.absorption, nearest.hit.t)
+    }
+}

@@ -1,0 +1,12 @@
+//! What sends light: lights, objects that emit, and the environment. Each is sampled from a point
+//! without knowing what is in between.
+
+mod emitters;
+pub(crate) mod lights;
+mod sky;
+
+pub(crate) use emitters::{Choices, Emitters, Known, ManyLights, Picked};
+pub(crate) use lights::{
+    Incoming, SphereLight, SphereLights, Spheres, faded, incoming, incoming_each,
+};
+pub(crate) use sky::Sky;
