@@ -46,8 +46,10 @@
 //! | [`config`] | the user's configuration: reads, checks and prints it | what the settings do |
 //! | [`cli`] | arguments and exit codes | how the work is done |
 //!
-//! `tests/rooms` enforces the dependencies between rooms, forbids cycles between sibling files, and
-//! holds the ceilings of files, folders, rooms and the methods of the interface.
+//! Each room is a crate, and its manifest lists the rooms and the libraries that it may use; this crate
+//! passes all of them on. `tests/rooms` forbids what manifests allow: naming what is not used, cycles
+//! between sibling files, and growth beyond the ceilings of files, folders, rooms and the methods of
+//! the interface.
 //!
 //! # Invariants
 //!
@@ -66,41 +68,24 @@
 //!   the owner of the terminal and how it reports keys, the panics of other threads and whether unsaved
 //!   edits are stored.
 
-pub mod accel;
-pub mod assets;
-pub mod batch;
-pub mod cli;
-pub mod compare;
-pub mod config;
-pub mod document;
-pub mod explain;
-pub mod file;
-pub mod geometry;
-pub mod image_file;
-pub mod language;
-pub mod memory;
-pub mod obj;
-pub mod part;
-pub mod render;
-pub mod scene;
-pub mod text;
-pub mod track;
-pub mod ui;
-pub mod watch;
-
-/// The configuration of property tests, which have the same cases in every run unless
-/// `PROPTEST_RNG_SEED` is set: fuzzing looks for new ones.
-#[cfg(test)]
-fn repeatable() -> proptest::test_runner::Config {
-    use proptest::test_runner::{Config, RngSeed};
-
-    let default = Config::default();
-    let rng_seed = match default.rng_seed {
-        RngSeed::Random => RngSeed::Fixed(0),
-        fixed @ RngSeed::Fixed(_) => fixed,
-    };
-    Config {
-        rng_seed,
-        ..default
-    }
-}
+pub use accel;
+pub use assets;
+pub use batch;
+pub use cli;
+pub use compare;
+pub use config;
+pub use document;
+pub use explain;
+pub use file;
+pub use geometry;
+pub use image_file;
+pub use language;
+pub use memory;
+pub use obj;
+pub use part;
+pub use render;
+pub use scene;
+pub use text;
+pub use track;
+pub use ui;
+pub use watch;

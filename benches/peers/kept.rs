@@ -23,7 +23,7 @@ impl Kept {
             |text| serde_json::from_str(&text).expect("what is kept is JSON"),
         );
         Self {
-            vectors: halflight::render::vectors(),
+            vectors: render::vectors(),
             before,
             rows: Map::new(),
         }

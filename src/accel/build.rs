@@ -4,7 +4,7 @@ use arrayvec::ArrayVec;
 use glam::DVec3;
 use rayon::prelude::*;
 
-use crate::geometry::Aabb;
+use geometry::Aabb;
 
 use super::node::{Bounds, Child, Node, WIDTH};
 use super::split::{CHUNK, CancelCheck, Cancelled, Extent, Halves, Reference, by_area, by_count};

@@ -5,8 +5,8 @@ use std::array;
 use glam::DVec3;
 
 use super::slab::{SlabRay, Slope, is_open_in_lanes};
-use crate::geometry::Aabb;
-use crate::geometry::lanes::{Simd, SimdBase, Singles, bits};
+use geometry::Aabb;
+use geometry::lanes::{Simd, SimdBase, Singles, bits};
 
 /// The maximum number of children of a node.
 pub(super) const WIDTH: usize = 8;

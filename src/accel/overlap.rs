@@ -7,7 +7,7 @@ use arrayvec::ArrayVec;
 use super::Bvh;
 use super::node::{Bounds, Child, WIDTH};
 use super::traverse::STACK;
-use crate::geometry::Aabb;
+use geometry::Aabb;
 
 impl Bvh {
     /// Calls `visit` with ranges of [`Bvh::order`], at most [`RUN`](super::RUN) long, that include every

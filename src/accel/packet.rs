@@ -22,8 +22,8 @@ use std::ops::Range;
 
 use arrayvec::ArrayVec;
 
-use crate::geometry::Rays;
-use crate::geometry::lanes::{Eight, Select, Simd, SimdBase, Singles, bits, each_bit, singles};
+use geometry::Rays;
+use geometry::lanes::{Eight, Select, Simd, SimdBase, Singles, bits, each_bit, singles};
 
 use super::node::{Child, Link, Node, WIDTH};
 use super::slab::{Approach, SlabRay, clip, is_open_in_lanes};

@@ -2,7 +2,7 @@
 
 use super::node::{Bounds, Child, Node, WIDTH};
 use super::{Bvh, polls_at};
-use crate::geometry::Aabb;
+use geometry::Aabb;
 
 /// The maximum number of boxes moved at once: each is searched for among all.
 const MAX_MOVED: usize = 16;

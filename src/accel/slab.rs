@@ -15,8 +15,8 @@
 //! everything. A direction of 0 is no such case: its inverse is infinite.
 
 use super::Bvh;
-use crate::geometry::Rays;
-use crate::geometry::lanes::{Lanes, Simd, SimdBase, Singles, Vector};
+use geometry::Rays;
+use geometry::lanes::{Lanes, Simd, SimdBase, Singles, Vector};
 
 /// The relative extension of the distance at which a ray leaves a box: 8u.
 const MARGIN: f32 = 4.0 * f32::EPSILON;

@@ -5,7 +5,7 @@ use std::ops::Range;
 use super::node::{Bounds, Child, Node, WIDTH};
 use super::refit::{Parents, copied, may_change};
 use super::{Bvh, RUN, polls_at};
-use crate::geometry::Aabb;
+use geometry::Aabb;
 
 /// Changes of [`Bvh::order`]. Places are those before the changes.
 struct Changes {

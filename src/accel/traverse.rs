@@ -6,8 +6,8 @@ use std::ops::Range;
 
 use arrayvec::ArrayVec;
 
-use crate::geometry::lanes::Simd;
-use crate::geometry::{Ray, Rays};
+use geometry::lanes::Simd;
+use geometry::{Ray, Rays};
 
 use super::build::LEVELS;
 use super::node::{Child, Link, Node, WIDTH};

@@ -3,11 +3,11 @@
 use std::path::{Path, PathBuf};
 
 use super::{Assets, FileDigests, Loaded, Wanted, report};
-use crate::file::ReadError;
-use crate::language::{Before, Lowered, Source};
-use crate::memory::OutOfMemory;
-use crate::scene::Scene;
-use crate::text::{Edit, Findings};
+use file::ReadError;
+use language::{Before, Lowered, Source};
+use memory::OutOfMemory;
+use scene::Scene;
+use text::{Edit, Findings};
 
 /// A text that is lowered with one set of edits after the other. The files that it names are read once,
 /// and again only if edits name others.

@@ -6,11 +6,11 @@ use std::io;
 use std::path::PathBuf;
 
 use super::LIMITS;
-use crate::file::{ReadError, directory_of};
-use crate::image_file::{Unreadable, known_extensions};
-use crate::language::{FileKind, NamedFile};
-use crate::memory::OutOfMemory;
-use crate::text::{Diagnostic, Findings, without_codes};
+use file::{ReadError, directory_of};
+use image_file::{Unreadable, known_extensions};
+use language::{FileKind, NamedFile};
+use memory::OutOfMemory;
+use text::{Diagnostic, Findings, without_codes};
 
 /// The errors of pictures by name.
 pub type PictureErrors = BTreeMap<String, PictureError>;

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use std::path::PathBuf;
 
-use crate::file::{Digest, ReadError};
+use file::{Digest, ReadError};
 
 /// The digest of a scene's text and of the files that were read for it, by their names in the text.
 /// Where they are does not matter.

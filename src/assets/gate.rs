@@ -14,7 +14,7 @@ use rayon::prelude::*;
 
 use super::failure::Failure;
 use super::folder::Folder;
-use crate::file::{self, directory_of};
+use file::directory_of;
 
 /// The folders that a scene's files may be read from.
 #[derive(Debug)]

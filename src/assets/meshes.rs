@@ -7,8 +7,8 @@ use std::sync::Arc;
 use super::Load;
 use super::failure::Failure;
 use super::gate::FileContent;
-use crate::obj::{self, Finding, Model};
-use crate::scene::{Meshes, NoMesh, beside};
+use obj::{Finding, Model};
+use scene::{Meshes, NoMesh, beside};
 
 /// A mesh and the files it was read from.
 #[derive(Clone, Debug)]

@@ -5,8 +5,8 @@ use std::sync::Arc;
 
 use super::failure::{Failure, PictureErrors, Substitute};
 use super::{Known, Load};
-use crate::image_file::{self, Unreadable};
-use crate::scene::{Image, Images};
+use image_file::Unreadable;
+use scene::{Image, Images};
 
 impl Load<'_> {
     /// Reads pictures. Returns also the errors of those that are missing or not up to date.

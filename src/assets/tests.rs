@@ -6,7 +6,7 @@ use std::os::unix::fs::symlink;
 use tempfile::TempDir;
 
 use super::*;
-use crate::text::{Diagnostic, Findings, Span};
+use text::{Diagnostic, Findings, Span};
 
 /// A folder `scenes` with a scene `x.dat`, in a folder of its own.
 struct Place {

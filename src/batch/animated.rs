@@ -5,11 +5,10 @@ use std::path::{Path, PathBuf};
 
 use super::still::Still;
 use super::{Error, Messages, Tracing, Warnings, load};
-use crate::assets::Edited;
-use crate::file;
-use crate::render::Frames;
-use crate::text::{Diagnostic, Findings};
-use crate::track::{self, Bound};
+use assets::Edited;
+use render::Frames;
+use text::{Diagnostic, Findings};
+use track::Bound;
 
 /// Where an animated scene comes from, and how it is read.
 pub(super) struct Origin<'w> {
@@ -144,9 +143,9 @@ mod tests {
     use std::sync::Arc;
 
     use super::*;
-    use crate::batch::ProgressStyle;
-    use crate::geometry::{Mesh, Shape};
-    use crate::scene::{Rendering, Viewpoint};
+    use crate::ProgressStyle;
+    use geometry::{Mesh, Shape};
+    use scene::{Rendering, Viewpoint};
 
     const SCENE: &str = "\
 <xml><scene><object type=\"obj\" name=\"a.obj\"/><object type=\"sphere\" name=\"ball\"/>

@@ -10,11 +10,9 @@ use serde_json::{Value, json};
 
 use super::plan::Measured;
 use super::{Error, Messages, Report, Tracing, Warnings, load, machine, stdout};
-use crate::assets;
-use crate::language::{Language, Source};
-use crate::memory;
-use crate::render::{Block, BlockTracer, Frames, Job, Renderer, Settings, Threads};
-use crate::scene::{Images, Meshes, Rendering, Scene, Size};
+use language::{Language, Source};
+use render::{Block, BlockTracer, Frames, Job, Renderer, Settings, Threads};
+use scene::{Images, Meshes, Rendering, Scene, Size};
 
 /// Scenes to measure.
 #[derive(Clone, Debug, PartialEq)]

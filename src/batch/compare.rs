@@ -9,15 +9,12 @@ use super::graded::Graded;
 use super::output::Output;
 use super::tracing::Tracer;
 use super::{Error, Messages, Tracing, Warnings, load, stdout};
-use crate::assets;
-use crate::compare::{Comparison, Difference, SizesDiffer, heat_map};
-use crate::file;
-use crate::image_file::{ImageFormat, Picture, Recorded, in_8_bits};
-use crate::language::Language;
-use crate::memory;
-use crate::render::{Frame, Frames};
-use crate::scene::{Image, Size};
-use crate::text::visible;
+use compare::{Comparison, Difference, SizesDiffer, heat_map};
+use image_file::{ImageFormat, Picture, Recorded, in_8_bits};
+use language::Language;
+use render::{Frame, Frames};
+use scene::{Image, Size};
+use text::visible;
 
 /// Two pictures to compare.
 #[derive(Clone, Debug, PartialEq)]

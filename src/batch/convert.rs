@@ -5,11 +5,8 @@ use std::path::{Path, PathBuf};
 
 use super::output::Output;
 use super::{Error, Loaded, Messages, Warnings, load};
-use crate::assets;
-use crate::file;
-use crate::language::{self, Converted, Language};
-use crate::memory;
-use crate::text::{Diagnostic, Findings};
+use language::{Converted, Language};
+use text::{Diagnostic, Findings};
 
 /// A scene to convert.
 #[derive(Clone, Debug, PartialEq, Eq)]

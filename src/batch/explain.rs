@@ -8,12 +8,10 @@ use std::path::{Path, PathBuf};
 use super::finding::{Naming, Suspect, Text, place_after};
 use super::tracing::Tracer;
 use super::{Error, Messages, Report, Tracing, Warnings, load, stdout};
-use crate::assets;
-use crate::explain::{Line, Sentence, Subject, Words, number, words};
-use crate::memory;
-use crate::render::{Explanation, Frames, PreparedScene};
-use crate::scene::Size;
-use crate::text::visible;
+use explain::{Line, Sentence, Subject, Words, number, words};
+use render::{Explanation, Frames, PreparedScene};
+use scene::Size;
+use text::visible;
 
 /// A pixel to explain.
 #[derive(Clone, Debug, PartialEq)]

@@ -4,10 +4,10 @@ use std::path::Path;
 
 use super::tracing::Tracer;
 use super::{Loaded, Messages, Tracing};
-use crate::explain::{Place, Subject, cause, fault};
-use crate::language::{Prospect, Source};
-use crate::render::{Advice, Fault, Frame, Frames, Job, Limit, PreparedScene, Settings, Trials};
-use crate::scene::{LEAST_ADAPTIVE_SPP, RenderKey, Rendering};
+use explain::{Place, Subject, cause, fault};
+use language::{Prospect, Source};
+use render::{Advice, Fault, Frame, Frames, Job, Limit, PreparedScene, Settings, Trials};
+use scene::{LEAST_ADAPTIVE_SPP, RenderKey, Rendering};
 
 /// Says that options over the text leave adaptive sampling no pixel to stop.
 pub(super) fn print_without_effect(messages: Messages, over_text: &Rendering, settings: &Settings) {

@@ -18,14 +18,12 @@ use super::signals::Signals;
 use super::still::Still;
 use super::tracing::{Tracer, Tracing};
 use super::{Error, Messages, Warnings};
-use crate::assets;
-use crate::file::{Digest, ReadError};
-use crate::image_file::{DEFAULT_RATE, ImageFormat, MovieFormat, MovieWriter, Pattern, Picture};
-use crate::language::Language;
-use crate::memory;
-use crate::part::Shard;
-use crate::render::{Frame, Frames, Job, Provenance, check_memory, memory_for};
-use crate::text::counted;
+use file::{Digest, ReadError};
+use image_file::{DEFAULT_RATE, ImageFormat, MovieFormat, MovieWriter, Pattern, Picture};
+use language::Language;
+use part::Shard;
+use render::{Frame, Frames, Job, Provenance, check_memory, memory_for};
+use text::counted;
 
 /// A sequence of pictures to render.
 #[derive(Clone, Debug, PartialEq)]

@@ -3,9 +3,9 @@
 use std::path::Path;
 
 use super::{Messages, Over, Tracing};
-use crate::image_file::Recorded;
-use crate::render::{Job, Record, Region, denoises};
-use crate::scene::{Rendering, Scene, Size};
+use image_file::Recorded;
+use render::{Job, Record, Region, denoises};
+use scene::{Rendering, Scene, Size};
 
 /// A scene that is to be traced as a picture was.
 pub(super) struct Graded<'w> {

@@ -7,7 +7,7 @@ use std::io::{self, BufRead, BufReader, Read, Write};
 use std::path::{Path, PathBuf};
 
 use super::Error;
-use crate::file::{self, Digest, ReadError};
+use file::{Digest, ReadError};
 
 /// The first line of every list, with the version of the format.
 const HEADER: &str = "halflight frames 1\n";

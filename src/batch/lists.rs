@@ -3,9 +3,9 @@
 use std::fs;
 use std::path::PathBuf;
 
-use crate::file::directory_of;
-use crate::image_file::Pattern;
-use crate::part::Shard;
+use file::directory_of;
+use image_file::Pattern;
+use part::Shard;
 
 /// The path of the list of a process, such as `turn.frames` beside `turn.%05d.png`, one for each shard:
 /// processes on several machines do not append to the same file.

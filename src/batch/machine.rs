@@ -3,9 +3,6 @@
 use std::num::NonZero;
 use std::thread;
 
-use crate::memory;
-use crate::render;
-
 /// What the speed of tracing depends on.
 pub(super) struct Machine {
     /// The name of the processor.

@@ -5,8 +5,8 @@ use std::path::PathBuf;
 use super::output::Output;
 use super::render::print_biases;
 use super::{Error, Messages, stdout};
-use crate::image_file::{ImageFormat, Picture};
-use crate::part::{self, ranges};
+use image_file::{ImageFormat, Picture};
+use part::ranges;
 
 /// Part files to merge.
 #[derive(Clone, Debug, PartialEq, Eq)]

@@ -8,8 +8,8 @@ use serde_json::json;
 
 use super::progress::ProgressStyle;
 use super::{Error, report};
-use crate::file::ReadError;
-use crate::text::{Diagnostic, Findings, counted, visible, without_codes};
+use file::ReadError;
+use text::{Diagnostic, Findings, counted, visible, without_codes};
 
 /// How messages are written.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

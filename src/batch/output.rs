@@ -4,7 +4,6 @@ use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
 use super::{Error, stdout};
-use crate::file;
 
 /// A file or standard output.
 #[derive(Clone, Debug, PartialEq, Eq)]

@@ -11,13 +11,13 @@ use super::progress::{ProgressStyle, Reporter};
 use super::signals::Signals;
 use super::tracing::Tracing;
 use super::{Error, Messages};
-use crate::part::{self, Header, Part, Shard};
-use crate::render::{
-    self, BLOCK, Block, BlockTracer, Blocks, Counts, Frame, Job, Progress, Provenance, Settings,
+use part::{Header, Part, Shard};
+use render::{
+    BLOCK, Block, BlockTracer, Blocks, Counts, Frame, Job, Progress, Provenance, Settings,
     memory_for_blocks,
 };
-use crate::scene::Integrator;
-use crate::text::counted;
+use scene::Integrator;
+use text::counted;
 
 /// How a picture is traced into a part file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -396,7 +396,7 @@ fn progress(spp: u32, done: f64, elapsed: Duration, counts: Counts) -> Progress 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scene::Size;
+    use scene::Size;
 
     #[test]
     fn what_was_traced_before_counts_as_done() {

@@ -11,8 +11,8 @@ use std::time::{Duration, Instant};
 use serde_json::{Value, json};
 
 use super::Error;
-use crate::part::{self, Header, Part, Shard};
-use crate::render::{Block, BlockTracer, Blocks, Frames, Provenance};
+use part::{Header, Part, Shard};
+use render::{Block, BlockTracer, Blocks, Frames, Provenance};
 
 /// The numbers of tasks that are planned for.
 const TASKS: [u32; 9] = [1, 3, 10, 30, 100, 300, 1000, 3000, 10_000];

@@ -6,8 +6,8 @@ use std::time::{Duration, Instant};
 use serde_json::{Value, json};
 
 use super::report::has_controls;
-use crate::render::Progress;
-use crate::text::percentage;
+use render::Progress;
+use text::percentage;
 
 /// Minimum time between two updates: short enough to show life, long enough to be read.
 const INTERVAL: Duration = Duration::from_millis(200);

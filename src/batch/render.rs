@@ -10,16 +10,14 @@ use super::parts::{self, Existing, Parts};
 use super::stats::{Stats, Times};
 use super::tracing::Tracer;
 use super::{Error, Messages, Tracing, Warnings, load, stdout};
-use crate::assets::{self, fingerprint};
-use crate::image_file::{ImageFormat, Picture};
-use crate::language::{Prospect, Source};
-use crate::memory;
-use crate::part;
-use crate::render::{
+use assets::fingerprint;
+use image_file::{ImageFormat, Picture};
+use language::{Prospect, Source};
+use render::{
     Aov, Frame, Job, Progress, Provenance, check_memory, exposes, memory_for, photons_kept,
 };
-use crate::scene::Size;
-use crate::text::{Diagnostic, Span, counted};
+use scene::Size;
+use text::{Diagnostic, Span, counted};
 
 /// A picture to render.
 #[derive(Clone, Debug, PartialEq)]
@@ -56,7 +54,7 @@ pub enum Purpose {
 
 /// Renders a scene and writes the picture. Warnings, notes and progress go to standard error. A
 /// reader that closes the pipe early is not an error. If interrupted, leaves either the old file or
-/// the new one, see [`deliver`](crate::file::deliver).
+/// the new one, see [`deliver`](file::deliver).
 pub fn render(work: &Render) -> Result<(), Error> {
     try_render(work).inspect_err(|error| work.messages().error(error))
 }

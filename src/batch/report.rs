@@ -6,7 +6,7 @@ use std::io::{self, IsTerminal};
 use annotate_snippets::{AnnotationKind, Level, Renderer, Snippet};
 use serde_json::{Value, json};
 
-use crate::text::{
+use text::{
     Diagnostic, Position, Severity, Shown, Span, first_byte, line_end, line_start, mark_len,
     visible,
 };
@@ -179,7 +179,7 @@ fn last_chars(text: &str) -> &str {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::text::Cited;
+    use text::Cited;
 
     /// The plain report of one error at the part of `text` between brackets.
     fn report(text: &str) -> String {

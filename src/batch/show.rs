@@ -4,12 +4,10 @@ use std::fmt::Write;
 use std::path::{Path, PathBuf};
 
 use super::{Error, Messages, Verdict, Warnings, load, stdout};
-use crate::assets::{self, fingerprint};
-use crate::file;
-use crate::image_file::{self, ImageFormat, Unreadable};
-use crate::memory;
-use crate::render::{Aov, Provenance};
-use crate::text::{shell_path, shell_word, visible};
+use assets::fingerprint;
+use image_file::{ImageFormat, Unreadable};
+use render::{Aov, Provenance};
+use text::{shell_path, shell_word, visible};
 
 /// A picture to show the origin of.
 #[derive(Clone, Debug, PartialEq, Eq)]

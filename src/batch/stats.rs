@@ -7,8 +7,7 @@ use serde_json::{Map, Value, json};
 
 use super::Error;
 use super::output::Output;
-use crate::memory;
-use crate::render::{Progress, Provenance, Settings};
+use render::{Progress, Provenance, Settings};
 
 /// What is counted and timed.
 pub(super) struct Stats<'s> {

@@ -3,8 +3,8 @@
 use std::path::{Path, PathBuf};
 
 use super::{Error, Messages, Tracing, Warnings, load};
-use crate::assets::fingerprint;
-use crate::render::{Frames, Job};
+use assets::fingerprint;
+use render::{Frames, Job};
 
 /// A picture of a sequence, ready to trace.
 #[derive(Clone)]

@@ -10,11 +10,11 @@ use std::time::Duration;
 use super::progress::{Place, ProgressStyle, Reporter};
 use super::signals::Signals;
 use super::{Error, Over};
-use crate::image_file::layer_bytes;
-use crate::render::{
+use image_file::layer_bytes;
+use render::{
     Advice, Aov, Frame, Frames, Job, Limit, Provenance, Region, Renderer, Settings, Threads, Trials,
 };
-use crate::scene::{Images, MAX_SPP, Rendering, Scene, Size, Viewpoint};
+use scene::{Images, MAX_SPP, Rendering, Scene, Size, Viewpoint};
 
 /// How long a signal may go unnoticed.
 const PATIENCE: Duration = Duration::from_millis(50);

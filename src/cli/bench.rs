@@ -6,7 +6,7 @@ use clap::Args;
 
 use super::shared::{AssetArguments, StrictnessArguments, whole_number};
 use super::tracing::TracingArguments;
-use crate::batch::{Bench, Report};
+use batch::{Bench, Report};
 
 pub(super) const EXAMPLES: &str = "\
 Examples:

@@ -2,10 +2,10 @@
 
 use clap::ValueEnum;
 
-use crate::batch::ProgressStyle;
-use crate::render::Aov;
-use crate::ui::terminal::{Choice, ColourDepth};
-use crate::ui::{Pixels, Theme};
+use batch::ProgressStyle;
+use render::Aov;
+use ui::terminal::{Choice, ColourDepth};
+use ui::{Pixels, Theme};
 
 /// The terminal's colour depth.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
@@ -164,7 +164,7 @@ impl AovChoice {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::config::COLOURS;
+    use config::COLOURS;
 
     /// Checks that the words of an option mean the same in a configuration.
     fn check<C: ValueEnum, V: PartialEq>(configured: &[(&str, V)], value: fn(C) -> V) {

@@ -6,7 +6,7 @@ use clap::Args;
 
 use super::shared::{AssetArguments, StrictnessArguments, picture_format, whole_number};
 use super::tracing::TracingArguments;
-use crate::batch::{Compare, Report};
+use batch::{Compare, Report};
 
 pub(super) const EXAMPLES: &str = "\
 Examples:

@@ -6,8 +6,8 @@ use clap::Args;
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 
 use super::shared::{AssetArguments, StrictnessArguments, destination};
-use crate::batch::Convert;
-use crate::language::Language;
+use batch::Convert;
+use language::Language;
 
 pub(super) const EXAMPLES: &str = "\
 Examples:

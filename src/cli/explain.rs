@@ -6,8 +6,8 @@ use clap::Args;
 
 use super::shared::{AssetArguments, StrictnessArguments, whole_number};
 use super::tracing::SampleArguments;
-use crate::batch::{Explain, Report};
-use crate::scene::MAX_SPP;
+use batch::{Explain, Report};
+use scene::MAX_SPP;
 
 pub(super) const EXAMPLES: &str = "\
 Examples:

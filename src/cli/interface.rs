@@ -8,10 +8,9 @@ use clap::{ArgGroup, Args};
 use super::choices::{ColourChoice, PixelsChoice, ThemeChoice};
 use super::rendering::RenderingArguments;
 use super::shared::{AssetArguments, spp_range, threads_range, whole_number};
-use crate::config::{self, MAX_BANDWIDTH, POLLS};
-use crate::ui;
-use crate::ui::keymap::Keymap;
-use crate::ui::terminal::Mouse;
+use config::{MAX_BANDWIDTH, POLLS};
+use ui::keymap::Keymap;
+use ui::terminal::Mouse;
 
 /// The size of a screen without a terminal, in cells.
 const SCREEN: (u16, u16) = (100, 30);

@@ -4,9 +4,8 @@ use clap::Command;
 use clap_mangen::Man;
 use clap_mangen::roff::{Roff, roman};
 
-use crate::config;
-use crate::ui::app::commands;
-use crate::ui::keymap::Keymap;
+use ui::app::commands;
+use ui::keymap::Keymap;
 
 /// The page about this command line, in the language of `man`.
 pub(super) fn page(mut cli: Command) -> Vec<u8> {

@@ -5,8 +5,8 @@ use std::path::PathBuf;
 use clap::Args;
 
 use super::shared::{format_names, output, output_help};
-use crate::batch::{Merge, MergePurpose};
-use crate::image_file::ImageFormat;
+use batch::{Merge, MergePurpose};
+use image_file::ImageFormat;
 
 pub(super) const EXAMPLES: &str = "\
 Examples:

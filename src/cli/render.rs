@@ -11,13 +11,13 @@ use super::shared::{
     picture_format, picture_names, whole_number,
 };
 use super::tracing::TracingArguments;
-use crate::batch::{
-    self, Existing, Finished, FrameSource, MAX_FRAMES, Output, Parts, Render, Sequence,
-    SequenceOutput, Tracing,
+use batch::{
+    Existing, Finished, FrameSource, MAX_FRAMES, Output, Parts, Render, Sequence, SequenceOutput,
+    Tracing,
 };
-use crate::image_file::{ImageFormat, MovieFormat, Pattern};
-use crate::part::{MOST_SHARDS, Shard};
-use crate::render::Aov;
+use image_file::{ImageFormat, MovieFormat, Pattern};
+use part::{MOST_SHARDS, Shard};
+use render::Aov;
 
 pub(super) const EXAMPLES: &str = "\
 Examples:

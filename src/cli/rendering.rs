@@ -5,7 +5,7 @@ use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser, Value
 use clap::error::Error;
 use clap::{Arg, ArgMatches, Args, Command, FromArgMatches};
 
-use crate::scene::{CommandOption, RenderKey, RenderSetting, Rendering, Values};
+use scene::{CommandOption, RenderKey, RenderSetting, Rendering, Values};
 
 /// The settings asked for.
 #[derive(Debug)]

@@ -7,10 +7,10 @@ use std::str::FromStr;
 use clap::Args;
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 
-use crate::batch::{Output, Warnings};
-use crate::config::MAX_THREADS;
-use crate::image_file::{FORMATS, ImageFormat, known_extensions};
-use crate::scene::MAX_SPP;
+use batch::{Output, Warnings};
+use config::MAX_THREADS;
+use image_file::{FORMATS, ImageFormat, known_extensions};
+use scene::MAX_SPP;
 
 #[derive(Args, Debug)]
 pub(super) struct AssetArguments {

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use clap::Args;
 
 use super::shared::AssetArguments;
-use crate::batch::Show;
+use batch::Show;
 
 pub(super) const EXAMPLES: &str = "\
 Examples:

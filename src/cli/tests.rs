@@ -1,15 +1,13 @@
 use std::time::Duration;
 
 use super::*;
-use crate::batch::{Output, Report, Warnings};
-use crate::image_file::{ImageFormat, MAX_PIXELS};
-use crate::render::Region;
-use crate::scene::{
-    FalloffRule, Filter, GlossRule, Integrator, MAX_SPP, Rendering, Size, Transfer,
-};
-use crate::ui::Theme;
-use crate::ui::keymap::Keymap;
-use crate::ui::terminal::{Choice, ColourDepth, Mouse};
+use ::render::Region;
+use batch::{Output, Report, Warnings};
+use image_file::{ImageFormat, MAX_PIXELS};
+use scene::{FalloffRule, Filter, GlossRule, Integrator, MAX_SPP, Rendering, Size, Transfer};
+use ui::Theme;
+use ui::keymap::Keymap;
+use ui::terminal::{Choice, ColourDepth, Mouse};
 
 /// Parses a command line whose words are separated by spaces.
 fn parsed(line: &str) -> Result<Command, Stop> {

@@ -10,10 +10,10 @@ use clap::Args;
 use super::choices::AovChoice;
 use super::rendering::RenderingArguments;
 use super::shared::{spp_range, threads_range, whole_number};
-use crate::batch::{ProgressStyle, Tracing};
-use crate::render::{Aov, Region, denoises};
-use crate::scene::{Rendering, Size, Viewpoint};
-use crate::text::parse_duration;
+use batch::{ProgressStyle, Tracing};
+use render::{Aov, Region, denoises};
+use scene::{Rendering, Size, Viewpoint};
+use text::parse_duration;
 
 #[derive(Args, Debug)]
 pub(super) struct TracingArguments {

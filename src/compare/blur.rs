@@ -1,6 +1,6 @@
 //! Planes of numbers and their convolution with separable kernels.
 
-use crate::scene::{Image, Size};
+use scene::{Image, Size};
 
 /// A number for each pixel, in rows from the top left.
 #[derive(Clone, Debug)]

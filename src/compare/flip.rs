@@ -6,7 +6,7 @@
 use std::f64::consts::PI;
 
 use super::blur::{Plane, kernel, normalised};
-use crate::scene::{Image, Rgb};
+use scene::{Image, Rgb};
 
 /// Pixels per degree of the field of view.
 const DENSITY: f64 = 3840.0 * PI / 180.0;

@@ -4,7 +4,7 @@
 //! averaged over the windows that lie within the picture, and over red, green and blue.
 
 use super::blur::{Plane, kernel, normalised};
-use crate::scene::Image;
+use scene::Image;
 
 /// Pixels on each side of a window's centre.
 const RADIUS: usize = 5;

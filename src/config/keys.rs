@@ -3,8 +3,8 @@
 use toml::de::DeValue;
 
 use super::value::{MOST_ERRORS, Name, Value, advised, in_order, kind_of, span_of};
-use crate::text::{Diagnostic, Span, alternatives};
-use crate::ui::keymap::{self, Keymap, Keys, Section, key_names};
+use text::{Diagnostic, Span, alternatives};
+use ui::keymap::{self, Keymap, Keys, Section, key_names};
 
 /// An entry that has been read.
 struct Entry {

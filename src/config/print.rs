@@ -3,8 +3,8 @@
 use std::fmt::Write;
 
 use super::settings::{Kind, Setting, as_text, as_toml, settings};
-use crate::ui::Options;
-use crate::ui::keymap::{Bound, Keymap, Section};
+use ui::Options;
+use ui::keymap::{Bound, Keymap, Section};
 
 /// The configuration that has the same effect as these options, as TOML: every setting and every
 /// key, each with its description. Those with their defaults are commented out.

@@ -5,9 +5,9 @@ use toml::de::{DeInteger, DeTable, DeValue};
 use super::keys;
 use super::settings::{Kind, Setting, folder, settings};
 use super::value::{MOST_ERRORS, Name, Value, advised, in_order, kind_of, span_of};
-use crate::scene::Values;
-use crate::text::{Diagnostic, Span, alternatives};
-use crate::ui::Options;
+use scene::Values;
+use text::{Diagnostic, Span, alternatives};
+use ui::Options;
 
 /// The table of keys.
 const KEYS: &str = "keys";

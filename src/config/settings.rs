@@ -5,9 +5,9 @@ use std::ops::RangeInclusive;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
-use crate::scene::{RenderKey, Rendering, Values};
-use crate::ui::terminal::{Choice, ColourDepth, Mouse};
-use crate::ui::{Options, Pixels, Theme};
+use scene::{RenderKey, Rendering, Values};
+use ui::terminal::{Choice, ColourDepth, Mouse};
+use ui::{Options, Pixels, Theme};
 
 /// Possible intervals between checks of files, in milliseconds.
 pub const POLLS: RangeInclusive<u64> = 10..=3_600_000;

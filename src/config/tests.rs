@@ -1,10 +1,10 @@
 use std::time::Duration;
 
 use super::*;
-use crate::scene::{Filter, Integrator, Rendering};
-use crate::ui::Theme;
-use crate::ui::keymap::{Context, Mode};
-use crate::ui::terminal::{Choice, ColourDepth, Mouse};
+use scene::{Filter, Integrator, Rendering};
+use ui::Theme;
+use ui::keymap::{Context, Mode};
+use ui::terminal::{Choice, ColourDepth, Mouse};
 
 const CHANGED: &str = r#"
 theme = "light"
@@ -95,7 +95,7 @@ fn the_defaults_in_a_printed_configuration_are_those_in_use() {
     let text: Vec<_> = lines.filter(|line| !line.starts_with("assets")).collect();
     let set = options(&text.join("\n"));
     assert_eq!(set.keymap, Options::default().keymap);
-    assert_eq!(set.rendering.spp, Some(crate::scene::DEFAULT_SPP));
+    assert_eq!(set.rendering.spp, Some(scene::DEFAULT_SPP));
 }
 
 #[test]

@@ -3,7 +3,7 @@
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
-use crate::text::{Diagnostic, Span, nearest_word};
+use text::{Diagnostic, Span, nearest_word};
 
 /// After this many errors no more is read: they tell the user nothing new, and a long file could have
 /// many thousands.

@@ -1,8 +1,7 @@
 //! The places at which a text differs from another: few and far apart in a large scene, so that what
 //! lies between them need not be looked at.
 
-use crate::text;
-use crate::text::Span;
+use text::Span;
 
 /// A span of a text that is replaced by a span of another.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -113,8 +112,8 @@ fn starts(text: &str, at: usize, reach: usize) -> Vec<usize> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::text::Edit;
     use proptest::prelude::*;
+    use text::Edit;
 
     const CLOSE: Limits = Limits {
         near: 2,
@@ -159,7 +158,7 @@ mod tests {
     }
 
     proptest! {
-        #![proptest_config(crate::repeatable())]
+        #![proptest_config(repeatable::config())]
 
         #[test]
         fn changes_applied_give_the_other_text(

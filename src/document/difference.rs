@@ -3,8 +3,7 @@
 use similar::algorithms::{Capture, Replace, myers};
 
 use super::changes::{Change, LIMITS, Limits, changes};
-use crate::text;
-use crate::text::{Edit, Span};
+use text::{Edit, Span};
 
 /// Finer than for merging, and given up sooner: places are only named.
 const FINE: Limits = Limits {
@@ -137,7 +136,7 @@ mod tests {
     }
 
     proptest! {
-        #![proptest_config(crate::repeatable())]
+        #![proptest_config(repeatable::config())]
 
         #[test]
         fn the_edit_covers_the_places(text in "[aé \n\r]{0,30}", other in "[aé \n\r]{0,30}") {

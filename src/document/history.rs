@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use super::steps::{State, StateId, StepName};
-use crate::text::{Edit, Span};
+use text::{Edit, Span};
 
 /// A step that can be undone or redone.
 #[derive(Clone, Debug)]

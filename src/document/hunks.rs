@@ -15,8 +15,8 @@ use similar::DiffOp;
 use similar::algorithms::{Capture, Compact, Replace, myers};
 
 use super::changes::Change;
-use crate::language::{Language, Role, Roles, Source};
-use crate::text::Span;
+use language::{Language, Role, Roles, Source};
+use text::Span;
 
 /// Time limit of the search for a short diff; what remains then counts as one hunk. In tests, a
 /// slow machine must not change the result.

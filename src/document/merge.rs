@@ -11,9 +11,8 @@ use super::changes::{Change, LIMITS, changes};
 use super::pieces::{Conflict, Piece, Place, Side, edits, pieces};
 use super::sides::{Sides, divide_a_move};
 use super::windows::{self, Window, widening, windows};
-use crate::language::{Language, Source};
-use crate::text;
-use crate::text::Edit;
+use language::{Language, Source};
+use text::Edit;
 
 /// A three-way merge: changes that apply cleanly, and conflicts.
 #[derive(Clone, Debug)]

@@ -5,8 +5,8 @@ use std::sync::Arc;
 
 use super::history::History;
 use super::{Difference, Document, Snapshot};
-use crate::language::{Before, Lowered};
-use crate::text::{Edit, Span, are_plain_numbers, difference};
+use language::{Before, Lowered};
+use text::{Edit, Span, are_plain_numbers, difference};
 
 /// Shorter texts are parsed in a few milliseconds.
 const LONG: usize = 1 << 20;

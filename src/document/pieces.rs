@@ -1,7 +1,7 @@
 //! The places at which texts differ from their common ancestor, resolved: changes that apply
 //! cleanly, and conflicts.
 
-use crate::text::{Edit, Span};
+use text::{Edit, Span};
 
 /// One of the two changed texts.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

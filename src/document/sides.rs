@@ -5,8 +5,7 @@ use super::hunks::{Chunks, Leaves, hunks};
 use super::pieces::{Place, Side, edits, pieces};
 use super::regions::{Region, regions};
 use super::windows::{Window, within};
-use crate::language::Language;
-use crate::text;
+use language::Language;
 
 /// Corresponding parts of three texts, and where they differ.
 pub(super) struct Sides<'t> {

@@ -5,12 +5,10 @@ use std::sync::Arc;
 
 use super::changes::{Change, LIMITS, Limits, changes};
 use super::{Document, Merge};
-use crate::language;
-use crate::language::{Language, Lowered, Source};
-use crate::memory::OutOfMemory;
-use crate::scene::Meshes;
-use crate::text;
-use crate::text::{Edit, Findings, smallest_edit};
+use language::{Language, Lowered, Source};
+use memory::OutOfMemory;
+use scene::Meshes;
+use text::{Edit, Findings, smallest_edit};
 
 /// Each edit of a text costs as much as parsing a fraction of it.
 const FEW: usize = 4;

@@ -2,7 +2,7 @@ use proptest::prelude::*;
 use proptest::sample::{Index, select};
 
 use super::*;
-use crate::language::Node;
+use language::Node;
 
 mod steps;
 mod structure;
@@ -256,7 +256,7 @@ fn scene() -> impl Strategy<Value = String> {
 
 proptest! {
     // 200 texts of 100 edits each, over all languages.
-    #![proptest_config(ProptestConfig { cases: 200, ..crate::repeatable() })]
+    #![proptest_config(ProptestConfig { cases: 200, ..repeatable::config() })]
 
     #[test]
     fn edits_change_their_span_and_undo_restores_every_byte(

@@ -5,8 +5,7 @@ use std::sync::Arc;
 use super::Document;
 use super::history::Step;
 use super::steps::{State, StateId, StepName};
-use crate::language::Language;
-use crate::text;
+use language::Language;
 
 /// All texts of a history, at one moment, to be derived on another thread. Copies no text.
 #[derive(Clone, Debug)]

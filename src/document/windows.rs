@@ -3,9 +3,8 @@
 
 use super::changes::{Change, LIMITS, changes};
 use super::hunks::{APART, Chunks, Hunks, hunks};
-use crate::language::Language;
-use crate::text;
-use crate::text::Span;
+use language::Language;
+use text::Span;
 
 /// Initial margin of a window in bytes, on either side of a difference.
 const MARGIN: usize = 1024;
@@ -198,7 +197,7 @@ mod tests {
     }
 
     proptest! {
-        #![proptest_config(crate::repeatable())]
+        #![proptest_config(repeatable::config())]
 
         #[test]
         fn a_window_has_the_same_hunks_as_the_whole_text(

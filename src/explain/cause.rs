@@ -2,9 +2,9 @@
 
 use super::names::Names;
 use super::{Sentence, Subject, sentences};
-use crate::language::Prospect;
-use crate::render::{Fault, Query, Verdict};
-use crate::scene::Size;
+use language::Prospect;
+use render::{Fault, Query, Verdict};
+use scene::Size;
 
 /// Pixels asked, across and down.
 const GRID: [u32; 2] = [16, 12];

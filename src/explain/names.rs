@@ -6,10 +6,10 @@ use std::collections::HashMap;
 use glam::DVec3;
 
 use super::{Place, Subject};
-use crate::language::Node;
-use crate::render::Side;
-use crate::scene::Rgb;
-use crate::text::{Position, Span};
+use language::Node;
+use render::Side;
+use scene::Rgb;
+use text::{Position, Span};
 
 /// The text and scene that names come from.
 pub(super) struct Names<'s> {
@@ -93,7 +93,7 @@ impl<'s> Names<'s> {
     pub(super) fn field(&self, node: Node, keys: &[&str]) -> Option<Place> {
         let fields = self.subject.source.fields(node);
         let found = keys.iter().find_map(|key| {
-            let is = |placed: &&crate::language::Placed| placed.field.key == *key;
+            let is = |placed: &&language::Placed| placed.field.key == *key;
             let placed = fields.iter().find(is)?;
             let span = placed.spans.first()?;
             Some(self.place_of(*span, Some(placed.field.key)))

@@ -4,11 +4,9 @@ mod lights;
 
 use super::Sentence;
 use super::names::{Names, colour, number};
-use crate::language::Node;
-use crate::render::{
-    DepthLimit, Explanation, Finding, RayKind, Shading, Term, TermSource, Verdict,
-};
-use crate::scene::Rgb;
+use language::Node;
+use render::{DepthLimit, Explanation, Finding, RayKind, Shading, Term, TermSource, Verdict};
+use scene::Rgb;
 
 /// Keys of fields, by what they mean, in the order of the languages.
 pub(super) const LIGHT_COLOUR: &[&str] = &["colour", "intensity"];

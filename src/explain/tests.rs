@@ -7,9 +7,9 @@ use std::path::Path;
 use std::sync::Arc;
 
 use super::*;
-use crate::language::{Language, Source};
-use crate::render::{Frames, Job, PreparedScene, Settings};
-use crate::scene::{Images, Integrator, Meshes, Rendering};
+use language::{Language, Source};
+use render::{Frames, Job, PreparedScene, Settings};
+use scene::{Images, Integrator, Meshes, Rendering};
 
 /// How a scene is traced unless its text says otherwise.
 #[derive(Clone, Copy, Default)]
@@ -429,7 +429,7 @@ fn verdicts_of_xml_scenes() {
 /// Every verdict has a name of the list, and every ray and light a line.
 #[test]
 fn every_pixel_of_our_scenes_can_be_put_into_words() {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("scenes");
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenes");
     let mut explained = 0;
     for entry in fs::read_dir(folder).expect("our scenes are there") {
         let path = entry.expect("our scenes are there").path();

@@ -4,12 +4,12 @@ use glam::DVec3;
 
 use super::Line;
 use super::names::{Names, colour, number, percent, side, vector};
-use crate::language::Node;
-use crate::render::{
+use language::Node;
+use render::{
     Chosen, Crossing, Densities, EmitterTerm, Explanation, LightTerm, RayEnd, RayKind, Shading,
     Stop, TracedRay, UnlitReason,
 };
-use crate::scene::Rgb;
+use scene::Rgb;
 
 /// Writes a record as lines, each ray below the surface it starts from.
 pub(super) fn lines(explanation: &Explanation, names: &Names<'_>) -> Vec<Line> {

@@ -2,9 +2,9 @@
 
 use super::names::{Names, number};
 use super::{Sentence, Subject};
-use crate::language::{Node, Visibility};
-use crate::render::{Explanation, surface_under};
-use crate::scene::Meshes;
+use language::{Node, Visibility};
+use render::{Explanation, surface_under};
+use scene::Meshes;
 
 /// Objects looked at: more than a person has left out of a list.
 const MOST: usize = 1000;

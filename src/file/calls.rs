@@ -28,16 +28,16 @@ impl<W: Write> Write for CheckedWriter<W> {
     }
 }
 
-#[cfg(not(test))]
+#[cfg(not(any(test, feature = "faults")))]
 #[expect(clippy::unnecessary_wraps, reason = "fails in tests")]
 fn injected(_name: &'static str) -> io::Result<()> {
     Ok(())
 }
 
-#[cfg(not(test))]
+#[cfg(not(any(test, feature = "faults")))]
 fn shortened(bytes: &[u8]) -> &[u8] {
     bytes
 }
 
-#[cfg(test)]
+#[cfg(any(test, feature = "faults"))]
 use super::faults::{injected, shortened};

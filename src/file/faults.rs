@@ -7,7 +7,7 @@ use rustix::io::Errno;
 
 /// A kind of fault. The k-th call is counted from 0.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Fault {
+pub enum Fault {
     /// The k-th call fails.
     Once(Errno),
     /// The k-th and all later calls fail.
@@ -20,18 +20,18 @@ pub(crate) enum Fault {
 
 impl Fault {
     /// Whether a write must succeed in spite of the fault.
-    pub(crate) fn is_harmless(self) -> bool {
+    pub fn is_harmless(self) -> bool {
         matches!(self, Self::Once(Errno::INTR) | Self::Short)
     }
 }
 
 /// The calls that were made, and the first that the fault affected.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct Calls {
+pub struct Calls {
     /// The names of the calls, in order.
-    pub(crate) names: Vec<&'static str>,
+    pub names: Vec<&'static str>,
     /// The first call that the fault affected.
-    pub(crate) hit: Option<&'static str>,
+    pub hit: Option<&'static str>,
 }
 
 #[derive(Debug)]
@@ -46,7 +46,7 @@ thread_local! {
 }
 
 /// Runs `work` on this thread with a fault at call `at`, counted from 0.
-pub(crate) fn during<T>(fault: Fault, at: usize, work: impl FnOnce() -> T) -> (T, Calls) {
+pub fn during<T>(fault: Fault, at: usize, work: impl FnOnce() -> T) -> (T, Calls) {
     PLAN.set(Some(Plan {
         fault,
         at,

@@ -6,7 +6,7 @@ use super::calls::call;
 
 /// The result of an attempt to lock a file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Lock {
+pub enum Lock {
     /// Locked until the file is closed.
     Taken,
     /// Locked through another open file, in this process or another.
@@ -16,7 +16,7 @@ pub(crate) enum Lock {
 }
 
 /// Tries to take the advisory lock of a file, without waiting.
-pub(crate) fn lock(file: &File) -> Lock {
+pub fn lock(file: &File) -> Lock {
     let locked = call("flock", || match file.try_lock() {
         Ok(()) => Ok(Lock::Taken),
         Err(TryLockError::WouldBlock) => Ok(Lock::Busy),

@@ -107,7 +107,7 @@ pub fn check_replaceable(path: &Path) -> io::Result<()> {
 }
 
 /// The end of a chain of symbolic links that leads to no file.
-pub(crate) fn end_of_links(path: &Path) -> io::Result<PathBuf> {
+pub fn end_of_links(path: &Path) -> io::Result<PathBuf> {
     if path.file_name().is_none() {
         return Err(io::ErrorKind::NotFound.into());
     }

@@ -200,7 +200,7 @@ mod tests {
     use std::sync::Arc;
 
     use super::*;
-    use crate::geometry::{
+    use crate::{
         Cone, Csg, Cuboid, Cylinder, Ellipsoid, Instance, Mesh, MeshParts, Node, Operation, Plane,
     };
 

@@ -11,8 +11,8 @@ use exr::meta::header::LayerAttributes;
 
 use super::metadata;
 use super::picture::Picture;
-use crate::render::{Aov, Frame};
-use crate::scene::Size;
+use render::{Aov, Frame};
+use scene::Size;
 
 /// Encodes in memory: the file begins with a table of offsets.
 ///

@@ -16,7 +16,7 @@ use exr::prelude::{Vec2, read};
 use image::{DynamicImage, Rgb32FImage};
 
 use super::unreadable::{MAX_MEMORY, Unreadable, check_room, check_size, unsupported};
-use crate::scene::{Image, Size};
+use scene::{Image, Size};
 
 /// The name of the format in messages.
 const NAME: &str = "OpenEXR";

@@ -7,7 +7,7 @@ use exr::meta::MetaData;
 use exr::meta::attribute::AttributeValue;
 
 use super::{MAX_PIXELS, Unreadable};
-use crate::render::{Provenance, Record};
+use render::{Provenance, Record};
 
 /// The keyword of the text in a PNG, and the name of the attribute in an EXR.
 pub(super) const KEYWORD: &str = "halflight";

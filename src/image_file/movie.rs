@@ -6,8 +6,8 @@ use std::path::Path;
 use image::codecs::gif::{GifEncoder, Repeat};
 use image::{Delay, Frame as GifFrame, RgbaImage};
 
-use crate::render::Frame;
-use crate::scene::Size;
+use render::Frame;
+use scene::Size;
 
 /// The formats of several pictures in one file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

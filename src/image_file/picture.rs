@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use crate::render::{Aov, Frame, Provenance};
+use render::{Aov, Frame, Provenance};
 
 /// A picture to write.
 #[derive(Clone, Copy, Debug)]

@@ -11,7 +11,7 @@ use image::{Limits, Rgba};
 use super::exr_colours::read_colours;
 use super::sieve::Sieve;
 use super::unreadable::{MAX_MEMORY, Unreadable, check_room, check_size, unsupported};
-use crate::scene::{Image, Size};
+use scene::{Image, Size};
 
 /// The memory limit, in bytes, for everything before the pixels.
 const MAX_HEADER: u64 = 16 << 20;

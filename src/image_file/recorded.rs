@@ -7,8 +7,8 @@ use image::{DynamicImage, Rgb32FImage};
 use super::metadata::record;
 use super::read::{decode, holds_light};
 use super::unreadable::Unreadable;
-use crate::render::{Frame, Record};
-use crate::scene::Image;
+use render::{Frame, Record};
+use scene::Image;
 
 /// A picture with what its file says of how it was made.
 #[derive(Clone, Debug)]

@@ -3,8 +3,8 @@ mod features;
 use std::io::{self, Cursor, Write};
 
 use super::*;
-use crate::render::Frame;
-use crate::scene::Image;
+use render::Frame;
+use scene::Image;
 
 /// A finished frame with the given pixels.
 fn frame(width: u32, height: u32, pixels: &[[u8; 3]]) -> Frame {
@@ -333,7 +333,7 @@ fn an_unknown_extension_is_refused_with_the_known_ones() {
 
 #[test]
 fn a_picture_is_whole_whichever_call_fails() {
-    use crate::file::faults::{Fault, during};
+    use file::faults::{Fault, during};
     use rustix::io::Errno;
     let directory = tempfile::tempdir().expect("a directory for a test");
     let path = directory.path().join("a.png");

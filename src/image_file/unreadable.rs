@@ -2,7 +2,7 @@
 
 use std::hint;
 
-use crate::scene::Size;
+use scene::Size;
 
 /// The maximum number of pixels of a texture: 8192 × 8192, 192 MiB.
 pub const MAX_TEXTURE_PIXELS: u64 = 1 << 26;

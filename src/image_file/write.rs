@@ -13,9 +13,9 @@ use image::{ExtendedColorType, ImageEncoder, ImageError, Rgb};
 
 use super::picture::Picture;
 use super::{ImageFormat, exr, known_extensions, metadata};
-use crate::file::{self, Version};
-use crate::render::Frames;
-use crate::scene::Size;
+use file::Version;
+use render::Frames;
+use scene::Size;
 
 /// From 1 to 100. At 95 errors are invisible, and files are a third as long as a PNG.
 const JPEG_QUALITY: u8 = 95;

@@ -6,7 +6,7 @@
 
 use super::losses::{Loss, Losses, Of};
 use super::surroundings::is_all_before;
-use crate::scene::{
+use scene::{
     Camera, Dielectric, Emitter, Gloss, Highlight, Light, Material, Mirror, Pattern, Rgb, Scene,
     Shadow, Texture, Tinted,
 };
@@ -139,11 +139,7 @@ const SLOTS: [fn(&Material) -> Tinted; 4] = [
     |one| textured(one, one.dielectric.tint, |maps| maps.dielectric),
 ];
 
-fn textured(
-    material: &Material,
-    colour: Rgb,
-    slot: fn(&crate::scene::Maps) -> Option<u32>,
-) -> Tinted {
+fn textured(material: &Material, colour: Rgb, slot: fn(&scene::Maps) -> Option<u32>) -> Tinted {
     Tinted {
         colour,
         texture: material.maps.as_deref().and_then(slot),

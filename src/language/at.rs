@@ -6,7 +6,7 @@
 use glam::DVec3;
 
 use super::table::{Field, numbers};
-use crate::text::Span;
+use text::Span;
 
 /// The position of a field's `N` numbers in its record.
 #[derive(Clone, Copy, Debug)]

@@ -3,9 +3,9 @@
 use glam::DVec3;
 
 use super::table::Range;
-use crate::geometry::{Aabb, normalise};
-use crate::scene::Camera;
-use crate::text::{Diagnostic, Findings, Span};
+use geometry::{Aabb, normalise};
+use scene::Camera;
+use text::{Diagnostic, Findings, Span};
 
 /// The places of a camera's parts in the text, or stand-ins for missing parts.
 #[derive(Clone, Copy, Debug, Default)]

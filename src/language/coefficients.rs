@@ -1,26 +1,26 @@
 //! Materials as the coefficients of Whitted's model ("An Improved Illumination Model for Shaded
 //! Display", 1980), shared by more than one language.
 
-use crate::scene::{Dielectric, Gloss, Highlight, Material, Mirror, Reflectance, Rgb, Shadow};
+use scene::{Dielectric, Gloss, Highlight, Material, Mirror, Reflectance, Rgb, Shadow};
 
 /// The coefficients of a material. They alone weight the rays, and light passes where refracted
 /// rays do.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub(crate) struct Coefficients {
+pub struct Coefficients {
     /// Fraction of ambient light reflected.
-    pub(crate) ambient: Rgb,
+    pub ambient: Rgb,
     /// Fraction of light reflected diffusely.
-    pub(crate) diffuse: Rgb,
+    pub diffuse: Rgb,
     /// Strength of the Phong highlight.
-    pub(crate) specular: Rgb,
+    pub specular: Rgb,
     /// Phong exponent.
-    pub(crate) exponent: f64,
+    pub exponent: f64,
     /// Weight of reflected rays.
-    pub(crate) reflection: f64,
+    pub reflection: f64,
     /// Weight of refracted rays and of light that passes through.
-    pub(crate) transmission: f64,
+    pub transmission: f64,
     /// Index of refraction.
-    pub(crate) index: f64,
+    pub index: f64,
 }
 
 impl From<Coefficients> for Material {

@@ -6,9 +6,9 @@ use std::sync::Arc;
 
 use super::losses::{Loss, Losses, Of};
 use super::{Language, Source, alike, fits};
-use crate::memory::OutOfMemory;
-use crate::scene::{Emitter, Meshes, Object, Rgb, Scene};
-use crate::text::{Diagnostic, Findings, Span};
+use memory::OutOfMemory;
+use scene::{Emitter, Meshes, Object, Rgb, Scene};
+use text::{Diagnostic, Findings, Span};
 
 /// A scene in another language.
 #[derive(Clone, Debug)]

@@ -8,8 +8,8 @@ use super::node::IndexedNode;
 use super::structure::{Wish, adapted};
 use super::view::{beginning, line_ending};
 use super::{Node, Source, StructureError};
-use crate::scene::Meshes;
-use crate::text::{Edit, Span};
+use scene::Meshes;
+use text::{Edit, Span};
 
 impl Source {
     /// Whether the text holds nothing but comments.
@@ -94,7 +94,7 @@ impl Source {
     fn understand(&mut self) -> Result<(), StructureError> {
         let lowered = self.lower(&Meshes::default());
         let refused =
-            |reason: crate::memory::OutOfMemory| StructureError::Inexpressible(reason.to_string());
+            |reason: memory::OutOfMemory| StructureError::Inexpressible(reason.to_string());
         lowered.map(|_| ()).map_err(refused)
     }
 }
@@ -102,7 +102,7 @@ impl Source {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::language::Language;
+    use crate::Language;
 
     fn lowered(language: Language, text: &str) -> Source {
         let mut source = Source::new(language, Arc::new(text.to_owned()));

@@ -3,9 +3,8 @@
 
 use glam::{DMat3, DVec3};
 
-use crate::geometry::normalise;
-use crate::scene::Camera;
-use crate::text;
+use geometry::normalise;
+use scene::Camera;
 
 /// An oriented box that a solid fills.
 #[derive(Clone, Copy, Debug, PartialEq)]

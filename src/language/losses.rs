@@ -4,9 +4,9 @@ use std::borrow::Cow;
 use std::collections::{HashMap, HashSet};
 
 use super::{Language, Node, Source};
-use crate::geometry::Shape;
-use crate::scene::Scene;
-use crate::text::{Diagnostic, Findings, Span};
+use geometry::Shape;
+use scene::Scene;
+use text::{Diagnostic, Findings, Span};
 
 /// Something that the target cannot hold.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

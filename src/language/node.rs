@@ -3,7 +3,7 @@
 use std::fmt;
 
 use super::partition::partition_point;
-use crate::text::Span;
+use text::Span;
 
 /// A node with fields, in the order of the list in the interface.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]

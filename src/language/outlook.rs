@@ -6,12 +6,12 @@ mod darkness;
 use glam::DVec3;
 
 use super::{Node, Source};
-use crate::geometry::{Shape, normalise};
-use crate::scene::{
+use geometry::{Shape, normalise};
+use scene::{
     Camera, Emitter, FalloffRule, Integrator, LEAST_ADAPTIVE_SPP, Light, Material, Rendering, Rgb,
     Scene, Shadows,
 };
-use crate::text::{Diagnostic, Span, concise};
+use text::{Diagnostic, Span, concise};
 
 /// The number of objects or materials up to which they are looked at one by one: more are made by a
 /// program.

@@ -4,7 +4,7 @@ use std::borrow::Cow;
 
 use super::Answers;
 use super::table::Field;
-use crate::text::{Edit, Span};
+use text::{Edit, Span};
 
 /// A field with the places of its components.
 #[derive(Clone, Debug, PartialEq)]

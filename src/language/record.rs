@@ -4,8 +4,8 @@ use glam::{DMat3, DVec3};
 
 use super::report::{Name, out_of_range};
 use super::table::{Field, Kind};
-use crate::geometry::{FLATTEST, normalise};
-use crate::text::{Diagnostic, Findings, Span, concise};
+use geometry::{FLATTEST, normalise};
+use text::{Diagnostic, Findings, Span, concise};
 
 /// The tolerance for a direction's length around 1 and for dot products of two around 0.
 const UNIT_TOLERANCE: f64 = 1e-3;

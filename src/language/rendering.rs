@@ -8,8 +8,8 @@ use super::report::{did_you_mean, no_number, number, quoted};
 use super::table::{Field, Kind, Range};
 use super::view::line_from;
 use super::words::Words;
-use crate::scene::{RenderKey, Rendering, Values};
-use crate::text::{
+use scene::{RenderKey, Rendering, Values};
+use text::{
     Diagnostic, Edit, Findings, SKIPPED, Severity, Span, is_integer, line_end, nearest_word,
     next_line, parse_number,
 };

@@ -3,7 +3,7 @@
 use std::fmt;
 
 use super::table::Field;
-use crate::text::{
+use text::{
     Diagnostic, Findings, NumberError, Severity, Span, concise, parse_number, without_suffix,
 };
 

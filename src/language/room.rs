@@ -4,8 +4,8 @@ use rayon::prelude::*;
 
 use super::Language;
 use super::words::may_begin_word;
-use crate::memory::{self, Need, OutOfMemory, megabytes};
-use crate::text::counted;
+use memory::{Need, OutOfMemory, megabytes};
+use text::counted;
 
 /// Bytes counted in one parallel piece.
 const PIECE: usize = 1 << 18;

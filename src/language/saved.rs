@@ -9,8 +9,8 @@ use glam::DVec3;
 use super::Answers;
 use super::view::{line_ending, line_from, spelled};
 use super::words::Words;
-use crate::scene::{Camera, Lens};
-use crate::text::{Edit, Span, is_line_end, line_end, next_line, parse_number, rounded};
+use scene::{Camera, Lens};
+use text::{Edit, Span, is_line_end, line_end, next_line, parse_number, rounded};
 
 /// What begins a saved view. Without the blank it is `view:`, the view itself.
 const KEYWORD: &str = "view ";

@@ -4,7 +4,7 @@ use std::fmt::Write;
 
 use glam::DVec3;
 
-use crate::text::concise;
+use text::concise;
 
 /// Appends a number.
 pub(super) fn number(out: &mut String, value: f64) {
@@ -48,7 +48,7 @@ pub(super) fn rounded_off(number: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::text::parse_number;
+    use text::parse_number;
 
     #[test]
     fn numbers_are_read_back_to_the_last_bit() {

@@ -3,8 +3,8 @@
 use glam::DVec3;
 
 use super::losses::{Loss, Losses, Of};
-use crate::geometry::{Affine, Cuboid, Ellipsoid, Plane, Quadric, Shape, Solid, normalise};
-use crate::scene::Object;
+use geometry::{Affine, Cuboid, Ellipsoid, Plane, Quadric, Shape, Solid, normalise};
+use scene::Object;
 
 /// The thickness of a box that stands for a square, as a fraction of its shorter edge.
 const THIN: f64 = 1e-4;

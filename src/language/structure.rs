@@ -8,9 +8,7 @@ use super::form::{Form, Motion};
 use super::roles::Roles;
 use super::table::Category;
 use super::view::{beginning, line_ending, line_from};
-use crate::text::{
-    Edit, Span, line_end, next_line, parse_number, rounded, spell_like, without_suffix,
-};
+use text::{Edit, Span, line_end, next_line, parse_number, rounded, spell_like, without_suffix};
 
 /// How a language changes the structure of a text, which must be free of errors. Counts, lists, IDs
 /// and names in the text follow.

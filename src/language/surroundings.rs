@@ -3,8 +3,8 @@
 use glam::DVec3;
 
 use super::losses::{Loss, Losses, Of};
-use crate::geometry::{Aabb, normalise};
-use crate::scene::{Camera, Falloff, Lens, Light, Rgb, Scene, Setting};
+use geometry::{Aabb, normalise};
+use scene::{Camera, Falloff, Lens, Light, Rgb, Scene, Setting};
 
 const PARALLEL: Loss = Loss {
     keys: &["projection"],

@@ -280,7 +280,8 @@ impl Field {
         format!("{expected}, usually {}", self.usual.limits())
     }
 
-    pub(super) const fn point(key: &'static str, doc: &'static str) -> Self {
+    /// A point in space.
+    pub const fn point(key: &'static str, doc: &'static str) -> Self {
         Self {
             key,
             kind: Kind::Point,
@@ -369,11 +370,8 @@ pub const fn numbers(fields: &[Field]) -> usize {
 }
 
 #[cfg(test)]
-pub(crate) mod tests {
+mod tests {
     use super::*;
-
-    /// A field for tests of what does not depend on a language.
-    pub(crate) const POINT: Field = Field::point("point", "A point.");
 
     #[test]
     fn ranges_contain_what_their_words_describe() {

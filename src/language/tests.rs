@@ -15,8 +15,8 @@ use std::sync::Arc;
 use super::convert::without_gamma;
 use super::losses::Losses;
 use super::{Language, Lowered, Source, alike};
-use crate::scene::{Meshes, Scene};
-use crate::text::{Diagnostic, Findings, Position, Span};
+use scene::{Meshes, Scene};
+use text::{Diagnostic, Findings, Position, Span};
 
 /// Parses and lowers a text.
 pub(super) fn read_as(language: Language, text: &str, meshes: &Meshes) -> (Source, Lowered) {

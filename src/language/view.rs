@@ -1,7 +1,7 @@
 //! Cameras in a language: the literals of the view's fields.
 
 use super::table::{Field, Kind};
-use crate::text::{line_end, line_start, next_line, parse_number};
+use text::{line_end, line_start, next_line, parse_number};
 
 /// The numbers of the view's fields, one per component; for a choice, the index of the word.
 pub(super) type Numbers = Vec<f64>;

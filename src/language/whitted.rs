@@ -2,7 +2,7 @@
 
 use super::coefficients::Coefficients;
 use super::losses::{Loss, Losses, Of};
-use crate::scene::{Faces, Highlight, Material, Reflectance, Rgb, Scene, Shadow};
+use scene::{Faces, Highlight, Material, Reflectance, Rgb, Scene, Shadow};
 
 /// The exponent of a Phong highlight that is about as wide as one around the half vector: the angle
 /// between the mirrored light and the viewer is twice that between normal and half vector.

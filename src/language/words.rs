@@ -1,6 +1,6 @@
 //! Words separated by white space: ASCII white space, the no-break space and the byte order mark.
 
-use crate::text::{Span, first_byte};
+use text::{Span, first_byte};
 
 /// The words of part of a text, in order.
 #[derive(Clone, Debug)]
@@ -113,7 +113,7 @@ mod tests {
     }
 
     proptest! {
-        #![proptest_config(crate::repeatable())]
+        #![proptest_config(repeatable::config())]
 
         #[test]
         fn words_and_white_space_cover_a_text(text in "([a\u{A0}\u{FEFF}é\u{80}ﻼ \t\n\x0B]{0,9}| {70}|a{70}){0,9}") {

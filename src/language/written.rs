@@ -5,8 +5,8 @@ use std::mem;
 use std::sync::Arc;
 
 use super::{Editable, Lowered};
-use crate::memory::OutOfMemory;
-use crate::text::{self, Edit, Span, are_plain_numbers};
+use memory::OutOfMemory;
+use text::{Edit, Span, are_plain_numbers};
 
 /// A text, its tree, and the places of its nodes.
 #[derive(Clone, Debug)]

@@ -3,7 +3,7 @@
 use super::lines::{Fault, Statement, Word};
 use super::mesh::MeshBuilder;
 use super::plain::push_corners;
-use crate::geometry::ABSENT;
+use geometry::ABSENT;
 
 /// The kinds of values that a corner of a face refers to, in this order.
 const KINDS: [&str; 3] = ["v", "vt", "vn"];

@@ -2,7 +2,7 @@
 
 use super::lines::{Fault, Place};
 use super::{Finding, MAX_FINDINGS};
-use crate::text::{Span, counted};
+use text::{Span, counted};
 
 /// Bytes of a line quoted on either side of the start of a word; more than any report shows.
 const REACH: usize = 256;

@@ -6,8 +6,8 @@ use super::findings::{File, Findings};
 use super::lines::{Fault, Spot, Statement, Word};
 use super::mtl::{self, Material};
 use super::{Finding, MAX_LIBRARIES};
-use crate::geometry::SlotRun;
-use crate::text::visible;
+use geometry::SlotRun;
+use text::visible;
 
 /// The libraries and the materials that a mesh names.
 #[derive(Default)]

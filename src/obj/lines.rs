@@ -4,7 +4,7 @@ use std::borrow::Cow;
 use std::ops::Range;
 use std::str;
 
-use crate::text::{NumberError, parse_number, visible};
+use text::{NumberError, parse_number, visible};
 
 /// The greatest magnitude of a coordinate: boxes around such points have finite sizes.
 pub(super) const MOST: f64 = f64::MAX / 4.0;

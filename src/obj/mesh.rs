@@ -11,8 +11,8 @@ use super::lines::{Fault, Place, Spot, Statement, statements};
 use super::plain::{self, Chunk, Plain};
 use super::polygons::Polygons;
 use super::{Finding, Model};
-use crate::geometry::{Mesh, MeshParts};
-use crate::text::counted;
+use geometry::{Mesh, MeshParts};
+use text::counted;
 
 /// The maximum number of vertices, and of others, that cannot be used. They take more memory than
 /// their lines.

@@ -10,8 +10,8 @@ use rayon::prelude::*;
 
 use super::lines::{MOST, line_ends};
 use super::polygons::Polygons;
-use crate::geometry::{ABSENT, MeshParts};
-use crate::text::{leading_number, parse_number};
+use geometry::{ABSENT, MeshParts};
+use text::{leading_number, parse_number};
 
 /// The length in bytes of the parts that are read in parallel.
 pub(super) const PART: usize = 1 << 18;

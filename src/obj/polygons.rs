@@ -6,7 +6,7 @@ use glam::{DVec2, DVec3};
 use rayon::prelude::*;
 
 use super::ears;
-use crate::geometry::MeshParts;
+use geometry::MeshParts;
 
 /// The most polygons in a run, so that several threads look at long ones.
 const RUN: u32 = 1 << 12;

@@ -9,7 +9,7 @@ use glam::{DVec2, DVec3};
 use proptest::prelude::*;
 
 use super::{Edges, Map, Material, Model, mesh, plain, read};
-use crate::geometry::{Affine, Instance, Mesh, Ray, Shape};
+use geometry::{Affine, Instance, Mesh, Ray, Shape};
 
 const SQUARE: &str = "v -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0\n";
 
@@ -295,7 +295,7 @@ fn content(
 }
 
 proptest! {
-    #![proptest_config(crate::repeatable())]
+    #![proptest_config(repeatable::config())]
 
     #[test]
     fn no_bytes_make_the_reader_panic(

@@ -17,7 +17,7 @@
 use std::io::{self, BufRead, Read};
 
 use super::shard::Shard;
-use crate::render::{Provenance, Record};
+use render::{Provenance, Record};
 
 /// The first line, with the version of the format.
 const MAGIC: &str = "halflight part 1";

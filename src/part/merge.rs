@@ -9,8 +9,8 @@ use super::header::{Difference, Header};
 use super::record::{Damage, Record};
 use super::shard::{Shard, deal};
 use super::writer::blocks;
-use crate::file::{self, ReadError};
-use crate::render::{Assembly, Block, Frame, Frames, Provenance, Refusal};
+use file::ReadError;
+use render::{Assembly, Block, Frame, Frames, Provenance, Refusal};
 
 /// The size of the buffer that parts are read through, in bytes.
 const CHUNK: usize = 1 << 20;

@@ -13,7 +13,7 @@ use std::io::{self, Read};
 use crc32fast::Hasher;
 use glam::DVec3;
 
-use crate::render::{Block, Blocks, Counts};
+use render::{Block, Blocks, Counts};
 
 const GOAL: u8 = b'G';
 const BLOCK: u8 = b'B';

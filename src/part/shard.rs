@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use crate::render::Blocks;
+use render::Blocks;
 
 /// The most shards of a picture.
 pub const MOST_SHARDS: u32 = 1 << 20;
@@ -97,7 +97,7 @@ fn place_along(edge: u32, [mut x, mut y]: [u32; 2]) -> u64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scene::Size;
+    use scene::Size;
 
     #[test]
     fn shards_are_read_as_they_are_written() {

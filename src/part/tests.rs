@@ -7,8 +7,8 @@ use glam::DVec3;
 use tempfile::TempDir;
 
 use super::*;
-use crate::render::{Block, Blocks, Counts, Frames, Provenance, Settings};
-use crate::scene::{Rendering, Size, Viewpoint};
+use render::{Block, Blocks, Counts, Frames, Provenance, Settings};
+use scene::{Rendering, Size, Viewpoint};
 
 const SIZE: Size = Size {
     width: 40,

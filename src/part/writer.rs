@@ -7,8 +7,8 @@ use std::path::{Path, PathBuf};
 
 use super::header::{Difference, Header};
 use super::record::{Damage, Record};
-use crate::file::{Lock, lock};
-use crate::render::{Block, Blocks, Counts};
+use file::{Lock, lock};
+use render::{Block, Blocks, Counts};
 
 /// A part file open for writing, locked against other writers.
 #[derive(Debug)]

@@ -2,7 +2,7 @@
 
 use std::env;
 
-use crate::geometry::lanes::Level;
+use geometry::lanes::Level;
 
 /// The environment variable that caps the level, to measure and to compare levels on one machine. No
 /// pixel depends on it.

@@ -7,7 +7,7 @@ use std::sync::Arc;
 use rayon::prelude::*;
 
 /// Items per block.
-pub(crate) const BLOCK: usize = 1024;
+pub const BLOCK: usize = 1024;
 
 /// A list. Clones share blocks until they are changed. Items are found by their numbers: block `k`
 /// holds those from `k` × [`BLOCK`] on. Numbers have gaps behind blocks that are not full.
@@ -20,7 +20,7 @@ pub struct Blocks<T> {
 impl<T> Blocks<T> {
     /// Creates a list from blocks, none of which is empty; behind those that are not full, numbers
     /// are left out.
-    pub(crate) fn of_blocks(blocks: Vec<Arc<[T]>>) -> Self {
+    pub fn of_blocks(blocks: Vec<Arc<[T]>>) -> Self {
         debug_assert!(
             blocks
                 .iter()
@@ -31,7 +31,7 @@ impl<T> Blocks<T> {
     }
 
     /// The blocks in order.
-    pub(crate) fn blocks(&self) -> &[Arc<[T]>] {
+    pub fn blocks(&self) -> &[Arc<[T]>] {
         &self.blocks
     }
 
@@ -82,7 +82,7 @@ impl<T> Blocks<T> {
 
 impl<T: Sync + Send> Blocks<T> {
     /// Iterates in parallel over all items and their numbers, in order.
-    pub(crate) fn par_numbered(&self) -> impl ParallelIterator<Item = (usize, &T)> {
+    pub fn par_numbered(&self) -> impl ParallelIterator<Item = (usize, &T)> {
         /// Blocks per task of a parallel walk over all items.
         const TASK: usize = 8;
         let blocks = self.blocks.par_iter().with_min_len(TASK).enumerate();
@@ -90,10 +90,9 @@ impl<T: Sync + Send> Blocks<T> {
     }
 }
 
-#[cfg(test)]
 impl<T: Clone> Blocks<T> {
     /// Edits the list as a whole.
-    pub(crate) fn edit(&mut self, edit: impl FnOnce(&mut Vec<T>)) {
+    pub fn edit(&mut self, edit: impl FnOnce(&mut Vec<T>)) {
         let mut items = self.iter().cloned().collect();
         edit(&mut items);
         *self = items.into();
@@ -115,7 +114,6 @@ impl<T> Index<usize> for Blocks<T> {
     }
 }
 
-#[cfg(test)]
 impl<T: Clone> std::ops::IndexMut<usize> for Blocks<T> {
     fn index_mut(&mut self, number: usize) -> &mut T {
         &mut Arc::make_mut(&mut self.blocks[number / BLOCK])[number % BLOCK]

@@ -1,6 +1,8 @@
 //! Materials of surfaces.
 
-use super::Rgb;
+use geometry::Side;
+
+use super::{GlossRule, Rgb};
 
 /// The optical properties of a surface.
 ///
@@ -154,6 +156,15 @@ pub struct Bump {
     pub height: f64,
 }
 
+/// Absorption per unit of length along the rays that leave a surface.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Losses {
+    /// Along the ray that passes through.
+    pub refracted: Rgb,
+    /// Along the ray that is thrown back.
+    pub mirrored: Rgb,
+}
+
 impl Material {
     /// A black surface that reflects and emits nothing.
     pub const BLACK: Self = Self {
@@ -210,14 +221,92 @@ impl Material {
     }
 
     /// Whether it reflects no light diffusely or as a highlight.
-    pub(crate) fn is_unlit(&self) -> bool {
+    pub fn is_unlit(&self) -> bool {
         self.highlight == Highlight::None && self.diffuse == Rgb::ZERO
+    }
+
+    /// Diffuse reflectance.
+    #[inline]
+    pub fn diffuse(&self) -> Rgb {
+        match self.highlight {
+            Highlight::Microfacet { metallic, .. } => (1.0 - metallic) * self.diffuse,
+            _ => self.diffuse,
+        }
+    }
+
+    /// The colour shown without lighting.
+    #[inline]
+    pub fn albedo(&self) -> Rgb {
+        if self.is_unlit() {
+            self.emission
+        } else {
+            self.diffuse()
+        }
+    }
+
+    /// The exponent by which the facets of mirrors and glass are spread; `None` if cones spread them.
+    #[inline]
+    pub fn facets(&self, rule: GlossRule) -> Option<f64> {
+        match (rule, self.highlight) {
+            (GlossRule::Exponent, Highlight::Blinn(gloss)) => Some(gloss.exponent),
+            _ => None,
+        }
+    }
+
+    /// Radiance under ambient light alone.
+    #[inline]
+    pub fn glow(&self, ambient: Rgb) -> Rgb {
+        self.emission + self.ambience(ambient)
+    }
+
+    /// Reflected ambient light.
+    #[inline]
+    pub fn ambience(&self, ambient: Rgb) -> Rgb {
+        ambient * self.ambient.unwrap_or_else(|| self.diffuse())
+    }
+
+    /// Weight of mirror reflection.
+    #[inline]
+    pub fn mirror_tint(&self, side: Side) -> Rgb {
+        if self.mirror.faces.include(side) {
+            self.mirror.tint
+        } else {
+            Rgb::ZERO
+        }
+    }
+
+    /// Whether a side emits light and reflects that of lights.
+    #[inline]
+    pub fn is_lit(&self, side: Side) -> bool {
+        self.lit.include(side)
+    }
+
+    /// Absorption along the rays that leave the surface; only inside the solid.
+    #[inline]
+    pub fn losses(&self, side: Side) -> Losses {
+        let [inside, outside] = [self.dielectric.absorption, Rgb::ZERO];
+        let [refracted, mirrored] = match side {
+            Side::Front => [inside, outside],
+            Side::Back => [outside, inside],
+        };
+        Losses {
+            refracted,
+            mirrored,
+        }
     }
 }
 
 impl Default for Material {
     fn default() -> Self {
         Self::BLACK
+    }
+}
+
+impl Faces {
+    /// Whether a side is included.
+    #[inline]
+    pub fn include(self, side: Side) -> bool {
+        side == Side::Front || self == Self::Both
     }
 }
 

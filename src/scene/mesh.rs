@@ -4,7 +4,7 @@ use std::collections::HashMap;
 use std::path::Path;
 use std::sync::Arc;
 
-use crate::obj::{Finding, Model};
+use obj::{Finding, Model};
 
 /// The meshes of a scene, or the reasons why they cannot be read, by their paths as written in the
 /// text. Paths not read yet are missing.

@@ -5,13 +5,11 @@ mod choices;
 mod key;
 mod rows;
 
+use crate::render_settings;
 pub use choices::{FalloffRule, Filter, GlossRule, Integrator, Transfer};
 pub use key::{CommandOption, RenderKey, RenderSetting, Values};
-pub(crate) use rows::render_settings;
 
 use std::ops::RangeInclusive;
-
-use crate::scene;
 
 /// Default samples per pixel of full-size pictures.
 pub const DEFAULT_SPP: u32 = 16;

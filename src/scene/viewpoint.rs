@@ -216,7 +216,7 @@ impl Part {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scene::{Focus, Size};
+    use crate::{Focus, Size};
 
     const OWN: Camera = Camera {
         eye: DVec3::new(0.0, 0.0, 5.0),

@@ -176,7 +176,7 @@ mod tests {
     }
 
     proptest! {
-        #![proptest_config(crate::repeatable())]
+        #![proptest_config(repeatable::config())]
 
         #[test]
         fn the_smallest_edit_round_trips(old in "[aé ]{0,9}", new in "[aé ]{0,9}") {

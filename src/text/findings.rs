@@ -116,7 +116,7 @@ impl Deref for Findings {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::text::Span;
+    use crate::Span;
 
     #[test]
     fn a_hundred_of_each_severity_are_kept_and_all_are_counted() {

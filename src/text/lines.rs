@@ -109,7 +109,7 @@ mod tests {
     }
 
     proptest! {
-        #![proptest_config(crate::repeatable())]
+        #![proptest_config(repeatable::config())]
 
         #[test]
         fn every_offset_is_in_one_line(text in "[ab\r\n]{0,20}") {

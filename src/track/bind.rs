@@ -4,10 +4,10 @@ use std::collections::BTreeMap;
 
 use super::field::{self, Place};
 use super::{CameraTrack, FieldTrack, Keys, Parameter, Track, Value, thing};
-use crate::language::table::Range;
-use crate::language::{Node, Placed, Source};
-use crate::scene::{Camera, Lens};
-use crate::text::{Diagnostic, Edit, Findings, spell_like};
+use language::table::Range;
+use language::{Node, Placed, Source};
+use scene::{Camera, Lens};
+use text::{Diagnostic, Edit, Findings, spell_like};
 
 /// A track whose names are resolved in the text of a scene.
 #[derive(Clone, Debug, PartialEq)]

@@ -3,9 +3,9 @@
 use glam::DVec3;
 
 use super::Keys;
-use crate::language::table::Range;
-use crate::scene::{Camera, Lens};
-use crate::text::Span;
+use language::table::Range;
+use scene::{Camera, Lens};
+use text::Span;
 
 /// How the camera moves over the frames.
 #[derive(Clone, Debug, PartialEq)]

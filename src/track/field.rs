@@ -3,9 +3,9 @@
 use std::collections::BTreeMap;
 
 use super::{Key, Keys, Named, Value};
-use crate::language::table::{Field, Kind, Range};
-use crate::language::{Node, Placed, Source};
-use crate::text::{Diagnostic, Findings, alternatives, counted, nearest_word};
+use language::table::{Field, Kind, Range};
+use language::{Node, Placed, Source};
+use text::{Diagnostic, Findings, alternatives, counted, nearest_word};
 
 /// A field of a thing, or one component of it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -6,9 +6,9 @@ use toml::de::{DeTable, DeValue};
 use super::camera::Parameter;
 use super::written::{Unkeyed, Written, appended, entry};
 use super::{Bound, CameraTrack, Easing, Movement, Track, field, thing};
-use crate::language::{Node, Placed, Source};
-use crate::scene::Camera;
-use crate::text::{Edit, parse_number};
+use language::{Node, Placed, Source};
+use scene::Camera;
+use text::{Edit, parse_number};
 
 /// What a track that is begun says of its length: two seconds.
 pub const BEGUN: &str = "frames = 48\nfps = 24\n";

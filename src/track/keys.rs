@@ -1,7 +1,7 @@
 //! Keys: values at frames, and the values between them.
 
 use super::Easing;
-use crate::text::Span;
+use text::Span;
 
 /// A value of a field or of a parameter of the camera.
 #[derive(Clone, Debug, PartialEq)]

@@ -5,7 +5,7 @@ use toml::de::{DeTable, DeValue};
 use super::camera::{Movement, Parameter};
 use super::table::{Placed, Table, elements, integer, number, span_of, string, wrong};
 use super::{CameraTrack, Easing, FieldTrack, Key, Keys, Track, Value};
-use crate::text::{Diagnostic, Findings, Span, alternatives, counted, nearest_word};
+use text::{Diagnostic, Findings, Span, alternatives, counted, nearest_word};
 
 /// The largest number of frames.
 pub const MAX_FRAMES: u32 = 1_000_000;

@@ -6,7 +6,7 @@ use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
 use super::Named;
-use crate::text::{Diagnostic, Findings, Span, alternatives, nearest_word, parse_number};
+use text::{Diagnostic, Findings, Span, alternatives, nearest_word, parse_number};
 
 /// A value and its place.
 pub(super) type Placed<'a, 'i> = &'a Spanned<DeValue<'i>>;

@@ -6,9 +6,9 @@ use glam::DVec3;
 use proptest::prelude::*;
 
 use super::*;
-use crate::language::{Language, Source};
-use crate::scene::{Camera, Lens, Meshes, Scene};
-use crate::text::{Diagnostic, Findings, Position};
+use language::{Language, Source};
+use scene::{Camera, Lens, Meshes, Scene};
+use text::{Diagnostic, Findings, Position};
 
 /// Lowers a valid scene.
 fn scene(language: Language, text: &str) -> (Source, Scene) {
@@ -79,7 +79,7 @@ fn easings_pass_through_numbers_known_on_paper() {
 }
 
 proptest! {
-    #![proptest_config(crate::repeatable())]
+    #![proptest_config(repeatable::config())]
 
     #[test]
     fn a_key_has_its_value_at_its_frame_and_no_other_goes_beyond(

@@ -1,8 +1,8 @@
 //! Things of a scene by their names.
 
 use super::Named;
-use crate::language::{Node, Source};
-use crate::text::{Diagnostic, Span, alternatives, nearest_word};
+use language::{Node, Source};
+use text::{Diagnostic, Span, alternatives, nearest_word};
 
 /// How many names a message lists.
 const MOST_LISTED: usize = 6;

@@ -5,7 +5,7 @@ use toml::de::DeValue;
 
 use super::table::{integer, span_of};
 use super::{Easing, MAX_FRAMES};
-use crate::text::{Edit, Span, line_end, line_start};
+use text::{Edit, Span, line_end, line_start};
 
 /// Why a value cannot be keyed.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]

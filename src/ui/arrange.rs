@@ -10,7 +10,7 @@ mod tests;
 use ratatui::layout::Rect;
 
 use super::layout::{NOTES, ROOMY, raster, split_bottom, split_right};
-use crate::scene::Size;
+use scene::Size;
 
 /// Share of the screen that the picture takes.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]

@@ -11,10 +11,10 @@ use std::time::Duration;
 use super::state_folder::{self, Part};
 use super::terminal::interview::{self, Answers};
 use super::terminal::{self, Budget, Choice, ColourDepth, Protocol, Reply, query, tmux};
-use crate::assets::Assets;
-use crate::memory::{self, Available};
-use crate::render::{CAP, CAPS, vectors};
-use crate::text::{alternatives, counted, visible};
+use assets::Assets;
+use memory::Available;
+use render::{CAP, CAPS, vectors};
+use text::{alternatives, counted, visible};
 
 /// The DEC private mode of synchronized output.
 const SYNCHRONIZED: u16 = 2026;
@@ -311,7 +311,7 @@ fn folders(scene: Option<&Path>, folder: &Path) -> Vec<String> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::ui::terminal::{Reply, environment};
+    use crate::terminal::{Reply, environment};
 
     fn answers(replies: &[Reply]) -> Answers {
         Answers {

@@ -11,7 +11,7 @@ use unicode_width::{UnicodeWidthChar, UnicodeWidthStr};
 use super::layout::split_bottom;
 use super::text_width::{shorten, visible, wrap};
 use super::theme;
-use crate::text::{Diagnostic, Findings, Position, Shown, Span, line_end, line_start};
+use text::{Diagnostic, Findings, Position, Shown, Span, line_end, line_start};
 
 /// Bytes of a line read on either side of a span; more than any screen shows.
 const REACH: usize = 2048;
@@ -253,7 +253,7 @@ mod tests {
     }
 
     proptest! {
-        #![proptest_config(crate::repeatable())]
+        #![proptest_config(repeatable::config())]
 
         #[test]
         fn excerpts_fit_and_contain_no_control_characters(

@@ -3,8 +3,8 @@
 use std::sync::mpsc::Sender;
 use std::time::Instant;
 
-use crate::ui::msg::{Msg, Target};
-use crate::ui::terminal::{self, Reply, Unread};
+use crate::msg::{Msg, Target};
+use crate::terminal::{self, Reply, Unread};
 
 /// An arrival in the inbox.
 #[derive(Debug)]

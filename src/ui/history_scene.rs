@@ -3,9 +3,9 @@
 use std::path::PathBuf;
 use std::sync::Arc;
 
-use crate::assets::Wanted;
-use crate::document::Timeline;
-use crate::scene::{Images, Meshes, Scene};
+use assets::Wanted;
+use document::Timeline;
+use scene::{Images, Meshes, Scene};
 
 /// A text of the history whose scene is wanted.
 #[derive(Clone, Debug)]

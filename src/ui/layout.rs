@@ -5,7 +5,7 @@
 
 use ratatui::layout::{Position, Rect};
 
-use crate::scene::Size;
+use scene::Size;
 
 /// Returns the largest picture with the aspect ratio of `output` inside `area`, at two pixels per
 /// cell, one above the other: its cells, centred, and its size in pixels. `None` if there is no
@@ -281,12 +281,12 @@ pub(super) mod tests {
     use proptest::prelude::*;
 
     /// A size in pixels.
-    pub(in crate::ui) const fn size(width: u32, height: u32) -> Size {
+    pub(crate) const fn size(width: u32, height: u32) -> Size {
         Size { width, height }
     }
 
     proptest! {
-        #![proptest_config(crate::repeatable())]
+        #![proptest_config(repeatable::config())]
 
         #[test]
         fn a_raster_touches_two_sides_and_keeps_the_aspect_ratio(

@@ -3,8 +3,8 @@
 //! Headings cannot be selected. Nothing is stored per line, so that a list of millions of objects
 //! costs no more than a short one, except the rows of a list that shows only some.
 
-use crate::language::{Node, Nodes};
-use crate::text::counted;
+use language::{Node, Nodes};
+use text::counted;
 
 /// A line of the list.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -127,8 +127,8 @@ mod tests {
     use std::sync::Arc;
 
     use super::*;
-    use crate::language::{Language, Source};
-    use crate::scene::Meshes;
+    use language::{Language, Source};
+    use scene::Meshes;
 
     fn nodes(language: Language, text: &str) -> Nodes {
         let mut source = Source::new(language, Arc::new(text.to_owned()));

@@ -16,13 +16,13 @@ use super::reel::{Reel, ReelProgress};
 use super::reference::{Pair, ReferenceId, ReferenceRead, ReferenceSource};
 use super::scene_reading::{Baseline, Opened, Reading};
 use super::terminal::{ColourDepth, Mouse};
-use crate::assets::{Loaded, Wanted};
-use crate::compare::Comparison;
-use crate::document::Snapshot;
-use crate::file::{ReadError, Version};
-use crate::language::Language;
-use crate::render::{Explanation, Frame, Job};
-use crate::scene::Viewpoint;
+use assets::{Loaded, Wanted};
+use compare::Comparison;
+use document::Snapshot;
+use file::{ReadError, Version};
+use language::Language;
+use render::{Explanation, Frame, Job};
+use scene::Viewpoint;
 
 /// The picture that a frame belongs to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]

@@ -7,8 +7,8 @@ use super::keymap::Keymap;
 use super::pixels::Pixels;
 use super::terminal::{Choice, ColourDepth, Mouse};
 use super::theme::Theme;
-use crate::scene::Rendering;
-use crate::watch::Method;
+use scene::Rendering;
+use watch::Method;
 
 /// Options of the interface, from the command line and a configuration; `None` selects the default.
 #[derive(Clone, Debug, Default, PartialEq)]

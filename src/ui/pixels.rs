@@ -56,6 +56,6 @@ impl Pixels {
 
     /// All names, for messages: `auto, half, … or iterm`.
     pub fn names() -> String {
-        crate::text::alternatives(Self::ALL.map(Self::name))
+        text::alternatives(Self::ALL.map(Self::name))
     }
 }

@@ -4,12 +4,12 @@ use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use crate::file::Version;
-use crate::image_file::{ImageFormat, MovieFormat, Pattern, known_extensions};
-use crate::language::Language;
-use crate::render::{Aov, Progress};
-use crate::scene::{Camera, Rendering, Size};
-use crate::track::Track;
+use file::Version;
+use image_file::{ImageFormat, MovieFormat, Pattern, known_extensions};
+use language::Language;
+use render::{Aov, Progress};
+use scene::{Camera, Rendering, Size};
+use track::Track;
 
 /// A sequence to export.
 #[derive(Clone, Debug)]

@@ -4,15 +4,14 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use super::revision;
-use crate::assets::Assets;
-use crate::compare::{Comparison, SizesDiffer};
-use crate::file;
-use crate::image_file::Recorded;
-use crate::language::{self, Language, Source, errors_of_beginning};
-use crate::memory::OutOfMemory;
-use crate::render::{Frame, Record};
-use crate::scene::{Image, Images, Scene, Size};
-use crate::text::Findings;
+use assets::Assets;
+use compare::{Comparison, SizesDiffer};
+use image_file::Recorded;
+use language::{Language, Source, errors_of_beginning};
+use memory::OutOfMemory;
+use render::{Frame, Record};
+use scene::{Image, Images, Scene, Size};
+use text::Findings;
 
 /// Identifies a request of the session; starts at 1 and increases.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]

@@ -5,9 +5,8 @@ mod git;
 use std::ffi::{OsStr, OsString};
 use std::path::Path;
 
-use crate::file;
-use crate::memory::{self, Need, megabytes};
 use git::{Git, Ran};
+use memory::{Need, megabytes};
 
 /// The longest scene in bytes: a repository of a few megabytes may hold one of gigabytes.
 const MOST: u64 = 512 << 20;

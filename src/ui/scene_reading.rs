@@ -3,12 +3,12 @@
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use crate::document::{Difference, Document, Merge, Merged, Numbers, Snapshot};
-use crate::file::{self, FileId};
-use crate::language::{self, Lowered};
-use crate::memory::OutOfMemory;
-use crate::scene::Meshes;
-use crate::text::Findings;
+use document::{Difference, Document, Merge, Merged, Numbers, Snapshot};
+use file::FileId;
+use language::Lowered;
+use memory::OutOfMemory;
+use scene::Meshes;
+use text::Findings;
 
 /// State that a text read from disk is compared with.
 #[derive(Clone, Debug)]

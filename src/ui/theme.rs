@@ -9,8 +9,8 @@ use glam::DVec3;
 use ratatui::buffer::Buffer;
 use ratatui::style::{Color, Modifier, Style};
 
-use crate::scene::Rgb;
-use crate::text::Severity;
+use scene::Rgb;
+use text::Severity;
 
 /// The colours of everything but pictures.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -211,7 +211,7 @@ mod tests {
     fn text_of_the_light_theme_is_legible_on_white() {
         for style in STYLES {
             let cell = shown(Theme::Light, style);
-            let ink = crate::ui::terminal::colour_on_screen(cell.fg).expect("a colour");
+            let ink = crate::terminal::colour_on_screen(cell.fg).expect("a colour");
             let ratio = contrast(ink, [255, 255, 255]);
             assert!(4.5 <= ratio, "{style:?}: {ratio}");
             assert_eq!(cell.modifier, style.add_modifier);

@@ -7,7 +7,7 @@ use std::sync::mpsc::{Receiver, RecvTimeoutError};
 use std::time::{Duration, Instant};
 
 use super::notice::{Notice, WatchMessage};
-use crate::file::{self, Version};
+use file::Version;
 
 /// How many bytes of a file polling compares. In longer files, which only meshes are, it detects
 /// changes of the length or of this beginning.

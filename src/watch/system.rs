@@ -50,7 +50,7 @@ enum Unwatched {
 impl<S: notify::Watcher> WatchedPaths<S> {
     /// Watches paths from now on; events go to `inbox`.
     pub(super) fn new(paths: Vec<PathBuf>, inbox: Sender<WatchMessage>) -> Self {
-        let absolute = paths.iter().map(|path| crate::file::absolute(path));
+        let absolute = paths.iter().map(|path| file::absolute(path));
         let absolute: Vec<_> = absolute.collect();
         let mut places = Self {
             names: Names::of(&absolute),

@@ -1,5 +1,5 @@
-//! The rooms and their dependencies, as described in `src/lib.rs`. Listing another import, or
-//! permitting a cycle of files, is a decision about the design.
+//! What the manifests of the rooms do not hold: that they name no more than is used, and the order of
+//! files. Permitting a cycle of files is a decision about the design.
 
 mod ceilings;
 mod sources;
@@ -9,89 +9,6 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use sources::{Name, Sources, in_name};
-
-/// Each room and the rooms it may use.
-const ARROWS: &[(&str, &[&str])] = &[
-    ("memory", &[]),
-    ("text", &[]),
-    ("geometry", &[]),
-    ("obj", &["geometry", "text"]),
-    ("scene", &["geometry", "obj"]),
-    ("language", &["geometry", "memory", "obj", "scene", "text"]),
-    ("document", &["language", "memory", "scene", "text"]),
-    ("accel", &["geometry"]),
-    ("render", &["accel", "geometry", "memory", "scene"]),
-    ("explain", &["language", "render", "scene", "text"]),
-    ("file", &["memory", "text"]),
-    ("image_file", &["file", "render", "scene"]),
-    (
-        "assets",
-        &[
-            "file",
-            "image_file",
-            "language",
-            "memory",
-            "obj",
-            "scene",
-            "text",
-        ],
-    ),
-    ("compare", &["scene"]),
-    ("part", &["file", "render"]),
-    ("track", &["language", "scene", "text"]),
-    ("watch", &["file"]),
-    (
-        "batch",
-        &[
-            "assets",
-            "compare",
-            "explain",
-            "file",
-            "image_file",
-            "language",
-            "memory",
-            "part",
-            "render",
-            "scene",
-            "text",
-            "track",
-        ],
-    ),
-    (
-        "ui",
-        &[
-            "assets",
-            "compare",
-            "document",
-            "explain",
-            "file",
-            "image_file",
-            "language",
-            "memory",
-            "render",
-            "scene",
-            "text",
-            "track",
-            "watch",
-        ],
-    ),
-    ("config", &["file", "render", "scene", "text", "ui"]),
-    (
-        "cli",
-        &[
-            "batch",
-            "config",
-            "file",
-            "image_file",
-            "language",
-            "part",
-            "render",
-            "scene",
-            "text",
-            "ui",
-        ],
-    ),
-];
 
 /// The rooms of the renderer, from the bottom up: each uses those before it.
 const RENDER: &[&str] = &[
@@ -107,74 +24,22 @@ const RENDER: &[&str] = &[
     "explain",
 ];
 
-/// Each dependency and the rooms that use it; `*` means all.
-const DEPENDENCIES: &[(&str, &str)] = &[
-    ("annotate_snippets", "batch"),
-    ("anstyle_lossy", "ui"),
-    ("arrayvec", "accel"),
-    ("base64", "ui"),
-    ("clap", "cli"),
-    ("clap_complete", "cli"),
-    ("clap_mangen", "cli"),
-    ("crc32fast", "part"),
-    ("crossterm", "ui"),
-    ("exr", "image_file"),
-    ("fearless_simd", "geometry"),
-    ("glam", "*"),
-    ("image", "image_file"),
-    ("libm", "geometry language render scene track ui"),
-    ("notify", "watch"),
-    ("png", "image_file"),
-    ("ratatui", "ui"),
-    (
-        "rayon",
-        "accel assets file geometry language memory obj render scene ui",
-    ),
-    ("roxmltree", "language"),
-    ("rustix", "assets batch file memory render ui"),
-    ("serde_json", "batch"),
-    ("sha2", "file"),
-    ("shlex", "text"),
-    ("signal_hook", "batch ui"),
-    ("signal_hook_registry", "ui"),
-    ("similar", "document"),
-    ("smallvec", "geometry"),
-    ("sobol_burley", "render"),
-    ("termprofile", "ui"),
-    (
-        "thiserror",
-        "assets batch config file geometry image_file language memory part render track ui",
-    ),
-    ("toml", "config track"),
-    ("tui_input", "ui"),
-    ("unicode_width", "text ui"),
-];
-
 /// The rooms without any cycle of files. In the others, a file and those in its folder may use each
 /// other, like a type and its parts; siblings may not.
 const ACYCLIC: &[&str] = &["cli", "config", "text", "ui", "watch"];
 
 #[test]
-fn rooms_use_only_permitted_rooms() {
-    for (file, room, line) in lines() {
-        assert!(
-            !line.contains("crate::{"),
-            "{}: one import a room: {line}",
-            file.display()
-        );
-        for named in names_after(&line, "crate::") {
-            let allowed = ARROWS
-                .iter()
-                .find(|(from, _)| *from == room)
-                .map(|(_, to)| *to);
-            let allowed = allowed.unwrap_or_else(|| panic!("{room} is not listed in ARROWS"));
-            let is_room = ARROWS.iter().any(|(name, _)| *name == named);
-            assert!(
-                !is_room || named == room || allowed.contains(&named.as_str()),
-                "{}: {room} → {named}: {line}",
-                file.display()
-            );
+fn manifests_name_what_their_rooms_use() {
+    let mut code: BTreeMap<String, String> = BTreeMap::new();
+    for (name, module) in Sources::of("src").iter() {
+        if let Some(room) = name.first() {
+            code.entry(room.clone()).or_default().push_str(&module.code);
         }
+    }
+    for (room, code) in &code {
+        let named = dependencies(&root().join(format!("src/{room}/Cargo.toml")));
+        let unused = named.iter().filter(|name| !names_crate(code, name));
+        assert_eq!(unused.count(), 0, "{room} uses all of {named:?}");
     }
 }
 
@@ -189,22 +54,6 @@ fn the_rooms_of_the_renderer_use_those_below() {
         if let (Some(user), Some(used)) = (place(&from), place(&to)) {
             assert!(used <= user, "{} → {}", from.join("/"), to.join("/"));
         }
-    }
-}
-
-#[test]
-fn each_dependency_is_used_by_its_rooms() {
-    let mut users: BTreeMap<&str, BTreeSet<String>> = BTreeMap::new();
-    for (_, room, line) in lines() {
-        for (dependency, _) in DEPENDENCIES {
-            if names_crate(&line, dependency) {
-                users.entry(dependency).or_default().insert(room.clone());
-            }
-        }
-    }
-    for (dependency, rooms) in DEPENDENCIES.iter().filter(|(_, rooms)| *rooms != "*") {
-        let users: Vec<_> = users[dependency].iter().map(String::as_str).collect();
-        assert_eq!(users.join(" "), *rooms, "{dependency}");
     }
 }
 
@@ -241,27 +90,6 @@ fn files_have_no_cyclic_dependencies() {
     }
 }
 
-#[test]
-fn the_manifest_and_the_list_of_dependencies_agree() {
-    let manifest = fs::read_to_string(root().join("Cargo.toml")).expect("the manifest is there");
-    let wanted: BTreeSet<_> = manifest
-        .split("\n[")
-        .filter(|section| {
-            section
-                .split(']')
-                .next()
-                .is_some_and(|name| name == "dependencies" || name.ends_with(".dependencies"))
-        })
-        .flat_map(|section| section.lines().skip(1))
-        .filter_map(|line| Some(line.split_once('=')?.0.trim().replace('-', "_")))
-        .collect();
-    let listed: BTreeSet<_> = DEPENDENCIES
-        .iter()
-        .map(|(name, _)| (*name).to_owned())
-        .collect();
-    assert_eq!(listed, wanted);
-}
-
 /// Edges from each name to the names it uses.
 type Graph = BTreeMap<String, BTreeSet<String>>;
 
@@ -292,18 +120,13 @@ fn circles(graph: &Graph) -> BTreeSet<String> {
     circular.map(|name| circle(&name)).collect()
 }
 
-/// Every line of code outside comments and tests: file, room, line.
-fn lines() -> Vec<(PathBuf, String, String)> {
-    let mut lines = Vec::new();
-    for (name, module) in Sources::of("src").iter() {
-        // The two files at the top are in no room.
-        if let Some(room) = name.first() {
-            let code = module.code.lines();
-            lines.extend(code.map(|line| (module.file.clone(), room.clone(), line.to_owned())));
-        }
-    }
-    assert!(1000 < lines.len(), "the sources were found");
-    lines
+/// The crates that a manifest lets its sources use, apart from tests.
+fn dependencies(manifest: &Path) -> Vec<String> {
+    let text = fs::read_to_string(manifest).expect("each room has a manifest");
+    let (_, section) = text.split_once("[dependencies]\n").expect("it has some");
+    let section = section.split("\n[").next().unwrap_or_default();
+    let names = section.lines().filter_map(|line| line.split_once('.'));
+    names.map(|(name, _)| name.replace('-', "_")).collect()
 }
 
 /// The names that follow `prefix` in a line.
@@ -314,10 +137,10 @@ fn names_after(line: &str, prefix: &str) -> Vec<String> {
         .collect()
 }
 
-/// Whether a line contains a path that begins with this crate's name.
-fn names_crate(line: &str, name: &str) -> bool {
-    line.match_indices(&format!("{name}::")).any(|(at, _)| {
-        let before = line[..at].chars().next_back();
+/// Whether code contains a path that begins with this crate's name.
+fn names_crate(code: &str, name: &str) -> bool {
+    code.match_indices(&format!("{name}::")).any(|(at, _)| {
+        let before = code[..at].chars().next_back();
         before.is_none_or(|c| !in_name(c) && c != ':')
     })
 }

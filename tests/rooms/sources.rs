@@ -73,11 +73,11 @@ impl Sources {
         Some([&base, rest].concat())
     }
 
-    /// The root of the crate that contains a file: the folder of a `main.rs`, or the top.
+    /// The root of the crate that contains a file: the folder of a `lib.rs` or `main.rs`, or the top.
     fn root_of(&self, from: &Name) -> Name {
         let is_root = |name: &&[String]| {
-            let module = self.0.get(*name);
-            module.is_some_and(|module| module.file.ends_with("main.rs"))
+            let file = self.0.get(*name).map(|module| &module.file);
+            file.is_some_and(|file| file.ends_with("lib.rs") || file.ends_with("main.rs"))
         };
         let above = (1..=from.len()).map(|length| &from[..length]);
         above.rev().find(is_root).unwrap_or_default().to_vec()

@@ -8,8 +8,8 @@ use super::super::build::LEVELS;
 use super::super::node::{Bounds, Child, WIDTH};
 use super::super::split::{CancelCheck, Extent, Halves, Reference, by_area, by_count};
 use super::*;
-use crate::geometry::Ray;
-use crate::geometry::lanes::{Level, dispatch};
+use geometry::Ray;
+use geometry::lanes::{Level, dispatch};
 
 /// Checks a subtree: children's boxes lie in `outer` and contain their own boxes. Returns the
 /// number of levels.

@@ -5,7 +5,7 @@ mod walk;
 use glam::DVec3;
 
 use super::Bvh;
-use crate::geometry::Aabb;
+use geometry::Aabb;
 
 /// `SplitMix64` (Steele, Lea and Flood, 2014): reproducible numbers without a dependency.
 struct Random(u64);

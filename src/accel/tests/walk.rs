@@ -3,8 +3,8 @@
 use super::super::Order;
 use super::super::node::{Bounds, Child, Node};
 use super::*;
-use crate::geometry::lanes::{Eight, Level, SimdBase, dispatch};
-use crate::geometry::{Ray, Rays};
+use geometry::lanes::{Eight, Level, SimdBase, dispatch};
+use geometry::{Ray, Rays};
 
 /// A ray aimed at a point of a box: the centre, a corner, or the middle of an edge or a face, from
 /// inside or outside, often along an axis.

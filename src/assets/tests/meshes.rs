@@ -1,8 +1,8 @@
 //! Reading meshes and their libraries.
 
 use super::*;
-use crate::obj::{self, Model};
-use crate::scene::NoMesh;
+use obj::Model;
+use scene::NoMesh;
 
 /// A triangle with a library in the same folder.
 const TRIANGLE: &str = "mtllib a.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl a\nf 1 2 3\n";

@@ -5,9 +5,9 @@ use std::path::Path;
 use glam::DVec3;
 use serde_json::{Value, json};
 
-use crate::explain::{Place, Sentence, Subject, Words};
-use crate::language::Node;
-use crate::render::{
+use explain::{Place, Sentence, Subject, Words};
+use language::Node;
+use render::{
     Crossing, Densities, EmitterTerm, Explanation, LightTerm, RayEnd, RayKind, Shading, Side, Stop,
     TracedRay, UnlitReason,
 };

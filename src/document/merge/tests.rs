@@ -270,7 +270,7 @@ fn a_window_of_few_lines_is_wide_enough_or_not_used() {
 }
 
 proptest! {
-    #![proptest_config(crate::repeatable())]
+    #![proptest_config(repeatable::config())]
 
     // Merging the lines around the changes, if they suffice, gives the same as merging all lines.
     #[test]

@@ -6,8 +6,8 @@ use proptest::prelude::*;
 use proptest::sample::{Index, select};
 
 use super::{check_tree, document, replace, set};
-use crate::document::{Document, StateId, StepName};
-use crate::text::{Edit, Span};
+use crate::{Document, StateId, StepName};
+use text::{Edit, Span};
 
 /// Sets the leaf at an index and names that after it.
 fn name(document: &mut Document, leaf: usize, literal: &str) {
@@ -137,7 +137,7 @@ fn act(document: &mut Document, doing: &Doing) {
 }
 
 proptest! {
-    #![proptest_config(crate::repeatable())]
+    #![proptest_config(repeatable::config())]
 
     #[test]
     fn every_state_keeps_its_text(doings in doings()) {

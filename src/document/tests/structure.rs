@@ -5,9 +5,9 @@ use std::collections::{BTreeMap, BTreeSet};
 use glam::DVec3;
 
 use super::*;
-use crate::language::table::Kind;
-use crate::language::{Neighbour, Node, Visibility, Wish};
-use crate::text::smallest_edit;
+use language::table::Kind;
+use language::{Neighbour, Node, Visibility, Wish};
+use text::smallest_edit;
 
 /// A scene in which most numbers are the same as its counts.
 const ONE: &str = "\

@@ -1,11 +1,11 @@
 //! Verdicts on lights as sentences.
 
 use super::{ATTENUATION, CONE, Case, LIGHT_COLOUR, LIGHT_DIRECTION, LIGHT_PLACE, raise};
-use crate::explain::Sentence;
-use crate::explain::names::{Names, colour, number, percent};
-use crate::language::Node;
-use crate::render::Verdict;
-use crate::scene::{Emitter, FalloffRule, Integrator};
+use crate::Sentence;
+use crate::names::{Names, colour, number, percent};
+use language::Node;
+use render::Verdict;
+use scene::{Emitter, FalloffRule, Integrator};
 
 impl Case<'_> {
     pub(super) fn of_light(&self, verdict: &Verdict) -> Sentence {

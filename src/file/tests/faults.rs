@@ -3,7 +3,7 @@
 use rustix::io::Errno;
 
 use super::*;
-use crate::file::faults::{Calls, Fault, during};
+use crate::faults::{Calls, Fault, during};
 
 pub(super) const OLD: &str = "the old content, which is longer than the new one";
 pub(super) const NEW: &str = "the new content";

@@ -5,7 +5,7 @@ use std::process::Command;
 
 use super::faults::{Case, MOST};
 use super::*;
-use crate::file::faults::{Fault, during};
+use crate::faults::{Fault, during};
 
 /// Environment variable with an order: lines with the call to be killed at, the file, the content.
 const ORDER: &str = "HALFLIGHT_TEST_KILL";

@@ -4,7 +4,7 @@ use std::sync::mpsc;
 use std::thread;
 
 use super::*;
-use crate::file::lock::{Lock, lock};
+use crate::lock::{Lock, lock};
 
 /// The second must not look before the first, which has looked already, has written.
 #[test]

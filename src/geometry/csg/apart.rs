@@ -6,9 +6,9 @@ use super::merge::APART;
 use super::program::{Instruction, Program};
 use super::slopes::Slopes;
 use super::{Csg, Operation};
-use crate::geometry::Rays;
-use crate::geometry::lanes::Lanes;
-use crate::geometry::line::End;
+use crate::Rays;
+use crate::lanes::Lanes;
+use crate::line::End;
 
 /// The maximum number of boundaries kept.
 const MOST: usize = 32;

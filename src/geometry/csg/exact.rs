@@ -4,7 +4,7 @@ use smallvec::SmallVec;
 
 use super::slopes::Slopes;
 use super::{Csg, Leaf, Operation, PreparedKind};
-use crate::geometry::{Hit, Ray, Spans};
+use crate::{Hit, Ray, Spans};
 
 /// Where a line crosses the boundary of a solid, ascending, alternately entering and leaving.
 pub(super) type Boundaries = SmallVec<[Hit; 32]>;

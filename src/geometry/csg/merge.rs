@@ -2,7 +2,7 @@
 
 use super::exact::Boundaries;
 use super::{Csg, Operation};
-use crate::geometry::{Hit, Ray, ulp};
+use crate::{Hit, Ray, ulp};
 
 /// The distance, in ulps of their scale, within which two boundaries coincide.
 const SAME: f64 = 64.0;

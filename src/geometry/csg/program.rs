@@ -1,7 +1,7 @@
 //! The steps of a CSG solid in the order in which they are evaluated, for lines side by side.
 
 use super::{Operation, Prepared, PreparedKind};
-use crate::geometry::Aabb;
+use crate::Aabb;
 
 /// A tree of operations as a flat list of instructions, which leave one list of boundaries.
 #[derive(Clone, Debug, PartialEq)]

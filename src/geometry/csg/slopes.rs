@@ -1,7 +1,7 @@
 //! Tests of lines against the boxes of steps.
 
-use crate::geometry::lanes::{Lanes, Vector};
-use crate::geometry::{Aabb, Rays};
+use crate::lanes::{Lanes, Vector};
+use crate::{Aabb, Rays};
 
 /// Lines prepared for tests against boxes.
 #[derive(Clone, Copy)]

@@ -1,7 +1,7 @@
 //! What is left of a combination where nothing can be cut away.
 
 use super::{Csg, Operation, PreparedKind};
-use crate::geometry::{Aabb, Solid};
+use crate::{Aabb, Solid};
 
 impl Csg {
     /// The solids that resemble it most if nothing can be cut away, with their tags: both operands
@@ -62,7 +62,7 @@ mod tests {
     use glam::DVec3;
 
     use super::*;
-    use crate::geometry::{Node, Sphere};
+    use crate::{Node, Sphere};
 
     #[test]
     fn unions_keep_both_operands_and_cuts_one() {

@@ -20,7 +20,7 @@ pub use rows::{Rows, Run};
 pub use vector::Vector;
 
 #[cfg(not(target_arch = "x86_64"))]
-pub(crate) use fearless_simd::dispatch;
+pub use fearless_simd::dispatch;
 
 /// Evaluates an expression with the vectors of a [`Level`], compiled for each that it may be.
 ///
@@ -28,9 +28,10 @@ pub(crate) use fearless_simd::dispatch;
 /// multiply-add either, so it is hardly faster, and its code is larger than that of AVX-512 and AVX2
 /// together.
 #[cfg(target_arch = "x86_64")]
+#[macro_export]
 macro_rules! dispatch {
     ($level:expr, $simd:ident => $result:expr) => {{
-        use $crate::geometry::lanes::Simd as _;
+        use $crate::lanes::Simd as _;
         let level = $level;
         if let Some($simd) = level.as_avx512() {
             $simd.vectorize(
@@ -52,7 +53,7 @@ macro_rules! dispatch {
     }};
 }
 #[cfg(target_arch = "x86_64")]
-pub(crate) use dispatch;
+pub use crate::dispatch;
 
 /// How many numbers stand side by side.
 pub const WIDTH: usize = 8;

@@ -5,10 +5,10 @@ use std::sync::Arc;
 use glam::DVec3;
 
 use super::Mesh;
-use crate::geometry::lanes::{Lanes, Vector};
-use crate::geometry::line::Line;
-use crate::geometry::triangle::{Sheared, Shears};
-use crate::geometry::{Aabb, Affine, Hit, Ray, Rays};
+use crate::lanes::{Lanes, Vector};
+use crate::line::Line;
+use crate::triangle::{Sheared, Shears};
+use crate::{Aabb, Affine, Hit, Ray, Rays};
 
 /// The maximum distance of a line's start from the mesh's centre, in unit space. It is within √3.
 const NEAR: f64 = 4.0;
@@ -59,7 +59,7 @@ impl Instance {
 
     /// From the unit space of the mesh to the world.
     #[inline(always)]
-    pub(in crate::geometry) fn frame(&self) -> &Affine {
+    pub(crate) fn frame(&self) -> &Affine {
         &self.frame
     }
 
@@ -76,7 +76,7 @@ impl Instance {
 
     /// The edges of its triangles, three each; of more than `most` triangles only every second,
     /// third and so on.
-    pub(in crate::geometry) fn edges(&self, most: usize) -> impl Iterator<Item = [DVec3; 2]> {
+    pub(crate) fn edges(&self, most: usize) -> impl Iterator<Item = [DVec3; 2]> {
         let step = self.mesh.len().div_ceil(most.max(1));
         let [x, y, z] = self.frame.axes();
         let place =

@@ -1,10 +1,10 @@
 //! Packets of rays against a mesh.
 
 use super::{Instance, Mesh, MeshLine, TriangleRun};
-use crate::geometry::lanes::{Eight, Lanes, Simd, SimdBase, WIDTH, bits, each_bit, mask};
-use crate::geometry::line::End;
-use crate::geometry::triangle::{Roughly, Sheared, Shears};
-use crate::geometry::{Hit, Hits, Rays};
+use crate::lanes::{Eight, Lanes, Simd, SimdBase, WIDTH, bits, each_bit, mask};
+use crate::line::End;
+use crate::triangle::{Roughly, Sheared, Shears};
+use crate::{Hit, Hits, Rays};
 
 /// Up to this many lines of a packet are tested one by one, each against all triangles of a run.
 const FEW: u32 = 2;

@@ -244,7 +244,7 @@ impl Mesh {
 
     /// The vertices of a triangle by its number, in unit space.
     #[inline]
-    pub(in crate::geometry) fn vertices(&self, triangle: u32) -> [DVec3; 3] {
+    pub(crate) fn vertices(&self, triangle: u32) -> [DVec3; 3] {
         self.corners(self.triangles[triangle as usize])
     }
 

@@ -12,9 +12,9 @@
 use std::ops::Range;
 
 use super::{Mesh, MeshLine};
-use crate::geometry::Hit;
-use crate::geometry::lanes::{Rows, Run, Several, Simd, Singles, each_bit};
-use crate::geometry::triangle::Roughly;
+use crate::Hit;
+use crate::lanes::{Rows, Run, Several, Simd, Singles, each_bit};
+use crate::triangle::Roughly;
 
 /// Three coordinates of three vertices.
 const NUMBERS: usize = 9;
@@ -73,7 +73,7 @@ impl TriangleRun<'_> {
 
     /// A mask of the triangles that a line, in all lanes, may cross.
     #[inline(always)]
-    pub(in crate::geometry) fn may_be_crossed_by<S: Simd>(&self, line: &RoughLine<S>) -> u32 {
+    pub(crate) fn may_be_crossed_by<S: Simd>(&self, line: &RoughLine<S>) -> u32 {
         let line = &line.0;
         let may_cross = line.may_cross([
             self.corners(line, 0),

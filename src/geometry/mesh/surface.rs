@@ -3,10 +3,10 @@
 use glam::{DVec2, DVec3};
 
 use super::Instance;
-use crate::geometry::lanes::{Eight, Lanes, Row, Simd, Vector, each_bit};
-use crate::geometry::transform::{exact_cross_each, normalised};
-use crate::geometry::triangle::Shears;
-use crate::geometry::{Chart, Hit, Hits, Ray, Rays, Shaded, Surface};
+use crate::lanes::{Eight, Lanes, Row, Simd, Vector, each_bit};
+use crate::transform::{exact_cross_each, normalised};
+use crate::triangle::Shears;
+use crate::{Chart, Hit, Hits, Ray, Rays, Shaded, Surface};
 
 impl Instance {
     /// The surface at a hit.
@@ -140,7 +140,7 @@ impl Instance {
 
 /// Three vectors of the triangle in each lane, of which there is at least one; others repeat the first.
 #[inline(always)]
-pub(in crate::geometry) fn gathered<S: Simd>(
+pub(crate) fn gathered<S: Simd>(
     simd: S,
     lanes: u32,
     of: impl Fn(usize) -> [DVec3; 3],

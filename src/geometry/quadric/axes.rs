@@ -3,9 +3,9 @@
 use glam::DVec3;
 
 use super::form::Form;
-use crate::geometry::double_double::{Double, Vector, cross, dot, scaled, sum, vector};
-use crate::geometry::line::FAR;
-use crate::geometry::transform::power_of_two;
+use crate::double_double::{Double, Vector, cross, dot, scaled, sum, vector};
+use crate::line::FAR;
+use crate::transform::power_of_two;
 
 /// Eigenvalues and sums below this fraction of the largest term are rounding errors.
 const NOISE: f64 = 1e-27;

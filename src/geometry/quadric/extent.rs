@@ -8,7 +8,7 @@ use glam::DVec3;
 
 use super::form::Form;
 use super::{HalfSpace, roots};
-use crate::geometry::Aabb;
+use crate::Aabb;
 
 /// How far outside a point may be due to rounding, relative to its terms.
 const TOLERANCE: f64 = 1.0 / (1 << 30) as f64;

@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-use crate::geometry::Ray;
+use crate::Ray;
 
 /// A quadratic function F, up to a positive factor: with p = W (x − centre) + offset,
 /// F = Σ sᵢ pᵢ² + 2 h · p + k.

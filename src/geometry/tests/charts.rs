@@ -6,7 +6,7 @@ use glam::DVec3;
 
 use super::random::Random;
 use super::{Frame, KINDS, Kind, Ray, Shape, ray};
-use crate::geometry::{Csg, Hit, Node, Operation, Quadric, Solid};
+use crate::{Csg, Hit, Node, Operation, Quadric, Solid};
 
 /// A hit at a point, by a ray that starts there.
 fn at(point: DVec3, part: u32) -> (Ray, Hit) {

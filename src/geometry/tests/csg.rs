@@ -7,7 +7,7 @@ use glam::DVec3;
 use super::quadrics::spans;
 use super::random::{Random, excess, to_unit};
 use super::{Frame, KINDS, Kind, Ray, Shape, ray};
-use crate::geometry::{Aabb, Csg, Node, Operation, ulp};
+use crate::{Aabb, Csg, Node, Operation, ulp};
 
 const OPERATIONS: [Operation; 3] = [
     Operation::Union,

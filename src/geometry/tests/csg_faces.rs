@@ -6,7 +6,7 @@ use glam::DVec3;
 use super::csg::{Solid, csg};
 use super::random::Random;
 use super::{Frame, Kind, Shape, ray};
-use crate::geometry::Operation::{self, Difference, Intersection, Union};
+use crate::Operation::{self, Difference, Intersection, Union};
 
 /// The operands of a solid, which is made once with and once without coincident faces.
 type Pair = [(Kind, [f64; 3], [f64; 3]); 2];

@@ -3,7 +3,7 @@
 use glam::DVec3;
 
 use super::{Frame, Kind, Ray};
-use crate::geometry::double_double::{Double, Vector, cross, dot, scaled, sum, vector};
+use crate::double_double::{Double, Vector, cross, dot, scaled, sum, vector};
 
 /// A solid with a dual basis of 106 bits.
 pub(super) struct Exact {

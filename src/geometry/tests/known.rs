@@ -4,7 +4,7 @@ use glam::DVec3;
 
 use super::random::Random;
 use super::{Frame, KINDS, Kind, Ray, only_span, ray};
-use crate::geometry::{Aabb, Affine, Hit};
+use crate::{Aabb, Affine, Hit};
 
 /// A unit solid, a ray's origin and direction, and where it enters and leaves: distance and part.
 type Case = (Kind, [f64; 3], [f64; 3], Option<[(f64, u32); 2]>);

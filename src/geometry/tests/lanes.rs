@@ -7,8 +7,8 @@ use glam::DVec3;
 use super::csg::{csg, tree};
 use super::random::Random;
 use super::{Frame, KINDS, unit};
-use crate::geometry::lanes::{Eight, Level, SimdBase, WIDTH, dispatch};
-use crate::geometry::{
+use crate::lanes::{Eight, Level, SimdBase, WIDTH, dispatch};
+use crate::{
     ABSENT, Affine, Attribute, Hit, Hits, Instance, Mesh, MeshParts, Plane, Ray, Rays, Shape,
     Surface, ulp,
 };

@@ -6,7 +6,7 @@ use glam::DVec3;
 use super::exact::Exact;
 use super::random::{Random, extremes};
 use super::{Frame, KINDS, Kind, Ray, only_span, ray};
-use crate::geometry::{Shape, Surface};
+use crate::{Shape, Surface};
 
 const SURFACES: u64 = 1000;
 const DIRECTIONS: u64 = 1000;

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use glam::{DVec2, DVec3};
 
 use super::Ray;
-use crate::geometry::{
+use crate::{
     ABSENT, Affine, Attribute, Hit, Instance, Mesh, MeshError, MeshParts, Shape, SlotRun, ulp,
 };
 

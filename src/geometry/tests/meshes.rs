@@ -7,7 +7,7 @@ use glam::DVec3;
 use super::leaving::frame;
 use super::random::Random;
 use super::{Ray, ray};
-use crate::geometry::{Affine, Hit, Instance, Mesh, MeshParts, Shape, Surface};
+use crate::{Affine, Hit, Instance, Mesh, MeshParts, Shape, Surface};
 
 /// A mesh without normals and texture coordinates.
 fn mesh(positions: &[DVec3], triangles: &[[u32; 3]]) -> Arc<Mesh> {

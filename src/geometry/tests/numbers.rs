@@ -3,7 +3,7 @@
 use glam::DVec3;
 
 use super::random::Random;
-use crate::geometry::{Affine, FrameNumbers, direction_of, normalise};
+use crate::{Affine, FrameNumbers, direction_of, normalise};
 
 #[test]
 fn frames_give_the_numbers_that_they_were_made_of() {

@@ -5,7 +5,7 @@ use glam::{DVec2, DVec3};
 use super::leaving::frame;
 use super::random::Random;
 use super::{Ray, Spans, ray};
-use crate::geometry::{Affine, Ellipsoid, Plane, Shape, Solid};
+use crate::{Affine, Ellipsoid, Plane, Shape, Solid};
 
 fn plane(columns: [DVec3; 3], translation: DVec3) -> Shape {
     let frame = Affine::of_matrix(columns, translation).expect("the columns span a volume");

@@ -9,7 +9,7 @@ use super::quadrics::{
 };
 use super::random::Random;
 use super::ray;
-use crate::geometry::{Aabb, Quadric};
+use crate::{Aabb, Quadric};
 
 /// Coefficients, planes, and the minimum and maximum corners.
 type Case<'a> = ([f64; 10], Planes<'a>, [f64; 3], [f64; 3]);

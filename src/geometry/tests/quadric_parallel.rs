@@ -6,7 +6,7 @@ use glam::{DMat3, DVec3};
 use super::quadrics::{around, exact_hit, quadric, spans, squares};
 use super::random::Random;
 use super::{Ray, Shape, unit};
-use crate::geometry::Solid;
+use crate::Solid;
 
 /// The coefficients of the squares along the axes, the slope along the third, and the constant.
 const KINDS: [([f64; 3], f64, f64); 6] = [

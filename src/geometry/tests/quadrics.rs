@@ -4,8 +4,8 @@ use glam::{DMat3, DVec3};
 
 use super::random::Random;
 use super::{Frame, Kind, Ray, Shape, ray};
-use crate::geometry::double_double::{Double, dot, scaled, sum, vector};
-use crate::geometry::{Quadric, Solid, Spans, ulp};
+use crate::double_double::{Double, dot, scaled, sum, vector};
+use crate::{Quadric, Solid, Spans, ulp};
 
 pub(super) const INFINITY: f64 = f64::INFINITY;
 

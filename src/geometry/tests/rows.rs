@@ -3,7 +3,7 @@
 use std::ops::Range;
 use std::sync::atomic::{AtomicU32, Ordering};
 
-use crate::geometry::lanes::Rows;
+use crate::lanes::Rows;
 
 /// Runs of one to three places, enough for several batches.
 fn runs() -> Vec<Range<usize>> {

@@ -8,8 +8,8 @@ use glam::DVec3;
 
 use super::random::Random;
 use super::unit;
-use crate::geometry::lanes::{Eight, Level, SimdBase, dispatch};
-use crate::geometry::{Affine, Hit, Instance, Mesh, MeshParts, Ray, Rays, TriangleRuns};
+use crate::lanes::{Eight, Level, SimdBase, dispatch};
+use crate::{Affine, Hit, Instance, Mesh, MeshParts, Ray, Rays, TriangleRuns};
 
 const COUNT: u32 = 40;
 

@@ -2,7 +2,7 @@
 
 use super::random::Random;
 use super::{Frame, KINDS, Ray, only_span, ray};
-use crate::geometry::{Crossings, Hit, Surface, ulp};
+use crate::{Crossings, Hit, Surface, ulp};
 
 #[test]
 fn powers_of_two_scale_exactly() {

@@ -5,7 +5,7 @@ use glam::DVec3;
 use super::exact::Exact;
 use super::random::Random;
 use super::{Frame, Kind, Ray, only_span, ray, unit};
-use crate::geometry::{Rays, Sphere, may_meet, ulp};
+use crate::{Rays, Sphere, may_meet, ulp};
 
 const SIDE: u32 = 256;
 

@@ -2,7 +2,7 @@
 
 use super::random::Random;
 use super::*;
-use crate::geometry::Plane;
+use crate::Plane;
 
 /// From within and without, whatever is up to 0.1 of the way above the tangent plane is free, and below
 /// it is the surface, as near as promised.

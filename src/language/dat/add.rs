@@ -5,13 +5,13 @@ use glam::DVec3;
 use super::Source;
 use super::form::{form, put};
 use super::table::{ObjectKind, RecordKind, UseKind};
-use crate::language::form::Form;
-use crate::language::spelling::rounded_off;
-use crate::language::structure::{Wish, number};
-use crate::language::table::Category;
-use crate::language::view::spelled;
-use crate::language::{Addition, Answers, Node, Placement, Restructure, StructureError};
-use crate::text::{Edit, Span};
+use crate::form::Form;
+use crate::spelling::rounded_off;
+use crate::structure::{Wish, number};
+use crate::table::Category;
+use crate::view::spelled;
+use crate::{Addition, Answers, Node, Placement, Restructure, StructureError};
+use text::{Edit, Span};
 
 /// The kinds of things that can be added.
 pub(super) const ADDITIONS: &[Addition] = &[

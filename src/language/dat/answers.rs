@@ -6,17 +6,17 @@ use super::origins::{ObjectPlace, Place, place};
 use super::table::OPERATIONS;
 use super::tree::{is_comment, leaves};
 use super::{Source, lower, room, view, visibility};
-use crate::language::at::words;
-use crate::language::node::{FileKind, object_at, place_of};
-use crate::language::rendering::Around;
-use crate::language::report::Name;
-use crate::language::table::{Category, Field, Kind};
-use crate::language::view::Numbers;
-use crate::language::words::skip_white_space;
-use crate::language::{Answers, Lowered, NamedFile, Node, Nodes, Placed, Visibility};
-use crate::memory::OutOfMemory;
-use crate::scene::{Camera, Meshes};
-use crate::text::{Edit, Span, line_start};
+use crate::at::words;
+use crate::node::{FileKind, object_at, place_of};
+use crate::rendering::Around;
+use crate::report::Name;
+use crate::table::{Category, Field, Kind};
+use crate::view::Numbers;
+use crate::words::skip_white_space;
+use crate::{Answers, Lowered, NamedFile, Node, Nodes, Placed, Visibility};
+use memory::OutOfMemory;
+use scene::{Camera, Meshes};
+use text::{Edit, Span, line_start};
 
 impl Answers for Source {
     fn lower(&mut self, _: &Meshes) -> Result<Lowered, OutOfMemory> {

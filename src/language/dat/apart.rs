@@ -5,8 +5,8 @@ use std::collections::{HashMap, HashSet};
 
 use super::copies::Identity;
 use super::tree::{self, Tree};
-use crate::language::table::Category;
-use crate::text::{Edit, Span};
+use crate::table::Category;
+use text::{Edit, Span};
 
 /// Returns the edits that renumber what `text` defines in addition to `base`, where `theirs` defines
 /// something else under the same ID in addition to it.

@@ -4,10 +4,10 @@ use std::collections::{HashMap, HashSet};
 
 use super::table::{Heads, Part, RECORDS, RecordKind, TextureKind};
 use super::tree::{self, Tree};
-use crate::language::StructureError;
-use crate::language::table::{Category, Kind};
-use crate::language::words::Words;
-use crate::text::{Edit, Span, apply, visible};
+use crate::StructureError;
+use crate::table::{Category, Kind};
+use crate::words::Words;
+use text::{Edit, Span, apply, visible};
 
 /// An ID in a record.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -5,13 +5,13 @@ use glam::{DMat3, DMat4, DVec3, DVec4};
 
 use super::Source;
 use super::table::{LightKind, ObjectKind, RecordKind, SOURCES};
-use crate::geometry::{normalise, principal_axes};
-use crate::language::form::{Along, Form, Motion, PRECISE, rotated, rounded};
-use crate::language::frame::{Lengths, frameless, straight};
-use crate::language::structure::{Pose, number, replacements};
-use crate::language::table::Kind;
-use crate::language::{Answers, Node, Placed, StructureError};
-use crate::text::{Edit, Span};
+use crate::form::{Along, Form, Motion, PRECISE, rotated, rounded};
+use crate::frame::{Lengths, frameless, straight};
+use crate::structure::{Pose, number, replacements};
+use crate::table::Kind;
+use crate::{Answers, Node, Placed, StructureError};
+use geometry::{normalise, principal_axes};
+use text::{Edit, Span};
 
 /// The form of an object with these numbers, the material's ID first; `None` for a kind without
 /// one.

@@ -14,15 +14,15 @@ use std::collections::hash_map::Entry;
 use super::origins::{Origins, VIEW};
 use super::table::{Heads, RECORDS, RecordKind, TextureKind, UseKind};
 use super::tree::{Tree, render_comment};
-use crate::geometry::{Operation, Solid};
-use crate::language::Lowered;
-use crate::language::rendering::{given_again, read_comment};
-use crate::language::report::{did_you_mean, quoted};
-use crate::language::table::Category;
-use crate::language::words::Words;
-use crate::scene::{Light, Material, Rgb, Scene, Setting, Texture};
-use crate::text::{Diagnostic, Findings, Position, Span, nearest_word};
+use crate::Lowered;
+use crate::rendering::{given_again, read_comment};
+use crate::report::{did_you_mean, quoted};
+use crate::table::Category;
+use crate::words::Words;
+use geometry::{Operation, Solid};
 use record::RecordContent;
+use scene::{Light, Material, Rgb, Scene, Setting, Texture};
+use text::{Diagnostic, Findings, Position, Span, nearest_word};
 
 /// Maximum number of IDs listed in a message.
 const NAMED: usize = 8;

@@ -3,12 +3,12 @@
 
 use super::table::{HALF_SPACE, ObjectKind, Part, RecordKind};
 use super::tree::Tree;
-use crate::language::node::Node;
-use crate::language::placed::Placed;
-use crate::language::rendering::{self, RenderPlace};
-use crate::language::view::{beginning, line_ending};
-use crate::language::words::Words;
-use crate::scene::Rendering;
+use crate::node::Node;
+use crate::placed::Placed;
+use crate::rendering::{self, RenderPlace};
+use crate::view::{beginning, line_ending};
+use crate::words::Words;
+use scene::Rendering;
 
 /// The places of everything lowered, as record indices: valid only with the tree they were made
 /// from.

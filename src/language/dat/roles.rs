@@ -1,8 +1,8 @@
 //! The roles that the leaves of a `.dat` text play.
 
 use super::tree::is_comment;
-use crate::language::roles::{ANYWHERE, Roles, role};
-use crate::text::{Span, line_end};
+use crate::roles::{ANYWHERE, Roles, role};
+use text::{Span, line_end};
 
 /// The roles of leaves: a number's is its distance from the last word before it, in a record of its
 /// kind. Lists and options may be anywhere in a record.

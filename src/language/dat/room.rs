@@ -1,17 +1,17 @@
 //! Estimates of the memory that a `.dat` text takes: for its tree and its scene.
 
 use super::tree::Tree;
-use crate::geometry::{Affine, Shape};
-use crate::language::room::{Counts, each, scene_fits};
-use crate::memory::OutOfMemory;
-use crate::scene::Material;
-use crate::text::Span;
+use crate::room::{Counts, each, scene_fits};
+use geometry::{Affine, Shape};
+use memory::OutOfMemory;
+use scene::Material;
+use text::Span;
 
 /// Estimate of the bytes of a record: itself, its place and its name, in several lists.
 const RECORD: usize = 2 * size_of::<Shape>() + 2 * size_of::<Affine>() + size_of::<Material>();
 
 /// Estimates the bytes needed to build a tree with these counts.
-pub(in crate::language) fn tree_bytes(counts: &Counts) -> u64 {
+pub(crate) fn tree_bytes(counts: &Counts) -> u64 {
     each(counts.lines + 1, 2 * size_of::<Span>())
 }
 

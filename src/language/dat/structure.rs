@@ -9,16 +9,16 @@ use super::table::{ObjectKind, SOURCES};
 use super::tree::is_comment;
 use super::visibility::Listing;
 use super::{Source, add, apart, roles};
-use crate::language::structure::{
+use crate::structure::{
     Block, adapted, deletions, follows, line_before, lines, lines_after, pair, uncreatable,
 };
-use crate::language::table::Category;
-use crate::language::view::line_ending;
-use crate::language::{
+use crate::table::Category;
+use crate::view::line_ending;
+use crate::{
     Addition, Answers, Motion, Neighbour, Node, Placement, Pose, Restructure, Roles,
     StructureError, Wish, structure,
 };
-use crate::text::{Edit, Span, counted, parse_number};
+use text::{Edit, Span, counted, parse_number};
 
 impl Restructure for Source {
     fn consequence(&self, nodes: &[Node]) -> Option<String> {

@@ -2,8 +2,8 @@
 
 mod parts;
 
-use crate::language::at::{At, is_same};
-use crate::language::table::Field;
+use crate::at::{At, is_same};
+use crate::table::Field;
 use parts::{
     BOX, CAMERA, CHECKER, CSG, CYLINDER, ELLIPSOID, IMAGE, LIGHT, MATERIAL, QUADRIC, RESOLUTION,
     SPHERE, USE_BUMP, USE_COLOUR, VIEWPORT,

@@ -10,9 +10,9 @@ mod solids;
 mod views;
 mod written;
 
-use crate::language::tests::{read_as, shown};
-use crate::language::{Language, Lowered, Source};
-use crate::scene::{Meshes, Scene};
+use crate::tests::{read_as, shown};
+use crate::{Language, Lowered, Source};
+use scene::{Meshes, Scene};
 
 /// The three records of a view.
 const VIEW: &str = "camera perspective 0 0 5  0 0 0  0 1 0  1 0 100

@@ -3,9 +3,9 @@
 
 use std::ops::Range;
 
-use crate::language::words::{Words, skip_white_space, trim_end};
-use crate::language::written::Parse;
-use crate::text::{Span, line_end};
+use crate::words::{Words, skip_white_space, trim_end};
+use crate::written::Parse;
+use text::{Span, line_end};
 
 /// The records of a text, in order. Their tokens are found in the text on demand.
 #[derive(Clone, Debug, Default)]
@@ -145,7 +145,7 @@ mod tests {
     }
 
     proptest! {
-        #![proptest_config(crate::repeatable())]
+        #![proptest_config(repeatable::config())]
 
         #[test]
         fn every_character_is_in_a_token_a_comment_or_white_space(text in "[ab/#\n\r \t\u{A0}\u{FEFF}é]{0,40}") {

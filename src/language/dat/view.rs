@@ -5,12 +5,12 @@ use glam::DVec3;
 use super::origins::{Origins, VIEW};
 use super::table::{PROJECTIONS, RecordKind};
 use super::tree::Tree;
-use crate::language::at::At;
-use crate::language::spelling::rounded_off;
-use crate::language::table::{Field, Kind};
-use crate::language::view::{Numbers, beginning, line_ending, literal, take};
-use crate::scene::{Camera, Focus, Lens, Size};
-use crate::text::{Edit, Span, spell_like};
+use crate::at::At;
+use crate::spelling::rounded_off;
+use crate::table::{Field, Kind};
+use crate::view::{Numbers, beginning, line_ending, literal, take};
+use scene::{Camera, Focus, Lens, Size};
+use text::{Edit, Span, spell_like};
 
 /// The far distance written for an unlimited view: `.dat` cannot express infinity.
 pub(super) const FARTHEST: f64 = 1e30;

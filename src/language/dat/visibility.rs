@@ -4,9 +4,9 @@ use std::collections::HashSet;
 
 use super::origins::Origins;
 use super::tree::Tree;
-use crate::language::Visibility;
-use crate::language::view::line_ending;
-use crate::text::{Edit, Span};
+use crate::Visibility;
+use crate::view::line_ending;
+use text::{Edit, Span};
 
 const LAST: &str = "the last visible object cannot be hidden";
 
@@ -146,10 +146,10 @@ impl Listing {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::language::Language;
-    use crate::language::tests::read_as;
-    use crate::scene::Meshes;
-    use crate::text::apply;
+    use crate::Language;
+    use crate::tests::read_as;
+    use scene::Meshes;
+    use text::apply;
 
     /// Three spheres and the intersection of the first two, followed by `render`.
     fn scene(render: &str) -> String {

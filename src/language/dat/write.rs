@@ -9,17 +9,17 @@ use std::fmt::Write;
 
 use glam::DVec3;
 
-use crate::geometry::direction_of;
-use crate::language::losses::{Losses, Of};
-use crate::language::rendering::words;
-use crate::language::spelling::{numbers, vector};
-use crate::language::stand_ins::solids;
-use crate::language::surroundings::{SIZE, report_plain};
-use crate::language::whitted::{Whitted, whitted};
-use crate::scene::{Emitter, Falloff, Light, Rgb, Scene, Shadows};
+use crate::losses::{Losses, Of};
+use crate::rendering::words;
+use crate::spelling::{numbers, vector};
+use crate::stand_ins::solids;
+use crate::surroundings::{SIZE, report_plain};
+use crate::whitted::{Whitted, whitted};
+use geometry::direction_of;
+use scene::{Emitter, Falloff, Light, Rgb, Scene, Shadows};
 
 /// Writes a scene and reports what it loses.
-pub(in crate::language) fn write(scene: &Scene, losses: &mut Losses<'_>) -> String {
+pub(crate) fn write(scene: &Scene, losses: &mut Losses<'_>) -> String {
     report_plain(scene, losses);
     let mut text = String::new();
     let settings = words(&scene.setting.rendering);

@@ -3,9 +3,9 @@
 use glam::DVec3;
 
 use super::{Judge, MOST_SEARCHED, Outlook, Prospect, black, forward, plain};
-use crate::geometry::{Aabb, Ray, Shape, Solid, normalise};
-use crate::language::Node;
-use crate::scene::{
+use crate::Node;
+use geometry::{Aabb, Ray, Shape, Solid, normalise};
+use scene::{
     Camera, Emitter, Highlight, Integrator, Lens, Light, Material, Object, Rgb, Shadows, Size,
 };
 

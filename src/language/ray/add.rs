@@ -6,13 +6,13 @@ use super::Source;
 use super::form::{new_object, retyped};
 use super::table::{LIGHT, MATERIAL, ShapeKind};
 use super::tree::comment_of_line;
-use crate::language::form::Form;
-use crate::language::spelling::rounded_off;
-use crate::language::structure::Wish;
-use crate::language::table::{self, Field, Kind};
-use crate::language::view::{line_ending, line_from, spelled};
-use crate::language::{Addition, Answers, Node, Placement, Restructure, StructureError};
-use crate::text::{Edit, Span, next_line};
+use crate::form::Form;
+use crate::spelling::rounded_off;
+use crate::structure::Wish;
+use crate::table::{self, Field, Kind};
+use crate::view::{line_ending, line_from, spelled};
+use crate::{Addition, Answers, Node, Placement, Restructure, StructureError};
+use text::{Edit, Span, next_line};
 
 /// The kinds of things that can be added: solids, by their keywords, and a light.
 pub(super) const ADDITIONS: &[Addition] = &[

@@ -12,11 +12,11 @@ use super::lower::{self, ObjectsRead};
 use super::origins::{ObjectPlace, Origins};
 use super::tree::Tree;
 use super::view_comment::{find, find_rendering};
-use crate::language::written::{Replaced, numbers};
-use crate::language::{Before, Lowered};
-use crate::scene::blocks::BLOCK;
-use crate::scene::{Materials, Object, Objects, Scene};
-use crate::text::{Diagnostic, Findings, Span, line_start, next_line};
+use crate::written::{Replaced, numbers};
+use crate::{Before, Lowered};
+use scene::blocks::BLOCK;
+use scene::{Materials, Object, Objects, Scene};
+use text::{Diagnostic, Findings, Span, line_start, next_line};
 
 /// The most tokens read again, on a single thread; with more, the whole text is read in parallel.
 const MOST: usize = 1 << 16;

@@ -4,15 +4,15 @@ use super::origins::distribute;
 use super::table::{AMBIENT, LIGHT};
 use super::tree::comment_of_line;
 use super::{Source, again, lower, room, view};
-use crate::language::rendering::Around;
-use crate::language::report::Name;
-use crate::language::table::{self, Field};
-use crate::language::view::Numbers;
-use crate::language::written::Since;
-use crate::language::{Answers, Before, Lowered, Node, Nodes, Placed, Visibility};
-use crate::memory::OutOfMemory;
-use crate::scene::{Camera, Meshes};
-use crate::text::{Edit, Span};
+use crate::rendering::Around;
+use crate::report::Name;
+use crate::table::{self, Field};
+use crate::view::Numbers;
+use crate::written::Since;
+use crate::{Answers, Before, Lowered, Node, Nodes, Placed, Visibility};
+use memory::OutOfMemory;
+use scene::{Camera, Meshes};
+use text::{Edit, Span};
 
 impl Answers for Source {
     fn lower(&mut self, _: &Meshes) -> Result<Lowered, OutOfMemory> {

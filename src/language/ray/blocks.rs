@@ -12,10 +12,10 @@ use super::origins::ObjectPlace;
 use super::reader::{LEAST_NUMBERS, Reader};
 use super::table::ShapeKind;
 use super::tree::Tokens;
-use crate::geometry::Shape;
-use crate::scene::blocks::BLOCK;
-use crate::scene::{Material, Materials, Object, Objects};
-use crate::text::{Findings, Span};
+use geometry::Shape;
+use scene::blocks::BLOCK;
+use scene::{Material, Materials, Object, Objects};
+use text::{Findings, Span};
 
 /// A block of objects with its materials, whose numbers start at that of its first object.
 pub(super) struct Block {

@@ -4,14 +4,14 @@ use glam::DVec3;
 
 use super::Source;
 use super::table::{LIGHT, MATERIAL, ShapeKind};
-use crate::geometry::normalise;
-use crate::language::at::At;
-use crate::language::form::{Form, Motion, PRECISE, rounded};
-use crate::language::frame::{Lengths, frameless, straight};
-use crate::language::structure::{Pose, number, replacements};
-use crate::language::table::{Kind, numbers};
-use crate::language::{Answers, Node, StructureError};
-use crate::text::{Edit, Span};
+use crate::at::At;
+use crate::form::{Form, Motion, PRECISE, rounded};
+use crate::frame::{Lengths, frameless, straight};
+use crate::structure::{Pose, number, replacements};
+use crate::table::{Kind, numbers};
+use crate::{Answers, Node, StructureError};
+use geometry::normalise;
+use text::{Edit, Span};
 
 const POSITION: At<3> = At::of(LIGHT, "position");
 

@@ -7,10 +7,10 @@ use super::origins::{ObjectPlace, Origins};
 use super::reader::{Reader, is_word};
 use super::tree::Tree;
 use super::view_comment::{ViewComment, camera, find, find_rendering};
-use crate::language::Lowered;
-use crate::language::rendering::RenderPlace;
-use crate::scene::{Materials, Objects, Scene, Setting, bounds};
-use crate::text::{Diagnostic, Findings, Span};
+use crate::Lowered;
+use crate::rendering::RenderPlace;
+use scene::{Materials, Objects, Scene, Setting, bounds};
+use text::{Diagnostic, Findings, Span};
 
 /// Lowers a text.
 pub(super) fn lower(text: &str, tree: &Tree) -> (Origins, Lowered) {

@@ -22,8 +22,8 @@ mod view_comment;
 mod write;
 
 use super::written::Written;
-use crate::text::Findings;
 use origins::Origins;
+use text::Findings;
 use tree::Tree;
 
 pub(super) use room::tree_bytes;

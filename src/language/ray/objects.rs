@@ -3,15 +3,15 @@
 use super::origins::ObjectPlace;
 use super::reader::{Count, LEAST_NUMBERS, Numbers, Reader, component, is_word};
 use super::table::{MATERIAL, ShapeKind};
-use crate::geometry::{Affine, Cone, Cuboid, Cylinder, Ellipsoid, Shape, Solid, Sphere};
-use crate::language::at::At;
-use crate::language::coefficients::Coefficients;
-use crate::language::record::Record;
-use crate::language::report::{Name, did_you_mean, quoted};
-use crate::language::table;
-use crate::scene::blocks::BLOCK;
-use crate::scene::{Material, Object};
-use crate::text::{Diagnostic, Span, alternatives, counted};
+use crate::at::At;
+use crate::coefficients::Coefficients;
+use crate::record::Record;
+use crate::report::{Name, did_you_mean, quoted};
+use crate::table;
+use geometry::{Affine, Cone, Cuboid, Cylinder, Ellipsoid, Shape, Solid, Sphere};
+use scene::blocks::BLOCK;
+use scene::{Material, Object};
+use text::{Diagnostic, Span, alternatives, counted};
 
 /// Number of materials a new one is compared with. Colours come from short lists, or all differ.
 const MOST_COMPARED: usize = 32;

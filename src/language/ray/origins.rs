@@ -7,13 +7,13 @@ use std::sync::Arc;
 
 use super::table::{LIGHT, ShapeKind, VIEW};
 use super::tree::Tree;
-use crate::language::node::Node;
-use crate::language::placed::Placed;
-use crate::language::rendering::{self, RenderPlace};
-use crate::language::table::{self, Field};
-use crate::language::view::{beginning, line_ending};
-use crate::scene::Rendering;
-use crate::text::Span;
+use crate::node::Node;
+use crate::placed::Placed;
+use crate::rendering::{self, RenderPlace};
+use crate::table::{self, Field};
+use crate::view::{beginning, line_ending};
+use scene::Rendering;
+use text::Span;
 
 /// The places of everything lowered, as token indices: valid only with the tree they were made
 /// from.

@@ -8,14 +8,14 @@ use std::ops::Range;
 use super::origins::{ObjectPlace, Origins};
 use super::table::{AMBIENT, LIGHT, ShapeKind};
 use super::tree::{Tokens, Window};
-use crate::language::at::At;
-use crate::language::record::{Record, what};
-use crate::language::report::Name;
-use crate::language::report::{no_number, number, quoted};
-use crate::language::table;
-use crate::language::table::Field;
-use crate::scene::{Light, Material, Object, Rgb};
-use crate::text::{Diagnostic, Findings, Severity, Span, counted, is_integer, parse_number};
+use crate::at::At;
+use crate::record::{Record, what};
+use crate::report::Name;
+use crate::report::{no_number, number, quoted};
+use crate::table;
+use crate::table::Field;
+use scene::{Light, Material, Object, Rgb};
+use text::{Diagnostic, Findings, Severity, Span, counted, is_integer, parse_number};
 
 /// The number of numbers of the longest record.
 pub(super) const LONGEST: usize = {

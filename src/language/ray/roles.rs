@@ -1,9 +1,9 @@
 //! The roles that the leaves of a `.ray` text play.
 
 use super::table::{AMBIENT, LIGHT, ShapeKind};
-use crate::language::roles::{ANYWHERE, Role, Roles, role};
-use crate::language::table::numbers;
-use crate::text::Span;
+use crate::roles::{ANYWHERE, Role, Roles, role};
+use crate::table::numbers;
+use text::Span;
 
 /// The roles of leaves: a number's is its place in its object, light or colour. `at_ends` tells
 /// whether the text begins and ends where the whole one does.

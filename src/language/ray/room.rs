@@ -7,12 +7,12 @@ use super::origins::ObjectPlace;
 use super::reader::LEAST_NUMBERS;
 use super::table::ShapeKind;
 use super::tree::Tree;
-use crate::geometry::Affine;
-use crate::language::room::{Counts, each};
-use crate::memory::{self, Need, OutOfMemory, megabytes};
-use crate::scene::blocks::BLOCK;
-use crate::scene::{Material, Object};
-use crate::text::{Span, counted};
+use crate::room::{Counts, each};
+use geometry::Affine;
+use memory::{Need, OutOfMemory, megabytes};
+use scene::blocks::BLOCK;
+use scene::{Material, Object};
+use text::{Span, counted};
 
 /// Upper bound of the bytes of an object without its material: growing lists have up to twice the
 /// capacity they need.
@@ -23,7 +23,7 @@ const OBJECT: usize =
 const SAMPLED: usize = 8;
 
 /// Estimates the bytes needed to build a tree with these counts.
-pub(in crate::language) fn tree_bytes(counts: &Counts) -> u64 {
+pub(crate) fn tree_bytes(counts: &Counts) -> u64 {
     each(counts.tokens, 3) + each(counts.words, 16) + each(counts.comments, 8)
 }
 
@@ -85,7 +85,7 @@ fn materials(text: &str, tree: &Tree, count: usize) -> Option<usize> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::language::ray::tree::parse;
+    use crate::ray::tree::parse;
 
     #[test]
     fn distinct_materials_are_all_counted() {

@@ -5,16 +5,14 @@ use super::tree::{self, comment_of_line};
 use rayon::iter::ParallelIterator;
 
 use super::{Source, add, roles};
-use crate::language::structure::{
-    Block, adapted, deletions, follows, line_before, lines, lines_after, pair,
-};
-use crate::language::table;
-use crate::language::view::{line_ending, line_from};
-use crate::language::{
+use crate::structure::{Block, adapted, deletions, follows, line_before, lines, lines_after, pair};
+use crate::table;
+use crate::view::{line_ending, line_from};
+use crate::{
     Addition, Answers, Motion, Neighbour, Node, Placement, Pose, Restructure, Roles,
     StructureError, Wish, structure,
 };
-use crate::text::{Edit, Span, counted, line_end};
+use text::{Edit, Span, counted, line_end};
 
 /// The kinds of nodes of which a text states the number.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -1,8 +1,8 @@
 //! The table of fields of `.ray`.
 
-use crate::language::at::At;
-use crate::language::table::{Field, Kind, Range, numbers};
-use crate::text::nearest_word;
+use crate::at::At;
+use crate::table::{Field, Kind, Range, numbers};
+use text::nearest_word;
 
 /// The camera, in a view comment.
 pub(super) const VIEW: &[Field; 5] = &[

@@ -3,13 +3,13 @@
 mod blocks;
 mod errors;
 mod meaning;
-pub(in crate::language) mod properties;
+pub(crate) mod properties;
 mod views;
 mod written;
 
-use crate::language::tests::{read_as, shown};
-use crate::language::{Language, Lowered, Source};
-use crate::scene::{Meshes, Scene};
+use crate::tests::{read_as, shown};
+use crate::{Language, Lowered, Source};
+use scene::{Meshes, Scene};
 
 /// Ambient light and one light.
 const HEAD: &str = "1 1 1  1  0 5 5  1 1 1";

@@ -4,9 +4,9 @@ mod scan;
 mod tokens;
 mod window;
 
-use crate::language::words::{skip_white_space, trim_end};
-use crate::language::written::{Parse, Replaced};
-use crate::text::{Span, line_end, next_line};
+use crate::words::{skip_white_space, trim_end};
+use crate::written::{Parse, Replaced};
+use text::{Span, line_end, next_line};
 
 pub(super) use tokens::Tokens;
 pub(super) use window::Window;
@@ -155,7 +155,7 @@ mod tests {
     }
 
     proptest! {
-        #![proptest_config(crate::repeatable())]
+        #![proptest_config(repeatable::config())]
 
         #[test]
         fn every_character_is_a_token_a_comment_or_white_space(text in "[01a/\\\\\n\r \u{A0}\u{FEFF}é]{0,40}") {

@@ -6,11 +6,11 @@ use glam::DVec3;
 
 use super::origins::Origins;
 use super::table::VIEW;
-use crate::language::at::At;
-use crate::language::table::{self, Field};
-use crate::language::view::{Numbers, beginning, line_ending, literal, take};
-use crate::scene::{Camera, Focus, Lens, Size};
-use crate::text::{Edit, Span, spell_like};
+use crate::at::At;
+use crate::table::{self, Field};
+use crate::view::{Numbers, beginning, line_ending, literal, take};
+use scene::{Camera, Focus, Lens, Size};
+use text::{Edit, Span, spell_like};
 
 /// The fields of the view.
 pub(super) fn fields() -> impl Iterator<Item = &'static Field> {

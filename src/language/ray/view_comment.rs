@@ -8,17 +8,17 @@ use super::origins::ViewPlace;
 use super::table::VIEW;
 use super::tree::{self, Tokens, after_key, comment_of_line};
 use super::view::View;
-use crate::geometry::{Aabb, normalise};
-use crate::language::at::index_of;
-use crate::language::camera::{CameraSpans, check, default_eye_and_target};
-use crate::language::record::what;
-use crate::language::rendering::{RenderPlace, given_again, read_comment};
-use crate::language::report::Name;
-use crate::language::report::{no_number, number, quoted};
-use crate::language::table::{Field, Kind};
-use crate::language::words::Words;
-use crate::scene::Camera;
-use crate::text::{Diagnostic, Findings, Severity, Span, is_integer, parse_number};
+use crate::at::index_of;
+use crate::camera::{CameraSpans, check, default_eye_and_target};
+use crate::record::what;
+use crate::rendering::{RenderPlace, given_again, read_comment};
+use crate::report::Name;
+use crate::report::{no_number, number, quoted};
+use crate::table::{Field, Kind};
+use crate::words::Words;
+use geometry::{Aabb, normalise};
+use scene::Camera;
+use text::{Diagnostic, Findings, Severity, Span, is_integer, parse_number};
 
 /// Indices in [`VIEW`].
 const EYE: usize = index_of(VIEW, "eye");

@@ -4,17 +4,15 @@ use std::fmt::Write;
 
 use glam::DVec3;
 
-use crate::geometry::{Affine, FrameNumbers, Solid};
-use crate::language::coefficients::Coefficients;
-use crate::language::losses::{Loss, Losses, Of};
-use crate::language::rendering::words;
-use crate::language::spelling::{number, numbers, vector};
-use crate::language::stand_ins::solids;
-use crate::language::surroundings::{
-    DISTANT, FADING, SHADOWLESS, SIZE, SPOT, angle, faded, report_plain,
-};
-use crate::language::whitted::whitted;
-use crate::scene::{Camera, Emitter, Falloff, FalloffRule, Light, Rgb, Scene, Shadows, Size};
+use crate::coefficients::Coefficients;
+use crate::losses::{Loss, Losses, Of};
+use crate::rendering::words;
+use crate::spelling::{number, numbers, vector};
+use crate::stand_ins::solids;
+use crate::surroundings::{DISTANT, FADING, SHADOWLESS, SIZE, SPOT, angle, faded, report_plain};
+use crate::whitted::whitted;
+use geometry::{Affine, FrameNumbers, Solid};
+use scene::{Camera, Emitter, Falloff, FalloffRule, Light, Rgb, Scene, Shadows, Size};
 
 /// The distance of a point light that stands for one infinitely far away, in radii of the scene.
 const FAR_AWAY: f64 = 1e4;
@@ -32,7 +30,7 @@ const NO_OBJECT: Loss = Loss {
 };
 
 /// Writes a scene and reports what it loses.
-pub(in crate::language) fn write(scene: &Scene, losses: &mut Losses<'_>) -> String {
+pub(crate) fn write(scene: &Scene, losses: &mut Losses<'_>) -> String {
     report_plain(scene, losses);
     let mut text = String::new();
     view(&mut text, &scene.camera, angle(scene, losses));

@@ -4,12 +4,12 @@ use std::fs;
 use std::path::Path;
 
 use super::read_as;
-use crate::language::{Language, errors_of_beginning};
-use crate::scene::Meshes;
+use crate::{Language, errors_of_beginning};
+use scene::Meshes;
 
 /// The texts of the sample scenes.
 fn scenes() -> Vec<(Language, String)> {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("scenes");
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenes");
     let paths = fs::read_dir(folder)
         .expect("a folder")
         .map(|entry| entry.expect("an entry").path());

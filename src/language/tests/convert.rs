@@ -5,9 +5,9 @@ use std::fmt::Write;
 use std::sync::Arc;
 
 use super::read_as;
-use crate::language::{Converted, Language, convert};
-use crate::scene::{Emitter, FalloffRule, Meshes, Object, Rgb};
-use crate::text::Position;
+use crate::{Converted, Language, convert};
+use scene::{Emitter, FalloffRule, Meshes, Object, Rgb};
+use text::Position;
 
 const RAY: &str = r#"// view: eye 0 0 9 target 0 0 0 up 0 1 0 fov 40 size 8 6
 1 1 1

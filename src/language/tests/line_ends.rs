@@ -1,9 +1,9 @@
 //! Line endings of any kind: scenes and the places of messages are the same.
 
 use super::{read_as, shown};
-use crate::language::Language;
-use crate::language::tests::{Random, damage};
-use crate::scene::{Meshes, Scene};
+use crate::Language;
+use crate::tests::{Random, damage};
+use scene::{Meshes, Scene};
 
 const RAY: &str = "\
 // \u{e9}

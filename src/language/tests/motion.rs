@@ -3,10 +3,10 @@
 use glam::DVec3;
 
 use super::read_as;
-use crate::geometry::Aabb;
-use crate::language::{Along, Language, Motion, Node, Source, StructureError, Wish};
-use crate::scene::{Meshes, Scene};
-use crate::text::Edit;
+use crate::{Along, Language, Motion, Node, Source, StructureError, Wish};
+use geometry::Aabb;
+use scene::{Meshes, Scene};
+use text::Edit;
 
 const RAY: &str = include_str!("../../../scenes/default.ray");
 const DAT: &str = include_str!("../../../scenes/still-life.dat");

@@ -3,9 +3,9 @@
 use glam::DVec3;
 
 use super::read_as;
-use crate::language::{Language, Node, Prospect, outlook};
-use crate::scene::{Camera, Integrator, Meshes, Rendering};
-use crate::text::Position;
+use crate::{Language, Node, Prospect, outlook};
+use scene::{Camera, Integrator, Meshes, Rendering};
+use text::Position;
 
 const LIT: &str = "0 0 0 1 0 5 5 1 1 1\n";
 const BALL: &str = "1 sphere 0 0 0 1  .1 .1 .1 .5 .5 .5 0 0 0 1 0 0 1\n";

@@ -1,11 +1,9 @@
 //! Render settings in texts of every language: what they mean, where they are, and edits of them.
 
 use super::{read_as, shown};
-use crate::language::{Language, Node};
-use crate::scene::{
-    FalloffRule, Filter, GlossRule, Integrator, Meshes, RenderKey, Rendering, Transfer,
-};
-use crate::text::apply;
+use crate::{Language, Node};
+use scene::{FalloffRule, Filter, GlossRule, Integrator, Meshes, RenderKey, Rendering, Transfer};
+use text::apply;
 
 /// A scene in each language that states nothing, with the place of settings marked by `@`.
 const SCENES: [(Language, &str); 3] = [
@@ -288,10 +286,7 @@ fn structural_edits_leave_the_settings_where_they_are() {
         assert!(without.contains(comment), "{without}");
         assert!(!source.copied(&[last]).expect("it can").contains("render"));
         let at = scene.find("spp").expect("it is stated");
-        assert_eq!(
-            source.node_at(crate::text::Span::at(at)),
-            Some(Node::Render)
-        );
+        assert_eq!(source.node_at(text::Span::at(at)), Some(Node::Render));
     }
 }
 

@@ -3,9 +3,9 @@
 use glam::DVec3;
 
 use super::{Language, read_as, shown};
-use crate::language::{Source, view_name};
-use crate::scene::{Camera, Lens, Meshes};
-use crate::text::{Edit, apply};
+use crate::{Source, view_name};
+use scene::{Camera, Lens, Meshes};
+use text::{Edit, apply};
 
 /// A text with comments around these words.
 fn commented(language: Language, words: &str) -> String {

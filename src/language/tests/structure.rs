@@ -1,10 +1,10 @@
 //! Deleting, copying, inserting, exchanging and renaming nodes in all languages.
 
 use super::{Random, read_as};
-use crate::language::table::Category;
-use crate::language::{Language, Neighbour, Node, Source, StructureError};
-use crate::scene::Meshes;
-use crate::text::{Edit, apply};
+use crate::table::Category;
+use crate::{Language, Neighbour, Node, Source, StructureError};
+use scene::Meshes;
+use text::{Edit, apply};
 
 /// A change of structure.
 #[derive(Clone, Copy, Debug)]

@@ -1,7 +1,7 @@
 //! The scenes to begin with.
 
 use super::{Language, read_as, shown};
-use crate::scene::Meshes;
+use scene::Meshes;
 
 #[test]
 fn templates_are_small_valid_scenes() {
@@ -12,7 +12,7 @@ fn templates_are_small_valid_scenes() {
         let scene = lowered.scene.expect("it is valid");
         assert_eq!(scene.objects.len(), 2, "{language:?}");
         assert!(2 <= scene.lights.len(), "{language:?}");
-        assert!(!source.fields(crate::language::Node::View).is_empty());
+        assert!(!source.fields(crate::Node::View).is_empty());
         assert!(text.ends_with('\n') && !text.contains('\t'), "{language:?}");
         assert!(text.lines().all(|line| line.len() <= 100), "{language:?}");
     }

@@ -5,10 +5,10 @@ use glam::DVec3;
 use super::Source;
 use super::table::{LightKind, MaterialKind, ObjectKind};
 use super::tree::escaped;
-use crate::language::structure::Wish;
-use crate::language::view::line_ending;
-use crate::language::{Addition, Answers, Node, Placement, Restructure, StructureError};
-use crate::text::Edit;
+use crate::structure::Wish;
+use crate::view::line_ending;
+use crate::{Addition, Answers, Node, Placement, Restructure, StructureError};
+use text::Edit;
 
 /// The kinds of things that can be added.
 pub(super) const ADDITIONS: &[Addition] = &[

@@ -8,15 +8,15 @@ use super::origins::{NamedPlace, What, fields};
 use super::table::ObjectKind;
 use super::tree::{escaped, quote};
 use super::{Source, lower, room, view};
-use crate::language::node::{FileKind, object_at, place_of};
-use crate::language::placed::{Wanted, edits};
-use crate::language::rendering::Around;
-use crate::language::table::{Category, Field};
-use crate::language::view::Numbers;
-use crate::language::{Answers, Lowered, NamedFile, Node, Nodes, Placed, Visibility};
-use crate::memory::OutOfMemory;
-use crate::scene::{Camera, Meshes};
-use crate::text::{Edit, Span, is_one_line_end, visible};
+use crate::node::{FileKind, object_at, place_of};
+use crate::placed::{Wanted, edits};
+use crate::rendering::Around;
+use crate::table::{Category, Field};
+use crate::view::Numbers;
+use crate::{Answers, Lowered, NamedFile, Node, Nodes, Placed, Visibility};
+use memory::OutOfMemory;
+use scene::{Camera, Meshes};
+use text::{Edit, Span, is_one_line_end, visible};
 
 impl Answers for Source {
     fn lower(&mut self, meshes: &Meshes) -> Result<Lowered, OutOfMemory> {

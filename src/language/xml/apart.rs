@@ -4,7 +4,7 @@ use std::collections::{BTreeSet, HashSet};
 
 use super::copies::unused;
 use super::tree::{self, Tree, escaped, quote};
-use crate::text::{Edit, Span};
+use text::{Edit, Span};
 
 /// Returns the edits that rename the materials that `text` defines in addition to `base`, where
 /// `theirs` defines others of the same name in addition to it; what has them follows.

@@ -3,8 +3,8 @@
 use std::collections::HashSet;
 
 use super::tree::{self, Tree, escaped, quote};
-use crate::language::StructureError;
-use crate::text::{Edit, Span, apply, visible};
+use crate::StructureError;
+use text::{Edit, Span, apply, visible};
 
 /// The elements that can be inserted into a scene, in the order of their sets of names.
 const KINDS: [&str; 3] = ["light", "material", "object"];

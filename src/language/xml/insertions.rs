@@ -1,8 +1,8 @@
 //! The insertion of fields that an `.xml` text omits.
 
 use super::tree::escaped;
-use crate::language::placed::{self, Implicit, Wanted};
-use crate::text::Edit;
+use crate::placed::{self, Implicit, Wanted};
+use text::Edit;
 
 /// Returns the edits that insert these values where the text omits them.
 pub(super) fn insertions(text: &str, wanted: &[Wanted<'_>]) -> Vec<Edit> {

@@ -16,9 +16,9 @@ use std::collections::{HashMap, HashSet};
 
 use super::origins::Origins;
 use super::tree::Tree;
-use crate::language::Lowered;
-use crate::scene::{Light, Material, Meshes, Object, Rgb, Scene, Setting, Texture};
-use crate::text::{Diagnostic, Findings, Span};
+use crate::Lowered;
+use scene::{Light, Material, Meshes, Object, Rgb, Scene, Setting, Texture};
+use text::{Diagnostic, Findings, Span};
 
 /// Lowers a text.
 pub(super) fn lower(text: &str, tree: &Tree, meshes: &Meshes) -> (Origins, Lowered) {

@@ -19,8 +19,8 @@ mod view;
 mod write;
 
 use super::written::Written;
-use crate::text::Findings;
 use origins::Origins;
+use text::Findings;
 use tree::Tree;
 
 pub(super) use room::tree_bytes;

@@ -6,12 +6,12 @@ use glam::{DAffine3, DMat3, DQuat, DVec3};
 use super::Source;
 use super::origins::Role;
 use super::table::Parameter;
-use crate::geometry::normalise;
-use crate::language::form::{Along, Motion, PRECISE, rotation, rounded};
-use crate::language::structure::{Pose, number, replacements};
-use crate::language::view::spelled;
-use crate::language::{Answers, Node, StructureError};
-use crate::text::{Edit, Span, spell_like};
+use crate::form::{Along, Motion, PRECISE, rotation, rounded};
+use crate::structure::{Pose, number, replacements};
+use crate::view::spelled;
+use crate::{Answers, Node, StructureError};
+use geometry::normalise;
+use text::{Edit, Span, spell_like};
 
 /// A transform of an object.
 struct Transform {

@@ -6,9 +6,9 @@ mod insert;
 
 use super::table::{LightKind, MaterialKind, ObjectKind, Parameter};
 use super::tree::{Attribute, Tree};
-use crate::language::node::Node;
-use crate::language::rendering::RenderPlace;
-use crate::scene::Transfer;
+use crate::node::Node;
+use crate::rendering::RenderPlace;
+use scene::Transfer;
 
 /// The places of everything lowered, as indices of elements and attributes: valid only with the
 /// tree they were made from.
@@ -158,7 +158,7 @@ impl Origins {
 
     /// The element of a node.
     pub(super) fn element(&self, tree: &Tree, node: Node) -> Option<usize> {
-        use crate::language::xml::table::{BACKGROUND, ENVIRONMENT};
+        use crate::xml::table::{BACKGROUND, ENVIRONMENT};
         match node {
             Node::View => self.camera,
             Node::Render => self.render,

@@ -1,8 +1,8 @@
 //! The roles that the leaves of an `.xml` text play.
 
 use super::tree::Tree;
-use crate::language::roles::{ANYWHERE, Role, Roles};
-use crate::text::Span;
+use crate::roles::{ANYWHERE, Role, Roles};
+use text::Span;
 
 /// The roles of leaves: the name of the innermost named element that they are in, since things that
 /// change places are told apart by their names.

@@ -1,11 +1,11 @@
 //! Estimates of the memory that an `.xml` text takes: for its tree and its scene.
 
 use super::tree::{Attribute, Element, Tree};
-use crate::geometry::Affine;
-use crate::language::room::{Counts, each, scene_fits};
-use crate::memory::OutOfMemory;
-use crate::scene::{Material, Object};
-use crate::text::Span;
+use crate::room::{Counts, each, scene_fits};
+use geometry::Affine;
+use memory::OutOfMemory;
+use scene::{Material, Object};
+use text::Span;
 
 /// The parser's bytes per node, in growing lists.
 const NODE: usize = 2 * 80;
@@ -17,7 +17,7 @@ const ATTRIBUTE: usize = 64;
 const ELEMENT: usize = 2 * size_of::<Object>() + size_of::<Affine>() + size_of::<Material>() / 2;
 
 /// Estimates the bytes needed to build a tree with these counts.
-pub(in crate::language) fn tree_bytes(counts: &Counts) -> u64 {
+pub(crate) fn tree_bytes(counts: &Counts) -> u64 {
     each(counts.openings, NODE + 2 * size_of::<Element>())
         + each(counts.equals, ATTRIBUTE + 2 * size_of::<Attribute>())
         + each(counts.tokens, 2 * size_of::<Span>())

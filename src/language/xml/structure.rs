@@ -7,16 +7,16 @@ use super::copies::Copies;
 use super::table::ObjectKind;
 use super::tree::{escaped, quote};
 use super::{Source, add, apart, roles};
-use crate::language::frame::frameless;
-use crate::language::roles::Roles;
-use crate::language::structure::{Block, deletions, follows, line_before, lines, uncreatable};
-use crate::language::table::Category;
-use crate::language::view::{line_ending, line_from};
-use crate::language::{
+use crate::frame::frameless;
+use crate::roles::Roles;
+use crate::structure::{Block, deletions, follows, line_before, lines, uncreatable};
+use crate::table::Category;
+use crate::view::{line_ending, line_from};
+use crate::{
     Addition, Answers, Motion, Neighbour, Node, Placement, Pose, Restructure, StructureError, Wish,
     structure,
 };
-use crate::text::{Edit, Span, counted, line_end};
+use text::{Edit, Span, counted, line_end};
 
 impl Restructure for Source {
     fn consequence(&self, nodes: &[Node]) -> Option<String> {

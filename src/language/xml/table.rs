@@ -6,9 +6,9 @@ mod kinds;
 pub(super) mod lights;
 pub(super) mod materials;
 
-use crate::language::table::{Category, Field, Kind, Range};
-use crate::scene::Transfer;
+use crate::table::{Category, Field, Kind, Range};
 pub(super) use kinds::{LightKind, MaterialKind, ObjectKind};
+use scene::Transfer;
 
 /// An element that sets a property of its parent.
 #[derive(Debug, PartialEq)]

@@ -7,9 +7,9 @@ mod meshes;
 mod properties;
 mod written;
 
-use crate::language::tests::{read_as, shown};
-use crate::language::{Language, Lowered, Source};
-use crate::scene::{Meshes, Scene};
+use crate::tests::{read_as, shown};
+use crate::{Language, Lowered, Source};
+use scene::{Meshes, Scene};
 
 /// The example of the course.
 const EXAMPLE: &str = include_str!("../../../scenes/spheres.xml");

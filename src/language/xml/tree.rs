@@ -13,9 +13,9 @@ use std::ops::Range;
 
 use roxmltree::{Document, Error, Node, NodeType, ParsingOptions};
 
-use crate::language::words::{skip_white_space, white_space};
-use crate::language::written::Parse;
-use crate::text::{Diagnostic, Span};
+use crate::words::{skip_white_space, white_space};
+use crate::written::Parse;
+use text::{Diagnostic, Span};
 
 /// The elements and comments of a text, each in text order.
 #[derive(Clone, Debug, Default)]

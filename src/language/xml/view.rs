@@ -5,12 +5,12 @@ use glam::DVec3;
 use super::Source;
 use super::origins::Origins;
 use super::table::camera::{self, PARAMETERS, index_of};
-use crate::language::Answers;
-use crate::language::placed::Placed;
-use crate::language::table::Field;
-use crate::language::view::{Numbers, literal, take};
-use crate::scene::{Camera, Focus, Lens, Size};
-use crate::text::{Edit, spell_like};
+use crate::Answers;
+use crate::placed::Placed;
+use crate::table::Field;
+use crate::view::{Numbers, literal, take};
+use scene::{Camera, Focus, Lens, Size};
+use text::{Edit, spell_like};
 
 /// Indices in [`PARAMETERS`].
 const POSITION: usize = index_of(&camera::POSITION);

@@ -11,14 +11,14 @@ use std::fmt::Write;
 use glam::DVec3;
 
 use super::tree::escaped;
-use crate::language::losses::Losses;
-use crate::language::rendering::spelled;
-use crate::language::spelling;
-use crate::language::surroundings::angle;
-use crate::scene::{Camera, Focus, Rgb, Scene, Setting, Size, Tinted};
+use crate::losses::Losses;
+use crate::rendering::spelled;
+use crate::spelling;
+use crate::surroundings::angle;
+use scene::{Camera, Focus, Rgb, Scene, Setting, Size, Tinted};
 
 /// Writes a scene and reports what it loses.
-pub(in crate::language) fn write(scene: &Scene, losses: &mut Losses<'_>) -> String {
+pub(crate) fn write(scene: &Scene, losses: &mut Losses<'_>) -> String {
     let mut text = "<xml>\n  <scene>\n".to_owned();
     let Setting {
         background,

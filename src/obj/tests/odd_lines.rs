@@ -1,7 +1,7 @@
 //! Lines that are wrong: each costs only itself, with a warning at its place.
 
 use super::*;
-use crate::obj::{Finding, MAX_FINDINGS};
+use crate::{Finding, MAX_FINDINGS};
 
 /// The message of a finding, what it costs, and the marked part of its line in brackets.
 fn report(finding: &Finding) -> String {

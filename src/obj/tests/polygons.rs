@@ -1,7 +1,7 @@
 //! Polygons that are not convex.
 
 use super::*;
-use crate::obj::{MAX_TRIANGLES, ears, polygons};
+use crate::{MAX_TRIANGLES, ears, polygons};
 
 /// The work allowed per corner, more than any of these outlines takes that do not cross themselves.
 const EFFORT: usize = 128;
@@ -229,7 +229,7 @@ fn the_work_for_a_mesh_is_limited() {
 }
 
 proptest! {
-    #![proptest_config(crate::repeatable())]
+    #![proptest_config(repeatable::config())]
 
     #[test]
     fn no_outline_makes_the_cutter_panic(

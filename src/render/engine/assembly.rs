@@ -8,10 +8,10 @@ use super::adaptive::square;
 use super::block::Block;
 use super::blocks::Blocks;
 use super::preflight::Refusal;
-use crate::render::integrators::Counts;
-use crate::render::job::{Aov, Frames, Settings};
-use crate::render::picture::{Frame, Light, Overexposure, Progress, Tone, tone};
-use crate::scene::Rgb;
+use crate::integrators::Counts;
+use crate::job::{Aov, Frames, Settings};
+use crate::picture::{Frame, Light, Overexposure, Progress, Tone, tone};
+use scene::Rgb;
 
 /// A picture whose blocks arrive in any order; a later one replaces an earlier one of its number.
 ///

@@ -7,9 +7,9 @@ use super::blocks::Blocks;
 use super::noise::Doubling;
 use super::pass_schedule::Step;
 use super::tile::Work;
-use crate::render::integrators::{Counts, FrameContext};
-use crate::render::job::{Aov, Region, Settings};
-use crate::scene::{LEAST_ADAPTIVE_SPP, Rgb};
+use crate::integrators::{Counts, FrameContext};
+use crate::job::{Aov, Region, Settings};
+use scene::{LEAST_ADAPTIVE_SPP, Rgb};
 
 /// Pixels traced together: most of a block's share of the cache.
 const TOGETHER: usize = 256;
@@ -30,7 +30,7 @@ pub struct Block {
     /// The sums after the last power of two of samples, which the next doubling is compared with;
     /// empty if that is now, and before the first sample.
     pub half: Vec<Rgb>,
-    /// The square of each pixel's estimated error, see [`Progress::noise`](crate::render::Progress::noise);
+    /// The square of each pixel's estimated error, see [`Progress::noise`](crate::Progress::noise);
     /// 0 before samples were first doubled, and for AOVs of surfaces.
     pub squared_errors: Vec<f32>,
     /// The rays traced for it.

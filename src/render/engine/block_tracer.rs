@@ -12,11 +12,9 @@ use super::preflight;
 use super::preflight::Refusal;
 use super::renderer::{Threads, pool};
 use super::tile::Work;
-use crate::render::integrators::{
-    FrameContext, LightComponent, MAPS, PhotonRules, Photons, Tracer,
-};
-use crate::render::job::{Aov, Job};
-use crate::render::world::{Rules, World};
+use crate::integrators::{FrameContext, LightComponent, MAPS, PhotonRules, Photons, Tracer};
+use crate::job::{Aov, Job};
+use crate::world::{Rules, World};
 
 /// A scene prepared to be traced block by block on threads of its own.
 #[derive(Debug)]

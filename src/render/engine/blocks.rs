@@ -1,8 +1,8 @@
 //! The division of a picture into square blocks, each of which is decided on, traced and stored apart
 //! from the others.
 
-use crate::render::job::Region;
-use crate::scene::Size;
+use crate::job::Region;
+use scene::Size;
 
 /// Edge length of blocks in pixels; blocks at the right and lower edges of a picture are cut.
 pub const BLOCK: u32 = 32;

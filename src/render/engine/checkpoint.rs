@@ -9,9 +9,9 @@ use std::io::{self, ErrorKind, Read, Write};
 use std::time::Duration;
 
 use super::tile::{Remembers, Tile, TileShape};
-use crate::render::integrators::Counts;
-use crate::render::job::Job;
-use crate::scene::{MAX_SPP, Size};
+use crate::integrators::Counts;
+use crate::job::Job;
+use scene::{MAX_SPP, Size};
 
 /// Tiles freed at once: about 4 MB, in less than 1 ms.
 const FREED: usize = 512;

@@ -7,11 +7,11 @@ use std::sync::Arc;
 
 use rayon::prelude::*;
 
-use crate::geometry::Shape;
-use crate::render::job::Job;
-use crate::render::world::{Dependencies, World};
-use crate::scene::blocks::BLOCK;
-use crate::scene::{Integrator, Light, Material, Object, Scene};
+use crate::job::Job;
+use crate::world::{Dependencies, World};
+use geometry::Shape;
+use scene::blocks::BLOCK;
+use scene::{Integrator, Light, Material, Object, Scene};
 
 /// Returns the difference between two jobs with their worlds; `None` if more than materials,
 /// colours of lights and the number of samples differ.

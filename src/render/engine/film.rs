@@ -11,11 +11,11 @@ use super::checkpoint::{Effort, Kept};
 use super::noise::Doubling;
 use super::pass_schedule::Step;
 use super::tile::{AREA, Remembers, Tile, TileShape, Work};
-use crate::render::integrators::{Counts, FrameContext, LightComponent, MAPS, PhotonRules, Tracer};
-use crate::render::job::{Aov, Frames, Settings};
-use crate::render::picture::{Excess, Light, Overexposure, Tone, UNKNOWN, denoise, tone};
-use crate::render::world::Dependencies;
-use crate::scene::{Integrator, LEAST_ADAPTIVE_SPP, Rgb, Size, Transfer};
+use crate::integrators::{Counts, FrameContext, LightComponent, MAPS, PhotonRules, Tracer};
+use crate::job::{Aov, Frames, Settings};
+use crate::picture::{Excess, Light, Overexposure, Tone, UNKNOWN, denoise, tone};
+use crate::world::Dependencies;
+use scene::{Integrator, LEAST_ADAPTIVE_SPP, Rgb, Size, Transfer};
 
 /// Pixels developed between two polls of cancellation, which takes a few milliseconds; at least two
 /// rows of tiles per thread.

@@ -6,9 +6,9 @@
 //! distributed better than at random the actual error is smaller.
 
 use super::pass_schedule::Step;
-use crate::render::job::Settings;
-use crate::render::picture::Light;
-use crate::scene::Rgb;
+use crate::job::Settings;
+use crate::picture::Light;
+use scene::Rgb;
 
 /// The difference of means that rounding may cause, as a share of them.
 const ROUNDING: f64 = 1e-10;

@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use crate::render::job::Frames;
+use crate::job::Frames;
 
 /// The samples added by one pass over all tiles.
 #[derive(Clone, Debug, PartialEq, Eq)]

@@ -3,11 +3,11 @@
 use std::sync::Arc;
 
 use super::film::Film;
-use crate::memory::{self, Need, OutOfMemory};
-use crate::render::integrators::{PhotonRules, Photons};
-use crate::render::job::{Job, NoRegion};
-use crate::render::world::{FEW, Rules, World, instances};
-use crate::scene::{Rgb, Scene, Size};
+use crate::integrators::{PhotonRules, Photons};
+use crate::job::{Job, NoRegion};
+use crate::world::{FEW, Rules, World, instances};
+use memory::{Need, OutOfMemory};
+use scene::{Rgb, Scene, Size};
 
 /// Bytes per bounding box while its tree is built: references, nodes twice, positions. What is kept of
 /// the vertices of triangles afterwards takes less than what is freed by then.

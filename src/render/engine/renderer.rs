@@ -13,10 +13,9 @@ use super::preflight::Refusal;
 use super::shared::Shared;
 use super::worker::{Request, Submission, Submissions};
 use super::{preflight, worker};
-use crate::memory;
-use crate::render::job::Job;
-use crate::render::picture::Frame;
-use crate::scene::Scene;
+use crate::job::Job;
+use crate::picture::Frame;
+use scene::Scene;
 
 /// The number of tracing threads and their priority.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -124,7 +123,7 @@ impl Renderer {
     /// nothing is traced of it, or it is not one to be continued (see [`Frames::Live`]). Takes as
     /// long as dropping the renderer.
     ///
-    /// [`Frames::Live`]: crate::render::Frames::Live
+    /// [`Frames::Live`]: crate::Frames::Live
     pub fn keep(self) -> Option<Kept> {
         let (keeper, kept) = mpsc::channel();
         let worker = self.worker.as_ref().ok()?;

@@ -5,7 +5,7 @@ use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
 
-use crate::render::picture::Frame;
+use crate::picture::Frame;
 
 /// A state that no generation has, which tells the worker to end.
 const QUIT: u64 = u64::MAX;

@@ -9,12 +9,12 @@ use std::ops::Range;
 use super::adaptive::Selection;
 use super::noise::Doubling;
 use super::pass_schedule::{COARSEST, Step, samples_at};
-use crate::render::integrators::{FrameContext, Sample, SampleResult, Tracer, first_hit};
-use crate::render::job::{Aov, Frames, NO_OBJECT, Settings};
-use crate::render::picture::UNKNOWN;
-use crate::render::world::Dependencies;
-use crate::scene::{Rgb, Size};
+use crate::integrators::{FrameContext, Sample, SampleResult, Tracer, first_hit};
+use crate::job::{Aov, Frames, NO_OBJECT, Settings};
+use crate::picture::UNKNOWN;
+use crate::world::Dependencies;
 use partial_pass::Halfway;
+use scene::{Rgb, Size};
 
 /// Pixels per tile.
 pub(crate) const AREA: u32 = 256;

@@ -7,9 +7,9 @@ use super::checkpoint::{Effort, Kept};
 use super::film::{Film, Raster};
 use super::pass_schedule::Step;
 use super::shared::Shared;
-use crate::render::integrators::{Counts, FrameContext, MAPS, Photons};
-use crate::render::job::{Frames, Job, Limit, NO_OBJECT};
-use crate::render::picture::{Frame, Guides, Noisy, Progress, Query};
+use crate::integrators::{Counts, FrameContext, MAPS, Photons};
+use crate::job::{Frames, Job, Limit, NO_OBJECT};
+use crate::picture::{Frame, Guides, Noisy, Progress, Query};
 
 /// Time for refining a first picture before it is shown: half of what counts as immediate, so that
 /// even the picture of an edit that waited for its predecessor is in time.

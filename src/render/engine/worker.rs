@@ -13,10 +13,10 @@ use super::film::Film;
 use super::pass_schedule::steps;
 use super::shared::Shared;
 use super::tracing::{Ticket, Tracing};
-use crate::render::integrators::{FrameContext, PhotonRules, Photons};
-use crate::render::job::{Frames, Job};
-use crate::render::picture::Query;
-use crate::render::world::{Dependencies, Rules, World};
+use crate::integrators::{FrameContext, PhotonRules, Photons};
+use crate::job::{Frames, Job};
+use crate::picture::Query;
+use crate::world::{Dependencies, Rules, World};
 
 /// What the thread is asked for.
 pub(crate) enum Request {

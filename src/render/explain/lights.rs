@@ -3,12 +3,12 @@
 use glam::DVec3;
 
 use super::record::{Crossing, LightTerm, UnlitReason};
-use crate::geometry::Ray;
-use crate::render::integrators::{Facing, Points};
-use crate::render::light::{Incoming, incoming};
-use crate::render::material::Point;
-use crate::render::world::{Crossed, Nearest, Occlusion, World};
-use crate::scene::{Emitter, Light, Material, Rgb};
+use crate::integrators::{Facing, Points};
+use crate::light::{Incoming, falloff_shares, incoming};
+use crate::material::Point;
+use crate::world::{Crossed, Nearest, Occlusion, World};
+use geometry::Ray;
+use scene::{Emitter, Light, Material, Rgb};
 
 /// Objects listed on a shadow ray.
 const MOST_CROSSED: usize = 16;
@@ -124,7 +124,7 @@ fn shares(light: &Light, point: DVec3, toward: DVec3) -> [f64; 2] {
     match &light.emitter {
         Emitter::Point {
             position, falloff, ..
-        } => falloff.shares(position.distance(point), toward),
+        } => falloff_shares(falloff, position.distance(point), toward),
         Emitter::Distant(_) | Emitter::Ambient => [1.0; 2],
     }
 }

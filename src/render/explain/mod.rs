@@ -21,8 +21,8 @@ use super::integrators::{FrameContext, PhotonRules, Photons, Sample};
 use super::job::{Job, Settings};
 use super::picture::{Light, Query, Tone};
 use super::world::{Projection, Rules, World};
-use crate::scene::{Integrator, MAX_SPP};
 use judge::Case;
+use scene::{Integrator, MAX_SPP};
 
 pub use kind::RayKind;
 pub use record::{

@@ -8,16 +8,16 @@ use super::record::{
     UnlitReason,
 };
 use super::surface::{boundary, missing_around, missing_at, surface_hit};
-use crate::geometry::lanes::Vector;
-use crate::render::integrators::{
+use crate::integrators::{
     Continuation, EmitterSample, Facing, Path, PathHit, PhotonMap, Probe, Sample, Vertex,
     place_on_light,
 };
-use crate::render::light::{Incoming, SphereLight};
-use crate::render::material::{BsdfSample, Component, transmitted};
-use crate::render::sampling::{Densities, Use};
-use crate::render::world::World;
-use crate::scene::Rgb;
+use crate::light::{Incoming, SphereLight, light_sphere, luminous_sphere};
+use crate::material::{BsdfSample, Component, transmitted};
+use crate::sampling::{Densities, Use};
+use crate::world::World;
+use geometry::lanes::Vector;
+use scene::Rgb;
 
 /// Traces a sample; returns its radiance and all rays, or `None` once `cancelled` returns true.
 pub(super) fn record(
@@ -300,14 +300,14 @@ impl<C: Fn() -> bool> Recorder<'_, C> {
         };
         let reflected = |facing: &Facing<f64>| light.scale * scattered(facing.toward.into());
         let from = point.surface.point;
-        let chosen = light.sphere().and_then(|sphere| sphere.choose(from, place));
+        let chosen = light_sphere(light).and_then(|sphere| sphere.choose(from, place));
         let mut term = lit.term(number, chosen, reflected, added)?;
         term.chance = chance;
         if self.probe.is_by_photons(light) && term.transmittance.is_some_and(|share| share < 1.0) {
             term.transmittance = Some(0.0);
             term.dark = Some(UnlitReason::Blocked);
         }
-        let Some(sphere) = light.luminous_sphere() else {
+        let Some(sphere) = luminous_sphere(light) else {
             return Some(term);
         };
         // Falloff does not apply to lights with a size.

@@ -5,9 +5,9 @@ use glam::{DVec2, DVec3};
 
 use super::kind::RayKind;
 use super::verdict::Finding;
-use crate::render::material::Side;
-use crate::render::sampling::Densities;
-use crate::scene::{Integrator, Material, Rgb};
+use crate::sampling::Densities;
+use geometry::Side;
+use scene::{Integrator, Material, Rgb};
 
 /// The whole tree of rays behind one sample of a pixel.
 ///
@@ -114,7 +114,7 @@ pub struct LightHit {
 /// Where a ray hit a surface.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SurfaceHit {
-    /// The object, as frames call it, see [`Job::numbers`](crate::render::Job::numbers).
+    /// The object, as frames call it, see [`Job::numbers`](crate::Job::numbers).
     pub object: u32,
     /// Index of the material in the scene.
     pub material: u32,

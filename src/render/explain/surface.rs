@@ -3,10 +3,10 @@
 use glam::{DVec2, DVec3};
 
 use super::record::{Boundary, SurfaceHit};
-use crate::geometry::{Ray, Shape};
-use crate::render::material::{Point, Refraction, environment_place};
-use crate::render::world::{Nearest, World};
-use crate::scene::{Maps, Material, Rgb, Tinted};
+use crate::material::{Point, Refraction, environment_place, refraction_indices};
+use crate::world::{Nearest, World};
+use geometry::{Ray, Shape};
+use scene::{Maps, Material, Rgb, Tinted};
 
 /// Describes where a ray hit a surface.
 pub(super) fn surface_hit(world: &World, ray: &Ray, nearest: Nearest, point: &Point) -> SurfaceHit {
@@ -48,7 +48,7 @@ pub(super) fn missing_around(world: &World, ray: &Ray, bounce: u32, screen: DVec
 /// What a material does with light at the boundary of a transparent solid; `None` if opaque.
 pub(super) fn boundary(ray: &Ray, point: &Point, material: &Material) -> Option<Boundary> {
     let tint = material.dielectric.tint;
-    let indices = material.indices(point.side);
+    let indices = refraction_indices(material, point.side);
     let model = material.dielectric.reflectance;
     (tint != Rgb::ZERO).then(|| {
         let refraction = Refraction::new(ray.direction, point.normal, indices, model);

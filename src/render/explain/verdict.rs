@@ -3,7 +3,7 @@
 use glam::DVec3;
 
 use super::kind::RayKind;
-use crate::scene::{FalloffRule, Rgb};
+use scene::{FalloffRule, Rgb};
 
 /// A verdict with the ray at whose end it was found.
 #[derive(Clone, Debug, PartialEq)]

@@ -5,13 +5,14 @@ use super::kind::RayKind;
 use super::lights::Lit;
 use super::record::{RayEnd, Shading, Stop, TracedRay, Unlisted};
 use super::surface::{boundary, missing_around, missing_at, surface_hit};
-use crate::render::integrators::{Facing, Probe, RayState, Sample, SampleResult, Secondary, Wave};
-use crate::render::material::transmitted;
-use crate::render::world::World;
+use crate::integrators::{Facing, Probe, RayState, Sample, SampleResult, Secondary, Wave};
+use crate::light::light_sphere;
+use crate::material::{mirror_weight, reflectance, transmitted};
+use crate::world::World;
 use glam::DVec3;
 
-use crate::geometry::Ray;
-use crate::scene::Rgb;
+use geometry::Ray;
+use scene::Rgb;
 
 /// A ray that is yet to be traced.
 #[derive(Clone, Copy)]
@@ -140,7 +141,7 @@ impl<C: Fn() -> bool> Recorder<'_, C> {
             emitters: Vec::new(),
             caustics: Rgb::ZERO,
             radiance: Rgb::ZERO,
-            mirror: material.mirrored(point.side),
+            mirror: mirror_weight(&material, point.side),
             boundary: boundary(&ray, &point, &material),
             stop: None,
             material,
@@ -205,14 +206,14 @@ impl<C: Fn() -> bool> Recorder<'_, C> {
             point: &point,
             material,
         };
-        let sphere = probe.world.lights()[number].sphere();
+        let sphere = light_sphere(&probe.world.lights()[number]);
         let from = point.surface.point;
         let sampler = samples[0].sampler;
         let chosen = sphere.and_then(|sphere| state.choose((number, &sphere), from, sampler));
         let reflected = |facing: &Facing<f64>| {
             let toward = DVec3::from(facing.toward);
             let halfway = || point.normal.dot((toward + point.view).normalize());
-            material.reflected(facing.cosine, facing.mirrored, halfway)
+            reflectance(material, facing.cosine, facing.mirrored, halfway)
         };
         let added = match (wave.asking.first(), wave.transmittances.first()) {
             (Some(_), Some(0.0)) => Rgb::ZERO,

@@ -3,12 +3,12 @@
 use glam::DVec3;
 
 use super::probe::Probe;
-use crate::geometry::lanes::{Eight, Lanes, Row, Simd, Vector};
-use crate::geometry::{Ray, Rays, Surfaces};
-use crate::render::light::{Incoming, lights};
-use crate::render::material::Point;
-use crate::render::world::Occlusion;
-use crate::scene::{Light, Rgb, Shadows};
+use crate::light::{Incoming, lights};
+use crate::material::Point;
+use crate::world::Occlusion;
+use geometry::lanes::{Eight, Lanes, Row, Simd, Vector};
+use geometry::{Ray, Rays, Surfaces};
+use scene::{Light, Rgb, Shadows};
 
 /// Points to light, in each lane.
 #[derive(Clone, Copy, Debug)]

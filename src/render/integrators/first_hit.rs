@@ -3,11 +3,11 @@
 use glam::DVec3;
 
 use super::probe::{Sample, SampleResult};
-use crate::geometry::Ray;
-use crate::render::job::{Aov, NO_OBJECT};
-use crate::render::material::Side;
-use crate::render::world::{Dependencies, World};
-use crate::scene::{Integrator, Rgb};
+use crate::job::{Aov, NO_OBJECT};
+use crate::world::{Dependencies, World};
+use geometry::Ray;
+use geometry::Side;
+use scene::{Integrator, Rgb};
 
 /// Computes an AOV at the first surface that a camera ray hits within `reach`; the ray starts
 /// `skipped` away from the eye.
@@ -45,7 +45,7 @@ pub(crate) fn first_hit(
             Side::Front => 1.0,
             Side::Back => -1.0,
         }),
-        // The others belong to light, see [`Settings::surface`](crate::render::Settings).
+        // The others belong to light, see [`Settings::surface`](crate::Settings).
         _ => DVec3::ZERO,
     };
     SampleResult {

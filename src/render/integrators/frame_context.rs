@@ -4,11 +4,12 @@ use glam::{DVec2, DVec3};
 
 use super::photon::PhotonMaps;
 use super::probe::Sample;
-use crate::geometry::lanes::{Eight, Lanes, Row, Simd, SimdBase, WIDTH, dispatch};
-use crate::render::job::Settings;
-use crate::render::sampling::{Sampler, Spread, Use};
-use crate::render::world::{Projection, World};
-use crate::scene::{Camera, Integrator};
+use crate::job::Settings;
+use crate::light::light_sphere;
+use crate::sampling::{Sampler, Spread, Use};
+use crate::world::{Projection, World};
+use geometry::lanes::{Eight, Lanes, Row, Simd, SimdBase, WIDTH, dispatch};
+use scene::{Camera, Integrator};
 
 /// The inputs of tracing a tile.
 #[derive(Clone, Debug)]
@@ -115,7 +116,7 @@ impl FrameContext<'_> {
         let mut lights = self.world.lights().iter();
         let mut materials = self.world.scene.materials.iter();
         self.projection.has_lens()
-            || lights.any(|light| light.sphere().is_some())
+            || lights.any(|light| light_sphere(light).is_some())
             || materials.any(|material| {
                 material.mirror.spread != 0.0
                     || material.dielectric.spread != 0.0

@@ -4,8 +4,8 @@
 //! share is told by the bounce at which its light enters, so that its samples are those of the
 //! whole picture.
 
-use crate::render::job::Aov;
-use crate::scene::Integrator;
+use crate::job::Aov;
+use scene::Integrator;
 
 /// The light gathered.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -4,11 +4,11 @@ use glam::DVec2;
 
 use super::light_component::LightComponent;
 use super::photon::PhotonMap;
-use crate::geometry::Ray;
-use crate::render::job::NO_OBJECT;
-use crate::render::sampling::Sampler;
-use crate::render::world::{Crossed, Dependencies, World};
-use crate::scene::Rgb;
+use crate::job::NO_OBJECT;
+use crate::sampling::Sampler;
+use crate::world::{Crossed, Dependencies, World};
+use geometry::Ray;
+use scene::Rgb;
 
 /// Ray budget of a camera sample, not counting shadow rays. With reflection and transmission both
 /// 1, a tree of depth 30 would have two billion.

@@ -5,8 +5,8 @@ use super::path::PathWave;
 use super::photon::PhotonMaps;
 use super::probe::{Counts, Probe, Sample, SampleResult};
 use super::wave::Wave;
-use crate::render::world::World;
-use crate::scene::Integrator;
+use crate::world::World;
+use scene::Integrator;
 
 /// Traces samples, reusing scratch space and accumulating counts.
 ///

@@ -2,11 +2,11 @@
 
 use glam::DVec3;
 
-use crate::geometry::Ray;
-use crate::render::material::{Bsdf, BsdfSample, Point};
-use crate::render::sampling::Sampler;
-use crate::render::world::{Nearest, World};
-use crate::scene::Material;
+use crate::material::{Bsdf, BsdfSample, Point};
+use crate::sampling::Sampler;
+use crate::world::{Nearest, World};
+use geometry::Ray;
+use scene::Material;
 
 /// A surface that a path reached.
 pub(crate) struct Vertex<'m> {

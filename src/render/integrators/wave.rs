@@ -3,10 +3,10 @@
 use std::mem;
 
 use super::probe::{Counts, RAY_BUDGET, Sample};
-use crate::geometry::{Packets, Ray};
-use crate::render::sampling::Sampler;
-use crate::render::world::{Landing, NearestHits};
-use crate::scene::{Material, Rgb};
+use crate::sampling::Sampler;
+use crate::world::{Landing, NearestHits};
+use geometry::{Packets, Ray};
+use scene::{Material, Rgb};
 
 /// The state of a ray apart from its geometry.
 #[derive(Clone, Copy, Debug)]

@@ -22,7 +22,7 @@ pub enum Aov {
     /// surface. In 8 bits blue and orange.
     Side,
     /// Rays traced for a sample of light, including shadow rays, as the mean of the samples. In 8
-    /// bits dark to bright on a logarithmic scale, as [`Frame::range`] says.
+    /// bits dark to bright on a logarithmic scale, as [`Frame::range`](crate::Frame::range) says.
     Cost,
     /// Samples taken of the light. In 8 bits dark to bright on a logarithmic scale.
     Samples,

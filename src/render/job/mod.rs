@@ -15,7 +15,7 @@ pub(crate) use settings_text::{SAMPLES, aov_name, aov_of, is_added};
 use std::sync::Arc;
 use std::time::Duration;
 
-use crate::scene::{Camera, Images, Scene};
+use scene::{Camera, Images, Scene};
 
 /// Marks a pixel without an object in [`Frame::objects`](super::Frame::objects).
 pub const NO_OBJECT: u32 = u32::MAX;
@@ -26,18 +26,18 @@ pub const NO_OBJECT: u32 = u32::MAX;
 pub enum Limit {
     /// The time for the job: a pass that would exceed it, judging by those before, is not begun.
     Time(Duration),
-    /// The [`Progress::noise`] below which the picture is good enough.
+    /// The [`Progress::noise`](crate::Progress::noise) below which the picture is good enough.
     Noise(f64),
 }
 
 /// Which frames of a job contain pixels. All contain the progress.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Frames {
-    /// Every frame, with [`Frame::values`], for a picture watched while it is traced.
+    /// Every frame, with [`Frame::values`](crate::Frame::values), for a picture watched while it is traced.
     Live,
     /// Only the last, complete frame.
     Last,
-    /// Only the last frame, with [`Frame::values`].
+    /// Only the last frame, with [`Frame::values`](crate::Frame::values).
     LastWithValues,
 }
 
@@ -56,7 +56,7 @@ pub struct Job {
     pub limit: Option<Limit>,
     /// Which frames contain pixels.
     pub frames: Frames,
-    /// Whether to reduce noise of light: in [`Frame::denoised`] of live frames, and otherwise in
+    /// Whether to reduce noise of light: in [`Frame::denoised`](crate::Frame::denoised) of live frames, and otherwise in
     /// the pixels and values of the last frame themselves.
     pub denoise: bool,
     /// What frames call the objects of the scene, by index; `None` calls them by their indices. A

@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use crate::scene::Size;
+use scene::Size;
 
 /// A rectangle of pixels of a picture.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]

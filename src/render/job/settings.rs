@@ -2,7 +2,7 @@
 
 use super::aov::Aov;
 use super::region::Region;
-use crate::scene::{self, Rendering, Size, render_settings};
+use scene::{Rendering, Size, render_settings};
 
 macro_rules! settings {
     ($($(#[$doc:meta])* $key:ident: $type:ty = $default:expr, $setting:expr;)+) => {

@@ -2,7 +2,7 @@
 
 use super::aov::Aov;
 use super::settings::Settings;
-use crate::scene::{RenderKey, Rendering, Size};
+use scene::{RenderKey, Rendering, Size};
 
 /// The entries of the first version but for the last. Those added since follow them,
 /// and only where they are not their defaults.

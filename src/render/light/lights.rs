@@ -5,13 +5,13 @@ use std::sync::Arc;
 
 use glam::DVec3;
 
-use crate::accel::Bvh;
-use crate::geometry::lanes::{Eight, Lanes, Level, Row, Simd, Vector, WIDTH, dispatch, each_bit};
-use crate::geometry::{Aabb, Ray, Rays};
-use crate::render::material::power;
-use crate::render::sampling::{power_heuristic, warp};
-use crate::render::simd_level::level;
-use crate::scene::{Emitter, Falloff, FalloffRule, Light, Rgb};
+use crate::material::power;
+use crate::sampling::{power_heuristic, warp};
+use crate::simd_level::level;
+use accel::Bvh;
+use geometry::lanes::{Eight, Lanes, Level, Row, Simd, Vector, WIDTH, dispatch, each_bit};
+use geometry::{Aabb, Ray, Rays};
+use scene::{Emitter, Falloff, FalloffRule, Light, Rgb};
 
 /// The light arriving at points, in each lane.
 #[derive(Clone, Copy, Debug)]
@@ -72,7 +72,7 @@ pub(crate) fn attenuation(light: &Light, point: DVec3, toward: DVec3) -> f64 {
         Emitter::Point { falloff, .. } if *falloff == Falloff::NONE => 1.0,
         Emitter::Point {
             position, falloff, ..
-        } => falloff.share(position.distance(point), toward),
+        } => falloff_share(falloff, position.distance(point), toward),
         Emitter::Distant(_) | Emitter::Ambient => 1.0,
     }
 }
@@ -120,85 +120,79 @@ pub(crate) fn faded(lights: &[Light], rule: FalloffRule) -> Option<Vec<Light>> {
     Some(faded)
 }
 
-impl Light {
-    /// The sphere of a light that has a size, toward which shadows and highlights sample it.
-    pub(crate) fn sphere(&self) -> Option<SphereLight> {
-        match self.emitter {
-            Emitter::Point {
-                position, radius, ..
-            } if 0.0 < radius => Some(SphereLight {
-                centre: position,
-                radius,
-                intensity: self.colour,
-                scale: self.scale,
-            }),
-            Emitter::Point { .. } | Emitter::Distant(_) | Emitter::Ambient => None,
-        }
-    }
-
-    /// The sphere of a light that has a size, as path tracing sees it: with a radiance that follows
-    /// from its intensity. A light that is no radiometric quantity and does not fade has none: there
-    /// is no radiance with which it would light all distances alike.
-    pub(crate) fn luminous_sphere(&self) -> Option<SphereLight> {
-        let sphere = self.sphere()?;
-        let Emitter::Point { falloff, .. } = &self.emitter else {
-            return None;
-        };
-        let [.., square] = falloff.radial;
-        if self.scale == 1.0 {
-            Some(sphere)
-        } else if 0.0 < square {
-            Some(SphereLight {
-                intensity: sphere.intensity / square,
-                ..sphere
-            })
-        } else {
-            None
-        }
+/// The sphere of a light that has a size, toward which shadows and highlights sample it.
+pub(crate) fn light_sphere(light: &Light) -> Option<SphereLight> {
+    match light.emitter {
+        Emitter::Point {
+            position, radius, ..
+        } if 0.0 < radius => Some(SphereLight {
+            centre: position,
+            radius,
+            intensity: light.colour,
+            scale: light.scale,
+        }),
+        Emitter::Point { .. } | Emitter::Distant(_) | Emitter::Ambient => None,
     }
 }
 
-impl Light {
-    /// The power per steradian that it sends out along the axis of its spot, or in all directions, as
-    /// path tracing sees it; `None` if it emits no photons.
-    pub(crate) fn radiant_intensity(&self) -> Option<Rgb> {
-        if !self.emits_photons(FalloffRule::None) {
-            return None;
-        }
-        let Emitter::Point { falloff, .. } = &self.emitter else {
-            return None;
-        };
-        Some(match self.luminous_sphere() {
-            Some(sphere) => sphere.scale * sphere.intensity,
-            None => self.scale * self.colour / falloff.radial[2],
+/// The sphere of a light that has a size, as path tracing sees it: with a radiance that follows
+/// from its intensity. A light that is no radiometric quantity and does not fade has none: there
+/// is no radiance with which it would light all distances alike.
+pub(crate) fn luminous_sphere(light: &Light) -> Option<SphereLight> {
+    let sphere = light_sphere(light)?;
+    let Emitter::Point { falloff, .. } = &light.emitter else {
+        return None;
+    };
+    let [.., square] = falloff.radial;
+    if light.scale == 1.0 {
+        Some(sphere)
+    } else if 0.0 < square {
+        Some(SphereLight {
+            intensity: sphere.intensity / square,
+            ..sphere
         })
+    } else {
+        None
     }
 }
 
-impl Falloff {
-    /// The fraction of the light at a distance, in the direction opposite to `toward`, a unit
-    /// vector.
-    fn share(&self, distance: f64, toward: DVec3) -> f64 {
-        let [radial, angular] = self.shares(distance, toward);
-        radial * angular
+/// The power per steradian that it sends out along the axis of its spot, or in all directions, as
+/// path tracing sees it; `None` if it emits no photons.
+pub(crate) fn radiant_intensity(light: &Light) -> Option<Rgb> {
+    if !light.emits_photons(FalloffRule::None) {
+        return None;
     }
+    let Emitter::Point { falloff, .. } = &light.emitter else {
+        return None;
+    };
+    Some(match luminous_sphere(light) {
+        Some(sphere) => sphere.scale * sphere.intensity,
+        None => light.scale * light.colour / falloff.radial[2],
+    })
+}
 
-    /// The factors of [`Falloff::share`] that stem from the distance and from the direction.
-    pub(crate) fn shares(&self, distance: f64, toward: DVec3) -> [f64; 2] {
-        let [a0, a1, a2] = self.radial;
-        let spread = a0 + a1 * distance + a2 * distance * distance;
-        let radial = if 0.0 < spread { 1.0 / spread } else { 1.0 };
-        let angular = self.spot.map_or(1.0, |(direction, exponent)| {
-            let cosine = -direction.dot(toward);
-            // Behind a spot light it is dark, regardless of the exponent.
-            if cosine <= 0.0 {
-                0.0
-            } else {
-                power(cosine, exponent)
-            }
-        });
-        [radial, angular]
-    }
+/// The fraction of the light at a distance, in the direction opposite to `toward`, a unit
+/// vector.
+fn falloff_share(falloff: &Falloff, distance: f64, toward: DVec3) -> f64 {
+    let [radial, angular] = falloff_shares(falloff, distance, toward);
+    radial * angular
+}
+
+/// The factors of [`falloff_share`] that stem from the distance and from the direction.
+pub(crate) fn falloff_shares(falloff: &Falloff, distance: f64, toward: DVec3) -> [f64; 2] {
+    let [a0, a1, a2] = falloff.radial;
+    let spread = a0 + a1 * distance + a2 * distance * distance;
+    let radial = if 0.0 < spread { 1.0 / spread } else { 1.0 };
+    let angular = falloff.spot.map_or(1.0, |(direction, exponent)| {
+        let cosine = -direction.dot(toward);
+        // Behind a spot light it is dark, regardless of the exponent.
+        if cosine <= 0.0 {
+            0.0
+        } else {
+            power(cosine, exponent)
+        }
+    });
+    [radial, angular]
 }
 
 /// A light with a size: a sphere.
@@ -401,7 +395,7 @@ pub(crate) struct SphereLights {
 impl SphereLights {
     /// Collects the lights; `None` once `cancelled` returns true.
     pub(crate) fn new(lights: &[Light], cancelled: &(dyn Fn() -> bool + Sync)) -> Option<Self> {
-        let spheres = (0..).zip(lights.iter().map(Light::luminous_sphere));
+        let spheres = (0..).zip(lights.iter().map(luminous_sphere));
         let spheres = spheres.filter_map(|(number, sphere)| Some((number, sphere?)));
         let (numbers, all): (Vec<_>, Vec<_>) = spheres.unzip();
         let boxes: Vec<_> = all.iter().map(SphereLight::bounds).collect();

@@ -7,6 +7,7 @@ mod sky;
 
 pub(crate) use emitters::{Choices, Emitters, Known, ManyLights, Picked};
 pub(crate) use lights::{
-    Incoming, SphereLight, SphereLights, Spheres, faded, incoming, incoming_each,
+    Incoming, SphereLight, SphereLights, Spheres, faded, falloff_shares, incoming, incoming_each,
+    light_sphere, luminous_sphere, radiant_intensity,
 };
 pub(crate) use sky::Sky;

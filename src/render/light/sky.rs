@@ -11,8 +11,8 @@ use std::sync::Arc;
 use glam::{DVec2, DVec3};
 use rayon::prelude::*;
 
-use crate::render::material::{LUMINANCE, Textures, environment_place};
-use crate::scene::{Scene, Size, Tinted};
+use crate::material::{LUMINANCE, Textures, environment_place};
+use scene::{Scene, Size, Tinted};
 
 /// Most cells of a grid along an edge; larger images are averaged.
 const MOST: u32 = 1024;
@@ -350,7 +350,7 @@ mod tests {
     fn sphere(side: u32) -> impl Iterator<Item = DVec3> {
         let middle = move |i: u32| (f64::from(i) + 0.5) / f64::from(side);
         let places = (0..side).flat_map(move |i| (0..side).map(move |j| [middle(i), middle(j)]));
-        places.map(|place| crate::render::sampling::in_cone(DVec3::X.into(), 2.0, place).into())
+        places.map(|place| crate::sampling::in_cone(DVec3::X.into(), 2.0, place).into())
     }
 
     #[test]

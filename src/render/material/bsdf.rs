@@ -6,9 +6,10 @@ use super::lobes::{LobeSamples, Lobes, Scattered};
 use super::microfacet::Microfacets;
 use super::optics::{Refraction, facet, folded, reflect, schlick, spread, strength};
 use super::point::Point;
-use crate::geometry::Ray;
-use crate::render::sampling::{Sampler, Use};
-use crate::scene::{GlossRule, Highlight, Material, Rgb};
+use crate::material::{facets_reflectance, refraction_indices};
+use crate::sampling::{Sampler, Use};
+use geometry::Ray;
+use scene::{GlossRule, Highlight, Material, Rgb};
 
 /// A material at a point: lobes, mirror and dielectric boundary.
 pub(crate) struct Bsdf<'m> {
@@ -85,7 +86,7 @@ impl<'m> Bsdf<'m> {
             && is_lit
             && Microfacets::is_perfect(roughness * roughness)
         {
-            let f0 = material.facets_reflectance(metallic);
+            let f0 = facets_reflectance(material, metallic);
             let cosine = point.normal.dot(point.view);
             mirror += f0 + (Rgb::ONE - f0) * schlick(cosine);
         }
@@ -226,7 +227,7 @@ impl<'m> Bsdf<'m> {
         (point, facet): (&Point, DVec3),
         choice: f64,
     ) -> Option<DVec3> {
-        let indices = self.material.indices(point.side);
+        let indices = refraction_indices(self.material, point.side);
         let model = self.material.dielectric.reflectance;
         let refraction = Refraction::new(ray.direction, facet, indices, model);
         let Refraction {

@@ -10,9 +10,10 @@ use glam::DVec3;
 use super::microfacet::Microfacets;
 use super::optics::{power, reflect, schlick, strength};
 use super::point::Point;
-use crate::geometry::lanes::{Lanes, Vector};
-use crate::render::sampling::warp;
-use crate::scene::{Gloss, Highlight, Material, Rgb};
+use crate::material::facets_reflectance;
+use crate::sampling::warp;
+use geometry::lanes::{Lanes, Vector};
+use scene::{Gloss, Highlight, Material, Rgb};
 
 /// The diffuse and glossy lobes of a surface at a point.
 #[derive(Clone, Copy, Debug)]
@@ -119,7 +120,7 @@ impl Lobes {
                 roughness,
                 metallic,
             } => {
-                let f0 = material.facets_reflectance(metallic);
+                let f0 = facets_reflectance(material, metallic);
                 let alpha = roughness * roughness;
                 if Microfacets::is_perfect(alpha) {
                     (Glossy::None, 0.0)

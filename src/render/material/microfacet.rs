@@ -7,7 +7,7 @@ use std::f64::consts::{PI, TAU};
 
 use glam::DVec3;
 
-use crate::render::sampling::warp;
+use crate::sampling::warp;
 
 /// Microfacets around a normal.
 #[derive(Clone, Copy, Debug)]

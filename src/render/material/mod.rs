@@ -21,5 +21,5 @@ pub(crate) use optics::{
     strength, transmitted,
 };
 pub(crate) use point::Point;
-pub use shading::Side;
+pub(crate) use shading::{facets_reflectance, mirror_weight, reflectance, refraction_indices};
 pub(crate) use texture::{LUMINANCE, Textures, environment_place};

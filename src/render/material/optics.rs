@@ -4,9 +4,9 @@ use std::cmp::Ordering;
 
 use glam::DVec3;
 
-use crate::geometry::lanes::{Eight, Lanes, Simd, Vector, WIDTH, each_bit, mask};
-use crate::render::sampling::warp;
-use crate::scene::{Reflectance, Rgb};
+use crate::sampling::warp;
+use geometry::lanes::{Eight, Lanes, Simd, Vector, WIDTH, each_bit, mask};
+use scene::{Reflectance, Rgb};
 
 /// Reflects unit directions, in each lane: R = d − 2(d·N)N.
 #[inline(always)]

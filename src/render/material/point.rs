@@ -2,8 +2,7 @@
 
 use glam::DVec3;
 
-use super::shading::Side;
-use crate::geometry::{Ray, Surface};
+use geometry::{Ray, Side, Surface};
 
 /// A point hit by a ray.
 #[derive(Clone, Copy, Debug)]

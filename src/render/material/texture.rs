@@ -5,8 +5,8 @@ use std::sync::Arc;
 
 use glam::{DAffine2, DAffine3, DMat2, DVec2, DVec3};
 
-use crate::geometry::Chart;
-use crate::scene::{
+use geometry::Chart;
+use scene::{
     Bump, Highlight, Image, Images, Maps, Material, Pattern, Rgb, Side, Size, Texture, Tinted,
 };
 
@@ -130,7 +130,11 @@ impl Textures {
             Texels::Clamped(image) => Some(image.clamped_at(place.x, place.y)),
             Texels::Missing => Some(MAGENTA),
             Texels::Checker([first, second], side) => {
-                let square = if side.is_first(place) { first } else { second };
+                let square = if is_first(*side, place) {
+                    first
+                } else {
+                    second
+                };
                 square.texture.is_none().then_some(square.colour)
             }
         }
@@ -152,7 +156,11 @@ impl Textures {
                 Texels::Clamped(image) => return colour * image.clamped_at(place.x, place.y),
                 Texels::Missing => return colour * MAGENTA,
                 Texels::Checker([first, second], side) => {
-                    let square = if side.is_first(place) { first } else { second };
+                    let square = if is_first(*side, place) {
+                        first
+                    } else {
+                        second
+                    };
                     colour *= square.colour;
                     texture = square.texture;
                 }
@@ -174,7 +182,11 @@ impl Textures {
                 Texels::Image(_) | Texels::Clamped(_) => None,
                 Texels::Missing => return Some(index),
                 Texels::Checker([first, second], side) => {
-                    let square = if side.is_first(place) { first } else { second };
+                    let square = if is_first(*side, place) {
+                        first
+                    } else {
+                        second
+                    };
                     square.texture
                 }
             };
@@ -249,15 +261,13 @@ impl Samples<'_> {
     }
 }
 
-impl Side {
-    /// Whether a point lies in the first kind of square.
-    fn is_first(self, place: DVec2) -> bool {
-        match self {
-            Self::One => (place.x.floor() + place.y.floor()).rem_euclid(2.0) == 0.0,
-            Self::Half => {
-                let low = place.map(|x| x - x.floor()).cmple(DVec2::splat(0.5));
-                low.x == low.y
-            }
+/// Whether a point lies in the first kind of square.
+fn is_first(side: Side, place: DVec2) -> bool {
+    match side {
+        Side::One => (place.x.floor() + place.y.floor()).rem_euclid(2.0) == 0.0,
+        Side::Half => {
+            let low = place.map(|x| x - x.floor()).cmple(DVec2::splat(0.5));
+            low.x == low.y
         }
     }
 }
@@ -278,7 +288,7 @@ pub(crate) fn environment_place(direction: DVec3) -> DVec2 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scene::Gloss;
+    use scene::Gloss;
 
     const RED: Rgb = Rgb::new(1.0, 0.0, 0.0);
     const BLUE: Rgb = Rgb::new(0.0, 0.0, 1.0);

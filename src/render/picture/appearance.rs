@@ -2,8 +2,8 @@
 
 use super::frame::Frame;
 use super::tone::{Light, Tone};
-use crate::render::job::NO_OBJECT;
-use crate::scene::{Rgb, Transfer};
+use crate::job::NO_OBJECT;
+use scene::{Rgb, Transfer};
 
 /// Levels below this, of 255, count as dark.
 const DARK: u8 = 4;
@@ -135,7 +135,7 @@ fn contrast(bytes: &[[u8; 3]], width: usize) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scene::Size;
+    use scene::Size;
 
     /// The distance of the median, to the level, of a picture of 8 by 8 pixels of which `count` are
     /// `some` and the rest `others`, as levels; without an object where `others` is 0.

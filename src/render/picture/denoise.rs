@@ -27,9 +27,9 @@ pub(crate) use self::guides::Guides;
 use self::mean::{Around, mean};
 use self::mix::{Kernel, mix};
 use self::plane::{Layout, Plane, stride};
-use crate::geometry::lanes::Level;
-use crate::render::integrators::Guide;
-use crate::scene::Size;
+use crate::integrators::Guide;
+use geometry::lanes::Level;
+use scene::Size;
 
 /// The variance of a pixel with a single sample, whose noise only its neighbours tell.
 pub(crate) const UNKNOWN: f32 = -1.0;

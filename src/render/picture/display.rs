@@ -6,8 +6,8 @@ use rayon::prelude::*;
 use super::frame::Frame;
 use super::ramp::heat;
 use super::tone::{Light, Tone, to_bytes};
-use crate::render::job::Aov;
-use crate::scene::{Rgb, Transfer};
+use crate::job::Aov;
+use scene::{Rgb, Transfer};
 
 /// The largest exposure of the display either way, in half stops.
 pub const MOST_HALF_STOPS: i8 = 40;
@@ -121,8 +121,8 @@ mod tests {
     use glam::DVec3;
 
     use super::*;
-    use crate::render::{Query, Settings};
-    use crate::scene::{Camera, Focus, Lens, Rendering, Size};
+    use crate::{Query, Settings};
+    use scene::{Camera, Focus, Lens, Rendering, Size};
 
     fn settings(aov: Option<Aov>) -> Settings {
         Settings {

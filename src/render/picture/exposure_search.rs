@@ -9,12 +9,10 @@ use std::ops::ControlFlow;
 use super::appearance::{Appearance, Shown};
 use super::frame::Frame;
 use super::overexposure::Overexposure;
-use crate::geometry::Shape;
-use crate::render::job::Settings;
-use crate::render::light::faded;
-use crate::scene::{
-    EXPOSURES, FalloffRule, Filter, Integrator, Material, Rendering, Rgb, Scene, Size,
-};
+use crate::job::Settings;
+use crate::light::faded;
+use geometry::Shape;
+use scene::{EXPOSURES, FalloffRule, Filter, Integrator, Material, Rendering, Rgb, Scene, Size};
 
 /// The longer side of a small picture, in pixels.
 const SIDE: u32 = 64;
@@ -172,7 +170,7 @@ impl Trials {
         self.fault
     }
 
-    /// The settings of the picture to trace next, in [live](crate::render::Frames::Live) frames.
+    /// The settings of the picture to trace next, in [live](crate::Frames::Live) frames.
     pub fn settings(&self) -> Settings {
         let (side, spp) = match self.next {
             Trial::Glance => (SIDE, 1),

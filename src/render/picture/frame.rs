@@ -4,34 +4,34 @@ use std::sync::{Arc, Weak};
 use std::time::Duration;
 
 use super::overexposure::Overexposure;
-use crate::render::integrators::Photons;
-use crate::render::job::Settings;
-use crate::render::world::World;
-use crate::scene::{Camera, Size};
+use crate::integrators::Photons;
+use crate::job::Settings;
+use crate::world::World;
+use scene::{Camera, Size};
 
 /// A picture as far as it is traced.
 #[derive(Clone, Debug)]
 pub struct Frame {
-    /// The [`Renderer::restart`](crate::render::Renderer::restart) call it belongs to.
+    /// The [`Renderer::restart`](crate::Renderer::restart) call it belongs to.
     pub generation: u64,
     /// Size in pixels: that of the traced region.
     pub size: Size,
     /// The place of the top left pixel in the whole picture.
     pub corner: [u32; 2],
     /// Red, green, blue of each pixel, in rows from the top left, as exported; empty in frames
-    /// without pixels, see [`Frames`].
+    /// without pixels, see [`Frames`](crate::Frames).
     pub pixels: Vec<[u8; 3]>,
-    /// Number of the object under each pixel's centre, see [`Job::numbers`], or [`NO_OBJECT`]; only
-    /// with [`Frames::Live`].
+    /// Number of the object under each pixel's centre, see [`Job::numbers`](crate::Job::numbers), or [`NO_OBJECT`](crate::NO_OBJECT); only
+    /// with [`Frames::Live`](crate::Frames::Live).
     pub objects: Vec<u32>,
     /// Linear radiance after exposure, or AOV, of each pixel, unclamped; only with
-    /// [`Frames::Live`] and [`Frames::LastWithValues`].
+    /// [`Frames::Live`](crate::Frames::Live) and [`Frames::LastWithValues`](crate::Frames::LastWithValues).
     pub values: Vec<[f32; 3]>,
-    /// [`Frame::values`] with less noise; only with [`Frames::Live`] if [`Job::denoise`] asks for
+    /// [`Frame::values`] with less noise; only with [`Frames::Live`](crate::Frames::Live) if [`Job::denoise`](crate::Job::denoise) asks for
     /// it, of light and its shares for up to 4194304 pixels, and once each pixel has a sample.
     pub denoised: Vec<[f32; 3]>,
     /// Estimated error of each pixel's displayed light in its worst channel, 0 to 1 (the root of
-    /// what [`Progress::noise`] averages). Only with [`Frames::Live`] for up to 4194304 pixels, and
+    /// what [`Progress::noise`] averages). Only with [`Frames::Live`](crate::Frames::Live) for up to 4194304 pixels, and
     /// once it is estimated.
     pub errors: Vec<f32>,
     /// The values that the ends of a scale stand for, with an AOV that has one: depth, cost,
@@ -54,9 +54,24 @@ pub struct Query {
     pub(crate) world: Weak<World>,
     /// Where photons are traced.
     pub(crate) photons: Weak<Photons>,
-    pub(crate) camera: Camera,
-    pub(crate) settings: Settings,
+    /// The camera that it shows.
+    pub camera: Camera,
+    /// What it was traced with.
+    pub settings: Settings,
     pub(crate) numbers: Option<Arc<[u32]>>,
+}
+
+impl Query {
+    /// One without answers, like that of a renderer that was dropped.
+    pub fn unanswered(camera: Camera, settings: Settings) -> Self {
+        Self {
+            world: Weak::new(),
+            photons: Weak::new(),
+            camera,
+            settings,
+            numbers: None,
+        }
+    }
 }
 
 impl Frame {
@@ -134,14 +149,14 @@ impl Progress {
 pub struct Progress {
     /// Current pass, from 1; each pass doubles the samples: 1, 1, 2, 4 …
     pub pass: u32,
-    /// Total number of passes, if no [`Limit`] is met earlier.
+    /// Total number of passes, if no [`Limit`](crate::Limit) is met earlier.
     pub passes: u32,
     /// Samples of every pixel, or with adaptive sampling of those that take most; 0 while the picture
     /// is coarse.
     pub spp: u32,
     /// Samples taken, divided by the number of pixels.
     pub mean_spp: f64,
-    /// Fraction of the work done, 0 to 1: of all samples, or as estimated of a [`Limit`].
+    /// Fraction of the work done, 0 to 1: of all samples, or as estimated of a [`Limit`](crate::Limit).
     pub done: f64,
     /// Time since the start of the job, without pauses.
     pub elapsed: Duration,
@@ -154,6 +169,6 @@ pub struct Progress {
     /// Estimated root mean square error of the pixels against the converged picture, in displayed
     /// values from 0 to 1. `None` before samples were first doubled, and for AOVs.
     pub noise: Option<f64>,
-    /// Whether all samples are taken, or the [`Limit`] is met.
+    /// Whether all samples are taken, or the [`Limit`](crate::Limit) is met.
     pub complete: bool,
 }

@@ -3,7 +3,7 @@
 use rayon::prelude::*;
 
 use super::display::luminance;
-use crate::scene::Rgb;
+use scene::Rgb;
 
 /// Stops of the scale below and above 1.
 pub const HISTOGRAM_STOPS: [i32; 2] = [-8, 4];

@@ -2,7 +2,7 @@
 
 use rayon::prelude::*;
 
-use crate::scene::Rgb;
+use scene::Rgb;
 
 /// Half stops above 1 that are told apart: more than exposures permit.
 const HALVES: usize = 256;

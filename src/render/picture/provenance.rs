@@ -1,8 +1,8 @@
 //! What a picture is made from, as text.
 
 use super::frame::Frame;
-use crate::render::job::{Aov, Frames, Job, Settings, aov_name};
-use crate::scene::Viewpoint;
+use crate::job::{Aov, Frames, Job, Settings, aov_name};
+use scene::Viewpoint;
 
 /// What a picture is made from: enough to render the same bytes again.
 #[derive(Clone, Debug, PartialEq)]

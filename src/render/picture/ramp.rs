@@ -1,6 +1,6 @@
 //! The colours of heat maps.
 
-use crate::scene::Rgb;
+use scene::Rgb;
 
 /// Inferno, at equal steps: dark to bright, perceptually uniform, distinct without red or green
 /// vision and in grey (Smith and van der Walt, "A Better Default Colormap for Matplotlib", 2015).

@@ -2,10 +2,8 @@
 //! left out, and counted among what is wrong.
 
 use super::provenance::Provenance;
-use crate::render::job::{
-    Aov, Region, SAMPLES, Settings, aov_name, aov_of, is_added, settings_text,
-};
-use crate::scene::{MAX_PIXELS, RenderKey, Rendering, Scene, Size, Viewpoint};
+use crate::job::{Aov, Region, SAMPLES, Settings, aov_name, aov_of, is_added, settings_text};
+use scene::{MAX_PIXELS, RenderKey, Rendering, Scene, Size, Viewpoint};
 
 /// How a picture was made, as far as its file says and can be believed.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -275,8 +273,8 @@ impl Record {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::render::job::AOVS;
-    use crate::scene::Transfer;
+    use crate::job::AOVS;
+    use scene::Transfer;
 
     const WHOLE: &str = "version 1\nscene 0\nview own\nlayers none\nsize 8x6\nregion none\ndepth 2\n\
                          seed 7\naov none\nintegrator path\nfilter box\ntransfer srgb\nexposure -1\n\

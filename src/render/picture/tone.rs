@@ -4,8 +4,8 @@ use rayon::prelude::*;
 
 use super::frame::Frame;
 use super::ramp::heat;
-use crate::render::job::{Aov, Settings};
-use crate::scene::{Rgb, Transfer};
+use crate::job::{Aov, Settings};
+use scene::{Rgb, Transfer};
 
 /// Front and back of surfaces: blue and vermilion, which are distinct without red or green vision
 /// (Okabe and Ito, "Color Universal Design", 2008).

@@ -2,9 +2,9 @@
 
 use rayon::prelude::*;
 
-use crate::geometry::{Aabb, Detail};
-use crate::render::world::Projection;
-use crate::scene::{Camera, Object, Objects, Size};
+use crate::world::Projection;
+use geometry::{Aabb, Detail};
+use scene::{Camera, Object, Objects, Size};
 
 /// The most lines of a wireframe. More would fill the screen, and take longer than a user waits for
 /// a step of the camera.
@@ -110,8 +110,8 @@ mod tests {
     use glam::DVec3;
 
     use super::*;
-    use crate::geometry::{Affine, Cuboid, Shape, Solid, Sphere};
-    use crate::scene::{Focus, Lens};
+    use geometry::{Affine, Cuboid, Shape, Solid, Sphere};
+    use scene::{Focus, Lens};
 
     const RASTER: Size = Size {
         width: 80,

@@ -4,7 +4,7 @@
 
 use std::f64::consts::{FRAC_1_SQRT_2, PI};
 
-use crate::scene::Filter;
+use scene::Filter;
 
 /// Radius of the filters wider than a pixel, in pixels.
 const RADIUS: f64 = 1.5;
@@ -20,23 +20,21 @@ const TERMS: [f64; 4] = [0.35875, 0.48829, 0.14128, 0.01168];
 /// edge by less than 0.01 of an 8-bit level.
 const STEPS: usize = 256;
 
-impl Filter {
-    /// The fraction of the filter, along one axis, within this distance of the centre, in pixels.
-    fn within(self, distance: f64) -> f64 {
-        match self {
-            Self::Box => (2.0 * distance).min(1.0),
-            Self::Gaussian => {
-                let normal = |distance: f64| libm::erf(distance * FRAC_1_SQRT_2 / DEVIATION);
-                normal(distance) / normal(RADIUS)
-            }
-            Self::BlackmanHarris => {
-                let angle = PI * distance / RADIUS;
-                let [even, first, second, third] = TERMS;
-                let waves = first * libm::sin(angle)
-                    + second * libm::sin(2.0 * angle) / 2.0
-                    + third * libm::sin(3.0 * angle) / 3.0;
-                distance / RADIUS + waves / (PI * even)
-            }
+/// The fraction of a filter, along one axis, within this distance of the centre, in pixels.
+fn within(filter: Filter, distance: f64) -> f64 {
+    match filter {
+        Filter::Box => (2.0 * distance).min(1.0),
+        Filter::Gaussian => {
+            let normal = |distance: f64| libm::erf(distance * FRAC_1_SQRT_2 / DEVIATION);
+            normal(distance) / normal(RADIUS)
+        }
+        Filter::BlackmanHarris => {
+            let angle = PI * distance / RADIUS;
+            let [even, first, second, third] = TERMS;
+            let waves = first * libm::sin(angle)
+                + second * libm::sin(2.0 * angle) / 2.0
+                + third * libm::sin(3.0 * angle) / 3.0;
+            distance / RADIUS + waves / (PI * even)
         }
     }
 }
@@ -51,7 +49,7 @@ pub(crate) struct Spread {
 impl Spread {
     /// Prepares a filter.
     pub(crate) fn of(filter: Filter) -> Self {
-        let at = |step| filter.within(RADIUS * step as f64 / STEPS as f64);
+        let at = |step| within(filter, RADIUS * step as f64 / STEPS as f64);
         Self {
             shares: match filter {
                 Filter::Box => Vec::new(),
@@ -140,7 +138,7 @@ mod tests {
             for even in even(10_000) {
                 let off = place(&spread, even) - 0.5;
                 assert!(last < off && off < RADIUS, "{filter:?} {even}: {off}");
-                let share = filter.within(off.abs());
+                let share = within(filter, off.abs());
                 assert!((share - (2.0 * even - 1.0).abs()).abs() < 1e-4);
                 last = off;
             }

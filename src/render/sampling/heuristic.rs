@@ -1,6 +1,6 @@
 //! Multiple importance sampling of two techniques.
 
-use crate::geometry::lanes::Lanes;
+use geometry::lanes::Lanes;
 
 /// The probability densities, per steradian, with which two techniques choose a direction to what
 /// emits light.

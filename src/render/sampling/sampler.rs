@@ -7,7 +7,7 @@ use sobol_burley::parts::{
     Int4, hash, hash_int4, owen_scramble_int4_rev, owen_scramble_rev, sobol_int4_rev,
 };
 
-use crate::geometry::lanes::{Eight, Level, Row, Simd, SimdBase, WIDTH, Words, dispatch};
+use geometry::lanes::{Eight, Level, Row, Simd, SimdBase, WIDTH, Words, dispatch};
 
 /// The numbers of one sample, each a function of pixel, index, seed and purpose: points of Sobol'
 /// sequences, each Owen-scrambled with its own seed (Burley, "Practical Hash-based Owen
@@ -119,7 +119,7 @@ impl Sampler {
     /// The node of camera rays.
     pub(crate) const ROOT: u32 = 0;
 
-    /// Creates the sampler for sample `index`, below [`MAX_SPP`](crate::scene::MAX_SPP), of pixel (x, y).
+    /// Creates the sampler for sample `index`, below [`MAX_SPP`](scene::MAX_SPP), of pixel (x, y).
     pub(crate) fn new(x: u32, y: u32, index: u32, seed: u32) -> Self {
         Self {
             pixel: [x, y],

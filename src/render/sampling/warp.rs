@@ -4,7 +4,7 @@ use std::f64::consts::{FRAC_PI_2, FRAC_PI_4, TAU};
 
 use glam::{DVec2, DVec3};
 
-use crate::geometry::lanes::{Lanes, Vector};
+use geometry::lanes::{Lanes, Vector};
 
 /// Samples directions uniformly in cones around unit vectors, in each lane; u = 0 gives the axis.
 /// `versine` is 1 − cos of the half angle, which stays accurate for small angles.

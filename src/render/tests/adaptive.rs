@@ -4,7 +4,7 @@ use super::blocks::assert_same;
 use super::noise::wall;
 use super::progress::still;
 use super::*;
-use crate::render::{Aov, Region};
+use crate::{Aov, Region};
 
 fn adaptive(settings: Settings, limit: f64) -> Settings {
     Settings {

@@ -6,9 +6,9 @@ use std::time::Duration;
 
 use super::progress::still;
 use super::*;
-use crate::render::job::AOVS;
-use crate::render::{Aov, Assembly, Block, BlockTracer, Blocks, Region};
-use crate::scene::Filter;
+use crate::job::AOVS;
+use crate::{Aov, Assembly, Block, BlockTracer, Blocks, Region};
+use scene::Filter;
 
 const SIZE: (u32, u32) = (75, 40);
 

@@ -2,7 +2,7 @@
 //! length in front of the eye.
 
 use super::*;
-use crate::render::world::Projection;
+use crate::world::Projection;
 
 /// The lens of a camera whose image plane has this height at this distance.
 fn lens(is_perspective: bool, height: f64, focal: f64) -> Lens {

@@ -4,7 +4,7 @@ use std::time::Duration;
 
 use super::progress::{still, trace};
 use super::*;
-use crate::render::Limit;
+use crate::Limit;
 
 /// A pause that would let several frames through if it did not pause.
 const LONG: Duration = Duration::from_millis(150);

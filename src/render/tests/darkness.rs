@@ -1,8 +1,8 @@
 //! Pictures of which their texts say that they can only be black.
 
 use super::*;
-use crate::language::{Prospect, outlook};
-use crate::scene::{Rendering, Viewpoint};
+use language::{Prospect, outlook};
+use scene::{Rendering, Viewpoint};
 
 /// Solids by a light: material 0 lets light through, material 1 blocks it.
 fn dat(near: &str, shadow: &str, rest: &str) -> String {

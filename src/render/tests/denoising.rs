@@ -2,9 +2,9 @@
 
 use super::progress::still;
 use super::*;
-use crate::render::engine::{Film, Remembers};
-use crate::render::{Aov, Display};
-use crate::scene::Emitter;
+use crate::engine::{Film, Remembers};
+use crate::{Aov, Display};
+use scene::Emitter;
 
 /// The complete frame of a job, traced with this many threads.
 fn complete(job: Job, threads: usize) -> Arc<Frame> {

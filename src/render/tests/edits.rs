@@ -6,11 +6,11 @@ use std::time::Duration;
 
 use super::meshes::{mesh, square};
 use super::*;
-use crate::geometry::{Csg, Instance, Node, Operation};
-use crate::render::engine::{Effort, Film, difference, steps};
-use crate::render::integrators::{Counts, FrameContext};
-use crate::render::{Aov, Progress};
-use crate::scene::{Dielectric, Emitter, Faces, Falloff, Gloss, Highlight, Image, Mirror, Shadows};
+use crate::engine::{Effort, Film, difference, steps};
+use crate::integrators::{Counts, FrameContext};
+use crate::{Aov, Progress};
+use geometry::{Csg, Instance, Node, Operation};
+use scene::{Dielectric, Emitter, Faces, Falloff, Gloss, Highlight, Image, Mirror, Shadows};
 
 fn built(job: &Job, known: Option<&World>) -> Option<World> {
     let scene = Arc::clone(&job.scene);

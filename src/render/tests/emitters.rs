@@ -5,9 +5,9 @@ use std::f64::consts::PI;
 
 use super::highlights::GROUND;
 use super::*;
-use crate::geometry::{Attribute, Instance, Mesh, MeshParts};
-use crate::render::light::{Emitters, Sky};
-use crate::scene::{Faces, Highlight, Image};
+use crate::light::{Emitters, Sky};
+use geometry::{Attribute, Instance, Mesh, MeshParts};
+use scene::{Faces, Highlight, Image};
 
 /// The means of a ray's radiance over `samples`, one for each of 64 seeds.
 pub(super) fn means(world: &World, depth: u32, ray: Ray, samples: u32) -> Vec<f64> {

@@ -5,11 +5,11 @@ use std::path::{Path, PathBuf};
 
 use super::many_lights::lamps;
 use super::*;
-use crate::assets::{Assets, Loaded, Wanted};
-use crate::geometry::lanes::Level;
-use crate::render::integrators::FrameContext;
-use crate::render::{Explanation, PreparedScene, Query, RayEnd, RayKind, Stop, TracedRay};
-use crate::scene::Emitter;
+use crate::integrators::FrameContext;
+use crate::{Explanation, PreparedScene, Query, RayEnd, RayKind, Stop, TracedRay};
+use assets::{Assets, Loaded, Wanted};
+use geometry::lanes::Level;
+use scene::Emitter;
 
 /// Samples explained per scene and integrator.
 const PER_SCENE: usize = 40;
@@ -33,7 +33,7 @@ fn read(path: &Path) -> Option<(Scene, Images)> {
 
 /// Our scenes, and the course's if their folder is given.
 fn scenes() -> Vec<PathBuf> {
-    let own = Path::new(env!("CARGO_MANIFEST_DIR")).join("scenes");
+    let own = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenes");
     let mut folders = vec![own];
     folders.extend(std::env::var_os("HALFLIGHT_EXTRA_SCENES").map(PathBuf::from));
     let mut scenes = Vec::new();

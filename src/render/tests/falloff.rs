@@ -1,7 +1,7 @@
 //! Lights of every kind against their formulas at random points.
 
 use super::*;
-use crate::scene::{Emitter, Falloff, Shadows};
+use scene::{Emitter, Falloff, Shadows};
 
 const TINTED: Coefficients = Coefficients {
     diffuse: Rgb::new(0.5, 0.25, 0.125),

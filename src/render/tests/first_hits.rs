@@ -1,7 +1,7 @@
 //! AOVs of the first surface.
 
 use super::*;
-use crate::render::Aov;
+use crate::Aov;
 
 const SIZE: Size = Size {
     width: 41,

@@ -2,8 +2,8 @@
 //! scenes.
 
 use super::*;
-use crate::geometry::lanes::Level;
-use crate::geometry::{Cone, Cylinder, Ellipsoid, ulp};
+use geometry::lanes::Level;
+use geometry::{Cone, Cylinder, Ellipsoid, ulp};
 
 /// A solid of any kind, before transformation.
 #[derive(Clone, Copy, Debug)]

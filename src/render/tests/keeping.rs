@@ -6,8 +6,8 @@ use std::sync::mpsc::Receiver;
 use super::edits::Easel;
 use super::progress::{still, trace};
 use super::*;
-use crate::render::engine::{Effort, Kept};
-use crate::render::{Aov, Region};
+use crate::engine::{Effort, Kept};
+use crate::{Aov, Region};
 
 fn bytes_of(kept: &Kept) -> Vec<u8> {
     let mut bytes = Vec::new();

@@ -5,7 +5,7 @@ use std::f64::consts::PI;
 use super::highlights::GROUND;
 use super::paths::{assert_unbiased, mean};
 use super::*;
-use crate::scene::Emitter;
+use scene::Emitter;
 
 /// A light of radius r at height h above a white floor: the floor reflects E / π, E = π L (r / h)²,
 /// and L = π I / (π r² a²), with the factor π of scenes not made for path tracing: I / (a h)² for any
@@ -96,7 +96,7 @@ fn lights_fade_by_the_square_where_their_own_terms_do_not() {
     }
     for radius in [0.1, 1.0, 3.9] {
         let scene = lamp(&format!("<size value='{radius}'/>"));
-        let faded = crate::render::light::faded(&scene.lights, FalloffRule::Square);
+        let faded = crate::light::faded(&scene.lights, FalloffRule::Square);
         let lights = faded.expect("its falloff is constant");
         let scene = Scene { lights, ..scene };
         let down = ray([0.5, 0.0, 0.05], [0.0; 3]);

@@ -1,8 +1,8 @@
 //! Cost, samples and noise of light, texture coordinates and sides, and exposure.
 
 use super::*;
-use crate::render::Aov;
-use crate::scene::Emitter;
+use crate::Aov;
+use scene::Emitter;
 
 const SIZE: [u32; 2] = [41, 31];
 const CENTRE: usize = 15 * 41 + 20;

@@ -2,8 +2,8 @@
 
 use super::emitters::{estimate, means};
 use super::*;
-use crate::render::light::ManyLights;
-use crate::scene::{Emitter, Falloff, Shadows};
+use crate::light::ManyLights;
+use scene::{Emitter, Falloff, Shadows};
 
 /// Lamps that fade with the square of the distance, with this radius, above and beside a ball on a
 /// table, among lights that do not fade.

@@ -3,10 +3,10 @@
 use std::f64::consts::{PI, TAU};
 
 use super::*;
-use crate::geometry::lanes::{Level, dispatch};
-use crate::geometry::{Attribute, Instance, Mesh, MeshParts, Plane, SlotRun};
-use crate::render::world::{Search, Structures};
-use crate::scene::Objects;
+use crate::world::{Search, Structures};
+use geometry::lanes::{Level, dispatch};
+use geometry::{Attribute, Instance, Mesh, MeshParts, Plane, SlotRun};
+use scene::Objects;
 
 /// A closed, bumpy ball of `rings` rings with separate positions for each corner; its poles are
 /// fans of many needles.

@@ -44,10 +44,10 @@ use super::integrators::{Sample, SampleResult, Tracer};
 use super::sampling::Sampler;
 use super::world::{Dependencies, Rules, World};
 use super::{Frame, Frames, Job, NO_OBJECT, Renderer, Settings, Threads};
-use crate::geometry::{Affine, Cone, Cuboid, Ellipsoid, Node, Ray, Shape, Solid, Sphere};
-use crate::language::coefficients::Coefficients;
-use crate::language::{Language, Source};
-use crate::scene::{
+use geometry::{Affine, Cone, Cuboid, Ellipsoid, Node, Ray, Shape, Solid, Sphere};
+use language::coefficients::Coefficients;
+use language::{Language, Source};
+use scene::{
     Camera, FalloffRule, Filter, Focus, GlossRule, Images, Integrator, Lens, Light, Maps, Material,
     Meshes, Object, Pattern, Rendering, Rgb, Scene, Setting, Side, Size, Texture, Tinted, Transfer,
 };

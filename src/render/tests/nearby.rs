@@ -1,7 +1,7 @@
 //! Rays among the objects near a point.
 
 use super::*;
-use crate::render::world::Nearby;
+use crate::world::Nearby;
 
 /// Short rays meet what they meet among all objects.
 #[test]

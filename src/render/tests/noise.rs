@@ -3,8 +3,8 @@
 use glam::DVec2;
 
 use super::*;
-use crate::render::Aov;
-use crate::render::engine::{Doubling, Step};
+use crate::Aov;
+use crate::engine::{Doubling, Step};
 
 /// A wall of squares in two greys, with so many per pixel that samples are random.
 pub(super) fn wall() -> Arc<Scene> {

@@ -1,8 +1,8 @@
 //! Mirrors, glass, depth and the ray budget.
 
 use super::*;
-use crate::geometry::lanes::{Level, Row, WIDTH, dispatch};
-use crate::render::material::{power, power_each, refract};
+use crate::material::{power, power_each, refract};
+use geometry::lanes::{Level, Row, WIDTH, dispatch};
 
 /// Between two mirrors with emission a and reflectance r, a ray sees a Σ rᵏ, k from 0 to the depth.
 #[test]

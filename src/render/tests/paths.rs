@@ -4,9 +4,9 @@ use std::f64::consts::{PI, TAU};
 
 use super::highlights::GROUND;
 use super::*;
-use crate::render::material::{Lobes, Point};
-use crate::render::sampling::Use;
-use crate::scene::Emitter;
+use crate::material::{Lobes, Point};
+use crate::sampling::Use;
+use scene::Emitter;
 
 /// The means of a ray's radiance over `samples`, one for each of `seeds` seeds.
 fn means(scene: Scene, depth: u32, ray: Ray, samples: u32, seeds: u32) -> Vec<Rgb> {
@@ -291,7 +291,7 @@ fn paths_match_whitted_rays_without_scattering() {
     lamp.emitter = Emitter::Point {
         position: DVec3::new(2.0, 3.0, 6.0),
         radius: 0.0,
-        falloff: crate::scene::Falloff {
+        falloff: scene::Falloff {
             radial: [1.0, 0.1, 0.01],
             spot: None,
         },

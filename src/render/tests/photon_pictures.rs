@@ -3,8 +3,8 @@
 use super::super::integrators::PhotonRules;
 use super::photons::{PHOTONS, WHITE, world_by};
 use super::*;
-use crate::render::integrators::{FrameContext, Photons};
-use crate::render::{PreparedScene, TracedRay};
+use crate::integrators::{FrameContext, Photons};
+use crate::{PreparedScene, TracedRay};
 
 /// A glass ball and a mirror over a ground, lit by a point and a light with a size, as a job.
 fn caustics() -> Job {

@@ -3,8 +3,8 @@
 use std::f64::consts::PI;
 
 use super::*;
-use crate::render::integrators::{PhotonMaps, PhotonRules, Photons};
-use crate::scene::Emitter;
+use crate::integrators::{PhotonMaps, PhotonRules, Photons};
+use scene::Emitter;
 
 /// The light along rays, each the mean over `maps` samples, by photons of which each map has `count`.
 #[derive(Clone, Copy)]

@@ -3,11 +3,11 @@
 use std::cell::Cell;
 
 use super::*;
-use crate::render::Refusal;
-use crate::render::engine::{Film, Step, steps};
-use crate::render::integrators::FrameContext;
-use crate::render::picture::{Tone, tone};
-use crate::render::world::Projection;
+use crate::Refusal;
+use crate::engine::{Film, Step, steps};
+use crate::integrators::FrameContext;
+use crate::picture::{Tone, tone};
+use crate::world::Projection;
 
 fn tone() -> Tone {
     Tone::Colour(tone::Light::new(0.0, Transfer::Linear))

@@ -2,7 +2,7 @@
 
 use super::progress::{still, trace};
 use super::*;
-use crate::render::{Aov, Refusal, Region};
+use crate::{Aov, Refusal, Region};
 
 const SIZE: Size = Size {
     width: 45,

@@ -1,7 +1,7 @@
 //! CSG solids and unbounded solids among others.
 
 use super::*;
-use crate::geometry::{Csg, Operation, Quadric};
+use geometry::{Csg, Operation, Quadric};
 
 fn made(operation: Operation, first: Shape, second: Shape) -> Shape {
     Shape::Csg(Arc::new(Csg::new(vec![

@@ -163,13 +163,13 @@ fn a_lens_blurs_what_is_out_of_focus() {
             edge + 50.0
         );
         let scene = xml_seen_by(camera, &scene);
-        let projection = crate::render::world::Projection::new(&scene.camera, scene.camera.size);
+        let projection = crate::world::Projection::new(&scene.camera, scene.camera.size);
         let world = world(scene);
         let mut tracer = tracer(&world, 0);
         let count = 4096;
         let each = (0..count).map(|index| {
             let sampler = Sampler::new(0, 0, index, 0);
-            let lens = || sampler.pair(Sampler::ROOT, crate::render::sampling::Use::Lens);
+            let lens = || sampler.pair(Sampler::ROOT, crate::sampling::Use::Lens);
             let (ray, reach) = projection.ray(0.5, 0.5, lens);
             tracer.radiance(&centred(ray, reach)).radiance.x
         });

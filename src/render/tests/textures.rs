@@ -4,9 +4,9 @@ use glam::DVec2;
 
 use super::highlights::{assert_colour, brings};
 use super::*;
-use crate::geometry::{Cylinder, Hit};
-use crate::render::material::Textures;
-use crate::scene::{Bump, Dielectric, Emitter, Gloss, Highlight, Image, Materials, Mirror};
+use crate::material::Textures;
+use geometry::{Cylinder, Hit};
+use scene::{Bump, Dielectric, Emitter, Gloss, Highlight, Image, Materials, Mirror};
 
 const RED: Rgb = Rgb::new(1.0, 0.0, 0.0);
 const BLUE: Rgb = Rgb::new(0.0, 0.0, 1.0);

@@ -3,8 +3,8 @@
 use std::ops::ControlFlow;
 
 use super::*;
-use crate::render::{Advice, Fault, Trials};
-use crate::scene::Rendering;
+use crate::{Advice, Fault, Trials};
+use scene::Rendering;
 
 /// A scene with a material that sends back this much, and this environment.
 fn reflecting(sent_back: f64, around: f64) -> Scene {

@@ -6,9 +6,10 @@ use glam::DVec3;
 
 use super::World;
 use super::intersect::Nearest;
-use crate::geometry::Ray;
-use crate::render::material::{Point, Side};
-use crate::scene::Material;
+use crate::material::Point;
+use geometry::Ray;
+use geometry::Side;
+use scene::Material;
 
 impl World {
     /// Returns the point where a ray hits an object, and its material there, which is in `mapped` if

@@ -2,10 +2,10 @@
 
 use glam::DVec3;
 
-use crate::geometry::lanes::{Lanes, Vector};
-use crate::geometry::{Ray, Rays, normalise};
-use crate::render::sampling::warp;
-use crate::scene::{Camera, Focus, Lens, Size};
+use crate::sampling::warp;
+use geometry::lanes::{Lanes, Vector};
+use geometry::{Ray, Rays, normalise};
+use scene::{Camera, Focus, Lens, Size};
 
 /// A camera prepared to generate rays for a raster of pixels.
 #[derive(Clone, Copy, Debug)]
@@ -280,7 +280,7 @@ fn direction(vector: DVec3) -> DVec3 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scene::Focus;
+    use scene::Focus;
 
     fn camera(up: DVec3) -> Camera {
         Camera {

@@ -7,8 +7,8 @@ use super::dependencies::Dependencies;
 use super::spheres::MayMeet;
 use super::structures::Search;
 use super::{World, runs_in_file_order};
-use crate::geometry::lanes::{Eight, Lanes, Simd, SimdBase, WIDTH, bits, dispatch, each_bit};
-use crate::geometry::{Hit, Hits, Ray, Shape};
+use geometry::lanes::{Eight, Lanes, Simd, SimdBase, WIDTH, bits, dispatch, each_bit};
+use geometry::{Hit, Hits, Ray, Shape};
 
 /// What shadow rays pass through.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

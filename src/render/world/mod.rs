@@ -38,12 +38,11 @@ use super::job::Settings;
 use super::light::{Emitters, Known, ManyLights, Sky, SphereLights, faded};
 use super::material::{Textures, environment_place};
 use super::simd_level::level;
-use crate::accel::{Bvh, RUN};
-use crate::geometry::Ray;
-use crate::geometry::lanes::Level;
-use crate::scene::{
-    FalloffRule, GlossRule, Images, Integrator, Light, Object, Objects, Rgb, Scene,
-};
+use crate::light::light_sphere;
+use accel::{Bvh, RUN};
+use geometry::Ray;
+use geometry::lanes::Level;
+use scene::{FalloffRule, GlossRule, Images, Integrator, Light, Object, Objects, Rgb, Scene};
 
 /// Up to this many objects are intersected without a tree. Measured with single rays: with two
 /// solids, no tree is 1.5 times as fast; with six to eleven, a tree is 1.2 to 1.7 times as fast. With
@@ -185,7 +184,7 @@ impl World {
         let has_emitters = !emitters.is_empty() || !sky.is_unsampled();
         let samples_lights = has_emitters
             || !many_lights.is_empty()
-            || lights.iter().any(|light| light.sphere().is_some());
+            || lights.iter().any(|light| light_sphere(light).is_some());
         let needs_tree = few(integrator) < scene.objects.len();
         let is_known = |previous: &&Self| {
             changed.as_deref() == Some(&[]) && previous.tree.is_some() == needs_tree
@@ -411,7 +410,7 @@ fn changed_shapes(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::geometry::{Shape, Solid, Sphere};
+    use geometry::{Shape, Solid, Sphere};
 
     /// Equal spheres that share no memory with those of another call.
     fn spheres(count: usize) -> Objects {

@@ -6,7 +6,7 @@ use glam::DVec3;
 
 use super::intersect::Nearest;
 use super::{FEW_FOR_PATHS, World};
-use crate::geometry::{Aabb, Ray, Shape, Solid};
+use geometry::{Aabb, Ray, Shape, Solid};
 
 /// At most this many objects are listed.
 const MOST: usize = FEW_FOR_PATHS;

@@ -8,12 +8,10 @@ use std::ops::Range;
 use super::intersect::{Closest, Crossed, NearestHits, Occlusion};
 use super::structures::Search;
 use super::{World, runs_in_file_order};
-use crate::accel::Order;
-use crate::geometry::lanes::{
-    Eight, Lanes, Simd, SimdBase, Vector, WIDTH, dispatch, each_bit, mask,
-};
-use crate::geometry::{Hit, Hits, Packet, Rays, Shape, Sphere, sphere_hits};
-use crate::scene::Object;
+use accel::Order;
+use geometry::lanes::{Eight, Lanes, Simd, SimdBase, Vector, WIDTH, dispatch, each_bit, mask};
+use geometry::{Hit, Hits, Packet, Rays, Shape, Sphere, sphere_hits};
+use scene::Object;
 
 impl World {
     /// Returns [`World::nearest`] for each ray, packet by packet.

@@ -3,8 +3,8 @@
 use glam::DVec3;
 
 use super::camera::Projection;
-use crate::geometry::Ray;
-use crate::scene::{Camera, Object, Size};
+use geometry::Ray;
+use scene::{Camera, Object, Size};
 
 /// A point of a surface.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -79,8 +79,8 @@ pub fn axes(camera: &Camera) -> [DVec3; 3] {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::geometry::{Shape, Solid, Sphere};
-    use crate::scene::{Focus, Lens};
+    use geometry::{Shape, Solid, Sphere};
+    use scene::{Focus, Lens};
 
     fn camera(lens: Lens) -> Camera {
         Camera {

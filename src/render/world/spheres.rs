@@ -4,11 +4,9 @@ use std::ops::Range;
 
 use glam::DVec3;
 
-use crate::geometry::lanes::{
-    Eight, Four, Lanes, Rows, Run, Several, Simd, SimdMask, Vector, bits,
-};
-use crate::geometry::{Ray, Rays, Shape, Solid, Sphere, may_meet};
-use crate::scene::Objects;
+use geometry::lanes::{Eight, Four, Lanes, Rows, Run, Several, Simd, SimdMask, Vector, bits};
+use geometry::{Ray, Rays, Shape, Solid, Sphere, may_meet};
+use scene::Objects;
 
 /// Three coordinates of the centre, and the radius.
 const NUMBERS: usize = 4;

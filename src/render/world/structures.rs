@@ -5,12 +5,10 @@ use std::sync::Arc;
 
 use rayon::prelude::*;
 
-use crate::accel::{Bvh, Order};
-use crate::geometry::lanes::{Eight, Lanes, Simd, WIDTH, mask};
-use crate::geometry::{
-    Hit, Hits, Instance, Mesh, MeshLine, Ray, Rays, Shape, TriangleRun, TriangleRuns,
-};
-use crate::scene::Objects;
+use accel::{Bvh, Order};
+use geometry::lanes::{Eight, Lanes, Simd, WIDTH, mask};
+use geometry::{Hit, Hits, Instance, Mesh, MeshLine, Ray, Rays, Shape, TriangleRun, TriangleRuns};
+use scene::Objects;
 
 /// Which hit of a mesh is searched for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -6,12 +6,11 @@ use glam::DVec3;
 
 use super::World;
 use super::intersect::{Nearest, NearestHits};
-use crate::geometry::lanes::{
-    Eight, Lanes, Row, Simd, Vector, WIDTH, bits, dispatch, each_bit, mask,
-};
-use crate::geometry::{Packet, Rays, Shape, Solid, Surface, Surfaces, sphere_surfaces};
-use crate::render::material::{Point, Side};
-use crate::scene::Material;
+use crate::material::Point;
+use geometry::Side;
+use geometry::lanes::{Eight, Lanes, Row, Simd, Vector, WIDTH, bits, dispatch, each_bit, mask};
+use geometry::{Packet, Rays, Shape, Solid, Surface, Surfaces, sphere_surfaces};
+use scene::Material;
 
 /// Up to eight surface points, in memory layout; lanes of rays that miss are undefined.
 #[derive(Clone, Copy, Debug)]

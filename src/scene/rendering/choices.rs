@@ -95,7 +95,7 @@ choice! {
 
 choice! {
     /// What spreads the rays of mirrors and glass: their own cones, or the exponent of the highlight
-    /// if that is [`Highlight::Blinn`](crate::scene::Highlight::Blinn).
+    /// if that is [`Highlight::Blinn`](crate::Highlight::Blinn).
     GlossRule:
     #[default]
     None "none" "The glossiness of reflection and refraction",

@@ -106,8 +106,7 @@ impl Values {
     }
 
     /// Some of these values, the ends and all words among them.
-    #[cfg(test)]
-    pub(crate) fn samples(self) -> Vec<f64> {
+    pub fn samples(self) -> Vec<f64> {
         match self {
             Self::Words { names, .. } => (0..names.len()).map(|at| at as f64).collect(),
             Self::Whole(least, most) => vec![least.into(), most.into()],

@@ -3,17 +3,18 @@
 
 /// Passes the table to a macro: for each setting its documentation, key, type and default, which may
 /// depend on what is asked for otherwise, and its [`RenderSetting`](super::RenderSetting).
+#[macro_export]
 macro_rules! render_settings {
     ($use:ident) => {
         $use! {
             /// The integrator.
-            integrator: scene::Integrator = |_| scene::Integrator::default(), RenderSetting {
+            integrator: $crate::Integrator = |_| $crate::Integrator::default(), RenderSetting {
                 option: Some(CommandOption::new("INTEGRATOR", "Integrator")),
                 config: Some(
                     "Integrator to start with, \"whitted\", \"path\" or \"photon\"; otherwise the scene decides",
                 ),
                 ..RenderSetting::new(
-                    scene::Integrator::VALUES,
+                    $crate::Integrator::VALUES,
                     "How light is traced: Whitted ray tracing, path tracing, or paths with photons for caustics.",
                 )
             };
@@ -38,19 +39,19 @@ macro_rules! render_settings {
                 )
             };
             /// The pixel reconstruction filter.
-            filter: scene::Filter = |_| scene::Filter::default(), RenderSetting {
+            filter: $crate::Filter = |_| $crate::Filter::default(), RenderSetting {
                 option: Some(CommandOption::new("FILTER", "Pixel filter; previews always use box")),
                 config: Some("Pixel filter: \"box\", \"gaussian\" or \"blackman-harris\""),
                 ..RenderSetting::new(
-                    scene::Filter::VALUES,
+                    $crate::Filter::VALUES,
                     "The pixel filter of full-size pictures.",
                 )
             };
             /// The transfer function from linear colours to 8 bits.
-            transfer: scene::Transfer = |_| scene::Transfer::default(), RenderSetting {
+            transfer: $crate::Transfer = |_| $crate::Transfer::default(), RenderSetting {
                 option: Some(CommandOption::new("CURVE", "Transfer curve from colours to 8-bit values")),
                 ..RenderSetting::new(
-                    scene::Transfer::VALUES,
+                    $crate::Transfer::VALUES,
                     "The curve from colours to 8-bit values.",
                 )
             };
@@ -69,24 +70,24 @@ macro_rules! render_settings {
                 )
             };
             /// How point lights fade whose own falloff does not say so.
-            falloff: scene::FalloffRule = |_| scene::FalloffRule::default(), RenderSetting {
+            falloff: $crate::FalloffRule = |_| $crate::FalloffRule::default(), RenderSetting {
                 option: Some(CommandOption::new(
                     "FALLOFF",
                     "Falloff of point lights that have none of their own",
                 )),
                 ..RenderSetting::new(
-                    scene::FalloffRule::VALUES,
+                    $crate::FalloffRule::VALUES,
                     "square: point lights without a falloff of their own fall off with the squared distance.",
                 )
             };
             /// What spreads mirrors and glass.
-            gloss: scene::GlossRule = |_| scene::GlossRule::default(), RenderSetting {
+            gloss: $crate::GlossRule = |_| $crate::GlossRule::default(), RenderSetting {
                 option: Some(CommandOption::new(
                     "GLOSS",
                     "What spreads the reflection and refraction of blinn materials",
                 )),
                 ..RenderSetting::new(
-                    scene::GlossRule::VALUES,
+                    $crate::GlossRule::VALUES,
                     "exponent: the glossiness of blinn materials spreads their reflection and refraction.",
                 )
             };
@@ -119,5 +120,3 @@ macro_rules! render_settings {
         }
     };
 }
-
-pub(crate) use render_settings;

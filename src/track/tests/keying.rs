@@ -1,8 +1,8 @@
 //! Keys written into the text of a track.
 
 use super::*;
-use crate::language::Node;
-use crate::text::apply;
+use language::Node;
+use text::apply;
 
 /// The text of a track with the value of a component's field keyed, and the name of the field.
 fn keyed(track: &str, place: (Node, usize, usize), frame: u32) -> (String, String) {

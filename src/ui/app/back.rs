@@ -1,7 +1,7 @@
 //! Esc, in the modes that bind it to nothing of their own.
 
 use super::{Shared, compare, inspect, select};
-use crate::ui::keymap::{Context, Mode};
+use crate::keymap::{Context, Mode};
 
 /// Goes back from what is open, or from the mode; never discards anything.
 pub(crate) fn go_back(shared: &mut Shared) {

@@ -6,11 +6,11 @@ use std::sync::Arc;
 use super::refusing::Refusable;
 use super::shared::jobs::{Asking, ExportWork, Pending};
 use super::{Dialog, Export, Question, Shared, Stage, display, files};
-use crate::image_file::{ImageFormat, known_extensions};
-use crate::render::{Frame, Frames, Job};
-use crate::scene::{MAX_SPP, Size, Viewpoint};
-use crate::ui::msg::{Destination, Effect, Existing, ExportId, Exported, Origin, Target};
-use crate::ui::reel::names_sequence;
+use crate::msg::{Destination, Effect, Existing, ExportId, Exported, Origin, Target};
+use crate::reel::names_sequence;
+use image_file::{ImageFormat, known_extensions};
+use render::{Frame, Frames, Job};
+use scene::{MAX_SPP, Size, Viewpoint};
 
 /// The picture to export; fields that are `None` are taken from the scene.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]

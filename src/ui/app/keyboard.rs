@@ -6,9 +6,9 @@ use tui_input::Input;
 use super::shared::cursor::Typing;
 use super::shared::line;
 use super::{App, PageFocus, PromptKind, Shared, command, edit, select, transform};
-use crate::text::alternatives;
-use crate::ui::keymap::{self, Context, Line, Meaning, Mode};
-use crate::ui::msg::Effect;
+use crate::keymap::{self, Context, Line, Meaning, Mode};
+use crate::msg::Effect;
+use text::alternatives;
 
 impl App {
     /// Handles a key: as part of the line that is typed, or by what it is bound to.

@@ -2,8 +2,8 @@
 
 use super::shared::cursor::moved;
 use super::{Shared, edit, history, inspect};
-use crate::ui::keymap::{Context, Mode};
-use crate::ui::layout;
+use crate::keymap::{Context, Mode};
+use crate::layout;
 
 /// Moves the cursor of what has the keys by some lines; positive is down.
 pub(crate) fn move_cursor(shared: &mut Shared, rows: isize) {

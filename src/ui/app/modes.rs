@@ -7,8 +7,8 @@ use super::{
     compare, display, edit, files, history, inspect, keys, select, sequence, text, trace,
     transform,
 };
-use crate::ui::keymap::{Entry, Key, Keymap, Mode, RowId};
-use crate::ui::msg::Effect;
+use crate::keymap::{Entry, Key, Keymap, Mode, RowId};
+use crate::msg::Effect;
 
 /// Declares the modes and pages that are rooms: the name of the state in [`App`], its type, and that of
 /// its rows of keys, if it has its own.

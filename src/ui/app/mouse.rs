@@ -6,12 +6,12 @@ use crossterm::event::{KeyModifiers, MouseButton, MouseEvent, MouseEventKind};
 
 use super::shared::Border;
 use super::{App, PickerRow, Shared, camera, display, edit, inspect, list, panels, transform};
-use crate::ui::keymap::{Context, Mode};
-use crate::ui::layout::{
+use crate::keymap::{Context, Mode};
+use crate::layout::{
     contents, field_at, first_shown, list_row_at, picker_lines, share_at, swatch_cells,
 };
-use crate::ui::listing::ListLine;
-use crate::ui::msg::{Effect, Timer};
+use crate::listing::ListLine;
+use crate::msg::{Effect, Timer};
 
 /// A second click within this time counts as a double click.
 const DOUBLE_CLICK: Duration = Duration::from_millis(400);

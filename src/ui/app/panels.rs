@@ -2,9 +2,9 @@
 
 use super::Shared;
 use super::shared::Border;
-use crate::ui::arrange::{Zoom, divided, resized};
-use crate::ui::msg::Effect;
-use crate::ui::terminal::Mouse;
+use crate::arrange::{Zoom, divided, resized};
+use crate::msg::Effect;
+use crate::terminal::Mouse;
 
 /// Shows the panels beside the picture, or the picture alone.
 pub(crate) fn toggle_zoom(shared: &mut Shared) {

@@ -3,8 +3,8 @@
 use super::shared::line;
 use super::values::typed::Values;
 use super::{PageFocus, PromptKind, Shared, command, edit, select};
-use crate::ui::keymap::Mode;
-use crate::ui::msg::Effect;
+use crate::keymap::Mode;
+use crate::msg::Effect;
 
 /// Pastes a text where one is typed, otherwise as items or as values.
 pub(crate) fn paste(shared: &mut Shared, text: &str) -> Vec<Effect> {

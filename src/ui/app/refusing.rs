@@ -1,7 +1,7 @@
 //! Showing the user why something failed.
 
 use super::Shared;
-use crate::text::Severity;
+use text::Severity;
 
 /// A result whose error is a reason to show.
 pub(crate) trait Refusable<T> {

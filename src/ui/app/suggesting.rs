@@ -5,11 +5,11 @@ use std::ops::ControlFlow;
 use super::display::is_light;
 use super::shared::suggestions::{RunningTrials, Suggestion, is_judgeable};
 use super::{Shared, display, text};
-use crate::explain::fault;
-use crate::language::Prospect;
-use crate::render::{Advice, Fault, Frame, Frames, Histogram, Job, Overexposure, Settings, Trials};
-use crate::scene::RenderKey;
-use crate::ui::msg::{Effect, Target};
+use crate::msg::{Effect, Target};
+use explain::fault;
+use language::Prospect;
+use render::{Advice, Fault, Frame, Frames, Histogram, Job, Overexposure, Settings, Trials};
+use scene::RenderKey;
 
 /// Says what is wrong with a preview of light as a whole, and what helps, once trials have
 /// shown it; once, until nothing is wrong.

@@ -7,9 +7,9 @@ use super::{
     App, Grid, command, compare, display, exports, files, history, inspect, pasting, sequence,
     suggesting, text, trace,
 };
-use crate::render::Frame;
-use crate::ui::history_scene::NoPicture;
-use crate::ui::msg::{Effect, Msg, Target, Timer};
+use crate::history_scene::NoPicture;
+use crate::msg::{Effect, Msg, Target, Timer};
+use render::Frame;
 
 /// Why a renderer has ended that was not stopped.
 const STOPPED: &str = "the renderer stopped early";

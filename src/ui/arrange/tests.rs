@@ -1,8 +1,8 @@
 //! Where picture and panels are on screens and for pictures of all shapes.
 
 use super::*;
-use crate::ui::layout::tests::size;
-use crate::ui::layout::{contents, field_rows};
+use crate::layout::tests::size;
+use crate::layout::{contents, field_rows};
 use proptest::prelude::*;
 
 const SHAPE: Shape = Shape {
@@ -143,7 +143,7 @@ fn a_dragged_border_follows_the_pointer() {
 }
 
 proptest! {
-    #![proptest_config(crate::repeatable())]
+    #![proptest_config(repeatable::config())]
 
     #[test]
     fn areas_are_inside_the_screen_and_disjoint(

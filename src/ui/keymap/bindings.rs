@@ -228,7 +228,7 @@ pub fn name(event: KeyEvent) -> Option<String> {
 }
 
 #[cfg(test)]
-pub(in crate::ui) mod tests {
+pub(crate) mod tests {
     use super::*;
     use crossterm::event::KeyModifiers;
 
@@ -242,7 +242,7 @@ pub(in crate::ui) mod tests {
     }
 
     /// The default keys with changes such as `select s=save, select D=`.
-    pub(in crate::ui) fn bound(changes: &str) -> Keymap {
+    pub(crate) fn bound(changes: &str) -> Keymap {
         let mut keymap = Keymap::default();
         for change in changes.split_terminator(", ") {
             let (section, binding) = change.split_once(' ').expect("a section");

@@ -14,7 +14,7 @@ mod typed_line;
 mod unbindable;
 
 #[cfg(test)]
-pub(in crate::ui) use bindings::tests::bound;
+pub(crate) use bindings::tests::bound;
 pub use bindings::{Keymap, Meaning, RowId, name};
 pub use chord::{Chord, Keys, alt, c, ctrl, key, key_named, key_names, shift};
 pub use context::{Context, Mode};

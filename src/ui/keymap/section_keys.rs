@@ -90,7 +90,7 @@ fn named(row: &Row) -> NamedHere {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::ui::keymap::bound;
+    use crate::keymap::bound;
 
     #[test]
     fn changes_made_again_give_the_same_keys() {

@@ -6,8 +6,8 @@ use std::path::PathBuf;
 use std::sync::Arc;
 
 use super::identity::Identity;
-use crate::file::{Lock, lock};
-use crate::ui::state_folder::Folder;
+use crate::state_folder::Folder;
+use file::{Lock, lock};
 
 /// The maximum number of damaged journals with one name.
 const MOST_DAMAGED: u32 = 1000;
@@ -177,8 +177,8 @@ fn write(mut file: &File, content: &[u8]) -> io::Result<()> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::language::Language;
-    use crate::ui::state_folder::Part;
+    use crate::state_folder::Part;
+    use language::Language;
 
     #[test]
     #[cfg(unix)]

@@ -4,8 +4,7 @@ use std::ffi::OsStr;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use crate::file;
-use crate::language::Language;
+use language::Language;
 
 /// The stem of journals of the scene without a file.
 const NAMELESS: &str = "unsaved";

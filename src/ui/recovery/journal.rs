@@ -7,10 +7,10 @@ use std::sync::Arc;
 use super::claim::Claim;
 use super::identity::Identity;
 use super::record;
-use crate::document::Snapshot;
-use crate::language::Language;
-use crate::text::Edit;
-use crate::ui::state_folder::{Folder, Part};
+use crate::state_folder::{Folder, Part};
+use document::Snapshot;
+use language::Language;
+use text::Edit;
 
 /// Outdated edits may take this many bytes, or as many as the text if it is longer.
 const WASTE: u64 = 1 << 20;
@@ -187,8 +187,8 @@ fn beginning(scene: &Identity, change: &Change) -> (Vec<u8>, Head) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::document::Document;
-    use crate::text::Span;
+    use document::Document;
+    use text::Span;
 
     #[test]
     fn a_text_is_not_held_while_its_edits_are_written() {

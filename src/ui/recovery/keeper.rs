@@ -8,8 +8,8 @@ use std::time::Instant;
 
 use super::claim::Claim;
 use super::journal::{Edits, Journal};
-use crate::ui::queue::{Ended, Service};
-use crate::ui::state_folder;
+use crate::queue::{Ended, Service};
+use crate::state_folder;
 
 /// A request for the thread.
 #[derive(Debug)]
@@ -156,8 +156,8 @@ fn next(inbox: &Receiver<Request>, waiting: &mut VecDeque<Request>) -> Option<Re
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::document::Document;
-    use crate::language::Language;
+    use document::Document;
+    use language::Language;
 
     #[test]
     fn only_the_last_waiting_text_is_kept() {

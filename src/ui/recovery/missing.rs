@@ -7,8 +7,8 @@ use super::claim::Claim;
 use super::identity::Identity;
 use super::offer::{left_behind, limit, read};
 use super::record::{self, Content};
-use crate::language::Language;
-use crate::ui::state_folder::{self, Folder, Part};
+use crate::state_folder::{self, Folder, Part};
+use language::Language;
 
 /// The base of the newest edits kept of a scene, or of the one without a file: what is left of it if
 /// its file is missing.

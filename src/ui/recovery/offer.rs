@@ -8,13 +8,12 @@ use std::sync::Arc;
 use super::claim::Claim;
 use super::identity::Identity;
 use super::record::{self, Content};
-use crate::document::{Merge, Side, differences};
-use crate::file;
-use crate::language::Language;
-use crate::memory::megabytes;
-use crate::text::{Edit, smallest_edit};
-use crate::ui::queue::spawn;
-use crate::ui::state_folder::{self, Folder, Part};
+use crate::queue::spawn;
+use crate::state_folder::{self, Folder, Part};
+use document::{Merge, Side, differences};
+use language::Language;
+use memory::megabytes;
+use text::{Edit, smallest_edit};
 
 /// The size, in bytes, that a journal may have regardless of the scene's length.
 const ALWAYS: u64 = 64 << 20;

@@ -19,7 +19,7 @@
 //! after a damaged one, and no line of a scene is mistaken for one of the journal.
 
 use super::identity::{Identity, fnv1a};
-use crate::text::{Edit, Span, smallest_edit};
+use text::{Edit, Span, smallest_edit};
 
 /// The prefix of journals of every version.
 const FAMILY: &[u8] = b"halflight journal ";
@@ -263,7 +263,7 @@ fn checksum(parts: &[&[u8]]) -> u64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::ui::recovery::tests::{parts as journal, scene};
+    use crate::recovery::tests::{parts as journal, scene};
 
     fn edits(base: &str, text: &str, is_damaged: bool) -> Content {
         Content::Edits {

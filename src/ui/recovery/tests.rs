@@ -16,9 +16,9 @@ use super::identity::Identity;
 use super::journal::{Edits, Journal};
 use super::offer::look_in;
 use super::{Found, Offer, Sought, Way, missing, note_for_missing, record};
-use crate::document::{Document, Snapshot};
-use crate::language::Language;
-use crate::ui::state_folder::{Folder, Part};
+use crate::state_folder::{Folder, Part};
+use document::{Document, Snapshot};
+use language::Language;
 
 /// An offer of edits for a text, whose journal is gone.
 pub(crate) fn offer(language: Language, text: &Arc<String>, base: &str, kept: &str) -> Offer {

@@ -15,7 +15,7 @@ use std::sync::mpsc::{self, Receiver, RecvTimeoutError, SyncSender};
 use std::thread;
 use std::time::{Duration, Instant};
 
-use crate::ui::queue::spawn;
+use crate::queue::spawn;
 
 /// What keeps git from fetching objects, for which it would run programs that the repository names.
 /// Each suffices; git knows the first since version 2.45.

@@ -2,8 +2,8 @@
 
 use std::io;
 
-use crate::ui::event::Work;
-use crate::ui::queue::{Ended, Service};
+use crate::event::Work;
+use crate::queue::{Ended, Service};
 
 /// A thread whose requests count as work until they are answered.
 pub(crate) type Answering<R> = Service<(R, Work)>;

@@ -5,10 +5,9 @@ use std::path::PathBuf;
 
 use super::answering::Answering;
 use super::watching::Watching;
-use crate::assets::{Assets, Wanted};
-use crate::file;
-use crate::ui::msg::{Msg, Polled};
-use crate::watch::Method;
+use crate::msg::{Msg, Polled};
+use assets::{Assets, Wanted};
+use watch::Method;
 
 /// Starts the thread. `send` is called on it and on the watcher's thread. Nothing waits for its end, as it
 /// has no work that could be lost.

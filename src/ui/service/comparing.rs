@@ -7,9 +7,9 @@ use std::path::PathBuf;
 use std::sync::Arc;
 
 use super::answering::Answering;
-use crate::assets::Assets;
-use crate::ui::msg::Msg;
-use crate::ui::reference::{Pair, ReferenceId, ReferenceSource};
+use crate::msg::Msg;
+use crate::reference::{Pair, ReferenceId, ReferenceSource};
+use assets::Assets;
 
 /// Starts the thread that reads references, reported by [`Msg::ReferenceRead`]; `send` is called on it.
 /// Pictures and meshes of scenes may be read from `folders` too.

@@ -5,11 +5,11 @@ use std::path::PathBuf;
 use std::sync::Arc;
 
 use super::answering::Answering;
-use crate::assets::{Assets, Wanted};
-use crate::language::{self, Source};
-use crate::memory::OutOfMemory;
-use crate::ui::history_scene::{HistoryScene, HistoryText, NoPicture};
-use crate::ui::msg::Msg;
+use crate::history_scene::{HistoryScene, HistoryText, NoPicture};
+use crate::msg::Msg;
+use assets::{Assets, Wanted};
+use language::Source;
+use memory::OutOfMemory;
 
 /// Starts the thread, which may read files of scenes in `folders` and calls `send`. Nothing waits for its
 /// end, as it has no work that could be lost.
@@ -66,10 +66,10 @@ fn derive(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::document::Document;
-    use crate::language::{Language, Node};
-    use crate::text::{Edit, Span};
-    use crate::ui::history_scene::KnownFiles;
+    use crate::history_scene::KnownFiles;
+    use document::Document;
+    use language::{Language, Node};
+    use text::{Edit, Span};
 
     fn derived(document: &Document, at: usize) -> Result<HistoryScene, NoPicture> {
         let past = HistoryText {
@@ -86,7 +86,7 @@ mod tests {
     fn the_scene_is_that_of_the_text_at_its_step() {
         let text = Language::Ray.template().to_owned();
         let mut document = Document::new(Language::Ray, text);
-        let meshes = crate::scene::Meshes::default();
+        let meshes = scene::Meshes::default();
         document.lower(&meshes).expect("there is memory");
         let removed = document.source().removal(&[Node::Object(0)]);
         document.edit(&removed.expect("it can be deleted"));

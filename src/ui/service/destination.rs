@@ -3,8 +3,8 @@
 use std::io;
 use std::path::{Path, PathBuf};
 
-use crate::file::{self, Version};
-use crate::ui::msg::{Destination, Existing, ExportId, Msg};
+use crate::msg::{Destination, Existing, ExportId, Msg};
+use file::Version;
 
 /// Why a picture is not written.
 #[derive(Debug, PartialEq, Eq)]
@@ -116,7 +116,7 @@ pub(super) mod tests {
     use super::*;
 
     /// A destination unrelated to any scene.
-    pub(in crate::ui::service) fn destination(path: &Path, existing: Existing) -> Destination {
+    pub(in crate::service) fn destination(path: &Path, existing: Existing) -> Destination {
         Destination {
             path: path.to_owned(),
             existing,

@@ -5,9 +5,9 @@ use std::io;
 use std::sync::Arc;
 
 use super::answering::Answering;
-use crate::render::Frame;
-use crate::ui::event::Work;
-use crate::ui::msg::{Msg, Question};
+use crate::event::Work;
+use crate::msg::{Msg, Question};
+use render::Frame;
 
 /// A question, and the frame that it is about.
 type Request = (Question, Arc<Frame>);
@@ -43,10 +43,10 @@ mod tests {
     use std::sync::mpsc;
 
     use super::*;
-    use crate::render::{NO_OBJECT, PreparedScene};
-    use crate::ui::app::tests::frame_of;
-    use crate::ui::msg::Target;
-    use crate::ui::shell::job;
+    use crate::app::tests::frame_of;
+    use crate::msg::Target;
+    use crate::shell::job;
+    use render::{NO_OBJECT, PreparedScene};
 
     #[test]
     fn the_last_question_is_answered() {

@@ -11,16 +11,15 @@ use std::time::Duration;
 use super::destination::{
     NotWritten, Refused, check_spared, check_target, check_target_of, numbered,
 };
-use crate::assets::{Assets, Edited};
-use crate::file;
-use crate::image_file::{DEFAULT_RATE, ImageFormat, MovieFormat, MovieWriter, Pattern, Picture};
-use crate::language::{self, Lowered, Source};
-use crate::render::{Frame, Frames, Job, Provenance, Renderer, Settings, Threads};
-use crate::scene::{Camera, Images, Scene};
-use crate::text::Findings;
-use crate::track::{self, Bound};
-use crate::ui::msg::{Destination, Existing, ExportId, Exported, Msg};
-use crate::ui::reel::{Reel, ReelForm, ReelProgress, Shot};
+use crate::msg::{Destination, Existing, ExportId, Exported, Msg};
+use crate::reel::{Reel, ReelForm, ReelProgress, Shot};
+use assets::{Assets, Edited};
+use image_file::{DEFAULT_RATE, ImageFormat, MovieFormat, MovieWriter, Pattern, Picture};
+use language::{Lowered, Source};
+use render::{Frame, Frames, Job, Provenance, Renderer, Settings, Threads};
+use scene::{Camera, Images, Scene};
+use text::Findings;
+use track::Bound;
 
 /// How long a cancelled export may go on.
 const PATIENCE: Duration = Duration::from_millis(50);

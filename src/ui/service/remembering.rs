@@ -5,11 +5,10 @@
 use std::path::{Component, Path, PathBuf};
 use std::{fs, io};
 
-use crate::file;
-use crate::ui::arrange::PanelSizes;
-use crate::ui::msg::Msg;
-use crate::ui::queue::Service;
-use crate::ui::state_folder::{self, Folder, Part};
+use crate::arrange::PanelSizes;
+use crate::msg::Msg;
+use crate::queue::Service;
+use crate::state_folder::{self, Folder, Part};
 
 /// Names of the files.
 const SCENES: &str = "recent";

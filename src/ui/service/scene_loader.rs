@@ -8,17 +8,16 @@ use std::sync::mpsc::Receiver;
 use std::thread;
 
 use super::watching::Watching;
-use crate::document::Document;
-use crate::file::{self, ReadError};
-use crate::language::{self, Language};
-use crate::memory;
-use crate::scene::Meshes;
-use crate::ui::event::Work;
-use crate::ui::msg::{Msg, Polled};
-use crate::ui::queue::{Ended, Service};
-use crate::ui::recovery;
-use crate::ui::scene_reading::{Baseline, Opened, Reading, SceneFolder};
-use crate::watch::Method;
+use crate::event::Work;
+use crate::msg::{Msg, Polled};
+use crate::queue::{Ended, Service};
+use crate::recovery;
+use crate::scene_reading::{Baseline, Opened, Reading, SceneFolder};
+use document::Document;
+use file::ReadError;
+use language::Language;
+use scene::Meshes;
+use watch::Method;
 
 /// Length in bytes from which a text is lowered on several threads.
 const LARGE: usize = 1 << 20;

@@ -5,9 +5,9 @@ use std::path::{Path, PathBuf};
 
 use super::answering::Answering;
 use super::watching::Watching;
-use crate::file::{self, ReadError};
-use crate::ui::msg::{Msg, Polled};
-use crate::watch::Method;
+use crate::msg::{Msg, Polled};
+use file::ReadError;
+use watch::Method;
 
 /// Starts the thread, which reads a track and watches it from then on. `send` is called on it and on the
 /// watcher's thread. Nothing waits for its end, as it has no work that could be lost.

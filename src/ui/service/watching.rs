@@ -2,8 +2,8 @@
 
 use std::path::PathBuf;
 
-use crate::ui::msg::{Msg, Polled};
-use crate::watch::{Method, Notice, Watcher};
+use crate::msg::{Msg, Polled};
+use watch::{Method, Notice, Watcher};
 
 /// Watches some files at a time. Messages are sent from the watcher's thread too.
 pub(super) struct Watching<S> {

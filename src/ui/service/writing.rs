@@ -11,14 +11,14 @@ use std::time::Instant;
 
 use super::destination::{NotWritten, Refused, check_target, numbered};
 use super::filming::{self, Cancelled};
-use crate::assets::fingerprint;
-use crate::file::{self, ReadError};
-use crate::image_file::{self, Picture};
-use crate::render::{Frame, Provenance};
-use crate::ui::event::{Event, Work, sending};
-use crate::ui::msg::{Destination, ExportId, Exported, Guard, Msg, SaveId, SaveOutcome};
-use crate::ui::queue::spawn;
-use crate::ui::reel::Reel;
+use crate::event::{Event, Work, sending};
+use crate::msg::{Destination, ExportId, Exported, Guard, Msg, SaveId, SaveOutcome};
+use crate::queue::spawn;
+use crate::reel::Reel;
+use assets::fingerprint;
+use file::ReadError;
+use image_file::Picture;
+use render::{Frame, Provenance};
 
 /// Starts a thread for each file to write, and waits for all of them at the end.
 pub(crate) struct Writers {
@@ -309,10 +309,10 @@ fn provenance(frame: &Frame, to: &Destination) -> Result<Option<Provenance>, Rea
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::ui::app::tests::frame_of;
-    use crate::ui::layout::tests::size;
-    use crate::ui::msg::Existing;
-    use crate::ui::service::destination::tests::destination;
+    use crate::app::tests::frame_of;
+    use crate::layout::tests::size;
+    use crate::msg::Existing;
+    use crate::service::destination::tests::destination;
 
     #[test]
     fn a_panic_while_writing_a_file_is_reported() {
@@ -349,7 +349,7 @@ mod tests {
 
     #[test]
     fn a_scene_stays_complete_whichever_call_fails() {
-        use crate::file::faults::{Fault, during};
+        use file::faults::{Fault, during};
         use rustix::io::Errno;
         let place = tempfile::tempdir().expect("a folder");
         let path = place.path().join("x.ray");

@@ -4,10 +4,10 @@ use std::sync::mpsc::{Receiver, Sender};
 use std::time::{Duration, Instant};
 
 use super::ending::Error;
-use crate::ui::app::App;
-use crate::ui::event::{Event, Work};
-use crate::ui::msg::{Effect, Msg};
-use crate::ui::service::scene_loader::SceneLoader;
+use crate::app::App;
+use crate::event::{Event, Work};
+use crate::msg::{Effect, Msg};
+use crate::service::scene_loader::SceneLoader;
 
 /// Time for which the terminal is left alone while the scene is read. Most files are read by then
 /// and appear on the first screen; otherwise the first screen shows which file is being opened.

@@ -8,11 +8,11 @@ use std::sync::{Arc, Weak};
 use std::time::{Duration, Instant};
 
 use super::traces::Traces;
-use crate::assets::FileDigests;
-use crate::render::{Job, Kept, Provenance, Renderer};
-use crate::scene::Scene;
-use crate::ui::msg::{Origin, Recalled};
-use crate::ui::queue::spawn;
+use crate::msg::{Origin, Recalled};
+use crate::queue::spawn;
+use assets::FileDigests;
+use render::{Job, Kept, Provenance, Renderer};
+use scene::Scene;
 
 /// The least time spent on a trace that is kept.
 const LEAST: Duration = Duration::from_secs(10);

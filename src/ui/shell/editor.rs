@@ -12,7 +12,7 @@ use std::io;
 use std::path::{Component, Path, PathBuf};
 use std::process::{Command, ExitStatus};
 
-use crate::text::shell_words;
+use text::shell_words;
 
 /// The editor if neither variable is set.
 const DEFAULT: &str = "vi";

@@ -20,25 +20,24 @@ use super::ending::ShutdownDeadlines;
 use super::screen::Screen;
 use super::traces::Traces;
 use super::tty_session::TtySession;
-use crate::assets::Wanted;
-use crate::memory;
-use crate::render::{Frame, Job, Kept, Refusal, Renderer, Threads};
-use crate::scene::Scene;
-use crate::ui::event::{Event, Work, sending};
-use crate::ui::history_scene::{HistoryText, NoPicture};
-use crate::ui::msg::{
+use crate::event::{Event, Work, sending};
+use crate::history_scene::{HistoryText, NoPicture};
+use crate::msg::{
     Destination, Effect, ExportId, Msg, Origin, Question, SaveOutcome, Target, Timer,
 };
-use crate::ui::options::Options;
-use crate::ui::queue::{Ended, Service};
-use crate::ui::recovery::{self, Edits, End, Keeper, Outcome, Request};
-use crate::ui::reel::Reel;
-use crate::ui::reference::{Pair, ReferenceId, ReferenceSource};
-use crate::ui::service::remembering;
-use crate::ui::service::scene_loader::SceneLoader;
-use crate::ui::service::writing::Writers;
-use crate::ui::service::{self, Answering};
+use crate::options::Options;
+use crate::queue::{Ended, Service};
+use crate::recovery::{self, Edits, End, Keeper, Outcome, Request};
+use crate::reel::Reel;
+use crate::reference::{Pair, ReferenceId, ReferenceSource};
+use crate::service::remembering;
+use crate::service::scene_loader::SceneLoader;
+use crate::service::writing::Writers;
+use crate::service::{self, Answering};
+use assets::Wanted;
 use others::{reaches_others, without_others};
+use render::{Frame, Job, Kept, Refusal, Renderer, Threads};
+use scene::Scene;
 
 /// Time for which memory freed by pictures is kept for the next ones.
 const TRIM_TIME: Duration = Duration::from_secs(30);

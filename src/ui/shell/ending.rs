@@ -4,11 +4,11 @@ use std::io;
 use std::path::PathBuf;
 use std::time::Duration;
 
-use crate::assets::NoFolder;
-use crate::file::ReadError;
-use crate::language::{UnknownLanguage, extensions};
-use crate::memory::{NoThreads, OutOfMemory};
-use crate::text::Diagnostic;
+use assets::NoFolder;
+use file::ReadError;
+use language::{UnknownLanguage, extensions};
+use memory::{NoThreads, OutOfMemory};
+use text::Diagnostic;
 
 /// How the interface ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

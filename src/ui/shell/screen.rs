@@ -10,9 +10,9 @@ use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 
 use super::tty_session::TtySession;
-use crate::ui::event::Event;
-use crate::ui::options::Options;
-use crate::ui::terminal::Pixmap;
+use crate::event::Event;
+use crate::options::Options;
+use crate::terminal::Pixmap;
 
 /// The screen of a session.
 pub(super) enum Screen {

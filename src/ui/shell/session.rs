@@ -17,16 +17,16 @@ use super::continuing::TraceEnd;
 use super::effects::Runtime;
 use super::ending::{Ending, Error};
 use super::script::Script;
-use crate::text::{self, shell_path};
-use crate::ui::app::{App, display, exports, files};
-use crate::ui::event::{Event, sending};
-use crate::ui::msg::{Effect, Msg, Target};
-use crate::ui::options::Options;
-use crate::ui::recovery::End;
-use crate::ui::service::scene_loader::SceneLoader;
-use crate::ui::terminal::{Budget, Choice, ColourDepth, Link, Reply};
-use crate::ui::view::Inks;
-use crate::ui::{terminal, view};
+use crate::app::{App, display, exports, files};
+use crate::event::{Event, sending};
+use crate::msg::{Effect, Msg, Target};
+use crate::options::Options;
+use crate::recovery::End;
+use crate::service::scene_loader::SceneLoader;
+use crate::terminal::{Budget, Choice, ColourDepth, Link, Reply};
+use crate::view::Inks;
+use crate::{terminal, view};
+use text::shell_path;
 
 /// Minimum time between two drawings that only refine the picture.
 const FRAME_TIME: Duration = Duration::from_millis(33);

@@ -21,9 +21,9 @@ use std::io::{self, BufReader, ErrorKind, Read, Seek, Write};
 use std::path::PathBuf;
 use std::time::{Duration, Instant, SystemTime};
 
-use crate::file::{Digest, Digested};
-use crate::render::{Job, Kept, Provenance};
-use crate::ui::state_folder::{self, Folder, NEW, Part};
+use crate::state_folder::{self, Folder, NEW, Part};
+use file::{Digest, Digested};
+use render::{Job, Kept, Provenance};
 
 /// The first line, with the version of the format.
 const MAGIC: &str = "halflight trace 2";

@@ -9,14 +9,14 @@ use std::sync::mpsc::{self, Receiver};
 
 use std::time::{Duration, Instant};
 
-use crate::ui::event::Event;
-use crate::ui::msg::Msg;
-use crate::ui::options::Options;
-use crate::ui::queue::spawn;
-use crate::ui::terminal::query::Question;
-use crate::ui::terminal::{self, Input, Replies, Reply, Terminal, Unread, tmux};
+use crate::event::Event;
+use crate::msg::Msg;
+use crate::options::Options;
+use crate::queue::spawn;
+use crate::terminal::query::Question;
+use crate::terminal::{self, Input, Replies, Reply, Terminal, Unread, tmux};
 #[cfg(unix)]
-use crate::ui::terminal::{Signals, suspend_process};
+use crate::terminal::{Signals, suspend_process};
 
 /// Maximum time to wait for replies of the terminal before handing it over; longer than nearly all
 /// round trips.

@@ -13,7 +13,7 @@ use rustix::fs::{
 use rustix::io::Errno;
 use rustix::process::geteuid;
 
-use crate::text::shell_path;
+use text::shell_path;
 
 /// What to do about a missing folder.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -122,8 +122,8 @@ pub(super) fn text_over(place: Rect, frame: &Buffer) -> Vec<(Position, Cell)> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::ui::layout::tests::size;
-    use crate::ui::terminal::{Protocol, Wrapping};
+    use crate::layout::tests::size;
+    use crate::terminal::{Protocol, Wrapping};
 
     const PROTOCOLS: [Protocol; 3] = [Protocol::Kitty, Protocol::Iterm, Protocol::Sixel];
     const PLACE: Rect = Rect::new(1, 1, 4, 2);

@@ -203,11 +203,11 @@ impl<F: Fn(&str) -> Option<String>> EnvVarSource for Environment<F> {
 }
 
 #[cfg(test)]
-pub(in crate::ui) mod tests {
+pub(crate) mod tests {
     use super::*;
 
     /// The values of variables in a text such as `TERM=xterm COLORTERM=`.
-    pub(in crate::ui) fn environment(variables: &str) -> impl Fn(&str) -> Option<String> {
+    pub(crate) fn environment(variables: &str) -> impl Fn(&str) -> Option<String> {
         move |asked| {
             let mut pairs = variables.split(' ').filter_map(|pair| pair.split_once('='));
             let (_, value) = pairs.find(|&(name, _)| name == asked)?;

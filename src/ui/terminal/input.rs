@@ -10,7 +10,7 @@ use std::sync::mpsc::{self, Receiver, Sender, TryRecvError};
 use std::thread::JoinHandle;
 
 use super::Event;
-use crate::ui::queue::spawn;
+use crate::queue::spawn;
 
 #[cfg(unix)]
 use unix::{Keyboard, Waker};
@@ -182,8 +182,8 @@ mod unix {
     use rustix::io::Errno;
 
     use super::Wake;
-    use crate::ui::terminal::decode::Decoder;
-    use crate::ui::terminal::{Event, tty};
+    use crate::terminal::decode::Decoder;
+    use crate::terminal::{Event, tty};
 
     /// The input side of the terminal.
     #[derive(Debug)]
@@ -280,7 +280,7 @@ mod windows {
     use crossterm::event::{self, KeyEventKind, MouseEventKind};
 
     use super::Wake;
-    use crate::ui::terminal::Event;
+    use crate::terminal::Event;
 
     /// Maximum duration of a wait, and therefore of parking.
     const PATIENCE: Duration = Duration::from_millis(20);

@@ -32,7 +32,7 @@ mod tty;
 
 pub use backend::AnsiBackend;
 #[cfg(test)]
-pub(in crate::ui) use colour::tests::environment;
+pub(crate) use colour::tests::environment;
 pub use colour::{Choice, ColourDepth};
 pub(crate) use colour::{THEME, colour_on_screen};
 #[cfg(unix)]

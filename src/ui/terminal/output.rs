@@ -14,7 +14,7 @@ use std::time::{Duration, Instant};
 use rustix::event::Timespec;
 
 use super::tty::TtyWriter;
-use crate::ui::queue::spawn;
+use crate::queue::spawn;
 
 /// Maximum number of bytes per write call.
 const PIECE: usize = 1 << 16;

@@ -14,7 +14,7 @@ use std::thread::{self, ThreadId};
 use super::graphics::{self, Means};
 use super::output::Output;
 use super::tty;
-use crate::text::visible;
+use text::visible;
 
 /// Owner of the terminal.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -151,7 +151,7 @@ fn shows_colour(setting: &[u8]) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::ui::terminal::environment;
+    use crate::terminal::environment;
 
     #[test]
     fn only_the_exact_colour_means_24_bit() {

@@ -25,7 +25,7 @@ use signal_hook::low_level::{self, pipe};
 
 use super::ownership::Ownership;
 use super::{Event, tty};
-use crate::ui::queue::spawn;
+use crate::queue::spawn;
 
 /// Time for the interface to give the terminal back after that is gone.
 const GRACE: Duration = Duration::from_millis(500);

@@ -12,7 +12,7 @@ use std::time::Duration;
 
 use ratatui::layout::Size;
 
-use crate::ui::queue::spawn;
+use crate::queue::spawn;
 
 /// Size assumed for a terminal that does not know its own.
 const USUAL: Size = Size {

@@ -5,7 +5,7 @@
 
 use super::dither;
 use super::oklab::light;
-use crate::ui::app::CellImage;
+use crate::app::CellImage;
 
 /// Characters, and the coverage of their upper and lower halves: exact for blocks, for the others
 /// an average over common fonts (`DejaVu` Sans Mono, Noto Sans Mono).
@@ -123,7 +123,7 @@ fn fourth_root(light: f32) -> f32 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::ui::view::tests::cell_image;
+    use crate::view::tests::cell_image;
 
     /// The rows of cells of a picture of greys.
     fn drawn(width: u32, height: u32, grey: impl Fn(u32, u32) -> u8) -> Vec<String> {

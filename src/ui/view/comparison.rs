@@ -7,9 +7,9 @@ use ratatui::widgets::{Clear, Widget};
 
 use super::Inks;
 use super::row::{Focus, Row, put_at, title};
-use crate::compare::{Comparison, Difference};
-use crate::ui::app::{App, Compare, compare};
-use crate::ui::theme;
+use crate::app::{App, Compare, compare};
+use crate::theme;
+use ::compare::{Comparison, Difference};
 
 /// Width of the names of the panel, with a gap.
 const NAMES: u16 = 11;

@@ -7,9 +7,9 @@ use ratatui::widgets::{Clear, Widget};
 use unicode_width::UnicodeWidthStr;
 
 use super::row::{Focus, Row, title};
-use crate::ui::app::{Completion, Shared, command};
-use crate::ui::layout::nth_line;
-use crate::ui::{layout, theme};
+use crate::app::{Completion, Shared, command};
+use crate::layout::nth_line;
+use crate::{layout, theme};
 
 /// Maximum number of completions shown.
 const SHOWN: usize = 12;
@@ -69,8 +69,8 @@ fn entry(completion: &Completion, style: Style, line: Rect, buffer: &mut Buffer)
 
 #[cfg(test)]
 mod tests {
-    use crate::ui::app::PromptKind;
-    use crate::ui::view::tests::{app, drawn, press};
+    use crate::app::PromptKind;
+    use crate::view::tests::{app, drawn, press};
 
     #[test]
     fn commands_are_shown_with_their_help_and_key() {

@@ -7,12 +7,12 @@ use unicode_width::UnicodeWidthStr;
 
 use super::fields::typed;
 use super::row::Row;
-use crate::text::Severity;
-use crate::ui::app::{FieldRow, Message, Shared};
-use crate::ui::arrange::Areas;
-use crate::ui::keymap::Mode;
-use crate::ui::layout::split_right;
-use crate::ui::theme;
+use crate::app::{FieldRow, Message, Shared};
+use crate::arrange::Areas;
+use crate::keymap::Mode;
+use crate::layout::split_right;
+use crate::theme;
+use text::Severity;
 
 /// The cells that are left for the mode.
 const MODE: u16 = 7;

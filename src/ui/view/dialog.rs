@@ -7,11 +7,11 @@ use ratatui::widgets::{Block, BorderType, Clear, Widget};
 use unicode_width::UnicodeWidthStr;
 
 use super::row::Row;
-use crate::document::Merge;
-use crate::text::Position;
-use crate::ui::app::{App, Dialog, MergeSource, Question, Whose, exports, files, select, text};
-use crate::ui::text_width::wrap;
-use crate::ui::{layout, theme};
+use crate::app::{App, Dialog, MergeSource, Question, Whose, exports, files, select, text};
+use crate::text_width::wrap;
+use crate::{layout, theme};
+use ::text::Position;
+use document::Merge;
 
 /// Minimum width of one side of a conflict, in columns.
 const SIDE: usize = 12;
@@ -172,9 +172,9 @@ fn one_line(text: &str) -> String {
 
 #[cfg(test)]
 mod tests {
-    use crate::document::Side;
-    use crate::ui::app::{AfterLeaving, Dialog};
-    use crate::ui::view::tests::{SCENE, app, ask, check_shown, drawn, retype};
+    use crate::app::{AfterLeaving, Dialog};
+    use crate::view::tests::{SCENE, app, ask, check_shown, drawn, retype};
+    use document::Side;
 
     #[test]
     fn quitting_shows_what_would_be_lost_and_how_to_answer() {

@@ -5,9 +5,9 @@ use ratatui::layout::Rect;
 use ratatui::widgets::{Clear, Widget};
 
 use super::row::{Focus, Row, title};
-use crate::text::counted;
-use crate::ui::app::Shared;
-use crate::ui::error_panel::StyledLine;
+use crate::app::Shared;
+use crate::error_panel::StyledLine;
+use text::counted;
 
 /// Draws the diagnostics below the picture, if there are any to show.
 pub(crate) fn render(shared: &Shared, area: Rect, buffer: &mut Buffer) {
@@ -61,10 +61,10 @@ fn heading(shared: &Shared) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::text::Findings;
-    use crate::ui::app::App;
-    use crate::ui::terminal::ColourDepth;
-    use crate::ui::view::tests::{app, check_shown, drawn, retype};
+    use crate::app::App;
+    use crate::terminal::ColourDepth;
+    use crate::view::tests::{app, check_shown, drawn, retype};
+    use text::Findings;
 
     #[test]
     fn an_error_shows_its_position_message_and_hint() {

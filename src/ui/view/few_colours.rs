@@ -7,7 +7,7 @@ use ratatui::style::Color;
 
 use super::dither;
 use super::oklab::{light, luma, oklab};
-use crate::ui::terminal::{THEME, colour_on_screen};
+use crate::terminal::{THEME, colour_on_screen};
 
 /// Number of pixels in a mix.
 const PARTS: usize = 8;

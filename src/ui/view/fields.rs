@@ -9,15 +9,15 @@ use unicode_width::UnicodeWidthStr;
 
 use super::list::swatch;
 use super::row::{self, Focus, Row};
-use crate::language::Node;
-use crate::language::table::{Category, Kind};
-use crate::scene::Rgb;
-use crate::text::{counted, parse_number, without_suffix};
-use crate::ui::app::{FieldRow, Provenance, Shared, Stride, Typing, edit};
-use crate::ui::keymap::Mode;
-use crate::ui::layout::marker_at;
-use crate::ui::text_width::wrap;
-use crate::ui::{layout, theme};
+use crate::app::{FieldRow, Provenance, Shared, Stride, Typing, edit};
+use crate::keymap::Mode;
+use crate::layout::marker_at;
+use crate::text_width::wrap;
+use crate::{layout, theme};
+use language::Node;
+use language::table::{Category, Kind};
+use scene::Rgb;
+use text::{counted, parse_number, without_suffix};
 
 /// Draws the fields of the selected node and a description of the current one.
 pub(crate) fn render(shared: &Shared, area: Rect, buffer: &mut Buffer) {
@@ -252,9 +252,9 @@ fn explain(shared: &Shared, field: &FieldRow, area: Rect, buffer: &mut Buffer) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::text::{Diagnostic, Span};
-    use crate::ui::app::App;
-    use crate::ui::view::tests::{app, drawn, retype, select, typing};
+    use crate::app::App;
+    use crate::view::tests::{app, drawn, retype, select, typing};
+    use text::{Diagnostic, Span};
 
     fn editing(selected: Node) -> App {
         let mut app = app();

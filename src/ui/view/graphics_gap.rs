@@ -3,9 +3,9 @@
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 
-use crate::ui::app::App;
-use crate::ui::terminal::Pixmap;
-use crate::ui::theme;
+use crate::app::App;
+use crate::terminal::Pixmap;
+use crate::theme;
 
 /// The symbol of cells that are left to the terminal's own picture, a private character.
 const LEFT: &str = "\u{f8ff}";
@@ -51,16 +51,16 @@ pub(super) fn leave(cells: Rect, buffer: &mut Buffer) {
 
 #[cfg(test)]
 mod tests {
-    use crate::ui::app::display;
+    use crate::app::display;
     use ratatui::Terminal;
     use ratatui::backend::TestBackend;
     use ratatui::layout::Rect;
 
-    use crate::ui::app::{App, Page};
-    use crate::ui::keymap::Context;
-    use crate::ui::terminal::ColourDepth;
-    use crate::ui::view::tests::{app, frame, lines, retype, show};
-    use crate::ui::view::{Drawing, Inks, draw};
+    use crate::app::{App, Page};
+    use crate::keymap::Context;
+    use crate::terminal::ColourDepth;
+    use crate::view::tests::{app, frame, lines, retype, show};
+    use crate::view::{Drawing, Inks, draw};
 
     /// The cells left to a picture by the terminal, and whether any half blocks are drawn.
     fn left(app: &mut App) -> (Option<Rect>, bool) {

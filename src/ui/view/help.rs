@@ -7,9 +7,9 @@ use unicode_width::UnicodeWidthStr;
 
 use super::page;
 use super::row::Row;
-use crate::ui::app::{Page, Shared, command};
-use crate::ui::keymap::HelpLine;
-use crate::ui::{layout, theme};
+use crate::app::{Page, Shared, command};
+use crate::keymap::HelpLine;
+use crate::{layout, theme};
 
 /// Draws the help page.
 pub(super) fn render(shared: &Shared, page: &Page, area: Rect, buffer: &mut Buffer) {
@@ -81,8 +81,8 @@ fn help_line(line: &HelpLine, mut row: Row) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::ui::keymap::Context;
-    use crate::ui::view::tests::{app, drawn, lines};
+    use crate::keymap::Context;
+    use crate::view::tests::{app, drawn, lines};
     use tui_input::Input;
 
     /// The page with a search.

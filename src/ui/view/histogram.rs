@@ -6,10 +6,10 @@ use ratatui::style::Style;
 use ratatui::widgets::{Clear, Widget};
 
 use super::row::{Focus, Row, title};
-use crate::render::{HISTOGRAM_STOPS, Histogram};
-use crate::text::percentage;
-use crate::ui::app::Shared;
-use crate::ui::theme;
+use crate::app::Shared;
+use crate::theme;
+use render::{HISTOGRAM_STOPS, Histogram};
+use text::percentage;
 
 /// Lines of its bars.
 const HEIGHT: u16 = 4;
@@ -82,8 +82,8 @@ fn chart(histogram: &Histogram, panel: Rect, buffer: &mut Buffer) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::ui::app::ShownHistogram;
-    use crate::ui::view::tests::{app, drawn};
+    use crate::app::ShownHistogram;
+    use crate::view::tests::{app, drawn};
 
     /// A pixel of each of these luminances and three of ¼; 0.001 is below the scale.
     #[test]

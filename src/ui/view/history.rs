@@ -9,12 +9,12 @@ use unicode_width::UnicodeWidthStr;
 use super::inks::Inks;
 use super::row::Row;
 use super::{page, picture};
-use crate::document::Document;
-use crate::ui::app::{App, Page, Rank, Shared, Thumbnail, history};
-use crate::ui::history_scene::NoPicture;
-use crate::ui::layout::{centred, raster};
-use crate::ui::text_width::{visible, wrap};
-use crate::ui::theme;
+use crate::app::{App, Page, Rank, Shared, Thumbnail, history};
+use crate::history_scene::NoPicture;
+use crate::layout::{centred, raster};
+use crate::text_width::{visible, wrap};
+use crate::theme;
+use document::Document;
 
 /// Draws the page.
 pub(super) fn render(app: &App, page: &Page, inks: &mut Inks, area: Rect, buffer: &mut Buffer) {
@@ -146,8 +146,8 @@ fn show(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::ui::keymap::Context;
-    use crate::ui::view::tests::{app, drawn, inked, press};
+    use crate::keymap::Context;
+    use crate::view::tests::{app, drawn, inked, press};
 
     /// The page after a duplication, which was undone, and a nudge that is then undone as well.
     fn lines(has_colours: bool, width: u16, height: u16) -> Vec<String> {

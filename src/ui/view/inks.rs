@@ -4,8 +4,8 @@ use ratatui::style::Color;
 
 use super::few_colours::Palette;
 use super::mosaic::Mosaic;
-use crate::ui::terminal::ColourDepth;
-use crate::ui::theme::Theme;
+use crate::terminal::ColourDepth;
+use crate::theme::Theme;
 
 /// What fills the cells of a picture on a terminal with colours.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

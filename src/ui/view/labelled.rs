@@ -5,8 +5,8 @@ use ratatui::layout::Rect;
 use ratatui::style::Style;
 
 use super::row::Row;
-use crate::explain::number;
-use crate::ui::theme;
+use crate::theme;
+use explain::number;
 
 /// Columns of labels with the gaps around them.
 const LABEL: u16 = 10;

@@ -7,14 +7,14 @@ use ratatui::style::{Modifier, Style};
 use unicode_width::UnicodeWidthStr;
 
 use super::row::{Focus, Row, title};
-use crate::language::Node;
-use crate::scene::Rgb;
-use crate::ui::app::Shared;
-use crate::ui::keymap::Mode;
-use crate::ui::layout;
-use crate::ui::listing::ListLine;
-use crate::ui::text_width::{shorten, visible};
-use crate::ui::theme;
+use crate::app::Shared;
+use crate::keymap::Mode;
+use crate::layout;
+use crate::listing::ListLine;
+use crate::text_width::{shorten, visible};
+use crate::theme;
+use language::Node;
+use scene::Rgb;
 
 /// The heading of the list.
 const TITLE: &str = "scene";
@@ -157,9 +157,9 @@ pub(super) fn swatch(shared: &Shared, node: Node) -> Option<Rgb> {
 
 #[cfg(test)]
 mod tests {
-    use crate::language::{Language, Node};
-    use crate::ui::app::App;
-    use crate::ui::view::tests::{app, app_of, drawn, retype};
+    use crate::app::App;
+    use crate::view::tests::{app, app_of, drawn, retype};
+    use language::{Language, Node};
 
     fn lines(app: &App, width: u16) -> Vec<String> {
         drawn(&app.shared, super::render, width, 9)

@@ -9,8 +9,8 @@ use unicode_width::UnicodeWidthStr;
 use super::fields::users;
 use super::list::swatch;
 use super::row::{Focus, Row, title};
-use crate::ui::app::{Entry, Purpose, Shared};
-use crate::ui::{layout, theme};
+use crate::app::{Entry, Purpose, Shared};
+use crate::{layout, theme};
 
 /// Draws the open menu over the list, or over everything if there is no list.
 pub(crate) fn render(shared: &Shared, list: Rect, body: Rect, buffer: &mut Buffer) {

@@ -5,9 +5,9 @@ use ratatui::layout::Rect;
 use ratatui::widgets::{Clear, Widget};
 
 use super::row::{Focus, Row, title};
-use crate::ui::app::Message;
-use crate::ui::text_width::{visible, wrap};
-use crate::ui::{layout, theme};
+use crate::app::Message;
+use crate::text_width::{visible, wrap};
+use crate::{layout, theme};
 
 /// Draws as much of a message as fits at the bottom of `area`.
 pub(crate) fn render(message: &Message, area: Rect, buffer: &mut Buffer) {

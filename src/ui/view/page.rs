@@ -8,9 +8,9 @@ use ratatui::text::Line;
 use ratatui::widgets::{Block, BorderType, Clear, Widget};
 
 use super::row::Row;
-use crate::text::counted;
-use crate::ui::app::{App, Page, PageFocus};
-use crate::ui::{layout, theme};
+use crate::app::{App, Page, PageFocus};
+use crate::{layout, theme};
+use text::counted;
 
 /// Draws a page of rows, as high as they need.
 pub(super) fn render(app: &App, page: &Page, area: Rect, buffer: &mut Buffer) {
@@ -84,9 +84,9 @@ mod tests {
     use ratatui::layout::Rect;
     use tui_input::Input;
 
-    use crate::ui::app::{App, Page};
-    use crate::ui::keymap::Context;
-    use crate::ui::view::tests::{app, check_shown, drawn};
+    use crate::app::{App, Page};
+    use crate::keymap::Context;
+    use crate::view::tests::{app, check_shown, drawn};
 
     #[test]
     fn the_rows_that_match_are_listed_with_the_keys() {

@@ -5,10 +5,10 @@ use ratatui::layout::Rect;
 
 use super::page;
 use super::row::Row;
-use crate::text::Severity;
-use crate::ui::app::{Message, Page, Shared};
-use crate::ui::text_width::{visible, wrap};
-use crate::ui::theme;
+use crate::app::{Message, Page, Shared};
+use crate::text_width::{visible, wrap};
+use crate::theme;
+use text::Severity;
 
 /// Draws the messages so far, the newest first.
 pub(super) fn render(shared: &Shared, page: &Page, area: Rect, buffer: &mut Buffer) {
@@ -49,10 +49,10 @@ mod tests {
     use ratatui::buffer::Buffer;
     use ratatui::layout::Rect;
 
-    use crate::ui::app::{Page, Shared};
-    use crate::ui::keymap::Context;
-    use crate::ui::msg::Msg;
-    use crate::ui::view::tests::{app, drawn};
+    use crate::app::{Page, Shared};
+    use crate::keymap::Context;
+    use crate::msg::Msg;
+    use crate::view::tests::{app, drawn};
 
     #[test]
     fn the_newest_message_comes_first_and_long_ones_are_wrapped() {

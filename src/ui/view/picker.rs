@@ -8,12 +8,12 @@ use ratatui::widgets::{Clear, Widget};
 
 use super::Inks;
 use super::row::{Focus, Row, put_at, title};
-use crate::scene::Rgb;
-use crate::text::rounded;
-use crate::ui::app::{ColourPicker, PickerRow, Shared};
-use crate::ui::layout::{PickerLines, marker_at, picker_lines, share_at, swatch_cells};
-use crate::ui::terminal::ColourDepth;
-use crate::ui::theme;
+use crate::app::{ColourPicker, PickerRow, Shared};
+use crate::layout::{PickerLines, marker_at, picker_lines, share_at, swatch_cells};
+use crate::terminal::ColourDepth;
+use crate::theme;
+use scene::Rgb;
+use text::rounded;
 
 /// Draws the open colour picker over the list, or over everything if there is no list.
 pub(crate) fn render(
@@ -164,10 +164,10 @@ fn short(number: f64, decimals: usize) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::language::Node;
-    use crate::ui::app::App;
-    use crate::ui::keymap::Mode;
-    use crate::ui::view::tests::{app, drawn, press, select};
+    use crate::app::App;
+    use crate::keymap::Mode;
+    use crate::view::tests::{app, drawn, press, select};
+    use language::Node;
 
     fn picking(keys: &str) -> App {
         let mut app = app();

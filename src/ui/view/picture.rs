@@ -15,13 +15,13 @@ use super::graphics_gap::leave;
 use super::inks::{Drawing, Inks};
 use super::row::{Row, put_at};
 use super::{comparison, pixel, symbols, tiles, values, wireframe};
-use crate::render::{line_of, pixel_of, pixel_width};
-use crate::scene::Size;
-use crate::ui::app::{App, CellImage, FirstReading, Grid, Shared, display, inspect};
-use crate::ui::keymap::{Context, Mode};
-use crate::ui::layout::raster;
-use crate::ui::terminal::ColourDepth;
-use crate::ui::{layout, theme};
+use crate::app::{App, CellImage, FirstReading, Grid, Shared, display, inspect};
+use crate::keymap::{Context, Mode};
+use crate::layout::raster;
+use crate::terminal::ColourDepth;
+use crate::{layout, theme};
+use render::{line_of, pixel_of, pixel_width};
+use scene::Size;
 
 /// Draws the current picture, letterboxed, with its symbols. Returns its cells if they are left to
 /// the terminal's own picture.
@@ -305,10 +305,10 @@ fn marked(upper: Pixel, lower: Option<Pixel>) -> Style {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::language::Language;
-    use crate::ui::keymap::bound;
-    use crate::ui::layout::tests::size;
-    use crate::ui::view::tests::{app_of, cell_image, check_shown, drawn, inked};
+    use crate::keymap::bound;
+    use crate::layout::tests::size;
+    use crate::view::tests::{app_of, cell_image, check_shown, drawn, inked};
+    use language::Language;
 
     fn painted(shown: &CellImage, depth: ColourDepth) -> Buffer {
         let (columns, rows) = (shown.size.width, shown.size.height.div_ceil(2));

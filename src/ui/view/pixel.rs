@@ -8,10 +8,10 @@ use ratatui::widgets::{Clear, Widget};
 use super::labelled::{Value, numbers};
 use super::row::Focus;
 use super::{labelled, row};
-use crate::explain::number;
-use crate::render::{self, Aov, FirstHit, SurfaceHit};
-use crate::ui::app::{Pixel, Shared, inspect};
-use crate::ui::layout::{Side, contents};
+use crate::app::{Pixel, Shared, inspect};
+use crate::layout::{Side, contents};
+use explain::number;
+use render::{Aov, FirstHit, SurfaceHit};
 
 /// The width of the values over the picture.
 const WIDTH: u16 = 36;

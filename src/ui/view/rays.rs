@@ -7,15 +7,15 @@ use ratatui::widgets::{Clear, Widget};
 
 use super::labelled::{self, Value, numbers};
 use super::row::{Focus, Row, title};
-use crate::explain::number;
-use crate::language::Node;
-use crate::render::{
+use crate::app::{RayLine, RayPart, Shared, inspect};
+use crate::layout::contents;
+use crate::theme;
+use explain::number;
+use language::Node;
+use render::{
     Densities, EmitterTerm, Explanation, LightTerm, RayEnd, RayKind, Shading, Stop, UnlitReason,
 };
-use crate::scene::Rgb;
-use crate::ui::app::{RayLine, RayPart, Shared, inspect};
-use crate::ui::layout::contents;
-use crate::ui::theme;
+use scene::Rgb;
 
 /// The width from which all three channels of a line are shown.
 const WIDE: u16 = 50;

@@ -5,9 +5,9 @@ use ratatui::layout::{Position, Rect};
 use ratatui::style::Style;
 use unicode_width::{UnicodeWidthChar, UnicodeWidthStr};
 
-use crate::ui::layout::nth_line;
-use crate::ui::text_width::{shorten, visible};
-use crate::ui::theme;
+use crate::layout::nth_line;
+use crate::text_width::{shorten, visible};
+use crate::theme;
 
 /// A line that is written from left to right, clipped at its end.
 #[derive(Debug)]

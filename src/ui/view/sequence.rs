@@ -5,8 +5,8 @@ use ratatui::layout::Rect;
 use ratatui::style::Style;
 
 use super::row::{self, Focus, Row};
-use crate::ui::app::{App, DopeSheet, OpenTrack};
-use crate::ui::theme;
+use crate::app::{App, DopeSheet, OpenTrack};
+use crate::theme;
 
 /// Draws the sheet of the open track.
 pub(crate) fn render(app: &App, area: Rect, buffer: &mut Buffer) {

@@ -12,12 +12,12 @@ use ratatui::layout::Rect;
 use ratatui::style::Style;
 
 use super::row::Row;
-use crate::text::counted;
-use crate::ui::app::{App, Message, OnDisk, Shared, display, files, text};
-use crate::ui::keymap::Mode;
-use crate::ui::terminal::ColourDepth;
-use crate::ui::text_width::visible;
-use crate::ui::theme;
+use crate::app::{App, Message, OnDisk, Shared, display, files, text};
+use crate::keymap::Mode;
+use crate::terminal::ColourDepth;
+use crate::text_width::visible;
+use crate::theme;
+use ::text::counted;
 pub(super) use hints::{render_hint, render_prompt};
 use segments::{Rank, Segments};
 

@@ -5,9 +5,9 @@ use ratatui::layout::Rect;
 use ratatui::style::{Color, Style};
 
 use super::row::put_at;
-use crate::ui::app::{Shared, SymbolKind, display};
-use crate::ui::terminal::ColourDepth;
-use crate::ui::theme;
+use crate::app::{Shared, SymbolKind, display};
+use crate::terminal::ColourDepth;
+use crate::theme;
 
 /// Draws the symbols over the cells of the picture; that of the selected node stands out.
 pub(super) fn render(shared: &Shared, depth: ColourDepth, cells: Rect, buffer: &mut Buffer) {
@@ -40,8 +40,8 @@ mod tests {
     use ratatui::style::Modifier;
 
     use super::*;
-    use crate::language::{Language, Node};
-    use crate::ui::view::tests::{app_of, press};
+    use crate::view::tests::{app_of, press};
+    use language::{Language, Node};
 
     const TWO_LIGHTS: &str = "\
 // view: eye 0 0 10 target 0 0 0 up 0 1 0 fov 60 size 400 300

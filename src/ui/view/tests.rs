@@ -11,23 +11,23 @@ use ratatui::layout::Rect;
 use tui_input::Input;
 
 use super::{Inks, draw};
-use crate::document::{Document, Side};
-use crate::language::{Language, Node};
-use crate::render::{Frame, NO_OBJECT, Progress};
-use crate::scene::Rendering;
-use crate::text::{Edit, Severity, Span};
-use crate::ui::app::{
+use crate::app::{
     AfterLeaving, App, CellImage, Cross, Dialog, FrameWindow, MergeSource, Message, Names, OnDisk,
     Opening, OpeningText, Page, PageFocus, Preferences, Prompt, PromptKind, ShownWireframe, Typing,
     display,
 };
-use crate::ui::arrange::Zoom;
-use crate::ui::keymap::{Context, Mode};
-use crate::ui::layout::tests::size;
-use crate::ui::msg::{ExportId, Msg};
-use crate::ui::recovery::Offer;
-use crate::ui::recovery::tests::{damaged, offer};
-use crate::ui::terminal::{ColourDepth, Mouse};
+use crate::arrange::Zoom;
+use crate::keymap::{Context, Mode};
+use crate::layout::tests::size;
+use crate::msg::{ExportId, Msg};
+use crate::recovery::Offer;
+use crate::recovery::tests::{damaged, offer};
+use crate::terminal::{ColourDepth, Mouse};
+use document::{Document, Side};
+use language::{Language, Node};
+use render::{Frame, NO_OBJECT, Progress};
+use scene::Rendering;
+use text::{Edit, Severity, Span};
 
 pub(super) const SCENE: &str = "\
 // view: eye 0 0 5 size 8 6

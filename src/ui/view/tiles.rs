@@ -6,9 +6,9 @@ use ratatui::style::Style;
 
 use super::inks::Inks;
 use super::mosaic::{MOST, Mosaic};
-use crate::scene::Size;
-use crate::ui::app::CellImage;
-use crate::ui::theme;
+use crate::app::CellImage;
+use crate::theme;
+use scene::Size;
 
 /// Draws the pixels of a picture over its cells as a mosaic. Cells that lack pixels at the right or
 /// lower edge repeat the last ones.
@@ -51,8 +51,8 @@ mod tests {
     use ratatui::style::Color;
 
     use super::*;
-    use crate::ui::terminal::ColourDepth;
-    use crate::ui::view::tests::cell_image;
+    use crate::terminal::ColourDepth;
+    use crate::view::tests::cell_image;
 
     #[test]
     fn a_mosaic_shows_more_pixels_and_repeats_the_last_ones() {

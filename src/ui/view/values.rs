@@ -5,8 +5,8 @@ use ratatui::layout::Rect;
 use ratatui::style::{Color, Style};
 
 use super::row::Row;
-use crate::render::Frame;
-use crate::ui::app::{FrameWindow, Window};
+use crate::app::{FrameWindow, Window};
+use render::Frame;
 
 /// The smallest pixel, in cells, into which its 8-bit colour is written.
 const SMALLEST: (u16, u16) = (12, 3);
@@ -79,11 +79,11 @@ fn write(lines: Vec<String>, colour: [u8; 3], pixel: Rect, buffer: &mut Buffer) 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::render::Region;
-    use crate::scene::Size;
-    use crate::ui::app::Grid;
-    use crate::ui::layout::tests::size;
-    use crate::ui::view::tests::lines as lines_of;
+    use crate::app::Grid;
+    use crate::layout::tests::size;
+    use crate::view::tests::lines as lines_of;
+    use render::Region;
+    use scene::Size;
 
     /// A part of a picture where it fills so many pixels of the screen.
     fn window(whole: Size, part: Region, fills: Size) -> FrameWindow {

@@ -6,8 +6,8 @@ use ratatui::layout::Rect;
 use ratatui::symbols::braille::BRAILLE;
 
 use super::row::Row;
-use crate::render::{WireLine, Wireframe};
-use crate::ui::theme;
+use crate::theme;
+use render::{WireLine, Wireframe};
 
 /// Columns and rows of dots in a cell.
 const DOTS: [usize; 2] = [2, 4];
@@ -66,7 +66,7 @@ mod tests {
     use ratatui::style::Color;
 
     use super::*;
-    use crate::ui::view::tests::lines;
+    use crate::view::tests::lines;
 
     fn painted(wires: &[([[f64; 2]; 2], u32)], outlined: &[u32], drawn: usize) -> Buffer {
         let wire = |&(ends, object)| WireLine { ends, object };

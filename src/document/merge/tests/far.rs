@@ -148,7 +148,7 @@ fn change_row(rows: &mut Vec<String>, (number, what): (usize, u8)) {
 }
 
 proptest! {
-    #![proptest_config(proptest::test_runner::Config { cases: 64, ..crate::repeatable() })]
+    #![proptest_config(proptest::test_runner::Config { cases: 64, ..repeatable::config() })]
 
     // Changes of far rows, by one side or both, with the lines between them or without.
     #[test]

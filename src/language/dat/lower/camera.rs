@@ -3,14 +3,14 @@
 use glam::DVec3;
 
 use super::Lowering;
-use crate::geometry::Aabb;
-use crate::language::camera::{CameraSpans, check, default_eye_and_target};
-use crate::language::dat::table::RecordKind;
-use crate::language::dat::view::{self, View};
-use crate::language::report::Name;
-use crate::language::words::Words;
-use crate::scene::{Camera, Lens, Object, Size, bounds};
-use crate::text::{Diagnostic, Span};
+use crate::camera::{CameraSpans, check, default_eye_and_target};
+use crate::dat::table::RecordKind;
+use crate::dat::view::{self, View};
+use crate::report::Name;
+use crate::words::Words;
+use geometry::Aabb;
+use scene::{Camera, Lens, Object, Size, bounds};
+use text::{Diagnostic, Span};
 
 /// The direction of the default eye from the centre of the scene.
 const DEFAULT_SIDE: DVec3 = DVec3::new(0.4, -1.0, 0.3);

@@ -6,17 +6,17 @@ use std::sync::Arc;
 use glam::DVec3;
 
 use super::{Definition, Drawn, Lowering, shapes};
-use crate::geometry::Node as CsgNode;
-use crate::geometry::{Csg, Quadric, Shape, Solid};
-use crate::language::dat::origins::ObjectPlace;
-use crate::language::dat::table::{HALF_SPACE, OPERATIONS, ObjectKind, RecordKind};
-use crate::language::record::what;
-use crate::language::report::Name;
-use crate::language::report::{number_of, quoted};
-use crate::language::table::{Category, Range, SIZES};
-use crate::language::words::Words;
-use crate::scene::Object;
-use crate::text::{Diagnostic, Span, counted};
+use crate::dat::origins::ObjectPlace;
+use crate::dat::table::{HALF_SPACE, OPERATIONS, ObjectKind, RecordKind};
+use crate::record::what;
+use crate::report::Name;
+use crate::report::{number_of, quoted};
+use crate::table::{Category, Range, SIZES};
+use crate::words::Words;
+use geometry::Node as CsgNode;
+use geometry::{Csg, Quadric, Shape, Solid};
+use scene::Object;
+use text::{Diagnostic, Span, counted};
 
 use super::record::RecordContent;
 

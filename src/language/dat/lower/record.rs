@@ -3,14 +3,14 @@
 use std::borrow::Cow;
 
 use super::Lowering;
-use crate::language::at::At;
-use crate::language::dat::table::{Part, RecordKind};
-use crate::language::record::{Record, what};
-use crate::language::report::Name;
-use crate::language::report::{did_you_mean, number_of, quoted};
-use crate::language::table::{Field, Kind, Range};
-use crate::language::words::Words;
-use crate::text::{Diagnostic, Span, counted, nearest_word};
+use crate::at::At;
+use crate::dat::table::{Part, RecordKind};
+use crate::record::{Record, what};
+use crate::report::Name;
+use crate::report::{did_you_mean, number_of, quoted};
+use crate::table::{Field, Kind, Range};
+use crate::words::Words;
+use text::{Diagnostic, Span, counted, nearest_word};
 
 /// The content of a record.
 pub(super) struct RecordContent<'a> {
@@ -294,7 +294,7 @@ fn no_choice(
 
 /// The first word of a record, as a name with static lifetime.
 fn known_word(word: &str) -> &'static str {
-    use crate::language::dat::table::RECORDS;
+    use crate::dat::table::RECORDS;
     let known = RECORDS.iter().find(|(known, _)| *known == word);
     known.map_or("record", |(known, _)| known)
 }

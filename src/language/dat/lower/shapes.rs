@@ -2,10 +2,10 @@
 
 use glam::DVec3;
 
-use crate::geometry::{Affine, Cuboid, Cylinder, Ellipsoid, Solid, Sphere, normalise};
-use crate::language::dat::table::ObjectKind;
-use crate::language::form::rotated;
-use crate::language::table::Range;
+use crate::dat::table::ObjectKind;
+use crate::form::rotated;
+use crate::table::Range;
+use geometry::{Affine, Cuboid, Cylinder, Ellipsoid, Solid, Sphere, normalise};
 
 /// A sphere.
 pub(super) fn sphere(numbers: &[f64]) -> Solid {

@@ -6,16 +6,16 @@ use std::f64::consts::PI;
 use glam::DVec2;
 
 use super::Lowering;
-use crate::geometry::normalise;
-use crate::language::at::At;
-use crate::language::coefficients::Coefficients;
-use crate::language::dat::origins::{Place, UsePlace};
-use crate::language::dat::table::{LightKind, RecordKind, SHADOWS, SOURCES, TextureKind, UseKind};
-use crate::language::report::Name;
-use crate::language::table::Category;
-use crate::language::words::Words;
-use crate::scene::{Bump, Emitter, Falloff, Light, Pattern, Side, Texture, Tinted};
-use crate::text::Diagnostic;
+use crate::at::At;
+use crate::coefficients::Coefficients;
+use crate::dat::origins::{Place, UsePlace};
+use crate::dat::table::{LightKind, RecordKind, SHADOWS, SOURCES, TextureKind, UseKind};
+use crate::report::Name;
+use crate::table::Category;
+use crate::words::Words;
+use geometry::normalise;
+use scene::{Bump, Emitter, Falloff, Light, Pattern, Side, Texture, Tinted};
+use text::Diagnostic;
 
 const LIGHT: RecordKind = RecordKind::Light;
 const POSITION: At<3> = LIGHT.at("position");

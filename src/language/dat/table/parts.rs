@@ -1,25 +1,25 @@
 //! The parts of every record, in the order of the text.
 
 use super::Part;
-use crate::geometry::Operation;
-use crate::language::at::words;
-use crate::language::table::{Category, Field, Kind, Range};
-use crate::scene::Shadows;
+use crate::at::words;
+use crate::table::{Category, Field, Kind, Range};
+use geometry::Operation;
+use scene::Shadows;
 
 /// The projections of a camera, and whether they are perspective.
-pub(in crate::language::dat) const PROJECTIONS: [(&str, bool); 2] =
+pub(in crate::dat) const PROJECTIONS: [(&str, bool); 2] =
     [("perspective", true), ("orthographic", false)];
 /// The types of lights.
-pub(in crate::language::dat) const SOURCES: [(&str, LightKind); 3] = [
+pub(in crate::dat) const SOURCES: [(&str, LightKind); 3] = [
     ("pnt", LightKind::Point),
     ("inf", LightKind::Distant),
     ("amb", LightKind::Ambient),
 ];
 /// Whether a light casts shadows.
-pub(in crate::language::dat) const SHADOWS: [(&str, Shadows); 2] =
+pub(in crate::dat) const SHADOWS: [(&str, Shadows); 2] =
     [("shadow_on", Shadows::Cast), ("shadow_off", Shadows::Off)];
 /// The operations that combine two objects.
-pub(in crate::language::dat) const OPERATIONS: [(&str, Operation); 3] = [
+pub(in crate::dat) const OPERATIONS: [(&str, Operation); 3] = [
     ("union", Operation::Union),
     ("intersection", Operation::Intersection),
     ("difference", Operation::Difference),
@@ -27,7 +27,7 @@ pub(in crate::language::dat) const OPERATIONS: [(&str, Operation); 3] = [
 
 /// Where a light comes from.
 #[derive(Clone, Copy, Debug)]
-pub(in crate::language::dat) enum LightKind {
+pub(in crate::dat) enum LightKind {
     Point,
     Distant,
     Ambient,
@@ -317,7 +317,7 @@ pub(super) const QUADRIC: &[Part] = &[
 ];
 
 /// A half-space that clips a quadric.
-pub(in crate::language::dat) const HALF_SPACE: &Field = &Field {
+pub(in crate::dat) const HALF_SPACE: &Field = &Field {
     kind: Kind::HalfSpace,
     ..Field::point(
         "cut",

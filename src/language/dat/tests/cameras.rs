@@ -4,10 +4,10 @@ use glam::DVec3;
 
 use super::views::{BODY, MISSING};
 use super::{read, spelled};
-use crate::language::node::Node;
-use crate::language::tests::Random;
-use crate::scene::{Camera, Focus, Lens, Size};
-use crate::text::{apply, parse_number, spell_like};
+use crate::node::Node;
+use crate::tests::Random;
+use scene::{Camera, Focus, Lens, Size};
+use text::{apply, parse_number, spell_like};
 
 /// The text after edits that change its camera by `change`.
 fn rewritten(text: &str, change: impl FnOnce(&mut Camera)) -> String {

@@ -2,8 +2,8 @@
 //! `#~`: column, severity, and the start of the message.
 
 use super::{read, spelled};
-use crate::geometry::{Shape, Solid};
-use crate::language::tests::shown;
+use crate::tests::shown;
+use geometry::{Shape, Solid};
 
 /// Checks that a text has exactly the diagnostics of its `#~` comments, in order, and a scene if
 /// and only if none is an error.
@@ -347,7 +347,7 @@ render 1 ID 0
     check(&text);
     let scene = read(&text).1.scene.expect("there are no errors");
     assert_eq!(scene.camera.eye, glam::DVec3::splat(9.0));
-    assert_eq!(scene.camera.lens, crate::scene::Lens::Orthographic(6.0));
+    assert_eq!(scene.camera.lens, scene::Lens::Orthographic(6.0));
     assert_eq!(scene.camera.size.width, 8);
     let maps = scene.materials[0].maps.as_ref();
     assert_eq!(maps.and_then(|maps| maps.diffuse), Some(1));

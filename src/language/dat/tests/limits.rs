@@ -4,9 +4,9 @@
 use glam::DVec3;
 
 use super::{read, spelled};
-use crate::geometry::Spans;
-use crate::language::tests::shown;
-use crate::scene::Lens;
+use crate::tests::shown;
+use geometry::Spans;
+use scene::Lens;
 
 #[test]
 fn at_most_a_hundred_errors_are_reported() {
@@ -73,7 +73,7 @@ fn a_long_chain_is_a_single_solid() {
     }
     let scene = super::scene(&text.concat());
     assert_eq!(scene.objects.len(), 1);
-    let ray = crate::geometry::Ray {
+    let ray = geometry::Ray {
         origin: DVec3::new(-9.0, 0.0, 0.0),
         direction: DVec3::X,
     };

@@ -5,10 +5,10 @@ use std::f64::consts::PI;
 use glam::{DVec2, DVec3};
 
 use super::{read, scene, shown, spelled};
-use crate::geometry::{Shape, Solid};
-use crate::language::coefficients::Coefficients;
-use crate::language::node::Node;
-use crate::scene::{
+use crate::coefficients::Coefficients;
+use crate::node::Node;
+use geometry::{Shape, Solid};
+use scene::{
     Bump, Camera, Emitter, Falloff, Focus, Lens, Light, Maps, Materials, Pattern, Rgb, Scene,
     Shadows, Side, Size, Texture, Tinted,
 };
@@ -411,7 +411,7 @@ render 1 ID 9",
         let start = text
             .find(at)
             .unwrap_or_else(|| panic!("{at} is in the text"));
-        let span = crate::text::Span::new(start, start + at.len());
+        let span = text::Span::new(start, start + at.len());
         assert_eq!(source.node_at(span), Some(node), "{at}");
     }
     let object = Node::Object;

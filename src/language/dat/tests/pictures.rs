@@ -4,7 +4,7 @@
 use glam::DVec3;
 
 use super::{scene, spelled};
-use crate::geometry::{Ray, Shape};
+use geometry::{Ray, Shape};
 
 const SIDE: u32 = 32;
 

@@ -3,12 +3,12 @@
 use proptest::prelude::*;
 
 use super::read;
-use crate::language::dat::table::{HALF_SPACE, ObjectKind, Part, RecordKind, TextureKind, UseKind};
-use crate::language::dat::tree;
-use crate::language::node::Node;
-use crate::language::table::{Category, Field, Kind};
-use crate::language::tests::{Random, damage};
-use crate::text::{Edit, Span, apply};
+use crate::dat::table::{HALF_SPACE, ObjectKind, Part, RecordKind, TextureKind, UseKind};
+use crate::dat::tree;
+use crate::node::Node;
+use crate::table::{Category, Field, Kind};
+use crate::tests::{Random, damage};
+use text::{Edit, Span, apply};
 
 /// The records of a random scene, each as its tokens. IDs are the indices in their category.
 pub(super) fn records(random: &mut Random) -> Vec<Vec<String>> {
@@ -335,7 +335,7 @@ fn any_bytes_can_be_read() {
 }
 
 proptest! {
-    #![proptest_config(crate::repeatable())]
+    #![proptest_config(repeatable::config())]
 
     #[test]
     fn any_words_can_be_read(text in "((1|-2.5|0|obj|sphere|CSG|quadric|mat|ID|light|pnt|use|bump|texture|image|render|camera|viewport|#|//|\n) ?){0,80}") {

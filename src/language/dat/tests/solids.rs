@@ -3,8 +3,8 @@
 use glam::DVec3;
 
 use super::{scene, spelled};
-use crate::geometry::{Ray, Spans};
-use crate::scene::Object;
+use geometry::{Ray, Spans};
+use scene::Object;
 
 const X: [f64; 3] = [1., 0., 0.];
 const Y: [f64; 3] = [0., 1., 0.];

@@ -3,8 +3,8 @@
 use glam::DVec3;
 
 use super::{read, spelled};
-use crate::language::tests::shown;
-use crate::scene::{Camera, Focus, Lens, Size};
+use crate::tests::shown;
+use scene::{Camera, Focus, Lens, Size};
 
 /// A unit sphere at the origin: its box is ±1, centred at 0, with a half diagonal of √3.
 pub(super) const BODY: &str = "mat ID 0 MAT\nobj sphere ID 0 BALL 1\n";

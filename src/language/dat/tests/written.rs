@@ -2,8 +2,8 @@
 
 use super::properties::records;
 use super::read;
-use crate::language::tests::{Random, rewritten};
-use crate::scene::{Material, Rgb, Scene};
+use crate::tests::{Random, rewritten};
+use scene::{Material, Rgb, Scene};
 
 /// A scene without what no picture shows: ambient reflectance where there is no ambient light.
 fn shown(mut scene: Scene) -> Scene {

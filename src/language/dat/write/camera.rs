@@ -2,10 +2,10 @@
 
 use std::fmt::Write;
 
-use crate::language::dat::view::FARTHEST;
-use crate::language::losses::Losses;
-use crate::language::spelling::{numbers, vector};
-use crate::scene::{Camera, Lens, Scene, Size};
+use crate::dat::view::FARTHEST;
+use crate::losses::Losses;
+use crate::spelling::{numbers, vector};
+use scene::{Camera, Lens, Scene, Size};
 
 /// Focal lengths to try, until one gives the angle of view to the last bit.
 const FOCAL: [f64; 8] = [1.0, 2.0, 0.5, 3.0, 0.1, 5.0, 7.0, 0.3];

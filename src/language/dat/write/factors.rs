@@ -3,10 +3,10 @@
 use std::fmt::Write;
 
 use super::camera::near;
-use crate::language::coefficients::Coefficients;
-use crate::language::losses::{Loss, Losses, Of};
-use crate::language::spelling::{numbers, vector};
-use crate::scene::Rgb;
+use crate::coefficients::Coefficients;
+use crate::losses::{Loss, Losses, Of};
+use crate::spelling::{numbers, vector};
+use scene::Rgb;
 
 const COLOURS: Loss = Loss {
     keys: &["ka", "kd", "ks", "specular", "diffuse"],

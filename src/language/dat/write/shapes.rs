@@ -5,9 +5,9 @@ use std::fmt::Write;
 use glam::DVec3;
 
 use super::camera::near;
-use crate::geometry::{FrameNumbers, Solid, Sphere, normalise};
-use crate::language::losses::{Loss, Losses, Of};
-use crate::language::spelling::{numbers, vector};
+use crate::losses::{Loss, Losses, Of};
+use crate::spelling::{numbers, vector};
+use geometry::{FrameNumbers, Solid, Sphere, normalise};
 
 /// The largest difference, relative to its size, of what counts as a circle or a right angle.
 const ROUNDING: f64 = 1e-12;

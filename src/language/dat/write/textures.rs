@@ -4,9 +4,9 @@ use std::fmt::Write;
 
 use glam::{DAffine3, DMat3, DVec3};
 
-use crate::language::losses::{Loss, Losses, Of};
-use crate::language::spelling::{numbers, vector};
-use crate::scene::{Highlight, Maps, Material, Pattern, Rgb, Scene, Side, Texture, Tinted};
+use crate::losses::{Loss, Losses, Of};
+use crate::spelling::{numbers, vector};
+use scene::{Highlight, Maps, Material, Pattern, Rgb, Scene, Side, Texture, Tinted};
 
 const APART: Loss = Loss {
     keys: &[

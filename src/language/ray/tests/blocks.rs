@@ -4,14 +4,12 @@ use std::sync::Arc;
 
 use proptest::prelude::*;
 
-use crate::language::ray;
-use crate::language::ray::lower::lower_in_order;
-use crate::language::{
-    Answers, Before, Editable, Lowered, Neighbour, Node, Restructure, StructureError,
-};
-use crate::scene::blocks::BLOCK;
-use crate::scene::{Meshes, Scene};
-use crate::text::{Edit, Span};
+use crate::ray;
+use crate::ray::lower::lower_in_order;
+use crate::{Answers, Before, Editable, Lowered, Neighbour, Node, Restructure, StructureError};
+use scene::blocks::BLOCK;
+use scene::{Meshes, Scene};
+use text::{Edit, Span};
 
 /// For a text without warnings.
 const NONE: usize = 1;
@@ -311,7 +309,7 @@ fn an_object_behind_a_deleted_one_is_renamed_in_its_warning() {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: 24, ..crate::repeatable() })]
+    #![proptest_config(ProptestConfig { cases: 24, ..repeatable::config() })]
 
     #[test]
     fn edited_texts_mean_the_same_as_new_ones(

@@ -2,8 +2,8 @@
 //! severity, and the start of the message.
 
 use super::{read, shown, spelled};
-use crate::language::ray::table::ShapeKind;
-use crate::text::alternatives;
+use crate::ray::table::ShapeKind;
+use text::alternatives;
 
 /// Checks that a text has exactly the diagnostics of its `//~` notes, in order, and a scene if and
 /// only if none is an error.

@@ -3,12 +3,12 @@
 use glam::DVec3;
 
 use super::{read, scene, spelled};
-use crate::geometry::{Affine, Cone, Cuboid, Cylinder, Ellipsoid, Shape, Solid, Sphere};
-use crate::language::coefficients::Coefficients;
-use crate::language::node::Node;
-use crate::language::tests::shown;
-use crate::scene::{Light, Material, Materials, Object};
-use crate::text::Span;
+use crate::coefficients::Coefficients;
+use crate::node::Node;
+use crate::tests::shown;
+use geometry::{Affine, Cone, Cuboid, Cylinder, Ellipsoid, Shape, Solid, Sphere};
+use scene::{Light, Material, Materials, Object};
+use text::Span;
 
 const EXAMPLE: &str = include_str!("../../../../scenes/example.ray");
 

@@ -4,21 +4,19 @@ use glam::DVec3;
 use proptest::prelude::*;
 
 use super::{read, scene};
-use crate::geometry::{Affine, Cone, Cuboid, Cylinder, Ellipsoid, Shape, Solid, Sphere};
-use crate::language::coefficients::Coefficients;
-use crate::language::node::Node;
-use crate::language::ray::table::ShapeKind;
-use crate::language::ray::table::{AMBIENT, LIGHT, VIEW};
-use crate::language::table::{Field, Kind, Range};
-use crate::language::tests::{Random, damage};
-use crate::scene::{
-    Camera, Lens, Light, Material, Materials, Object, Objects, Scene, Setting, Size,
-};
-use crate::text::{Edit, Span, apply};
+use crate::coefficients::Coefficients;
+use crate::node::Node;
+use crate::ray::table::ShapeKind;
+use crate::ray::table::{AMBIENT, LIGHT, VIEW};
+use crate::table::{Field, Kind, Range};
+use crate::tests::{Random, damage};
+use geometry::{Affine, Cone, Cuboid, Cylinder, Ellipsoid, Shape, Solid, Sphere};
+use scene::{Camera, Lens, Light, Material, Materials, Object, Objects, Scene, Setting, Size};
+use text::{Edit, Span, apply};
 
 impl Random {
     /// An allowed literal for the field, in a random style.
-    pub(in crate::language) fn literal(&mut self, field: &Field) -> String {
+    pub(crate) fn literal(&mut self, field: &Field) -> String {
         let whole = 1 + self.below(9);
         if field.kind == Kind::Pixels {
             return format!("{whole}{}", self.pick(&["", "0", "00"]));
@@ -397,10 +395,7 @@ fn check_any(text: &str) {
             .diagnostics
             .is_sorted_by_key(|diagnostic| diagnostic.span.start())
     );
-    let errors = lowered
-        .diagnostics
-        .iter()
-        .any(crate::text::Diagnostic::is_error);
+    let errors = lowered.diagnostics.iter().any(text::Diagnostic::is_error);
     assert_eq!(lowered.scene.is_none(), errors, "{text:?}");
     for node in source.nodes().iter() {
         assert!(!source.name(node).is_empty());
@@ -441,7 +436,7 @@ fn damaged_texts_are_read_to_the_end() {
 }
 
 proptest! {
-    #![proptest_config(crate::repeatable())]
+    #![proptest_config(repeatable::config())]
 
     #[test]
     fn any_text_can_be_read(text in ".{0,60}") {
@@ -486,7 +481,7 @@ fn objects_alike(shapes: &[(usize, usize)], tokens: usize, each_apart: bool) -> 
 }
 
 proptest! {
-    #![proptest_config(crate::repeatable())]
+    #![proptest_config(repeatable::config())]
 
     /// Whether a material's text occurred before or not, it has the same meaning and diagnostics.
     #[test]

@@ -3,8 +3,8 @@
 use glam::DVec3;
 
 use super::{read, scene, shown, spelled};
-use crate::scene::{Camera, Lens, Size};
-use crate::text::apply;
+use scene::{Camera, Lens, Size};
+use text::apply;
 
 /// A unit sphere at the origin: its box is ±1, centred at 0, with a half diagonal of √3.
 const BODY: &str = "HEAD 1 sphere 0 0 0 1 MAT";

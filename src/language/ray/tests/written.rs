@@ -2,7 +2,7 @@
 
 use super::properties::Model;
 use super::read;
-use crate::language::tests::{Random, rewritten};
+use crate::tests::{Random, rewritten};
 
 #[test]
 fn a_written_scene_is_the_same() {

@@ -6,8 +6,8 @@ use rayon::prelude::*;
 
 use super::tokens::{TokenBlock, Tokens};
 use super::{Tree, begins_comment, has_key};
-use crate::language::words::white_space;
-use crate::text::{Span, first_byte, is_line_end};
+use crate::words::white_space;
+use text::{Span, first_byte, is_line_end};
 
 /// Bytes of text per piece: enough to be worth a task, few enough to be read again with every edit.
 pub(super) const PIECE: usize = 1 << 16;
@@ -236,10 +236,10 @@ fn token_end(bytes: &[u8], start: usize) -> usize {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::language::ray::tree::Window;
-    use crate::language::words::may_begin_word;
-    use crate::text::Edit;
+    use crate::ray::tree::Window;
+    use crate::words::may_begin_word;
     use proptest::prelude::*;
+    use text::Edit;
 
     /// The tokens and the starts of view comments of a text, read byte by byte.
     fn read_plainly(text: &str) -> (Vec<Span>, Vec<usize>) {
@@ -253,7 +253,7 @@ mod tests {
     }
 
     proptest! {
-        #![proptest_config(crate::repeatable())]
+        #![proptest_config(repeatable::config())]
 
         #[test]
         fn a_tree_follows_its_text(
@@ -297,7 +297,7 @@ mod tests {
             prop_assume!(edits.iter().all(|edit| text.is_char_boundary(edit.span.end())));
             let mut tree = scan(&text, piece);
             let mut text = text;
-            let inverse = crate::text::apply(&mut text, &edits);
+            let inverse = text::apply(&mut text, &edits);
             let spans: Vec<_> = edits.iter().zip(&inverse).map(|(edit, back)| [edit.span, back.span]).collect();
             follow(&mut tree, &text, &spans, piece);
             prop_assert_eq!(all(&tree.tokens), read_plainly(&text), "{:?}", text);

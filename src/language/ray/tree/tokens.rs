@@ -7,9 +7,9 @@ use std::ops::Range;
 
 use rayon::prelude::*;
 
-use crate::language::partition::partition_point;
-use crate::language::words::may_begin_word;
-use crate::text::Span;
+use crate::partition::partition_point;
+use crate::words::may_begin_word;
+use text::Span;
 
 /// Number of tokens between two whose offsets are stored.
 const STRIDE: usize = 64;

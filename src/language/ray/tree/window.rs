@@ -3,7 +3,7 @@
 use std::ops::Range;
 
 use super::Tokens;
-use crate::text::Span;
+use text::Span;
 
 /// Number of tokens converted to spans at once: few enough for a core's cache.
 const SPANS: usize = 2048;
@@ -13,7 +13,7 @@ const AHEAD: usize = 64;
 
 /// A range of a text's tokens.
 #[derive(Clone, Debug)]
-pub(in crate::language::ray) struct Window<'a> {
+pub(in crate::ray) struct Window<'a> {
     tokens: &'a Tokens,
     /// Index of the token after the last.
     end: usize,
@@ -24,7 +24,7 @@ pub(in crate::language::ray) struct Window<'a> {
 
 impl<'a> Window<'a> {
     /// The tokens of a range, clipped to those that exist.
-    pub(in crate::language::ray) fn new(tokens: &'a Tokens, range: Range<usize>) -> Self {
+    pub(in crate::ray) fn new(tokens: &'a Tokens, range: Range<usize>) -> Self {
         Self {
             tokens,
             end: range.end.min(tokens.len()),
@@ -34,13 +34,13 @@ impl<'a> Window<'a> {
     }
 
     /// The index of the token after the last one.
-    pub(in crate::language::ray) fn end(&self) -> usize {
+    pub(in crate::ray) fn end(&self) -> usize {
         self.end
     }
 
     /// Caches the tokens from one on.
     #[inline]
-    pub(in crate::language::ray) fn slide(&mut self, token: usize) {
+    pub(in crate::ray) fn slide(&mut self, token: usize) {
         let known = self.first..self.first + self.spans.len();
         if token < known.start || known.end < self.end.min(token + AHEAD) {
             self.fill(token);
@@ -57,7 +57,7 @@ impl<'a> Window<'a> {
 
     /// The span of a token.
     #[inline]
-    pub(in crate::language::ray) fn get(&self, token: usize) -> Option<Span> {
+    pub(in crate::ray) fn get(&self, token: usize) -> Option<Span> {
         match self.spans.get(token.wrapping_sub(self.first)) {
             Some(&span) => Some(span),
             None if token < self.end => self.tokens.get(token),
@@ -67,14 +67,14 @@ impl<'a> Window<'a> {
 
     /// The spans of `count` tokens from one that the window was slid to; `None` if there are fewer.
     #[inline]
-    pub(in crate::language::ray) fn ahead(&self, token: usize, count: usize) -> Option<&[Span]> {
+    pub(in crate::ray) fn ahead(&self, token: usize, count: usize) -> Option<&[Span]> {
         debug_assert!(count <= AHEAD, "the window reaches so far");
         let first = token.wrapping_sub(self.first);
         self.spans.get(first..first.checked_add(count)?)
     }
 
     /// The tokens from one on that begin with a letter or outside ASCII, in order, with their indices.
-    pub(in crate::language::ray) fn words_from(
+    pub(in crate::ray) fn words_from(
         &self,
         token: usize,
     ) -> impl Iterator<Item = (usize, Span)> + '_ {

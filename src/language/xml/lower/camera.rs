@@ -1,17 +1,17 @@
 //! The camera, background and environment.
 
 use super::Lowering;
-use crate::language::camera::{CameraSpans, check};
-use crate::language::rendering::{Part, RenderPlace};
-use crate::language::report::quoted;
-use crate::language::xml::origins::fields::of_gamma;
-use crate::language::xml::table::{
+use crate::camera::{CameraSpans, check};
+use crate::rendering::{Part, RenderPlace};
+use crate::report::quoted;
+use crate::xml::origins::fields::of_gamma;
+use crate::xml::table::{
     BACKGROUND, ENVIRONMENT, Parameter,
     camera::{FOCAL_DISTANCE, FOV, HEIGHT, LENS_RADIUS, POSITION, TARGET, UP, WIDTH},
 };
-use crate::language::xml::view::View;
-use crate::scene::{Camera, Focus, Size, Transfer};
-use crate::text::{Diagnostic, Span, parse_number, without_suffix};
+use crate::xml::view::View;
+use scene::{Camera, Focus, Size, Transfer};
+use text::{Diagnostic, Span, parse_number, without_suffix};
 
 impl Lowering<'_> {
     /// The camera of its element, with defaults for missing parts.

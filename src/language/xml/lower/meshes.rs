@@ -6,17 +6,16 @@ use glam::{DAffine3, DMat3, DVec3};
 
 use super::Lowering;
 use super::surfaces::lit;
-use crate::geometry::{Instance, Shape};
-use crate::language::node::Node;
-use crate::language::table::SIZES;
-use crate::language::xml::origins::{NamedPlace, What};
-use crate::obj;
-use crate::obj::{Edges, Finding, Map, Model};
-use crate::scene::beside;
-use crate::scene::{
+use crate::node::Node;
+use crate::table::SIZES;
+use crate::xml::origins::{NamedPlace, What};
+use geometry::{Instance, Shape};
+use obj::{Edges, Finding, Map, Model};
+use scene::beside;
+use scene::{
     Dielectric, Faces, Gloss, Highlight, Maps, Material, Mirror, NoMesh, Pattern, Rgb, Texture,
 };
-use crate::text::{Cited, Diagnostic, Span};
+use text::{Cited, Diagnostic, Span};
 
 /// The expected name of such an object, for messages.
 const EXPECTED: &str = "a mesh file: .obj";

@@ -3,14 +3,14 @@
 use glam::{DAffine3, DVec3};
 
 use super::Lowering;
-use crate::geometry::{Affine, Ellipsoid, Plane, Shape, Solid, Sphere, normalise};
-use crate::language::form::rotation;
-use crate::language::report::quoted;
-use crate::language::table::{Range, SIZES};
-use crate::language::xml::origins::Role;
-use crate::language::xml::table::ObjectKind;
-use crate::scene::{Material, Object, Rgb};
-use crate::text::Diagnostic;
+use crate::form::rotation;
+use crate::report::quoted;
+use crate::table::{Range, SIZES};
+use crate::xml::origins::Role;
+use crate::xml::table::ObjectKind;
+use geometry::{Affine, Ellipsoid, Plane, Shape, Solid, Sphere, normalise};
+use scene::{Material, Object, Rgb};
+use text::Diagnostic;
 
 /// An object's frame; `None` if its error was already reported.
 type Frame = Option<DAffine3>;

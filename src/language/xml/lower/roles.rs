@@ -3,13 +3,13 @@
 use std::collections::HashMap;
 
 use super::Lowering;
-use crate::language::report::quoted;
-use crate::language::xml::origins::{NO_WORD, Place, Role, WORDS};
-use crate::language::xml::table::{
+use crate::report::quoted;
+use crate::xml::origins::{NO_WORD, Place, Role, WORDS};
+use crate::xml::table::{
     Attributes, BACKGROUND, CHECKER, ENVIRONMENT, LightKind, MaterialKind, ObjectKind, Parameter,
     TRANSFORMS, Texturing, camera,
 };
-use crate::text::{Diagnostic, Span, nearest_word, visible};
+use text::{Diagnostic, Span, nearest_word, visible};
 
 /// The elements known in `xml` and in `scene`.
 const IN_ROOT: [&str; 3] = ["scene", "camera", "render"];

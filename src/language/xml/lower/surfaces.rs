@@ -5,13 +5,13 @@ use std::f64::consts::PI;
 use glam::DVec3;
 
 use super::Lowering;
-use crate::geometry::normalise;
-use crate::language::xml::table::materials::{
+use crate::xml::table::materials::{
     ABSORPTION, COLOUR, DIFFUSE, EMISSION, GLOSSINESS, INDEX, METALLIC, REFLECTION, REFRACTION,
     REFRACTION_INDEX, ROUGHNESS, SPECULAR, SPREAD, TRANSMITTANCE,
 };
-use crate::language::xml::table::{LightKind, MaterialKind, lights};
-use crate::scene::{
+use crate::xml::table::{LightKind, MaterialKind, lights};
+use geometry::normalise;
+use scene::{
     Dielectric, Emitter, Faces, Falloff, Gloss, Highlight, Light, Maps, Material, Mirror,
     Reflectance, Rgb, Shadows, Transfer,
 };

@@ -3,10 +3,10 @@
 use glam::{DAffine3, DVec3};
 
 use super::Lowering;
-use crate::language::xml::origins::{NamedPlace, What};
-use crate::language::xml::table::{CHECKER, Parameter, Texturing};
-use crate::scene::{Pattern, Side, Texture, Tinted};
-use crate::text::Diagnostic;
+use crate::xml::origins::{NamedPlace, What};
+use crate::xml::table::{CHECKER, Parameter, Texturing};
+use scene::{Pattern, Side, Texture, Tinted};
+use text::Diagnostic;
 
 /// The name of the checkerboard texture.
 const CHECKERBOARD: &str = "checkerboard";

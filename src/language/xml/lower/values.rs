@@ -3,10 +3,10 @@
 use glam::DVec3;
 
 use super::Lowering;
-use crate::language::report::{number_of, out_of_range};
-use crate::language::table::{Field, Kind};
-use crate::language::xml::table::{Attributes, Extra, Parameter};
-use crate::text::{Diagnostic, Findings, Span, is_integer};
+use crate::report::{number_of, out_of_range};
+use crate::table::{Field, Kind};
+use crate::xml::table::{Attributes, Extra, Parameter};
+use text::{Diagnostic, Findings, Span, is_integer};
 
 impl<'a> Lowering<'a> {
     /// The name of an element in messages: its node's, and its own if it differs.

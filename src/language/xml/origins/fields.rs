@@ -2,23 +2,23 @@
 
 use super::insert;
 use super::{Origins, Role};
-use crate::language::node::Node;
-use crate::language::placed::{Implicit, ImplicitAttribute, Insertion, Placed};
-use crate::language::rendering;
-use crate::language::table::Field;
-use crate::language::xml::table::{
+use crate::node::Node;
+use crate::placed::{Implicit, ImplicitAttribute, Insertion, Placed};
+use crate::rendering;
+use crate::table::Field;
+use crate::xml::table::{
     Attributes, BACKGROUND, CHECKER, ENVIRONMENT, LIGHT_WORDS, MATERIAL_WORDS, OBJECT, Parameter,
     TEXTURE, Texturing, Word, camera,
 };
-use crate::language::xml::tree::Tree;
-use crate::scene::{Integrator, Rendering, Transfer};
-use crate::text::Span;
+use crate::xml::tree::Tree;
+use scene::{Integrator, Rendering, Transfer};
+use text::Span;
 
 /// Maximum number of rows of a node; nobody reads more.
 const MOST_ROWS: usize = 256;
 
 /// The fields of a node.
-pub(in crate::language::xml) fn of(origins: &Origins, tree: &Tree, node: Node) -> Vec<Placed> {
+pub(in crate::xml) fn of(origins: &Origins, tree: &Tree, node: Node) -> Vec<Placed> {
     let mut rows = Rows {
         origins,
         tree,
@@ -73,7 +73,7 @@ pub(in crate::language::xml) fn of(origins: &Origins, tree: &Tree, node: Node) -
 }
 
 /// The render settings that the camera's `gamma` asks for.
-pub(in crate::language::xml) fn of_gamma(gamma: Transfer) -> Rendering {
+pub(in crate::xml) fn of_gamma(gamma: Transfer) -> Rendering {
     match gamma {
         Transfer::Linear => Rendering::default(),
         Transfer::Srgb => Rendering {

@@ -1,8 +1,8 @@
 //! Where to insert missing elements and attributes in an `.xml` text.
 
-use crate::language::placed::{Insertion, Piece};
-use crate::language::xml::tree::Tree;
-use crate::text::Span;
+use crate::placed::{Insertion, Piece};
+use crate::xml::tree::Tree;
+use text::Span;
 
 /// Where to insert another attribute of an element.
 pub(super) fn attribute(tree: &Tree, element: usize) -> Insertion {

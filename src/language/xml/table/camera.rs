@@ -1,19 +1,19 @@
 //! The parameters of a camera.
 
 use super::{Parameter, Word, ZERO, at_least_0, word};
-use crate::language::at::is_same;
-use crate::language::table::{Field, Kind, Range};
+use crate::at::is_same;
+use crate::table::{Field, Kind, Range};
 
-pub(in crate::language::xml) static POSITION: Parameter =
+pub(in crate::xml) static POSITION: Parameter =
     Parameter::vector("position", ZERO, "The position of the camera.");
 
-pub(in crate::language::xml) static TARGET: Parameter =
+pub(in crate::xml) static TARGET: Parameter =
     Parameter::vector("target", &["0", "0", "-1"], "The point it looks at.");
 
-pub(in crate::language::xml) static UP: Parameter =
+pub(in crate::xml) static UP: Parameter =
     Parameter::vector("up", &["0", "1", "0"], "Which way is up in the picture.");
 
-pub(in crate::language::xml) static FOV: Parameter = Parameter::number(
+pub(in crate::xml) static FOV: Parameter = Parameter::number(
     Field {
         allowed: Range::Between(0.0, 180.0),
         usual: Range::Between(0.0, 180.0),
@@ -28,10 +28,10 @@ pub(in crate::language::xml) static FOV: Parameter = Parameter::number(
     &["40"],
 );
 
-pub(in crate::language::xml) static FOCAL_DISTANCE: Parameter =
+pub(in crate::xml) static FOCAL_DISTANCE: Parameter =
     Parameter::number(Field::length("focaldist", "The distance in focus."), &["1"]);
 
-pub(in crate::language::xml) static LENS_RADIUS: Parameter = Parameter::number(
+pub(in crate::xml) static LENS_RADIUS: Parameter = Parameter::number(
     at_least_0(
         "dof",
         0.1,
@@ -40,14 +40,14 @@ pub(in crate::language::xml) static LENS_RADIUS: Parameter = Parameter::number(
     &["0"],
 );
 
-pub(in crate::language::xml) static WIDTH: Parameter =
+pub(in crate::xml) static WIDTH: Parameter =
     Parameter::number(side("width", "How wide the picture is."), &["200"]);
 
-pub(in crate::language::xml) static HEIGHT: Parameter =
+pub(in crate::xml) static HEIGHT: Parameter =
     Parameter::number(side("height", "How high the picture is."), &["150"]);
 
 /// All parameters, in the order of the interface.
-pub(in crate::language::xml) const PARAMETERS: &[&Parameter; 8] = &[
+pub(in crate::xml) const PARAMETERS: &[&Parameter; 8] = &[
     &POSITION,
     &TARGET,
     &UP,
@@ -59,7 +59,7 @@ pub(in crate::language::xml) const PARAMETERS: &[&Parameter; 8] = &[
 ];
 
 /// The index in [`PARAMETERS`] of one of them.
-pub(in crate::language::xml) const fn index_of(parameter: &Parameter) -> usize {
+pub(in crate::xml) const fn index_of(parameter: &Parameter) -> usize {
     let mut at = 0;
     while !is_same(PARAMETERS[at].element, parameter.element) {
         at += 1;
@@ -68,7 +68,7 @@ pub(in crate::language::xml) const fn index_of(parameter: &Parameter) -> usize {
 }
 
 /// The `gamma` attribute.
-pub(in crate::language::xml) static GAMMA: Word = word(
+pub(in crate::xml) static GAMMA: Word = word(
     "gamma",
     Kind::Choice(&["linear", "sRGB"]),
     "linear",

@@ -4,7 +4,7 @@ use super::{Parameter, lights, materials};
 
 /// The kinds of objects.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(in crate::language::xml) enum ObjectKind {
+pub(in crate::xml) enum ObjectKind {
     /// A sphere of radius 1.
     Sphere,
     /// A square from −1 to 1 in x and y.
@@ -17,7 +17,7 @@ pub(in crate::language::xml) enum ObjectKind {
 
 /// The shading models of materials.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(in crate::language::xml) enum MaterialKind {
+pub(in crate::xml) enum MaterialKind {
     /// A highlight around the normal.
     Blinn,
     /// A highlight around the reflected direction.
@@ -28,7 +28,7 @@ pub(in crate::language::xml) enum MaterialKind {
 
 /// The kinds of lights.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(in crate::language::xml) enum LightKind {
+pub(in crate::xml) enum LightKind {
     /// From everywhere.
     Ambient,
     /// From one direction.
@@ -39,16 +39,16 @@ pub(in crate::language::xml) enum LightKind {
 
 impl ObjectKind {
     /// The values of `type`; a group has none.
-    pub(in crate::language::xml) const TYPES: &'static [&'static str] = &["sphere", "plane", "obj"];
+    pub(in crate::xml) const TYPES: &'static [&'static str] = &["sphere", "plane", "obj"];
 
     /// The kind for a type, ignoring case.
-    pub(in crate::language::xml) fn of(word: &str) -> Option<Self> {
+    pub(in crate::xml) fn of(word: &str) -> Option<Self> {
         let kinds = [Self::Sphere, Self::Plane, Self::Obj];
         Some(kinds[place(Self::TYPES, word)?])
     }
 
     /// The name of the kind.
-    pub(in crate::language::xml) const fn word(self) -> &'static str {
+    pub(in crate::xml) const fn word(self) -> &'static str {
         match self {
             Self::Sphere => "sphere",
             Self::Plane => "plane",
@@ -60,22 +60,21 @@ impl ObjectKind {
 
 impl MaterialKind {
     /// The values of `type`.
-    pub(in crate::language::xml) const TYPES: &'static [&'static str] =
-        &["blinn", "phong", "microfacet"];
+    pub(in crate::xml) const TYPES: &'static [&'static str] = &["blinn", "phong", "microfacet"];
 
     /// The kind for a type, ignoring case.
-    pub(in crate::language::xml) fn of(word: &str) -> Option<Self> {
+    pub(in crate::xml) fn of(word: &str) -> Option<Self> {
         let kinds = [Self::Blinn, Self::Phong, Self::Microfacet];
         Some(kinds[place(Self::TYPES, word)?])
     }
 
     /// The name of the kind.
-    pub(in crate::language::xml) const fn word(self) -> &'static str {
+    pub(in crate::xml) const fn word(self) -> &'static str {
         Self::TYPES[self as usize]
     }
 
     /// Its parameters.
-    pub(in crate::language::xml) fn parameters(self) -> &'static [&'static Parameter] {
+    pub(in crate::xml) fn parameters(self) -> &'static [&'static Parameter] {
         match self {
             Self::Blinn | Self::Phong => materials::GLOSSY,
             Self::Microfacet => materials::MICROFACET,
@@ -85,22 +84,21 @@ impl MaterialKind {
 
 impl LightKind {
     /// The values of `type`.
-    pub(in crate::language::xml) const TYPES: &'static [&'static str] =
-        &["ambient", "direct", "point"];
+    pub(in crate::xml) const TYPES: &'static [&'static str] = &["ambient", "direct", "point"];
 
     /// The kind for a type, ignoring case.
-    pub(in crate::language::xml) fn of(word: &str) -> Option<Self> {
+    pub(in crate::xml) fn of(word: &str) -> Option<Self> {
         let kinds = [Self::Ambient, Self::Direct, Self::Point];
         Some(kinds[place(Self::TYPES, word)?])
     }
 
     /// The name of the kind.
-    pub(in crate::language::xml) const fn word(self) -> &'static str {
+    pub(in crate::xml) const fn word(self) -> &'static str {
         Self::TYPES[self as usize]
     }
 
     /// Its parameters.
-    pub(in crate::language::xml) fn parameters(self) -> &'static [&'static Parameter] {
+    pub(in crate::xml) fn parameters(self) -> &'static [&'static Parameter] {
         match self {
             Self::Ambient => lights::AMBIENT,
             Self::Direct => lights::DIRECT,

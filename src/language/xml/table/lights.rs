@@ -2,24 +2,24 @@
 
 use super::{Parameter, ZERO, at_least_0};
 
-pub(in crate::language::xml) static INTENSITY: Parameter =
+pub(in crate::xml) static INTENSITY: Parameter =
     Parameter::colour("intensity", ZERO, "Its brightness and colour.");
 
-pub(in crate::language::xml) static DIRECTION: Parameter = Parameter::vector(
+pub(in crate::xml) static DIRECTION: Parameter = Parameter::vector(
     "direction",
     &["0", "0", "1"],
     "Which way its light travels.",
 );
 
-pub(in crate::language::xml) static POSITION: Parameter =
+pub(in crate::xml) static POSITION: Parameter =
     Parameter::vector("position", ZERO, "Its position.");
 
-pub(in crate::language::xml) static RADIUS: Parameter = Parameter::number(
+pub(in crate::xml) static RADIUS: Parameter = Parameter::number(
     at_least_0("size", 0.1, "Its radius: 0 casts hard shadows."),
     &["0"],
 );
 
-pub(in crate::language::xml) static ATTENUATION: Parameter = Parameter::number(
+pub(in crate::xml) static ATTENUATION: Parameter = Parameter::number(
     at_least_0(
         "attenuation",
         0.01,

@@ -1,19 +1,19 @@
 //! The parameters of materials.
 
 use super::{Extra, HALF, Parameter, ZERO, at_least_0};
-use crate::language::table::{Field, Range};
+use crate::table::{Field, Range};
 
-pub(in crate::language::xml) static DIFFUSE: Parameter =
+pub(in crate::xml) static DIFFUSE: Parameter =
     Parameter::colour("diffuse", HALF, "The colour of diffuse reflection.").textured();
 
-pub(in crate::language::xml) static SPECULAR: Parameter = Parameter::colour(
+pub(in crate::xml) static SPECULAR: Parameter = Parameter::colour(
     "specular",
     &["0.7", "0.7", "0.7"],
     "The colour of the highlight.",
 )
 .textured();
 
-pub(in crate::language::xml) static GLOSSINESS: Parameter = Parameter::number(
+pub(in crate::xml) static GLOSSINESS: Parameter = Parameter::number(
     Field::number(
         "glossiness",
         Range::NotNegative,
@@ -25,18 +25,18 @@ pub(in crate::language::xml) static GLOSSINESS: Parameter = Parameter::number(
 .bare("1")
 .textured();
 
-pub(in crate::language::xml) static REFLECTION: Parameter =
+pub(in crate::xml) static REFLECTION: Parameter =
     Parameter::colour("reflection", ZERO, "The fraction of light reflected.")
         .textured()
         .with(&[&SPREAD]);
 
-pub(in crate::language::xml) static REFRACTION: Parameter =
+pub(in crate::xml) static REFRACTION: Parameter =
     Parameter::colour("refraction", ZERO, "The fraction of light transmitted.")
         .textured()
         .with(&[&REFRACTION_INDEX, &SPREAD]);
 
 /// The spread of reflected or refracted rays.
-pub(in crate::language::xml) static SPREAD: Extra = Extra {
+pub(in crate::xml) static SPREAD: Extra = Extra {
     attribute: "glossiness",
     missing: "0",
     missing_srgb: "0",
@@ -47,20 +47,20 @@ pub(in crate::language::xml) static SPREAD: Extra = Extra {
     ),
 };
 
-pub(in crate::language::xml) static REFRACTION_INDEX: Extra = Extra {
+pub(in crate::xml) static REFRACTION_INDEX: Extra = Extra {
     attribute: "index",
     missing: "1",
     missing_srgb: "1.5",
     field: index_of_refraction("index"),
 };
 
-pub(in crate::language::xml) static ABSORPTION: Parameter = Parameter::colour(
+pub(in crate::xml) static ABSORPTION: Parameter = Parameter::colour(
     "absorption",
     ZERO,
     "The light absorbed inside, per unit of length.",
 );
 
-pub(in crate::language::xml) static EMISSION: Parameter =
+pub(in crate::xml) static EMISSION: Parameter =
     Parameter::colour("emission", ZERO, "The light it emits.").textured();
 
 /// The parameters of a blinn or phong material.
@@ -74,10 +74,10 @@ pub(super) const GLOSSY: &[&Parameter] = &[
     &EMISSION,
 ];
 
-pub(in crate::language::xml) static COLOUR: Parameter =
+pub(in crate::xml) static COLOUR: Parameter =
     Parameter::colour("color", HALF, "Its colour.").textured();
 
-pub(in crate::language::xml) static ROUGHNESS: Parameter = Parameter::number(
+pub(in crate::xml) static ROUGHNESS: Parameter = Parameter::number(
     Field::number(
         "roughness",
         Range::Unit,
@@ -88,16 +88,16 @@ pub(in crate::language::xml) static ROUGHNESS: Parameter = Parameter::number(
 )
 .textured();
 
-pub(in crate::language::xml) static METALLIC: Parameter = Parameter::number(
+pub(in crate::xml) static METALLIC: Parameter = Parameter::number(
     Field::number("metallic", Range::Unit, 0.05, "How much of it is metal."),
     &["0"],
 )
 .textured();
 
-pub(in crate::language::xml) static INDEX: Parameter =
+pub(in crate::xml) static INDEX: Parameter =
     Parameter::number(index_of_refraction("ior"), &["1.5"]);
 
-pub(in crate::language::xml) static TRANSMITTANCE: Parameter =
+pub(in crate::xml) static TRANSMITTANCE: Parameter =
     Parameter::colour("transmittance", ZERO, "The fraction of light transmitted.").textured();
 
 /// The parameters of a microfacet material.

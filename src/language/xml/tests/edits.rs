@@ -1,12 +1,12 @@
 //! Edits of fields change only those fields, and undoing them restores every byte.
 
 use super::{EXAMPLE, around, read};
-use crate::language::node::Node;
-use crate::language::placed::Placed;
-use crate::language::table::Kind;
-use crate::language::tests::Random;
-use crate::scene::{Camera, Lens, Size};
-use crate::text::{Edit, apply, parse_number};
+use crate::node::Node;
+use crate::placed::Placed;
+use crate::table::Kind;
+use crate::tests::Random;
+use scene::{Camera, Lens, Size};
+use text::{Edit, apply, parse_number};
 
 /// A scene with every kind of element.
 pub(super) const RICH: &str = "<?xml version=\"1.0\"?>\r\n<xml>\r\n  <scene>\r\n    <!-- things -->\r\n    \

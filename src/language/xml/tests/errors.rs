@@ -1,5 +1,5 @@
 use super::{around, read, shown};
-use crate::text::Span;
+use text::Span;
 
 /// The errors and warnings of a text, without their places.
 fn said(text: &str) -> Vec<String> {

@@ -3,9 +3,9 @@ use std::f64::consts::PI;
 use glam::{DAffine3, DMat3, DVec2, DVec3};
 
 use super::{EXAMPLE, around, read, scene};
-use crate::geometry::{Aabb, Ray, Shape, Solid, Sphere};
-use crate::language::node::Node;
-use crate::scene::{
+use crate::node::Node;
+use geometry::{Aabb, Ray, Shape, Solid, Sphere};
+use scene::{
     Camera, Dielectric, Emitter, Faces, Falloff, Focus, Gloss, Highlight, Integrator, Lens, Light,
     Material, Materials, Mirror, Pattern, Rgb, Scene, Shadows, Side, Size, Tinted, Transfer,
 };
@@ -394,7 +394,7 @@ fn nodes_are_found_by_position_and_have_comments() {
         ("'.5'", Node::Material(0)),
     ] {
         let at = text.find(part).expect("a part of the text");
-        let span = crate::text::Span::new(at, at + part.len());
+        let span = text::Span::new(at, at + part.len());
         assert_eq!(source.node_at(span), Some(node), "{part}");
         assert_eq!(source.nodes_in(span), [node], "{part}");
     }
@@ -424,7 +424,7 @@ fn a_hundred_thousand_nested_elements_are_lowered() {
         Some(levels)
     );
     let (source, lowered) = read(&nested("<nonsense>", "</nonsense>"));
-    let whole = crate::text::Span::new(0, 10_000_000);
+    let whole = text::Span::new(0, 10_000_000);
     assert_eq!(lowered.diagnostics.warnings(), 1);
     assert_eq!(source.nodes_in(whole), [Node::View]);
 }

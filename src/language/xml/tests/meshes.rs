@@ -5,11 +5,10 @@ use std::sync::Arc;
 use glam::{DAffine3, DVec3};
 
 use super::{around, read_with, shown};
-use crate::geometry::{Instance, Ray, Shape};
-use crate::language::FileKind;
-use crate::language::node::Node;
-use crate::obj;
-use crate::scene::{
+use crate::FileKind;
+use crate::node::Node;
+use geometry::{Instance, Ray, Shape};
+use scene::{
     Dielectric, Faces, Gloss, Highlight, Maps, Material, Materials, Meshes, Mirror, NoMesh, Object,
     Pattern, Rgb, Scene, Texture,
 };
@@ -202,7 +201,7 @@ fn an_objects_own_material_covers_all_faces() {
         assert_eq!(tags(&scene.objects[0]), [None, None], "{object}");
         assert!(scene.textures.is_empty());
         let (_, lowered) = read_with(&text, &meshes);
-        let is_about_names = |found: &&crate::text::Diagnostic| found.message.contains("`n`");
+        let is_about_names = |found: &&text::Diagnostic| found.message.contains("`n`");
         let found = lowered.diagnostics.iter().filter(is_about_names).count();
         assert_eq!(found, warnings);
     }
@@ -282,7 +281,7 @@ fn warnings_about_a_file_are_reported_at_its_first_name() {
         let (_, lowered) = read_with(&around(text), &meshes);
         assert!(lowered.scene.is_some(), "{text}");
         let found = lowered.diagnostics.iter();
-        let found = found.map(crate::text::Diagnostic::message_with_file);
+        let found = found.map(text::Diagnostic::message_with_file);
         found.collect::<Vec<_>>()
     };
     let line = "a.obj:1:1: `curv` is ignored";
@@ -314,9 +313,7 @@ fn a_mesh_without_faces_is_reported_with_its_lines_and_leaves_its_objects_out() 
     let text = around("<object type='obj' name='a.obj'/><object type='obj' name='a.obj'/>");
     let (_, lowered) = read_with(&text, &meshes);
     let found = lowered.diagnostics.iter();
-    let found: Vec<_> = found
-        .map(crate::text::Diagnostic::message_with_hint)
-        .collect();
+    let found: Vec<_> = found.map(text::Diagnostic::message_with_hint).collect();
     let none = "a.obj:2:6: a.obj (obj): the file has no faces that can be used; \
                 the object is left out";
     let line = "a.obj:2:6: f: expected at least three corners, found 2; the face is left out";

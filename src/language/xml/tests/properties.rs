@@ -6,10 +6,9 @@ use proptest::prelude::*;
 
 use super::edits::RICH;
 use super::{EXAMPLE, around, read_with};
-use crate::geometry::Shape;
-use crate::obj;
-use crate::scene::{Highlight, Meshes, NoMesh, Pattern};
-use crate::text::Span;
+use geometry::Shape;
+use scene::{Highlight, Meshes, NoMesh, Pattern};
+use text::Span;
 
 /// One readable mesh and one unreadable.
 fn meshes() -> Meshes {
@@ -142,7 +141,7 @@ fn pieces() -> impl Strategy<Value = String> {
 }
 
 proptest! {
-    #![proptest_config(crate::repeatable())]
+    #![proptest_config(repeatable::config())]
 
     #[test]
     fn any_text_is_read(inside in pieces(), outside in pieces()) {

@@ -3,8 +3,8 @@
 use std::fmt::Write;
 
 use super::read;
-use crate::language::convert::without_gamma;
-use crate::language::tests::{Random, rewritten};
+use crate::convert::without_gamma;
+use crate::tests::{Random, rewritten};
 
 /// A random scene of spheres and squares with all kinds of materials and lights.
 fn text(random: &mut Random) -> String {

@@ -4,7 +4,7 @@ use std::fmt::Display;
 
 use roxmltree::{Error, TextPos};
 
-use crate::text::{Diagnostic, Span};
+use text::{Diagnostic, Span};
 
 /// The diagnostic for an error of the parser, at the place it is about.
 pub(super) fn diagnostic(text: &str, error: &Error, unclosed: Option<Span>) -> Diagnostic {

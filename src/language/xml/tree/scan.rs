@@ -1,6 +1,6 @@
 //! A quick scan of a text before it is parsed, for what is refused and for unclosed elements.
 
-use crate::text::{Diagnostic, Span};
+use text::{Diagnostic, Span};
 
 /// Maximum number of attributes per tag: far more than in any scene, and comparing each with all
 /// others takes time.

@@ -1,7 +1,7 @@
 use proptest::prelude::*;
 
 use super::*;
-use crate::text::{Edit, Position, apply};
+use text::{Edit, Position, apply};
 
 const EXAMPLE: &str = include_str!("../../../../scenes/spheres.xml");
 
@@ -271,7 +271,7 @@ fn pieces() -> impl Strategy<Value = String> {
 }
 
 proptest! {
-    #![proptest_config(crate::repeatable())]
+    #![proptest_config(repeatable::config())]
 
     #[test]
     fn no_text_makes_the_parser_panic(text in pieces()) {

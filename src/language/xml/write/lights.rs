@@ -1,10 +1,10 @@
 //! Lights.
 
 use super::{element, open, rgb, value, word, xyz};
-use crate::geometry::direction_of;
-use crate::language::losses::{Losses, Of};
-use crate::language::surroundings::{FADING, SHADOWLESS, SPOT, faded};
-use crate::scene::{Emitter, Falloff, Light, Rgb, Scene, Shadows};
+use crate::losses::{Losses, Of};
+use crate::surroundings::{FADING, SHADOWLESS, SPOT, faded};
+use geometry::direction_of;
+use scene::{Emitter, Falloff, Light, Rgb, Scene, Shadows};
 
 /// Writes the lights of a scene, without ambient ones if the materials emit their light.
 pub(super) fn write(text: &mut String, scene: &Scene, is_baked: bool, losses: &mut Losses<'_>) {

@@ -4,8 +4,8 @@ use std::collections::HashSet;
 
 use super::textures::{number, tinted, with};
 use super::{attribute, element, open, plain, rgb, word};
-use crate::language::losses::{Loss, Losses, Of};
-use crate::scene::{
+use crate::losses::{Loss, Losses, Of};
+use scene::{
     Dielectric, Faces, Gloss, Highlight, Maps, Material, Mirror, Pattern, Reflectance, Rgb, Scene,
     Shadow, Side, Tinted,
 };

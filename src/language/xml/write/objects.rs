@@ -4,10 +4,10 @@ use glam::DVec3;
 
 use super::transforms::placed;
 use super::{open, word};
-use crate::geometry::{FrameNumbers, Shape, Solid};
-use crate::language::losses::{Loss, Losses, Of};
-use crate::language::stand_ins::solids;
-use crate::scene::Scene;
+use crate::losses::{Loss, Losses, Of};
+use crate::stand_ins::solids;
+use geometry::{FrameNumbers, Shape, Solid};
+use scene::Scene;
 
 const BOX: Loss = Loss {
     keys: &[],

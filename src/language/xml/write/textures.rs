@@ -4,7 +4,7 @@ use glam::{DAffine3, DVec3};
 
 use super::transforms::placed;
 use super::{element, open, rgb, value, word};
-use crate::scene::{Pattern, Rgb, Scene, Side, Texture, Tinted};
+use scene::{Pattern, Rgb, Scene, Side, Texture, Tinted};
 
 /// The deepest checkerboards in checkerboards that are written.
 const DEEPEST: usize = 32;

@@ -3,7 +3,7 @@
 use glam::{DMat3, DVec3};
 
 use super::{attribute, element, xyz};
-use crate::geometry::principal_axes;
+use geometry::principal_axes;
 
 /// The largest difference of the directions of a frame from right angles that is only rounding.
 const ROUNDING: f64 = 1e-12;

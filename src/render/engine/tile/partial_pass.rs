@@ -1,7 +1,7 @@
 //! A tile in the middle of a step that is taken in parts.
 
 use super::{AREA, Tile};
-use crate::scene::Rgb;
+use scene::Rgb;
 
 /// The pixels of a tile as they were before the step, which are shown, and those that take it.
 #[derive(Debug)]

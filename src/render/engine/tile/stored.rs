@@ -6,10 +6,10 @@
 //! The grid is not stored: a tile that lacks a sample of a pixel takes the grids again.
 
 use super::{AREA, BEYOND, NO_GRID, Remembers, Tile};
-use crate::render::engine::pass_schedule::Step;
-use crate::render::job::NO_OBJECT;
-use crate::render::world::Dependencies;
-use crate::scene::Rgb;
+use crate::engine::pass_schedule::Step;
+use crate::job::NO_OBJECT;
+use crate::world::Dependencies;
+use scene::Rgb;
 
 /// Bytes of a pixel and of what is remembered of it.
 const PIXEL: usize = 3 * 8 + 4 + 1;

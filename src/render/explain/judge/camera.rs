@@ -1,10 +1,10 @@
 //! Camera rays that hit nothing, or not what they should.
 
 use super::{Judge, found};
-use crate::geometry::Ray;
-use crate::render::explain::record::TracedRay;
-use crate::render::explain::verdict::{DepthLimit, Finding, Verdict};
-use crate::scene::Rgb;
+use crate::explain::record::TracedRay;
+use crate::explain::verdict::{DepthLimit, Finding, Verdict};
+use geometry::Ray;
+use scene::Rgb;
 
 impl Judge<'_> {
     /// Why a camera ray hits nothing.

@@ -2,11 +2,11 @@
 
 use super::surface::reflectance;
 use super::{DARK, Judge, found};
-use crate::geometry::{Ray, normalise};
-use crate::render::explain::record::{LightTerm, Shading, UnlitReason};
-use crate::render::explain::verdict::{Finding, Verdict, angle};
-use crate::render::material::Side;
-use crate::scene::{Emitter, Integrator, Light, Rgb, Scene};
+use crate::explain::record::{LightTerm, Shading, UnlitReason};
+use crate::explain::verdict::{Finding, Verdict, angle};
+use geometry::Side;
+use geometry::{Ray, normalise};
+use scene::{Emitter, Integrator, Light, Rgb, Scene};
 
 /// Missing light at a surface.
 pub(super) struct Lacks {
@@ -277,8 +277,7 @@ impl Judge<'_> {
             .filter(|crossing| crossing.transmittance < 0.5)
             .map(|crossing| crossing.object)
             .collect();
-        let opaque =
-            |crossing: &&crate::render::explain::record::Crossing| crossing.transmittance == 0.0;
+        let opaque = |crossing: &&crate::explain::record::Crossing| crossing.transmittance == 0.0;
         let mut opaque = term.crossed.iter().filter(opaque);
         let around = opaque.find(|crossing| self.encloses(crossing.object, light));
         if blockers.is_empty() {
@@ -321,7 +320,7 @@ fn is_direct(light: &Light) -> bool {
 
 /// Whether emission or an environment lights the scene in path tracing.
 fn shines(scene: &Scene) -> bool {
-    let emits = |material: &crate::scene::Material| material.emission != Rgb::ZERO;
+    let emits = |material: &scene::Material| material.emission != Rgb::ZERO;
     scene.setting.environment.colour != Rgb::ZERO || scene.materials.iter().any(emits)
 }
 

@@ -10,9 +10,9 @@ mod surface;
 
 use super::record::{RayEnd, TracedRay, children};
 use super::verdict::{Finding, Term, TermSource, Verdict};
-use crate::render::picture::Light;
-use crate::render::world::{Projection, World};
-use crate::scene::{Integrator, Rgb};
+use crate::picture::Light;
+use crate::world::{Projection, World};
+use scene::{Integrator, Rgb};
 
 /// Displayed colours below this, of 1, count as dark: five levels of 255.
 const DARK: f64 = 0.02;

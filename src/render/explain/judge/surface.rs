@@ -3,13 +3,14 @@
 use std::mem;
 
 use super::{Judge, found, term};
-use crate::geometry::Ray;
-use crate::render::explain::kind::RayKind;
-use crate::render::explain::record::{RayEnd, Shading, Stop};
-use crate::render::explain::verdict::{Finding, TermSource, Verdict};
-use crate::render::material::Side;
-use crate::render::picture::luminance;
-use crate::scene::{Emitter, Highlight, Light, Material, Rgb};
+use crate::explain::kind::RayKind;
+use crate::explain::record::{RayEnd, Shading, Stop};
+use crate::explain::verdict::{Finding, TermSource, Verdict};
+use crate::material::facets_reflectance;
+use crate::picture::luminance;
+use geometry::Ray;
+use geometry::Side;
+use scene::{Emitter, Highlight, Light, Material, Rgb};
 
 /// A part of the light that leaves a surface.
 struct Part {
@@ -283,7 +284,7 @@ pub(super) fn reflectance(material: &Material) -> f64 {
         Highlight::Phong(gloss) | Highlight::ModifiedPhong(gloss) | Highlight::Blinn(gloss) => {
             gloss.specular
         }
-        Highlight::Microfacet { metallic, .. } => material.facets_reflectance(metallic),
+        Highlight::Microfacet { metallic, .. } => facets_reflectance(material, metallic),
     };
     material.diffuse().max(highlight).abs().max_element()
 }

@@ -11,12 +11,13 @@ use std::f64::consts::TAU;
 
 use glam::{DMat3, DVec3, Vec3};
 
-use crate::geometry::Ray;
-use crate::render::integrators::photon::{Photon, hash};
-use crate::render::integrators::vertex::Vertex;
-use crate::render::material::{Bsdf, Point, Side};
-use crate::render::sampling::warp;
-use crate::render::world::{Nearby, Nearest, World};
+use crate::integrators::photon::{Photon, hash};
+use crate::integrators::vertex::Vertex;
+use crate::material::{Bsdf, Point};
+use crate::sampling::warp;
+use crate::world::{Nearby, Nearest, World};
+use geometry::Ray;
+use geometry::Side;
 
 /// The least cosine between the normals of one surface: beyond, a fold ends it.
 pub(crate) const SAME: f64 = 0.7;

@@ -8,7 +8,7 @@ use self::disc::{Disc, Extent, SAME};
 use super::photon::{Photon, PhotonMap};
 use super::probe::Probe;
 use super::vertex::Vertex;
-use crate::scene::Rgb;
+use scene::Rgb;
 
 /// The radius of the smallest disc, as a share of the kernel's: a smaller one has fewer photons.
 const SMALLEST: f64 = 1.0 / 64.0;

@@ -1,6 +1,6 @@
 //! Path tracing (Kajiya, "The Rendering Equation", 1986): an unbiased estimate of radiance over up
 //! to `depth` bounces, without ambient light. Next event estimation samples all lights at each
-//! bounce, or one of them where there are [many](crate::render::light::emitters::ManyLights); for a light with a
+//! bounce, or one of them where there are many; for a light with a
 //! size it is combined with BSDF sampling by multiple importance sampling (Veach and Guibas,
 //! "Optimally Combining Sampling Techniques for Monte Carlo Rendering", 1995).
 
@@ -16,13 +16,13 @@ use super::direct::{Unshadowed, shadow};
 use super::light_component::LightComponent;
 use super::probe::{Probe, RAY_BUDGET, Sample};
 use super::vertex::Vertex;
-use crate::geometry::Ray;
-use crate::geometry::lanes::Vector;
-use crate::render::light::{SphereLight, Spheres};
-use crate::render::material::{Bsdf, BsdfSample, Scattered, Scattering, transmitted};
-use crate::render::sampling::{Sampler, Use, power_heuristic};
-use crate::render::world::{Nearest, Occlusion, World};
-use crate::scene::{FalloffRule, Light, Rgb};
+use crate::light::{SphereLight, Spheres, light_sphere, luminous_sphere};
+use crate::material::{Bsdf, BsdfSample, Scattered, Scattering, transmitted};
+use crate::sampling::{Sampler, Use, power_heuristic};
+use crate::world::{Nearest, Occlusion, World};
+use geometry::Ray;
+use geometry::lanes::Vector;
+use scene::{FalloffRule, Light, Rgb};
 
 /// Paths with a throughput below this are subject to Russian roulette. Squared error × time with
 /// 1/4, relative to 1/16, is .78 in a room lit by a panel, .82 in `lamp.xml`, .96 in `neon.xml`, .95 in
@@ -203,11 +203,11 @@ impl<C: Fn() -> bool> Probe<'_, C> {
     ) -> Option<Unshadowed> {
         let light = &self.world.lights()[number];
         let Vertex { point, bsdf, .. } = vertex;
-        let unshadowed = if let Some(sphere) = light.luminous_sphere() {
+        let unshadowed = if let Some(sphere) = luminous_sphere(light) {
             self.of_sphere_light((vertex, bounce), (light, &sphere), chance, place())?
         } else {
             let from = point.surface.point;
-            let sphere = light.sphere();
+            let sphere = light_sphere(light);
             let chosen = sphere.and_then(|sphere| sphere.choose(from, place()));
             Unshadowed::new(point, light, chosen, |facing| {
                 let toward = facing.toward.into();

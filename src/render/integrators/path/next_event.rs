@@ -7,14 +7,14 @@
 use glam::DVec3;
 
 use super::Path;
-use crate::geometry::Ray;
-use crate::render::integrators::probe::{Probe, RAY_BUDGET};
-use crate::render::integrators::vertex::Vertex;
-use crate::render::light::{Picked, Sky};
-use crate::render::material::Side;
-use crate::render::sampling::{Densities, Sampler, Use, share};
-use crate::render::world::{Nearest, Occlusion};
-use crate::scene::Rgb;
+use crate::integrators::probe::{Probe, RAY_BUDGET};
+use crate::integrators::vertex::Vertex;
+use crate::light::{Picked, Sky};
+use crate::sampling::{Densities, Sampler, Use, share};
+use crate::world::{Nearest, Occlusion};
+use geometry::Ray;
+use geometry::Side;
+use scene::Rgb;
 
 /// The light of an emitter sampled at a surface.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -5,14 +5,14 @@ use glam::DVec3;
 
 use super::next_event::Target;
 use super::vertices::{Aimed, Vertices};
-use crate::geometry::lanes::{Row, Vector, WIDTH, dispatch, each_bit, lanes_of};
-use crate::geometry::{Packets, Ray};
-use crate::render::integrators::direct::{Shadow, sent_back, shadowed};
-use crate::render::integrators::probe::{Probe, SampleResult};
-use crate::render::light::{Choices, SphereLight, Spheres};
-use crate::render::sampling::{Draws, Fours, Use};
-use crate::render::world::{NearestHits, Occlusion, World};
-use crate::scene::{Light, Rgb, Shadows};
+use crate::integrators::direct::{Shadow, sent_back, shadowed};
+use crate::integrators::probe::{Probe, SampleResult};
+use crate::light::{Choices, SphereLight, Spheres, light_sphere, luminous_sphere};
+use crate::sampling::{Draws, Fours, Use};
+use crate::world::{NearestHits, Occlusion, World};
+use geometry::lanes::{Row, Vector, WIDTH, dispatch, each_bit, lanes_of};
+use geometry::{Packets, Ray};
+use scene::{Light, Rgb, Shadows};
 
 /// Shadow rays of the surfaces of a bounce, what they carry, and scratch space.
 #[derive(Debug, Default)]
@@ -100,7 +100,7 @@ impl LightBatch {
             };
             asked.indices[lane] = number;
             asked.chances.0[lane] = chance;
-            asked.spheres[lane] = lights[number].luminous_sphere();
+            asked.spheres[lane] = luminous_sphere(&lights[number]);
             if asked.spheres[lane].is_some() {
                 asked.with_radiance |= 1 << lane;
             } else {
@@ -145,7 +145,7 @@ impl<C: Fn() -> bool> Probe<'_, C> {
                 continue;
             }
             // Only lights with a size need random numbers.
-            let numbers = if lights[number].sphere().is_some() {
+            let numbers = if light_sphere(&lights[number]).is_some() {
                 draws.four(Use::Light(number as u32), world.level)
             } else {
                 &[]

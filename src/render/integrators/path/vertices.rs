@@ -7,16 +7,16 @@ use std::f64::consts::PI;
 
 use glam::DVec3;
 
-use crate::geometry::lanes::{
+use crate::integrators::direct::{Shadow, shadow_rays};
+use crate::integrators::vertex::Vertex;
+use crate::light::{Spheres, incoming_each, light_sphere};
+use crate::material::{Component, Diffuse, LobeSamples, power_each};
+use crate::sampling::{Fours, share, warp};
+use geometry::lanes::{
     Eight, Lanes, Level, Row, Simd, Vector, WIDTH, bits, dispatch, each_bit, mask,
 };
-use crate::geometry::{Rays, Surfaces};
-use crate::render::integrators::direct::{Shadow, shadow_rays};
-use crate::render::integrators::vertex::Vertex;
-use crate::render::light::{Spheres, incoming_each};
-use crate::render::material::{Component, Diffuse, LobeSamples, power_each};
-use crate::render::sampling::{Fours, share, warp};
-use crate::scene::Light;
+use geometry::{Rays, Surfaces};
+use scene::Light;
 
 /// Up to eight surfaces.
 pub(crate) struct Vertices<'v, 'm> {
@@ -195,7 +195,7 @@ impl<'v, 'm> Vertices<'v, 'm> {
         let mut incoming = incoming_each(simd, lights, (indices, lanes), surface.point)?;
         for lane in each_bit(lanes) {
             let [u, v, ..] = numbers.lane(lane);
-            if let Some(sphere) = lights[indices[lane]].sphere()
+            if let Some(sphere) = light_sphere(&lights[indices[lane]])
                 && let Some(chosen) = sphere.choose(self.surface.point.get(lane), [u, v])
             {
                 incoming.put(lane, chosen);

@@ -6,15 +6,15 @@ use std::borrow::Cow;
 use super::next_event_wave::{Meeting, NextEventWave};
 use super::vertices::Vertices;
 use super::{Continuation, Path, PathHit};
-use crate::geometry::Packets;
-use crate::geometry::lanes::WIDTH;
-use crate::render::integrators::probe::{Probe, Sample, SampleResult};
-use crate::render::integrators::vertex::Vertex;
-use crate::render::integrators::wave::Found;
-use crate::render::material::BsdfSample;
-use crate::render::sampling::{Draws, Fours, Use};
-use crate::render::world::{Dependencies, Landing, NearestHits};
-use crate::scene::Rgb;
+use crate::integrators::probe::{Probe, Sample, SampleResult};
+use crate::integrators::vertex::Vertex;
+use crate::integrators::wave::Found;
+use crate::material::BsdfSample;
+use crate::sampling::{Draws, Fours, Use};
+use crate::world::{Dependencies, Landing, NearestHits};
+use geometry::Packets;
+use geometry::lanes::WIDTH;
+use scene::Rgb;
 
 /// How many paths are traced together: with four times as many, tracing takes 2 % longer.
 const TOGETHER: usize = 64;

@@ -8,8 +8,8 @@ use std::f64::consts::{PI, TAU};
 
 use glam::DVec3;
 
-use crate::geometry::Aabb;
-use crate::render::sampling::warp;
+use crate::sampling::warp;
+use geometry::Aabb;
 
 /// The cells of directions in which targets may lie.
 #[derive(Clone, Debug)]

@@ -11,10 +11,13 @@
 
 use glam::DVec3;
 
-use crate::geometry::Ray;
-use crate::render::material::{Bsdf, Point, Refraction, Side, folded, reflect, spread, strength};
-use crate::render::sampling::{Sampler, Use};
-use crate::scene::Rgb;
+use crate::material::{
+    Bsdf, Point, Refraction, folded, reflect, refraction_indices, spread, strength,
+};
+use crate::sampling::{Sampler, Use};
+use geometry::Ray;
+use geometry::Side;
+use scene::Rgb;
 
 /// How a photon goes on from a surface.
 #[derive(Clone, Copy, Debug)]
@@ -104,7 +107,7 @@ impl Meeting<'_> {
         if opposite == point.side {
             return None;
         }
-        let [index_from, index_to] = bsdf.material.indices(point.side);
+        let [index_from, index_to] = refraction_indices(bsdf.material, point.side);
         let ratio = index_from / index_to;
         let passing = (1.0 - met.reflectance) / (1.0 - chance);
         let by_facet = axis.dot(self.facet).abs() / to.dot(self.facet).abs();
@@ -133,7 +136,7 @@ impl Meeting<'_> {
 
     fn refraction(&self, direction: DVec3) -> Refraction {
         let material = self.bsdf.material;
-        let indices = material.indices(self.point.side);
+        let indices = refraction_indices(material, self.point.side);
         Refraction::new(
             direction,
             self.facet,

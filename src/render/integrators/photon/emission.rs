@@ -3,11 +3,12 @@
 use glam::{DVec2, DVec3};
 
 use super::aim::Aim;
-use crate::geometry::{Aabb, Ray, Shape};
-use crate::render::material::{Microfacets, strength};
-use crate::render::sampling::{Sampler, Use, warp};
-use crate::render::world::World;
-use crate::scene::{Emitter, Falloff, Highlight, Light, Material, Object, Rgb};
+use crate::light::{falloff_shares, luminous_sphere, radiant_intensity};
+use crate::material::{Microfacets, strength};
+use crate::sampling::{Sampler, Use, warp};
+use crate::world::World;
+use geometry::{Aabb, Ray, Shape};
+use scene::{Emitter, Falloff, Highlight, Light, Material, Object, Rgb};
 
 /// Rows of cells in the projection map of a light, if there are few.
 const ROWS: u32 = 128;
@@ -60,7 +61,7 @@ impl Emission {
     pub(crate) fn of(world: &World, cancelled: &(dyn Fn() -> bool + Sync)) -> Option<Self> {
         let lights = || {
             let lights = world.lights().iter();
-            lights.filter_map(|light| Some((light, light.radiant_intensity()?)))
+            lights.filter_map(|light| Some((light, radiant_intensity(light)?)))
         };
         let count = lights().count();
         let mut emission = Self {
@@ -103,7 +104,7 @@ impl Emission {
                 intensity,
                 aim,
                 until: self.power,
-                is_sphere: light.luminous_sphere().is_some(),
+                is_sphere: luminous_sphere(light).is_some(),
             });
         }
     }
@@ -120,7 +121,7 @@ impl Emission {
         // A source is chosen by its strength.
         let power = source.intensity / strength(source.intensity);
         if !source.is_sphere {
-            let [_, share] = source.falloff.shares(1.0, -direction);
+            let [_, share] = falloff_shares(&source.falloff, 1.0, -direction);
             return Some(Emitted {
                 ray: Ray {
                     origin: source.centre,

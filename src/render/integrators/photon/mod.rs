@@ -29,9 +29,9 @@ use std::sync::Arc;
 
 use rayon::prelude::*;
 
-use crate::render::job::Settings;
-use crate::scene::{FalloffRule, GlossRule, Integrator};
+use crate::job::Settings;
 pub(crate) use emission::{Emission, Emitted};
+use scene::{FalloffRule, GlossRule, Integrator};
 
 /// The range of the number of photons of a map: as many as the picture has pixels.
 const COUNTS: [u32; 2] = [1 << 14, 1 << 17];

@@ -7,10 +7,10 @@ use rayon::prelude::*;
 
 use super::map::{Photon, PhotonMap};
 use super::{CHUNK, Emission, Emitted, PhotonMaps, PhotonRules, Photons, SEED, radius};
-use crate::render::material::{Bsdf, transmitted};
-use crate::render::sampling::{Sampler, Use};
-use crate::render::world::World;
-use crate::scene::MAX_SPP;
+use crate::material::{Bsdf, transmitted};
+use crate::sampling::{Sampler, Use};
+use crate::world::World;
+use scene::MAX_SPP;
 
 impl Photons {
     /// Traces the first map of a world, on the current thread pool, or returns the photons of another

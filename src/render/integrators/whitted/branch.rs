@@ -2,17 +2,18 @@
 
 use glam::DVec3;
 
-use crate::geometry::lanes::{Eight, Row, Simd, WIDTH, bits};
-use crate::geometry::{Packet, Ray, Rays};
-use crate::render::integrators::light_component::LightComponent;
-use crate::render::integrators::probe::{Sample, SampleResult};
-use crate::render::integrators::wave::{RayState, Wave};
-use crate::render::material::{
-    Point, Refraction, facet, folded, fresnel, mirror, reflect, refract_all, spread,
+use crate::integrators::light_component::LightComponent;
+use crate::integrators::probe::{Sample, SampleResult};
+use crate::integrators::wave::{RayState, Wave};
+use crate::material::{
+    Point, Refraction, facet, folded, fresnel, mirror, mirror_weight, reflect, refract_all,
+    refraction_indices, spread,
 };
-use crate::render::sampling::{Sampler, Use};
-use crate::render::world::Landing;
-use crate::scene::{GlossRule, Material, Reflectance, Rgb};
+use crate::sampling::{Sampler, Use};
+use crate::world::Landing;
+use geometry::lanes::{Eight, Row, Simd, WIDTH, bits};
+use geometry::{Packet, Ray, Rays};
+use scene::{GlossRule, Material, Reflectance, Rgb};
 
 /// The secondary rays of a packet's points at perfect mirrors and clear boundaries, in each lane.
 struct Specular<S: Simd> {
@@ -89,7 +90,7 @@ impl Wave<'_> {
                 seen[state.tree].radiance += arrived.weight * arrived.radiance;
             }
             let branching = material.filter(|material| {
-                let mirrored = material.mirrored(landing.side(lane));
+                let mirrored = mirror_weight(material, landing.side(lane));
                 let branches = mirrored != Rgb::ZERO || material.dielectric.tint != Rgb::ZERO;
                 state.bounce != depth && branches
             });
@@ -138,7 +139,7 @@ impl<S: Simd> Specular<S> {
         let mut ratios = Row::all(1.0);
         for (lane, material) in materials.enumerate() {
             if let Some(material) = material {
-                let [from, to] = material.indices(landing.side(lane));
+                let [from, to] = refraction_indices(material, landing.side(lane));
                 ratios.0[lane] = from / to;
             }
         }
@@ -174,7 +175,7 @@ impl<S: Simd> Specular<S> {
         let point = || landing.point(packet, lane);
         let dielectric = &material.dielectric;
         let losses = material.losses(side);
-        let mut by_mirror = material.mirrored(side);
+        let mut by_mirror = mirror_weight(material, side);
         let mut by_boundary = Rgb::ZERO;
         if dielectric.tint != Rgb::ZERO {
             let passes = self.passes >> lane & 1 == 1;
@@ -184,7 +185,7 @@ impl<S: Simd> Specular<S> {
                 (Some(_), Reflectance::TotalOnly) => 0.0,
                 (Some(ray), Reflectance::Schlick) => {
                     let point = point();
-                    let [from, to] = material.indices(side);
+                    let [from, to] = refraction_indices(material, side);
                     let incident = point.view.dot(point.normal);
                     fresnel(from, incident, to, -ray.direction.dot(point.normal))
                 }
@@ -230,9 +231,9 @@ fn by_facet((point, facet): (&Point, DVec3), material: &Material, mut push: impl
     let dielectric = &material.dielectric;
     let leave =
         |direction, outward| point.leave(folded(direction, outward, (point.view, point.normal)));
-    let mut mirrored = material.mirrored(point.side);
+    let mut mirrored = mirror_weight(material, point.side);
     if dielectric.tint != Rgb::ZERO {
-        let indices = material.indices(point.side);
+        let indices = refraction_indices(material, point.side);
         let refraction = Refraction::new(-point.view, facet, indices, dielectric.reflectance);
         mirrored += refraction.reflectance * dielectric.tint;
         if let Some(refracted) = refraction.refracted {

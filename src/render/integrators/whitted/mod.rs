@@ -12,12 +12,12 @@ use super::direct::{Facing, Points, Shadow, sent_back};
 use super::light_component::LightComponent;
 use super::probe::{Probe, Sample, SampleResult};
 use super::wave::{Arrived, Found, RayState, Wave};
-use crate::geometry::lanes::{Simd, WIDTH, bits, dispatch};
-use crate::render::light::{Incoming, SphereLight, lights};
-use crate::render::material::transmitted;
-use crate::render::sampling::{Sampler, Use};
-use crate::render::world::{Dependencies, Nearest, Occlusion, World};
-use crate::scene::{Light, Rgb};
+use crate::light::{Incoming, SphereLight, light_sphere, lights};
+use crate::material::{reflectance, transmitted};
+use crate::sampling::{Sampler, Use};
+use crate::world::{Dependencies, Nearest, Occlusion, World};
+use geometry::lanes::{Simd, WIDTH, bits, dispatch};
+use scene::{Light, Rgb};
 
 impl<'w, C: Fn() -> bool> Probe<'w, C> {
     /// Computes the radiance along camera rays. The rays of each are traced depth first, reflection
@@ -197,7 +197,7 @@ impl<'w> Wave<'w> {
         };
         let last = self.arrived.len().min(first + WIDTH);
         let arrived = &mut self.arrived[first..last];
-        if let Some(sphere) = light.sphere() {
+        if let Some(sphere) = light_sphere(light) {
             for (lane, (arrived, state)) in
                 arrived.iter().zip(&self.front.states[first..]).enumerate()
             {
@@ -226,7 +226,12 @@ impl<'w> Wave<'w> {
                 let toward: DVec3 = facing.toward.lane(lane);
                 landing.normal.get(lane).dot((toward + view).normalize())
             };
-            let reflected = material.reflected(facing.cosine[lane], facing.mirrored[lane], halfway);
+            let reflected = reflectance(
+                material,
+                facing.cosine[lane],
+                facing.mirrored[lane],
+                halfway,
+            );
             let place = landing.surface.point.get(lane);
             let toward = || facing.toward.lane(lane);
             let Some(unblocked) = sent_back(light, place, toward, reflected) else {

@@ -4,9 +4,9 @@ use std::f64::consts::TAU;
 
 use glam::DVec3;
 
-use crate::geometry::lanes::{Eight, Lanes, Row, Simd, Vector};
-use crate::geometry::{Ball, Flat, Parallelograms, Patch};
-use crate::render::sampling::warp;
+use crate::sampling::warp;
+use geometry::lanes::{Eight, Lanes, Row, Simd, Vector};
+use geometry::{Ball, Flat, Parallelograms, Patch};
 
 /// A direction toward a part of a surface.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -15,7 +15,7 @@ pub(super) struct Aim {
     pub(super) toward: DVec3,
     /// The distance within which a ray in this direction hits the part, if nothing is in between.
     pub(super) reach: f64,
-    /// See [`Patch::density`].
+    /// See [`density`].
     pub(super) density: f64,
     /// Whether it hits the front of the part.
     pub(super) is_front: bool,
@@ -45,62 +45,58 @@ pub(super) struct Aims<N: Lanes> {
     pub(super) is_front: N::Mask,
 }
 
-impl Patch {
-    /// Chooses a direction from a point toward this part, by two numbers in 0..1: points of flat
-    /// parts uniformly by area, a ball, from outside, uniformly over the directions of its unit
-    /// sphere's space.
-    pub(super) fn aim(&self, from: DVec3, place: [f64; 2]) -> Option<Aim> {
-        let flats = match self {
-            Self::Triangle(flat) => Flats::new(flat, TRIANGLE),
-            Self::Parallelogram(flat) => Flats::new(flat, PARALLELOGRAM),
-            Self::Ball(ball) => return ball.aim(from, place),
-        };
-        let (aims, is_finite) = flats.aim(from.into(), place);
-        is_finite.then(|| Aim {
-            toward: aims.toward.into(),
-            reach: aims.reach,
-            density: aims.density,
-            is_front: aims.is_front,
-        })
-    }
+/// Chooses a direction from a point toward a part, by two numbers in 0..1: points of flat
+/// parts uniformly by area, a ball, from outside, uniformly over the directions of its unit
+/// sphere's space.
+pub(super) fn aim(patch: &Patch, from: DVec3, place: [f64; 2]) -> Option<Aim> {
+    let flats = match patch {
+        Patch::Triangle(flat) => Flats::new(flat, TRIANGLE),
+        Patch::Parallelogram(flat) => Flats::new(flat, PARALLELOGRAM),
+        Patch::Ball(ball) => return aim_at_ball(ball, from, place),
+    };
+    let (aims, is_finite) = flats.aim(from.into(), place);
+    is_finite.then(|| Aim {
+        toward: aims.toward.into(),
+        reach: aims.reach,
+        density: aims.density,
+        is_front: aims.is_front,
+    })
+}
 
-    /// The density of [`Patch::aim`] per steradian in the direction `toward`, in which the part is hit
-    /// at a point.
-    pub(super) fn density(&self, from: DVec3, toward: DVec3, at: DVec3) -> f64 {
-        let flats = match self {
-            Self::Triangle(flat) => Flats::new(flat, TRIANGLE),
-            Self::Parallelogram(flat) => Flats::new(flat, PARALLELOGRAM),
-            Self::Ball(ball) => return ball.density(from, toward),
-        };
-        flats.density(toward.into(), at.distance_squared(from))
-    }
+/// The density of [`aim`] per steradian in the direction `toward`, in which the part is hit
+/// at a point.
+pub(super) fn density(patch: &Patch, from: DVec3, toward: DVec3, at: DVec3) -> f64 {
+    let flats = match patch {
+        Patch::Triangle(flat) => Flats::new(flat, TRIANGLE),
+        Patch::Parallelogram(flat) => Flats::new(flat, PARALLELOGRAM),
+        Patch::Ball(ball) => return density_of_ball(ball, from, toward),
+    };
+    flats.density(toward.into(), at.distance_squared(from))
+}
 
-    /// A point and the normal there, by two numbers in 0..1.
-    pub(super) fn point(&self, place: [f64; 2]) -> (DVec3, DVec3) {
-        match self {
-            Self::Triangle(flat) => (flat.in_triangle(place), flat.normal.normalize_or_zero()),
-            Self::Parallelogram(flat) => (flat.at(place), flat.normal.normalize_or_zero()),
-            Self::Ball(ball) => {
-                let unit = DVec3::from(warp::in_cone(DVec3::Z.into(), 2.0, place));
-                let [x, y, z] = ball.duals;
-                let normal = unit.x * x + unit.y * y + unit.z * z;
-                (
-                    ball.centre + ball.to_world(unit),
-                    normal.normalize_or_zero(),
-                )
-            }
+/// A point of a part and the normal there, by two numbers in 0..1.
+pub(super) fn point(patch: &Patch, place: [f64; 2]) -> (DVec3, DVec3) {
+    match patch {
+        Patch::Triangle(flat) => (in_triangle(flat, place), flat.normal.normalize_or_zero()),
+        Patch::Parallelogram(flat) => (at(flat, place), flat.normal.normalize_or_zero()),
+        Patch::Ball(ball) => {
+            let unit = DVec3::from(warp::in_cone(DVec3::Z.into(), 2.0, place));
+            let [x, y, z] = ball.duals;
+            let normal = unit.x * x + unit.y * y + unit.z * z;
+            (
+                ball.centre + ball.to_world(unit),
+                normal.normalize_or_zero(),
+            )
         }
     }
 }
 
-impl Flat {
-    fn at(&self, [u, v]: [f64; 2]) -> DVec3 {
-        self.corner + u * self.sides[0] + v * self.sides[1]
-    }
+fn at(flat: &Flat, [u, v]: [f64; 2]) -> DVec3 {
+    flat.corner + u * flat.sides[0] + v * flat.sides[1]
+}
 
-    fn in_triangle(&self, place: [f64; 2]) -> DVec3 {
-        self.at(to_triangle(place))
-    }
+fn in_triangle(flat: &Flat, place: [f64; 2]) -> DVec3 {
+    at(flat, to_triangle(place))
 }
 
 /// Maps the square to the triangle below its diagonal, uniformly and with little distortion (Heitz,
@@ -139,7 +135,7 @@ impl<N: Lanes> Flats<N> {
         self.fraction = N::select(mask, self.fraction.all(TRIANGLE), self.fraction);
     }
 
-    /// See [`Patch::aim`]; the mask selects lanes in which there is a direction.
+    /// See [`aim`]; the mask selects lanes in which there is a direction.
     #[inline(always)]
     pub(super) fn aim(&self, from: Vector<N>, [u, v]: [N; 2]) -> (Aims<N>, N::Mask) {
         let is_triangle = self.fraction.equals(self.fraction.all(TRIANGLE));
@@ -211,33 +207,31 @@ impl Flats<Row> {
     }
 }
 
-impl Ball {
-    /// `None` inside.
-    fn aim(&self, from: DVec3, place: [f64; 2]) -> Option<Aim> {
-        let offset = self.to_unit(self.centre - from);
-        let versine = versine(offset)?;
-        let chosen = warp::in_cone(offset.normalize().into(), versine, place);
-        let turned = self.to_world(chosen.into());
-        let speed = turned.length();
-        let toward = turned / speed;
-        toward.is_finite().then(|| Aim {
-            toward,
-            density: self.density(from, toward),
-            is_front: true,
-            // From the surface itself, the far side is seen.
-            reach: SLACK * speed * (1.0 + offset.length()),
-        })
-    }
+/// Chooses a direction toward a ball; `None` inside.
+fn aim_at_ball(ball: &Ball, from: DVec3, place: [f64; 2]) -> Option<Aim> {
+    let offset = ball.to_unit(ball.centre - from);
+    let versine = versine(offset)?;
+    let chosen = warp::in_cone(offset.normalize().into(), versine, place);
+    let turned = ball.to_world(chosen.into());
+    let speed = turned.length();
+    let toward = turned / speed;
+    toward.is_finite().then(|| Aim {
+        toward,
+        density: density_of_ball(ball, from, toward),
+        is_front: true,
+        // From the surface itself, the far side is seen.
+        reach: SLACK * speed * (1.0 + offset.length()),
+    })
+}
 
-    /// A direction d of unit length is the image of one that covers |M⁻¹ d|³ det M as much of the
-    /// sphere.
-    fn density(&self, from: DVec3, toward: DVec3) -> f64 {
-        let offset = self.to_unit(self.centre - from);
-        versine(offset).map_or(0.0, |versine| {
-            let shrunk = self.to_unit(toward).length();
-            finite(1.0 / (TAU * versine * self.volume() * shrunk * shrunk * shrunk))
-        })
-    }
+/// The density of [`aim_at_ball`]. A direction d of unit length is the image of one that covers |M⁻¹ d|³ det M as much of the
+/// sphere.
+fn density_of_ball(ball: &Ball, from: DVec3, toward: DVec3) -> f64 {
+    let offset = ball.to_unit(ball.centre - from);
+    versine(offset).map_or(0.0, |versine| {
+        let shrunk = ball.to_unit(toward).length();
+        finite(1.0 / (TAU * versine * ball.volume() * shrunk * shrunk * shrunk))
+    })
 }
 
 /// 1 − cos of the half angle that a unit sphere subtends from a point; `None` inside.

@@ -4,8 +4,8 @@ use std::f64::consts::PI;
 
 use glam::DVec3;
 
-use crate::geometry::Aabb;
-use crate::render::sampling::warp;
+use crate::sampling::warp;
+use geometry::Aabb;
 
 /// Where an emitter is, where it shines to and how much.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -7,10 +7,11 @@ use glam::DVec3;
 use super::cone::{Cone, Reach};
 use super::tree::Tree;
 use super::{Picked, strength};
-use crate::geometry::Aabb;
-use crate::geometry::lanes::{Row, Simd, Vector, WIDTH};
-use crate::render::sampling::Fours;
-use crate::scene::{Emitter, Light};
+use crate::light::radiant_intensity;
+use crate::sampling::Fours;
+use geometry::Aabb;
+use geometry::lanes::{Row, Simd, Vector, WIDTH};
+use scene::{Emitter, Light};
 
 /// Up to this number of lights that fade with the square of the distance, each is sampled at every
 /// surface.
@@ -130,7 +131,7 @@ fn reach(light: &Light) -> Option<Reach> {
     else {
         return None;
     };
-    let strength = strength(light.radiant_intensity()?);
+    let strength = strength(radiant_intensity(light)?);
     (0.0 < strength).then_some(Reach {
         bounds: Aabb {
             min: position - radius,

@@ -18,14 +18,14 @@ use std::sync::Arc;
 use glam::DVec3;
 use rayon::prelude::*;
 
-use crate::geometry::lanes::{Lanes, Row, Simd, Vector, WIDTH, bits, each_bit, mask};
-use crate::geometry::{Hit, Instance, Patch, Ray, Shape};
-use crate::render::material::{Textures, strength};
-use crate::render::sampling::Fours;
-use crate::scene::{Faces, Material, Object, Rgb, Scene, Tinted};
+use crate::material::{Textures, strength};
+use crate::sampling::Fours;
 use aim::{Aim, Flats};
 use cone::{Cone, Reach};
+use geometry::lanes::{Lanes, Row, Simd, Vector, WIDTH, bits, each_bit, mask};
+use geometry::{Hit, Instance, Patch, Ray, Shape};
 pub(crate) use many::ManyLights;
+use scene::{Faces, Material, Object, Rgb, Scene, Tinted};
 use tree::Tree;
 
 /// Points of an object at which a texture of its emission is looked up; at least one for each part.
@@ -231,7 +231,7 @@ impl Emitters {
         picked: Picked,
         place: [f64; 2],
     ) -> Option<Choice> {
-        let aim = self.patch(scene, picked.emitter)?.aim(from, place)?;
+        let aim = aim::aim(&self.patch(scene, picked.emitter)?, from, place)?;
         Some(self.choice(picked, aim))
     }
 
@@ -283,7 +283,7 @@ impl Emitters {
                 flat |= 1 << lane;
             } else {
                 let [u, v, ..] = numbers.lane(lane);
-                if let Some(aim) = patch.aim(from.get(lane), [u, v]) {
+                if let Some(aim) = aim::aim(&patch, from.get(lane), [u, v]) {
                     choices.set(lane, self.choice(Picked { emitter, chance }, aim));
                 }
             }
@@ -325,7 +325,7 @@ impl Emitters {
             return 0.0;
         };
         let patch = scene.objects[object as usize].shape.patch(part);
-        let density = patch.map_or(0.0, |patch| patch.density(from, toward, at));
+        let density = patch.map_or(0.0, |patch| aim::density(&patch, from, toward, at));
         density * self.tree.chance(emitter as u32, from, normal)
     }
 
@@ -446,7 +446,7 @@ fn mean(textures: &Textures, emission: Tinted, shape: &Shape, part: u32, patch: 
     let mut sum = 0.0;
     for row in 0..side {
         for column in 0..side {
-            let (point, normal) = patch.point([middle(column), middle(row)]);
+            let (point, normal) = aim::point(patch, [middle(column), middle(row)]);
             let ray = Ray {
                 origin: point + size * normal,
                 direction: -normal,

@@ -5,7 +5,7 @@ use std::f64::consts::PI;
 use glam::DVec3;
 
 use super::cone::Reach;
-use crate::geometry::Aabb;
+use geometry::Aabb;
 
 /// Intervals along each axis between which emitters are split.
 const BINS: usize = 12;

@@ -4,10 +4,10 @@ use std::array;
 use std::f64::consts::PI;
 
 use super::*;
-use crate::geometry::lanes::{Level, dispatch};
-use crate::geometry::{Affine, Ball, Flat};
-use crate::render::tests::Random;
+use crate::tests::Random;
 use cone::Cone;
+use geometry::lanes::{Level, dispatch};
+use geometry::{Affine, Ball, Flat};
 
 impl Random {
     fn direction(&mut self) -> DVec3 {
@@ -50,7 +50,7 @@ fn reaches(count: usize, random: &mut Random) -> Vec<Reach> {
     (0..count).map(&mut reach).collect()
 }
 
-use crate::geometry::Aabb;
+use geometry::Aabb;
 
 /// The chances of all emitters sum to the part of 0..1 that leads to one, each is the length of the
 /// interval that leads to it, and those that cannot light the point have none.
@@ -227,7 +227,7 @@ fn densities_are_those_of_aims() {
         ],
         DVec3::new(1.0, 2.0, 0.4),
     );
-    let solid = crate::geometry::Solid::Ellipsoid(Box::new(crate::geometry::Ellipsoid(
+    let solid = geometry::Solid::Ellipsoid(Box::new(geometry::Ellipsoid(
         frame.expect("the axes span a volume"),
     )));
     let ellipsoid = Shape::Solid(solid);
@@ -259,9 +259,9 @@ fn densities_are_those_of_aims() {
         let mut sum = 0.0;
         for i in 0..side * side {
             let place = [i / side, i % side].map(|i| (f64::from(i) + 0.5) / f64::from(side));
-            let aim = patch.aim(DVec3::ZERO, place).expect("it is seen");
+            let aim = aim::aim(&patch, DVec3::ZERO, place).expect("it is seen");
             let at = hit_by(&patch, aim.toward);
-            let density = patch.density(DVec3::ZERO, aim.toward, at);
+            let density = aim::density(&patch, DVec3::ZERO, aim.toward, at);
             assert!((density / aim.density - 1.0).abs() < 1e-12, "{patch:?}");
             sum += 1.0 / density;
             assert!(at.length() <= aim.reach, "{patch:?}");

@@ -9,7 +9,7 @@ use glam::DVec3;
 
 use super::cone::{Cone, Reach};
 use super::{Picked, split};
-use crate::geometry::lanes::{Eight, Lanes, Row, Simd, Vector, WIDTH, each_bit};
+use geometry::lanes::{Eight, Lanes, Row, Simd, Vector, WIDTH, each_bit};
 
 /// From this depth on the tree halves the number of emitters at each node.
 const DEEP: u32 = 64;

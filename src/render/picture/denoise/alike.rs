@@ -5,7 +5,7 @@ use std::array;
 use super::Mixed;
 use super::features::Features;
 use super::plane::Plane;
-use crate::geometry::lanes::{Simd, SimdBase, Singles, WIDTH};
+use geometry::lanes::{Simd, SimdBase, Singles, WIDTH};
 
 /// How sharply surfaces are told apart: factors of squared differences of normals and albedos.
 const NORMAL: f32 = 64.0;

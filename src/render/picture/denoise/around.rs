@@ -5,7 +5,7 @@ use rayon::prelude::*;
 use super::alike::{Surfaces, load};
 use super::features::Features;
 use super::plane::{MARGIN, Plane};
-use crate::geometry::lanes::{Level, Select, Simd, SimdBase, Singles, WIDTH, dispatch};
+use geometry::lanes::{Level, Select, Simd, SimdBase, Singles, WIDTH, dispatch};
 
 /// Most slack.
 const MOST_SLACK: f32 = 1e3;

@@ -1,7 +1,7 @@
 //! What tells surfaces apart, and the albedo that light is divided by.
 
 use super::plane::{Layout, Plane};
-use crate::render::integrators::Guide;
+use crate::integrators::Guide;
 
 /// The albedo that light is divided by at least, unless the surface is black.
 const LEAST_ALBEDO: f32 = 0.1;

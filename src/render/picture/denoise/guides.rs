@@ -2,7 +2,7 @@
 
 use rayon::prelude::*;
 
-use crate::render::integrators::{FrameContext, Guide, guide};
+use crate::integrators::{FrameContext, Guide, guide};
 
 /// Most samples of a pixel that its surfaces are averaged over: more change them little.
 const MOST_SAMPLES: u32 = 16;

@@ -9,7 +9,7 @@ use super::alike::{Lights, Surfaces, TINY, likeness, load};
 use super::around::square;
 use super::features::Features;
 use super::plane::{MARGIN, Plane};
-use crate::geometry::lanes::{Level, Simd, SimdBase, Singles, WIDTH, dispatch};
+use geometry::lanes::{Level, Simd, SimdBase, Singles, WIDTH, dispatch};
 
 /// The pixels that a mean is over.
 #[derive(Clone, Copy, Debug)]

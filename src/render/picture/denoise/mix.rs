@@ -8,7 +8,7 @@ use super::Mixed;
 use super::alike::{Lights, Surfaces, TINY, likeness, load};
 use super::features::Features;
 use super::plane::{MARGIN, Plane};
-use crate::geometry::lanes::{Level, Simd, SimdBase, Singles, WIDTH, dispatch};
+use geometry::lanes::{Level, Simd, SimdBase, Singles, WIDTH, dispatch};
 
 /// Rows that are mixed together: with more, fewer are compared twice, and with fewer, they stay in a
 /// processor's cache.

@@ -2,7 +2,7 @@
 
 use rayon::prelude::*;
 
-use crate::geometry::lanes::WIDTH;
+use geometry::lanes::WIDTH;
 
 /// Room on either side of a row: the farthest neighbours.
 pub(super) const MARGIN: usize = 8;

@@ -1,7 +1,7 @@
 use rayon::ThreadPoolBuilder;
 
 use super::*;
-use crate::render::integrators::Guide;
+use crate::integrators::Guide;
 
 const WIDTH: usize = 96;
 const HEIGHT: usize = 64;

@@ -6,8 +6,8 @@ use super::moves::{advanced, dollied, faced, panned, rolled, stepped, widened};
 use super::saved_views::{delete_view, go_to_view, list_views};
 use super::state::View;
 use super::working_view::{frame_selected, look_from_light, move_camera, save_view};
-use crate::ui::app::room::Row;
-use crate::ui::keymap::{Context, Key, Mode, Scope, c, key, shift};
+use crate::app::room::Row;
+use crate::keymap::{Context, Key, Mode, Scope, c, key, shift};
 
 use Context::In;
 use KeyCode::{Down, Enter, Esc, Left, Right, Up};

@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-use crate::scene::{Camera, Lens};
+use scene::{Camera, Lens};
 
 /// Angle of one orbit step, in degrees.
 const ORBIT: f64 = 5.0;

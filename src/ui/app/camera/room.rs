@@ -4,11 +4,11 @@ use super::moves::{advanced, dollied, orbited, shifted, turned};
 use super::saved_views::relist;
 use super::state::View;
 use super::working_view::move_camera;
-use crate::render::{axes, pixel_width};
-use crate::ui::app::room::Room;
-use crate::ui::app::{Shared, display};
-use crate::ui::keymap::Mode;
-use crate::ui::msg::Effect;
+use crate::app::room::Room;
+use crate::app::{Shared, display};
+use crate::keymap::Mode;
+use crate::msg::Effect;
+use render::{axes, pixel_width};
 
 /// Angles of orbit, in degrees, for dragging across a cell, which is twice as high as wide.
 const DRAG: (f64, f64) = (2.0, 4.0);

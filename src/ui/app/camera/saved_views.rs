@@ -2,10 +2,10 @@
 
 use super::state::View;
 use super::working_view::save_view;
-use crate::language::{SavedView, view_name};
-use crate::scene::Camera;
-use crate::ui::app::{Page, Shared, text};
-use crate::ui::keymap::Context;
+use crate::app::{Page, Shared, text};
+use crate::keymap::Context;
+use language::{SavedView, view_name};
+use scene::Camera;
 
 /// Lists the saved views.
 pub(super) fn list_views(shared: &mut Shared) {

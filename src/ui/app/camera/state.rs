@@ -1,6 +1,6 @@
 //! The state of VIEW and FLY: the views on their page.
 
-use crate::language::SavedView;
+use language::SavedView;
 
 /// The state of VIEW and FLY. The camera that they move is not part of it, since every mode sees through it.
 #[derive(Debug, Default)]

@@ -1,10 +1,10 @@
 //! The working view: moving it, and writing it into the text.
 
 use super::moves::{framed, settled};
-use crate::language::Node;
-use crate::scene::{Camera, Emitter};
-use crate::text::Severity;
-use crate::ui::app::{Shared, text};
+use crate::app::{Shared, text};
+use ::text::Severity;
+use language::Node;
+use scene::{Camera, Emitter};
 
 /// Applies a move, unless the resulting camera would see nothing.
 pub(crate) fn move_camera(shared: &mut Shared, change: impl FnOnce(Camera) -> Camera) {

@@ -9,12 +9,12 @@ use tui_input::Input;
 use super::row::CommandRow;
 use super::rows::ROWS;
 use super::running;
-use crate::image_file::ImageFormat;
-use crate::language::Language;
-use crate::ui::app::shared::line;
-use crate::ui::app::{App, Completion, Palette, PromptKind, Shared};
-use crate::ui::keymap::{Mode, RowId};
-use crate::ui::msg::Effect;
+use crate::app::shared::line;
+use crate::app::{App, Completion, Palette, PromptKind, Shared};
+use crate::keymap::{Mode, RowId};
+use crate::msg::Effect;
+use image_file::ImageFormat;
+use language::Language;
 
 /// What is completed.
 enum Wanted<'a> {

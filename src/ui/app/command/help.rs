@@ -1,8 +1,8 @@
 //! The lines of the help page.
 
 use super::rows::ROWS;
-use crate::ui::app::{Shared, list};
-use crate::ui::keymap::{self, Context, HelpLine};
+use crate::app::{Shared, list};
+use crate::keymap::{self, Context, HelpLine};
 
 /// Minimum width of a column of the help page if there are several.
 const HELP_COLUMN: u16 = 56;

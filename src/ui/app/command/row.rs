@@ -2,8 +2,8 @@
 
 use std::path::PathBuf;
 
-use crate::ui::app::{App, Shared};
-use crate::ui::msg::Effect;
+use crate::app::{App, Shared};
+use crate::msg::Effect;
 
 /// A command: one row.
 pub(crate) struct CommandRow {

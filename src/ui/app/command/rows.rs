@@ -3,24 +3,24 @@
 use std::path::PathBuf;
 
 use super::row::{Arguments, CommandRow, Run, Runs};
-use crate::image_file::ImageFormat;
-use crate::language::{Language, extensions};
-use crate::render::{Aov, MOST_HALF_STOPS};
-use crate::scene::{Size, Transfer};
-use crate::ui::app::display::ScaleOrder;
-use crate::ui::app::exports::ExportOrder;
-use crate::ui::app::files::Force;
-use crate::ui::app::pictures::region::RegionOrder;
-use crate::ui::app::pictures::until::Until;
-use crate::ui::app::shared::jobs::Asking;
-use crate::ui::app::text::SettingOrder;
-use crate::ui::app::{
+use crate::app::display::ScaleOrder;
+use crate::app::exports::ExportOrder;
+use crate::app::files::Force;
+use crate::app::pictures::region::RegionOrder;
+use crate::app::pictures::until::Until;
+use crate::app::shared::jobs::Asking;
+use crate::app::text::SettingOrder;
+use crate::app::{
     Page, camera, compare, display, exports, files, history, panels, select, sequence, text, trace,
 };
-use crate::ui::keymap::{Context, Mode};
-use crate::ui::msg::Effect;
-use crate::ui::pixels::Pixels;
-use crate::ui::theme::Theme;
+use crate::keymap::{Context, Mode};
+use crate::msg::Effect;
+use crate::pixels::Pixels;
+use crate::theme::Theme;
+use image_file::ImageFormat;
+use language::{Language, extensions};
+use render::{Aov, MOST_HALF_STOPS};
+use scene::{Size, Transfer};
 
 use Arguments::{File, FileAnd, Name, Nothing, Said};
 use Runs::{Always, OnTrack, WhileOpening};

@@ -2,10 +2,10 @@
 
 use super::row::{CommandRow, Run, Runs};
 use super::rows::ROWS;
-use crate::text::nearest_word;
-use crate::ui::app::App;
-use crate::ui::keymap::Mode;
-use crate::ui::msg::Effect;
+use crate::app::App;
+use crate::keymap::Mode;
+use crate::msg::Effect;
+use text::nearest_word;
 
 /// All commands with their arguments, such as `:size WxH`, and descriptions.
 pub fn commands() -> impl Iterator<Item = (String, &'static str)> {
@@ -105,7 +105,7 @@ impl App {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::ui::app::command::row::Arguments;
+    use crate::app::command::row::Arguments;
 
     #[test]
     fn commands_are_found_by_every_name() {

@@ -5,14 +5,14 @@ use std::sync::Arc;
 use super::contrast::Contrast;
 use super::grading::{graded_aov, graded_job};
 use super::state::{Compare, Origin, Reference, Wipe, Work, shown};
-use crate::image_file::ImageFormat;
-use crate::render::{Frame, Job, Settings};
-use crate::scene::{Camera, Images, Rendering, Scene, Size};
-use crate::ui::app::pictures::picture::Picture;
-use crate::ui::app::refusing::Refusable;
-use crate::ui::app::{Cross, Shared, display, inspect};
-use crate::ui::keymap::Mode;
-use crate::ui::msg::{Effect, Target};
+use crate::app::pictures::picture::Picture;
+use crate::app::refusing::Refusable;
+use crate::app::{Cross, Shared, display, inspect};
+use crate::keymap::Mode;
+use crate::msg::{Effect, Target};
+use image_file::ImageFormat;
+use render::{Frame, Job, Settings};
+use scene::{Camera, Images, Rendering, Scene, Size};
 
 /// Starts to compare, or stops.
 pub(crate) fn start(compare: &mut Compare, shared: &mut Shared) -> Vec<Effect> {

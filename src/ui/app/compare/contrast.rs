@@ -2,8 +2,8 @@
 
 use std::borrow::Cow;
 
-use crate::compare::heat_map;
-use crate::scene::Size;
+use compare::heat_map;
+use scene::Size;
 
 /// What of two pictures is shown.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]

@@ -1,11 +1,11 @@
 //! What corresponds to a picture file that the scene is compared with: traced as that was, if its file
 //! says how.
 
-use crate::image_file::ImageFormat;
-use crate::render::{Aov, Frames, Job, Record, Region, Settings, denoises};
-use crate::scene::{Camera, Rendering, Size};
-use crate::ui::app::{Shared, display};
-use crate::ui::reference::Made;
+use crate::app::{Shared, display};
+use crate::reference::Made;
+use image_file::ImageFormat;
+use render::{Aov, Frames, Job, Record, Region, Settings, denoises};
+use scene::{Camera, Rendering, Size};
 
 /// The job that corresponds to a picture of this size. What the user has set comes before what the
 /// picture's file says, and that before the scene. The view is that of the picture.

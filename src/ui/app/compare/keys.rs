@@ -5,9 +5,9 @@ use crossterm::event::KeyCode;
 use super::comparing::{explain, go_to_worst, magnify, slide_wipe, start, view_as};
 use super::referring::pin;
 use super::state::Compare;
-use crate::ui::app::Contrast;
-use crate::ui::app::room::Row;
-use crate::ui::keymap::{Context, Key, Mode, Scope, c, key, shift};
+use crate::app::Contrast;
+use crate::app::room::Row;
+use crate::keymap::{Context, Key, Mode, Scope, c, key, shift};
 
 use Context::In;
 use KeyCode::{Left, Right};

@@ -6,13 +6,13 @@ use std::sync::Arc;
 use super::comparing::{comparison_jobs, start};
 use super::grading::grading;
 use super::state::{Compare, Origin, Reference, shown};
-use crate::render::Frame;
-use crate::text::Severity;
-use crate::ui::app::refusing::Refusable;
-use crate::ui::app::{Shared, display, text};
-use crate::ui::keymap::{Context, Mode};
-use crate::ui::msg::Effect;
-use crate::ui::reference::{ReferenceId, ReferenceRead, ReferenceSource};
+use crate::app::refusing::Refusable;
+use crate::app::{Shared, display, text};
+use crate::keymap::{Context, Mode};
+use crate::msg::Effect;
+use crate::reference::{ReferenceId, ReferenceRead, ReferenceSource};
+use ::text::Severity;
+use render::Frame;
 
 /// Makes the picture on screen the reference.
 pub(super) fn pin(compare: &mut Compare, shared: &mut Shared) -> Vec<Effect> {

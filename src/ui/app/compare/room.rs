@@ -2,10 +2,10 @@
 
 use super::comparing::{follow, lend, press};
 use super::state::Compare;
-use crate::ui::app::room::Room;
-use crate::ui::app::shared::Shared;
-use crate::ui::keymap::Mode;
-use crate::ui::msg::Effect;
+use crate::app::room::Room;
+use crate::app::shared::Shared;
+use crate::keymap::Mode;
+use crate::msg::Effect;
 
 impl Room for Compare {
     /// The reference stays, to be compared with another scene as well.

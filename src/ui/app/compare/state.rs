@@ -3,13 +3,13 @@
 use std::sync::Arc;
 
 use super::contrast::Contrast;
-use crate::compare::{Comparison, Difference};
-use crate::image_file::in_8_bits;
-use crate::render::{Aov, Frame, NO_OBJECT, Progress};
-use crate::scene::{Images, Scene, Size};
-use crate::ui::app::pictures::frame_window::Grid;
-use crate::ui::msg::Target;
-use crate::ui::reference::{Made, Pair, ReferenceId, ReferenceRead};
+use crate::app::pictures::frame_window::Grid;
+use crate::msg::Target;
+use crate::reference::{Made, Pair, ReferenceId, ReferenceRead};
+use compare::{Comparison, Difference};
+use image_file::in_8_bits;
+use render::{Aov, Frame, NO_OBJECT, Progress};
+use scene::{Images, Scene, Size};
 
 /// What pictures are compared with, and in COMPARE the comparison.
 #[derive(Debug, Default)]

@@ -3,10 +3,10 @@
 use std::sync::Arc;
 
 use super::soloing::preview_scene;
-use crate::render::{Frames, Job, Settings};
-use crate::scene::{Filter, Rendering, Scene, Size};
-use crate::ui::app::Shared;
-use crate::ui::msg::{Effect, Target};
+use crate::app::Shared;
+use crate::msg::{Effect, Target};
+use render::{Frames, Job, Settings};
+use scene::{Filter, Rendering, Scene, Size};
 
 /// The job that traces a scene, with this pixel filter if another than that asked for.
 fn job_of(

@@ -1,9 +1,9 @@
 //! Keys for what of a picture is shown.
 
 use super::light::{show, show_wireframe, step_share};
-use crate::render::Aov;
-use crate::ui::app::room::Row;
-use crate::ui::keymap::{Context, Key, Mode, Scope, c};
+use crate::app::room::Row;
+use crate::keymap::{Context, Key, Mode, Scope, c};
+use render::Aov;
 
 use Context::In;
 use Scope::These;

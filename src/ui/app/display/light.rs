@@ -4,13 +4,13 @@
 use std::sync::Arc;
 
 use super::jobs::retrace;
-use crate::language::Node;
-use crate::render::{Aov, Colours, Frame, Histogram, MOST_HALF_STOPS, denoises, exposes};
-use crate::scene::{Emitter, Transfer};
-use crate::text::{concise, percentage, rounded};
-use crate::ui::app::Shared;
-use crate::ui::app::pictures::histogram::ShownHistogram;
-use crate::ui::msg::Effect;
+use crate::app::Shared;
+use crate::app::pictures::histogram::ShownHistogram;
+use crate::msg::Effect;
+use language::Node;
+use render::{Aov, Colours, Frame, Histogram, MOST_HALF_STOPS, denoises, exposes};
+use scene::{Emitter, Transfer};
+use text::{concise, percentage, rounded};
 
 /// Shows light or an AOV.
 pub(crate) fn show(shared: &mut Shared, aov: Option<Aov>) {

@@ -3,12 +3,12 @@
 use super::jobs::{follow_trace, shown_job};
 use super::light::follow_histogram;
 use super::zooming::preview_screen;
-use crate::render::Region;
-use crate::scene::{Integrator, Size};
-use crate::ui::app::Shared;
-use crate::ui::app::pictures::frame_window::Grid;
-use crate::ui::app::pictures::viewport::{Detail, Screen};
-use crate::ui::msg::{Effect, Target};
+use crate::app::Shared;
+use crate::app::pictures::frame_window::Grid;
+use crate::app::pictures::viewport::{Detail, Screen};
+use crate::msg::{Effect, Target};
+use render::Region;
+use scene::{Integrator, Size};
 
 /// Samples per pixel at which the preview stops: by then edges are smooth and the noise of paths is
 /// invisible. Where cells hold more pixels, each needs fewer samples.

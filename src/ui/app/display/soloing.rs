@@ -3,10 +3,10 @@
 use std::collections::BTreeSet;
 use std::sync::Arc;
 
-use crate::language::Node;
-use crate::scene::{Rgb, Scene};
-use crate::ui::app::Shared;
-use crate::ui::app::pictures::solo::Solo;
+use crate::app::Shared;
+use crate::app::pictures::solo::Solo;
+use language::Node;
+use scene::{Rgb, Scene};
 
 /// A scene to show, and what its objects are called if it lacks some.
 type Part = (Arc<Scene>, Option<Arc<[u32]>>);

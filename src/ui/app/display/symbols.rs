@@ -1,12 +1,12 @@
 //! Symbols of what has no surface in the picture: lights, the camera and groups.
 
 use super::zooming::frame_window;
-use crate::language::Node;
-use crate::render::pixel_of;
-use crate::scene::Emitter;
-use crate::ui::app::Shared;
-use crate::ui::app::pictures::{Outline, Symbols};
-use crate::ui::keymap::Mode;
+use crate::app::Shared;
+use crate::app::pictures::{Outline, Symbols};
+use crate::keymap::Mode;
+use language::Node;
+use render::pixel_of;
+use scene::Emitter;
 
 /// The most symbols of groups, and the most of lights: more would hide the picture.
 const MOST: usize = 256;

@@ -1,11 +1,11 @@
 //! Zooming and panning the picture on screen.
 
-use crate::scene::Size;
-use crate::ui::app::Shared;
-use crate::ui::app::pictures::frame_window::FrameWindow;
-use crate::ui::app::pictures::viewport::{Detail, Screen, Viewport};
-use crate::ui::layout::raster;
-use crate::ui::msg::Target;
+use crate::app::Shared;
+use crate::app::pictures::frame_window::FrameWindow;
+use crate::app::pictures::viewport::{Detail, Screen, Viewport};
+use crate::layout::raster;
+use crate::msg::Target;
+use scene::Size;
 
 /// The middle of the window, in shares of its size.
 const MIDDLE: [f64; 2] = [0.5; 2];
@@ -83,7 +83,7 @@ pub(crate) fn viewport(shared: &Shared) -> Viewport {
 }
 
 /// The pixel, of the whole picture that the newest frame is of, under the upper half of a cell,
-/// counted from the picture's upper left one. [`Frame::index_of`](crate::render::Frame::index_of)
+/// counted from the picture's upper left one. [`Frame::index_of`](render::Frame::index_of)
 /// finds it in the frame.
 pub(crate) fn pixel_at(shared: &Shared, cell: (u16, u16)) -> Option<[u32; 2]> {
     let frame = shared.picture().latest.as_ref()?;

@@ -4,12 +4,12 @@
 use crossterm::event::{KeyCode, KeyEvent};
 
 use super::typing::{assign_whole, type_current};
-use crate::language::table::{Category, Kind};
-use crate::language::{Node, Placed, Source};
-use crate::text::Edit;
-use crate::ui::app::shared::menu::{Entry, Menu, Purpose};
-use crate::ui::app::values::colours;
-use crate::ui::app::{Shared, select, text};
+use crate::app::shared::menu::{Entry, Menu, Purpose};
+use crate::app::values::colours;
+use crate::app::{Shared, select, text};
+use ::text::Edit;
+use language::table::{Category, Kind};
+use language::{Node, Placed, Source};
 
 /// Opens the list of the values of the current field if it has one, otherwise starts typing a
 /// value.

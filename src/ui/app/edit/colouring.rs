@@ -1,14 +1,14 @@
 //! Picking a colour: each change is tried out in the text at once, and the whole is one undo step.
 
-use crate::language::Placed;
-use crate::language::table::Kind;
-use crate::scene::Rgb;
-use crate::text::{parse_number, rounded, spell_like};
-use crate::ui::app::shared::picker::{ColourPicker, PickerRow};
-use crate::ui::app::values::hsv::Hsv;
-use crate::ui::app::values::literals::plain;
-use crate::ui::app::values::{colours, literals};
-use crate::ui::app::{Shared, Stride, text};
+use crate::app::shared::picker::{ColourPicker, PickerRow};
+use crate::app::values::hsv::Hsv;
+use crate::app::values::literals::plain;
+use crate::app::values::{colours, literals};
+use crate::app::{Shared, Stride, text};
+use ::text::{parse_number, rounded, spell_like};
+use language::Placed;
+use language::table::Kind;
+use scene::Rgb;
 
 /// The number of the scene's colours offered.
 const SWATCHES: usize = 30;

@@ -6,10 +6,10 @@ use super::choosing::enter_value;
 use super::colouring::{cancel_colour, confirm_colour, open_picker, step_colour};
 use super::nudging::{change_stride, next_component, nudge};
 use super::typing::type_current;
-use crate::language::table::Kind;
-use crate::ui::app::room::Row;
-use crate::ui::app::{Shared, Stride, select};
-use crate::ui::keymap::{Context, Key, Mode, Scope, alt, c, key, shift};
+use crate::app::room::Row;
+use crate::app::{Shared, Stride, select};
+use crate::keymap::{Context, Key, Mode, Scope, alt, c, key, shift};
+use language::table::Kind;
 
 use Context::In;
 use KeyCode::{BackTab, Char, Enter, Esc, Left, Right, Tab};

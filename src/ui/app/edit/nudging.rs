@@ -1,9 +1,9 @@
 //! Nudging values, and the component that is nudged.
 
-use crate::language::table::{Field, Kind};
-use crate::text::parse_number;
-use crate::ui::app::values::literals;
-use crate::ui::app::{Shared, Stride, text};
+use crate::app::values::literals;
+use crate::app::{Shared, Stride, text};
+use ::text::parse_number;
+use language::table::{Field, Kind};
 
 /// The current component's field and its literal as shown.
 pub(super) fn current(shared: &Shared) -> Option<(&'static Field, String)> {

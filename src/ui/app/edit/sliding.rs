@@ -2,13 +2,13 @@
 
 use ratatui::layout::Rect;
 
-use crate::language::Node;
-use crate::text::{Edit, parse_number, spell_like};
-use crate::ui::app::shared::cursor::Slide;
-use crate::ui::app::values::colours;
-use crate::ui::app::{Shared, text};
-use crate::ui::keymap::Mode;
-use crate::ui::layout::{field_rows, share_at, slider_cells};
+use crate::app::shared::cursor::Slide;
+use crate::app::values::colours;
+use crate::app::{Shared, text};
+use crate::keymap::Mode;
+use crate::layout::{field_rows, share_at, slider_cells};
+use ::text::{Edit, parse_number, spell_like};
+use language::Node;
 
 /// The cells of a field's slider in its line; `None` for other fields, and if there is no room.
 pub(crate) fn slider(shared: &Shared, field: usize, line: Rect) -> Option<Rect> {

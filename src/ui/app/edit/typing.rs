@@ -4,12 +4,12 @@ use crossterm::event::{KeyCode, KeyEvent};
 use tui_input::Input;
 
 use super::nudging::{current, next_component};
-use crate::text::{Diagnostic, Span};
-use crate::ui::app::shared::cursor::Typing;
-use crate::ui::app::shared::line;
-use crate::ui::app::values::typed;
-use crate::ui::app::values::typed::Values;
-use crate::ui::app::{Shared, text};
+use crate::app::shared::cursor::Typing;
+use crate::app::shared::line;
+use crate::app::values::typed;
+use crate::app::values::typed::Values;
+use crate::app::{Shared, text};
+use ::text::{Diagnostic, Span};
 
 /// Opens the current component to be typed.
 pub(super) fn type_current(shared: &mut Shared) {

@@ -1,9 +1,9 @@
 //! The external editor.
 
 use super::reading::read_again;
-use crate::text::Position;
-use crate::ui::app::{OnDisk, Shared, inspect};
-use crate::ui::msg::Effect;
+use crate::app::{OnDisk, Shared, inspect};
+use crate::msg::Effect;
+use text::Position;
 
 /// Opens the user's editor at the cursor, or at what is inspected.
 pub(crate) fn open_editor(shared: &mut Shared) -> Vec<Effect> {

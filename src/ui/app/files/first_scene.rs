@@ -7,26 +7,26 @@ use super::polling::complain_of_polling;
 use super::reading::{announce_new, note_recent, watch};
 use super::recent::list_recent;
 use super::recover::look_for_kept;
-use crate::document::Document;
-use crate::file::ReadError;
-use crate::language::{Language, Lowered, Node};
-use crate::scene::Rendering;
-use crate::text::{Findings, Severity};
-use crate::ui::app::shared::assets::Assets;
-use crate::ui::app::shared::cursor::Names;
-use crate::ui::app::shared::inspection::Inspection;
-use crate::ui::app::shared::palette::Palette;
-use crate::ui::app::{
+use crate::app::shared::assets::Assets;
+use crate::app::shared::cursor::Names;
+use crate::app::shared::inspection::Inspection;
+use crate::app::shared::palette::Palette;
+use crate::app::{
     Cursor, Disk, FirstReading, Jobs, OnDisk, Overlays, Pictures, Shared, Suggestions, display,
     text,
 };
-use crate::ui::arrange::{PanelSizes, Zoom};
-use crate::ui::keymap::{Keymap, Mode};
-use crate::ui::msg::Effect;
-use crate::ui::pixels::Pixels;
-use crate::ui::scene_reading::{News, Reading};
-use crate::ui::terminal::Mouse;
-use crate::ui::theme::Theme;
+use crate::arrange::{PanelSizes, Zoom};
+use crate::keymap::{Keymap, Mode};
+use crate::msg::Effect;
+use crate::pixels::Pixels;
+use crate::scene_reading::{News, Reading};
+use crate::terminal::Mouse;
+use crate::theme::Theme;
+use ::text::{Findings, Severity};
+use document::Document;
+use file::ReadError;
+use language::{Language, Lowered, Node};
+use scene::Rendering;
 
 /// The initial settings of the interface.
 #[derive(Clone, Debug)]

@@ -3,8 +3,8 @@
 use crossterm::event::KeyCode;
 
 use super::other_scene::open_recent;
-use crate::ui::app::room::Row;
-use crate::ui::keymap::{Context, Key, Scope, c, key};
+use crate::app::room::Row;
+use crate::keymap::{Context, Key, Scope, c, key};
 
 use KeyCode::{Enter, Esc};
 

@@ -6,9 +6,9 @@ use std::time::Duration;
 use super::recover::keep_the_rest;
 use super::replacing::{request_scene, start_scene};
 use super::saving::{end_save, save};
-use crate::ui::app::{AfterLeaving, Dialog, OnDisk, Question, Shared, camera, text};
-use crate::ui::keymap::Mode;
-use crate::ui::msg::{Effect, SaveId, SaveOutcome, Timer};
+use crate::app::{AfterLeaving, Dialog, OnDisk, Question, Shared, camera, text};
+use crate::keymap::Mode;
+use crate::msg::{Effect, SaveId, SaveOutcome, Timer};
 
 /// The loss of the working view.
 const LOST_VIEW: &str = "the moved view is not in the text";

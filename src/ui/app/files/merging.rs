@@ -2,9 +2,9 @@
 
 use super::reading::{self, show_reload};
 use super::recover::restore_merged;
-use crate::document::{Adopted, Difference};
-use crate::ui::app::{Dialog, MergeSource, OnDisk, Shared, Whose, text};
-use crate::ui::msg::Effect;
+use crate::app::{Dialog, MergeSource, OnDisk, Shared, Whose, text};
+use crate::msg::Effect;
+use document::{Adopted, Difference};
 
 /// Resolves the conflict under the cursor and goes on to the next.
 pub(crate) fn decide(shared: &mut Shared, whose: Whose) {

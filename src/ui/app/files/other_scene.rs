@@ -6,12 +6,12 @@ use std::sync::Arc;
 use super::leaving::leave_for;
 use super::reading::{read_again, reread};
 use super::replacing::replace_scene;
-use crate::document::Document;
-use crate::file::ReadError;
-use crate::language::Language;
-use crate::ui::app::{AfterLeaving, OnDisk, Shared};
-use crate::ui::msg::Effect;
-use crate::ui::scene_reading::{News, Opened};
+use crate::app::{AfterLeaving, OnDisk, Shared};
+use crate::msg::Effect;
+use crate::scene_reading::{News, Opened};
+use document::Document;
+use file::ReadError;
+use language::Language;
 
 /// Starts a new scene, in the language of the present one if none is given.
 pub(crate) fn start_new(shared: &mut Shared, language: Option<Language>) -> Vec<Effect> {

@@ -1,9 +1,9 @@
 //! Files that are polled, because the system cannot notify of their changes.
 
-use crate::text::Severity;
-use crate::ui::app::Shared;
-use crate::ui::app::shared::messages::About;
-use crate::ui::msg::Polled;
+use crate::app::Shared;
+use crate::app::shared::messages::About;
+use crate::msg::Polled;
+use text::Severity;
 
 /// Whether files are polled although the system was to notify of changes.
 pub(crate) fn polls(shared: &Shared) -> bool {

@@ -6,19 +6,19 @@ use std::path::PathBuf;
 use std::sync::Arc;
 use std::time::Duration;
 
-use crate::document::{Difference, Numbers, StepName};
-use crate::file::{self, ReadError};
-use crate::language::Lowered;
-use crate::text::{Findings, Position, Severity, counted};
+use ::text::{Findings, Position, Severity, counted};
+use document::{Difference, Numbers, StepName};
+use file::ReadError;
+use language::Lowered;
 
-use crate::ui::app::shared::cursor::SavedCursor;
-use crate::ui::app::shared::disk::{Faulty, Requester, Settle};
-use crate::ui::app::shared::messages::About;
+use crate::app::shared::cursor::SavedCursor;
+use crate::app::shared::disk::{Faulty, Requester, Settle};
+use crate::app::shared::messages::About;
 
-use crate::ui::app::{MergeSource, OnDisk, Shared, text};
-use crate::ui::msg::Effect;
-use crate::ui::scene_reading::{Baseline, News, Reading};
-use crate::ui::text_width::file_name;
+use crate::app::{MergeSource, OnDisk, Shared, text};
+use crate::msg::Effect;
+use crate::scene_reading::{Baseline, News, Reading};
+use crate::text_width::file_name;
 
 /// Many programs empty a file before writing it: errors must persist for this long.
 const QUIET: Duration = Duration::from_millis(100);

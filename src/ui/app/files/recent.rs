@@ -2,8 +2,8 @@
 
 use std::path::PathBuf;
 
-use crate::ui::app::{Page, Shared};
-use crate::ui::keymap::Context;
+use crate::app::{Page, Shared};
+use crate::keymap::Context;
 
 /// Shows recently used scenes.
 pub(crate) fn show_recent(shared: &mut Shared, scenes: Vec<PathBuf>) {

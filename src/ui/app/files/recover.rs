@@ -3,12 +3,12 @@
 
 use std::sync::Arc;
 
-use crate::document::{Adopted, Merge, StepName};
-use crate::text::counted;
-use crate::ui::app::shared::journal::Outcome;
-use crate::ui::app::{Dialog, MergeSource, OnDisk, Question, Shared, text};
-use crate::ui::msg::Effect;
-use crate::ui::recovery::{Claim, Found, Offer, Since, Way};
+use crate::app::shared::journal::Outcome;
+use crate::app::{Dialog, MergeSource, OnDisk, Question, Shared, text};
+use crate::msg::Effect;
+use crate::recovery::{Claim, Found, Offer, Since, Way};
+use ::text::counted;
+use document::{Adopted, Merge, StepName};
 
 /// Looks for undecided edits that earlier runs kept.
 pub(super) fn look_for_kept(shared: &Shared) -> Effect {

@@ -5,13 +5,13 @@ use std::sync::Arc;
 
 use super::first_scene::begin;
 use super::reading::watch;
-use crate::document::Document;
-use crate::language::{Language, Lowered};
-use crate::ui::app::shared::assets::Assets;
-use crate::ui::app::shared::inspection::Inspection;
-use crate::ui::app::{Cursor, OnDisk, Overlays, Shared, text};
-use crate::ui::keymap::Mode;
-use crate::ui::msg::{Effect, Target};
+use crate::app::shared::assets::Assets;
+use crate::app::shared::inspection::Inspection;
+use crate::app::{Cursor, OnDisk, Overlays, Shared, text};
+use crate::keymap::Mode;
+use crate::msg::{Effect, Target};
+use document::Document;
+use language::{Language, Lowered};
 
 /// Requests the scene of a file. The present one stays until the other has been read.
 pub(super) fn request_scene(shared: &mut Shared, path: PathBuf) -> Vec<Effect> {

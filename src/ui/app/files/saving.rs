@@ -8,11 +8,11 @@ use super::reading::{
     is_being_saved, note_recent, read_again, read_finally, read_once_more, watch,
 };
 use super::recover::keep_the_rest;
-use crate::language::Language;
-use crate::ui::app::shared::after_leaving::AfterLeaving;
-use crate::ui::app::shared::messages::About;
-use crate::ui::app::{OnDisk, PromptKind, Shared, text};
-use crate::ui::msg::{Effect, Guard, SaveId, SaveOutcome};
+use crate::app::shared::after_leaving::AfterLeaving;
+use crate::app::shared::messages::About;
+use crate::app::{OnDisk, PromptKind, Shared, text};
+use crate::msg::{Effect, Guard, SaveId, SaveOutcome};
+use language::Language;
 
 /// Whether the file is written even if it has changed meanwhile.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

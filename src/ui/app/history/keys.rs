@@ -4,8 +4,8 @@ use crossterm::event::KeyCode;
 
 use super::page::go_to_chosen;
 use super::undoing::{redo, undo};
-use crate::ui::app::room::Row;
-use crate::ui::keymap::{Context, Key, Scope, c, ctrl, key};
+use crate::app::room::Row;
+use crate::keymap::{Context, Key, Scope, c, ctrl, key};
 
 use KeyCode::{Enter, Esc};
 

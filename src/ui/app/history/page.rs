@@ -3,13 +3,13 @@
 use ratatui::layout::Rect;
 
 use super::undoing::{step_back, step_forward};
-use crate::document::{Document, StepName};
-use crate::text::counted;
-use crate::ui::app::text::{redo_text, relower, undo_text};
-use crate::ui::app::{Page, Shared};
-use crate::ui::history_layout::HistoryLayout;
-use crate::ui::keymap::Context;
-use crate::ui::layout::split_bottom;
+use crate::app::text::{redo_text, relower, undo_text};
+use crate::app::{Page, Shared};
+use crate::history_layout::HistoryLayout;
+use crate::keymap::Context;
+use crate::layout::split_bottom;
+use document::{Document, StepName};
+use text::counted;
 
 /// Opens the page of the undo history at the present text.
 pub(crate) fn list_steps(shared: &mut Shared) {

@@ -3,11 +3,11 @@
 use std::collections::VecDeque;
 use std::sync::Arc;
 
-use crate::document::StateId;
-use crate::render::Frame;
-use crate::scene::{Camera, Integrator};
-use crate::ui::app::pictures::cell_image::CellImage;
-use crate::ui::history_scene::NoPicture;
+use crate::app::pictures::cell_image::CellImage;
+use crate::history_scene::NoPicture;
+use document::StateId;
+use render::Frame;
+use scene::{Camera, Integrator};
 
 /// The number of pictures kept in rows and at the side: less than 4 MB on a screen of 250×80 cells.
 const KEPT: [usize; 2] = [256, 16];

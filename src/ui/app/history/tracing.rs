@@ -4,14 +4,14 @@ use ratatui::layout::Rect;
 
 use super::page::{body, history_layout, step_names};
 use super::thumbnails::{Look, Rank, Slot, Thumbnails};
-use crate::render::{Frames, Job, Settings};
-use crate::scene::{Camera, Filter, Integrator, Rendering};
-use crate::ui::app::room::Room;
-use crate::ui::app::shared::Shared;
-use crate::ui::history_scene::{HistoryScene, HistoryText, NoPicture};
-use crate::ui::keymap::Context;
-use crate::ui::layout::raster;
-use crate::ui::msg::{Effect, Target};
+use crate::app::room::Room;
+use crate::app::shared::Shared;
+use crate::history_scene::{HistoryScene, HistoryText, NoPicture};
+use crate::keymap::Context;
+use crate::layout::raster;
+use crate::msg::{Effect, Target};
+use render::{Frames, Job, Settings};
+use scene::{Camera, Filter, Integrator, Rendering};
 
 /// Samples per pixel of the pictures in rows and of the large one.
 const WHITTED_SAMPLES: [u32; 2] = [4, 16];

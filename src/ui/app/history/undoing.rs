@@ -1,8 +1,8 @@
 //! Undoing and redoing steps.
 
-use crate::text::Span;
-use crate::ui::app::{Shared, files, text};
-use crate::ui::msg::Effect;
+use crate::app::{Shared, files, text};
+use crate::msg::Effect;
+use ::text::Span;
 
 /// Undoes a step, and says which.
 pub(crate) fn undo(shared: &mut Shared) -> Vec<Effect> {

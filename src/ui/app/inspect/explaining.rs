@@ -3,17 +3,17 @@
 use ratatui::layout::Rect;
 
 use super::inspecting::{cross, free_side, node_under_cross, pick_node, reveal_cross, start};
-use crate::explain::{Subject, verdicts};
-use crate::language::Node;
-use crate::render::{Explanation, NO_OBJECT, RayEnd};
-use crate::ui::app::shared::cursor::moved;
-use crate::ui::app::shared::inspection::{Cross, Explained};
-use crate::ui::app::shared::rays::{self, RayLine, RayPart, Segment};
-use crate::ui::app::{Fold, Shared, display};
-use crate::ui::keymap::{Context, Mode};
-use crate::ui::layout;
-use crate::ui::msg::{Effect, Question};
-use crate::ui::text_width::{shorten, wrap};
+use crate::app::shared::cursor::moved;
+use crate::app::shared::inspection::{Cross, Explained};
+use crate::app::shared::rays::{self, RayLine, RayPart, Segment};
+use crate::app::{Fold, Shared, display};
+use crate::keymap::{Context, Mode};
+use crate::layout;
+use crate::msg::{Effect, Question};
+use crate::text_width::{shorten, wrap};
+use explain::{Subject, verdicts};
+use language::Node;
+use render::{Explanation, NO_OBJECT, RayEnd};
 
 /// Most lines of the verdict.
 const VERDICT: u16 = 3;

@@ -1,12 +1,12 @@
 //! Inspecting: a cross over the picture, and what is under it.
 
-use crate::language::Node;
-use crate::scene::Size;
-use crate::text::{Position, Severity};
-use crate::ui::app::shared::inspection::Cross;
-use crate::ui::app::{Shared, display};
-use crate::ui::keymap::Mode;
-use crate::ui::layout::Side;
+use crate::app::shared::inspection::Cross;
+use crate::app::{Shared, display};
+use crate::keymap::Mode;
+use crate::layout::Side;
+use language::Node;
+use scene::Size;
+use text::{Position, Severity};
 
 /// Starts inspecting where the cross was last if that is on screen, otherwise in the middle.
 pub(crate) fn start(shared: &mut Shared) {

@@ -7,9 +7,9 @@ use super::explaining::{
     solo_explained, start_explaining,
 };
 use super::inspecting::{move_cross, select_crossed, start};
-use crate::ui::app::Fold;
-use crate::ui::app::room::Row;
-use crate::ui::keymap::{Context, Key, Mode, Scope, c, key, shift};
+use crate::app::Fold;
+use crate::app::room::Row;
+use crate::keymap::{Context, Key, Mode, Scope, c, key, shift};
 
 use Context::In;
 use KeyCode::{Down, Enter, Left, Right, Up};

@@ -1,11 +1,11 @@
 //! What the picture shows at a pixel.
 
 use super::inspecting::{cross, line_of, node_at};
-use crate::language::Node;
-use crate::render::{Aov, FirstHit};
-use crate::scene::Size;
-use crate::ui::app::Shared;
-use crate::ui::msg::Target;
+use crate::app::Shared;
+use crate::msg::Target;
+use language::Node;
+use render::{Aov, FirstHit};
+use scene::Size;
 
 /// What is known of a pixel of the picture on screen.
 #[derive(Clone, Debug, PartialEq)]

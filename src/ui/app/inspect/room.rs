@@ -2,10 +2,10 @@
 
 use super::explaining::{click_ray, follow, ray_panels, scroll_rays};
 use super::inspecting::place_cross;
-use crate::ui::app::room::Room;
-use crate::ui::app::{Shared, display};
-use crate::ui::keymap::{Context, Mode};
-use crate::ui::msg::Effect;
+use crate::app::room::Room;
+use crate::app::{Shared, display};
+use crate::keymap::{Context, Mode};
+use crate::msg::Effect;
 
 /// INSPECT. It has no state of its own: the editor opens at what it looks at, and the status line names that.
 #[derive(Debug, Default)]

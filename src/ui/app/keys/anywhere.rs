@@ -2,13 +2,13 @@
 
 use crossterm::event::KeyCode;
 
-use crate::ui::app::room::Row;
-use crate::ui::app::shared::Border;
-use crate::ui::app::{
+use crate::app::room::Row;
+use crate::app::shared::Border;
+use crate::app::{
     Page, back, display, exports, files, history, list, panels, suggesting, text, trace,
 };
-use crate::ui::keymap::{Context, Key, Mode, Scope, alt, c, ctrl, key};
-use crate::ui::msg::Effect;
+use crate::keymap::{Context, Key, Mode, Scope, alt, c, ctrl, key};
+use crate::msg::Effect;
 
 use Context::In;
 use KeyCode::{Char, Esc, F};

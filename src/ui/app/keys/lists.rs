@@ -2,9 +2,9 @@
 
 use crossterm::event::KeyCode;
 
-use crate::ui::app::list;
-use crate::ui::app::room::Row;
-use crate::ui::keymap::{Context, Key, Mode, Scope, c, key};
+use crate::app::list;
+use crate::app::room::Row;
+use crate::keymap::{Context, Key, Mode, Scope, c, key};
 
 use Context::In;
 use KeyCode::{Down, End, Enter, Home, PageDown, PageUp, Up};

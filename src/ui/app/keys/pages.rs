@@ -2,8 +2,8 @@
 
 use crossterm::event::KeyCode;
 
-use crate::ui::app::room::Row;
-use crate::ui::keymap::{Context, Key, Scope, c, key};
+use crate::app::room::Row;
+use crate::keymap::{Context, Key, Scope, c, key};
 
 use KeyCode::Esc;
 use Scope::These;

@@ -2,10 +2,10 @@
 
 use crossterm::event::KeyCode;
 
-use crate::ui::app::room::Row;
-use crate::ui::app::{Shared, Whose, exports, files, select};
-use crate::ui::keymap::{Context, Key, Scope, c, key};
-use crate::ui::msg::Existing;
+use crate::app::room::Row;
+use crate::app::{Shared, Whose, exports, files, select};
+use crate::keymap::{Context, Key, Scope, c, key};
+use crate::msg::Existing;
 
 use KeyCode::{Enter, Esc};
 use Scope::These;

@@ -1,7 +1,7 @@
 //! The rows of keys against each other.
 
 use super::*;
-use crate::ui::keymap::{Section, refusal};
+use crate::keymap::{Section, refusal};
 
 #[test]
 fn no_key_has_two_meanings_in_one_context() {

@@ -3,8 +3,8 @@
 use std::ops::Range;
 
 use super::frame_window::{Extent, FrameWindow, Marked, Reason, Window};
-use crate::render::{Frame, NO_OBJECT, Region};
-use crate::scene::Size;
+use render::{Frame, NO_OBJECT, Region};
+use scene::Size;
 
 /// Pixels as shown on screen.
 #[derive(Clone, Debug, PartialEq, Eq)]

@@ -3,8 +3,8 @@
 use std::borrow::Cow;
 use std::ops::Range;
 
-use crate::render::{Display, Frame, Region};
-use crate::scene::Size;
+use render::{Display, Frame, Region};
+use scene::Size;
 
 /// How a picture is mapped to the screen.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

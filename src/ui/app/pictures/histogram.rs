@@ -2,7 +2,7 @@
 
 use std::sync::Weak;
 
-use crate::render::{Frame, Histogram};
+use render::{Frame, Histogram};
 
 /// A histogram on screen.
 #[derive(Debug, Default)]

@@ -23,11 +23,11 @@ use solo::Solo;
 use until::Until;
 use wireframe::ShownWireframe;
 
-use crate::document::StateId;
-use crate::render::{Aov, Display, Frame, Region};
-use crate::scene::{Camera, Integrator, Rendering, Scene, Size};
-use crate::ui::keymap::Mode;
-use crate::ui::msg::Target;
+use crate::keymap::Mode;
+use crate::msg::Target;
+use document::StateId;
+use render::{Aov, Display, Frame, Region};
+use scene::{Camera, Integrator, Rendering, Scene, Size};
 
 /// The pictures on screen, what they show and how: the preview, the full-size trace, and what is compared.
 #[derive(Debug, Default)]

@@ -7,8 +7,8 @@ use std::sync::Arc;
 use super::cell_image::{CellImage, Layer, border};
 use super::frame_window::{FrameWindow, Reason};
 use super::viewport::Viewport;
-use crate::render::{Frame, NO_OBJECT, Progress, Region};
-use crate::scene::Size;
+use render::{Frame, NO_OBJECT, Progress, Region};
+use scene::Size;
 
 /// Mean cost of sending one changed cell to the terminal, in bytes.
 const BYTES_PER_CELL: usize = 24;
@@ -257,7 +257,7 @@ mod tests {
     use std::time::Duration;
 
     use super::*;
-    use crate::render::Overexposure;
+    use render::Overexposure;
 
     const GREY: [u8; 3] = [100; 3];
 

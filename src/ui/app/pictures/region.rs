@@ -1,6 +1,6 @@
 //! A region of the full-size trace as it is drawn or typed.
 
-use crate::render::Region;
+use render::Region;
 
 /// What is to become of the region.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -1,7 +1,7 @@
 //! Render settings that were written into the text, and what took precedence over them.
 
-use crate::document::StateId;
-use crate::scene::{RenderKey, Rendering};
+use document::StateId;
+use scene::{RenderKey, Rendering};
 
 /// A setting that was written into the text.
 #[derive(Clone, Copy, Debug)]

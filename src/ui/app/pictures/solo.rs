@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use crate::language::Nodes;
+use language::Nodes;
 
 /// What the preview shows alone. Without lights, or without objects, it shows all of them.
 #[derive(Clone, Debug, PartialEq, Eq)]

@@ -3,9 +3,9 @@
 use std::fmt;
 use std::time::Duration;
 
-use crate::render::Limit;
-use crate::scene::MAX_SPP;
-use crate::text::{parse_duration, rounded};
+use render::Limit;
+use scene::MAX_SPP;
+use text::{parse_duration, rounded};
 
 /// When the full-size trace is complete.
 #[derive(Clone, Copy, Debug, PartialEq)]

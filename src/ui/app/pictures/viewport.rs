@@ -1,8 +1,8 @@
 //! Zoom and pan: which part of a picture is on screen.
 
 use super::frame_window::{Grid, Window};
-use crate::render::Region;
-use crate::scene::Size;
+use render::Region;
+use scene::Size;
 
 /// The strongest enlargement: 64 pixels on screen for one of the picture.
 const NEAREST: i8 = 6;

@@ -2,8 +2,8 @@
 
 use std::sync::Arc;
 
-use crate::render::{Wireframe, wireframe};
-use crate::scene::{Camera, Scene, Size};
+use render::{Wireframe, wireframe};
+use scene::{Camera, Scene, Size};
 
 /// The wireframe of the newest scene.
 #[derive(Debug, Default)]

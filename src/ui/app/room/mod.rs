@@ -2,8 +2,8 @@
 
 mod row;
 
-use crate::ui::app::shared::Shared;
-use crate::ui::msg::Effect;
+use crate::app::shared::Shared;
+use crate::msg::Effect;
 
 /// The state of a mode or a page. A step sees that state and what all modes share, and no other mode.
 pub(crate) trait Room: Default {

@@ -1,8 +1,8 @@
 //! A row of keys: what they do, and whether they would do something now.
 
-use crate::ui::app::Shared;
-use crate::ui::keymap::Key;
-use crate::ui::msg::Effect;
+use crate::app::Shared;
+use crate::keymap::Key;
+use crate::msg::Effect;
 
 /// A row of keys. Its step sees what all modes share and, in the rows of a room, the room's state `S`.
 pub(crate) struct Row<S = ()> {

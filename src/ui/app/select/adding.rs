@@ -5,12 +5,12 @@ use std::path::Path;
 use glam::DVec3;
 
 use super::structure::{place, restructure};
-use crate::language::{Node, Wish};
-use crate::render::{clearance, pixel_width, surface_under};
-use crate::ui::app::shared::inspection::Cross;
-use crate::ui::app::shared::menu::{Entry, Menu, Purpose};
-use crate::ui::app::{Shared, Tool, inspect, transform};
-use crate::ui::keymap::Mode;
+use crate::app::shared::inspection::Cross;
+use crate::app::shared::menu::{Entry, Menu, Purpose};
+use crate::app::{Shared, Tool, inspect, transform};
+use crate::keymap::Mode;
+use language::{Node, Wish};
+use render::{clearance, pixel_width, surface_under};
 
 /// The fraction of the picture's height that a new thing takes up.
 const SHARE: f64 = 0.2;

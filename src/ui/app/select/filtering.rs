@@ -5,10 +5,10 @@ use std::collections::BTreeSet;
 
 use crossterm::event::KeyEvent;
 
-use crate::language::Node;
-use crate::ui::app::shared::line;
-use crate::ui::app::shared::rows::foldable;
-use crate::ui::app::{Fold, PromptKind, Shared};
+use crate::app::shared::line;
+use crate::app::shared::rows::foldable;
+use crate::app::{Fold, PromptKind, Shared};
+use language::Node;
 
 /// Opens the line that filters the list; it contains the present filter.
 pub(super) fn start_filter(shared: &mut Shared) {

@@ -7,10 +7,10 @@ use super::filtering::{cycle, fold, search, start_filter};
 use super::structure::{
     copy, delete, duplicate, insert_copied, reorder, start_renaming, toggle_mark, toggle_visibility,
 };
-use crate::language::Neighbour;
-use crate::ui::app::room::Row;
-use crate::ui::app::{Fold, display, exports};
-use crate::ui::keymap::{Context, Key, Mode, Scope, c, key, shift};
+use crate::app::room::Row;
+use crate::app::{Fold, display, exports};
+use crate::keymap::{Context, Key, Mode, Scope, c, key, shift};
+use language::Neighbour;
 
 use Context::In;
 use KeyCode::{BackTab, Enter, Left, Right, Tab};

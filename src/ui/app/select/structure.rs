@@ -1,12 +1,12 @@
 //! Changing the structure of the scene: deleting, duplicating, reordering, copying, pasting, naming
 //! and marking things. Each change is one edit of the text and one undo step.
 
-use crate::document::StepName;
-use crate::language::{Neighbour, Node, Placement, StructureError, Visibility};
-use crate::text::{Edit, counted};
+use ::text::{Edit, counted};
+use document::StepName;
+use language::{Neighbour, Node, Placement, StructureError, Visibility};
 
-use crate::ui::app::{Dialog, PromptKind, Question, Shared, text};
-use crate::ui::msg::Effect;
+use crate::app::{Dialog, PromptKind, Question, Shared, text};
+use crate::msg::Effect;
 
 /// Marks the selected node, or takes its mark away, and goes on to the next row.
 pub(super) fn toggle_mark(shared: &mut Shared) {

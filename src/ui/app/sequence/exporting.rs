@@ -5,16 +5,16 @@ use std::path::Path;
 
 use super::playing::how_to_key;
 use super::state::Sequence;
-use crate::image_file::{DEFAULT_RATE, ImageFormat};
-use crate::scene::Size;
-use crate::ui::app::exports::ExportOrder;
-use crate::ui::app::refusing::Refusable;
-use crate::ui::app::shared::Shared;
-use crate::ui::app::shared::jobs::{Asking, ExportWork};
-use crate::ui::app::{exports, text};
-use crate::ui::keymap::{Context, Mode};
-use crate::ui::msg::{Destination, Effect, ExportId};
-use crate::ui::reel::{Reel, ReelForm, ReelProgress, Shot};
+use crate::app::exports::ExportOrder;
+use crate::app::refusing::Refusable;
+use crate::app::shared::Shared;
+use crate::app::shared::jobs::{Asking, ExportWork};
+use crate::app::{exports, text};
+use crate::keymap::{Context, Mode};
+use crate::msg::{Destination, Effect, ExportId};
+use crate::reel::{Reel, ReelForm, ReelProgress, Shot};
+use image_file::{DEFAULT_RATE, ImageFormat};
+use scene::Size;
 
 /// Exports to the scene's folder under the scene's name; asks if another program has written that file.
 pub(super) fn export_default(sequence: &mut Sequence, shared: &mut Shared) -> Vec<Effect> {

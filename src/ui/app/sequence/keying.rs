@@ -5,12 +5,12 @@ use std::sync::Arc;
 
 use super::playing::{bind, has_sound_scene, reread};
 use super::state::{Sequence, complaint};
-use crate::text::apply;
-use crate::track::{self, Keyed, Track};
-use crate::ui::app::refusing::Refusable;
-use crate::ui::app::shared::Shared;
-use crate::ui::app::text;
-use crate::ui::msg::{Effect, Guard, SaveOutcome};
+use crate::app::refusing::Refusable;
+use crate::app::shared::Shared;
+use crate::app::text;
+use crate::msg::{Effect, Guard, SaveOutcome};
+use ::text::apply;
+use track::{Keyed, Track};
 
 /// Keys the present value at the frame looked at last: in EDIT the field's, in VIEW the camera's.
 pub(super) fn key_value(sequence: &mut Sequence, shared: &mut Shared) -> Vec<Effect> {

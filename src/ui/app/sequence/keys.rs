@@ -8,9 +8,9 @@ use super::playing::{
     accept, go_to_next_key, go_to_previous_key, keep_and_go, open_track, step_frames, toggle,
 };
 use super::state::Sequence;
-use crate::ui::app::room::Row;
-use crate::ui::app::{exports, text};
-use crate::ui::keymap::{Context, Key, Mode, Scope, c, key, shift};
+use crate::app::room::Row;
+use crate::app::{exports, text};
+use crate::keymap::{Context, Key, Mode, Scope, c, key, shift};
 
 use Context::In;
 use KeyCode::{End, Enter, Esc, Home, Left, Right};

@@ -3,7 +3,7 @@
 //! Each frame is tried in the text of the scene as a [transient edit][edit], so that it is a scene like any
 //! other.
 //!
-//! [edit]: crate::ui::app::shared::live_edit::TransientEdit
+//! [edit]: crate::app::shared::live_edit::TransientEdit
 
 mod dope_sheet;
 mod exporting;

@@ -5,16 +5,16 @@ use std::sync::Arc;
 
 use super::dope_sheet::DopeSheet;
 use super::state::{OpenTrack, Sequence, complaint};
-use crate::document::StepName;
-use crate::file::ReadError;
-use crate::text::Severity;
-use crate::track::{self, Bound, Track};
-use crate::ui::app::shared::Shared;
-use crate::ui::app::shared::messages::About;
-use crate::ui::app::{files, text};
-use crate::ui::keymap::Mode;
-use crate::ui::msg::{Effect, Timer};
-use crate::ui::text_width::file_name;
+use crate::app::shared::Shared;
+use crate::app::shared::messages::About;
+use crate::app::{files, text};
+use crate::keymap::Mode;
+use crate::msg::{Effect, Timer};
+use crate::text_width::file_name;
+use ::text::Severity;
+use document::StepName;
+use file::ReadError;
+use track::{Bound, Track};
 
 /// Reads a track to play: this one, the open one, or that beside the scene.
 pub(crate) fn open_track(

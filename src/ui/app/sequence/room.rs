@@ -1,11 +1,11 @@
 //! How SEQUENCE reacts to steps, presses and drags.
 
 use super::{Sequence, playing};
-use crate::ui::app::room::Room;
-use crate::ui::app::shared::Shared;
-use crate::ui::app::text;
-use crate::ui::keymap::Mode;
-use crate::ui::msg::Effect;
+use crate::app::room::Room;
+use crate::app::shared::Shared;
+use crate::app::text;
+use crate::keymap::Mode;
+use crate::msg::Effect;
 
 impl Room for Sequence {
     /// Keeps a frame in the text while the mode lasts, except under a question and while the scene's

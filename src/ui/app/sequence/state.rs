@@ -4,9 +4,9 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::Duration;
 
-use crate::text::{Findings, Position};
-use crate::track::{Bound, Track};
-use crate::ui::text_width::file_name;
+use crate::text_width::file_name;
+use text::{Findings, Position};
+use track::{Bound, Track};
 
 /// Frames per second of a track that does not say how many.
 const RATE: u32 = 24;

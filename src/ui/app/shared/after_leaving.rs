@@ -2,8 +2,8 @@
 
 use std::path::PathBuf;
 
-use crate::language::Language;
-use crate::ui::text_width::file_name;
+use crate::text_width::file_name;
+use language::Language;
 
 /// What follows once the scene is left.
 #[derive(Clone, Debug, PartialEq, Eq)]

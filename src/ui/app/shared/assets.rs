@@ -4,11 +4,11 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use crate::assets::{self, Loaded, Wanted};
-use crate::language::Source;
-use crate::text::{Findings, counted};
-use crate::ui::history_scene::KnownFiles;
-use crate::ui::msg::Effect;
+use crate::history_scene::KnownFiles;
+use crate::msg::Effect;
+use assets::{Loaded, Wanted};
+use language::Source;
+use text::{Findings, counted};
 
 /// The state of the files that the scene names.
 #[derive(Debug, Default)]

@@ -8,10 +8,10 @@ use tui_input::Input;
 
 use super::live_edit::LiveEdit;
 use super::rows::Rows;
-use crate::language::{Node, Nodes, Placed, Source};
-use crate::text::{Diagnostic, Edit, Span};
-use crate::ui::arrange::Areas;
-use crate::ui::layout;
+use crate::arrange::Areas;
+use crate::layout;
+use language::{Node, Nodes, Placed, Source};
+use text::{Diagnostic, Edit, Span};
 
 /// The maximum number of parts listed for a combined object.
 const MAX_PARTS: usize = 32;

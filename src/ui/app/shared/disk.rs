@@ -5,12 +5,12 @@ use std::sync::Arc;
 use std::time::Duration;
 
 use super::journal::Journal;
-use crate::file::ReadError;
-use crate::scene::Camera;
-use crate::text::Findings;
-use crate::ui::msg::{Effect, Timer};
-use crate::ui::scene_reading::{Baseline, SceneFolder};
-use crate::ui::text_width::file_name;
+use crate::msg::{Effect, Timer};
+use crate::scene_reading::{Baseline, SceneFolder};
+use crate::text_width::file_name;
+use file::ReadError;
+use scene::Camera;
+use text::Findings;
 
 /// The scene's file, and the state of reading it.
 #[derive(Debug, Default)]

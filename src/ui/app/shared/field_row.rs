@@ -1,11 +1,11 @@
 //! The fields of the selected node as they are shown.
 
 use super::Shared;
-use crate::language::Node;
-use crate::language::table::Field;
-use crate::scene::{Camera, Rgb};
-use crate::text::Diagnostic;
-use crate::ui::app::values::colours;
+use crate::app::values::colours;
+use language::Node;
+use language::table::Field;
+use scene::{Camera, Rgb};
+use text::Diagnostic;
 
 impl Shared {
     /// The fields of the selected node as shown.

@@ -2,10 +2,10 @@
 
 use std::collections::BTreeSet;
 
-use crate::render::Explanation;
-use crate::scene::Size;
-use crate::ui::keymap::Mode;
-use crate::ui::msg::{Question, Target};
+use crate::keymap::Mode;
+use crate::msg::{Question, Target};
+use render::Explanation;
+use scene::Size;
 
 /// The state of INSPECT mode.
 #[derive(Debug, Default)]

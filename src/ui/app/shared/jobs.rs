@@ -7,14 +7,12 @@ use std::sync::Arc;
 use std::time::Duration;
 
 use super::after_leaving::AfterLeaving;
-use crate::file::Version;
-use crate::render::{Aov, Frame, Job, Progress};
-use crate::scene::Size;
-use crate::text::counted;
-use crate::ui::msg::{
-    Destination, Effect, Existing, ExportId, Exported, Guard, SaveId, Target, Timer,
-};
-use crate::ui::reel::{Reel, ReelForm, ReelProgress};
+use crate::msg::{Destination, Effect, Existing, ExportId, Exported, Guard, SaveId, Target, Timer};
+use crate::reel::{Reel, ReelForm, ReelProgress};
+use file::Version;
+use render::{Aov, Frame, Job, Progress};
+use scene::Size;
+use text::counted;
 
 /// Interval between checks of unfinished writes.
 const TICK: Duration = Duration::from_secs(1);

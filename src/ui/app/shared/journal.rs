@@ -3,10 +3,10 @@
 use std::path::PathBuf;
 use std::time::Duration;
 
-use crate::document::Document;
-use crate::text::without_codes;
-use crate::ui::msg::{Effect, Timer};
-use crate::ui::recovery::{Claim, Found, Offer, Sought};
+use crate::msg::{Effect, Timer};
+use crate::recovery::{Claim, Found, Offer, Sought};
+use document::Document;
+use text::without_codes;
 
 /// The time until an edit is kept, and the interval of writes while a key is held.
 pub(crate) const KEPT_AFTER: Duration = Duration::from_secs(1);

@@ -3,9 +3,9 @@
 use std::collections::BTreeSet;
 use std::sync::Arc;
 
-use crate::language::{Before, Node};
-use crate::scene::Scene;
-use crate::text::{Edit, Findings};
+use language::{Before, Node};
+use scene::Scene;
+use text::{Edit, Findings};
 
 /// A change of the text that is being tried out: each attempt replaces the one before, so that the
 /// whole is one undo step.

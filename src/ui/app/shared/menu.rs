@@ -3,7 +3,7 @@
 
 use super::filter::Filter;
 use super::live_edit::LiveEdit;
-use crate::language::Node;
+use language::Node;
 
 /// A menu over the list.
 #[derive(Debug)]

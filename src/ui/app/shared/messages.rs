@@ -3,8 +3,8 @@
 use std::collections::{BTreeMap, VecDeque};
 use std::time::Duration;
 
-use crate::text::Severity;
-use crate::ui::msg::Polled;
+use crate::msg::Polled;
+use text::Severity;
 
 /// The number of messages remembered.
 const REMEMBERED: usize = 50;

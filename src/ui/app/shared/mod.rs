@@ -38,16 +38,16 @@ use palette::Palette;
 use suggestions::Suggestions;
 
 use super::pictures::Pictures;
-use crate::document::Document;
-use crate::language::Node;
-use crate::scene::Scene;
-use crate::text::{Findings, Severity};
-use crate::ui::arrange::{Areas, PanelSizes, Zoom};
-use crate::ui::keymap::{Keymap, Mode};
-use crate::ui::msg::Polled;
-use crate::ui::pixels::Pixels;
-use crate::ui::terminal::Mouse;
-use crate::ui::theme::Theme;
+use crate::arrange::{Areas, PanelSizes, Zoom};
+use crate::keymap::{Keymap, Mode};
+use crate::msg::Polled;
+use crate::pixels::Pixels;
+use crate::terminal::Mouse;
+use crate::theme::Theme;
+use document::Document;
+use language::Node;
+use scene::Scene;
+use text::{Findings, Severity};
 
 /// A border that can be dragged.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

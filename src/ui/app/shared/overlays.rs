@@ -11,11 +11,11 @@ use super::menu::Menu;
 use super::messages::{About, Lasts, Message, Messages};
 use super::page::{Page, PageFocus};
 use super::picker::ColourPicker;
-use crate::document::{Merge, Side};
-use crate::language::Node;
-use crate::text::{Severity, without_codes};
-use crate::ui::keymap::Context;
-use crate::ui::recovery::{Claim, Offer, Since};
+use crate::keymap::Context;
+use crate::recovery::{Claim, Offer, Since};
+use document::{Merge, Side};
+use language::Node;
+use text::{Severity, without_codes};
 
 /// What overlays the panels.
 #[derive(Debug, Default)]

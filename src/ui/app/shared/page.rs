@@ -3,7 +3,7 @@
 //! room.
 
 use super::filter::Filter;
-use crate::ui::keymap::Context;
+use crate::keymap::Context;
 
 /// A page over the screen.
 #[derive(Debug)]

@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use crate::ui::keymap::{Mode, RowId};
+use crate::keymap::{Mode, RowId};
 
 /// The number of command lines remembered.
 const REMEMBERED: usize = 100;

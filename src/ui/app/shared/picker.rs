@@ -1,9 +1,9 @@
 //! The state of the colour picker: hue, saturation and value of a field, and the colours of the scene.
 
 use super::live_edit::LiveEdit;
-use crate::scene::Rgb;
-use crate::text::rounded;
-use crate::ui::app::values::hsv::Hsv;
+use crate::app::values::hsv::Hsv;
+use scene::Rgb;
+use text::rounded;
 
 /// Degrees of one step of the hue.
 const HUE: f64 = 2.0;

@@ -4,8 +4,8 @@ use std::collections::BTreeSet;
 
 use glam::DVec3;
 
-use crate::render::{EmitterTerm, Explanation, LightTerm, RayEnd, TracedRay};
-use crate::scene::Rgb;
+use render::{EmitterTerm, Explanation, LightTerm, RayEnd, TracedRay};
+use scene::Rgb;
 
 /// How far rays that hit nothing are drawn, relative to the distance of their start from the eye.
 const FAR: f64 = 100.0;

@@ -2,8 +2,8 @@
 
 use std::collections::{BTreeSet, HashMap};
 
-use crate::language::{Node, Source};
-use crate::ui::listing::Listing;
+use crate::listing::Listing;
+use language::{Node, Source};
 
 /// Which groups are folded.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -1,8 +1,8 @@
 //! The render setting suggested for a picture.
 
-use crate::language::Prospect;
-use crate::render::{Frame, Progress, Trials};
-use crate::scene::{RenderKey, Rendering};
+use language::Prospect;
+use render::{Frame, Progress, Trials};
+use scene::{RenderKey, Rendering};
 
 /// A render setting and its value.
 pub(crate) type Suggestion = (RenderKey, String);

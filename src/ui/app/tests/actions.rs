@@ -12,9 +12,9 @@ mod xml;
 
 use super::scripts::scene;
 use super::*;
-use crate::language::Node;
-use crate::ui::app::command;
-use crate::ui::keymap::Keymap;
+use crate::app::command;
+use crate::keymap::Keymap;
+use language::Node;
 
 const LANGUAGES: [(&str, &str, &str, &str); 3] = [
     ("scene.ray", ray::TEXT, ray::NAMES, ray::ROWS),

@@ -2,10 +2,10 @@
 
 use super::scripts::{Stage, ray, scripts};
 use super::*;
-use crate::compare::Comparison;
-use crate::render::{Frame, Frames};
-use crate::scene::{Image, Viewpoint};
-use crate::ui::reference::ReferenceId;
+use crate::reference::ReferenceId;
+use ::compare::Comparison;
+use render::{Frame, Frames};
+use scene::{Image, Viewpoint};
 
 /// The stage of a complete preview, whose first pixel has the grey 9.
 fn previewed<'s>() -> Stage<'s> {

@@ -2,8 +2,8 @@
 
 use super::scripts::{Stage, scene, scripts};
 use super::*;
-use crate::language::Node;
-use crate::ui::app::inspect;
+use crate::app::inspect;
+use language::Node;
 
 /// A mirror in front of the camera; a second sphere is seen in it and stands in the way of a light.
 const MIRROR: &str = "\

@@ -27,15 +27,15 @@ use std::time::Duration;
 
 use crossterm::event::{KeyCode, KeyEvent, KeyModifiers};
 
-use crate::file::Version;
-use crate::language::Language;
-use crate::render::{Frame, Job, Overexposure, Progress};
-use crate::scene::{Rendering, Size};
-use crate::ui::app::*;
-use crate::ui::keymap::{self, Mode};
-use crate::ui::msg::{Effect, ExportId, Exported, Msg, Target};
-use crate::ui::scene_reading::Reading;
-use crate::ui::terminal::Mouse;
+use crate::app::*;
+use crate::keymap::{self, Mode};
+use crate::msg::{Effect, ExportId, Exported, Msg, Target};
+use crate::scene_reading::Reading;
+use crate::terminal::Mouse;
+use file::Version;
+use language::Language;
+use render::{Frame, Job, Overexposure, Progress};
+use scene::{Rendering, Size};
 
 /// Two spheres, far apart, without a view comment.
 const SCENE: &str = "\

@@ -2,7 +2,7 @@
 
 use super::scripts::{ray, scripts};
 use super::*;
-use crate::ui::app::command;
+use crate::app::command;
 
 scripts! {
     commands_and_actions_are_offered_by_name_and_description: ray().table("{1} | completed …{2} [{3}]; …", r"

@@ -1,8 +1,8 @@
 //! Keys that the user has bound.
 
 use super::scripts::{Stage, ray, scripts};
-use crate::ui::app::command;
-use crate::ui::keymap::HelpLine;
+use crate::app::command;
+use crate::keymap::HelpLine;
 
 /// The stage with other keys for undoing, and none for what `u` did.
 fn rebound<'s>() -> Stage<'s> {

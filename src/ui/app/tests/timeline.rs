@@ -4,10 +4,10 @@ use std::collections::BTreeMap;
 
 use super::scripts::{Session, ray, scene, scripts};
 use super::*;
-use crate::document::StateId;
-use crate::text::{Edit, Span};
-use crate::ui::app::{history, text};
-use crate::ui::history_scene::NoPicture;
+use crate::app::{history, text};
+use crate::history_scene::NoPicture;
+use ::text::{Edit, Span};
+use document::StateId;
 
 /// A text on a terminal with colours.
 fn coloured(text: &str) -> Session {

@@ -2,7 +2,7 @@
 
 use super::scripts::{Stage, scene, scripts};
 use super::*;
-use crate::ui::app::{Provenance, display};
+use crate::app::{Provenance, display};
 
 const SCENE: &str = r#"<xml>
   <scene>

@@ -1,11 +1,11 @@
 //! Setting fields: of the selected and the marked nodes in the text, and of the working view.
 
 use super::edit::try_edits;
-use crate::language::{Node, Placed};
-use crate::scene::Camera;
-use crate::text::{Diagnostic, Edit, Span};
-use crate::ui::app::Shared;
-use crate::ui::app::values::typed::Values;
+use crate::app::Shared;
+use crate::app::values::typed::Values;
+use language::{Node, Placed};
+use scene::Camera;
+use text::{Diagnostic, Edit, Span};
 
 /// A field, its index among those of the selected node, and the components to set.
 type Wanted<'a> = (usize, &'a Placed, &'a Values);

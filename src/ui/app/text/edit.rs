@@ -1,15 +1,15 @@
 //! Edits of the text: those that cause errors are refused, and the others give the scene its new meaning.
 
 use super::naming::{name_of_change, name_of_value};
-use crate::assets::{Loaded, Wanted};
-use crate::document::StepName;
-use crate::language::{Lowered, Node, Outlook, outlook};
-use crate::text::{Diagnostic, Edit, Findings, Severity, Span, parse_number};
-use crate::ui::app::shared::assets::Notice;
-use crate::ui::app::shared::cursor::Names;
-use crate::ui::app::shared::live_edit::Meaning;
-use crate::ui::app::shared::messages::About;
-use crate::ui::app::{Shared, display};
+use crate::app::shared::assets::Notice;
+use crate::app::shared::cursor::Names;
+use crate::app::shared::live_edit::Meaning;
+use crate::app::shared::messages::About;
+use crate::app::{Shared, display};
+use assets::{Loaded, Wanted};
+use document::StepName;
+use language::{Lowered, Node, Outlook, outlook};
+use text::{Diagnostic, Edit, Findings, Severity, Span, parse_number};
 
 /// Takes files of the scene that were read.
 pub(crate) fn assets_read(shared: &mut Shared, wanted: &Wanted, loaded: Loaded) {

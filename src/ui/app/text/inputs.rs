@@ -4,8 +4,8 @@
 use std::sync::Arc;
 
 use super::edit::relower;
-use crate::document::Adopted;
-use crate::ui::app::{MergeSource, OnDisk, Shared};
+use crate::app::{MergeSource, OnDisk, Shared};
+use document::Adopted;
 
 /// Records the saved text before one was taken from the file, if an input is open.
 pub(crate) fn note_before_input(shared: &mut Shared, saved: Arc<String>) {

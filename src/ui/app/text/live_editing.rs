@@ -1,11 +1,11 @@
 //! Trying out changes of the text.
 
 use super::edit::{install, lowered_after, try_edits, try_edits_after};
-use crate::document::{Document, Merged};
-use crate::text::Edit;
-use crate::ui::app::Shared;
-use crate::ui::app::shared::cursor::Names;
-use crate::ui::app::shared::live_edit::{LiveEdit, TakenBack};
+use crate::app::Shared;
+use crate::app::shared::cursor::Names;
+use crate::app::shared::live_edit::{LiveEdit, TakenBack};
+use document::{Document, Merged};
+use text::Edit;
 
 /// Begins to try out changes of the present text.
 pub(crate) fn begin_live_edit(shared: &mut Shared) -> LiveEdit {

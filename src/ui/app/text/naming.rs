@@ -2,10 +2,10 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use crate::document::StepName;
-use crate::language::{Node, Placed, Source};
-use crate::text::{Edit, Position, Span, counted};
-use crate::ui::app::Shared;
+use crate::app::Shared;
+use document::StepName;
+use language::{Node, Placed, Source};
+use text::{Edit, Position, Span, counted};
 
 /// The number of edits that are looked at; more are only counted, as that takes long.
 const MOST_READ: usize = 64;
@@ -233,8 +233,8 @@ mod tests {
     use super::*;
     use std::sync::Arc;
 
-    use crate::language::Language;
-    use crate::scene::Meshes;
+    use language::Language;
+    use scene::Meshes;
 
     #[test]
     fn places_are_named_after_their_nodes() {

@@ -2,12 +2,12 @@
 //! dropped then, so that the text counts, and brought back by undo.
 
 use super::edit::{judge_text, make_step, try_step};
-use crate::document::StepName;
-use crate::language::Node;
-use crate::scene::{Camera, RenderKey, Rendering, Size};
-use crate::text::{Severity, Span};
-use crate::ui::app::Shared;
-use crate::ui::app::pictures::saved_setting::SavedSetting;
+use crate::app::Shared;
+use crate::app::pictures::saved_setting::SavedSetting;
+use document::StepName;
+use language::Node;
+use scene::{Camera, RenderKey, Rendering, Size};
+use text::{Severity, Span};
 
 /// What to set a render setting to.
 #[derive(Clone, Debug, PartialEq, Eq)]

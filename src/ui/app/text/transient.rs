@@ -1,9 +1,9 @@
 //! The transient edit: the frame that SEQUENCE shows in the text and takes back.
 
 use super::live_editing::{begin_live_edit, end_live_edit};
-use crate::ui::app::Shared;
-use crate::ui::app::shared::live_edit::TransientEdit;
-use crate::ui::keymap::Mode;
+use crate::app::Shared;
+use crate::app::shared::live_edit::TransientEdit;
+use crate::keymap::Mode;
 
 /// Begins an edit of the present text that will be reverted.
 pub(crate) fn begin_transient(shared: &mut Shared) -> TransientEdit {

@@ -4,9 +4,9 @@ use crossterm::event::KeyCode;
 
 use super::regions::{confirm_region, move_corner, start_region, swap_corners};
 use super::tracing::{stop, toggle_pause};
-use crate::ui::app::display;
-use crate::ui::app::room::Row;
-use crate::ui::keymap::{Context, Key, Mode, Scope, c, key, shift};
+use crate::app::display;
+use crate::app::room::Row;
+use crate::keymap::{Context, Key, Mode, Scope, c, key, shift};
 
 use Context::In;
 use KeyCode::{Down, Enter, Esc, Left, Right, Tab, Up};

@@ -1,12 +1,12 @@
 //! The region of the full-size trace: drawing it, and tracing it alone.
 
 use super::tracing::{enter, start};
-use crate::render::Region;
-use crate::ui::app::pictures::frame_window::Extent;
-use crate::ui::app::pictures::region::{Drawing, Held, RegionOrder};
-use crate::ui::app::refusing::Refusable;
-use crate::ui::app::{Shared, display};
-use crate::ui::msg::Effect;
+use crate::app::pictures::frame_window::Extent;
+use crate::app::pictures::region::{Drawing, Held, RegionOrder};
+use crate::app::refusing::Refusable;
+use crate::app::{Shared, display};
+use crate::msg::Effect;
+use render::Region;
 
 /// Traces the region that `:region` asks for, or says which it is.
 pub(crate) fn order_region(shared: &mut Shared, order: RegionOrder) -> Vec<Effect> {

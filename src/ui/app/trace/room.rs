@@ -1,11 +1,11 @@
 //! How TRACE reacts to presses and drags.
 
 use super::regions::{confirm_region, drag_region, press_region};
-use crate::ui::app::pictures::region::Held;
-use crate::ui::app::room::Room;
-use crate::ui::app::{Shared, display};
-use crate::ui::keymap::{Context, Mode};
-use crate::ui::msg::Effect;
+use crate::app::pictures::region::Held;
+use crate::app::room::Room;
+use crate::app::{Shared, display};
+use crate::keymap::{Context, Mode};
+use crate::msg::Effect;
 
 /// TRACE. It has no state of its own: the full-size trace continues in other modes.
 #[derive(Debug, Default)]

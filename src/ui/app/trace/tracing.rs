@@ -1,13 +1,13 @@
 //! Starting, pausing and stopping the full-size trace.
 
-use crate::image_file::ImageFormat;
-use crate::render::Job;
-use crate::text::Severity;
-use crate::ui::app::pictures::until::Until;
-use crate::ui::app::refusing::Refusable;
-use crate::ui::app::{Picture, Shared, display, exports};
-use crate::ui::keymap::Mode;
-use crate::ui::msg::{Effect, Recalled, Target};
+use crate::app::pictures::until::Until;
+use crate::app::refusing::Refusable;
+use crate::app::{Picture, Shared, display, exports};
+use crate::keymap::Mode;
+use crate::msg::{Effect, Recalled, Target};
+use image_file::ImageFormat;
+use render::Job;
+use text::Severity;
 
 /// Starts the full-size trace, or continues it after a stop or a pause.
 pub(crate) fn start(shared: &mut Shared) -> Vec<Effect> {

@@ -4,9 +4,9 @@ use crossterm::event::KeyCode;
 
 use super::state::{Moving, Tool};
 use super::transforming::{cancel, confirm, is_movable, lock_axis, start, step, toggle_snap};
-use crate::ui::app::Stride;
-use crate::ui::app::room::Row;
-use crate::ui::keymap::{Context, Key, Mode, Scope, c, key, shift};
+use crate::app::Stride;
+use crate::app::room::Row;
+use crate::keymap::{Context, Key, Mode, Scope, c, key, shift};
 
 use Context::In;
 use KeyCode::{Down, Enter, Esc, Left, Right, Up};

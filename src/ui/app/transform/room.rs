@@ -2,10 +2,10 @@
 
 use super::state::Moving;
 use super::transforming::drag;
-use crate::ui::app::room::Room;
-use crate::ui::app::shared::Shared;
-use crate::ui::keymap::Mode;
-use crate::ui::msg::Effect;
+use crate::app::room::Room;
+use crate::app::shared::Shared;
+use crate::keymap::Mode;
+use crate::msg::Effect;
 
 impl Room for Moving {
     fn press(&mut self, shared: &mut Shared, at: (u16, u16)) -> Option<Vec<Effect>> {

@@ -2,11 +2,11 @@
 
 use glam::DVec3;
 
-use crate::document::StepName;
-use crate::language::{Along, Motion, Node, Pose};
-use crate::scene::Camera;
-use crate::text::{decimals, rounded};
-use crate::ui::app::values::typed;
+use crate::app::values::typed;
+use document::StepName;
+use language::{Along, Motion, Node, Pose};
+use scene::Camera;
+use text::{decimals, rounded};
 
 /// The angle of one step, and of the grid of angles, in degrees.
 const ROTATION: [f64; 2] = [1.0, 15.0];

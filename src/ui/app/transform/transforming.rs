@@ -5,14 +5,14 @@ use crossterm::event::{KeyCode, KeyEvent};
 use glam::DVec3;
 
 use super::state::{Lock, Moving, Snap, Tool, Transform, decimals_of, round_up};
-use crate::language::{Along, Language, Motion, Node, Pose};
-use crate::render::{axes, pixel_width};
-use crate::scene::{Camera, Size};
-use crate::text::Edit;
-use crate::ui::app::refusing::Refusable;
-use crate::ui::app::shared::line;
-use crate::ui::app::{Shared, Stride, display, text};
-use crate::ui::keymap::{Mode, types_amount};
+use crate::app::refusing::Refusable;
+use crate::app::shared::line;
+use crate::app::{Shared, Stride, display, text};
+use crate::keymap::{Mode, types_amount};
+use ::text::Edit;
+use language::{Along, Language, Motion, Node, Pose};
+use render::{axes, pixel_width};
+use scene::{Camera, Size};
 
 /// Decimals with which a motion is tried.
 const TRIED_DECIMALS: usize = 9;

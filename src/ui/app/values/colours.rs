@@ -1,10 +1,10 @@
 //! The colours of fields.
 
 use super::literals::plain;
-use crate::language::table::Kind;
-use crate::language::{Placed, Source};
-use crate::scene::Rgb;
-use crate::text::parse_number;
+use language::table::Kind;
+use language::{Placed, Source};
+use scene::Rgb;
+use text::parse_number;
 
 /// The number of nodes whose colours are offered.
 const NODES: usize = 1000;

@@ -1,6 +1,6 @@
 //! Colours by hue, saturation and value.
 
-use crate::scene::Rgb;
+use scene::Rgb;
 
 /// A colour by its hue, saturation and value (Smith, "Color Gamut Transform Pairs", 1978).
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -81,7 +81,7 @@ mod tests {
     }
 
     proptest! {
-        #![proptest_config(crate::repeatable())]
+        #![proptest_config(repeatable::config())]
 
         #[test]
         fn colours_come_back(red in 0.0..3.0f64, green in 0.0..1.0f64, blue in 0.0..1.0f64) {

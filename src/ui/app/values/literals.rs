@@ -1,7 +1,7 @@
 //! Numbers and words as they are typed, pasted and nudged.
 
-use crate::language::table::{Kind, Range};
-use crate::text::{decimals, parse_number, rounded, spell_like, without_suffix};
+use language::table::{Kind, Range};
+use text::{decimals, parse_number, rounded, spell_like, without_suffix};
 
 /// Adds `change`, a multiple of `step`, to a literal and spells the sum like the literal. It has
 /// the decimals of the old number or of the step, whichever has more, so that no trace of binary

@@ -2,8 +2,8 @@
 
 use super::arithmetic::{Fault, evaluate, fault};
 use super::literals;
-use crate::language::table::{Field, Kind};
-use crate::text::{concise, counted, parse_number};
+use language::table::{Field, Kind};
+use text::{concise, counted, parse_number};
 
 /// Significant digits of a computed number: fewer than of an `f64`, so that no trace of binary
 /// fractions appears.
@@ -207,7 +207,7 @@ mod tests {
     fn set(kind: Kind, text: &str) -> String {
         let field = Field {
             kind,
-            ..crate::language::table::tests::POINT
+            ..Field::point("point", "A point.")
         };
         let present = ["1.50".to_owned(), "2".to_owned(), "3".to_owned()];
         match values(&field, (0, &present), text) {

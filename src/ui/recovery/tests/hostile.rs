@@ -155,7 +155,7 @@ fn a_journal_too_long_for_the_scene_is_not_read() {
 /// As on network file systems without a lock daemon.
 #[test]
 fn without_file_locks_no_journal_counts_as_left_behind() {
-    use crate::file::faults::{Fault, during};
+    use file::faults::{Fault, during};
     use rustix::io::Errno;
     for error in [Errno::NOLCK, Errno::NOSYS] {
         let place = Place::new();

@@ -4,8 +4,8 @@ use std::collections::BTreeMap;
 use std::fs;
 
 use super::*;
-use crate::scene::Viewpoint;
-use crate::ui::shell::traces::tests::{Place, far, job, traced};
+use crate::shell::traces::tests::{Place, far, job, traced};
+use scene::Viewpoint;
 
 /// The origin of a text that the file names.
 fn origin(place: &tempfile::TempDir, text: &str) -> Origin {
@@ -137,7 +137,7 @@ fn what_cannot_be_continued_is_reported() {
 
 #[test]
 fn the_cost_is_seen_of_the_picture_of_light() {
-    use crate::render::Aov;
+    use render::Aov;
     let mut test = Test::new();
     test.store(test.recall("first").0, None)
         .expect("it is kept");
@@ -153,7 +153,7 @@ fn the_cost_is_seen_of_the_picture_of_light() {
 #[test]
 fn a_short_trace_is_not_kept() {
     let test = Test::new();
-    let mut renderer = Renderer::new(crate::render::Threads::Exactly(1), || {});
+    let mut renderer = Renderer::new(render::Threads::Exactly(1), || {});
     renderer.restart(test.job.clone()).expect("the worker runs");
     let keeping = Traced::of(&test.job).keep(renderer, Some(test.now("first")), far());
     assert_eq!(keeping.finish(), TraceEnd::Nothing);

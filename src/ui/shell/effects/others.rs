@@ -1,7 +1,7 @@
 //! Effects on others, which a script of keys does not have.
 
-use crate::ui::msg::{Effect, Msg};
-use crate::ui::reference::ReferenceSource;
+use crate::msg::{Effect, Msg};
+use crate::reference::ReferenceSource;
 
 /// The result of an effect on others in a script of keys, which performs none.
 pub(super) fn without_others(effect: &Effect) -> Option<Msg> {

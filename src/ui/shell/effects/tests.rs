@@ -3,10 +3,10 @@
 use std::sync::mpsc;
 
 use super::*;
-use crate::scene::MAX_SPP;
-use crate::ui::layout::tests::size;
-use crate::ui::options::Rehearsal;
-use crate::ui::shell::traces::tests::job;
+use crate::layout::tests::size;
+use crate::options::Rehearsal;
+use crate::shell::traces::tests::job;
+use scene::MAX_SPP;
 
 /// A picture that would take minutes.
 fn endless() -> Job {
@@ -70,7 +70,7 @@ fn a_page_recalls_and_keeps_no_trace() {
     let origin = Origin {
         text: Arc::default(),
         found: BTreeMap::new(),
-        view: crate::scene::Viewpoint::default(),
+        view: scene::Viewpoint::default(),
     };
     let started = runtime.perform(Effect::Recall(job, origin));
     assert!(matches!(started, Some(Msg::Started(Target::Trace, _))));

@@ -16,8 +16,8 @@ use std::path::PathBuf;
 use crossterm::event::{KeyCode, KeyEvent, KeyModifiers};
 
 use super::snapshot::Format;
-use crate::text::{Diagnostic, Span, alternatives, nearest_word};
-use crate::ui::keymap::{self, Keymap};
+use crate::keymap::{self, Keymap};
+use text::{Diagnostic, Span, alternatives, nearest_word};
 use token::{Token, Tokens};
 
 /// The steps of a script that are still to be played.
@@ -207,8 +207,8 @@ fn unknown(word: &str, span: Span) -> Diagnostic {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::text::Position;
-    use crate::ui::keymap::bound;
+    use crate::keymap::bound;
+    use text::Position;
 
     fn parse(text: &str) -> Result<Script, Vec<Diagnostic>> {
         Script::parse(String::new(), text.to_owned(), &Keymap::default())

@@ -1,6 +1,6 @@
 //! The words and quoted texts of a script.
 
-use crate::text::{Diagnostic, Span, mark_len};
+use text::{Diagnostic, Span, mark_len};
 
 /// A word or a text in quotation marks.
 #[derive(Clone, Debug)]

@@ -2,10 +2,10 @@
 
 use std::time::Instant;
 
-use crate::ui::pixels::Pixels;
-use crate::ui::terminal::tmux::{self, Client};
-use crate::ui::terminal::{ColourDepth, Link, Means, Protocol, Reply, Wrapping};
-use crate::ui::view::{Drawing, Mosaic};
+use crate::pixels::Pixels;
+use crate::terminal::tmux::{self, Client};
+use crate::terminal::{ColourDepth, Link, Means, Protocol, Reply, Wrapping};
+use crate::view::{Drawing, Mosaic};
 
 /// The most pixels of a screen that are traced and sent as pictures: at more, a frame takes longer
 /// than it is shown. Over a limited line, about as many as half a second carries.

@@ -8,14 +8,13 @@ use std::sync::Arc;
 use crossterm::event::{KeyModifiers, MouseButton, MouseEvent, MouseEventKind};
 
 use super::{Session, Urgency};
-use crate::assets::Assets;
-use crate::file;
-use crate::language::Source;
-use crate::ui::msg::{Effect, Msg, Timer};
-use crate::ui::options::Rehearsal;
-use crate::ui::shell::ending::Error;
-use crate::ui::shell::script::{Script, Step};
-use crate::ui::shell::snapshot;
+use crate::msg::{Effect, Msg, Timer};
+use crate::options::Rehearsal;
+use crate::shell::ending::Error;
+use crate::shell::script::{Script, Step};
+use crate::shell::snapshot;
+use assets::Assets;
+use language::Source;
 
 impl Session {
     /// Handles what has arrived or, if nothing more will, plays the next step of the script.

@@ -5,10 +5,10 @@ use std::time::Instant;
 
 use super::Session;
 use super::pixels::{Manner, most_pixels};
-use crate::ui::msg::Msg;
-use crate::ui::pixels::Pixels;
-use crate::ui::terminal::query::{self, Question};
-use crate::ui::terminal::{self, Choice, ColourDepth};
+use crate::msg::Msg;
+use crate::pixels::Pixels;
+use crate::terminal::query::{self, Question};
+use crate::terminal::{self, Choice, ColourDepth};
 
 impl Session {
     /// Queries what neither the user nor the environment has decided, and how keys are reported.

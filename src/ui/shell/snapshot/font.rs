@@ -1,7 +1,7 @@
 //! A font of 5×7 dots, with two more below the line, for pictures of screens. Lines and blocks are
 //! drawn up to the edges of the cell, so that they join.
 
-use crate::ui::view::Mosaic;
+use crate::view::Mosaic;
 
 /// Width of a cell, in dots.
 pub(super) const WIDTH: usize = 6;

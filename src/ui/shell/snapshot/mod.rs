@@ -9,10 +9,8 @@ use std::path::Path;
 use ratatui::buffer::Buffer;
 use unicode_width::UnicodeWidthStr;
 
-use crate::file;
-use crate::image_file;
-use crate::ui::terminal;
-use crate::ui::theme::Theme;
+use crate::terminal;
+use crate::theme::Theme;
 
 /// The format of a written screen.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

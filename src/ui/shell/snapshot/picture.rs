@@ -4,10 +4,10 @@ use ratatui::buffer::{Buffer, Cell};
 use ratatui::style::Modifier;
 
 use super::font::{self, HEIGHT, WIDTH};
-use crate::render::Frame;
-use crate::scene::Size;
-use crate::ui::terminal::colour_on_screen;
-use crate::ui::theme::Theme;
+use crate::terminal::colour_on_screen;
+use crate::theme::Theme;
+use render::Frame;
+use scene::Size;
 
 /// The side of a dot of the font, in pixels.
 const DOT: usize = 2;

@@ -9,13 +9,13 @@ use std::time::Duration;
 use tempfile::TempDir;
 
 use super::*;
-use crate::language::{Language, Source};
-use crate::render::{Frames, Renderer, Settings, Threads};
-use crate::scene::{Images, Meshes, Rendering, Viewpoint};
-use crate::ui::layout::tests::size;
+use crate::layout::tests::size;
+use language::{Language, Source};
+use render::{Frames, Renderer, Settings, Threads};
+use scene::{Images, Meshes, Rendering, Viewpoint};
 
 /// A small picture with samples, of the template.
-pub(in crate::ui) fn job(spp: u32) -> Job {
+pub(crate) fn job(spp: u32) -> Job {
     let text = Arc::new(Language::Ray.template().to_owned());
     let lowered = Source::new(Language::Ray, text).lower(&Meshes::default());
     let scene = lowered.expect("there is memory").scene;
@@ -38,7 +38,7 @@ pub(in crate::ui) fn job(spp: u32) -> Job {
 }
 
 /// The complete picture of a job.
-pub(in crate::ui) fn traced(job: &Job) -> Kept {
+pub(crate) fn traced(job: &Job) -> Kept {
     let (wake, woken) = mpsc::channel();
     let wake = move || {
         let _ = wake.send(());
@@ -58,17 +58,17 @@ fn picture(job: &Job) -> Provenance {
     Provenance::of(job, "c0ffee".to_owned())
 }
 
-pub(in crate::ui) fn far() -> Instant {
+pub(crate) fn far() -> Instant {
     Instant::now() + Duration::from_secs(60)
 }
 
-pub(in crate::ui) struct Place {
+pub(crate) struct Place {
     folder: TempDir,
-    pub(in crate::ui) traces: Traces,
+    pub(crate) traces: Traces,
 }
 
 impl Place {
-    pub(in crate::ui) fn new() -> Self {
+    pub(crate) fn new() -> Self {
         let folder = tempfile::tempdir().expect("a folder");
         let traces = Traces {
             state: folder.path().to_owned(),
@@ -82,7 +82,7 @@ impl Place {
     }
 
     /// The files, sorted.
-    pub(in crate::ui) fn files(&self) -> Vec<PathBuf> {
+    pub(crate) fn files(&self) -> Vec<PathBuf> {
         let entries = fs::read_dir(self.kept()).into_iter().flatten();
         let paths = entries.map(|entry| entry.expect("an entry").path());
         paths.collect::<BTreeSet<_>>().into_iter().collect()

@@ -151,7 +151,7 @@ fn depths() -> impl Strategy<Value = ColourDepth> {
 }
 
 proptest! {
-    #![proptest_config(crate::repeatable())]
+    #![proptest_config(repeatable::config())]
 
     #[test]
     fn the_screen_looks_like_the_buffer(

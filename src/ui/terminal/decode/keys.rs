@@ -2,7 +2,7 @@
 
 use crossterm::event::{KeyCode, KeyEvent, KeyModifiers};
 
-use crate::ui::terminal::Event;
+use crate::terminal::Event;
 
 /// The key of an ASCII byte.
 pub(super) fn plain(byte: u8) -> Event {

@@ -7,7 +7,7 @@
 use crossterm::event::{KeyCode, KeyModifiers};
 
 use super::keys::{character, key, modifiers, with_alt};
-use crate::ui::terminal::Event;
+use crate::terminal::Event;
 
 /// The bits of the modifiers Super and Hyper, with which no key has a meaning, and of Meta, which
 /// is Alt.

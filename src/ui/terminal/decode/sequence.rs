@@ -5,7 +5,7 @@ use crossterm::event::{KeyCode, KeyModifiers, MouseButton, MouseEvent, MouseEven
 
 use super::keys::{function_key, key, modifiers, numbered_key};
 use super::kitty;
-use crate::ui::terminal::{Event, Reply, query};
+use crate::terminal::{Event, Reply, query};
 
 /// The meaning of a sequence.
 #[derive(Debug, PartialEq, Eq)]

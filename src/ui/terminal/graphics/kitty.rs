@@ -18,18 +18,18 @@ const BELOW: i32 = i32::MIN / 2 - 1;
 /// Maximum length of the data in a sequence, a multiple of four characters.
 const CHUNK: usize = 4096;
 
-/// The number of the picture in the query: see [`query`](crate::ui::terminal::query).
+/// The number of the picture in the query: see [`query`](crate::terminal::query).
 const QUERY_ID: &[u8] = b"i=31";
 
 /// Removes the picture and forgets it. Preceded by the end of any incomplete sequence.
-pub(in crate::ui::terminal) const REMOVE: &str = "\x1b\\\x1b_Ga=d,d=I,i=18508,q=2\x1b\\";
+pub(in crate::terminal) const REMOVE: &str = "\x1b\\\x1b_Ga=d,d=I,i=18508,q=2\x1b\\";
 
 /// The same through tmux.
-pub(in crate::ui::terminal) const REMOVE_THROUGH_TMUX: &str =
+pub(in crate::terminal) const REMOVE_THROUGH_TMUX: &str =
     "\x1b\\\x1bPtmux;\x1b\x1b\\\x1b\x1b_Ga=d,d=I,i=18508,q=2\x1b\x1b\\\x1b\\";
 
 /// Whether an application program command, without its introducer, answers the query with success.
-pub(in crate::ui::terminal) fn answers(command: &[u8]) -> bool {
+pub(in crate::terminal) fn answers(command: &[u8]) -> bool {
     let control = command.strip_suffix(b";OK");
     let control = control.and_then(|control| control.strip_prefix(b"G"));
     let mut parts = control.unwrap_or_default().split(|&byte| byte == b',');

@@ -18,8 +18,6 @@ use std::io;
 
 use ratatui::layout::Rect;
 
-use crate::image_file;
-
 pub(super) use kitty::{REMOVE, REMOVE_THROUGH_TMUX, answers};
 pub use pixmap::Pixmap;
 pub(super) use wrapping::END;

@@ -1,6 +1,6 @@
 //! Pictures in the form in which they are sent to terminals.
 
-use crate::scene::Size;
+use scene::Size;
 
 /// A picture to send.
 #[derive(Clone, Debug, PartialEq, Eq)]

@@ -4,7 +4,7 @@ use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
 
 use super::*;
-use crate::ui::layout::tests::size;
+use crate::layout::tests::size;
 
 /// Where pictures are put: nine columns and four rows.
 const PLACE: Rect = Rect::new(3, 2, 9, 4);

@@ -19,7 +19,7 @@ pub enum Wrapping {
 }
 
 /// Ends an incomplete sequence.
-pub(in crate::ui::terminal) const END: &str = "\x1b\\";
+pub(in crate::terminal) const END: &str = "\x1b\\";
 
 impl Wrapping {
     /// Appends a sequence that begins at a cell, wrapped if necessary.

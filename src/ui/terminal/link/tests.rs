@@ -1,7 +1,7 @@
 //! The bucket at a fixed rate, and simulated lines that are measured.
 
 use super::*;
-use crate::ui::terminal::environment;
+use crate::terminal::environment;
 
 const fn ms(milliseconds: u64) -> Duration {
     Duration::from_millis(milliseconds)

@@ -5,9 +5,9 @@ use ratatui::layout::Rect;
 use ratatui::style::Style;
 use unicode_width::UnicodeWidthStr;
 
-use crate::ui::app::{App, Prompt, PromptKind};
-use crate::ui::view::row::Row;
-use crate::ui::{keymap, theme};
+use crate::app::{App, Prompt, PromptKind};
+use crate::view::row::Row;
+use crate::{keymap, theme};
 
 /// Draws the prompt, or as many of the current key hints as fit.
 pub(crate) fn render_hint(app: &App, area: Rect, buffer: &mut Buffer) {

@@ -1,11 +1,11 @@
 //! What COMPARE and SEQUENCE say of themselves in the status line.
 
 use super::segments::{Rank, Segments};
-use crate::text::counted;
-use crate::ui::app::{self, App};
-use crate::ui::keymap::Mode;
-use crate::ui::theme;
-use crate::ui::view::comparison;
+use crate::app::{self, App};
+use crate::keymap::Mode;
+use crate::theme;
+use crate::view::comparison;
+use text::counted;
 
 /// Adds what is seen of the pictures that are compared and, without a panel, how they differ.
 pub(super) fn compare(app: &App, segments: &mut Segments) {

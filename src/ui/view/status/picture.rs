@@ -5,10 +5,10 @@ use std::time::Duration;
 use ratatui::style::Style;
 
 use super::segments::{Rank, Segments};
-use crate::render::Progress;
-use crate::text::percentage;
-use crate::ui::app::{Shared, display};
-use crate::ui::theme;
+use crate::app::{Shared, display};
+use crate::theme;
+use render::Progress;
+use text::percentage;
 
 /// Adds the progress of the picture.
 pub(super) fn progress(progress: &Progress, segments: &mut Segments) {

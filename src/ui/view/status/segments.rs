@@ -3,8 +3,8 @@
 use ratatui::style::Style;
 use unicode_width::UnicodeWidthStr;
 
-use crate::ui::theme;
-use crate::ui::view::row::Row;
+use crate::theme;
+use crate::view::row::Row;
 
 /// Maximum number of cells between two segments.
 const GAP: usize = 3;

@@ -6,13 +6,13 @@ use std::time::Duration;
 use tui_input::Input;
 
 use super::*;
-use crate::language::Language;
-use crate::render::{Aov, Frame, Progress};
-use crate::scene::{Integrator, Rendering};
-use crate::ui::app::{Picture, Prompt, PromptKind, ShownWireframe, Typing};
-use crate::ui::keymap::bound;
-use crate::ui::layout::tests::size;
-use crate::ui::view::tests::{Change, app, app_of, drawn, retype, say};
+use crate::app::{Picture, Prompt, PromptKind, ShownWireframe, Typing};
+use crate::keymap::bound;
+use crate::layout::tests::size;
+use crate::view::tests::{Change, app, app_of, drawn, retype, say};
+use language::Language;
+use render::{Aov, Frame, Progress};
+use scene::{Integrator, Rendering};
 
 /// The status line of a wide screen.
 fn line(app: &App) -> String {

@@ -2,7 +2,7 @@
 
 use super::scripts::{ray, scripts};
 use super::*;
-use crate::ui::msg::{Existing, Target};
+use crate::msg::{Existing, Target};
 
 scripts! {
     an_edit_restarts_the_preview_and_a_refused_one_does_not: ray().after("ggjjjj").each(r"

@@ -2,7 +2,7 @@
 
 use super::scripts::{listed, ray, scene, scripts};
 use super::*;
-use crate::scene::Filter;
+use scene::Filter;
 
 /// Keys, what they show, and the samples taken when four are requested.
 const SHOWN: [(&str, &str, u32); 8] = [

@@ -2,7 +2,7 @@
 
 use super::scripts::{scene, scripts};
 use super::symbols::{DAT, RAY, XML};
-use crate::render::WireLine;
+use render::WireLine;
 
 const SCENES: [(&str, &str); 3] = [("a.ray", RAY), ("a.dat", DAT), ("a.xml", XML)];
 

@@ -4,8 +4,8 @@ use std::sync::Arc;
 
 use super::scripts::{Session, Stage, ray, scripts};
 use super::*;
-use crate::ui::app::display;
-use crate::ui::msg::Target;
+use crate::app::display;
+use crate::msg::Target;
 
 /// The stage of the full-size trace on screen.
 fn tracing<'s>() -> Stage<'s> {

@@ -2,7 +2,7 @@
 
 use super::scripts::{ray, scripts};
 use super::*;
-use crate::ui::app::shared::line::LONGEST;
+use crate::app::shared::line::LONGEST;
 
 const FULL: &str = "a line is limited to 4096 characters";
 

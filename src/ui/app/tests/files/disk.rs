@@ -4,8 +4,8 @@ use std::fs;
 
 use super::scripts::{ray, scene, scripts};
 use super::*;
-use crate::ui::app::files;
-use crate::ui::scene_reading::SceneFolder;
+use crate::app::files;
+use crate::scene_reading::SceneFolder;
 
 scripts! {
     a_save_may_only_replace_what_was_last_seen: ray().play(r"

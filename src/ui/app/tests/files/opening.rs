@@ -2,7 +2,7 @@
 
 use super::scripts::{Stage, scene, scripts};
 use super::*;
-use crate::file::ReadError;
+use file::ReadError;
 
 /// The stage of a file that is being read.
 fn unread<'s>() -> Stage<'s> {

@@ -5,9 +5,8 @@
 use std::collections::BTreeSet;
 
 use super::*;
-use crate::assets::{Assets, Wanted};
-use crate::obj;
-use crate::scene::{Image, NoMesh, Size};
+use ::assets::{Assets, Wanted};
+use scene::{Image, NoMesh, Size};
 
 impl Session {
     /// The reading of these files.

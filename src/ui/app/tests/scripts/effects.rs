@@ -1,9 +1,9 @@
 //! How effects are called in scripts.
 
 use super::*;
-use crate::ui::msg::{Destination, Existing, Target, Timer};
-use crate::ui::reel::{Reel, ReelForm};
-use crate::ui::reference::ReferenceSource;
+use crate::msg::{Destination, Existing, Target, Timer};
+use crate::reel::{Reel, ReelForm};
+use crate::reference::ReferenceSource;
 
 /// The effect in a few words; those that scripts do not name have none.
 pub(super) fn called(effect: &Effect) -> String {

@@ -1,14 +1,14 @@
 //! Readings, saves, exports and tracks in scripts.
 
 use super::*;
-use crate::document::Document;
-use crate::file::ReadError;
-use crate::scene::Meshes;
-use crate::ui::app::files;
-use crate::ui::msg::{SaveId, SaveOutcome};
-use crate::ui::recovery::tests::offer;
-use crate::ui::recovery::{Found, Offer};
-use crate::ui::scene_reading::{Baseline, News, Opened};
+use crate::app::files;
+use crate::msg::{SaveId, SaveOutcome};
+use crate::recovery::tests::offer;
+use crate::recovery::{Found, Offer};
+use crate::scene_reading::{Baseline, News, Opened};
+use document::Document;
+use file::ReadError;
+use scene::Meshes;
 
 impl Session {
     pub(super) fn own_path(&self) -> PathBuf {

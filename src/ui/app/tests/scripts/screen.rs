@@ -4,9 +4,9 @@ use crossterm::event::{MouseButton, MouseEvent, MouseEventKind};
 
 use super::steps::number;
 use super::*;
-use crate::render::{Frame, Job, NO_OBJECT, Record};
-use crate::scene::{Images, Size};
-use crate::ui::reference::{Made, ReferenceRead};
+use crate::reference::{Made, ReferenceRead};
+use render::{Frame, Job, NO_OBJECT, Record};
+use scene::{Images, Size};
 
 impl Session {
     /// A complete frame of what is traced, of this generation or the first; and one of 16 samples

@@ -7,8 +7,8 @@
 
 use super::values::{self, Words as _};
 use super::*;
-use crate::scene::Size;
-use crate::ui::msg::Guard;
+use crate::msg::Guard;
+use scene::Size;
 
 impl Session {
     /// Whether a check holds, and what there is in its place.

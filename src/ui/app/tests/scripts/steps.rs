@@ -13,14 +13,14 @@
 
 use super::files::{kind, numbered, recovered, unread};
 use super::*;
-use crate::render::{Frame, Job, PreparedScene, Progress};
-use crate::scene::Size;
-use crate::ui::app::display;
-use crate::ui::history_scene::HistoryText;
-use crate::ui::keymap::{Keys, Section};
-use crate::ui::msg::{Polled, Question, Recalled, Timer};
-use crate::ui::recovery::Offer;
-use crate::ui::reel::ReelProgress;
+use crate::app::display;
+use crate::history_scene::HistoryText;
+use crate::keymap::{Keys, Section};
+use crate::msg::{Polled, Question, Recalled, Timer};
+use crate::recovery::Offer;
+use crate::reel::ReelProgress;
+use render::{Frame, Job, PreparedScene, Progress};
+use scene::Size;
 
 /// What was begun and not answered yet.
 #[derive(Default)]
@@ -65,7 +65,7 @@ impl Session {
     }
 
     /// Takes a step by a message.
-    pub(in crate::ui::app::tests) fn update(&mut self, msg: Msg) {
+    pub(in crate::app::tests) fn update(&mut self, msg: Msg) {
         self.effects = self.app.update(msg);
         self.note();
     }
@@ -252,7 +252,7 @@ impl Session {
 }
 
 /// How far the export of a sequence of nine frames is while this one is half traced.
-pub(in crate::ui::app::tests) fn half_way(frame: u32) -> ReelProgress {
+pub(in crate::app::tests) fn half_way(frame: u32) -> ReelProgress {
     let size = Size {
         width: 32,
         height: 8,

@@ -1,12 +1,11 @@
 //! Pictures that are traced, judged and listed in scripts.
 
 use std::collections::VecDeque;
-use std::sync::Weak;
 
 use super::steps::number;
 use super::*;
-use crate::render::{Aov, Frame, NO_OBJECT, PreparedScene, Query};
-use crate::ui::history_scene::{HistoryScene, HistoryText, NoPicture};
+use crate::history_scene::{HistoryScene, HistoryText, NoPicture};
+use render::{Aov, Frame, NO_OBJECT, PreparedScene, Query};
 
 impl Session {
     /// A complete frame of what is traced, of this many samples, with the objects that are seen in it.
@@ -38,13 +37,7 @@ impl Session {
         let frame = Frame {
             values: vec![[number(grey)?; 3]; pixels],
             range: has_range.then_some([1.0, 311.6]),
-            query: Some(Query {
-                world: Weak::new(),
-                photons: Weak::new(),
-                camera: job.camera,
-                settings,
-                numbers: None,
-            }),
+            query: Some(Query::unanswered(job.camera, settings)),
             ..frame_of(settings.size, vec![0; pixels])
         };
         self.update(Msg::Started(Target::Preview, 1));

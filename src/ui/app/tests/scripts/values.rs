@@ -1,13 +1,13 @@
 //! What can be seen by a name. What is absent, and `false`, reads as an empty text.
 
 use super::*;
-use crate::document::StepName;
-use crate::language::Node;
-use crate::render::{Aov, Histogram};
-use crate::scene::Camera;
-use crate::ui::app::{command, compare, display, files, history, inspect, select};
-use crate::ui::keymap::Context;
-use crate::ui::listing::ListLine;
+use crate::app::{command, compare, display, files, history, inspect, select};
+use crate::keymap::Context;
+use crate::listing::ListLine;
+use document::StepName;
+use language::Node;
+use render::{Aov, Histogram};
+use scene::Camera;
 
 /// Something in words.
 pub(super) trait Words {

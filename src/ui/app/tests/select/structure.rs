@@ -17,7 +17,7 @@ sphere 4 0 0 1  0 0 0 .5 .5 .5 0 0 0 1 0 0 1
 sphere 8 0 0 1  0 0 0 .5 .5 .5 0 0 0 1 0 0 1
 ";
 
-pub(in crate::ui::app::tests) const DAT: &str = "\
+pub(in crate::app::tests) const DAT: &str = "\
 mat ID 1  1 1 1  .3 .5 .2 9  0 0 1
 mat ID 2  1 0 0  .3 .5 .2 9  0 0 1
 obj sphere ID 1 mat ID 1  0 0 0  1

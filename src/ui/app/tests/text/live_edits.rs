@@ -2,8 +2,8 @@
 
 use super::scripts::{ray, scene, scripts};
 use super::*;
-use crate::text::{Edit, Span};
-use crate::ui::app::text;
+use crate::app::text;
+use ::text::{Edit, Span};
 
 scripts! {
     /// Only the change of the file is there then.

@@ -4,8 +4,8 @@
 use std::sync::Arc;
 
 use super::*;
-use crate::language::Source;
-use crate::scene::Meshes;
+use language::Source;
+use scene::Meshes;
 
 /// The number of sequences in each scene.
 const SEQUENCES: usize = 10;

@@ -32,22 +32,21 @@ use std::io;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use crate::assets::{self, Assets, NoFolder};
-use crate::file::{self, ReadError};
-use crate::image_file::Unreadable;
-use crate::language::{
-    self, Language, Lowered, Node, Outlook, Prospect, Source, UnknownLanguage, errors_of_beginning,
+use ::render::Refusal;
+use assets::{Assets, NoFolder};
+use file::ReadError;
+use image_file::Unreadable;
+use language::{
+    Language, Lowered, Node, Outlook, Prospect, Source, UnknownLanguage, errors_of_beginning,
     outlook,
 };
-use crate::memory::{self, OutOfMemory};
-use crate::part::{self, Unmerged};
-use crate::render::Refusal;
-use crate::scene::{Camera, Rendering, Scene, Size, Viewpoint};
-use crate::text::{Diagnostic, Findings, Span, counted, percentage};
+use memory::OutOfMemory;
+use part::Unmerged;
+use scene::{Camera, Rendering, Scene, Size, Viewpoint};
+use text::{Diagnostic, Findings, Span, counted, percentage};
 
 use finding::Naming;
 
-pub use crate::track::MAX_FRAMES;
 pub use bench::{Bench, bench};
 pub use compare::{Compare, Report, Verdict, compare};
 pub use convert::{Convert, convert};
@@ -62,6 +61,7 @@ pub use render::{Purpose, Render, render};
 pub use show::{Show, show};
 pub use signals::Signal;
 pub use tracing::Tracing;
+pub use track::MAX_FRAMES;
 
 /// Formats errors in a text for standard error, each with its place, an excerpt and a hint.
 pub fn annotated(name: &str, text: &str, errors: &[Diagnostic]) -> String {

@@ -20,7 +20,7 @@ mod written;
 
 use std::collections::BTreeSet;
 
-use crate::text::Span;
+use text::Span;
 
 pub use bind::{Bound, bind};
 pub use camera::{CameraTrack, Movement, Parameter};

@@ -34,15 +34,11 @@ use render::{RenderArguments, Work};
 use shared::{AssetArguments, StrictnessArguments};
 use show::ShowArguments;
 
-use crate::batch::{
-    self, Bench, Check, Compare, Convert, Explain, Merge, Render, Sequence, Show, Verdict,
-};
-use crate::config;
-use crate::file::ReadError;
-use crate::part::{self, Unmerged};
-use crate::render::{CAP, CAPS};
-use crate::text::{alternatives, nearest_word, visible};
-use crate::ui;
+use ::render::{CAP, CAPS};
+use batch::{Bench, Check, Compare, Convert, Explain, Merge, Render, Sequence, Show, Verdict};
+use file::ReadError;
+use part::Unmerged;
+use text::{alternatives, nearest_word, visible};
 
 /// Parts cannot be merged.
 pub const INCOMPLETE: u8 = 3;

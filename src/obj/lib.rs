@@ -21,8 +21,8 @@ mod tests;
 use std::fmt;
 use std::sync::Arc;
 
-use crate::geometry::Mesh;
-use crate::text::Span;
+use geometry::Mesh;
+use text::Span;
 
 pub use maps::{Edges, Map};
 pub use mtl::Material;
@@ -74,7 +74,7 @@ pub struct Finding {
 impl fmt::Display for Finding {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         if let Some(library) = &self.library {
-            write!(f, "{}: ", crate::text::visible(library))?;
+            write!(f, "{}: ", text::visible(library))?;
         }
         let Self {
             line,

@@ -16,9 +16,9 @@ mod tests;
 use std::env;
 use std::path::{Path, PathBuf};
 
-use crate::file::{self, ReadError};
-use crate::text::Diagnostic;
-use crate::ui::Options;
+use file::ReadError;
+use text::Diagnostic;
+use ui::Options;
 
 pub use print::{print_config, print_keys};
 pub use read::read;

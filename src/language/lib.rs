@@ -8,7 +8,7 @@
 mod alike;
 mod at;
 mod camera;
-pub(crate) mod coefficients;
+pub mod coefficients;
 mod convert;
 mod dat;
 mod first;
@@ -48,12 +48,12 @@ use std::ops::{Deref, DerefMut};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use crate::memory::OutOfMemory;
-use crate::scene::{Camera, Meshes, Scene};
-use crate::text::{Diagnostic, Edit, Findings, Span, alternatives};
 use losses::Losses;
+use memory::OutOfMemory;
 use room::Counts;
+use scene::{Camera, Meshes, Scene};
 use table::{Category, Field};
+use text::{Diagnostic, Edit, Findings, Span, alternatives};
 use view::Numbers;
 
 pub use convert::{Converted, convert};
@@ -239,7 +239,7 @@ impl Language {
 }
 
 /// The extensions of all languages, as a list for a message.
-pub(crate) fn extensions() -> String {
+pub fn extensions() -> String {
     alternatives(Language::ALL.map(|language| format!(".{}", language.extension())))
 }
 

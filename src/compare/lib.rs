@@ -6,7 +6,7 @@ mod flip;
 mod heat;
 mod ssim;
 
-use crate::scene::{Image, Size};
+use scene::{Image, Size};
 
 pub use heat::heat_map;
 

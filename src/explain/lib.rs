@@ -1,7 +1,7 @@
 //! Puts into words why a pixel has its colour: the verdicts as sentences, the tree of rays as lines,
 //! with the names and places of the text.
 //!
-//! [`render`](crate::render) records and judges a sample in numbers; here objects and lights get
+//! [`render`] records and judges a sample in numbers; here objects and lights get
 //! their names back, and what the text holds but the picture does not is looked for. Words and
 //! structure are kept apart from printing. The interface shows the verdicts, and folds the tree in
 //! its own lines.
@@ -16,9 +16,9 @@ mod undrawn;
 
 use glam::DVec3;
 
-use crate::language::{Node, Source};
-use crate::render::Explanation;
-use crate::scene::{Camera, Rgb, Scene, Size};
+use language::{Node, Source};
+use render::Explanation;
+use scene::{Camera, Rgb, Scene, Size};
 
 use names::Names;
 

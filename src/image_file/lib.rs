@@ -15,8 +15,8 @@ mod write;
 
 use std::path::Path;
 
-use crate::render::Frames;
-use crate::scene::Size;
+use render::Frames;
+use scene::Size;
 
 pub use exr::layer_bytes;
 pub use metadata::record;
@@ -28,7 +28,7 @@ pub use recorded::{Recorded, in_8_bits};
 pub use unreadable::{MAX_TEXTURE_PIXELS, Unreadable};
 pub use write::{encode_quickly, save};
 
-pub use crate::scene::MAX_PIXELS;
+pub use scene::MAX_PIXELS;
 
 /// The picture formats that can be written. All of them can also be read.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

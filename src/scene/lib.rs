@@ -1,6 +1,6 @@
 //! The scene: plain comparable data, independent of any scene language.
 
-pub(crate) mod blocks;
+pub mod blocks;
 mod light;
 mod material;
 mod mesh;
@@ -11,7 +11,7 @@ mod viewpoint;
 
 use glam::DVec3;
 
-use crate::geometry::{Aabb, Hit, Shape};
+use geometry::{Aabb, Hit, Shape};
 
 pub use blocks::Blocks;
 pub use light::{Emitter, Falloff, Light, Shadows};
@@ -20,7 +20,6 @@ pub use material::{
 };
 pub use mesh::{Meshes, NoMesh, beside};
 
-pub(crate) use rendering::render_settings;
 pub use rendering::{
     CommandOption, DEFAULT_DEPTH, DEFAULT_SPP, EXPOSURES, FalloffRule, Filter, GlossRule,
     Integrator, LEAST_ADAPTIVE_SPP, MAX_DEPTH, MAX_SPP, RenderKey, RenderSetting, Rendering,
@@ -74,7 +73,7 @@ impl Scene {
 }
 
 /// The tight bounding box of those objects that are bounded.
-pub(crate) fn bounds<'o>(objects: impl Iterator<Item = &'o Object>) -> Aabb {
+pub fn bounds<'o>(objects: impl Iterator<Item = &'o Object>) -> Aabb {
     objects
         .map(|object| object.shape.bounds())
         .filter(|bounds| bounds.is_bounded())

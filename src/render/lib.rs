@@ -16,23 +16,23 @@
 //! | [`light`] | what sends light: lights, objects that emit, the environment |
 //! | [`job`] | what is asked: settings, region, AOV |
 //! | [`world`] | a scene made ready: structures, intersection, surface points, cameras |
-//! | [`integrators`] | radiance along camera rays: [Whitted](integrators::whitted), [paths](integrators::path), [photons](integrators::photon), first hits |
+//! | [`integrators`] | radiance along camera rays: Whitted, paths, photons, first hits |
 //! | [`picture`] | frames: tone mapping, noise reduction, histograms, what a file says of its picture |
 //! | [`engine`] | films traced tile by tile in the background, or block by block; unfinished pictures |
 //! | [`explain`] | every ray behind a sample, recorded by driving the same integrators |
 //!
 //! # The way of a picture
 //!
-//! A [`Renderer`] hands a job to its [worker](engine::worker), which builds a [`world`] and, pass by
-//! pass ([`mod@engine::tracing`]), fills the tiles of a [film](engine::film) in
-//! [steps](engine::pass_schedule). A [context](integrators::frame_context) makes the camera samples, a
-//! [tracer](integrators::tracer) their radiance. [Tone mapping](picture::tone) makes a frame of the
+//! A [`Renderer`] hands a job to its worker, which builds a [`world`] and, pass by
+//! pass (`tracing`), fills the tiles of a film in
+//! steps. A context makes the camera samples, a
+//! tracer their radiance. [Tone mapping](picture::tone) makes a frame of the
 //! film. A [`BlockTracer`] does the same block by block, for an [`Assembly`] put together later, on
 //! other machines too.
 //!
-//! Pixels of live pictures record their [dependencies](world::dependencies): after an edit of a
+//! Pixels of live pictures record their dependencies: after an edit of a
 //! material or of a light's colour the film is reused, and only pixels that depend on the
-//! [difference](engine::difference) are traced again.
+//! difference are traced again.
 //!
 //! Dropping a renderer ends its work soon, however large the picture: cancellation is polled every
 //! few milliseconds, and a film's memory is first touched while tracing and freed by the pool.
@@ -48,18 +48,18 @@ mod sampling;
 mod simd_level;
 mod world;
 
-pub use engine::{
-    Assembly, BLOCK, Block, BlockTracer, Blocks, Kept, Refusal, Renderer, Threads, check_memory,
-    memory_for, memory_for_blocks, photons_kept,
-};
-pub use explain::{
+pub use crate::explain::{
     Boundary, Chosen, Crossing, DepthLimit, EmitterTerm, Explanation, Finding, FirstHit, LightHit,
     LightTerm, PreparedScene, RayEnd, RayKind, Shading, Stop, SurfaceHit, Term, TermSource,
     TracedRay, Unlisted, UnlitReason, Verdict,
 };
+pub use engine::{
+    Assembly, BLOCK, Block, BlockTracer, Blocks, Kept, Refusal, Renderer, Threads, check_memory,
+    memory_for, memory_for_blocks, photons_kept,
+};
+pub use geometry::Side;
 pub use integrators::Counts;
 pub use job::{Aov, Frames, Job, Limit, NO_OBJECT, NoRegion, Region, Settings, denoises};
-pub use material::Side;
 pub use picture::{
     Advice, Colours, Display, Fault, Frame, HISTOGRAM_STOPS, Histogram, MOST_HALF_STOPS,
     Overexposure, Progress, Provenance, Query, Record, Trials, WireLine, Wireframe, exposes,

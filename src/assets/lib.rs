@@ -14,10 +14,9 @@ use std::collections::{BTreeMap, BTreeSet, HashMap};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use crate::language::{FileKind, Lowered, NamedFile, Source};
-use crate::memory::OutOfMemory;
-use crate::obj;
-use crate::scene::{Image, Images, Meshes};
+use language::{FileKind, Lowered, NamedFile, Source};
+use memory::OutOfMemory;
+use scene::{Image, Images, Meshes};
 
 use failure::Failure;
 use gate::{FileContent, Gate, Stream};

@@ -63,13 +63,13 @@ use std::env;
 use std::io::{self, IsTerminal};
 use std::path::{Path, PathBuf};
 
-use crate::assets::check_folders;
-use crate::file::{self, ReadError};
-use crate::language::Language;
-use crate::memory::{self, Need};
 use app::{App, Opening, OpeningText, Preferences};
 use arrange::PanelSizes;
+use assets::check_folders;
+use file::ReadError;
 use keymap::Keymap;
+use language::Language;
+use memory::Need;
 pub use options::{Options, Rehearsal};
 pub use pixels::Pixels;
 use scene_reading::Opened;

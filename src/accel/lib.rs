@@ -37,8 +37,8 @@ use std::ops::Range;
 
 use glam::DVec3;
 
-use crate::geometry::lanes::{Eight, Simd};
-use crate::geometry::{Aabb, Ray, Rays};
+use geometry::lanes::{Eight, Simd};
+use geometry::{Aabb, Ray, Rays};
 use node::{Child, Node, WIDTH};
 
 /// A bounding volume hierarchy.

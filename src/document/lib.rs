@@ -29,12 +29,11 @@ pub use windows::differences;
 
 use std::sync::Arc;
 
-use crate::language::{Before, Language, Lowered, Source};
-use crate::memory::OutOfMemory;
-use crate::scene::Meshes;
-use crate::text;
-use crate::text::{Edit, Span, cover};
 use history::History;
+use language::{Before, Language, Lowered, Source};
+use memory::OutOfMemory;
+use scene::Meshes;
+use text::{Edit, Span, cover};
 
 /// A scene text being edited.
 #[derive(Clone, Debug)]
@@ -84,13 +83,13 @@ impl Document {
         &self.source
     }
 
-    /// Lowers the text, see [`Answers::lower`](crate::language::Answers::lower).
+    /// Lowers the text, see [`Answers::lower`](language::Answers::lower).
     pub fn lower(&mut self, meshes: &Meshes) -> Result<Lowered, OutOfMemory> {
         self.source.lower(meshes)
     }
 
     /// Lowers the text after an edit, see
-    /// [`Answers::lower_again`](crate::language::Answers::lower_again).
+    /// [`Answers::lower_again`](language::Answers::lower_again).
     pub fn lower_again(
         &mut self,
         meshes: &Meshes,

@@ -6,8 +6,8 @@ mod backup;
 mod calls;
 mod current;
 mod digest;
-#[cfg(test)]
-pub(crate) mod faults;
+#[cfg(any(test, feature = "faults"))]
+pub mod faults;
 mod lock;
 mod owner;
 mod replace;
@@ -22,15 +22,15 @@ use std::path::{Path, PathBuf};
 
 use rayon::prelude::*;
 
-use crate::memory::{self, Need, OutOfMemory};
-use crate::text::{Position, Span};
+use memory::{Need, OutOfMemory};
+use text::{Position, Span};
 
 pub use backup::{backups, interruption};
 pub use current::{absolute, has_folder, regain_folder};
 pub use digest::{Digest, Digested};
-pub(crate) use lock::{Lock, lock};
+pub use lock::{Lock, lock};
 pub use replace::{deliver, replace};
-pub(crate) use target::end_of_links;
+pub use target::end_of_links;
 pub use target::{check_replaceable, check_target, directory_of, is_same_target, no_such_folder};
 pub use version::{FileId, Version};
 
@@ -328,7 +328,7 @@ pub fn read_bytes(path: &Path, limit: u64) -> Result<Vec<u8>, ReadError> {
 }
 
 /// Reads an open regular file of at most `limit` bytes.
-pub(crate) fn read_opened(file: &File, path: &Path, limit: u64) -> Result<Vec<u8>, ReadError> {
+pub fn read_opened(file: &File, path: &Path, limit: u64) -> Result<Vec<u8>, ReadError> {
     let length = file.metadata().map_or(0, |metadata| metadata.len());
     memory::check(length.min(limit), || Need {
         what: "the file's contents".to_owned(),
@@ -374,7 +374,7 @@ pub fn is_own(path: &Path) -> bool {
 }
 
 /// Opens a regular file for reading. Never blocks, as opening a pipe without a writer would.
-pub(crate) fn open(path: &Path) -> Result<File, ReadError> {
+pub fn open(path: &Path) -> Result<File, ReadError> {
     let describe = |source: io::Error| match source.kind() {
         io::ErrorKind::NotFound => ReadError::NotFound {
             path: path.to_owned(),
@@ -392,7 +392,7 @@ pub(crate) fn open(path: &Path) -> Result<File, ReadError> {
 
 /// Returns the file if it is a regular one. Checks the open file, not the path, which may refer to
 /// another file by now.
-pub(crate) fn regular(file: File, path: &Path) -> Result<File, ReadError> {
+pub fn regular(file: File, path: &Path) -> Result<File, ReadError> {
     let describe = |source| ReadError::Io {
         path: path.to_owned(),
         source,
