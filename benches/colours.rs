@@ -93,7 +93,7 @@ fn ours(scene: &str, depth: ColourDepth) -> (CellImage, Vec<[u8; 3]>, [f64; 2]) 
         .picture_mut()
         .advance(&frame_window, &[], usize::MAX);
     let backend = AnsiBackend::new(depth, ratatui::layout::Size::from(TERMINAL));
-    let Ok(mut terminal) = ratatui::Terminal::new(backend);
+    let Ok(mut terminal) = ratatui::terminal::Terminal::new(backend);
     let mut inks = Inks::for_depth(depth);
     let mut draw = || {
         let begun = Instant::now();

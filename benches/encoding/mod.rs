@@ -94,7 +94,7 @@ fn show(app: &mut App, frames: &[Arc<Frame>], turns: usize) -> Encoded {
     let (columns, rows) = app.shared.terminal;
     let depth = ColourDepth::TrueColour;
     let backend = AnsiBackend::new(depth, Size::new(columns, rows));
-    let Ok(mut terminal) = ratatui::Terminal::new(backend);
+    let Ok(mut terminal) = ratatui::terminal::Terminal::new(backend);
     let mut inks = Inks::for_depth(depth);
     let mut sent = Vec::new();
     let mut times = Vec::new();

@@ -37,6 +37,7 @@ pub mod arrange;
 pub mod doctor;
 mod error_panel;
 mod event;
+mod framing;
 pub mod history_layout;
 pub mod history_scene;
 pub mod keymap;

@@ -4,10 +4,10 @@ use std::io;
 use std::sync::mpsc::Sender;
 use std::time::Instant;
 
-use ratatui::Frame;
 use ratatui::backend::TestBackend;
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
+use ratatui::terminal::Frame;
 
 use super::tty_session::TtySession;
 use crate::event::Event;
@@ -19,7 +19,7 @@ pub(super) enum Screen {
     /// The terminal of the process.
     TtySession(Box<TtySession>),
     /// Cells in memory, which nobody watches: everything drawn is taken at once.
-    Page(ratatui::Terminal<TestBackend>),
+    Page(ratatui::terminal::Terminal<TestBackend>),
 }
 
 impl Screen {
@@ -27,7 +27,7 @@ impl Screen {
     pub(super) fn new(options: &Options, sender: &Sender<Event>) -> io::Result<Self> {
         if let Some(rehearsal) = &options.rehearsal {
             let (columns, rows) = rehearsal.screen;
-            let Ok(page) = ratatui::Terminal::new(TestBackend::new(columns, rows));
+            let Ok(page) = ratatui::terminal::Terminal::new(TestBackend::new(columns, rows));
             return Ok(Self::Page(page));
         }
         let tty = TtySession::enter(options, sender)?;

@@ -9,10 +9,10 @@ use std::time::{Duration, Instant};
 
 use crossterm::Command;
 use crossterm::clipboard::CopyToClipboard;
-use ratatui::Frame;
 use ratatui::backend::Backend;
 use ratatui::buffer::Cell;
 use ratatui::layout::{Position, Rect};
+use ratatui::terminal::Frame;
 
 #[cfg(unix)]
 use super::abort;
@@ -61,7 +61,7 @@ pub enum Mouse {
 /// is kept for [`Terminal::take_panics`].
 #[derive(Debug)]
 pub struct Terminal {
-    screen: ratatui::Terminal<AnsiBackend>,
+    screen: ratatui::terminal::Terminal<AnsiBackend>,
     canvas: Canvas,
     shared: Arc<GuardState>,
     mouse: Mouse,
@@ -77,7 +77,7 @@ impl Terminal {
     ) -> io::Result<Self> {
         let output = Output::start(TtyWriter::open()?, cleared)?;
         let backend = AnsiBackend::new(colours, tty::size());
-        let Ok(screen) = ratatui::Terminal::new(backend);
+        let Ok(screen) = ratatui::terminal::Terminal::new(backend);
         let shared = GuardState::install(output, restore);
         #[cfg(unix)]
         abort::install(&shared, LEAVE)?;

@@ -3,11 +3,11 @@
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 use ratatui::style::Style;
-use ratatui::widgets::{Clear, Widget};
 
 use super::Inks;
 use super::row::{Focus, Row, put_at, title};
 use crate::app::{App, Compare, compare};
+use crate::framing::clear;
 use crate::theme;
 use ::compare::{Comparison, Difference};
 
@@ -16,7 +16,7 @@ const NAMES: u16 = 11;
 
 /// Draws what is compared, how it differs, and the worst pixels.
 pub(super) fn render(app: &App, inks: &mut Inks, area: Rect, buffer: &mut Buffer) {
-    Clear.render(area, buffer);
+    clear(area, buffer);
     let (compared, view) = (&app.compare, app.compare.view.name());
     title("comparison", &view, Focus::Here, area, buffer);
     let mut lines = Lines {

@@ -3,11 +3,11 @@
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 use ratatui::style::Style;
-use ratatui::widgets::{Clear, Widget};
 use unicode_width::UnicodeWidthStr;
 
 use super::row::{Focus, Row, title};
 use crate::app::{Completion, Shared, command};
+use crate::framing::clear;
 use crate::layout::nth_line;
 use crate::{layout, theme};
 
@@ -25,7 +25,7 @@ pub(crate) fn render(shared: &Shared, area: Rect, buffer: &mut Buffer) {
         return;
     }
     let (_, panel) = layout::split_bottom(area, rows as u16 + 1);
-    Clear.render(panel, buffer);
+    clear(panel, buffer);
     let chosen = shared.palette.chosen;
     let place = match found.len() {
         0 => String::new(),

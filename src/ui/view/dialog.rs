@@ -3,13 +3,12 @@
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 use ratatui::style::Style;
-use ratatui::widgets::{Block, BorderType, Clear, Widget};
 use unicode_width::UnicodeWidthStr;
 
 use super::row::Row;
 use crate::app::{App, Dialog, MergeSource, Question, Whose, exports, files, select, text};
 use crate::text_width::wrap;
-use crate::{layout, theme};
+use crate::{framing, layout, theme};
 use ::text::Position;
 use document::Merge;
 
@@ -117,14 +116,7 @@ fn conflict(
 fn frame(title: &str, size: (u16, usize), area: Rect, buffer: &mut Buffer) -> Rect {
     let height = u16::try_from(size.1).unwrap_or(u16::MAX);
     let area = layout::centred(area, Rect::new(0, 0, size.0, height)).intersection(buffer.area);
-    Clear.render(area, buffer);
-    let block = Block::bordered()
-        .border_type(BorderType::Rounded)
-        .border_style(theme::WARNING)
-        .title(title);
-    let inner = block.inner(area);
-    block.render(area, buffer);
-    inner
+    framing::frame(title, "", theme::WARNING, area, buffer)
 }
 
 /// A line of keys with their answers.

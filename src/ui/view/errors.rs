@@ -2,11 +2,11 @@
 
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
-use ratatui::widgets::{Clear, Widget};
 
 use super::row::{Focus, Row, title};
 use crate::app::Shared;
 use crate::error_panel::StyledLine;
+use crate::framing::clear;
 use text::counted;
 
 /// Draws the diagnostics below the picture, if there are any to show.
@@ -14,7 +14,7 @@ pub(crate) fn render(shared: &Shared, area: Rect, buffer: &mut Buffer) {
     let Some(panel) = shared.errors_panel(area) else {
         return;
     };
-    Clear.render(panel.area.intersection(buffer.area), buffer);
+    clear(panel.area.intersection(buffer.area), buffer);
     let count = shared.wrong().findings.len();
     let focus = match shared.overlays.errors {
         Some(_) => Focus::Here,

@@ -4,12 +4,12 @@
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 use ratatui::style::{Modifier, Style};
-use ratatui::widgets::{Clear, Widget};
 use unicode_width::UnicodeWidthStr;
 
 use super::list::swatch;
 use super::row::{self, Focus, Row};
 use crate::app::{FieldRow, Provenance, Shared, Stride, Typing, edit};
+use crate::framing::clear;
 use crate::keymap::Mode;
 use crate::layout::marker_at;
 use crate::text_width::wrap;
@@ -153,7 +153,7 @@ fn field_line(
     } else if let Some(literal) = field.literals.get(component)
         && let Some(area) = layout::widened(&columns, component, literal.width(), line)
     {
-        Clear.render(area, buffer);
+        clear(area, buffer);
         let end = area.right().saturating_sub(literal.width() as u16 + 1);
         let mut row = Row::new(buffer, area, 0);
         row.skip_to(column.x.min(end.max(area.x)));
@@ -178,7 +178,7 @@ fn slider(field: &FieldRow, style: Style, bar: Rect, buffer: &mut Buffer) {
     let literal = field.literals.first().map_or("", String::as_str);
     let number = parse_number(without_suffix(literal).unwrap_or(literal));
     let filled = marker_at(bar, number.unwrap_or(0.0)) - bar.x;
-    Clear.render(bar, buffer);
+    clear(bar, buffer);
     let mut row = Row::new(buffer, bar, 0);
     row.put(&"─".repeat(usize::from(filled)), style);
     row.put("●", style);
@@ -188,7 +188,7 @@ fn slider(field: &FieldRow, style: Style, bar: Rect, buffer: &mut Buffer) {
 
 /// Draws the value being typed in place of the current one.
 pub(super) fn typed(typing: &Typing, area: Rect, buffer: &mut Buffer) {
-    Clear.render(area, buffer);
+    clear(area, buffer);
     let style = theme::ACCENT.add_modifier(Modifier::UNDERLINED);
     let mark = typing.is_selected.then_some(theme::CURSOR);
     let style = style.patch(mark.unwrap_or_default());

@@ -52,9 +52,9 @@ pub(super) fn leave(cells: Rect, buffer: &mut Buffer) {
 #[cfg(test)]
 mod tests {
     use crate::app::display;
-    use ratatui::Terminal;
     use ratatui::backend::TestBackend;
     use ratatui::layout::Rect;
+    use ratatui::terminal::Terminal;
 
     use crate::app::{App, Page};
     use crate::keymap::Context;

@@ -3,10 +3,10 @@
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 use ratatui::style::Style;
-use ratatui::widgets::{Clear, Widget};
 
 use super::row::{Focus, Row, title};
 use crate::app::Shared;
+use crate::framing::clear;
 use crate::theme;
 use render::{HISTOGRAM_STOPS, Histogram};
 use text::percentage;
@@ -30,7 +30,7 @@ pub(crate) fn render(shared: &Shared, area: Rect, buffer: &mut Buffer) {
     }
     let panel = Rect::new(area.x, area.bottom() - height, width, height);
     let panel = panel.intersection(buffer.area);
-    Clear.render(panel, buffer);
+    clear(panel, buffer);
     title("luminance", "EV", Focus::Elsewhere, panel, buffer);
     if let Some(shown) = shown {
         chart(shown, panel, buffer);

@@ -3,13 +3,13 @@
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 use ratatui::style::Style;
-use ratatui::widgets::{Clear, Widget};
 use unicode_width::UnicodeWidthStr;
 
 use super::fields::users;
 use super::list::swatch;
 use super::row::{Focus, Row, title};
 use crate::app::{Entry, Purpose, Shared};
+use crate::framing::clear;
 use crate::{layout, theme};
 
 /// Draws the open menu over the list, or over everything if there is no list.
@@ -18,7 +18,7 @@ pub(crate) fn render(shared: &Shared, list: Rect, body: Rect, buffer: &mut Buffe
         return;
     };
     let area = if list.is_empty() { body } else { list };
-    Clear.render(area, buffer);
+    clear(area, buffer);
     let name = match menu.purpose {
         Purpose::Add => "add",
         Purpose::Retype => "change to",

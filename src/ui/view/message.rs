@@ -2,10 +2,10 @@
 
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
-use ratatui::widgets::{Clear, Widget};
 
 use super::row::{Focus, Row, title};
 use crate::app::Message;
+use crate::framing::clear;
 use crate::text_width::{visible, wrap};
 use crate::{layout, theme};
 
@@ -15,7 +15,7 @@ pub(crate) fn render(message: &Message, area: Rect, buffer: &mut Buffer) {
     let lines = wrap(&text, usize::from(area.width.saturating_sub(2)));
     let height = u16::try_from(lines.len() + 1).unwrap_or(u16::MAX);
     let (_, panel) = layout::split_bottom(area, height.min(area.height));
-    Clear.render(panel, buffer);
+    clear(panel, buffer);
     title("", "", Focus::Elsewhere, panel, buffer);
     let style = theme::severity(message.severity);
     for (index, line) in (1..panel.height).zip(&lines) {

@@ -41,10 +41,10 @@ mod wireframe;
 #[cfg(test)]
 mod tests;
 
-use ratatui::Frame;
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 use ratatui::style::Style;
+use ratatui::terminal::Frame;
 
 use super::app::{App, Page, Shared};
 use super::arrange::MIN_SIZE;

@@ -4,12 +4,10 @@
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 use ratatui::style::Style;
-use ratatui::text::Line;
-use ratatui::widgets::{Block, BorderType, Clear, Widget};
 
 use super::row::Row;
 use crate::app::{App, Page, PageFocus};
-use crate::{layout, theme};
+use crate::{framing, layout, theme};
 use text::counted;
 
 /// Draws a page of rows, as high as they need.
@@ -33,16 +31,7 @@ pub(super) fn render(app: &App, page: &Page, area: Rect, buffer: &mut Buffer) {
 
 /// Clears and frames a page, with a title and what of it is shown; returns the area inside.
 pub(super) fn frame(title: &str, shown: &str, place: Rect, buffer: &mut Buffer) -> Rect {
-    let block = Block::bordered()
-        .border_type(BorderType::Rounded)
-        .border_style(theme::DIM)
-        .title(format!(" {title} "))
-        .title_top(Line::from(shown).right_aligned());
-    let inner = block.inner(place);
-    let place = place.intersection(buffer.area);
-    Clear.render(place, buffer);
-    block.render(place, buffer);
-    inner
+    framing::frame(&format!(" {title} "), shown, theme::DIM, place, buffer)
 }
 
 /// Draws the filter of a page while it is typed, otherwise its keys.

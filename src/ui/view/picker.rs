@@ -4,11 +4,11 @@
 use ratatui::buffer::Buffer;
 use ratatui::layout::{Position, Rect};
 use ratatui::style::{Color, Style};
-use ratatui::widgets::{Clear, Widget};
 
 use super::Inks;
 use super::row::{Focus, Row, put_at, title};
 use crate::app::{ColourPicker, PickerRow, Shared};
+use crate::framing::clear;
 use crate::layout::{PickerLines, marker_at, picker_lines, share_at, swatch_cells};
 use crate::terminal::ColourDepth;
 use crate::theme;
@@ -28,7 +28,7 @@ pub(crate) fn render(
     };
     let area = if list.is_empty() { body } else { list };
     let area = area.intersection(buffer.area);
-    Clear.render(area, buffer);
+    clear(area, buffer);
     title("colour", picker.key, Focus::Here, area, buffer);
     let lines = picker_lines(area);
     for (row, line) in PickerRow::BARS.into_iter().zip(lines.bars) {

@@ -7,7 +7,6 @@ use std::borrow::Cow;
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 use ratatui::style::{Color, Modifier, Style};
-use ratatui::widgets::{Clear, Widget};
 use unicode_width::UnicodeWidthStr;
 
 use super::characters::Characters;
@@ -16,6 +15,7 @@ use super::inks::{Drawing, Inks};
 use super::row::{Row, put_at};
 use super::{comparison, pixel, symbols, tiles, values, wireframe};
 use crate::app::{App, CellImage, FirstReading, Grid, Shared, display, inspect};
+use crate::framing::clear;
 use crate::keymap::{Context, Mode};
 use crate::layout::raster;
 use crate::terminal::ColourDepth;
@@ -125,7 +125,7 @@ fn invitation(shared: &Shared, area: Rect, buffer: &mut Buffer) {
     let width = title.width().max(indent + words.max().unwrap_or(0));
     let lines = Rect::new(0, 0, width as u16, 2 + entries.len() as u16);
     let frame = Rect::new(0, 0, lines.width + 4, lines.height + 2);
-    Clear.render(layout::centred(area, frame), buffer);
+    clear(layout::centred(area, frame), buffer);
     let area = layout::centred(area, lines).intersection(buffer.area);
     Row::new(buffer, area, 0).put(title, theme::BOLD);
     for (line, (key, words)) in (2..).zip(&entries) {

@@ -3,12 +3,12 @@
 
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
-use ratatui::widgets::{Clear, Widget};
 
 use super::labelled::{Value, numbers};
 use super::row::Focus;
 use super::{labelled, row};
 use crate::app::{Pixel, Shared, inspect};
+use crate::framing::clear;
 use crate::layout::{Side, contents};
 use explain::number;
 use render::{Aov, FirstHit, SurfaceHit};
@@ -51,7 +51,7 @@ pub(super) fn render_over(shared: &Shared, area: Rect, buffer: &mut Buffer) {
         Side::Left => area.x,
     };
     let over = Rect::new(x, area.bottom() - height, WIDTH, height).intersection(buffer.area);
-    Clear.render(over, buffer);
+    clear(over, buffer);
     panel(&pixel, &values, over, buffer);
 }
 

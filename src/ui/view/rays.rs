@@ -3,11 +3,11 @@
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 use ratatui::style::{Modifier, Style};
-use ratatui::widgets::{Clear, Widget};
 
 use super::labelled::{self, Value, numbers};
 use super::row::{Focus, Row, title};
 use crate::app::{RayLine, RayPart, Shared, inspect};
+use crate::framing::clear;
 use crate::layout::contents;
 use crate::theme;
 use explain::number;
@@ -26,8 +26,8 @@ pub(super) fn render(shared: &Shared, buffer: &mut Buffer) {
         return;
     };
     if panels.is_over_picture {
-        Clear.render(panels.tree, buffer);
-        Clear.render(panels.values, buffer);
+        clear(panels.tree, buffer);
+        clear(panels.values, buffer);
     }
     tree(shared, panels.tree, panels.verdict, panels.lines, buffer);
     let line = inspect::explanation(shared).zip(inspect::ray_line(shared));

@@ -4,10 +4,10 @@
 use std::num::NonZeroU16;
 
 use proptest::prelude::*;
-use ratatui::Terminal;
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 use ratatui::style::Color;
+use ratatui::terminal::Terminal;
 
 use super::*;
 
@@ -251,7 +251,7 @@ fn a_visible_cursor_stays_in_place() {
 #[test]
 fn a_smaller_window_is_redrawn() {
     let mut rig = Rig::new(ColourDepth::Mono, SIZE);
-    let text = |frame: &mut ratatui::Frame| {
+    let text = |frame: &mut ratatui::terminal::Frame| {
         let last = frame.area().height - 1;
         frame
             .buffer_mut()
