@@ -1,5 +1,5 @@
-//! Reads the colours of `OpenEXR` pictures whose channels are not called R, G and B: those of the first
-//! layer that has colours, or the luminance, as grey.
+//! Reads the colours of `OpenEXR` pictures: the channels R, G and B, otherwise those of the first layer
+//! that has colours, or the luminance, as grey.
 
 use std::collections::HashMap;
 use std::io::{BufReader, Read, Seek};
@@ -29,19 +29,14 @@ type Names<'h> = HashMap<String, &'h Text>;
 
 /// The channels that hold the colours of a picture.
 enum Channels {
-    /// R, G and B.
-    Plain,
-    /// Those of a layer, such as `beauty.R`.
-    Layer([Text; 3]),
+    /// Red, green and blue, which a layer calls by names such as `beauty.R`.
+    Colours([Text; 3]),
     /// The luminance, of the picture or of a layer.
     Luminance(Text),
 }
 
-/// Reads a picture with at most `room` pixels; `None` if its colours are in R, G and B.
-pub(super) fn read_colours(
-    file: &mut (impl Read + Seek),
-    room: u64,
-) -> Result<Option<Image>, Unreadable> {
+/// Reads a picture with at most `room` pixels.
+pub(super) fn read_colours(file: &mut (impl Read + Seek), room: u64) -> Result<Image, Unreadable> {
     let reader = block::read(BufReader::new(file), false).map_err(|error| unreadable(&error))?;
     let (header, channels) = chosen(reader.headers())?;
     if matches!(
@@ -78,8 +73,7 @@ pub(super) fn read_colours(
     let levels = read().no_deep_data().largest_resolution_level();
     let channel = levels.specific_channels();
     let pixels = match channels {
-        Channels::Plain => return Ok(None),
-        Channels::Layer([red, green, blue]) => {
+        Channels::Colours([red, green, blue]) => {
             let channels = channel
                 .required(red)
                 .required(green)
@@ -107,7 +101,6 @@ pub(super) fn read_colours(
     let pixels = image.map(|image| image.pixels().map(|pixel| pixel.0).collect());
     pixels
         .and_then(|pixels| Image::new(size, pixels))
-        .map(Some)
         .ok_or_else(|| Unreadable::Broken("it has no pixels".to_owned()))
 }
 
@@ -132,18 +125,19 @@ fn chosen(headers: &[Header]) -> Result<(&Header, Channels), Unreadable> {
     }
     let flat = headers.iter().filter(|header| !header.deep);
     let flat: Vec<_> = flat.map(|header| (header, layers(header))).collect();
-    let is_plain = |layers: &[Names<'_>]| layers.first().and_then(colours).is_some();
-    if let Some((header, _)) = flat.iter().find(|(_, layers)| is_plain(layers)) {
-        return Ok((header, Channels::Plain));
-    }
+    let plain = || {
+        let parts = flat.iter();
+        parts.filter_map(|(header, layers)| Some((*header, layers.first()?)))
+    };
     let layers = || {
         let parts = flat.iter();
         parts.flat_map(|(header, layers)| layers.iter().map(move |layer| (*header, layer)))
     };
+    let mut by_preference = plain().chain(layers());
     if let Some((header, names)) =
-        layers().find_map(|(header, layer)| Some((header, colours(layer)?)))
+        by_preference.find_map(|(header, layer)| Some((header, colours(layer)?)))
     {
-        return Ok((header, Channels::Layer(names.map(Text::clone))));
+        return Ok((header, Channels::Colours(names.map(Text::clone))));
     }
     let luminance = layers().find_map(|(header, layer)| Some((header, layer, *layer.get("Y")?)));
     match luminance {

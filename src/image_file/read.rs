@@ -1,7 +1,7 @@
 //! Decodes picture files into textures. Files are untrusted: sizes are checked before memory is
 //! allocated, and data that the pixels do not need is not read.
 
-use std::io::{BufReader, ErrorKind, Read, Seek, SeekFrom};
+use std::io::{BufReader, ErrorKind, Read, Seek};
 use std::panic::{self, AssertUnwindSafe};
 
 use image::error::UnsupportedErrorKind;
@@ -50,18 +50,10 @@ fn format(file: &mut (impl Read + Seek)) -> Result<ImageFormat, Unreadable> {
 }
 
 fn by_format(mut file: impl Read + Seek, room: u64) -> Result<Image, Unreadable> {
-    let broken = |error: std::io::Error| Unreadable::Broken(error.to_string());
     let format = format(&mut file)?;
     match format {
         ImageFormat::Hdr => pixels(&mut Sieve::hdr(file), format, room),
-        ImageFormat::OpenExr => {
-            let start = file.stream_position().map_err(broken)?;
-            if let Some(image) = read_colours(&mut file, room)? {
-                return Ok(image);
-            }
-            file.seek(SeekFrom::Start(start)).map_err(broken)?;
-            pixels(&mut file, format, room)
-        }
+        ImageFormat::OpenExr => read_colours(&mut file, room),
         ImageFormat::Png => pixels(&mut Sieve::png(file), format, room),
         ImageFormat::Jpeg => pixels(&mut Sieve::jpeg(file), format, room),
         _ => pixels(&mut file, format, room),
@@ -118,7 +110,6 @@ fn unreadable(error: ImageError, format: ImageFormat) -> Unreadable {
         ImageFormat::Tiff => "TIFF",
         ImageFormat::Bmp => "BMP",
         ImageFormat::Hdr => "Radiance HDR",
-        ImageFormat::OpenExr => "OpenEXR",
         ImageFormat::Pnm => "PNM",
         _ => "picture",
     };
