@@ -1,8 +1,5 @@
 //! Pictures in real pixels: asked for, sent, replaced and removed.
 
-use base64::Engine;
-use base64::engine::general_purpose::STANDARD;
-
 use super::*;
 
 /// Asks for kitty's protocol, the name of the terminal and the size of its cells.
@@ -65,8 +62,31 @@ fn kitty(written: &[u8]) -> (String, Vec<u8>) {
             break;
         }
     }
-    let png = STANDARD.decode(data).expect("base64");
+    let png = from_base64(data.as_bytes());
     (control.expect("a command"), png)
+}
+
+/// The bytes that base64 stands for.
+fn from_base64(text: &[u8]) -> Vec<u8> {
+    let value = |&digit: &u8| match digit {
+        b'A'..=b'Z' => digit - b'A',
+        b'a'..=b'z' => digit - b'a' + 26,
+        b'0'..=b'9' => digit - b'0' + 52,
+        b'+' => 62,
+        b'/' => 63,
+        _ => panic!("{digit:?} is not base64"),
+    };
+    let end = text.iter().position(|&byte| byte == b'=');
+    let digits = &text[..end.unwrap_or(text.len())];
+    let groups = digits.chunks(4).flat_map(|group| {
+        let bits = group
+            .iter()
+            .fold(0, |bits, digit| bits << 6 | u32::from(value(digit)));
+        let bits = bits << (6 * (4 - group.len()));
+        let [_, bytes @ ..] = bits.to_be_bytes();
+        bytes.into_iter().take(group.len() - 1)
+    });
+    groups.collect()
 }
 
 fn pixels_of(png: &[u8]) -> image::RgbImage {
@@ -184,7 +204,7 @@ fn iterm_is_known_by_its_name() {
     let rest = &session.written[at..];
     let start = rest.iter().position(|&byte| byte == b':').expect("data") + 1;
     let end = rest.iter().position(|&byte| byte == 0x07).expect("an end");
-    let png = STANDARD.decode(&rest[start..end]).expect("base64");
+    let png = from_base64(&rest[start..end]);
     assert!(0 < pixels_of(&png).width());
     quit(session);
 }

@@ -7,8 +7,6 @@ use std::io;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
-use crossterm::Command;
-use crossterm::clipboard::CopyToClipboard;
 use ratatui::backend::Backend;
 use ratatui::buffer::Cell;
 use ratatui::layout::{Position, Rect};
@@ -17,6 +15,7 @@ use ratatui::terminal::Frame;
 #[cfg(unix)]
 use super::abort;
 use super::backend::AnsiBackend;
+use super::base64;
 use super::canvas::{Canvas, Removal, text_over};
 use super::colour::ColourDepth;
 use super::graphics::{Means, Pixmap};
@@ -262,10 +261,8 @@ impl Terminal {
 
     /// Offers text to the terminal's clipboard.
     pub fn copy(&mut self, text: &str) -> io::Result<()> {
-        let mut sequence = String::new();
-        let written = CopyToClipboard::to_clipboard_from(text).write_ansi(&mut sequence);
-        written.map_err(io::Error::other)?;
-        self.send(&sequence)
+        let text = base64::encode(text.as_bytes());
+        self.send(&format!("\x1b]52;c;{text}\x1b\\"))
     }
 
     /// Sends a sequence unless the terminal is lent or given back.

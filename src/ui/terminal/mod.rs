@@ -9,6 +9,7 @@
 #[cfg(unix)]
 mod abort;
 mod backend;
+mod base64;
 mod canvas;
 mod colour;
 #[cfg(unix)]

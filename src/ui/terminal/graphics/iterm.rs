@@ -1,12 +1,10 @@
 //! iTerm2's inline images (<https://iterm2.com/documentation-images.html>), which become the contents
 //! of cells: text replaces them.
 
-use base64::Engine;
-use base64::engine::general_purpose::STANDARD;
-
 use ratatui::layout::Rect;
 
 use super::wrapping::Wrapping;
+use crate::terminal::base64;
 
 /// Appends a PNG, to be shown over these cells, at the cursor, which moves.
 pub(super) fn encode(png: &[u8], place: Rect, wrapping: Wrapping, out: &mut Vec<u8>) {
@@ -18,7 +16,7 @@ pub(super) fn encode(png: &[u8], place: Rect, wrapping: Wrapping, out: &mut Vec<
     );
     wrapping.append(place, out, |out| {
         out.extend_from_slice(control.as_bytes());
-        out.extend_from_slice(STANDARD.encode(png).as_bytes());
+        out.extend_from_slice(base64::encode(png).as_bytes());
         out.push(b'\x07');
     });
 }

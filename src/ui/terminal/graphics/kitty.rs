@@ -1,12 +1,10 @@
 //! The kitty graphics protocol: pictures placed below text, identified by numbers
 //! (<https://sw.kovidgoyal.net/kitty/graphics-protocol/>).
 
-use base64::Engine;
-use base64::engine::general_purpose::STANDARD;
-
 use ratatui::layout::Rect;
 
 use super::wrapping::Wrapping;
+use crate::terminal::base64;
 
 /// The number of the picture. The terminal's numbers are shared by all programs in a window; small
 /// ones are the likeliest to be used by others.
@@ -39,7 +37,7 @@ pub(in crate::terminal) fn answers(command: &[u8]) -> bool {
 /// Appends a PNG, to be shown over these cells, at the cursor, in place of the picture before. The
 /// cursor stays where it is, and the terminal does not answer.
 pub(super) fn encode(png: &[u8], place: Rect, wrapping: Wrapping, out: &mut Vec<u8>) {
-    let data = STANDARD.encode(png);
+    let data = base64::encode(png);
     let (columns, rows) = (place.width, place.height);
     let mut control = format!("a=T,f=100,i={ID},p=1,c={columns},r={rows},z={BELOW},C=1,q=2,");
     let mut chunks = data.as_bytes().chunks(CHUNK).peekable();
