@@ -5,9 +5,10 @@
 
 use std::{env, io};
 
-use anstyle_lossy::palette::Palette;
 use ratatui::style::Color;
 use termprofile::{DetectorSettings, EnvVarSource, TermProfile, TermVars};
+
+use super::nearest::{light, nearest_fixed, nearest_of_theme};
 
 /// The colours that a terminal can show, from fewest to most.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -101,10 +102,10 @@ impl ColourDepth {
         match (self, ink) {
             (Self::Mono, _) => Ink::Default,
             (Self::Palette256, Ink::Rgb(red, green, blue)) => {
-                Ink::Index(nearest_of_256(red, green, blue))
+                Ink::Index(nearest_fixed([red, green, blue]))
             }
             (Self::Palette16, Ink::Rgb(red, green, blue)) => {
-                Ink::Index(nearest_of_16(nearest_of_256(red, green, blue)))
+                Ink::Index(nearest_of_16(nearest_fixed([red, green, blue])))
             }
             (Self::Palette16, Ink::Index(index)) => Ink::Index(nearest_of_16(index)),
             _ => ink,
@@ -149,26 +150,15 @@ pub(super) enum Ink {
 pub(crate) fn colour_on_screen(colour: Color) -> Option<[u8; 3]> {
     match ColourDepth::TrueColour.ink(colour) {
         Ink::Default => None,
-        Ink::Index(index) => {
-            let light = anstyle_lossy::xterm_to_rgb(index.into(), theme());
-            Some([light.r(), light.g(), light.b()])
-        }
+        Ink::Index(index) => Some(light(index, &THEME)),
         Ink::Rgb(red, green, blue) => Some([red, green, blue]),
     }
-}
-
-fn theme() -> Palette {
-    Palette(THEME.map(|[red, green, blue]| (red, green, blue).into()))
-}
-
-fn nearest_of_256(red: u8, green: u8, blue: u8) -> u8 {
-    anstyle_lossy::rgb_to_xterm((red, green, blue).into()).index()
 }
 
 fn nearest_of_16(index: u8) -> u8 {
     match index {
         0..16 => index,
-        _ => anstyle_lossy::xterm_to_ansi(index.into(), theme()) as u8,
+        _ => nearest_of_theme(light(index, &THEME), &THEME),
     }
 }
 

@@ -20,6 +20,7 @@ mod guard;
 mod input;
 pub(crate) mod interview;
 mod link;
+mod nearest;
 mod output;
 mod ownership;
 mod pen;
