@@ -107,28 +107,22 @@ fn a_full_disk_keeps_the_old_picture() {
 #[test]
 #[cfg(unix)]
 fn a_terminal_is_refused_unless_forced() {
-    use portable_pty::{CommandBuilder, PtySize, native_pty_system};
+    use terminal::Terminal;
 
     let place = Place::new();
     for (force, code, mark) in [("", 2, "--force"), ("--force", 0, "BM")] {
-        let pair = native_pty_system()
-            .openpty(PtySize::default())
-            .expect("a terminal");
-        let mut command = CommandBuilder::new(BINARY);
+        let (terminal, line) = Terminal::open(80, 24).expect("a terminal");
+        let mut command = Command::new(BINARY);
         command.args(["render", "ball.ray", "-o", "-"]);
         command.args(force.split_ascii_whitespace());
-        command.cwd(place.directory.path());
-        let mut child = pair.slave.spawn_command(command).expect("it starts");
-        drop(pair.slave);
+        command.current_dir(place.directory.path());
+        let mut child = terminal::start(command, line).expect("it starts");
         let mut shown = Vec::new();
+        let mut output = terminal.handle().expect("a handle");
         // On some systems, the end of a terminal is an error.
-        let _ = pair
-            .master
-            .try_clone_reader()
-            .expect("a reader")
-            .read_to_end(&mut shown);
+        let _ = output.read_to_end(&mut shown);
         let status = child.wait().expect("it ends");
-        assert_eq!(status.exit_code(), code);
+        assert_eq!(status.code(), Some(code));
         assert!(String::from_utf8_lossy(&shown).contains(mark), "{shown:?}");
     }
 }

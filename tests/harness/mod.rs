@@ -1,16 +1,21 @@
 //! Drives the real binary on a pseudo-terminal: sends keys and reads screens.
 
+pub(crate) mod terminal;
+
 use std::ffi::OsStr;
+use std::fs::File;
 use std::io::{Read, Write};
 use std::path::Path;
+use std::process::{Child, Command, ExitStatus};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{self, Receiver, RecvTimeoutError};
 use std::time::{Duration, Instant};
 
-use portable_pty::{Child, CommandBuilder, ExitStatus, MasterPty, PtySize, native_pty_system};
 use rustix::fs::{Mode, OFlags};
 use rustix::io::Errno;
+
+use terminal::Terminal;
 
 /// Nothing takes this long; a test that waits longer has failed.
 const WATCHDOG: Duration = Duration::from_secs(30);
@@ -27,16 +32,16 @@ pub(crate) const CTRL_L: &str = "\x0c";
 
 /// A program on its own pseudo-terminal.
 pub(crate) struct Session {
-    child: Box<dyn Child + Send + Sync>,
-    master: Option<Box<dyn MasterPty + Send>>,
-    keys: Option<Box<dyn Write + Send>>,
+    child: Child,
+    terminal: Option<Terminal>,
+    keys: Option<File>,
     output: Receiver<(Instant, Vec<u8>)>,
     screen: vt100::Parser,
     /// Whether the output so far ends within a frame.
     is_in_frame: bool,
     /// Everything that the program has written.
     pub(crate) written: Vec<u8>,
-    termios_before: String,
+    settings_before: String,
     /// Tells the reading thread to stop.
     stop: Arc<AtomicBool>,
     has_ended: bool,
@@ -51,19 +56,19 @@ impl Session {
         size: (u16, u16),
         environment: &[(&str, &str)],
     ) -> Self {
-        let mut command = CommandBuilder::new(env!("CARGO_BIN_EXE_halflight"));
+        let mut command = Command::new(env!("CARGO_BIN_EXE_halflight"));
         command.args(arguments);
         Self::run(command, folder, size, environment)
     }
 
     /// Runs a command like [`Session::start`] runs the binary.
     pub(crate) fn run(
-        mut command: CommandBuilder,
+        mut command: Command,
         folder: &Path,
         (columns, rows): (u16, u16),
         environment: &[(&str, &str)],
     ) -> Self {
-        command.cwd(folder);
+        command.current_dir(folder);
         command.env_clear();
         command.env("TERM", "xterm-256color");
         command.env("COLORTERM", "truecolor");
@@ -71,25 +76,19 @@ impl Session {
         for (name, value) in environment {
             command.env(name, value);
         }
-        let pair = native_pty_system().openpty(size_in_cells(columns, rows));
-        let pair = pair.expect("a pseudo-terminal");
-        let termios_before = format!("{:?}", pair.master.get_termios());
-        let reader = pair.master.try_clone_reader();
-        let keys = pair.master.take_writer();
-        let child = pair
-            .slave
-            .spawn_command(command)
-            .expect("the command starts");
+        let (terminal, line) = Terminal::open(columns, rows).expect("a pseudo-terminal");
+        let settings_before = settings(&terminal);
+        let handle = || terminal.handle().expect("a handle of the terminal");
         let stop = Arc::new(AtomicBool::new(false));
         Self {
-            child,
-            output: listen(reader.expect("the terminal can be read"), Arc::clone(&stop)),
-            keys: Some(keys.expect("the terminal can be written")),
-            master: Some(pair.master),
+            child: terminal::start(command, line).expect("the command starts"),
+            output: listen(handle(), Arc::clone(&stop)),
+            keys: Some(handle()),
+            terminal: Some(terminal),
             screen: vt100::Parser::new(size_of(rows), size_of(columns), 0),
             is_in_frame: false,
             written: Vec::new(),
-            termios_before,
+            settings_before,
             stop,
             has_ended: false,
         }
@@ -101,7 +100,6 @@ impl Session {
         writer
             .write_all(keys.as_ref())
             .expect("the terminal takes keys");
-        writer.flush().expect("the terminal takes keys");
     }
 
     /// Types these bytes over and over on another thread, as fast as the program takes them, until
@@ -114,7 +112,7 @@ impl Session {
 
     /// Resizes the terminal.
     pub(crate) fn resize(&mut self, columns: u16, rows: u16) {
-        let resized = self.terminal().resize(size_in_cells(columns, rows));
+        let resized = self.terminal().resize(columns, rows);
         resized.expect("the terminal can be resized");
         self.screen
             .screen_mut()
@@ -188,13 +186,14 @@ impl Session {
 
     /// The ID of the program's process.
     pub(crate) fn process_id(&self) -> u32 {
-        self.child.process_id().expect("it is running")
+        self.child.id()
     }
 
     /// The leader of the foreground process group, which receives the stop and interrupt keys.
     pub(crate) fn process_in_front(&self) -> u32 {
-        let leader = self.terminal().process_group_leader();
-        leader.expect("a foreground group").cast_unsigned()
+        let leader = self.terminal().process_in_front();
+        let leader = leader.expect("a foreground group");
+        leader.as_raw_nonzero().get().cast_unsigned()
     }
 
     /// Closes the terminal, like a lost connection.
@@ -207,21 +206,21 @@ impl Session {
     /// Closes a terminal that is no longer read.
     pub(crate) fn hang_up_at_once(&mut self) {
         self.keys = None;
-        self.master = None;
+        self.terminal = None;
     }
 
     /// Whether the terminal still exists.
     #[allow(dead_code, reason = "not every test needs it")]
     pub(crate) fn has_terminal(&self) -> bool {
-        self.master.is_some()
+        self.terminal.is_some()
     }
 
     /// Resumes reading after [`Session::hang`].
     #[allow(dead_code, reason = "not every test needs it")]
     pub(crate) fn read_again(&mut self) {
-        let reader = self.terminal().try_clone_reader();
+        let handle = self.terminal().handle();
         self.stop = Arc::default();
-        self.output = listen(reader.expect("it can be read"), Arc::clone(&self.stop));
+        self.output = listen(handle.expect("it can be read"), Arc::clone(&self.stop));
     }
 
     /// Reads the remaining output after [`Session::hang`] and the end of the program.
@@ -238,7 +237,7 @@ impl Session {
     #[allow(dead_code, reason = "not every test needs it")]
     pub(crate) fn hang(&mut self) {
         self.stop_reading();
-        let name = self.terminal().tty_name().expect("a name");
+        let name = self.terminal().name().expect("a name");
         let open = OFlags::WRONLY | OFlags::NONBLOCK | OFlags::NOCTTY | OFlags::CLOEXEC;
         let line = rustix::fs::open(name, open, Mode::empty()).expect("it can be opened");
         // Terminals ignore NULs.
@@ -293,13 +292,12 @@ impl Session {
 
     /// Whether the terminal's settings are the same as before the program ran.
     pub(crate) fn has_settings_from_before(&self) -> bool {
-        format!("{:?}", self.terminal().get_termios()) == self.termios_before
+        settings(self.terminal()) == self.settings_before
     }
 
     /// Asserts that the terminal is in the same state as before the program ran.
     pub(crate) fn assert_restored(&self) {
-        let settings = format!("{:?}", self.terminal().get_termios());
-        assert_eq!(settings, self.termios_before);
+        assert_eq!(settings(self.terminal()), self.settings_before);
         let screen = self.screen();
         assert!(!screen.alternate_screen(), "still on the alternate screen");
         assert!(!screen.hide_cursor(), "the cursor is hidden");
@@ -307,9 +305,8 @@ impl Session {
         assert_eq!(screen.mouse_protocol_mode(), vt100::MouseProtocolMode::None);
     }
 
-    fn terminal(&self) -> &dyn MasterPty {
-        let master = self.master.as_deref();
-        master.expect("the terminal exists")
+    fn terminal(&self) -> &Terminal {
+        self.terminal.as_ref().expect("the terminal exists")
     }
 }
 
@@ -356,12 +353,13 @@ impl Drop for Session {
         if !self.has_ended {
             // It may already have ended.
             let _ = self.child.kill();
+            let _ = self.child.wait();
         }
     }
 }
 
 /// Reads on a thread until the terminal is closed or `stop` is set.
-fn listen(mut reader: Box<dyn Read + Send>, stop: Arc<AtomicBool>) -> Receiver<(Instant, Vec<u8>)> {
+fn listen(mut reader: File, stop: Arc<AtomicBool>) -> Receiver<(Instant, Vec<u8>)> {
     let (send, output) = mpsc::channel();
     std::thread::spawn(move || {
         let mut chunk = vec![0; 1 << 16];
@@ -380,12 +378,12 @@ pub(crate) fn last(text: &[u8], all: &[u8]) -> Option<usize> {
     all.windows(text.len()).rposition(|part| part == text)
 }
 
-fn size_in_cells(columns: u16, rows: u16) -> PtySize {
-    PtySize {
-        rows,
-        cols: columns,
-        ..PtySize::default()
-    }
+/// The settings of a terminal, to be compared.
+fn settings(terminal: &Terminal) -> String {
+    format!(
+        "{:?}",
+        terminal.settings().expect("a terminal has settings")
+    )
 }
 
 fn size_of(cells: u16) -> std::num::NonZeroU16 {

@@ -232,7 +232,7 @@ fn an_obstacle_at_the_path_of_a_scene_hides_no_edits_of_it() {
     fs::remove_file(place.at("balls.ray")).expect("it is there");
     fs::create_dir(place.at("balls.ray")).expect("the name is free");
     let mut session = place.start(&["balls.ray"], WIDE);
-    assert_eq!(session.end().exit_code(), 66);
+    assert_eq!(session.end().code(), Some(66));
     let text = session.text();
     assert!(
         text.contains("note: unsaved edits of it are kept in"),
@@ -248,7 +248,7 @@ fn edits_that_can_t_be_stored_are_reported_as_lost_at_the_end() {
     let mut session = place.open_edited();
     session.wait_for("[no backup]");
     kill(session.process_id(), Signal::TERM);
-    assert_eq!(session.end().exit_code(), 143);
+    assert_eq!(session.end().code(), Some(143));
     session.assert_restored();
     let text = session.text();
     assert!(text.contains("not all unsaved edits are kept"), "{text}");

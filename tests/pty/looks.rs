@@ -108,7 +108,7 @@ fn a_failure_to_open_leaves_the_terminal_unchanged() {
     for (name, code) in [("none/a.ray", 66), ("none.txt", 2), (".", 66)] {
         let mut session = place.start(&[name], (80, 24));
         let status = session.end();
-        assert_eq!(status.exit_code(), code, "{name}");
+        assert_eq!(status.code(), Some(code), "{name}");
         assert!(session.text().starts_with("error: "), "{}", session.text());
         assert!(!session.written.contains(&0x1b));
     }
@@ -120,7 +120,7 @@ fn a_dumb_terminal_is_refused() {
     let environment = [("TERM", "dumb")];
     let arguments = ["balls.ray"];
     let mut session = Session::start(place.directory.path(), &arguments, WIDE, &environment);
-    assert_eq!(session.end().exit_code(), 2);
+    assert_eq!(session.end().code(), Some(2));
     let text = session.text();
     assert!(text.starts_with("error: TERM=dumb"), "{text}");
     assert!(text.contains("halflight render"), "{text}");
@@ -135,7 +135,7 @@ fn messages_on_a_dumb_terminal_have_no_control_sequences() {
     for (arguments, code) in [(&["check", "bad.ray"][..], 65), (&many, 0)] {
         let environment = [("TERM", "dumb")];
         let mut session = Session::start(place.directory.path(), arguments, WIDE, &environment);
-        assert_eq!(session.end().exit_code(), code, "{}", session.text());
+        assert_eq!(session.end().code(), Some(code), "{}", session.text());
         assert!(!session.written.contains(&0x1b), "{}", session.text());
     }
 }

@@ -14,11 +14,11 @@ mod typed;
 
 use std::fs;
 use std::os::unix::fs::PermissionsExt;
+use std::os::unix::process::ExitStatusExt;
 use std::path::PathBuf;
 use std::process::{Command, Stdio};
 use std::time::{Duration, Instant};
 
-use portable_pty::CommandBuilder;
 use rustix::process::{Pid, Signal, kill_process};
 use tempfile::TempDir;
 use vt100::{Color, MouseProtocolMode, Screen};
@@ -189,14 +189,14 @@ fn quit(mut session: Session) {
     assert_end(session, 0);
 }
 
-fn assert_end(session: Session, code: u32) {
+fn assert_end(session: Session, code: i32) {
     assert_end_with(session, code, "");
 }
 
 /// Asserts the exit code, and that the screen contains only these words.
-fn assert_end_with(mut session: Session, code: u32, words: &str) {
+fn assert_end_with(mut session: Session, code: i32, words: &str) {
     let status = session.end();
     session.assert_restored();
     assert_eq!(session.text().trim_end(), words);
-    assert_eq!((status.exit_code(), status.signal()), (code, None));
+    assert_eq!((status.code(), status.signal()), (Some(code), None));
 }
