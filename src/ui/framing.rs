@@ -71,7 +71,8 @@ mod tests {
         }
         let area = Rect::new(1, 1, width, height);
         let inner = frame(title, note, Style::new(), area, &mut buffer);
-        assert_eq!(inner.width, width.saturating_sub(2));
+        let sides = [width, height].map(|side| u32::from(side.saturating_sub(2)));
+        assert_eq!(inner.area(), sides[0] * sides[1]);
         let symbols = buffer.content.iter().map(|cell| cell.symbol());
         let symbols: Vec<_> = symbols.collect();
         let lines = symbols.chunks(usize::from(width) + 2).map(<[_]>::concat);
