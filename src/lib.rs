@@ -47,7 +47,7 @@
 //! | [`cli`] | arguments and exit codes | how the work is done |
 //!
 //! Each room is a crate, and its manifest lists the rooms and the libraries that it may use; this crate
-//! passes all of them on. `tests/rooms` forbids what manifests allow: naming what is not used, cycles
+//! passes all of them on. `tests/it/rooms` forbids what manifests allow: naming what is not used, cycles
 //! between sibling files, and growth beyond the ceilings of files, folders, rooms and the methods of
 //! the interface.
 //!

@@ -1,5 +1,5 @@
 //! The fuzz targets. Each accepts any bytes and panics if an invariant is broken. libFuzzer and
-//! `drive` fuzz them; `tests/corpus.rs` replays the corpora.
+//! `drive` fuzz them; `tests/it/corpus.rs` replays the corpora.
 
 mod document;
 mod files;

@@ -1,10 +1,7 @@
 //! The interface on a terminal, from the first key to the restored screen.
-#![cfg(unix)]
 
 mod editing;
 mod endings;
-#[path = "../harness/mod.rs"]
-mod harness;
 mod journals;
 mod looks;
 mod opening;
@@ -23,7 +20,7 @@ use rustix::process::{Pid, Signal, kill_process};
 use tempfile::TempDir;
 use vt100::{Color, MouseProtocolMode, Screen};
 
-use harness::{BEGIN_FRAME, CTRL_L, Pixels, Session, last, picture};
+use crate::harness::{BEGIN_FRAME, CTRL_L, Pixels, Session, last, picture};
 
 /// Two balls lit only by ambient light, so that their pixels have their own colours.
 const BALLS: &str = "\
@@ -42,7 +39,7 @@ const BLUE: Color = Color::Rgb(0, 0, 255);
 /// Keys that set the first ball's radius to 2, from the initial state.
 const RADIUS_TO_2: &str = "\rj2\r";
 
-const DEFAULT: &str = include_str!("../../scenes/default.ray");
+const DEFAULT: &str = include_str!("../../../scenes/default.ray");
 
 const ENTER: &str = "\r";
 const ESC: &str = "\x1b";

@@ -1,6 +1,6 @@
 //! Replays the seeds and findings of fuzzing; see `fuzz/README.md`.
 
-#[path = "../fuzz/src/lib.rs"]
+#[path = "../../fuzz/src/lib.rs"]
 pub mod targets;
 
 use std::fs;

@@ -13,7 +13,7 @@ use halflight::scene::{Images, Meshes, Rendering, Scene};
 use halflight::text::apply;
 use tempfile::TempDir;
 
-const EXAMPLE: &str = include_str!("../scenes/spheres.xml");
+const EXAMPLE: &str = include_str!("../../scenes/spheres.xml");
 
 fn read(text: &str) -> (Source, Lowered) {
     let mut source = Source::new(Language::Xml, Arc::new(text.to_owned()));

@@ -20,10 +20,6 @@ mod reels;
 mod scenes;
 mod settings;
 mod streams;
-#[cfg(unix)]
-#[allow(dead_code, reason = "not all of it is needed here")]
-#[path = "../harness/terminal.rs"]
-mod terminal;
 mod textures;
 mod tracks;
 

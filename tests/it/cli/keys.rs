@@ -7,8 +7,8 @@ use std::path::{Path, PathBuf};
 
 use super::*;
 
-const DEFAULT: &str = include_str!("../../scenes/default.ray");
-const TRACK: &str = include_str!("../../scenes/default.toml");
+const DEFAULT: &str = include_str!("../../../scenes/default.ray");
+const TRACK: &str = include_str!("../../../scenes/default.toml");
 
 /// The last screen after the keys of a script, and the place where they were pressed.
 fn played(keys: &Path, size: &str) -> (String, Place) {

@@ -107,7 +107,7 @@ fn a_full_disk_keeps_the_old_picture() {
 #[test]
 #[cfg(unix)]
 fn a_terminal_is_refused_unless_forced() {
-    use terminal::Terminal;
+    use crate::harness::terminal::{Terminal, start};
 
     let place = Place::new();
     for (force, code, mark) in [("", 2, "--force"), ("--force", 0, "BM")] {
@@ -116,7 +116,7 @@ fn a_terminal_is_refused_unless_forced() {
         command.args(["render", "ball.ray", "-o", "-"]);
         command.args(force.split_ascii_whitespace());
         command.current_dir(place.directory.path());
-        let mut child = terminal::start(command, line).expect("it starts");
+        let mut child = start(command, line).expect("it starts");
         let mut shown = Vec::new();
         let mut output = terminal.handle().expect("a handle");
         // On some systems, the end of a terminal is an error.
