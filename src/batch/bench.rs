@@ -1,14 +1,12 @@
 //! Measures how fast scenes are read, built and traced here.
 
 use std::fmt::Write;
-use std::fs;
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, mpsc};
 use std::time::{Duration, Instant};
 
 use serde_json::{Value, json};
 
-use super::plan::Measured;
 use super::{Error, Messages, Report, Tracing, Warnings, load, machine, stdout};
 use language::{Language, Source};
 use render::{Block, BlockTracer, Frames, Job, Renderer, Settings, Threads};
@@ -23,8 +21,6 @@ pub struct Bench {
     pub tracing: Tracing,
     /// How often each figure is measured; the median counts.
     pub runs: u32,
-    /// Whether a cluster is planned for each scene.
-    pub plan: bool,
     /// How the figures are printed.
     pub report: Report,
     /// How their warnings are treated.
@@ -89,8 +85,6 @@ fn try_bench(work: &Bench) -> Result<(), Error> {
 struct Read {
     scene: Scene,
     images: Images,
-    /// The length of its text and files.
-    bytes: u64,
 }
 
 /// Reads a scene file and lowers it.
@@ -104,12 +98,9 @@ fn from_file(work: &Bench, path: &Path) -> Result<Read, Error> {
     )?;
     let errors = loaded.findings.errors();
     let scene = loaded.scene.ok_or(Error::Invalid { errors })?;
-    let files = loaded.read.found.values();
-    let lengths = files.map(|file| fs::metadata(file).map_or(0, |file| file.len()));
     Ok(Read {
         scene,
         images: loaded.read.images,
-        bytes: loaded.source.text().len() as u64 + lengths.sum::<u64>(),
     })
 }
 
@@ -122,7 +113,6 @@ fn built_in(text: &str) -> Result<Read, Error> {
     Ok(Read {
         scene,
         images: Images::default(),
-        bytes: text.len() as u64,
     })
 }
 
@@ -154,8 +144,6 @@ struct Row {
     objects: usize,
     settings: Settings,
     rays: u64,
-    /// What a cluster would take, if that is asked for.
-    plan: Option<Measured>,
     /// From the file, or the text, to the scene.
     load: Spread,
     /// The acceleration structures.
@@ -196,32 +184,22 @@ fn measure(
     let mut found = None;
     for _ in 0..work.runs {
         let begun = Instant::now();
-        let Read {
-            scene,
-            images,
-            bytes,
-        } = read()?;
+        let Read { scene, images } = read()?;
         times[0].push(begun.elapsed());
         let objects = scene.objects.len();
         let job = tracing.job(scene, images, Frames::Live)?;
-        let picture = tracing.provenance(&job, String::new());
+        let settings = job.settings;
         times[2].push(first_picture(job.clone(), tracing.threads)?);
         let begun = Instant::now();
         let tracer = BlockTracer::new(job, tracing.threads, || false)?.ok_or(Error::Stopped)?;
         times[1].push(begun.elapsed());
-        let (took, rays) = trace(&tracer, picture.settings.spp);
+        let (took, rays) = trace(&tracer, settings.spp);
         times[3].push(took);
-        found = Some((objects, picture, rays, tracer, bytes));
+        found = Some((objects, settings, rays));
     }
-    let (objects, picture, rays, tracer, bytes) = found.ok_or(Error::Stopped)?;
+    let (objects, settings, rays) = found.ok_or(Error::Stopped)?;
     let [load, build, first, trace] = times.map(Spread::new);
-    let settings = picture.settings;
-    let plan = work.plan.then(|| {
-        let times = (load.median() + build.median(), trace.median());
-        Measured::new(&tracer, &picture, times, (tracing.threads, bytes))
-    });
     Ok(Row {
-        plan: plan.transpose()?,
         name: name.to_owned(),
         objects,
         settings,
@@ -313,11 +291,6 @@ fn table(work: &Bench, tracing: &Tracing, rows: &[Row]) -> String {
             1e-6 * row.samples() / row.trace.median(),
         ));
     }
-    for row in rows {
-        if let Some(plan) = &row.plan {
-            text += &plan.table(&row.name);
-        }
-    }
     text
 }
 
@@ -362,7 +335,6 @@ fn object(work: &Bench, tracing: &Tracing, rows: &[Row]) -> Value {
             "rays_per_second": row.rays as f64 / row.trace.median(),
             "samples_per_second": row.samples() / row.trace.median(),
             "settings": super::stats::settings(&row.settings),
-            "plan": row.plan.as_ref().map(Measured::object),
         })
     });
     json!({

@@ -17,7 +17,6 @@ mod messages;
 mod numbers;
 mod output;
 mod parts;
-mod plan;
 mod progress;
 mod render;
 mod report;

@@ -13,7 +13,6 @@ Examples:
   halflight bench                                     built-in scenes, a few seconds each
   halflight bench scene.xml --size 1920x1080 --spp 16
   halflight bench --threads 1 --json > bench.json
-  halflight bench scene.xml --size 3840x2160 --spp 256 --plan
 
 Prints medians: the time to load a scene, to build its acceleration structures, to show a first \
 picture, and to trace all samples; and the rays and samples per second while tracing.";
@@ -26,10 +25,6 @@ pub(super) struct BenchArguments {
     /// Number of runs, 1 to 1000
     #[arg(long, value_name = "N", default_value_t = 5, allow_negative_numbers = true, value_parser = whole_number(1, 1000_u32))]
     runs: u32,
-    /// Also plan a cluster: how long 1 to 10000 tasks would take for a picture, computed from what is
-    /// measured here
-    #[arg(long)]
-    plan: bool,
     /// Print the figures as JSON
     #[arg(long)]
     json: bool,
@@ -50,7 +45,6 @@ impl BenchArguments {
             scenes: self.scenes,
             tracing: self.tracing.into_tracing(),
             runs: self.runs,
-            plan: self.plan,
             report: if self.json {
                 Report::Json
             } else {

@@ -16,5 +16,5 @@ mod writer;
 
 pub use header::{Difference, Header};
 pub use merge::{Merged, Unmerged, merge, missing, ranges};
-pub use shard::{MOST_SHARDS, Shard, deal};
+pub use shard::{MOST_SHARDS, Shard};
 pub use writer::{Part, Refused, path_beside};

@@ -55,7 +55,7 @@ impl fmt::Display for Shard {
 /// 128 blocks, the costliest takes 1.02 to 1.15 times the mean (of four scenes); in Z-order up to
 /// 1.22, in rows 1.20, in Z-order with each turn begun elsewhere 1.21, in a random order 1.56. In 8
 /// shards it takes at most 1.03 times the mean.
-pub fn deal(blocks: Blocks, shards: u32) -> impl Iterator<Item = u32> {
+pub(super) fn deal(blocks: Blocks, shards: u32) -> impl Iterator<Item = u32> {
     let across = blocks.across();
     let edge = across.max(blocks.count() / across).next_power_of_two();
     let mut owners = vec![0; blocks.count() as usize];

@@ -24,35 +24,6 @@ fn built_in_scenes_are_measured() {
     );
 }
 
-/// Only what must hold on every machine: more tasks read more and merge longer, none takes longer.
-#[test]
-fn a_cluster_is_planned_from_what_is_measured() {
-    let place = Place::new();
-    let table = measured(
-        &place,
-        "bench ball.ray --runs 1 --size 200x100 --spp 1 --plan",
-    );
-    let plan = table
-        .lines()
-        .skip_while(|line| !line.starts_with("  tasks"));
-    let rows = plan.skip(1).map_while(|line| {
-        let numbers = line.split_whitespace().map(str::parse);
-        numbers.collect::<Result<Vec<f64>, _>>().ok()
-    });
-    let rows: Vec<_> = rows.collect();
-    let tasks: Vec<_> = rows.iter().map(|row| row[0]).collect();
-    assert_eq!(
-        tasks,
-        [1.0, 3.0, 10.0, 30.0, 100.0, 300.0, 1000.0, 3000.0, 10_000.0]
-    );
-    assert_eq!((rows[0][5], rows[0][6]), (1.0, 100.0), "{table}");
-    for pair in rows.windows(2) {
-        // Trace, merge, bytes read.
-        assert!(pair[1][1] <= pair[0][1] && pair[0][3] <= pair[1][3] && pair[0][7] <= pair[1][7]);
-    }
-    assert!(table.contains("Shortest with "), "{table}");
-}
-
 #[test]
 fn figures_are_objects_of_json_with_their_settings() {
     let place = Place::new();
