@@ -19,9 +19,8 @@ fn main() -> ExitCode {
     survive_file_size_limit();
     ExitCode::from(match cli::parse(std::env::args_os()) {
         Ok(Command::Interface(options, source, purpose)) => configured(options, &source, purpose),
-        Ok(Command::Render(work)) => cli::exit_code(&batch::render(&work)),
+        Ok(Command::Render(work)) => cli::exit_code(&batch::render(work)),
         Ok(Command::Check(work)) => cli::exit_code(&batch::check(&work)),
-        Ok(Command::Sequence(work)) => cli::exit_code(&batch::render_sequence(&work)),
         Ok(Command::Bench(work)) => cli::exit_code(&batch::bench(&work)),
         Ok(Command::Merge(work)) => cli::exit_code(&batch::merge(&work)),
         Ok(Command::Show(work)) => cli::comparison_exit_code(&batch::show(&work)),

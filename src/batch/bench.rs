@@ -7,7 +7,7 @@ use std::time::{Duration, Instant};
 
 use serde_json::{Value, json};
 
-use super::{Error, Messages, Report, Tracing, Warnings, load, machine, stdout};
+use super::{Error, Messages, Reading, Report, Tracing, machine, stdout};
 use language::{Language, Source};
 use render::{Block, BlockTracer, Frames, Job, Renderer, Settings, Threads};
 use scene::{Images, Meshes, Rendering, Scene, Size};
@@ -23,10 +23,8 @@ pub struct Bench {
     pub runs: u32,
     /// How the figures are printed.
     pub report: Report,
-    /// How their warnings are treated.
-    pub warnings: Warnings,
-    /// Additional folders that pictures and meshes may be read from.
-    pub assets: Vec<PathBuf>,
+    /// How they are read.
+    pub reading: Reading,
 }
 
 /// The size of the pictures unless another is asked for.
@@ -50,8 +48,7 @@ pub fn bench(work: &Bench) -> Result<(), Error> {
 }
 
 fn try_bench(work: &Bench) -> Result<(), Error> {
-    assets::check_folders(&work.assets)?;
-    memory::start_threads_or_none();
+    work.reading.begin()?;
     let tracing = Tracing {
         size: Some(work.tracing.size.unwrap_or(SIZE)),
         rendering: Rendering {
@@ -89,17 +86,10 @@ struct Read {
 
 /// Reads a scene file and lowers it.
 fn from_file(work: &Bench, path: &Path) -> Result<Read, Error> {
-    let loaded = load(
-        Messages::Text,
-        path,
-        &work.assets,
-        work.warnings,
-        Some(&work.tracing.over()),
-    )?;
-    let errors = loaded.findings.errors();
-    let scene = loaded.scene.ok_or(Error::Invalid { errors })?;
+    let over = work.tracing.over();
+    let mut loaded = work.reading.load(Messages::Text, path, Some(&over))?;
     Ok(Read {
-        scene,
+        scene: loaded.take_scene()?,
         images: loaded.read.images,
     })
 }
@@ -189,9 +179,10 @@ fn measure(
         let objects = scene.objects.len();
         let job = tracing.job(scene, images, Frames::Live)?;
         let settings = job.settings;
-        times[2].push(first_picture(job.clone(), tracing.threads)?);
+        times[2].push(first_picture(job.clone(), tracing.means.threads)?);
         let begun = Instant::now();
-        let tracer = BlockTracer::new(job, tracing.threads, || false)?.ok_or(Error::Stopped)?;
+        let tracer =
+            BlockTracer::new(job, tracing.means.threads, || false)?.ok_or(Error::Stopped)?;
         times[1].push(begun.elapsed());
         let (took, rays) = trace(&tracer, settings.spp);
         times[3].push(took);
@@ -254,7 +245,7 @@ fn table(work: &Bench, tracing: &Tracing, rows: &[Row]) -> String {
     line(format!(
         "halflight {}, {} of {} cores, {}, {}, {} of memory",
         env!("CARGO_PKG_VERSION"),
-        tracing.threads,
+        tracing.means.threads,
         machine.cores,
         machine.processor,
         machine.vectors,
@@ -345,7 +336,7 @@ fn object(work: &Bench, tracing: &Tracing, rows: &[Row]) -> Value {
             "vectors": machine.vectors,
             "memory": machine.memory,
         },
-        "threads": tracing.threads,
+        "threads": tracing.means.threads,
         "runs": work.runs,
         "rows": rows.collect::<Value>(),
     })

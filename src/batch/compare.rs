@@ -8,7 +8,7 @@ use serde_json::{Value, json};
 use super::graded::Graded;
 use super::output::Output;
 use super::tracing::Tracer;
-use super::{Error, Messages, Tracing, Warnings, load, stdout};
+use super::{Error, Messages, Reading, Tracing, stdout};
 use compare::{Comparison, Difference, SizesDiffer, heat_map};
 use image_file::{ImageFormat, Picture, Recorded, in_8_bits};
 use language::Language;
@@ -31,10 +31,8 @@ pub struct Compare {
     pub output: Option<(PathBuf, ImageFormat)>,
     /// How scenes are traced.
     pub tracing: Tracing,
-    /// How warnings of scenes are treated.
-    pub warnings: Warnings,
-    /// Additional folders that pictures and meshes of scenes may be read from.
-    pub assets: Vec<PathBuf>,
+    /// How scenes are read.
+    pub reading: Reading,
 }
 
 /// How figures are printed.
@@ -61,8 +59,8 @@ pub fn compare(work: &Compare) -> Result<Verdict, Error> {
 }
 
 fn try_compare(work: &Compare) -> Result<Verdict, Error> {
+    work.reading.begin()?;
     check(work)?;
-    memory::start_threads_or_none();
     let [a, b] = images(work)?;
     let found = Comparison::of(&a, &b, work.tolerance);
     let verdict = match &found {
@@ -89,7 +87,6 @@ fn try_compare(work: &Compare) -> Result<Verdict, Error> {
 
 /// Checks before any work that the picture of the differences can be written.
 fn check(work: &Compare) -> Result<(), Error> {
-    assets::check_folders(&work.assets)?;
     let Some((path, format)) = &work.output else {
         return Ok(());
     };
@@ -142,16 +139,8 @@ fn trace(work: &Compare, path: &Path, picture: Option<(&Path, &Recorded)>) -> Re
         Some(graded) => graded.over(),
         None => work.tracing.over(),
     };
-    let loaded = load(
-        Messages::Text,
-        path,
-        &work.assets,
-        work.warnings,
-        Some(&over),
-    )?;
-    let scene = loaded.scene.ok_or_else(|| Error::Invalid {
-        errors: loaded.findings.errors(),
-    })?;
+    let mut loaded = work.reading.load(Messages::Text, path, Some(&over))?;
+    let scene = loaded.take_scene()?;
     if let Some((output, _)) = &work.output {
         let reason = format!("{} uses it", path.display());
         Output::File(output.clone()).check_is_not(&loaded.read.files, &reason)?;
@@ -168,9 +157,9 @@ fn trace(work: &Compare, path: &Path, picture: Option<(&Path, &Recorded)>) -> Re
     };
     let job = tracing.job(scene, loaded.read.images, frames)?;
     if let Some(graded) = &graded {
-        graded.tell(&tracing, &job, own);
+        graded.tell(&job, own);
     }
-    let frame = Tracer::new(&tracing).trace(job, None, || {})?;
+    let frame = Tracer::new(tracing.means).trace(job, None, || {})?;
     let pixels = if holds_light {
         in_8_bits(&frame)
     } else {

@@ -4,7 +4,8 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use super::output::Output;
-use super::{Error, Loaded, Messages, Warnings, load};
+use super::reading::Loaded;
+use super::{Error, Messages, Reading};
 use language::{Converted, Language};
 use text::{Diagnostic, Findings};
 
@@ -17,10 +18,8 @@ pub struct Convert {
     pub to: Language,
     /// Where the new text goes.
     pub output: Output,
-    /// How warnings of the scene and losses are treated.
-    pub warnings: Warnings,
-    /// Additional folders that pictures and meshes may be read from.
-    pub assets: Vec<PathBuf>,
+    /// How the scene is read. Losses are treated as warnings.
+    pub reading: Reading,
 }
 
 /// Converts a scene and prints what it loses.
@@ -31,15 +30,8 @@ pub fn convert(work: &Convert) -> Result<(), Error> {
 fn try_convert(work: &Convert) -> Result<(), Error> {
     work.output.check_spares(&work.scene, &[])?;
     work.output.check()?;
-    assets::check_folders(&work.assets)?;
-    memory::start_threads_or_none();
-    let loaded = load(
-        Messages::Text,
-        &work.scene,
-        &work.assets,
-        work.warnings,
-        None,
-    )?;
+    work.reading.begin()?;
+    let loaded = work.reading.load(Messages::Text, &work.scene, None)?;
     let scene = loaded.scene.as_ref().ok_or_else(|| Error::Unconverted {
         errors: loaded.findings.errors(),
     })?;
@@ -49,7 +41,7 @@ fn try_convert(work: &Convert) -> Result<(), Error> {
     if let Output::File(path) = &work.output {
         losses.append(unreachable_files(work, path, &loaded));
     }
-    let losses = work.warnings.apply(losses.sorted());
+    let losses = work.reading.warnings.apply(losses.sorted());
     Messages::Text.all_findings(&work.scene, loaded.source.text(), &losses);
     match losses.errors() {
         0 => {}

@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 
 use super::finding::{Naming, Suspect, Text, place_after};
 use super::tracing::Tracer;
-use super::{Error, Messages, Report, Tracing, Warnings, load, stdout};
+use super::{Error, Messages, Reading, Report, Tracing, stdout};
 use explain::{Line, Sentence, Subject, Words, number, words};
 use render::{Explanation, Frames, PreparedScene};
 use scene::Size;
@@ -26,10 +26,8 @@ pub struct Explain {
     pub report: Report,
     /// How the picture is traced.
     pub tracing: Tracing,
-    /// How warnings of the scene are treated.
-    pub warnings: Warnings,
-    /// Additional folders that pictures and meshes may be read from.
-    pub assets: Vec<PathBuf>,
+    /// How the scene is read.
+    pub reading: Reading,
 }
 
 /// Explains a pixel and prints the verdict and the tree of rays to standard output.
@@ -38,18 +36,12 @@ pub fn explain(work: &Explain) -> Result<(), Error> {
 }
 
 fn try_explain(work: &Explain) -> Result<(), Error> {
-    assets::check_folders(&work.assets)?;
-    memory::start_threads_or_none();
-    let loaded = load(
-        Messages::Text,
-        &work.scene,
-        &work.assets,
-        work.warnings,
-        Some(&work.tracing.over()),
-    )?;
-    let scene = loaded.scene.ok_or_else(|| Error::Invalid {
-        errors: loaded.findings.errors(),
-    })?;
+    work.reading.begin()?;
+    let over = work.tracing.over();
+    let mut loaded = work
+        .reading
+        .load(Messages::Text, &work.scene, Some(&over))?;
+    let scene = loaded.take_scene()?;
     let job = work.tracing.job(scene, loaded.read.images, Frames::Last)?;
     let size = job.settings.size;
     check_pixel(work.pixel, size)?;
@@ -82,7 +74,7 @@ fn try_explain(work: &Explain) -> Result<(), Error> {
     let is_of_picture = words.verdicts[0].may_be_of_picture();
     let suspect = is_of_picture.then(|| Suspect::of_scene(job, &loaded.prospects));
     if let Some(suspect) = suspect.flatten() {
-        suspect.print(&text, || Tracer::new(&work.tracing));
+        suspect.print(&text, || Tracer::new(work.tracing.means));
     }
     Ok(())
 }

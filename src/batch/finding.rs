@@ -2,11 +2,15 @@
 
 use std::path::Path;
 
+use super::reading::Loaded;
 use super::tracing::Tracer;
-use super::{Loaded, Messages, Tracing};
+use super::{Messages, Tracing};
 use explain::{Place, Subject, cause, fault};
 use language::{Prospect, Source};
-use render::{Advice, Fault, Frame, Frames, Job, Limit, PreparedScene, Settings, Trials};
+use render::{
+    Advice, Fault, Frame, Frames, Job, Limit, PreparedScene, Progress, Provenance, Settings,
+    Trials, exposes,
+};
 use scene::{LEAST_ADAPTIVE_SPP, RenderKey, Rendering};
 
 /// Says that options over the text leave adaptive sampling no pixel to stop.
@@ -21,6 +25,23 @@ pub(super) fn print_without_effect(messages: Messages, over_text: &Rendering, se
             "`--noise` has no effect: it cannot stop a pixel before {least} samples, and `--spp` is {spp}"
         );
         messages.note(&note);
+    }
+}
+
+/// Says by what a picture is biased.
+pub(super) fn print_biases(messages: Messages, frame: &Frame, picture: &Provenance) {
+    let most = picture.settings.clamp;
+    if 0.0 < most && exposes(picture.settings.aov) {
+        messages.note(&format!(
+            "samples are clamped to {most:?}; light above that is lost (biased)"
+        ));
+    }
+    if frame.progress.is_adaptive() {
+        let Progress { spp, mean_spp, .. } = frame.progress;
+        messages.note(&format!(
+            "adaptive sampling (slightly biased): up to {spp} samples per pixel, {mean_spp:.1} on \
+                 average"
+        ));
     }
 }
 
@@ -158,7 +179,7 @@ pub(super) fn print_of_scene(path: &Path, loaded: &mut Loaded, tracing: &Tracing
             source: Some(&loaded.source),
             prospects: &loaded.prospects,
         };
-        suspect.print(&text, || Tracer::new(tracing));
+        suspect.print(&text, || Tracer::new(tracing.means));
     }
 }
 

@@ -2,9 +2,10 @@
 
 use std::path::Path;
 
-use super::{Messages, Over, Tracing};
+use super::reading::Over;
+use super::{Messages, Tracing};
 use image_file::Recorded;
-use render::{Job, Record, Region, denoises};
+use render::{Job, Provenance, Record, Region, denoises};
 use scene::{Rendering, Scene, Size};
 
 /// A scene that is to be traced as a picture was.
@@ -82,7 +83,7 @@ impl<'w> Graded<'w> {
     }
 
     /// Says how the scene is traced, and why so.
-    pub(super) fn tell(&self, tracing: &Tracing, job: &Job, own: Size) {
+    pub(super) fn tell(&self, job: &Job, own: Size) {
         let (scene, picture) = (self.scene.display(), self.picture.display());
         let recorded = self.record.as_ref().and_then(|record| record.size);
         if let (None, None, None, Some(size)) =
@@ -94,7 +95,7 @@ impl<'w> Graded<'w> {
                 "{scene} is traced at {size}, the size of the picture; its own is {own}"
             ));
         }
-        let settings = settings(tracing, job);
+        let settings = settings(job);
         let told = match &self.record {
             Some(_) => format!(
                 "{scene} is traced with the settings recorded in {picture}, except where options \
@@ -114,12 +115,12 @@ impl<'w> Graded<'w> {
 }
 
 /// The settings of a job with their names, but for those of a part or property that is not there.
-fn settings(tracing: &Tracing, job: &Job) -> String {
-    let spp = match tracing.time {
+fn settings(job: &Job) -> String {
+    let spp = match job.limit {
         None => Some(("spp", job.settings.spp.to_string())),
         Some(_) => None,
     };
-    let entries = tracing.provenance(job, String::new()).written();
+    let entries = Provenance::of(job, String::new()).written();
     let is_told = |(name, value): &(&str, String)| {
         let is_of_file = matches!(*name, "version" | "scene" | "layers");
         let is_none = matches!(

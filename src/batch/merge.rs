@@ -2,10 +2,10 @@
 
 use std::path::PathBuf;
 
-use super::output::Output;
-use super::render::print_biases;
+use super::finding::print_biases;
+use super::output::Target;
 use super::{Error, Messages, stdout};
-use image_file::{ImageFormat, Picture};
+use image_file::Picture;
 use part::ranges;
 
 /// Part files to merge.
@@ -21,7 +21,7 @@ pub struct Merge {
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum MergePurpose {
     /// Write the picture.
-    Write(Output, ImageFormat),
+    Write(Target),
     /// Print which shards have blocks that are missing.
     Missing,
 }
@@ -33,19 +33,20 @@ pub fn merge(work: &Merge) -> Result<(), Error> {
 
 fn try_merge(work: &Merge) -> Result<(), Error> {
     match &work.purpose {
-        MergePurpose::Write(output, format) => {
-            output.check()?;
-            output.check_is_not(&work.parts, "it is one of the parts")?;
-            let merged = part::merge(&work.parts, format.frames())?;
+        MergePurpose::Write(target) => {
+            target.output.check()?;
+            target
+                .output
+                .check_is_not(&work.parts, "it is one of the parts")?;
+            let merged = part::merge(&work.parts, target.format.frames())?;
             print_biases(Messages::Text, &merged.frame, &merged.picture);
-            if let Some(reason) = format.refuses(merged.frame.size) {
+            if let Some(reason) = target.format.refuses(merged.frame.size) {
                 return Err(Error::Refused(format!("the picture is {reason}")));
             }
-            let picture = Picture {
+            target.write(Picture {
                 provenance: Some(&merged.picture),
                 ..Picture::of(&merged.frame)
-            };
-            output.write(|out| format.write(picture, out))
+            })
         }
         MergePurpose::Missing => {
             let (shards, damaged) = part::missing(&work.parts)?;

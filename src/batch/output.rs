@@ -4,6 +4,7 @@ use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
 use super::{Error, stdout};
+use image_file::{ImageFormat, Picture};
 
 /// A file or standard output.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -14,6 +15,21 @@ pub enum Output {
     Stdout,
     /// Standard output, even if it is a terminal.
     StdoutTerminal,
+}
+
+/// A picture file to write.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Target {
+    /// Where the picture goes.
+    pub output: Output,
+    /// Its format.
+    pub format: ImageFormat,
+}
+
+impl Target {
+    pub(super) fn write(&self, picture: Picture<'_>) -> Result<(), Error> {
+        self.output.write(|out| self.format.write(picture, out))
+    }
 }
 
 impl Output {

@@ -3,7 +3,7 @@
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
 
-use super::{Error, Messages, Verdict, Warnings, load, stdout};
+use super::{Error, Messages, Reading, Verdict, stdout};
 use assets::fingerprint;
 use image_file::{ImageFormat, Unreadable};
 use render::{Aov, Provenance};
@@ -16,8 +16,8 @@ pub struct Show {
     pub picture: PathBuf,
     /// The scene that it may be made from.
     pub scene: Option<PathBuf>,
-    /// Additional folders that pictures and meshes of the scene may be read from.
-    pub assets: Vec<PathBuf>,
+    /// How the scene is read.
+    pub reading: Reading,
 }
 
 /// Prints what a picture is made from, and whether that is the scene given.
@@ -26,7 +26,7 @@ pub fn show(work: &Show) -> Result<Verdict, Error> {
 }
 
 fn try_show(work: &Show) -> Result<Verdict, Error> {
-    assets::check_folders(&work.assets)?;
+    work.reading.begin()?;
     let path = &work.picture;
     let record = match image_file::record(file::open(path)?) {
         Ok(Some(record)) => record,
@@ -40,8 +40,7 @@ fn try_show(work: &Show) -> Result<Verdict, Error> {
     let is_same = match &work.scene {
         None => None,
         Some(scene) => {
-            memory::start_threads_or_none();
-            let loaded = load(Messages::Text, scene, &work.assets, Warnings::Allowed, None)?;
+            let loaded = work.reading.load(Messages::Text, scene, None)?;
             let digest = fingerprint(loaded.source.text(), &loaded.read.found)?;
             Some(record.scene.as_ref() == Some(&digest))
         }
@@ -92,7 +91,7 @@ fn command_line(work: &Show, provenance: &Provenance) -> Option<String> {
     let picture = argument(&work.picture).filter(|_| is_named);
     let picture = picture.unwrap_or_else(|| "PICTURE".to_owned());
     let mut line = format!("again       halflight render {scene} -o {picture}");
-    for folder in &work.assets {
+    for folder in &work.reading.assets {
         let folder = argument(folder).unwrap_or_else(|| "FOLDER".to_owned());
         let _ = write!(line, " --assets {folder}");
     }

@@ -8,8 +8,9 @@ use std::thread;
 use std::time::Duration;
 
 use super::progress::{Place, ProgressStyle, Reporter};
+use super::reading::Over;
 use super::signals::Signals;
-use super::{Error, Over};
+use super::{Error, Messages};
 use image_file::layer_bytes;
 use render::{
     Advice, Aov, Frame, Frames, Job, Limit, Provenance, Region, Renderer, Settings, Threads, Trials,
@@ -41,10 +42,49 @@ pub struct Tracing {
     pub layers: Vec<Aov>,
     /// Whether to reduce the noise of light.
     pub denoise: bool,
+    /// By what it is traced.
+    pub means: Means,
+}
+
+/// By what pictures are traced, and how their progress is shown.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Means {
     /// The number of tracing threads.
     pub threads: usize,
     /// How the progress is shown.
     pub progress: ProgressStyle,
+}
+
+impl Means {
+    /// How messages beside the progress are written.
+    pub(super) fn messages(self) -> Messages {
+        Messages::beside(self.progress)
+    }
+}
+
+/// A picture to trace, with layers.
+#[derive(Clone)]
+pub(super) struct Still {
+    pub(super) job: Job,
+    /// What to trace beside its light.
+    pub(super) layers: Vec<Aov>,
+}
+
+impl Still {
+    /// What the picture is made from, whose scene has this digest.
+    pub(super) fn provenance(&self, scene: String) -> Provenance {
+        Provenance {
+            layers: self.layers.clone(),
+            ..Provenance::of(&self.job, scene)
+        }
+    }
+
+    /// About how many bytes of memory the layers take until the picture is written.
+    pub(super) fn memory_for_layers(&self) -> u64 {
+        let size = self.job.settings.traced().size();
+        let layers = self.layers.iter().map(|&aov| layer_bytes(aov, size));
+        layers.fold(0, u64::saturating_add)
+    }
 }
 
 /// A renderer that traces one job after the other, and keeps the structures of objects that stay as
@@ -58,17 +98,17 @@ pub(super) struct Tracer {
 }
 
 impl Tracer {
-    pub(super) fn new(tracing: &Tracing) -> Self {
+    pub(super) fn new(means: Means) -> Self {
         let (wake, woken) = mpsc::channel();
         // Starting its threads before reading the scene was no faster.
-        let renderer = Renderer::new(Threads::Exactly(tracing.threads), move || {
+        let renderer = Renderer::new(Threads::Exactly(means.threads), move || {
             // This fails only while the renderer is being dropped.
             let _ = wake.send(());
         });
         Self {
             renderer,
             woken,
-            style: tracing.progress,
+            style: means.progress,
             signals: Signals::default(),
         }
     }
@@ -92,14 +132,14 @@ impl Tracer {
         self.wait(reporter)
     }
 
-    /// Traces AOVs of a job whose light was traced with `spp` samples.
+    /// Traces the layers of a picture whose light was traced with `spp` samples.
     pub(super) fn layers(
         &mut self,
-        job: &Job,
+        still: &Still,
         spp: u32,
-        aovs: &[Aov],
     ) -> Result<Vec<(Aov, Arc<Frame>)>, Error> {
-        let layers = aovs.iter().map(|&aov| {
+        let Still { job, layers } = still;
+        let layers = layers.iter().map(|&aov| {
             let settings = Settings {
                 aov: Some(aov),
                 spp: aov.samples(spp),
@@ -171,8 +211,10 @@ impl Tracing {
             aov: None,
             layers: Vec::new(),
             denoise: false,
-            threads: thread::available_parallelism().map_or(1, NonZero::get),
-            progress: ProgressStyle::Off,
+            means: Means {
+                threads: thread::available_parallelism().map_or(1, NonZero::get),
+                progress: ProgressStyle::Off,
+            },
         }
     }
 
@@ -195,19 +237,17 @@ impl Tracing {
         }
     }
 
-    /// About how many bytes of memory the layers of a job take until its picture is written.
-    pub(super) fn memory_for_layers(&self, job: &Job) -> u64 {
-        let size = job.settings.traced().size();
-        let layers = self.layers.iter().map(|&aov| layer_bytes(aov, size));
-        layers.fold(0, u64::saturating_add)
-    }
-
-    /// What the picture of a job is made from, whose scene has this digest.
-    pub(super) fn provenance(&self, job: &Job, scene: String) -> Provenance {
-        Provenance {
+    /// The picture of a scene, with its layers.
+    pub(super) fn still(
+        &self,
+        scene: Scene,
+        images: Images,
+        frames: Frames,
+    ) -> Result<Still, Error> {
+        Ok(Still {
+            job: self.job(scene, images, frames)?,
             layers: self.layers.clone(),
-            ..Provenance::of(job, scene)
-        }
+        })
     }
 
     /// The job that traces a scene.

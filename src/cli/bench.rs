@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use clap::Args;
 
-use super::shared::{AssetArguments, StrictnessArguments, whole_number};
+use super::shared::{ReadingArguments, whole_number};
 use super::tracing::TracingArguments;
 use batch::{Bench, Report};
 
@@ -31,9 +31,7 @@ pub(super) struct BenchArguments {
     #[command(flatten)]
     tracing: TracingArguments,
     #[command(flatten)]
-    strictness: StrictnessArguments,
-    #[command(flatten)]
-    assets: AssetArguments,
+    reading: ReadingArguments,
 }
 
 impl BenchArguments {
@@ -50,8 +48,7 @@ impl BenchArguments {
             } else {
                 Report::Text
             },
-            warnings: self.strictness.warnings(),
-            assets: self.assets.folders,
+            reading: self.reading.into_reading(),
         })
     }
 }

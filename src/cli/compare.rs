@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use clap::Args;
 
-use super::shared::{AssetArguments, StrictnessArguments, picture_format, whole_number};
+use super::shared::{ReadingArguments, picture_format, whole_number};
 use super::tracing::TracingArguments;
 use batch::{Compare, Report};
 
@@ -49,9 +49,7 @@ pub(super) struct CompareArguments {
     #[command(flatten)]
     tracing: TracingArguments,
     #[command(flatten)]
-    strictness: StrictnessArguments,
-    #[command(flatten)]
-    assets: AssetArguments,
+    reading: ReadingArguments,
 }
 
 impl CompareArguments {
@@ -71,8 +69,7 @@ impl CompareArguments {
             },
             output: output.transpose()?,
             tracing: self.tracing.into_tracing(),
-            warnings: self.strictness.warnings(),
-            assets: self.assets.folders,
+            reading: self.reading.into_reading(),
         })
     }
 }

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use clap::Args;
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 
-use super::shared::{AssetArguments, StrictnessArguments, destination};
+use super::shared::{ReadingArguments, destination};
 use batch::Convert;
 use language::Language;
 
@@ -38,9 +38,7 @@ pub(super) struct ConvertArguments {
     #[arg(long, value_name = "LANGUAGE", value_parser = languages())]
     to: Option<Language>,
     #[command(flatten)]
-    strictness: StrictnessArguments,
-    #[command(flatten)]
-    assets: AssetArguments,
+    reading: ReadingArguments,
 }
 
 impl ConvertArguments {
@@ -60,8 +58,7 @@ impl ConvertArguments {
             to,
             // A text may go to a terminal.
             output: destination(self.output, true),
-            warnings: self.strictness.warnings(),
-            assets: self.assets.folders,
+            reading: self.reading.into_reading(),
         })
     }
 }

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use clap::Args;
 
-use super::shared::{AssetArguments, StrictnessArguments, whole_number};
+use super::shared::{ReadingArguments, whole_number};
 use super::tracing::SampleArguments;
 use batch::{Explain, Report};
 use scene::MAX_SPP;
@@ -41,9 +41,7 @@ pub(super) struct ExplainArguments {
     #[command(flatten)]
     samples: SampleArguments,
     #[command(flatten)]
-    strictness: StrictnessArguments,
-    #[command(flatten)]
-    assets: AssetArguments,
+    reading: ReadingArguments,
 }
 
 impl ExplainArguments {
@@ -58,8 +56,7 @@ impl ExplainArguments {
                 Report::Text
             },
             tracing: self.samples.into_tracing(),
-            warnings: self.strictness.warnings(),
-            assets: self.assets.folders,
+            reading: self.reading.into_reading(),
         }
     }
 }

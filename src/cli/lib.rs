@@ -30,12 +30,12 @@ use explain::ExplainArguments;
 use interface::InterfaceArguments;
 pub use interface::Purpose;
 use merge::MergeArguments;
-use render::{RenderArguments, Work};
-use shared::{AssetArguments, StrictnessArguments};
+use render::RenderArguments;
+use shared::ReadingArguments;
 use show::ShowArguments;
 
 use ::render::{CAP, CAPS};
-use batch::{Bench, Check, Compare, Convert, Explain, Merge, Render, Sequence, Show, Verdict};
+use batch::{Bench, Check, Compare, Convert, Explain, Merge, Render, Show, Verdict};
 use file::ReadError;
 use part::Unmerged;
 use text::{alternatives, nearest_word, visible};
@@ -73,10 +73,8 @@ pub const SIGNALLED: u8 = 128;
 pub enum Command {
     /// Open the interface, or print how it is configured.
     Interface(ui::Options, config::Source, Purpose),
-    /// Render a picture.
+    /// Render a picture or a sequence of pictures.
     Render(Render),
-    /// Render a sequence of pictures.
-    Sequence(Sequence),
     /// Measure scenes.
     Bench(Bench),
     /// Merge part files.
@@ -129,11 +127,8 @@ fn parse_arguments(arguments: impl IntoIterator<Item = OsString>) -> Result<Comm
     let cli = Cli::try_parse_from(arguments).map_err(|error| Stop::of(&error))?;
     match cli.command {
         Some(Subcommands::Render(render)) => render
-            .into_work()
-            .map(|work| match work {
-                Work::Picture(render) => Command::Render(render),
-                Work::Sequence(sequence) => Command::Sequence(sequence),
-            })
+            .into_render()
+            .map(Command::Render)
             .map_err(|reason| refusal(Some("render"), reason)),
         Some(Subcommands::Bench(bench)) => bench
             .into_bench()
@@ -153,14 +148,9 @@ fn parse_arguments(arguments: impl IntoIterator<Item = OsString>) -> Result<Comm
             .into_convert()
             .map(Command::Convert)
             .map_err(|reason| refusal(Some("convert"), reason)),
-        Some(Subcommands::Check {
+        Some(Subcommands::Check { scenes, reading }) => Ok(Command::Check(Check {
             scenes,
-            strictness,
-            assets,
-        }) => Ok(Command::Check(Check {
-            scenes,
-            warnings: strictness.warnings(),
-            assets: assets.folders,
+            reading: reading.into_reading(),
         })),
         Some(Subcommands::Doctor { scene }) => Ok(Command::Doctor(scene)),
         Some(Subcommands::Completions { shell }) => Err(Stop::requested(&completions(shell))),
@@ -360,9 +350,7 @@ enum Subcommands {
         #[arg(required = true, value_name = "SCENE")]
         scenes: Vec<PathBuf>,
         #[command(flatten)]
-        strictness: StrictnessArguments,
-        #[command(flatten)]
-        assets: AssetArguments,
+        reading: ReadingArguments,
     },
     /// Print the script by which a shell completes words of the command line
     Completions {

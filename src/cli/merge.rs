@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use clap::Args;
 
-use super::shared::{format_names, output, output_help};
+use super::shared::{format_names, output_help, target};
 use batch::{Merge, MergePurpose};
 use image_file::ImageFormat;
 
@@ -41,10 +41,7 @@ impl MergeArguments {
     pub(super) fn into_merge(self) -> Result<Merge, String> {
         let purpose = match self.output {
             None => MergePurpose::Missing,
-            Some(path) => {
-                let (output, format) = output(path, self.format, self.force)?;
-                MergePurpose::Write(output, format)
-            }
+            Some(path) => MergePurpose::Write(target(path, self.format, self.force)?),
         };
         Ok(Merge {
             parts: self.parts,

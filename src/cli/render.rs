@@ -7,13 +7,13 @@ use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 
 use super::choices::{AovChoice, ProgressChoice};
 use super::shared::{
-    AssetArguments, StrictnessArguments, destination, format_named, output, output_help,
-    picture_format, picture_names, whole_number,
+    ReadingArguments, destination, format_named, output_help, picture_format, picture_names,
+    target, whole_number,
 };
 use super::tracing::TracingArguments;
 use batch::{
-    Existing, Finished, FrameSource, MAX_FRAMES, Output, Parts, Render, Sequence, SequenceOutput,
-    Tracing,
+    Existing, Finished, FrameSource, MAX_FRAMES, Output, Parts, PictureWork, Purpose, Render,
+    SequenceOutput, SequenceWork, Work,
 };
 use image_file::{ImageFormat, MovieFormat, Pattern};
 use part::{MOST_SHARDS, Shard};
@@ -51,9 +51,7 @@ pub(super) struct RenderArguments {
     #[command(flatten)]
     tracing: TracingArguments,
     #[command(flatten)]
-    strictness: StrictnessArguments,
-    #[command(flatten)]
-    assets: AssetArguments,
+    reading: ReadingArguments,
     #[command(flatten)]
     content: ContentArguments,
     /// Trace only shard K of N, numbered from 0, into a part file next to FILE; see merge
@@ -122,25 +120,25 @@ struct SequenceArguments {
     again: bool,
 }
 
-/// What is to be rendered.
-pub(super) enum Work {
-    /// A picture.
-    Picture(Render),
-    /// A sequence of pictures.
-    Sequence(Sequence),
-}
-
 impl RenderArguments {
-    pub(super) fn into_work(self) -> Result<Work, String> {
+    pub(super) fn into_render(self) -> Result<Render, String> {
         let is_moved = self.sequence.turntable.is_some() || self.sequence.track.is_some();
-        if is_moved || self.scene.is_dir() {
-            self.into_sequence().map(Work::Sequence)
+        let work = if is_moved || self.scene.is_dir() {
+            Work::Sequence(self.sequence_work()?)
         } else {
-            self.into_picture().map(Work::Picture)
-        }
+            Work::Picture(self.picture_work()?)
+        };
+        let layers = checked(self.content.layers, &work)?;
+        let mut tracing = self.tracing.with(layers, self.content.denoise)?;
+        tracing.means.progress = self.progress.value();
+        Ok(Render {
+            work,
+            tracing,
+            reading: self.reading.into_reading(),
+        })
     }
 
-    fn into_picture(self) -> Result<Render, String> {
+    fn picture_work(&self) -> Result<PictureWork, String> {
         let format = match self.format {
             Some(Format::Picture(format)) => Some(format),
             Some(Format::Movie(_)) | None => None,
@@ -150,9 +148,9 @@ impl RenderArguments {
                 "{what} needs --turntable, --track, or a folder of scenes"
             ));
         }
-        let (output, format) = output(self.output, format, self.force)?;
+        let target = target(self.output.clone(), format, self.force)?;
         let to_stdout = |path: &PathBuf| path.as_os_str() == "-";
-        if self.stats.as_ref().is_some_and(to_stdout) && !matches!(output, Output::File(_)) {
+        if self.stats.as_ref().is_some_and(to_stdout) && !matches!(target.output, Output::File(_)) {
             return Err("-o - and --stats - cannot both use standard output".to_owned());
         }
         if self.shard.is_some() && self.tracing.is_limited() {
@@ -170,26 +168,16 @@ impl RenderArguments {
         if self.shard.is_some() && !self.content.layers.is_empty() {
             return Err("--layers cannot be sharded: shard each with --aov".to_owned());
         }
-        let tracing = self
-            .tracing
-            .with(checked(self.content.layers, format)?, self.content.denoise)?;
-        let progress = self.progress.value();
-        let tracing = Tracing {
-            progress,
-            ..tracing
-        };
-        Ok(Render {
-            scene: self.scene,
-            warnings: self.strictness.warnings(),
-            output,
-            format,
-            tracing,
+        let stats = self.stats.clone();
+        Ok(PictureWork {
+            scene: self.scene.clone(),
+            target,
             purpose: if self.estimate {
-                batch::Purpose::Estimate
+                Purpose::Estimate
             } else {
-                batch::Purpose::Render
+                Purpose::Render
             },
-            stats: self.stats.map(|path| destination(path, true)),
+            stats: stats.map(|path| destination(path, true)),
             parts: (self.resume || self.shard.is_some()).then_some(Parts {
                 shard: self.shard.unwrap_or(Shard::WHOLE),
                 existing: if self.resume {
@@ -198,7 +186,6 @@ impl RenderArguments {
                     Existing::Refused
                 },
             }),
-            assets: self.assets.folders,
         })
     }
 
@@ -232,7 +219,7 @@ impl RenderArguments {
         }
     }
 
-    fn into_sequence(self) -> Result<Sequence, String> {
+    fn sequence_work(&self) -> Result<SequenceWork, String> {
         if self.stats.is_some() || self.estimate {
             return Err("--stats and --estimate are for single pictures".to_owned());
         }
@@ -262,7 +249,7 @@ impl RenderArguments {
                 ));
             }
             (Some(format), ..) => SequenceOutput::Movie {
-                to: destination(self.output, self.force),
+                to: destination(self.output.clone(), self.force),
                 format,
                 rate: self.sequence.fps,
             },
@@ -298,42 +285,36 @@ impl RenderArguments {
                 return Err(format!("{of_folder}{name} {reason}"));
             }
         };
-        let format = match &output {
-            SequenceOutput::Pictures { format, .. } => *format,
-            SequenceOutput::Movie { .. } => ImageFormat::Gif,
-        };
-        let tracing = self
-            .tracing
-            .with(checked(self.content.layers, format)?, self.content.denoise)?;
-        let progress = self.progress.value();
-        let tracing = Tracing {
-            progress,
-            ..tracing
-        };
-        Ok(Sequence {
-            shows: match (self.sequence.turntable, self.sequence.track) {
-                (Some(count), _) => FrameSource::Turntable {
-                    scene: self.scene,
-                    count,
-                },
-                (None, Some(track)) => FrameSource::Track {
-                    scene: self.scene,
-                    track,
-                },
-                (None, None) => FrameSource::Folder(self.scene),
-            },
+        Ok(SequenceWork {
+            shows: self.frame_source(),
             frames: self.sequence.frames,
             output,
-            warnings: self.strictness.warnings(),
-            tracing,
-            assets: self.assets.folders,
         })
+    }
+
+    fn frame_source(&self) -> FrameSource {
+        let scene = self.scene.clone();
+        match (self.sequence.turntable, &self.sequence.track) {
+            (Some(count), _) => FrameSource::Turntable { scene, count },
+            (None, Some(track)) => FrameSource::Track {
+                scene,
+                track: track.clone(),
+            },
+            (None, None) => FrameSource::Folder(scene),
+        }
     }
 }
 
 /// The AOVs of layers; refuses a layer twice, and layers in a format that has none.
-fn checked(layers: Vec<AovChoice>, format: ImageFormat) -> Result<Vec<Aov>, String> {
-    if !layers.is_empty() && format != ImageFormat::Exr {
+fn checked(layers: Vec<AovChoice>, work: &Work) -> Result<Vec<Aov>, String> {
+    let format = match work {
+        Work::Picture(picture) => Some(picture.target.format),
+        Work::Sequence(sequence) => match &sequence.output {
+            SequenceOutput::Pictures { format, .. } => Some(*format),
+            SequenceOutput::Movie { .. } => None,
+        },
+    };
+    if !layers.is_empty() && format != Some(ImageFormat::Exr) {
         return Err("--layers needs a .exr: other formats have none".to_owned());
     }
     let mut aovs = Vec::new();

@@ -7,7 +7,7 @@ use std::str::FromStr;
 use clap::Args;
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 
-use batch::{Output, Warnings};
+use batch::{Output, Reading, Target, Warnings};
 use config::MAX_THREADS;
 use image_file::{FORMATS, ImageFormat, known_extensions};
 use scene::MAX_SPP;
@@ -20,19 +20,25 @@ pub(super) struct AssetArguments {
     pub(super) folders: Vec<PathBuf>,
 }
 
+/// The arguments that say how scenes are read.
 #[derive(Args, Debug)]
-pub(super) struct StrictnessArguments {
+pub(super) struct ReadingArguments {
     /// Treat warnings in the scene as errors; notes are unaffected
     #[arg(long)]
     strict: bool,
+    #[command(flatten)]
+    assets: AssetArguments,
 }
 
-impl StrictnessArguments {
-    pub(super) fn warnings(&self) -> Warnings {
-        if self.strict {
-            Warnings::Refused
-        } else {
-            Warnings::Allowed
+impl ReadingArguments {
+    pub(super) fn into_reading(self) -> Reading {
+        Reading {
+            warnings: if self.strict {
+                Warnings::Refused
+            } else {
+                Warnings::Allowed
+            },
+            assets: self.assets.folders,
         }
     }
 }
@@ -75,18 +81,21 @@ pub(super) fn output_help() -> String {
 }
 
 /// Where a picture goes, and in which format: by default that of the file's extension.
-pub(super) fn output(
+pub(super) fn target(
     path: PathBuf,
     format: Option<ImageFormat>,
     force: bool,
-) -> Result<(Output, ImageFormat), String> {
+) -> Result<Target, String> {
     let to_stdout = path == Path::new("-");
     let format = match format {
         Some(format) => format,
         None if to_stdout => ImageFormat::Bmp,
         None => picture_format(&path).map_err(|reason| format!("{reason}, or --format"))?,
     };
-    Ok((destination(path, force), format))
+    Ok(Target {
+        output: destination(path, force),
+        format,
+    })
 }
 
 /// Where a file goes; `-` is standard output.

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use clap::Args;
 
 use super::shared::AssetArguments;
-use batch::Show;
+use batch::{Reading, Show};
 
 pub(super) const EXAMPLES: &str = "\
 Examples:
@@ -36,7 +36,10 @@ impl ShowArguments {
         Show {
             picture: self.picture,
             scene: self.scene,
-            assets: self.assets.folders,
+            reading: Reading {
+                assets: self.assets.folders,
+                ..Reading::default()
+            },
         }
     }
 }

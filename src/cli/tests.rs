@@ -2,7 +2,7 @@ use std::time::Duration;
 
 use super::*;
 use ::render::Region;
-use batch::{Output, Report, Warnings};
+use batch::{Output, Report, Target, Warnings, Work};
 use image_file::{ImageFormat, MAX_PIXELS};
 use scene::{FalloffRule, Filter, GlossRule, Integrator, MAX_SPP, Rendering, Size, Transfer};
 use ui::Theme;
@@ -25,6 +25,14 @@ fn render(line: &str) -> Render {
     match parsed(line) {
         Ok(Command::Render(render)) => render,
         other => panic!("{line}: {other:?}"),
+    }
+}
+
+/// Where a picture goes, and in which format.
+fn target(render: &Render) -> &Target {
+    match &render.work {
+        Work::Picture(picture) => &picture.target,
+        Work::Sequence(sequence) => panic!("{sequence:?}"),
     }
 }
 
@@ -98,7 +106,7 @@ fn the_extension_sets_the_format_unless_one_is_given() {
         ("halflight render a -o b --format gif", ImageFormat::Gif),
     ];
     for (line, format) in cases {
-        assert_eq!(render(line).format, format, "{line}");
+        assert_eq!(target(&render(line)).format, format, "{line}");
     }
 }
 
@@ -109,7 +117,7 @@ fn render_options_have_defaults() {
     assert_eq!(default.tracing.seed, None);
     assert_eq!(default.tracing.size, None);
     assert_eq!((default.tracing.region, default.tracing.time), (None, None));
-    assert_eq!(default.output, Output::File("a.bmp".into()));
+    assert_eq!(target(&default).output, Output::File("a.bmp".into()));
     let given = render(
         "halflight render a -o - --force --size 3X2 --spp 65536 --seed 7 --integrator whitted --depth 9 --filter blackman-harris --transfer srgb --exposure -1.5 --falloff square --gloss exponent",
     );
@@ -133,7 +141,7 @@ fn render_options_have_defaults() {
         ..Rendering::default()
     };
     assert_eq!(given.tracing.rendering, asked);
-    assert_eq!(given.output, Output::StdoutTerminal);
+    assert_eq!(target(&given).output, Output::StdoutTerminal);
     let part = render("halflight render a -o - --region 1,2,3,4 --time 2min");
     assert_eq!(part.tracing.region, Region::parse("1,2,3,4"));
     assert_eq!(part.tracing.time, Some(Duration::from_secs(120)));
@@ -169,17 +177,17 @@ fn the_pixel_and_the_sample_reach_the_explanation() {
     let given = explain("halflight explain a.ray 7 0 --sample 65535 --json --depth 3 --strict");
     assert_eq!((given.sample, given.report), (65_535, Report::Json));
     assert_eq!(given.tracing.rendering.depth, Some(3));
-    assert_eq!(given.warnings, Warnings::Refused);
+    assert_eq!(given.reading.warnings, Warnings::Refused);
 }
 
 #[test]
 fn asset_folders_reach_every_command() {
     let folders: Vec<PathBuf> = vec!["b".into(), "c".into()];
     let line = "halflight render a.dat -o a.bmp --assets b --assets c";
-    assert_eq!(render(line).assets, folders);
+    assert_eq!(render(line).reading.assets, folders);
     match parsed("halflight check a.dat --assets b --assets c d.dat") {
         Ok(Command::Check(check)) => {
-            assert_eq!(check.assets, folders);
+            assert_eq!(check.reading.assets, folders);
             assert_eq!(check.scenes, [PathBuf::from("a.dat"), "d.dat".into()]);
         }
         other => panic!("{other:?}"),

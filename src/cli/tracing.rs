@@ -10,7 +10,7 @@ use clap::Args;
 use super::choices::AovChoice;
 use super::rendering::RenderingArguments;
 use super::shared::{spp_range, threads_range, whole_number};
-use batch::{ProgressStyle, Tracing};
+use batch::{Means, ProgressStyle, Tracing};
 use render::{Aov, Region, denoises};
 use scene::{Rendering, Size, Viewpoint};
 use text::parse_duration;
@@ -92,7 +92,10 @@ impl TracingArguments {
             },
             time: self.time,
             aov: self.aov.map(AovChoice::value),
-            threads: self.threads.map_or(samples.threads, usize::from),
+            means: Means {
+                threads: self.threads.map_or(samples.means.threads, usize::from),
+                ..samples.means
+            },
             ..samples
         }
     }
@@ -110,8 +113,10 @@ impl SampleArguments {
             aov: None,
             layers: Vec::new(),
             denoise: false,
-            threads: default_threads(|name| env::var(name).ok()),
-            progress: ProgressStyle::default(),
+            means: Means {
+                threads: default_threads(|name| env::var(name).ok()),
+                progress: ProgressStyle::default(),
+            },
         }
     }
 }

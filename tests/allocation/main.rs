@@ -74,19 +74,20 @@ mod unix {
         let (first, last) = number().zip(number()).expect("two numbers");
         let command = cli::parse([OsString::from("halflight")].into_iter().chain(arguments));
         failing::fail(first, last);
-        let code = match &command {
+        let code = match command {
             Ok(cli::Command::Render(work)) => cli::exit_code(&batch::render(work)),
-            Ok(cli::Command::Explain(work)) => cli::exit_code(&batch::explain(work)),
-            Ok(cli::Command::Convert(work)) => cli::exit_code(&batch::convert(work)),
-            Ok(cli::Command::Check(work)) => cli::exit_code(&batch::check(work)),
-            Ok(cli::Command::Interface(options, ..)) => cli::interface_exit_code(&ui::run(options)),
+            Ok(cli::Command::Explain(work)) => cli::exit_code(&batch::explain(&work)),
+            Ok(cli::Command::Convert(work)) => cli::exit_code(&batch::convert(&work)),
+            Ok(cli::Command::Check(work)) => cli::exit_code(&batch::check(&work)),
+            Ok(cli::Command::Interface(options, ..)) => {
+                cli::interface_exit_code(&ui::run(&options))
+            }
             Ok(
-                cli::Command::Sequence(_)
-                | cli::Command::Bench(_)
+                command @ (cli::Command::Bench(_)
                 | cli::Command::Merge(_)
                 | cli::Command::Show(_)
                 | cli::Command::Compare(_)
-                | cli::Command::Doctor(_),
+                | cli::Command::Doctor(_)),
             ) => {
                 panic!("{command:?} is not tested here")
             }

@@ -14,7 +14,6 @@ const FILES: usize = 25;
 
 /// The folders with more, and how many they have.
 const CROWDED: &[(&str, usize)] = &[
-    ("src/batch", 26),
     ("src/language", 31),
     ("src/render/tests", 36),
     ("src/ui/view", 35),

@@ -2,41 +2,40 @@
 
 use std::path::{Path, PathBuf};
 
-use super::{Error, Messages, Tracing, Warnings, load};
+use crate::tracing::Still;
+use crate::{Error, Reading, Tracing};
 use assets::fingerprint;
-use render::{Frames, Job};
+use render::Frames;
 
 /// A picture of a sequence, ready to trace.
 #[derive(Clone)]
-pub(super) struct Still {
-    pub(super) job: Job,
+pub(super) struct Shot {
+    pub(super) still: Still,
     /// The digest of its scene.
-    pub(super) scene: String,
+    pub(super) digest: String,
     /// The files that its scene references.
     pub(super) files: Vec<PathBuf>,
 }
 
-impl Still {
+impl Shot {
     /// Reads a scene file.
     pub(super) fn of(
         path: &Path,
-        (folders, warnings): (&[PathBuf], Warnings),
+        reading: &Reading,
         tracing: &Tracing,
         frames: Frames,
     ) -> Result<Self, Error> {
-        let messages = Messages::beside(tracing.progress);
-        let loaded = load(messages, path, folders, warnings, Some(&tracing.over()))?;
-        let errors = loaded.findings.errors();
-        let scene = loaded.scene.ok_or(Error::Invalid { errors })?;
+        let messages = tracing.means.messages();
+        let mut loaded = reading.load(messages, path, Some(&tracing.over()))?;
+        let scene = loaded.take_scene()?;
         if !loaded.read.is_whole() {
             return Err(Error::Incomplete {
                 needed_by: "a sequence needs",
             });
         }
-        let job = tracing.job(scene, loaded.read.images, frames)?;
         Ok(Self {
-            job,
-            scene: fingerprint(loaded.source.text(), &loaded.read.found)?,
+            still: tracing.still(scene, loaded.read.images, frames)?,
+            digest: fingerprint(loaded.source.text(), &loaded.read.found)?,
             files: loaded.read.files,
         })
     }

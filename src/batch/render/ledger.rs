@@ -6,7 +6,7 @@ use std::hash::{BuildHasher, RandomState};
 use std::io::{self, BufRead, BufReader, Read, Write};
 use std::path::{Path, PathBuf};
 
-use super::Error;
+use crate::Error;
 use file::{Digest, ReadError};
 
 /// The first line of every list, with the version of the format.

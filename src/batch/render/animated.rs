@@ -3,30 +3,20 @@
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
-use super::still::Still;
-use super::{Error, Messages, Tracing, Warnings, load};
+use super::shot::Shot;
+use crate::{Error, Messages, Reading, Tracing, Warnings};
 use assets::Edited;
 use render::Frames;
 use text::{Diagnostic, Findings};
 use track::Bound;
 
-/// Where an animated scene comes from, and how it is read.
-pub(super) struct Origin<'w> {
-    /// The scene file.
-    pub(super) scene: &'w Path,
-    /// The track file.
-    pub(super) track: &'w Path,
-    /// Additional folders that pictures and meshes may be read from.
-    pub(super) folders: &'w [PathBuf],
-    /// How the warnings of both files are treated.
-    pub(super) warnings: Warnings,
-    /// How findings in them are told.
-    pub(super) messages: Messages,
-}
-
 /// A scene whose text a track changes from frame to frame.
-pub(super) struct Animated<'w> {
-    origin: Origin<'w>,
+pub(super) struct Animated {
+    /// The scene file.
+    path: PathBuf,
+    /// How findings in a frame are treated, and told.
+    warnings: Warnings,
+    messages: Messages,
     track: Bound,
     /// The number of frames.
     pub(super) count: u32,
@@ -37,18 +27,16 @@ pub(super) struct Animated<'w> {
     told: BTreeSet<String>,
 }
 
-impl<'w> Animated<'w> {
-    /// Reads a track and its scene, and prints all findings in both.
-    pub(super) fn new(origin: Origin<'w>) -> Result<Self, Error> {
-        let text = file::read_small_text(origin.track)?;
+impl Animated {
+    /// Reads a scene and a track over it, and prints all findings in both.
+    pub(super) fn new(
+        [path, track_path]: [&Path; 2],
+        reading: &Reading,
+        messages: Messages,
+    ) -> Result<Self, Error> {
+        let text = file::read_small_text(track_path)?;
         let (track, mut findings) = track::read(&text);
-        let loaded = load(
-            origin.messages,
-            origin.scene,
-            origin.folders,
-            origin.warnings,
-            None,
-        );
+        let loaded = reading.load(messages, path, None);
         let scene = loaded.as_ref().ok().and_then(|loaded| {
             let scene = loaded.scene.as_ref()?;
             Some((&loaded.source, &scene.camera))
@@ -58,18 +46,13 @@ impl<'w> Animated<'w> {
             findings.append(more);
             bound
         });
-        let findings = origin.warnings.apply(findings.sorted());
-        let messages = origin.messages;
-        messages.all_findings(origin.track, &text, &findings);
-        let loaded = loaded?;
-        let (Some(scene), Some(bound)) = (loaded.scene, bound) else {
-            let errors = loaded.findings.errors();
-            return Err(Error::Invalid { errors });
-        };
-        if 0 < findings.errors() {
-            let errors = findings.errors();
-            return Err(Error::InvalidTrack { errors });
-        }
+        let findings = reading.warnings.apply(findings.sorted());
+        messages.all_findings(track_path, &text, &findings);
+        let mut loaded = loaded?;
+        let scene = loaded.take_scene()?;
+        let errors = findings.errors();
+        let bound = bound.filter(|_| errors == 0);
+        let bound = bound.ok_or(Error::InvalidTrack { errors })?;
         let warnings = loaded.findings.iter();
         Ok(Self {
             track: bound,
@@ -77,22 +60,24 @@ impl<'w> Animated<'w> {
             rate: track.rate,
             told: warnings.map(Diagnostic::message_with_file).collect(),
             text: Edited::new(
-                (origin.scene, origin.folders),
+                (path, &reading.assets),
                 loaded.source,
                 (scene, loaded.findings),
                 loaded.read,
             )?,
-            origin,
+            path: path.to_owned(),
+            warnings: reading.warnings,
+            messages,
         })
     }
 
     /// A frame, ready to trace. Prints what was not found in a frame before.
-    pub(super) fn still(
+    pub(super) fn shot(
         &mut self,
         number: u32,
         tracing: &Tracing,
         frames: Frames,
-    ) -> Result<Still, Error> {
+    ) -> Result<Shot, Error> {
         let edits = self.track.edits(self.text.plain(), number);
         let lowered = self.text.lower(&edits)?;
         self.print_findings(number, lowered.diagnostics)?;
@@ -103,16 +88,16 @@ impl<'w> Animated<'w> {
                 needed_by: "a sequence needs",
             });
         }
-        Ok(Still {
-            job: tracing.job(scene, read.images.clone(), frames)?,
-            scene: self.text.fingerprint(),
+        Ok(Shot {
+            still: tracing.still(scene, read.images.clone(), frames)?,
+            digest: self.text.fingerprint(),
             files: read.files.clone(),
         })
     }
 
     /// Prints the findings in a frame, but no warnings that are the same as before.
     fn print_findings(&mut self, number: u32, findings: Findings) -> Result<(), Error> {
-        let findings = self.origin.warnings.apply(findings);
+        let findings = self.warnings.apply(findings);
         let mut new = Findings::default();
         for found in findings.iter() {
             if found.is_error() || self.told.insert(found.message_with_file()) {
@@ -128,8 +113,8 @@ impl<'w> Animated<'w> {
                 }
             }
         }
-        let messages = self.origin.messages;
-        messages.all_findings(self.origin.scene, self.text.text(), &new);
+        self.messages
+            .all_findings(&self.path, self.text.text(), &new);
         match findings.errors() {
             0 => Ok(()),
             errors => Err(Error::Invalid { errors }),
@@ -143,7 +128,7 @@ mod tests {
     use std::sync::Arc;
 
     use super::*;
-    use crate::ProgressStyle;
+    use crate::{Means, ProgressStyle};
     use geometry::{Mesh, Shape};
     use scene::{Rendering, Viewpoint};
 
@@ -174,13 +159,15 @@ keys = [{ frame = 0, value = [0, 0, 0] }, { frame = 2, value = [1, 1, 1] }]";
             aov: None,
             layers: Vec::new(),
             denoise: false,
-            threads: 1,
-            progress: ProgressStyle::Off,
+            means: Means {
+                threads: 1,
+                progress: ProgressStyle::Off,
+            },
         }
     }
 
-    fn mesh(still: &Still) -> Arc<Mesh> {
-        let mut objects = still.job.scene.objects.iter();
+    fn mesh(shot: &Shot) -> Arc<Mesh> {
+        let mut objects = shot.still.job.scene.objects.iter();
         let mesh = objects.find_map(|object| match &object.shape {
             Shape::Mesh(instance) => Some(Arc::clone(instance.mesh())),
             _ => None,
@@ -197,23 +184,19 @@ keys = [{ frame = 0, value = [0, 0, 0] }, { frame = 2, value = [1, 1, 1] }]";
             fs::write(at(name), text).expect("written");
         }
         let (scene, track) = (at("a.xml"), at("a.toml"));
-        let origin = Origin {
-            scene: &scene,
-            track: &track,
-            folders: &[],
-            warnings: Warnings::Allowed,
-            messages: Messages::Text,
-        };
-        let mut animated = Animated::new(origin).expect("it is valid");
+        let reading = Reading::default();
+        let animated = Animated::new([&scene, &track], &reading, Messages::Text);
+        let mut animated = animated.expect("it is valid");
         fs::remove_file(at("a.obj")).expect("it is there");
-        let mut still = |number| {
-            let still = animated.still(number, &tracing(), Frames::Last);
-            still.expect("it is valid")
+        let mut shot = |number| {
+            let shot = animated.shot(number, &tracing(), Frames::Last);
+            shot.expect("it is valid")
         };
-        let [first, last] = [still(0), still(2)];
+        let [first, last] = [shot(0), shot(2)];
         assert!(Arc::ptr_eq(&mesh(&first), &mesh(&last)));
-        assert_ne!(first.job.scene.lights, last.job.scene.lights);
-        assert_ne!(first.scene, last.scene);
-        assert_eq!(still(0).scene, first.scene);
+        let [one, other] = [&first, &last].map(|shot| &shot.still.job.scene.lights);
+        assert_ne!(one, other);
+        assert_ne!(first.digest, last.digest);
+        assert_eq!(shot(0).digest, first.digest);
     }
 }

@@ -1,0 +1,192 @@
+//! Reads scenes with the files that they reference, and prints what is found in them.
+
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use super::{Error, Messages};
+use assets::Assets;
+use file::ReadError;
+use language::{Language, Lowered, Node, Outlook, Prospect, Source, errors_of_beginning, outlook};
+use memory::OutOfMemory;
+use scene::{Camera, Rendering, Scene, Size, Viewpoint};
+use text::{Findings, Span, counted};
+
+/// How scenes are read.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Reading {
+    /// How their warnings are treated.
+    pub warnings: Warnings,
+    /// Additional folders that referenced files may be read from.
+    pub assets: Vec<PathBuf>,
+}
+
+/// How warnings of a scene are treated.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Warnings {
+    /// Reported only.
+    #[default]
+    Allowed,
+    /// Treated as errors.
+    Refused,
+}
+
+impl Warnings {
+    /// Turns warnings into errors if they are refused.
+    pub(super) fn apply(self, findings: Findings) -> Findings {
+        match self {
+            Self::Allowed => findings,
+            Self::Refused => findings.strict(),
+        }
+    }
+}
+
+/// A scene that was read.
+pub(super) struct Loaded {
+    /// `None` if there are errors.
+    pub(super) scene: Option<Scene>,
+    /// The files it references.
+    pub(super) read: assets::Loaded,
+    /// Slow to free for a large scene.
+    pub(super) source: Source,
+    /// The span that sets the size of the picture, if there is one.
+    pub(super) size: Option<Span>,
+    /// All of its findings, which were printed.
+    pub(super) findings: Findings,
+    /// What the text shows of its picture.
+    pub(super) prospects: Vec<Prospect>,
+}
+
+impl Loaded {
+    /// Takes the scene; fails if the text has errors.
+    pub(super) fn take_scene(&mut self) -> Result<Scene, Error> {
+        let errors = self.findings.errors();
+        self.scene.take().ok_or(Error::Invalid { errors })
+    }
+}
+
+/// What takes precedence over what a text says of its picture.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Over {
+    pub(super) rendering: Rendering,
+    pub(super) view: Viewpoint,
+    pub(super) size: Option<Size>,
+}
+
+impl Over {
+    /// The camera in effect, given the scene's own; otherwise what is wrong with the view.
+    pub(super) fn camera(&self, own: &Camera) -> Result<Camera, &'static str> {
+        let size = self.size.unwrap_or(own.size);
+        // The requested size sets the aspect ratio.
+        self.view.of(own).map(|camera| Camera { size, ..camera })
+    }
+}
+
+impl Reading {
+    /// Begins work that reads scenes: checks the folders, and starts the threads that read.
+    pub(super) fn begin(&self) -> Result<(), Error> {
+        assets::check_folders(&self.assets)?;
+        memory::start_threads_or_none();
+        Ok(())
+    }
+
+    /// Reads a scene and the files it references, and prints all findings, including those about the
+    /// resulting picture, with `over` in precedence to the text's settings, if given.
+    pub(super) fn load(
+        &self,
+        messages: Messages,
+        path: &Path,
+        over: Option<&Over>,
+    ) -> Result<Loaded, Error> {
+        let language = Language::of_path(path).map_err(|unknown| {
+            // An error in opening the file comes before its extension.
+            file::open(path).map_or_else(Error::from, |_| unknown.into())
+        })?;
+        if let Some(beginning) = file::read_beginning(path)? {
+            self.check_beginning(messages, path, language, &beginning)?;
+        }
+        let text = file::read_text(path)?;
+        for copy in file::backups(path) {
+            messages.note(&file::interruption(path.display(), &copy));
+        }
+        let no_memory = |reason| ReadError::NoMemory {
+            path: path.to_owned(),
+            reason,
+        };
+        language::fits(language, &text, 0).map_err(no_memory)?;
+        let mut source = Source::new(language, Arc::new(text));
+        let (lowered, read) = self.lower(messages, path, &mut source).map_err(no_memory)?;
+        let mut findings = lowered.diagnostics;
+        let mut prospects = Vec::new();
+        if let Some((scene, over)) = lowered.scene.as_ref().zip(over) {
+            let asked = over.rendering.or(scene.setting.rendering);
+            // A view that cannot be is refused later.
+            let camera = over.camera(&scene.camera).unwrap_or(scene.camera);
+            for Outlook { warning, prospect } in outlook(&source, scene, &camera, &asked) {
+                findings.warning(|| warning);
+                prospects.push(prospect);
+            }
+        }
+        let findings = self.warnings.apply(findings.sorted());
+        messages.all_findings(path, source.text(), &findings);
+        Ok(Loaded {
+            size: size_span(&source),
+            scene: lowered.scene.filter(|_| findings.errors() == 0),
+            read,
+            findings,
+            prospects,
+            source,
+        })
+    }
+
+    /// Checks the beginning of a long scene, so that the rest is not read if nothing in it can correct
+    /// the errors. Prints them.
+    fn check_beginning(
+        &self,
+        messages: Messages,
+        path: &Path,
+        language: Language,
+        beginning: &str,
+    ) -> Result<(), Error> {
+        let findings = errors_of_beginning(language, beginning);
+        if findings.errors() == 0 {
+            return Ok(());
+        }
+        let findings = self.warnings.apply(findings);
+        messages.all_findings(path, beginning, &findings);
+        let read = counted(beginning.len(), "byte");
+        let note = format!("{}: only the first {read} were read", path.display());
+        messages.note(&note);
+        Err(Error::Invalid {
+            errors: findings.errors(),
+        })
+    }
+
+    /// Lowers a text with the files it references, and returns both. The diagnostics include those of the
+    /// files; files found elsewhere than at the path written are printed as notes.
+    fn lower(
+        &self,
+        messages: Messages,
+        path: &Path,
+        source: &mut Source,
+    ) -> Result<(Lowered, assets::Loaded), OutOfMemory> {
+        let (lowered, loaded) = Assets::new(&self.assets).lower(path, source)?;
+        for (name, found) in &loaded.elsewhere {
+            let found = match found.parent() {
+                Some(parent) if parent.as_os_str().is_empty() => Path::new(".").join(found),
+                _ => found.clone(),
+            };
+            messages.note(&format!("{name} is read from {}", found.display()));
+        }
+        Ok((lowered, loaded))
+    }
+}
+
+/// The span that sets the size of the picture, if there is one.
+fn size_span(source: &Source) -> Option<Span> {
+    let view = source.fields(Node::View);
+    let written = view.iter().filter(|placed| placed.is_explicit());
+    let sizes = written.filter(|placed| placed.field.kind.is_size());
+    sizes
+        .flat_map(|size| size.spans.iter().copied())
+        .reduce(Span::to)
+}

@@ -1,0 +1,272 @@
+//! Plans a picture, a sequence, and each frame of one. All that is refused before tracing is refused in
+//! the order of these checks: outputs, scenes, settings, memory, and what is there already.
+
+use std::path::PathBuf;
+
+use super::arguments::{Parts, PictureWork, Purpose, SequenceOutput, SequenceWork};
+use super::ledger::Ledger;
+use super::lists::{list, lists};
+use super::parts::PartFile;
+use super::picture::short;
+use super::sequence::Sequence;
+use super::shot::Shot;
+use super::{Finished, MoviePlan, NumberedPlan, PicturePlan, Plan, Way};
+use crate::finding::print_without_effect;
+use crate::output::Output;
+use crate::reading::Loaded;
+use crate::stats::Times;
+use crate::tracing::Still;
+use crate::{Error, Reading, Tracing};
+use assets::fingerprint;
+use file::Digest;
+use image_file::{DEFAULT_RATE, ImageFormat};
+use render::{Aov, Frames, Job, Limit, Provenance, check_memory, memory_for, photons_kept};
+use text::{Diagnostic, Span};
+
+/// Plans a picture, and reads its scene.
+pub(super) fn picture(
+    work: PictureWork,
+    tracing: &Tracing,
+    reading: &Reading,
+) -> Result<Plan, Error> {
+    let PictureWork {
+        scene: path,
+        target,
+        parts,
+        purpose,
+        stats,
+    } = work;
+    let outputs: Vec<_> = [&target.output].into_iter().chain(&stats).collect();
+    for output in &outputs {
+        output.check_spares(&path, &[])?;
+        output.check()?;
+    }
+    let part = check_apart(&target.output, stats.as_ref(), parts)?;
+    let mut times = Times::started();
+    reading.begin()?;
+    let means = tracing.means;
+    let messages = means.messages();
+    let mut loaded = reading.load(messages, &path, Some(&tracing.over()))?;
+    let scene = loaded.take_scene()?;
+    for output in outputs {
+        output.check_spares(&path, &loaded.read.files)?;
+    }
+    if let Some(part) = &part
+        && !loaded.read.is_whole()
+    {
+        let needed_by = part.needs();
+        return Err(Error::Incomplete { needed_by });
+    }
+    let Loaded {
+        source,
+        read,
+        size,
+        prospects,
+        ..
+    } = loaded;
+    let still = tracing.still(scene, read.images, target.format.frames())?;
+    let settings = &still.job.settings;
+    if let Some(reason) = target.format.refuses(settings.traced().size()) {
+        return Err(match (tracing.region, tracing.size, size) {
+            (None, None, Some(span)) => {
+                let error = no_such_size(span, &reason);
+                messages.findings(&path, source.text(), &[error]);
+                Error::Invalid { errors: 1 }
+            }
+            (region, ..) => {
+                let option = region.map_or("--size", |_| "--region");
+                Error::Refused(format!("{option} {reason}"))
+            }
+        });
+    }
+    if part.is_some() && settings.aov == Some(Aov::Cost) && 0.0 < settings.noise {
+        let refused = "--shard and --resume cannot sample --aov cost adaptively; use --noise 0";
+        return Err(Error::Refused(refused.to_owned()));
+    }
+    print_without_effect(messages, &tracing.over_text(), settings);
+    let used = memory::used().unwrap_or(0);
+    let needed = |kept| memory_needed(&still, part.as_ref(), means.threads, kept);
+    if purpose == Purpose::Estimate {
+        let needed = needed(photons_kept(&still.job));
+        return Ok(Plan::Estimate(estimate(used, needed, means.threads)));
+    }
+    let needed = needed(None);
+    check_memory(&still.job, needed)?;
+    times.load = times.lap();
+    let way = match part {
+        None => Way::Whole {
+            source,
+            found: read.found,
+        },
+        Some(part) => {
+            let picture = still.provenance(fingerprint(source.text(), &read.found)?);
+            Way::Part {
+                source: short(source),
+                part: part.open(&picture, means)?,
+                picture,
+            }
+        }
+    };
+    Ok(Plan::Picture(Box::new(PicturePlan {
+        scene: path,
+        prospects,
+        still,
+        way,
+        means,
+        target,
+        stats,
+        estimate: estimate(used, needed, means.threads),
+        times,
+    })))
+}
+
+/// Refuses outputs that would overwrite one another. Returns the part file, if one is asked for.
+fn check_apart(
+    picture: &Output,
+    stats: Option<&Output>,
+    parts: Option<Parts>,
+) -> Result<Option<PartFile>, Error> {
+    if let (Some(stats), Output::File(picture)) = (stats, picture) {
+        stats.check_is_apart(picture, "it is the picture")?;
+    }
+    let Some(parts) = parts else {
+        return Ok(None);
+    };
+    let part = PartFile::beside(picture, parts)?;
+    for output in [picture].into_iter().chain(stats) {
+        output.check_is_apart(part.path(), "it is the part file")?;
+    }
+    Ok(Some(part))
+}
+
+/// The error of a size in a text that a format has not.
+fn no_such_size(span: Span, reason: &str) -> Diagnostic {
+    let message = format!("view size {reason}");
+    Diagnostic::error(span, message, "a smaller size").with_hint("or override it: --size WxH")
+}
+
+/// About how many bytes of memory a picture takes, besides its scene. `kept` are the photons of each map,
+/// if known.
+fn memory_needed(still: &Still, part: Option<&PartFile>, threads: usize, kept: Option<u64>) -> u64 {
+    let traced = match part {
+        None => memory_for(&still.job, kept),
+        Some(part) => part.memory_for(&still.job, threads, kept),
+    };
+    traced.saturating_add(still.memory_for_layers())
+}
+
+/// About how many bytes of memory a job that needs these takes in all, with those that its scene uses: a
+/// tenth more than the larger parts, for all the others, and the stacks and heaps of threads.
+fn estimate(used: u64, needed: u64, threads: usize) -> u64 {
+    const OTHERS: u64 = 3 << 20;
+    const THREAD: u64 = 1 << 20;
+    let all = used.saturating_add(needed);
+    all.saturating_add(all / 10)
+        .saturating_add(OTHERS + threads as u64 * THREAD)
+}
+
+/// Plans a sequence, and reads what all of its frames have in common.
+pub(super) fn sequence(
+    work: SequenceWork,
+    tracing: Tracing,
+    reading: Reading,
+) -> Result<Plan, Error> {
+    reading.begin()?;
+    let mut sequence = Sequence::of(work.shows, work.frames, tracing, reading)?;
+    match work.output {
+        SequenceOutput::Pictures {
+            pattern,
+            format,
+            shard,
+            finished,
+        } => {
+            sequence.numbers = sequence.numbers.of_shard(shard);
+            let list = list(&pattern, shard);
+            let output = Output::File(list.clone());
+            sequence.check_spared(&output, &[])?;
+            output.check()?;
+            Ok(Plan::Numbered(Box::new(NumberedPlan {
+                ledger: Ledger::read(list.clone(), &lists(&pattern))?,
+                sequence,
+                pattern,
+                format,
+                finished,
+                list,
+            })))
+        }
+        SequenceOutput::Movie { to, format, rate } => {
+            let rate = rate.or(sequence.rate()).unwrap_or(DEFAULT_RATE);
+            if let Some(reason) = format.refuses(rate) {
+                return Err(Error::Refused(reason));
+            }
+            sequence.check_spared(&to, &[])?;
+            to.check()?;
+            Ok(Plan::Movie(Box::new(MoviePlan {
+                sequence,
+                to,
+                format,
+                rate,
+            })))
+        }
+    }
+}
+
+/// A frame of a sequence, to be written to a file of its own.
+pub(super) struct FramePlan {
+    pub(super) still: Still,
+    /// What the picture is made from.
+    pub(super) provenance: Provenance,
+    /// Its file.
+    pub(super) path: PathBuf,
+    /// The digest of all that the file depends on.
+    pub(super) inputs: String,
+}
+
+/// Plans a frame, and reads its scene; `None` if the frame is finished.
+pub(super) fn frame(plan: &mut NumberedPlan, number: u32) -> Result<Option<FramePlan>, Error> {
+    let format = plan.format;
+    let path = plan.pattern.path(number);
+    let Shot {
+        still,
+        digest,
+        files,
+    } = plan.sequence.shot(number, format.frames())?;
+    let job = &still.job;
+    let provenance = still.provenance(digest);
+    let inputs = inputs(job, &provenance, format);
+    if plan.finished == Finished::Skipped && plan.ledger.has(&inputs, &path) {
+        return Ok(None);
+    }
+    let output = Output::File(path.clone());
+    plan.sequence.check_spared(&output, &files)?;
+    output.check_is_apart(&plan.list, "it is the list of finished frames")?;
+    output.check()?;
+    if let Some(reason) = format.refuses(job.settings.traced().size()) {
+        return Err(Error::Refused(format!("frame {number}: {reason}")));
+    }
+    check_memory(job, memory_needed(&still, None, 0, None))?;
+    Ok(Some(FramePlan {
+        still,
+        provenance,
+        path,
+        inputs,
+    }))
+}
+
+/// The digest of all that a picture file depends on.
+fn inputs(job: &Job, picture: &Provenance, format: ImageFormat) -> String {
+    let entries = picture.written().into_iter().map(|(_, value)| value);
+    let samples = match job.limit {
+        Some(Limit::Time(time)) => format!("{} s", time.as_secs_f64()),
+        _ => picture.settings.spp.to_string(),
+    };
+    let parts: Vec<_> = entries.chain([samples, format.name().to_owned()]).collect();
+    Digest::of(parts.iter().map(String::as_bytes))
+}
+
+/// Plans a frame of a movie, and reads its scene.
+pub(super) fn movie_frame(plan: &mut MoviePlan, number: u32) -> Result<Job, Error> {
+    let Shot { still, files, .. } = plan.sequence.shot(number, Frames::Last)?;
+    plan.sequence.check_spared(&plan.to, &files)?;
+    Ok(still.job)
+}
