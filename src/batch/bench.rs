@@ -78,32 +78,20 @@ fn try_bench(work: &Bench) -> Result<(), Error> {
     stdout::print(&report).map_err(stdout::error)
 }
 
-/// A scene that was read.
-struct Read {
-    scene: Scene,
-    images: Images,
-}
-
 /// Reads a scene file and lowers it.
-fn from_file(work: &Bench, path: &Path) -> Result<Read, Error> {
+fn from_file(work: &Bench, path: &Path) -> Result<(Scene, Images), Error> {
     let over = work.tracing.over();
     let mut loaded = work.reading.load(Messages::Text, path, Some(&over))?;
-    Ok(Read {
-        scene: loaded.take_scene()?,
-        images: loaded.read.images,
-    })
+    Ok((loaded.take_scene()?, loaded.read.images))
 }
 
 /// Lowers a `.ray` text without errors.
-fn built_in(text: &str) -> Result<Read, Error> {
+fn built_in(text: &str) -> Result<(Scene, Images), Error> {
     let mut source = Source::new(Language::Ray, Arc::new(text.to_owned()));
     let lowered = source.lower(&Meshes::default());
     let scene = lowered.ok().and_then(|lowered| lowered.scene);
     let scene = scene.ok_or(Error::Invalid { errors: 1 })?;
-    Ok(Read {
-        scene,
-        images: Images::default(),
-    })
+    Ok((scene, Images::default()))
 }
 
 /// A `.ray` scene of spheres in a cube, every fourth of them a mirror.
@@ -168,13 +156,13 @@ fn measure(
     work: &Bench,
     tracing: &Tracing,
     name: &str,
-    read: impl Fn() -> Result<Read, Error>,
+    read: impl Fn() -> Result<(Scene, Images), Error>,
 ) -> Result<Row, Error> {
     let mut times: [Vec<Duration>; 4] = Default::default();
     let mut found = None;
     for _ in 0..work.runs {
         let begun = Instant::now();
-        let Read { scene, images } = read()?;
+        let (scene, images) = read()?;
         times[0].push(begun.elapsed());
         let objects = scene.objects.len();
         let job = tracing.job(scene, images, Frames::Live)?;

@@ -14,10 +14,9 @@
 
 mod animated;
 mod arguments;
+mod frames;
 mod ledger;
 mod lists;
-mod movie;
-mod numbered;
 mod numbers;
 mod parts;
 mod picture;
@@ -35,7 +34,6 @@ use super::tracing::{Means, Still};
 use super::{Error, stdout};
 use image_file::{ImageFormat, MovieFormat, Pattern};
 use language::{Prospect, Source};
-use render::Provenance;
 
 use ledger::Ledger;
 use parts::Opened;
@@ -60,11 +58,11 @@ enum Plan {
     /// Print about how many bytes of memory a picture would take.
     Estimate(u64),
     /// Trace and write a picture.
-    Picture(Box<PicturePlan>),
+    Picture(Box<PicturePlan>, Way),
     /// Trace and write the frames of a sequence, a file each.
-    Numbered(Box<NumberedPlan>),
+    Numbered(NumberedPlan),
     /// Trace the frames of a sequence and write them to one file.
-    Movie(Box<MoviePlan>),
+    Movie(MoviePlan),
 }
 
 impl Plan {
@@ -87,9 +85,9 @@ impl Plan {
                 let line = format!("{}M\n", bytes.div_ceil(1 << 20));
                 stdout::print(&line).map_err(stdout::error)
             }
-            Self::Picture(plan) => picture::render(*plan),
-            Self::Numbered(plan) => numbered::render(*plan),
-            Self::Movie(plan) => movie::render(*plan),
+            Self::Picture(plan, way) => picture::render(*plan, way),
+            Self::Numbered(plan) => frames::numbered(plan),
+            Self::Movie(plan) => frames::movie(plan),
         }
     }
 }
@@ -101,7 +99,6 @@ struct PicturePlan {
     /// What the scene's text shows of the picture.
     prospects: Vec<Prospect>,
     still: Still,
-    way: Way,
     means: Means,
     /// Where the picture goes, unless only a part of it is traced.
     target: Target,
@@ -125,8 +122,6 @@ enum Way {
         /// The text of the scene, if it is short.
         source: Option<Source>,
         part: Opened,
-        /// What the picture is made from.
-        picture: Provenance,
     },
 }
 
@@ -137,8 +132,6 @@ struct NumberedPlan {
     pattern: Pattern,
     format: ImageFormat,
     finished: Finished,
-    /// The file that lists those that are finished.
-    list: PathBuf,
     ledger: Ledger,
 }
 

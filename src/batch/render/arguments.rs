@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use crate::output::{Output, Target};
+use super::{Output, Target};
 use crate::{Reading, Tracing};
 use image_file::{ImageFormat, MovieFormat, Pattern};
 use part::Shard;
@@ -40,6 +40,13 @@ pub struct PictureWork {
     pub purpose: Purpose,
     /// Where figures about the render go.
     pub stats: Option<Output>,
+}
+
+impl PictureWork {
+    /// Where the picture and the figures go.
+    pub(super) fn outputs(&self) -> impl Iterator<Item = &Output> {
+        [&self.target.output].into_iter().chain(&self.stats)
+    }
 }
 
 /// How a picture is traced into a part file.

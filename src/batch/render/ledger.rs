@@ -73,6 +73,11 @@ impl Ledger {
         })
     }
 
+    /// The file that it is kept in.
+    pub(super) fn path(&self) -> &Path {
+        &self.path
+    }
+
     /// Whether a frame is made of these inputs, and its file is as it was written.
     pub(super) fn has(&self, inputs: &str, picture: &Path) -> bool {
         // Opening a pipe could wait for ever.

@@ -2,6 +2,7 @@
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{self, Receiver};
 use std::thread;
@@ -9,11 +10,9 @@ use std::time::{Duration, Instant};
 
 use super::arguments::{Existing, Parts};
 use super::tally::Tally;
-use crate::Error;
-use crate::output::Output;
+use super::{Error, Means, Output};
 use crate::progress::Reporter;
 use crate::signals::Signals;
-use crate::tracing::Means;
 use part::{Header, Part, Shard};
 use render::{
     BLOCK, Block, BlockTracer, Blocks, Counts, Frame, Job, Limit, Progress, Provenance, Settings,
@@ -29,10 +28,12 @@ const INTERVAL: Duration = Duration::from_secs(10);
 /// Blocks that wait to be written. Tracing waits for a slow disk.
 const WAITING: usize = 64;
 
-/// What was traced into a part file.
+/// A picture, or a part of one, that was traced.
 pub(super) struct Traced {
-    /// The picture, if the part is all of it.
-    pub(super) frame: Option<Frame>,
+    /// The picture, unless it is a part.
+    pub(super) frame: Option<Arc<Frame>>,
+    /// What it is made from.
+    pub(super) picture: Provenance,
     /// The samples and rays of all of it, and the time of this process.
     pub(super) progress: Progress,
     /// The number of pixels traced.
@@ -94,18 +95,13 @@ impl PartFile {
 
     /// Opens or creates it for this picture, and refuses one that has more samples already. From now on,
     /// a signal stops the tracing instead of the process.
-    pub(super) fn open(self, picture: &Provenance, means: Means) -> Result<Opened, Error> {
-        let Self {
-            path,
-            parts: Parts { shard, existing },
-        } = self;
-        let header = Header {
-            picture: picture.clone(),
-            shard,
-        };
+    pub(super) fn open(self, picture: Provenance, means: Means) -> Result<Opened, Error> {
+        let Self { path, parts } = self;
+        let shard = parts.shard;
+        let header = Header { picture, shard };
         // Without them, a signal ends the process, and what was synced is kept.
         let signals = Signals::noted().unwrap_or_default();
-        let part = match existing {
+        let part = match parts.existing {
             Existing::Continued => Part::open(&path, &header),
             Existing::Refused => Part::create(&path, &header),
         };
@@ -118,7 +114,7 @@ impl PartFile {
             let note = format!("{}: discarded {cut} at the end", path.display());
             means.messages().note(&note);
         }
-        let spp = picture.settings.spp;
+        let spp = header.picture.settings.spp;
         let numbers = shard.blocks(part.blocks());
         let most = numbers
             .iter()
@@ -133,10 +129,12 @@ impl PartFile {
         Ok(Opened {
             part,
             path,
-            shard,
+            header,
             numbers,
             signals,
             means,
+            begun: Instant::now(),
+            counts: Counts::default(),
         })
     }
 }
@@ -145,75 +143,58 @@ impl PartFile {
 pub(super) struct Opened {
     part: Part,
     path: PathBuf,
-    shard: Shard,
+    header: Header,
     /// The numbers of its blocks.
     numbers: Vec<u32>,
     signals: Signals,
     means: Means,
-}
-
-impl Opened {
-    /// Traces a job as far as asked.
-    pub(super) fn trace(self, job: Job) -> Result<Traced, Error> {
-        let (frames, shard, means) = (job.frames, self.shard, self.means);
-        let mut continued = Continued {
-            opened: self,
-            begun: Instant::now(),
-            counts: Counts::default(),
-        };
-        let spp = continued.run(job)?;
-        let Continued {
-            opened,
-            begun,
-            counts,
-        } = continued;
-        let Self {
-            part,
-            path,
-            numbers,
-            ..
-        } = &opened;
-        let elapsed = begun.elapsed();
-        let traced = progress(spp, 1.0, elapsed, counts);
-        let progress = progress(spp, 1.0, elapsed, part.counts());
-        let blocks = part.blocks();
-        let pixels = numbers.iter().map(|&number| blocks.area(number)).sum();
-        let reporter = Reporter::new(means.progress);
-        if shard != Shard::WHOLE {
-            reporter.finish(&traced);
-            let blocks = counted(numbers.len(), "block");
-            let path = path.display();
-            let note = format!("shard {shard}: {blocks} with {spp} spp in {path}");
-            means.messages().note(&note);
-            return Ok(Traced {
-                frame: None,
-                progress,
-                pixels,
-            });
-        }
-        let mut frame = part::merge(std::slice::from_ref(path), frames)?.frame;
-        frame.progress.elapsed = elapsed;
-        reporter.finish(&Progress {
-            noise: frame.progress.noise,
-            ..traced
-        });
-        Ok(Traced {
-            progress: frame.progress,
-            frame: Some(frame),
-            pixels,
-        })
-    }
-}
-
-/// A part that is traced.
-struct Continued {
-    opened: Opened,
     begun: Instant,
     /// Rays traced.
     counts: Counts,
 }
 
-impl Continued {
+impl Opened {
+    /// Traces a job as far as asked.
+    pub(super) fn trace(mut self, job: Job) -> Result<Traced, Error> {
+        let frames = job.frames;
+        let spp = self.run(job)?;
+        let Header { mut picture, shard } = self.header;
+        picture.settings.spp = spp;
+        let elapsed = self.begun.elapsed();
+        let traced = progress(spp, 1.0, elapsed, self.counts);
+        let progress = progress(spp, 1.0, elapsed, self.part.counts());
+        let blocks = self.part.blocks();
+        let numbers = self.numbers.iter();
+        let pixels = numbers.map(|&number| blocks.area(number)).sum();
+        let reporter = Reporter::new(self.means.progress);
+        if shard != Shard::WHOLE {
+            reporter.finish(&traced);
+            let blocks = counted(self.numbers.len(), "block");
+            let path = self.path.display();
+            let note = format!("shard {shard}: {blocks} with {spp} spp in {path}");
+            self.means.messages().note(&note);
+            return Ok(Traced {
+                frame: None,
+                picture,
+                progress,
+                pixels,
+            });
+        }
+        let mut frame = part::merge(&[self.path], frames)?.frame;
+        frame.progress.elapsed = elapsed;
+        reporter.finish(&Progress {
+            noise: frame.progress.noise,
+            ..traced
+        });
+        picture.settings.spp = frame.progress.spp;
+        Ok(Traced {
+            progress: frame.progress,
+            frame: Some(Arc::new(frame)),
+            picture,
+            pixels,
+        })
+    }
+
     /// Traces all blocks as far as asked. Returns their samples.
     fn run(&mut self, job: Job) -> Result<u32, Error> {
         let Settings { spp, .. } = job.settings;
@@ -221,15 +202,14 @@ impl Continued {
             Some(Limit::Time(limit)) => Some(limit),
             _ => None,
         };
-        let Opened { part, numbers, .. } = &self.opened;
-        let samples = numbers.iter().map(|&number| part.samples(number));
+        let numbers = self.numbers.iter();
+        let samples = numbers.map(|&number| self.part.samples(number));
         let mut whole = samples.min().unwrap_or(spp);
         if spp <= whole {
             self.aim(spp)?;
             return Ok(spp);
         }
-        let Opened { signals, means, .. } = &self.opened;
-        let tracer = BlockTracer::new(job, means.threads, || signals.arrived())?;
+        let tracer = BlockTracer::new(job, self.means.threads, || self.signals.arrived())?;
         let Some(tracer) = tracer else {
             let none_begun = BTreeMap::new();
             return Err(self.stopped(self.tally(spp, &none_begun).done()));
@@ -254,7 +234,7 @@ impl Continued {
     /// Traces all blocks to this number of samples.
     fn sweep(&mut self, tracer: &BlockTracer, spp: u32) -> Result<(), Error> {
         self.aim(spp)?;
-        let Opened { part, numbers, .. } = &self.opened;
+        let Self { part, numbers, .. } = self;
         let blocks = tracer.blocks();
         let lacking = numbers
             .iter()
@@ -270,7 +250,7 @@ impl Continued {
             let block = begun.remove(&number);
             block.unwrap_or_else(|| Block::new(number, blocks))
         });
-        let (signals, failed) = (self.opened.signals.clone(), &AtomicBool::new(false));
+        let (signals, failed) = (self.signals.clone(), &AtomicBool::new(false));
         let stopped = move || signals.arrived() || failed.load(Ordering::Relaxed);
         let (hand_over, handed_over) = mpsc::sync_channel(WAITING);
         let written = thread::scope(|scope| {
@@ -294,7 +274,7 @@ impl Continued {
 
     /// How far all blocks are on their way to `spp` samples, some of which are `begun`.
     fn tally(&self, spp: u32, begun: &BTreeMap<u32, Block>) -> Tally {
-        let Opened { part, numbers, .. } = &self.opened;
+        let Self { part, numbers, .. } = self;
         let reached = numbers.iter().map(|&number| {
             let counts = begun.get(&number).map(|block| block.counts);
             (number, part.samples(number), counts.unwrap_or_default())
@@ -304,14 +284,13 @@ impl Continued {
 
     /// Writes blocks as they come.
     fn write(&mut self, blocks: &Receiver<Block>, tally: &mut Tally) -> std::io::Result<()> {
-        let Opened { part, means, .. } = &mut self.opened;
-        let mut reporter = Reporter::new(means.progress).begun(tally.done());
+        let mut reporter = Reporter::new(self.means.progress).begun(tally.done());
         let mut synced = Instant::now();
         while let Ok(block) = blocks.recv() {
             tally.add(&block);
-            part.put(block)?;
+            self.part.put(block)?;
             if INTERVAL <= synced.elapsed() {
-                part.sync()?;
+                self.part.sync()?;
                 synced = Instant::now();
             }
             let counts = self.counts.and(tally.counts);
@@ -319,26 +298,25 @@ impl Continued {
             reporter.show(&progress(tally.least(), tally.done(), elapsed, counts));
         }
         self.counts = self.counts.and(tally.counts);
-        part.sync()
+        self.part.sync()
     }
 
     fn aim(&mut self, spp: u32) -> Result<(), Error> {
-        let aimed = self.opened.part.aim(spp);
-        aimed.map_err(|source| self.unwritten(source))
+        self.part.aim(spp).map_err(|source| self.unwritten(source))
     }
 
     fn unwritten(&self, source: std::io::Error) -> Error {
         Error::Write {
-            to: self.opened.path.display().to_string(),
+            to: self.path.display().to_string(),
             source,
         }
     }
 
     /// The error that tracing was stopped.
     fn stopped(&self, done: f64) -> Error {
-        match self.opened.signals.last() {
+        match self.signals.last() {
             Some(signal) => Error::Kept {
-                path: self.opened.path.clone(),
+                path: self.path.clone(),
                 signal,
                 done,
             },

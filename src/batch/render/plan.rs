@@ -3,20 +3,18 @@
 
 use std::path::PathBuf;
 
-use super::arguments::{Parts, PictureWork, Purpose, SequenceOutput, SequenceWork};
+use super::arguments::{Finished, PictureWork, Purpose, SequenceOutput, SequenceWork};
 use super::ledger::Ledger;
 use super::lists::{list, lists};
 use super::parts::PartFile;
 use super::picture::short;
 use super::sequence::Sequence;
 use super::shot::Shot;
-use super::{Finished, MoviePlan, NumberedPlan, PicturePlan, Plan, Way};
+use super::{Error, MoviePlan, NumberedPlan, Output, PicturePlan, Plan, Still, Way};
 use crate::finding::print_without_effect;
-use crate::output::Output;
 use crate::reading::Loaded;
 use crate::stats::Times;
-use crate::tracing::Still;
-use crate::{Error, Reading, Tracing};
+use crate::{Reading, Tracing};
 use assets::fingerprint;
 use file::Digest;
 use image_file::{DEFAULT_RATE, ImageFormat};
@@ -29,27 +27,15 @@ pub(super) fn picture(
     tracing: &Tracing,
     reading: &Reading,
 ) -> Result<Plan, Error> {
-    let PictureWork {
-        scene: path,
-        target,
-        parts,
-        purpose,
-        stats,
-    } = work;
-    let outputs: Vec<_> = [&target.output].into_iter().chain(&stats).collect();
-    for output in &outputs {
-        output.check_spares(&path, &[])?;
-        output.check()?;
-    }
-    let part = check_apart(&target.output, stats.as_ref(), parts)?;
+    let part = check_outputs(&work)?;
     let mut times = Times::started();
     reading.begin()?;
     let means = tracing.means;
     let messages = means.messages();
-    let mut loaded = reading.load(messages, &path, Some(&tracing.over()))?;
+    let mut loaded = reading.load(messages, &work.scene, Some(&tracing.over()))?;
     let scene = loaded.take_scene()?;
-    for output in outputs {
-        output.check_spares(&path, &loaded.read.files)?;
+    for output in work.outputs() {
+        output.check_spares(&work.scene, &loaded.read.files)?;
     }
     if let Some(part) = &part
         && !loaded.read.is_whole()
@@ -57,27 +43,17 @@ pub(super) fn picture(
         let needed_by = part.needs();
         return Err(Error::Incomplete { needed_by });
     }
-    let Loaded {
-        source,
-        read,
-        size,
-        prospects,
-        ..
-    } = loaded;
-    let still = tracing.still(scene, read.images, target.format.frames())?;
+    let Loaded { source, read, .. } = loaded;
+    let still = tracing.still(scene, read.images, work.target.format.frames())?;
     let settings = &still.job.settings;
-    if let Some(reason) = target.format.refuses(settings.traced().size()) {
-        return Err(match (tracing.region, tracing.size, size) {
-            (None, None, Some(span)) => {
-                let error = no_such_size(span, &reason);
-                messages.findings(&path, source.text(), &[error]);
-                Error::Invalid { errors: 1 }
-            }
-            (region, ..) => {
-                let option = region.map_or("--size", |_| "--region");
-                Error::Refused(format!("{option} {reason}"))
-            }
-        });
+    if let Some(reason) = work.target.format.refuses(settings.traced().size()) {
+        if let (None, None, Some(span)) = (tracing.region, tracing.size, loaded.size) {
+            let error = no_such_size(span, &reason);
+            messages.findings(&work.scene, source.text(), &[error]);
+            return Err(Error::Invalid { errors: 1 });
+        }
+        let option = tracing.region.map_or("--size", |_| "--region");
+        return Err(Error::Refused(format!("{option} {reason}")));
     }
     if part.is_some() && settings.aov == Some(Aov::Cost) && 0.0 < settings.noise {
         let refused = "--shard and --resume cannot sample --aov cost adaptively; use --noise 0";
@@ -86,7 +62,7 @@ pub(super) fn picture(
     print_without_effect(messages, &tracing.over_text(), settings);
     let used = memory::used().unwrap_or(0);
     let needed = |kept| memory_needed(&still, part.as_ref(), means.threads, kept);
-    if purpose == Purpose::Estimate {
+    if work.purpose == Purpose::Estimate {
         let needed = needed(photons_kept(&still.job));
         return Ok(Plan::Estimate(estimate(used, needed, means.threads)));
     }
@@ -102,38 +78,38 @@ pub(super) fn picture(
             let picture = still.provenance(fingerprint(source.text(), &read.found)?);
             Way::Part {
                 source: short(source),
-                part: part.open(&picture, means)?,
-                picture,
+                part: part.open(picture, means)?,
             }
         }
     };
-    Ok(Plan::Picture(Box::new(PicturePlan {
-        scene: path,
-        prospects,
+    let plan = PicturePlan {
+        scene: work.scene,
+        prospects: loaded.prospects,
         still,
-        way,
         means,
-        target,
-        stats,
+        target: work.target,
+        stats: work.stats,
         estimate: estimate(used, needed, means.threads),
         times,
-    })))
+    };
+    Ok(Plan::Picture(Box::new(plan), way))
 }
 
-/// Refuses outputs that would overwrite one another. Returns the part file, if one is asked for.
-fn check_apart(
-    picture: &Output,
-    stats: Option<&Output>,
-    parts: Option<Parts>,
-) -> Result<Option<PartFile>, Error> {
-    if let (Some(stats), Output::File(picture)) = (stats, picture) {
+/// Refuses outputs that cannot be written, or would overwrite the scene or one another. Returns the part
+/// file, if one is asked for.
+fn check_outputs(work: &PictureWork) -> Result<Option<PartFile>, Error> {
+    for output in work.outputs() {
+        output.check_spares(&work.scene, &[])?;
+        output.check()?;
+    }
+    if let (Some(stats), Output::File(picture)) = (&work.stats, &work.target.output) {
         stats.check_is_apart(picture, "it is the picture")?;
     }
-    let Some(parts) = parts else {
+    let Some(parts) = work.parts else {
         return Ok(None);
     };
-    let part = PartFile::beside(picture, parts)?;
-    for output in [picture].into_iter().chain(stats) {
+    let part = PartFile::beside(&work.target.output, parts)?;
+    for output in work.outputs() {
         output.check_is_apart(part.path(), "it is the part file")?;
     }
     Ok(Some(part))
@@ -185,14 +161,13 @@ pub(super) fn sequence(
             let output = Output::File(list.clone());
             sequence.check_spared(&output, &[])?;
             output.check()?;
-            Ok(Plan::Numbered(Box::new(NumberedPlan {
-                ledger: Ledger::read(list.clone(), &lists(&pattern))?,
+            Ok(Plan::Numbered(NumberedPlan {
+                ledger: Ledger::read(list, &lists(&pattern))?,
                 sequence,
                 pattern,
                 format,
                 finished,
-                list,
-            })))
+            }))
         }
         SequenceOutput::Movie { to, format, rate } => {
             let rate = rate.or(sequence.rate()).unwrap_or(DEFAULT_RATE);
@@ -201,12 +176,12 @@ pub(super) fn sequence(
             }
             sequence.check_spared(&to, &[])?;
             to.check()?;
-            Ok(Plan::Movie(Box::new(MoviePlan {
+            Ok(Plan::Movie(MoviePlan {
                 sequence,
                 to,
                 format,
                 rate,
-            })))
+            }))
         }
     }
 }
@@ -239,7 +214,7 @@ pub(super) fn frame(plan: &mut NumberedPlan, number: u32) -> Result<Option<Frame
     }
     let output = Output::File(path.clone());
     plan.sequence.check_spared(&output, &files)?;
-    output.check_is_apart(&plan.list, "it is the list of finished frames")?;
+    output.check_is_apart(plan.ledger.path(), "it is the list of finished frames")?;
     output.check()?;
     if let Some(reason) = format.refuses(job.settings.traced().size()) {
         return Err(Error::Refused(format!("frame {number}: {reason}")));

@@ -2,8 +2,8 @@
 
 use std::path::{Path, PathBuf};
 
-use crate::tracing::Still;
-use crate::{Error, Reading, Tracing};
+use super::{Error, Still};
+use crate::{Reading, Tracing};
 use assets::fingerprint;
 use render::Frames;
 
