@@ -3,16 +3,19 @@
 //!
 //! [`render`] records and judges a sample in numbers; here objects and lights get
 //! their names back, and what the text holds but the picture does not is looked for. Words and
-//! structure are kept apart from printing. The interface shows the verdicts, and folds the tree in
-//! its own lines.
+//! structure are kept apart from printing: the lines of the tree are the same everywhere; texts write
+//! [all](words) of them out, the interface those of light in [few words](label), with their values.
 
 mod cause;
+mod labels;
+mod lines;
 mod names;
 mod sentences;
 #[cfg(test)]
 mod tests;
 mod tree;
 mod undrawn;
+pub mod wording;
 
 use glam::DVec3;
 
@@ -23,7 +26,9 @@ use scene::{Camera, Rgb, Scene, Size};
 use names::Names;
 
 pub use cause::{cause, fault};
-pub use names::number;
+pub use labels::{Value, label, values};
+pub use lines::{RayLine, RayPart, is_foldable, lines};
+pub use names::{number, numbers};
 
 /// What an explanation is about.
 #[derive(Clone, Copy, Debug)]

@@ -158,8 +158,7 @@ pub fn number(value: f64) -> String {
 
 /// A point or direction.
 pub(super) fn vector(vector: DVec3) -> String {
-    let [x, y, z] = settled(vector).map(number);
-    format!("({x}, {y}, {z})")
+    format!("({})", settled(&vector.to_array()).join(", "))
 }
 
 /// A colour: one number for greys.
@@ -189,10 +188,14 @@ pub(super) fn side(side: Side) -> &'static str {
     }
 }
 
-/// The components of a vector, with those that are rounding errors beside the others as 0.
-fn settled(vector: DVec3) -> [f64; 3] {
-    let least = 1e-12 * vector.abs().max_element();
-    vector
-        .to_array()
-        .map(|part| if part.abs() < least { 0.0 } else { part })
+/// Numbers with blanks between them; rounding errors beside larger ones are 0.
+pub fn numbers(of: &[f64]) -> String {
+    settled(of).join(" ")
+}
+
+/// Numbers, with those that are rounding errors beside the others as 0.
+fn settled(of: &[f64]) -> Vec<String> {
+    let largest = of.iter().fold(0.0, |most: f64, of| most.max(of.abs()));
+    let settled = |of: f64| if of.abs() < 1e-12 * largest { 0.0 } else { of };
+    of.iter().map(|&of| number(settled(of))).collect()
 }

@@ -482,6 +482,12 @@ fn lines_name_what_a_ray_meets_and_where_that_stands() {
 }
 
 #[test]
+fn rounding_errors_are_no_digits() {
+    assert_eq!(numbers(&[1.0, 1e-17, -0.25]), "1 0 -0.25");
+    assert_eq!(numbers(&[1e-17]), "1e-17");
+}
+
+#[test]
 fn numbers_have_four_digits() {
     for (value, expected) in [
         (0.0, "0"),

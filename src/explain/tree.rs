@@ -2,28 +2,24 @@
 
 use glam::DVec3;
 
-use super::Line;
+use super::lines::{RayLine, RayPart};
 use super::names::{Names, colour, number, percent, side, vector};
+use super::{Line, wording};
 use language::Node;
 use render::{
-    Chosen, Crossing, Densities, EmitterTerm, Explanation, LightTerm, RayEnd, RayKind, Shading,
-    Stop, TracedRay, UnlitReason,
+    Boundary, Chosen, Crossing, Densities, EmitterTerm, Explanation, LightTerm, RayEnd, RayKind,
+    Shading, SurfaceHit, TracedRay,
 };
-use scene::Rgb;
 
 /// Writes a record as lines, each ray below the surface it starts from.
 pub(super) fn lines(explanation: &Explanation, names: &Names<'_>) -> Vec<Line> {
-    let children = explanation.children();
     let mut writer = Writer {
         explanation,
         names,
         lines: Vec::new(),
     };
-    // Depth first without recursion: a path may have thousands of vertices.
-    let mut waiting = vec![(0, 0)];
-    while let Some((ray, depth)) = waiting.pop() {
-        writer.ray(ray, depth);
-        waiting.extend(children[ray].iter().rev().map(|&child| (child, depth + 1)));
+    for line in super::lines::lines(explanation, |_| false) {
+        writer.write(line);
     }
     writer.lines
 }
@@ -58,10 +54,17 @@ impl Writer<'_> {
         line
     }
 
-    fn ray(&mut self, number: usize, depth: usize) {
-        let explanation = self.explanation;
-        let ray = &explanation.rays[number];
-        let at = (number, depth);
+    fn write(&mut self, line: RayLine) {
+        let ray = line.ray(self.explanation);
+        let at = (line.ray, line.depth);
+        match ray.shading() {
+            Some(shading) => self.surface(ray, shading, line.part, at),
+            None => self.end(ray, at),
+        }
+    }
+
+    /// A ray that hit no surface.
+    fn end(&mut self, ray: &TracedRay, at: (usize, usize)) {
         let begin = beginning(ray);
         let added = ray.contribution;
         match &ray.end {
@@ -86,7 +89,7 @@ impl Writer<'_> {
                 self.line(at, format!("{begin} is not traced: the budget is spent"));
             }
             RayEnd::Light(hit) => {
-                let t = super::number(hit.t);
+                let t = number(hit.t);
                 let weight = hit
                     .densities
                     .map_or(String::new(), |densities| weighed(&densities, "the light"));
@@ -99,79 +102,66 @@ impl Writer<'_> {
                 line.adds = Some(added);
                 line.segment = Some([ray.origin, ray.origin + hit.t * ray.direction]);
             }
-            RayEnd::Surface(shading) => self.surface(ray, shading, at, &begin),
+            RayEnd::Surface(_) => {}
         }
     }
 
-    fn surface(
-        &mut self,
-        ray: &TracedRay,
-        shading: &Shading,
-        (number, depth): (usize, usize),
-        begin: &str,
-    ) {
+    /// A line about a surface that a ray hit.
+    fn surface(&mut self, ray: &TracedRay, shading: &Shading, part: RayPart, at: (usize, usize)) {
         let hit = &shading.hit;
+        let text = match part {
+            RayPart::Whole => return self.hit(ray, hit, at),
+            RayPart::Material => return self.material(hit, at),
+            RayPart::Light(place) => return self.light(&shading.lights[place], hit.point, at),
+            RayPart::Emitter(place) => {
+                return self.emitter(&shading.emitters[place], hit.point, at);
+            }
+            RayPart::Geometry => geometry(hit),
+            RayPart::Absorption => {
+                let left = colour(shading.transmitted);
+                format!("absorption on the way leaves {left}")
+            }
+            RayPart::MissingTexture => "a texture has no image: magenta".to_owned(),
+            RayPart::Emission => {
+                let weight = shading.densities.map_or(String::new(), |densities| {
+                    weighed(&densities, "emitter sampling")
+                });
+                format!("emission {}{weight}", colour(shading.emission))
+            }
+            RayPart::Ambient => format!("ambient {}", colour(shading.ambient)),
+            RayPart::Unlisted => {
+                let sum = colour(shading.unlisted.radiance);
+                let lights = shading.unlisted.lights;
+                format!("{lights} more lights: {sum}")
+            }
+            RayPart::Caustics => format!("photons {}", colour(shading.caustics)),
+            RayPart::Boundary => shading.boundary.map_or(String::new(), boundary),
+            RayPart::Mirror => format!("mirror {}", colour(shading.mirror)),
+            RayPart::Stop => {
+                let depth = self.explanation.depth;
+                let stop = shading.stop.map(|stop| wording::stop(stop, depth));
+                stop.map_or(String::new(), |stop| stop.long)
+            }
+        };
+        self.line(at, text);
+    }
+
+    fn hit(&mut self, ray: &TracedRay, hit: &SurfaceHit, at: (usize, usize)) {
         let name = self.names.object(hit.object);
         let text = format!(
-            "{begin} hits the {} of {name} at t {}",
+            "{} hits the {} of {name} at t {}",
+            beginning(ray),
             side(hit.side),
-            super::number(hit.t)
+            number(hit.t)
         );
         let node = self.names.object_node(hit.object);
-        let line = self.about((number, depth), text, node);
+        let line = self.about(at, text, node);
         line.segment = Some([ray.origin, hit.point]);
         line.adds = Some(ray.contribution);
-        let at = (number, depth + 1);
-        self.geometry(shading, at);
-        if shading.emission != Rgb::ZERO {
-            let weight = shading.densities.map_or(String::new(), |densities| {
-                weighed(&densities, "emitter sampling")
-            });
-            self.line(at, format!("emission {}{weight}", colour(shading.emission)));
-        }
-        if shading.ambient != Rgb::ZERO {
-            self.line(at, format!("ambient {}", colour(shading.ambient)));
-        }
-        for term in &shading.lights {
-            self.light(term, hit.point, at);
-        }
-        if 0 < shading.unlisted.lights {
-            let sum = colour(shading.unlisted.radiance);
-            let lights = shading.unlisted.lights;
-            self.line(at, format!("{lights} more lights: {sum}"));
-        }
-        for term in &shading.emitters {
-            self.emitter(term, hit.point, at);
-        }
-        if shading.caustics != Rgb::ZERO {
-            self.line(at, format!("photons {}", colour(shading.caustics)));
-        }
-        self.specular(shading, at);
     }
 
-    fn geometry(&mut self, shading: &Shading, at: (usize, usize)) {
-        let hit = &shading.hit;
-        let turned = hit.geometric.dot(hit.normal).signum() * hit.geometric;
-        let bumped = if turned.distance(hit.normal) < 1e-9 {
-            String::new()
-        } else {
-            format!(" (geometric {})", vector(hit.geometric))
-        };
-        let text = format!(
-            "point {}, normal {}{bumped}, uv {} {}",
-            vector(hit.point),
-            vector(hit.normal),
-            number(hit.uv.x),
-            number(hit.uv.y)
-        );
-        self.line(at, text);
-        if shading.transmitted != Rgb::ONE {
-            let left = colour(shading.transmitted);
-            self.line(at, format!("absorption on the way leaves {left}"));
-        }
-        if shading.missing.is_some() {
-            self.line(at, "a texture has no image: magenta".to_owned());
-        }
+    /// The material, if it has a name of its own.
+    fn material(&mut self, hit: &SurfaceHit, at: (usize, usize)) {
         let node = self.names.material_node(hit.object);
         if let Node::Material(_) = node {
             let name = self.names.node(node);
@@ -204,7 +194,7 @@ impl Writer<'_> {
             factors.push(format!("radiance {}", colour(emitted)));
         }
         let begin = match term.dark {
-            Some(dark) => reason(dark).to_owned(),
+            Some(dark) => wording::unlit(dark).long,
             None => colour(term.radiance),
         };
         let text = format!("{name}: {begin}: {}", factors.join(", "));
@@ -244,7 +234,7 @@ impl Writer<'_> {
         }
         let factors = factors.join(", ");
         match term.dark {
-            Some(dark) => format!("{}: {factors}", reason(dark)),
+            Some(dark) => format!("{}: {factors}", wording::unlit(dark).long),
             None => format!("{}: {factors}", colour(term.radiance)),
         }
     }
@@ -260,36 +250,35 @@ impl Writer<'_> {
         let named = if blocking.is_empty() { all } else { blocking };
         (!named.is_empty()).then(|| self.names.objects(&named))
     }
+}
 
-    fn specular(&mut self, shading: &Shading, at: (usize, usize)) {
-        if let Some(boundary) = shading.boundary {
-            let [from, to] = boundary.indices.map(number);
-            let share = if boundary.total {
-                "total internal reflection".to_owned()
-            } else {
-                format!("reflects {}", percent(boundary.reflectance))
-            };
-            let tint = colour(boundary.tint);
-            let text = format!("boundary {tint}, index {from} to {to}: {share}");
-            self.line(at, text);
-        }
-        if shading.mirror != Rgb::ZERO {
-            self.line(at, format!("mirror {}", colour(shading.mirror)));
-        }
-        let depth = self.explanation.depth;
-        let end = match shading.stop {
-            Some(Stop::Depth) => format!("cut by the depth of {depth}"),
-            Some(Stop::Budget) => "the path ends: the budget is spent".to_owned(),
-            Some(Stop::Nowhere) => "the path ends: its direction leads nowhere".to_owned(),
-            Some(Stop::Overflow) => "the path ends: its weight overflowed".to_owned(),
-            Some(Stop::Roulette { survival }) => {
-                let chance = percent(survival);
-                format!("the path ends by Russian roulette, which it had survived with {chance}")
-            }
-            None => return,
-        };
-        self.line(at, end);
-    }
+/// The point that a ray hit, and the normals there.
+fn geometry(hit: &SurfaceHit) -> String {
+    let turned = hit.geometric.dot(hit.normal).signum() * hit.geometric;
+    let bumped = if turned.distance(hit.normal) < 1e-9 {
+        String::new()
+    } else {
+        format!(" (geometric {})", vector(hit.geometric))
+    };
+    format!(
+        "point {}, normal {}{bumped}, uv {} {}",
+        vector(hit.point),
+        vector(hit.normal),
+        number(hit.uv.x),
+        number(hit.uv.y)
+    )
+}
+
+/// What the boundary of a transparent solid does with light.
+fn boundary(boundary: Boundary) -> String {
+    let [from, to] = boundary.indices.map(number);
+    let share = if boundary.total {
+        "total internal reflection".to_owned()
+    } else {
+        format!("reflects {}", percent(boundary.reflectance))
+    };
+    let tint = colour(boundary.tint);
+    format!("boundary {tint}, index {from} to {to}: {share}")
 }
 
 /// The weight of what a path hit.
@@ -314,15 +303,10 @@ fn chances(densities: &Densities) -> String {
 
 /// What a ray is and what it counts.
 fn beginning(ray: &TracedRay) -> String {
-    let kind = match ray.kind {
-        RayKind::Camera => return "camera ray".to_owned(),
-        RayKind::Mirror => "mirrored ray",
-        RayKind::Boundary => "ray reflected at the boundary",
-        RayKind::Refraction => "refracted ray",
-        RayKind::TotalReflection => "totally reflected ray",
-        RayKind::Diffuse => "diffusely scattered ray",
-        RayKind::Glossy => "glossily scattered ray",
-    };
+    let kind = wording::kind(ray.kind).long;
+    if ray.kind == RayKind::Camera {
+        return kind;
+    }
     let weight = colour(ray.weight);
     let chosen = ray.chosen.map_or(String::new(), |chosen| choice(&chosen));
     format!("{kind} (weight {weight}{chosen})")
@@ -338,19 +322,4 @@ fn choice(chosen: &Chosen) -> String {
         String::new()
     };
     format!(", chance {}{density}{survival}", percent(chosen.chance))
-}
-
-/// Why a light adds nothing.
-pub(super) fn reason(dark: UnlitReason) -> &'static str {
-    match dark {
-        UnlitReason::SwitchedOff => "switched off",
-        UnlitReason::UnlitSide => "not shown on this side",
-        UnlitReason::FacesAway => "faces away",
-        UnlitReason::AtThePoint => "at the point itself",
-        UnlitReason::OutsideCone => "outside its cone",
-        UnlitReason::Attenuated => "attenuated to nothing",
-        UnlitReason::NotReflected => "not reflected",
-        UnlitReason::Blocked => "in shadow",
-        UnlitReason::Hidden => "hidden by another light",
-    }
 }

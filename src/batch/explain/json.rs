@@ -5,11 +5,11 @@ use std::path::Path;
 use glam::DVec3;
 use serde_json::{Value, json};
 
-use explain::{Place, Sentence, Subject, Words};
+use explain::{Place, Sentence, Subject, Words, wording};
 use language::Node;
 use render::{
-    Crossing, Densities, EmitterTerm, Explanation, LightTerm, RayEnd, RayKind, Shading, Side, Stop,
-    TracedRay, UnlitReason,
+    Crossing, Densities, EmitterTerm, Explanation, LightTerm, RayEnd, Shading, Stop, TracedRay,
+    UnlitReason,
 };
 
 /// The explanation as an object; numbers that are infinite or undefined are null.
@@ -19,7 +19,8 @@ pub(super) fn object(
     words: &Words,
     subject: &Subject<'_>,
 ) -> Value {
-    let rays = explanation.rays.iter().map(|traced| ray(traced, subject));
+    let rays = explanation.rays.iter();
+    let rays = rays.map(|traced| ray(traced, subject, explanation.depth));
     json!({
         "scene": scene.to_string_lossy(),
         "pixel": explanation.pixel,
@@ -49,10 +50,10 @@ fn place(place: Place) -> Value {
     json!({ "line": place.line, "column": place.column, "field": place.field })
 }
 
-fn ray(ray: &TracedRay, subject: &Subject<'_>) -> Value {
+fn ray(ray: &TracedRay, subject: &Subject<'_>, depth: u32) -> Value {
     json!({
         "parent": ray.parent,
-        "kind": kind(ray.kind),
+        "kind": wording::kind(ray.kind).name,
         "bounce": ray.bounce,
         "weight": vector(ray.weight),
         "origin": vector(ray.origin),
@@ -66,11 +67,11 @@ fn ray(ray: &TracedRay, subject: &Subject<'_>) -> Value {
             "survival": chosen.survival,
         })),
         "contribution": vector(ray.contribution),
-        "end": end(&ray.end, subject),
+        "end": end(&ray.end, subject, depth),
     })
 }
 
-fn end(end: &RayEnd, subject: &Subject<'_>) -> Value {
+fn end(end: &RayEnd, subject: &Subject<'_>, depth: u32) -> Value {
     match end {
         RayEnd::Missed {
             radiance,
@@ -88,11 +89,11 @@ fn end(end: &RayEnd, subject: &Subject<'_>) -> Value {
             "radiance": vector(hit.radiance),
             "densities": hit.densities.map(densities),
         }}),
-        RayEnd::Surface(shading) => json!({ "surface": surface(shading, subject) }),
+        RayEnd::Surface(shading) => json!({ "surface": surface(shading, subject, depth) }),
     }
 }
 
-fn surface(shading: &Shading, subject: &Subject<'_>) -> Value {
+fn surface(shading: &Shading, subject: &Subject<'_>, depth: u32) -> Value {
     let hit = &shading.hit;
     let lights = shading.lights.iter().map(|shown| term(shown, subject));
     let emitters = shading.emitters.iter();
@@ -105,10 +106,7 @@ fn surface(shading: &Shading, subject: &Subject<'_>) -> Value {
         "geometric_normal": vector(hit.geometric),
         "normal": vector(hit.normal),
         "uv": hit.uv.to_array(),
-        "side": match hit.side {
-            Side::Front => "front",
-            Side::Back => "back",
-        },
+        "side": wording::side_of(hit).name,
         "transmitted": vector(shading.transmitted),
         "lit": shading.lit,
         "missing_texture": shading.missing,
@@ -128,7 +126,7 @@ fn surface(shading: &Shading, subject: &Subject<'_>) -> Value {
             "reflectance": boundary.reflectance,
             "total": boundary.total,
         })),
-        "stop": shading.stop.map(stop),
+        "stop": shading.stop.map(|reason| stop(reason, depth)),
     })
 }
 
@@ -200,38 +198,14 @@ fn vector(vector: DVec3) -> Value {
     json!(vector.to_array())
 }
 
-fn kind(kind: RayKind) -> &'static str {
-    match kind {
-        RayKind::Camera => "camera",
-        RayKind::Mirror => "mirror",
-        RayKind::Boundary => "boundary",
-        RayKind::Refraction => "refraction",
-        RayKind::TotalReflection => "total reflection",
-        RayKind::Diffuse => "diffuse",
-        RayKind::Glossy => "glossy",
-    }
-}
-
-fn stop(stop: Stop) -> Value {
+fn stop(stop: Stop, depth: u32) -> Value {
+    let name = wording::stop(stop, depth).name;
     match stop {
-        Stop::Depth => json!("depth"),
-        Stop::Budget => json!("budget"),
-        Stop::Nowhere => json!("nowhere"),
-        Stop::Overflow => json!("overflow"),
-        Stop::Roulette { survival } => json!({ "roulette": survival }),
+        Stop::Roulette { survival } => json!({ name: survival }),
+        Stop::Depth | Stop::Budget | Stop::Nowhere | Stop::Overflow => json!(name),
     }
 }
 
 fn dark(dark: UnlitReason) -> &'static str {
-    match dark {
-        UnlitReason::SwitchedOff => "switched off",
-        UnlitReason::UnlitSide => "unlit side",
-        UnlitReason::FacesAway => "faces away",
-        UnlitReason::AtThePoint => "at the point",
-        UnlitReason::OutsideCone => "outside cone",
-        UnlitReason::Attenuated => "attenuated",
-        UnlitReason::NotReflected => "not reflected",
-        UnlitReason::Blocked => "blocked",
-        UnlitReason::Hidden => "hidden",
-    }
+    wording::unlit(dark).name
 }

@@ -15,13 +15,13 @@ const MOST_CROSSED: usize = 16;
 
 /// A point that lights may light.
 #[derive(Clone, Copy)]
-pub(super) struct Lit<'r> {
+pub(super) struct LitPoint<'r> {
     pub(super) world: &'r World,
     pub(super) point: &'r Point,
     pub(super) material: &'r Material,
 }
 
-impl Lit<'_> {
+impl LitPoint<'_> {
     /// Describes the light with this index, sampled where `chosen` says if that is not its centre;
     /// `reflected` gives the reflectance for its geometry, and `added` is what the integrator added
     /// for it. `None` for ambient light.

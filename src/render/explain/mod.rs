@@ -1,14 +1,15 @@
 //! Why a pixel has its colour: the whole tree of rays behind a sample, recorded part by part.
 //!
-//! The steps of the integrators are run for one sample at a time, and what they did is read between
-//! them. Where pictures take them eight at once, the formulas are the same, and a test compares the
-//! bits. So the record does not drift from the picture, and costs nothing where no one asks.
+//! The steps that trace pictures are run for one sample, by [paths](path) or [Whitted's rays](whitted),
+//! and what they leave is read between them. So the record does not drift from the picture, and costs
+//! nothing where no one asks.
 
 mod judge;
 mod kind;
 mod lights;
 mod path;
 mod record;
+mod recorder;
 mod surface;
 mod verdict;
 mod whitted;
@@ -30,9 +31,6 @@ pub use record::{
     Stop, SurfaceHit, TracedRay, Unlisted, UnlitReason,
 };
 pub use verdict::{DepthLimit, Finding, Term, TermSource, Verdict};
-
-/// Lights listed per sample: a scene may have 100,000 lights, a sample 4096 rays.
-const MOST_TERMS: usize = 1 << 14;
 
 /// A scene prepared for questions without a renderer.
 #[derive(Debug)]

@@ -1,23 +1,28 @@
-//! The rays of a path: the integrator's steps run for one path alone, and what each returns is
-//! recorded.
+//! The rays of a path: the integrator's own steps run for one sample, and what they leave in the wave
+//! is read between them.
 
 use super::kind::RayKind;
-use super::lights::Lit;
+use super::lights::LitPoint;
 use super::record::{
-    Chosen, EmitterTerm, LightHit, LightTerm, RayEnd, Shading, Stop, TracedRay, Unlisted,
-    UnlitReason,
+    Chosen, EmitterTerm, LightHit, LightTerm, RayEnd, Shading, Stop, TracedRay, UnlitReason,
 };
-use super::surface::{boundary, missing_around, missing_at, surface_hit};
-use crate::integrators::{
-    Continuation, EmitterSample, Facing, Path, PathHit, PhotonMap, Probe, Sample, Vertex,
-    place_on_light,
+use super::recorder::Recorder;
+use super::surface::{missing_around, shading};
+use crate::integrators::path::{
+    Aimed, Continuation, EmitterArrival, Path, PathHit, PathWave, Vertices, add_caustics,
+    add_emitting_objects, add_light, add_one_of_many, add_sky, aim_at_object, aim_at_sky,
+    choose_light, density_of, emission, follow, go_on_from, meet, samples_emitters,
 };
+use crate::integrators::{Facing, PhotonMap, Probe, Sample, SampleResult, Vertex};
 use crate::light::{Incoming, SphereLight, light_sphere, luminous_sphere};
-use crate::material::{BsdfSample, Component, transmitted};
+use crate::material::{Component, transmitted};
 use crate::sampling::{Densities, Use};
 use crate::world::World;
 use geometry::lanes::Vector;
 use scene::Rgb;
+
+/// The lanes of the only path.
+const ONE: u32 = 1;
 
 /// Traces a sample; returns its radiance and all rays, or `None` once `cancelled` returns true.
 pub(super) fn record(
@@ -27,31 +32,32 @@ pub(super) fn record(
     sample: Sample,
     cancelled: impl Fn() -> bool,
 ) -> Option<(Rgb, Vec<TracedRay>)> {
-    let mut recorder = Recorder {
+    let mut trace = Trace {
         probe: Probe::new(world, depth, cancelled).with_photons(photons),
-        sample,
-        radiance: Rgb::ZERO,
-        rays: Vec::new(),
-        room: super::MOST_TERMS,
+        wave: PathWave::default(),
+        samples: [sample],
+        seen: [SampleResult::NOTHING],
+        recorder: Recorder::new(),
     };
-    let mut path = Path::new(&sample);
-    recorder.begin(&path, RayKind::Camera, None);
+    trace.wave.start(world, &trace.samples);
+    trace.begin(RayKind::Camera, None);
     loop {
-        match recorder.step(&mut path) {
+        match trace.bounce() {
             Step::Cancelled => return None,
-            Step::Ended => return Some((recorder.radiance, recorder.rays)),
-            Step::GoesOn(kind, chosen) => recorder.begin(&path, kind, Some(chosen)),
+            Step::Ended => return Some((trace.seen[0].radiance, trace.recorder.rays)),
+            Step::GoesOn(kind, chosen) => trace.begin(kind, Some(chosen)),
         }
+        trace.wave.draws.node += 1;
     }
 }
 
-struct Recorder<'w, C> {
+/// A wave of one path, and its record.
+struct Trace<'w, C> {
     probe: Probe<'w, C>,
-    sample: Sample,
-    radiance: Rgb,
-    rays: Vec<TracedRay>,
-    /// Lights that may still be listed.
-    room: usize,
+    wave: PathWave,
+    samples: [Sample; 1],
+    seen: [SampleResult; 1],
+    recorder: Recorder,
 }
 
 /// How a path goes on from a vertex.
@@ -61,51 +67,44 @@ enum Step {
     GoesOn(RayKind, Chosen),
 }
 
-impl<C: Fn() -> bool> Recorder<'_, C> {
-    /// Records the ray that a path is about to follow.
-    fn begin(&mut self, path: &Path, kind: RayKind, chosen: Option<Chosen>) {
-        self.rays.push(TracedRay {
-            parent: self.rays.len().checked_sub(1),
-            kind,
+impl<C: Fn() -> bool> Trace<'_, C> {
+    /// Records the ray that the path is about to follow.
+    fn begin(&mut self, kind: RayKind, chosen: Option<Chosen>) {
+        let path = &self.wave.paths[0];
+        let ray = TracedRay {
             bounce: path.bounce,
             weight: path.throughput,
-            origin: path.ray.origin,
-            direction: path.ray.direction,
-            reach: path.reach(&self.sample),
+            reach: path.reach(&self.samples[0]),
             absorption: path.absorption,
             chosen,
-            end: RayEnd::OverBudget,
-            contribution: Rgb::ZERO,
-        });
+            ..TracedRay::new(&path.ray, kind, self.recorder.current())
+        };
+        self.recorder.begin(ray);
     }
 
-    /// Ends the current ray.
-    fn end(&mut self, end: RayEnd, contribution: Rgb) {
-        self.radiance += contribution;
-        if let Some(ray) = self.rays.last_mut() {
-            ray.end = end;
-            ray.contribution = contribution;
-        }
-    }
-
-    /// Follows a path to its next vertex.
-    fn step(&mut self, path: &mut Path) -> Step {
-        let world = self.probe.world;
-        let nearest = world.nearest(&path.ray, path.reach(&self.sample));
-        match self.probe.meet(path, &self.sample, nearest) {
+    /// Follows the path to its next surface and on from there.
+    fn bounce(&mut self) -> Step {
+        let Self {
+            probe,
+            wave,
+            samples,
+            seen,
+            recorder,
+        } = self;
+        let world = probe.world;
+        let mut path = wave.paths[0];
+        let hits = follow(probe, wave, samples, seen);
+        let nearest = wave.nearest[0].get(0);
+        match meet(probe, &mut path, &samples[0], nearest) {
             PathHit::Nothing(radiance) => {
-                let densities = path.densities_of(&self.probe.world.sky);
-                let screen = self.sample.screen;
-                let missing = missing_around(self.probe.world, &path.ray, path.bounce, screen);
-                let weight = densities.map_or(1.0, |densities| densities.weight);
-                let contribution = path.throughput * radiance * weight;
+                let screen = samples[0].screen;
                 let missed = RayEnd::Missed {
                     radiance,
-                    densities,
-                    missing,
+                    densities: path.densities_of(&world.sky),
+                    missing: missing_around(world, &path.ray, path.bounce, screen),
                 };
-                self.end(missed, contribution);
-                Step::Ended
+                recorder.end(missed, path.of_nothing(world, radiance));
+                return Step::Ended;
             }
             PathHit::Light {
                 number,
@@ -114,288 +113,333 @@ impl<C: Fn() -> bool> Recorder<'_, C> {
                 radiance,
                 weight,
             } => {
-                let hit = self.light_hit(path, (number, &light), (distance, radiance, weight));
-                self.end(RayEnd::Light(hit), path.throughput * radiance * weight);
-                Step::Ended
+                let densities = path.chosen.map(|chosen| Densities {
+                    by_light: chosen.density_of(world, (number, &light)),
+                    by_path: chosen.density,
+                    weight,
+                });
+                let hit = LightHit {
+                    light: number,
+                    t: distance,
+                    transmitted: transmitted(path.absorption, distance),
+                    radiance,
+                    densities,
+                };
+                recorder.end(RayEnd::Light(hit), path.throughput * radiance * weight);
+                return Step::Ended;
             }
-            PathHit::Surface(nearest) => {
-                let mut mapped = None;
-                let (point, material) = world.arrive(&path.ray, nearest, &mut mapped);
-                let vertex = Vertex::new(world, nearest, point, material);
-                self.surface(path, &vertex)
-            }
+            PathHit::Surface(_) => {}
         }
+        let vertices = hits.vertices(world, wave, samples);
+        let vertices = Vertices::collect(&vertices);
+        self.surface(&vertices)
     }
 
-    fn light_hit(
-        &self,
-        path: &Path,
-        (number, light): (u32, &SphereLight),
-        (t, radiance, weight): (f64, Rgb, f64),
-    ) -> LightHit {
+    /// Records the surface that the path met, and continues the path from there.
+    fn surface(&mut self, vertices: &[Vertices<'_, '_>]) -> Step {
         let world = self.probe.world;
-        LightHit {
-            light: number,
-            t,
-            transmitted: transmitted(path.absorption, t),
-            radiance,
-            densities: path.chosen.map(|chosen| Densities {
-                by_light: chosen.density_of(world, (number, light)),
-                by_path: chosen.density,
-                weight,
-            }),
-        }
-    }
-
-    fn surface(&mut self, path: &mut Path, vertex: &Vertex<'_>) -> Step {
-        let world = self.probe.world;
+        let path = self.wave.paths[0];
+        let vertex = &vertices[0].all()[0];
         let Vertex {
             nearest,
             point,
             material,
             bsdf,
         } = vertex;
-        let lit = material.is_lit(point.side);
-        let (emission, densities) = self.emission(path, vertex);
-        let mut shading = Box::new(Shading {
-            hit: surface_hit(world, &path.ray, *nearest, point),
-            missing: missing_at(world, &path.ray, *nearest),
-            lit,
-            transmitted: transmitted(path.absorption, nearest.hit.t),
-            emission,
-            densities,
-            ambient: Rgb::ZERO,
-            lights: Vec::new(),
-            unlisted: Unlisted::default(),
-            emitters: Vec::new(),
-            caustics: Rgb::ZERO,
-            radiance: Rgb::ZERO,
-            mirror: bsdf.mirror,
-            boundary: boundary(&path.ray, point, material),
-            stop: None,
-            material: (*material).clone(),
-        });
-        let mut sum = Rgb::ZERO;
-        for (listed, number) in world.many_lights.others().enumerate() {
-            if listed % 16 == 15 && (self.probe.cancelled)() {
-                return Step::Cancelled;
-            }
-            let place = place_on_light(number, path.bounce, self.sample.sampler);
-            sum += self.light((number, 1.0, place), path, vertex, &mut shading);
+        let mut shading = shading(
+            world,
+            (&path.ray, path.absorption),
+            *nearest,
+            point,
+            material,
+        );
+        shading.mirror = bsdf.mirror;
+        if shading.lit {
+            (shading.emission, shading.densities) = emission(world, &path, vertex);
         }
-        if !world.many_lights.is_empty() {
-            let numbers = self.sample.sampler.four(path.bounce, Use::ManyLights);
-            let [u, v, ..] = numbers;
-            let chosen = world.many_lights.choose(vertex.point_and_normal(), numbers);
-            if let Some((number, chance)) = chosen {
-                sum += self.light((number, chance, [u, v]), path, vertex, &mut shading);
-            }
+        if self.lights(vertices, &mut shading).is_none() {
+            return Step::Cancelled;
         }
-        let mut contribution = Rgb::ZERO;
-        if lit {
-            let sampler = self.sample.sampler;
-            let mut local = emission + sum;
-            if self.probe.photon_map.is_some() {
-                shading.caustics = self.probe.caustics(vertex, path.bounce);
-                local += shading.caustics;
-            }
-            if self.probe.asks(vertex, path.bounce) {
-                local += self.probe.ask(vertex, path.bounce, sampler, |asked| {
-                    shading.emitters.push(asked_for(vertex, &asked));
-                });
-            }
-            shading.radiance = local;
-            contribution = path.throughput * shading.radiance;
+        if shading.lit && samples_emitters(&self.probe, vertex, path.bounce) {
+            self.emitting_object(vertices, &mut shading);
+            self.sky(vertices, &mut shading);
         }
-        let sampler = self.sample.sampler;
-        let numbers = sampler.four(path.bounce, Use::Bounce);
-        let next = vertex.sample(&path.ray, numbers, (sampler, path.bounce));
-        let kind = self.kind(path, vertex, numbers);
-        let onward = self.probe.onward(path, next, numbers);
-        let can_go_on = bsdf.can_go_on();
-        shading.stop = stop(onward).filter(|_| can_go_on);
-        self.end(RayEnd::Surface(shading), contribution);
-        match (onward, next, kind) {
+        let Self {
+            probe,
+            wave,
+            samples,
+            seen,
+            recorder,
+        } = self;
+        add_caustics(probe, vertices, &mut wave.sums, path.bounce);
+        shading.caustics = wave.sums[0].of_photons;
+        let numbers = wave.draws.four(Use::Bounce, world.level)[0];
+        let by_lobes = vertices[0].sample(world.level, &numbers);
+        let batch = (&vertices[0], &numbers, &by_lobes);
+        let departure = go_on_from(
+            probe,
+            batch,
+            0,
+            &wave.sums[0],
+            &mut wave.paths[0],
+            &samples[0],
+        );
+        seen[0].radiance += departure.arriving;
+        shading.radiance = departure.radiance;
+        shading.stop = stop(departure.continuation).filter(|_| bsdf.can_go_on());
+        recorder.end(RayEnd::Surface(shading), departure.arriving);
+        let component = bsdf.component(numbers.lane(0)[2]);
+        match (departure.continuation, departure.next, component) {
             (Continuation::Cancelled, ..) => Step::Cancelled,
-            (Continuation::Goes { survival }, Some(next), Some((kind, chance))) => {
-                let BsdfSample { weight, chosen, .. } = next;
-                Step::GoesOn(
-                    kind,
-                    Chosen {
-                        chance,
-                        density: chosen.map(|chosen| chosen.density),
-                        factor: weight,
-                        survival,
-                    },
-                )
+            (Continuation::Goes { survival }, Some(next), Some(component)) => {
+                let chosen = Chosen {
+                    chance: bsdf.chance(component),
+                    density: next.chosen.map(|chosen| chosen.density),
+                    factor: next.weight,
+                    survival,
+                };
+                Step::GoesOn(kind(&path, vertex, component, &samples[0]), chosen)
             }
             _ => Step::Ended,
         }
     }
 
-    /// The emission of a surface as far as it counts, with the densities that this depends on.
-    fn emission(&self, path: &Path, vertex: &Vertex<'_>) -> (Rgb, Option<Densities>) {
-        let Vertex {
-            point, material, ..
-        } = vertex;
-        if !material.is_lit(point.side) || material.emission == Rgb::ZERO {
-            return (Rgb::ZERO, None);
+    /// Adds all lights; `None` if cancelled.
+    fn lights(&mut self, vertices: &[Vertices<'_, '_>], shading: &mut Shading) -> Option<()> {
+        let world = self.probe.world;
+        for (place, number) in world.many_lights.others().enumerate() {
+            if place % 16 == 15 && (self.probe.cancelled)() {
+                return None;
+            }
+            let Self {
+                probe, wave, seen, ..
+            } = self;
+            let sampling = (&mut wave.draws, &mut wave.of_lights);
+            add_light(probe, number, vertices, &mut wave.sums, sampling, seen);
+            let purpose = Use::Light(number as u32);
+            self.light((number, 1.0), purpose, &vertices[0], shading);
         }
-        let densities = self.probe.densities_at(path, vertex);
-        let weight = densities.map_or(1.0, |densities| densities.weight);
-        (weight * material.emission, densities)
+        if world.many_lights.is_empty() {
+            return Some(());
+        }
+        let Self {
+            probe, wave, seen, ..
+        } = self;
+        let sampling = (&mut wave.draws, &mut wave.of_lights);
+        add_one_of_many(probe, vertices, &mut wave.sums, sampling, seen);
+        let numbers = wave.draws.four(Use::ManyLights, world.level)[0];
+        if let [Some(chosen), ..] = choose_light(world, &vertices[0], &numbers, ONE) {
+            self.light(chosen, Use::ManyLights, &vertices[0], shading);
+        }
+        Some(())
     }
 
-    /// Records a light at a vertex, the probability of its choice and the place at which it is sampled,
-    /// and returns what it adds.
+    /// Lists the light that was added last, with the probability of its choice; the numbers for a purpose
+    /// choose a place on it.
     fn light(
         &mut self,
-        asked: (usize, f64, [f64; 2]),
-        path: &Path,
-        vertex: &Vertex<'_>,
+        chosen: (usize, f64),
+        purpose: Use,
+        vertices: &Vertices<'_, '_>,
         shading: &mut Shading,
-    ) -> Rgb {
-        let (number, chance, place) = asked;
-        let added = if shading.lit {
-            let chosen = (number, chance);
-            self.probe.light_of(chosen, vertex, path.bounce, place)
-        } else {
-            Rgb::ZERO
-        };
-        if self.room == 0 {
-            shading.unlisted.lights += 1;
-            shading.unlisted.radiance += added;
-            return added;
-        }
-        if let Some(term) = self.term(asked, path, vertex, added) {
-            shading.lights.push(term);
-            self.room -= 1;
-        }
-        added
-    }
-
-    fn term(
-        &self,
-        (number, chance, place): (usize, f64, [f64; 2]),
-        path: &Path,
-        vertex: &Vertex<'_>,
-        added: Rgb,
-    ) -> Option<LightTerm> {
-        let Vertex {
-            point,
-            material,
-            bsdf,
+    ) {
+        let Self {
+            probe,
+            wave,
+            recorder,
             ..
-        } = vertex;
-        let world = self.probe.world;
-        let lit = Lit {
-            world,
-            point,
-            material,
-        };
-        let light = &world.lights()[number];
-        let scattered = |toward| {
-            let scattered = bsdf.lobes.scatter(point, toward);
-            scattered.value + bsdf.lobes.highlight(point, toward)
-        };
-        let reflected = |facing: &Facing<f64>| light.scale * scattered(facing.toward.into());
-        let from = point.surface.point;
-        let chosen = light_sphere(light).and_then(|sphere| sphere.choose(from, place));
-        let mut term = lit.term(number, chosen, reflected, added)?;
-        term.chance = chance;
-        if self.probe.is_by_photons(light) && term.transmittance.is_some_and(|share| share < 1.0) {
-            term.transmittance = Some(0.0);
-            term.dark = Some(UnlitReason::Blocked);
-        }
-        let Some(sphere) = luminous_sphere(light) else {
-            return Some(term);
-        };
-        // Falloff does not apply to lights with a size.
-        [term.radial, term.spot] = [1.0; 2];
-        term.arriving = sphere.irradiance(from);
-        let Some(chosen) = chosen else {
-            term.arriving = Rgb::ZERO;
-            if term.dark.is_some_and(|dark| dark != UnlitReason::UnlitSide) {
-                term.dark = Some(UnlitReason::AtThePoint);
-            }
-            return Some(term);
-        };
-        let scattered = bsdf.lobes.scatter(point, chosen.toward.into());
-        let by_path = self.probe.density_of(bsdf, scattered, path.bounce);
-        let by_light = chance * sphere.density(from);
-        term.densities = Some(Densities::for_light(by_light, by_path));
-        if term.dark == Some(UnlitReason::NotReflected) && self.is_hidden(vertex, &sphere, chosen) {
-            term.dark = Some(UnlitReason::Hidden);
-        }
-        Some(term)
+        } = self;
+        let level = probe.world.level;
+        let bounce = wave.draws.node;
+        let [u, v, ..] = wave.draws.four(purpose, level)[0].lane(0);
+        let lights = probe.world.lights();
+        let mut reflected = wave.of_lights.reflected(lights);
+        let added = reflected.next().filter(|_| shading.lit);
+        let added = added.map_or(Rgb::ZERO, |(_, light)| light);
+        let vertex = &vertices.all()[0];
+        recorder.list(shading, added, |_| {
+            light_term(probe, chosen, [u, v], (vertex, bounce), added)
+        });
     }
 
-    /// Whether another light with a size lies before a point of one.
-    fn is_hidden(&self, vertex: &Vertex<'_>, sphere: &SphereLight, chosen: Incoming<f64>) -> bool {
-        let ray = vertex.point.leave(chosen.toward.into());
-        let sphere_lights = &self.probe.world.sphere_lights;
-        let hides = |place: Vector<f64>| sphere_lights.hide(sphere, &ray, place.into());
-        chosen.source.is_some_and(hides)
+    /// Adds and lists the object that emits light which the path samples, if there is one.
+    fn emitting_object(&mut self, vertices: &[Vertices<'_, '_>], shading: &mut Shading) {
+        let Self {
+            probe, wave, seen, ..
+        } = self;
+        let world = probe.world;
+        if world.emitters.is_empty() {
+            return;
+        }
+        let sampling = (&mut wave.draws, &mut wave.of_emitters);
+        let sums = &mut wave.sums;
+        add_emitting_objects(probe, (vertices, &[ONE]), sums, sampling, seen);
+        let numbers = wave.draws.four(Use::Emitter, world.level)[0];
+        let (choices, aimed) = aim_at_object(world, &vertices[0], &numbers, ONE);
+        if choices.lanes & ONE != 0 {
+            let (object, _) = choices.parts[0];
+            let arrival = wave.of_emitters.of_objects(world).next();
+            let vertex = &vertices[0].all()[0];
+            shading
+                .emitters
+                .push(emitter_term(Some(object), vertex, &aimed, arrival));
+        }
     }
 
-    /// What the ray is that a path chooses next, and the probability of its component.
-    fn kind(
-        &self,
-        path: &Path,
-        vertex: &Vertex<'_>,
-        [_, _, choice, _]: [f64; 4],
-    ) -> Option<(RayKind, f64)> {
-        let Vertex { point, bsdf, .. } = vertex;
-        let component = bsdf.component(choice)?;
-        let kind = match component {
-            Component::Lobes(choice) if bsdf.lobes.is_diffuse(choice) => RayKind::Diffuse,
-            Component::Lobes(_) => RayKind::Glossy,
-            Component::Mirror => RayKind::Mirror,
-            Component::Boundary(choice) => {
-                let facet = bsdf.facet(point, self.sample.sampler, path.bounce);
-                if bsdf.refracted(&path.ray, (point, facet), choice).is_some() {
-                    RayKind::Refraction
-                } else if bsdf.refracted(&path.ray, (point, facet), 1.0).is_some() {
-                    RayKind::Boundary
-                } else {
-                    RayKind::TotalReflection
-                }
-            }
-        };
-        Some((kind, bsdf.chance(component)))
+    /// Adds and lists the environment, if the path samples it.
+    fn sky(&mut self, vertices: &[Vertices<'_, '_>], shading: &mut Shading) {
+        let Self {
+            probe, wave, seen, ..
+        } = self;
+        let world = probe.world;
+        if world.sky.is_unsampled() {
+            return;
+        }
+        let sampling = (&mut wave.draws, &mut wave.of_emitters);
+        add_sky(probe, (vertices, &[ONE]), &mut wave.sums, sampling, seen);
+        let numbers = wave.draws.four(Use::Sky, world.level)[0];
+        let (lanes, aimed) = aim_at_sky(world, &vertices[0], &numbers, ONE);
+        if lanes & ONE != 0 {
+            let arrival = wave.of_emitters.of_sky(world).next();
+            let vertex = &vertices[0].all()[0];
+            shading
+                .emitters
+                .push(emitter_term(None, vertex, &aimed, arrival));
+        }
     }
 }
 
-/// Records an emitter sampled at a vertex.
-fn asked_for(vertex: &Vertex<'_>, asked: &EmitterSample) -> EmitterTerm {
-    let cosine = vertex.point.normal.dot(asked.toward);
-    let dark = if asked.radiance != Rgb::ZERO {
+/// Describes a light at a vertex at a bounce, given the probability of its choice, the place at which it
+/// is sampled, and what it adds. `None` for ambient light.
+fn light_term<C>(
+    probe: &Probe<'_, C>,
+    (number, chance): (usize, f64),
+    place: [f64; 2],
+    (vertex, bounce): (&Vertex<'_>, u32),
+    added: Rgb,
+) -> Option<LightTerm> {
+    let Vertex {
+        point,
+        material,
+        bsdf,
+        ..
+    } = vertex;
+    let world = probe.world;
+    let lit = LitPoint {
+        world,
+        point,
+        material,
+    };
+    let light = &world.lights()[number];
+    let scattered = |toward| {
+        let scattered = bsdf.lobes.scatter(point, toward);
+        scattered.value + bsdf.lobes.highlight(point, toward)
+    };
+    let reflected = |facing: &Facing<f64>| light.scale * scattered(facing.toward.into());
+    let from = point.surface.point;
+    let chosen = light_sphere(&light).and_then(|sphere| sphere.choose(from, place));
+    let mut term = lit.term(number, chosen, reflected, added)?;
+    term.chance = chance;
+    if probe.is_by_photons(light) && term.transmittance.is_some_and(|share| share < 1.0) {
+        term.transmittance = Some(0.0);
+        term.dark = Some(UnlitReason::Blocked);
+    }
+    let Some(sphere) = luminous_sphere(&light) else {
+        return Some(term);
+    };
+    // Falloff does not apply to lights with a size.
+    [term.radial, term.spot] = [1.0; 2];
+    term.arriving = sphere.irradiance(from);
+    let Some(chosen) = chosen else {
+        term.arriving = Rgb::ZERO;
+        if term.dark.is_some_and(|dark| dark != UnlitReason::UnlitSide) {
+            term.dark = Some(UnlitReason::AtThePoint);
+        }
+        return Some(term);
+    };
+    let scattered = bsdf.lobes.scatter(point, chosen.toward.into());
+    let by_path = density_of(probe, bsdf, scattered, bounce);
+    let by_light = chance * sphere.density(from);
+    term.densities = Some(Densities::for_light(by_light, by_path));
+    if term.dark == Some(UnlitReason::NotReflected) && is_hidden(world, vertex, &sphere, chosen) {
+        term.dark = Some(UnlitReason::Hidden);
+    }
+    Some(term)
+}
+
+/// Whether another light with a size lies before a point of one.
+fn is_hidden(
+    world: &World,
+    vertex: &Vertex<'_>,
+    sphere: &SphereLight,
+    chosen: Incoming<f64>,
+) -> bool {
+    let ray = vertex.point.leave(chosen.toward.into());
+    let hides = |place: Vector<f64>| world.sphere_lights.hide(sphere, &ray, place.into());
+    chosen.source.is_some_and(hides)
+}
+
+/// Describes an emitter sampled at a vertex, given what arrived if a shadow ray was traced; without an
+/// object the environment.
+fn emitter_term(
+    object: Option<u32>,
+    vertex: &Vertex<'_>,
+    aimed: &Aimed,
+    arrival: Option<EmitterArrival>,
+) -> EmitterTerm {
+    let toward = aimed.rays.direction.get(0);
+    let reflected = aimed.reflected.get(0);
+    let cosine = vertex.point.normal.dot(toward);
+    let emitted = arrival.and_then(|arrival| arrival.emitted);
+    let radiance = arrival.map_or(Rgb::ZERO, |arrival| arrival.reflected);
+    let dark = if radiance != Rgb::ZERO {
         None
     } else if cosine <= 0.0 {
         Some(UnlitReason::FacesAway)
-    } else if asked.reflected == Rgb::ZERO {
+    } else if reflected == Rgb::ZERO {
         Some(UnlitReason::NotReflected)
-    } else if asked.emitted.is_none() {
+    } else if emitted.is_none() {
         Some(UnlitReason::Blocked)
     } else {
         Some(UnlitReason::SwitchedOff)
     };
     EmitterTerm {
-        object: asked.object,
-        toward: asked.toward,
-        distance: asked.distance,
+        object,
+        toward,
+        distance: arrival.map_or(f64::INFINITY, |arrival| arrival.distance),
         cosine,
-        emitted: asked.emitted,
-        reflected: asked.reflected,
-        densities: asked.densities,
-        radiance: asked.radiance,
+        emitted,
+        reflected,
+        densities: Densities::for_light(aimed.by_light.0[0], aimed.by_path.0[0]),
+        radiance,
         dark,
     }
 }
 
+/// What the ray is by which a path goes on from a vertex by a component.
+fn kind(path: &Path, vertex: &Vertex<'_>, component: Component, sample: &Sample) -> RayKind {
+    let Vertex { point, bsdf, .. } = vertex;
+    match component {
+        Component::Lobes(choice) if bsdf.lobes.is_diffuse(choice) => RayKind::Diffuse,
+        Component::Lobes(_) => RayKind::Glossy,
+        Component::Mirror => RayKind::Mirror,
+        Component::Boundary(choice) => {
+            let facet = bsdf.facet(point, sample.sampler, path.bounce);
+            let refracted = |choice| bsdf.refracted(&path.ray, (point, facet), choice);
+            if refracted(choice).is_some() {
+                RayKind::Refraction
+            } else if refracted(1.0).is_some() {
+                RayKind::Boundary
+            } else {
+                RayKind::TotalReflection
+            }
+        }
+    }
+}
+
 /// Why a path ends.
-fn stop(onward: Continuation) -> Option<Stop> {
-    match onward {
+fn stop(continuation: Continuation) -> Option<Stop> {
+    match continuation {
         Continuation::Goes { .. } | Continuation::Cancelled => None,
         Continuation::Nowhere => Some(Stop::Nowhere),
         Continuation::Depth => Some(Stop::Depth),

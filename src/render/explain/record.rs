@@ -6,7 +6,7 @@ use glam::{DVec2, DVec3};
 use super::kind::RayKind;
 use super::verdict::Finding;
 use crate::sampling::Densities;
-use geometry::Side;
+use geometry::{Ray, Side};
 use scene::{Integrator, Material, Rgb};
 
 /// The whole tree of rays behind one sample of a pixel.
@@ -343,6 +343,23 @@ pub(super) fn children(rays: &[TracedRay]) -> Vec<Vec<usize>> {
 }
 
 impl TracedRay {
+    /// A ray that is not traced yet, of no weight.
+    pub(super) fn new(ray: &Ray, kind: RayKind, parent: Option<usize>) -> Self {
+        Self {
+            parent,
+            kind,
+            bounce: 0,
+            weight: Rgb::ZERO,
+            origin: ray.origin,
+            direction: ray.direction,
+            reach: f64::INFINITY,
+            absorption: Rgb::ZERO,
+            chosen: None,
+            end: RayEnd::OverBudget,
+            contribution: Rgb::ZERO,
+        }
+    }
+
     /// The surface it hit, if it hit one.
     pub fn shading(&self) -> Option<&Shading> {
         match &self.end {

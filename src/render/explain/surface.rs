@@ -2,11 +2,41 @@
 
 use glam::{DVec2, DVec3};
 
-use super::record::{Boundary, SurfaceHit};
-use crate::material::{Point, Refraction, environment_place, refraction_indices};
+use super::record::{Boundary, Shading, SurfaceHit, Unlisted};
+use crate::material::{
+    Point, Refraction, environment_place, mirror_weight, refraction_indices, transmitted,
+};
 use crate::world::{Nearest, World};
 use geometry::{Ray, Shape};
 use scene::{Maps, Material, Rgb, Tinted};
+
+/// Describes where a ray, on which there is absorption, hit a surface with a material; no light yet.
+pub(super) fn shading(
+    world: &World,
+    (ray, absorption): (&Ray, Rgb),
+    nearest: Nearest,
+    point: &Point,
+    material: &Material,
+) -> Box<Shading> {
+    Box::new(Shading {
+        hit: surface_hit(world, ray, nearest, point),
+        missing: missing_at(world, ray, nearest),
+        lit: material.is_lit(point.side),
+        transmitted: transmitted(absorption, nearest.hit.t),
+        emission: Rgb::ZERO,
+        densities: None,
+        ambient: Rgb::ZERO,
+        lights: Vec::new(),
+        unlisted: Unlisted::default(),
+        emitters: Vec::new(),
+        caustics: Rgb::ZERO,
+        radiance: Rgb::ZERO,
+        mirror: mirror_weight(&material, point.side),
+        boundary: boundary(ray, point, material),
+        stop: None,
+        material: material.clone(),
+    })
+}
 
 /// Describes where a ray hit a surface.
 pub(super) fn surface_hit(world: &World, ray: &Ray, nearest: Nearest, point: &Point) -> SurfaceHit {
@@ -25,7 +55,7 @@ pub(super) fn surface_hit(world: &World, ray: &Ray, nearest: Nearest, point: &Po
 }
 
 /// The first texture without an image that the material at a hit uses there.
-pub(super) fn missing_at(world: &World, ray: &Ray, nearest: Nearest) -> Option<u32> {
+fn missing_at(world: &World, ray: &Ray, nearest: Nearest) -> Option<u32> {
     let object = &world.scene.objects[nearest.object as usize];
     let material = &world.scene.materials[object.material_at(nearest.hit) as usize];
     let maps = material.maps.as_deref()?;
@@ -46,7 +76,7 @@ pub(super) fn missing_around(world: &World, ray: &Ray, bounce: u32, screen: DVec
 }
 
 /// What a material does with light at the boundary of a transparent solid; `None` if opaque.
-pub(super) fn boundary(ray: &Ray, point: &Point, material: &Material) -> Option<Boundary> {
+fn boundary(ray: &Ray, point: &Point, material: &Material) -> Option<Boundary> {
     let tint = material.dielectric.tint;
     let indices = refraction_indices(material, point.side);
     let model = material.dielectric.reflectance;

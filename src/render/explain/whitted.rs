@@ -1,16 +1,18 @@
 //! The rays of Whitted ray tracing: the integrator's own stages run for one sample, and what they
 //! leave in the wave is read between them.
 
-use super::kind::RayKind;
-use super::lights::Lit;
-use super::record::{RayEnd, Shading, Stop, TracedRay, Unlisted};
-use super::surface::{boundary, missing_around, missing_at, surface_hit};
-use crate::integrators::{Facing, Probe, RayState, Sample, SampleResult, Secondary, Wave};
-use crate::light::light_sphere;
-use crate::material::{mirror_weight, reflectance, transmitted};
-use crate::world::World;
 use glam::DVec3;
 
+use super::kind::RayKind;
+use super::lights::LitPoint;
+use super::record::{RayEnd, Shading, Stop, TracedRay};
+use super::recorder::Recorder;
+use super::surface::{missing_around, shading};
+use crate::integrators::whitted::{Secondary, add_light, branch, follow};
+use crate::integrators::{Facing, Probe, RayState, Sample, SampleResult, Wave};
+use crate::light::light_sphere;
+use crate::material::reflectance;
+use crate::world::World;
 use geometry::Ray;
 use scene::Rgb;
 
@@ -28,7 +30,7 @@ pub(super) fn record(
     sample: Sample,
     cancelled: impl Fn() -> bool,
 ) -> Option<(Rgb, Vec<TracedRay>)> {
-    let mut recorder = Recorder {
+    let mut trace = Trace {
         probe: Probe::new(world, depth, cancelled),
         wave: Wave::default(),
         samples: [sample],
@@ -37,15 +39,15 @@ pub(super) fn record(
             parent: None,
             kind: RayKind::Camera,
         }],
-        rays: Vec::new(),
-        room: super::MOST_TERMS,
+        recorder: Recorder::new(),
     };
-    recorder.wave.start(&recorder.samples);
-    while recorder.step()? {}
-    Some((recorder.seen[0].radiance, recorder.rays))
+    trace.wave.start(&trace.samples);
+    while trace.step()? {}
+    Some((trace.seen[0].radiance, trace.recorder.rays))
 }
 
-struct Recorder<'w, C> {
+/// A wave of one sample, and its record.
+struct Trace<'w, C> {
     probe: Probe<'w, C>,
     wave: Wave<'w>,
     samples: [Sample; 1],
@@ -53,12 +55,10 @@ struct Recorder<'w, C> {
     /// What the rays are that the wave has yet to trace: the pending ones, then the one in the next
     /// front.
     waiting: Vec<Waiting>,
-    rays: Vec<TracedRay>,
-    /// Lights that may still be listed.
-    room: usize,
+    recorder: Recorder,
 }
 
-impl<C: Fn() -> bool> Recorder<'_, C> {
+impl<C: Fn() -> bool> Trace<'_, C> {
     /// Traces the next ray; returns whether there was one, and `None` if cancelled.
     fn step(&mut self) -> Option<bool> {
         let Self {
@@ -74,18 +74,19 @@ impl<C: Fn() -> bool> Recorder<'_, C> {
         }
         let next = (wave.front.rays[0].ray(0), wave.front.states[0]);
         let before = seen[0].radiance;
-        probe.land(wave, samples, seen);
+        follow(probe, wave, samples, seen);
         let waiting = self.waiting.pop();
         let state = next.1;
-        self.rays
-            .push(traced(next, waiting?, wave.front.rays[0].ends.0[0]));
+        let reach = wave.front.rays[0].ends.0[0];
+        self.recorder.begin(traced(next, waiting?, reach));
         match self.wave.nearest[0].get(0) {
             None => self.miss(&state),
             Some(_) => self.shade(&state)?,
         }
         debug_assert!(
             {
-                let added = before + self.rays[self.rays.len() - 1].contribution;
+                let last = self.recorder.rays.last();
+                let added = before + last.map_or(Rgb::ZERO, |ray| ray.contribution);
                 let now = self.seen[0].radiance;
                 added == now || !now.is_finite()
             },
@@ -98,7 +99,7 @@ impl<C: Fn() -> bool> Recorder<'_, C> {
     fn give_up(&mut self) {
         let unseen = self.wave.trees[0].pending.iter().rev().copied();
         for (next, waiting) in unseen.zip(self.waiting.drain(..).rev()) {
-            self.rays.push(traced(next, waiting, f64::INFINITY));
+            self.recorder.begin(traced(next, waiting, f64::INFINITY));
         }
     }
 
@@ -107,7 +108,7 @@ impl<C: Fn() -> bool> Recorder<'_, C> {
         let ray = self.wave.front.rays[0].ray(0);
         let screen = self.samples[0].screen;
         let radiance = world.around(&ray, state.bounce, screen);
-        self.end(
+        self.recorder.end(
             RayEnd::Missed {
                 radiance,
                 densities: None,
@@ -115,37 +116,24 @@ impl<C: Fn() -> bool> Recorder<'_, C> {
             },
             state.weight * radiance,
         );
-        self.probe
-            .branch(&mut self.wave, &self.samples, &mut self.seen);
+        branch(&self.probe, &mut self.wave, &self.samples, &mut self.seen);
     }
 
     fn shade(&mut self, state: &RayState) -> Option<()> {
         let Self { probe, wave, .. } = self;
         let world = probe.world;
         let nearest = wave.nearest[0].get(0)?;
-        let material = wave.arrived[0].found.material(&wave.mapped)?.clone();
+        let material = wave.shaded[0].material.get(&wave.mapped)?;
         let ray = wave.front.rays[0].ray(0);
-        let point = wave.landings[0].point(&wave.front.rays[0], 0);
-        let lit = material.is_lit(point.side);
-        let shown = if lit { Rgb::ONE } else { Rgb::ZERO };
-        let mut shading = Box::new(Shading {
-            hit: surface_hit(world, &ray, nearest, &point),
-            missing: missing_at(world, &ray, nearest),
-            lit,
-            transmitted: transmitted(state.absorption, nearest.hit.t),
-            emission: shown * material.emission,
-            densities: None,
-            ambient: shown * material.ambience(world.ambient),
-            lights: Vec::new(),
-            unlisted: Unlisted::default(),
-            emitters: Vec::new(),
-            caustics: Rgb::ZERO,
-            radiance: Rgb::ZERO,
-            mirror: mirror_weight(&material, point.side),
-            boundary: boundary(&ray, &point, &material),
-            stop: None,
-            material,
-        });
+        let point = wave.hit_points[0].point(&wave.front.rays[0], 0);
+        let shown = if material.is_lit(point.side) {
+            Rgb::ONE
+        } else {
+            Rgb::ZERO
+        };
+        let mut shading = shading(world, (&ray, state.absorption), nearest, &point, material);
+        shading.emission = shown * material.emission;
+        shading.ambient = shown * material.ambience(world.ambient);
         for number in 0..world.scene.lights.len() {
             if 0 < number && (self.probe.cancelled)() {
                 return None;
@@ -159,15 +147,15 @@ impl<C: Fn() -> bool> Recorder<'_, C> {
             seen,
             ..
         } = self;
-        shading.radiance = wave.arrived[0].radiance;
-        let contribution = wave.arrived[0].weight * shading.radiance;
+        shading.radiance = wave.shaded[0].radiance;
+        let contribution = wave.shaded[0].weight * shading.radiance;
         let before = wave.trees[0].pending.len();
-        probe.branch(wave, samples, seen);
+        branch(probe, wave, samples, seen);
         let asks = shading.mirror != Rgb::ZERO || shading.boundary.is_some();
         if asks && state.bounce == probe.depth {
             shading.stop = Some(Stop::Depth);
         }
-        let parent = Some(self.rays.len() - 1);
+        let parent = self.recorder.current();
         // The last one pushed is in the next front; without one it is a ray that was pending before.
         let pending = wave.trees[0].pending.get(before..);
         let pushed = pending.into_iter().flat_map(|pending| {
@@ -178,7 +166,7 @@ impl<C: Fn() -> bool> Recorder<'_, C> {
             parent,
             kind: kind(child.node, state.node, &shading),
         }));
-        self.end(RayEnd::Surface(shading), contribution);
+        self.recorder.end(RayEnd::Surface(shading), contribution);
         Some(())
     }
 
@@ -189,66 +177,48 @@ impl<C: Fn() -> bool> Recorder<'_, C> {
             wave,
             samples,
             seen,
+            recorder,
             ..
         } = self;
-        let before = wave.arrived[0].radiance;
-        probe.light(wave, number, samples, seen);
-        let after = wave.arrived[0].radiance;
-        if self.room == 0 {
-            shading.unlisted.lights += 1;
-            shading.unlisted.radiance += after - before;
-            return;
-        }
-        let point = wave.landings[0].point(&wave.front.rays[0], 0);
-        let material = &shading.material;
-        let lit = Lit {
-            world: probe.world,
-            point: &point,
-            material,
-        };
-        let sphere = light_sphere(&probe.world.lights()[number]);
-        let from = point.surface.point;
-        let sampler = samples[0].sampler;
-        let chosen = sphere.and_then(|sphere| state.choose((number, &sphere), from, sampler));
-        let reflected = |facing: &Facing<f64>| {
-            let toward = DVec3::from(facing.toward);
-            let halfway = || point.normal.dot((toward + point.view).normalize());
-            reflectance(material, facing.cosine, facing.mirrored, halfway)
-        };
-        let added = match (wave.asking.first(), wave.transmittances.first()) {
-            (Some(_), Some(0.0)) => Rgb::ZERO,
-            (Some((_, unblocked)), Some(transmittance)) => transmittance * unblocked,
-            // Nothing was added, or light without shadows.
-            _ => after - before,
-        };
-        let term = lit.term(number, chosen, reflected, added);
-        self.room -= usize::from(term.is_some());
-        shading.lights.extend(term);
-    }
-
-    /// Ends the current ray.
-    fn end(&mut self, end: RayEnd, contribution: Rgb) {
-        if let Some(ray) = self.rays.last_mut() {
-            ray.end = end;
-            ray.contribution = contribution;
-        }
+        let before = wave.shaded[0].radiance;
+        add_light(probe, wave, number, samples, seen);
+        let difference = wave.shaded[0].radiance - before;
+        recorder.list(shading, difference, |shading| {
+            let point = wave.hit_points[0].point(&wave.front.rays[0], 0);
+            let material = &shading.material;
+            let lit = LitPoint {
+                world: probe.world,
+                point: &point,
+                material,
+            };
+            let sphere = light_sphere(&probe.world.lights()[number]);
+            let from = point.surface.point;
+            let sampler = samples[0].sampler;
+            let chosen = sphere.and_then(|sphere| state.choose((number, &sphere), from, sampler));
+            let reflected = |facing: &Facing<f64>| {
+                let toward = DVec3::from(facing.toward);
+                let halfway = || point.normal.dot((toward + point.view).normalize());
+                reflectance(&material, facing.cosine, facing.mirrored, halfway)
+            };
+            let added = match (wave.unblocked.first(), wave.transmittances.first()) {
+                (Some(_), Some(0.0)) => Rgb::ZERO,
+                (Some((_, unblocked)), Some(transmittance)) => transmittance * unblocked,
+                // Nothing was added, or light without shadows.
+                _ => difference,
+            };
+            lit.term(number, chosen, reflected, added)
+        });
     }
 }
 
 /// A ray that has not ended.
 fn traced((ray, state): (Ray, RayState), waiting: Waiting, reach: f64) -> TracedRay {
     TracedRay {
-        parent: waiting.parent,
-        kind: waiting.kind,
         bounce: state.bounce,
         weight: state.weight,
-        origin: ray.origin,
-        direction: ray.direction,
         reach,
         absorption: state.absorption,
-        chosen: None,
-        end: RayEnd::OverBudget,
-        contribution: Rgb::ZERO,
+        ..TracedRay::new(&ray, waiting.kind, waiting.parent)
     }
 }
 

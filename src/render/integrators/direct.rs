@@ -2,10 +2,8 @@
 
 use glam::DVec3;
 
-use super::probe::Probe;
 use crate::light::{Incoming, lights};
 use crate::material::Point;
-use crate::world::Occlusion;
 use geometry::lanes::{Eight, Lanes, Row, Simd, Vector};
 use geometry::{Ray, Rays, Surfaces};
 use scene::{Light, Rgb, Shadows};
@@ -41,14 +39,6 @@ pub(crate) struct Shadow<N> {
     pub(crate) rays: Rays<N>,
     /// Distances up to which occluders count.
     pub(crate) ends: N,
-}
-
-/// What a point reflects of a light if nothing is in between.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Unshadowed {
-    pub(crate) light: Rgb,
-    /// `None` if the light casts no shadows.
-    pub(crate) shadow: Option<Shadow<f64>>,
 }
 
 impl From<&Point> for Points<f64> {
@@ -135,35 +125,6 @@ pub(crate) fn sent_back(
     (attenuation != 0.0).then(|| reflected * (attenuation * light.colour))
 }
 
-impl Unshadowed {
-    /// The light is sampled where `chosen` says, by default at its centre; `reflected` gives the
-    /// reflectance for its geometry. `None` if the point reflects none.
-    pub(crate) fn new(
-        point: &Point,
-        light: &Light,
-        chosen: Option<Incoming<f64>>,
-        reflected: impl FnOnce(&Facing<f64>) -> Rgb,
-    ) -> Option<Self> {
-        let place = point.surface.point;
-        let centre = || lights::incoming(light, place.into());
-        let incoming = chosen.or_else(centre)?;
-        let facing = Facing::new(&point.into(), light, incoming);
-        if !facing.is_lit {
-            return None;
-        }
-        let reflected = reflected(&facing);
-        Some(Self {
-            light: sent_back(light, place, || facing.toward.into(), reflected)?,
-            shadow: facing.shadow,
-        })
-    }
-
-    /// The light that remains, given the transmittance of the shadow ray.
-    pub(crate) fn shadowed(&self, transmittance: f64) -> Rgb {
-        shadowed(self.light, transmittance)
-    }
-}
-
 /// What remains of unshadowed light, given the transmittance of its shadow ray.
 pub(crate) fn shadowed(light: Rgb, transmittance: f64) -> Rgb {
     // Occluded light adds nothing, even if infinite.
@@ -203,21 +164,5 @@ impl Shadow<f64> {
             origin: self.rays.origin.into(),
             direction: self.rays.direction.into(),
         }
-    }
-}
-
-impl<C> Probe<'_, C> {
-    /// Traces the shadow ray of a light.
-    pub(crate) fn lit(&mut self, unshadowed: &Unshadowed, occlusion: Occlusion) -> Rgb {
-        let Some(shadow) = &unshadowed.shadow else {
-            return unshadowed.light;
-        };
-        self.counts.rays += 1;
-        self.counts.shadow_rays += 1;
-        let (ray, end) = (shadow.ray(), shadow.ends);
-        let transmittance = self
-            .world
-            .transmittance(&ray, end, occlusion, &mut self.crossed);
-        unshadowed.shadowed(transmittance)
     }
 }

@@ -2,25 +2,26 @@
 //!
 //! Whitted's integrator traces a [`wave`] of samples at once; the other two follow paths bounce by
 //! bounce, the third with the light of photons. All query the world through a [`probe`].
+//!
+//! The steps of [`path`] and [`whitted`] are open to explanations, which run them for one sample.
 
 mod caustics;
 mod direct;
 mod first_hit;
 mod frame_context;
 mod light_component;
-mod path;
+pub(crate) mod path;
 mod photon;
 mod probe;
 mod tracer;
 mod vertex;
 mod wave;
-mod whitted;
+pub(crate) mod whitted;
 
 pub(crate) use direct::{Facing, Points};
 pub(crate) use first_hit::{Guide, first_hit, guide};
 pub(crate) use frame_context::FrameContext;
 pub(crate) use light_component::LightComponent;
-pub(crate) use path::{Continuation, EmitterSample, Path, PathHit, place_on_light};
 #[cfg(test)]
 pub(crate) use photon::PhotonMaps;
 pub(crate) use photon::{MAPS, PhotonMap, PhotonRules, Photons};
@@ -29,4 +30,3 @@ pub(crate) use probe::{Probe, Sample, SampleResult};
 pub(crate) use tracer::Tracer;
 pub(crate) use vertex::Vertex;
 pub(crate) use wave::{RayState, Wave};
-pub(crate) use whitted::Secondary;

@@ -6,9 +6,9 @@ use super::light_component::LightComponent;
 use super::photon::PhotonMap;
 use crate::job::NO_OBJECT;
 use crate::sampling::Sampler;
-use crate::world::{Crossed, Dependencies, World};
+use crate::world::{Crossed, Dependencies, Occlusion, World};
 use geometry::Ray;
-use scene::Rgb;
+use scene::{FalloffRule, Light, Rgb};
 
 /// Ray budget of a camera sample, not counting shadow rays. With reflection and transmission both
 /// 1, a tree of depth 30 would have two billion.
@@ -24,8 +24,8 @@ pub(crate) struct Probe<'w, C> {
     pub(crate) cancelled: C,
     /// Maximum bounces.
     pub(crate) depth: u32,
-    /// The light to gather.
-    pub(crate) gather: LightComponent,
+    /// The light to component.
+    pub(crate) component: LightComponent,
     /// The photons of the current sample, if there are to be any.
     pub(crate) photon_map: Option<&'w PhotonMap>,
     /// Scratch space.
@@ -46,6 +46,13 @@ pub struct Counts {
 }
 
 impl Counts {
+    /// Counts shadow rays.
+    #[inline]
+    pub(crate) fn add_shadow_rays(&mut self, rays: u64) {
+        self.rays += rays;
+        self.shadow_rays += rays;
+    }
+
     /// The difference since `before`.
     #[must_use]
     pub fn since(self, before: Self) -> Self {
@@ -102,14 +109,14 @@ impl SampleResult {
     };
 }
 
-impl<'w, C: Fn() -> bool> Probe<'w, C> {
+impl<'w, C> Probe<'w, C> {
     /// Creates a probe that follows rays up to bounce `depth`.
     pub(crate) fn new(world: &'w World, depth: u32, cancelled: C) -> Self {
         Self {
             world,
             cancelled,
             depth,
-            gather: LightComponent::All,
+            component: LightComponent::All,
             photon_map: None,
             crossed: Crossed::default(),
             counts: Counts::default(),
@@ -119,5 +126,27 @@ impl<'w, C: Fn() -> bool> Probe<'w, C> {
     /// Adds the light of photons to paths.
     pub(crate) fn with_photons(self, photon_map: Option<&'w PhotonMap>) -> Self {
         Self { photon_map, ..self }
+    }
+
+    /// Whether a path at a bounce is not at its last.
+    #[inline]
+    pub(crate) fn may_go_on(&self, bounce: u32) -> bool {
+        bounce < self.depth
+    }
+
+    /// Whether photons carry what arrives from a light via mirrors and boundaries.
+    #[cold]
+    pub(crate) fn is_by_photons(&self, light: &Light) -> bool {
+        self.photon_map.is_some() && light.emits_photons(FalloffRule::None)
+    }
+
+    /// What shadow rays to a light pass through.
+    pub(crate) fn occlusion(&self, light: &Light) -> Occlusion {
+        // Photons carry what passes through.
+        if self.photon_map.is_some() && self.is_by_photons(light) {
+            Occlusion::Complete
+        } else {
+            Occlusion::ByMaterial
+        }
     }
 }

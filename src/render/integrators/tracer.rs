@@ -1,10 +1,11 @@
 //! Radiance along camera rays, computed by the chosen integrator.
 
 use super::light_component::LightComponent;
-use super::path::PathWave;
+use super::path::{PathWave, by_paths};
 use super::photon::PhotonMaps;
 use super::probe::{Counts, Probe, Sample, SampleResult};
 use super::wave::Wave;
+use super::whitted::by_whitted;
 use crate::world::World;
 use scene::Integrator;
 
@@ -46,9 +47,9 @@ impl<'w, C: Fn() -> bool> Tracer<'w, C> {
     }
 
     /// Restricts the light to a share.
-    pub(crate) fn gathering(mut self, gather: LightComponent) -> Self {
-        self.probe.gather = gather;
-        self.probe.depth = gather.depth(self.integrator, self.probe.depth);
+    pub(crate) fn gathering(mut self, component: LightComponent) -> Self {
+        self.probe.component = component;
+        self.probe.depth = component.depth(self.integrator, self.probe.depth);
         self
     }
 
@@ -57,12 +58,12 @@ impl<'w, C: Fn() -> bool> Tracer<'w, C> {
         seen.clear();
         let probe = &mut self.probe;
         match self.integrator {
-            Integrator::Whitted => probe.by_whitted(&mut self.wave, samples, seen),
+            Integrator::Whitted => by_whitted(probe, &mut self.wave, samples, seen),
             Integrator::Path | Integrator::Photon => {
                 let index = samples.first().map(|sample| sample.sampler.index());
                 let maps = self.photon_maps.zip(index);
                 probe.photon_map = maps.and_then(|(maps, index)| maps.get(index));
-                probe.by_paths(&mut self.path_wave, samples, seen);
+                by_paths(probe, &mut self.path_wave, samples, seen);
             }
         }
     }

@@ -1,7 +1,5 @@
 //! Surfaces that paths reach.
 
-use glam::DVec3;
-
 use crate::material::{Bsdf, BsdfSample, Point};
 use crate::sampling::Sampler;
 use crate::world::{Nearest, World};
@@ -31,11 +29,6 @@ impl<'m> Vertex<'m> {
             point,
             material,
         }
-    }
-
-    /// The point and the shading normal.
-    pub(crate) fn point_and_normal(&self) -> (DVec3, DVec3) {
-        (self.point.surface.point, self.point.normal)
     }
 
     /// Samples the continuation of a path that arrived along a ray, by its numbers for the bounce;

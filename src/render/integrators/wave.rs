@@ -4,7 +4,7 @@ use std::mem;
 
 use super::probe::{Counts, RAY_BUDGET, Sample};
 use crate::sampling::Sampler;
-use crate::world::{Landing, NearestHits};
+use crate::world::{HitPoints, NearestHits};
 use geometry::{Packets, Ray};
 use scene::{Material, Rgb};
 
@@ -75,8 +75,8 @@ impl Front {
 
 /// The shaded hit of a ray.
 #[derive(Debug)]
-pub(crate) struct Arrived<'w> {
-    pub(crate) found: Found<'w>,
+pub(crate) struct ShadedHit<'w> {
+    pub(crate) material: HitMaterial<'w>,
     /// Weight of its radiance in the pixel.
     pub(crate) weight: Rgb,
     /// Radiance toward the origin of the ray.
@@ -85,7 +85,7 @@ pub(crate) struct Arrived<'w> {
 
 /// The material at the hit of a ray.
 #[derive(Clone, Copy, Debug)]
-pub(crate) enum Found<'w> {
+pub(crate) enum HitMaterial<'w> {
     /// The ray missed.
     Nothing,
     /// A material of the scene without maps.
@@ -94,10 +94,10 @@ pub(crate) enum Found<'w> {
     Mapped(usize),
 }
 
-impl<'w> Found<'w> {
+impl<'w> HitMaterial<'w> {
     /// Returns the material, given those with maps applied.
     #[inline]
-    pub(crate) fn material<'m>(self, mapped: &'m [Material]) -> Option<&'m Material>
+    pub(crate) fn get<'m>(self, mapped: &'m [Material]) -> Option<&'m Material>
     where
         'w: 'm,
     {
@@ -119,15 +119,15 @@ pub(crate) struct Wave<'w> {
     /// Nearest hits of the front, packet by packet.
     pub(crate) nearest: Vec<NearestHits>,
     /// Surface points of the front.
-    pub(crate) landings: Vec<Landing>,
+    pub(crate) hit_points: Vec<HitPoints>,
     /// Shaded hits of the front.
-    pub(crate) arrived: Vec<Arrived<'w>>,
+    pub(crate) shaded: Vec<ShadedHit<'w>>,
     /// Materials of the hits with maps applied.
     pub(crate) mapped: Vec<Material>,
     /// Shadow rays from the hits to one light.
     pub(crate) shadows: Packets,
     /// For each shadow ray, the index of its hit and the reflected light if unoccluded.
-    pub(crate) asking: Vec<(usize, Rgb)>,
+    pub(crate) unblocked: Vec<(usize, Rgb)>,
     pub(crate) transmittances: Vec<f64>,
     /// For each light, the last simple object that occluded it.
     pub(crate) blockers: Vec<Option<u32>>,

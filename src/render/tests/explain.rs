@@ -5,7 +5,8 @@ use std::path::{Path, PathBuf};
 
 use super::many_lights::lamps;
 use super::*;
-use crate::integrators::FrameContext;
+use crate::integrators::path::radiance_alone;
+use crate::integrators::{FrameContext, Probe};
 use crate::{Explanation, PreparedScene, Query, RayEnd, RayKind, Stop, TracedRay};
 use assets::{Assets, Loaded, Wanted};
 use geometry::lanes::Level;
@@ -65,7 +66,7 @@ fn job_of((scene, images): (Scene, Images), integrator: Integrator) -> Job {
 }
 
 /// The radiance of a sample, traced among others as in a picture, in the second of several packets;
-/// by the vectors of this machine and by those that every machine has.
+/// by the vectors of this machine and by those that every machine has; a path also alone.
 fn traced(job: &Job, world: &World, pixel: [u32; 2], index: u32) -> Rgb {
     let shot = FrameContext::new(world, &job.camera, job.settings);
     let [x, y] = pixel;
@@ -92,7 +93,13 @@ fn traced(job: &Job, world: &World, pixel: [u32; 2], index: u32) -> Rgb {
     for (seen, plain) in seen.iter().zip(&plain) {
         assert_eq!(bits(seen.radiance), bits(plain.radiance));
     }
-    seen[place.expect("the pixel is in its row")].radiance
+    let place = place.expect("the pixel is in its row");
+    let radiance = seen[place].radiance;
+    if integrator == Integrator::Path {
+        let alone = radiance_alone(&mut Probe::new(world, depth, || false), &samples[place]);
+        assert_eq!(bits(alone), bits(radiance));
+    }
+    radiance
 }
 
 fn bits(colour: Rgb) -> [u64; 3] {

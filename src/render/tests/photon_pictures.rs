@@ -3,7 +3,8 @@
 use super::super::integrators::PhotonRules;
 use super::photons::{PHOTONS, WHITE, world_by};
 use super::*;
-use crate::integrators::{FrameContext, Photons};
+use crate::integrators::path::radiance_alone;
+use crate::integrators::{FrameContext, Photons, Probe};
 use crate::{PreparedScene, TracedRay};
 
 /// A glass ball and a mirror over a ground, lit by a point and a light with a size, as a job.
@@ -112,6 +113,9 @@ fn photons_are_explained() {
         let tracer = Tracer::new(&world, Integrator::Photon, job.settings.depth, || false);
         let seen = tracer.with_photons(Some(&maps)).radiance(&samples[0]);
         assert_eq!(explanation.radiance, seen.radiance, "{x} {y} {index}");
+        let probe = Probe::new(&world, job.settings.depth, || false);
+        let alone = radiance_alone(&mut probe.with_photons(maps.get(index)), &samples[0]);
+        assert_eq!(alone, seen.radiance, "{x} {y} {index}");
         let sum = |sum, ray: &TracedRay| sum + ray.contribution;
         assert_eq!(explanation.rays.iter().fold(Rgb::ZERO, sum), seen.radiance);
         let shadings = explanation.rays.iter().filter_map(|ray| ray.shading());

@@ -24,7 +24,7 @@ pub use projection::{
 #[cfg(test)]
 pub(crate) use structures::Search;
 pub(crate) use structures::{Structures, instances};
-pub(crate) use surfaces::Landing;
+pub(crate) use surfaces::HitPoints;
 
 use std::cell::Cell;
 use std::ops::Range;

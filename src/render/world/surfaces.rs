@@ -14,7 +14,7 @@ use scene::Material;
 
 /// Up to eight surface points, in memory layout; lanes of rays that miss are undefined.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Landing {
+pub(crate) struct HitPoints {
     pub(crate) surface: Surfaces<Row>,
     /// Shading normals, flipped on back faces.
     pub(crate) normal: Vector<Row>,
@@ -24,8 +24,8 @@ pub(crate) struct Landing {
     hits: u32,
 }
 
-impl Landing {
-    /// The landing of a packet whose rays all miss.
+impl HitPoints {
+    /// Those of a packet whose rays all miss.
     const NONE: Self = Self {
         surface: Surfaces {
             point: Vector::repeat(DVec3::ZERO),
@@ -89,25 +89,30 @@ impl Landing {
 
 impl World {
     /// Computes the surface points of all rays, packet by packet; `nearest` holds their hits.
-    pub(crate) fn land_each(
+    pub(crate) fn hit_points_each(
         &self,
         packets: &[Packet],
         nearest: &[NearestHits],
-        landings: &mut Vec<Landing>,
+        hit_points: &mut Vec<HitPoints>,
     ) {
-        landings.clear();
+        hit_points.clear();
         dispatch!(self.level, simd => {
             for (packet, nearest) in packets.iter().zip(nearest) {
-                landings.push(self.land_together(simd, packet, nearest));
+                hit_points.push(self.hit_points_together(simd, packet, nearest));
             }
         });
     }
 
     #[inline(always)]
-    fn land_together<S: Simd>(&self, simd: S, packet: &Packet, nearest: &NearestHits) -> Landing {
+    fn hit_points_together<S: Simd>(
+        &self,
+        simd: S,
+        packet: &Packet,
+        nearest: &NearestHits,
+    ) -> HitPoints {
         let hits = &nearest.hits;
         if hits.lanes == 0 {
-            return Landing::NONE;
+            return HitPoints::NONE;
         }
         let rays = packet.rays.load(simd);
         let zero = Vector::all(rays.origin.x, DVec3::ZERO);
@@ -146,7 +151,7 @@ impl World {
         }
         // The visible side depends on the geometric normal, not on the shading normal.
         let front = rays.direction.dot(surface.normal).below(zero.x);
-        Landing {
+        HitPoints {
             surface: surface.store(),
             normal: Vector::select(front, shading, -shading).store(),
             front: bits::<S>(front),

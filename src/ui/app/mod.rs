@@ -86,7 +86,6 @@ pub use shared::overlays::{Dialog, MergeSource, Overlays, Prompt, PromptKind, Qu
 pub use shared::page::{Page, PageFocus};
 pub use shared::palette::{Completion, Palette};
 pub use shared::picker::{ColourPicker, PickerRow};
-pub use shared::rays::{RayLine, RayPart};
 pub use shared::rows::{Fold, Rows};
 pub use shared::suggestions::Suggestions;
 pub use trace::Trace;

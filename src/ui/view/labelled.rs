@@ -6,7 +6,6 @@ use ratatui::style::Style;
 
 use super::row::Row;
 use crate::theme;
-use explain::number;
 
 /// Columns of labels with the gaps around them.
 const LABEL: u16 = 10;
@@ -49,24 +48,5 @@ pub(super) fn render(values: &[Value], area: Rect, buffer: &mut Buffer) {
             row.put("██", Style::new().fg(colour.into())).skip(1);
         }
         row.put(&value.text, Style::new());
-    }
-}
-
-/// Numbers with blanks between them; rounding errors beside larger ones are 0.
-pub(super) fn numbers(of: &[f64]) -> String {
-    let largest = of.iter().fold(0.0, |most: f64, of| most.max(of.abs()));
-    let settled = |of: f64| if of.abs() < 1e-12 * largest { 0.0 } else { of };
-    let numbers: Vec<_> = of.iter().map(|&of| number(settled(of))).collect();
-    numbers.join(" ")
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn rounding_errors_are_no_digits() {
-        assert_eq!(numbers(&[1.0, 1e-17, -0.25]), "1 0 -0.25");
-        assert_eq!(numbers(&[1e-17]), "1e-17");
     }
 }

@@ -4,14 +4,14 @@
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 
-use super::labelled::{Value, numbers};
+use super::labelled::Value;
 use super::row::Focus;
 use super::{labelled, row};
 use crate::app::{Pixel, Shared, inspect};
 use crate::framing::clear;
 use crate::layout::{Side, contents};
-use explain::number;
-use render::{Aov, FirstHit, SurfaceHit};
+use explain::{number, numbers, wording};
+use render::{Aov, FirstHit};
 
 /// The width of the values over the picture.
 const WIDTH: u16 = 36;
@@ -77,7 +77,7 @@ fn values(shared: &Shared, pixel: &Pixel) -> Vec<Value> {
     if let Some(at) = pixel.line {
         values.push(Value::new("source", source(shared, at)));
     }
-    values.extend(surface.map(|at| Value::new("side", side(&at))));
+    values.extend(surface.map(|at| Value::new("side", wording::side_of(&at).short)));
     let label = pixel.aov.map_or("linear", Aov::name);
     let value = pixel.value.map(|value| value_of(pixel.aov, value));
     let value = value.unwrap_or_else(|| UNKNOWN.to_owned());
@@ -96,15 +96,6 @@ pub(super) fn source(shared: &Shared, line: usize) -> String {
     match shared.disk.path {
         Some(_) => format!("{}:{line}", shared.disk.name()),
         None => format!("line {line}"),
-    }
-}
-
-/// The word for the side of a surface that was hit.
-pub(super) fn side(hit: &SurfaceHit) -> &'static str {
-    match hit.side {
-        render::Side::Front => "front",
-        render::Side::Back if hit.solid => "inside",
-        render::Side::Back => "back",
     }
 }
 

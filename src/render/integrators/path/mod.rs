@@ -4,25 +4,33 @@
 //! size it is combined with BSDF sampling by multiple importance sampling (Veach and Guibas,
 //! "Optimally Combining Sampling Techniques for Monte Carlo Rendering", 1995).
 
-mod next_event;
-mod next_event_wave;
+mod emission;
+mod emitter_samples;
+mod light_samples;
+mod shadow_rays;
+#[cfg(test)]
+mod tests;
 mod vertices;
 mod wave;
 
-pub(crate) use next_event::EmitterSample;
-pub(crate) use wave::PathWave;
+pub(crate) use emission::emission;
+pub(crate) use emitter_samples::{
+    EmitterArrival, add_emitting_objects, add_sky, aim_at_object, aim_at_sky, samples_emitters,
+};
+pub(crate) use light_samples::{add_light, add_one_of_many, choose_light};
+#[cfg(test)]
+pub(crate) use tests::radiance_alone;
+pub(crate) use vertices::{Aimed, Vertices};
+pub(crate) use wave::{PathWave, add_caustics, by_paths, follow, go_on_from};
 
-use super::direct::{Unshadowed, shadow};
 use super::light_component::LightComponent;
 use super::probe::{Probe, RAY_BUDGET, Sample};
-use super::vertex::Vertex;
-use crate::light::{SphereLight, Spheres, light_sphere, luminous_sphere};
+use crate::light::SphereLight;
 use crate::material::{Bsdf, BsdfSample, Scattered, Scattering, transmitted};
-use crate::sampling::{Sampler, Use, power_heuristic};
-use crate::world::{Nearest, Occlusion, World};
+use crate::sampling::power_heuristic;
+use crate::world::{Nearest, World};
 use geometry::Ray;
-use geometry::lanes::Vector;
-use scene::{FalloffRule, Light, Rgb};
+use scene::Rgb;
 
 /// Paths with a throughput below this are subject to Russian roulette. Squared error × time with
 /// 1/4, relative to 1/16, is .78 in a room lit by a panel, .82 in `lamp.xml`, .96 in `neon.xml`, .95 in
@@ -35,7 +43,7 @@ const FAINT: f64 = 1.0 / 4.0;
 const FAINT_BY_POINT_LIGHTS: f64 = 1.0 / 16.0;
 
 /// The state of a path.
-#[derive(Debug)]
+#[derive(Clone, Copy, Debug)]
 pub(crate) struct Path {
     pub(crate) ray: Ray,
     /// Weight of the incoming radiance in the pixel.
@@ -90,200 +98,91 @@ pub(crate) enum Continuation {
     Cancelled,
 }
 
-impl<C: Fn() -> bool> Probe<'_, C> {
-    /// Finds what a path's ray leads to, given the nearest object that it hits, and reduces the
-    /// throughput by absorption up to there.
-    pub(crate) fn meet(
-        &self,
-        path: &mut Path,
-        sample: &Sample,
-        nearest: Option<Nearest>,
-    ) -> PathHit {
-        let world = self.world;
-        let distance = nearest.map_or_else(|| path.reach(sample), |nearest| nearest.hit.t);
-        if let Some((number, light, distance)) = world.sphere_lights.nearest(&path.ray, distance) {
-            path.throughput *= transmitted(path.absorption, distance);
-            return PathHit::Light {
-                radiance: light.scale * light.radiance(),
-                weight: if self.photon_map.is_some() && path.is_caustic() {
-                    // Photons carry it.
-                    0.0
-                } else {
-                    path.weight_of_chance(world, (number, &light))
-                },
-                number,
-                light,
-                distance,
-            };
-        }
-        let Some(nearest) = nearest else {
-            return PathHit::Nothing(world.around(&path.ray, path.bounce, sample.screen));
+/// Finds what a path's ray leads to, given the nearest object that it hits, and reduces the
+/// throughput by absorption up to there.
+pub(crate) fn meet<C>(
+    probe: &Probe<'_, C>,
+    path: &mut Path,
+    sample: &Sample,
+    nearest: Option<Nearest>,
+) -> PathHit {
+    let world = probe.world;
+    let distance = nearest.map_or_else(|| path.reach(sample), |nearest| nearest.hit.t);
+    if let Some((number, light, distance)) = world.sphere_lights.nearest(&path.ray, distance) {
+        path.throughput *= transmitted(path.absorption, distance);
+        return PathHit::Light {
+            radiance: light.scale * light.radiance(),
+            weight: if probe.photon_map.is_some() && path.is_caustic() {
+                // Photons carry it.
+                0.0
+            } else {
+                path.weight_of_chance(world, (number, &light))
+            },
+            number,
+            light,
+            distance,
         };
-        path.throughput *= transmitted(path.absorption, nearest.hit.t);
-        PathHit::Surface(nearest)
     }
+    let Some(nearest) = nearest else {
+        return PathHit::Nothing(world.around(&path.ray, path.bounce, sample.screen));
+    };
+    path.throughput *= transmitted(path.absorption, nearest.hit.t);
+    PathHit::Surface(nearest)
+}
 
-    /// Continues a path in a sampled direction, if there is one, the depth and the budget allow it
-    /// and it survives Russian roulette by its numbers for the bounce.
-    pub(crate) fn onward(
-        &mut self,
-        path: &mut Path,
-        next: Option<BsdfSample>,
-        [.., chance]: [f64; 4],
-    ) -> Continuation {
-        let Some(next) = next else {
-            return Continuation::Nowhere;
-        };
-        if self.depth <= path.bounce {
-            return Continuation::Depth;
-        }
-        if path.bounce + 1 == RAY_BUDGET {
-            self.counts.over_budget += 1;
-            return Continuation::Budget;
-        }
-        if path.bounce % 64 == 63 && (self.cancelled)() {
-            return Continuation::Cancelled;
-        }
-        let faint = if self.world.samples_lights {
-            FAINT
-        } else {
-            FAINT_BY_POINT_LIGHTS
-        };
-        path.go_on(next, faint, chance)
+/// Continues a path in a sampled direction, if there is one, the depth and the budget allow it
+/// and it survives Russian roulette by its numbers for the bounce.
+fn onward<C: Fn() -> bool>(
+    probe: &mut Probe<'_, C>,
+    path: &mut Path,
+    next: Option<BsdfSample>,
+    [.., chance]: [f64; 4],
+) -> Continuation {
+    let Some(next) = next else {
+        return Continuation::Nowhere;
+    };
+    if probe.depth <= path.bounce {
+        return Continuation::Depth;
     }
-
-    /// Whether the light with this index, which has a size and which a path hits, is part of the light
-    /// gathered. Where it could have been sampled from the first surface, it is that surface's direct
-    /// light.
-    pub(crate) fn gathers(&self, number: u32, path: &Path) -> bool {
-        let from_first = path.bounce == 1 && path.chosen.is_some();
-        match self.gather {
-            LightComponent::Direct(wanted) => from_first && wanted == number,
-            LightComponent::Indirect if from_first => false,
-            gather => gather.glow(path.bounce),
-        }
+    if path.bounce + 1 == RAY_BUDGET {
+        probe.counts.over_budget += 1;
+        return Continuation::Budget;
     }
-
-    /// The emission of a surface, as far as it counts where a BSDF sample hits it.
-    #[inline]
-    pub(crate) fn emission(&self, path: &Path, vertex: &Vertex<'_>) -> Rgb {
-        let emission = vertex.material.emission;
-        if emission == Rgb::ZERO {
-            return emission;
-        }
-        let densities = self.densities_at(path, vertex);
-        densities.map_or(emission, |densities| densities.weight * emission)
+    if path.bounce % 64 == 63 && (probe.cancelled)() {
+        return Continuation::Cancelled;
     }
+    let faint = if probe.world.samples_lights {
+        FAINT
+    } else {
+        FAINT_BY_POINT_LIGHTS
+    };
+    path.go_on(next, faint, chance)
+}
 
-    /// Returns the light that a surface reflects of the light with this index, which was chosen with
-    /// this probability. `place`, in the unit square, is where a light with a size is sampled.
-    pub(crate) fn light_of(
-        &mut self,
-        (number, chance): (usize, f64),
-        vertex: &Vertex<'_>,
-        bounce: u32,
-        place: [f64; 2],
-    ) -> Rgb {
-        let light = &self.world.lights()[number];
-        let unshadowed = self.unshadowed((number, chance), vertex, bounce, || place);
-        let occlusion = self.occlusion(light);
-        unshadowed.map_or(Rgb::ZERO, |unshadowed| {
-            light.scale * self.lit(&unshadowed, occlusion)
-        })
-    }
-
-    /// Like [`Self::light_of`], but unscaled and before the shadow ray is traced; `None` if nothing is
-    /// reflected.
-    pub(crate) fn unshadowed(
-        &self,
-        (number, chance): (usize, f64),
-        vertex: &Vertex<'_>,
-        bounce: u32,
-        place: impl FnOnce() -> [f64; 2],
-    ) -> Option<Unshadowed> {
-        let light = &self.world.lights()[number];
-        let Vertex { point, bsdf, .. } = vertex;
-        let unshadowed = if let Some(sphere) = luminous_sphere(light) {
-            self.of_sphere_light((vertex, bounce), (light, &sphere), chance, place())?
-        } else {
-            let from = point.surface.point;
-            let sphere = light_sphere(light);
-            let chosen = sphere.and_then(|sphere| sphere.choose(from, place()));
-            Unshadowed::new(point, light, chosen, |facing| {
-                let toward = facing.toward.into();
-                let scattered = bsdf.lobes.scatter(point, toward);
-                scattered.value + bsdf.lobes.highlight(point, toward)
-            })?
-        };
-        Some(Unshadowed {
-            light: unshadowed.light / chance,
-            ..unshadowed
-        })
-    }
-
-    /// The light reflected from a light with a size, chosen with a probability and sampled at the given
-    /// place.
-    fn of_sphere_light(
-        &self,
-        (vertex, bounce): (&Vertex<'_>, u32),
-        (light, sphere): (&Light, &SphereLight),
-        chance: f64,
-        place: [f64; 2],
-    ) -> Option<Unshadowed> {
-        let Vertex { point, bsdf, .. } = vertex;
-        let from = point.surface.point;
-        let incoming = sphere.choose(from, place)?;
-        let toward = incoming.toward.into();
-        let scattered = bsdf.lobes.scatter(point, toward);
-        let highlight = bsdf.lobes.highlight(point, toward);
-        let ray = point.leave(toward);
-        let hides = |place: Vector<f64>| self.world.sphere_lights.hide(sphere, &ray, place.into());
-        let is_dark = scattered.value == Rgb::ZERO && highlight == Rgb::ZERO;
-        if is_dark || incoming.source.is_some_and(hides) {
-            return None;
-        }
-        let by_path = self.density_of(bsdf, scattered, bounce);
-        let scattered = (scattered.value.into(), by_path);
-        let spheres = Spheres::from(sphere);
-        let reflected = spheres.reflected(from.into(), chance, scattered, highlight.into());
-        Some(Unshadowed {
-            light: reflected.into(),
-            shadow: shadow(&point.surface.into(), light, incoming),
-        })
-    }
-
-    /// What shadow rays to a light pass through.
-    pub(crate) fn occlusion(&self, light: &Light) -> Occlusion {
-        // Photons carry what passes through.
-        if self.photon_map.is_some() && self.is_by_photons(light) {
-            Occlusion::Complete
-        } else {
-            Occlusion::ByMaterial
-        }
+/// Whether the light with this index, which has a size and which a path hits, is part of the light
+/// gathered. Where it could have been sampled from the first surface, it is that surface's direct
+/// light.
+fn gathers(component: LightComponent, number: u32, path: &Path) -> bool {
+    let from_first = path.bounce == 1 && path.chosen.is_some();
+    match component {
+        LightComponent::Direct(wanted) => from_first && wanted == number,
+        LightComponent::Indirect if from_first => false,
+        component => component.glow(path.bounce),
     }
 }
 
-impl<C> Probe<'_, C> {
-    /// Whether photons carry what arrives from a light via mirrors and boundaries.
-    #[cold]
-    pub(crate) fn is_by_photons(&self, light: &Light) -> bool {
-        self.photon_map.is_some() && light.emits_photons(FalloffRule::None)
-    }
-
-    /// Whether a path at a bounce is not at its last.
-    #[inline]
-    pub(crate) fn may_go_on(&self, bounce: u32) -> bool {
-        bounce < self.depth
-    }
-
-    /// The density with which a path at a bounce goes on in a direction, per steradian; 0 at the last
-    /// bounce, after which no BSDF sample can hit a light.
-    pub(crate) fn density_of(&self, bsdf: &Bsdf<'_>, scattered: Scattered, bounce: u32) -> f64 {
-        if self.may_go_on(bounce) {
-            bsdf.lobes_chance * scattered.density
-        } else {
-            0.0
-        }
+/// The density with which a path at a bounce goes on in a direction, per steradian; 0 at the last
+/// bounce, after which no BSDF sample can hit a light.
+pub(crate) fn density_of<C>(
+    probe: &Probe<'_, C>,
+    bsdf: &Bsdf<'_>,
+    scattered: Scattered,
+    bounce: u32,
+) -> f64 {
+    if probe.may_go_on(bounce) {
+        bsdf.lobes_chance * scattered.density
+    } else {
+        0.0
     }
 }
 
@@ -307,6 +206,13 @@ impl Path {
         } else {
             f64::INFINITY
         }
+    }
+
+    /// What arrives in the pixel if it meets nothing, given the radiance there.
+    pub(crate) fn of_nothing(&self, world: &World, radiance: Rgb) -> Rgb {
+        let densities = self.densities_of(&world.sky);
+        let weight = densities.map_or(1.0, |densities| densities.weight);
+        self.throughput * radiance * weight
     }
 
     /// Whether it goes on from a mirror or boundary after it was scattered otherwise.
@@ -359,10 +265,4 @@ impl Scattering {
             world.many_lights.chance(number, at) * density
         }
     }
-}
-
-/// Where on a light with a size, given its index, a path samples it.
-pub(crate) fn place_on_light(number: usize, bounce: u32, sampler: Sampler) -> [f64; 2] {
-    let [u, v, ..] = sampler.four(bounce, Use::Light(number as u32));
-    [u, v]
 }

@@ -10,7 +10,7 @@ use glam::DVec3;
 use crate::integrators::direct::{Shadow, shadow_rays};
 use crate::integrators::vertex::Vertex;
 use crate::light::{Spheres, incoming_each, light_sphere};
-use crate::material::{Component, Diffuse, LobeSamples, power_each};
+use crate::material::{BsdfSample, Component, Diffuse, LobeSamples, Point, power_each};
 use crate::sampling::{Fours, share, warp};
 use geometry::lanes::{
     Eight, Lanes, Level, Row, Simd, Vector, WIDTH, bits, dispatch, each_bit, mask,
@@ -48,6 +48,9 @@ pub(crate) struct Aimed {
     pub(crate) rays: Rays<Row>,
     /// The fraction that the surface reflects, the cosine of incidence included.
     pub(crate) reflected: Vector<Row>,
+    /// The densities of the directions by sampling the emitters, and by continuing the path.
+    pub(crate) by_light: Row,
+    pub(crate) by_path: Row,
     /// The multiple importance sampling weight over the density.
     pub(crate) share: Row,
 }
@@ -86,6 +89,17 @@ pub(crate) struct Continuations {
     /// Factors on the throughput.
     pub(crate) weight: Vector<Row>,
     pub(crate) density: Row,
+}
+
+impl Continuations {
+    /// The continuation in a lane continued by a lobe, at a point; `None` if its direction leads nowhere.
+    #[inline(always)]
+    pub(crate) fn lane(&self, lane: usize, point: &Point) -> Option<BsdfSample> {
+        (self.lead_on >> lane & 1 == 1).then(|| {
+            let (ray, weight) = (self.rays.get(lane), self.weight.get(lane));
+            BsdfSample::by_lobes(point, ray, weight, self.density.0[lane])
+        })
+    }
 }
 
 impl<'v, 'm> Vertices<'v, 'm> {
@@ -167,6 +181,8 @@ impl<'v, 'm> Vertices<'v, 'm> {
             lanes: lanes & !bits::<S>(is_dark),
             rays: self.leave(simd, toward),
             reflected: reflected.store(),
+            by_light: by_light.into(),
+            by_path: by_path.into(),
             share: share.into(),
         }
     }

@@ -10,7 +10,7 @@ use crate::material::{
     refraction_indices, spread,
 };
 use crate::sampling::{Sampler, Use};
-use crate::world::Landing;
+use crate::world::HitPoints;
 use geometry::lanes::{Eight, Row, Simd, WIDTH, bits};
 use geometry::{Packet, Ray, Rays};
 use scene::{GlossRule, Material, Reflectance, Rgb};
@@ -66,49 +66,46 @@ impl Wave<'_> {
         &mut self,
         simd: S,
         packet: usize,
-        (depth, gather, gloss): (u32, LightComponent, GlossRule),
+        (depth, component, gloss): (u32, LightComponent, GlossRule),
         samples: &[Sample],
         seen: &mut [SampleResult],
     ) {
-        let landing = &self.landings[packet];
+        let hit_points = &self.hit_points[packet];
         let first = packet * WIDTH;
         let packet = &self.front.rays[packet];
-        let last = self.arrived.len().min(first + WIDTH);
-        let all = &self.arrived[first..last];
+        let last = self.shaded.len().min(first + WIDTH);
+        let all = &self.shaded[first..last];
         let states = &self.front.states[first..last];
-        if landing.is_empty() {
+        if hit_points.is_empty() {
             for state in states {
                 self.trees[state.tree].move_on(None, &mut self.next);
             }
             return;
         }
         let mut specular = None;
-        for (lane, (arrived, state)) in all.iter().zip(states).enumerate() {
+        for (lane, (hit, state)) in all.iter().zip(states).enumerate() {
             let tree = &mut self.trees[state.tree];
-            let material = arrived.found.material(&self.mapped);
-            if material.is_some() && gather.surface(state.bounce) {
-                seen[state.tree].radiance += arrived.weight * arrived.radiance;
+            let material = hit.material.get(&self.mapped);
+            if material.is_some() && component.surface(state.bounce) {
+                seen[state.tree].radiance += hit.weight * hit.radiance;
             }
             let branching = material.filter(|material| {
-                let mirrored = mirror_weight(material, landing.side(lane));
+                let mirrored = mirror_weight(&material, hit_points.side(lane));
                 let branches = mirrored != Rgb::ZERO || material.dielectric.tint != Rgb::ZERO;
                 state.bounce != depth && branches
             });
             let mut pushed = None;
             if let Some(material) = branching {
-                let found = || {
-                    all.iter()
-                        .map(|arrived| arrived.found.material(&self.mapped))
-                };
+                let found = || all.iter().map(|hit| hit.material.get(&self.mapped));
                 let specular = match &specular {
                     Some(specular) => specular,
-                    None => &*specular.insert(Specular::new(simd, packet, landing, found())),
+                    None => &*specular.insert(Specular::new(simd, packet, hit_points, found())),
                 };
                 let push = |branch: Branch| {
                     if branch.weight == Rgb::ZERO {
                         return;
                     }
-                    let ray = (branch.ray, branch.state(state, arrived.weight));
+                    let ray = (branch.ray, branch.state(state, hit.weight));
                     if let Some(before) = pushed.replace(ray) {
                         tree.pending.push(before);
                     }
@@ -116,11 +113,11 @@ impl Wave<'_> {
                 let sampler = samples[state.tree].sampler;
                 let numbers = |purpose| sampler.pair(state.node, purpose);
                 if let Some(exponent) = material.facets(gloss) {
-                    let point = landing.point(packet, lane);
+                    let point = hit_points.point(packet, lane);
                     let facet = facet(point.normal, point.view, exponent, numbers(Use::Reflection));
                     by_facet((&point, facet), material, push);
                 } else {
-                    specular.branch((packet, landing), lane, material, numbers, push);
+                    specular.branch((packet, hit_points), lane, material, numbers, push);
                 }
             }
             tree.move_on(pushed, &mut self.next);
@@ -133,18 +130,18 @@ impl<S: Simd> Specular<S> {
     fn new<'m>(
         simd: S,
         packet: &Packet,
-        landing: &Landing,
+        hit_points: &HitPoints,
         materials: impl Iterator<Item = Option<&'m Material>>,
     ) -> Self {
         let mut ratios = Row::all(1.0);
         for (lane, material) in materials.enumerate() {
             if let Some(material) = material {
-                let [from, to] = refraction_indices(material, landing.side(lane));
+                let [from, to] = refraction_indices(&material, hit_points.side(lane));
                 ratios.0[lane] = from / to;
             }
         }
-        let surface = landing.surface.load(simd);
-        let normal = landing.normal.load(simd);
+        let surface = hit_points.surface.load(simd);
+        let normal = hit_points.normal.load(simd);
         let direction = packet.rays.direction.load(simd);
         let mirrored = mirror(direction, normal);
         let (refracted, passes) = refract_all(direction, normal, ratios.load(simd));
@@ -165,14 +162,14 @@ impl<S: Simd> Specular<S> {
     #[inline(always)]
     fn branch(
         &self,
-        (packet, landing): (&Packet, &Landing),
+        (packet, hit_points): (&Packet, &HitPoints),
         lane: usize,
         material: &Material,
         numbers: impl Fn(Use) -> Option<[f64; 2]>,
         mut push: impl FnMut(Branch),
     ) {
-        let side = landing.side(lane);
-        let point = || landing.point(packet, lane);
+        let side = hit_points.side(lane);
+        let point = || hit_points.point(packet, lane);
         let dielectric = &material.dielectric;
         let losses = material.losses(side);
         let mut by_mirror = mirror_weight(material, side);

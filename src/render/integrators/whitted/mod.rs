@@ -11,7 +11,7 @@ use glam::DVec3;
 use super::direct::{Facing, Points, Shadow, sent_back};
 use super::light_component::LightComponent;
 use super::probe::{Probe, Sample, SampleResult};
-use super::wave::{Arrived, Found, RayState, Wave};
+use super::wave::{HitMaterial, RayState, ShadedHit, Wave};
 use crate::light::{Incoming, SphereLight, light_sphere, lights};
 use crate::material::{reflectance, transmitted};
 use crate::sampling::{Sampler, Use};
@@ -19,126 +19,128 @@ use crate::world::{Dependencies, Nearest, Occlusion, World};
 use geometry::lanes::{Simd, WIDTH, bits, dispatch};
 use scene::{Light, Rgb};
 
-impl<'w, C: Fn() -> bool> Probe<'w, C> {
-    /// Computes the radiance along camera rays. The rays of each are traced depth first, reflection
-    /// before refraction; those beyond the ray budget contribute nothing.
-    ///
-    /// Many samples are traced at once, one ray of each at a time, to form packets of rays and
-    /// shadow rays. The order of summation within each sample does not depend on the others.
-    pub(crate) fn by_whitted(
-        &mut self,
-        wave: &mut Wave<'w>,
-        samples: &[Sample],
-        seen: &mut Vec<SampleResult>,
-    ) {
-        wave.start(samples);
-        seen.resize(seen.len() + samples.len(), SampleResult::NOTHING);
-        while wave.advance(&mut self.counts) && !(self.cancelled)() {
-            self.land(wave, samples, seen);
-            for number in 0..self.world.lights().len() {
-                // Each light may take as many rays as there are samples.
-                if 0 < number && (self.cancelled)() {
-                    break;
-                }
-                if self.gather.light_anywhere(number) {
-                    self.light(wave, number, samples, seen);
-                }
+/// Computes the radiance along camera rays. The rays of each are traced depth first, reflection
+/// before refraction; those beyond the ray budget contribute nothing.
+///
+/// Many samples are traced at once, one ray of each at a time, to form packets of rays and
+/// shadow rays. The order of summation within each sample does not depend on the others.
+pub(crate) fn by_whitted<'w, C: Fn() -> bool>(
+    probe: &mut Probe<'w, C>,
+    wave: &mut Wave<'w>,
+    samples: &[Sample],
+    seen: &mut Vec<SampleResult>,
+) {
+    wave.start(samples);
+    seen.resize(seen.len() + samples.len(), SampleResult::NOTHING);
+    while wave.advance(&mut probe.counts) && !(probe.cancelled)() {
+        follow(probe, wave, samples, seen);
+        for number in 0..probe.world.lights().len() {
+            // Each light may take as many rays as there are samples.
+            if 0 < number && (probe.cancelled)() {
+                break;
             }
-            self.branch(wave, samples, seen);
+            if probe.component.light_anywhere(number) {
+                add_light(probe, wave, number, samples, seen);
+            }
         }
-        for (seen, tree) in seen.iter_mut().zip(&wave.trees) {
-            seen.rays += tree.traced;
-        }
+        branch(probe, wave, samples, seen);
     }
+    for (seen, tree) in seen.iter_mut().zip(&wave.trees) {
+        seen.rays += tree.traced;
+    }
+}
 
-    /// Finds the hits of the front's rays and shades them without lights.
-    pub(crate) fn land(&self, wave: &mut Wave<'w>, samples: &[Sample], seen: &mut [SampleResult]) {
-        let world = self.world;
-        world.nearest_each(&wave.front.rays, &mut wave.nearest);
-        world.land_each(&wave.front.rays, &wave.nearest, &mut wave.landings);
-        wave.arrive(world, self.gather, samples, seen);
-        wave.blockers.resize(world.lights().len(), None);
-    }
+/// Finds the hits of the front's rays and shades them without lights.
+pub(crate) fn follow<'w, C>(
+    probe: &Probe<'w, C>,
+    wave: &mut Wave<'w>,
+    samples: &[Sample],
+    seen: &mut [SampleResult],
+) {
+    let world = probe.world;
+    world.nearest_each(&wave.front.rays, &mut wave.nearest);
+    world.hit_points_each(&wave.front.rays, &wave.nearest, &mut wave.hit_points);
+    wave.shade(world, probe.component, samples, seen);
+    wave.blockers.resize(world.lights().len(), None);
+}
 
-    /// Adds the light of the light with this index that the hits reflect; lights must be added in
-    /// file order.
-    pub(crate) fn light(
-        &mut self,
-        wave: &mut Wave<'_>,
-        number: usize,
-        samples: &[Sample],
-        seen: &mut [SampleResult],
-    ) {
-        let world = self.world;
-        let light = &world.lights()[number];
-        wave.asking.clear();
-        wave.shadows.clear();
-        dispatch!(world.level, simd => {
-            for packet in 0..wave.front.rays.len() {
-                wave.ask(simd, packet, (number, light), samples, seen);
-            }
-        });
-        let asking = wave.asking.len() as u64;
-        self.counts.rays += asking;
-        self.counts.shadow_rays += asking;
-        world.transmittance_each(
-            &wave.shadows,
-            Occlusion::ByMaterial,
-            &mut wave.blockers[number],
-            &mut self.crossed,
-            &mut wave.transmittances,
-        );
-        let asking = wave.asking.iter().zip(&wave.transmittances);
-        for (&(ray, unblocked), &transmittance) in asking.clone() {
-            // Occluded light adds nothing, even if infinite.
-            if transmittance != 0.0 {
-                wave.arrived[ray].radiance += transmittance * unblocked;
-            }
+/// Adds the light of the light with this index that the hits reflect; lights must be added in
+/// file order.
+pub(crate) fn add_light<C>(
+    probe: &mut Probe<'_, C>,
+    wave: &mut Wave<'_>,
+    number: usize,
+    samples: &[Sample],
+    seen: &mut [SampleResult],
+) {
+    let world = probe.world;
+    let light = &world.lights()[number];
+    wave.unblocked.clear();
+    wave.shadows.clear();
+    dispatch!(world.level, simd => {
+        for packet in 0..wave.front.rays.len() {
+            wave.light_packet(simd, packet, (number, light), samples, seen);
         }
-        // Empty unless dependencies are recorded.
-        for ((&(ray, _), &transmittance), &touched) in asking.zip(&self.crossed.touched) {
-            let seen = &mut seen[wave.front.states[ray].tree];
-            seen.rays += 1;
-            seen.touched |= touched;
-            if transmittance != 0.0 {
-                seen.touched |= Dependencies::light(number);
-            }
+    });
+    let asking = wave.unblocked.len() as u64;
+    probe.counts.add_shadow_rays(asking);
+    world.transmittance_each(
+        &wave.shadows,
+        Occlusion::ByMaterial,
+        &mut wave.blockers[number],
+        &mut probe.crossed,
+        &mut wave.transmittances,
+    );
+    let asking = wave.unblocked.iter().zip(&wave.transmittances);
+    for (&(ray, unblocked), &transmittance) in asking.clone() {
+        // Occluded light adds nothing, even if infinite.
+        if transmittance != 0.0 {
+            wave.shaded[ray].radiance += transmittance * unblocked;
         }
     }
-
-    /// Adds the radiance of the hits to `seen` and prepares the next front.
-    pub(crate) fn branch(
-        &self,
-        wave: &mut Wave<'_>,
-        samples: &[Sample],
-        seen: &mut [SampleResult],
-    ) {
-        dispatch!(self.world.level, simd => {
-            for packet in 0..wave.front.rays.len() {
-                let rules = (self.depth, self.gather, self.world.gloss);
-                wave.go_on(simd, packet, rules, samples, seen);
-            }
-        });
+    // Empty unless dependencies are recorded.
+    for ((&(ray, _), &transmittance), &touched) in asking.zip(&probe.crossed.touched) {
+        let seen = &mut seen[wave.front.states[ray].tree];
+        seen.rays += 1;
+        seen.touched |= touched;
+        if transmittance != 0.0 {
+            seen.touched |= Dependencies::light(number);
+        }
     }
+}
+
+/// Adds the radiance of the hits to `seen` and prepares the next front.
+pub(crate) fn branch<C>(
+    probe: &Probe<'_, C>,
+    wave: &mut Wave<'_>,
+    samples: &[Sample],
+    seen: &mut [SampleResult],
+) {
+    dispatch!(probe.world.level, simd => {
+        for packet in 0..wave.front.rays.len() {
+            let rules = (probe.depth, probe.component, probe.world.gloss);
+            wave.go_on(simd, packet, rules, samples, seen);
+        }
+    });
 }
 
 impl<'w> Wave<'w> {
     /// Shades the hits of the front's rays.
-    fn arrive(
+    fn shade(
         &mut self,
         world: &'w World,
-        gather: LightComponent,
+        component: LightComponent,
         samples: &[Sample],
         seen: &mut [SampleResult],
     ) {
-        self.arrived.clear();
+        self.shaded.clear();
         self.mapped.clear();
         for (number, state) in self.front.states.iter().enumerate() {
             let seen = &mut seen[state.tree];
             let (packet, lane) = (&self.front.rays[number / WIDTH], number % WIDTH);
-            let landing = &mut self.landings[number / WIDTH];
-            let mut arrived = Arrived {
-                found: Found::Nothing,
+            let hit_points = &mut self.hit_points[number / WIDTH];
+            let mut hit = ShadedHit {
+                material: HitMaterial::Nothing,
                 weight: state.weight,
                 radiance: Rgb::ZERO,
             };
@@ -147,25 +149,25 @@ impl<'w> Wave<'w> {
                     seen.object = nearest.object;
                 }
                 seen.touched |= Dependencies::object(nearest.object);
-                let material = landing.material(world, nearest, (packet, lane));
-                let side = landing.side(lane);
-                arrived.weight = state.through(nearest);
-                if material.is_lit(side) && gather.glow(state.bounce) {
-                    arrived.radiance = material.glow(world.ambient);
+                let material = hit_points.material(world, nearest, (packet, lane));
+                let side = hit_points.side(lane);
+                hit.weight = state.through(nearest);
+                if material.is_lit(side) && component.glow(state.bounce) {
+                    hit.radiance = material.glow(world.ambient);
                 }
-                arrived.found = match material {
-                    Cow::Borrowed(material) => Found::Plain(material),
+                hit.material = match material {
+                    Cow::Borrowed(material) => HitMaterial::Plain(material),
                     Cow::Owned(material) => {
                         self.mapped.push(material);
-                        Found::Mapped(self.mapped.len() - 1)
+                        HitMaterial::Mapped(self.mapped.len() - 1)
                     }
                 };
-            } else if gather.glow(state.bounce) {
+            } else if component.glow(state.bounce) {
                 let screen = samples[state.tree].screen;
                 let around = world.around(&packet.ray(lane), state.bounce, screen);
                 seen.radiance += state.weight * around;
             }
-            self.arrived.push(arrived);
+            self.shaded.push(hit);
         }
     }
 
@@ -173,7 +175,7 @@ impl<'w> Wave<'w> {
     ///
     /// Rejected: computing the reflected light in lanes, from materials gathered into rows (no less time).
     #[inline(always)]
-    fn ask<S: Simd>(
+    fn light_packet<S: Simd>(
         &mut self,
         simd: S,
         packet: usize,
@@ -181,31 +183,29 @@ impl<'w> Wave<'w> {
         samples: &[Sample],
         seen: &mut [SampleResult],
     ) {
-        let landing = &self.landings[packet];
-        if landing.is_empty() {
+        let hit_points = &self.hit_points[packet];
+        if hit_points.is_empty() {
             return;
         }
         let rays = &self.front.rays[packet].rays;
         let first = packet * WIDTH;
         let points = Points {
-            surface: landing.surface.load(simd),
-            normal: landing.normal.load(simd),
+            surface: hit_points.surface.load(simd),
+            normal: hit_points.normal.load(simd),
             view: -rays.direction.load(simd),
         };
         let Some(mut incoming) = lights::incoming(light, points.surface.point) else {
             return;
         };
-        let last = self.arrived.len().min(first + WIDTH);
-        let arrived = &mut self.arrived[first..last];
-        if let Some(sphere) = light_sphere(light) {
-            for (lane, (arrived, state)) in
-                arrived.iter().zip(&self.front.states[first..]).enumerate()
-            {
-                if let Found::Nothing = arrived.found {
+        let last = self.shaded.len().min(first + WIDTH);
+        let hit = &mut self.shaded[first..last];
+        if let Some(sphere) = light_sphere(&light) {
+            for (lane, (hit, state)) in hit.iter().zip(&self.front.states[first..]).enumerate() {
+                if let HitMaterial::Nothing = hit.material {
                     continue;
                 }
                 let sampler = samples[state.tree].sampler;
-                let point = landing.surface.point.get(lane);
+                let point = hit_points.surface.point.get(lane);
                 if let Some(chosen) = state.choose((number, &sphere), point, sampler) {
                     incoming.put(lane, chosen);
                 }
@@ -216,23 +216,23 @@ impl<'w> Wave<'w> {
         while lit != 0 {
             let lane = lit.trailing_zeros() as usize % WIDTH;
             lit &= lit - 1;
-            let arrived = &mut arrived[lane];
-            let material = match arrived.found.material(&self.mapped) {
-                Some(material) if material.is_lit(landing.side(lane)) => material,
+            let hit = &mut hit[lane];
+            let material = match hit.material.get(&self.mapped) {
+                Some(material) if material.is_lit(hit_points.side(lane)) => material,
                 _ => continue,
             };
             let halfway = || {
                 let view = -rays.direction.get(lane);
                 let toward: DVec3 = facing.toward.lane(lane);
-                landing.normal.get(lane).dot((toward + view).normalize())
+                hit_points.normal.get(lane).dot((toward + view).normalize())
             };
             let reflected = reflectance(
-                material,
+                &material,
                 facing.cosine[lane],
                 facing.mirrored[lane],
                 halfway,
             );
-            let place = landing.surface.point.get(lane);
+            let place = hit_points.surface.point.get(lane);
             let toward = || facing.toward.lane(lane);
             let Some(unblocked) = sent_back(light, place, toward, reflected) else {
                 continue;
@@ -241,10 +241,10 @@ impl<'w> Wave<'w> {
                 None => {
                     seen[self.front.states[first + lane].tree].touched |=
                         Dependencies::light(number);
-                    arrived.radiance += unblocked;
+                    hit.radiance += unblocked;
                 }
                 Some(Shadow { rays, ends }) => {
-                    self.asking.push((first + lane, unblocked));
+                    self.unblocked.push((first + lane, unblocked));
                     self.shadows.push(&rays.ray(lane), ends[lane]);
                 }
             }

@@ -84,8 +84,8 @@ impl ManyLights {
         self.others.iter().map(|&number| number as usize)
     }
 
-    /// Chooses one of the lights for a surface at a point with a normal, by the third of its numbers in
-    /// 0..1; returns its index and the probability. `None` if none lights it.
+    /// The choice of [`Self::choose_together`] for one surface.
+    #[cfg(test)]
     pub(crate) fn choose(
         &self,
         (from, normal): (DVec3, DVec3),
@@ -95,7 +95,8 @@ impl ManyLights {
         chosen.map(|chosen| self.light(chosen.into()))
     }
 
-    /// The same for the surfaces in several lanes.
+    /// Chooses one of the lights for each surface in lanes, at points with normals, by the third of its
+    /// numbers in 0..1; returns its index and the probability. `None` if none lights it.
     #[inline(always)]
     pub(crate) fn choose_together<S: Simd>(
         &self,

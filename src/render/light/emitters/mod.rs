@@ -212,29 +212,6 @@ impl Emitters {
         self.parts.is_empty()
     }
 
-    /// Chooses one of the emitters for a surface at a point with a normal, by the third of its numbers
-    /// in 0..1; `None` if none lights it.
-    pub(crate) fn pick(
-        &self,
-        (from, normal): (DVec3, DVec3),
-        [_, _, number, _]: [f64; 4],
-    ) -> Option<Picked> {
-        self.tree.choose(from, normal, number).map(Picked::from)
-    }
-
-    /// Chooses a direction from a point toward an emitter that was picked there, by two numbers in
-    /// 0..1; `None` if there is none.
-    pub(crate) fn choose(
-        &self,
-        scene: &Scene,
-        from: DVec3,
-        picked: Picked,
-        place: [f64; 2],
-    ) -> Option<Choice> {
-        let aim = aim::aim(&self.patch(scene, picked.emitter)?, from, place)?;
-        Some(self.choice(picked, aim))
-    }
-
     /// A direction toward an emitter that was picked.
     fn choice(&self, Picked { emitter, chance }: Picked, aim: Aim) -> Choice {
         let Part { object, part } = self.parts[emitter as usize];
@@ -248,8 +225,8 @@ impl Emitters {
         }
     }
 
-    /// Chooses an emitter for each of several surfaces, and a direction toward it, as [`Emitters::pick`]
-    /// and [`Emitters::choose`] do.
+    /// Chooses an emitter for each of several surfaces at points with normals, by the third of its numbers
+    /// in 0..1, and a direction toward it by the first two.
     #[inline(always)]
     pub(crate) fn choose_together<S: Simd>(
         &self,
@@ -311,7 +288,7 @@ impl Emitters {
         choices
     }
 
-    /// The density of [`Emitters::choose`] per steradian for a direction in which a part of an object is
+    /// The density of [`Emitters::choose_together`] per steradian for a direction in which a part of an object is
     /// hit at a point.
     pub(crate) fn density(
         &self,

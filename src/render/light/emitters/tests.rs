@@ -9,6 +9,32 @@ use cone::Cone;
 use geometry::lanes::{Level, dispatch};
 use geometry::{Affine, Ball, Flat};
 
+/// The choices of [`Emitters::choose_together`] for one surface.
+impl Emitters {
+    /// Chooses one of the emitters for a surface at a point with a normal, by the third of its numbers
+    /// in 0..1; `None` if none lights it.
+    pub(crate) fn pick(
+        &self,
+        (from, normal): (DVec3, DVec3),
+        [_, _, number, _]: [f64; 4],
+    ) -> Option<Picked> {
+        self.tree.choose(from, normal, number).map(Picked::from)
+    }
+
+    /// Chooses a direction from a point toward an emitter that was picked there, by two numbers in
+    /// 0..1; `None` if there is none.
+    pub(crate) fn choose(
+        &self,
+        scene: &Scene,
+        from: DVec3,
+        picked: Picked,
+        place: [f64; 2],
+    ) -> Option<Choice> {
+        let aim = self.patch(scene, picked.emitter)?.aim(from, place)?;
+        Some(self.choice(picked, aim))
+    }
+}
+
 impl Random {
     fn direction(&mut self) -> DVec3 {
         loop {

@@ -116,6 +116,7 @@ impl Tree {
 
     /// Chooses an emitter for a surface at a point with a normal, by a number in 0..1; returns it with
     /// its probability. `None` if none of those that the number leads to can light the point.
+    #[cfg(test)]
     pub(crate) fn choose(&self, from: DVec3, normal: DVec3, number: f64) -> Option<(u32, f64)> {
         if self.nodes.is_empty() {
             return None;
@@ -186,6 +187,7 @@ impl Tree {
     }
 
     /// Chooses among the emitters of the node that a search has reached, by strength.
+    #[cfg(test)]
     fn among_alike(&self, search: &Search) -> Option<(u32, f64)> {
         let (places, sought) = self.sought(search);
         let place = self.sums[places.clone()].partition_point(|&sum| sum <= sought);

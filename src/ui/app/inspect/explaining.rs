@@ -1,19 +1,21 @@
 //! Explaining the pixel under the cross: asking for its rays and walking through them.
 
+use std::collections::BTreeSet;
+
 use ratatui::layout::Rect;
 
 use super::inspecting::{cross, free_side, node_under_cross, pick_node, reveal_cross, start};
 use crate::app::shared::cursor::moved;
 use crate::app::shared::inspection::{Cross, Explained};
-use crate::app::shared::rays::{self, RayLine, RayPart, Segment};
+use crate::app::shared::rays::{self, Segment};
 use crate::app::{Fold, Shared, display};
 use crate::keymap::{Context, Mode};
 use crate::layout;
 use crate::msg::{Effect, Question};
 use crate::text_width::{shorten, wrap};
-use explain::{Subject, verdicts};
+use explain::{RayLine, RayPart, Subject, verdicts};
 use language::Node;
-use render::{Explanation, NO_OBJECT, RayEnd};
+use render::{Explanation, NO_OBJECT};
 
 /// Most lines of the verdict.
 const VERDICT: u16 = 3;
@@ -121,9 +123,16 @@ pub(crate) fn explanation(shared: &Shared) -> Option<&Explanation> {
 /// The lines of the explanation on screen.
 pub(crate) fn ray_lines(shared: &Shared) -> Vec<RayLine> {
     match (&shared.inspection.explained, explanation(shared)) {
-        (Some(explained), Some(explanation)) => rays::lines(explanation, &explained.folded),
+        (Some(explained), Some(explanation)) => listed(explanation, &explained.folded),
         _ => Vec::new(),
     }
+}
+
+/// The lines of an explanation that tell of light, without those inside of folded rays.
+fn listed(explanation: &Explanation, folded: &BTreeSet<usize>) -> Vec<RayLine> {
+    let mut lines = explain::lines(explanation, |ray| folded.contains(&ray));
+    lines.retain(|line| line.part.is_light());
+    lines
 }
 
 /// The line of the explanation under the cursor.
@@ -134,18 +143,7 @@ pub(crate) fn ray_line(shared: &Shared) -> Option<RayLine> {
 
 /// The node that a line of the explanation is about: an object or a light.
 pub(crate) fn ray_node(shared: &Shared, line: RayLine) -> Option<Node> {
-    let explanation = explanation(shared)?;
-    if let Some(light) = line.light(explanation) {
-        return Some(Node::Light(light.light as usize));
-    }
-    if let Some(emitter) = line.emitter(explanation) {
-        return object_named(shared, emitter.object?);
-    }
-    match &line.ray(explanation).end {
-        RayEnd::Surface(shading) => object_named(shared, shading.hit.object),
-        RayEnd::Light(hit) => Some(Node::Light(hit.light as usize)),
-        RayEnd::Missed { .. } | RayEnd::OverBudget => None,
-    }
+    line.node(explanation(shared)?, |object| object_named(shared, object))
 }
 
 /// Whether the scene of the picture on screen is the text's.
@@ -167,7 +165,7 @@ pub(super) fn explained_node(shared: &Shared) -> Option<Node> {
 /// The path of light from the eye to what the line under the cursor shows.
 pub(crate) fn ray_path(shared: &Shared) -> Vec<Segment> {
     match (explanation(shared), ray_line(shared)) {
-        (Some(explanation), Some(line)) => line.path(explanation),
+        (Some(explanation), Some(line)) => rays::path(explanation, &line),
         _ => Vec::new(),
     }
 }
@@ -221,8 +219,9 @@ pub(super) fn fold_ray(shared: &mut Shared, fold: Fold) {
         return;
     };
     let is_ray = line.part == RayPart::Whole;
-    let is_open =
-        is_ray && !explained.folded.contains(&line.ray) && rays::is_foldable(explanation, line.ray);
+    let is_open = is_ray
+        && !explained.folded.contains(&line.ray)
+        && explain::is_foldable(explanation, line.ray);
     let parent = match line.part {
         RayPart::Whole => explanation.rays[line.ray].parent,
         _ => Some(line.ray),
@@ -237,7 +236,7 @@ pub(super) fn fold_ray(shared: &mut Shared, fold: Fold) {
         }
         _ => {
             let is_parent = |of: &RayLine| Some(of.ray) == parent && of.part == RayPart::Whole;
-            let lines = rays::lines(explanation, &explained.folded);
+            let lines = listed(explanation, &explained.folded);
             let at = lines.iter().position(is_parent);
             explained.at = at.unwrap_or(explained.at);
         }
